@@ -1,0 +1,203 @@
+//! Mistakes of a declaration: collected while a stage runs, reported together when it ends.
+//!
+//! A sink exists only inside [`collect`], and what it gathered leaves as a [`Report`] beside the result, so no
+//! path through a stage can lose a fault: nobody else can make or drop a [`Faults`]. Functions that could not do
+//! their part return [`Reported`], which only a sink hands out; a failure without a message cannot be written.
+
+use std::collections::BTreeSet;
+use std::fmt;
+
+use proc_macro2::{Span, TokenStream};
+use quote::quote_spanned;
+
+extern crate proc_macro;
+
+/// One mistake, at the smallest token that carries it.
+#[derive(Debug, Clone)]
+pub struct Fault {
+    span: Span,
+    message: String,
+    lines: Vec<String>,
+}
+
+impl Fault {
+    /// A mistake at a place. The message is one line that stands alone.
+    pub fn new(span: Span, message: impl Into<String>) -> Self {
+        Fault { span, message: message.into(), lines: Vec::new() }
+    }
+
+    /// Adds what to write instead.
+    #[must_use]
+    pub fn help(mut self, text: impl fmt::Display) -> Self {
+        self.lines.push(format!("help: {text}"));
+        self
+    }
+
+    /// Adds a fact that explains the mistake.
+    #[must_use]
+    pub fn note(mut self, text: impl fmt::Display) -> Self {
+        self.lines.push(format!("note: {text}"));
+        self
+    }
+
+    /// Adds the other place of a conflict, named by its line: stable Rust underlines one place per error.
+    #[must_use]
+    pub fn note_place(self, what: &str, place: Span) -> Self {
+        match line_of(place) {
+            Some(line) => self.note(format_args!("{what} at line {line}")),
+            None => self.note(format_args!("{what} above")),
+        }
+    }
+
+    /// Where the mistake is.
+    pub fn span(&self) -> Span {
+        self.span
+    }
+
+    /// What is wrong, in one line.
+    pub fn message(&self) -> &str {
+        &self.message
+    }
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.message)?;
+        self.lines.iter().try_for_each(|line| write!(f, "\n{line}"))
+    }
+}
+
+/// Proof that a fault is in the sink. Only [`Faults`] makes it.
+#[derive(Debug, Clone, Copy)]
+pub struct Reported(());
+
+/// The sink of a running stage.
+#[derive(Debug)]
+pub struct Faults {
+    faults: Vec<Fault>,
+    seen: BTreeSet<(String, String)>,
+}
+
+impl Faults {
+    /// Takes a fault in. Of faults with the same place and text the first one stays.
+    pub fn report(&mut self, fault: Fault) -> Reported {
+        // `Span` cannot be compared; its debug text names the bytes and the macro it came through.
+        if self.seen.insert((format!("{:?}", fault.span), fault.to_string())) {
+            self.faults.push(fault);
+        }
+        Reported(())
+    }
+
+    /// Runs a part of the stage and tells whether it was free of faults.
+    pub fn part<T>(&mut self, part: impl FnOnce(&mut Faults) -> T) -> Result<T, Reported> {
+        let before = self.faults.len();
+        let result = part(self);
+        if self.faults.len() == before { Ok(result) } else { Err(Reported(())) }
+    }
+
+    /// Takes in what an earlier stage or a part with a sink of its own has found.
+    pub fn absorb(&mut self, report: Report) {
+        for fault in report.faults {
+            self.report(fault);
+        }
+    }
+
+    /// The proof for something that could not be done because of a fault that is in the sink already.
+    pub fn reported_before(&self) -> Reported {
+        debug_assert!(!self.faults.is_empty(), "a failure without a message");
+        Reported(())
+    }
+
+    /// Number of faults so far.
+    pub fn count(&self) -> usize {
+        self.faults.len()
+    }
+}
+
+/// Runs a stage with an empty sink. The only way to get one.
+pub fn collect<T>(stage: impl FnOnce(&mut Faults) -> T) -> (T, Report) {
+    let mut faults = Faults { faults: Vec::new(), seen: BTreeSet::new() };
+    let result = stage(&mut faults);
+    (result, Report { faults: faults.faults })
+}
+
+/// Everything a stage found wrong, in the order in which it was found.
+#[derive(Debug, Clone)]
+#[must_use = "a report that is not emitted hides mistakes from the user"]
+pub struct Report {
+    faults: Vec<Fault>,
+}
+
+impl Report {
+    /// Whether nothing was wrong.
+    pub fn is_empty(&self) -> bool {
+        self.faults.is_empty()
+    }
+
+    /// The faults, in the order in which they were found.
+    pub fn faults(&self) -> &[Fault] {
+        &self.faults
+    }
+
+    /// One `compile_error!` item for each fault, at its place.
+    pub fn to_compile_errors(&self) -> TokenStream {
+        self.faults
+            .iter()
+            .map(|fault| {
+                let text = fault.to_string();
+                quote_spanned!(fault.span=> ::core::compile_error! { #text })
+            })
+            .collect()
+    }
+}
+
+impl fmt::Display for Report {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for fault in &self.faults {
+            match line_of(fault.span) {
+                Some(line) => writeln!(f, "line {line}: {fault}")?,
+                None => writeln!(f, "{fault}")?,
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The line of a place: from the compiler inside a macro; outside of one only where `proc_macro2` was built to
+/// keep locations (feature `span-locations`).
+pub fn line_of(span: Span) -> Option<usize> {
+    if proc_macro::is_available() {
+        return Some(span.unwrap().line());
+    }
+    #[cfg(any(test, feature = "span-locations"))]
+    {
+        Some(span.start().line)
+    }
+    #[cfg(not(any(test, feature = "span-locations")))]
+    {
+        None
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn equal_faults_are_merged_and_order_is_kept() {
+        let tokens: Vec<_> = "a b".parse::<TokenStream>().unwrap().into_iter().collect();
+        let (a, b) = (tokens[0].span(), tokens[1].span());
+        let (healthy, report) = collect(|faults| {
+            faults.report(Fault::new(b, "second place"));
+            faults.report(Fault::new(a, "first place").help("a repair").note("a fact"));
+            faults.report(Fault::new(b, "second place"));
+            faults.part(|_| 1).is_ok() && faults.part(|faults| faults.report(Fault::new(a, "x"))).is_err()
+        });
+        assert!(healthy);
+        let texts: Vec<_> = report.faults().iter().map(ToString::to_string).collect();
+        assert_eq!(texts, ["second place", "first place\nhelp: a repair\nnote: a fact", "x"]);
+        let errors = report.to_compile_errors().to_string();
+        assert_eq!(errors.matches("compile_error").count(), 3);
+        assert!(errors.contains(":: core :: compile_error ! { \"second place\" }"), "{errors}");
+    }
+}

@@ -1,0 +1,108 @@
+//! Classification and costs as constants, and the marker traits.
+
+use guen_symbolic::{Class, OperationCount};
+use proc_macro2::TokenStream;
+use quote::{format_ident, quote};
+
+use super::Layout;
+use crate::derive::{Derived, function};
+
+pub(super) fn items(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
+    let derivation = &derived.derivation;
+    let system = &layout.system;
+    let class = match derivation.class {
+        Class::LieGroup => "HolonomicConstant",
+        Class::Holonomic => "HolonomicVariable",
+        Class::IncompleteLieGroup => "NonholonomicConstant",
+        Class::Nonholonomic => "NonholonomicVariable",
+        Class::Undecided => "Undecided",
+    };
+    let class = format_ident!("{class}");
+    let growth = &derivation.closure.growth;
+    let steps = growth.len();
+    let integrable = derivation.closure.integrable.len();
+    let (scleronomic, catastatic, conservative) =
+        (derivation.scleronomic, derivation.catastatic, derivation.conservative);
+    let rhs = derived
+        .programs
+        .functions
+        .iter()
+        .find(|f| f.name == function::RHS)
+        .map(|f| f.cost)
+        .unwrap_or_default();
+    let (cost, prepare_cost) = (cost(&rhs), cost(&derived.programs.prepare_cost));
+    let domain: Vec<String> = derived.domain.iter().map(|e| derived.model.bench.graph.text(*e)).collect();
+    let domain_count = domain.len();
+    let mut markers = Vec::new();
+    match derivation.class {
+        Class::LieGroup => markers.extend(["Holonomic", "LieGroup"]),
+        Class::Holonomic => markers.push("Holonomic"),
+        Class::IncompleteLieGroup => markers.extend(["Nonholonomic", "IncompleteLieGroup"]),
+        Class::Nonholonomic => markers.push("Nonholonomic"),
+        Class::Undecided => {}
+    }
+    markers.push(if scleronomic { "Scleronomic" } else { "Rheonomic" });
+    if catastatic {
+        markers.push("Catastatic");
+    }
+    if conservative {
+        markers.push("Conservative");
+    }
+    let markers = markers.into_iter().map(|marker| {
+        let marker = format_ident!("{marker}");
+        let driven = (layout.inputs > 0).then(|| quote!(impl<R> __guen::#marker for Driven<R> {}));
+        quote! {
+            impl<R> __guen::#marker for Prepared<R> {}
+            #driven
+        }
+    });
+    quote! {
+        /// The class of the forms as declared.
+        pub const CLASS: __guen::Class = __guen::Class::#class;
+        /// The growth vector: ranks less one of the distributions that iterated brackets of `X_0 .. X_l` span.
+        pub const GROWTH: [usize; #steps] = [#(#growth),*];
+        /// The number of independent integrable combinations of the constraints.
+        pub const INTEGRABLE: usize = #integrable;
+        /// Whether time occurs in neither the constraints nor the energies.
+        pub const SCLERONOMIC: bool = #scleronomic;
+        /// Whether the constraints have no terms without velocity.
+        pub const CATASTATIC: bool = #catastatic;
+        /// Whether the energy integral is constant along every motion.
+        pub const CONSERVATIVE: bool = #conservative;
+        /// The operations of one right-hand side.
+        pub const COST: __guen::Cost = #cost;
+        /// The operations that `prepare` does once.
+        pub const PREPARE_COST: __guen::Cost = #prepare_cost;
+        /// The functions that must not vanish, in the names of the declaration: the domain of the chart.
+        pub const DOMAIN: [&str; #domain_count] = [#(#domain),*];
+
+        impl #system<f64> {
+            /// The class of the forms as declared.
+            pub const CLASS: __guen::Class = CLASS;
+            /// The growth vector.
+            pub const GROWTH: &'static [usize] = &GROWTH;
+            /// The operations of one right-hand side.
+            pub const COST: __guen::Cost = COST;
+            /// The operations that `prepare` does once.
+            pub const PREPARE_COST: __guen::Cost = PREPARE_COST;
+        }
+
+        #(#markers)*
+    }
+}
+
+fn cost(count: &OperationCount) -> TokenStream {
+    let OperationCount { additions, negations, multiplications, divisions, roots, sines, calls } = *count;
+    // The runtime counts every elementary function as a call.
+    let calls = sines + calls;
+    quote! {
+        __guen::Cost {
+            additions: #additions,
+            negations: #negations,
+            multiplications: #multiplications,
+            divisions: #divisions,
+            roots: #roots,
+            calls: #calls,
+        }
+    }
+}

@@ -1,0 +1,143 @@
+//! Straight-line programs as the text of Rust statements.
+//!
+//! Code is assembled as text and read by the compiler once: that is several times faster than quoting
+//! thousands of tokens. Paths go through `__guen`, the alias of the facade's private module.
+
+use std::fmt::Write;
+
+use guen_symbolic::{Function, Instruction, Operation, Rational, SymbolId, Value};
+
+/// How a program finds the values of symbols: an expression of Rust for each.
+pub(super) trait Loads {
+    /// The place of a symbol's value.
+    fn symbol(&self, symbol: SymbolId) -> String;
+}
+
+/// The statements of a program; values are called `v0`, `v1`, ...
+pub(super) fn statements(instructions: &[Instruction], loads: &dyn Loads) -> String {
+    let mut text = String::new();
+    for Instruction { result, operation } in instructions {
+        let r = result.index();
+        let v = |value: &Value| format!("v{}", value.index());
+        let _ = match operation {
+            Operation::Number(value) => write!(text, "let v{r} = {};", number(value)),
+            Operation::Pi => write!(text, "let v{r} = <R as __guen::Real>::pi();"),
+            Operation::Symbol(symbol) => write!(text, "let v{r} = {};", loads.symbol(*symbol)),
+            Operation::Prepared(k) => write!(text, "let v{r} = k[{k}];"),
+            Operation::Add(a, b) => write!(text, "let v{r} = {} + {};", v(a), v(b)),
+            Operation::Sub(a, b) => write!(text, "let v{r} = {} - {};", v(a), v(b)),
+            Operation::Neg(a) => write!(text, "let v{r} = -{};", v(a)),
+            Operation::Mul(a, b) => write!(text, "let v{r} = {} * {};", v(a), v(b)),
+            Operation::Div(a, b) => write!(text, "let v{r} = {} / {};", v(a), v(b)),
+            Operation::SinCos { angle, cosine } => {
+                write!(text, "let (v{r}, v{}) = <R as __guen::Real>::sin_cos({});", cosine.index(), v(angle))
+            }
+            Operation::Call(function, a) => write!(text, "let v{r} = {};", call(*function, &v(a))),
+            Operation::Atan2(y, x) => {
+                write!(text, "let v{r} = <R as __guen::Real>::atan2({}, {});", v(y), v(x))
+            }
+        };
+    }
+    text
+}
+
+/// The results as an array.
+pub(super) fn array(outputs: &[Value]) -> String {
+    let mut text = String::from("[");
+    for value in outputs {
+        let _ = write!(text, "v{},", value.index());
+    }
+    text.push(']');
+    text
+}
+
+fn call(function: Function, argument: &str) -> String {
+    let name = match function {
+        Function::Root(2) => "sqrt",
+        Function::Root(q) => return format!("<R as __guen::Real>::root({argument}, {q}u32)"),
+        other => other.name(),
+    };
+    format!("<R as __guen::Real>::{name}({argument})")
+}
+
+/// An exact number: a ratio of machine integers, or binary parts that reach beyond every real in use.
+pub(super) fn number(value: &Rational) -> String {
+    // Ratios of integers below 2^53 are rounded once by every real.
+    if let Some((n, d)) = value.to_i64_pair() {
+        return match (n, d) {
+            (0, _) => "<R as __guen::Real>::zero()".to_owned(),
+            (1, 1) => "<R as __guen::Real>::one()".to_owned(),
+            _ => format!("<R as __guen::Real>::from_ratio({n}i64, {d}i64)"),
+        };
+    }
+    let parts: Vec<String> =
+        binary_parts(value).into_iter().map(|(m, e)| format!("({m}i64, {e}i32)")).collect();
+    format!("<R as __guen::Real>::from_parts(&[{}])", parts.join(", "))
+}
+
+/// `value = sum m 2^e` in descending magnitude: first rounded to 53 bits, then remainders, 330 bits in all.
+fn binary_parts(value: &Rational) -> Vec<(i64, i32)> {
+    const PARTS: usize = 6;
+    let mut rest = value.clone();
+    let mut parts = Vec::new();
+    for _ in 0..PARTS {
+        if rest.is_zero() {
+            break;
+        }
+        let (mantissa, exponent) = leading_part(&rest);
+        let part = &Rational::integer(mantissa) * &power_of_two(exponent);
+        rest = &rest - &part;
+        parts.push((mantissa, exponent));
+    }
+    parts
+}
+
+/// The value rounded to 53 bits, ties to even.
+fn leading_part(value: &Rational) -> (i64, i32) {
+    let (n, d) = value.abs().to_big_pair();
+    // 2^52 <= |value| 2^-e < 2^54, then corrected to below 2^53.
+    let mut exponent = n.bits() as i32 - d.bits() as i32 - 53;
+    loop {
+        let scaled = &value.abs() * &power_of_two(-exponent);
+        let (sn, sd) = scaled.to_big_pair();
+        // floor(value + 1/2), one less at a tie with an odd result.
+        let doubled = (&sn << 1usize) + &sd;
+        let divisor = &sd << 1usize;
+        let rounded = &doubled / &divisor;
+        let is_tie = (&doubled % &divisor).bits() == 0;
+        if rounded.bits() <= 53 {
+            let mut mantissa = i64::try_from(rounded).unwrap_or_default();
+            if is_tie && mantissa % 2 != 0 {
+                mantissa -= 1;
+            }
+            return (if value.is_negative() { -mantissa } else { mantissa }, exponent);
+        }
+        exponent += 1;
+    }
+}
+
+fn power_of_two(exponent: i32) -> Rational {
+    Rational::integer(2).powi(exponent).unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn leading_parts_are_rounded_as_doubles() {
+        for (digits, exponent, double) in [
+            ("662607015", -42, 6.62607015e-34),
+            ("1", 300, 1e300),
+            ("123456789012345678901", -3, 123456789012345678.901),
+        ] {
+            let value = Rational::from_decimal(digits, exponent).unwrap();
+            let (m, e) = leading_part(&value);
+            assert_eq!(m as f64 * 2f64.powi(e), double, "{digits}e{exponent}");
+            let sum: Rational =
+                binary_parts(&value).into_iter().map(|(m, e)| &Rational::integer(m) * &power_of_two(e)).sum();
+            let error = (&sum - &value).abs().to_f64() / value.to_f64();
+            assert!(error < 1e-90, "{error}");
+        }
+    }
+}

@@ -1,0 +1,117 @@
+//! The private module of straight-line functions.
+
+use std::fmt::Write;
+
+use guen_symbolic::{Role, SymbolId};
+use proc_macro2::TokenStream;
+
+use super::code::{Loads, array, statements};
+use super::{Layout, tokens};
+use crate::derive::{Derived, function};
+
+/// Where the values of symbols are: in the arrays that a function takes.
+struct Places(Vec<String>);
+
+impl Loads for Places {
+    fn symbol(&self, symbol: SymbolId) -> String {
+        self.0[symbol.index()].clone()
+    }
+}
+
+impl Places {
+    fn new(derived: &Derived<'_>) -> Self {
+        let graph = &derived.model.bench.graph;
+        let n = derived.model.coordinates.len();
+        let mut counts = [0_usize; 8];
+        Places(
+            graph
+                .symbols()
+                .map(|symbol| {
+                    let role = graph.symbol_info(symbol).role;
+                    let i = counts[role as usize];
+                    counts[role as usize] += 1;
+                    match role {
+                        Role::Time => "t".to_owned(),
+                        Role::Constant => format!("c[{i}]"),
+                        Role::Coordinate => format!("s[{i}]"),
+                        Role::Velocity => format!("w[{i}]"),
+                        Role::QuasiVelocity => derived
+                            .model
+                            .mechanics
+                            .etas
+                            .iter()
+                            .position(|eta| graph.as_symbol(*eta) == Some(symbol))
+                            .map_or_else(|| "unknown_form".to_owned(), |s| format!("s[{}]", n + s)),
+                        Role::QuasiAcceleration => format!("unsolved[{i}]"),
+                        Role::Input => format!("u[{i}]"),
+                    }
+                })
+                .collect(),
+        )
+    }
+}
+
+/// What a function of the state is given.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Signature {
+    /// Prepared values alone.
+    Constants,
+    /// Time and coordinates.
+    Position,
+    /// Time, coordinates and velocities.
+    Velocities,
+    /// Time and the whole state.
+    State,
+    /// Time, the whole state and the inputs.
+    Driven,
+}
+
+/// The signature of a function by its name.
+pub(super) fn signature(name: &str) -> Signature {
+    match name {
+        function::PIVOTS => Signature::Constants,
+        function::FORMS => Signature::Velocities,
+        function::RHS | function::REACTIONS | function::POWER | function::OUTPUTS => Signature::Driven,
+        function::VELOCITIES | function::ENERGY | function::KINETIC_ENERGY | function::MOMENTA => {
+            Signature::State
+        }
+        function::DOMAIN => Signature::State,
+        _ => Signature::Position,
+    }
+}
+
+/// The module: `prepare` and every function, generic over the real.
+pub(super) fn module(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
+    let places = Places::new(derived);
+    let Layout { n, size, constants, hoisted, inputs, .. } = layout;
+    let mut text = String::from(
+        "#[allow(unused_variables, reason = \"every function has the signature of its kind\")]
+        #[allow(clippy::all, clippy::pedantic, clippy::nursery, clippy::restriction, reason = \"straight-line code for the compiler\")]
+        mod program { use super::__guen;",
+    );
+    let _ = write!(
+        text,
+        "#[inline] pub(super) fn prepare<R: __guen::Real>(c: &[R; {constants}]) -> [R; {hoisted}] {{ {} {} }}",
+        statements(&derived.programs.prepare, &places),
+        array(&derived.programs.prepared),
+    );
+    for program in &derived.programs.functions {
+        let given = match signature(&program.name) {
+            Signature::Constants => String::new(),
+            Signature::Position => format!(", t: R, s: &[R; {n}]"),
+            Signature::Velocities => format!(", t: R, s: &[R; {n}], w: &[R; {n}]"),
+            Signature::State => format!(", t: R, s: &[R; {size}]"),
+            Signature::Driven => format!(", t: R, s: &[R; {size}], u: &[R; {inputs}]"),
+        };
+        let _ = write!(
+            text,
+            "#[inline] pub(super) fn {}<R: __guen::Real>(c: &[R; {constants}], k: &[R; {hoisted}]{given}) -> [R; {}] {{ {} {} }}",
+            program.name,
+            program.outputs.len(),
+            statements(&program.instructions, &places),
+            array(&program.outputs),
+        );
+    }
+    text.push('}');
+    tokens(&text)
+}

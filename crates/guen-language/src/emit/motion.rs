@@ -1,0 +1,348 @@
+//! What a prepared system computes: rates, energies, momenta, reactions, residuals, linearisation.
+
+use proc_macro2::{Ident, TokenStream};
+use quote::{format_ident, quote};
+
+use super::Layout;
+use crate::derive::Derived;
+use crate::model::FormKind;
+
+pub(super) fn items(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
+    let methods = methods(derived, layout);
+    let pivots = pivots(derived);
+    let systems = systems(derived, layout);
+    let state = state(derived, layout);
+    quote! {
+        impl<R: __guen::Real> Prepared<R> {
+            #methods
+            #pivots
+        }
+        #state
+        #systems
+    }
+}
+
+/// The parameter and the argument of inputs, where the system has some.
+fn inputs(layout: &Layout) -> (TokenStream, TokenStream) {
+    if layout.inputs == 0 {
+        (quote!(), quote!(&[]))
+    } else {
+        (quote!(, inputs: &Inputs<R>), quote!(&::core::convert::From::from(*inputs)))
+    }
+}
+
+fn methods(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
+    let (parameter, argument) = inputs(layout);
+    let n = layout.n;
+    let size = layout.size;
+    let positions: Vec<usize> = (0..n).collect();
+    let scalar = |name: &str, docs: &str| {
+        let method = format_ident!("{name}");
+        quote! {
+            #[doc = #docs]
+            #[inline]
+            pub fn #method(&self, t: R, state: &State<R>) -> R {
+                let [value] = program::#method(&self.constants, &self.hoisted, t, &::core::convert::From::from(*state));
+                value
+            }
+        }
+    };
+    let energy = scalar(
+        "energy",
+        "The energy integral `h = sum x' dT°/dx' - T° - U`; kinetic plus potential energy where `T°` is homogeneous in the velocities.",
+    );
+    let kinetic = scalar("kinetic_energy", "The kinetic energy `T` on the constraints.");
+    let reactions = derived.derivation.reactions.iter().any(Option::is_some).then(|| {
+        quote! {
+            /// The reactions at a state, from `lambda_v = d/dt (dT°/d eta_v) - X_v(T° + U) - ... - Q_v` on the motion.
+            #[inline]
+            pub fn reactions(&self, t: R, state: &State<R> #parameter) -> Reactions<R> {
+                ::core::convert::From::from(program::reactions(
+                    &self.constants, &self.hoisted, t, &::core::convert::From::from(*state), #argument,
+                ))
+            }
+        }
+    });
+    let outputs = (!derived.model.outputs.is_empty()).then(|| {
+        quote! {
+            /// The declared outputs at a state.
+            #[inline]
+            pub fn outputs(&self, t: R, state: &State<R> #parameter) -> Outputs<R> {
+                Outputs::from_values(&program::outputs(
+                    &self.constants, &self.hoisted, t, &::core::convert::From::from(*state), #argument,
+                ))
+            }
+        }
+    });
+    let residuals = residuals(derived, layout);
+    let names: Vec<String> = derived.domain.iter().map(|e| derived.model.bench.graph.text(*e)).collect();
+    let domain_count = names.len();
+    let linearize = linearize(layout);
+    quote! {
+        /// The rates of the state: velocities by (1.8), accelerations by (2.7). No allocation, no branch.
+        #[inline]
+        pub fn rhs(&self, t: R, state: &State<R> #parameter) -> State<R> {
+            ::core::convert::From::from(program::rhs(
+                &self.constants, &self.hoisted, t, &::core::convert::From::from(*state), #argument,
+            ))
+        }
+
+        /// The velocities `x' = xi_0 + sum_s eta_s xi_s` of a state, (1.8).
+        #[inline]
+        pub fn velocities(&self, t: R, state: &State<R>) -> Coordinates<R> {
+            ::core::convert::From::from(program::velocities(
+                &self.constants, &self.hoisted, t, &::core::convert::From::from(*state),
+            ))
+        }
+
+        #energy
+        #kinetic
+
+        /// The force function `U`.
+        #[inline]
+        pub fn force_function(&self, t: R, state: &State<R>) -> R {
+            let s: [R; #size] = ::core::convert::From::from(*state);
+            let [value] = program::force_function(&self.constants, &self.hoisted, t, &[#(s[#positions]),*]);
+            value
+        }
+
+        /// The momenta `dT/d eta_s`, and `(dT°/d eta_v)` for the constraints, (2.8).
+        #[inline]
+        pub fn momenta(&self, t: R, state: &State<R>) -> Momenta<R> {
+            ::core::convert::From::from(program::momenta(
+                &self.constants, &self.hoisted, t, &::core::convert::From::from(*state),
+            ))
+        }
+
+        /// The rate of [`energy`](Self::energy) along the motion, by forces, moving constraints and explicit time:
+        /// `h' = Q.x' - sum_v lambda_v a_v0 - d(T° + U)/dt`.
+        #[inline]
+        pub fn power(&self, t: R, state: &State<R> #parameter) -> R {
+            let [value] = program::power(
+                &self.constants, &self.hoisted, t, &::core::convert::From::from(*state), #argument,
+            );
+            value
+        }
+
+        /// Functions that must not vanish: where one of them is zero the declaration's chart ends. Their formulas
+        /// are in [`DOMAIN`].
+        #[inline]
+        pub fn domain(&self, t: R, state: &State<R>) -> [R; #domain_count] {
+            program::domain(&self.constants, &self.hoisted, t, &::core::convert::From::from(*state))
+        }
+
+        #reactions
+        #outputs
+        #residuals
+        #linearize
+    }
+}
+
+/// Residuals of constraints, through the velocities that the state stands for.
+fn residuals(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
+    let model = &derived.model;
+    let constraints = &model.forms[layout.l..];
+    if constraints.is_empty() {
+        return TokenStream::new();
+    }
+    let (n, size) = (layout.n, layout.size);
+    let positions: Vec<usize> = (0..n).collect();
+    let mut holonomic = 0_usize;
+    let values = constraints.iter().enumerate().map(|(v, form)| {
+        if form.kind == FormKind::Holonomic {
+            let i = holonomic;
+            holonomic += 1;
+            quote!(positions[#i])
+        } else {
+            let j = layout.l + v;
+            quote!(forms[#j])
+        }
+    });
+    let values: Vec<_> = values.collect();
+    quote! {
+        /// What is left of every constraint at a state.
+        pub fn residuals(&self, t: R, state: &State<R>) -> Residuals<R> {
+            let s: [R; #size] = ::core::convert::From::from(*state);
+            let x = [#(s[#positions]),*];
+            let velocities = program::velocities(&self.constants, &self.hoisted, t, &s);
+            let forms = program::forms(&self.constants, &self.hoisted, t, &x, &velocities);
+            let positions = program::positions(&self.constants, &self.hoisted, t, &x);
+            let _ = (&forms, &positions);
+            ::core::convert::From::from([#(#values),*])
+        }
+    }
+}
+
+/// Exact Jacobians of the right-hand side, by dual numbers over the real.
+fn linearize(layout: &Layout) -> TokenStream {
+    let (size, inputs) = (layout.size, layout.inputs);
+    if inputs == 0 {
+        quote! {
+            /// The exact linearisation `d(state)' = A d(state)` at a state: `a[i][j]` is the derivative of the rate
+            /// `i` by the state `j`. Computed by dual numbers, about as long as the state times one right-hand side.
+            pub fn linearize(&self, t: R, state: &State<R>) -> __guen::Linearization<R, #size, 0>
+            where
+                __guen::Dual<R, #size>: __guen::Lift<R>,
+            {
+                let lifted: Prepared<__guen::Dual<R, #size>> = self.lift();
+                let state: [R; #size] = ::core::convert::From::from(*state);
+                let rates = program::rhs(
+                    &lifted.constants, &lifted.hoisted, __guen::Dual::constant(t), &__guen::seeded(&state), &[],
+                );
+                __guen::Linearization { a: rates.map(|rate| rate.tangent), b: [[]; #size] }
+            }
+        }
+    } else {
+        quote! {
+            /// The exact linearisation `d(state)' = A d(state) + B d(inputs)`: `a[i][j]` and `b[i][j]` are the
+            /// derivatives of the rate `i` by the state `j` and by the input `j`. Computed by dual numbers.
+            pub fn linearize(
+                &self,
+                t: R,
+                state: &State<R>,
+                inputs: &Inputs<R>,
+            ) -> __guen::Linearization<R, #size, #inputs>
+            where
+                __guen::Dual<R, #size>: __guen::Lift<R>,
+                __guen::Dual<R, #inputs>: __guen::Lift<R>,
+            {
+                let state: [R; #size] = ::core::convert::From::from(*state);
+                let inputs: [R; #inputs] = ::core::convert::From::from(*inputs);
+                let lifted: Prepared<__guen::Dual<R, #size>> = self.lift();
+                let by_state = program::rhs(
+                    &lifted.constants, &lifted.hoisted, __guen::Dual::constant(t), &__guen::seeded(&state),
+                    &inputs.map(__guen::Dual::constant),
+                );
+                let lifted: Prepared<__guen::Dual<R, #inputs>> = self.lift();
+                let by_input = program::rhs(
+                    &lifted.constants, &lifted.hoisted, __guen::Dual::constant(t),
+                    &state.map(__guen::Dual::constant), &__guen::seeded(&inputs),
+                );
+                __guen::Linearization {
+                    a: by_state.map(|rate| rate.tangent),
+                    b: by_input.map(|rate| rate.tangent),
+                }
+            }
+        }
+    }
+}
+
+/// Pivots that depend on constants alone.
+fn pivots(derived: &Derived<'_>) -> TokenStream {
+    let texts: Vec<String> =
+        derived.constant_pivots.iter().map(|e| derived.model.bench.graph.text(*e)).collect();
+    let indices = 0..texts.len();
+    quote! {
+        fn check_pivots(&self) -> ::core::result::Result<(), __guen::ConstantsError> {
+            let pivots = program::pivots(&self.constants, &self.hoisted);
+            let _ = &pivots;
+            #(__guen::check_pivot(pivots[#indices], #texts)?;)*
+            for value in &self.hoisted {
+                __guen::check_hoisted(*value)?;
+            }
+            ::core::result::Result::Ok(())
+        }
+    }
+}
+
+/// `State::from_velocities`.
+fn state(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
+    let (n, l) = (layout.n, layout.l);
+    let constraints = derived.model.forms.len() - l;
+    let parameters: Vec<usize> = (0..l).collect();
+    let rest: Vec<usize> = (l..derived.model.forms.len()).collect();
+    let positions: Vec<usize> = (0..n).collect();
+    let fields: Vec<&Ident> = layout.state[..n].iter().collect();
+    quote! {
+        impl<R: __guen::Real> State<R> {
+            /// The state at given coordinates and velocities: the quasi-velocities are `eta_s = sum_i a_si x_i' +
+            /// a_s0`, (1.6). Beside it the residuals `eta_v` of the constraints (their rates, where they are
+            /// holonomic): how far the velocities are from being possible.
+            pub fn from_velocities(
+                system: &Prepared<R>,
+                t: R,
+                coordinates: &Coordinates<R>,
+                velocities: &Coordinates<R>,
+            ) -> (Self, [R; #constraints]) {
+                let x: [R; #n] = ::core::convert::From::from(*coordinates);
+                let forms = program::forms(
+                    &system.constants, &system.hoisted, t, &x, &::core::convert::From::from(*velocities),
+                );
+                let _ = &forms;
+                (
+                    ::core::convert::From::from([#(x[#positions],)* #(forms[#parameters]),*]),
+                    [#(forms[#rest]),*],
+                )
+            }
+
+            /// The coordinates of the state.
+            pub fn coordinates(&self) -> Coordinates<R> {
+                Coordinates { #(#fields: self.#fields),* }
+            }
+        }
+    }
+}
+
+/// The prepared system, or the system with held inputs, as something that steppers integrate.
+fn systems(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
+    let (size, n) = (layout.size, layout.n);
+    let positions: Vec<usize> = (0..n).collect();
+    let monitored = |owner: TokenStream, prepared: TokenStream| {
+        quote! {
+            impl<R: __guen::Real> __guen::Monitored<R, #size> for #owner {
+                fn energy(&self, t: R, state: &[R; #size]) -> R {
+                    let [value] = program::energy(&#prepared.constants, &#prepared.hoisted, t, state);
+                    value
+                }
+
+                fn residual(&self, t: R, state: &[R; #size]) -> R {
+                    let x = [#(state[#positions]),*];
+                    __guen::largest(&program::positions(&#prepared.constants, &#prepared.hoisted, t, &x))
+                }
+            }
+        }
+    };
+    if layout.inputs == 0 {
+        let monitored = monitored(quote!(Prepared<R>), quote!(self));
+        return quote! {
+            impl<R: __guen::Real> __guen::System<R, #size> for Prepared<R> {
+                #[inline]
+                fn rhs(&self, t: R, state: &[R; #size]) -> [R; #size] {
+                    program::rhs(&self.constants, &self.hoisted, t, state, &[])
+                }
+            }
+            #monitored
+        };
+    }
+    let _ = derived;
+    let monitored = monitored(quote!(Driven<R>), quote!(self.system));
+    quote! {
+        /// A prepared system with inputs that are held: what steppers integrate during a step.
+        #[::core::prelude::v1::derive(
+            ::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq
+        )]
+        pub struct Driven<R = f64> {
+            /// The system.
+            pub system: Prepared<R>,
+            /// The inputs that are held.
+            pub inputs: Inputs<R>,
+        }
+
+        impl<R: __guen::Real> Prepared<R> {
+            /// The system with these inputs held.
+            #[inline]
+            pub fn driven(&self, inputs: Inputs<R>) -> Driven<R> {
+                Driven { system: *self, inputs }
+            }
+        }
+
+        impl<R: __guen::Real> __guen::System<R, #size> for Driven<R> {
+            #[inline]
+            fn rhs(&self, t: R, state: &[R; #size]) -> [R; #size] {
+                let inputs = ::core::convert::From::from(self.inputs);
+                program::rhs(&self.system.constants, &self.system.hoisted, t, state, &inputs)
+            }
+        }
+        #monitored
+    }
+}

@@ -1,0 +1,62 @@
+//! The language of guen: from the tokens of a declaration to Rust items.
+//!
+//! An ordinary library on `proc_macro2`, so that tests, benchmarks and other front ends can call every stage
+//! without a compiler around it. The stages, each with types of its own:
+//!
+//! tokens -[`parse`]-> [`syntax`] -[`model`]-> checked model -[`derive`]-> derivation and programs -[`emit`]-> Rust items
+//!
+//! Every stage reports what is wrong through [`diagnostics`]; [`report`] writes down what was derived.
+
+pub mod derive;
+pub mod diagnostics;
+pub mod emit;
+pub mod limits;
+pub mod model;
+pub mod names;
+pub mod parse;
+pub mod report;
+pub mod syntax;
+
+use proc_macro2::TokenStream;
+
+use diagnostics::collect;
+
+/// Expands one invocation of `mechanical_system!`: the items of the system, or compile errors at the places of the
+/// mistakes together with an outline of the items.
+///
+/// The same tokens give the same tokens: nothing depends on hashing, counters or time.
+///
+/// ```
+/// let tokens = "pub system Pendulum {
+///     constants { l > 0, g = 9.81 }
+///     coordinates { phi }
+///     parameters { omega = dot(phi); }
+///     kinetic_energy = 1/2*l^2*omega^2;
+///     potential_energy = -g*l*cos(phi);
+/// }";
+/// let items = guen_language::expand(tokens.parse().unwrap());
+/// assert!(items.to_string().contains("struct Pendulum"));
+/// ```
+pub fn expand(tokens: TokenStream) -> TokenStream {
+    let (declaration, report) = parse::parse(tokens);
+    let Some(declaration) = declaration else {
+        return report.to_compile_errors();
+    };
+    if !report.is_empty() {
+        return with_outline(&declaration, &report);
+    }
+    let (derived, report) = collect(|faults| {
+        let model = model::resolve(&declaration, faults)?;
+        derive::derive(model, faults)
+    });
+    match derived {
+        Some(derived) if report.is_empty() => emit::emit(derived),
+        _ => with_outline(&declaration, &report),
+    }
+}
+
+fn with_outline(declaration: &syntax::Declaration, report: &diagnostics::Report) -> TokenStream {
+    let mut items = report.to_compile_errors();
+    items.extend(emit::outline(declaration));
+    items
+}

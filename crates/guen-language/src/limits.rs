@@ -1,0 +1,25 @@
+//! Upper bounds on what a declaration may hold, so that a runaway `macro_rules!` ends in an error at its place
+//! and never in an exhausted stack or a compiler that seems to hang.
+
+/// Deepest nesting of an expression: parentheses, calls, signs, powers and `.name` count one each. The stages
+/// walk expressions recursively; a level costs the parser about six frames, so this stays far below the stack of
+/// a compiler thread.
+pub const MAX_DEPTH: usize = 128;
+
+/// Most coordinates of a system: the brackets grow as the cube of this number.
+pub const MAX_COORDINATES: usize = 200;
+
+/// Most entries of any other section, and most `let` definitions.
+pub const MAX_ENTRIES: usize = 1000;
+
+/// Most scenes: each is derived anew.
+pub const MAX_SCENES: usize = 64;
+
+/// Most tokens of a declaration.
+pub const MAX_TOKENS: usize = 200_000;
+
+/// Numbers from 10^-400 to 10^400 are accepted, far wider than any quantity of physics in any unit.
+pub const MAX_DECIMAL_ORDER: i64 = 400;
+
+/// Most significant digits of a number, counted without leading and trailing zeros.
+pub const MAX_DIGITS: usize = 500;

@@ -1,0 +1,94 @@
+//! Particles, rigid bodies and gravity: what they add to the kinetic energy and to the force function.
+
+use guen_symbolic::{ExprId, Rational};
+
+use super::evaluate::{Evaluated, Evaluator};
+use super::place::Place;
+use super::spatial::inner;
+use super::value::{BodyValue, Value, Vector};
+use crate::diagnostics::Fault;
+use crate::syntax::{Body, Inertia, Particle};
+
+/// A mass at a position, for gravity.
+pub(super) type Weight = (ExprId, Vector);
+
+impl Evaluator<'_> {
+    /// `1/2 mass |dot(position)|^2`, (2.1)-(2.4).
+    pub(super) fn particle(&mut self, particle: &Particle) -> Evaluated<(ExprId, Weight)> {
+        let mass = self.scalar_at(Place::Mass, &particle.mass);
+        let position = self.vector_at(Place::Position, &particle.position);
+        let (mass, position) = (mass?, position?);
+        let velocity = self.vector_rate(&position);
+        let square = inner(&mut self.bench, &velocity, &velocity);
+        let energy = self.bench.graph.mul(mass, square);
+        Ok((self.bench.graph.scale(energy, &Rational::new(1, 2)), (mass, position)))
+    }
+
+    /// `1/2 mass |v|^2 + 1/2 omega.I omega` in body axes, and the body as a value.
+    pub(super) fn body(&mut self, body: &Body) -> Evaluated<(ExprId, Option<Weight>, BodyValue)> {
+        let mut energy = Vec::new();
+        let mut weight = None;
+        let mut value = BodyValue { name: body.name.text.clone(), center: None, orientation: None };
+        let mass = body.mass.as_ref().map(|mass| self.scalar_at(Place::Mass, &mass.value)).transpose();
+        let center =
+            body.center.as_ref().map(|center| self.vector_at(Place::Position, &center.value)).transpose();
+        let orientation = body.orientation.as_ref().map(|orientation| {
+            match self.at(Place::Position, &orientation.value)? {
+                Value::Rotation(rotation) => Ok(*rotation),
+                other => self.fail(
+                    Fault::new(
+                        orientation.value.extent(),
+                        format!("an orientation is a rotation, and this is {}", other.kind()),
+                    )
+                    .help("rotations are made by `rot_x`, `rot_y`, `rot_z`, `rot` and `quaternion`"),
+                ),
+            }
+        });
+        let inertia = body.inertia.as_ref().map(|inertia| self.inertia(&inertia.value));
+        let (mass, center) = (mass?, center?);
+        let (orientation, inertia) = (orientation.transpose()?, inertia.transpose()?);
+        if let Some(position) = center {
+            let velocity = self.vector_rate(&position);
+            if let Some(mass) = mass {
+                let square = inner(&mut self.bench, &velocity, &velocity);
+                energy.push(self.bench.graph.mul(mass, square));
+                weight = Some((mass, position));
+            }
+            value.center = Some((position, velocity));
+        }
+        if let Some(rotation) = orientation {
+            if let Some([xx, yy, zz, xy, yz, zx]) = inertia {
+                let [p, q, r] = rotation.body_rate;
+                let two = Rational::integer(2);
+                for (moment, a, b) in [(xx, p, p), (yy, q, q), (zz, r, r), (xy, p, q), (yz, q, r), (zx, r, p)]
+                {
+                    let product = self.bench.graph.product(&[(moment, 1), (a, 1), (b, 1)]);
+                    let product = if a == b { product } else { self.bench.graph.scale(product, &two) };
+                    energy.push(product);
+                }
+            }
+            value.orientation = Some(rotation);
+        }
+        let sum = self.bench.graph.sum(energy);
+        Ok((self.bench.graph.scale(sum, &Rational::new(1, 2)), weight, value))
+    }
+
+    /// The matrix entries `xx, yy, zz, xy, yz, zx`.
+    fn inertia(&mut self, inertia: &Inertia) -> Evaluated<[ExprId; 6]> {
+        let zero = self.bench.graph.zero();
+        let mut entries = [zero; 6];
+        let written: &[crate::syntax::Expression] = match inertia {
+            Inertia::Missing => return Err(self.faults.reported_before()),
+            Inertia::Diagonal(entries) => entries.as_slice(),
+            Inertia::Symmetric(entries) => entries.as_slice(),
+        };
+        let mut healthy = Ok(());
+        for (entry, e) in entries.iter_mut().zip(written) {
+            match self.scalar_at(Place::Mass, e) {
+                Ok(value) => *entry = value,
+                Err(reported) => healthy = Err(reported),
+            }
+        }
+        healthy.map(|()| entries)
+    }
+}

@@ -1,0 +1,331 @@
+//! Expressions of the language as exact expressions: names looked up, kinds checked, operators applied.
+
+use std::collections::BTreeMap;
+
+use guen_symbolic::{ExprId, Flow, PowerError, Rational, Role, Roles, Verdict, Workbench};
+use proc_macro2::Span;
+
+use super::place::{Place, ROLES, role_name};
+use super::scope::Scope;
+use super::value::{Value, Vector};
+use crate::diagnostics::{Fault, Faults, Reported};
+use crate::syntax::{AddOperator, Expression, ExpressionKind, MultiplyOperator, Name};
+
+/// What evaluation needs at hand.
+pub(super) struct Evaluator<'f> {
+    /// The sink of this stage.
+    pub(super) faults: &'f mut Faults,
+    /// Expressions and the zero test.
+    pub(super) bench: Workbench,
+    /// The names declared so far.
+    pub(super) scope: Scope,
+    /// The symbol of time.
+    pub(super) time: ExprId,
+    /// `d/dt` of functions of time and coordinates: `x_i` moves at `x_i'`, `t` at one.
+    pub(super) rate: Option<Flow>,
+    /// The place that is being evaluated.
+    pub(super) place: Place,
+    /// Parameters and constraints with their definitions in the velocities.
+    pub(super) expansions: BTreeMap<ExprId, ExprId>,
+    /// Components of vector equations that say `0 = 0`.
+    pub(super) left_out: Vec<String>,
+}
+
+/// The result of evaluating: a value, or the knowledge that a fault was reported.
+pub(super) type Evaluated<T = Value> = Result<T, Reported>;
+
+impl Evaluator<'_> {
+    /// Reports a fault.
+    pub(super) fn fail<T>(&mut self, fault: Fault) -> Evaluated<T> {
+        Err(self.faults.report(fault))
+    }
+
+    /// Evaluates at a place and checks that nothing occurs there that may not.
+    pub(super) fn at(&mut self, place: Place, e: &Expression) -> Evaluated {
+        self.place = place;
+        let value = self.value(e)?;
+        let roles =
+            value.expressions().iter().fold(Roles::NONE, |roles, e| roles.or(self.bench.graph.roles(*e)));
+        self.check_allowed(place, roles, e)?;
+        Ok(value)
+    }
+
+    /// As [`Evaluator::at`], for places that take a scalar.
+    pub(super) fn scalar_at(&mut self, place: Place, e: &Expression) -> Evaluated<ExprId> {
+        match self.at(place, e)? {
+            Value::Scalar(value) => Ok(value),
+            other => {
+                let what = place.description();
+                self.fail(Fault::new(e.extent(), format!("{what} is a scalar, and this is {}", other.kind())))
+            }
+        }
+    }
+
+    /// As [`Evaluator::at`], for places that take a vector.
+    pub(super) fn vector_at(&mut self, place: Place, e: &Expression) -> Evaluated<Vector> {
+        match self.at(place, e)? {
+            Value::Vector(value) => Ok(value),
+            other => {
+                let what = place.description();
+                self.fail(
+                    Fault::new(e.extent(), format!("{what} is a vector here, and this is {}", other.kind()))
+                        .help("write `vec(x, y, z)`"),
+                )
+            }
+        }
+    }
+
+    fn check_allowed(&mut self, place: Place, roles: Roles, e: &Expression) -> Evaluated<()> {
+        let allowed = place.allowed();
+        let Some(role) = ROLES.into_iter().find(|role| roles.has(*role) && !allowed.has(*role)) else {
+            return Ok(());
+        };
+        let span = self.culprit(e, Roles::of(role)).unwrap_or(e.extent());
+        let mut fault =
+            Fault::new(span, format!("{} cannot depend on {}", place.description(), role_name(role)));
+        fault = match (place, role) {
+            (Place::Holonomic, Role::Velocity | Role::QuasiVelocity) => {
+                fault.help("a condition on velocities belongs into `constraints`")
+            }
+            (Place::ForceFunction, Role::Velocity | Role::QuasiVelocity | Role::Input) => {
+                fault.help("write it under `forces`, as `force along velocity;`")
+            }
+            (_, Role::Input) => fault.note("inputs are allowed in `forces` and `outputs` only"),
+            (Place::Default, _) => {
+                fault.note("a default is a number or made of constants declared before it")
+            }
+            _ => fault,
+        };
+        self.fail(fault)
+    }
+
+    /// The first name or call inside an expression that brings in one of these kinds of symbol.
+    pub(super) fn culprit(&mut self, e: &Expression, roles: Roles) -> Option<Span> {
+        match &e.kind {
+            ExpressionKind::Name(name) => {
+                let own = if name.text == "t" {
+                    Roles::of(Role::Time)
+                } else {
+                    let parts = self.scope.peek(&name.text)?.expressions();
+                    parts.iter().fold(Roles::NONE, |all, e| all.or(self.bench.graph.roles(*e)))
+                };
+                own.meets(roles).then(|| name.span())
+            }
+            ExpressionKind::Call { function, .. }
+                if roles.has(Role::Velocity)
+                    && matches!(
+                        function.text.as_str(),
+                        "dot" | "angular_velocity" | "angular_velocity_body"
+                    ) =>
+            {
+                Some(function.span())
+            }
+            ExpressionKind::Method { name, .. } | ExpressionKind::Field { name, .. }
+                if roles.has(Role::Velocity)
+                    && matches!(name.text.as_str(), "velocity_at" | "angular_velocity") =>
+            {
+                Some(name.span())
+            }
+            _ => children(e).into_iter().find_map(|child| self.culprit(child, roles)),
+        }
+    }
+
+    /// The value of an expression.
+    pub(super) fn value(&mut self, e: &Expression) -> Evaluated {
+        match &e.kind {
+            ExpressionKind::Missing => self.fail(Fault::new(e.span, "something is missing here")),
+            ExpressionKind::Number(number) => {
+                let value = Rational::from_decimal(&number.digits, number.exponent).unwrap_or_default();
+                Ok(Value::Scalar(self.bench.graph.number(value)))
+            }
+            ExpressionKind::Name(name) => self.name(name),
+            ExpressionKind::Call { function, arguments, list } => self.call(function, arguments, *list),
+            ExpressionKind::Field { base, name } => self.field(base, name),
+            ExpressionKind::Method { base, name, arguments, list } => {
+                self.method(base, name, arguments, *list)
+            }
+            ExpressionKind::Negation(operand) => {
+                let value = self.value(operand)?;
+                self.negated(value, e.span)
+            }
+            ExpressionKind::Sum { first, rest } => {
+                // Every term is evaluated, so that the faults of all are reported.
+                let mut sum = self.value(first);
+                for term in rest {
+                    let value = self.value(&term.value);
+                    sum = match (sum, value) {
+                        (Ok(a), Ok(b)) => self.added(a, b, term.operator, term.span),
+                        (Err(reported), _) | (_, Err(reported)) => Err(reported),
+                    };
+                }
+                sum
+            }
+            ExpressionKind::Product { first, rest } => self.product(first, rest),
+            ExpressionKind::Power { base, exponent } => {
+                let (base_value, exponent_value) = (self.value(base), self.value(exponent));
+                let (base_value, exponent_value) = (base_value?, exponent_value?);
+                self.raised(base_value, exponent_value, base.span, exponent.span)
+            }
+        }
+    }
+
+    fn name(&mut self, name: &Name) -> Evaluated {
+        match name.text.as_str() {
+            "t" => return Ok(Value::Scalar(self.time)),
+            "pi" => return Ok(Value::Scalar(self.bench.graph.pi())),
+            _ => {}
+        }
+        let place = self.place.description();
+        match self.scope.look_up(self.faults, name, place) {
+            Some(value) => Ok(value),
+            // Unknown, or declared with a fault: both are in the sink already.
+            None => Err(self.faults.reported_before()),
+        }
+    }
+
+    /// `a*R*v` means `a*(R*v)`: rotations wait until the vector to their right is known.
+    fn product(&mut self, first: &Expression, rest: &[crate::syntax::Factor]) -> Evaluated {
+        let mut values = vec![self.value(first)];
+        values.extend(rest.iter().map(|factor| self.value(&factor.value)));
+        let values: Vec<Value> = values.into_iter().collect::<Result<_, _>>()?;
+        let mut values = values.into_iter();
+        let Some(mut product) = values.next() else { return Ok(Value::Scalar(self.bench.graph.one())) };
+        // A scalar in front of a rotation is kept aside until the vector arrives.
+        let mut scale: Option<ExprId> = None;
+        for (value, factor) in values.zip(rest) {
+            product = match factor.operator {
+                MultiplyOperator::Over => {
+                    if scale.is_some() {
+                        return self.fail(Fault::new(
+                            factor.span,
+                            "a scaled rotation has to be applied to a vector first",
+                        ));
+                    }
+                    self.divided(product, value, factor.span, factor.value.span)?
+                }
+                MultiplyOperator::Times => match (product, value) {
+                    (Value::Scalar(a), rotation @ Value::Rotation(_)) if scale.is_none() => {
+                        scale = Some(a);
+                        rotation
+                    }
+                    (a, b) => {
+                        let product = self.multiplied(a, b, factor.span)?;
+                        match (scale.take(), product) {
+                            (Some(scale), product @ Value::Vector(_)) => {
+                                self.multiplied(Value::Scalar(scale), product, factor.span)?
+                            }
+                            (waiting, product) => {
+                                scale = waiting;
+                                product
+                            }
+                        }
+                    }
+                },
+            };
+        }
+        if scale.is_some() {
+            return self.fail(
+                Fault::new(first.span, "a scalar times a rotation is not a rotation")
+                    .help("apply the rotation to a vector: `a*R*v`"),
+            );
+        }
+        Ok(product)
+    }
+
+    fn raised(&mut self, base: Value, exponent: Value, base_span: Span, exponent_span: Span) -> Evaluated {
+        let (Value::Scalar(b), Value::Scalar(x)) = (&base, &exponent) else {
+            let (what, span) = if matches!(base, Value::Scalar(_)) {
+                (exponent.kind(), exponent_span)
+            } else {
+                (base.kind(), base_span)
+            };
+            return self.fail(
+                Fault::new(span, format!("powers are of scalars, and this is {what}"))
+                    .help("the square of a vector's length is `inner(v, v)`"),
+            );
+        };
+        match self.bench.graph.power(*b, *x) {
+            Ok(value) => Ok(Value::Scalar(value)),
+            Err(PowerError::ExponentNotNumber) => self.fail(
+                Fault::new(exponent_span, "the exponent is not a number")
+                    .help("a variable exponent is written `exp(y*ln(x))`"),
+            ),
+            Err(PowerError::TooLarge) => {
+                self.fail(Fault::new(exponent_span, "the exponent, or the number it leads to, is too large"))
+            }
+            Err(PowerError::NegativeBase) => {
+                self.fail(Fault::new(base_span, "an even root of a negative number"))
+            }
+            Err(PowerError::DivisionByZero) => {
+                self.fail(Fault::new(exponent_span, "a negative power of zero"))
+            }
+        }
+    }
+
+    /// Refuses a divisor that vanishes identically.
+    pub(super) fn check_divisor(&mut self, divisor: ExprId, span: Span) -> Evaluated<()> {
+        let vanishes = match self.bench.graph.as_number(divisor) {
+            Some(number) => number.is_zero(),
+            None => self.bench.verdict_on_manifold(divisor) == Verdict::Zero,
+        };
+        if vanishes {
+            self.fail(Fault::new(span, "division by something that is identically zero"))
+        } else {
+            Ok(())
+        }
+    }
+
+    /// The total time derivative of a function of time and coordinates.
+    pub(super) fn total_rate(&mut self, e: ExprId) -> ExprId {
+        match &mut self.rate {
+            Some(rate) => rate.of(&mut self.bench.graph, e),
+            // Before the coordinates are declared nothing moves but time.
+            None => Flow::partial(&self.bench.graph, self.time).of(&mut self.bench.graph, e),
+        }
+    }
+
+    fn added(&mut self, a: Value, b: Value, operator: AddOperator, span: Span) -> Evaluated {
+        let minus = operator == AddOperator::Minus;
+        let combine =
+            |bench: &mut Workbench, a, b| if minus { bench.graph.sub(a, b) } else { bench.graph.add(a, b) };
+        match (&a, &b) {
+            (Value::Scalar(a), Value::Scalar(b)) => {
+                let sum = combine(&mut self.bench, *a, *b);
+                self.check_size(sum, span)
+            }
+            (Value::Vector(a), Value::Vector(b)) => {
+                Ok(Value::Vector(std::array::from_fn(|i| combine(&mut self.bench, a[i], b[i]))))
+            }
+            _ => {
+                let verb = if minus { "subtract" } else { "add" };
+                self.fail(Fault::new(span, format!("cannot {verb} {} and {}", a.kind(), b.kind())))
+            }
+        }
+    }
+
+    /// Refuses numbers beyond what the language holds.
+    pub(super) fn check_size(&mut self, e: ExprId, span: Span) -> Evaluated {
+        if self.bench.graph.number_overflows(e) {
+            return self.fail(Fault::new(span, "this number is beyond 10^±400"));
+        }
+        Ok(Value::Scalar(e))
+    }
+}
+
+/// The expressions directly inside another, from left to right.
+pub(super) fn children(e: &Expression) -> Vec<&Expression> {
+    match &e.kind {
+        ExpressionKind::Missing | ExpressionKind::Number(_) | ExpressionKind::Name(_) => Vec::new(),
+        ExpressionKind::Call { arguments, .. } => arguments.iter().collect(),
+        ExpressionKind::Field { base, .. } => vec![base],
+        ExpressionKind::Method { base, arguments, .. } => std::iter::once(&**base).chain(arguments).collect(),
+        ExpressionKind::Negation(operand) => vec![operand],
+        ExpressionKind::Sum { first, rest } => {
+            std::iter::once(&**first).chain(rest.iter().map(|t| &t.value)).collect()
+        }
+        ExpressionKind::Product { first, rest } => {
+            std::iter::once(&**first).chain(rest.iter().map(|f| &f.value)).collect()
+        }
+        ExpressionKind::Power { base, exponent } => vec![base, exponent],
+    }
+}

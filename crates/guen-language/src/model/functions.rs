@@ -1,0 +1,406 @@
+//! Calls, methods and components: which function takes what.
+
+use guen_symbolic::{ExprId, Function, Rational, Role, Roles};
+use proc_macro2::Span;
+
+use super::evaluate::{Evaluated, Evaluator};
+use super::spatial::{cross, inner, inverse, minus, plus};
+use super::value::{BodyValue, Value, Vector};
+use crate::diagnostics::Fault;
+use crate::names;
+use crate::syntax::{Expression, Name};
+
+impl Evaluator<'_> {
+    /// `function(arguments)`.
+    pub(super) fn call(&mut self, function: &Name, arguments: &[Expression], list: Span) -> Evaluated {
+        if !names::is_function(&function.text) {
+            return self.not_a_function(function, arguments);
+        }
+        let mut values = Vec::new();
+        for argument in arguments {
+            values.push((self.value(argument), argument.span));
+        }
+        let values: Vec<(Value, Span)> =
+            values.into_iter().map(|(v, span)| v.map(|v| (v, span))).collect::<Result<_, _>>()?;
+        self.apply_function(function, values, list)
+    }
+
+    /// `base.name(arguments)`: the functions of scalars with the base as first argument, powers, or of a body.
+    pub(super) fn method(
+        &mut self,
+        base: &Expression,
+        name: &Name,
+        arguments: &[Expression],
+        list: Span,
+    ) -> Evaluated {
+        let mut values = vec![(self.value(base), base.span)];
+        for argument in arguments {
+            values.push((self.value(argument), argument.span));
+        }
+        let values: Vec<(Value, Span)> =
+            values.into_iter().map(|(v, span)| v.map(|v| (v, span))).collect::<Result<_, _>>()?;
+        if let (Value::Body(body), _) = &values[0] {
+            let body = body.clone();
+            return self.body_method(&body, name, &values[1..], list);
+        }
+        match name.text.as_str() {
+            "powi" | "powf" => {
+                self.check_count(name, 1, values.len() - 1, list)?;
+                match (&values[0].0, &values[1].0) {
+                    (Value::Scalar(b), Value::Scalar(x)) => {
+                        let power = self.bench.graph.power(*b, *x);
+                        match power {
+                            Ok(value) => Ok(Value::Scalar(value)),
+                            Err(_) => self.fail(Fault::new(
+                                values[1].1,
+                                "the exponent has to be a number of moderate size for which the power exists",
+                            )),
+                        }
+                    }
+                    _ => self.fail(Fault::new(name.span(), "powers are of scalars")),
+                }
+            }
+            "recip" => {
+                self.check_count(name, 0, values.len() - 1, list)?;
+                let one = Value::Scalar(self.bench.graph.one());
+                let (value, span) = values[0].clone();
+                self.divided(one, value, name.span(), span)
+            }
+            text if names::is_function(text) && text != "dot" => self.apply_function(name, values, list),
+            text => {
+                let mut fault = Fault::new(name.span(), format!("unknown method `{text}`"));
+                if let Some(near) =
+                    names::nearest(text, names::SCALAR_FUNCTIONS.iter().copied().chain(["powi"]))
+                {
+                    fault = fault.help(format!("did you mean `{near}`?"));
+                }
+                self.fail(fault)
+            }
+        }
+    }
+
+    /// `base.name`: components of vectors, axes of rotations, values of bodies.
+    pub(super) fn field(&mut self, base: &Expression, name: &Name) -> Evaluated {
+        let value = self.value(base)?;
+        let axis = ["x", "y", "z"].iter().position(|axis| *axis == name.text);
+        match (&value, axis) {
+            (Value::Vector(v), Some(i)) => Ok(Value::Scalar(v[i])),
+            // The body's axes in the world are the columns of the matrix.
+            (Value::Rotation(r), Some(i)) => Ok(Value::Vector(std::array::from_fn(|k| r.matrix[k][i]))),
+            (Value::Body(body), _) => {
+                let body = body.clone();
+                self.body_field(&body, name)
+            }
+            (Value::Scalar(_), _) => self.fail(Fault::new(name.span(), "a scalar has no components")),
+            (other, None) => {
+                let what = other.kind();
+                self.fail(Fault::new(
+                    name.span(),
+                    format!("{what} has the components `x`, `y` and `z`, and no `{}`", name.text),
+                ))
+            }
+        }
+    }
+
+    fn not_a_function(&mut self, function: &Name, arguments: &[Expression]) -> Evaluated {
+        let text = &function.text;
+        let fault = if self.scope.category(text).is_some() {
+            // A use all the same, so that nobody hears of it twice.
+            let place = self.place.description();
+            let _ = self.scope.look_up(self.faults, function, place);
+            let inside = if arguments.len() == 1 { arguments[0].to_string() } else { "..".to_owned() };
+            let inside =
+                inside.strip_prefix('(').and_then(|s| s.strip_suffix(')')).unwrap_or(&inside).to_owned();
+            Fault::new(function.span(), format!("`{text}` is not a function"))
+                .help(format!("a product is written with `*`: `{text}*({inside})`"))
+        } else {
+            let fault = Fault::new(function.span(), format!("unknown function `{text}`"));
+            let all = names::SCALAR_FUNCTIONS.iter().chain(names::SPATIAL_FUNCTIONS).copied();
+            match function_synonym(text).or_else(|| names::nearest(text, all)) {
+                Some(near) => fault.help(format!("did you mean `{near}`?")),
+                None => fault.help(format!(
+                    "the functions of scalars are {}",
+                    names::quoted(names::SCALAR_FUNCTIONS.iter().copied())
+                )),
+            }
+        };
+        self.fail(fault)
+    }
+
+    fn check_count(&mut self, function: &Name, expected: usize, found: usize, list: Span) -> Evaluated<()> {
+        if expected == found {
+            return Ok(());
+        }
+        let plural = if expected == 1 { "" } else { "s" };
+        self.fail(Fault::new(
+            list,
+            format!("`{}` takes {expected} argument{plural}, and {found} were given", function.text),
+        ))
+    }
+
+    fn apply_function(&mut self, function: &Name, values: Vec<(Value, Span)>, list: Span) -> Evaluated {
+        let text = function.text.as_str();
+        let simple = match text {
+            "asin" => Some(Function::Asin),
+            "acos" => Some(Function::Acos),
+            "atan" => Some(Function::Atan),
+            "sinh" => Some(Function::Sinh),
+            "cosh" => Some(Function::Cosh),
+            "tanh" => Some(Function::Tanh),
+            "exp" => Some(Function::Exp),
+            "ln" => Some(Function::Ln),
+            "sqrt" => Some(Function::Root(2)),
+            "abs" => Some(Function::Abs),
+            "sign" => Some(Function::Sign),
+            _ => None,
+        };
+        let count = match text {
+            "atan2" | "inner" | "cross" | "rot" => 2,
+            "quaternion" => 4,
+            "vec" if values.len() == 2 => 2,
+            "vec" => 3,
+            _ => 1,
+        };
+        self.check_count(function, count, values.len(), list)?;
+        if let Some(simple) = simple {
+            let x = self.scalar(function, &values[0])?;
+            if let Some(number) = self.bench.graph.as_number(x) {
+                let outside = match simple {
+                    Function::Root(2) => number.is_negative(),
+                    Function::Ln => number.is_negative() || number.is_zero(),
+                    Function::Asin | Function::Acos => number.abs() > Rational::ONE,
+                    _ => false,
+                };
+                if outside {
+                    return self
+                        .fail(Fault::new(values[0].1, format!("`{text}` is not defined for this number")));
+                }
+            }
+            return Ok(Value::Scalar(self.bench.graph.function(simple, x)));
+        }
+        match text {
+            "sin" | "cos" | "tan" | "cot" => {
+                let x = self.scalar(function, &values[0])?;
+                let (s, c) = self.bench.graph.sin_cos(x);
+                Ok(Value::Scalar(match text {
+                    "sin" => s,
+                    "cos" => c,
+                    "tan" => {
+                        self.check_divisor(c, values[0].1)?;
+                        self.bench.graph.div(s, c)
+                    }
+                    _ => {
+                        self.check_divisor(s, values[0].1)?;
+                        self.bench.graph.div(c, s)
+                    }
+                }))
+            }
+            "atan2" => {
+                let (y, x) = (self.scalar(function, &values[0])?, self.scalar(function, &values[1])?);
+                Ok(Value::Scalar(self.bench.graph.atan2(y, x)))
+            }
+            "dot" => self.rate_of(&values[0].0, values[0].1),
+            "vec" => {
+                let mut components: Vector = [self.bench.graph.zero(); 3];
+                for (component, value) in components.iter_mut().zip(&values) {
+                    *component = self.scalar(function, value)?;
+                }
+                Ok(Value::Vector(components))
+            }
+            "inner" => {
+                let (u, v) = (self.vector(function, &values[0])?, self.vector(function, &values[1])?);
+                Ok(Value::Scalar(inner(&mut self.bench, &u, &v)))
+            }
+            "cross" => {
+                let (u, v) = (self.vector(function, &values[0])?, self.vector(function, &values[1])?);
+                Ok(Value::Vector(cross(&mut self.bench, &u, &v)))
+            }
+            "norm" | "unit" => {
+                let v = self.vector(function, &values[0])?;
+                let square = inner(&mut self.bench, &v, &v);
+                let square = self.bench.tidy(square);
+                let length = self.bench.graph.sqrt(square);
+                if text == "norm" {
+                    return Ok(Value::Scalar(length));
+                }
+                self.check_divisor(length, values[0].1)?;
+                Ok(Value::Vector(v.map(|e| self.bench.graph.div(e, length))))
+            }
+            "rot_x" | "rot_y" | "rot_z" => {
+                let angle = self.angle(function, &values[0])?;
+                let (zero, one) = (self.bench.graph.zero(), self.bench.graph.one());
+                let mut axis = [zero; 3];
+                axis[usize::from(text.as_bytes()[4] - b'x')] = one;
+                Ok(Value::Rotation(Box::new(self.turn(axis, angle))))
+            }
+            "rot" => {
+                let axis = self.vector(function, &values[0])?;
+                let angle = self.angle(function, &values[1])?;
+                if axis.iter().any(|e| !self.bench.graph.roles(*e).is_constant()) {
+                    return self.fail(
+                        Fault::new(values[0].1, "the axis of a rotation depends on constants only")
+                            .help("a turning axis is a product of rotations about fixed ones"),
+                    );
+                }
+                let square = inner(&mut self.bench, &axis, &axis);
+                let one = self.bench.graph.one();
+                let difference = self.bench.graph.sub(square, one);
+                if !self.bench.vanishes(difference) {
+                    return self.fail(
+                        Fault::new(values[0].1, "the axis of a rotation has unit length")
+                            .help("write `unit(axis)`"),
+                    );
+                }
+                Ok(Value::Rotation(Box::new(self.turn(axis, angle))))
+            }
+            "quaternion" => {
+                let mut q = [self.bench.graph.zero(); 4];
+                for (component, value) in q.iter_mut().zip(&values) {
+                    *component = self.angle(function, value)?;
+                }
+                Ok(Value::Rotation(Box::new(self.quaternion(q))))
+            }
+            "transpose" | "angular_velocity" | "angular_velocity_body" => match &values[0].0 {
+                Value::Rotation(r) => Ok(match text {
+                    "transpose" => Value::Rotation(Box::new(inverse(&mut self.bench, r))),
+                    "angular_velocity" => Value::Vector(r.world_rate),
+                    _ => Value::Vector(r.body_rate),
+                }),
+                other => {
+                    let what = other.kind();
+                    self.fail(Fault::new(
+                        values[0].1,
+                        format!("`{text}` takes a rotation, and this is {what}"),
+                    ))
+                }
+            },
+            _ => self.fail(Fault::new(function.span(), format!("unknown function `{text}`"))),
+        }
+    }
+
+    /// `dot(e)`.
+    fn rate_of(&mut self, value: &Value, span: Span) -> Evaluated {
+        let fixed = Roles::of(Role::Velocity).or(Roles::of(Role::QuasiVelocity)).or(Roles::of(Role::Input));
+        if value.expressions().iter().any(|e| self.bench.graph.roles(*e).meets(fixed)) {
+            return self.fail(
+                Fault::new(span, "`dot` is the rate of something that depends on time and coordinates only")
+                    .note("this contains a velocity, a parameter or an input"),
+            );
+        }
+        match value {
+            Value::Scalar(e) => Ok(Value::Scalar(self.total_rate(*e))),
+            Value::Vector(v) => Ok(Value::Vector(self.vector_rate(v))),
+            other => {
+                let what = other.kind();
+                self.fail(
+                    Fault::new(span, format!("`dot` takes a scalar or a vector, and this is {what}"))
+                        .help("the rate of a rotation is `angular_velocity(R)`"),
+                )
+            }
+        }
+    }
+
+    fn body_field(&mut self, body: &BodyValue, name: &Name) -> Evaluated {
+        match (name.text.as_str(), &body.center, &body.orientation) {
+            ("center", Some((position, _)), _) => Ok(Value::Vector(*position)),
+            ("orientation", _, Some(rotation)) => Ok(Value::Rotation(Box::new(rotation.clone()))),
+            ("angular_velocity", _, Some(rotation)) => Ok(Value::Vector(rotation.world_rate)),
+            ("velocity_at", ..) => self
+                .fail(Fault::new(name.span(), "`velocity_at` takes a point").help("write `velocity_at(p)`")),
+            ("center", ..) => {
+                self.fail(Fault::new(name.span(), format!("body `{}` has no `center`", body.name)))
+            }
+            ("orientation" | "angular_velocity", ..) => {
+                self.fail(Fault::new(name.span(), format!("body `{}` has no `orientation`", body.name)))
+            }
+            (other, ..) => self.fail(
+                Fault::new(name.span(), format!("a body has no `{other}`"))
+                    .help("a body has `center`, `orientation`, `angular_velocity` and `velocity_at(p)`"),
+            ),
+        }
+    }
+
+    /// `body.velocity_at(p)`: the velocity of the material point of the body that is at `p`.
+    fn body_method(
+        &mut self,
+        body: &BodyValue,
+        name: &Name,
+        arguments: &[(Value, Span)],
+        list: Span,
+    ) -> Evaluated {
+        if name.text != "velocity_at" {
+            return match self.body_field(body, name) {
+                Ok(_) => self.fail(Fault::new(list, format!("`{}` takes no arguments", name.text))),
+                Err(reported) => Err(reported),
+            };
+        }
+        self.check_count(name, 1, arguments.len(), list)?;
+        let point = self.vector(name, &arguments[0])?;
+        let (Some((position, velocity)), Some(rotation)) = (&body.center, &body.orientation) else {
+            return self.fail(Fault::new(
+                name.span(),
+                format!(
+                    "body `{}` needs a `center` and an `orientation` for the velocity of its points",
+                    body.name
+                ),
+            ));
+        };
+        let arm = minus(&mut self.bench, &point, position);
+        let turning = cross(&mut self.bench, &rotation.world_rate, &arm);
+        Ok(Value::Vector(plus(&mut self.bench, velocity, &turning)))
+    }
+
+    fn scalar(&mut self, function: &Name, value: &(Value, Span)) -> Evaluated<ExprId> {
+        match &value.0 {
+            Value::Scalar(e) => Ok(*e),
+            other => {
+                let what = other.kind();
+                self.fail(Fault::new(
+                    value.1,
+                    format!("`{}` takes a scalar here, and this is {what}", function.text),
+                ))
+            }
+        }
+    }
+
+    fn vector(&mut self, function: &Name, value: &(Value, Span)) -> Evaluated<Vector> {
+        match &value.0 {
+            Value::Vector(v) => Ok(*v),
+            other => {
+                let what = other.kind();
+                self.fail(Fault::new(
+                    value.1,
+                    format!("`{}` takes a vector here, and this is {what}", function.text),
+                ))
+            }
+        }
+    }
+
+    /// A scalar of time and coordinates, as rotations take them.
+    fn angle(&mut self, function: &Name, value: &(Value, Span)) -> Evaluated<ExprId> {
+        let e = self.scalar(function, value)?;
+        let moving = Roles::of(Role::Velocity).or(Roles::of(Role::QuasiVelocity)).or(Roles::of(Role::Input));
+        if self.bench.graph.roles(e).meets(moving) {
+            return self.fail(Fault::new(value.1, "a rotation depends on time and coordinates only"));
+        }
+        Ok(e)
+    }
+}
+
+/// Functions under the names of other languages.
+fn function_synonym(text: &str) -> Option<&'static str> {
+    Some(match text {
+        "log" => "ln",
+        "arcsin" => "asin",
+        "arccos" => "acos",
+        "arctan" => "atan",
+        "ctg" | "cotan" => "cot",
+        "tg" => "tan",
+        "sgn" | "signum" => "sign",
+        "diff" | "ddt" | "dt" => "dot",
+        "vector" => "vec",
+        "length" | "magnitude" => "norm",
+        "normalize" => "unit",
+        _ => return None,
+    })
+}

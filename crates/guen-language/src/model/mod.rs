@@ -1,0 +1,106 @@
+//! From the syntax tree to a checked model: names, kinds, linear forms, energies; every fault collected.
+//!
+//! What comes in was parsed without a fault. What goes out is a [`Model`] around a
+//! [`guen_symbolic::Mechanics`], in which every expression is an exact one over checked names.
+
+mod bodies;
+mod evaluate;
+mod forms;
+mod functions;
+mod place;
+mod resolve;
+mod scope;
+mod spatial;
+mod value;
+
+use guen_symbolic::{ExprId, Mechanics, Workbench};
+use proc_macro2::Span;
+
+use crate::syntax::{BoundKind, Declaration, Docs, Name};
+
+pub use resolve::resolve;
+
+/// A checked system.
+pub struct Model<'a> {
+    /// The declaration.
+    pub declaration: &'a Declaration,
+    /// The expressions and what answers questions about them.
+    pub bench: Workbench,
+    /// Physical constants in order.
+    pub constants: Vec<ConstantEntry<'a>>,
+    /// Control inputs in order.
+    pub inputs: Vec<SymbolEntry<'a>>,
+    /// Coordinates in order.
+    pub coordinates: Vec<SymbolEntry<'a>>,
+    /// The forms `eta_1..eta_n`, parameters first.
+    pub forms: Vec<FormEntry<'a>>,
+    /// Outputs in order.
+    pub outputs: Vec<OutputEntry<'a>>,
+    /// Components of vector equations that are identically `0 = 0`, by name.
+    pub left_out: Vec<String>,
+    /// The mechanical system.
+    pub mechanics: Mechanics,
+    /// Whether the kinetic energy is more than the words of `kinetic_energy`: particles or bodies add to it.
+    pub has_masses: bool,
+    /// Place of the kinetic energy, where it is given by a formula.
+    pub kinetic_energy_span: Option<Span>,
+}
+
+/// A physical constant.
+pub struct ConstantEntry<'a> {
+    /// Name as written.
+    pub name: &'a Name,
+    /// Documentation as written.
+    pub docs: &'a Docs,
+    /// The promise.
+    pub bound: Option<BoundKind>,
+    /// The default, of earlier constants.
+    pub default: Option<ExprId>,
+    /// The symbol.
+    pub symbol: ExprId,
+}
+
+/// A coordinate or an input.
+pub struct SymbolEntry<'a> {
+    /// Name as written.
+    pub name: &'a Name,
+    /// Documentation as written.
+    pub docs: &'a Docs,
+    /// The symbol.
+    pub symbol: ExprId,
+}
+
+/// Which section a form comes from.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum FormKind {
+    /// `parameters`.
+    Parameter,
+    /// `constraints`.
+    Constraint,
+    /// `holonomic`.
+    Holonomic,
+}
+
+/// One of the `n` forms.
+pub struct FormEntry<'a> {
+    /// Its name, with the component where a vector was written.
+    pub name: String,
+    /// The entry's name as written.
+    pub written: &'a Name,
+    /// Documentation as written.
+    pub docs: &'a Docs,
+    /// Which section it comes from.
+    pub kind: FormKind,
+    /// Whether the kinetic energy mentions the name.
+    pub mentioned_in_energy: bool,
+}
+
+/// An output: a scalar, or the three components of a vector.
+pub struct OutputEntry<'a> {
+    /// Name as written.
+    pub name: &'a Name,
+    /// Documentation as written.
+    pub docs: &'a Docs,
+    /// Indices into the outputs of the mechanics: one for a scalar, three for a vector.
+    pub components: Vec<usize>,
+}

@@ -1,0 +1,88 @@
+//! What may occur where: each place of a declaration with the kinds of symbol that it allows.
+
+use guen_symbolic::{Role, Roles};
+
+/// A place for an expression.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Place {
+    /// The default of a constant.
+    Default,
+    /// The right side of a `let`.
+    Let,
+    /// A parameter.
+    Parameter,
+    /// A constraint.
+    Constraint,
+    /// A holonomic constraint.
+    Holonomic,
+    /// The kinetic energy.
+    KineticEnergy,
+    /// The force function or the potential energy.
+    ForceFunction,
+    /// The gravity vector.
+    Gravity,
+    /// The mass of a particle or body, or an entry of an inertia.
+    Mass,
+    /// A position or an orientation.
+    Position,
+    /// A generalised force.
+    Force,
+    /// What follows `along`.
+    Direction,
+    /// An output.
+    Output,
+}
+
+impl Place {
+    /// The place in a sentence.
+    pub(super) fn description(self) -> &'static str {
+        match self {
+            Place::Default => "the default of a constant",
+            Place::Let => "a `let`",
+            Place::Parameter => "a parameter",
+            Place::Constraint => "a constraint",
+            Place::Holonomic => "a holonomic constraint",
+            Place::KineticEnergy => "the kinetic energy",
+            Place::ForceFunction => "the force function",
+            Place::Gravity => "`gravity`",
+            Place::Mass => "a mass or inertia",
+            Place::Position => "a position or orientation",
+            Place::Force => "a force",
+            Place::Direction => "the velocity after `along`",
+            Place::Output => "an output",
+        }
+    }
+
+    /// The kinds of symbol that may occur.
+    pub(super) fn allowed(self) -> Roles {
+        let constants = Roles::of(Role::Constant);
+        let timed = constants.or(Roles::of(Role::Time));
+        let positions = timed.or(Roles::of(Role::Coordinate));
+        let velocities = positions.or(Roles::of(Role::Velocity)).or(Roles::of(Role::QuasiVelocity));
+        let all = velocities.or(Roles::of(Role::Input));
+        match self {
+            Place::Default => constants,
+            Place::Gravity => timed,
+            Place::Holonomic | Place::ForceFunction | Place::Mass | Place::Position => positions,
+            Place::Parameter | Place::Constraint | Place::KineticEnergy | Place::Direction => velocities,
+            Place::Let | Place::Force | Place::Output => all,
+        }
+    }
+}
+
+/// What a kind of symbol is called.
+pub(super) fn role_name(role: Role) -> &'static str {
+    match role {
+        Role::Time => "the time",
+        Role::Constant => "a physical constant",
+        Role::Coordinate => "a coordinate",
+        Role::Velocity => "a velocity",
+        Role::QuasiVelocity => "a quasi-velocity",
+        Role::QuasiAcceleration => "an acceleration",
+        Role::Input => "an input",
+    }
+}
+
+/// Every kind of symbol, in the order in which a message names the first that is not allowed.
+pub(super) const ROLES: [Role; 6] =
+    [Role::Input, Role::Velocity, Role::QuasiVelocity, Role::Coordinate, Role::Time, Role::Constant];

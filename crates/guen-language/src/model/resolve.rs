@@ -1,0 +1,460 @@
+//! A declaration becomes a model: one pass over the items in the order in which they were written.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use guen_symbolic::{Bound, ExprId, Flow, Force, Forms, Graph, Holonomic, Mechanics, Role, Roles, Workbench};
+
+use super::bodies::Weight;
+use super::evaluate::{Evaluator, children};
+use super::forms::RawForm;
+use super::place::Place;
+use super::scope::{Category, Scope};
+use super::spatial::inner;
+use super::value::Value;
+use super::{ConstantEntry, FormKind, Model, OutputEntry, SymbolEntry};
+use crate::diagnostics::{Fault, Faults};
+use crate::syntax::{
+    BoundKind, Constant, Declaration, Definition, Expression, ExpressionKind, Force as WrittenForce, Item,
+    Quantity, SectionKind,
+};
+
+/// Checks names, kinds and forms. `None` if a fault was reported that leaves no model.
+pub fn resolve<'a>(declaration: &'a Declaration, faults: &mut Faults) -> Option<Model<'a>> {
+    let before = faults.count();
+    let mut resolver = Resolver::new(declaration, faults);
+    resolver.announce();
+    for item in &declaration.items {
+        resolver.item(item);
+    }
+    let model = resolver.finish();
+    if faults.count() == before { model } else { None }
+}
+
+struct Resolver<'a, 'f> {
+    declaration: &'a Declaration,
+    eval: Evaluator<'f>,
+    constants: Vec<ConstantEntry<'a>>,
+    inputs: Vec<SymbolEntry<'a>>,
+    coordinates: Vec<SymbolEntry<'a>>,
+    velocities: Vec<ExprId>,
+    parameters: Vec<RawForm<'a>>,
+    constraints: Vec<RawForm<'a>>,
+    kinetic: Vec<ExprId>,
+    energy: Option<&'a Quantity>,
+    has_masses: bool,
+    weights: Vec<Weight>,
+    gravity: Option<super::value::Vector>,
+    force_function: Option<ExprId>,
+    forces: Vec<Force>,
+    outputs: Vec<OutputEntry<'a>>,
+    output_values: Vec<ExprId>,
+}
+
+impl<'a, 'f> Resolver<'a, 'f> {
+    fn new(declaration: &'a Declaration, faults: &'f mut Faults) -> Self {
+        let mut graph = Graph::new();
+        let time = graph.symbol("t", Role::Time);
+        Resolver {
+            declaration,
+            eval: Evaluator {
+                faults,
+                bench: Workbench::new(graph),
+                scope: Scope::default(),
+                time,
+                rate: None,
+                place: Place::Let,
+                expansions: BTreeMap::new(),
+                left_out: Vec::new(),
+            },
+            constants: Vec::new(),
+            inputs: Vec::new(),
+            coordinates: Vec::new(),
+            velocities: Vec::new(),
+            parameters: Vec::new(),
+            constraints: Vec::new(),
+            kinetic: Vec::new(),
+            energy: None,
+            has_masses: false,
+            weights: Vec::new(),
+            gravity: None,
+            force_function: None,
+            forces: Vec::new(),
+            outputs: Vec::new(),
+            output_values: Vec::new(),
+        }
+    }
+
+    /// Every name that is declared anywhere, so that a use before the declaration is told from an unknown name.
+    fn announce(&mut self) {
+        let scope = &mut self.eval.scope;
+        for item in &self.declaration.items {
+            match item {
+                Item::Constants(section) => section.entries.iter().for_each(|e| scope.announce(&e.name)),
+                Item::Inputs(section) | Item::Coordinates(section) => {
+                    section.entries.iter().for_each(|e| scope.announce(&e.name));
+                }
+                Item::Let(definition) => scope.announce(&definition.name),
+                Item::Parameters(section) | Item::Outputs(section) => {
+                    section.entries.iter().for_each(|e| scope.announce(&e.name));
+                }
+                Item::Constraints(section) | Item::Holonomic(section) => {
+                    section.entries.iter().for_each(|e| scope.announce(&e.name));
+                }
+                Item::Bodies(section) => section.entries.iter().for_each(|e| scope.announce(&e.name)),
+                _ => {}
+            }
+        }
+    }
+
+    fn item(&mut self, item: &'a Item) {
+        match item {
+            Item::Constants(section) => section.entries.iter().for_each(|constant| self.constant(constant)),
+            Item::Inputs(section) => {
+                for plain in &section.entries {
+                    let symbol = self.eval.bench.graph.symbol(&plain.name.text, Role::Input);
+                    self.declare_symbol(&plain.name, Category::Input, symbol);
+                    self.inputs.push(SymbolEntry { name: &plain.name, docs: &plain.docs, symbol });
+                }
+            }
+            Item::Coordinates(section) => {
+                for plain in &section.entries {
+                    let symbol = self.eval.bench.graph.symbol(&plain.name.text, Role::Coordinate);
+                    self.declare_symbol(&plain.name, Category::Coordinate, symbol);
+                    self.coordinates.push(SymbolEntry { name: &plain.name, docs: &plain.docs, symbol });
+                }
+                for plain in &section.entries {
+                    let name = format!("dot({})", plain.name.text);
+                    self.velocities.push(self.eval.bench.graph.symbol(&name, Role::Velocity));
+                }
+                let graph = &self.eval.bench.graph;
+                let moving = self.coordinates.iter().map(|c| c.symbol).zip(self.velocities.iter().copied());
+                self.eval.rate = Some(Flow::new(graph, moving.chain([(self.eval.time, graph.one())])));
+            }
+            Item::Let(definition) => {
+                let value = self.eval.at(Place::Let, &definition.value).ok();
+                self.eval.scope.declare(self.eval.faults, &definition.name, Category::Let, value);
+            }
+            Item::Parameters(section) => {
+                section.entries.iter().for_each(|p| self.eval.parameter(p, &mut self.parameters));
+            }
+            Item::Constraints(section) => {
+                section.entries.iter().for_each(|c| self.eval.constraint(c, &mut self.constraints));
+            }
+            Item::Holonomic(section) => {
+                section.entries.iter().for_each(|c| self.eval.holonomic(c, &mut self.constraints));
+            }
+            Item::KineticEnergy(quantity) => {
+                self.energy = Some(quantity);
+                if let Ok(energy) = self.eval.scalar_at(Place::KineticEnergy, &quantity.value) {
+                    self.kinetic.push(energy);
+                }
+                let mut mentioned = BTreeSet::new();
+                names_in(&quantity.value, &mut mentioned);
+                for form in &mut self.constraints {
+                    let entry = &mut form.entry;
+                    entry.mentioned_in_energy =
+                        mentioned.contains(&entry.name) || mentioned.contains(&entry.written.text);
+                }
+            }
+            Item::Particles(section) => {
+                for particle in &section.entries {
+                    self.has_masses = true;
+                    if let Ok((energy, weight)) = self.eval.particle(particle) {
+                        self.kinetic.push(energy);
+                        self.weights.push(weight);
+                    }
+                }
+            }
+            Item::Bodies(section) => {
+                for body in &section.entries {
+                    self.has_masses = true;
+                    let value = self.eval.body(body).ok().map(|(energy, weight, value)| {
+                        self.kinetic.push(energy);
+                        self.weights.extend(weight);
+                        Value::Body(Box::new(value))
+                    });
+                    self.eval.scope.declare(self.eval.faults, &body.name, Category::Body, value);
+                }
+            }
+            Item::Gravity(quantity) => {
+                self.gravity = self.eval.vector_at(Place::Gravity, &quantity.value).ok()
+            }
+            Item::ForceFunction(quantity) => {
+                self.force_function = self.eval.scalar_at(Place::ForceFunction, &quantity.value).ok();
+            }
+            Item::PotentialEnergy(quantity) => {
+                let potential = self.eval.scalar_at(Place::ForceFunction, &quantity.value).ok();
+                self.force_function = potential.map(|v| self.eval.bench.graph.neg(v));
+            }
+            Item::Forces(section) => section.entries.iter().for_each(|force| self.force(force)),
+            Item::Outputs(section) => section.entries.iter().for_each(|output| self.output(output)),
+            Item::Provide(section) => {
+                let at = section.keyword;
+                let fault = Fault::new(at, "the full system provides everything already")
+                    .note("`provide` chooses what a scene offers beside its state");
+                self.eval.faults.report(fault);
+            }
+            Item::Scene(scene) => {
+                self.eval.faults.report(
+                    Fault::new(scene.keyword, "scenes are not supported yet")
+                        .note("the full system is generated once the scene is removed"),
+                );
+            }
+        }
+    }
+
+    fn declare_symbol(&mut self, name: &crate::syntax::Name, category: Category, symbol: ExprId) {
+        self.eval.scope.declare(self.eval.faults, name, category, Some(Value::Scalar(symbol)));
+    }
+
+    fn constant(&mut self, constant: &'a Constant) {
+        let bound = constant.bound.map(|bound| bound.kind);
+        let promise = match bound {
+            None => Bound::Free,
+            Some(BoundKind::Positive) => Bound::Positive,
+            Some(BoundKind::Nonnegative) => Bound::NonNegative,
+            Some(BoundKind::Nonzero) => Bound::NonZero,
+        };
+        let default = constant.default.as_ref().map(|e| self.eval.scalar_at(Place::Default, e));
+        if let (Some(Ok(value)), Some(default)) = (&default, &constant.default) {
+            self.check_default(*value, bound, default);
+        }
+        let symbol = self.eval.bench.graph.bounded_symbol(&constant.name.text, Role::Constant, promise);
+        self.declare_symbol(&constant.name, Category::Constant, symbol);
+        self.constants.push(ConstantEntry {
+            name: &constant.name,
+            docs: &constant.docs,
+            bound,
+            default: default.and_then(Result::ok),
+            symbol,
+        });
+    }
+
+    /// A default that is a number must keep the bound beside it.
+    fn check_default(&mut self, value: ExprId, bound: Option<BoundKind>, written: &Expression) {
+        let Some(number) = self.eval.bench.graph.as_number(value) else { return };
+        let broken = match bound {
+            None => None,
+            Some(BoundKind::Positive) => (number.is_negative() || number.is_zero()).then_some("> 0"),
+            Some(BoundKind::Nonnegative) => number.is_negative().then_some(">= 0"),
+            Some(BoundKind::Nonzero) => number.is_zero().then_some("!= 0"),
+        };
+        if let Some(bound) = broken {
+            let fault = Fault::new(written.span, format!("this default does not keep the bound `{bound}`"));
+            self.eval.faults.report(fault);
+        }
+    }
+
+    fn force(&mut self, written: &'a WrittenForce) {
+        let magnitude = self.eval.at(Place::Force, &written.force);
+        let direction = self.eval.at(Place::Direction, &written.direction);
+        let (Ok(magnitude), Ok(direction)) = (magnitude, direction) else { return };
+        let pairs = match (magnitude, direction) {
+            (Value::Scalar(f), Value::Scalar(u)) => vec![(f, u)],
+            (Value::Vector(f), Value::Vector(u)) => f.into_iter().zip(u).collect(),
+            (f, u) => {
+                let fault = Fault::new(
+                    written.along,
+                    format!(
+                        "a force and the velocity that it acts along are of one kind, and these are {} and {}",
+                        f.kind(),
+                        u.kind()
+                    ),
+                );
+                self.eval.faults.report(fault);
+                return;
+            }
+        };
+        let moving = Roles::of(Role::Velocity).or(Roles::of(Role::QuasiVelocity));
+        if !pairs.iter().any(|(_, u)| self.eval.bench.graph.roles(*u).meets(moving)) {
+            self.eval.faults.report(
+                Fault::new(
+                    written.direction.span,
+                    "what follows `along` is a velocity, and this contains none",
+                )
+                .help("a force along a coordinate is `force along dot(x)`"),
+            );
+            return;
+        }
+        for (magnitude, along) in pairs {
+            let expanded = self.eval.expanded(along);
+            let mut partials = guen_symbolic::VelocityPartials::new(&self.eval.bench, &self.velocities, &[]);
+            if partials.affine(&mut self.eval.bench, expanded).is_none() {
+                let fault = Fault::new(
+                    written.direction.span,
+                    "what follows `along` is not affine in the velocities",
+                );
+                self.eval.faults.report(fault);
+                return;
+            }
+            self.forces.push(Force { magnitude, along });
+        }
+    }
+
+    fn output(&mut self, definition: &'a Definition) {
+        let value = self.eval.at(Place::Output, &definition.value);
+        let parts = match &value {
+            Ok(Value::Scalar(e)) => vec![*e],
+            Ok(Value::Vector(v)) => v.to_vec(),
+            Ok(other) => {
+                let fault = Fault::new(
+                    definition.value.extent(),
+                    format!("an output is a scalar or a vector, and this is {}", other.kind()),
+                );
+                self.eval.faults.report(fault);
+                Vec::new()
+            }
+            Err(_) => Vec::new(),
+        };
+        let first = self.output_values.len();
+        let components = (first..first + parts.len()).collect();
+        self.output_values.extend(parts);
+        self.outputs.push(OutputEntry { name: &definition.name, docs: &definition.docs, components });
+        self.eval.scope.declare(self.eval.faults, &definition.name, Category::Output, value.ok());
+    }
+
+    fn finish(mut self) -> Option<Model<'a>> {
+        let failed = self.eval.faults.count() > 0;
+        let velocities = self.velocities.clone();
+        let degrees = self.parameters.len();
+        let has_energy = self.energy.is_some() || self.has_masses;
+        self.check_gravity();
+        let mut raw: Vec<RawForm<'a>> = self.parameters;
+        raw.extend(self.constraints);
+        let forms = self.eval.linear_forms(&raw, &velocities);
+        if !failed {
+            // Counts and unused names mean something only where everything else was understood.
+            let entry = |kind: SectionKind| {
+                self.declaration.items.iter().find_map(|item| match item {
+                    Item::Parameters(section) if kind == SectionKind::Parameters => Some(section.keyword),
+                    Item::Coordinates(section) if kind == SectionKind::Coordinates => Some(section.keyword),
+                    _ => None,
+                })
+            };
+            let place = entry(SectionKind::Parameters)
+                .or(entry(SectionKind::Coordinates))
+                .unwrap_or(self.declaration.name.span());
+            check_count(&mut self.eval, &raw, degrees, self.coordinates.len(), place);
+            self.eval.scope.report_unused(self.eval.faults);
+        }
+        let forms = forms?;
+        if forms.len() != self.coordinates.len() || !has_energy {
+            return None;
+        }
+        let bench = &mut self.eval.bench;
+        let mut force_function: Vec<ExprId> = self.force_function.into_iter().collect();
+        if let Some(gravity) = self.gravity {
+            for (mass, position) in &self.weights {
+                let height = inner(bench, &gravity, position);
+                force_function.push(bench.graph.mul(*mass, height));
+            }
+        }
+        let force_function = bench.graph.sum(force_function);
+        let kinetic_energy = bench.graph.sum(self.kinetic);
+        let accelerations = raw[..degrees]
+            .iter()
+            .map(|form| bench.graph.symbol(&format!("{}'", form.entry.name), Role::QuasiAcceleration))
+            .collect();
+        let holonomic = raw
+            .iter()
+            .enumerate()
+            .filter_map(|(form, raw)| raw.position.map(|equation| Holonomic { form, equation }))
+            .collect();
+        let mechanics = Mechanics {
+            forms: Forms {
+                time: self.eval.time,
+                coordinates: self.coordinates.iter().map(|c| c.symbol).collect(),
+                forms,
+                degrees,
+            },
+            velocities,
+            etas: raw.iter().map(|form| form.symbol).collect(),
+            accelerations,
+            inputs: self.inputs.iter().map(|input| input.symbol).collect(),
+            holonomic,
+            kinetic_energy,
+            force_function,
+            forces: self.forces,
+            outputs: self.output_values,
+        };
+        Some(Model {
+            declaration: self.declaration,
+            bench: self.eval.bench,
+            constants: self.constants,
+            inputs: self.inputs,
+            coordinates: self.coordinates,
+            forms: raw.into_iter().map(|form| form.entry).collect(),
+            outputs: self.outputs,
+            left_out: self.eval.left_out,
+            mechanics,
+            has_masses: self.has_masses,
+            kinetic_energy_span: self.energy.map(|energy| energy.value.first_token()),
+        })
+    }
+
+    /// Gravity without anything that has a mass would be ignored: it is refused instead.
+    fn check_gravity(&mut self) {
+        if self.gravity.is_none() || !self.weights.is_empty() {
+            return;
+        }
+        let place = self.declaration.items.iter().find_map(|item| match item {
+            Item::Gravity(quantity) => Some(quantity.keyword),
+            _ => None,
+        });
+        if let (Some(place), false) = (place, self.has_masses) {
+            self.eval.faults.report(
+                Fault::new(place, "`gravity` acts on particles and bodies, and there are none")
+                    .help("write the force function instead: `force_function = ..;`"),
+            );
+        }
+    }
+}
+
+/// Parameters, constraints and holonomic constraints together number `n`.
+fn check_count(
+    eval: &mut Evaluator<'_>,
+    raw: &[RawForm<'_>],
+    degrees: usize,
+    n: usize,
+    place: proc_macro2::Span,
+) {
+    if raw.len() == n {
+        return;
+    }
+    let count = |kind| raw.iter().filter(|form| form.entry.kind == kind).count();
+    let plural = |count: usize, noun: &str| format!("{count} {noun}{}", if count == 1 { "" } else { "s" });
+    let (constraints, holonomic) = (count(FormKind::Constraint), count(FormKind::Holonomic));
+    let found = [
+        plural(degrees, "parameter"),
+        plural(constraints, "constraint"),
+        plural(holonomic, "holonomic constraint"),
+    ]
+    .join(", ");
+    let mut fault = Fault::new(
+        place,
+        format!("{} need as many forms, and {} are declared", plural(n, "coordinate"), raw.len()),
+    )
+    .note(format!("found {found}"));
+    fault = if raw.len() < n {
+        fault.help(format!("{} more under `parameters` or `constraints`", plural(n - raw.len(), "form")))
+    } else {
+        fault.help(format!(
+            "{} too many: remove some, or declare more coordinates",
+            plural(raw.len() - n, "form")
+        ))
+    };
+    eval.faults.report(fault);
+}
+
+/// Every name that occurs in an expression.
+fn names_in(e: &Expression, found: &mut BTreeSet<String>) {
+    if let ExpressionKind::Name(name) = &e.kind {
+        found.insert(name.text.clone());
+    }
+    if let ExpressionKind::Field { base, name } = &e.kind
+        && let ExpressionKind::Name(vector) = &base.kind
+    {
+        found.insert(format!("{}_{}", vector.text, name.text));
+    }
+    children(e).into_iter().for_each(|child| names_in(child, found));
+}

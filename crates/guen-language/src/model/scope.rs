@@ -1,0 +1,180 @@
+//! The one namespace of a declaration.
+
+use std::collections::BTreeMap;
+
+use proc_macro2::Span;
+
+use super::value::Value;
+use crate::diagnostics::{Fault, Faults};
+use crate::names;
+use crate::syntax::Name;
+
+/// What a name was declared as.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Category {
+    /// A physical constant.
+    Constant,
+    /// A control input.
+    Input,
+    /// A coordinate.
+    Coordinate,
+    /// A `let`.
+    Let,
+    /// A parameter.
+    Parameter,
+    /// A constraint.
+    Constraint,
+    /// A body.
+    Body,
+    /// An output.
+    Output,
+}
+
+impl Category {
+    /// The category with its article, for messages.
+    pub(super) fn noun(self) -> &'static str {
+        match self {
+            Category::Constant => "a constant",
+            Category::Input => "an input",
+            Category::Coordinate => "a coordinate",
+            Category::Let => "a `let`",
+            Category::Parameter => "a parameter",
+            Category::Constraint => "a constraint",
+            Category::Body => "a body",
+            Category::Output => "an output",
+        }
+    }
+
+    /// Whether a declaration without any use is a mistake: forms, bodies and outputs are used by being there.
+    fn must_be_used(self) -> bool {
+        matches!(self, Category::Constant | Category::Input | Category::Coordinate | Category::Let)
+    }
+}
+
+struct Entry {
+    category: Category,
+    span: Span,
+    value: Option<Value>,
+    used: bool,
+    /// Part of a vector: it shares the place of the whole.
+    derived: bool,
+}
+
+/// The names declared so far.
+#[derive(Default)]
+pub(super) struct Scope {
+    entries: BTreeMap<String, Entry>,
+    // In the order of declaration, for messages that list names.
+    order: Vec<String>,
+    // Everything that the declaration declares anywhere, to tell "later" from "never".
+    later: BTreeMap<String, Span>,
+}
+
+impl Scope {
+    /// Announces a name that is declared somewhere.
+    pub(super) fn announce(&mut self, name: &Name) {
+        self.later.entry(name.text.clone()).or_insert_with(|| name.span());
+    }
+
+    /// Declares a name; `None` for the value of something whose fault was reported.
+    pub(super) fn declare(
+        &mut self,
+        faults: &mut Faults,
+        name: &Name,
+        category: Category,
+        value: Option<Value>,
+    ) {
+        self.declare_text(faults, &name.text, name.span(), category, value, false);
+    }
+
+    /// Declares a component `name_x` of something written as a vector.
+    pub(super) fn declare_component(
+        &mut self,
+        faults: &mut Faults,
+        text: &str,
+        span: Span,
+        category: Category,
+        value: Option<Value>,
+    ) {
+        self.declare_text(faults, text, span, category, value, true);
+    }
+
+    fn declare_text(
+        &mut self,
+        faults: &mut Faults,
+        text: &str,
+        span: Span,
+        category: Category,
+        value: Option<Value>,
+        derived: bool,
+    ) {
+        if names::is_reserved(text) {
+            let what = if names::is_function(text) { "the name of a function" } else { "reserved" };
+            faults.report(
+                Fault::new(span, format!("`{text}` is {what} and cannot name {}", category.noun()))
+                    .help("choose another name"),
+            );
+        }
+        if let Some(known) = self.entries.get(text) {
+            faults.report(
+                Fault::new(span, format!("`{text}` is declared twice"))
+                    .note_place(&format!("first declared as {}", known.category.noun()), known.span),
+            );
+            return;
+        }
+        let used = text.starts_with('_');
+        self.order.push(text.to_owned());
+        self.entries.insert(text.to_owned(), Entry { category, span, value, used, derived });
+    }
+
+    /// The value of a name in use, or `None` after a fault that is reported here or was before.
+    pub(super) fn look_up(&mut self, faults: &mut Faults, name: &Name, place: &str) -> Option<Value> {
+        if let Some(entry) = self.entries.get_mut(&name.text) {
+            entry.used = true;
+            return entry.value.clone();
+        }
+        let mut fault = Fault::new(name.span(), format!("unknown name `{}` in {place}", name.text));
+        if let Some(later) = self.later.get(&name.text) {
+            fault = Fault::new(name.span(), format!("`{}` is used before it is declared", name.text))
+                .note_place("declared", *later)
+                .help("move its section above this one");
+        } else if names::is_function(&name.text) {
+            fault = fault.help(format!("`{0}` is a function: write `{0}(..)`", name.text));
+        } else if let Some(near) = names::nearest(&name.text, self.order.iter().map(String::as_str)) {
+            fault = fault.help(format!("did you mean `{near}`?"));
+        } else if !self.order.is_empty() {
+            fault = fault.help(format!(
+                "declared so far are {}",
+                names::quoted(self.order.iter().map(String::as_str))
+            ));
+        }
+        faults.report(fault);
+        None
+    }
+
+    /// The category of a declared name.
+    pub(super) fn category(&self, text: &str) -> Option<Category> {
+        self.entries.get(text).map(|entry| entry.category)
+    }
+
+    /// The value of a declared name, without counting as a use.
+    pub(super) fn peek(&self, text: &str) -> Option<&Value> {
+        self.entries.get(text).and_then(|entry| entry.value.as_ref())
+    }
+
+    /// Reports what is declared and never used: nothing that a person writes is silently ignored.
+    pub(super) fn report_unused(&self, faults: &mut Faults) {
+        for text in &self.order {
+            let entry = &self.entries[text];
+            if !entry.used && !entry.derived && entry.category.must_be_used() {
+                faults.report(
+                    Fault::new(
+                        entry.span,
+                        format!("`{text}` is declared as {} and never used", entry.category.noun()),
+                    )
+                    .help(format!("use it, remove it, or call it `_{text}` to keep it")),
+                );
+            }
+        }
+    }
+}

@@ -1,0 +1,197 @@
+//! Arithmetic of vectors and rotations.
+
+use guen_symbolic::{ExprId, Workbench};
+use proc_macro2::Span;
+
+use super::evaluate::{Evaluated, Evaluator};
+use super::value::{Rotation, Value, Vector};
+use crate::diagnostics::Fault;
+
+impl Evaluator<'_> {
+    pub(super) fn negated(&mut self, value: Value, span: Span) -> Evaluated {
+        match value {
+            Value::Scalar(e) => Ok(Value::Scalar(self.bench.graph.neg(e))),
+            Value::Vector(v) => Ok(Value::Vector(v.map(|e| self.bench.graph.neg(e)))),
+            other => self.fail(Fault::new(span, format!("{} has no negative", other.kind()))),
+        }
+    }
+
+    pub(super) fn multiplied(&mut self, a: Value, b: Value, span: Span) -> Evaluated {
+        match (a, b) {
+            (Value::Scalar(a), Value::Scalar(b)) => {
+                let product = self.bench.graph.mul(a, b);
+                self.check_size(product, span)
+            }
+            (Value::Scalar(a), Value::Vector(v)) | (Value::Vector(v), Value::Scalar(a)) => {
+                Ok(Value::Vector(v.map(|e| self.bench.graph.mul(a, e))))
+            }
+            (Value::Rotation(r), Value::Vector(v)) => {
+                Ok(Value::Vector(apply(&mut self.bench, &r.matrix, &v)))
+            }
+            (Value::Rotation(a), Value::Rotation(b)) => {
+                Ok(Value::Rotation(Box::new(compose(&mut self.bench, &a, &b))))
+            }
+            (Value::Vector(_), Value::Vector(_)) => self.fail(
+                Fault::new(span, "a product of two vectors has two meanings")
+                    .help("write `inner(u, v)` or `cross(u, v)`"),
+            ),
+            (Value::Vector(_), Value::Rotation(_)) => self.fail(
+                Fault::new(span, "a rotation is applied from the left")
+                    .help("write `R*v`, or `transpose(R)*v` for the inverse"),
+            ),
+            (a, b) => self.fail(Fault::new(span, format!("cannot multiply {} and {}", a.kind(), b.kind()))),
+        }
+    }
+
+    pub(super) fn divided(&mut self, a: Value, b: Value, span: Span, divisor_span: Span) -> Evaluated {
+        match (a, b) {
+            (Value::Scalar(a), Value::Scalar(b)) => {
+                self.check_divisor(b, divisor_span)?;
+                let quotient = self.bench.graph.div(a, b);
+                self.check_size(quotient, span)
+            }
+            (Value::Vector(v), Value::Scalar(b)) => {
+                self.check_divisor(b, divisor_span)?;
+                Ok(Value::Vector(v.map(|e| self.bench.graph.div(e, b))))
+            }
+            (a, b) => self.fail(Fault::new(span, format!("cannot divide {} by {}", a.kind(), b.kind()))),
+        }
+    }
+
+    /// The rate of every component.
+    pub(super) fn vector_rate(&mut self, v: &Vector) -> Vector {
+        v.map(|e| self.total_rate(e))
+    }
+
+    /// A rotation by an angle about a fixed unit axis.
+    pub(super) fn turn(&mut self, axis: Vector, angle: ExprId) -> Rotation {
+        let rate = self.total_rate(angle);
+        let bench = &mut self.bench;
+        let (s, c) = bench.graph.sin_cos(angle);
+        let one = bench.graph.one();
+        let rest = bench.graph.sub(one, c);
+        // R = c 1 + (1 - c) a a^T + s [a]x
+        let zero = bench.graph.zero();
+        let minus: Vector = axis.map(|e| bench.graph.neg(e));
+        let crossed = [[zero, minus[2], axis[1]], [axis[2], zero, minus[0]], [minus[1], axis[0], zero]];
+        let matrix = std::array::from_fn(|i| {
+            std::array::from_fn(|k| {
+                let outer = bench.graph.product(&[(rest, 1), (axis[i], 1), (axis[k], 1)]);
+                let turning = bench.graph.mul(s, crossed[i][k]);
+                let diagonal = if i == k { c } else { zero };
+                let sum = bench.graph.sum([diagonal, outer, turning]);
+                bench.tidy(sum)
+            })
+        });
+        let spin = axis.map(|e| bench.graph.mul(rate, e));
+        Rotation { matrix, world_rate: spin, body_rate: spin }
+    }
+
+    /// The homogeneous `v -> q v q*` of a quaternion, with the angular velocities `2 q' q*` and `2 q* q'`.
+    pub(super) fn quaternion(&mut self, q: [ExprId; 4]) -> Rotation {
+        let rates = q.map(|e| self.total_rate(e));
+        let bench = &mut self.bench;
+        let [w, x, y, z] = q;
+        let matrix = {
+            let mut square = |e| bench.graph.powi(e, 2);
+            let (ww, xx, yy, zz) = (square(w), square(x), square(y), square(z));
+            let mut twice = |a, b, c, d, minus: bool| {
+                let (first, second) = (bench.graph.mul(a, b), bench.graph.mul(c, d));
+                let sum = if minus { bench.graph.sub(first, second) } else { bench.graph.add(first, second) };
+                bench.graph.scale(sum, &2.into())
+            };
+            let (xy_wz, xz_wy) = (twice(x, y, w, z, true), twice(x, z, w, y, false));
+            let (xy_wz2, yz_wx) = (twice(x, y, w, z, false), twice(y, z, w, x, true));
+            let (xz_wy2, yz_wx2) = (twice(x, z, w, y, true), twice(y, z, w, x, false));
+            let mut diagonal = |plus: ExprId, first: ExprId, second: ExprId| {
+                let kept = bench.graph.add(ww, plus);
+                let lost = bench.graph.add(first, second);
+                bench.graph.sub(kept, lost)
+            };
+            [
+                [diagonal(xx, yy, zz), xy_wz, xz_wy],
+                [xy_wz2, diagonal(yy, xx, zz), yz_wx],
+                [xz_wy2, yz_wx2, diagonal(zz, xx, yy)],
+            ]
+        };
+        // The vector part of 2 q' q* is 2 (w v' - w' v + v x v'), that of 2 q* q' has the cross product reversed.
+        let v = [x, y, z];
+        let [wd, xd, yd, zd] = rates;
+        let vd = [xd, yd, zd];
+        let turned = cross(bench, &v, &vd);
+        let mut rate = |sign: bool| -> Vector {
+            std::array::from_fn(|i| {
+                let (gain, loss) = (bench.graph.mul(w, vd[i]), bench.graph.mul(wd, v[i]));
+                let straight = bench.graph.sub(gain, loss);
+                let sum = if sign {
+                    bench.graph.add(straight, turned[i])
+                } else {
+                    bench.graph.sub(straight, turned[i])
+                };
+                bench.graph.scale(sum, &2.into())
+            })
+        };
+        Rotation { world_rate: rate(true), body_rate: rate(false), matrix }
+    }
+}
+
+/// `inner(u, v)`.
+pub(super) fn inner(bench: &mut Workbench, u: &Vector, v: &Vector) -> ExprId {
+    bench.dot(u, v)
+}
+
+/// `cross(u, v)`.
+pub(super) fn cross(bench: &mut Workbench, u: &Vector, v: &Vector) -> Vector {
+    std::array::from_fn(|i| {
+        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+        let (plus, minus) = (bench.graph.mul(u[j], v[k]), bench.graph.mul(u[k], v[j]));
+        bench.graph.sub(plus, minus)
+    })
+}
+
+/// `u + v`.
+pub(super) fn plus(bench: &mut Workbench, u: &Vector, v: &Vector) -> Vector {
+    std::array::from_fn(|i| bench.graph.add(u[i], v[i]))
+}
+
+/// `u - v`.
+pub(super) fn minus(bench: &mut Workbench, u: &Vector, v: &Vector) -> Vector {
+    std::array::from_fn(|i| bench.graph.sub(u[i], v[i]))
+}
+
+/// `M v`.
+pub(super) fn apply(bench: &mut Workbench, matrix: &[Vector; 3], v: &Vector) -> Vector {
+    std::array::from_fn(|i| bench.dot(&matrix[i], v))
+}
+
+/// `M^T`.
+pub(super) fn transposed(matrix: &[Vector; 3]) -> [Vector; 3] {
+    std::array::from_fn(|i| std::array::from_fn(|k| matrix[k][i]))
+}
+
+/// The inverse rotation: the angular velocity of the world seen from the body.
+pub(super) fn inverse(bench: &mut Workbench, r: &Rotation) -> Rotation {
+    Rotation {
+        matrix: transposed(&r.matrix),
+        world_rate: r.body_rate.map(|e| bench.graph.neg(e)),
+        body_rate: r.world_rate.map(|e| bench.graph.neg(e)),
+    }
+}
+
+/// `A B`, with `omega = omega_A + A omega_B` in the world and `B^T omega_A + omega_B` in the body.
+fn compose(bench: &mut Workbench, a: &Rotation, b: &Rotation) -> Rotation {
+    let columns = transposed(&b.matrix);
+    let matrix = std::array::from_fn(|i| {
+        std::array::from_fn(|k| {
+            let entry = bench.dot(&a.matrix[i], &columns[k]);
+            bench.tidy(entry)
+        })
+    });
+    let carried = apply(bench, &a.matrix, &b.world_rate);
+    let pulled = apply(bench, &columns, &a.body_rate);
+    Rotation {
+        matrix,
+        world_rate: plus(bench, &a.world_rate, &carried),
+        body_rate: plus(bench, &pulled, &b.body_rate),
+    }
+}

@@ -1,0 +1,67 @@
+//! The kinds of value: scalars, vectors in space, rotations, and the names of bodies.
+
+use guen_symbolic::ExprId;
+
+/// A vector in space, by its components in the world's axes.
+pub(super) type Vector = [ExprId; 3];
+
+/// A rotation from body axes to the world's.
+#[derive(Clone)]
+pub(super) struct Rotation {
+    /// The matrix, row by row.
+    pub(super) matrix: [Vector; 3],
+    /// The angular velocity in the world's axes, linear in the velocities.
+    pub(super) world_rate: Vector,
+    /// The angular velocity in the body's axes.
+    pub(super) body_rate: Vector,
+}
+
+/// A rigid body as a value.
+#[derive(Clone)]
+pub(super) struct BodyValue {
+    /// Its name.
+    pub(super) name: String,
+    /// Position and velocity of the mass centre, if it has one.
+    pub(super) center: Option<(Vector, Vector)>,
+    /// Its orientation, if it has one.
+    pub(super) orientation: Option<Rotation>,
+}
+
+/// A value of the language.
+#[derive(Clone)]
+pub(super) enum Value {
+    /// A scalar.
+    Scalar(ExprId),
+    /// A vector.
+    Vector(Vector),
+    /// A rotation.
+    Rotation(Box<Rotation>),
+    /// A body.
+    Body(Box<BodyValue>),
+}
+
+impl Value {
+    /// The kind with its article, for messages.
+    pub(super) fn kind(&self) -> &'static str {
+        match self {
+            Value::Scalar(_) => "a scalar",
+            Value::Vector(_) => "a vector",
+            Value::Rotation(_) => "a rotation",
+            Value::Body(_) => "a body",
+        }
+    }
+
+    /// Every expression that makes up the value.
+    pub(super) fn expressions(&self) -> Vec<ExprId> {
+        match self {
+            Value::Scalar(e) => vec![*e],
+            Value::Vector(v) => v.to_vec(),
+            Value::Rotation(r) => r.matrix.iter().flatten().copied().collect(),
+            Value::Body(body) => {
+                let center = body.center.iter().flat_map(|(p, _)| p.iter().copied());
+                let matrix = body.orientation.iter().flat_map(|r| r.matrix.iter().flatten().copied());
+                center.chain(matrix).collect()
+            }
+        }
+    }
+}

@@ -1,0 +1,186 @@
+//! Which words the language knows, in one place: functions, sections, reserved names, the keywords of Rust, and
+//! which known word an unknown one was probably meant to be.
+
+/// Functions of scalars.
+pub const SCALAR_FUNCTIONS: &[&str] = &[
+    "sin", "cos", "tan", "cot", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh", "exp", "ln", "sqrt",
+    "abs", "sign",
+];
+
+/// The time derivative and the functions that make or take vectors and rotations.
+pub const SPATIAL_FUNCTIONS: &[&str] = &[
+    "dot",
+    "vec",
+    "inner",
+    "cross",
+    "norm",
+    "unit",
+    "rot_x",
+    "rot_y",
+    "rot_z",
+    "rot",
+    "quaternion",
+    "transpose",
+    "angular_velocity",
+    "angular_velocity_body",
+];
+
+/// Reserved words that are not functions.
+pub const RESERVED_WORDS: &[&str] =
+    &["t", "pi", "at", "along", "diag", "sym", "energy", "reactions", "operators", "linearization"];
+
+/// Names that begin with this belong to the expansion.
+pub const RESERVED_PREFIX: &str = "__guen";
+
+/// The sections of a system, in the order in which a help lists them.
+pub const SECTIONS: &[&str] = &[
+    "constants",
+    "inputs",
+    "coordinates",
+    "let",
+    "parameters",
+    "constraints",
+    "holonomic",
+    "kinetic_energy",
+    "particles",
+    "bodies",
+    "gravity",
+    "force_function",
+    "potential_energy",
+    "forces",
+    "outputs",
+    "provide",
+    "scene",
+];
+
+/// The statements of a scene.
+pub const SCENE_STATEMENTS: &[&str] = &["track", "fix", "provide"];
+
+/// The fields of a body.
+pub const BODY_FIELDS: &[&str] = &["mass", "inertia", "center", "orientation"];
+
+/// Words of neighbouring languages and the section that does their work here.
+const SECTION_SYNONYMS: &[(&str, &str)] = &[
+    ("variables", "coordinates"),
+    ("positions", "coordinates"),
+    ("controls", "inputs"),
+    ("quasi_velocities", "parameters"),
+    ("quasivelocities", "parameters"),
+    ("speeds", "parameters"),
+    ("velocities", "parameters"),
+    ("nonholonomic", "constraints"),
+    ("potential", "potential_energy"),
+    ("kinetic", "kinetic_energy"),
+    ("rigid_bodies", "bodies"),
+    ("masses", "particles"),
+    ("points", "particles"),
+    ("loads", "forces"),
+];
+
+/// Strict and reserved keywords of Rust in any edition.
+const RUST_KEYWORDS: &[&str] = &[
+    "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "crate", "do", "dyn",
+    "else", "enum", "extern", "false", "final", "fn", "for", "gen", "if", "impl", "in", "let", "loop",
+    "macro", "match", "mod", "move", "mut", "override", "priv", "pub", "ref", "return", "Self", "self",
+    "static", "struct", "super", "trait", "true", "try", "type", "typeof", "unsafe", "unsized", "use",
+    "virtual", "where", "while", "yield", "_",
+];
+
+/// Whether a word is a function of the language.
+pub fn is_function(word: &str) -> bool {
+    SCALAR_FUNCTIONS.contains(&word) || SPATIAL_FUNCTIONS.contains(&word)
+}
+
+/// Whether a declaration may not use this name (given without `r#`).
+pub fn is_reserved(word: &str) -> bool {
+    is_function(word) || RESERVED_WORDS.contains(&word) || word.starts_with(RESERVED_PREFIX)
+}
+
+/// Whether a word is a keyword of Rust, so that a name must be written with `r#`.
+pub fn is_rust_keyword(word: &str) -> bool {
+    RUST_KEYWORDS.contains(&word)
+}
+
+/// Whether a keyword of Rust may be written `r#word`.
+pub fn can_be_raw(word: &str) -> bool {
+    !matches!(word, "self" | "Self" | "super" | "crate" | "_")
+}
+
+/// The section that an unknown word was probably meant to be.
+pub fn nearest_section(word: &str) -> Option<&'static str> {
+    let lower = word.to_lowercase();
+    SECTION_SYNONYMS
+        .iter()
+        .find(|(synonym, _)| *synonym == lower)
+        .map(|(_, section)| *section)
+        .or_else(|| nearest(word, SECTIONS.iter().copied()))
+}
+
+/// The candidate with the least number of edits to `word`, the first of equals; none where a third of the word
+/// or more would have to change. A difference in case alone always counts as near.
+pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let letters: Vec<char> = word.to_lowercase().chars().collect();
+    let allowed = (letters.len() / 3).max(1);
+    let mut best: Option<(usize, &'a str)> = None;
+    for candidate in candidates {
+        let other: Vec<char> = candidate.to_lowercase().chars().collect();
+        // A single letter is one edit away from every other: such a hint would say nothing.
+        if letters.len().max(other.len()) < 2 && letters != other {
+            continue;
+        }
+        let distance = edits(&letters, &other);
+        if distance <= allowed && best.is_none_or(|(least, _)| distance < least) {
+            best = Some((distance, candidate));
+        }
+    }
+    best.map(|(_, candidate)| candidate)
+}
+
+/// Number of insertions, deletions, replacements and exchanges of neighbours that lead from one word to another.
+fn edits(from: &[char], to: &[char]) -> usize {
+    let mut before_last: Vec<usize> = Vec::new();
+    let mut last: Vec<usize> = (0..=to.len()).collect();
+    for (i, a) in from.iter().enumerate() {
+        let mut row = vec![i + 1];
+        for (j, b) in to.iter().enumerate() {
+            let mut least = (last[j] + usize::from(a != b)).min(last[j + 1] + 1).min(row[j] + 1);
+            if i > 0 && j > 0 && *a == to[j - 1] && from[i - 1] == *b {
+                least = least.min(before_last[j - 1] + 1);
+            }
+            row.push(least);
+        }
+        before_last = std::mem::replace(&mut last, row);
+    }
+    last[to.len()]
+}
+
+/// A list of words for a message: `` `a`, `b`, `c` ``.
+pub fn quoted<'a>(words: impl IntoIterator<Item = &'a str>) -> String {
+    words.into_iter().map(|word| format!("`{word}`")).collect::<Vec<_>>().join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn near_words_are_found() {
+        assert_eq!(nearest_section("coordinate"), Some("coordinates"));
+        assert_eq!(nearest_section("Constants"), Some("constants"));
+        assert_eq!(nearest_section("kinetic_enregy"), Some("kinetic_energy"));
+        assert_eq!(nearest_section("quasi_velocities"), Some("parameters"));
+        assert_eq!(nearest_section("lagrangian"), None);
+        assert_eq!(nearest("theat", ["phi", "theta", "psi"]), Some("theta"));
+        assert_eq!(nearest("x", ["y", "z"]), None);
+    }
+
+    #[test]
+    fn reserved_words() {
+        for word in ["sin", "dot", "t", "pi", "along", "sym", "operators", "__guen_x"] {
+            assert!(is_reserved(word), "{word}");
+        }
+        for word in ["x", "theta", "mass", "center", "θ"] {
+            assert!(!is_reserved(word), "{word}");
+        }
+    }
+}

@@ -1,0 +1,114 @@
+//! `constants { a, m > 0, c >= 0, k != 0, g = 9.81, I > 0 = 2/5*m*a^2 }`.
+
+use proc_macro2::{Group, TokenTree};
+
+use super::attributes::docs;
+use super::cursor::Cursor;
+use super::expression::expression;
+use super::lists::{at_end, separated};
+use super::names::name;
+use super::punctuation::equals;
+use crate::diagnostics::{Fault, Faults, Reported};
+use crate::limits::MAX_ENTRIES;
+use crate::syntax::{Bound, BoundKind, Constant, Number};
+
+const HELP_BOUND: &str = "the bounds are `name > 0`, `name >= 0` and `name != 0`";
+
+/// The entries of `constants`.
+pub(crate) fn constants(group: &Group, faults: &mut Faults) -> Vec<Constant> {
+    separated(&mut Cursor::inside(group), faults, MAX_ENTRIES, at_end, begins_constant, constant)
+}
+
+/// Whether a name with something that may follow it in this list stands here. Anything else, such as a unit
+/// after a number, is no new entry.
+fn begins_constant(cursor: &Cursor) -> bool {
+    cursor.is_punct('#')
+        || (cursor.ident_at(0).is_some()
+            && (cursor.peek_nth(1).is_none()
+                || [',', '>', '!', '='].iter().any(|mark| cursor.is_punct_at(1, *mark))))
+}
+
+fn constant(cursor: &mut Cursor, faults: &mut Faults) -> Result<Constant, Reported> {
+    let docs = docs(cursor, faults)?;
+    if matches!(cursor.peek(), Some(TokenTree::Literal(_))) {
+        let fault =
+            Fault::new(cursor.span(), format!("expected the name of a constant, found {}", cursor.found()));
+        return Err(faults.report(fault.help(HELP_BOUND)));
+    }
+    let name = name(cursor, faults, "the name of a constant")?;
+    // From here on the name counts as declared, whatever is wrong with the rest.
+    let mut constant = Constant { docs, name, bound: None, default: None };
+    if rest(cursor, faults, &mut constant).is_err() {
+        cursor.recover_to_comma();
+    }
+    Ok(constant)
+}
+
+fn rest(cursor: &mut Cursor, faults: &mut Faults, constant: &mut Constant) -> Result<(), Reported> {
+    if cursor.is_punct(':') && !cursor.is_pair(':', '=') {
+        let fault = Fault::new(cursor.span(), "a constant is declared without a type");
+        return Err(faults.report(
+            fault.help(format_args!("a default is written `{0} = 9.81`, a bound `{0} > 0`", constant.name)),
+        ));
+    }
+    constant.bound = bound(cursor, faults)?;
+    if cursor.is_end() || !(cursor.is_punct('=') || cursor.is_punct(':')) {
+        return Ok(());
+    }
+    equals(cursor, faults, "the constant", "a default is written `g = 9.81`")?;
+    constant.default = Some(expression(cursor, faults)?);
+    if is_comparison(cursor) {
+        let text = if constant.bound.is_some() {
+            "a constant has one bound"
+        } else {
+            "the bound stands before the default"
+        };
+        let fault = Fault::new(cursor.span(), text);
+        return Err(faults.report(fault.help(format_args!("write `{} > 0 = value`", constant.name))));
+    }
+    Ok(())
+}
+
+fn is_comparison(cursor: &Cursor) -> bool {
+    cursor.is_punct('>') || cursor.is_punct('<') || cursor.is_pair('!', '=')
+}
+
+/// `> 0`, `>= 0` or `!= 0`, if a comparison stands here.
+fn bound(cursor: &mut Cursor, faults: &mut Faults) -> Result<Option<Bound>, Reported> {
+    if !is_comparison(cursor) {
+        return Ok(None);
+    }
+    let span = cursor.span();
+    let kind = if cursor.is_pair('>', '=') {
+        cursor.skip(2);
+        BoundKind::Nonnegative
+    } else if cursor.is_pair('!', '=') {
+        cursor.skip(2);
+        BoundKind::Nonzero
+    } else if cursor.eat('>').is_some() {
+        BoundKind::Positive
+    } else {
+        let fault = Fault::new(span, format!("{} does not begin a bound of a constant", cursor.found()));
+        return Err(
+            faults.report(fault.help(HELP_BOUND).help("for a negative quantity declare its opposite"))
+        );
+    };
+    cursor.open_invisible();
+    match cursor.peek() {
+        Some(TokenTree::Literal(literal))
+            if Number::from_literal(&literal.to_string()).is_ok_and(|number| number.is_zero()) =>
+        {
+            cursor.skip(1);
+        }
+        _ => {
+            let fault =
+                Fault::new(cursor.span(), format!("a bound compares with `0`, found {}", cursor.found()));
+            return Err(faults.report(fault.help(HELP_BOUND)));
+        }
+    }
+    if is_comparison(cursor) {
+        let fault = Fault::new(cursor.span(), "comparisons cannot be chained");
+        return Err(faults.report(fault.help(HELP_BOUND)));
+    }
+    Ok(Some(Bound { kind, span }))
+}

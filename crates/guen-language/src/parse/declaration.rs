@@ -1,0 +1,342 @@
+//! The head of a declaration, and its sections one after the other.
+
+use proc_macro2::{Delimiter, Group, Span, TokenStream, TokenTree};
+
+use super::attributes::docs;
+use super::cursor::Cursor;
+use super::lists::{plain_names, stray_semicolon};
+use super::names::name;
+use super::{bodies, constants, definitions, energies, equations, forces, particles, scene};
+use crate::diagnostics::{Fault, Faults, Reported};
+use crate::limits::{MAX_COORDINATES, MAX_ENTRIES, MAX_SCENES, MAX_TOKENS};
+use crate::names::{SECTIONS, nearest_section, quoted};
+use crate::syntax::{Declaration, Docs, Item, Name, Section, SectionKind, Visibility};
+
+const HELP_SYSTEM: &str = "a declaration reads `pub system Name { .. }`";
+
+/// One invocation of the macro.
+pub(crate) fn declaration(tokens: TokenStream, faults: &mut Faults) -> Option<Declaration> {
+    if has_too_many_tokens(&tokens) {
+        faults
+            .report(Fault::new(Span::call_site(), format!("a declaration of more than {MAX_TOKENS} tokens")));
+        return None;
+    }
+    let mut cursor = Cursor::new(tokens, Span::call_site());
+    let declaration = system(&mut cursor, faults).ok();
+    if declaration.is_some() {
+        after_system(&mut cursor, faults);
+    }
+    declaration
+}
+
+/// Counts without recursion, before anything else walks the tokens.
+fn has_too_many_tokens(tokens: &TokenStream) -> bool {
+    let mut streams = vec![tokens.clone()];
+    let mut count = 0;
+    while let Some(stream) = streams.pop() {
+        for token in stream {
+            count += 1;
+            if let TokenTree::Group(group) = token {
+                streams.push(group.stream());
+            }
+        }
+        if count > MAX_TOKENS {
+            return true;
+        }
+    }
+    false
+}
+
+fn system(cursor: &mut Cursor, faults: &mut Faults) -> Result<Declaration, Reported> {
+    cursor.open_invisible();
+    let crate_path = crate_path(cursor, faults)?;
+    let docs = docs(cursor, faults)?;
+    let visibility = visibility(cursor, faults);
+    if cursor.eat_word("system").is_none() {
+        let fault = Fault::new(cursor.span(), format!("expected `system`, found {}", cursor.found()));
+        return Err(faults.report(fault.help(HELP_SYSTEM)));
+    }
+    let name = name(cursor, faults, "the name of the system")?;
+    let Some(group) = cursor.eat_group(Delimiter::Brace) else {
+        let fault =
+            Fault::new(cursor.span(), format!("expected `{{` after `{name}`, found {}", cursor.found()));
+        return Err(faults.report(if cursor.is_punct('<') {
+            fault.help(
+                "remove the parameters: the generated types are generic over the real number by themselves",
+            )
+        } else {
+            fault.help(HELP_SYSTEM)
+        }));
+    };
+    let items = items(&group, faults, &name);
+    Ok(Declaration { crate_path, docs, visibility, name, items })
+}
+
+/// `crate = path;`, if it stands here.
+fn crate_path(cursor: &mut Cursor, faults: &mut Faults) -> Result<Option<TokenStream>, Reported> {
+    const HELP: &str = "write `crate = ::name_of_guen;` with the name under which the crate is a dependency";
+    if !(cursor.is_word("crate") && cursor.is_punct_at(1, '=')) {
+        return Ok(None);
+    }
+    cursor.skip(2);
+    cursor.open_invisible();
+    let start = cursor.span();
+    let mut path = Vec::new();
+    if cursor.is_pair(':', ':') {
+        path.extend([cursor.next(), cursor.next()]);
+    }
+    loop {
+        if cursor.ident_at(0).is_none() {
+            let fault = Fault::new(cursor.span(), format!("expected a path, found {}", cursor.found()));
+            return Err(faults.report(fault.help(HELP)));
+        }
+        path.push(cursor.next());
+        if !cursor.is_pair(':', ':') {
+            break;
+        }
+        path.extend([cursor.next(), cursor.next()]);
+    }
+    if cursor.eat(';').is_none() {
+        let fault =
+            Fault::new(cursor.span(), format!("expected `;` after the path, found {}", cursor.found()));
+        faults.report(fault.help(HELP));
+        // Without a `;` the declaration may begin right here.
+        if cursor.ident_at(0).is_none() && !cursor.is_punct('#') {
+            cursor.skip(1);
+        }
+    }
+    let path: TokenStream = path.into_iter().flatten().collect();
+    if path.is_empty() {
+        return Err(faults.report(Fault::new(start, "expected a path").help(HELP)));
+    }
+    Ok(Some(path))
+}
+
+/// `pub`, `pub(crate)`, `pub(super)`, `pub(self)`, `pub(in path)` or nothing.
+fn visibility(cursor: &mut Cursor, faults: &mut Faults) -> Visibility {
+    cursor.open_invisible();
+    let Some(span) = cursor.eat_word("pub") else { return Visibility::Private };
+    let Some(group) = cursor.eat_group(Delimiter::Parenthesis) else { return Visibility::Public(span) };
+    let mut inside = Cursor::inside(&group);
+    let is_path = inside.eat_word("in").is_some();
+    let path: Vec<TokenTree> = std::iter::from_fn(|| inside.next()).collect();
+    let is_word = |word: &str| matches!(path.as_slice(), [TokenTree::Ident(only)] if only == word);
+    if !(is_word("crate") || is_word("super") || is_word("self") || is_path && !path.is_empty()) {
+        faults.report(
+            Fault::new(group.span_open(), "this visibility is unknown")
+                .help("write `pub`, `pub(crate)`, `pub(super)`, `pub(in path)` or nothing"),
+        );
+        return Visibility::Public(span);
+    }
+    Visibility::Restricted { span, path: path.into_iter().collect() }
+}
+
+fn after_system(cursor: &mut Cursor, faults: &mut Faults) {
+    if cursor.is_end() {
+        return;
+    }
+    let start = cursor.span();
+    while !cursor.is_end() && !cursor.is_word("system") {
+        cursor.skip(1);
+    }
+    if cursor.is_end() {
+        faults.report(Fault::new(start, "expected nothing after the `}` of the system").help("remove this"));
+    } else {
+        let fault = Fault::new(cursor.span(), "one invocation of the macro declares one system");
+        faults.report(fault.help("write a second `mechanical_system! { .. }` for this one"));
+    }
+}
+
+/// What has been seen of a system while its sections are read.
+struct Progress {
+    items: Vec<Item>,
+    first: [Option<Span>; SectionKind::ALL.len()],
+    scenes: usize,
+    definitions: usize,
+    has_unknown: bool,
+}
+
+fn items(group: &Group, faults: &mut Faults, name: &Name) -> Vec<Item> {
+    let mut cursor = Cursor::inside_system(group);
+    let mut progress = Progress {
+        items: Vec::new(),
+        first: [None; SectionKind::ALL.len()],
+        scenes: 0,
+        definitions: 0,
+        has_unknown: false,
+    };
+    while !cursor.is_end() {
+        let before = cursor.position();
+        if stray_semicolon(&mut cursor, faults) {
+            continue;
+        }
+        if item(&mut cursor, faults, &mut progress).is_err() {
+            cursor.recover();
+        }
+        if cursor.position() == before {
+            cursor.skip(1);
+        }
+    }
+    if !progress.has_unknown {
+        missing(&progress, faults, name);
+    }
+    progress.items
+}
+
+/// Sections that a system cannot be without.
+fn missing(progress: &Progress, faults: &mut Faults, name: &Name) {
+    let has = |kind: SectionKind| progress.first[kind as usize].is_some();
+    if !has(SectionKind::Coordinates) {
+        let fault = Fault::new(name.span(), format!("system `{name}` has no `coordinates`"));
+        faults.report(fault.help("add `coordinates { x, y }`"));
+    }
+    if !has(SectionKind::KineticEnergy) && !has(SectionKind::Particles) && !has(SectionKind::Bodies) {
+        let fault = Fault::new(name.span(), format!("system `{name}` has no kinetic energy"));
+        faults.report(fault.help("add `kinetic_energy = e;`, `particles { .. }` or `bodies { .. }`"));
+    }
+}
+
+/// One section, definition or scene.
+fn item(cursor: &mut Cursor, faults: &mut Faults, progress: &mut Progress) -> Result<(), Reported> {
+    let docs = docs(cursor, faults)?;
+    if cursor.is_word("pub") {
+        let fault = Fault::new(cursor.span(), "`pub` may stand only before `system`");
+        faults.report(fault.help("remove it: everything that is generated is as visible as the system"));
+        cursor.skip(1);
+        cursor.eat_group(Delimiter::Parenthesis);
+    }
+    let keyword = cursor.span();
+    let Some(word) = cursor.ident_at(0).map(ToString::to_string) else {
+        progress.has_unknown = true;
+        let fault = Fault::new(keyword, format!("expected a section, found {}", cursor.found()));
+        return Err(
+            faults.report(fault.help(format_args!("the sections are {}", quoted(SECTIONS.iter().copied()))))
+        );
+    };
+    let Some(kind) = SectionKind::of_word(&word) else {
+        progress.has_unknown = true;
+        unknown(cursor, faults, &word);
+        return Ok(());
+    };
+    once(kind, keyword, progress, faults);
+    cursor.skip(1);
+    let item = match kind {
+        SectionKind::Let => {
+            progress.definitions += 1;
+            too_many(progress.definitions, MAX_ENTRIES, "`let` definitions", keyword, faults)?;
+            Item::Let(definitions::definition_of_let(cursor, faults, docs)?)
+        }
+        SectionKind::Scene => {
+            progress.scenes += 1;
+            too_many(progress.scenes, MAX_SCENES, "scenes", keyword, faults)?;
+            Item::Scene(scene::scene(cursor, faults, docs, keyword)?)
+        }
+        SectionKind::Provide => {
+            Item::Provide(Section { docs, keyword, entries: scene::provides(cursor, faults) })
+        }
+        _ if kind.is_quantity() => {
+            let quantity = energies::quantity(cursor, faults, docs, &word, keyword);
+            match kind {
+                SectionKind::KineticEnergy => Item::KineticEnergy(quantity),
+                SectionKind::Gravity => Item::Gravity(quantity),
+                SectionKind::ForceFunction => Item::ForceFunction(quantity),
+                _ => Item::PotentialEnergy(quantity),
+            }
+        }
+        _ => {
+            let Some(group) = cursor.eat_group(Delimiter::Brace) else {
+                let fault = Fault::new(
+                    cursor.span(),
+                    format!("expected `{{` after `{word}`, found {}", cursor.found()),
+                );
+                return Err(faults.report(fault.help(format_args!("write `{word} {{ .. }}`"))));
+            };
+            section(kind, &group, faults, docs, keyword)
+        }
+    };
+    progress.items.push(item);
+    Ok(())
+}
+
+/// A section in braces.
+fn section(kind: SectionKind, group: &Group, faults: &mut Faults, docs: Docs, keyword: Span) -> Item {
+    fn of<T>(docs: Docs, keyword: Span, entries: Vec<T>) -> Section<T> {
+        Section { docs, keyword, entries }
+    }
+    match kind {
+        SectionKind::Constants => Item::Constants(of(docs, keyword, constants::constants(group, faults))),
+        SectionKind::Inputs => {
+            Item::Inputs(of(docs, keyword, plain_names(group, faults, "the name of an input", MAX_ENTRIES)))
+        }
+        SectionKind::Coordinates => {
+            let names = plain_names(group, faults, "the name of a coordinate", MAX_COORDINATES);
+            Item::Coordinates(of(docs, keyword, names))
+        }
+        SectionKind::Parameters => {
+            Item::Parameters(of(docs, keyword, definitions::parameters(group, faults)))
+        }
+        SectionKind::Constraints => Item::Constraints(of(docs, keyword, equations::equations(group, faults))),
+        SectionKind::Holonomic => Item::Holonomic(of(docs, keyword, equations::equations(group, faults))),
+        SectionKind::Particles => Item::Particles(of(docs, keyword, particles::particles(group, faults))),
+        SectionKind::Bodies => Item::Bodies(of(docs, keyword, bodies::bodies(group, faults))),
+        SectionKind::Forces => Item::Forces(of(docs, keyword, forces::forces(group, faults))),
+        // The kinds without braces have been told apart before.
+        _ => Item::Outputs(of(docs, keyword, definitions::outputs(group, faults))),
+    }
+}
+
+fn too_many(count: usize, most: usize, what: &str, span: Span, faults: &mut Faults) -> Result<(), Reported> {
+    if count <= most {
+        return Ok(());
+    }
+    Err(faults.report(Fault::new(span, format!("more than {most} {what}"))))
+}
+
+/// Every section at most once, and one way to give the potential.
+fn once(kind: SectionKind, keyword: Span, progress: &mut Progress, faults: &mut Faults) {
+    let first = progress.first[kind as usize];
+    let other = match kind {
+        SectionKind::ForceFunction => progress.first[SectionKind::PotentialEnergy as usize],
+        SectionKind::PotentialEnergy => progress.first[SectionKind::ForceFunction as usize],
+        _ => None,
+    };
+    if let Some(first) = first.filter(|_| !kind.may_repeat()) {
+        let fault = Fault::new(keyword, format!("section `{}` is given twice", kind.word()));
+        let fault = fault.note_place("first given", first);
+        faults.report(if kind.is_quantity() {
+            fault.help("add both up in one expression")
+        } else {
+            fault.help("move the entries into one section")
+        });
+    } else if let Some(other) = other {
+        let fault = Fault::new(keyword, "`force_function` and `potential_energy` are both given");
+        faults.report(
+            fault
+                .note_place("the other is given", other)
+                .help("keep one of them: each is the negative of the other"),
+        );
+    } else {
+        progress.first[kind as usize] = Some(keyword);
+    }
+}
+
+/// Reports a word that begins no section, and passes what it was to begin.
+fn unknown(cursor: &mut Cursor, faults: &mut Faults, word: &str) {
+    let fault = Fault::new(cursor.span(), format!("unknown section `{word}`"));
+    faults.report(match nearest_section(word) {
+        Some(near) => fault.help(format_args!("did you mean `{near}`?")),
+        None => fault.help(format_args!("the sections are {}", quoted(SECTIONS.iter().copied()))),
+    });
+    cursor.skip(1);
+    if cursor.eat_group(Delimiter::Brace).is_some() {
+        return;
+    }
+    if cursor.ident_at(0).is_some()
+        && cursor.group_at(1, Delimiter::Brace).is_some()
+        && !cursor.starts_section()
+    {
+        cursor.skip(2);
+        return;
+    }
+    cursor.recover();
+}

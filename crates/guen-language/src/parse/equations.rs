@@ -1,0 +1,66 @@
+//! `name: left = right;`: in `constraints` and `holonomic`.
+
+use proc_macro2::{Group, Span};
+
+use super::attributes::docs;
+use super::cursor::Cursor;
+use super::expression::expression;
+use super::lists::entries;
+use super::names::name;
+use super::punctuation::{begins_equation, colon, expression_to_semicolon};
+use crate::diagnostics::{Fault, Faults, Reported};
+use crate::syntax::{Equation, Expression};
+
+const HELP: &str = "an entry reads `name: left = right;`";
+
+/// The entries of `constraints` or `holonomic`.
+pub(crate) fn equations(group: &Group, faults: &mut Faults) -> Vec<Equation> {
+    entries(group, faults, |cursor, faults| {
+        let docs = docs(cursor, faults)?;
+        let has_name =
+            (cursor.is_punct_at(1, ':') && !cursor.is_punct_at(2, ':')) || cursor.is_punct_at(1, '=');
+        if !has_name && !cursor.is_end() && !cursor.is_word("pub") {
+            let fault = Fault::new(cursor.span(), "a constraint needs a name");
+            return Err(faults
+                .report(fault.help("write `name: left = right;`, the name stands for its reaction too")));
+        }
+        let name = name(cursor, faults, "the name of a constraint")?;
+        let start = cursor.span();
+        let (left, equals, right) =
+            sides(cursor, faults, &name.to_string()).unwrap_or_else(|Reported { .. }| {
+                cursor.recover();
+                (Expression::missing(start), start, Expression::missing(start))
+            });
+        Ok(Equation { docs, name, left, equals, right })
+    })
+}
+
+fn sides(
+    cursor: &mut Cursor,
+    faults: &mut Faults,
+    name: &str,
+) -> Result<(Expression, Span, Expression), Reported> {
+    colon(cursor, faults, &format!("`{name}`"), HELP)?;
+    let left = expression(cursor, faults)?;
+    let span = cursor.span();
+    if cursor.is_pair('=', '=') {
+        faults
+            .report(Fault::new(span, "expected `=`, found `==`").help("an equation is written with one `=`"));
+        cursor.skip(2);
+    } else if cursor.eat('=').is_none() {
+        if cursor.is_punct(';') || cursor.is_end() {
+            let fault =
+                Fault::new(cursor.span_before(), format!("expected `=` after this: `{name}` is an equation"));
+            return Err(faults.report(fault.help("write `= 0` at its end")));
+        }
+        let fault = Fault::new(span, format!("expected `=` or an operator, found {}", cursor.found()));
+        let is_inequality = cursor.is_punct('<') || cursor.is_punct('>') || cursor.is_punct('!');
+        return Err(faults.report(if is_inequality {
+            fault.help("constraints are equations; one-sided contact is not part of a system")
+        } else {
+            fault.help(HELP).help("if a product is meant, write `*` between its factors")
+        }));
+    }
+    let right = expression_to_semicolon(cursor, faults, begins_equation);
+    Ok((left, span, right))
+}

@@ -1,0 +1,440 @@
+//! Expressions, by recursive descent: `sum`, `product`, `unary`, `power`, `postfix`, `primary`.
+//!
+//! What another language would write and what is clear nevertheless is reported, read as a missing value, and
+//! passed over; only where no expression can begin is the whole given up.
+
+use proc_macro2::{Delimiter, Group, Literal, Span, TokenStream, TokenTree};
+
+use super::cursor::Cursor;
+use super::punctuation::unexpected;
+use crate::diagnostics::{Fault, Faults, Reported};
+use crate::limits::{MAX_DECIMAL_ORDER, MAX_DEPTH, MAX_DIGITS};
+use crate::names::{can_be_raw, is_function, is_rust_keyword};
+use crate::syntax::{
+    AddOperator, Expression, ExpressionKind, Factor, MultiplyOperator, Name, Number, NumberProblem, Term,
+};
+
+type Parsed = Result<Expression, Reported>;
+
+/// An expression; it ends at the first token that cannot continue it.
+pub(crate) fn expression(cursor: &mut Cursor, faults: &mut Faults) -> Parsed {
+    sum(cursor, faults, 0)
+}
+
+/// All tokens of a stream as one expression.
+pub(crate) fn whole(tokens: TokenStream, faults: &mut Faults) -> Expression {
+    inside(Cursor::new(tokens, Span::call_site()), faults, 0, "the end")
+}
+
+/// What a cursor holds up to its end as one expression.
+fn inside(mut cursor: Cursor, faults: &mut Faults, depth: usize, end: &str) -> Expression {
+    let span = cursor.span();
+    match sum(&mut cursor, faults, depth) {
+        Ok(value) if cursor.is_end() => value,
+        Ok(_) => {
+            unexpected(&cursor, faults, end);
+            Expression::missing(span)
+        }
+        Err(Reported { .. }) => Expression::missing(span),
+    }
+}
+
+fn sum(cursor: &mut Cursor, faults: &mut Faults, depth: usize) -> Parsed {
+    let first = product(cursor, faults, depth)?;
+    let mut rest = Vec::new();
+    loop {
+        let operator = match cursor.peek() {
+            Some(TokenTree::Punct(mark)) if mark.as_char() == '+' => AddOperator::Plus,
+            Some(TokenTree::Punct(mark)) if mark.as_char() == '-' => AddOperator::Minus,
+            _ => break,
+        };
+        let span = cursor.span();
+        cursor.skip(1);
+        rest.push(Term { operator, span, value: product(cursor, faults, depth)? });
+    }
+    Ok(match rest.first() {
+        None => first,
+        Some(term) => Expression::new(term.span, ExpressionKind::Sum { first: Box::new(first), rest }),
+    })
+}
+
+fn product(cursor: &mut Cursor, faults: &mut Faults, depth: usize) -> Parsed {
+    let first = unary(cursor, faults, depth)?;
+    let mut rest = Vec::new();
+    loop {
+        let operator = match cursor.peek() {
+            Some(TokenTree::Punct(mark)) if mark.as_char() == '*' => MultiplyOperator::Times,
+            Some(TokenTree::Punct(mark)) if mark.as_char() == '/' => MultiplyOperator::Over,
+            _ => break,
+        };
+        let span = cursor.span();
+        if cursor.is_pair('*', '*') {
+            faults.report(
+                Fault::new(span, "`**` is not an operator").help("a power is written with `^`, as in `a^b`"),
+            );
+            cursor.skip(1);
+        }
+        cursor.skip(1);
+        rest.push(Factor { operator, span, value: unary(cursor, faults, depth)? });
+    }
+    Ok(match rest.first() {
+        None => first,
+        Some(factor) => {
+            Expression::new(factor.span, ExpressionKind::Product { first: Box::new(first), rest })
+        }
+    })
+}
+
+fn unary(cursor: &mut Cursor, faults: &mut Faults, depth: usize) -> Parsed {
+    let span = cursor.span();
+    if cursor.eat('-').is_some() {
+        let depth = deeper(depth, span, faults)?;
+        let operand = unary(cursor, faults, depth)?;
+        return Ok(Expression::new(span, ExpressionKind::Negation(Box::new(operand))));
+    }
+    if cursor.eat('+').is_some() {
+        faults.report(Fault::new(span, "`+` stands between two terms").help("remove this sign"));
+        let depth = deeper(depth, span, faults)?;
+        return unary(cursor, faults, depth);
+    }
+    power(cursor, faults, depth)
+}
+
+fn power(cursor: &mut Cursor, faults: &mut Faults, depth: usize) -> Parsed {
+    let base = postfix(cursor, faults, depth)?;
+    let span = cursor.span();
+    if cursor.eat('^').is_none() {
+        return Ok(base);
+    }
+    root_without_parentheses(cursor, faults, &base);
+    let depth = deeper(depth, span, faults)?;
+    let exponent = unary(cursor, faults, depth)?;
+    Ok(Expression::new(span, ExpressionKind::Power { base: Box::new(base), exponent: Box::new(exponent) }))
+}
+
+/// `x^1/2` would be half of `x`, and nobody writes that so. `x^2/2` is left alone: it is what it looks like.
+fn root_without_parentheses(cursor: &Cursor, faults: &mut Faults, base: &Expression) {
+    let number = |n| match cursor.peek_nth(n) {
+        Some(TokenTree::Literal(literal)) => Number::from_literal(&literal.to_string()).ok(),
+        _ => None,
+    };
+    let (Some(one), Some(below)) = (number(0), number(2)) else { return };
+    if !one.is_one() || !cursor.is_punct_at(1, '/') {
+        return;
+    }
+    let base = match base.kind {
+        ExpressionKind::Name(_) | ExpressionKind::Call { .. } => base.to_string(),
+        _ => "x".to_owned(),
+    };
+    let slash = cursor.peek_nth(1).map_or(cursor.span(), TokenTree::span);
+    faults.report(
+        Fault::new(slash, format!("`{base}^{one}/{below}` divides the power by {below}"))
+            .help(format_args!("write `{base}^({one}/{below})` for the root, or `{base}/{below}`")),
+    );
+}
+
+fn postfix(cursor: &mut Cursor, faults: &mut Faults, depth: usize) -> Parsed {
+    let mut value = primary(cursor, faults, depth)?;
+    let mut depth = depth;
+    loop {
+        let span = cursor.span();
+        if is_prime(cursor) {
+            // A lifetime is two tokens, a character literal is one.
+            cursor.skip(if cursor.is_punct('\'') && cursor.ident_at(1).is_some() { 2 } else { 1 });
+            faults.report(
+                Fault::new(span, "a prime does not make a derivative")
+                    .help(format_args!("write `dot({})`", short_name(&value))),
+            );
+            value = Expression::missing(span);
+        } else if cursor.eat('.').is_some() {
+            depth = deeper(depth, span, faults)?;
+            value = member(cursor, faults, depth, value)?;
+        } else if let Some(what) = juxtaposed(cursor) {
+            let message = format!("expected an operator before {what}");
+            let list = matches!(value.kind, ExpressionKind::Missing);
+            // After a literal such as `2sin` the parentheses belong to what has been reported.
+            if !list {
+                faults.report(
+                    Fault::new(span, message).help("if a product is meant, write `*` between its factors"),
+                );
+            }
+            depth = deeper(depth, span, faults)?;
+            match cursor.group_at(0, Delimiter::Parenthesis).cloned() {
+                Some(group) => {
+                    cursor.skip(1);
+                    arguments(&group, faults, depth);
+                }
+                None => {
+                    primary(cursor, faults, depth)?;
+                }
+            }
+            value = Expression::missing(span);
+        } else {
+            return Ok(value);
+        }
+    }
+}
+
+/// What follows a `.`.
+fn member(cursor: &mut Cursor, faults: &mut Faults, depth: usize, base: Expression) -> Parsed {
+    let span = cursor.span();
+    let Some(TokenTree::Ident(ident)) = cursor.peek().cloned() else {
+        let fault = Fault::new(span, format!("expected a name after `.`, found {}", cursor.found()));
+        if matches!(cursor.peek(), Some(TokenTree::Literal(_))) {
+            faults.report(fault.help("the components of a vector are `.x`, `.y` and `.z`"));
+            cursor.skip(1);
+            return Ok(Expression::missing(span));
+        }
+        return Err(faults.report(fault));
+    };
+    keyword(&ident, faults, "a name after `.`")?;
+    cursor.skip(1);
+    let (name, base) = (Name::new(ident), Box::new(base));
+    Ok(Expression::new(
+        span,
+        match cursor.eat_group(Delimiter::Parenthesis) {
+            Some(group) => ExpressionKind::Method {
+                base,
+                name,
+                arguments: arguments(&group, faults, depth),
+                list: group.span(),
+            },
+            None => ExpressionKind::Field { base, name },
+        },
+    ))
+}
+
+/// What stands directly behind an operand although it begins another one. A name may end the expression and
+/// begin something else; parentheses and numbers cannot.
+fn juxtaposed(cursor: &Cursor) -> Option<String> {
+    match cursor.peek()? {
+        TokenTree::Literal(_) => Some(cursor.found()),
+        TokenTree::Group(group) if group.delimiter() == Delimiter::Parenthesis => Some(cursor.found()),
+        TokenTree::Group(group) if group.delimiter() == Delimiter::None => {
+            // An empty fragment such as `$vis` is nothing.
+            (!group.stream().is_empty()).then(|| cursor.found())
+        }
+        _ => None,
+    }
+}
+
+/// Whether a lifetime or a character literal stands here: what rustc makes of the prime in `x'`.
+fn is_prime(cursor: &Cursor) -> bool {
+    match cursor.peek() {
+        Some(TokenTree::Punct(mark)) => mark.as_char() == '\'',
+        Some(TokenTree::Literal(literal)) => literal.to_string().starts_with('\''),
+        _ => false,
+    }
+}
+
+fn primary(cursor: &mut Cursor, faults: &mut Faults, depth: usize) -> Parsed {
+    let span = cursor.span();
+    match cursor.peek().cloned() {
+        Some(TokenTree::Literal(literal)) => {
+            cursor.skip(1);
+            Ok(number(&literal, faults))
+        }
+        Some(TokenTree::Ident(ident)) => {
+            keyword(&ident, faults, "an expression")?;
+            cursor.skip(1);
+            Ok(name_or_call(cursor, faults, depth, Name::new(ident)))
+        }
+        Some(TokenTree::Group(group)) => match group.delimiter() {
+            Delimiter::Parenthesis | Delimiter::None => {
+                cursor.skip(1);
+                parentheses(&group, faults, depth)
+            }
+            Delimiter::Bracket => {
+                cursor.skip(1);
+                let fault = Fault::new(span, "brackets have no meaning here");
+                faults.report(fault.help("a vector is written `vec(x, y, z)`, a product in parentheses"));
+                Ok(Expression::missing(span))
+            }
+            Delimiter::Brace => Err(expected_expression(cursor, faults)),
+        },
+        _ => Err(expected_expression(cursor, faults)),
+    }
+}
+
+fn expected_expression(cursor: &Cursor, faults: &mut Faults) -> Reported {
+    let fault = Fault::new(cursor.span(), format!("expected an expression, found {}", cursor.found()));
+    faults.report(if cursor.is_punct('|') {
+        fault.help("an absolute value is written `abs(x)`, the length of a vector `norm(v)`")
+    } else if is_prime(cursor) {
+        fault.help("a time derivative is written `dot(x)`")
+    } else {
+        fault
+    })
+}
+
+/// Refuses the keywords of Rust as names in expressions.
+fn keyword(ident: &proc_macro2::Ident, faults: &mut Faults, expected: &str) -> Result<(), Reported> {
+    let text = ident.to_string();
+    if !is_rust_keyword(&text) {
+        return Ok(());
+    }
+    let fault = Fault::new(ident.span(), format!("expected {expected}, found keyword `{text}`"));
+    Err(faults.report(if can_be_raw(&text) {
+        fault.help(format_args!("if this is the name of a variable, write `r#{text}`"))
+    } else {
+        fault
+    }))
+}
+
+/// A name and what may stand directly behind it.
+fn name_or_call(cursor: &mut Cursor, faults: &mut Faults, depth: usize, name: Name) -> Expression {
+    let span = name.span();
+    if let Some(group) = cursor.eat_group(Delimiter::Parenthesis) {
+        let arguments = arguments(&group, faults, depth);
+        if name.text == "dot" && arguments.len() == 2 {
+            faults.report(
+                Fault::new(span, "`dot` takes one argument: it is the derivative by time")
+                    .help("the product of two vectors is written `inner(u, v)`"),
+            );
+            return Expression::missing(span);
+        }
+        return Expression::new(span, ExpressionKind::Call { function: name, arguments, list: group.span() });
+    }
+    if cursor.is_pair(':', ':') {
+        while cursor.is_pair(':', ':') {
+            cursor.skip(2);
+            if cursor.ident_at(0).is_some() {
+                cursor.skip(1);
+            }
+        }
+        faults.report(
+            Fault::new(span, "paths have no meaning here")
+                .help("functions and constants have plain names, such as `sin(x)` and `pi`"),
+        );
+        return Expression::missing(span);
+    }
+    if cursor.is_punct('!') && matches!(cursor.peek_nth(1), Some(TokenTree::Group(_))) {
+        cursor.skip(2);
+        faults.report(
+            Fault::new(span, format!("macros such as `{name}!` cannot be called here"))
+                .help("functions are written without `!`, such as `vec(x, y, z)`"),
+        );
+        return Expression::missing(span);
+    }
+    Expression::new(span, ExpressionKind::Name(name))
+}
+
+/// An expression in parentheses, or in an invisible group, which counts as such.
+fn parentheses(group: &Group, faults: &mut Faults, depth: usize) -> Parsed {
+    let is_visible = group.delimiter() == Delimiter::Parenthesis;
+    let depth = deeper(depth, if is_visible { group.span_open() } else { group.span() }, faults)?;
+    let mut cursor = Cursor::inside(group);
+    let span = cursor.span();
+    let value = sum(&mut cursor, faults, depth);
+    let mut value = match value {
+        Err(Reported { .. }) => Expression::missing(span),
+        Ok(value) if cursor.is_end() => value,
+        Ok(_) => {
+            if cursor.is_punct(',') {
+                faults.report(
+                    Fault::new(cursor.span(), "expected `)` or an operator, found `,`")
+                        .help("a vector is written `vec(x, y, z)`"),
+                );
+            } else {
+                unexpected(&cursor, faults, "`)`");
+            }
+            Expression::missing(span)
+        }
+    };
+    if is_visible {
+        value.parentheses = Some(group.span());
+    } else if value.parentheses.is_none() && matches!(value.kind, ExpressionKind::Missing) {
+        value.span = group.span();
+    }
+    Ok(value)
+}
+
+/// The arguments of a call, separated by commas; one more comma at the end is allowed.
+pub(crate) fn arguments(group: &Group, faults: &mut Faults, depth: usize) -> Vec<Expression> {
+    let mut arguments = Vec::new();
+    let Ok(depth) = deeper(depth, group.span_open(), faults) else { return arguments };
+    let mut cursor = Cursor::inside(group);
+    while !cursor.is_end() {
+        let span = cursor.span();
+        let value = sum(&mut cursor, faults, depth);
+        let is_whole = value.is_ok();
+        arguments.push(value.unwrap_or_else(|Reported { .. }| Expression::missing(span)));
+        if is_whole && !cursor.is_end() && !cursor.is_punct(',') {
+            if cursor.is_punct(';') {
+                faults.report(Fault::new(cursor.span(), "expected `,` between arguments, found `;`"));
+                cursor.skip(1);
+                continue;
+            }
+            unexpected(&cursor, faults, "`,`");
+        }
+        cursor.recover_to_comma();
+        cursor.skip(1);
+    }
+    arguments
+}
+
+/// One level of nesting further, as long as there are any.
+fn deeper(depth: usize, span: Span, faults: &mut Faults) -> Result<usize, Reported> {
+    if depth < MAX_DEPTH {
+        return Ok(depth + 1);
+    }
+    Err(faults.report(
+        Fault::new(span, format!("the expression is nested more than {MAX_DEPTH} levels deep"))
+            .help("give parts of it names with `let`"),
+    ))
+}
+
+/// A number, or a missing value and the reason.
+fn number(literal: &Literal, faults: &mut Faults) -> Expression {
+    let (text, span) = (literal.to_string(), literal.span());
+    match Number::from_literal(&text) {
+        Ok(number) => Expression::new(span, ExpressionKind::Number(number)),
+        Err(problem) => {
+            faults.report(number_fault(span, &text, problem));
+            Expression::missing(span)
+        }
+    }
+}
+
+fn number_fault(span: Span, text: &str, problem: NumberProblem) -> Fault {
+    match problem {
+        NumberProblem::NotANumber => {
+            let fault = Fault::new(span, "expected a number, a name or a function");
+            if text.starts_with('\'') { fault.help("a time derivative is written `dot(x)`") } else { fault }
+        }
+        NumberProblem::NotDecimal => Fault::new(span, format!("`{text}` is not a decimal number"))
+            .help("write numbers as `16` or `1.6e1`"),
+        NumberProblem::Suffix(digits, letters) => {
+            let fault = Fault::new(span, format!("a number cannot run into the name `{letters}`"));
+            if is_type(&letters) {
+                fault.help(format_args!("numbers are exact and have no types: write `{digits}`"))
+            } else if is_function(&letters) {
+                fault.help(format_args!("a product is written with `*`: `{digits}*{letters}(..)`"))
+            } else {
+                fault.help(format_args!("a product is written with `*`: `{digits}*{letters}`"))
+            }
+        }
+        NumberProblem::OutOfRange => Fault::new(
+            span,
+            format!("numbers lie between 10^-{MAX_DECIMAL_ORDER} and 10^{MAX_DECIMAL_ORDER}, or are zero"),
+        ),
+        NumberProblem::TooManyDigits => {
+            Fault::new(span, format!("a number has at most {MAX_DIGITS} significant digits"))
+        }
+    }
+}
+
+/// Whether a suffix is a type of numbers in Rust.
+fn is_type(suffix: &str) -> bool {
+    let Some(kind) = suffix.chars().next().filter(|kind| "iuf".contains(*kind)) else { return false };
+    let size = &suffix[1..];
+    matches!(size, "8" | "16" | "32" | "64" | "128") || (kind != 'f' && size == "size")
+}
+
+/// The value's text for a message if it is short, else `x`.
+fn short_name(value: &Expression) -> String {
+    match &value.kind {
+        ExpressionKind::Name(name) => name.text.clone(),
+        _ => "x".to_owned(),
+    }
+}

@@ -1,0 +1,147 @@
+//! Sections that list names with commas, and the loops over entries of either punctuation.
+
+use proc_macro2::{Group, TokenTree};
+
+use super::attributes::docs;
+use super::cursor::Cursor;
+use super::names::name;
+use crate::diagnostics::{Fault, Faults, Reported};
+use crate::limits::MAX_ENTRIES;
+use crate::syntax::Plain;
+
+/// Entries that each take their `;`.
+pub(crate) fn entries<T>(
+    group: &Group,
+    faults: &mut Faults,
+    mut entry: impl FnMut(&mut Cursor, &mut Faults) -> Result<T, Reported>,
+) -> Vec<T> {
+    let mut cursor = Cursor::inside(group);
+    let mut entries = Vec::new();
+    while !cursor.is_end() {
+        if is_too_long(entries.len(), MAX_ENTRIES, &cursor, faults) {
+            break;
+        }
+        let before = cursor.position();
+        if stray_semicolon(&mut cursor, faults) {
+            continue;
+        }
+        match entry(&mut cursor, faults) {
+            Ok(entry) => entries.push(entry),
+            Err(Reported { .. }) => cursor.recover(),
+        }
+        if cursor.position() == before {
+            cursor.skip(1);
+        }
+    }
+    entries
+}
+
+/// Reports and passes a `;` that ends nothing.
+pub(crate) fn stray_semicolon(cursor: &mut Cursor, faults: &mut Faults) -> bool {
+    if !cursor.is_punct(';') {
+        return false;
+    }
+    faults.report(Fault::new(cursor.span(), "this `;` ends nothing").help("remove it"));
+    cursor.skip(1);
+    true
+}
+
+/// Entries with commas between them, and perhaps one at the end.
+pub(crate) fn separated<T>(
+    cursor: &mut Cursor,
+    faults: &mut Faults,
+    most: usize,
+    is_end: fn(&Cursor) -> bool,
+    begins_entry: fn(&Cursor) -> bool,
+    mut entry: impl FnMut(&mut Cursor, &mut Faults) -> Result<T, Reported>,
+) -> Vec<T> {
+    let mut entries = Vec::new();
+    while !is_end(cursor) {
+        if is_too_long(entries.len(), most, cursor, faults) {
+            while !is_end(cursor) {
+                cursor.skip(1);
+            }
+            break;
+        }
+        let is_whole = match entry(cursor, faults) {
+            Ok(entry) => {
+                entries.push(entry);
+                true
+            }
+            Err(Reported { .. }) => false,
+        };
+        comma(cursor, faults, is_whole, is_end, begins_entry);
+    }
+    entries
+}
+
+/// The comma after an entry.
+fn comma(
+    cursor: &mut Cursor,
+    faults: &mut Faults,
+    is_whole: bool,
+    is_end: fn(&Cursor) -> bool,
+    begins_entry: fn(&Cursor) -> bool,
+) {
+    if is_whole && !is_end(cursor) && !cursor.is_punct(',') {
+        let fault = Fault::new(cursor.span(), format!("expected `,`, found {}", cursor.found()));
+        if cursor.is_punct(';') {
+            faults.report(fault.help("the entries of this list are separated by `,`"));
+        } else if begins_entry(cursor) {
+            let text = format!("expected `,` before {}", cursor.found());
+            faults.report(
+                Fault::new(cursor.span(), text).help("the entries of this list are separated by `,`"),
+            );
+            return;
+        } else {
+            faults.report(fault);
+        }
+    }
+    while !is_end(cursor) && !cursor.is_punct(',') && !cursor.is_punct(';') {
+        cursor.skip(1);
+    }
+    if !is_end(cursor) {
+        cursor.skip(1);
+    }
+}
+
+/// Reports a list that is longer than it may be.
+fn is_too_long(length: usize, most: usize, cursor: &Cursor, faults: &mut Faults) -> bool {
+    if length >= most {
+        faults.report(Fault::new(cursor.span(), format!("more than {most} entries")));
+    }
+    length >= most
+}
+
+/// The end of a list that fills its braces.
+pub(crate) fn at_end(cursor: &Cursor) -> bool {
+    cursor.is_end()
+}
+
+/// The entries of `coordinates` or `inputs`.
+pub(crate) fn plain_names(group: &Group, faults: &mut Faults, role: &str, most: usize) -> Vec<Plain> {
+    let begins = |cursor: &Cursor| cursor.is_punct('#') || cursor.ident_at(0).is_some();
+    separated(&mut Cursor::inside(group), faults, most, at_end, begins, |cursor, faults| {
+        let docs = docs(cursor, faults)?;
+        let name = name(cursor, faults, role)?;
+        if let Some(TokenTree::Punct(mark)) = cursor.peek().filter(|_| !ends_name(cursor)) {
+            let fault =
+                Fault::new(cursor.span(), format!("expected `,` after {role}, found {}", cursor.found()));
+            let reported = faults.report(match mark.as_char() {
+                ':' => fault.help("names are declared without types"),
+                '=' => fault.help("initial values are given when the system runs, in its state"),
+                '>' | '<' | '!' => fault.help("only `constants` have bounds"),
+                _ => fault,
+            });
+            // The name counts as declared nevertheless.
+            cursor.recover_to_comma();
+            let _: Reported = reported;
+        }
+        Ok(Plain { docs, name })
+    })
+}
+
+/// Whether what follows a name belongs to the list or to the next entry.
+fn ends_name(cursor: &Cursor) -> bool {
+    cursor.is_punct(',') || cursor.is_punct(';') || cursor.is_punct('#')
+}

@@ -1,0 +1,39 @@
+//! From tokens to the syntax tree: what is written wrongly is reported here, what is meant wrongly later.
+//!
+//! Every concept of the language has a file. A fault ends the entry in which it is, at its `;` or `,`; the next
+//! entry is parsed as if nothing had happened, so that several mistakes are reported together. Faults that leave
+//! the meaning clear, such as `==` for `=`, end nothing at all.
+
+mod attributes;
+mod bodies;
+mod constants;
+mod cursor;
+mod declaration;
+mod definitions;
+mod energies;
+mod equations;
+mod expression;
+mod forces;
+mod lists;
+mod names;
+mod particles;
+mod punctuation;
+mod scene;
+#[cfg(test)]
+mod tests;
+
+use proc_macro2::TokenStream;
+
+use crate::diagnostics::{Report, collect};
+use crate::syntax::{Declaration, Expression};
+
+/// Parses the tokens of one invocation. With an empty report there is a declaration, and nothing in it is
+/// missing; otherwise there is one if at least the head `system Name { .. }` could be read.
+pub fn parse(tokens: TokenStream) -> (Option<Declaration>, Report) {
+    collect(|faults| declaration::declaration(tokens, faults))
+}
+
+/// Parses the tokens of a single expression. None exactly if the report is not empty.
+pub fn parse_expression(tokens: TokenStream) -> (Option<Expression>, Report) {
+    collect(|faults| faults.part(|faults| expression::whole(tokens, faults)).ok())
+}

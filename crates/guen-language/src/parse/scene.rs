@@ -1,0 +1,127 @@
+//! `scene Name { track ..; fix ..; provide ..; }`, and `provide ..;` of a whole system.
+
+use proc_macro2::{Delimiter, Span};
+
+use super::attributes::docs;
+use super::cursor::Cursor;
+use super::expression::expression;
+use super::lists::{separated, stray_semicolon};
+use super::names::name;
+use super::punctuation::{equals, semicolon};
+use crate::diagnostics::{Fault, Faults, Reported};
+use crate::limits::MAX_ENTRIES;
+use crate::names::{SCENE_STATEMENTS, nearest, quoted};
+use crate::syntax::{Docs, Fix, Provide, Scene};
+
+/// What follows `scene`.
+pub(crate) fn scene(
+    cursor: &mut Cursor,
+    faults: &mut Faults,
+    docs: Docs,
+    keyword: Span,
+) -> Result<Scene, Reported> {
+    let name = name(cursor, faults, "the name of a scene")?;
+    let Some(group) = cursor.eat_group(Delimiter::Brace) else {
+        let fault =
+            Fault::new(cursor.span(), format!("expected `{{` after `{name}`, found {}", cursor.found()));
+        return Err(faults.report(fault.help("a scene reads `scene Name { track theta; fix a = 1; }`")));
+    };
+    let mut scene =
+        Scene { docs, keyword, name, tracks: Vec::new(), fixes: Vec::new(), provides: Vec::new() };
+    let mut inside = Cursor::inside(&group);
+    while !inside.is_end() {
+        if stray_semicolon(&mut inside, faults) {
+            continue;
+        }
+        if statement(&mut inside, faults, &mut scene).is_err() {
+            inside.recover();
+        }
+    }
+    Ok(scene)
+}
+
+fn statement(cursor: &mut Cursor, faults: &mut Faults, scene: &mut Scene) -> Result<(), Reported> {
+    let documented = cursor.span();
+    let docs = docs(cursor, faults)?;
+    if !docs.values.is_empty() {
+        let fault = Fault::new(documented, "a statement of a scene has no documentation of its own");
+        faults.report(fault.help("document the scene instead, or write `//`"));
+    }
+    if cursor.eat_word("track").is_some() {
+        scene
+            .tracks
+            .extend(list(cursor, faults, |cursor, faults| name(cursor, faults, "a name after `track`")));
+    } else if cursor.eat_word("fix").is_some() {
+        scene.fixes.extend(list(cursor, faults, fix));
+    } else if cursor.eat_word("provide").is_some() {
+        scene.provides.extend(provides(cursor, faults));
+    } else {
+        return Err(unknown(cursor, faults));
+    }
+    Ok(())
+}
+
+fn unknown(cursor: &Cursor, faults: &mut Faults) -> Reported {
+    let statements = quoted(SCENE_STATEMENTS.iter().copied());
+    let Some(word) = cursor.ident_at(0).map(ToString::to_string) else {
+        let text = format!("expected a statement of a scene, found {}", cursor.found());
+        return faults.report(Fault::new(cursor.span(), text).help(format_args!("a scene has {statements}")));
+    };
+    let fault = Fault::new(cursor.span(), format!("unknown statement `{word}` in a scene"));
+    faults.report(match nearest(&word, SCENE_STATEMENTS.iter().copied()) {
+        Some(near) => fault.help(format_args!("did you mean `{near}`?")),
+        None => fault.help(format_args!("a scene has {statements}")),
+    })
+}
+
+/// The names after `provide`, with the `;`.
+pub(crate) fn provides(cursor: &mut Cursor, faults: &mut Faults) -> Vec<Provide> {
+    list(cursor, faults, |cursor, faults| {
+        let quantity = name(cursor, faults, "a name after `provide`")?;
+        let Some(group) = cursor.eat_group(Delimiter::Parenthesis) else {
+            return Ok(Provide { name: quantity, of: None });
+        };
+        let begins = |cursor: &Cursor| cursor.ident_at(0).is_some();
+        let mut inside = Cursor::inside(&group);
+        let of = separated(&mut inside, faults, MAX_ENTRIES, Cursor::is_end, begins, |cursor, faults| {
+            name(cursor, faults, "the name of a constraint")
+        });
+        Ok(Provide { name: quantity, of: Some(of) })
+    })
+}
+
+/// `name = e` or `name`.
+fn fix(cursor: &mut Cursor, faults: &mut Faults) -> Result<Fix, Reported> {
+    let name = name(cursor, faults, "a name after `fix`")?;
+    if is_end_of_list(cursor) || !(cursor.is_punct('=') || cursor.is_punct(':')) {
+        return Ok(Fix { name, value: None });
+    }
+    equals(cursor, faults, &format!("`{name}`"), "a constant is fixed by `name = number`")?;
+    Ok(Fix { name, value: Some(expression(cursor, faults)?) })
+}
+
+fn is_end_of_list(cursor: &Cursor) -> bool {
+    cursor.is_end() || cursor.is_punct(';') || begins_statement(cursor)
+}
+
+/// Whether a statement begins here: after a missing `;`.
+fn begins_statement(cursor: &Cursor) -> bool {
+    cursor.starts_section()
+        || (cursor.ident_at(0).is_some_and(|word| SCENE_STATEMENTS.iter().any(|known| word == known))
+            && cursor.ident_at(1).is_some())
+}
+
+/// A list with commas that ends at a `;`.
+fn list<T>(
+    cursor: &mut Cursor,
+    faults: &mut Faults,
+    entry: impl FnMut(&mut Cursor, &mut Faults) -> Result<T, Reported>,
+) -> Vec<T> {
+    if is_end_of_list(cursor) {
+        faults.report(Fault::new(cursor.span(), format!("expected a name, found {}", cursor.found())));
+    }
+    let begins = |cursor: &Cursor| cursor.ident_at(0).is_some();
+    let entries = separated(cursor, faults, MAX_ENTRIES, is_end_of_list, begins, entry);
+    semicolon(cursor, faults, begins_statement);
+    entries
+}

@@ -1,0 +1,228 @@
+//! The tree as text of the language, with every operation in parentheses: what a test or a bug report shows, and
+//! text that parses to the same tree again. Documentation is left out.
+
+use std::fmt::{self, Display, Formatter, Write};
+
+use super::*;
+
+/// `items` with a separator between them.
+fn separated<T: Display>(f: &mut Formatter<'_>, items: &[T], separator: &str) -> fmt::Result {
+    for (i, item) in items.iter().enumerate() {
+        if i > 0 {
+            f.write_str(separator)?;
+        }
+        write!(f, "{item}")?;
+    }
+    Ok(())
+}
+
+impl Display for Expression {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match &self.kind {
+            ExpressionKind::Missing => f.write_str("?"),
+            ExpressionKind::Number(number) => write!(f, "{number}"),
+            ExpressionKind::Name(name) => write!(f, "{}", name.ident),
+            ExpressionKind::Call { function, arguments, .. } => {
+                write!(f, "{}(", function.ident)?;
+                separated(f, arguments, ", ")?;
+                f.write_char(')')
+            }
+            // `1.x` and `1..x` are other tokens than a number, a point and a name.
+            ExpressionKind::Field { base, name } if base.as_number().is_some() => {
+                write!(f, "({base}).{}", name.ident)
+            }
+            ExpressionKind::Field { base, name } => write!(f, "{base}.{}", name.ident),
+            ExpressionKind::Method { base, name, arguments, .. } => {
+                match base.as_number() {
+                    Some(number) => write!(f, "({number}).{}(", name.ident)?,
+                    None => write!(f, "{base}.{}(", name.ident)?,
+                }
+                separated(f, arguments, ", ")?;
+                f.write_char(')')
+            }
+            ExpressionKind::Negation(operand) => write!(f, "(-{operand})"),
+            ExpressionKind::Sum { first, rest } => {
+                rest.iter().try_for_each(|_| f.write_char('('))?;
+                write!(f, "{first}")?;
+                rest.iter().try_for_each(|term| {
+                    let sign = if term.operator == AddOperator::Plus { '+' } else { '-' };
+                    write!(f, " {sign} {})", term.value)
+                })
+            }
+            ExpressionKind::Product { first, rest } => {
+                rest.iter().try_for_each(|_| f.write_char('('))?;
+                write!(f, "{first}")?;
+                rest.iter().try_for_each(|factor| {
+                    let sign = if factor.operator == MultiplyOperator::Times { '*' } else { '/' };
+                    write!(f, "{sign}{})", factor.value)
+                })
+            }
+            ExpressionKind::Power { base, exponent } => write!(f, "({base}^{exponent})"),
+        }
+    }
+}
+
+impl Display for Plain {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.name.ident)
+    }
+}
+
+impl Display for Constant {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.name.ident)?;
+        if let Some(bound) = self.bound {
+            f.write_str(match bound.kind {
+                BoundKind::Positive => " > 0",
+                BoundKind::Nonnegative => " >= 0",
+                BoundKind::Nonzero => " != 0",
+            })?;
+        }
+        self.default.iter().try_for_each(|default| write!(f, " = {default}"))
+    }
+}
+
+impl Display for Definition {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "{} = {};", self.name.ident, self.value)
+    }
+}
+
+impl Display for Equation {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {} = {};", self.name.ident, self.left, self.right)
+    }
+}
+
+impl Display for Particle {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "{} at {};", self.mass, self.position)
+    }
+}
+
+impl Display for Force {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "{} along {};", self.force, self.direction)
+    }
+}
+
+impl Display for Inertia {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let (word, entries): (_, &[Expression]) = match self {
+            Inertia::Missing => return f.write_char('?'),
+            Inertia::Diagonal(entries) => ("diag", entries.as_slice()),
+            Inertia::Symmetric(entries) => ("sym", entries.as_slice()),
+        };
+        write!(f, "{word}(")?;
+        separated(f, entries, ", ")?;
+        f.write_char(')')
+    }
+}
+
+impl Display for Body {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "{} {{ ", self.name.ident)?;
+        self.mass.iter().try_for_each(|field| write!(f, "mass: {}, ", field.value))?;
+        self.inertia.iter().try_for_each(|field| write!(f, "inertia: {}, ", field.value))?;
+        self.center.iter().try_for_each(|field| write!(f, "center: {}, ", field.value))?;
+        self.orientation.iter().try_for_each(|field| write!(f, "orientation: {}, ", field.value))?;
+        f.write_char('}')
+    }
+}
+
+impl Display for Fix {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.name.ident)?;
+        self.value.iter().try_for_each(|value| write!(f, " = {value}"))
+    }
+}
+
+impl Display for Provide {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.name.ident)?;
+        if let Some(names) = &self.of {
+            f.write_char('(')?;
+            for (i, name) in names.iter().enumerate() {
+                write!(f, "{}{}", if i > 0 { ", " } else { "" }, name.ident)?;
+            }
+            f.write_char(')')?;
+        }
+        Ok(())
+    }
+}
+
+impl Display for Scene {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "scene {} {{", self.name.ident)?;
+        if !self.tracks.is_empty() {
+            let names: Vec<_> = self.tracks.iter().map(|name| name.ident.to_string()).collect();
+            write!(f, " track {};", names.join(", "))?;
+        }
+        if !self.fixes.is_empty() {
+            f.write_str(" fix ")?;
+            separated(f, &self.fixes, ", ")?;
+            f.write_char(';')?;
+        }
+        if !self.provides.is_empty() {
+            f.write_str(" provide ")?;
+            separated(f, &self.provides, ", ")?;
+            f.write_char(';')?;
+        }
+        f.write_str(" }")
+    }
+}
+
+/// A section in braces.
+fn braces<T: Display>(
+    f: &mut Formatter<'_>,
+    kind: SectionKind,
+    section: &Section<T>,
+    separator: &str,
+) -> fmt::Result {
+    write!(f, "{} {{ ", kind.word())?;
+    separated(f, &section.entries, separator)?;
+    f.write_str(" }")
+}
+
+impl Display for Item {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let kind = self.kind();
+        match self {
+            Item::Constants(section) => braces(f, kind, section, ", "),
+            Item::Inputs(section) | Item::Coordinates(section) => braces(f, kind, section, ", "),
+            Item::Let(definition) => write!(f, "let {definition}"),
+            Item::Parameters(section) | Item::Outputs(section) => braces(f, kind, section, " "),
+            Item::Constraints(section) | Item::Holonomic(section) => braces(f, kind, section, " "),
+            Item::Particles(section) => braces(f, kind, section, " "),
+            Item::Bodies(section) => braces(f, kind, section, " "),
+            Item::Forces(section) => braces(f, kind, section, " "),
+            Item::KineticEnergy(quantity)
+            | Item::Gravity(quantity)
+            | Item::ForceFunction(quantity)
+            | Item::PotentialEnergy(quantity) => write!(f, "{} = {};", kind.word(), quantity.value),
+            Item::Provide(section) => {
+                f.write_str("provide ")?;
+                separated(f, &section.entries, ", ")?;
+                f.write_char(';')
+            }
+            Item::Scene(scene) => write!(f, "{scene}"),
+        }
+    }
+}
+
+impl Display for Declaration {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        if let Some(path) = &self.crate_path {
+            writeln!(f, "crate = {path};")?;
+        }
+        let visibility = self.visibility.outside().to_string();
+        writeln!(
+            f,
+            "{visibility}{}system {} {{",
+            if visibility.is_empty() { "" } else { " " },
+            self.name.ident
+        )?;
+        self.items.iter().try_for_each(|item| writeln!(f, "    {item}"))?;
+        f.write_char('}')
+    }
+}

@@ -1,0 +1,206 @@
+//! Expressions as written.
+
+use proc_macro2::Span;
+
+use super::{Name, Number};
+
+/// An expression.
+#[derive(Debug, Clone)]
+pub struct Expression {
+    /// The token that names the node: the operator, the function's name, the literal. Of a sum or a product it is
+    /// the first operator.
+    pub span: Span,
+    /// The parentheses around the expression, where there are some.
+    pub parentheses: Option<Span>,
+    /// What the expression is.
+    pub kind: ExpressionKind,
+}
+
+/// The kinds of expressions.
+#[derive(Debug, Clone)]
+pub enum ExpressionKind {
+    /// Something whose fault has been reported.
+    Missing,
+    /// A number.
+    Number(Number),
+    /// A name: of anything declared, or `t`, or `pi`.
+    Name(Name),
+    /// `function(arguments)`; the name need not be that of a function.
+    Call {
+        /// The name in front.
+        function: Name,
+        /// The arguments.
+        arguments: Vec<Expression>,
+        /// The argument list with its parentheses.
+        list: Span,
+    },
+    /// `base.name`.
+    Field {
+        /// What stands before the point.
+        base: Box<Expression>,
+        /// What stands after it.
+        name: Name,
+    },
+    /// `base.name(arguments)`.
+    Method {
+        /// What stands before the point.
+        base: Box<Expression>,
+        /// What stands after it.
+        name: Name,
+        /// The arguments.
+        arguments: Vec<Expression>,
+        /// The argument list with its parentheses.
+        list: Span,
+    },
+    /// `-operand`.
+    Negation(Box<Expression>),
+    /// `first + .. - ..`, from left to right; kept flat so that long sums are not deep. Never without terms.
+    Sum {
+        /// The first term.
+        first: Box<Expression>,
+        /// The terms after it.
+        rest: Vec<Term>,
+    },
+    /// `first * .. / ..`, from left to right; never without factors.
+    Product {
+        /// The first factor.
+        first: Box<Expression>,
+        /// The factors after it.
+        rest: Vec<Factor>,
+    },
+    /// `base ^ exponent`.
+    Power {
+        /// What is raised.
+        base: Box<Expression>,
+        /// To which power.
+        exponent: Box<Expression>,
+    },
+}
+
+/// A term of a sum after the first.
+#[derive(Debug, Clone)]
+pub struct Term {
+    /// Added or subtracted.
+    pub operator: AddOperator,
+    /// Place of the operator.
+    pub span: Span,
+    /// The term.
+    pub value: Expression,
+}
+
+/// A factor of a product after the first.
+#[derive(Debug, Clone)]
+pub struct Factor {
+    /// Multiplied or divided by.
+    pub operator: MultiplyOperator,
+    /// Place of the operator.
+    pub span: Span,
+    /// The factor.
+    pub value: Expression,
+}
+
+/// `+` or `-`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum AddOperator {
+    /// `+`.
+    Plus,
+    /// `-`.
+    Minus,
+}
+
+/// `*` or `/`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum MultiplyOperator {
+    /// `*`.
+    Times,
+    /// `/`.
+    Over,
+}
+
+impl Expression {
+    /// An expression without parentheses around it.
+    pub fn new(span: Span, kind: ExpressionKind) -> Self {
+        Expression { span, parentheses: None, kind }
+    }
+
+    /// The stand-in for something whose fault has been reported.
+    pub fn missing(span: Span) -> Self {
+        Expression::new(span, ExpressionKind::Missing)
+    }
+
+    /// Whether a fault inside has been reported, so that nothing can be said about the whole.
+    pub fn has_missing(&self) -> bool {
+        match &self.kind {
+            ExpressionKind::Missing => true,
+            ExpressionKind::Number(_) | ExpressionKind::Name(_) => false,
+            ExpressionKind::Call { arguments, .. } => arguments.iter().any(Expression::has_missing),
+            ExpressionKind::Field { base, .. } => base.has_missing(),
+            ExpressionKind::Method { base, arguments, .. } => {
+                base.has_missing() || arguments.iter().any(Expression::has_missing)
+            }
+            ExpressionKind::Negation(operand) => operand.has_missing(),
+            ExpressionKind::Sum { first, rest } => {
+                first.has_missing() || rest.iter().any(|term| term.value.has_missing())
+            }
+            ExpressionKind::Product { first, rest } => {
+                first.has_missing() || rest.iter().any(|factor| factor.value.has_missing())
+            }
+            ExpressionKind::Power { base, exponent } => base.has_missing() || exponent.has_missing(),
+        }
+    }
+
+    /// The number, if the expression is just a literal.
+    pub fn as_number(&self) -> Option<&Number> {
+        match &self.kind {
+            ExpressionKind::Number(number) => Some(number),
+            _ => None,
+        }
+    }
+
+    /// The whole expression as one place where that can be had: from the parentheses around it, or from a
+    /// compiler that joins spans. On stable Rust otherwise its first token.
+    pub fn extent(&self) -> Span {
+        let first = self.first_token();
+        self.parentheses.or_else(|| first.join(self.last_token())).unwrap_or(first)
+    }
+
+    /// The first token.
+    pub fn first_token(&self) -> Span {
+        if let Some(parentheses) = self.parentheses {
+            return parentheses;
+        }
+        match &self.kind {
+            ExpressionKind::Missing
+            | ExpressionKind::Number(_)
+            | ExpressionKind::Name(_)
+            | ExpressionKind::Call { .. }
+            | ExpressionKind::Negation(_) => self.span,
+            ExpressionKind::Field { base, .. }
+            | ExpressionKind::Method { base, .. }
+            | ExpressionKind::Power { base, .. } => base.first_token(),
+            ExpressionKind::Sum { first, .. } | ExpressionKind::Product { first, .. } => first.first_token(),
+        }
+    }
+
+    /// The last token; an argument list counts as one.
+    pub fn last_token(&self) -> Span {
+        if let Some(parentheses) = self.parentheses {
+            return parentheses;
+        }
+        match &self.kind {
+            ExpressionKind::Missing
+            | ExpressionKind::Number(_)
+            | ExpressionKind::Name(_)
+            | ExpressionKind::Field { .. } => self.span,
+            ExpressionKind::Call { list, .. } | ExpressionKind::Method { list, .. } => *list,
+            ExpressionKind::Negation(operand) => operand.last_token(),
+            ExpressionKind::Sum { first, rest } => {
+                rest.last().map_or(first.as_ref(), |term| &term.value).last_token()
+            }
+            ExpressionKind::Product { first, rest } => {
+                rest.last().map_or(first.as_ref(), |factor| &factor.value).last_token()
+            }
+            ExpressionKind::Power { exponent, .. } => exponent.last_token(),
+        }
+    }
+}

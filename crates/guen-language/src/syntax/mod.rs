@@ -1,0 +1,19 @@
+//! The syntax tree: what was written, with the place of every word, and nothing decided about its meaning.
+//!
+//! Where the parser reported a fault the tree holds [`ExpressionKind::Missing`], so that the names around it are
+//! still known to whoever emits signatures after an error. A tree whose report is empty has none of them, has
+//! every section at most once, and has a `coordinates` section.
+
+mod display;
+mod expression;
+mod name;
+mod number;
+mod section;
+
+pub use expression::{AddOperator, Expression, ExpressionKind, Factor, MultiplyOperator, Term};
+pub use name::{Docs, Name, Visibility};
+pub use number::{Number, NumberProblem};
+pub use section::{
+    Body, BodyField, Bound, BoundKind, Constant, Declaration, Definition, Equation, Fix, Force, Inertia,
+    Item, Particle, Plain, Provide, Quantity, Scene, Section, SectionKind,
+};

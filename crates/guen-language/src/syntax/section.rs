@@ -1,0 +1,344 @@
+//! A declaration and its sections as written.
+
+use proc_macro2::{Span, TokenStream};
+
+use super::{Docs, Expression, Name, Visibility};
+
+/// One `system`.
+#[derive(Debug, Clone)]
+pub struct Declaration {
+    /// The path after `crate =`: how the facade is called in the user's crate, where that is not `::guen`.
+    pub crate_path: Option<TokenStream>,
+    /// Doc comments of the system.
+    pub docs: Docs,
+    /// Visibility of what is generated.
+    pub visibility: Visibility,
+    /// Name of the system.
+    pub name: Name,
+    /// Sections, definitions and scenes, in the order in which they were written: a name is declared before use.
+    pub items: Vec<Item>,
+}
+
+/// A section, a `let` or a scene.
+#[derive(Debug, Clone)]
+pub enum Item {
+    /// `constants { .. }`.
+    Constants(Section<Constant>),
+    /// `inputs { .. }`.
+    Inputs(Section<Plain>),
+    /// `coordinates { .. }`.
+    Coordinates(Section<Plain>),
+    /// `let name = e;`.
+    Let(Definition),
+    /// `parameters { name = e; .. }`.
+    Parameters(Section<Definition>),
+    /// `constraints { name: e = e; .. }`.
+    Constraints(Section<Equation>),
+    /// `holonomic { name: e = e; .. }`.
+    Holonomic(Section<Equation>),
+    /// `kinetic_energy = e;`.
+    KineticEnergy(Quantity),
+    /// `particles { e at e; .. }`.
+    Particles(Section<Particle>),
+    /// `bodies { name { .. } .. }`.
+    Bodies(Section<Body>),
+    /// `gravity = e;`.
+    Gravity(Quantity),
+    /// `force_function = e;`.
+    ForceFunction(Quantity),
+    /// `potential_energy = e;`.
+    PotentialEnergy(Quantity),
+    /// `forces { e along e; .. }`.
+    Forces(Section<Force>),
+    /// `outputs { name = e; .. }`.
+    Outputs(Section<Definition>),
+    /// `provide name, ..;` of the whole system.
+    Provide(Section<Provide>),
+    /// `scene Name { .. }`.
+    Scene(Scene),
+}
+
+/// The words that begin an item.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[allow(missing_docs, reason = "each is named as the variant of `Item` that it begins")]
+pub enum SectionKind {
+    Constants,
+    Inputs,
+    Coordinates,
+    Let,
+    Parameters,
+    Constraints,
+    Holonomic,
+    KineticEnergy,
+    Particles,
+    Bodies,
+    Gravity,
+    ForceFunction,
+    PotentialEnergy,
+    Forces,
+    Outputs,
+    Provide,
+    Scene,
+}
+
+impl SectionKind {
+    /// Every kind, in the order of [`crate::names::SECTIONS`].
+    pub const ALL: [SectionKind; 17] = [
+        SectionKind::Constants,
+        SectionKind::Inputs,
+        SectionKind::Coordinates,
+        SectionKind::Let,
+        SectionKind::Parameters,
+        SectionKind::Constraints,
+        SectionKind::Holonomic,
+        SectionKind::KineticEnergy,
+        SectionKind::Particles,
+        SectionKind::Bodies,
+        SectionKind::Gravity,
+        SectionKind::ForceFunction,
+        SectionKind::PotentialEnergy,
+        SectionKind::Forces,
+        SectionKind::Outputs,
+        SectionKind::Provide,
+        SectionKind::Scene,
+    ];
+
+    /// The word in the language.
+    pub fn word(self) -> &'static str {
+        crate::names::SECTIONS[self as usize]
+    }
+
+    /// The kind that a word begins.
+    pub fn of_word(word: &str) -> Option<SectionKind> {
+        SectionKind::ALL.into_iter().find(|kind| kind.word() == word)
+    }
+
+    /// Whether a system may have several.
+    pub fn may_repeat(self) -> bool {
+        matches!(self, SectionKind::Let | SectionKind::Scene)
+    }
+
+    /// Whether the word is followed by `= e;`.
+    pub fn is_quantity(self) -> bool {
+        matches!(
+            self,
+            SectionKind::KineticEnergy
+                | SectionKind::Gravity
+                | SectionKind::ForceFunction
+                | SectionKind::PotentialEnergy
+        )
+    }
+}
+
+/// A section with entries.
+#[derive(Debug, Clone)]
+pub struct Section<T> {
+    /// Doc comments of the section.
+    pub docs: Docs,
+    /// Place of the word that begins it.
+    pub keyword: Span,
+    /// What it lists.
+    pub entries: Vec<T>,
+}
+
+/// An entry that is only a name: a coordinate or an input.
+#[derive(Debug, Clone)]
+pub struct Plain {
+    /// Doc comments.
+    pub docs: Docs,
+    /// The name.
+    pub name: Name,
+}
+
+/// `name`, `name > 0`, `name = e`, `name > 0 = e`.
+#[derive(Debug, Clone)]
+pub struct Constant {
+    /// Doc comments.
+    pub docs: Docs,
+    /// The name.
+    pub name: Name,
+    /// The bound, if one is declared.
+    pub bound: Option<Bound>,
+    /// The default, if one is declared.
+    pub default: Option<Expression>,
+}
+
+/// What is promised of a constant.
+#[derive(Debug, Clone, Copy)]
+pub struct Bound {
+    /// Which promise.
+    pub kind: BoundKind,
+    /// Place of the comparison.
+    pub span: Span,
+}
+
+/// The promises.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum BoundKind {
+    /// `> 0`.
+    Positive,
+    /// `>= 0`.
+    Nonnegative,
+    /// `!= 0`.
+    Nonzero,
+}
+
+/// `name = e`.
+#[derive(Debug, Clone)]
+pub struct Definition {
+    /// Doc comments.
+    pub docs: Docs,
+    /// The name.
+    pub name: Name,
+    /// What it stands for.
+    pub value: Expression,
+}
+
+/// `name: left = right`.
+#[derive(Debug, Clone)]
+pub struct Equation {
+    /// Doc comments.
+    pub docs: Docs,
+    /// The name.
+    pub name: Name,
+    /// The left side.
+    pub left: Expression,
+    /// Place of the `=`.
+    pub equals: Span,
+    /// The right side.
+    pub right: Expression,
+}
+
+/// `keyword = e;`.
+#[derive(Debug, Clone)]
+pub struct Quantity {
+    /// Doc comments.
+    pub docs: Docs,
+    /// Place of the word in front.
+    pub keyword: Span,
+    /// The expression.
+    pub value: Expression,
+}
+
+/// `mass at position`.
+#[derive(Debug, Clone)]
+pub struct Particle {
+    /// Doc comments.
+    pub docs: Docs,
+    /// The mass.
+    pub mass: Expression,
+    /// Place of the `at`.
+    pub at: Span,
+    /// The position.
+    pub position: Expression,
+}
+
+/// `name { mass: e, inertia: .., center: e, orientation: e }`.
+#[derive(Debug, Clone)]
+pub struct Body {
+    /// Doc comments.
+    pub docs: Docs,
+    /// The name.
+    pub name: Name,
+    /// The mass; present exactly if `center` is.
+    pub mass: Option<BodyField<Expression>>,
+    /// The inertia about the mass centre in body axes; present exactly if `orientation` is.
+    pub inertia: Option<BodyField<Inertia>>,
+    /// Position of the mass centre.
+    pub center: Option<BodyField<Expression>>,
+    /// The rotation from body axes to the world's.
+    pub orientation: Option<BodyField<Expression>>,
+}
+
+/// A field of a body.
+#[derive(Debug, Clone)]
+pub struct BodyField<T> {
+    /// Place of the field's name.
+    pub keyword: Span,
+    /// What is given.
+    pub value: T,
+}
+
+/// An inertia tensor.
+#[derive(Debug, Clone)]
+pub enum Inertia {
+    /// Something whose fault has been reported.
+    Missing,
+    /// `diag(xx, yy, zz)`.
+    Diagonal(Box<[Expression; 3]>),
+    /// `sym(xx, yy, zz, xy, yz, zx)`, entries of the matrix.
+    Symmetric(Box<[Expression; 6]>),
+}
+
+/// `force along direction`.
+#[derive(Debug, Clone)]
+pub struct Force {
+    /// Doc comments.
+    pub docs: Docs,
+    /// The force.
+    pub force: Expression,
+    /// Place of the `along`.
+    pub along: Span,
+    /// The velocity form that it does work on.
+    pub direction: Expression,
+}
+
+/// `scene Name { .. }`.
+#[derive(Debug, Clone)]
+pub struct Scene {
+    /// Doc comments.
+    pub docs: Docs,
+    /// Place of the `scene`.
+    pub keyword: Span,
+    /// The name.
+    pub name: Name,
+    /// What the scene looks at, of all `track` statements in order.
+    pub tracks: Vec<Name>,
+    /// What the scene fixes, of all `fix` statements in order.
+    pub fixes: Vec<Fix>,
+    /// What the scene provides beside the state, of all `provide` statements in order.
+    pub provides: Vec<Provide>,
+}
+
+/// `name = e` or `name` after `fix`.
+#[derive(Debug, Clone)]
+pub struct Fix {
+    /// What is fixed.
+    pub name: Name,
+    /// The value of a constant; none for a parameter or coordinate that stays at its initial value.
+    pub value: Option<Expression>,
+}
+
+/// `name` or `name(names)` after `provide`.
+#[derive(Debug, Clone)]
+pub struct Provide {
+    /// The quantity.
+    pub name: Name,
+    /// The names in parentheses, if there are parentheses.
+    pub of: Option<Vec<Name>>,
+}
+
+impl Item {
+    /// Which word begins the item.
+    pub fn kind(&self) -> SectionKind {
+        match self {
+            Item::Constants(_) => SectionKind::Constants,
+            Item::Inputs(_) => SectionKind::Inputs,
+            Item::Coordinates(_) => SectionKind::Coordinates,
+            Item::Let(_) => SectionKind::Let,
+            Item::Parameters(_) => SectionKind::Parameters,
+            Item::Constraints(_) => SectionKind::Constraints,
+            Item::Holonomic(_) => SectionKind::Holonomic,
+            Item::KineticEnergy(_) => SectionKind::KineticEnergy,
+            Item::Particles(_) => SectionKind::Particles,
+            Item::Bodies(_) => SectionKind::Bodies,
+            Item::Gravity(_) => SectionKind::Gravity,
+            Item::ForceFunction(_) => SectionKind::ForceFunction,
+            Item::PotentialEnergy(_) => SectionKind::PotentialEnergy,
+            Item::Forces(_) => SectionKind::Forces,
+            Item::Outputs(_) => SectionKind::Outputs,
+            Item::Provide(_) => SectionKind::Provide,
+            Item::Scene(_) => SectionKind::Scene,
+        }
+    }
+}

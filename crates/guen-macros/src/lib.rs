@@ -1,0 +1,11 @@
+//! The procedural macro of guen, a shim over `guen-language`: a proc-macro crate can export nothing else.
+//!
+//! Use it through the facade `guen`, whose macro `mechanical_system!` tells this one where the facade is.
+
+use proc_macro::TokenStream;
+
+/// Expands the declaration of a mechanical system; documented in the facade.
+#[proc_macro]
+pub fn mechanical_system(tokens: TokenStream) -> TokenStream {
+    guen_language::expand(tokens.into()).into()
+}

@@ -1,0 +1,138 @@
+//! What can go wrong at run time, with the facts needed to act on it.
+
+use core::error::Error;
+use core::fmt;
+
+use crate::real::Real;
+use crate::steppers::Statistics;
+
+/// Why a set of physical constants was refused. Each variant carries the offending value, as an `f64` for the
+/// message.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum ConstantsError {
+    /// A constant is infinite or NaN.
+    NotFinite {
+        /// The constant's name.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// A constant is outside its declared bound.
+    OutOfBound {
+        /// The constant's name.
+        name: &'static str,
+        /// The bound as declared, such as `a > 0`.
+        bound: &'static str,
+        /// The value.
+        value: f64,
+    },
+    /// An expression of constants alone that the derivation divides by is zero or not finite.
+    SingularPivot {
+        /// The expression, in the names of the declaration.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+    },
+}
+
+impl fmt::Display for ConstantsError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NotFinite { name, value } => write!(f, "constant `{name}` is {value}, which is not finite"),
+            Self::OutOfBound { name, bound, value } => {
+                write!(f, "constant `{name}` is {value}, but `{bound}` is declared")
+            }
+            Self::SingularPivot { what, value } => {
+                write!(f, "these constants make `{what}`, which the equations divide by, equal to {value}")
+            }
+        }
+    }
+}
+
+impl Error for ConstantsError {}
+
+/// Why an integration could not go on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Cause {
+    /// A state or a rate is infinite or NaN: the motion left the domain of the chart or of a force, or grew out
+    /// of range. An adaptive stepper reports this only after shorter steps did not avoid it.
+    NotFinite,
+    /// The step became too small to move time. With an adaptive stepper: a singularity, a discontinuous right
+    /// side, or a tolerance below rounding. With a fixed step: the step is below the spacing of numbers.
+    StepUnderflow,
+    /// The allowed number of trial steps is used up.
+    TooManySteps {
+        /// The number allowed.
+        limit: u64,
+    },
+    /// A setting or an argument makes no sense: nothing was integrated with it.
+    Setting(Setting),
+}
+
+/// A setting or argument of an integration that was refused.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Setting {
+    /// The step is not positive and finite.
+    Step,
+    /// A tolerance is negative or not finite, or both are zero.
+    Tolerance,
+    /// The time to go to is not finite.
+    Time,
+}
+
+impl fmt::Display for Cause {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NotFinite => f.write_str("the state or its rate is not finite"),
+            Self::StepUnderflow => f.write_str("the step is too small to move time"),
+            Self::TooManySteps { limit } => write!(f, "{limit} steps were not enough"),
+            Self::Setting(Setting::Step) => f.write_str("the step is not a positive number"),
+            Self::Setting(Setting::Tolerance) => {
+                f.write_str("the tolerances are not nonnegative numbers with a positive sum")
+            }
+            Self::Setting(Setting::Time) => f.write_str("the final time is not finite"),
+        }
+    }
+}
+
+/// A failed integration: where it stopped, why, and what had been reached.
+///
+/// `time` and `state` are those of the last accepted step, so the part of the motion before the failure is not
+/// lost: continue from there with other settings, or take it as the result.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct IntegrationError<R, const N: usize> {
+    /// The time that was reached.
+    pub time: R,
+    /// The state at that time. It is the initial state, finite or not, if no step succeeded.
+    pub state: [R; N],
+    /// Why the integration could not go on from there.
+    pub cause: Cause,
+    /// The work done until then.
+    pub statistics: Statistics,
+}
+
+impl<R: Real, const N: usize> fmt::Display for IntegrationError<R, N> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "integration stopped at t = {}: {}", self.time.to_f64(), self.cause)
+    }
+}
+
+impl<R: Real, const N: usize> Error for IntegrationError<R, N> {}
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+    use super::ConstantsError;
+    use std::string::ToString;
+
+    #[test]
+    fn messages_name_constant_and_bound() {
+        let error = ConstantsError::OutOfBound { name: "a", bound: "a > 0", value: -1.0 };
+        assert_eq!(error.to_string(), "constant `a` is -1, but `a > 0` is declared");
+        let error = ConstantsError::NotFinite { name: "g", value: f64::NAN };
+        assert_eq!(error.to_string(), "constant `g` is NaN, which is not finite");
+    }
+}

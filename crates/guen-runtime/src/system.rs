@@ -1,0 +1,95 @@
+//! What a stepper integrates: a right-hand side over `N` reals, and what it may be asked to keep.
+
+use crate::real::Real;
+
+/// A system of `N` ordinary differential equations of first order over the real `R`.
+///
+/// ```text
+/// dx/dt = rhs(t, x)
+/// ```
+///
+/// - `t`: time; `x`: the state, for a generated system its coordinates and then its parameters (the
+///   quasi-velocities), in the order of their declaration.
+/// - The result holds the rates, in the same order.
+/// - Outside the domain of its chart the right-hand side is NaN or infinite. It does not panic; steppers test.
+/// - Inputs are constant during a step: an implementation for a driven system holds them.
+///
+/// A closure becomes a system with [`from_fn`], and a reference to a system is one.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no system of {N} equations over `{R}`",
+    note = "a prepared system is one over the real it was prepared in; a closure becomes one with `from_fn`"
+)]
+pub trait System<R: Real, const N: usize> {
+    /// The rate of change of the state at time `t`.
+    fn rhs(&self, t: R, state: &[R; N]) -> [R; N];
+}
+
+impl<R: Real, S: System<R, N> + ?Sized, const N: usize> System<R, N> for &S {
+    #[inline]
+    fn rhs(&self, t: R, state: &[R; N]) -> [R; N] {
+        (**self).rhs(t, state)
+    }
+}
+
+/// A system with quantities that its exact solutions keep, for a monitor to watch.
+///
+/// The quantities are computed from the state alone, by other expressions than the right-hand side, so a change
+/// in them measures what the integration got wrong.
+pub trait Monitored<R: Real, const N: usize>: System<R, N> {
+    /// The energy integral at time `t`, in the units of the declared energies; a system that is
+    /// [`Conservative`](crate::Conservative) keeps it.
+    ///
+    /// ```text
+    /// h = sum_i x_i' dT/dx_i' - T - U
+    /// ```
+    ///
+    /// With `T` homogeneous of degree two in the velocities this is `T - U`, kinetic plus potential energy.
+    fn energy(&self, t: R, state: &[R; N]) -> R;
+
+    /// The largest absolute value among the left sides `f(t, x)` of the holonomic constraints `f = 0`, each in
+    /// its own unit; zero for a system without any.
+    fn residual(&self, t: R, state: &[R; N]) -> R;
+}
+
+impl<R: Real, S: Monitored<R, N> + ?Sized, const N: usize> Monitored<R, N> for &S {
+    #[inline]
+    fn energy(&self, t: R, state: &[R; N]) -> R {
+        (**self).energy(t, state)
+    }
+
+    #[inline]
+    fn residual(&self, t: R, state: &[R; N]) -> R {
+        (**self).residual(t, state)
+    }
+}
+
+/// A system made of a closure: see [`from_fn`].
+#[derive(Clone, Copy, Debug)]
+pub struct FromFn<F>(F);
+
+/// Turns a closure `(t, state) -> rates` into a [`System`].
+///
+/// ```
+/// use guen_runtime::{System, from_fn};
+///
+/// let oscillator = from_fn(|_t: f64, &[x, v]: &[f64; 2]| [v, -x]);
+/// assert_eq!(oscillator.rhs(0.0, &[1.0, 2.0]), [2.0, -1.0]);
+/// ```
+pub fn from_fn<R, F, const N: usize>(rhs: F) -> FromFn<F>
+where
+    R: Real,
+    F: Fn(R, &[R; N]) -> [R; N],
+{
+    FromFn(rhs)
+}
+
+impl<R, F, const N: usize> System<R, N> for FromFn<F>
+where
+    R: Real,
+    F: Fn(R, &[R; N]) -> [R; N],
+{
+    #[inline]
+    fn rhs(&self, t: R, state: &[R; N]) -> [R; N] {
+        (self.0)(t, state)
+    }
+}

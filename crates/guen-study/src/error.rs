@@ -1,0 +1,92 @@
+//! What can go wrong when a study is written down, with the file or the picture that it concerns.
+
+use std::error::Error;
+use std::fmt;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// Why a file or a picture could not be made.
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum StudyError {
+    /// A file or one of its parent folders could not be written.
+    Io {
+        /// The file or folder.
+        path: PathBuf,
+        /// What the operating system said.
+        source: io::Error,
+    },
+    /// A picture has no curve with a finite point.
+    NothingToDraw {
+        /// The picture's title.
+        title: String,
+    },
+    /// A picture of this size has no room for its axes, or more pixels than a picture may have.
+    Size {
+        /// The picture's title.
+        title: String,
+        /// The width asked for, in pixels.
+        width: u32,
+        /// The height asked for, in pixels.
+        height: u32,
+    },
+    /// The drawing library refused an element of a picture.
+    Drawing {
+        /// The picture's title.
+        title: String,
+        /// What the library said.
+        source: Box<dyn Error + Send + Sync>,
+    },
+}
+
+impl fmt::Display for StudyError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Io { path, source } => write!(f, "cannot write `{}`: {source}", path.display()),
+            Self::NothingToDraw { title } => write!(f, "picture `{title}` has no finite point to draw"),
+            Self::Size { title, width, height } => {
+                write!(f, "picture `{title}` cannot be drawn with {width} by {height} pixels")
+            }
+            Self::Drawing { title, source } => write!(f, "cannot draw picture `{title}`: {source}"),
+        }
+    }
+}
+
+impl Error for StudyError {
+    fn source(&self) -> Option<&(dyn Error + 'static)> {
+        match self {
+            Self::Io { source, .. } => Some(source),
+            Self::Drawing { source, .. } => Some(&**source),
+            Self::NothingToDraw { .. } | Self::Size { .. } => None,
+        }
+    }
+}
+
+/// Creates the folders that `path` lies in.
+pub(crate) fn create_parents(path: &Path) -> Result<(), StudyError> {
+    match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => {
+            fs::create_dir_all(folder).map_err(|source| StudyError::Io { path: folder.to_path_buf(), source })
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Attaches the file that was being written.
+pub(crate) fn at_path(path: &Path) -> impl FnOnce(io::Error) -> StudyError {
+    let path = path.to_path_buf();
+    move |source| StudyError::Io { path, source }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_failure_names_its_file() {
+        let error = at_path(Path::new("target/x.csv"))(io::Error::other("disk full"));
+        assert_eq!(error.to_string(), "cannot write `target/x.csv`: disk full");
+        assert!(error.source().is_some());
+    }
+}

@@ -1,0 +1,53 @@
+//! Recordings, tables and pictures of the motion of guen systems.
+//!
+//! A stepper hands out states; this crate is what a program does with them:
+//!
+//! | question | answer |
+//! | --- | --- |
+//! | what happened? | [`Recording`]: times and states, in bounded memory if wanted, and CSV |
+//! | how long will it take? | [`Progress`]: a line on the terminal during long runs |
+//! | how good is it? | [`Monitor`] and its [`Invariants`]; [`drift`] and [`residuals`] as curves |
+//! | what are the numbers? | [`Table`], aligned for a terminal; [`significant`] for one number |
+//! | what does it look like? | [`Plot`], an SVG picture |
+//! | what went wrong? | [`StudyError`] |
+//!
+//! ```
+//! use guen_runtime::{from_fn, steppers::Dop853};
+//! use guen_study::{Plot, Progress, Recording, Table};
+//!
+//! let oscillator = from_fn(|_t: f64, &[x, v]: &[f64; 2]| [v, -x]);
+//! let start = [1.0, 0.0];
+//! let mut recording = Recording::new(&["x", "v"]);
+//! let mut progress = Progress::new(0.0, 10.0);
+//! recording.record(0.0, &start);
+//! Dop853::new(1e-10, 1e-10)
+//!     .integrate(&oscillator, 0.0, &start, 10.0, progress.around(recording.observe()))
+//!     .unwrap();
+//! progress.finish();
+//!
+//! let mut table = Table::new(&["t", "x", "v"]);
+//! for (t, &[x, v]) in recording.spread(5) {
+//!     table.row(&[t, x, v]);
+//! }
+//! println!("{table}");
+//!
+//! let picture = Plot::new("oscillator").axes("t", "").line("x", recording.curve(0)).to_svg()?;
+//! assert!(picture.starts_with("<svg"));
+//! # Ok::<(), guen_study::StudyError>(())
+//! ```
+#![forbid(unsafe_code)]
+#![deny(missing_docs)]
+
+mod error;
+mod monitor;
+mod plot;
+mod progress;
+mod recording;
+mod table;
+
+pub use error::StudyError;
+pub use monitor::{Invariants, Monitor, drift, residuals};
+pub use plot::Plot;
+pub use progress::Progress;
+pub use recording::Recording;
+pub use table::{Table, significant};

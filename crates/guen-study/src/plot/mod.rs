@@ -1,0 +1,221 @@
+//! What a run looks like: curves on a pair of axes, as an SVG picture.
+//!
+//! A picture is made in four steps, each in its file: `frame` finds ranges and margins, with the marks that `ticks`
+//! chooses for an axis; `thin` reduces a curve to what can be seen of it; `draw` hands lines and texts to plotters.
+
+mod draw;
+mod frame;
+mod thin;
+mod ticks;
+
+use std::fs;
+use std::path::Path;
+
+use crate::error::{StudyError, at_path, create_parents};
+
+/// Curves on a pair of axes, drawn as SVG.
+///
+/// - Colours are those of Okabe and Ito's palette, which stay apart for the common kinds of colour blindness; from
+///   the eighth curve on they repeat, dashed.
+/// - The legend stands above the axes, so it hides no curve; curves with an empty label are not in it.
+/// - A point that is not finite, or beyond `1e300`, is a gap in its curve.
+/// - Where values differ by less than `1e-9` of their size, the axis does not magnify further and the curve looks
+///   flat: draw differences, such as a [`drift`](crate::drift), to see more.
+/// - A curve of more than 4000 points is thinned out: of successive points in one column of a quarter pixel, only
+///   the first, the lowest, the highest and the last are drawn. The drawn line is nowhere farther than a
+///   quarter pixel from the curve, nor the curve from it, and the extremes of `y` are kept exactly. So a curve over
+///   time makes at most 16 points per pixel of its width, however long it is; a track that goes to and fro makes
+///   more.
+///
+/// ```
+/// use guen_study::Plot;
+///
+/// let circle = (0..=100).map(|k| f64::from(k) * 0.0628).map(|s| (s.cos(), s.sin()));
+/// let path = std::env::temp_dir().join("guen-study-example").join("circle.svg");
+/// Plot::new("Track of the contact point")
+///     .size(480, 480)
+///     .axes("x in m", "y in m")
+///     .equal_scale(true)
+///     .line("hoop", circle)
+///     .mark_ends(true)
+///     .save(&path)?;
+/// # Ok::<(), guen_study::StudyError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+#[must_use = "a plot is a description: `save` or `to_svg` draws it"]
+pub struct Plot {
+    title: String,
+    width: u32,
+    height: u32,
+    x_label: String,
+    y_label: String,
+    equal_scale: bool,
+    mark_ends: bool,
+    curves: Vec<Curve>,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+struct Curve {
+    label: String,
+    points: Vec<(f64, f64)>,
+}
+
+impl Plot {
+    /// A picture of 800 by 480 pixels with a title, which may be empty, and no curves yet.
+    pub fn new(title: impl Into<String>) -> Self {
+        Self {
+            title: title.into(),
+            width: 800,
+            height: 480,
+            x_label: String::new(),
+            y_label: String::new(),
+            equal_scale: false,
+            mark_ends: false,
+            curves: Vec::new(),
+        }
+    }
+
+    /// The same with another size in pixels, from 240 by 180 to 20000 by 20000. A long legend needs more.
+    pub fn size(mut self, width: u32, height: u32) -> Self {
+        (self.width, self.height) = (width, height);
+        self
+    }
+
+    /// The same with texts at the axes; an empty one takes no room.
+    pub fn axes(mut self, x: impl Into<String>, y: impl Into<String>) -> Self {
+        (self.x_label, self.y_label) = (x.into(), y.into());
+        self
+    }
+
+    /// The same with a unit as long on one axis as on the other, or not: for tracks on a plane, so that a circle is
+    /// round.
+    pub fn equal_scale(mut self, equal: bool) -> Self {
+        self.equal_scale = equal;
+        self
+    }
+
+    /// The same with a ring where each curve starts and a dot where it ends, or without.
+    pub fn mark_ends(mut self, mark: bool) -> Self {
+        self.mark_ends = mark;
+        self
+    }
+
+    /// The same with a further curve.
+    pub fn line(mut self, label: impl Into<String>, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
+        self.curves.push(Curve { label: label.into(), points: points.into_iter().collect() });
+        self
+    }
+
+    /// The picture as the text of an SVG file.
+    ///
+    /// ```
+    /// use guen_study::{Plot, StudyError};
+    ///
+    /// let text = Plot::new("two points").line("", [(0.0, 1.0), (1.0, 3.0)]).to_svg()?;
+    /// assert!(text.contains("two points"));
+    /// assert!(matches!(Plot::new("none").to_svg(), Err(StudyError::NothingToDraw { .. })));
+    /// # Ok::<(), StudyError>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// A size out of its range, or too small for the legend; no finite point in any curve; a complaint of the drawing library.
+    pub fn to_svg(&self) -> Result<String, StudyError> {
+        draw::draw(self)
+    }
+
+    /// Writes the picture to a file whose parent folders are created.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`to_svg`](Plot::to_svg), and [`StudyError::Io`] with the path.
+    pub fn save(&self, path: impl AsRef<Path>) -> Result<(), StudyError> {
+        let path = path.as_ref();
+        let text = self.to_svg()?;
+        create_parents(path)?;
+        fs::write(path, text).map_err(at_path(path))
+    }
+}
+
+/// Whether a point can be drawn. The bound keeps differences of coordinates finite.
+fn is_drawable(&(x, y): &(f64, f64)) -> bool {
+    const FAR: f64 = 1e300;
+    x.abs() <= FAR && y.abs() <= FAR
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sine(samples: u32) -> impl Iterator<Item = (f64, f64)> {
+        (0..=samples).map(move |k| f64::from(k) * 20.0 / f64::from(samples)).map(|t| (t, t.sin()))
+    }
+
+    #[test]
+    fn a_long_curve_makes_a_short_file() {
+        let text = Plot::new("sine").line("sin", sine(1_000_000)).to_svg().unwrap();
+        assert!(text.len() < 200_000, "{} bytes", text.len());
+    }
+
+    #[test]
+    fn a_gap_where_a_point_is_not_finite() {
+        let pieces = |points: &[(f64, f64)]| {
+            let text = Plot::new("").line("", points.iter().copied()).to_svg().unwrap();
+            text.lines().filter(|line| line.starts_with("<polyline") && line.contains("#0072B2")).count()
+        };
+        assert_eq!(pieces(&[(0.0, 0.0), (1.0, 1.0), (2.0, 0.0), (3.0, 1.0), (4.0, 1.0)]), 1);
+        assert_eq!(pieces(&[(0.0, 0.0), (1.0, 1.0), (2.0, f64::NAN), (3.0, 1.0), (4.0, 1.0)]), 2);
+        assert_eq!(pieces(&[(0.0, 0.0), (1.0, 1.0), (f64::INFINITY, 0.0)]), 1);
+    }
+
+    #[test]
+    fn texts_are_escaped() {
+        let text = Plot::new("a < b & c").axes("<x>", "\"y\"").line("p & q", sine(10)).to_svg().unwrap();
+        assert!(
+            text.contains("a &lt; b &amp; c") && text.contains("&lt;x&gt;") && text.contains("p &amp; q")
+        );
+    }
+
+    #[test]
+    fn refusals_are_typed() {
+        let empty = Plot::new("e").line("x", [(f64::NAN, 0.0), (0.0, f64::INFINITY)]);
+        assert!(matches!(empty.to_svg(), Err(StudyError::NothingToDraw { .. })));
+        for (width, height) in [(0, 0), (239, 400), (400, 179), (u32::MAX, 400)] {
+            let plot = Plot::new("s").size(width, height).line("x", sine(10));
+            assert!(matches!(plot.to_svg(), Err(StudyError::Size { .. })));
+        }
+        let crowded =
+            (0..40).fold(Plot::new("c").size(240, 180), |plot, k| plot.line(format!("curve {k}"), sine(3)));
+        assert!(matches!(crowded.to_svg(), Err(StudyError::Size { .. })));
+    }
+
+    #[test]
+    fn strange_data_is_drawn() {
+        for points in [
+            vec![(0.0, 0.0)],
+            vec![(1.0, 5.0), (1.0, 5.0)],
+            vec![(1e300, -1e300), (-1e300, 1e300)],
+            vec![(0.0, 5e-324), (1.0, 0.0)],
+            vec![(1e15, 1.0), (1e15 + 1.0, 1.0 + 1e-15)],
+        ] {
+            for equal in [false, true] {
+                for size in [(240, 180), (2000, 300)] {
+                    let plot = Plot::new("t").axes("x", "y").line("l", points.clone()).mark_ends(true);
+                    let text = plot.size(size.0, size.1).equal_scale(equal).to_svg().unwrap();
+                    assert!(!text.contains("NaN") && text.ends_with("</svg>\n"), "{points:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_file_in_a_new_folder() {
+        let folder = std::env::temp_dir().join(format!("guen-study-svg-{}", std::process::id()));
+        let path = folder.join("deep/sine.svg");
+        let plot = Plot::new("sine").line("sin", sine(100));
+        plot.save(&path).unwrap();
+        assert_eq!(fs::read_to_string(&path).unwrap(), plot.to_svg().unwrap());
+        assert!(matches!(plot.save(&folder), Err(StudyError::Io { .. })));
+        fs::remove_dir_all(folder).unwrap();
+    }
+}

@@ -1,0 +1,111 @@
+//! One memoised directional derivative: partial derivatives, flows and `X_s(f)` are all of this kind.
+
+use super::Rational;
+use super::graph::{ExprId, FastMap, Graph, Node, Roles, SymbolId};
+
+/// A direction `sum v_k d/dx_k` in the space of symbols, with what was differentiated along it so far.
+///
+/// ```
+/// use guen_symbolic::{Flow, Graph, Role};
+/// let mut g = Graph::new();
+/// let x = g.symbol("x", Role::Coordinate);
+/// let v = g.symbol("v", Role::Velocity);
+/// let mut rate = Flow::new(&g, [(x, v)]);
+/// let x2 = g.powi(x, 2);
+/// let derivative = rate.of(&mut g, x2);
+/// assert_eq!(g.text(derivative), "2*x*v");
+/// ```
+#[derive(Clone, Debug)]
+pub struct Flow {
+    images: FastMap<SymbolId, ExprId>,
+    roles: Roles,
+    memo: FastMap<ExprId, ExprId>,
+}
+
+impl Flow {
+    /// The direction that moves each symbol at the given rate and leaves all others fixed.
+    pub fn new(graph: &Graph, rates: impl IntoIterator<Item = (ExprId, ExprId)>) -> Self {
+        let mut flow = Flow { images: FastMap::default(), roles: Roles::NONE, memo: FastMap::default() };
+        for (symbol, rate) in rates {
+            if let Some(symbol) = graph.as_symbol(symbol)
+                && !graph.is_zero(rate)
+            {
+                flow.images.insert(symbol, rate);
+                flow.roles = flow.roles.or(Roles::of(graph.symbol_info(symbol).role));
+            }
+        }
+        flow
+    }
+
+    /// The partial derivative by one symbol.
+    pub fn partial(graph: &Graph, symbol: ExprId) -> Self {
+        Flow::new(graph, [(symbol, graph.one())])
+    }
+
+    /// The derivative of an expression along this direction.
+    pub fn of(&mut self, graph: &mut Graph, e: ExprId) -> ExprId {
+        if !graph.roles(e).meets(self.roles) {
+            return graph.zero();
+        }
+        if let Some(known) = self.memo.get(&e) {
+            return *known;
+        }
+        let pending =
+            graph.reachable(&[e], |id| !graph.roles(id).meets(self.roles) || self.memo.contains_key(&id));
+        for id in pending {
+            let derivative = self.step(graph, id);
+            self.memo.insert(id, derivative);
+        }
+        self.memo[&e]
+    }
+
+    fn known(&self, graph: &Graph, id: ExprId) -> ExprId {
+        self.memo.get(&id).copied().unwrap_or(graph.zero())
+    }
+
+    /// The derivative of a node whose children are done.
+    fn step(&self, graph: &mut Graph, id: ExprId) -> ExprId {
+        match graph.node(id).clone() {
+            Node::Number(_) | Node::Pi => graph.zero(),
+            Node::Undefined => id,
+            Node::Symbol(symbol) => self.images.get(&symbol).copied().unwrap_or(graph.zero()),
+            Node::Sum { terms, .. } => {
+                let terms: Vec<_> =
+                    terms.iter().map(|(term, c)| (self.known(graph, *term), c.clone())).collect();
+                graph.linear(&terms)
+            }
+            Node::Product(factors) => {
+                // (prod b^e)' = sum e b^(e-1) b' prod of the others
+                let mut terms = Vec::new();
+                for (i, (base, e)) in factors.iter().enumerate() {
+                    let slope = self.known(graph, *base);
+                    if graph.is_zero(slope) {
+                        continue;
+                    }
+                    let mut product = factors.to_vec();
+                    product[i].1 -= 1;
+                    product.push((slope, 1));
+                    terms.push((graph.product(&product), Rational::integer((*e).into())));
+                }
+                graph.linear(&terms)
+            }
+            Node::Function(function, x) => {
+                let inner = self.known(graph, x);
+                if graph.is_zero(inner) {
+                    return graph.zero();
+                }
+                let slope = graph.function_derivative(function, x, id);
+                graph.mul(slope, inner)
+            }
+            Node::Atan2(y, x) => {
+                // d atan2(y, x) = (x dy - y dx)/(x^2 + y^2)
+                let (dy, dx) = (self.known(graph, y), self.known(graph, x));
+                let (xdy, ydx) = (graph.mul(x, dy), graph.mul(y, dx));
+                let numerator = graph.sub(xdy, ydx);
+                let (x2, y2) = (graph.powi(x, 2), graph.powi(y, 2));
+                let denominator = graph.add(x2, y2);
+                graph.div(numerator, denominator)
+            }
+        }
+    }
+}

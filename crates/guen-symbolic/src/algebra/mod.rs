@@ -1,0 +1,19 @@
+//! Exact expressions: a hash-consed graph of sums, products, integer powers and elementary functions.
+//!
+//! What comes in are numbers, symbols and operations on them; what goes out are identifiers of
+//! expressions in a normal form that makes equal subexpressions one. The graph never decides whether
+//! something vanishes *as a function*: that is the question of `crate::zero`.
+
+mod build;
+mod derivative;
+mod functions;
+mod graph;
+mod rational;
+mod substitute;
+
+pub use derivative::Flow;
+pub use functions::Function;
+pub(crate) use graph::FastMap;
+pub use graph::{Bound, ExprId, Graph, Node, PowerError, Role, Roles, Symbol, SymbolId};
+pub use rational::Rational;
+pub use substitute::Substitution;

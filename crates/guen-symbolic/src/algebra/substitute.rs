@@ -1,0 +1,59 @@
+//! Replacing subexpressions, the same way everywhere, each shared node once.
+
+use super::Rational;
+use super::graph::{ExprId, FastMap, Graph, Node};
+
+/// A simultaneous replacement of expressions (usually symbols) by others, with what was replaced so far.
+///
+/// ```
+/// use guen_symbolic::{Graph, Role, Substitution};
+/// let mut g = Graph::new();
+/// let x = g.symbol("x", Role::Coordinate);
+/// let (one, zero) = (g.one(), g.zero());
+/// let (s, e) = (g.sin(x), g.add(x, one));
+/// let both = g.add(s, e);
+/// let at_zero = Substitution::new([(x, zero)]).of(&mut g, both);
+/// assert_eq!(at_zero, one);
+/// ```
+#[derive(Clone, Debug, Default)]
+pub struct Substitution {
+    images: FastMap<ExprId, ExprId>,
+}
+
+impl Substitution {
+    /// Replaces the first of each pair by the second.
+    pub fn new(pairs: impl IntoIterator<Item = (ExprId, ExprId)>) -> Self {
+        Substitution { images: pairs.into_iter().collect() }
+    }
+
+    /// The expression with everything replaced; replacements are not looked into again.
+    pub fn of(&mut self, graph: &mut Graph, e: ExprId) -> ExprId {
+        let pending = graph.reachable(&[e], |id| self.images.contains_key(&id));
+        for id in pending {
+            let image = self.step(graph, id);
+            self.images.insert(id, image);
+        }
+        self.images[&e]
+    }
+
+    fn step(&self, graph: &mut Graph, id: ExprId) -> ExprId {
+        if graph.children(id).iter().all(|child| self.images[child] == *child) {
+            return id;
+        }
+        match graph.node(id).clone() {
+            Node::Number(_) | Node::Pi | Node::Symbol(_) | Node::Undefined => id,
+            Node::Sum { constant, terms } => {
+                let mut terms: Vec<_> =
+                    terms.iter().map(|(term, c)| (self.images[term], c.clone())).collect();
+                terms.push((graph.number(constant), Rational::ONE));
+                graph.linear(&terms)
+            }
+            Node::Product(factors) => {
+                let factors: Vec<_> = factors.iter().map(|(base, e)| (self.images[base], *e)).collect();
+                graph.product(&factors)
+            }
+            Node::Function(function, x) => graph.function(function, self.images[&x]),
+            Node::Atan2(y, x) => graph.atan2(self.images[&y], self.images[&x]),
+        }
+    }
+}

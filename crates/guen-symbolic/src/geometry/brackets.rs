@@ -1,0 +1,116 @@
+//! Structure coefficients of the commutators, (1.11) and (1.14), from the exterior derivative of the forms, (1.10).
+//!
+//! `C_ijt = -sum_{p<q} (d a_tq/d x_p - d a_tp/d x_q) (xi_i^p xi_j^q - xi_i^q xi_j^p)`, `p, q` from 0 with
+//! `x_0 = t`, `xi_0^0 = 1`: no derivative of the inverse is needed. Coefficients are computed when they are
+//! asked for, each once: twenty coordinates have four thousand of them.
+
+use std::collections::BTreeMap;
+
+use super::{Forms, Operators};
+use crate::algebra::{ExprId, Flow};
+use crate::workbench::Workbench;
+
+/// The brackets of the operators, computed on demand.
+pub struct Brackets {
+    operators: Operators,
+    degrees: usize,
+    // For each form the components of its exterior derivative that are not zero, `p < q`.
+    curls: Vec<Vec<(usize, usize, ExprId)>>,
+    coefficients: BTreeMap<(usize, usize, usize), ExprId>,
+}
+
+impl Brackets {
+    /// Prepares the exterior derivatives of the forms.
+    pub fn new(bench: &mut Workbench, forms: &Forms, operators: &Operators) -> Self {
+        let n = forms.len();
+        let mut partials: Vec<Flow> =
+            (0..=n).map(|p| Flow::partial(&bench.graph, forms.variable(p))).collect();
+        let curls = (0..n)
+            .map(|t| {
+                let mut curl: BTreeMap<(usize, usize), ExprId> = BTreeMap::new();
+                for q in 0..=n {
+                    let a = forms.component(t, q);
+                    if bench.graph.roles(a).is_constant() {
+                        continue;
+                    }
+                    for (p, partial) in partials.iter_mut().enumerate().filter(|(p, _)| *p != q) {
+                        let slope = partial.of(&mut bench.graph, a);
+                        if bench.graph.is_zero(slope) {
+                            continue;
+                        }
+                        // d a_q/d x_p enters (p, q) with plus, or (q, p) with minus.
+                        let (key, slope) =
+                            if p < q { ((p, q), slope) } else { ((q, p), bench.graph.neg(slope)) };
+                        let old = curl.get(&key).copied().unwrap_or(bench.graph.zero());
+                        curl.insert(key, bench.graph.add(old, slope));
+                    }
+                }
+                let zero = bench.graph.zero();
+                curl.into_iter()
+                    .map(|((p, q), e)| (p, q, bench.tidy(e)))
+                    .filter(|(_, _, e)| *e != zero)
+                    .collect()
+            })
+            .collect();
+        Brackets {
+            operators: operators.clone(),
+            degrees: forms.degrees,
+            curls,
+            coefficients: BTreeMap::new(),
+        }
+    }
+
+    /// Whether the form `eta_{t+1}` is closed, so that none of its coefficients differs from zero.
+    pub fn is_closed(&self, t: usize) -> bool {
+        self.curls[t].is_empty()
+    }
+
+    /// `C_ijt`: `i`, `j` from 0, `t` from 1, as in the paper.
+    pub fn coefficient(&mut self, bench: &mut Workbench, i: usize, j: usize, t: usize) -> ExprId {
+        if i == j || self.curls[t - 1].is_empty() {
+            return bench.graph.zero();
+        }
+        if i > j {
+            let swapped = self.coefficient(bench, j, i, t);
+            return bench.graph.neg(swapped);
+        }
+        if let Some(known) = self.coefficients.get(&(i, j, t)) {
+            return *known;
+        }
+        let mut terms = Vec::new();
+        for (p, q, curl) in &self.curls[t - 1] {
+            let (ip, iq) = (self.component(bench, i, *p), self.component(bench, i, *q));
+            let (jp, jq) = (self.component(bench, j, *p), self.component(bench, j, *q));
+            let (forward, backward) = (bench.graph.mul(ip, jq), bench.graph.mul(iq, jp));
+            let area = bench.graph.sub(forward, backward);
+            terms.push(bench.graph.mul(*curl, area));
+        }
+        let sum = bench.graph.sum(terms);
+        let sum = bench.graph.neg(sum);
+        let coefficient = bench.tidy(sum);
+        self.coefficients.insert((i, j, t), coefficient);
+        coefficient
+    }
+
+    /// `C_0st + sum_{r<=l} eta_r C_rst`: how the form `t` turns along the motion against `X_s`.
+    pub fn along_motion(&mut self, bench: &mut Workbench, etas: &[ExprId], s: usize, t: usize) -> ExprId {
+        if self.is_closed(t - 1) {
+            return bench.graph.zero();
+        }
+        let mut terms = vec![self.coefficient(bench, 0, s, t)];
+        for r in 1..=self.degrees {
+            let c = self.coefficient(bench, r, s, t);
+            terms.push(bench.graph.mul(etas[r - 1], c));
+        }
+        bench.graph.sum(terms)
+    }
+
+    /// `xi_j^p` with `xi_0^0 = 1` and `xi_j^0 = 0`.
+    fn component(&self, bench: &Workbench, j: usize, p: usize) -> ExprId {
+        match (j, p) {
+            (0, 0) => bench.graph.one(),
+            (_, 0) => bench.graph.zero(),
+            _ => self.operators.xi[j][p - 1],
+        }
+    }
+}

@@ -1,0 +1,498 @@
+//! The operators of displacement (1.4), (1.7): `xi = A^-1` and `xi_0 = -A^-1 a_0`, without pivots that can vanish.
+//!
+//! Rows are eliminated on entries that are nonzero numbers, or constants that the declaration promises to
+//! be nonzero, rows of constraints first. What remains is split into the blocks of its block triangular
+//! form; a block is inverted by `K^T D^-1` when its rows are orthogonal, else by its adjugate. Pivoting on a
+//! function that can vanish would make the operators wrong near its zeros although the forms are regular there.
+
+use std::collections::BTreeMap;
+
+use super::Forms;
+use crate::algebra::{ExprId, Rational};
+use crate::workbench::Workbench;
+use crate::zero::Verdict;
+
+/// Blocks above this size are eliminated row by row, and the pivots join the domain of the chart.
+const ADJUGATE_SIZE: usize = 5;
+
+/// The operators `X_0..X_n` by their coefficients.
+#[derive(Clone, Debug)]
+pub struct Operators {
+    /// `xi[j][i]`, the coefficient of `d/dx_{i+1}` in `X_j`, `j` from 0.
+    pub xi: Vec<Vec<ExprId>>,
+    /// Functions of `t, x` that must not vanish: the factors of `det A` that are not constants.
+    pub chart: Vec<ExprId>,
+    /// Functions of constants alone that must not vanish.
+    pub constant_pivots: Vec<ExprId>,
+}
+
+/// The forms are linearly dependent as functions.
+#[derive(Clone, Debug)]
+pub struct SingularForms {
+    /// Forms (by index) and coefficients of a combination whose velocities cancel; coefficients where they are known.
+    pub combination: Vec<(usize, Option<ExprId>)>,
+    /// What the combination leaves: `sum c_j a_j0`, where the coefficients are known.
+    pub rest: Option<ExprId>,
+}
+
+/// A linear equation `sum_c entries[c] x_c' = sum_j right[j] eta_j`, where `right[0]` goes with the number one.
+#[derive(Clone)]
+struct Equation {
+    entries: BTreeMap<usize, ExprId>,
+    right: BTreeMap<usize, ExprId>,
+}
+
+impl Operators {
+    /// Inverts the forms.
+    pub fn new(bench: &mut Workbench, forms: &Forms) -> Result<Self, SingularForms> {
+        let n = forms.len();
+        if let Some(singular) = dependency(bench, forms) {
+            return Err(singular);
+        }
+        let mut equations: Vec<Option<Equation>> = Vec::with_capacity(n);
+        for (j, form) in forms.forms.iter().enumerate() {
+            let entries = form
+                .row
+                .iter()
+                .enumerate()
+                .filter(|(_, a)| !bench.graph.is_zero(**a))
+                .map(|(c, a)| (c, *a))
+                .collect();
+            let mut right = BTreeMap::from([(j + 1, bench.graph.one())]);
+            if !bench.graph.is_zero(form.offset) {
+                right.insert(0, bench.graph.neg(form.offset));
+            }
+            equations.push(Some(Equation { entries, right }));
+        }
+        let mut solver = Solver { bench, chart: Vec::new(), constant_pivots: Vec::new(), solved: Vec::new() };
+        solver.eliminate(&mut equations, forms.degrees);
+        let core: Vec<Equation> = equations.into_iter().flatten().collect();
+        let mut values: Vec<Option<BTreeMap<usize, ExprId>>> = vec![None; n];
+        solver.solve_core(core, &mut values)?;
+        solver.substitute_back(&mut values);
+        let Solver { chart, constant_pivots, .. } = solver;
+        let zero = bench.graph.zero();
+        let xi = (0..=n)
+            .map(|j| {
+                values
+                    .iter()
+                    .map(|value| {
+                        let value = value.as_ref().expect("every coordinate is solved for");
+                        value.get(&j).copied().unwrap_or(zero)
+                    })
+                    .collect()
+            })
+            .collect();
+        Ok(Operators { xi, chart, constant_pivots })
+    }
+}
+
+/// The first combination of rows that vanishes, by rank modulo p; its coefficients by elimination where rows are few.
+fn dependency(bench: &mut Workbench, forms: &Forms) -> Option<SingularForms> {
+    let rows: Vec<Vec<ExprId>> = forms.forms.iter().map(|form| form.row.clone()).collect();
+    let rank = bench.zero.rank(&mut bench.graph, &rows, true)?;
+    if rank == rows.len() {
+        return None;
+    }
+    // Grow an independent set; the first row that does not enlarge it is dependent on the ones before.
+    let mut independent: Vec<usize> = Vec::new();
+    for j in 0..rows.len() {
+        let mut trial: Vec<Vec<ExprId>> = independent.iter().map(|k| rows[*k].clone()).collect();
+        trial.push(rows[j].clone());
+        if bench.zero.rank(&mut bench.graph, &trial, true)? == trial.len() {
+            independent.push(j);
+            continue;
+        }
+        // Keep only the rows that the dependence needs.
+        let mut support = independent.clone();
+        for k in independent {
+            let without: Vec<usize> = support.iter().copied().filter(|other| *other != k).collect();
+            let mut trial: Vec<Vec<ExprId>> = without.iter().map(|k| rows[*k].clone()).collect();
+            trial.push(rows[j].clone());
+            if bench.zero.rank(&mut bench.graph, &trial, true)? < trial.len() {
+                support = without;
+            }
+        }
+        return Some(combination(bench, forms, &support, j));
+    }
+    None
+}
+
+/// Coefficients of `row_j = sum c_k row_k` by Cramer's rule on columns where the support is regular.
+fn combination(bench: &mut Workbench, forms: &Forms, support: &[usize], j: usize) -> SingularForms {
+    let unknown = |support: &[usize]| SingularForms {
+        combination: support.iter().chain([&j]).map(|k| (*k, None)).collect(),
+        rest: None,
+    };
+    if support.len() > ADJUGATE_SIZE {
+        return unknown(support);
+    }
+    let mut columns: Vec<usize> = Vec::new();
+    for c in 0..forms.len() {
+        let mut trial = columns.clone();
+        trial.push(c);
+        let minor: Vec<Vec<ExprId>> =
+            trial.iter().map(|c| support.iter().map(|k| forms.forms[*k].row[*c]).collect()).collect();
+        if bench.zero.rank(&mut bench.graph, &minor, true) == Some(trial.len()) {
+            columns = trial;
+        }
+    }
+    if columns.len() != support.len() {
+        return unknown(support);
+    }
+    // B^T c = r with B the support's minor and r the dependent row on the same columns.
+    let matrix: Vec<Vec<ExprId>> =
+        columns.iter().map(|c| support.iter().map(|k| forms.forms[*k].row[*c]).collect()).collect();
+    let (adjugate, determinant) = adjugate(bench, &matrix);
+    let target: Vec<ExprId> = columns.iter().map(|c| forms.forms[j].row[*c]).collect();
+    let mut combination = Vec::new();
+    let mut rest = bench.graph.neg(forms.forms[j].offset);
+    for (row, k) in adjugate.iter().zip(support) {
+        let numerator = bench.dot(row, &target);
+        let quotient = bench.graph.div(numerator, determinant);
+        let c = bench.tidy(quotient);
+        let share = bench.graph.mul(c, forms.forms[*k].offset);
+        rest = bench.graph.add(rest, share);
+        combination.push((*k, Some(c)));
+    }
+    combination.push((j, Some(bench.graph.number(Rational::MINUS_ONE))));
+    SingularForms { combination, rest: Some(bench.tidy(rest)) }
+}
+
+struct Solver<'a> {
+    bench: &'a mut Workbench,
+    chart: Vec<ExprId>,
+    constant_pivots: Vec<ExprId>,
+    // Columns with the equations that give them, in the order of elimination.
+    solved: Vec<(usize, Equation)>,
+}
+
+impl Solver<'_> {
+    /// Eliminates on pivots that cannot vanish, cheapest fill first, rows of constraints first.
+    fn eliminate(&mut self, equations: &mut [Option<Equation>], degrees: usize) {
+        loop {
+            let mut counts: BTreeMap<usize, usize> = BTreeMap::new();
+            for equation in equations.iter().flatten() {
+                for c in equation.entries.keys() {
+                    *counts.entry(*c).or_default() += 1;
+                }
+            }
+            let mut best: Option<((bool, bool, usize), usize, usize)> = None;
+            for (r, equation) in equations.iter().enumerate() {
+                let Some(equation) = equation else { continue };
+                for (c, a) in &equation.entries {
+                    let number = self.bench.graph.as_number(*a).is_some();
+                    if !number
+                        && !(self.bench.graph.roles(*a).is_constant()
+                            && self.bench.graph.manifestly_nonzero(*a))
+                    {
+                        continue;
+                    }
+                    let fill = (equation.entries.len() - 1) * (counts[c] - 1);
+                    let rank = (!number, r < degrees, fill);
+                    if best.as_ref().is_none_or(|(known, ..)| rank < *known) {
+                        best = Some((rank, r, *c));
+                    }
+                }
+            }
+            let Some((_, r, c)) = best else { return };
+            let pivot_row = equations[r].take().expect("the pivot's row is active");
+            let row = self.normalised(pivot_row, c);
+            for equation in equations.iter_mut().flatten() {
+                if let Some(factor) = equation.entries.remove(&c) {
+                    self.subtract(equation, factor, &row);
+                }
+            }
+            self.solved.push((c, row));
+        }
+    }
+
+    /// The row divided by its entry in column `c`, that entry taken out.
+    fn normalised(&mut self, mut row: Equation, c: usize) -> Equation {
+        let pivot = row.entries.remove(&c).expect("the pivot's column occurs");
+        for value in row.entries.values_mut().chain(row.right.values_mut()) {
+            let quotient = self.bench.graph.div(*value, pivot);
+            *value = self.bench.tidy(quotient);
+        }
+        row
+    }
+
+    /// `equation -= factor * row`.
+    fn subtract(&mut self, equation: &mut Equation, factor: ExprId, row: &Equation) {
+        let bench = &mut *self.bench;
+        for (into, from) in [(&mut equation.entries, &row.entries), (&mut equation.right, &row.right)] {
+            for (c, value) in from {
+                let product = bench.graph.mul(factor, *value);
+                let old = into.get(c).copied().unwrap_or(bench.graph.zero());
+                let difference = bench.graph.sub(old, product);
+                let difference = bench.tidy(difference);
+                if bench.graph.is_zero(difference) {
+                    into.remove(c);
+                } else {
+                    into.insert(*c, difference);
+                }
+            }
+        }
+    }
+
+    /// Solves what elimination left, block by block.
+    fn solve_core(
+        &mut self,
+        core: Vec<Equation>,
+        values: &mut [Option<BTreeMap<usize, ExprId>>],
+    ) -> Result<(), SingularForms> {
+        let generic = || SingularForms { combination: Vec::new(), rest: None };
+        for (rows, columns) in blocks(&core).ok_or_else(generic)? {
+            let mut right: Vec<BTreeMap<usize, ExprId>> = Vec::new();
+            for r in &rows {
+                let mut equation = Equation { entries: BTreeMap::new(), right: core[*r].right.clone() };
+                for (c, a) in &core[*r].entries {
+                    if let Some(known) = &values[*c] {
+                        let row = Equation { entries: BTreeMap::new(), right: known.clone() };
+                        self.subtract(&mut equation, *a, &row);
+                    }
+                }
+                right.push(equation.right);
+            }
+            let zero = self.bench.graph.zero();
+            let matrix: Vec<Vec<ExprId>> = rows
+                .iter()
+                .map(|r| columns.iter().map(|c| core[*r].entries.get(c).copied().unwrap_or(zero)).collect())
+                .collect();
+            let inverse = self.inverse(&matrix).ok_or_else(generic)?;
+            for (i, c) in columns.iter().enumerate() {
+                let mut value: BTreeMap<usize, ExprId> = BTreeMap::new();
+                for (k, right) in right.iter().enumerate() {
+                    for (j, e) in right {
+                        let product = self.bench.graph.mul(inverse[i][k], *e);
+                        let old = value.get(j).copied().unwrap_or(zero);
+                        value.insert(*j, self.bench.graph.add(old, product));
+                    }
+                }
+                for e in value.values_mut() {
+                    *e = self.bench.tidy(*e);
+                }
+                value.retain(|_, e| !self.bench.graph.is_zero(*e));
+                values[*c] = Some(value);
+            }
+        }
+        Ok(())
+    }
+
+    fn inverse(&mut self, matrix: &[Vec<ExprId>]) -> Option<Vec<Vec<ExprId>>> {
+        let n = matrix.len();
+        if n > 1
+            && let Some(inverse) = self.orthogonal_inverse(matrix)
+        {
+            return Some(inverse);
+        }
+        if n > ADJUGATE_SIZE {
+            return self.eliminated_inverse(matrix);
+        }
+        let (mut inverse, determinant) = adjugate(self.bench, matrix);
+        if self.bench.verdict_on_manifold(determinant) == Verdict::Zero {
+            return None;
+        }
+        self.require(determinant);
+        for e in inverse.iter_mut().flatten() {
+            let quotient = self.bench.graph.div(*e, determinant);
+            *e = self.bench.tidy(quotient);
+        }
+        Some(inverse)
+    }
+
+    /// `K^-1 = K^T D^-1` for orthogonal rows, `D` the squares of their lengths.
+    fn orthogonal_inverse(&mut self, matrix: &[Vec<ExprId>]) -> Option<Vec<Vec<ExprId>>> {
+        let n = matrix.len();
+        for i in 0..n {
+            for k in 0..i {
+                let product = self.bench.dot(&matrix[i], &matrix[k]);
+                if !self.bench.vanishes(product) {
+                    return None;
+                }
+            }
+        }
+        let mut inverse = vec![vec![self.bench.graph.zero(); n]; n];
+        for (k, row) in matrix.iter().enumerate() {
+            let square = self.bench.dot(row, row);
+            let square = self.bench.tidy(square);
+            self.require(square);
+            for (i, e) in row.iter().enumerate() {
+                let quotient = self.bench.graph.div(*e, square);
+                inverse[i][k] = self.bench.tidy(quotient);
+            }
+        }
+        Some(inverse)
+    }
+
+    /// Gauss-Jordan elimination on pivots that are not identically zero; they join the chart's domain.
+    fn eliminated_inverse(&mut self, matrix: &[Vec<ExprId>]) -> Option<Vec<Vec<ExprId>>> {
+        let n = matrix.len();
+        let (zero, one) = (self.bench.graph.zero(), self.bench.graph.one());
+        let mut rows: Vec<Vec<ExprId>> = matrix
+            .iter()
+            .enumerate()
+            .map(|(i, row)| {
+                row.iter().copied().chain((0..n).map(|k| if i == k { one } else { zero })).collect()
+            })
+            .collect();
+        for c in 0..n {
+            let r = (c..n).find(|r| self.bench.verdict_on_manifold(rows[*r][c]) == Verdict::Nonzero)?;
+            rows.swap(c, r);
+            let pivot = rows[c][c];
+            self.require(pivot);
+            for k in 0..2 * n {
+                rows[c][k] = self.bench.graph.div(rows[c][k], pivot);
+            }
+            for r in (0..n).filter(|r| *r != c) {
+                let factor = rows[r][c];
+                for k in 0..2 * n {
+                    let product = self.bench.graph.mul(factor, rows[c][k]);
+                    let difference = self.bench.graph.sub(rows[r][k], product);
+                    rows[r][k] = self.bench.dropped(difference);
+                }
+            }
+        }
+        Some(rows.into_iter().map(|row| row[n..].to_vec()).collect())
+    }
+
+    /// Notes that an expression must not vanish, unless that is manifest.
+    fn require(&mut self, e: ExprId) {
+        if self.bench.graph.manifestly_nonzero(e) {
+            return;
+        }
+        let list =
+            if self.bench.graph.roles(e).is_constant() { &mut self.constant_pivots } else { &mut self.chart };
+        if !list.contains(&e) {
+            list.push(e);
+        }
+    }
+
+    /// The eliminated columns, last eliminated first.
+    fn substitute_back(&mut self, values: &mut [Option<BTreeMap<usize, ExprId>>]) {
+        while let Some((c, row)) = self.solved.pop() {
+            let mut equation = Equation { entries: BTreeMap::new(), right: row.right };
+            for (k, a) in &row.entries {
+                let known = values[*k].clone().expect("columns eliminated later are known");
+                self.subtract(&mut equation, *a, &Equation { entries: BTreeMap::new(), right: known });
+            }
+            values[c] = Some(equation.right);
+        }
+    }
+}
+
+/// Adjugate and determinant by minors, each minor once.
+pub(crate) fn adjugate(bench: &mut Workbench, matrix: &[Vec<ExprId>]) -> (Vec<Vec<ExprId>>, ExprId) {
+    let n = matrix.len();
+    let mut memo: BTreeMap<(u32, u32), ExprId> = BTreeMap::new();
+    let full = (1_u32 << n) - 1;
+    let determinant = minor(bench, matrix, full, full, &mut memo);
+    let mut adjugate = vec![vec![bench.graph.zero(); n]; n];
+    for (r, row) in (0..n).zip(0_u32..) {
+        for (c, column) in (0..n).zip(0_u32..) {
+            let m = minor(bench, matrix, full & !(1 << row), full & !(1 << column), &mut memo);
+            adjugate[c][r] = if (r + c) % 2 == 1 { bench.graph.neg(m) } else { m };
+        }
+    }
+    (adjugate, determinant)
+}
+
+fn minor(
+    bench: &mut Workbench,
+    matrix: &[Vec<ExprId>],
+    rows: u32,
+    columns: u32,
+    memo: &mut BTreeMap<(u32, u32), ExprId>,
+) -> ExprId {
+    if rows == 0 {
+        return bench.graph.one();
+    }
+    if let Some(known) = memo.get(&(rows, columns)) {
+        return *known;
+    }
+    // Laplace expansion along the first row.
+    let r = rows.trailing_zeros();
+    let mut terms = Vec::new();
+    let mut sign = Rational::ONE;
+    for c in (0..matrix.len() as u32).filter(|c| columns & (1 << c) != 0) {
+        let entry = matrix[r as usize][c as usize];
+        if !bench.graph.is_zero(entry) {
+            let rest = minor(bench, matrix, rows & !(1 << r), columns & !(1 << c), memo);
+            terms.push((bench.graph.mul(entry, rest), sign.clone()));
+        }
+        sign = -sign;
+    }
+    let sum = bench.graph.linear(&terms);
+    let sum = bench.tidy(sum);
+    memo.insert((rows, columns), sum);
+    sum
+}
+
+/// The block triangular form: rows and columns of each block, a block using only columns of itself and of earlier blocks.
+///
+/// A perfect matching of rows to columns by augmenting paths, then the strongly connected components of
+/// "the row uses the column that another row is matched to" , ordered by how much each needs.
+fn blocks(core: &[Equation]) -> Option<Vec<(Vec<usize>, Vec<usize>)>> {
+    let n = core.len();
+    let mut row_of: BTreeMap<usize, usize> = BTreeMap::new();
+    fn augment(
+        core: &[Equation],
+        r: usize,
+        seen: &mut Vec<usize>,
+        row_of: &mut BTreeMap<usize, usize>,
+    ) -> bool {
+        for c in core[r].entries.keys() {
+            if seen.contains(c) {
+                continue;
+            }
+            seen.push(*c);
+            let matched = row_of.get(c).copied();
+            if matched.is_none_or(|other| augment(core, other, seen, row_of)) {
+                row_of.insert(*c, r);
+                return true;
+            }
+        }
+        false
+    }
+    for r in 0..n {
+        if !augment(core, r, &mut Vec::new(), &mut row_of) {
+            return None;
+        }
+    }
+    let column_of: BTreeMap<usize, usize> = row_of.iter().map(|(c, r)| (*r, *c)).collect();
+    let uses =
+        |r: usize| core[r].entries.keys().map(|c| row_of[c]).filter(move |k| *k != r).collect::<Vec<_>>();
+    // Reachability is enough for cores of some tens of rows, and simpler than Tarjan's bookkeeping.
+    let mut reach = vec![vec![false; n]; n];
+    for (r, row) in reach.iter_mut().enumerate() {
+        let mut stack = vec![r];
+        while let Some(k) = stack.pop() {
+            if !row[k] {
+                row[k] = true;
+                stack.extend(uses(k));
+            }
+        }
+    }
+    let mut done = vec![false; n];
+    let mut found: Vec<(usize, Vec<usize>)> = Vec::new();
+    for r in 0..n {
+        if !done[r] {
+            let block: Vec<usize> = (0..n).filter(|k| reach[r][*k] && reach[*k][r]).collect();
+            for k in &block {
+                done[*k] = true;
+            }
+            // A block that reaches fewer rows is needed by those that reach more.
+            found.push((reach[r].iter().filter(|x| **x).count(), block));
+        }
+    }
+    found.sort();
+    Some(
+        found
+            .into_iter()
+            .map(|(_, rows)| {
+                let columns = rows.iter().map(|r| column_of[r]).collect();
+                (rows, columns)
+            })
+            .collect(),
+    )
+}

@@ -1,0 +1,37 @@
+//! Exact algebra and the derivation of the equations of motion, (1.1)-(2.10) of Pham Guen (1969).
+//!
+//! This crate knows neither tokens nor the language of the macro. What comes in is a [`Graph`] of
+//! expressions and the forms, energies and forces over it; what goes out are operators, brackets,
+//! classification, equations of motion and straight-line programs. The folders are the pipeline:
+//!
+//! `algebra` (expressions) -> `zero` (does it vanish?) -> `normal` (polynomial normal forms) -> `print`
+//! -> `geometry` (forms, operators, brackets, class) -> `motion` (equations) -> `program` (straight-line code).
+
+#![forbid(unsafe_code)]
+
+mod algebra;
+mod geometry;
+mod motion;
+mod normal;
+mod print;
+mod program;
+mod workbench;
+mod zero;
+
+pub use algebra::{
+    Bound, ExprId, Flow, Function, Graph, Node, PowerError, Rational, Role, Roles, Substitution, Symbol,
+    SymbolId,
+};
+pub use geometry::{Brackets, Closure, Combination, Form, Forms, Operators, SingularForms};
+pub use motion::{
+    Class, Derivation, DerivationError, Energies, Equations, Force, Frame, Holonomic, KineticTerm, Mechanics,
+    NotQuadratic, Solution, VelocityForm, VelocityPartials, decompose,
+};
+pub use normal::{Limits, normal_coefficients, normal_form};
+pub use print::latex_name;
+pub use program::{
+    Arithmetic, Formulation, FunctionProgram, Instruction, Operation, OperationCount, ProgramBuilder,
+    Programs, Value, evaluate_function, evaluate_prepare, weighted_cost,
+};
+pub use workbench::Workbench;
+pub use zero::{Real, Verdict, ZeroTest, evaluate, evaluate_f64};

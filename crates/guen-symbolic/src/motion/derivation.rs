@@ -1,0 +1,406 @@
+//! The derivation as a whole: from a declared system to everything that is emitted.
+
+use super::velocity_forms::VelocityPartials;
+use super::{Energies, Frame, Mechanics, NotQuadratic, Solution, decompose, poincare, projection};
+use crate::algebra::{ExprId, FastMap, Flow, Role, Roles, Substitution};
+use crate::geometry::{Closure, Operators, SingularForms};
+use crate::normal::{Limits, normal_coefficients};
+use crate::program::weighted_cost;
+use crate::workbench::Workbench;
+use crate::zero::Verdict;
+
+/// `sum_t M_st eta_t' = f_s`.
+#[derive(Clone, Debug)]
+pub struct Equations {
+    /// `M_st`, a row for each equation, a column for each `eta_t'`.
+    pub mass: Vec<Vec<ExprId>>,
+    /// `f_s`.
+    pub forces: Vec<ExprId>,
+}
+
+/// The classification of the forms as declared.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Class {
+    /// Holonomic, all coefficients constant: Poincaré's case.
+    LieGroup,
+    /// Nonholonomic, all coefficients constant.
+    IncompleteLieGroup,
+    /// Holonomic, some coefficient variable.
+    Holonomic,
+    /// Nonholonomic, some coefficient variable.
+    Nonholonomic,
+    /// The zero test could not decide.
+    Undecided,
+}
+
+/// Why a system has no equations of motion.
+#[derive(Clone, Debug)]
+pub enum DerivationError {
+    /// The forms are dependent.
+    SingularForms(SingularForms),
+    /// The kinetic energy is not quadratic in the velocities.
+    NotQuadratic(NotQuadratic),
+    /// The mass matrix is singular as a function: these parameters, by index, are without inertia.
+    SingularMass(Vec<usize>),
+    /// Two routes gave different equations: a mistake of ours.
+    RoutesDisagree {
+        /// The equation, from 0.
+        equation: usize,
+    },
+}
+
+/// Everything that follows from a declaration.
+pub struct Derivation {
+    /// The declaration.
+    pub system: Mechanics,
+    /// Operators, brackets, and motion in their frame.
+    pub frame: Frame,
+    /// The Lie closure.
+    pub closure: Closure,
+    /// The class of the forms.
+    pub class: Class,
+    /// No `t` in the forms of the constraints, in `T°` and in `U`.
+    pub scleronomic: bool,
+    /// All `a_v0 = 0`.
+    pub catastatic: bool,
+    /// `h' = 0` identically.
+    pub conservative: bool,
+    /// The equations of motion, `l` rows, generalised forces included.
+    pub equations: Equations,
+    /// The generalised forces `Q_1..Q_n` on their own.
+    pub generalised_forces: Vec<ExprId>,
+    /// The solved accelerations.
+    pub solution: Solution,
+    /// The reactions `lambda_v` as functions of `t, x, eta`, inputs and `eta'` (as symbols); none for constraints
+    /// without momentum in `T°`.
+    pub reactions: Vec<Option<ExprId>>,
+    /// Whether `dT°/d eta_j` vanishes identically with all `eta` free.
+    pub without_momentum: Vec<bool>,
+    /// Energies and momenta.
+    pub energies: Energies,
+    /// `h'` along the motion, with `eta'` as symbols.
+    pub power: ExprId,
+    /// The outputs on the constraints.
+    pub outputs: Vec<ExprId>,
+}
+
+impl Derivation {
+    /// Derives everything.
+    pub fn new(bench: &mut Workbench, system: Mechanics) -> Result<Self, DerivationError> {
+        let (n, l) = (system.forms.len(), system.forms.degrees);
+        let equations_of_position: Vec<ExprId> = system.holonomic.iter().map(|h| h.equation).collect();
+        bench.zero.set_manifold(&mut bench.graph, &equations_of_position);
+        let operators = Operators::new(bench, &system.forms).map_err(DerivationError::SingularForms)?;
+        let mut frame = Frame::new(bench, &system, operators);
+        let mut partials = VelocityPartials::of_system(bench, &system);
+        let symbols: Vec<ExprId> = system.velocities.iter().chain(&system.etas).copied().collect();
+        let terms = decompose(bench, &mut partials, &symbols, system.kinetic_energy)
+            .map_err(DerivationError::NotQuadratic)?;
+        let generalised_forces = generalised_forces(bench, &system, &mut frame, &mut partials);
+
+        let by_definition = poincare::equations(bench, &system, &mut frame);
+        let by_projection = projection::equations(bench, &system, &mut frame, &mut partials, &terms, n);
+        for s in 0..l {
+            let same = |bench: &mut Workbench, a: ExprId, b: ExprId| {
+                let difference = bench.graph.sub(a, b);
+                bench.zero.verdict(&mut bench.graph, difference) != Verdict::Nonzero
+            };
+            let agree = same(bench, by_definition.forces[s], by_projection.forces[s])
+                && (0..l).all(|t| same(bench, by_definition.mass[s][t], by_projection.mass[s][t]));
+            if !agree {
+                return Err(DerivationError::RoutesDisagree { equation: s });
+            }
+        }
+        let mut equations = cheapest(bench, &system, &by_definition, &by_projection);
+        for (force, q) in equations.forces.iter_mut().zip(&generalised_forces) {
+            *force = bench.graph.add(*force, *q);
+        }
+        let solution = Solution::new(bench, &equations.mass, &equations.forces)
+            .map_err(DerivationError::SingularMass)?;
+
+        let closure = {
+            let Frame { operators, brackets, .. } = &mut frame;
+            Closure::new(bench, &system.forms, operators, brackets)
+        };
+        let class = classify(bench, &system, &mut frame, &closure);
+        let energies = Energies::new(bench, &system, &mut frame, &mut partials, &terms);
+        let without_momentum = without_momentum(bench, &system, &frame, &mut partials, &terms);
+        let reactions: Vec<Option<ExprId>> = (l..n)
+            .map(|v| {
+                // lambda_v = sum_t M_vt eta_t' - f_v - Q_v
+                (!without_momentum[v]).then(|| {
+                    let mut parts = vec![bench.graph.neg(by_projection.forces[v])];
+                    parts.push(bench.graph.neg(generalised_forces[v]));
+                    for (mass, acceleration) in by_projection.mass[v].iter().zip(&system.accelerations) {
+                        let mass = bench.tidy(*mass);
+                        parts.push(bench.graph.mul(mass, *acceleration));
+                    }
+                    bench.graph.sum(parts)
+                })
+            })
+            .collect();
+        let catastatic = system.forms.is_catastatic(&bench.graph);
+        let explicit = explicit_time(bench, &system, &mut frame);
+        let scleronomic = forms_scleronomic(bench, &system) && bench.vanishes(explicit);
+        let power = power(bench, &system, &generalised_forces, &reactions, explicit);
+        let conservative = power.is_some_and(|power| {
+            let mut solved = Substitution::new(
+                system.accelerations.iter().copied().zip(solution.accelerations.iter().copied()),
+            );
+            let power = solved.of(&mut bench.graph, power);
+            bench.vanishes(power)
+        });
+        let power = power.unwrap_or(bench.graph.zero());
+        let outputs = system.outputs.iter().map(|e| frame.constrain.of(&mut bench.graph, *e)).collect();
+        Ok(Derivation {
+            system,
+            frame,
+            closure,
+            class,
+            scleronomic,
+            catastatic,
+            conservative,
+            equations,
+            generalised_forces,
+            solution,
+            reactions,
+            without_momentum,
+            energies,
+            power,
+            outputs,
+        })
+    }
+
+    /// Constraints whose momentum (2.7) needs, because some `C_rsv` differs from zero, although `T°` has none:
+    /// triples `(v, r, s)`, `v` from 0 and `r, s` as in the paper.
+    pub fn missing_momenta(&mut self, bench: &mut Workbench) -> Vec<(usize, usize, usize)> {
+        let (n, l) = (self.system.forms.len(), self.system.forms.degrees);
+        let mut found = Vec::new();
+        for v in (l..n).filter(|v| self.without_momentum[*v]) {
+            'pairs: for s in 1..=l {
+                for r in 0..s {
+                    let c = self.frame.brackets.coefficient(bench, r, s, v + 1);
+                    if bench.verdict_on_manifold(c) == Verdict::Nonzero {
+                        found.push((v, r, s));
+                        break 'pairs;
+                    }
+                }
+            }
+        }
+        found
+    }
+}
+
+/// `Q_s = sum F beta_s`, with the force on the constraints.
+fn generalised_forces(
+    bench: &mut Workbench,
+    system: &Mechanics,
+    frame: &mut Frame,
+    partials: &mut VelocityPartials,
+) -> Vec<ExprId> {
+    let n = system.forms.len();
+    let mut found: Vec<Vec<ExprId>> = vec![Vec::new(); n];
+    for force in &system.forces {
+        let magnitude = frame.constrain.of(&mut bench.graph, force.magnitude);
+        // The caller has checked that `along` is a velocity form.
+        let Some(form) = partials.affine(bench, force.along) else { continue };
+        for (s, q) in found.iter_mut().enumerate() {
+            let beta = frame.component(bench, &form, s + 1);
+            let beta = bench.tidy(beta);
+            q.push(bench.graph.mul(magnitude, beta));
+        }
+    }
+    found.into_iter().map(|terms| bench.graph.sum(terms)).collect()
+}
+
+/// The cheapest of the equations by either route and of their normal form as polynomials in the `eta`.
+fn cheapest(
+    bench: &mut Workbench,
+    system: &Mechanics,
+    by_definition: &Equations,
+    by_projection: &Equations,
+) -> Equations {
+    let l = system.forms.degrees;
+    let mass: Vec<Vec<ExprId>> = (0..l)
+        .map(|s| {
+            (0..l)
+                .map(|t| {
+                    // Both routes give the same function; the matrix is symmetric.
+                    let (s, t) = (s.max(t), s.min(t));
+                    let (a, b) = (bench.tidy(by_definition.mass[s][t]), bench.tidy(by_projection.mass[s][t]));
+                    if weighted_cost(&bench.graph, &[a]) < weighted_cost(&bench.graph, &[b]) { a } else { b }
+                })
+                .collect()
+        })
+        .collect();
+    let sources = [&by_projection.forces[..l], &by_definition.forces[..l]];
+    let mut candidates: Vec<Vec<ExprId>> = Vec::new();
+    if let Some(normal) = sources.iter().find_map(|forces| normal_forces(bench, system, forces)) {
+        candidates.push(normal);
+    }
+    for forces in sources {
+        candidates.push(forces.to_vec());
+    }
+    let forces = candidates
+        .into_iter()
+        .map(|forces| (weighted_cost(&bench.graph, &forces), forces))
+        .min_by_key(|(cost, _)| *cost)
+        .map(|(_, forces)| forces)
+        .unwrap_or_default();
+    Equations { mass, forces }
+}
+
+/// Every force as a polynomial in the `eta` with coefficients in normal form, where all are small.
+fn normal_forces(bench: &mut Workbench, system: &Mechanics, forces: &[ExprId]) -> Option<Vec<ExprId>> {
+    let variables = &system.etas[..system.forms.degrees];
+    forces
+        .iter()
+        .map(|force| {
+            let coefficients = normal_coefficients(&mut bench.graph, *force, variables, &Limits::default())?;
+            let terms: Vec<ExprId> = coefficients
+                .into_iter()
+                .map(|(exponents, c)| {
+                    let factors: Vec<_> = variables
+                        .iter()
+                        .zip(exponents)
+                        .map(|(eta, e)| (*eta, e as i32))
+                        .chain([(c, 1)])
+                        .collect();
+                    bench.graph.product(&factors)
+                })
+                .collect();
+            Some(bench.graph.sum(terms))
+        })
+        .collect()
+}
+
+fn classify(bench: &mut Workbench, system: &Mechanics, frame: &mut Frame, closure: &Closure) -> Class {
+    let (n, l) = (system.forms.len(), system.forms.degrees);
+    let variables: Vec<ExprId> =
+        system.forms.coordinates.iter().copied().chain([system.forms.time]).collect();
+    let mut constant = true;
+    'all: for s in 1..=l {
+        for r in 0..s {
+            for t in 1..=n {
+                let c = frame.brackets.coefficient(bench, r, s, t);
+                if !is_constant(bench, c, &variables) {
+                    constant = false;
+                    break 'all;
+                }
+            }
+        }
+    }
+    match (closure.growth.len() > 1, closure.complete, constant) {
+        (true, _, true) => Class::IncompleteLieGroup,
+        (true, _, false) => Class::Nonholonomic,
+        (false, true, true) => Class::LieGroup,
+        (false, true, false) => Class::Holonomic,
+        (false, false, _) => Class::Undecided,
+    }
+}
+
+/// Whether all derivatives by the variables vanish where the holonomic constraints hold.
+pub(crate) fn is_constant(bench: &mut Workbench, e: ExprId, variables: &[ExprId]) -> bool {
+    let moving = Roles::of(Role::Coordinate).or(Roles::of(Role::Time));
+    if !bench.graph.roles(e).meets(moving) {
+        return true;
+    }
+    variables.iter().all(|x| {
+        let slope = Flow::partial(&bench.graph, *x).of(&mut bench.graph, e);
+        bench.graph.is_zero(slope) || bench.verdict_on_manifold(slope) == Verdict::Zero
+    })
+}
+
+/// Whether `(dT°/d eta_v)` vanishes identically with all `eta` free, for each constraint; never for a parameter.
+fn without_momentum(
+    bench: &mut Workbench,
+    system: &Mechanics,
+    frame: &Frame,
+    partials: &mut VelocityPartials,
+    terms: &[super::KineticTerm],
+) -> Vec<bool> {
+    let (n, l) = (system.forms.len(), system.forms.degrees);
+    // Each form with all eta free: u_0 + sum_j eta_j u_j, and its components.
+    let mut free: FastMap<ExprId, (ExprId, Vec<ExprId>)> = FastMap::default();
+    for u in terms.iter().flat_map(|term| &term.forms) {
+        if !free.contains_key(u) {
+            let form = partials.affine(bench, *u).expect("the decomposition yields affine forms");
+            let components: Vec<ExprId> = (0..=n).map(|j| frame.component(bench, &form, j)).collect();
+            let moving = bench.dot(&components[1..], &system.etas);
+            free.insert(*u, (bench.graph.add(components[0], moving), components));
+        }
+    }
+    (0..n)
+        .map(|j| {
+            if j < l {
+                return false;
+            }
+            let mut parts = Vec::new();
+            for term in terms {
+                for (place, u) in term.forms.iter().enumerate() {
+                    let mut factors = vec![(term.weight, 1), (free[u].1[j + 1], 1)];
+                    let partner = term.forms.iter().enumerate().find(|(k, _)| *k != place);
+                    factors.extend(partner.map(|(_, other)| (free[other].0, 1)));
+                    parts.push(bench.graph.product(&factors));
+                }
+            }
+            let momentum = bench.graph.sum(parts);
+            bench.vanishes(momentum)
+        })
+        .collect()
+}
+
+/// `d(T° + U)/dt` at fixed `x, x'`, on the constraints.
+fn explicit_time(bench: &mut Workbench, system: &Mechanics, frame: &mut Frame) -> ExprId {
+    let expanded: Vec<(ExprId, ExprId)> = system
+        .etas
+        .iter()
+        .zip(&system.forms.forms)
+        .map(|(eta, form)| {
+            let linear = bench.dot(&form.row, &system.velocities);
+            (*eta, bench.graph.add(linear, form.offset))
+        })
+        .collect();
+    let mut by_velocities = Substitution::new(expanded);
+    let kinetic = by_velocities.of(&mut bench.graph, system.kinetic_energy);
+    let total = bench.graph.add(kinetic, system.force_function);
+    let slope = bench.partial(total, system.forms.time);
+    frame.constrain.of(&mut bench.graph, slope)
+}
+
+/// Whether time is absent from the forms of the constraints.
+fn forms_scleronomic(bench: &mut Workbench, system: &Mechanics) -> bool {
+    let mut by_time = Flow::partial(&bench.graph, system.forms.time);
+    system.forms.forms[system.forms.degrees..].iter().all(|form| {
+        form.row.iter().chain([&form.offset]).all(|a| {
+            let slope = by_time.of(&mut bench.graph, *a);
+            bench.vanishes(slope)
+        })
+    })
+}
+
+/// `h' = Q.x' - sum_v lambda_v a_v0 - d(T° + U)/dt`, or `None` where a reaction would be needed that is not known.
+fn power(
+    bench: &mut Workbench,
+    system: &Mechanics,
+    generalised_forces: &[ExprId],
+    reactions: &[Option<ExprId>],
+    explicit: ExprId,
+) -> Option<ExprId> {
+    let l = system.forms.degrees;
+    // x_i' as a combination of the forms' linear parts: sum_j (eta_j - a_j0) X_j, so Q.x' = sum_j Q_j (eta_j - a_j0).
+    let mut terms = vec![bench.graph.neg(explicit)];
+    for (j, q) in generalised_forces.iter().enumerate() {
+        let zero = bench.graph.zero();
+        let eta = if j < l { system.etas[j] } else { zero };
+        let linear = bench.graph.sub(eta, system.forms.forms[j].offset);
+        terms.push(bench.graph.mul(*q, linear));
+    }
+    for (reaction, form) in reactions.iter().zip(&system.forms.forms[l..]) {
+        if !bench.graph.is_zero(form.offset) {
+            let product = bench.graph.mul((*reaction)?, form.offset);
+            terms.push(bench.graph.neg(product));
+        }
+    }
+    Some(bench.graph.sum(terms))
+}

@@ -1,0 +1,19 @@
+//! From operators and energies to the equations of motion, (2.1)-(2.10), by two independent routes.
+
+mod declaration;
+mod derivation;
+mod energy;
+mod frame;
+mod kinetic;
+mod poincare;
+mod projection;
+mod solve;
+mod velocity_forms;
+
+pub use declaration::{Force, Holonomic, Mechanics};
+pub use derivation::{Class, Derivation, DerivationError, Equations};
+pub use energy::Energies;
+pub use frame::Frame;
+pub use kinetic::{KineticTerm, NotQuadratic, decompose};
+pub use solve::Solution;
+pub use velocity_forms::{VelocityForm, VelocityPartials};

@@ -1,0 +1,58 @@
+//! The equations of motion (2.7), literally: the definition, and the oracle for the other route.
+
+use super::{Equations, Frame, Mechanics};
+use crate::algebra::{ExprId, Flow, Substitution};
+use crate::workbench::Workbench;
+
+/// `sum_t M_st eta_t' = f_s` for `s = 1..l` without the generalised forces `Q_s`, from
+///
+/// ```text
+/// d/dt dT/d eta_s - X_s(T + U) - sum_{t<=l} (C_0st + sum_r eta_r C_rst) dT/d eta_t
+///                              - sum_{v>l}  (C_0sv + sum_r eta_r C_rsv) (dT°/d eta_v) = Q_s.       (2.7)
+/// ```
+pub(super) fn equations(bench: &mut Workbench, system: &Mechanics, frame: &mut Frame) -> Equations {
+    let (n, l) = (system.forms.len(), system.forms.degrees);
+    let zero = bench.graph.zero();
+    // T° with every parameter free: x' = xi_0 + sum_{j<=n} eta_j xi_j.
+    let free: Vec<ExprId> = (0..n)
+        .map(|i| {
+            let mut terms = vec![frame.velocities[i]];
+            for j in l + 1..=n {
+                terms.push(bench.graph.mul(system.etas[j - 1], frame.operators.xi[j][i]));
+            }
+            bench.graph.sum(terms)
+        })
+        .collect();
+    let mut release = Substitution::new(system.velocities.iter().copied().zip(free));
+    let dropped = release.of(&mut bench.graph, system.kinetic_energy);
+    let mut constrain = Substitution::new(system.etas[l..].iter().map(|eta| (*eta, zero)));
+    let kinetic = constrain.of(&mut bench.graph, dropped);
+    let momenta: Vec<ExprId> = system
+        .etas
+        .iter()
+        .map(|eta| {
+            // The momenta (dT°/d eta_v) are taken first and put on the constraints afterwards, (2.8).
+            let momentum = Flow::partial(&bench.graph, *eta).of(&mut bench.graph, dropped);
+            constrain.of(&mut bench.graph, momentum)
+        })
+        .collect();
+    let lagrangian = bench.graph.add(kinetic, system.force_function);
+    let mut mass = Vec::with_capacity(l);
+    let mut forces = Vec::with_capacity(l);
+    for s in 1..=l {
+        mass.push(
+            (0..l)
+                .map(|t| Flow::partial(&bench.graph, system.etas[t]).of(&mut bench.graph, momenta[s - 1]))
+                .collect(),
+        );
+        let rate = frame.motion.of(&mut bench.graph, momenta[s - 1]);
+        let mut terms =
+            vec![bench.graph.neg(rate), frame.displacements[s - 1].of(&mut bench.graph, lagrangian)];
+        for t in 1..=n {
+            let turning = frame.brackets.along_motion(bench, &system.etas, s, t);
+            terms.push(bench.graph.mul(turning, momenta[t - 1]));
+        }
+        forces.push(bench.graph.sum(terms));
+    }
+    Equations { mass, forces }
+}

@@ -1,0 +1,170 @@
+//! The second route: the kinetic energy as weighted products of velocity forms, projected on the operators.
+//!
+//! For a term `w u v` of `T°`, with `u_s` the component of `u` along `X_s`, (2.7) becomes
+//!
+//! ```text
+//! w (u' v_s + v' u_s) + w (u E_s(v) + v E_s(u)) + D(w) (u v_s + v u_s) - X_s(w) u v,
+//! ```
+//!
+//! where `D` is the rate along the motion at fixed `eta`, `u' = D(u) + sum_t eta_t' u_t`, and `E_s(u)` is the exterior
+//! derivative of the form `u` on (motion, `X_s`). A true velocity is a closed form, so that `E_s` is zero and costs
+//! nothing; quasi-velocities give their gyroscopic terms through the structure coefficients of their own form alone.
+//! Rows `s > l` are the equations of the reactions.
+
+use super::velocity_forms::VelocityPartials;
+use super::{Equations, Frame, KineticTerm, Mechanics, VelocityForm};
+use crate::algebra::{ExprId, FastMap};
+use crate::workbench::Workbench;
+
+/// What is needed of one velocity form, each computed once.
+struct Measured {
+    form: VelocityForm,
+    /// `u` on the constraints.
+    value: ExprId,
+    /// `u_s` for `s = 1..n`.
+    components: Vec<ExprId>,
+    /// `D(u)`: the acceleration at `eta' = 0`.
+    acceleration: ExprId,
+}
+
+/// `sum_t M_st eta_t' = f_s` for `s = 1..rows`, without the generalised forces.
+pub(super) fn equations(
+    bench: &mut Workbench,
+    system: &Mechanics,
+    frame: &mut Frame,
+    partials: &mut VelocityPartials,
+    terms: &[KineticTerm],
+    rows: usize,
+) -> Equations {
+    let l = system.forms.degrees;
+    let mut known: FastMap<ExprId, usize> = FastMap::default();
+    let mut measured: Vec<Measured> = Vec::new();
+    for u in terms.iter().flat_map(|term| &term.forms) {
+        if !known.contains_key(u) {
+            known.insert(*u, measured.len());
+            measured.push(measure(bench, system, frame, partials, *u));
+        }
+    }
+    let mut mass: Vec<Vec<Vec<ExprId>>> = vec![vec![Vec::new(); l]; rows];
+    let mut forces: Vec<Vec<ExprId>> = vec![Vec::new(); rows];
+    for (displacement, force) in frame.displacements.iter_mut().zip(&mut forces) {
+        force.push(displacement.of(&mut bench.graph, system.force_function));
+    }
+    for term in terms {
+        let w = term.weight;
+        let w_rate = frame.motion.of(&mut bench.graph, w);
+        let factors: Vec<usize> = term.forms.iter().map(|u| known[u]).collect();
+        let values: Vec<ExprId> = factors.iter().map(|k| measured[*k].value).collect();
+        for s in 0..rows {
+            // - X_s(w) u v
+            let w_slope = frame.displacements[s].of(&mut bench.graph, w);
+            if !bench.graph.is_zero(w_slope) {
+                let all: Vec<_> = values.iter().copied().chain([w_slope]).map(|e| (e, 1)).collect();
+                forces[s].push(bench.graph.product(&all));
+            }
+            for (place, k) in factors.iter().enumerate() {
+                let partner =
+                    factors.iter().enumerate().find(|(other, _)| *other != place).map(|(_, other)| *other);
+                let one = bench.graph.one();
+                let partner_value = partner.map_or(one, |other| measured[other].value);
+                let component = measured[*k].components[s];
+                if !bench.graph.is_zero(component) {
+                    // D(w) v u_s + w v' u_s
+                    if !bench.graph.is_zero(w_rate) {
+                        let part = bench.graph.product(&[(w_rate, 1), (partner_value, 1), (component, 1)]);
+                        forces[s].push(bench.graph.neg(part));
+                    }
+                    if let Some(other) = partner {
+                        let part =
+                            bench.graph.product(&[(w, 1), (measured[other].acceleration, 1), (component, 1)]);
+                        forces[s].push(bench.graph.neg(part));
+                        for (t, row) in mass[s].iter_mut().enumerate() {
+                            row.push(bench.graph.product(&[
+                                (w, 1),
+                                (measured[other].components[t], 1),
+                                (component, 1),
+                            ]));
+                        }
+                    }
+                }
+                // w v E_s(u)
+                let turning = exterior(bench, system, frame, &measured[*k].form, s);
+                if !bench.graph.is_zero(turning) {
+                    let part = bench.graph.product(&[(w, 1), (partner_value, 1), (turning, 1)]);
+                    forces[s].push(bench.graph.neg(part));
+                }
+            }
+        }
+    }
+    Equations {
+        mass: mass
+            .into_iter()
+            .map(|row| row.into_iter().map(|terms| bench.graph.sum(terms)).collect())
+            .collect(),
+        forces: forces.into_iter().map(|terms| bench.graph.sum(terms)).collect(),
+    }
+}
+
+fn measure(
+    bench: &mut Workbench,
+    system: &Mechanics,
+    frame: &mut Frame,
+    partials: &mut VelocityPartials,
+    u: ExprId,
+) -> Measured {
+    let n = system.forms.len();
+    let form = partials.affine(bench, u).expect("the decomposition yields affine forms");
+    let components: Vec<ExprId> = (1..=n)
+        .map(|s| {
+            let component = frame.component(bench, &form, s);
+            bench.tidy(component)
+        })
+        .collect();
+    let drift = frame.component(bench, &form, 0);
+    let drift = bench.tidy(drift);
+    let mut value = vec![drift];
+    let mut acceleration = vec![frame.motion.of(&mut bench.graph, drift)];
+    for (s, component) in components.iter().enumerate().take(system.forms.degrees) {
+        value.push(bench.graph.mul(system.etas[s], *component));
+        let rate = frame.motion.of(&mut bench.graph, *component);
+        acceleration.push(bench.graph.mul(system.etas[s], rate));
+    }
+    Measured { form, value: bench.graph.sum(value), components, acceleration: bench.graph.sum(acceleration) }
+}
+
+/// `E_s(u)`, the exterior derivative of `u = sum b_i dx_i + sum c_j eta_j + u_0 dt` on (motion, `X_{s+1}`):
+/// `sum_i (D(b_i) xi_s^i - X_s(b_i) x_i') - X_s(u_0) + sum_j (D(c_j) delta_js - X_s(c_j) eta_j - c_j (C_0sj + sum_r eta_r C_rsj))`.
+fn exterior(
+    bench: &mut Workbench,
+    system: &Mechanics,
+    frame: &mut Frame,
+    form: &VelocityForm,
+    s: usize,
+) -> ExprId {
+    let mut terms = Vec::new();
+    for (i, b) in &form.on_velocities {
+        let rate = frame.motion.of(&mut bench.graph, *b);
+        let slope = frame.displacements[s].of(&mut bench.graph, *b);
+        terms.push(bench.graph.mul(rate, frame.operators.xi[s + 1][*i]));
+        let back = bench.graph.mul(slope, frame.velocities[*i]);
+        terms.push(bench.graph.neg(back));
+    }
+    let slope = frame.displacements[s].of(&mut bench.graph, form.offset);
+    terms.push(bench.graph.neg(slope));
+    for (j, c) in &form.on_etas {
+        if *j == s {
+            terms.push(frame.motion.of(&mut bench.graph, *c));
+        }
+        if *j < system.forms.degrees {
+            let slope = frame.displacements[s].of(&mut bench.graph, *c);
+            let back = bench.graph.mul(slope, system.etas[*j]);
+            terms.push(bench.graph.neg(back));
+        }
+        let turning = frame.brackets.along_motion(bench, &system.etas, s + 1, j + 1);
+        let back = bench.graph.mul(*c, turning);
+        terms.push(bench.graph.neg(back));
+    }
+    let sum = bench.graph.sum(terms);
+    // The curl of a true velocity is zero as a function, seldom as written.
+    bench.dropped(sum)
+}

@@ -1,0 +1,182 @@
+//! `M eta' = f` by a straight-line `L D L^T` factorisation of each block of the mass matrix.
+
+use crate::algebra::ExprId;
+use crate::geometry::adjugate;
+use crate::workbench::Workbench;
+use crate::zero::Verdict;
+
+/// Blocks without a usable pivot on the diagonal are inverted by their adjugate, up to this size.
+const ADJUGATE_SIZE: usize = 5;
+
+/// The solved accelerations.
+#[derive(Clone, Debug)]
+pub struct Solution {
+    /// `eta_1'..eta_l'`.
+    pub accelerations: Vec<ExprId>,
+    /// Pivots that depend on the state: with the chart's functions, the domain of the equations.
+    pub pivots: Vec<ExprId>,
+    /// Pivots that depend on constants alone: checked when a system is prepared.
+    pub constant_pivots: Vec<ExprId>,
+}
+
+impl Solution {
+    /// Solves the equations, or names a combination of parameters without inertia: rows that are dependent.
+    pub fn new(bench: &mut Workbench, mass: &[Vec<ExprId>], forces: &[ExprId]) -> Result<Self, Vec<usize>> {
+        let l = mass.len();
+        if let Some(rank) = bench.zero.rank(&mut bench.graph, mass, true)
+            && rank < l
+        {
+            return Err(dependent_rows(bench, mass));
+        }
+        let zero = bench.graph.zero();
+        let mut solution =
+            Solution { accelerations: vec![zero; l], pivots: Vec::new(), constant_pivots: Vec::new() };
+        for block in blocks(bench, mass) {
+            let matrix: Vec<Vec<ExprId>> =
+                block.iter().map(|s| block.iter().map(|t| mass[*s][*t]).collect()).collect();
+            let right: Vec<ExprId> = block.iter().map(|s| forces[*s]).collect();
+            let values = solution.solve_block(bench, matrix, right).ok_or_else(|| block.clone())?;
+            for (s, value) in block.into_iter().zip(values) {
+                solution.accelerations[s] = value;
+            }
+        }
+        Ok(solution)
+    }
+
+    fn solve_block(
+        &mut self,
+        bench: &mut Workbench,
+        mut m: Vec<Vec<ExprId>>,
+        mut f: Vec<ExprId>,
+    ) -> Option<Vec<ExprId>> {
+        let n = m.len();
+        let original = (m.clone(), f.clone());
+        let mut order: Vec<usize> = Vec::new();
+        let mut left: Vec<usize> = (0..n).collect();
+        // Multipliers L_rk of each elimination step.
+        let mut steps: Vec<(usize, Vec<(usize, ExprId)>)> = Vec::new();
+        while !left.is_empty() {
+            let Some(k) = choose_pivot(bench, &m, &left) else {
+                return self.solve_by_adjugate(bench, &original.0, &original.1);
+            };
+            left.retain(|r| *r != k);
+            self.require(bench, m[k][k]);
+            let mut multipliers = Vec::new();
+            for r in left.clone() {
+                if !bench.graph.is_zero(m[r][k]) {
+                    multipliers.push((r, bench.graph.div(m[r][k], m[k][k])));
+                }
+            }
+            for (i, (r, factor)) in multipliers.iter().enumerate() {
+                for (c, _) in &multipliers[..=i] {
+                    let product = bench.graph.mul(*factor, m[*c][k]);
+                    let difference = bench.graph.sub(m[*r][*c], product);
+                    let entry = bench.dropped(difference);
+                    (m[*r][*c], m[*c][*r]) = (entry, entry);
+                }
+                let product = bench.graph.mul(*factor, f[k]);
+                f[*r] = bench.graph.sub(f[*r], product);
+            }
+            order.push(k);
+            steps.push((k, multipliers));
+        }
+        // L^T x = D^-1 f', backwards.
+        let mut x = vec![bench.graph.zero(); n];
+        for (k, multipliers) in steps.into_iter().rev() {
+            let mut terms = vec![bench.graph.div(f[k], m[k][k])];
+            for (r, factor) in multipliers {
+                let product = bench.graph.mul(factor, x[r]);
+                terms.push(bench.graph.neg(product));
+            }
+            x[k] = bench.graph.sum(terms);
+        }
+        Some(x)
+    }
+
+    fn solve_by_adjugate(
+        &mut self,
+        bench: &mut Workbench,
+        m: &[Vec<ExprId>],
+        f: &[ExprId],
+    ) -> Option<Vec<ExprId>> {
+        if m.len() > ADJUGATE_SIZE {
+            return None;
+        }
+        let (adjugate, determinant) = adjugate(bench, m);
+        self.require(bench, determinant);
+        Some(
+            adjugate
+                .iter()
+                .map(|row| {
+                    let product = bench.dot(row, f);
+                    bench.graph.div(product, determinant)
+                })
+                .collect(),
+        )
+    }
+
+    fn require(&mut self, bench: &Workbench, pivot: ExprId) {
+        if bench.graph.manifestly_nonzero(pivot) {
+            return;
+        }
+        let list =
+            if bench.graph.roles(pivot).is_constant() { &mut self.constant_pivots } else { &mut self.pivots };
+        if !list.contains(&pivot) {
+            list.push(pivot);
+        }
+    }
+}
+
+/// The diagonal entry to eliminate on: constants before functions, then the one with the fewest neighbours.
+fn choose_pivot(bench: &mut Workbench, m: &[Vec<ExprId>], left: &[usize]) -> Option<usize> {
+    let mut candidates: Vec<(bool, usize, usize)> = left
+        .iter()
+        .map(|k| {
+            let neighbours = left.iter().filter(|r| **r != *k && !bench.graph.is_zero(m[**r][*k])).count();
+            (!bench.graph.roles(m[*k][*k]).is_constant(), neighbours, *k)
+        })
+        .collect();
+    candidates.sort_unstable();
+    candidates
+        .into_iter()
+        .map(|(_, _, k)| k)
+        .find(|k| bench.verdict_on_manifold(m[*k][*k]) == Verdict::Nonzero)
+}
+
+/// The connected components of the matrix's pattern, in order of their first rows.
+fn blocks(bench: &Workbench, mass: &[Vec<ExprId>]) -> Vec<Vec<usize>> {
+    let l = mass.len();
+    let mut seen = vec![false; l];
+    let mut found = Vec::new();
+    for start in 0..l {
+        let mut block = Vec::new();
+        let mut stack = vec![start];
+        while let Some(s) = stack.pop() {
+            if !seen[s] {
+                seen[s] = true;
+                block.push(s);
+                stack.extend((0..l).filter(|t| !bench.graph.is_zero(mass[s][*t])));
+            }
+        }
+        if !block.is_empty() {
+            block.sort_unstable();
+            found.push(block);
+        }
+    }
+    found
+}
+
+/// A smallest set of rows that is linearly dependent, found by rank.
+fn dependent_rows(bench: &mut Workbench, rows: &[Vec<ExprId>]) -> Vec<usize> {
+    let mut support: Vec<usize> = (0..rows.len()).collect();
+    for k in 0..rows.len() {
+        let trial: Vec<usize> = support.iter().copied().filter(|r| *r != k).collect();
+        let matrix: Vec<Vec<ExprId>> = trial.iter().map(|r| rows[*r].clone()).collect();
+        if !trial.is_empty()
+            && bench.zero.rank(&mut bench.graph, &matrix, true).is_some_and(|rank| rank < trial.len())
+        {
+            support = trial;
+        }
+    }
+    support
+}

@@ -1,0 +1,104 @@
+//! Expressions as a mechanics text writes them, in the language's own grammar or in LaTeX.
+//!
+//! What comes in is an expression or a linear combination with named unknowns; what goes out is text in a
+//! reader's order: numbers and constants before functions before velocities, accelerations first in a
+//! sum. The order depends on the declaration only, never on how the graph stores things.
+
+mod names;
+mod order;
+mod render;
+
+use crate::algebra::{ExprId, Graph};
+use render::Printer;
+
+pub use names::latex_name;
+
+/// Longer texts help no reader; [`Graph::text`] replaces them by a note.
+const LONGEST_TEXT: usize = 20_000;
+
+/// How an expression is written down.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Style {
+    /// The grammar of the language.
+    Text,
+    /// LaTeX mathematics, without delimiters.
+    Latex,
+}
+
+impl Graph {
+    /// The expression in the language's grammar; one that is too long to read becomes a note.
+    ///
+    /// ```
+    /// use guen_symbolic::{Graph, Role};
+    /// let mut g = Graph::new();
+    /// let a = g.symbol("a", Role::Constant);
+    /// let theta = g.symbol("theta", Role::Coordinate);
+    /// let cot = g.cot(theta);
+    /// let e = g.mul(cot, a);
+    /// assert_eq!(g.text(e), "a*cot(theta)");
+    /// ```
+    pub fn text(&self, e: ExprId) -> String {
+        self.text_limited(e, LONGEST_TEXT).unwrap_or_else(|| self.note(e))
+    }
+
+    /// The expression in LaTeX, without delimiters; one that is too long to read becomes a note.
+    pub fn latex(&self, e: ExprId) -> String {
+        self.latex_limited(e, LONGEST_TEXT).unwrap_or_else(|| format!("\\text{{{}}}", self.note(e)))
+    }
+
+    /// [`Graph::text`], or `None` if it has more than `max_chars` bytes.
+    pub fn text_limited(&self, e: ExprId, max_chars: usize) -> Option<String> {
+        Printer::new(self, Style::Text, max_chars).expression(e)
+    }
+
+    /// [`Graph::latex`], or `None` if it has more than `max_chars` bytes.
+    pub fn latex_limited(&self, e: ExprId, max_chars: usize) -> Option<String> {
+        Printer::new(self, Style::Latex, max_chars).expression(e)
+    }
+
+    /// A linear combination of named things, `-cot(theta) X2 + X3`; what has a zero coefficient is left out.
+    pub fn text_sum(&self, terms: &[(ExprId, &str)]) -> String {
+        self.named_sum(terms, Style::Text)
+    }
+
+    /// A linear combination in LaTeX; names like `X2` and `d/dtheta` are set as mathematics.
+    pub fn latex_sum(&self, terms: &[(ExprId, &str)]) -> String {
+        self.named_sum(terms, Style::Latex)
+    }
+
+    fn named_sum(&self, terms: &[(ExprId, &str)], style: Style) -> String {
+        let mut printer = Printer::new(self, style, LONGEST_TEXT);
+        let mut line = String::new();
+        for (coefficient, name) in terms {
+            if self.is_zero(*coefficient) {
+                continue;
+            }
+            let (negative, text) = printer.coefficient(*coefficient).unwrap_or_else(|| {
+                let note = self.note(*coefficient);
+                (false, if style == Style::Latex { format!("\\text{{{note}}}") } else { note })
+            });
+            line.push_str(match (line.is_empty(), negative) {
+                (true, false) => "",
+                (true, true) => "-",
+                (false, false) => " + ",
+                (false, true) => " - ",
+            });
+            if text != "1" {
+                line.push_str(&text);
+                line.push_str(if style == Style::Latex { "\\," } else { " " });
+            }
+            match style {
+                Style::Text => line.push_str(name),
+                Style::Latex => line.push_str(&latex_name(name)),
+            }
+        }
+        if line.is_empty() { "0".to_owned() } else { line }
+    }
+
+    fn note(&self, e: ExprId) -> String {
+        format!("(an expression of {} parts, too long to show)", self.reachable(&[e], |_| false).len())
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,169 @@
+//! Running the stages: every function by itself, what they share in *prepare*.
+
+use std::collections::BTreeMap;
+
+use super::cost::OperationCount;
+use super::instruction::{FunctionProgram, Programs};
+use super::lower::{Code, PreparedTable, lower};
+use super::net::{Conversion, Field, Net, NetId, NetNode};
+use super::passes::{CANDIDATES, Changes, apply, rebuild};
+use crate::algebra::{ExprId, Graph, Substitution};
+
+/// One way to compute the outputs of a function.
+///
+/// Definitions name intermediate results by symbols that later definitions and the outputs use. They stay whole: the
+/// optimiser works on what is defined at one depth together, and does not look through a name. A solve written with
+/// named entries keeps its sharing, and stays cheap to optimise.
+#[derive(Clone, Debug, Default)]
+pub struct Formulation {
+    /// Symbols and what they stand for; a definition uses only symbols defined before it.
+    pub definitions: Vec<(ExprId, ExprId)>,
+    /// What is computed.
+    pub outputs: Vec<ExprId>,
+}
+
+/// Collects functions and turns them into code.
+///
+/// ```
+/// use guen_symbolic::{Graph, ProgramBuilder, Role};
+/// let mut g = Graph::new();
+/// let (x, m, k) = (g.symbol("x", Role::Coordinate), g.symbol("m", Role::Constant), g.symbol("k", Role::Constant));
+/// let ratio = g.div(k, m);
+/// let force = g.mul(ratio, x);
+/// let mut builder = ProgramBuilder::new(&mut g);
+/// builder.add_function("rates", &[force]);
+/// let programs = builder.finish();
+/// // k/m is computed once, the function is one multiplication.
+/// assert_eq!(programs.prepared.len(), 1);
+/// assert_eq!(programs.functions[0].cost.operations(), 1);
+/// ```
+pub struct ProgramBuilder<'a> {
+    graph: &'a mut Graph,
+    prepared: PreparedTable,
+    functions: Vec<FunctionProgram>,
+}
+
+impl<'a> ProgramBuilder<'a> {
+    /// A builder without functions.
+    pub fn new(graph: &'a mut Graph) -> Self {
+        ProgramBuilder { graph, prepared: PreparedTable::default(), functions: Vec::new() }
+    }
+
+    /// Adds a function of everything that its outputs depend on.
+    pub fn add_function(&mut self, name: &str, outputs: &[ExprId]) {
+        self.add_cheapest(name, &[Formulation { definitions: Vec::new(), outputs: outputs.to_vec() }]);
+    }
+
+    /// Adds a function in the cheapest of several formulations, the first of equals; returns which one that is.
+    pub fn add_cheapest(&mut self, name: &str, formulations: &[Formulation]) -> usize {
+        let mut best: Option<(u64, usize, Net, Vec<NetId>)> = None;
+        for (index, formulation) in formulations.iter().enumerate() {
+            let mut net = Net::default();
+            let roots = staged(self.graph, &mut net, formulation);
+            let cost = cost(self.graph, &net, &roots);
+            if best.as_ref().is_none_or(|(least, ..)| cost < *least) {
+                best = Some((cost, index, net, roots));
+            }
+        }
+        let (_, index, net, roots) = best.unwrap_or_default();
+        let Code { instructions, outputs, values } = lower(self.graph, &net, &roots, &mut self.prepared);
+        let cost = OperationCount::of(&instructions);
+        self.functions.push(FunctionProgram { name: name.to_owned(), instructions, outputs, values, cost });
+        index
+    }
+
+    /// The functions, and the code that prepares their constants.
+    pub fn finish(self) -> Programs {
+        let mut net = Net::default();
+        let roots = Conversion::roots(self.graph, &mut net, Field::Numbers, &self.prepared.expressions);
+        let mut none = PreparedTable::default();
+        let code = lower(self.graph, &net, &roots, &mut none);
+        debug_assert!(none.expressions.is_empty(), "numbers need no preparation");
+        let prepare_cost = OperationCount::of(&code.instructions);
+        Programs {
+            prepare: code.instructions,
+            prepared: code.outputs,
+            prepare_values: code.values,
+            prepare_cost,
+            functions: self.functions,
+        }
+    }
+}
+
+fn cost(graph: &mut Graph, net: &Net, roots: &[NetId]) -> u64 {
+    let code = lower(graph, net, roots, &mut PreparedTable::default());
+    OperationCount::of(&code.instructions).weighted()
+}
+
+/// The outputs, optimised depth by depth, with the definitions in place of their symbols.
+fn staged(graph: &mut Graph, net: &mut Net, formulation: &Formulation) -> Vec<NetId> {
+    // Definitions that are constants, symbols or numbers need no name: they join the coefficients.
+    let mut trivial = Substitution::default();
+    let mut depths: BTreeMap<ExprId, usize> = BTreeMap::new();
+    let mut levels: Vec<Vec<(Option<ExprId>, ExprId)>> = Vec::new();
+    let mut plain: Vec<(ExprId, ExprId)> = Vec::new();
+    let named = formulation.definitions.iter().map(|(symbol, e)| (Some(*symbol), *e));
+    let mut places: Vec<(usize, usize)> = Vec::new();
+    for (symbol, e) in named.chain(formulation.outputs.iter().map(|e| (None, *e))) {
+        let e = if plain.is_empty() { e } else { trivial.of(graph, e) };
+        if let Some(symbol) = symbol
+            && (graph.roles(e).is_constant() || graph.as_symbol(e).is_some())
+        {
+            plain.push((symbol, e));
+            trivial = Substitution::new(plain.iter().copied());
+            continue;
+        }
+        let depth = if depths.is_empty() {
+            0
+        } else {
+            let below = graph.symbols_in(&[e]);
+            below
+                .into_iter()
+                .filter_map(|s| depths.get(&graph.symbol_expr(s)).map(|d| d + 1))
+                .max()
+                .unwrap_or(0)
+        };
+        if levels.len() <= depth {
+            levels.resize(depth + 1, Vec::new());
+        }
+        match symbol {
+            Some(symbol) => {
+                depths.insert(symbol, depth);
+            }
+            None => places.push((depth, levels[depth].len())),
+        }
+        levels[depth].push((symbol, e));
+    }
+    let mut link = Changes::default();
+    let mut done: Vec<Vec<NetId>> = Vec::new();
+    for level in levels {
+        let expressions: Vec<ExprId> = level.iter().map(|(_, e)| *e).collect();
+        let roots = Conversion::roots(graph, net, Field::Constants, &expressions);
+        let best = cheapest(graph, net, roots);
+        for ((symbol, _), root) in level.iter().zip(&best) {
+            if let Some(symbol) = symbol {
+                let atom = net.intern(NetNode::Atom(*symbol));
+                link.insert(atom, NetNode::Product(vec![(*root, 1)]));
+            }
+        }
+        done.push(best);
+    }
+    let roots: Vec<NetId> = places.into_iter().map(|(depth, index)| done[depth][index]).collect();
+    if depths.is_empty() { roots } else { rebuild(graph, net, &roots, &link) }
+}
+
+/// The roots as the cheapest sequence of passes leaves them.
+fn cheapest(graph: &mut Graph, net: &mut Net, roots: Vec<NetId>) -> Vec<NetId> {
+    let mut best = (cost(graph, net, &roots), roots.clone());
+    for passes in &CANDIDATES {
+        let mut candidate = roots.clone();
+        for pass in passes.iter() {
+            candidate = apply(*pass, graph, net, &candidate);
+        }
+        let cost = cost(graph, net, &candidate);
+        if cost < best.0 {
+            best = (cost, candidate);
+        }
+    }
+    best.1
+}

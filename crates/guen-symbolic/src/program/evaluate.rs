@@ -1,0 +1,127 @@
+//! Running programs directly, over any numbers: the reference that emitted code is tested against.
+
+use super::{Instruction, Operation, Programs, Value};
+use crate::algebra::{Function, Rational, SymbolId};
+
+/// Numbers that programs can be run over.
+pub trait Arithmetic: Clone {
+    /// The nearest number.
+    fn from_rational(value: &Rational) -> Self;
+    /// The number pi.
+    fn pi() -> Self;
+    /// `a + b`.
+    fn add(&self, other: &Self) -> Self;
+    /// `a - b`.
+    fn sub(&self, other: &Self) -> Self;
+    /// `-a`.
+    fn neg(&self) -> Self;
+    /// `a * b`.
+    fn mul(&self, other: &Self) -> Self;
+    /// `a / b`.
+    fn div(&self, other: &Self) -> Self;
+    /// An elementary function.
+    fn call(function: Function, x: &Self) -> Self;
+    /// `atan2(y, x)`.
+    fn atan2(y: &Self, x: &Self) -> Self;
+}
+
+impl Arithmetic for f64 {
+    fn from_rational(value: &Rational) -> Self {
+        value.to_f64()
+    }
+    fn pi() -> Self {
+        std::f64::consts::PI
+    }
+    fn add(&self, other: &Self) -> Self {
+        self + other
+    }
+    fn sub(&self, other: &Self) -> Self {
+        self - other
+    }
+    fn neg(&self) -> Self {
+        -self
+    }
+    fn mul(&self, other: &Self) -> Self {
+        self * other
+    }
+    fn div(&self, other: &Self) -> Self {
+        self / other
+    }
+    fn call(function: Function, x: &Self) -> Self {
+        let x = *x;
+        match function {
+            Function::Sin => x.sin(),
+            Function::Cos => x.cos(),
+            Function::Asin => x.asin(),
+            Function::Acos => x.acos(),
+            Function::Atan => x.atan(),
+            Function::Exp => x.exp(),
+            Function::Ln => x.ln(),
+            Function::Sinh => x.sinh(),
+            Function::Cosh => x.cosh(),
+            Function::Tanh => x.tanh(),
+            Function::Abs => x.abs(),
+            Function::Sign if x == 0.0 => 0.0,
+            Function::Sign => x.signum(),
+            Function::Root(2) => x.sqrt(),
+            Function::Root(q) if q % 2 == 1 => x.signum() * x.abs().powf(1.0 / f64::from(q)),
+            Function::Root(q) => x.powf(1.0 / f64::from(q)),
+        }
+    }
+    fn atan2(y: &Self, x: &Self) -> Self {
+        f64::atan2(*y, *x)
+    }
+}
+
+/// The prepared values for given constants.
+pub fn evaluate_prepare<R: Arithmetic>(programs: &Programs, symbols: impl Fn(SymbolId) -> R) -> Vec<R> {
+    run(&programs.prepare, programs.prepare_values, &programs.prepared, &[], symbols)
+}
+
+/// The outputs of a function, by its index, in a given state.
+pub fn evaluate_function<R: Arithmetic>(
+    programs: &Programs,
+    function: usize,
+    prepared: &[R],
+    symbols: impl Fn(SymbolId) -> R,
+) -> Vec<R> {
+    let function = &programs.functions[function];
+    run(&function.instructions, function.values, &function.outputs, prepared, symbols)
+}
+
+fn run<R: Arithmetic>(
+    instructions: &[Instruction],
+    count: usize,
+    outputs: &[Value],
+    prepared: &[R],
+    symbols: impl Fn(SymbolId) -> R,
+) -> Vec<R> {
+    let mut values: Vec<Option<R>> = vec![None; count];
+    for instruction in instructions {
+        let at = |v: &Value| values[v.index()].clone().expect("values are defined before their use");
+        let mut second = None;
+        let result = match &instruction.operation {
+            Operation::Number(value) => R::from_rational(value),
+            Operation::Pi => R::pi(),
+            Operation::Symbol(symbol) => symbols(*symbol),
+            Operation::Prepared(k) => prepared[*k].clone(),
+            Operation::Add(a, b) => at(a).add(&at(b)),
+            Operation::Sub(a, b) => at(a).sub(&at(b)),
+            Operation::Neg(a) => at(a).neg(),
+            Operation::Mul(a, b) => at(a).mul(&at(b)),
+            Operation::Div(a, b) => at(a).div(&at(b)),
+            Operation::SinCos { angle, cosine } => {
+                let angle = at(angle);
+                second = Some((cosine, R::call(Function::Cos, &angle)));
+                R::call(Function::Sin, &angle)
+            }
+            Operation::Call(function, x) => R::call(*function, &at(x)),
+            Operation::Atan2(y, x) => R::atan2(&at(y), &at(x)),
+        };
+        values[instruction.result.index()] = Some(result);
+        if let Some((value, result)) = second {
+            values[value.index()] = Some(result);
+        }
+    }
+    outputs.iter().map(|v| values[v.index()].clone().expect("outputs are defined")).collect()
+}

@@ -1,0 +1,106 @@
+//! Straight-line code: one operation per instruction, every value defined once and before its use.
+
+use super::OperationCount;
+use crate::algebra::{Function, Rational, SymbolId};
+
+/// A value of one program, numbered from 0 in the order of definition.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub struct Value(pub(crate) u32);
+
+impl Value {
+    /// The number of the value.
+    pub fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// What an instruction does.
+#[derive(Clone, PartialEq, Eq, Hash, Debug)]
+pub enum Operation {
+    /// An exact number.
+    Number(Rational),
+    /// The number pi.
+    Pi,
+    /// The value of a symbol: time, coordinate, velocity, input, or a physical constant as it was given.
+    Symbol(SymbolId),
+    /// A value that *prepare* stored, by its index in [`Programs::prepared`].
+    Prepared(usize),
+    /// `a + b`.
+    Add(Value, Value),
+    /// `a - b`.
+    Sub(Value, Value),
+    /// `-a`.
+    Neg(Value),
+    /// `a * b`.
+    Mul(Value, Value),
+    /// `a / b`.
+    Div(Value, Value),
+    /// Sine and cosine of one angle: the result is the sine.
+    SinCos {
+        /// The angle.
+        angle: Value,
+        /// The second value that this instruction defines.
+        cosine: Value,
+    },
+    /// An elementary function, roots (of an order above one) included.
+    Call(Function, Value),
+    /// `atan2(y, x)`.
+    Atan2(Value, Value),
+}
+
+impl Operation {
+    /// The values that are read.
+    pub fn operands(&self) -> impl Iterator<Item = Value> {
+        let (a, b) = match *self {
+            Operation::Number(_) | Operation::Pi | Operation::Symbol(_) | Operation::Prepared(_) => {
+                (None, None)
+            }
+            Operation::Neg(a) | Operation::Call(_, a) | Operation::SinCos { angle: a, .. } => (Some(a), None),
+            Operation::Add(a, b)
+            | Operation::Sub(a, b)
+            | Operation::Mul(a, b)
+            | Operation::Div(a, b)
+            | Operation::Atan2(a, b) => (Some(a), Some(b)),
+        };
+        a.into_iter().chain(b)
+    }
+}
+
+/// One instruction: `result = operation`.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Instruction {
+    /// The value defined.
+    pub result: Value,
+    /// What it is.
+    pub operation: Operation,
+}
+
+/// One function of the state over the prepared values.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct FunctionProgram {
+    /// The name given to [`ProgramBuilder::add_function`](super::ProgramBuilder::add_function).
+    pub name: String,
+    /// The code, loads first used last: every instruction directly before it is needed.
+    pub instructions: Vec<Instruction>,
+    /// The results, in the order given.
+    pub outputs: Vec<Value>,
+    /// The number of values that the instructions define.
+    pub values: usize,
+    /// The operations per call.
+    pub cost: OperationCount,
+}
+
+/// The functions of a system and what they share.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Programs {
+    /// The code that runs once per set of physical constants.
+    pub prepare: Vec<Instruction>,
+    /// The values of `prepare` that are stored, each used by some function.
+    pub prepared: Vec<Value>,
+    /// The number of values that `prepare` defines.
+    pub prepare_values: usize,
+    /// The operations of `prepare`.
+    pub prepare_cost: OperationCount,
+    /// The functions, in the order in which they were added.
+    pub functions: Vec<FunctionProgram>,
+}

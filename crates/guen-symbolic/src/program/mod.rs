@@ -1,0 +1,21 @@
+//! From expressions to straight-line code: what to compute once per system, and what in every state.
+//!
+//! What comes in are expressions over symbols; what goes out are [`Programs`]: a *prepare* stage that turns
+//! physical constants into prepared values, and functions of the state over those values. The stages are
+//! `net` (expressions whose coefficients are constants) -> `passes` (equal functions with fewer operations)
+//! -> `lower` (instructions), and `builder` runs them for several candidates and keeps the cheapest.
+
+mod builder;
+mod cost;
+mod evaluate;
+mod instruction;
+mod lower;
+mod net;
+mod passes;
+#[cfg(test)]
+mod tests;
+
+pub use builder::{Formulation, ProgramBuilder};
+pub use cost::{OperationCount, weighted_cost};
+pub use evaluate::{Arithmetic, evaluate_function, evaluate_prepare};
+pub use instruction::{FunctionProgram, Instruction, Operation, Programs, Value};

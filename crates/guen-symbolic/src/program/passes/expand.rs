@@ -1,0 +1,104 @@
+//! `x (a + b) = x a + x b` for short sums that few products use, so that later passes can group terms anew.
+
+use std::collections::BTreeMap;
+
+use super::super::net::{Linear, Net, NetId, NetNode};
+use super::Changes;
+use crate::algebra::{ExprId, FastMap, Graph};
+
+/// A sum used by two products may have this many terms: a rotation does.
+const SHARED_TERMS: usize = 2;
+/// A sum used by one product may have this many terms.
+const SINGLE_TERMS: usize = 12;
+/// No sum grows beyond this.
+const LARGEST_SUM: usize = 100;
+/// Sums in sums in sums: deeper ones stay.
+const DEPTH: usize = 3;
+
+pub(super) fn changes(graph: &mut Graph, net: &mut Net, roots: &[NetId]) -> Changes {
+    let (nodes, uses) = net.reachable(roots);
+    let mut changes = Changes::default();
+    let mut gone: FastMap<NetId, ()> = FastMap::default();
+    for id in nodes.into_iter().rev() {
+        if gone.contains_key(&id) {
+            continue;
+        }
+        let NetNode::Sum(linear) = net.node(id) else { continue };
+        let mut linear = linear.clone();
+        let mut changed = false;
+        for _ in 0..DEPTH {
+            let mut progress = false;
+            let mut constant = linear.constant;
+            let mut collected: BTreeMap<NetId, ExprId> = BTreeMap::new();
+            let mut add = |graph: &mut Graph, node: NetId, k: ExprId| {
+                let slot = collected.entry(node).or_insert(graph.zero());
+                *slot = graph.add(*slot, k);
+            };
+            let mut size = linear.terms.len();
+            for (node, k) in &linear.terms {
+                let Some((rest, factor)) = expandable(net, &uses, *node) else {
+                    add(graph, *node, *k);
+                    continue;
+                };
+                let NetNode::Sum(inner) = net.node(factor).clone() else { unreachable!("only sums expand") };
+                size += inner.terms.len();
+                if size > LARGEST_SUM {
+                    add(graph, *node, *k);
+                    continue;
+                }
+                for (part, c) in inner.terms {
+                    let product = net.product(rest.iter().copied().chain([(part, 1)]));
+                    let k = graph.mul(*k, c);
+                    add(graph, product, k);
+                }
+                if !graph.is_zero(inner.constant) {
+                    let k = graph.mul(*k, inner.constant);
+                    if rest.is_empty() {
+                        constant = graph.add(constant, k);
+                    } else {
+                        let product = net.product(rest);
+                        add(graph, product, k);
+                    }
+                }
+                if uses.get(factor.0 as usize) == Some(&1) {
+                    gone.insert(factor, ());
+                }
+                progress = true;
+            }
+            if !progress {
+                break;
+            }
+            let terms = collected.into_iter().filter(|(_, k)| !graph.is_zero(*k)).collect();
+            linear = Linear { constant, terms };
+            changed = true;
+        }
+        if changed {
+            changes.insert(id, NetNode::Sum(linear));
+        }
+    }
+    changes
+}
+
+/// A short sum among the factors of a node that few others use, and the other factors.
+fn expandable(net: &Net, uses: &[u32], node: NetId) -> Option<(Vec<(NetId, i32)>, NetId)> {
+    // Nodes that this pass has made are used once.
+    let count = |id: NetId| uses.get(id.0 as usize).copied().filter(|n| *n > 0).unwrap_or(1);
+    let short = |id: NetId| match net.node(id) {
+        NetNode::Sum(inner) => match count(id) {
+            1 => inner.terms.len() <= SINGLE_TERMS,
+            2 => inner.terms.len() <= SHARED_TERMS,
+            _ => false,
+        },
+        _ => false,
+    };
+    match net.node(node) {
+        NetNode::Sum(_) if short(node) => Some((Vec::new(), node)),
+        NetNode::Product(factors) if count(node) == 1 => {
+            let position = factors.iter().position(|(factor, e)| *e == 1 && short(*factor))?;
+            let mut rest = factors.clone();
+            let (factor, _) = rest.remove(position);
+            Some((rest, factor))
+        }
+        _ => None,
+    }
+}

@@ -1,0 +1,163 @@
+//! `x a + x b + c = x (a + b) + c`, greedily by the factor that most terms share, constants included.
+
+use std::collections::BTreeMap;
+
+use super::super::net::{Linear, Net, NetId, NetNode, split_sign};
+use super::Changes;
+use crate::algebra::{ExprId, Graph};
+
+/// Sums with more terms stay as they are.
+const LARGEST_SUM: usize = 400;
+
+/// One term: coefficient and powers.
+#[derive(Clone, Debug)]
+struct Term {
+    k: ExprId,
+    powers: BTreeMap<NetId, i32>,
+}
+
+/// What several terms have in common.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+enum Common {
+    /// A power of a node, above or below.
+    Power(NetId, bool),
+    /// A coefficient up to its sign.
+    Coefficient(ExprId),
+}
+
+pub(super) fn changes(graph: &mut Graph, net: &mut Net, roots: &[NetId], open_shared: bool) -> Changes {
+    let (nodes, uses) = net.reachable(roots);
+    let mut changes = Changes::default();
+    for id in nodes {
+        let NetNode::Sum(linear) = net.node(id) else { continue };
+        if linear.terms.len() < 2 || linear.terms.len() > LARGEST_SUM {
+            continue;
+        }
+        let linear = linear.clone();
+        let terms: Vec<Term> = linear
+            .terms
+            .iter()
+            .map(|(node, k)| {
+                let powers = match net.node(*node) {
+                    NetNode::Product(factors) if open_shared || uses[node.0 as usize] == 1 => {
+                        factors.iter().copied().collect()
+                    }
+                    _ => BTreeMap::from([(*node, 1)]),
+                };
+                Term { k: *k, powers }
+            })
+            .collect();
+        let factored = factor(graph, net, linear.constant, terms);
+        if factored != linear {
+            changes.insert(id, NetNode::Sum(factored));
+        }
+    }
+    changes
+}
+
+/// The sum with common factors taken out; the depth of recursion is bounded by the degree of the terms.
+fn factor(graph: &mut Graph, net: &mut Net, mut constant: ExprId, mut terms: Vec<Term>) -> Linear {
+    let mut finished: BTreeMap<NetId, ExprId> = BTreeMap::new();
+    while let Some(common) = most_common(graph, &terms) {
+        let mut group = Vec::new();
+        let mut rest = Vec::new();
+        let mut outer = graph.one();
+        let mut exponent = i32::MAX;
+        for term in terms {
+            let belongs = match common {
+                Common::Power(node, above) => {
+                    let e = term.powers.get(&node).copied().unwrap_or(0);
+                    let belongs = e != 0 && (e > 0) == above;
+                    if belongs {
+                        exponent = exponent.min(e.abs());
+                    }
+                    belongs
+                }
+                Common::Coefficient(k) => split_sign(graph, term.k).1 == k,
+            };
+            if belongs { group.push(term) } else { rest.push(term) }
+        }
+        terms = rest;
+        let mut factors: BTreeMap<NetId, i32> = BTreeMap::new();
+        let zero = graph.zero();
+        let mut inner_constant = zero;
+        match common {
+            Common::Power(node, above) => {
+                let e = if above { exponent } else { -exponent };
+                factors.insert(node, e);
+                for term in &mut group {
+                    *term.powers.entry(node).or_default() -= e;
+                    term.powers.retain(|_, e| *e != 0);
+                }
+                let (bare, left): (Vec<_>, Vec<_>) =
+                    group.into_iter().partition(|term| term.powers.is_empty());
+                for term in bare {
+                    inner_constant = graph.add(inner_constant, term.k);
+                }
+                group = left;
+            }
+            Common::Coefficient(k) => {
+                outer = k;
+                let (one, minus) = (graph.one(), graph.number(-1));
+                for term in &mut group {
+                    term.k = if split_sign(graph, term.k).0 { minus } else { one };
+                }
+                if !graph.is_zero(constant) && finished.is_empty() && terms.is_empty() {
+                    let (negative, size) = split_sign(graph, constant);
+                    if size == k {
+                        inner_constant = if negative { minus } else { one };
+                        constant = zero;
+                    }
+                }
+            }
+        }
+        let inner = factor(graph, net, inner_constant, group);
+        // A single term keeps its coefficient outside of the product.
+        let node = match inner.terms[..] {
+            [(node, k)] if graph.is_zero(inner.constant) => {
+                outer = graph.mul(outer, k);
+                node
+            }
+            _ => net.intern(NetNode::Sum(inner)),
+        };
+        match net.node(node) {
+            NetNode::Product(inner) if !factors.is_empty() => {
+                for (node, e) in inner {
+                    *factors.entry(*node).or_default() += e;
+                }
+            }
+            _ => *factors.entry(node).or_default() += 1,
+        }
+        let node = net.plain_product(factors);
+        let slot = finished.entry(node).or_insert(zero);
+        *slot = graph.add(*slot, outer);
+    }
+    for term in terms {
+        let node = net.plain_product(term.powers);
+        let slot = finished.entry(node).or_insert(graph.zero());
+        *slot = graph.add(*slot, term.k);
+    }
+    let terms = finished.into_iter().filter(|(_, k)| !graph.is_zero(*k)).collect();
+    Linear { constant, terms }
+}
+
+/// The factor that most terms share, if two do; powers before coefficients, older nodes before younger.
+fn most_common(graph: &mut Graph, terms: &[Term]) -> Option<Common> {
+    let mut counts: BTreeMap<Common, usize> = BTreeMap::new();
+    for term in terms {
+        for (node, e) in &term.powers {
+            *counts.entry(Common::Power(*node, *e > 0)).or_default() += 1;
+        }
+        let (_, k) = split_sign(graph, term.k);
+        if k != graph.one() {
+            *counts.entry(Common::Coefficient(k)).or_default() += 1;
+        }
+    }
+    let mut best: Option<(usize, Common)> = None;
+    for (common, count) in counts {
+        if count >= 2 && best.is_none_or(|(most, _)| count > most) {
+            best = Some((count, common));
+        }
+    }
+    best.map(|(_, common)| common)
+}

@@ -1,0 +1,133 @@
+//! Rewriting a net into an equal one with fewer operations: one file per pass, composed in a visible list.
+//!
+//! What comes in are roots of a net; what goes out are roots of equal functions. A pass only names nodes whose
+//! contents change; [`rebuild`] carries the changes to everything above.
+
+mod absorb;
+pub(super) mod angles;
+mod expand;
+mod factor;
+mod products;
+mod signs;
+mod sums;
+
+use std::collections::BTreeMap;
+
+use super::net::{Linear, Net, NetId, NetNode};
+use crate::algebra::{ExprId, FastMap, Graph};
+
+/// New contents of some nodes, in terms of nodes whose contents may change as well.
+pub(super) type Changes = FastMap<NetId, NetNode>;
+
+/// One rewriting of the whole net.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Pass {
+    /// Constant factors move into sums that have a coefficient at every term anyway.
+    Absorb,
+    /// Products of short sums that little else uses as sums of products.
+    Expand,
+    /// Sums as `x * (...) + rest`; products that are shared are not taken apart.
+    FactorUnshared,
+    /// The same, whatever is shared.
+    FactorAll,
+    /// Pairs of factors that several products have become one; a constant coefficient is one factor.
+    Products,
+    /// The same with coefficients taken apart into their own factors first.
+    ProductsAndConstants,
+    /// Pairs of terms that several sums have in the same ratio become one.
+    Sums,
+    /// Signs move to where they cost nothing.
+    Signs,
+}
+
+/// The sequences that are tried; the cheapest result is kept, the earlier one of equals.
+pub(super) const CANDIDATES: [&[Pass]; 5] = {
+    use Pass::{Absorb, Expand, FactorAll, FactorUnshared, Products, ProductsAndConstants, Signs, Sums};
+    [
+        &[Absorb, Products, Sums, FactorUnshared, Absorb, Products, Signs],
+        &[Expand, Absorb, Sums, Products, FactorUnshared, Absorb, Products, Signs],
+        &[Absorb, FactorAll, Sums, Absorb, Products, FactorUnshared, Signs],
+        &[ProductsAndConstants, Sums, FactorUnshared, Absorb, Products, Signs],
+        &[Expand, ProductsAndConstants, FactorUnshared, Sums, Absorb, Products, Signs],
+    ]
+};
+
+/// Applies one pass.
+pub(super) fn apply(pass: Pass, graph: &mut Graph, net: &mut Net, roots: &[NetId]) -> Vec<NetId> {
+    let changes = match pass {
+        Pass::Absorb => absorb::changes(graph, net, roots),
+        Pass::Expand => expand::changes(graph, net, roots),
+        Pass::FactorUnshared => factor::changes(graph, net, roots, false),
+        Pass::FactorAll => factor::changes(graph, net, roots, true),
+        Pass::Products => products::changes(graph, net, roots, false),
+        Pass::ProductsAndConstants => products::changes(graph, net, roots, true),
+        Pass::Sums => sums::changes(graph, net, roots),
+        Pass::Signs => signs::changes(graph, net, roots),
+    };
+    rebuild(graph, net, roots, &changes)
+}
+
+/// The roots with everything below them as the changes say.
+pub(super) fn rebuild(graph: &mut Graph, net: &mut Net, roots: &[NetId], changes: &Changes) -> Vec<NetId> {
+    if changes.is_empty() {
+        return roots.to_vec();
+    }
+    let mut images: Vec<Option<NetId>> = vec![None; net.len()];
+    let mut stack: Vec<(NetId, bool)> = roots.iter().rev().map(|root| (*root, false)).collect();
+    while let Some((id, entered)) = stack.pop() {
+        if images[id.0 as usize].is_some() {
+            continue;
+        }
+        let change = changes.get(&id);
+        let content = change.unwrap_or_else(|| net.node(id));
+        if !entered {
+            stack.push((id, true));
+            content.children(|child| {
+                if images[child.0 as usize].is_none() {
+                    stack.push((child, false));
+                }
+            });
+            continue;
+        }
+        let mut same = change.is_none();
+        content.children(|child| same &= images[child.0 as usize] == Some(child));
+        let image = if same {
+            id
+        } else {
+            let content = content.clone();
+            with_children(graph, net, content, |child| images[child.0 as usize].expect("children come first"))
+        };
+        images[id.0 as usize] = Some(image);
+    }
+    roots.iter().map(|root| images[root.0 as usize].expect("roots are visited")).collect()
+}
+
+fn with_children(graph: &mut Graph, net: &mut Net, node: NetNode, image: impl Fn(NetId) -> NetId) -> NetId {
+    match node {
+        NetNode::Atom(_) | NetNode::Constant(_) => net.intern(node),
+        NetNode::Sum(linear) => {
+            let mut collected: BTreeMap<NetId, ExprId> = BTreeMap::new();
+            for (child, k) in linear.terms {
+                let slot = collected.entry(image(child)).or_insert(graph.zero());
+                *slot = graph.add(*slot, k);
+            }
+            let mut terms: Vec<_> = collected.into_iter().collect();
+            terms.retain(|(_, k)| !graph.is_zero(*k));
+            net.sum(graph, Linear { constant: linear.constant, terms })
+        }
+        NetNode::Product(factors) => {
+            let mut collected: BTreeMap<NetId, i32> = BTreeMap::new();
+            for (child, e) in factors {
+                *collected.entry(image(child)).or_default() += e;
+            }
+            net.plain_product(collected)
+        }
+        NetNode::Call(function, x) => net.intern(NetNode::Call(function, image(x))),
+        NetNode::Atan2(y, x) => net.intern(NetNode::Atan2(image(y), image(x))),
+    }
+}
+
+/// A coefficient that costs nothing: one or minus one.
+fn is_unit(graph: &Graph, k: ExprId) -> bool {
+    graph.as_number(k).is_some_and(|value| value.is_one() || value.is_minus_one())
+}

@@ -1,0 +1,357 @@
+//! Pairs of factors shared by several products become nodes of their own, the most frequent pair first.
+//!
+//! A monomial is a coefficient and powers of nodes; a power `x^-2` counts as the factor `1/x` twice. The counts
+//! are kept up to date in a heap, so the work is near-linear in the sizes of the monomials, which are small.
+
+use std::cmp::Reverse;
+use std::collections::{BTreeMap, BinaryHeap};
+
+use super::super::net::{Linear, Net, NetId, NetNode, constant_factors, split_sign};
+use super::Changes;
+use crate::algebra::{ExprId, FastMap, Graph, Rational};
+
+/// More monomials than this stay as they are.
+const LARGEST_PROBLEM: usize = 20_000;
+/// Monomials of more different factors do not take part: pairs grow with the square.
+const LONGEST_MONOMIAL: usize = 24;
+
+/// A factor that pairs are made of, in one word: comparing and hashing pairs is most of the work.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+struct Literal(u32);
+
+#[derive(Clone, Copy, Debug)]
+enum Factor {
+    Above(NetId),
+    Below(NetId),
+    Constant(ExprId),
+}
+
+const TAG: u32 = 30;
+
+impl Literal {
+    fn new(factor: Factor) -> Self {
+        let (tag, id) = match factor {
+            Factor::Above(node) => (0, node.0),
+            Factor::Below(node) => (1, node.0),
+            Factor::Constant(k) => (2, k.0),
+        };
+        debug_assert!(id >> TAG == 0, "the graph has more than 2^30 nodes");
+        Literal(tag << TAG | id)
+    }
+
+    fn factor(self) -> Factor {
+        let id = self.0 & ((1 << TAG) - 1);
+        match self.0 >> TAG {
+            0 => Factor::Above(NetId(id)),
+            1 => Factor::Below(NetId(id)),
+            _ => Factor::Constant(ExprId(id)),
+        }
+    }
+
+    fn is_constant(self) -> bool {
+        self.0 >> TAG == 2
+    }
+}
+
+/// Two factors, the smaller first; twice the same is a square.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+struct Pair(u64);
+
+impl Pair {
+    fn new(a: Literal, b: Literal) -> Self {
+        let (a, b) = if a <= b { (a, b) } else { (b, a) };
+        Pair(u64::from(a.0) << 32 | u64::from(b.0))
+    }
+
+    fn literals(self) -> (Literal, Literal) {
+        (Literal((self.0 >> 32) as u32), Literal(self.0 as u32))
+    }
+}
+
+/// Powers of factors, in no order that matters; short.
+type Monomial = Vec<(Literal, u32)>;
+
+#[derive(Default)]
+struct Search {
+    monomials: Vec<Monomial>,
+    occurrences: FastMap<Literal, Vec<u32>>,
+    counts: FastMap<Pair, u32>,
+    heap: BinaryHeap<(u32, Reverse<Pair>)>,
+}
+
+impl Search {
+    fn add(&mut self, monomial: Monomial) -> usize {
+        let index = self.monomials.len();
+        for (literal, _) in &monomial {
+            self.occurrences.entry(*literal).or_default().push(index as u32);
+        }
+        self.monomials.push(monomial);
+        index
+    }
+
+    /// Counts all pairs once everything is added. A factor of one monomial only is in no pair of two.
+    fn count_all(&mut self) {
+        let mut shared: Monomial = Vec::new();
+        for monomial in &self.monomials {
+            if monomial.len() > LONGEST_MONOMIAL {
+                continue;
+            }
+            shared.clear();
+            shared.extend(monomial.iter().filter(|(literal, _)| self.occurrences[literal].len() >= 2));
+            for (i, (a, n)) in shared.iter().enumerate() {
+                if *n >= 2 {
+                    *self.counts.entry(Pair::new(*a, *a)).or_default() += 1;
+                }
+                for (b, _) in &shared[i + 1..] {
+                    if !(a.is_constant() && b.is_constant()) {
+                        *self.counts.entry(Pair::new(*a, *b)).or_default() += 1;
+                    }
+                }
+            }
+        }
+        // The heap orders what the map does not.
+        self.heap =
+            self.counts.iter().filter(|(_, n)| **n >= 2).map(|(pair, n)| (*n, Reverse(*pair))).collect();
+    }
+
+    /// One more or one less of a pair; pairs that were never counted cannot become frequent by losing some.
+    fn change(&mut self, pair: Pair, up: bool) {
+        if up {
+            let count = self.counts.entry(pair).or_default();
+            *count += 1;
+            if *count >= 2 {
+                self.heap.push((*count, Reverse(pair)));
+            }
+        } else if let Some(count) = self.counts.get_mut(&pair) {
+            *count -= 1;
+        }
+    }
+
+    fn run(&mut self, graph: &Graph, net: &mut Net) {
+        self.count_all();
+        while let Some((count, Reverse(pair))) = self.heap.pop() {
+            let current = self.counts.get(&pair).copied().unwrap_or(0);
+            if current != count {
+                // Counts only fall between pushes: what is left of this pair waits for its turn.
+                if current >= 2 && current < count {
+                    self.heap.push((current, Reverse(pair)));
+                }
+                continue;
+            }
+            self.replace(pair, join(graph, net, pair));
+        }
+    }
+
+    /// Puts the joined factor in the place of the pair wherever the pair occurs.
+    fn replace(&mut self, pair: Pair, joined: Literal) {
+        let (a, b) = pair.literals();
+        let users = self.occurrences
+            [if self.occurrences[&a].len() <= self.occurrences[&b].len() { &a } else { &b }]
+        .clone();
+        for index in users {
+            let monomial = &self.monomials[index as usize];
+            if monomial.len() > LONGEST_MONOMIAL {
+                continue;
+            }
+            let power =
+                |literal: Literal| monomial.iter().find(|(l, _)| *l == literal).map_or(0, |(_, n)| *n);
+            let (na, nb) = (power(a), power(b));
+            let times = if a == b { na / 2 } else { na.min(nb) };
+            if times == 0 {
+                continue;
+            }
+            let mut monomial = core::mem::take(&mut self.monomials[index as usize]);
+            let is_new = monomial.iter().all(|(l, _)| *l != joined);
+            let used = if a == b { 2 * times } else { times };
+            for (literal, before) in [(a, na), (b, nb)] {
+                let after = before - used;
+                if before >= 2 && after < 2 {
+                    self.change(Pair::new(literal, literal), false);
+                }
+                if after == 0 {
+                    for (other, _) in &monomial {
+                        if *other != literal && !(other.is_constant() && literal.is_constant()) {
+                            self.change(Pair::new(literal, *other), false);
+                        }
+                    }
+                    monomial.retain(|(l, _)| *l != literal);
+                } else if let Some(entry) = monomial.iter_mut().find(|(l, _)| *l == literal) {
+                    entry.1 = after;
+                }
+                if a == b {
+                    break;
+                }
+            }
+            if is_new {
+                for (other, _) in &monomial {
+                    self.change(Pair::new(joined, *other), true);
+                }
+                if times >= 2 {
+                    self.change(Pair::new(joined, joined), true);
+                }
+                monomial.push((joined, times));
+                self.occurrences.entry(joined).or_default().push(index);
+            } else if let Some(entry) = monomial.iter_mut().find(|(l, _)| *l == joined) {
+                if entry.1 < 2 && entry.1 + times >= 2 {
+                    self.change(Pair::new(joined, joined), true);
+                }
+                entry.1 += times;
+            }
+            self.monomials[index as usize] = monomial;
+        }
+        // What is left over of the pair, if anything, are odd powers: they cannot be joined again.
+        self.counts.insert(pair, 0);
+    }
+}
+
+/// The factor that stands for a pair.
+fn join(graph: &Graph, net: &mut Net, pair: Pair) -> Literal {
+    use Factor::{Above, Below, Constant};
+    let mut product = |a: (NetId, i32), b: (NetId, i32)| {
+        let mut factors = BTreeMap::from([a]);
+        *factors.entry(b.0).or_default() += b.1;
+        net.plain_product(factors)
+    };
+    let (a, b) = pair.literals();
+    Literal::new(match (a.factor(), b.factor()) {
+        (Below(a), Below(b)) => Below(product((a, 1), (b, 1))),
+        (Above(a), Above(b)) => Above(product((a, 1), (b, 1))),
+        (Above(a), Below(b)) | (Below(b), Above(a)) => Above(product((a, 1), (b, -1))),
+        (Above(a), Constant(k)) | (Constant(k), Above(a)) => {
+            Above(net.intern(NetNode::Sum(Linear { constant: graph.zero(), terms: vec![(a, k)] })))
+        }
+        (Below(a), Constant(k)) | (Constant(k), Below(a)) => {
+            let reciprocal = net.plain_product(BTreeMap::from([(a, -1)]));
+            Above(net.intern(NetNode::Sum(Linear { constant: graph.zero(), terms: vec![(reciprocal, k)] })))
+        }
+        (Constant(_), Constant(_)) => unreachable!("constants are not paired with each other"),
+    })
+}
+
+pub(super) fn changes(graph: &mut Graph, net: &mut Net, roots: &[NetId], split_constants: bool) -> Changes {
+    let (nodes, _) = net.reachable(roots);
+    let mut changes = Changes::default();
+    let mut search = Search::default();
+    // Each coefficient (without its sign) and node once, with its index among the monomials.
+    let mut known: FastMap<(ExprId, NetId), usize> = FastMap::default();
+    let one = graph.one();
+    let mut places: Vec<(NetId, Vec<(bool, usize)>)> = Vec::new();
+    let mut inner_products: Vec<(NetId, usize)> = Vec::new();
+    // Products that occur as whole values, not only as a term with a coefficient.
+    let mut whole: Vec<NetId> = roots.to_vec();
+    for id in &nodes {
+        if let NetNode::Sum(linear) = net.node(*id) {
+            let terms = linear.terms.clone();
+            let mut place = Vec::with_capacity(terms.len());
+            for (node, k) in terms {
+                let (negative, k) = split_sign(graph, k);
+                place.push((
+                    negative,
+                    monomial(graph, net, &mut search, &mut known, k, node, split_constants),
+                ));
+            }
+            places.push((*id, place));
+        } else {
+            net.children(*id, |child| whole.push(child));
+        }
+    }
+    whole.sort_unstable();
+    whole.dedup();
+    for id in whole {
+        if matches!(net.node(id), NetNode::Product(_)) {
+            let index = monomial(graph, net, &mut search, &mut known, one, id, split_constants);
+            inner_products.push((id, index));
+        }
+    }
+    if search.monomials.len() > LARGEST_PROBLEM {
+        return changes;
+    }
+    search.run(graph, net);
+    let minus = graph.number(-1);
+    for (id, place) in places {
+        let NetNode::Sum(linear) = net.node(id) else { continue };
+        let constant = linear.constant;
+        let mut collected: BTreeMap<NetId, ExprId> = BTreeMap::new();
+        for (negative, index) in place {
+            let (k, node) = finish(graph, net, &search.monomials[index]);
+            let k = if negative { graph.mul(k, minus) } else { k };
+            let slot = collected.entry(node).or_insert(graph.zero());
+            *slot = graph.add(*slot, k);
+        }
+        let terms: Vec<_> = collected.into_iter().collect();
+        let unchanged = matches!(net.node(id), NetNode::Sum(linear) if linear.terms == terms);
+        if !unchanged && terms != [(id, one)] {
+            changes.insert(id, NetNode::Sum(Linear { constant, terms }));
+        }
+    }
+    for (id, index) in inner_products {
+        let (_, node) = finish(graph, net, &search.monomials[index]);
+        if node != id {
+            changes.insert(id, NetNode::Product(vec![(node, 1)]));
+        }
+    }
+    changes
+}
+
+fn monomial(
+    graph: &mut Graph,
+    net: &Net,
+    search: &mut Search,
+    known: &mut FastMap<(ExprId, NetId), usize>,
+    k: ExprId,
+    node: NetId,
+    split_constants: bool,
+) -> usize {
+    if let Some(index) = known.get(&(k, node)) {
+        return *index;
+    }
+    let mut literals = Monomial::new();
+    let single = [(node, 1)];
+    let factors: &[(NetId, i32)] = match net.node(node) {
+        NetNode::Product(factors) => factors,
+        _ => &single,
+    };
+    for (node, e) in factors {
+        let factor = if *e > 0 { Factor::Above(*node) } else { Factor::Below(*node) };
+        literals.push((Literal::new(factor), e.unsigned_abs()));
+    }
+    let mut constants = Vec::new();
+    if k != graph.one() {
+        if split_constants {
+            let (number, powers) = constant_factors(graph, k);
+            for (base, e) in powers {
+                let power = graph.powi(base, e);
+                constants.push(power);
+            }
+            if number != Rational::ONE {
+                let number = graph.number(number);
+                constants.push(number);
+            }
+        } else {
+            constants.push(k);
+        }
+    }
+    literals.extend(constants.into_iter().map(|k| (Literal::new(Factor::Constant(k)), 1)));
+    let index = search.add(literals);
+    known.insert((k, node), index);
+    index
+}
+
+/// What is left of a monomial, as a coefficient and a node.
+fn finish(graph: &mut Graph, net: &mut Net, monomial: &[(Literal, u32)]) -> (ExprId, NetId) {
+    let mut constants = Vec::new();
+    let mut factors: BTreeMap<NetId, i32> = BTreeMap::new();
+    for (literal, n) in monomial {
+        match literal.factor() {
+            Factor::Above(node) => *factors.entry(node).or_default() += *n as i32,
+            Factor::Below(node) => *factors.entry(node).or_default() -= *n as i32,
+            Factor::Constant(k) => constants.push((k, 1)),
+        }
+    }
+    let k = match constants[..] {
+        [] => graph.one(),
+        [(k, 1)] => k,
+        _ => graph.product(&constants),
+    };
+    (k, net.plain_product(factors))
+}

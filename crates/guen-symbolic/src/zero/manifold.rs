@@ -1,0 +1,429 @@
+//! Points of the constraint manifold: modulo the prime by elimination, over the reals by projection.
+//!
+//! What comes in are the functions that vanish on the manifold. Modulo the prime they are solved block by
+//! block for symbols that enter them linearly (one of a block's equations may be quadratic): a block's
+//! symbols occur in no equation solved before it. A real point is a random point projected by Newton's
+//! method onto the manifold.
+
+use super::field::{self, PRIME, add, inverse, mul, neg, sub};
+use super::real::{Real, RealPoint, evaluate, exponent};
+use super::sample::Sample;
+use super::table::Table;
+use crate::algebra::{Bound, ExprId, FastMap, Flow, Function, Graph, Node, Role, SymbolId};
+use f256::f256;
+
+/// Equations that are solved together; the unit vectors of a frame need three.
+const LARGEST_BLOCK: usize = 3;
+/// Sets of symbols that are tried for one set of equations.
+const LARGEST_SEARCH: usize = 200;
+/// Draws of a whole point, and of the symbols of one block, before there is none.
+const REDRAWS: u64 = 64;
+/// Random points that are projected before there is no real point.
+const PROJECTIONS: u64 = 8;
+/// From one projection to the next: the signs stay, the sizes change.
+const STRIDE: u64 = 16;
+/// Newton's steps in double precision.
+const NEWTON_STEPS: usize = 60;
+/// Newton's steps in 237 bits: each doubles the digits.
+const POLISH_STEPS: usize = 4;
+
+/// Equations that are solved together for as many symbols.
+#[derive(Debug)]
+struct Block {
+    /// Jointly linear in the symbols.
+    linear: Vec<ExprId>,
+    /// Jointly quadratic in the symbols.
+    quadratic: Option<ExprId>,
+    symbols: Vec<SymbolId>,
+    /// Symbols that occur in no equation before: they may be drawn again.
+    free: Vec<SymbolId>,
+}
+
+/// The set where all equations hold.
+#[derive(Debug)]
+pub(super) struct Manifold {
+    /// In the order of solution; `None` if no order was found.
+    blocks: Option<Vec<Block>>,
+    equations: Vec<ExprId>,
+    /// What a real point may move along, and the equations' derivatives by it, row by row.
+    variables: Vec<SymbolId>,
+    jacobian: Vec<ExprId>,
+    /// Per node: whether a solved symbol occurs, and whether one occurs in a transcendental function.
+    occurrence: Vec<u8>,
+}
+
+const OCCURS: u8 = 1;
+const INSIDE: u8 = 2;
+
+impl Manifold {
+    pub(super) fn new(graph: &mut Graph, equations: &[ExprId]) -> Self {
+        let mut equations = equations.to_vec();
+        equations.sort_unstable();
+        equations.dedup();
+        let variables: Vec<_> = graph
+            .symbols_in(&equations)
+            .into_iter()
+            .filter(|s| matches!(graph.symbol_info(*s).role, Role::Coordinate | Role::Constant))
+            .collect();
+        let mut jacobian = vec![graph.zero(); equations.len() * variables.len()];
+        for (j, symbol) in variables.iter().enumerate() {
+            let symbol = graph.symbol_expr(*symbol);
+            let mut flow = Flow::partial(graph, symbol);
+            for (i, equation) in equations.iter().enumerate() {
+                jacobian[i * variables.len() + j] = flow.of(graph, *equation);
+            }
+        }
+        let blocks = triangular(graph, &equations);
+        Manifold { blocks, equations, variables, jacobian, occurrence: Vec::new() }
+    }
+
+    /// Whether points modulo the prime can be found.
+    pub(super) fn is_solved(&self) -> bool {
+        self.blocks.is_some()
+    }
+
+    /// Whether a symbol that the constraints determine occurs in an argument of a transcendental function.
+    ///
+    /// Such a function may be related to another one, which residues do not see.
+    pub(super) fn enters_functions(&mut self, graph: &Graph, e: ExprId) -> bool {
+        let blocks = self.blocks.as_deref().unwrap_or_default();
+        for index in self.occurrence.len()..=e.index() {
+            let id = ExprId(index as u32);
+            let mut bits =
+                graph.children(id).iter().fold(0, |bits, child| bits | self.occurrence[child.index()]);
+            match graph.node(id) {
+                Node::Symbol(symbol) if blocks.iter().any(|block| block.symbols.contains(symbol)) => {
+                    bits = OCCURS
+                }
+                Node::Function(Function::Root(_) | Function::Abs | Function::Sign, _) => {}
+                Node::Function(..) | Node::Atan2(..) if bits & OCCURS != 0 => bits |= INSIDE,
+                _ => {}
+            }
+            self.occurrence.push(bits);
+        }
+        self.occurrence[e.index()] & INSIDE != 0
+    }
+
+    /// The point of a number modulo the prime.
+    pub(super) fn sample(&self, graph: &Graph, table: &Table, number: u64) -> Option<Sample> {
+        let blocks = self.blocks.as_ref()?;
+        (0..REDRAWS).find_map(|attempt| {
+            let seed = field::mix(field::mix(number ^ 0x6d61_6e69) ^ attempt);
+            let mut fixed = FastMap::default();
+            for block in blocks {
+                block.solve(graph, table, seed, &mut fixed)?;
+            }
+            let mut sample = Sample::new(seed);
+            sample.fixed = fixed;
+            self.equations.iter().all(|e| sample.value(graph, table, *e) == Some(0)).then_some(sample)
+        })
+    }
+
+    /// The point of a number over the reals.
+    pub(super) fn real_point(&self, graph: &Graph, number: u64) -> Option<RealPoint> {
+        (0..PROJECTIONS).find_map(|attempt| {
+            let mut point = RealPoint::new(number + STRIDE * attempt);
+            let mut x: Vec<f64> = self.variables.iter().map(|s| point.draw(graph, *s)).collect();
+            let time = |s: SymbolId| RealPoint::new(number + STRIDE * attempt).draw(graph, s);
+            let mut last = f64::INFINITY;
+            for _ in 0..NEWTON_STEPS {
+                last = self.project(graph, &mut x, &time)?;
+                if last < 1e-12 {
+                    break;
+                }
+            }
+            let within =
+                self.variables.iter().zip(&x).all(|(symbol, x)| match graph.symbol_info(*symbol).bound {
+                    Bound::Positive | Bound::NonNegative => *x > 1e-3,
+                    Bound::Negative | Bound::NonPositive => *x < -1e-3,
+                    Bound::Free | Bound::NonZero => true,
+                });
+            // NaN is not below either.
+            if !within || last.is_nan() || last > 1e-6 {
+                return None;
+            }
+            let mut x: Vec<f256> = x.into_iter().map(f256::from).collect();
+            let mut last = f256::ONE;
+            for _ in 0..POLISH_STEPS {
+                last = self.project(graph, &mut x, &|s| f256::from(time(s)))?;
+            }
+            if exponent(last) > -200.0 {
+                return None;
+            }
+            point.fixed = self.variables.iter().copied().zip(x).collect();
+            Some(point)
+        })
+    }
+
+    /// One step `x -= J^T (J J^T)^-1 f`; returns the largest component of the step.
+    fn project<R: Real + PartialOrd>(
+        &self,
+        graph: &Graph,
+        x: &mut [R],
+        others: &dyn Fn(SymbolId) -> R,
+    ) -> Option<R> {
+        let roots: Vec<_> = self.equations.iter().chain(&self.jacobian).copied().collect();
+        let values =
+            evaluate(graph, &roots, &|symbol| match self.variables.iter().position(|s| *s == symbol) {
+                Some(i) => x[i],
+                None => others(symbol),
+            });
+        let (f, jacobian) = values.split_at(self.equations.len());
+        let rows: Vec<&[R]> = jacobian.chunks(self.variables.len().max(1)).collect();
+        let zero = R::rational(&crate::algebra::Rational::ZERO);
+        let dot = |a: &[R], b: &[R]| a.iter().zip(b).fold(zero, |sum, (a, b)| sum + *a * *b);
+        let system = rows
+            .iter()
+            .zip(f)
+            .map(|(row, f)| rows.iter().map(|other| dot(row, other)).chain([*f]).collect())
+            .collect();
+        let multipliers = solve_dense(system)?;
+        let mut largest = zero;
+        for (j, x) in x.iter_mut().enumerate() {
+            let step = rows.iter().zip(&multipliers).fold(zero, |sum, (row, m)| sum + row[j] * *m);
+            *x = *x - step;
+            let size = step.of(Function::Abs);
+            if size.partial_cmp(&largest) != Some(core::cmp::Ordering::Less) {
+                largest = size;
+            }
+        }
+        Some(largest)
+    }
+}
+
+/// Solves a small system given with its right side as last column; `None` if it is singular.
+fn solve_dense<R: Real + PartialOrd>(mut rows: Vec<Vec<R>>) -> Option<Vec<R>> {
+    let n = rows.len();
+    let zero = R::rational(&crate::algebra::Rational::ZERO);
+    for column in 0..n {
+        let mut best = column;
+        for i in column..n {
+            if rows[i][column].of(Function::Abs) > rows[best][column].of(Function::Abs) {
+                best = i;
+            }
+        }
+        rows.swap(column, best);
+        let pivot_row = rows[column].clone();
+        if pivot_row[column].of(Function::Abs).partial_cmp(&zero) != Some(core::cmp::Ordering::Greater) {
+            return None;
+        }
+        for (i, row) in rows.iter_mut().enumerate() {
+            if i != column {
+                let factor = row[column] / pivot_row[column];
+                for (value, pivot) in row[column..].iter_mut().zip(&pivot_row[column..]) {
+                    *value = *value - factor * *pivot;
+                }
+            }
+        }
+    }
+    Some((0..n).map(|i| rows[i][n] / rows[i][i]).collect())
+}
+
+/// The residues of equations where the block's symbols have the given values.
+type Evaluation<'a> = dyn Fn(&[ExprId], &[u64]) -> Option<Vec<u64>> + 'a;
+
+impl Block {
+    /// Adds the block's symbols to those that are fixed; `None` if this draw has no solution.
+    fn solve(
+        &self,
+        graph: &Graph,
+        table: &Table,
+        seed: u64,
+        fixed: &mut FastMap<SymbolId, u64>,
+    ) -> Option<()> {
+        for attempt in 0..REDRAWS {
+            if attempt > 0 {
+                if self.free.is_empty() {
+                    return None;
+                }
+                let other = Sample::new(field::mix(seed ^ attempt));
+                fixed.extend(self.free.iter().map(|s| (*s, other.symbol(graph, *s))));
+            }
+            for solution in self.solutions(graph, table, seed, fixed) {
+                let allowed = self.symbols.iter().zip(&solution).all(|(symbol, value)| {
+                    match graph.symbol_info(*symbol).bound {
+                        Bound::Free => true,
+                        Bound::NonZero => *value != 0,
+                        Bound::Positive | Bound::NonNegative => field::is_residue(*value),
+                        Bound::Negative | Bound::NonPositive => field::is_residue(neg(*value)),
+                    }
+                });
+                if allowed {
+                    fixed.extend(self.symbols.iter().copied().zip(solution));
+                    return Some(());
+                }
+            }
+        }
+        None
+    }
+
+    fn solutions(
+        &self,
+        graph: &Graph,
+        table: &Table,
+        seed: u64,
+        fixed: &FastMap<SymbolId, u64>,
+    ) -> Vec<Vec<u64>> {
+        let at = |equations: &[ExprId], values: &[u64]| -> Option<Vec<u64>> {
+            let mut sample = Sample::new(seed);
+            sample.fixed = fixed.clone();
+            sample.fixed.extend(self.symbols.iter().copied().zip(values.iter().copied()));
+            equations.iter().map(|e| sample.value(graph, table, *e)).collect()
+        };
+        self.line(&at)
+            .and_then(|(start, direction)| self.on_line(&at, start, direction, seed))
+            .unwrap_or_default()
+    }
+
+    /// The solutions of the linear equations: a start, and a direction if one is left.
+    fn line(&self, at: &Evaluation) -> Option<(Vec<u64>, Option<Vec<u64>>)> {
+        let n = self.symbols.len();
+        let origin = at(&self.linear, &vec![0; n])?;
+        let mut rows = vec![vec![0; n]; self.linear.len()];
+        for j in 0..n {
+            let mut unit = vec![0; n];
+            unit[j] = 1;
+            for (i, value) in at(&self.linear, &unit)?.into_iter().enumerate() {
+                rows[i][j] = sub(value, origin[i]);
+            }
+        }
+        let right: Vec<u64> = origin.into_iter().map(neg).collect();
+        let start = if rows.is_empty() { vec![0; n] } else { field::solve(&rows, &right)? };
+        let mut kernel = field::kernel(&rows, n);
+        let expected = usize::from(self.quadratic.is_some());
+        (kernel.len() == expected).then(|| (start, kernel.pop()))
+    }
+
+    /// The points of the line that solve the quadratic equation, in an order that depends on the draw.
+    fn on_line(
+        &self,
+        at: &Evaluation,
+        start: Vec<u64>,
+        direction: Option<Vec<u64>>,
+        seed: u64,
+    ) -> Option<Vec<Vec<u64>>> {
+        let (Some(direction), Some(quadratic)) = (direction, self.quadratic) else {
+            return Some(vec![start]);
+        };
+        let point =
+            |t: u64| -> Vec<u64> { start.iter().zip(&direction).map(|(s, d)| add(*s, mul(t, *d))).collect() };
+        let value = |t: u64| Some(at(&[quadratic], &point(t))?[0]);
+        let (middle, right, left) = (value(0)?, value(1)?, value(PRIME - 1)?);
+        let half = PRIME.div_ceil(2);
+        // a t^2 + b t + middle
+        let a = sub(mul(add(right, left), half), middle);
+        let b = mul(sub(right, left), half);
+        if a == 0 {
+            return Some(vec![point(neg(mul(middle, inverse(b)?)))]);
+        }
+        let root = field::sqrt(sub(mul(b, b), mul(4, mul(a, middle))))?;
+        let scale = inverse(add(a, a))?;
+        let (plus, minus) = (mul(sub(root, b), scale), mul(neg(add(root, b)), scale));
+        let roots = if field::mix(seed) & 1 == 0 { [plus, minus] } else { [minus, plus] };
+        Some(roots.into_iter().map(point).collect())
+    }
+}
+
+/// The joint degree of an expression in some symbols; `None` above two, in denominators and in functions.
+fn degree(graph: &Graph, e: ExprId, symbols: &[SymbolId]) -> Option<u32> {
+    let mut degrees: FastMap<ExprId, Option<u32>> = FastMap::default();
+    for id in graph.reachable(&[e], |_| false) {
+        let degree = match graph.node(id) {
+            Node::Symbol(symbol) => Some(u32::from(symbols.contains(symbol))),
+            Node::Sum { terms, .. } => {
+                terms.iter().try_fold(0, |degree: u32, (term, _)| Some(degree.max(degrees[term]?)))
+            }
+            Node::Product(factors) => {
+                factors.iter().try_fold(0, |degree: u32, (base, e)| match degrees[base]? {
+                    0 => Some(degree),
+                    own => Some(degree + own * u32::try_from(*e).ok()?),
+                })
+            }
+            _ => {
+                graph.children(id).iter().try_fold(0, |_, child| degrees[child].filter(|degree| *degree == 0))
+            }
+        };
+        degrees.insert(id, degree.filter(|degree| *degree <= 2));
+    }
+    degrees[&e]
+}
+
+/// An order in which the equations can be solved, found from its end: what is solved last disturbs nothing.
+fn triangular(graph: &Graph, equations: &[ExprId]) -> Option<Vec<Block>> {
+    let occurring: Vec<Vec<SymbolId>> = equations.iter().map(|e| graph.symbols_in(&[*e])).collect();
+    let mut remaining: Vec<usize> = (0..equations.len()).collect();
+    let mut blocks = Vec::new();
+    while !remaining.is_empty() {
+        let (chosen, mut block) = (1..=LARGEST_BLOCK.min(remaining.len())).find_map(|size| {
+            // A single equation should be linear if any is.
+            [false, true].into_iter().find_map(|quadratic| {
+                subsets(&remaining, size).into_iter().find_map(|chosen| {
+                    let block = last_block(graph, equations, &occurring, &remaining, &chosen, quadratic)?;
+                    Some((chosen, block))
+                })
+            })
+        })?;
+        remaining.retain(|i| !chosen.contains(i));
+        let mut free: Vec<SymbolId> = chosen.iter().flat_map(|i| occurring[*i].iter().copied()).collect();
+        free.sort_unstable();
+        free.dedup();
+        free.retain(|s| !block.symbols.contains(s) && !remaining.iter().any(|i| occurring[*i].contains(s)));
+        block.free = free;
+        blocks.push(block);
+    }
+    // What a later block may draw again is fixed by the blocks before it only through their own equations.
+    blocks.reverse();
+    Some(blocks)
+}
+
+/// The chosen equations as a block whose symbols occur in no other remaining equation.
+fn last_block(
+    graph: &Graph,
+    equations: &[ExprId],
+    occurring: &[Vec<SymbolId>],
+    remaining: &[usize],
+    chosen: &[usize],
+    quadratic: bool,
+) -> Option<Block> {
+    let mut candidates: Vec<SymbolId> = chosen.iter().flat_map(|i| occurring[*i].iter().copied()).collect();
+    candidates.sort_unstable();
+    candidates.dedup();
+    candidates.retain(|symbol| {
+        matches!(graph.symbol_info(*symbol).role, Role::Coordinate | Role::Constant)
+            && remaining.iter().all(|i| chosen.contains(i) || !occurring[*i].contains(symbol))
+            && chosen.iter().all(|i| degree(graph, equations[*i], &[*symbol]).is_some())
+    });
+    candidates.sort_by_key(|symbol| (graph.symbol_info(*symbol).role != Role::Coordinate, *symbol));
+    let highest = if quadratic { 2 } else { 1 };
+    subsets(&candidates, chosen.len()).into_iter().find_map(|symbols| {
+        let mut block = Block { linear: Vec::new(), quadratic: None, symbols, free: Vec::new() };
+        for i in chosen {
+            match degree(graph, equations[*i], &block.symbols)? {
+                1 => block.linear.push(equations[*i]),
+                2 if highest == 2 && block.quadratic.is_none() => block.quadratic = Some(equations[*i]),
+                _ => return None,
+            }
+        }
+        Some(block)
+    })
+}
+
+/// The subsets of a size, in lexicographic order; not more than are worth a try.
+fn subsets<T: Copy>(items: &[T], size: usize) -> Vec<Vec<T>> {
+    let mut found = Vec::new();
+    if size > items.len() {
+        return found;
+    }
+    let mut indices: Vec<usize> = (0..size).collect();
+    loop {
+        found.push(indices.iter().map(|i| items[*i]).collect());
+        if found.len() == LARGEST_SEARCH {
+            return found;
+        }
+        let Some(k) = (0..size).rev().find(|&k| indices[k] < items.len() - size + k) else { return found };
+        indices[k] += 1;
+        for j in k + 1..size {
+            indices[j] = indices[j - 1] + 1;
+        }
+    }
+}

@@ -1,0 +1,352 @@
+//! Does an expression vanish? Three answers: yes, no, unknown.
+//!
+//! What comes in is an expression of the graph; what goes out is a [`Verdict`] about it as a function of
+//! all symbols, or of the points of the constraint manifold. *Zero* rests on random points modulo a
+//! prime, *Nonzero* on one such point, confirmed at a real point in about 200 bits wherever a residue
+//! could differ while the function does not. All draws have fixed seeds: the same question has the
+//! same answer in every expansion.
+
+pub(crate) mod field;
+mod manifold;
+mod real;
+mod sample;
+mod table;
+#[cfg(test)]
+mod tests;
+
+use manifold::Manifold;
+use real::{RealPoint, Sighting};
+use sample::Sample;
+use table::{ATOM, OPAQUE, ROOT, TRANSCENDENTAL, Table, UNDEFINED};
+
+pub use real::{Real, evaluate, evaluate_f64};
+
+use crate::algebra::{ExprId, FastMap, Flow, Graph, Node};
+
+/// The answer to a question that cannot always be decided.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Verdict {
+    /// Vanishes identically.
+    Zero,
+    /// Does not vanish identically.
+    Nonzero,
+    /// Undecided; never to be taken for one of the others.
+    Unknown,
+}
+
+/// Points that must agree before an expression counts as zero.
+const POINTS: usize = 3;
+/// The same where each point may have a root's sign right by chance.
+const POINTS_WITH_ROOTS: usize = 64;
+/// Draws in vain, one after the other, before the real route is taken.
+const REDRAWS: usize = 64;
+/// Draws in all for one expression.
+const DRAWS: usize = 512;
+/// Points with roots that suffice where all draws are used up.
+const FEWEST_POINTS_WITH_ROOTS: usize = 32;
+/// Points that keep their values; those beyond serve one question only.
+const KEPT_POINTS: usize = 128;
+/// Real points tried.
+const REAL_POINTS: usize = 12;
+/// Real points in the domain that must show nothing before an expression with inverse functions counts as zero.
+const REAL_WITNESSES: usize = 8;
+/// Derivatives of derivatives that are looked at for inverse functions.
+const DERIVATIVE_DEPTH: u32 = 2;
+
+/// Decides whether expressions of one graph vanish, remembering all that it computed.
+///
+/// ```
+/// use guen_symbolic::{Graph, Role, Verdict, ZeroTest};
+/// let mut g = Graph::new();
+/// let x = g.symbol("x", Role::Coordinate);
+/// let two_x = g.add(x, x);
+/// let (s, c) = g.sin_cos(x);
+/// let product = g.mul(s, c);
+/// let twice = g.add(product, product);
+/// let s2 = g.sin(two_x);
+/// let difference = g.sub(s2, twice);
+/// let mut test = ZeroTest::new();
+/// assert_eq!(test.verdict(&mut g, difference), Verdict::Zero);
+/// assert_eq!(test.verdict(&mut g, s2), Verdict::Nonzero);
+/// ```
+#[derive(Debug, Default)]
+pub struct ZeroTest {
+    table: Table,
+    free: Domain,
+    manifold: Option<Manifold>,
+    bound: Domain,
+}
+
+/// The points of one domain, and what was decided there.
+#[derive(Debug, Default)]
+struct Domain {
+    samples: Vec<Sample>,
+    generation: u32,
+    reals: Vec<Option<RealPoint>>,
+    verdicts: FastMap<ExprId, Verdict>,
+}
+
+/// What the points modulo the prime say.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Residues {
+    Vanish,
+    Differ,
+    /// Too few points have a value; those that have one vanish.
+    Few,
+}
+
+impl ZeroTest {
+    /// A test that has seen nothing.
+    pub fn new() -> Self {
+        ZeroTest::default()
+    }
+
+    /// Whether an expression vanishes for all values of all symbols.
+    pub fn verdict(&mut self, g: &mut Graph, e: ExprId) -> Verdict {
+        self.decide(g, e, false, DERIVATIVE_DEPTH)
+    }
+
+    /// Whether an expression is proved to vanish.
+    pub fn is_zero(&mut self, g: &mut Graph, e: ExprId) -> bool {
+        self.verdict(g, e) == Verdict::Zero
+    }
+
+    /// Whether an expression is proved not to vanish identically.
+    pub fn is_nonzero(&mut self, g: &mut Graph, e: ExprId) -> bool {
+        self.verdict(g, e) == Verdict::Nonzero
+    }
+
+    /// Declares the manifold by the functions that vanish on it, of time, coordinates and constants.
+    pub fn set_manifold(&mut self, g: &mut Graph, equations: &[ExprId]) {
+        self.bound = Domain::default();
+        let equations: Vec<_> = equations.iter().copied().filter(|e| !g.is_zero(*e)).collect();
+        self.manifold = (!equations.is_empty()).then(|| Manifold::new(g, &equations));
+    }
+
+    /// Whether the manifold's points can be found, so that verdicts on it are possible.
+    pub fn manifold_is_solved(&self) -> bool {
+        self.manifold.as_ref().is_none_or(Manifold::is_solved)
+    }
+
+    /// Whether an expression vanishes at all points of the manifold, for all values of the other symbols.
+    pub fn verdict_on_manifold(&mut self, g: &mut Graph, e: ExprId) -> Verdict {
+        match self.verdict(g, e) {
+            Verdict::Zero => Verdict::Zero,
+            free if self.manifold.is_none() => free,
+            _ => self.decide(g, e, true, 0),
+        }
+    }
+
+    /// Whether an expression has no derivative by any of the variables: `Zero` means that it is constant.
+    pub fn is_constant(&mut self, g: &mut Graph, e: ExprId, variables: &[ExprId]) -> Verdict {
+        self.derivatives_vanish(g, e, variables, DERIVATIVE_DEPTH)
+    }
+
+    fn derivatives_vanish(&mut self, g: &mut Graph, e: ExprId, variables: &[ExprId], depth: u32) -> Verdict {
+        let mut verdict = Verdict::Zero;
+        for variable in variables {
+            let derivative = Flow::partial(g, *variable).of(g, e);
+            match self.decide(g, derivative, false, depth) {
+                Verdict::Zero => {}
+                Verdict::Nonzero => return Verdict::Nonzero,
+                Verdict::Unknown => verdict = Verdict::Unknown,
+            }
+        }
+        verdict
+    }
+
+    /// The values of expressions modulo a prime at one random point, the same for all of them.
+    ///
+    /// `None` if no point was found, or if an expression has a division by zero.
+    pub fn residues(
+        &mut self,
+        g: &mut Graph,
+        sample: usize,
+        es: &[ExprId],
+        on_manifold: bool,
+    ) -> Option<Vec<u64>> {
+        self.table.scan(g);
+        let mut found = 0;
+        for point in 0..sample + REDRAWS {
+            let point = self.sample(g, point, on_manifold)?;
+            let (table, samples) = self.parts(on_manifold);
+            let values: Option<Vec<_>> = es.iter().map(|e| samples[point].value(g, table, *e)).collect();
+            if let Some(values) = values {
+                if found == sample {
+                    return Some(values);
+                }
+                found += 1;
+            }
+        }
+        None
+    }
+
+    /// The rank of a matrix at general points; `None` if no point was found.
+    pub fn rank(&mut self, g: &mut Graph, rows: &[Vec<ExprId>], on_manifold: bool) -> Option<usize> {
+        let flat: Vec<ExprId> = rows.iter().flatten().copied().collect();
+        let mut rank = 0;
+        for sample in 0..2 {
+            let mut values = self.residues(g, sample, &flat, on_manifold)?.into_iter();
+            let matrix: Vec<Vec<u64>> =
+                rows.iter().map(|row| values.by_ref().take(row.len()).collect()).collect();
+            rank = rank.max(field::rank(&matrix));
+        }
+        Some(rank)
+    }
+
+    /// The linear relations `sum w_i row_i = 0` among rows at one general point, as a basis of vectors `w` modulo
+    /// the prime: which rows take part in a relation is the same at all general points.
+    pub fn relations(
+        &mut self,
+        g: &mut Graph,
+        rows: &[Vec<ExprId>],
+        on_manifold: bool,
+    ) -> Option<Vec<Vec<u64>>> {
+        let flat: Vec<ExprId> = rows.iter().flatten().copied().collect();
+        let mut values = self.residues(g, 0, &flat, on_manifold)?.into_iter();
+        let matrix: Vec<Vec<u64>> =
+            rows.iter().map(|row| values.by_ref().take(row.len()).collect()).collect();
+        Some(field::relations(&matrix))
+    }
+
+    fn parts(&mut self, on_manifold: bool) -> (&Table, &mut Vec<Sample>) {
+        let domain = if on_manifold && self.manifold.is_some() { &mut self.bound } else { &mut self.free };
+        (&self.table, &mut domain.samples)
+    }
+
+    /// Makes sure that the sample of a number exists; `None` if the manifold has no such point.
+    fn sample(&mut self, g: &Graph, number: usize, on_manifold: bool) -> Option<usize> {
+        let manifold = self.manifold.as_ref().filter(|_| on_manifold);
+        let domain = if manifold.is_some() { &mut self.bound } else { &mut self.free };
+        // Points that solve equations move with the points of the circle they were computed from.
+        if manifold.is_some() && domain.generation != self.table.generation {
+            domain.samples.clear();
+        }
+        domain.generation = self.table.generation;
+        while domain.samples.len() <= number {
+            domain.samples.push(new_sample(g, &self.table, manifold, domain.samples.len())?);
+        }
+        Some(number)
+    }
+
+    fn decide(&mut self, g: &mut Graph, e: ExprId, on_manifold: bool, depth: u32) -> Verdict {
+        match g.node(e) {
+            Node::Number(value) => return if value.is_zero() { Verdict::Zero } else { Verdict::Nonzero },
+            Node::Undefined => return Verdict::Unknown,
+            _ => {}
+        }
+        let domain = if on_manifold { &self.bound } else { &self.free };
+        if let Some(known) = domain.verdicts.get(&e) {
+            return *known;
+        }
+        let verdict = self.examine(g, e, on_manifold, depth);
+        let domain = if on_manifold { &mut self.bound } else { &mut self.free };
+        // An answer that lacked depth may be better next time.
+        if verdict != Verdict::Unknown || depth == DERIVATIVE_DEPTH || on_manifold {
+            domain.verdicts.insert(e, verdict);
+        }
+        verdict
+    }
+
+    fn examine(&mut self, g: &mut Graph, e: ExprId, on_manifold: bool, depth: u32) -> Verdict {
+        self.table.scan(g);
+        let mut flags = self.table.flags[e.index()];
+        if flags & UNDEFINED != 0 {
+            return Verdict::Unknown;
+        }
+        if on_manifold
+            && let Some(manifold) = &mut self.manifold
+            && manifold.enters_functions(g, e)
+        {
+            flags |= OPAQUE;
+        }
+        let residues = self.residues_of(g, e, on_manifold, flags & ROOT != 0);
+        if residues == Residues::Vanish {
+            return Verdict::Zero;
+        }
+        if residues == Residues::Differ && flags & (ROOT | ATOM | TRANSCENDENTAL | OPAQUE) == 0 {
+            return Verdict::Nonzero;
+        }
+        let witnesses = self.look(g, e, on_manifold);
+        if witnesses.is_none() {
+            return Verdict::Nonzero;
+        }
+        if on_manifold || flags & (ATOM | TRANSCENDENTAL) == 0 || witnesses < Some(REAL_WITNESSES) {
+            return Verdict::Unknown;
+        }
+        // All derivatives vanish, and so does the constant in 200 bits.
+        let variables: Vec<_> = g.symbols_in(&[e]).into_iter().map(|symbol| g.symbol_expr(symbol)).collect();
+        if !variables.is_empty() && (depth == 0 || flags & ATOM == 0) {
+            return Verdict::Unknown;
+        }
+        match self.derivatives_vanish(g, e, &variables, depth.saturating_sub(1)) {
+            Verdict::Zero => Verdict::Zero,
+            _ => Verdict::Unknown,
+        }
+    }
+
+    fn residues_of(&mut self, g: &Graph, e: ExprId, on_manifold: bool, roots: bool) -> Residues {
+        let wanted = if roots { POINTS_WITH_ROOTS } else { POINTS };
+        let (mut seen, mut in_vain) = (0, 0);
+        for number in 0..DRAWS {
+            let value = if number < KEPT_POINTS {
+                let Some(point) = self.sample(g, number, on_manifold) else { return Residues::Few };
+                let (table, samples) = self.parts(on_manifold);
+                samples[point].value(g, table, e)
+            } else {
+                let manifold = self.manifold.as_ref().filter(|_| on_manifold);
+                match new_sample(g, &self.table, manifold, number) {
+                    Some(mut sample) => sample.value(g, &self.table, e),
+                    None => return Residues::Few,
+                }
+            };
+            match value {
+                None => in_vain += 1,
+                Some(0) => (seen, in_vain) = (seen + 1, 0),
+                Some(_) => return Residues::Differ,
+            }
+            if seen == wanted {
+                return Residues::Vanish;
+            }
+            if in_vain > REDRAWS {
+                break;
+            }
+        }
+        if roots && seen >= FEWEST_POINTS_WITH_ROOTS {
+            return Residues::Vanish;
+        }
+        Residues::Few
+    }
+
+    /// Looks at real points: `None` if one shows that the value is not zero, else how many show nothing.
+    fn look(&mut self, g: &mut Graph, e: ExprId, on_manifold: bool) -> Option<usize> {
+        let mut small = 0;
+        for number in 0..REAL_POINTS {
+            let domain = if on_manifold { &mut self.bound } else { &mut self.free };
+            if domain.reals.len() <= number {
+                let point = match &self.manifold {
+                    Some(manifold) if on_manifold => manifold.real_point(g, number as u64),
+                    _ => Some(RealPoint::new(number as u64)),
+                };
+                domain.reals.push(point);
+            }
+            let Some(point) = &mut domain.reals[number] else { continue };
+            match point.sight(g, e) {
+                Sighting::Nonzero => return None,
+                Sighting::Small => small += 1,
+                Sighting::Nothing => {}
+            }
+            if small == REAL_WITNESSES {
+                break;
+            }
+        }
+        Some(small)
+    }
+}
+
+fn new_sample(g: &Graph, table: &Table, manifold: Option<&Manifold>, number: usize) -> Option<Sample> {
+    match manifold {
+        None => Some(Sample::new(number as u64)),
+        Some(manifold) => manifold.sample(g, table, number as u64),
+    }
+}

@@ -1,0 +1,395 @@
+//! Values at real points: plain evaluation in any real arithmetic, and points in about 200 bits with error bounds.
+
+use core::ops::{Add, Div, Mul, Neg, Sub};
+
+use f256::f256;
+
+use super::field::mix;
+use crate::algebra::{Bound, ExprId, FastMap, Function, Graph, Node, Rational, SymbolId};
+
+/// What evaluation needs of a kind of real number.
+pub trait Real:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
+{
+    /// The nearest value.
+    fn rational(value: &Rational) -> Self;
+    /// The number pi.
+    fn pi() -> Self;
+    /// An integer power.
+    fn power(self, n: i32) -> Self;
+    /// An elementary function.
+    fn of(self, function: Function) -> Self;
+    /// The angle of the point `(x, self)`.
+    fn angle(self, x: Self) -> Self;
+}
+
+impl Real for f64 {
+    fn rational(value: &Rational) -> Self {
+        value.to_f64()
+    }
+
+    fn pi() -> Self {
+        core::f64::consts::PI
+    }
+
+    fn power(self, n: i32) -> Self {
+        self.powi(n)
+    }
+
+    fn of(self, function: Function) -> Self {
+        match function {
+            Function::Sin => self.sin(),
+            Function::Cos => self.cos(),
+            Function::Asin => self.asin(),
+            Function::Acos => self.acos(),
+            Function::Atan => self.atan(),
+            Function::Exp => self.exp(),
+            Function::Ln => self.ln(),
+            Function::Sinh => self.sinh(),
+            Function::Cosh => self.cosh(),
+            Function::Tanh => self.tanh(),
+            Function::Abs => self.abs(),
+            Function::Sign if self == 0.0 => 0.0,
+            Function::Sign => self.signum(),
+            Function::Root(2) => self.sqrt(),
+            Function::Root(3) => self.cbrt(),
+            Function::Root(q) if q % 2 == 1 => self.abs().powf(1.0 / f64::from(q)).copysign(self),
+            Function::Root(q) => self.powf(1.0 / f64::from(q)),
+        }
+    }
+
+    fn angle(self, x: Self) -> Self {
+        self.atan2(x)
+    }
+}
+
+impl Real for f256 {
+    fn rational(value: &Rational) -> Self {
+        if let Some((n, d)) = value.to_i64_pair() {
+            let n = f256::from(n);
+            return if d == 1 { n } else { n / f256::from(d) };
+        }
+        let (n, d) = value.to_big_pair();
+        let word = f256::from(u64::MAX) + f256::ONE;
+        let magnitude = |x: &num_bigint::BigInt| {
+            x.magnitude()
+                .iter_u64_digits()
+                .rev()
+                .fold(f256::ZERO, |sum, digit| sum * word + f256::from(digit))
+        };
+        let ratio = magnitude(&n) / magnitude(&d);
+        if value.is_negative() { -ratio } else { ratio }
+    }
+
+    fn pi() -> Self {
+        ::f256::consts::PI
+    }
+
+    fn power(self, n: i32) -> Self {
+        let mut base = if n < 0 { f256::ONE / self } else { self };
+        let mut n = n.unsigned_abs();
+        let mut result = f256::ONE;
+        while n > 0 {
+            if n & 1 == 1 {
+                result *= base;
+            }
+            n >>= 1;
+            if n > 0 {
+                base *= base;
+            }
+        }
+        result
+    }
+
+    fn of(self, function: Function) -> Self {
+        match function {
+            Function::Sin => self.sin(),
+            Function::Cos => self.cos(),
+            Function::Asin => f256::asin(&self),
+            Function::Acos => f256::acos(&self),
+            Function::Atan => f256::atan(&self),
+            Function::Exp => f256::exp(&self),
+            Function::Ln => f256::ln(&self),
+            // Differences of exponentials would cancel near zero.
+            Function::Sinh => {
+                let e = f256::exp_m1(&self);
+                (e + e / (e + f256::ONE)) / f256::TWO
+            }
+            Function::Cosh => {
+                let e = f256::exp(&self);
+                (e + f256::ONE / e) / f256::TWO
+            }
+            Function::Tanh => {
+                let e = f256::exp_m1(&(self + self));
+                e / (e + f256::TWO)
+            }
+            Function::Abs => f256::abs(&self),
+            Function::Sign if self.eq_zero() => f256::ZERO,
+            Function::Sign => f256::ONE.copysign(self),
+            Function::Root(2) => f256::sqrt(self),
+            Function::Root(q) => {
+                if self.eq_zero() || (q % 2 == 0 && self < f256::ZERO) {
+                    return f256::sqrt(self);
+                }
+                let size = f256::exp(&(f256::ln(&f256::abs(&self)) / f256::from(q)));
+                size.copysign(self)
+            }
+        }
+    }
+
+    fn angle(self, x: Self) -> Self {
+        f256::atan2(&self, &x)
+    }
+}
+
+/// The values of expressions at given values of the symbols; not finite outside the domain.
+pub fn evaluate<R: Real>(graph: &Graph, roots: &[ExprId], values: &dyn Fn(SymbolId) -> R) -> Vec<R> {
+    let order = graph.reachable(roots, |_| false);
+    let mut known: FastMap<ExprId, R> = FastMap::default();
+    for id in order {
+        let value = match graph.node(id) {
+            Node::Number(value) => R::rational(value),
+            Node::Pi => R::pi(),
+            Node::Undefined => R::rational(&Rational::ONE) / R::rational(&Rational::ZERO),
+            Node::Symbol(symbol) => values(*symbol),
+            Node::Sum { constant, terms } => {
+                terms.iter().fold(R::rational(constant), |sum, (term, c)| sum + R::rational(c) * known[term])
+            }
+            Node::Product(factors) => factors
+                .iter()
+                .fold(R::rational(&Rational::ONE), |product, (base, e)| product * known[base].power(*e)),
+            Node::Function(function, x) => known[x].of(*function),
+            Node::Atan2(y, x) => known[y].angle(known[x]),
+        };
+        known.insert(id, value);
+    }
+    roots.iter().map(|root| known[root]).collect()
+}
+
+/// The values of expressions in double precision.
+pub fn evaluate_f64(graph: &Graph, roots: &[ExprId], values: &dyn Fn(SymbolId) -> f64) -> Vec<f64> {
+    evaluate(graph, roots, values)
+}
+
+/// The relative error of one operation, as a power of two; the format has 237 bits.
+const ROUNDING: f64 = -232.0;
+
+/// The relative error of a symbol that a constraint determines, as a power of two.
+const SOLVED: f64 = -205.0;
+
+/// A value below `2^DISTINCT` times its error bound is not told from zero.
+const DISTINCT: f64 = 20.0;
+
+/// A value whose error bound exceeds this many bits relative to the terms it came from says nothing.
+const USELESS: f64 = -150.0;
+
+/// The power of two of a finite number, rounded down; minus infinity for zero.
+pub(super) fn exponent(x: f256) -> f64 {
+    const FRACTION_BITS: u32 = 108;
+    const BIAS: i32 = 262_143;
+    if x.eq_zero() {
+        return f64::NEG_INFINITY;
+    }
+    f64::from(((x.to_bits().0 >> FRACTION_BITS) & 0x7_ffff) as i32 - BIAS)
+}
+
+/// `log2(2^a + 2^b)`.
+fn plus(a: f64, b: f64) -> f64 {
+    let (low, high) = if a < b { (a, b) } else { (b, a) };
+    if low == f64::NEG_INFINITY { high } else { high + (low - high).exp2().ln_1p() / core::f64::consts::LN_2 }
+}
+
+/// A value with the power of two that bounds its absolute error.
+#[derive(Clone, Copy, Debug)]
+struct Ball {
+    value: f256,
+    error: f64,
+}
+
+impl Ball {
+    fn exact(value: f256) -> Self {
+        Ball { value, error: f64::NEG_INFINITY }
+    }
+
+    fn rounded(value: f256) -> Self {
+        Ball { value, error: exponent(value) + 1.0 + ROUNDING }
+    }
+
+    fn is_distinct(self) -> bool {
+        exponent(self.value) > self.error + DISTINCT
+    }
+}
+
+/// What a real point says of a value.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Sighting {
+    /// Clearly not zero.
+    Nonzero,
+    /// Zero to all digits that are left.
+    Small,
+    /// Outside the domain, or no digits are left.
+    Nothing,
+}
+
+/// A random point of the domain.
+#[derive(Debug, Default)]
+pub(super) struct RealPoint {
+    seed: u64,
+    scale: f64,
+    signs: u64,
+    round: u64,
+    pub(super) fixed: FastMap<SymbolId, f256>,
+    memo: FastMap<ExprId, Option<Ball>>,
+}
+
+impl RealPoint {
+    /// The point of a number: sizes vary, and signs take turns.
+    pub(super) fn new(number: u64) -> Self {
+        // Inverse functions want small arguments, differences under roots want unequal ones.
+        const SCALES: [f64; 5] = [1.0, 0.4, 2.5, 0.15, 6.0];
+        RealPoint {
+            seed: mix(number ^ 0x7265_616c),
+            scale: SCALES[(number % 5) as usize],
+            signs: number % 4,
+            round: number / 4,
+            ..RealPoint::default()
+        }
+    }
+
+    /// The value of a symbol.
+    pub(super) fn symbol(&self, graph: &Graph, symbol: SymbolId) -> f256 {
+        self.fixed.get(&symbol).copied().unwrap_or_else(|| f256::from(self.draw(graph, symbol)))
+    }
+
+    /// The drawn value of a symbol, which has few digits and is exact.
+    pub(super) fn draw(&self, graph: &Graph, symbol: SymbolId) -> f64 {
+        let bits = mix(self.seed ^ mix(symbol.index() as u64));
+        let coin = mix(symbol.index() as u64 ^ self.round) & 1 == 1;
+        let size = self.scale * (0.2 + 1.3 * ((bits >> 12) as f64 / (1_u64 << 52) as f64));
+        let negative = match graph.symbol_info(symbol).bound {
+            Bound::Positive | Bound::NonNegative => false,
+            Bound::Negative | Bound::NonPositive => true,
+            // Mixed, all positive, mixed the other way, all negative.
+            Bound::Free | Bound::NonZero => match self.signs {
+                0 => coin,
+                1 => false,
+                2 => !coin,
+                _ => true,
+            },
+        };
+        if negative { -size } else { size }
+    }
+
+    /// What this point says of an expression.
+    pub(super) fn sight(&mut self, graph: &Graph, e: ExprId) -> Sighting {
+        for id in graph.reachable(&[e], |id| self.memo.contains_key(&id)) {
+            let ball = self.step(graph, id).filter(|ball| ball.value.is_finite() && !ball.error.is_nan());
+            self.memo.insert(id, ball);
+        }
+        match self.memo[&e] {
+            None => Sighting::Nothing,
+            Some(ball) if ball.is_distinct() => Sighting::Nonzero,
+            Some(ball) if ball.error < USELESS => Sighting::Small,
+            Some(_) => Sighting::Nothing,
+        }
+    }
+
+    fn step(&self, graph: &Graph, id: ExprId) -> Option<Ball> {
+        let at = |id: ExprId| self.memo[&id];
+        match graph.node(id) {
+            Node::Undefined => None,
+            Node::Number(value) => Some(Ball::rounded(f256::rational(value))),
+            Node::Pi => Some(Ball::rounded(f256::pi())),
+            Node::Symbol(symbol) => Some(match self.fixed.get(symbol) {
+                Some(value) => Ball { value: *value, error: exponent(*value).max(-20.0) + SOLVED },
+                None => Ball::exact(self.symbol(graph, *symbol)),
+            }),
+            Node::Sum { constant, terms } => {
+                let mut sum = Ball::rounded(f256::rational(constant));
+                for (term, c) in terms {
+                    let term = at(*term)?;
+                    let c = f256::rational(c);
+                    let product = c * term.value;
+                    sum.value += product;
+                    sum.error = plus(sum.error, term.error + exponent(c) + 1.0);
+                    sum.error = plus(sum.error, exponent(product).max(exponent(sum.value)) + 2.0 + ROUNDING);
+                }
+                Some(sum)
+            }
+            Node::Product(factors) => {
+                let mut value = f256::ONE;
+                let mut relative = f64::NEG_INFINITY;
+                for (base, e) in factors {
+                    let base = at(*base)?;
+                    if *e < 0 && !base.is_distinct() {
+                        return None;
+                    }
+                    value *= base.value.power(*e);
+                    let own = plus(base.error - exponent(base.value), ROUNDING);
+                    relative = plus(relative, own + f64::from(e.unsigned_abs()).log2() + 1.0);
+                }
+                if value.eq_zero() {
+                    return self.vanishing_product(factors);
+                }
+                Some(Ball { value, error: exponent(value) + 1.0 + relative })
+            }
+            Node::Function(function, x) => function_ball(*function, at(*x)?),
+            Node::Atan2(y, x) => {
+                let (y, x) = (at(*y)?, at(*x)?);
+                let radius = exponent(x.value).max(exponent(y.value));
+                let error = plus(y.error, x.error);
+                let off_cut = y.is_distinct() || x.is_distinct() && x.value > f256::ZERO;
+                if !off_cut || radius <= error + DISTINCT {
+                    return None;
+                }
+                let value = y.value.angle(x.value);
+                Some(Ball { value, error: plus(error - radius + 1.0, exponent(value) + 2.0 + ROUNDING) })
+            }
+        }
+    }
+
+    /// The bound of a product with a factor that is zero: the other factors times that factor's error.
+    fn vanishing_product(&self, factors: &[(ExprId, i32)]) -> Option<Ball> {
+        let mut error = 0.0;
+        for (base, e) in factors {
+            let base = self.memo[base]?;
+            error += f64::from(*e) * plus(exponent(base.value) + 1.0, base.error);
+        }
+        Some(Ball { value: f256::ZERO, error })
+    }
+}
+
+/// A function of a value with its error bound; `None` outside the domain or too near its edge.
+fn function_ball(function: Function, x: Ball) -> Option<Ball> {
+    let size = exponent(x.value);
+    let relative = x.error - size;
+    let value = x.value.of(function);
+    if !value.is_finite() {
+        return None;
+    }
+    let own = exponent(value) + 2.0 + ROUNDING;
+    let carried = match function {
+        // Reducing the argument costs the bits of its size.
+        Function::Sin | Function::Cos => plus(x.error, size.max(0.0) + ROUNDING),
+        Function::Atan | Function::Tanh | Function::Abs => x.error,
+        Function::Asin | Function::Acos => {
+            let rest = f256::ONE - x.value * x.value;
+            if exponent(rest) < x.error + DISTINCT {
+                return None;
+            }
+            x.error - exponent(rest) / 2.0 + 1.0
+        }
+        Function::Exp | Function::Sinh | Function::Cosh => {
+            exponent(value).max(0.0).max(size) + plus(x.error, size.max(0.0) + ROUNDING) + 1.0
+        }
+        Function::Ln if relative > -DISTINCT => return None,
+        Function::Ln => relative + 1.0,
+        Function::Sign if relative > -DISTINCT => return None,
+        Function::Sign => f64::NEG_INFINITY,
+        Function::Root(_) if relative > -DISTINCT => return None,
+        Function::Root(2) => exponent(value) + relative + 1.0,
+        // By logarithm and exponential.
+        Function::Root(_) => exponent(value) + plus(relative, size.abs().max(1.0).log2() + ROUNDING) + 2.0,
+    };
+    Some(Ball { value, error: plus(own, carried) })
+}

@@ -1,0 +1,513 @@
+//! Identities that must be found, and near misses that must not.
+
+use super::Verdict::{Nonzero, Unknown, Zero};
+use super::*;
+use crate::algebra::{Bound, Function, Rational, Role};
+
+/// A graph with a test, and expressions written shortly.
+struct Bench {
+    g: Graph,
+    test: ZeroTest,
+}
+
+impl Bench {
+    fn new() -> Self {
+        Bench { g: Graph::new(), test: ZeroTest::new() }
+    }
+
+    fn q(&mut self, name: &str) -> ExprId {
+        self.g.symbol(name, Role::Coordinate)
+    }
+
+    fn positive(&mut self, name: &str) -> ExprId {
+        self.g.bounded_symbol(name, Role::Constant, Bound::Positive)
+    }
+
+    fn f(&mut self, function: Function, x: ExprId) -> ExprId {
+        self.g.function(function, x)
+    }
+
+    fn n(&mut self, n: i64) -> ExprId {
+        self.g.number(n)
+    }
+
+    fn times(&mut self, a: ExprId, n: i64, d: i64) -> ExprId {
+        self.g.scale(a, &Rational::new(n, d))
+    }
+
+    /// The verdict about `a - b`.
+    fn differ(&mut self, a: ExprId, b: ExprId) -> Verdict {
+        let difference = self.g.sub(a, b);
+        self.test.verdict(&mut self.g, difference)
+    }
+
+    fn on_manifold(&mut self, a: ExprId, b: ExprId) -> Verdict {
+        let difference = self.g.sub(a, b);
+        self.test.verdict_on_manifold(&mut self.g, difference)
+    }
+}
+
+#[test]
+fn products_of_roots() {
+    let mut b = Bench::new();
+    let (x, y) = (b.q("x"), b.q("y"));
+    let xy = b.g.mul(x, y);
+    let (rx, ry, rxy) = (b.g.sqrt(x), b.g.sqrt(y), b.g.sqrt(xy));
+    let product = b.g.mul(rx, ry);
+    assert_eq!(b.differ(product, rxy), Zero);
+    assert_eq!(b.differ(product, rx), Nonzero);
+    // 1/sqrt(x^2 + y^2) as quotient of the root
+    let (x2, y2) = (b.g.powi(x, 2), b.g.powi(y, 2));
+    let h2 = b.g.add(x2, y2);
+    let h = b.g.sqrt(h2);
+    let (a, c) = (b.g.powi(h, -1), b.g.div(h, h2));
+    assert_eq!(b.differ(a, c), Zero);
+    // sqrt(x^4) = x^2, third roots
+    let x4 = b.g.powi(x, 4);
+    let r4 = b.g.sqrt(x4);
+    assert_eq!(b.differ(r4, x2), Zero);
+    let (cx, cy, cxy) = (b.g.root(x, 3), b.g.root(y, 3), b.g.root(xy, 3));
+    let product = b.g.mul(cx, cy);
+    assert_eq!(b.differ(product, cxy), Zero);
+}
+
+#[test]
+fn root_of_a_square_is_not_its_base() {
+    let mut b = Bench::new();
+    let x = b.q("x");
+    let x2 = b.g.powi(x, 2);
+    let root = b.g.sqrt(x2);
+    assert_eq!(b.differ(root, x), Nonzero);
+    let minus = b.g.neg(x);
+    assert_eq!(b.differ(root, minus), Nonzero);
+    let size = b.f(Function::Abs, x);
+    assert_eq!(b.differ(root, size), Zero);
+    let (size2, sign) = (b.g.powi(size, 2), b.f(Function::Sign, x));
+    assert_eq!(b.differ(size2, x2), Zero);
+    let product = b.g.mul(sign, size);
+    assert_eq!(b.differ(product, x), Zero);
+    // Promised signs count: sqrt((a + b)^2) with a, b > 0 is left open at worst.
+    let (a, c) = (b.positive("a"), b.positive("c"));
+    let sum = b.g.add(a, c);
+    let (a2, c2, ac) = (b.g.powi(a, 2), b.g.powi(c, 2), b.g.mul(a, c));
+    let square = b.g.sum([a2, c2, ac, ac]);
+    let root = b.g.sqrt(square);
+    assert_ne!(b.differ(root, sum), Nonzero);
+}
+
+#[test]
+fn numeric_roots() {
+    let mut b = Bench::new();
+    let (two, three, six, five) = (b.n(2), b.n(3), b.n(6), b.n(5));
+    let (r2, r3, r6) = (b.g.sqrt(two), b.g.sqrt(three), b.g.sqrt(six));
+    let product = b.g.mul(r2, r3);
+    assert_eq!(b.differ(product, r6), Zero);
+    // sqrt(2) + sqrt(3) = sqrt(5 + 2 sqrt(6))
+    let sum = b.g.add(r2, r3);
+    let twice = b.times(r6, 2, 1);
+    let inner = b.g.add(five, twice);
+    let nested = b.g.sqrt(inner);
+    assert_ne!(b.differ(sum, nested), Nonzero);
+    let near = b.g.ratio(17320508, 10000000);
+    assert_eq!(b.differ(r3, near), Nonzero);
+}
+
+#[test]
+fn multiple_and_half_angles() {
+    let mut b = Bench::new();
+    let (x, y) = (b.q("x"), b.q("y"));
+    let x2 = b.times(x, 2, 1);
+    let (s, c) = b.g.sin_cos(x);
+    let sc = b.g.mul(s, c);
+    let twice = b.times(sc, 2, 1);
+    let s2 = b.g.sin(x2);
+    assert_eq!(b.differ(s2, twice), Zero);
+    assert_eq!(b.differ(s2, s), Nonzero);
+    let half = b.times(x, 1, 2);
+    let (sh, ch) = b.g.sin_cos(half);
+    let product = b.g.mul(sh, ch);
+    let twice = b.times(product, 2, 1);
+    assert_eq!(b.differ(twice, s), Zero);
+    let sum = b.g.add(x, y);
+    let whole = b.g.sin(sum);
+    let other = b.g.sin_cos(y);
+    let parts = b.g.rotate((s, c), other);
+    assert_eq!(b.differ(whole, parts.0), Zero);
+    // sin(x) and x have nothing to do with each other
+    assert_eq!(b.differ(s, x), Nonzero);
+}
+
+#[test]
+fn rational_parts_of_pi() {
+    let mut b = Bench::new();
+    let pi = b.g.pi();
+    let fifth = b.times(pi, 1, 5);
+    let (s, c) = b.g.sin_cos(fifth);
+    let five = b.n(5);
+    let r5 = b.g.sqrt(five);
+    let one = b.g.one();
+    let sum = b.g.add(one, r5);
+    let quarter = b.times(sum, 1, 4);
+    assert_eq!(b.differ(c, quarter), Zero);
+    assert_eq!(b.differ(s, quarter), Nonzero);
+    let eighth = b.times(pi, 1, 8);
+    let c8 = b.g.cos(eighth);
+    let two = b.n(2);
+    let r2 = b.g.sqrt(two);
+    let inner = b.g.add(two, r2);
+    let nested = b.g.sqrt(inner);
+    let half = b.times(nested, 1, 2);
+    assert_eq!(b.differ(c8, half), Zero);
+    let near = b.g.ratio(355, 113);
+    assert_eq!(b.differ(pi, near), Nonzero);
+    // sin(x + pi/3) expanded
+    let x = b.q("x");
+    let third = b.times(pi, 1, 3);
+    let shifted = b.g.add(x, third);
+    let whole = b.g.sin(shifted);
+    let (at_x, at_third) = (b.g.sin_cos(x), b.g.sin_cos(third));
+    let parts = b.g.rotate(at_x, at_third);
+    assert_eq!(b.differ(whole, parts.0), Zero);
+}
+
+#[test]
+fn arguments_with_constants() {
+    let mut b = Bench::new();
+    let (x, t) = (b.q("x"), b.g.symbol("t", Role::Time));
+    let (k, len) = (b.positive("k"), b.positive("b"));
+    let kb = b.g.mul(k, len);
+    let sum = b.g.add(x, kb);
+    let whole = b.g.cos(sum);
+    let (at_x, at_kb) = (b.g.sin_cos(x), b.g.sin_cos(kb));
+    let parts = b.g.rotate(at_x, at_kb);
+    assert_eq!(b.differ(whole, parts.1), Zero);
+    // (x + b) t multiplied out
+    let sum = b.g.add(x, len);
+    let product = b.g.mul(sum, t);
+    let (xt, bt) = (b.g.mul(x, t), b.g.mul(len, t));
+    let expanded = b.g.add(xt, bt);
+    let (one, other) = (b.g.sin(product), b.g.sin(expanded));
+    assert_eq!(b.differ(one, other), Zero);
+    // sin(lam) is no function of lam that polynomials know
+    let lam = b.g.symbol("lam", Role::Constant);
+    let (s, c) = b.g.sin_cos(lam);
+    let (s2, c2) = (b.g.powi(s, 2), b.g.powi(c, 2));
+    let sum = b.g.add(s2, c2);
+    assert_eq!(b.differ(sum, lam), Nonzero);
+    let number = b.g.ratio(3, 10);
+    let double = b.g.ratio(6, 10);
+    let (s, c) = b.g.sin_cos(number);
+    let s2 = b.g.sin(double);
+    let sc = b.g.mul(s, c);
+    let twice = b.times(sc, 2, 1);
+    assert_eq!(b.differ(s2, twice), Zero);
+    assert_eq!(b.differ(s2, s), Nonzero);
+    // Arguments that are equal without looking equal are left open.
+    let quotient = b.g.powi(x, 2);
+    let k2 = b.g.powi(k, 2);
+    let difference = b.g.sub(quotient, k2);
+    let below = b.g.add(x, k);
+    let quotient = b.g.div(difference, below);
+    let simple = b.g.sub(x, k);
+    let (one, other) = (b.g.sin(quotient), b.g.sin(simple));
+    assert_eq!(b.differ(one, other), Unknown);
+}
+
+#[test]
+fn exponentials() {
+    let mut b = Bench::new();
+    let x = b.q("x");
+    let minus = b.g.neg(x);
+    let (e, i) = (b.g.exp(x), b.g.exp(minus));
+    let (s, c, t) = (b.f(Function::Sinh, x), b.f(Function::Cosh, x), b.f(Function::Tanh, x));
+    let sum = b.g.add(s, c);
+    assert_eq!(b.differ(sum, e), Zero);
+    let difference = b.g.sub(c, s);
+    assert_eq!(b.differ(difference, i), Zero);
+    let quotient = b.g.div(s, c);
+    assert_eq!(b.differ(quotient, t), Zero);
+    let half = b.times(x, 1, 2);
+    let (root, halved) = (b.g.sqrt(e), b.g.exp(half));
+    assert_eq!(b.differ(root, halved), Zero);
+    assert_eq!(b.differ(e, s), Nonzero);
+}
+
+#[test]
+fn inverse_functions() {
+    let mut b = Bench::new();
+    let (x, y) = (b.positive("x"), b.positive("y"));
+    let xy = b.g.mul(x, y);
+    let (lx, ly, lxy) = (b.f(Function::Ln, x), b.f(Function::Ln, y), b.f(Function::Ln, xy));
+    let sum = b.g.add(lx, ly);
+    assert_eq!(b.differ(lxy, sum), Zero);
+    let doubled = b.times(lx, 2, 1);
+    assert_eq!(b.differ(lxy, doubled), Nonzero);
+    let inverse = b.g.powi(x, -1);
+    let (a, c) = (b.f(Function::Atan, x), b.f(Function::Atan, inverse));
+    let sum = b.g.add(a, c);
+    let pi = b.g.pi();
+    let right = b.times(pi, 1, 2);
+    assert_eq!(b.differ(sum, right), Zero);
+    let near = b.g.ratio(11, 7);
+    assert_eq!(b.differ(sum, near), Nonzero);
+    // Without the promise the sum jumps at zero.
+    let z = b.q("z");
+    let inverse = b.g.powi(z, -1);
+    let (a, c) = (b.f(Function::Atan, z), b.f(Function::Atan, inverse));
+    let sum = b.g.add(a, c);
+    assert_eq!(b.differ(sum, right), Nonzero);
+    let one = b.g.one();
+    let quarter = b.f(Function::Atan, one);
+    let four = b.times(quarter, 4, 1);
+    assert_eq!(b.differ(four, pi), Zero);
+    let (two, three, six) = (b.n(2), b.n(3), b.n(6));
+    let (l2, l3, l6) = (b.f(Function::Ln, two), b.f(Function::Ln, three), b.f(Function::Ln, six));
+    let sum = b.g.add(l2, l3);
+    assert_eq!(b.differ(sum, l6), Zero);
+    let angle = b.g.atan2(x, y);
+    let quotient = b.g.div(x, y);
+    let plain = b.f(Function::Atan, quotient);
+    assert_eq!(b.differ(angle, plain), Zero);
+}
+
+#[test]
+fn near_misses() {
+    let mut b = Bench::new();
+    let (x, y) = (b.q("x"), b.q("y"));
+    let tiny = Rational::from_decimal("1", -30).unwrap();
+    let small = b.g.scale(y, &tiny);
+    let almost = b.g.add(x, small);
+    assert_eq!(b.differ(almost, x), Nonzero);
+    let size = b.f(Function::Abs, x);
+    let off = b.g.add(size, small);
+    assert_eq!(b.differ(off, size), Nonzero);
+    let (s, c) = b.g.sin_cos(x);
+    let (s2, c2) = (b.g.powi(s, 2), b.g.powi(c, 2));
+    let most = b.g.scale(c2, &(&Rational::ONE + &tiny));
+    let sum = b.g.add(s2, most);
+    let one = b.g.one();
+    assert_eq!(b.differ(sum, one), Nonzero);
+    // Products of tiny constants keep their relative precision.
+    let planck = Rational::from_decimal("662607015", -42).unwrap();
+    let h = b.g.number(planck);
+    let h4 = b.g.powi(h, 4);
+    let scaled = b.g.mul(h4, size);
+    assert_eq!(b.test.verdict(&mut b.g, scaled), Nonzero);
+    // A multiple of the prime is no zero.
+    let prime = b.g.number(Rational::integer(field::PRIME as i64));
+    let multiple = b.g.mul(prime, x);
+    assert_ne!(b.test.verdict(&mut b.g, multiple), Zero);
+    // Neither is a division by what vanishes identically.
+    let twice = b.times(x, 2, 1);
+    let sc = b.g.mul(s, c);
+    let doubled = b.times(sc, -2, 1);
+    let s2x = b.g.sin(twice);
+    let hidden = b.g.add(s2x, doubled);
+    let pole = b.g.div(y, hidden);
+    assert_eq!(b.test.verdict(&mut b.g, pole), Unknown);
+}
+
+#[test]
+fn growing_denominators() {
+    let mut b = Bench::new();
+    let x = b.q("x");
+    let s = b.g.sin(x);
+    assert_eq!(b.test.verdict(&mut b.g, s), Nonzero);
+    let before = b.test.table.generation;
+    let seventh = b.times(x, 1, 35);
+    let pair = b.g.sin_cos(seventh);
+    let mut turned = pair;
+    for _ in 1..35 {
+        turned = b.g.rotate(turned, pair);
+    }
+    assert_eq!(b.differ(turned.0, s), Zero);
+    assert!(b.test.table.generation > before);
+    assert_eq!(b.differ(turned.1, s), Nonzero);
+}
+
+#[test]
+fn constants_and_ranks() {
+    let mut b = Bench::new();
+    let (x, a) = (b.q("x"), b.positive("a"));
+    let (s, c) = b.g.sin_cos(x);
+    let (s2, c2) = (b.g.powi(s, 2), b.g.powi(c, 2));
+    let two = b.times(x, 2, 1);
+    let cos2 = b.g.cos(two);
+    let sum = b.g.linear(&[(s2, Rational::integer(2)), (cos2, Rational::ONE), (a, Rational::ONE)]);
+    assert_eq!(b.test.is_constant(&mut b.g, sum, &[x]), Zero);
+    assert_eq!(b.test.is_constant(&mut b.g, c2, &[x]), Nonzero);
+    let (as_, ac) = (b.g.mul(a, s), b.g.mul(a, c));
+    let rows = vec![vec![s, c], vec![as_, ac]];
+    assert_eq!(b.test.rank(&mut b.g, &rows, false), Some(1));
+    assert_eq!(b.test.relations(&mut b.g, &rows, false).map(|r| r.len()), Some(1));
+    let minus = b.g.neg(s);
+    assert_eq!(b.test.rank(&mut b.g, &[vec![s, c], vec![c, minus]], false), Some(2));
+    let values = b.test.residues(&mut b.g, 0, &[s, c], false).unwrap();
+    let squares = values.iter().fold(0, |sum, v| field::add(sum, field::mul(*v, *v)));
+    assert_eq!(squares, 1);
+}
+
+fn quaternion(b: &mut Bench) -> ([ExprId; 4], ExprId) {
+    let q = ["q0", "q1", "q2", "q3"].map(|name| b.q(name));
+    let squares = q.map(|q| b.g.powi(q, 2));
+    let norm = b.g.sum(squares);
+    (q, norm)
+}
+
+#[test]
+fn unit_quaternions() {
+    let mut b = Bench::new();
+    let (q, norm) = quaternion(&mut b);
+    let one = b.g.one();
+    let equation = b.g.sub(norm, one);
+    b.test.set_manifold(&mut b.g, &[equation]);
+    assert!(b.test.manifold_is_solved());
+    let fourth = b.g.powi(norm, 2);
+    assert_eq!(b.differ(fourth, one), Nonzero);
+    assert_eq!(b.on_manifold(fourth, one), Zero);
+    // The first row of the rotation matrix is a unit vector.
+    let (mut diagonal, mut terms) = (Vec::new(), Vec::new());
+    for (i, sign) in [(0, 1), (1, 1), (2, -1), (3, -1)] {
+        let square = b.g.powi(q[i], 2);
+        diagonal.push((square, Rational::integer(sign)));
+    }
+    let r11 = b.g.linear(&diagonal);
+    for (i, j, k, l, sign) in [(1, 2, 0, 3, -1), (1, 3, 0, 2, 1)] {
+        let (a, c) = (b.g.mul(q[i], q[j]), b.g.mul(q[k], q[l]));
+        let entry = b.g.linear(&[(a, Rational::integer(2)), (c, Rational::integer(2 * sign))]);
+        terms.push(b.g.powi(entry, 2));
+    }
+    terms.push(b.g.powi(r11, 2));
+    let length = b.g.sum(terms);
+    assert_eq!(b.on_manifold(length, one), Zero);
+    assert_eq!(b.on_manifold(r11, one), Nonzero);
+    // Roots need the real points.
+    let root = b.g.sqrt(norm);
+    assert_eq!(b.on_manifold(root, one), Zero);
+    let size = b.f(Function::Abs, q[0]);
+    assert_eq!(b.on_manifold(size, q[0]), Nonzero);
+    // The angle of a solved coordinate is related to nothing that residues see.
+    let s = b.g.sin(q[0]);
+    assert_eq!(b.on_manifold(s, q[1]), Nonzero);
+}
+
+#[test]
+fn four_bar() {
+    let mut b = Bench::new();
+    let angles = ["a", "b", "c"].map(|name| b.q(name));
+    let lengths = ["l1", "l2", "l3", "l4"].map(|name| b.positive(name));
+    let (mut across, mut along) = (Vec::new(), Vec::new());
+    for (i, sign) in [1, 1, -1].into_iter().enumerate() {
+        let (s, c) = b.g.sin_cos(angles[i]);
+        along.push((b.g.mul(lengths[i], c), Rational::integer(sign)));
+        across.push((b.g.mul(lengths[i], s), Rational::integer(sign)));
+    }
+    along.push((lengths[3], Rational::MINUS_ONE));
+    let (f, h) = (b.g.linear(&along), b.g.linear(&across));
+    b.test.set_manifold(&mut b.g, &[f, h]);
+    assert!(b.test.manifold_is_solved());
+    let product = b.g.mul(f, angles[0]);
+    let sum = b.g.add(product, h);
+    assert_eq!(b.test.verdict_on_manifold(&mut b.g, sum), Zero);
+    assert_eq!(b.test.verdict(&mut b.g, sum), Nonzero);
+    assert_eq!(b.on_manifold(lengths[3], lengths[0]), Nonzero);
+    // l2^2 from the other bars
+    let (f2, h2) = (b.g.linear(&along[..1]), b.g.linear(&across[..1]));
+    let (rest_f, rest_h) = (b.g.linear(&along[2..]), b.g.linear(&across[2..]));
+    let (u, v) = (b.g.add(f2, rest_f), b.g.add(h2, rest_h));
+    let (u2, v2) = (b.g.powi(u, 2), b.g.powi(v, 2));
+    let sum = b.g.add(u2, v2);
+    let square = b.g.powi(lengths[1], 2);
+    assert_eq!(b.on_manifold(sum, square), Zero);
+    let root = b.g.sqrt(sum);
+    assert_eq!(b.on_manifold(root, lengths[1]), Zero);
+    assert_eq!(b.on_manifold(root, lengths[0]), Nonzero);
+}
+
+#[test]
+fn frame_of_unit_vectors() {
+    let mut b = Bench::new();
+    let names = ["xx", "xy", "xz", "yx", "yy", "yz", "zx", "zy", "zz"];
+    let e: Vec<ExprId> = names.iter().map(|name| b.q(name)).collect();
+    let dot = |b: &mut Bench, i: usize, j: usize| {
+        let products: Vec<_> = (0..3).map(|k| b.g.mul(e[3 * i + k], e[3 * j + k])).collect();
+        b.g.sum(products)
+    };
+    let one = b.g.one();
+    let mut equations = Vec::new();
+    for i in 0..3 {
+        for j in i..3 {
+            let product = dot(&mut b, i, j);
+            equations.push(if i == j { b.g.sub(product, one) } else { product });
+        }
+    }
+    b.test.set_manifold(&mut b.g, &equations);
+    assert!(b.test.manifold_is_solved());
+    // Columns are unit vectors too.
+    let squares: Vec<_> = (0..3).map(|i| b.g.powi(e[3 * i], 2)).collect();
+    let column = b.g.sum(squares);
+    assert_eq!(b.on_manifold(column, one), Zero);
+    assert_eq!(b.on_manifold(e[0], e[4]), Nonzero);
+}
+
+#[test]
+fn unsolvable_manifolds_stay_open() {
+    let mut b = Bench::new();
+    let (x, y) = (b.q("x"), b.q("y"));
+    let (sx, sy) = (b.g.sin(x), b.g.sin(y));
+    let equation = b.g.sub(sx, sy);
+    b.test.set_manifold(&mut b.g, &[equation]);
+    assert!(!b.test.manifold_is_solved());
+    assert_eq!(b.test.verdict_on_manifold(&mut b.g, equation), Unknown);
+    assert_eq!(b.test.verdict_on_manifold(&mut b.g, sx), Nonzero);
+    assert_eq!(b.test.residues(&mut b.g, 0, &[sx], true), None);
+}
+
+#[test]
+fn same_questions_same_answers() {
+    let run = || {
+        let mut b = Bench::new();
+        let (q, norm) = quaternion(&mut b);
+        let one = b.g.one();
+        let equation = b.g.sub(norm, one);
+        b.test.set_manifold(&mut b.g, &[equation]);
+        let s = b.g.sin(q[1]);
+        let free = b.test.residues(&mut b.g, 1, &[s, q[0]], false);
+        let bound = b.test.residues(&mut b.g, 1, &[s, q[0]], true);
+        (free, bound)
+    };
+    assert_eq!(run(), run());
+}
+
+#[test]
+fn evaluations_agree() {
+    use super::real::Real;
+    let mut b = Bench::new();
+    let x = b.q("x");
+    let third = b.times(x, 1, 3);
+    let functions = [
+        Function::Sin,
+        Function::Cos,
+        Function::Asin,
+        Function::Acos,
+        Function::Atan,
+        Function::Exp,
+        Function::Ln,
+        Function::Sinh,
+        Function::Cosh,
+        Function::Tanh,
+        Function::Abs,
+        Function::Root(2),
+        Function::Root(3),
+        Function::Root(5),
+        Function::Root(6),
+    ];
+    let es: Vec<_> = functions.iter().map(|function| b.f(*function, third)).collect();
+    let half = f256::f256::rational(&Rational::new(1, 2));
+    let plain = evaluate_f64(&b.g, &es, &|_| 0.5);
+    let long = evaluate(&b.g, &es, &|_| half);
+    for ((function, plain), long) in functions.iter().zip(plain).zip(long) {
+        let difference = (long - f256::f256::from(plain)).of(Function::Abs);
+        assert!(difference < f256::f256::from(1e-15), "{function:?}: {plain} {long}");
+    }
+}

@@ -1,0 +1,102 @@
+//! Equations of motion of mechanical systems, derived at compile time.
+//!
+//! Declare coordinates, velocity constraints, quasi-velocities, kinetic energy and force function; the macro
+//! [`mechanical_system!`] builds the displacement operators, their brackets, the classification, and the equations
+//! of motion in the form of Pham Guen (1969), valid for holonomic and nonholonomic systems alike. What it emits is
+//! straight-line code, generic in the real type, without allocation and without `std`.
+//!
+//! ```
+//! use guen::mechanical_system;
+//! use guen::prelude::*;
+//!
+//! mechanical_system! {
+//!     /// A sled on an inclined plane, with a blade that does not slip sideways.
+//!     pub system Sled {
+//!         constants   { m > 0, k > 0, alpha, incline, g = 9.81 }
+//!         coordinates { phi, x, y }
+//!         parameters {
+//!             turning = dot(phi);
+//!             speed   = dot(x)*cos(phi) + dot(y)*sin(phi);
+//!         }
+//!         constraints { blade: dot(x)*sin(phi) - dot(y)*cos(phi) = 0; }
+//!         let center_x = x + alpha*cos(phi);
+//!         let center_y = y + alpha*sin(phi);
+//!         kinetic_energy = m/2*(dot(center_x)^2 + dot(center_y)^2) + m/2*k^2*turning^2;
+//!         force_function = m*g*sin(incline)*center_x;
+//!     }
+//! }
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let system = Sled { m: 1.0, k: 0.5, alpha: 0.2, incline: 0.1, g: 9.81 }.prepare()?;
+//! let start = sled::State { turning: 1.0, ..Default::default() };
+//! let end = Dop853::new(1e-10, 1e-10).integrate(&system, 0.0, &start.into(), 2.0, |_, _| ControlFlow::Continue(()))?;
+//! let state = sled::State::from(end.state);
+//! assert!((system.energy(2.0, &state) - system.energy(0.0, &start)).abs() < 1e-8);
+//! assert!(!sled::CLASS.is_holonomic());
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! # Features
+//!
+//! | feature | default | what it brings |
+//! | --- | --- | --- |
+//! | `nalgebra` | yes | conversions between states and `nalgebra::SVector` |
+//! | `std` | yes | nothing of its own yet; recordings and pictures are in the crate `guen-study` |
+#![no_std]
+#![forbid(unsafe_code)]
+
+pub use guen_runtime::{
+    BracketCoefficients, Catastatic, Class, Coefficient, Conservative, ConstantsError, Coordinate, Cost,
+    Dual, Function, Holonomic, IncompleteLieGroup, IntegrationError, LieGroup, Lift, Linearization,
+    Monitored, Nonholonomic, Operator, Ordered, Real, Report, ReportSection, Rheonomic, Scleronomic, System,
+    from_fn, prelude, steppers,
+};
+
+/// Declares a mechanical system and derives its equations of motion at compile time.
+///
+/// For `pub system Hoop { .. }` it generates the struct `Hoop` of physical constants and, beside it, the module
+/// `hoop` with everything else: `State`, `Prepared`, the operators `X0 ..`, their `Bracket`s, classification and
+/// costs as constants, and the text of what was derived. The sections of a declaration are described in the
+/// language reference, `docs/language.md` of the repository.
+///
+/// ```
+/// guen::mechanical_system! {
+///     /// A bead on a hoop that turns about its vertical diameter.
+///     pub system Bead {
+///         constants   { m > 0, R > 0, Omega, g = 9.81 }
+///         coordinates { theta }
+///         parameters  { omega = dot(theta); }
+///         kinetic_energy   = m/2*R^2*(omega^2 + Omega^2*sin(theta)^2);
+///         potential_energy = -m*g*R*cos(theta);
+///     }
+/// }
+///
+/// # fn main() -> Result<(), guen::ConstantsError> {
+/// let bead = Bead { m: 1.0, R: 0.1, Omega: 20.0, g: 9.81 }.prepare()?;
+/// let rate = bead.rhs(0.0, &bead::State { theta: 0.1, omega: 0.0 });
+/// assert!(rate.omega > 0.0); // the bead climbs: the hoop turns faster than sqrt(g/R)
+/// assert!(bead::CONSERVATIVE);
+/// # Ok(())
+/// # }
+/// ```
+#[macro_export]
+macro_rules! mechanical_system {
+    // A path of one's own, for macros of one's own that re-export this crate.
+    (crate = $($rest:tt)*) => { $crate::__private::mechanical_system! { crate = $($rest)* } };
+    // `$crate` finds the facade under whatever name the user's Cargo.toml gives it.
+    ($($declaration:tt)*) => { $crate::__private::mechanical_system! { crate = $crate; $($declaration)* } };
+}
+
+/// What expansions refer to; no part of the public interface.
+#[doc(hidden)]
+pub mod __private {
+    pub use guen_macros::mechanical_system;
+    pub use guen_runtime::checks::{check_hoisted, check_pivot, largest};
+    pub use guen_runtime::{
+        BracketCoefficients, Catastatic, Class, Coefficient, Conservative, ConstantsError, Cost, Dual,
+        Holonomic, IncompleteLieGroup, LieGroup, Lift, Linearization, Monitored, Nonholonomic, Operator,
+        Real, Report, ReportSection, Rheonomic, Scleronomic, System, nalgebra_conversions, seeded,
+        zero_bracket,
+    };
+}
