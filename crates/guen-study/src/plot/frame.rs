@@ -9,7 +9,7 @@ pub(super) const TITLE_SIZE: f64 = 16.0;
 pub(super) const TEXT_SIZE: f64 = 13.0;
 pub(super) const TICK_SIZE: f64 = 12.0;
 /// The mean width of a letter over its size: viewers choose the font, so widths are only estimates.
-const LETTER: f64 = 0.6;
+const LETTER: f64 = 0.64;
 /// The room around everything.
 pub(super) const MARGIN: f64 = 12.0;
 /// The room between the edge of the picture and the text nearest to it, where texts reach into the margin.
@@ -79,6 +79,7 @@ impl Frame {
 
     /// `None` if there is no point to draw.
     pub fn new(plot: &Plot) -> Option<Self> {
+        const ROUNDS: usize = 5;
         let (x_range, y_range) = ranges(plot)?;
         let (width, height) = (f64::from(plot.width), f64::from(plot.height));
 
@@ -91,11 +92,11 @@ impl Frame {
         let mut right = width - MARGIN;
         let y_text = if plot.y_label.is_empty() { 0.0 } else { TEXT_SIZE + 8.0 };
 
-        // The left margin holds the labels of the marks, which depend on the range, which with equal scales
-        // depends on the left margin: the second round settles it, up to a digit that the margin has room for.
+        // The margins hold the labels of the marks, which depend on the length of the axes and so on the margins.
+        // After the first round margins only grow, so that the rounds settle.
         let mut left = MARGIN + y_text + 4.0 * TICK_SIZE;
         let mut axes = None;
-        for _ in 0..2 {
+        for round in 0..ROUNDS {
             let mut x = Axis { low: x_range.0, high: x_range.1, from: left, to: right, ticks: Vec::new() };
             let mut y = Axis { low: y_range.0, high: y_range.1, from: bottom, to: top, ticks: Vec::new() };
             if plot.equal_scale {
@@ -105,8 +106,9 @@ impl Frame {
             y.ticks = ticks(y.low, y.high, (y.length() / 45.0) as usize);
             let widest = y.ticks.iter().map(|tick| text_width(&tick.label, TICK_SIZE)).fold(0.0, f64::max);
             let (before, after) = overhang(&x);
-            left = f64::max(MARGIN + y_text + widest + TICK_GAP, EDGE + before);
-            right = f64::min(width - MARGIN, width - EDGE - after);
+            let needed = f64::max(MARGIN + y_text + widest + TICK_GAP, EDGE + before);
+            left = if round == 0 { needed } else { needed.max(left) };
+            right = right.min(width - EDGE - after);
             axes = Some((x, y));
         }
         let (x, y) = axes?;
@@ -252,6 +254,27 @@ mod tests {
                 for pair in ticks.windows(2) {
                     let room = frame.x.at(pair[1].value) - frame.x.at(pair[0].value);
                     assert!(room > text_width(&pair[0].label, TICK_SIZE));
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn labels_stay_in_the_picture() {
+        for (low, high) in [(0.0, 1e-5), (-2.1, 1.8), (1.0, 1.0 + 1e-7), (0.0, 20.0), (0.0, 99_999.0)] {
+            for width in (240..1200).step_by(13) {
+                for equal in [false, true] {
+                    let plot = Plot::new("t").size(width, width).axes("x", "y").equal_scale(equal);
+                    let frame = frame(plot.line("a", [(low, low), (high, high)]));
+                    for tick in &frame.x.ticks {
+                        let half = text_width(&tick.label, TICK_SIZE) / 2.0;
+                        let at = frame.x.at(tick.value);
+                        assert!(at - half >= 0.0 && at + half <= f64::from(width), "{low} {high} {width}");
+                    }
+                    for tick in &frame.y.ticks {
+                        let left = frame.x.from - TICK_GAP - text_width(&tick.label, TICK_SIZE);
+                        assert!(left >= MARGIN + TEXT_SIZE, "{low} {high} {width}: {}", tick.label);
+                    }
                 }
             }
         }

@@ -6,7 +6,7 @@ use super::cost::OperationCount;
 use super::instruction::{FunctionProgram, Programs};
 use super::lower::{Code, PreparedTable, lower};
 use super::net::{Conversion, Field, Net, NetId, NetNode};
-use super::passes::{CANDIDATES, Changes, apply, rebuild};
+use super::passes::{CANDIDATES, Changes, Pass, affordable, apply, rebuild};
 use crate::algebra::{ExprId, Graph, Substitution};
 
 /// One way to compute the outputs of a function.
@@ -149,15 +149,18 @@ fn staged(graph: &mut Graph, net: &mut Net, formulation: &Formulation) -> Vec<Ne
         done.push(best);
     }
     let roots: Vec<NetId> = places.into_iter().map(|(depth, index)| done[depth][index]).collect();
-    if depths.is_empty() { roots } else { rebuild(graph, net, &roots, &link) }
+    let roots = if depths.is_empty() { roots } else { rebuild(graph, net, &roots, &link) };
+    // Signs may move across the depths; they never add an operation.
+    apply(Pass::Signs, graph, net, &roots)
 }
 
 /// The roots as the cheapest sequence of passes leaves them.
 fn cheapest(graph: &mut Graph, net: &mut Net, roots: Vec<NetId>) -> Vec<NetId> {
+    let tried = affordable(net.reachable(&roots).0.len());
     let mut best = (cost(graph, net, &roots), roots.clone());
-    for passes in &CANDIDATES {
+    for passes in &CANDIDATES[..tried] {
         let mut candidate = roots.clone();
-        for pass in passes.iter() {
+        for pass in *passes {
             candidate = apply(*pass, graph, net, &candidate);
         }
         let cost = cost(graph, net, &candidate);

@@ -4,6 +4,10 @@ use super::instruction::{Instruction, Operation, Value};
 use super::net::{Linear, Net, NetId, NetNode, split_sign};
 use crate::algebra::{ExprId, FastMap, Function, Graph, Node, Rational};
 
+/// Which functions of an angle are needed.
+const SINE: u8 = 1;
+const COSINE: u8 = 2;
+
 /// The constants that functions load, as expressions, in the order of first use.
 #[derive(Clone, Debug, Default)]
 pub(super) struct PreparedTable {
@@ -39,8 +43,8 @@ pub(super) fn lower(graph: &mut Graph, net: &Net, roots: &[NetId], prepared: &mu
         prepared,
         uses,
         denominators: vec![0; net.len()],
-        turned: vec![(false, false); net.len()],
-        done: vec![None; net.len()],
+        turned: vec![0; net.len()],
+        done: vec![0; net.len()],
         instructions: Vec::new(),
         numbering: FastMap::default(),
         values: 0,
@@ -52,8 +56,8 @@ pub(super) fn lower(graph: &mut Graph, net: &Net, roots: &[NetId], prepared: &mu
                     lowering.denominators[base.0 as usize] += 1;
                 }
             }
-            NetNode::Call(Function::Sin, x) => lowering.turned[x.0 as usize].0 = true,
-            NetNode::Call(Function::Cos, x) => lowering.turned[x.0 as usize].1 = true,
+            NetNode::Call(Function::Sin, x) => lowering.turned[x.0 as usize] |= SINE,
+            NetNode::Call(Function::Cos, x) => lowering.turned[x.0 as usize] |= COSINE,
             _ => {}
         }
     }
@@ -69,8 +73,9 @@ struct Lowering<'a> {
     /// How many products divide by a node.
     denominators: Vec<u32>,
     /// Whether sine and cosine of a node are needed.
-    turned: Vec<(bool, bool)>,
-    done: Vec<Option<Value>>,
+    turned: Vec<u8>,
+    /// One more than the value of a node, zero for none: zeroed memory is cheap also without optimisation.
+    done: Vec<u32>,
     instructions: Vec<Instruction>,
     numbering: FastMap<Operation, Value>,
     values: u32,
@@ -115,12 +120,12 @@ impl Lowering<'_> {
     fn value(&mut self, root: NetId) -> Value {
         let mut stack = vec![(root, false)];
         while let Some((id, entered)) = stack.pop() {
-            if self.done[id.0 as usize].is_some() {
+            if self.done[id.0 as usize] != 0 {
                 continue;
             }
             if entered {
                 let value = self.step(id);
-                self.done[id.0 as usize] = Some(value);
+                self.done[id.0 as usize] = value.0 + 1;
                 continue;
             }
             stack.push((id, true));
@@ -132,7 +137,8 @@ impl Lowering<'_> {
     }
 
     fn get(&self, id: NetId) -> Value {
-        self.done[id.0 as usize].expect("children come before their parents")
+        // Children come before their parents.
+        Value(self.done[id.0 as usize] - 1)
     }
 
     fn step(&mut self, id: NetId) -> Value {
@@ -151,7 +157,7 @@ impl Lowering<'_> {
             NetNode::Product(factors) => self.product(None, factors),
             NetNode::Call(function @ (Function::Sin | Function::Cos), x) => {
                 let angle = self.get(*x);
-                if self.turned[x.0 as usize] != (true, true) {
+                if self.turned[x.0 as usize] != SINE | COSINE {
                     return self.emit(Operation::Call(*function, angle));
                 }
                 let key = Operation::Call(*function, angle);

@@ -84,12 +84,12 @@ pub fn compare(
         .collect();
     let slope = |i: usize, j: usize, k: usize, s: usize| slopes[i][((j * (n + 1)) + k) * n + s - 1];
     let largest = moving.iter().flatten().flatten().map(|d| d.du.abs()).fold(1.0, f64::max);
-    for i in 0..=n {
-        for j in 0..=n {
+    for (i, by_i) in moving.iter().enumerate() {
+        for (j, by_j) in moving.iter().enumerate() {
             for t in 1..=n {
                 // C_ijt = eta_t on X_i X_j - X_j X_i
                 let reference: f64 =
-                    (1..=n).map(|k| forms[t - 1][k - 1] * (moving[i][j][k].du - moving[j][i][k].du)).sum();
+                    (1..=n).map(|k| forms[t - 1][k - 1] * (by_i[j][k].du - by_j[i][k].du)).sum();
                 grow(&mut differences.commutators, c.at(i, j, t) - reference, largest);
                 grow(&mut differences.commutators, c.at(i, j, t) + c.at(j, i, t), largest);
             }

@@ -54,7 +54,11 @@ impl Derived {
     pub fn compare(&self, declared: &Declared, point: &mut [f64], reference: &Multipliers) -> Differences {
         let unit = reference.condition * reference.scale;
         let worst = |pairs: &mut dyn Iterator<Item = (f64, f64)>| {
-            pairs.map(|(a, b)| (a - b).abs() / unit).fold(0.0, |worst, x| if x <= worst { worst } else { x })
+            // NaN is worse than anything.
+            let ratio = |(a, b): (f64, f64)| {
+                Some((a - b).abs() / unit).filter(|x| !x.is_nan()).unwrap_or(f64::INFINITY)
+            };
+            pairs.map(ratio).fold(0.0, f64::max)
         };
         let own = self.accelerate(declared, point);
         let accelerations = worst(&mut own.into_iter().zip(reference.accelerations.iter().copied()));

@@ -22,7 +22,7 @@ use closure::Shapes;
 use sweep::Tally;
 
 /// Systems drawn: enough that five hundred remain when ill-conditioned ones are left out.
-const DRAWN: u64 = 600;
+const DRAWN: u64 = 540;
 /// Systems that must be left.
 const COMPARED: usize = 500;
 /// Systems in which each feature must differ from zero.

@@ -23,12 +23,12 @@ pub enum Family {
     Combined,
 }
 
-/// Families with their shares in 16.
+/// Families with their shares in sixteen.
 pub const FAMILIES: [Family; 16] = {
     use Family::*;
     [
-        Free, Exact, Exact, Scaled, Scaled, Catastatic, Catastatic, Affine, Affine, Affine, Mixed, Mixed,
-        Mixed, Combined, Combined, Combined,
+        Free, Exact, Exact, Scaled, Scaled, Scaled, Catastatic, Catastatic, Affine, Affine, Affine, Affine,
+        Mixed, Mixed, Combined, Combined,
     ]
 };
 
@@ -127,7 +127,7 @@ fn combine(words: &mut Words, rows: &mut [Row]) {
     let all = words.everywhere();
     let (b11, b12, b22) = (words.positive(&all), words.coefficient(&all), words.graph.one());
     let b21 =
-        if words.draw.once_in(2) { words.graph.number(Rational::new(1, 3)) } else { words.graph.zero() };
+        if words.draw.once_in(3) { words.graph.number(Rational::new(1, 3)) } else { words.graph.zero() };
     let (first, second) = (rows[0].form.clone(), rows[1].form.clone());
     for (row, (a, b)) in rows.iter_mut().zip([(b11, b12), (b21, b22)]) {
         let (left, right) = (times(words, a, &first), times(words, b, &second));

@@ -9,7 +9,7 @@ use crate::closure::{Closure, Shapes};
 use crate::declared::Declared;
 use crate::derived::{Derived, derive};
 use crate::draw::Draw;
-use crate::system::System;
+use crate::system::drawn;
 use crate::{energies, multipliers, poincare};
 
 /// What rounding may make of a comparison, in units of condition times size.
@@ -68,12 +68,12 @@ impl Tally {
     /// Draws the system of a seed and compares all that is known of it.
     pub fn examine(&mut self, seed: u64, shapes: &mut Shapes) {
         self.drawn += 1;
-        let system = System::drawn(seed);
-        let declared = Declared::new(&system.graph, &system.mechanics);
+        let (words, mechanics) = drawn(seed);
+        let declared = Declared::new(&words.graph, &mechanics);
         let mut draw = Draw::new(!seed);
         let mut point = declared.state(&mut draw);
         let reference = multipliers::solve(&declared, &point);
-        let derived = derive(system.graph, system.mechanics, seed);
+        let derived = derive(words.graph, mechanics, seed);
         let Some(mut derived) = derived else {
             assert!(reference.is_none(), "seed {seed}: called singular, and is not");
             self.singular += 1;

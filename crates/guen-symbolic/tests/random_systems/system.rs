@@ -1,28 +1,13 @@
 //! One random mechanical system from its seed: forms, energies, forces.
 
-use guen_symbolic::{ExprId, Force, Graph, Holonomic, Mechanics, Rational};
+use guen_symbolic::{ExprId, Force, Holonomic, Mechanics, Rational};
 
 use crate::draw::Draw;
 use crate::rows::{FAMILIES, Family, draw_rows};
 use crate::words::Words;
 
-/// A system with the graph it lives in.
-pub struct System {
-    pub graph: Graph,
-    pub mechanics: Mechanics,
-    pub family: Family,
-}
-
-impl System {
-    /// The system of a seed.
-    pub fn drawn(seed: u64) -> Self {
-        let (words, mechanics, family) = draw_words(seed);
-        System { graph: words.graph, mechanics, family }
-    }
-}
-
-/// The system of a seed, still with its words: for transformations that need more functions.
-pub fn draw_words(seed: u64) -> (Words, Mechanics, Family) {
+/// The system of a seed, with the words it was made of.
+pub fn drawn(seed: u64) -> (Words, Mechanics) {
     let mut draw = Draw::new(seed);
     let family = draw.pick(&FAMILIES);
     let least = match family {
@@ -70,7 +55,7 @@ pub fn draw_words(seed: u64) -> (Words, Mechanics, Family) {
         forces,
         outputs: Vec::new(),
     };
-    (words, mechanics, family)
+    (words, mechanics)
 }
 
 /// Squares of velocities and of quasi-velocities in frames that may move, products of both, and lower parts.

@@ -17,6 +17,8 @@ const ROTATION: usize = 3;
 /// `sum multiple * base`.
 pub(in super::super) type Angle = Vec<(ExprId, i32)>;
 
+type Parts = Vec<(ExprId, Rational)>;
+
 /// The angles to be computed from base angles.
 #[derive(Clone, Debug, Default)]
 pub(in super::super) struct Angles(FastMap<ExprId, Angle>);
@@ -31,7 +33,7 @@ impl Angles {
                 *arguments.entry(*x).or_default() += 1;
             }
         }
-        let parts: Vec<(ExprId, usize, Vec<(ExprId, Rational)>)> = arguments
+        let parts: Vec<(ExprId, usize, Parts)> = arguments
             .into_iter()
             .filter_map(|(x, needed)| Some((x, needed, linear_parts(graph, x)?)))
             .collect();
@@ -87,7 +89,7 @@ impl Angles {
 }
 
 /// The angle as a combination of terms that all depend on the state.
-fn linear_parts(graph: &Graph, x: ExprId) -> Option<Vec<(ExprId, Rational)>> {
+fn linear_parts(graph: &Graph, x: ExprId) -> Option<Parts> {
     match graph.node(x) {
         Node::Sum { constant, terms } => (constant.is_zero()
             && terms.iter().all(|(term, _)| !graph.roles(*term).is_constant()))

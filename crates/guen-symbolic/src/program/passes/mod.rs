@@ -40,17 +40,29 @@ pub(super) enum Pass {
     Signs,
 }
 
-/// The sequences that are tried; the cheapest result is kept, the earlier one of equals.
+/// The sequences that are tried; the cheapest result is kept, the earlier one of equals, and then [`Pass::Signs`].
+///
+/// Each is there because some system needs it: rates in velocities (hoop, sled) the first, masses and forces of chains
+/// the second, solves with named entries the third, single expressions the others.
 pub(super) const CANDIDATES: [&[Pass]; 5] = {
-    use Pass::{Absorb, Expand, FactorAll, FactorUnshared, Products, ProductsAndConstants, Signs, Sums};
+    use Pass::{Absorb, Expand, FactorAll, FactorUnshared, Products, ProductsAndConstants, Sums};
     [
-        &[Absorb, Products, Sums, FactorUnshared, Absorb, Products, Signs],
-        &[Expand, Absorb, Sums, Products, FactorUnshared, Absorb, Products, Signs],
-        &[Absorb, FactorAll, Sums, Absorb, Products, FactorUnshared, Signs],
-        &[ProductsAndConstants, Sums, FactorUnshared, Absorb, Products, Signs],
-        &[Expand, ProductsAndConstants, FactorUnshared, Sums, Absorb, Products, Signs],
+        &[Expand, Absorb, Sums, Products, FactorUnshared, Absorb, Products],
+        &[Expand, ProductsAndConstants, FactorUnshared, Sums, Absorb, Products],
+        &[Absorb, FactorAll, Sums, Absorb, Products, FactorUnshared],
+        &[Absorb, Products, Sums, FactorUnshared, Absorb, Products],
+        &[ProductsAndConstants, Sums, FactorUnshared, Absorb, Products],
     ]
 };
+
+/// How many of the candidates are tried for a net of so many nodes: expansion must stay quick.
+pub(super) fn affordable(nodes: usize) -> usize {
+    match nodes {
+        0..=600 => CANDIDATES.len(),
+        601..=40_000 => 2,
+        _ => 0,
+    }
+}
 
 /// Applies one pass.
 pub(super) fn apply(pass: Pass, graph: &mut Graph, net: &mut Net, roots: &[NetId]) -> Vec<NetId> {
@@ -72,10 +84,11 @@ pub(super) fn rebuild(graph: &mut Graph, net: &mut Net, roots: &[NetId], changes
     if changes.is_empty() {
         return roots.to_vec();
     }
-    let mut images: Vec<Option<NetId>> = vec![None; net.len()];
+    // One more than the image, zero for none: zeroed memory is cheap also without optimisation.
+    let mut images: Vec<u32> = vec![0; net.len()];
     let mut stack: Vec<(NetId, bool)> = roots.iter().rev().map(|root| (*root, false)).collect();
     while let Some((id, entered)) = stack.pop() {
-        if images[id.0 as usize].is_some() {
+        if images[id.0 as usize] != 0 {
             continue;
         }
         let change = changes.get(&id);
@@ -83,23 +96,23 @@ pub(super) fn rebuild(graph: &mut Graph, net: &mut Net, roots: &[NetId], changes
         if !entered {
             stack.push((id, true));
             content.children(|child| {
-                if images[child.0 as usize].is_none() {
+                if images[child.0 as usize] == 0 {
                     stack.push((child, false));
                 }
             });
             continue;
         }
         let mut same = change.is_none();
-        content.children(|child| same &= images[child.0 as usize] == Some(child));
+        content.children(|child| same &= images[child.0 as usize] == child.0 + 1);
         let image = if same {
             id
         } else {
             let content = content.clone();
-            with_children(graph, net, content, |child| images[child.0 as usize].expect("children come first"))
+            with_children(graph, net, content, |child| NetId(images[child.0 as usize] - 1))
         };
-        images[id.0 as usize] = Some(image);
+        images[id.0 as usize] = image.0 + 1;
     }
-    roots.iter().map(|root| images[root.0 as usize].expect("roots are visited")).collect()
+    roots.iter().map(|root| NetId(images[root.0 as usize] - 1)).collect()
 }
 
 fn with_children(graph: &mut Graph, net: &mut Net, node: NetNode, image: impl Fn(NetId) -> NetId) -> NetId {

@@ -127,7 +127,9 @@ impl Search {
         }
     }
 
-    fn run(&mut self, graph: &Graph, net: &mut Net) {
+    /// Joins pairs for as long as there is one; whether there was any.
+    fn run(&mut self, graph: &Graph, net: &mut Net) -> bool {
+        let mut joined = false;
         self.count_all();
         while let Some((count, Reverse(pair))) = self.heap.pop() {
             let current = self.counts.get(&pair).copied().unwrap_or(0);
@@ -139,7 +141,9 @@ impl Search {
                 continue;
             }
             self.replace(pair, join(graph, net, pair));
+            joined = true;
         }
+        joined
     }
 
     /// Puts the joined factor in the place of the pair wherever the pair occurs.
@@ -266,7 +270,9 @@ pub(super) fn changes(graph: &mut Graph, net: &mut Net, roots: &[NetId], split_c
     if search.monomials.len() > LARGEST_PROBLEM {
         return changes;
     }
-    search.run(graph, net);
+    if !search.run(graph, net) {
+        return changes;
+    }
     let minus = graph.number(-1);
     for (id, place) in places {
         let NetNode::Sum(linear) = net.node(id) else { continue };

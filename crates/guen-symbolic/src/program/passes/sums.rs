@@ -142,10 +142,8 @@ fn shared_pairs(graph: &mut Graph, rows: &[Row]) -> Vec<Shared> {
             }
             let mut gain = -1 - i64::from(!is_unit(graph, ratio));
             for row in &users {
-                let (ka, kb) = (rows[*row].terms[&pair.0], rows[*row].terms[&pair.1]);
-                // One addition and the coefficient of b.
-                gain += 1 + i64::from(!is_unit(graph, kb));
-                let _ = ka;
+                // One addition and the multiplication by the coefficient of b.
+                gain += 1 + i64::from(!is_unit(graph, rows[*row].terms[&pair.1]));
             }
             if gain > 0 {
                 found.push(Shared { gain, pair, ratio, users });
