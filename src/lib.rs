@@ -100,3 +100,18 @@ pub mod __private {
         zero_bracket,
     };
 }
+
+/// The Rust blocks of the pages under `docs/` and of the README, compiled and run as doctests.
+#[cfg(doctest)]
+mod pages {
+    #[doc = include_str!("../README.md")]
+    mod readme {}
+    #[doc = include_str!("../docs/language.md")]
+    mod language {}
+    #[doc = include_str!("../docs/generated.md")]
+    mod generated {}
+    #[doc = include_str!("../docs/theory.md")]
+    mod theory {}
+    #[doc = include_str!("../docs/internals.md")]
+    mod internals {}
+}

@@ -1,8 +1,8 @@
 //! From the model to what is emitted: the derivation, its faults in the user's names, and the programs.
 
 use guen_symbolic::{
-    Derivation, DerivationError, ExprId, Limits, ProgramBuilder, Programs, SingularForms, Substitution,
-    Verdict, normal_coefficients, weighted_cost,
+    Derivation, DerivationError, ExprId, Limits, MAX_WORK, ProgramBuilder, Programs, SingularForms,
+    Verdict, normal_coefficients, normal_form, weighted_cost,
 };
 use proc_macro2::Span;
 
@@ -40,9 +40,9 @@ pub mod function {
     pub const FORCE_FUNCTION: &str = "force_function";
     /// The momenta.
     pub const MOMENTA: &str = "momenta";
-    /// The reactions.
+    /// The reactions at given accelerations.
     pub const REACTIONS: &str = "reactions";
-    /// The rate of the energy integral.
+    /// The rate of the energy integral at given accelerations.
     pub const POWER: &str = "power";
     /// The outputs.
     pub const OUTPUTS: &str = "outputs";
@@ -123,14 +123,6 @@ fn programs(
 ) -> Programs {
     let (n, l) = (derivation.system.forms.len(), derivation.system.forms.degrees);
     let bench = &mut model.bench;
-    let mut solved = Substitution::new(
-        derivation
-            .system
-            .accelerations
-            .iter()
-            .copied()
-            .zip(derivation.solution.accelerations.iter().copied()),
-    );
     let forms: Vec<ExprId> = derivation
         .system
         .forms
@@ -141,12 +133,16 @@ fn programs(
             bench.graph.add(linear, form.offset)
         })
         .collect();
-    let reactions: Vec<ExprId> =
-        derivation.reactions.iter().flatten().map(|e| solved.of(&mut bench.graph, *e)).collect();
-    let power = solved.of(&mut bench.graph, derivation.power);
+    let reactions: Vec<ExprId> = derivation.reactions.iter().flatten().copied().collect();
     let positions: Vec<ExprId> = derivation.system.holonomic.iter().map(|h| h.equation).collect();
     let rates: Vec<ExprId> =
         derivation.frame.velocities.iter().chain(&derivation.solution.accelerations).copied().collect();
+    let limits = Limits::default();
+    let written_out: Vec<ExprId> =
+        rates.iter().map(|e| normal_form(&mut bench.graph, *e, &limits).unwrap_or(*e)).collect();
+    let velocities = &derivation.frame.velocities;
+    let others = derivation.alternatives.iter().map(|list| velocities.iter().chain(list).copied().collect());
+    let lists: Vec<Vec<ExprId>> = [rates, written_out].into_iter().chain(others).collect();
     let mut brackets: Vec<(String, Vec<ExprId>)> = Vec::new();
     for s in 1..=l {
         for r in 0..s {
@@ -159,31 +155,35 @@ fn programs(
     }
     let mut builder = ProgramBuilder::new(&mut bench.graph);
     let energies = &derivation.energies;
-    builder.add_function(function::RHS, &rates);
-    builder.add_function(function::VELOCITIES, &derivation.frame.velocities);
-    builder.add_function(function::FORMS, &forms);
-    builder.add_function(function::ENERGY, &[energies.integral]);
-    builder.add_function(function::KINETIC_ENERGY, &[energies.kinetic]);
-    builder.add_function(function::FORCE_FUNCTION, &[derivation.system.force_function]);
-    builder.add_function(function::MOMENTA, &energies.momenta);
-    builder.add_function(function::REACTIONS, &reactions);
-    builder.add_function(function::POWER, &[power]);
-    builder.add_function(function::OUTPUTS, &derivation.outputs);
-    builder.add_function(function::POSITIONS, &positions);
-    builder.add_function(function::DOMAIN, domain);
-    builder.add_function(function::PIVOTS, constant_pivots);
+    builder.add_equal(function::RHS, &lists);
+    builder.add_cold(function::VELOCITIES, &derivation.frame.velocities);
+    builder.add_cold(function::FORMS, &forms);
+    builder.add_cold(function::ENERGY, &[energies.integral]);
+    builder.add_cold(function::KINETIC_ENERGY, &[energies.kinetic]);
+    builder.add_cold(function::FORCE_FUNCTION, &[derivation.system.force_function]);
+    builder.add_cold(function::MOMENTA, &energies.momenta);
+    builder.add_cold(function::REACTIONS, &reactions);
+    builder.add_cold(function::POWER, &[derivation.power]);
+    builder.add_cold(function::OUTPUTS, &derivation.outputs);
+    builder.add_cold(function::POSITIONS, &positions);
+    builder.add_cold(function::DOMAIN, domain);
+    builder.add_cold(function::PIVOTS, constant_pivots);
     for (j, xi) in derivation.frame.operators.xi.iter().enumerate() {
-        builder.add_function(&format!("xi_{j}"), xi);
+        builder.add_cold(&format!("xi_{j}"), xi);
     }
     for (name, coefficients) in &brackets {
-        builder.add_function(name, coefficients);
+        builder.add_cold(name, coefficients);
     }
     builder.finish()
 }
 
 fn report(model: &mut Model<'_>, error: DerivationError, faults: &mut Faults) {
     match error {
-        DerivationError::SingularForms(singular) => report_singular_forms(model, singular, faults),
+        DerivationError::SingularForms(all) => {
+            for singular in all {
+                report_singular_forms(model, singular, faults);
+            }
+        }
         DerivationError::NotQuadratic(part) => {
             let place = model.kinetic_energy_span.unwrap_or(model.declaration.name.span());
             let text = short(model, part.part);
@@ -192,23 +192,12 @@ fn report(model: &mut Model<'_>, error: DerivationError, faults: &mut Faults) {
                     .note(format!("`{text}` is not a polynomial of degree two in them")),
             );
         }
-        DerivationError::SingularMass(rows) => {
-            let names: Vec<&str> = rows.iter().map(|s| model.forms[*s].name.as_str()).collect();
-            let place =
-                rows.first().map_or(model.declaration.name.span(), |s| model.forms[*s].written.span());
-            let fault = if let [name] = names[..] {
-                Fault::new(place, format!("cannot solve for the accelerations: `{name}` is without inertia"))
-            } else {
-                Fault::new(
-                    place,
-                    format!(
-                        "cannot solve for the accelerations: a combination of {} is without inertia",
-                        quoted(names)
-                    ),
-                )
-            };
+        DerivationError::SingularMass(motion) => report_singular_mass(model, &motion, faults),
+        DerivationError::TooLarge => {
             faults.report(
-                fault.note("the mass matrix is singular as a function: give every degree of freedom a mass"),
+                Fault::new(model.declaration.name.span(), "the equations of this system are too large to derive")
+                    .note(format!("the derivation was given up after {MAX_WORK} steps"))
+                    .help("choose parameters in which the velocities are short, or coordinates with fewer products of angles"),
             );
         }
         DerivationError::RoutesDisagree { equation } => {
@@ -224,51 +213,133 @@ fn report(model: &mut Model<'_>, error: DerivationError, faults: &mut Faults) {
     }
 }
 
-fn report_singular_forms(model: &mut Model<'_>, singular: SingularForms, faults: &mut Faults) {
-    let Some((last, _)) = singular.combination.last().cloned() else {
-        faults.report(Fault::new(model.declaration.name.span(), "the forms are linearly dependent"));
-        return;
-    };
-    let form = &model.forms[last];
-    let (place, name, kind) = (form.written.span(), form.name.clone(), form.kind);
-    let others: Vec<usize> = singular.combination.iter().map(|(j, _)| *j).filter(|j| *j != last).collect();
-    let other_names = quoted(others.iter().map(|j| model.forms[*j].name.as_str()));
-    let only_constraints =
-        singular.combination.iter().all(|(j, _)| model.forms[*j].kind != FormKind::Parameter);
-    let known = singular.combination.iter().all(|(_, c)| c.is_some());
-    let combination: Vec<(ExprId, &str)> = singular
-        .combination
-        .iter()
-        .filter(|(j, _)| *j != last)
-        .filter_map(|(j, c)| c.map(|c| (c, model.forms[*j].name.as_str())))
-        .collect();
-    let written = known.then(|| model.bench.graph.text_sum(&combination));
-    let mut fault = match (only_constraints, singular.rest) {
-        (true, Some(rest)) => match model.bench.verdict_on_manifold(rest) {
-            Verdict::Zero => Fault::new(place, format!("constraint `{name}` is redundant"))
-                .help(format!("delete `{name}` and add a parameter")),
-            _ if model.bench.graph.as_number(rest).is_some() => {
-                Fault::new(place, format!("constraint `{name}` contradicts {other_names}"))
-            }
-            _ => {
-                let text = short(model, rest);
-                Fault::new(place, format!("constraint `{name}` leaves no velocity beside {other_names}"))
-                    .note(format!("together they require `{text} = 0`"))
-                    .help(format!("declare it under `holonomic`: `{name}: {text} = 0;`"))
-            }
-        },
-        _ => {
-            let noun = if kind == FormKind::Parameter { "parameter" } else { "constraint" };
-            let fault = Fault::new(place, format!("{noun} `{name}` is linearly dependent on {other_names}"));
-            if kind == FormKind::Holonomic {
-                fault.note(format!("`{name}` enters as its rate"))
-            } else {
-                fault
-            }
+/// A motion without inertia: one parameter, or a combination that is spelled out.
+fn report_singular_mass(model: &mut Model<'_>, motion: &[(usize, Option<ExprId>)], faults: &mut Faults) {
+    let name = |s: usize| model.forms[s].name.as_str();
+    let place = motion.last().map_or(model.declaration.name.span(), |(s, _)| model.forms[*s].written.span());
+    let fault = if let [(s, _)] = motion {
+        let name = name(*s);
+        Fault::new(place, format!("cannot solve for the accelerations: `{name}` is without inertia"))
+            .note(format!("the kinetic energy does not depend on `{name}`"))
+    } else {
+        let names = quoted(motion.iter().map(|(s, _)| name(*s)));
+        let fault = Fault::new(
+            place,
+            format!("cannot solve for the accelerations: a combination of {names} is without inertia"),
+        );
+        let values: Option<Vec<String>> = motion
+            .iter()
+            .map(|(s, value)| Some(format!("`{} = {}`", name(*s), short(model, (*value)?))))
+            .collect();
+        match values {
+            Some(values) => fault.note(format!("a motion with {} has no kinetic energy", values.join(", "))),
+            None => fault,
         }
     };
-    if let Some(written) = written {
-        fault = fault.note(format!("in the velocities, `{name}` = {written}"));
+    faults.report(fault.help("give every degree of freedom a mass or an inertia"));
+}
+
+fn report_singular_forms(model: &mut Model<'_>, singular: SingularForms, faults: &mut Faults) {
+    let SingularForms { mut combination, rest } = singular;
+    if combination.is_empty() {
+        faults.report(Fault::new(model.declaration.name.span(), "the forms are linearly dependent"));
+        return;
+    }
+    let kind = |model: &Model<'_>, j: usize| model.forms[j].kind;
+    // The row to blame is the last one; a constraint before the rate of a holonomic one.
+    if kind(model, combination[combination.len() - 1].0) == FormKind::Holonomic
+        && let Some(i) = combination.iter().rposition(|(j, _)| kind(model, *j) == FormKind::Constraint)
+    {
+        let blamed = combination.remove(i);
+        combination.push(blamed);
+    }
+    let Some((last, others)) = combination.split_last() else { return };
+    let (last, divisor) = *last;
+    let form = &model.forms[last];
+    let (place, name) = (form.written.span(), form.name.clone());
+    let noun = if form.kind == FormKind::Parameter { "parameter" } else { "constraint" };
+    let other_names = quoted(others.iter().map(|(j, _)| model.forms[*j].name.as_str()));
+    let rates: Vec<&str> = others
+        .iter()
+        .map(|(j, _)| *j)
+        .chain([last])
+        .filter(|j| kind(model, *j) == FormKind::Holonomic)
+        .map(|j| model.forms[j].name.as_str())
+        .collect();
+    let rates = (!rates.is_empty()).then(|| {
+        let (enter, their) = if rates.len() == 1 { ("enters", "its rate") } else { ("enter", "their rates") };
+        format!("{} {enter} by {their}", quoted(rates))
+    });
+    let only_constraints = combination.iter().all(|(j, _)| kind(model, *j) != FormKind::Parameter);
+    // `name = sum c_j name_j` from `0 = d name + sum d_j name_j`.
+    let terms: Option<Vec<(usize, ExprId)>> = others
+        .iter()
+        .map(|(j, c)| {
+            let bench = &mut model.bench;
+            let opposite = bench.graph.neg((*c)?);
+            let quotient = bench.graph.div(opposite, divisor?);
+            Some((*j, bench.tidy(quotient)))
+        })
+        .collect();
+    let one = model.bench.graph.one();
+    let single = match terms.as_deref() {
+        Some([(j, c)]) if *c == one && kind(model, *j) == FormKind::Holonomic => Some(*j),
+        _ => None,
+    };
+    let rest = rest.filter(|_| only_constraints);
+    let mut fault = match rest.map(|rest| (rest, model.bench.verdict_on_manifold(rest))) {
+        Some((_, Verdict::Zero)) => {
+            let fault = match single {
+                Some(j) => {
+                    let holonomic = &model.forms[j].name;
+                    Fault::new(place, format!("constraint `{name}` is the rate of `{holonomic}`"))
+                }
+                None => Fault::new(place, format!("constraint `{name}` is redundant beside {other_names}")),
+            };
+            fault.help(format!("delete `{name}`, and declare one more parameter"))
+        }
+        Some((rest, _)) if model.bench.graph.roles(rest).is_constant() => {
+            let text = short(model, rest);
+            let number = model.bench.graph.as_number(rest).is_some();
+            let unless = if number { String::new() } else { format!(" unless `{text} = 0`") };
+            let fault = Fault::new(place, format!("constraint `{name}` contradicts {other_names}{unless}"));
+            let fault = if number { fault.note(format!("together they require `{text} = 0`")) } else { fault };
+            fault.help(format!("delete `{name}`, and declare one more parameter"))
+        }
+        Some((rest, _)) => {
+            let text = short(model, rest);
+            Fault::new(place, format!("the velocities of constraint `{name}` are those of {other_names}"))
+                .note(format!("together they require `{text} = 0`"))
+                .help(format!("declare it under `holonomic`: `{name}: {text} = 0;`"))
+        }
+        None => match single {
+            Some(j) => {
+                let holonomic = &model.forms[j].name;
+                Fault::new(place, format!("{noun} `{name}` is the rate of `{holonomic}`"))
+                    .note(format!("`{holonomic}` keeps it zero"))
+            }
+            None => Fault::new(place, format!("{noun} `{name}` is linearly dependent on {other_names}")),
+        },
+    };
+    if single.is_none() {
+        if let Some(rates) = rates {
+            fault = fault.note(rates);
+        }
+        fault = match &terms {
+            Some(terms) => {
+                let bench = &mut model.bench;
+                let products: Vec<ExprId> =
+                    terms.iter().map(|(j, c)| bench.graph.mul(*c, model.mechanics.etas[*j])).collect();
+                let sum = bench.graph.sum(products);
+                let text = short(model, sum);
+                fault.note(format!("in the velocities `{name}` is `{text}`"))
+            }
+            None => fault,
+        };
+    }
+    let other = others.last().map(|(j, _)| &model.forms[*j]);
+    if let Some(other) = other {
+        fault = fault.note_place(&format!("`{}` is declared", other.name), other.written.span());
     }
     faults.report(fault);
 }
@@ -286,10 +357,20 @@ fn report_missing_momenta(model: &mut Model<'_>, derivation: &mut Derivation, fa
         let c = derivation.frame.brackets.coefficient(&mut model.bench, r, s, v + 1);
         let text = short(model, c);
         let place = model.kinetic_energy_span.unwrap_or(Span::call_site());
+        let parameter = |s: usize| match s.checked_sub(1) {
+            None => "the time".to_owned(),
+            Some(s) => format!("`{}`", model.forms[s].name),
+        };
         faults.report(
             Fault::new(place, format!("the kinetic energy lacks the momentum of `{name}`"))
-                .note(format!("(2.7) needs it, because `{name}` is not integrable: (X{r}, X{s}) contains {text} X{}", v + 1))
-                .help(format!("write T° in the velocities, with constraints dropped; `+ 0*{name}` states that it is truly zero")),
+                .note(format!(
+                    "(2.7) needs it: the bracket (X{r}, X{s}) of {} and {} has the component `{text}` along `{name}`",
+                    parameter(r),
+                    parameter(s)
+                ))
+                .help(format!(
+                    "write the energy in the velocities, with the constraints dropped; `+ 0*{name}` states that the momentum is truly zero"
+                )),
         );
     }
 }

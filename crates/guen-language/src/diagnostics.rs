@@ -17,26 +17,27 @@ extern crate proc_macro;
 pub struct Fault {
     span: Span,
     message: String,
-    lines: Vec<String>,
+    notes: Vec<String>,
+    helps: Vec<String>,
 }
 
 impl Fault {
     /// A mistake at a place. The message is one line that stands alone.
     pub fn new(span: Span, message: impl Into<String>) -> Self {
-        Fault { span, message: message.into(), lines: Vec::new() }
+        Fault { span, message: message.into(), notes: Vec::new(), helps: Vec::new() }
     }
 
     /// Adds what to write instead.
     #[must_use]
     pub fn help(mut self, text: impl fmt::Display) -> Self {
-        self.lines.push(format!("help: {text}"));
+        self.helps.push(format!("help: {text}"));
         self
     }
 
     /// Adds a fact that explains the mistake.
     #[must_use]
     pub fn note(mut self, text: impl fmt::Display) -> Self {
-        self.lines.push(format!("note: {text}"));
+        self.notes.push(format!("note: {text}"));
         self
     }
 
@@ -63,7 +64,7 @@ impl Fault {
 impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.message)?;
-        self.lines.iter().try_for_each(|line| write!(f, "\n{line}"))
+        self.notes.iter().chain(&self.helps).try_for_each(|line| write!(f, "\n{line}"))
     }
 }
 
@@ -118,10 +119,13 @@ impl Faults {
 pub fn collect<T>(stage: impl FnOnce(&mut Faults) -> T) -> (T, Report) {
     let mut faults = Faults { faults: Vec::new(), seen: BTreeSet::new() };
     let result = stage(&mut faults);
-    (result, Report { faults: faults.faults })
+    let mut faults = faults.faults;
+    // Where the compiler tells places; faults of one place stay in the order in which they were found.
+    faults.sort_by_key(|fault| position_of(fault.span));
+    (result, Report { faults })
 }
 
-/// Everything a stage found wrong, in the order in which it was found.
+/// Everything a stage found wrong, in the order of the places.
 #[derive(Debug, Clone)]
 #[must_use = "a report that is not emitted hides mistakes from the user"]
 pub struct Report {
@@ -134,7 +138,7 @@ impl Report {
         self.faults.is_empty()
     }
 
-    /// The faults, in the order in which they were found.
+    /// The faults, in the order of their places.
     pub fn faults(&self) -> &[Fault] {
         &self.faults
     }
@@ -163,15 +167,22 @@ impl fmt::Display for Report {
     }
 }
 
-/// The line of a place: from the compiler inside a macro; outside of one only where `proc_macro2` was built to
-/// keep locations (feature `span-locations`).
+/// The line of a place.
 pub fn line_of(span: Span) -> Option<usize> {
+    position_of(span).map(|(line, _)| line)
+}
+
+/// Line and column of a place: from the compiler inside a macro; outside of one only where `proc_macro2` was built
+/// to keep locations (feature `span-locations`).
+fn position_of(span: Span) -> Option<(usize, usize)> {
     if proc_macro::is_available() {
-        return Some(span.unwrap().line());
+        let span = span.unwrap();
+        return Some((span.line(), span.column()));
     }
     #[cfg(any(test, feature = "span-locations"))]
     {
-        Some(span.start().line)
+        let start = span.start();
+        Some((start.line, start.column))
     }
     #[cfg(not(any(test, feature = "span-locations")))]
     {
@@ -184,7 +195,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn equal_faults_are_merged_and_order_is_kept() {
+    fn equal_faults_are_merged_and_ordered_by_place() {
         let tokens: Vec<_> = "a b".parse::<TokenStream>().unwrap().into_iter().collect();
         let (a, b) = (tokens[0].span(), tokens[1].span());
         let (healthy, report) = collect(|faults| {
@@ -195,7 +206,7 @@ mod tests {
         });
         assert!(healthy);
         let texts: Vec<_> = report.faults().iter().map(ToString::to_string).collect();
-        assert_eq!(texts, ["second place", "first place\nhelp: a repair\nnote: a fact", "x"]);
+        assert_eq!(texts, ["first place\nnote: a fact\nhelp: a repair", "x", "second place"]);
         let errors = report.to_compile_errors().to_string();
         assert_eq!(errors.matches("compile_error").count(), 3);
         assert!(errors.contains(":: core :: compile_error ! { \"second place\" }"), "{errors}");

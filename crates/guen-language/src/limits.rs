@@ -23,3 +23,16 @@ pub const MAX_DECIMAL_ORDER: i64 = 400;
 
 /// Most significant digits of a number, counted without leading and trailing zeros.
 pub const MAX_DIGITS: usize = 500;
+
+/// Deepest nesting of an expression together with what its names stand for, in operations after algebra. Reached
+/// by long chains of `let`.
+pub const MAX_TOTAL_DEPTH: u32 = 2_000;
+
+/// Highest power that algebra may put together: `(x^64)^64` is beyond it.
+pub const MAX_EXPONENT: i32 = 1_000;
+
+/// Most different factors of a product: its derivatives grow as the square.
+pub const MAX_FACTORS: usize = 100;
+
+/// Most bits of a numerator or denominator that algebra may put together: about 10^400.
+pub const MAX_NUMBER_BITS: u64 = 1_330;

@@ -77,6 +77,12 @@ const SECTION_SYNONYMS: &[(&str, &str)] = &[
     ("loads", "forces"),
 ];
 
+/// Items of a generated module, and names that generated code uses for itself or for types of Rust.
+const GENERATED_ITEMS: &[&str] = &[
+    "State", "Prepared", "Coordinates", "Momenta", "Residuals", "Reactions", "Inputs", "Outputs", "Driven",
+    "Bracket", "R", "f64", "f32", "usize", "bool", "str", "u32", "i32", "i64", "u8", "program",
+];
+
 /// Strict and reserved keywords of Rust in any edition.
 const RUST_KEYWORDS: &[&str] = &[
     "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "crate", "do", "dyn",
@@ -94,6 +100,13 @@ pub fn is_function(word: &str) -> bool {
 /// Whether a declaration may not use this name (given without `r#`).
 pub fn is_reserved(word: &str) -> bool {
     is_function(word) || RESERVED_WORDS.contains(&word) || word.starts_with(RESERVED_PREFIX)
+}
+
+/// Whether a system cannot have this name, because its module has an item of that name.
+pub fn is_generated_item(word: &str) -> bool {
+    let number = word.strip_prefix('X');
+    GENERATED_ITEMS.contains(&word)
+        || number.is_some_and(|n| !n.is_empty() && n.bytes().all(|b| b.is_ascii_digit()))
 }
 
 /// Whether a word is a keyword of Rust, so that a name must be written with `r#`.

@@ -1,9 +1,13 @@
 //! What every stage of the derivation works with: the graph, the zero test, and tidying with a memory.
 
 use crate::algebra::FastMap;
-use crate::algebra::{ExprId, Flow, Graph};
+use crate::algebra::{ExprId, Flow, Graph, Node};
 use crate::normal::{Limits, normal_form};
+use crate::program::weighted_cost;
 use crate::zero::{Verdict, ZeroTest};
+
+/// What is tidied: coefficients and entries. Larger expressions stay as they are, before time is lost on them.
+const TIDYING: Limits = Limits { terms: 150, generators: 32, degree: 32, nodes: 400, steps: 6_000 };
 
 /// The graph together with what answers questions about it.
 pub struct Workbench {
@@ -18,7 +22,7 @@ pub struct Workbench {
 impl Workbench {
     /// A workbench around a graph.
     pub fn new(graph: Graph) -> Self {
-        Workbench { graph, zero: ZeroTest::new(), tidied: FastMap::default(), limits: Limits::default() }
+        Workbench { graph, zero: ZeroTest::new(), tidied: FastMap::default(), limits: TIDYING }
     }
 
     /// The expression in normal form where that is small, zero if it is proved to vanish, else as it is.
@@ -32,11 +36,21 @@ impl Workbench {
         let tidy = if self.vanishes(e) {
             self.graph.zero()
         } else {
-            normal_form(&mut self.graph, e, &self.limits).unwrap_or(e)
+            match normal_form(&mut self.graph, e, &self.limits) {
+                Some(normal) if self.is_worth(normal, e) => normal,
+                _ => e,
+            }
         };
         self.tidied.insert(e, tidy);
         self.tidied.insert(tidy, tidy);
         tidy
+    }
+
+    /// Whether a normal form does not cost much more than what was written: multiplied out, sines of long sums of
+    /// angles and products of sums do.
+    fn is_worth(&self, normal: ExprId, written: ExprId) -> bool {
+        let (new, old) = (weighted_cost(&self.graph, &[normal]), weighted_cost(&self.graph, &[written]));
+        new <= old + old / 2
     }
 
     /// Whether the expression is proved to be zero as a function of all its symbols.
@@ -53,6 +67,33 @@ impl Workbench {
             return if self.graph.is_zero(e) { Verdict::Zero } else { Verdict::Nonzero };
         }
         self.zero.verdict_on_manifold(&mut self.graph, e)
+    }
+
+    /// A large expression kept whole, so that its users share it; a small one as it is.
+    pub fn keep_large(&mut self, e: ExprId) -> ExprId {
+        // Larger than every coefficient of the paper's systems: those are written out, and simplify together.
+        self.keep_above(e, 24)
+    }
+
+    /// An expression of more than so many nodes kept whole.
+    pub fn keep_above(&mut self, e: ExprId, small: usize) -> ExprId {
+        let graph = &self.graph;
+        let stop = |id| graph.roles(id).is_constant();
+        let mut size = 0;
+        let mut stack = vec![e];
+        while let Some(id) = stack.pop() {
+            if stop(id) {
+                continue;
+            }
+            size += 1;
+            if size > small {
+                return self.graph.keep(e);
+            }
+            if !matches!(graph.node(id), Node::Kept(_)) {
+                stack.extend(graph.children(id));
+            }
+        }
+        e
     }
 
     /// Zero if it is proved to vanish, else the expression as it is: cheaper than [`Workbench::tidy`].

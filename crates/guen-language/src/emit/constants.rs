@@ -211,6 +211,7 @@ fn default_text(derived: &Derived<'_>, graph: &guen_symbolic::Graph, e: guen_sym
         }
         Node::Function(function, x) => format!("<R as __guen::Real>::{}({})", function.name(), of(*x)),
         Node::Atan2(y, x) => format!("<R as __guen::Real>::atan2({}, {})", of(*y), of(*x)),
+        Node::Kept(x) => of(*x),
         // Divisions by zero are refused before.
         Node::Undefined => "<R as __guen::Real>::zero()".to_owned(),
     }

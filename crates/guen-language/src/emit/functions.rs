@@ -42,7 +42,7 @@ impl Places {
                             .iter()
                             .position(|eta| graph.as_symbol(*eta) == Some(symbol))
                             .map_or_else(|| "unknown_form".to_owned(), |s| format!("s[{}]", n + s)),
-                        Role::QuasiAcceleration => format!("unsolved[{i}]"),
+                        Role::QuasiAcceleration => format!("a[{i}]"),
                         Role::Input => format!("u[{i}]"),
                     }
                 })
@@ -64,6 +64,8 @@ pub(super) enum Signature {
     State,
     /// Time, the whole state and the inputs.
     Driven,
+    /// Time, the whole state, the inputs and the accelerations.
+    Accelerated,
 }
 
 /// The signature of a function by its name.
@@ -71,7 +73,8 @@ pub(super) fn signature(name: &str) -> Signature {
     match name {
         function::PIVOTS => Signature::Constants,
         function::FORMS => Signature::Velocities,
-        function::RHS | function::REACTIONS | function::POWER | function::OUTPUTS => Signature::Driven,
+        function::RHS | function::OUTPUTS => Signature::Driven,
+        function::REACTIONS | function::POWER => Signature::Accelerated,
         function::VELOCITIES | function::ENERGY | function::KINETIC_ENERGY | function::MOMENTA => {
             Signature::State
         }
@@ -83,7 +86,7 @@ pub(super) fn signature(name: &str) -> Signature {
 /// The module: `prepare` and every function, generic over the real.
 pub(super) fn module(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
     let places = Places::new(derived);
-    let Layout { n, size, constants, hoisted, inputs, .. } = layout;
+    let Layout { n, l, size, constants, hoisted, inputs, .. } = layout;
     let mut text = String::from(
         "#[allow(unused_variables, reason = \"every function has the signature of its kind\")]
         #[allow(clippy::all, clippy::pedantic, clippy::nursery, clippy::restriction, reason = \"straight-line code for the compiler\")]
@@ -102,6 +105,7 @@ pub(super) fn module(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
             Signature::Velocities => format!(", t: R, s: &[R; {n}], w: &[R; {n}]"),
             Signature::State => format!(", t: R, s: &[R; {size}]"),
             Signature::Driven => format!(", t: R, s: &[R; {size}], u: &[R; {inputs}]"),
+            Signature::Accelerated => format!(", t: R, s: &[R; {size}], u: &[R; {inputs}], a: &[R; {l}]"),
         };
         let _ = write!(
             text,

@@ -135,6 +135,7 @@ pub fn emit(mut derived: Derived<'_>) -> TokenStream {
             use #facade::__private as #alias;
             #(#parts)*
         }
+        #[allow(unused_imports, reason = "the module alone may be what is used")]
         #visibility use #module::#system;
     }
 }

@@ -36,6 +36,7 @@ fn methods(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
     let n = layout.n;
     let size = layout.size;
     let positions: Vec<usize> = (0..n).collect();
+    let accelerations: Vec<usize> = (n..size).collect();
     let scalar = |name: &str, docs: &str| {
         let method = format_ident!("{name}");
         quote! {
@@ -57,8 +58,10 @@ fn methods(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
             /// The reactions at a state, from `lambda_v = d/dt (dT°/d eta_v) - X_v(T° + U) - ... - Q_v` on the motion.
             #[inline]
             pub fn reactions(&self, t: R, state: &State<R> #parameter) -> Reactions<R> {
+                let s: [R; #size] = ::core::convert::From::from(*state);
+                let rates = program::rhs(&self.constants, &self.hoisted, t, &s, #argument);
                 ::core::convert::From::from(program::reactions(
-                    &self.constants, &self.hoisted, t, &::core::convert::From::from(*state), #argument,
+                    &self.constants, &self.hoisted, t, &s, #argument, &[#(rates[#accelerations]),*],
                 ))
             }
         }
@@ -118,8 +121,10 @@ fn methods(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
         /// `h' = Q.x' - sum_v lambda_v a_v0 - d(T° + U)/dt`.
         #[inline]
         pub fn power(&self, t: R, state: &State<R> #parameter) -> R {
+            let s: [R; #size] = ::core::convert::From::from(*state);
+            let rates = program::rhs(&self.constants, &self.hoisted, t, &s, #argument);
             let [value] = program::power(
-                &self.constants, &self.hoisted, t, &::core::convert::From::from(*state), #argument,
+                &self.constants, &self.hoisted, t, &s, #argument, &[#(rates[#accelerations]),*],
             );
             value
         }

@@ -1,157 +1,413 @@
 //! What is emitted beside the errors of a faulty declaration: the public items with their signatures.
 //!
 //! The rest of the user's crate then reports its own mistakes only, and completion keeps working. Bodies are
-//! never reached, since the crate does not compile.
+//! never reached, since the crate does not compile. What is a vector is guessed from how it is written.
+
+mod kinds;
 
 use proc_macro2::{Ident, TokenStream};
-use quote::quote;
+use quote::{format_ident, quote};
 
 use super::{facade, module_name};
-use crate::syntax::{Declaration, Item, Plain};
+use crate::syntax::{Declaration, Definition, Item, Plain};
+use kinds::{Kind, Kinds};
 
 /// The items of a declaration by its names alone.
 pub fn outline(declaration: &Declaration) -> TokenStream {
-    let facade = facade(declaration);
     let system = &declaration.name.ident;
+    if crate::names::is_generated_item(&declaration.name.text) {
+        // Two items of one name would be a second error.
+        return TokenStream::new();
+    }
+    let names = Names::new(declaration);
+    let facade = facade(declaration);
     let module = module_name(system);
     let visibility = declaration.visibility.outside();
-    let mut names = Outline::default();
-    for item in &declaration.items {
-        match item {
-            Item::Constants(section) => {
-                for constant in &section.entries {
-                    push(&mut names.constants, &constant.name.ident);
-                    if constant.default.is_none() {
-                        push(&mut names.required, &constant.name.ident);
-                    }
-                }
-            }
-            Item::Coordinates(section) => plain(&mut names.coordinates, &section.entries),
-            Item::Inputs(section) => plain(&mut names.inputs, &section.entries),
-            Item::Parameters(section) => {
-                section.entries.iter().for_each(|e| push(&mut names.parameters, &e.name.ident));
-            }
-            Item::Constraints(section) | Item::Holonomic(section) => {
-                section.entries.iter().for_each(|e| push(&mut names.constraints, &e.name.ident));
-            }
-            Item::Outputs(section) => {
-                section.entries.iter().for_each(|e| push(&mut names.outputs, &e.name.ident))
-            }
-            _ => {}
-        }
-    }
-    let Outline { constants, required, coordinates, parameters, constraints, inputs, outputs } = names;
-    let state: Vec<&Ident> = coordinates.iter().chain(&parameters).copied().collect();
-    let momenta: Vec<&Ident> = parameters.iter().chain(&constraints).copied().collect();
-    let driven = (!inputs.is_empty()).then(|| quote!(, _inputs: &Inputs<R>));
-    let input_struct = (!inputs.is_empty()).then(|| record("Inputs", &inputs));
-    let output_struct = (!outputs.is_empty()).then(|| record("Outputs", &outputs));
-    let output_method = (!outputs.is_empty()).then(|| {
-        quote! {
-            /// The declared outputs.
-            pub fn outputs(&self, _t: R, _state: &State<R> #driven) -> Outputs<R> { ::core::unreachable!() }
-        }
-    });
-    let bound_method = (!constraints.is_empty()).then(|| {
-        quote! {
-            /// The residuals.
-            pub fn residuals(&self, _t: R, _state: &State<R>) -> Residuals<R> { ::core::unreachable!() }
-            /// The reactions.
-            pub fn reactions(&self, _t: R, _state: &State<R> #driven) -> Reactions<R> { ::core::unreachable!() }
-        }
-    });
-    let bound_structs = (!constraints.is_empty()).then(|| {
-        let (residuals, reactions) = (record("Residuals", &constraints), record("Reactions", &constraints));
-        quote!(#residuals #reactions)
-    });
-    let (state_struct, coordinate_struct, momenta_struct) =
-        (record("State", &state), record("Coordinates", &coordinates), record("Momenta", &momenta));
-    let size = state.len();
+    let records = records(&names);
+    let constants = constants(system, &names);
+    let prepared = prepared(system, &names);
+    let operators = operators(&names);
     quote! {
         /// The module of a system whose declaration has faults.
-        #[allow(non_snake_case, non_camel_case_types, dead_code, reason = "stands in for a faulty declaration")]
+        #[allow(
+            non_snake_case, non_camel_case_types, non_upper_case_globals, dead_code, unused_variables,
+            unreachable_pub, clippy::all, clippy::pedantic, reason = "stands in for a faulty declaration"
+        )]
         #visibility mod #module {
             #[allow(unused_imports, reason = "stands in for a faulty declaration")]
             use #facade::__private as __guen;
-            /// The constants.
-            #[::core::prelude::v1::derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug)]
-            pub struct #system<R = f64> {
-                #(#[doc = ""] pub #constants: R,)*
-                #[doc(hidden)]
-                pub __guen_real: ::core::marker::PhantomData<R>,
-            }
-            impl<R: __guen::Real> #system<R> {
-                /// The constants.
-                #[allow(clippy::too_many_arguments, reason = "stands in for a faulty declaration")]
-                pub fn new(#(#required: R),*) -> Self { ::core::unreachable!() }
-                /// The prepared system.
-                pub fn prepare(self) -> ::core::result::Result<Prepared<R>, __guen::ConstantsError> {
-                    ::core::unreachable!()
-                }
-            }
-            /// The prepared system.
-            #[::core::prelude::v1::derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug)]
-            pub struct Prepared<R = f64>(::core::marker::PhantomData<R>);
-            #state_struct #coordinate_struct #momenta_struct #input_struct #output_struct #bound_structs
-            impl<R: __guen::Real> Prepared<R> {
-                /// The rates.
-                pub fn rhs(&self, _t: R, _state: &State<R> #driven) -> State<R> { ::core::unreachable!() }
-                /// The velocities.
-                pub fn velocities(&self, _t: R, _state: &State<R>) -> Coordinates<R> { ::core::unreachable!() }
-                /// The energy integral.
-                pub fn energy(&self, _t: R, _state: &State<R>) -> R { ::core::unreachable!() }
-                /// The momenta.
-                pub fn momenta(&self, _t: R, _state: &State<R>) -> Momenta<R> { ::core::unreachable!() }
-                #output_method
-                #bound_method
-            }
-            impl<R: __guen::Real> __guen::System<R, #size> for Prepared<R> {
-                fn rhs(&self, _t: R, _state: &[R; #size]) -> [R; #size] { ::core::unreachable!() }
-            }
+            #constants
+            #records
+            #prepared
+            #operators
         }
         #[allow(unused_imports, reason = "stands in for a faulty declaration")]
         #visibility use #module::#system;
     }
 }
 
+/// The names of the fields.
 #[derive(Default)]
-struct Outline<'a> {
-    constants: Vec<&'a Ident>,
-    required: Vec<&'a Ident>,
-    coordinates: Vec<&'a Ident>,
-    parameters: Vec<&'a Ident>,
-    constraints: Vec<&'a Ident>,
-    inputs: Vec<&'a Ident>,
-    outputs: Vec<&'a Ident>,
+struct Names {
+    constants: Vec<Ident>,
+    required: Vec<Ident>,
+    coordinates: Vec<Ident>,
+    /// Coordinates, then parameters.
+    state: Vec<Ident>,
+    parameters: Vec<Ident>,
+    constraints: Vec<Ident>,
+    inputs: Vec<Ident>,
+    outputs: Vec<(Ident, bool)>,
 }
 
-/// A name once: a second one was reported as a fault already.
-fn push<'a>(names: &mut Vec<&'a Ident>, name: &'a Ident) {
-    if !names.contains(&name) {
-        names.push(name);
+impl Names {
+    fn new(declaration: &Declaration) -> Self {
+        let mut names = Names::default();
+        let mut kinds = Kinds::default();
+        for item in &declaration.items {
+            match item {
+                Item::Constants(section) => {
+                    for constant in &section.entries {
+                        push(&mut names.constants, &constant.name.ident);
+                        if constant.default.is_none() {
+                            push(&mut names.required, &constant.name.ident);
+                        }
+                    }
+                }
+                Item::Coordinates(section) => plain(&mut names.coordinates, &section.entries),
+                Item::Inputs(section) => plain(&mut names.inputs, &section.entries),
+                Item::Let(definition) => {
+                    kinds.define(definition);
+                }
+                Item::Bodies(section) => section.entries.iter().for_each(|body| kinds.body(&body.name)),
+                Item::Parameters(section) => {
+                    for parameter in &section.entries {
+                        let kind = kinds.define(parameter);
+                        fields(&mut names.parameters, &parameter.name.ident, kind);
+                    }
+                }
+                Item::Constraints(section) | Item::Holonomic(section) => {
+                    for equation in &section.entries {
+                        let kind = kinds.of(&equation.left).or(kinds.of(&equation.right));
+                        fields(&mut names.constraints, &equation.name.ident, kind);
+                    }
+                }
+                Item::Outputs(section) => {
+                    for output in &section.entries {
+                        output_field(&mut names.outputs, output, kinds.define(output));
+                    }
+                }
+                _ => {}
+            }
+        }
+        names.state = names.coordinates.clone();
+        names.parameters.iter().for_each(|name| push(&mut names.state, name));
+        names
     }
 }
 
-fn plain<'a>(names: &mut Vec<&'a Ident>, entries: &'a [Plain]) {
+/// A name once: a second one was reported as a fault already.
+fn push(names: &mut Vec<Ident>, name: &Ident) {
+    if !names.contains(name) {
+        names.push(name.clone());
+    }
+}
+
+fn plain(names: &mut Vec<Ident>, entries: &[Plain]) {
     entries.iter().for_each(|entry| push(names, &entry.name.ident));
 }
 
-fn record(name: &str, fields: &[&Ident]) -> TokenStream {
-    let name = Ident::new(name, proc_macro2::Span::call_site());
+/// The field of a scalar, or the three of a vector.
+fn fields(names: &mut Vec<Ident>, name: &Ident, kind: Kind) {
+    if kind == Kind::Vector {
+        for axis in ["x", "y", "z"] {
+            push(names, &format_ident!("{name}_{axis}", span = name.span()));
+        }
+    } else {
+        push(names, name);
+    }
+}
+
+fn output_field(outputs: &mut Vec<(Ident, bool)>, output: &Definition, kind: Kind) {
+    if outputs.iter().all(|(known, _)| *known != output.name.ident) {
+        outputs.push((output.name.ident.clone(), kind == Kind::Vector));
+    }
+}
+
+/// The struct of constants.
+fn constants(system: &Ident, names: &Names) -> TokenStream {
+    let Names { constants, required, .. } = names;
+    let marker = constants.is_empty().then(|| {
+        quote! {
+            #[doc(hidden)]
+            pub __guen_real: ::core::marker::PhantomData<R>,
+        }
+    });
+    let default = required.is_empty().then(|| {
+        quote! {
+            impl<R: __guen::Real> ::core::default::Default for #system<R> {
+                fn default() -> Self { ::core::unreachable!() }
+            }
+        }
+    });
+    quote! {
+        /// The constants.
+        #[::core::prelude::v1::derive(
+            ::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq
+        )]
+        pub struct #system<R = f64> {
+            #(#[doc = ""] pub #constants: R,)*
+            #marker
+        }
+        impl<R: __guen::Real> #system<R> {
+            /// The constants.
+            pub fn new(#(#required: R),*) -> Self { ::core::unreachable!() }
+            /// The prepared system.
+            pub fn prepare(self) -> ::core::result::Result<Prepared<R>, __guen::ConstantsError> {
+                ::core::unreachable!()
+            }
+        }
+        #default
+    }
+}
+
+fn records(names: &Names) -> TokenStream {
+    let mut momenta = names.parameters.clone();
+    names.constraints.iter().for_each(|name| push(&mut momenta, name));
+    let mut items = vec![
+        record("State", &names.state),
+        record("Coordinates", &names.coordinates),
+        record("Momenta", &momenta),
+    ];
+    if !names.constraints.is_empty() {
+        items.push(record("Residuals", &names.constraints));
+        items.push(record("Reactions", &names.constraints));
+    }
+    if !names.inputs.is_empty() {
+        items.push(record("Inputs", &names.inputs));
+        items.push(quote! {
+            /// The system with held inputs.
+            #[::core::prelude::v1::derive(
+                ::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq
+            )]
+            pub struct Driven<R = f64> {
+                /// The system.
+                pub system: Prepared<R>,
+                /// The inputs.
+                pub inputs: Inputs<R>,
+            }
+        });
+    }
+    if !names.outputs.is_empty() {
+        let fields = names.outputs.iter().map(|(name, is_vector)| {
+            let kind = if *is_vector { quote!([R; 3]) } else { quote!(R) };
+            quote!(#[doc = ""] pub #name: #kind,)
+        });
+        items.push(quote! {
+            /// The outputs.
+            #[::core::prelude::v1::derive(
+                ::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq,
+                ::core::default::Default
+            )]
+            pub struct Outputs<R = f64> { #(#fields)* }
+        });
+    }
+    let size = names.state.len();
+    items.push(quote!(__guen::nalgebra_conversions!(State, #size);));
+    quote!(#(#items)*)
+}
+
+fn record(name: &str, fields: &[Ident]) -> TokenStream {
+    let name = format_ident!("{name}");
     let count = fields.len();
+    let none = fields.is_empty().then(|| quote!(#[doc(hidden)] pub __guen_real: ::core::marker::PhantomData<R>,));
     quote! {
         /// Stands in for a faulty declaration.
         #[::core::prelude::v1::derive(
-            ::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::default::Default
+            ::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq,
+            ::core::default::Default
         )]
         pub struct #name<R = f64> {
             #(#[doc = ""] pub #fields: R,)*
+            #none
+        }
+        impl #name<f64> {
+            /// The names of the fields.
+            pub const NAMES: [&'static str; #count] = [""; #count];
         }
         impl<R> ::core::convert::From<[R; #count]> for #name<R> {
             fn from(_: [R; #count]) -> Self { ::core::unreachable!() }
         }
         impl<R> ::core::convert::From<#name<R>> for [R; #count] {
             fn from(_: #name<R>) -> Self { ::core::unreachable!() }
+        }
+    }
+}
+
+/// The prepared system with its methods.
+fn prepared(system: &Ident, names: &Names) -> TokenStream {
+    let (size, n, bound) = (names.state.len(), names.coordinates.len(), names.constraints.len());
+    let inputs = names.inputs.len();
+    let driven = (inputs > 0).then(|| quote!(, inputs: &Inputs<R>));
+    let outputs = (!names.outputs.is_empty()).then(|| {
+        quote! {
+            /// The outputs.
+            pub fn outputs(&self, t: R, state: &State<R> #driven) -> Outputs<R> { ::core::unreachable!() }
+        }
+    });
+    let constraints = (bound > 0).then(|| {
+        quote! {
+            /// The residuals.
+            pub fn residuals(&self, t: R, state: &State<R>) -> Residuals<R> { ::core::unreachable!() }
+            /// The reactions.
+            pub fn reactions(&self, t: R, state: &State<R> #driven) -> Reactions<R> { ::core::unreachable!() }
+        }
+    });
+    let hold = (inputs > 0).then(|| {
+        quote! {
+            /// The system with these inputs held.
+            pub fn driven(&self, inputs: Inputs<R>) -> Driven<R> { ::core::unreachable!() }
+        }
+    });
+    let owner = if inputs > 0 { format_ident!("Driven") } else { format_ident!("Prepared") };
+    let kinds = [
+        "Holonomic", "LieGroup", "Nonholonomic", "IncompleteLieGroup", "Scleronomic", "Rheonomic", "Catastatic",
+        "Conservative",
+    ];
+    let kinds = kinds.map(|kind| format_ident!("{kind}"));
+    quote! {
+        /// The prepared system.
+        #[::core::prelude::v1::derive(
+            ::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq
+        )]
+        pub struct Prepared<R = f64>(::core::marker::PhantomData<R>);
+        impl<R: __guen::Real> Prepared<R> {
+            /// The constants.
+            pub fn constants(&self) -> #system<R> { ::core::unreachable!() }
+            /// The system over a larger real.
+            pub fn lift<S: __guen::Lift<R>>(&self) -> Prepared<S> { ::core::unreachable!() }
+            /// The rates.
+            pub fn rhs(&self, t: R, state: &State<R> #driven) -> State<R> { ::core::unreachable!() }
+            /// The velocities.
+            pub fn velocities(&self, t: R, state: &State<R>) -> Coordinates<R> { ::core::unreachable!() }
+            /// The energy integral.
+            pub fn energy(&self, t: R, state: &State<R>) -> R { ::core::unreachable!() }
+            /// The kinetic energy.
+            pub fn kinetic_energy(&self, t: R, state: &State<R>) -> R { ::core::unreachable!() }
+            /// The force function.
+            pub fn force_function(&self, t: R, state: &State<R>) -> R { ::core::unreachable!() }
+            /// The momenta.
+            pub fn momenta(&self, t: R, state: &State<R>) -> Momenta<R> { ::core::unreachable!() }
+            /// The power.
+            pub fn power(&self, t: R, state: &State<R> #driven) -> R { ::core::unreachable!() }
+            /// The domain of the chart.
+            pub fn domain(&self, t: R, state: &State<R>) -> [R; 0] { ::core::unreachable!() }
+            /// The linearisation.
+            pub fn linearize(
+                &self, t: R, state: &State<R> #driven
+            ) -> __guen::Linearization<R, #size, #inputs> {
+                ::core::unreachable!()
+            }
+            #outputs
+            #constraints
+            #hold
+        }
+        impl<R: __guen::Real> State<R> {
+            /// The state at given velocities.
+            pub fn from_velocities(
+                system: &Prepared<R>, t: R, coordinates: &Coordinates<R>, velocities: &Coordinates<R>,
+            ) -> (Self, [R; #bound]) {
+                ::core::unreachable!()
+            }
+            /// The coordinates.
+            pub fn coordinates(&self) -> Coordinates<R> { ::core::unreachable!() }
+        }
+        impl<R: __guen::Real> __guen::System<R, #size> for #owner<R> {
+            fn rhs(&self, _: R, _: &[R; #size]) -> [R; #size] { ::core::unreachable!() }
+        }
+        impl<R: __guen::Real> __guen::Monitored<R, #size> for #owner<R> {
+            fn energy(&self, _: R, _: &[R; #size]) -> R { ::core::unreachable!() }
+            fn residual(&self, _: R, _: &[R; #size]) -> R { ::core::unreachable!() }
+        }
+        #(impl<R> __guen::#kinds for #owner<R> {})*
+        /// The class.
+        pub const CLASS: __guen::Class = __guen::Class::Undecided;
+        /// The growth vector.
+        pub const GROWTH: [usize; 0] = [];
+        /// The number of integrable combinations.
+        pub const INTEGRABLE: usize = #n - #n;
+        /// Scleronomic.
+        pub const SCLERONOMIC: bool = true;
+        /// Catastatic.
+        pub const CATASTATIC: bool = true;
+        /// Conservative.
+        pub const CONSERVATIVE: bool = true;
+        const NO_COST: __guen::Cost = __guen::Cost {
+            additions: 0, negations: 0, multiplications: 0, divisions: 0, roots: 0, calls: 0,
+        };
+        /// The cost.
+        pub const COST: __guen::Cost = NO_COST;
+        /// The cost of `prepare`.
+        pub const PREPARE_COST: __guen::Cost = NO_COST;
+        /// The domain of the chart.
+        pub const DOMAIN: [&str; 0] = [];
+        /// The report.
+        pub const REPORT: __guen::Report = __guen::Report { name: "", summary: "", sections: &[] };
+        /// The report.
+        pub const LATEX: __guen::Report = REPORT;
+        impl #system<f64> {
+            /// The class.
+            pub const CLASS: __guen::Class = CLASS;
+            /// The growth vector.
+            pub const GROWTH: &'static [usize] = &GROWTH;
+            /// The cost.
+            pub const COST: __guen::Cost = NO_COST;
+            /// The cost of `prepare`.
+            pub const PREPARE_COST: __guen::Cost = NO_COST;
+        }
+    }
+}
+
+fn operators(names: &Names) -> TokenStream {
+    let n = names.coordinates.len();
+    let derives = quote! {
+        #[::core::prelude::v1::derive(
+            ::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::default::Default,
+            ::core::cmp::PartialEq, ::core::cmp::Eq
+        )]
+    };
+    let operators = (0..=n).map(|j| {
+        let name = format_ident!("X{j}");
+        quote! {
+            /// An operator.
+            #derives
+            pub struct #name;
+            impl<B: __guen::Real> __guen::Operator<B, #n> for #name {
+                type Prepared = Prepared<B>;
+                const TIME: bool = false;
+                fn coefficients<R: __guen::Real + __guen::Lift<B>>(
+                    _: &Prepared<B>, _: R, _: &[R; #n],
+                ) -> [R; #n] {
+                    ::core::unreachable!()
+                }
+            }
+        }
+    });
+    quote! {
+        #(#operators)*
+        /// A bracket.
+        #derives
+        pub struct Bracket<const I: usize, const J: usize>;
+        impl<B: __guen::Real, const I: usize, const J: usize> __guen::BracketCoefficients<B, #n> for Bracket<I, J> {
+            type Prepared = Prepared<B>;
+            const I: usize = I;
+            const J: usize = J;
+            const COEFFICIENTS: [__guen::Coefficient; #n] = [__guen::Coefficient::Variable; #n];
+            fn coefficients<R: __guen::Real + __guen::Lift<B>>(
+                _: &Prepared<B>, _: R, _: &[R; #n],
+            ) -> [R; #n] {
+                ::core::unreachable!()
+            }
         }
     }
 }

@@ -2,13 +2,14 @@
 
 use std::collections::BTreeMap;
 
-use guen_symbolic::{ExprId, Flow, PowerError, Rational, Role, Roles, Verdict, Workbench};
+use guen_symbolic::{ExprId, Flow, Node, PowerError, Rational, Role, Roles, Verdict, Workbench};
 use proc_macro2::Span;
 
 use super::place::{Place, ROLES, role_name};
 use super::scope::Scope;
 use super::value::{Value, Vector};
 use crate::diagnostics::{Fault, Faults, Reported};
+use crate::limits::{MAX_EXPONENT, MAX_FACTORS, MAX_NUMBER_BITS, MAX_TOTAL_DEPTH};
 use crate::syntax::{AddOperator, Expression, ExpressionKind, MultiplyOperator, Name};
 
 /// What evaluation needs at hand.
@@ -25,10 +26,14 @@ pub(super) struct Evaluator<'f> {
     pub(super) rate: Option<Flow>,
     /// The place that is being evaluated.
     pub(super) place: Place,
+    /// The entry that is being evaluated, where it has a name.
+    pub(super) entry: Option<String>,
     /// Parameters and constraints with their definitions in the velocities.
     pub(super) expansions: BTreeMap<ExprId, ExprId>,
     /// Components of vector equations that say `0 = 0`.
     pub(super) left_out: Vec<String>,
+    /// Divisors with their places, for a second look once the holonomic constraints are known.
+    pub(super) divisors: Vec<(ExprId, Span)>,
 }
 
 /// The result of evaluating: a value, or the knowledge that a fault was reported.
@@ -44,6 +49,7 @@ impl Evaluator<'_> {
     pub(super) fn at(&mut self, place: Place, e: &Expression) -> Evaluated {
         self.place = place;
         let value = self.value(e)?;
+        self.check_depth(&value, e)?;
         let roles =
             value.expressions().iter().fold(Roles::NONE, |roles, e| roles.or(self.bench.graph.roles(*e)));
         self.check_allowed(place, roles, e)?;
@@ -55,7 +61,7 @@ impl Evaluator<'_> {
         match self.at(place, e)? {
             Value::Scalar(value) => Ok(value),
             other => {
-                let what = place.description();
+                let what = place.description(self.entry.as_deref());
                 self.fail(Fault::new(e.extent(), format!("{what} is a scalar, and this is {}", other.kind())))
             }
         }
@@ -66,7 +72,7 @@ impl Evaluator<'_> {
         match self.at(place, e)? {
             Value::Vector(value) => Ok(value),
             other => {
-                let what = place.description();
+                let what = place.description(self.entry.as_deref());
                 self.fail(
                     Fault::new(e.extent(), format!("{what} is a vector here, and this is {}", other.kind()))
                         .help("write `vec(x, y, z)`"),
@@ -80,9 +86,19 @@ impl Evaluator<'_> {
         let Some(role) = ROLES.into_iter().find(|role| roles.has(*role) && !allowed.has(*role)) else {
             return Ok(());
         };
-        let span = self.culprit(e, Roles::of(role)).unwrap_or(e.extent());
-        let mut fault =
-            Fault::new(span, format!("{} cannot depend on {}", place.description(), role_name(role)));
+        let (span, name) = self.culprit(e, Roles::of(role)).unwrap_or((e.extent(), None));
+        let what = place.description(self.entry.as_deref());
+        let direct = name.filter(|name| self.scope.definition(name).is_none() && *name != "t");
+        let on = match direct {
+            Some(name) => format!("{} `{name}`", role_name(role).replacen("a ", "the ", 1).replacen("an ", "the ", 1)),
+            None => role_name(role).to_owned(),
+        };
+        let mut fault = Fault::new(span, format!("{what} cannot depend on {on}"));
+        if let Some((name, defined)) = name.and_then(|name| Some((name, self.scope.definition(name)?))) {
+            let inside = self.symbol_of_role(name, role);
+            let inside = inside.map_or_else(|| role_name(role).to_owned(), |name| format!("`{name}`"));
+            fault = fault.note_place(&format!("`{name}` contains {inside} by its definition"), defined);
+        }
         fault = match (place, role) {
             (Place::Holonomic, Role::Velocity | Role::QuasiVelocity) => {
                 fault.help("a condition on velocities belongs into `constraints`")
@@ -91,16 +107,39 @@ impl Evaluator<'_> {
                 fault.help("write it under `forces`, as `force along velocity;`")
             }
             (_, Role::Input) => fault.note("inputs are allowed in `forces` and `outputs` only"),
-            (Place::Default, _) => {
-                fault.note("a default is a number or made of constants declared before it")
-            }
-            _ => fault,
+            _ => match place.rule() {
+                Some(rule) => fault.note(rule),
+                None => fault,
+            },
         };
         self.fail(fault)
     }
 
+    /// The name of a symbol of this kind inside the value of a name.
+    fn symbol_of_role(&self, name: &str, role: Role) -> Option<String> {
+        let parts = self.scope.peek(name)?.expressions();
+        let graph = &self.bench.graph;
+        let symbol = graph.symbols_in(&parts).into_iter().find(|s| graph.symbol_info(*s).role == role)?;
+        Some(graph.symbol_info(symbol).name.clone())
+    }
+
+    /// Refuses expressions that are deep because names stand for names: every stage walks them.
+    fn check_depth(&mut self, value: &Value, e: &Expression) -> Evaluated<()> {
+        let graph = &self.bench.graph;
+        if value.expressions().into_iter().all(|part| graph.depth(part) <= MAX_TOTAL_DEPTH) {
+            return Ok(());
+        }
+        self.fail(
+            Fault::new(
+                e.extent(),
+                format!("the expression is more than {MAX_TOTAL_DEPTH} operations deep, with what its names stand for"),
+            )
+            .help("declare part of it as a coordinate, a parameter or a constant of its own"),
+        )
+    }
+
     /// The first name or call inside an expression that brings in one of these kinds of symbol.
-    pub(super) fn culprit(&mut self, e: &Expression, roles: Roles) -> Option<Span> {
+    fn culprit<'e>(&self, e: &'e Expression, roles: Roles) -> Option<(Span, Option<&'e str>)> {
         match &e.kind {
             ExpressionKind::Name(name) => {
                 let own = if name.text == "t" {
@@ -109,7 +148,7 @@ impl Evaluator<'_> {
                     let parts = self.scope.peek(&name.text)?.expressions();
                     parts.iter().fold(Roles::NONE, |all, e| all.or(self.bench.graph.roles(*e)))
                 };
-                own.meets(roles).then(|| name.span())
+                own.meets(roles).then(|| (name.span(), Some(name.text.as_str())))
             }
             ExpressionKind::Call { function, .. }
                 if roles.has(Role::Velocity)
@@ -118,13 +157,13 @@ impl Evaluator<'_> {
                         "dot" | "angular_velocity" | "angular_velocity_body"
                     ) =>
             {
-                Some(function.span())
+                Some((function.span(), None))
             }
             ExpressionKind::Method { name, .. } | ExpressionKind::Field { name, .. }
                 if roles.has(Role::Velocity)
                     && matches!(name.text.as_str(), "velocity_at" | "angular_velocity") =>
             {
-                Some(name.span())
+                Some((name.span(), None))
             }
             _ => children(e).into_iter().find_map(|child| self.culprit(child, roles)),
         }
@@ -175,8 +214,8 @@ impl Evaluator<'_> {
             "pi" => return Ok(Value::Scalar(self.bench.graph.pi())),
             _ => {}
         }
-        let place = self.place.description();
-        match self.scope.look_up(self.faults, name, place) {
+        let place = self.place.description(self.entry.as_deref());
+        match self.scope.look_up(self.faults, name, &place) {
             Some(value) => Ok(value),
             // Unknown, or declared with a fault: both are in the sink already.
             None => Err(self.faults.reported_before()),
@@ -232,7 +271,14 @@ impl Evaluator<'_> {
         Ok(product)
     }
 
-    fn raised(&mut self, base: Value, exponent: Value, base_span: Span, exponent_span: Span) -> Evaluated {
+    /// `base^exponent`.
+    pub(super) fn raised(
+        &mut self,
+        base: Value,
+        exponent: Value,
+        base_span: Span,
+        exponent_span: Span,
+    ) -> Evaluated {
         let (Value::Scalar(b), Value::Scalar(x)) = (&base, &exponent) else {
             let (what, span) = if matches!(base, Value::Scalar(_)) {
                 (exponent.kind(), exponent_span)
@@ -244,15 +290,19 @@ impl Evaluator<'_> {
                     .help("the square of a vector's length is `inner(v, v)`"),
             );
         };
+        if self.bench.graph.as_number(*x).is_some_and(|number| number.is_negative()) {
+            self.check_divisor(*b, base_span)?;
+        }
         match self.bench.graph.power(*b, *x) {
-            Ok(value) => Ok(Value::Scalar(value)),
+            Ok(value) => self.check_size(value, exponent_span),
             Err(PowerError::ExponentNotNumber) => self.fail(
                 Fault::new(exponent_span, "the exponent is not a number")
                     .help("a variable exponent is written `exp(y*ln(x))`"),
             ),
-            Err(PowerError::TooLarge) => {
-                self.fail(Fault::new(exponent_span, "the exponent, or the number it leads to, is too large"))
-            }
+            Err(PowerError::TooLarge) => self.fail(
+                Fault::new(exponent_span, "the exponent is too large")
+                    .note("exponents lie between -64 and 64, roots go up to the 64th, numbers up to 10^400"),
+            ),
             Err(PowerError::NegativeBase) => {
                 self.fail(Fault::new(base_span, "an even root of a negative number"))
             }
@@ -266,12 +316,28 @@ impl Evaluator<'_> {
     pub(super) fn check_divisor(&mut self, divisor: ExprId, span: Span) -> Evaluated<()> {
         let vanishes = match self.bench.graph.as_number(divisor) {
             Some(number) => number.is_zero(),
-            None => self.bench.verdict_on_manifold(divisor) == Verdict::Zero,
+            None => self.bench.vanishes(divisor),
         };
         if vanishes {
-            self.fail(Fault::new(span, "division by something that is identically zero"))
-        } else {
-            Ok(())
+            return self.fail(Fault::new(span, "division by something that is identically zero"));
+        }
+        if self.bench.graph.as_number(divisor).is_none() {
+            self.divisors.push((divisor, span));
+        }
+        Ok(())
+    }
+
+    /// The second look at divisors: on the holonomic constraints.
+    pub(super) fn check_divisors_on_manifold(&mut self) {
+        for (divisor, span) in std::mem::take(&mut self.divisors) {
+            if self.bench.verdict_on_manifold(divisor) == Verdict::Zero {
+                let text = self.bench.graph.text_limited(divisor, LONGEST_NOTE);
+                let text = text.map_or_else(|| "the divisor".to_owned(), |text| format!("`{text}`"));
+                self.faults.report(
+                    Fault::new(span, "division by something that is identically zero")
+                        .note(format!("{text} vanishes wherever the `holonomic` constraints hold")),
+                );
+            }
         }
     }
 
@@ -294,7 +360,8 @@ impl Evaluator<'_> {
                 self.check_size(sum, span)
             }
             (Value::Vector(a), Value::Vector(b)) => {
-                Ok(Value::Vector(std::array::from_fn(|i| combine(&mut self.bench, a[i], b[i]))))
+                let sum = std::array::from_fn(|i| combine(&mut self.bench, a[i], b[i]));
+                self.checked_vector(sum, span)
             }
             _ => {
                 let verb = if minus { "subtract" } else { "add" };
@@ -303,14 +370,47 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Refuses numbers beyond what the language holds.
+    /// Refuses numbers, exponents and lengths beyond what the language holds; of an expression whose parts were
+    /// checked before.
     pub(super) fn check_size(&mut self, e: ExprId, span: Span) -> Evaluated {
-        if self.bench.graph.number_overflows(e) {
-            return self.fail(Fault::new(span, "this number is beyond 10^±400"));
+        let large = |number: &Rational| number.bits() > MAX_NUMBER_BITS;
+        let fault = match self.bench.graph.node(e) {
+            Node::Number(value) if large(value) => NUMBER_TOO_LARGE,
+            Node::Sum { constant, terms } if large(constant) || terms.iter().any(|(_, c)| large(c)) => {
+                NUMBER_TOO_LARGE
+            }
+            Node::Sum { terms, .. } if terms.iter().any(|(term, _)| self.has_large_exponent(*term)) => {
+                EXPONENT_TOO_LARGE
+            }
+            Node::Product(factors) if factors.len() > MAX_FACTORS => {
+                let fault = Fault::new(span, format!("a product of more than {MAX_FACTORS} different factors"));
+                return self.fail(fault);
+            }
+            _ if self.has_large_exponent(e) => EXPONENT_TOO_LARGE,
+            _ => return Ok(Value::Scalar(e)),
+        };
+        self.fail(Fault::new(span, fault))
+    }
+
+    fn has_large_exponent(&self, e: ExprId) -> bool {
+        matches!(self.bench.graph.node(e), Node::Product(factors)
+            if factors.iter().any(|(_, k)| k.abs() > MAX_EXPONENT))
+    }
+
+    /// As [`Evaluator::check_size`], for every component.
+    pub(super) fn checked_vector(&mut self, v: Vector, span: Span) -> Evaluated {
+        for e in v {
+            self.check_size(e, span)?;
         }
-        Ok(Value::Scalar(e))
+        Ok(Value::Vector(v))
     }
 }
+
+const NUMBER_TOO_LARGE: &str = "this number is beyond 10^±400";
+const EXPONENT_TOO_LARGE: &str = "this power, with the powers inside of it, is beyond the 1000th";
+
+/// Characters of a formula in a note.
+pub(super) const LONGEST_NOTE: usize = 200;
 
 /// The expressions directly inside another, from left to right.
 pub(super) fn children(e: &Expression) -> Vec<&Expression> {

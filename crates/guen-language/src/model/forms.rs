@@ -2,10 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use guen_symbolic::{ExprId, Form, Role, Roles, Substitution, VelocityForm, VelocityPartials, Verdict};
+use guen_symbolic::{
+    ExprId, Form, Role, Roles, Substitution, VelocityForm, VelocityPartials, Verdict, decompose,
+};
 use proc_macro2::Span;
 
-use super::evaluate::{Evaluated, Evaluator, children};
+use super::evaluate::{Evaluated, Evaluator, LONGEST_NOTE, children};
 use super::place::Place;
 use super::scope::Category;
 use super::value::Value;
@@ -32,6 +34,7 @@ const AXES: [&str; 3] = ["_x", "_y", "_z"];
 impl Evaluator<'_> {
     /// `name = e;` in `parameters`: a scalar, or a vector that declares its components.
     pub(super) fn parameter<'a>(&mut self, definition: &'a Definition, forms: &mut Vec<RawForm<'a>>) {
+        self.entry = Some(definition.name.text.clone());
         let value = self.at(Place::Parameter, &definition.value);
         let sides = vec![&definition.value];
         self.declare_forms(
@@ -73,6 +76,7 @@ impl Evaluator<'_> {
     }
 
     fn difference(&mut self, place: Place, equation: &Equation) -> Evaluated {
+        self.entry = Some(equation.name.text.clone());
         let (left, right) = (self.at(place, &equation.left), self.at(place, &equation.right));
         let (left, right) = (left?, right?);
         let is_zero = |value: &Value| matches!(value, Value::Scalar(e) if self.bench.graph.is_zero(*e));
@@ -92,7 +96,8 @@ impl Evaluator<'_> {
                     left.kind(),
                     right.kind()
                 ),
-            )),
+            )
+            .help("to impose one component write `inner(e, u) = 0` with a unit vector `u`")),
         }
     }
 
@@ -141,6 +146,7 @@ impl Evaluator<'_> {
             Err(_) => self.scope.declare(self.faults, name, category, None),
             Ok(Value::Vector(components)) => {
                 let mut symbols = [self.bench.graph.zero(); 3];
+                let before = forms.len();
                 for (i, (definition, axis)) in components.into_iter().zip(AXES).enumerate() {
                     let text = format!("{}{axis}", name.text);
                     let value = if self.vanishes_as_form(definition) {
@@ -153,6 +159,14 @@ impl Evaluator<'_> {
                     symbols[i] = value;
                     let value = Some(Value::Scalar(value));
                     self.scope.declare_component(self.faults, &text, name.span(), category, value);
+                }
+                if forms.len() == before {
+                    let noun = noun(kind);
+                    self.faults.report(
+                        Fault::new(name.span(), format!("{noun} `{name}` vanishes identically"))
+                            .note("all its components say `0 = 0`")
+                            .help(format!("remove `{name}`")),
+                    );
                 }
                 self.scope.declare(self.faults, name, category, Some(Value::Vector(symbols)));
             }
@@ -181,11 +195,17 @@ impl Evaluator<'_> {
         e
     }
 
-    /// Takes every form apart; what is not an affine form of the velocities is reported.
-    pub(super) fn linear_forms(&mut self, raw: &[RawForm<'_>], velocities: &[ExprId]) -> Option<Vec<Form>> {
+    /// Takes every form apart; what is not an affine form of the velocities is reported. Beside the forms the number
+    /// of those that should not be there at all.
+    pub(super) fn linear_forms(
+        &mut self,
+        raw: &[RawForm<'_>],
+        velocities: &[ExprId],
+    ) -> (Option<Vec<Form>>, usize) {
         let mut partials = VelocityPartials::new(&self.bench, velocities, &[]);
         let mut forms = Vec::new();
         let mut healthy = true;
+        let mut idle = 0;
         // Components of one vector share their place: one report is enough.
         let mut blamed: BTreeMap<String, ()> = BTreeMap::new();
         for form in raw {
@@ -201,6 +221,8 @@ impl Evaluator<'_> {
                 if blamed.insert(form.entry.written.text.clone(), ()).is_none() {
                     self.report_without_velocity(form, &parts);
                 }
+                let is_condition = self.bench.graph.roles(parts.offset).has(Role::Coordinate);
+                idle += usize::from(form.entry.kind == FormKind::Parameter || !is_condition);
                 healthy = false;
                 continue;
             }
@@ -210,90 +232,136 @@ impl Evaluator<'_> {
             }
             forms.push(Form { row, offset: parts.offset });
         }
-        healthy.then_some(forms)
+        (healthy.then_some(forms), idle)
     }
 
     fn report_not_affine(&mut self, form: &RawForm<'_>, partials: &mut VelocityPartials) {
         let noun = noun(form.entry.kind);
-        let mut span = form.sides[0].extent();
-        let mut term = None;
+        let mut guilty = None;
         for side in &form.sides {
-            if let Some(guilty) = self.guilty_term(side, partials) {
-                (span, term) = (guilty.0, Some(guilty.1));
+            guilty = self.guilty(side, &mut |this, e| {
+                let e = this.expanded(e);
+                partials.affine(&mut this.bench, e).is_some()
+            });
+            if guilty.is_some() {
                 break;
             }
         }
-        let mut fault =
-            Fault::new(span, format!("{noun} `{}` is not affine in the velocities", form.entry.name));
-        if let Some(term) = term {
-            fault = fault.note(format!("`{term}` is not"));
-        }
-        self.faults.report(fault);
+        let (span, term) = guilty.unwrap_or((form.sides[0].extent(), form.sides[0].source()));
+        self.faults.report(
+            Fault::new(span, format!("{noun} `{}` is not affine in the velocities", form.entry.name))
+                .note(format!("`{term}` is not")),
+        );
     }
 
-    /// The smallest summand that is not affine by itself.
-    fn guilty_term(&mut self, e: &Expression, partials: &mut VelocityPartials) -> Option<(Span, String)> {
-        let value = match self.bench_value(e)? {
-            Value::Scalar(value) => vec![value],
-            Value::Vector(v) => v.to_vec(),
-            _ => return None,
-        };
-        let affine = value.into_iter().all(|value| {
-            let expanded = self.expanded(value);
-            partials.affine(&mut self.bench, expanded).is_some()
-        });
-        if affine {
+    /// Reports a kinetic energy that is no polynomial of degree two in the velocities, at the term.
+    pub(super) fn check_quadratic(
+        &mut self,
+        written: &Expression,
+        energy: ExprId,
+        velocities: &[ExprId],
+        etas: &[ExprId],
+    ) {
+        let symbols: Vec<ExprId> = velocities.iter().chain(etas).copied().collect();
+        let mut partials = VelocityPartials::new(&self.bench, velocities, etas);
+        let mut quadratic =
+            |this: &mut Self, e| decompose(&mut this.bench, &mut partials, &symbols, e).is_ok();
+        if quadratic(self, energy) {
+            return;
+        }
+        let guilty = self.guilty(written, &mut quadratic);
+        let (span, term) = guilty.unwrap_or((written.extent(), written.source()));
+        self.faults.report(
+            Fault::new(span, "the kinetic energy is not quadratic in the velocities")
+                .note(format!("`{term}` is no polynomial of degree two in them")),
+        );
+    }
+
+    /// The smallest part of a sum, of a product with one guilty factor, that fails a test by itself: its place, and
+    /// its text.
+    pub(super) fn guilty(
+        &mut self,
+        e: &Expression,
+        is_fine: &mut dyn FnMut(&mut Self, ExprId) -> bool,
+    ) -> Option<(Span, String)> {
+        // It was evaluated without a fault before.
+        let parts = self.value(e).ok()?.expressions();
+        if parts.into_iter().all(|part| is_fine(self, part)) {
             return None;
         }
-        if matches!(e.kind, ExpressionKind::Sum { .. } | ExpressionKind::Negation(_)) {
-            for child in children(e) {
-                if let Some(found) = self.guilty_term(child, partials) {
-                    return Some(found);
-                }
+        let inside = match &e.kind {
+            ExpressionKind::Sum { .. } | ExpressionKind::Negation(_) | ExpressionKind::Product { .. } => children(e),
+            _ => Vec::new(),
+        };
+        for child in inside {
+            if let Some(found) = self.guilty(child, is_fine) {
+                return Some(found);
             }
         }
-        Some((e.span, e.to_string()))
-    }
-
-    /// The value of an expression that was evaluated without a fault before.
-    fn bench_value(&mut self, e: &Expression) -> Option<Value> {
-        self.value(e).ok()
+        Some((e.span, shortened(&e.source())))
     }
 
     fn report_without_velocity(&mut self, form: &RawForm<'_>, parts: &VelocityForm) {
         let name = &form.entry.name;
         let span = form.entry.written.span();
         let noun = noun(form.entry.kind);
-        let fault = match self.bench.verdict_on_manifold(parts.offset) {
-            Verdict::Zero => Fault::new(span, format!("{noun} `{name}` vanishes identically"))
-                .help("remove it: it says `0 = 0`"),
-            _ if form.entry.kind == FormKind::Constraint => {
-                let moving = Roles::of(Role::Coordinate).or(Roles::of(Role::Time));
-                if self.bench.graph.roles(parts.offset).meets(moving) {
-                    Fault::new(span, format!("constraint `{name}` has no velocity in it")).help(format!(
-                        "a condition on positions is declared as `holonomic {{ {name}: .. = ..; }}`"
-                    ))
+        let source = || form.sides.iter().map(|side| side.source()).collect::<Vec<_>>().join(" = ");
+        let moving = Roles::of(Role::Coordinate).or(Roles::of(Role::Time));
+        let has_position = self.bench.graph.roles(parts.offset).has(Role::Coordinate);
+        let fault = match (self.bench.verdict_on_manifold(parts.offset), form.entry.kind) {
+            (Verdict::Zero, FormKind::Parameter) => {
+                Fault::new(span, format!("parameter `{name}` vanishes identically"))
+                    .help(format!("remove `{name}`"))
+            }
+            (Verdict::Zero, _) => Fault::new(span, format!("{noun} `{name}` vanishes identically"))
+                .note("it says `0 = 0`")
+                .help(format!("remove `{name}`")),
+            (_, FormKind::Constraint) if has_position => {
+                let text = if form.entry.name == form.entry.written.text {
+                    shortened(&source())
                 } else {
-                    Fault::new(
-                        span,
-                        format!("constraint `{name}` has no velocity in it and cannot be fulfilled"),
-                    )
+                    ".. = ..".to_owned()
+                };
+                let written = &form.entry.written.text;
+                Fault::new(span, format!("constraint `{name}` has no velocity in it"))
+                    .note("a condition on positions enters by its rate")
+                    .help(format!("declare it as `holonomic {{ {written}: {text}; }}`"))
+            }
+            (_, FormKind::Constraint) => {
+                let text = self.bench.graph.text_limited(parts.offset, LONGEST_NOTE);
+                let fault = Fault::new(
+                    span,
+                    format!("constraint `{name}` has no velocity in it and cannot be fulfilled"),
+                );
+                match text {
+                    Some(text) => fault.note(format!("it requires `{text} = 0`")),
+                    None => fault,
                 }
             }
-            _ if form.entry.kind == FormKind::Holonomic => {
+            (_, FormKind::Holonomic) => {
+                let what = if self.bench.graph.roles(parts.offset).meets(moving) { "its rate" } else { "it" };
                 Fault::new(span, format!("holonomic constraint `{name}` does not depend on the coordinates"))
+                    .note(format!("{what} has no velocity in it, so that no motion can fulfil it"))
             }
-            _ if self.bench.graph.roles(parts.offset).is_constant() => {
+            (_, FormKind::Parameter) if self.bench.graph.roles(parts.offset).is_constant() => {
                 Fault::new(span, format!("parameter `{name}` has no velocity in it"))
-                    .note("parameters are the quasi-velocities of the system")
-                    .help("a physical constant is declared under `constants`")
+                    .note("parameters are the quasi-velocities of the system, affine in the velocities")
+                    .help(format!("a physical constant is declared as `constants {{ {name} = {}, .. }}`", shortened(&source())))
             }
-            _ => Fault::new(span, format!("parameter `{name}` has no velocity in it"))
-                .note("parameters are the quasi-velocities of the system: affine in the velocities")
-                .help("a name for an expression is declared by `let`"),
+            (_, FormKind::Parameter) => Fault::new(span, format!("parameter `{name}` has no velocity in it"))
+                .note("parameters are the quasi-velocities of the system, affine in the velocities")
+                .help(format!("a name for an expression is declared as `let {name} = {};`", shortened(&source()))),
         };
         self.faults.report(fault);
     }
+}
+
+/// Text that fits into a message.
+fn shortened(text: &str) -> String {
+    if text.chars().count() <= LONGEST_NOTE {
+        return text.to_owned();
+    }
+    text.chars().take(LONGEST_NOTE).chain(['…']).collect()
 }
 
 /// What a form is called.

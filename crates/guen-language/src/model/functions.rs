@@ -4,6 +4,7 @@ use guen_symbolic::{ExprId, Function, Rational, Role, Roles};
 use proc_macro2::Span;
 
 use super::evaluate::{Evaluated, Evaluator};
+use super::place::role_name;
 use super::spatial::{cross, inner, inverse, minus, plus};
 use super::value::{BodyValue, Value, Vector};
 use crate::diagnostics::Fault;
@@ -46,19 +47,8 @@ impl Evaluator<'_> {
         match name.text.as_str() {
             "powi" | "powf" => {
                 self.check_count(name, 1, values.len() - 1, list)?;
-                match (&values[0].0, &values[1].0) {
-                    (Value::Scalar(b), Value::Scalar(x)) => {
-                        let power = self.bench.graph.power(*b, *x);
-                        match power {
-                            Ok(value) => Ok(Value::Scalar(value)),
-                            Err(_) => self.fail(Fault::new(
-                                values[1].1,
-                                "the exponent has to be a number of moderate size for which the power exists",
-                            )),
-                        }
-                    }
-                    _ => self.fail(Fault::new(name.span(), "powers are of scalars")),
-                }
+                let ((base, base_span), (exponent, exponent_span)) = (values[0].clone(), values[1].clone());
+                self.raised(base, exponent, base_span, exponent_span)
             }
             "recip" => {
                 self.check_count(name, 0, values.len() - 1, list)?;
@@ -91,7 +81,10 @@ impl Evaluator<'_> {
                 let body = body.clone();
                 self.body_field(&body, name)
             }
-            (Value::Scalar(_), _) => self.fail(Fault::new(name.span(), "a scalar has no components")),
+            (Value::Scalar(_), _) => self.fail(
+                Fault::new(name.span(), format!("a scalar has no `{}`", name.text))
+                    .help("components are of vectors, as in `vec(x, y).x`"),
+            ),
             (other, None) => {
                 let what = other.kind();
                 self.fail(Fault::new(
@@ -106,11 +99,9 @@ impl Evaluator<'_> {
         let text = &function.text;
         let fault = if self.scope.category(text).is_some() {
             // A use all the same, so that nobody hears of it twice.
-            let place = self.place.description();
-            let _ = self.scope.look_up(self.faults, function, place);
-            let inside = if arguments.len() == 1 { arguments[0].to_string() } else { "..".to_owned() };
-            let inside =
-                inside.strip_prefix('(').and_then(|s| s.strip_suffix(')')).unwrap_or(&inside).to_owned();
+            let place = self.place.description(self.entry.as_deref());
+            let _ = self.scope.look_up(self.faults, function, &place);
+            let inside = if arguments.len() == 1 { arguments[0].source() } else { "..".to_owned() };
             Fault::new(function.span(), format!("`{text}` is not a function"))
                 .help(format!("a product is written with `*`: `{text}*({inside})`"))
         } else {
@@ -132,10 +123,16 @@ impl Evaluator<'_> {
             return Ok(());
         }
         let plural = if expected == 1 { "" } else { "s" };
-        self.fail(Fault::new(
+        let were = if found == 1 { "was" } else { "were" };
+        let usage = usage(&function.text);
+        let fault = Fault::new(
             list,
-            format!("`{}` takes {expected} argument{plural}, and {found} were given", function.text),
-        ))
+            format!("`{}` takes {expected} argument{plural}, and {found} {were} given", function.text),
+        );
+        self.fail(match usage {
+            Some(usage) => fault.help(format!("write `{usage}`")),
+            None => fault,
+        })
     }
 
     fn apply_function(&mut self, function: &Name, values: Vec<(Value, Span)>, list: Span) -> Evaluated {
@@ -172,11 +169,15 @@ impl Evaluator<'_> {
                     _ => false,
                 };
                 if outside {
+                    let number = number.clone();
+                    let written = self.bench.graph.number(number);
+                    let written = self.bench.graph.text(written);
                     return self
-                        .fail(Fault::new(values[0].1, format!("`{text}` is not defined for this number")));
+                        .fail(Fault::new(values[0].1, format!("`{text}` is not defined for `{written}`")));
                 }
             }
-            return Ok(Value::Scalar(self.bench.graph.function(simple, x)));
+            let value = self.bench.graph.function(simple, x);
+            return self.check_size(value, function.span());
         }
         match text {
             "sin" | "cos" | "tan" | "cot" => {
@@ -209,11 +210,13 @@ impl Evaluator<'_> {
             }
             "inner" => {
                 let (u, v) = (self.vector(function, &values[0])?, self.vector(function, &values[1])?);
-                Ok(Value::Scalar(inner(&mut self.bench, &u, &v)))
+                let product = inner(&mut self.bench, &u, &v);
+                self.check_size(product, function.span())
             }
             "cross" => {
                 let (u, v) = (self.vector(function, &values[0])?, self.vector(function, &values[1])?);
-                Ok(Value::Vector(cross(&mut self.bench, &u, &v)))
+                let product = cross(&mut self.bench, &u, &v);
+                self.checked_vector(product, function.span())
             }
             "norm" | "unit" => {
                 let v = self.vector(function, &values[0])?;
@@ -284,7 +287,7 @@ impl Evaluator<'_> {
         if value.expressions().iter().any(|e| self.bench.graph.roles(*e).meets(fixed)) {
             return self.fail(
                 Fault::new(span, "`dot` is the rate of something that depends on time and coordinates only")
-                    .note("this contains a velocity, a parameter or an input"),
+                    .note(format!("this contains {}", self.moving_kind(value))),
             );
         }
         match value {
@@ -298,6 +301,20 @@ impl Evaluator<'_> {
                 )
             }
         }
+    }
+
+    /// The first kind of symbol in a value that has no rate of its own.
+    fn moving_kind(&self, value: &Value) -> String {
+        let graph = &self.bench.graph;
+        let symbols = graph.symbols_in(&value.expressions());
+        [Role::Velocity, Role::QuasiVelocity, Role::Input]
+            .into_iter()
+            .find_map(|role| {
+                let symbol = symbols.iter().find(|s| graph.symbol_info(**s).role == role)?;
+                let name = &graph.symbol_info(*symbol).name;
+                Some(format!("{} `{name}`", role_name(role).trim_start_matches("a ").trim_start_matches("an ")))
+            })
+            .map_or_else(|| "a velocity".to_owned(), |text| format!("the {text}"))
     }
 
     fn body_field(&mut self, body: &BodyValue, name: &Name) -> Evaluated {
@@ -401,6 +418,21 @@ fn function_synonym(text: &str) -> Option<&'static str> {
         "vector" => "vec",
         "length" | "magnitude" => "norm",
         "normalize" => "unit",
+        _ => return None,
+    })
+}
+
+/// How a function is called, where its arguments have an order that is worth saying.
+fn usage(text: &str) -> Option<&'static str> {
+    Some(match text {
+        "atan2" => "atan2(y, x)",
+        "vec" => "vec(x, y, z)` or, in the plane, `vec(x, y)",
+        "inner" => "inner(u, v)",
+        "cross" => "cross(u, v)",
+        "rot" => "rot(axis, angle)",
+        "quaternion" => "quaternion(w, x, y, z)",
+        "velocity_at" => "body.velocity_at(point)",
+        "powi" | "powf" => "x.powi(2)",
         _ => return None,
     })
 }

@@ -42,7 +42,7 @@ pub struct Model<'a> {
     pub mechanics: Mechanics,
     /// Whether the kinetic energy is more than the words of `kinetic_energy`: particles or bodies add to it.
     pub has_masses: bool,
-    /// Place of the kinetic energy, where it is given by a formula.
+    /// The word `kinetic_energy`, where the energy is given by a formula.
     pub kinetic_energy_span: Option<Span>,
 }
 

@@ -34,23 +34,39 @@ pub(super) enum Place {
 }
 
 impl Place {
-    /// The place in a sentence.
-    pub(super) fn description(self) -> &'static str {
-        match self {
-            Place::Default => "the default of a constant",
-            Place::Let => "a `let`",
-            Place::Parameter => "a parameter",
-            Place::Constraint => "a constraint",
-            Place::Holonomic => "a holonomic constraint",
-            Place::KineticEnergy => "the kinetic energy",
-            Place::ForceFunction => "the force function",
-            Place::Gravity => "`gravity`",
-            Place::Mass => "a mass or inertia",
-            Place::Position => "a position or orientation",
-            Place::Force => "a force",
-            Place::Direction => "the velocity after `along`",
-            Place::Output => "an output",
+    /// The place in a sentence, by the name of the entry where it has one.
+    pub(super) fn description(self, entry: Option<&str>) -> String {
+        let (named, nameless) = match self {
+            Place::Default => ("the default of", "the default of a constant"),
+            Place::Let => ("", "a `let`"),
+            Place::Parameter => ("parameter", "a parameter"),
+            Place::Constraint => ("constraint", "a constraint"),
+            Place::Holonomic => ("holonomic constraint", "a holonomic constraint"),
+            Place::KineticEnergy => return "the kinetic energy".to_owned(),
+            Place::ForceFunction => return "the force function".to_owned(),
+            Place::Gravity => return "`gravity`".to_owned(),
+            Place::Mass => return "a mass or an inertia".to_owned(),
+            Place::Position => return "a position or an orientation".to_owned(),
+            Place::Force => return "a force".to_owned(),
+            Place::Direction => return "the velocity after `along`".to_owned(),
+            Place::Output => ("output", "an output"),
+        };
+        match entry {
+            None => nameless.to_owned(),
+            Some(name) if named.is_empty() => format!("`{name}`"),
+            Some(name) => format!("{named} `{name}`"),
         }
+    }
+
+    /// What the place depends on, for a note.
+    pub(super) fn rule(self) -> Option<&'static str> {
+        Some(match self {
+            Place::Default => "a default is a number, or made of constants declared before it",
+            Place::Gravity => "gravity is one vector for the whole system, of constants and `t`",
+            Place::Mass => "a mass depends on time and coordinates at most",
+            Place::Position => "positions and orientations depend on time and coordinates",
+            _ => return None,
+        })
     }
 
     /// The kinds of symbol that may occur.

@@ -13,6 +13,7 @@ use super::spatial::inner;
 use super::value::Value;
 use super::{ConstantEntry, FormKind, Model, OutputEntry, SymbolEntry};
 use crate::diagnostics::{Fault, Faults};
+use crate::names::quoted;
 use crate::syntax::{
     BoundKind, Constant, Declaration, Definition, Expression, ExpressionKind, Force as WrittenForce, Item,
     Quantity, SectionKind,
@@ -63,8 +64,10 @@ impl<'a, 'f> Resolver<'a, 'f> {
                 time,
                 rate: None,
                 place: Place::Let,
+                entry: None,
                 expansions: BTreeMap::new(),
                 left_out: Vec::new(),
+                divisors: Vec::new(),
             },
             constants: Vec::new(),
             inputs: Vec::new(),
@@ -86,6 +89,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
 
     /// Every name that is declared anywhere, so that a use before the declaration is told from an unknown name.
     fn announce(&mut self) {
+        check_system_name(self.declaration, self.eval.faults);
         let scope = &mut self.eval.scope;
         for item in &self.declaration.items {
             match item {
@@ -131,6 +135,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
                 self.eval.rate = Some(Flow::new(graph, moving.chain([(self.eval.time, graph.one())])));
             }
             Item::Let(definition) => {
+                self.eval.entry = Some(definition.name.text.clone());
                 let value = self.eval.at(Place::Let, &definition.value).ok();
                 self.eval.scope.declare(self.eval.faults, &definition.name, Category::Let, value);
             }
@@ -146,6 +151,9 @@ impl<'a, 'f> Resolver<'a, 'f> {
             Item::KineticEnergy(quantity) => {
                 self.energy = Some(quantity);
                 if let Ok(energy) = self.eval.scalar_at(Place::KineticEnergy, &quantity.value) {
+                    let etas = self.parameters.iter().chain(&self.constraints).map(|form| form.symbol);
+                    let etas: Vec<ExprId> = etas.collect();
+                    self.eval.check_quadratic(&quantity.value, energy, &self.velocities, &etas);
                     self.kinetic.push(energy);
                 }
                 let mut mentioned = BTreeSet::new();
@@ -215,6 +223,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
             Some(BoundKind::Nonnegative) => Bound::NonNegative,
             Some(BoundKind::Nonzero) => Bound::NonZero,
         };
+        self.eval.entry = Some(constant.name.text.clone());
         let default = constant.default.as_ref().map(|e| self.eval.scalar_at(Place::Default, e));
         if let (Some(Ok(value)), Some(default)) = (&default, &constant.default) {
             self.check_default(*value, bound, default);
@@ -241,7 +250,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
         };
         if let Some(bound) = broken {
             let fault = Fault::new(written.span, format!("this default does not keep the bound `{bound}`"));
-            self.eval.faults.report(fault);
+            self.eval.faults.report(fault.help("change the default or the bound"));
         }
     }
 
@@ -280,11 +289,18 @@ impl<'a, 'f> Resolver<'a, 'f> {
             let expanded = self.eval.expanded(along);
             let mut partials = guen_symbolic::VelocityPartials::new(&self.eval.bench, &self.velocities, &[]);
             if partials.affine(&mut self.eval.bench, expanded).is_none() {
-                let fault = Fault::new(
-                    written.direction.span,
-                    "what follows `along` is not affine in the velocities",
+                let etas: Vec<ExprId> = Vec::new();
+                let guilty = self.eval.guilty(&written.direction, &mut |eval, e| {
+                    let e = eval.expanded(e);
+                    let mut partials =
+                        guen_symbolic::VelocityPartials::new(&eval.bench, &self.velocities, &etas);
+                    partials.affine(&mut eval.bench, e).is_some()
+                });
+                let (span, term) = guilty.unwrap_or((written.direction.span, written.direction.source()));
+                self.eval.faults.report(
+                    Fault::new(span, "what follows `along` is not affine in the velocities")
+                        .note(format!("`{term}` is not")),
                 );
-                self.eval.faults.report(fault);
                 return;
             }
             self.forces.push(Force { magnitude, along });
@@ -292,6 +308,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
     }
 
     fn output(&mut self, definition: &'a Definition) {
+        self.eval.entry = Some(definition.name.text.clone());
         let value = self.eval.at(Place::Output, &definition.value);
         let parts = match &value {
             Ok(Value::Scalar(e)) => vec![*e],
@@ -318,24 +335,32 @@ impl<'a, 'f> Resolver<'a, 'f> {
         let velocities = self.velocities.clone();
         let degrees = self.parameters.len();
         let has_energy = self.energy.is_some() || self.has_masses;
-        self.check_gravity();
         let mut raw: Vec<RawForm<'a>> = self.parameters;
         raw.extend(self.constraints);
-        let forms = self.eval.linear_forms(&raw, &velocities);
+        let positions: Vec<ExprId> = raw.iter().filter_map(|form| form.position).collect();
+        if !positions.is_empty() && !failed {
+            let bench = &mut self.eval.bench;
+            bench.zero.set_manifold(&mut bench.graph, &positions);
+            self.eval.check_divisors_on_manifold();
+        }
+        let (forms, idle) = self.eval.linear_forms(&raw, &velocities);
         if !failed {
-            // Counts and unused names mean something only where everything else was understood.
-            let entry = |kind: SectionKind| {
+            // Counts, unused names and idle sections mean something only where everything else was understood.
+            let keyword = |kind: SectionKind| {
                 self.declaration.items.iter().find_map(|item| match item {
                     Item::Parameters(section) if kind == SectionKind::Parameters => Some(section.keyword),
                     Item::Coordinates(section) if kind == SectionKind::Coordinates => Some(section.keyword),
                     _ => None,
                 })
             };
-            let place = entry(SectionKind::Parameters)
-                .or(entry(SectionKind::Coordinates))
+            let place = keyword(SectionKind::Parameters)
+                .or(keyword(SectionKind::Coordinates))
                 .unwrap_or(self.declaration.name.span());
-            check_count(&mut self.eval, &raw, degrees, self.coordinates.len(), place);
+            check_count(&mut self.eval, &raw, degrees, &velocities, idle, place);
             self.eval.scope.report_unused(self.eval.faults);
+            if self.gravity.is_some() && self.weights.is_empty() {
+                report_idle_gravity(self.declaration, self.eval.faults);
+            }
         }
         let forms = forms?;
         if forms.len() != self.coordinates.len() || !has_energy {
@@ -388,26 +413,36 @@ impl<'a, 'f> Resolver<'a, 'f> {
             left_out: self.eval.left_out,
             mechanics,
             has_masses: self.has_masses,
-            kinetic_energy_span: self.energy.map(|energy| energy.value.first_token()),
+            kinetic_energy_span: self.energy.map(|energy| energy.keyword),
         })
     }
+}
 
-    /// Gravity without anything that has a mass would be ignored: it is refused instead.
-    fn check_gravity(&mut self) {
-        if self.gravity.is_none() || !self.weights.is_empty() {
-            return;
-        }
-        let place = self.declaration.items.iter().find_map(|item| match item {
-            Item::Gravity(quantity) => Some(quantity.keyword),
-            _ => None,
-        });
-        if let (Some(place), false) = (place, self.has_masses) {
-            self.eval.faults.report(
-                Fault::new(place, "`gravity` acts on particles and bodies, and there are none")
-                    .help("write the force function instead: `force_function = ..;`"),
-            );
-        }
+/// Gravity without anything that has a mass would be ignored: it is refused instead.
+fn report_idle_gravity(declaration: &Declaration, faults: &mut Faults) {
+    let place = declaration.items.iter().find_map(|item| match item {
+        Item::Gravity(quantity) => Some(quantity.keyword),
+        _ => None,
+    });
+    if let Some(place) = place {
+        faults.report(
+            Fault::new(place, "`gravity` acts on particles and on bodies with a mass, and there are none")
+                .help("write the force function instead: `force_function = e;`"),
+        );
     }
+}
+
+/// Items of the generated module, and what generated code calls by short names: no system can have such a name.
+fn check_system_name(declaration: &Declaration, faults: &mut Faults) {
+    let name = &declaration.name;
+    if !crate::names::is_generated_item(&name.text) {
+        return;
+    }
+    faults.report(
+        Fault::new(name.span(), format!("a system cannot be called `{name}`"))
+            .note(format!("its module has an item `{name}` of its own"))
+            .help("choose another name"),
+    );
 }
 
 /// Parameters, constraints and holonomic constraints together number `n`.
@@ -415,33 +450,61 @@ fn check_count(
     eval: &mut Evaluator<'_>,
     raw: &[RawForm<'_>],
     degrees: usize,
-    n: usize,
+    velocities: &[ExprId],
+    idle: usize,
     place: proc_macro2::Span,
 ) {
-    if raw.len() == n {
+    let n = velocities.len();
+    // Parameters without a velocity were reported already: without them the count may be right.
+    if raw.len() == n || raw.len() == n + idle {
         return;
     }
     let count = |kind| raw.iter().filter(|form| form.entry.kind == kind).count();
     let plural = |count: usize, noun: &str| format!("{count} {noun}{}", if count == 1 { "" } else { "s" });
     let (constraints, holonomic) = (count(FormKind::Constraint), count(FormKind::Holonomic));
-    let found = [
-        plural(degrees, "parameter"),
-        plural(constraints, "constraint"),
-        plural(holonomic, "holonomic constraint"),
-    ]
-    .join(", ");
+    let mut found = vec![plural(degrees, "parameter"), plural(constraints, "constraint")];
+    if holonomic > 0 {
+        found.push(plural(holonomic, "holonomic constraint"));
+    }
+    let need = if n == 1 { "needs" } else { "need" };
+    let are = if raw.len() == 1 { "is" } else { "are" };
     let mut fault = Fault::new(
         place,
-        format!("{} need as many forms, and {} are declared", plural(n, "coordinate"), raw.len()),
+        format!("{} {need} {}, and {} {are} declared", plural(n, "coordinate"), plural(n, "form"), raw.len()),
     )
-    .note(format!("found {found}"));
-    fault = if raw.len() < n {
-        fault.help(format!("{} more under `parameters` or `constraints`", plural(n - raw.len(), "form")))
-    } else {
-        fault.help(format!(
-            "{} too many: remove some, or declare more coordinates",
-            plural(raw.len() - n, "form")
-        ))
+    .note(format!("found: {}", found.join(", ")));
+    if raw.len() > n {
+        let surplus = raw.len() - n;
+        eval.faults.report(fault.help(format!(
+            "remove {}, or declare {} more",
+            plural(surplus, "form"),
+            plural(surplus, "coordinate")
+        )));
+        return;
+    }
+    // A coordinate whose velocity is in no form is surely undetermined; where all occur, nobody can say which.
+    let definitions: Vec<ExprId> = raw.iter().map(|form| eval.expanded(form.definition)).collect();
+    let graph = &eval.bench.graph;
+    let occurring = graph.symbols_in(&definitions);
+    let missing: Vec<&str> = velocities
+        .iter()
+        .filter_map(|v| graph.as_symbol(*v))
+        .filter(|symbol| !occurring.contains(symbol))
+        .map(|symbol| graph.symbol_info(symbol).name.as_str())
+        .collect();
+    let lacking = n - raw.len();
+    if !missing.is_empty() {
+        let occur = if missing.len() == 1 { "occurs" } else { "occur" };
+        fault = fault.note(format!("{} {occur} in no form", quoted(missing.iter().copied())));
+    }
+    fault = match missing.first() {
+        Some(velocity) if lacking == 1 => {
+            let name = velocity.trim_start_matches("dot(").trim_end_matches(')');
+            fault.help(format!(
+                "add a parameter such as `rate_of_{name} = {velocity};`, or a constraint such as `{name}_fixed: {velocity} = 0;`"
+            ))
+        }
+        _ => fault.help(format!("add {} under `parameters` or `constraints`", plural(lacking, "form"))),
     };
     eval.faults.report(fault);
 }

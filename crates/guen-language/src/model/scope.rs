@@ -1,6 +1,6 @@
 //! The one namespace of a declaration.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use proc_macro2::Span;
 
@@ -68,6 +68,8 @@ pub(super) struct Scope {
     order: Vec<String>,
     // Everything that the declaration declares anywhere, to tell "later" from "never".
     later: BTreeMap<String, Span>,
+    // Unknown names that were reported: one mistake is one error, however often the name is used.
+    unknown: BTreeSet<String>,
 }
 
 impl Scope {
@@ -115,7 +117,9 @@ impl Scope {
                     .help("choose another name"),
             );
         }
-        if let Some(known) = self.entries.get(text) {
+        if let Some(known) = self.entries.get_mut(text) {
+            // What its uses mean is not known: nothing is said about them.
+            known.value = None;
             faults.report(
                 Fault::new(span, format!("`{text}` is declared twice"))
                     .note_place(&format!("first declared as {}", known.category.noun()), known.span),
@@ -133,13 +137,17 @@ impl Scope {
             entry.used = true;
             return entry.value.clone();
         }
+        if !self.unknown.insert(name.text.clone()) {
+            return None;
+        }
         let mut fault = Fault::new(name.span(), format!("unknown name `{}` in {place}", name.text));
-        if let Some(later) = self.later.get(&name.text) {
+        if names::is_function(&name.text) {
+            fault = Fault::new(name.span(), format!("`{}` is a function, and no value", name.text))
+                .help(format!("write `{}(..)`", name.text));
+        } else if let Some(later) = self.later.get(&name.text) {
             fault = Fault::new(name.span(), format!("`{}` is used before it is declared", name.text))
                 .note_place("declared", *later)
-                .help("move its section above this one");
-        } else if names::is_function(&name.text) {
-            fault = fault.help(format!("`{0}` is a function: write `{0}(..)`", name.text));
+                .help("move its declaration above this one");
         } else if let Some(near) = names::nearest(&name.text, self.order.iter().map(String::as_str)) {
             fault = fault.help(format!("did you mean `{near}`?"));
         } else if !self.order.is_empty() {
@@ -150,6 +158,11 @@ impl Scope {
         }
         faults.report(fault);
         None
+    }
+
+    /// Where a name was declared, if it is a `let`.
+    pub(super) fn definition(&self, text: &str) -> Option<Span> {
+        self.entries.get(text).filter(|entry| entry.category == Category::Let).map(|entry| entry.span)
     }
 
     /// The category of a declared name.

@@ -23,10 +23,12 @@ impl Evaluator<'_> {
                 self.check_size(product, span)
             }
             (Value::Scalar(a), Value::Vector(v)) | (Value::Vector(v), Value::Scalar(a)) => {
-                Ok(Value::Vector(v.map(|e| self.bench.graph.mul(a, e))))
+                let product = v.map(|e| self.bench.graph.mul(a, e));
+                self.checked_vector(product, span)
             }
             (Value::Rotation(r), Value::Vector(v)) => {
-                Ok(Value::Vector(apply(&mut self.bench, &r.matrix, &v)))
+                let turned = apply(&mut self.bench, &r.matrix, &v);
+                self.checked_vector(turned, span)
             }
             (Value::Rotation(a), Value::Rotation(b)) => {
                 Ok(Value::Rotation(Box::new(compose(&mut self.bench, &a, &b))))
@@ -52,7 +54,8 @@ impl Evaluator<'_> {
             }
             (Value::Vector(v), Value::Scalar(b)) => {
                 self.check_divisor(b, divisor_span)?;
-                Ok(Value::Vector(v.map(|e| self.bench.graph.div(e, b))))
+                let quotient = v.map(|e| self.bench.graph.div(e, b));
+                self.checked_vector(quotient, span)
             }
             (a, b) => self.fail(Fault::new(span, format!("cannot divide {} by {}", a.kind(), b.kind()))),
         }

@@ -6,7 +6,7 @@ use super::attributes::docs;
 use super::cursor::Cursor;
 use super::names::name;
 use crate::diagnostics::{Fault, Faults, Reported};
-use crate::limits::MAX_ENTRIES;
+use crate::limits::{MAX_COORDINATES, MAX_ENTRIES};
 use crate::syntax::Plain;
 
 /// Entries that each take their `;`.
@@ -108,7 +108,8 @@ fn comma(
 /// Reports a list that is longer than it may be.
 fn is_too_long(length: usize, most: usize, cursor: &Cursor, faults: &mut Faults) -> bool {
     if length >= most {
-        faults.report(Fault::new(cursor.span(), format!("more than {most} entries")));
+        let what = if most == MAX_COORDINATES { "coordinates" } else { "entries" };
+        faults.report(Fault::new(cursor.span(), format!("more than {most} {what}")));
     }
     length >= most
 }

@@ -25,6 +25,9 @@ pub struct Report {
     pub sections: Vec<Section>,
 }
 
+/// Coefficients with the names that they multiply.
+type Terms = Vec<(ExprId, String)>;
+
 /// Lines longer than this are left to the programs.
 const LONGEST: usize = 3000;
 
@@ -90,12 +93,12 @@ impl<'g> Lines<'g> {
     }
 
     /// `left = sum of coefficients times names`.
-    fn combination(&mut self, left: &str, left_latex: &str, terms: &[(ExprId, String, String)]) {
-        let short = terms.iter().all(|(c, ..)| self.graph.text_limited(*c, LONGEST).is_some());
-        let by_text: Vec<_> = terms.iter().map(|(c, name, _)| (*c, name.as_str())).collect();
-        let by_latex: Vec<_> = terms.iter().map(|(c, _, name)| (*c, name.as_str())).collect();
-        let text = short.then(|| self.graph.text_sum(&by_text));
-        let latex = short.then(|| self.graph.latex_sum(&by_latex));
+    fn combination(&mut self, left: &str, left_latex: &str, terms: &[(ExprId, String)]) {
+        let short = terms.iter().all(|(c, _)| self.graph.text_limited(*c, LONGEST).is_some());
+        // Both sums take the plain names: LaTeX is made of them there.
+        let terms: Vec<_> = terms.iter().map(|(c, name)| (*c, name.as_str())).collect();
+        let text = short.then(|| self.graph.text_sum(&terms));
+        let latex = short.then(|| self.graph.latex_sum(&terms));
         self.push(left, left_latex, text, latex);
     }
 
@@ -115,18 +118,15 @@ fn forms(derived: &Derived<'_>) -> Section {
     let mut lines = Lines::new(graph, "Forms (1.1), (1.6)");
     let system = &derived.derivation.system;
     for (j, (entry, form)) in derived.model.forms.iter().zip(&system.forms.forms).enumerate() {
-        let mut terms: Vec<(ExprId, String, String)> = Vec::new();
+        let mut terms = Terms::new();
         for (a, x) in form.row.iter().zip(&system.velocities) {
             if !graph.is_zero(*a) {
-                let name = graph.text(*x);
-                let latex = latex_of(&name);
-                terms.push((*a, name, latex));
+                terms.push((*a, graph.text(*x)));
             }
         }
-        let by_text: Vec<_> = terms.iter().map(|(c, name, _)| (*c, name.as_str())).collect();
-        let by_latex: Vec<_> = terms.iter().map(|(c, _, name)| (*c, name.as_str())).collect();
-        let mut text = graph.text_sum(&by_text);
-        let mut latex = graph.latex_sum(&by_latex);
+        let terms: Vec<_> = terms.iter().map(|(c, name)| (*c, name.as_str())).collect();
+        let mut text = graph.text_sum(&terms);
+        let mut latex = graph.latex_sum(&terms);
         if !graph.is_zero(form.offset) {
             text = format!("{text} + {}", graph.text(form.offset)).replace("+ -", "- ");
             latex = format!("{latex} + {}", graph.latex(form.offset)).replace("+ -", "- ");
@@ -150,14 +150,13 @@ fn operators(derived: &Derived<'_>) -> Section {
     let graph = &derived.model.bench.graph;
     let mut lines = Lines::new(graph, "Operators of displacement (1.4), (1.7)");
     for (j, xi) in derived.derivation.frame.operators.xi.iter().enumerate() {
-        let mut terms: Vec<(ExprId, String, String)> = Vec::new();
+        let mut terms = Terms::new();
         if j == 0 {
-            terms.push((graph.one(), "d/dt".to_owned(), r"\frac{\partial}{\partial t}".to_owned()));
+            terms.push((graph.one(), "d/dt".to_owned()));
         }
         for (c, x) in xi.iter().zip(&derived.derivation.system.forms.coordinates) {
             if !graph.is_zero(*c) {
-                let latex = format!(r"\frac{{\partial}}{{\partial {}}}", graph.latex(*x));
-                terms.push((*c, format!("d/d{}", graph.text(*x)), latex));
+                terms.push((*c, format!("d/d{}", graph.text(*x))));
             }
         }
         lines.combination(&format!("X{j}"), &format!("X_{{{j}}}"), &terms);
@@ -167,15 +166,15 @@ fn operators(derived: &Derived<'_>) -> Section {
 
 fn brackets(derived: &mut Derived<'_>) -> Section {
     let (n, l) = (derived.model.coordinates.len(), derived.derivation.system.forms.degrees);
-    let mut found: Vec<(usize, usize, Vec<(ExprId, String, String)>)> = Vec::new();
+    let mut found: Vec<(usize, usize, Terms)> = Vec::new();
     let mut vanishing = Vec::new();
     for r in 0..=l {
         for s in r + 1..=l {
-            let mut terms = Vec::new();
+            let mut terms = Terms::new();
             for t in 1..=n {
                 let c = derived.derivation.frame.brackets.coefficient(&mut derived.model.bench, r, s, t);
                 if !derived.model.bench.graph.is_zero(c) {
-                    terms.push((c, format!("X{t}"), format!("X_{{{t}}}")));
+                    terms.push((c, format!("X{t}")));
                 }
             }
             if terms.is_empty() {

@@ -1,5 +1,6 @@
 //! The tree as text of the language, with every operation in parentheses: what a test or a bug report shows, and
-//! text that parses to the same tree again. Documentation is left out.
+//! text that parses to the same tree again. Documentation is left out. [`Expression::source`] is the same with
+//! as few parentheses as a person writes, for messages.
 
 use std::fmt::{self, Display, Formatter, Write};
 
@@ -225,4 +226,103 @@ impl Display for Declaration {
         self.items.iter().try_for_each(|item| writeln!(f, "    {item}"))?;
         f.write_char('}')
     }
+}
+
+/// How tightly the outermost operation of an expression binds.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Binding {
+    Sum,
+    Product,
+    Sign,
+    Power,
+    Operand,
+}
+
+impl Expression {
+    /// The expression as a person would write it.
+    pub fn source(&self) -> String {
+        let mut text = String::new();
+        // Writing into a string cannot fail.
+        let _ = self.write(&mut text, Binding::Sum);
+        text
+    }
+
+    fn binding(&self) -> Binding {
+        match &self.kind {
+            ExpressionKind::Sum { .. } => Binding::Sum,
+            ExpressionKind::Product { .. } => Binding::Product,
+            ExpressionKind::Negation(_) => Binding::Sign,
+            ExpressionKind::Power { .. } => Binding::Power,
+            _ => Binding::Operand,
+        }
+    }
+
+    fn write(&self, text: &mut String, least: Binding) -> fmt::Result {
+        if self.binding() < least {
+            text.push('(');
+            self.write(text, Binding::Sum)?;
+            text.push(')');
+            return Ok(());
+        }
+        match &self.kind {
+            ExpressionKind::Missing | ExpressionKind::Number(_) | ExpressionKind::Name(_) => {
+                write!(text, "{self}")
+            }
+            ExpressionKind::Call { function, arguments, .. } => {
+                write!(text, "{}", function.ident)?;
+                list(text, arguments)
+            }
+            ExpressionKind::Field { base, name } => {
+                base.write_before_point(text)?;
+                write!(text, ".{}", name.ident)
+            }
+            ExpressionKind::Method { base, name, arguments, .. } => {
+                base.write_before_point(text)?;
+                write!(text, ".{}", name.ident)?;
+                list(text, arguments)
+            }
+            ExpressionKind::Negation(operand) => {
+                text.push('-');
+                operand.write(text, Binding::Sign)
+            }
+            ExpressionKind::Sum { first, rest } => {
+                first.write(text, Binding::Sum)?;
+                rest.iter().try_for_each(|term| {
+                    text.push_str(if term.operator == AddOperator::Plus { " + " } else { " - " });
+                    term.value.write(text, Binding::Product)
+                })
+            }
+            ExpressionKind::Product { first, rest } => {
+                first.write(text, Binding::Product)?;
+                rest.iter().try_for_each(|factor| {
+                    text.push(if factor.operator == MultiplyOperator::Times { '*' } else { '/' });
+                    factor.value.write(text, Binding::Sign)
+                })
+            }
+            ExpressionKind::Power { base, exponent } => {
+                base.write(text, Binding::Operand)?;
+                text.push('^');
+                exponent.write(text, Binding::Sign)
+            }
+        }
+    }
+
+    fn write_before_point(&self, text: &mut String) -> fmt::Result {
+        if self.as_number().is_some() {
+            return write!(text, "({self})");
+        }
+        self.write(text, Binding::Operand)
+    }
+}
+
+fn list(text: &mut String, arguments: &[Expression]) -> fmt::Result {
+    text.push('(');
+    for (i, argument) in arguments.iter().enumerate() {
+        if i > 0 {
+            text.push_str(", ");
+        }
+        argument.write(text, Binding::Sum)?;
+    }
+    text.push(')');
+    Ok(())
 }

@@ -157,11 +157,10 @@ impl Expression {
         }
     }
 
-    /// The whole expression as one place where that can be had: from the parentheses around it, or from a
-    /// compiler that joins spans. On stable Rust otherwise its first token.
+    /// The place for a fault of the whole expression: the parentheses around it, else its first token. Joining
+    /// the places of all tokens is for unstable compilers only, and messages are the same for all.
     pub fn extent(&self) -> Span {
-        let first = self.first_token();
-        self.parentheses.or_else(|| first.join(self.last_token())).unwrap_or(first)
+        self.parentheses.unwrap_or_else(|| self.first_token())
     }
 
     /// The first token.

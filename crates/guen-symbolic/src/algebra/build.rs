@@ -354,6 +354,34 @@ impl Graph {
         }
     }
 
+    /// The expression kept whole, so that its users share it: for intermediate results that many expressions use.
+    /// What is a number, a symbol, constant or a product of two at most stays as it is.
+    pub fn keep(&mut self, e: ExprId) -> ExprId {
+        let small = match self.node(e) {
+            Node::Number(_) | Node::Pi | Node::Symbol(_) | Node::Undefined | Node::Kept(_) => true,
+            Node::Function(_, x) => self.as_symbol(*x).is_some(),
+            Node::Atan2(..) => false,
+            Node::Sum { constant, terms } => constant.is_zero() && terms.len() == 1 && self.is_small_product(terms[0].0),
+            Node::Product(_) => self.is_small_product(e),
+        };
+        if small || self.roles(e).is_constant() { e } else { self.intern(Node::Kept(e)) }
+    }
+
+    fn is_small_product(&self, e: ExprId) -> bool {
+        match self.node(e) {
+            Node::Product(factors) => {
+                factors.len() <= 2
+                    && factors.iter().all(|(base, k)| {
+                        k.abs() == 1
+                            && (self.roles(*base).is_constant()
+                                || matches!(self.node(*base), Node::Symbol(_) | Node::Function(..) | Node::Kept(_)))
+                    })
+            }
+            Node::Sum { .. } | Node::Atan2(..) => false,
+            _ => true,
+        }
+    }
+
     /// Whether a number is beyond what declarations may contain.
     pub fn number_overflows(&self, id: ExprId) -> bool {
         self.as_number(id).is_some_and(|value| value.bits() > MAX_NUMBER_BITS)

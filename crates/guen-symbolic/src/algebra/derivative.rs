@@ -68,6 +68,8 @@ impl Flow {
         match graph.node(id).clone() {
             Node::Number(_) | Node::Pi => graph.zero(),
             Node::Undefined => id,
+            // Equal to what is inside, so is its derivative.
+            Node::Kept(x) => self.known(graph, x),
             Node::Symbol(symbol) => self.images.get(&symbol).copied().unwrap_or(graph.zero()),
             Node::Sum { terms, .. } => {
                 let terms: Vec<_> =

@@ -406,6 +406,7 @@ impl Graph {
     /// Whether an expression is seen to be at least zero wherever it is defined; `false` means unknown.
     pub fn manifestly_nonnegative(&self, id: ExprId) -> bool {
         match self.node(id) {
+            Node::Kept(x) => self.manifestly_nonnegative(*x),
             Node::Number(value) => !value.is_negative(),
             Node::Symbol(symbol) => {
                 matches!(self.symbol_info(*symbol).bound, Bound::Positive | Bound::NonNegative)
@@ -438,6 +439,7 @@ impl Graph {
     /// Whether an expression is seen to be above zero wherever it is defined; `false` means unknown.
     pub fn manifestly_positive(&self, id: ExprId) -> bool {
         match self.node(id) {
+            Node::Kept(x) => self.manifestly_positive(*x),
             Node::Number(value) => !value.is_negative() && !value.is_zero(),
             Node::Symbol(symbol) => self.symbol_info(*symbol).bound == Bound::Positive,
             Node::Sum { constant, terms } => {
@@ -458,6 +460,7 @@ impl Graph {
     /// Whether an expression is seen to vanish nowhere; `false` means unknown. This licenses pivots.
     pub fn manifestly_nonzero(&self, id: ExprId) -> bool {
         match self.node(id) {
+            Node::Kept(x) => self.manifestly_nonzero(*x),
             Node::Number(value) => !value.is_zero(),
             Node::Symbol(symbol) => {
                 matches!(self.symbol_info(*symbol).bound, Bound::Positive | Bound::Negative | Bound::NonZero)

@@ -131,6 +131,8 @@ pub enum Node {
     Function(Function, ExprId),
     /// `atan2(y, x)`.
     Atan2(ExprId, ExprId),
+    /// An expression that is kept whole: equal to what is inside, but neither flattened nor expanded into its users.
+    Kept(ExprId),
     /// The result of a division by the number zero; whoever divides asks first, so that it shows a mistake of ours.
     Undefined,
 }
@@ -202,6 +204,8 @@ pub struct Graph {
     pub(crate) nodes: Vec<Node>,
     keys: Vec<u64>,
     roles: Vec<Roles>,
+    depths: Vec<u32>,
+    work: u64,
     // Chains of nodes that share a key: a list per key, since two nodes may collide.
     heads: FastMap<u64, ExprId>,
     next: Vec<Option<ExprId>>,
@@ -233,6 +237,17 @@ impl Graph {
     /// The number of nodes so far: the measure that limits on work are stated in.
     pub fn len(&self) -> usize {
         self.nodes.len()
+    }
+
+    /// Elementary steps of building so far, about one for each term or factor that was put together: a measure of
+    /// work that is the same on every machine.
+    pub fn work(&self) -> u64 {
+        self.work
+    }
+
+    /// The number of nodes on the longest way from an expression down to a symbol or a number.
+    pub fn depth(&self, id: ExprId) -> u32 {
+        self.depths[id.index()]
     }
 
     /// Whether there is no node; never the case after [`Graph::new`].
@@ -315,7 +330,7 @@ impl Graph {
             Node::Number(_) | Node::Pi | Node::Symbol(_) | Node::Undefined => Vec::new(),
             Node::Sum { terms, .. } => terms.iter().map(|t| t.0).collect(),
             Node::Product(factors) => factors.iter().map(|f| f.0).collect(),
-            Node::Function(_, x) => vec![*x],
+            Node::Function(_, x) | Node::Kept(x) => vec![*x],
             Node::Atan2(y, x) => vec![*y, *x],
         }
     }
@@ -346,6 +361,11 @@ impl Graph {
 
     /// The identifier of a node in normal form.
     pub(crate) fn intern(&mut self, node: Node) -> ExprId {
+        self.work += match &node {
+            Node::Sum { terms, .. } => 1 + terms.len() as u64,
+            Node::Product(factors) => 1 + factors.len() as u64,
+            _ => 1,
+        };
         let key = self.structural_key(&node);
         if let Some(id) = self.lookup_key(key, &node) {
             return id;
@@ -359,7 +379,7 @@ impl Graph {
             Node::Product(factors) => {
                 factors.iter().fold(Roles::NONE, |roles, (base, _)| roles.or(self.roles(*base)))
             }
-            Node::Function(_, x) => self.roles(*x),
+            Node::Function(_, x) | Node::Kept(x) => self.roles(*x),
             Node::Atan2(y, x) => self.roles(*y).or(self.roles(*x)),
         };
         self.push(node, key, roles)
@@ -383,6 +403,15 @@ impl Graph {
 
     fn push(&mut self, node: Node, key: u64, roles: Roles) -> ExprId {
         let id = ExprId(self.nodes.len() as u32);
+        let depth = |child: &ExprId| self.depths[child.index()];
+        let below = match &node {
+            Node::Number(_) | Node::Pi | Node::Symbol(_) | Node::Undefined => 0,
+            Node::Sum { terms, .. } => terms.iter().map(|(term, _)| depth(term)).max().unwrap_or(0),
+            Node::Product(factors) => factors.iter().map(|(base, _)| depth(base)).max().unwrap_or(0),
+            Node::Function(_, x) | Node::Kept(x) => depth(x),
+            Node::Atan2(y, x) => depth(y).max(depth(x)),
+        };
+        self.depths.push(below + 1);
         self.nodes.push(node);
         self.keys.push(key);
         self.roles.push(roles);
@@ -406,6 +435,7 @@ impl Graph {
             Node::Number(value) => mix(0x4e00 ^ rational(value)),
             Node::Pi => mix(0x5000),
             Node::Undefined => mix(0x5500),
+            Node::Kept(x) => mix(0x4b00 ^ key(*x)),
             Node::Symbol(symbol) => key(self.symbol_nodes[symbol.index()]),
             Node::Sum { constant, terms } => terms
                 .iter()

@@ -26,6 +26,11 @@ impl Substitution {
         Substitution { images: pairs.into_iter().collect() }
     }
 
+    /// Adds a replacement; expressions replaced before keep their images.
+    pub fn add(&mut self, from: ExprId, to: ExprId) {
+        self.images.insert(from, to);
+    }
+
     /// The expression with everything replaced; replacements are not looked into again.
     pub fn of(&mut self, graph: &mut Graph, e: ExprId) -> ExprId {
         let pending = graph.reachable(&[e], |id| self.images.contains_key(&id));
@@ -53,6 +58,7 @@ impl Substitution {
                 graph.product(&factors)
             }
             Node::Function(function, x) => graph.function(function, self.images[&x]),
+            Node::Kept(x) => graph.keep(self.images[&x]),
             Node::Atan2(y, x) => graph.atan2(self.images[&y], self.images[&x]),
         }
     }

@@ -91,13 +91,16 @@ impl Closure {
                                     terms.push(bench.graph.mul(*component, c));
                                 }
                             }
-                            let sum = bench.graph.sum(terms);
-                            bench.dropped(sum)
+                            bench.graph.sum(terms)
                         })
                         .collect();
                     candidates.push(bracket);
                 }
             }
+        }
+        // Ranks see through what vanishes; what is printed should not contain it.
+        for e in kept.iter_mut().flatten() {
+            *e = bench.dropped(*e);
         }
         let integrable = if complete { annihilator(bench, &kept, l, constraints) } else { Vec::new() };
         Closure { growth, complete, integrable }

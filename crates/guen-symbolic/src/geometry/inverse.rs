@@ -43,10 +43,11 @@ struct Equation {
 }
 
 impl Operators {
-    /// Inverts the forms.
-    pub fn new(bench: &mut Workbench, forms: &Forms) -> Result<Self, SingularForms> {
+    /// Inverts the forms, or lists what makes them dependent.
+    pub fn new(bench: &mut Workbench, forms: &Forms) -> Result<Self, Vec<SingularForms>> {
         let n = forms.len();
-        if let Some(singular) = dependency(bench, forms) {
+        let singular = dependencies(bench, forms);
+        if !singular.is_empty() {
             return Err(singular);
         }
         let mut equations: Vec<Option<Equation>> = Vec::with_capacity(n);
@@ -68,7 +69,7 @@ impl Operators {
         solver.eliminate(&mut equations, forms.degrees);
         let core: Vec<Equation> = equations.into_iter().flatten().collect();
         let mut values: Vec<Option<BTreeMap<usize, ExprId>>> = vec![None; n];
-        solver.solve_core(core, &mut values)?;
+        solver.solve_core(core, &mut values).map_err(|singular| vec![singular])?;
         solver.substitute_back(&mut values);
         let Solver { chart, constant_pivots, .. } = solver;
         let zero = bench.graph.zero();
@@ -87,76 +88,100 @@ impl Operators {
     }
 }
 
-/// The first combination of rows that vanishes, by rank modulo p; its coefficients by elimination where rows are few.
-fn dependency(bench: &mut Workbench, forms: &Forms) -> Option<SingularForms> {
+/// The combinations of rows that vanish, one for each row that depends on rows before it, by rank modulo p; their
+/// coefficients by elimination where rows are few.
+fn dependencies(bench: &mut Workbench, forms: &Forms) -> Vec<SingularForms> {
     let rows: Vec<Vec<ExprId>> = forms.forms.iter().map(|form| form.row.clone()).collect();
-    let rank = bench.zero.rank(&mut bench.graph, &rows, true)?;
-    if rank == rows.len() {
-        return None;
+    let full = |bench: &mut Workbench, trial: &[Vec<ExprId>]| {
+        bench.zero.rank(&mut bench.graph, trial, true).map(|rank| rank == trial.len())
+    };
+    let mut found = Vec::new();
+    // `None` where no point of the manifold was found: then nothing is known to be dependent.
+    if full(bench, &rows) != Some(false) {
+        return found;
     }
-    // Grow an independent set; the first row that does not enlarge it is dependent on the ones before.
+    // Grow an independent set; a row that does not enlarge it is dependent on the ones before.
     let mut independent: Vec<usize> = Vec::new();
     for j in 0..rows.len() {
         let mut trial: Vec<Vec<ExprId>> = independent.iter().map(|k| rows[*k].clone()).collect();
         trial.push(rows[j].clone());
-        if bench.zero.rank(&mut bench.graph, &trial, true)? == trial.len() {
+        if full(bench, &trial) != Some(false) {
             independent.push(j);
             continue;
         }
         // Keep only the rows that the dependence needs.
         let mut support = independent.clone();
-        for k in independent {
-            let without: Vec<usize> = support.iter().copied().filter(|other| *other != k).collect();
+        for k in &independent {
+            let without: Vec<usize> = support.iter().copied().filter(|other| other != k).collect();
             let mut trial: Vec<Vec<ExprId>> = without.iter().map(|k| rows[*k].clone()).collect();
             trial.push(rows[j].clone());
-            if bench.zero.rank(&mut bench.graph, &trial, true)? < trial.len() {
+            if full(bench, &trial) == Some(false) {
                 support = without;
             }
         }
-        return Some(combination(bench, forms, &support, j));
+        found.push(combination(bench, forms, &support, j));
     }
-    None
+    found
 }
 
-/// Coefficients of `row_j = sum c_k row_k` by Cramer's rule on columns where the support is regular.
+/// The dependent row `j` with its coefficients on the rows of its support, and what their offsets leave.
 fn combination(bench: &mut Workbench, forms: &Forms, support: &[usize], j: usize) -> SingularForms {
-    let unknown = |support: &[usize]| SingularForms {
-        combination: support.iter().chain([&j]).map(|k| (*k, None)).collect(),
-        rest: None,
+    let rows: Vec<&[ExprId]> = support.iter().map(|k| &forms.forms[*k].row[..]).collect();
+    let Some(coefficients) = dependence(bench, &rows, &forms.forms[j].row) else {
+        return SingularForms {
+            combination: support.iter().chain([&j]).map(|k| (*k, None)).collect(),
+            rest: None,
+        };
     };
-    if support.len() > ADJUGATE_SIZE {
-        return unknown(support);
-    }
-    let mut columns: Vec<usize> = Vec::new();
-    for c in 0..forms.len() {
-        let mut trial = columns.clone();
-        trial.push(c);
-        let minor: Vec<Vec<ExprId>> =
-            trial.iter().map(|c| support.iter().map(|k| forms.forms[*k].row[*c]).collect()).collect();
-        if bench.zero.rank(&mut bench.graph, &minor, true) == Some(trial.len()) {
-            columns = trial;
-        }
-    }
-    if columns.len() != support.len() {
-        return unknown(support);
-    }
-    // B^T c = r with B the support's minor and r the dependent row on the same columns.
-    let matrix: Vec<Vec<ExprId>> =
-        columns.iter().map(|c| support.iter().map(|k| forms.forms[*k].row[*c]).collect()).collect();
-    let (adjugate, determinant) = adjugate(bench, &matrix);
-    let target: Vec<ExprId> = columns.iter().map(|c| forms.forms[j].row[*c]).collect();
     let mut combination = Vec::new();
     let mut rest = bench.graph.neg(forms.forms[j].offset);
-    for (row, k) in adjugate.iter().zip(support) {
-        let numerator = bench.dot(row, &target);
-        let quotient = bench.graph.div(numerator, determinant);
-        let c = bench.tidy(quotient);
+    for (c, k) in coefficients.into_iter().zip(support) {
         let share = bench.graph.mul(c, forms.forms[*k].offset);
         rest = bench.graph.add(rest, share);
         combination.push((*k, Some(c)));
     }
     combination.push((j, Some(bench.graph.number(Rational::MINUS_ONE))));
     SingularForms { combination, rest: Some(bench.tidy(rest)) }
+}
+
+/// The coefficients of `target = sum c_k row_k` over independent rows, by Cramer's rule on columns where the rows
+/// are regular; none for many rows.
+pub(crate) fn dependence(
+    bench: &mut Workbench,
+    rows: &[&[ExprId]],
+    target: &[ExprId],
+) -> Option<Vec<ExprId>> {
+    if rows.len() > ADJUGATE_SIZE {
+        return None;
+    }
+    let mut columns: Vec<usize> = Vec::new();
+    for c in 0..target.len() {
+        let mut trial = columns.clone();
+        trial.push(c);
+        let minor: Vec<Vec<ExprId>> =
+            trial.iter().map(|c| rows.iter().map(|row| row[*c]).collect()).collect();
+        if bench.zero.rank(&mut bench.graph, &minor, true) == Some(trial.len()) {
+            columns = trial;
+        }
+    }
+    if columns.len() != rows.len() {
+        return None;
+    }
+    // B^T c = r with B the minor of the rows and r the target on the same columns.
+    let matrix: Vec<Vec<ExprId>> =
+        columns.iter().map(|c| rows.iter().map(|row| row[*c]).collect()).collect();
+    let (adjugate, determinant) = adjugate(bench, &matrix);
+    let target: Vec<ExprId> = columns.iter().map(|c| target[*c]).collect();
+    Some(
+        adjugate
+            .iter()
+            .map(|row| {
+                let numerator = bench.dot(row, &target);
+                let quotient = bench.graph.div(numerator, determinant);
+                bench.tidy(quotient)
+            })
+            .collect(),
+    )
 }
 
 struct Solver<'a> {
@@ -270,7 +295,8 @@ impl Solver<'_> {
                     }
                 }
                 for e in value.values_mut() {
-                    *e = self.bench.tidy(*e);
+                    let tidy = self.bench.tidy(*e);
+                    *e = self.bench.keep_large(tidy);
                 }
                 value.retain(|_, e| !self.bench.graph.is_zero(*e));
                 values[*c] = Some(value);
@@ -294,9 +320,11 @@ impl Solver<'_> {
             return None;
         }
         self.require(determinant);
+        let divisor = self.bench.keep_large(determinant);
         for e in inverse.iter_mut().flatten() {
-            let quotient = self.bench.graph.div(*e, determinant);
-            *e = self.bench.tidy(quotient);
+            let quotient = self.bench.graph.div(*e, divisor);
+            let tidy = self.bench.tidy(quotient);
+            *e = self.bench.keep_large(tidy);
         }
         Some(inverse)
     }
@@ -319,7 +347,8 @@ impl Solver<'_> {
             self.require(square);
             for (i, e) in row.iter().enumerate() {
                 let quotient = self.bench.graph.div(*e, square);
-                inverse[i][k] = self.bench.tidy(quotient);
+                let tidy = self.bench.tidy(quotient);
+                inverse[i][k] = self.bench.keep_large(tidy);
             }
         }
         Some(inverse)
@@ -375,6 +404,9 @@ impl Solver<'_> {
             for (k, a) in &row.entries {
                 let known = values[*k].clone().expect("columns eliminated later are known");
                 self.subtract(&mut equation, *a, &Equation { entries: BTreeMap::new(), right: known });
+            }
+            for e in equation.right.values_mut() {
+                *e = self.bench.keep_large(*e);
             }
             values[c] = Some(equation.right);
         }

@@ -3,11 +3,15 @@
 use super::velocity_forms::VelocityPartials;
 use super::{Energies, Frame, Mechanics, NotQuadratic, Solution, decompose, poincare, projection};
 use crate::algebra::{ExprId, FastMap, Flow, Role, Roles, Substitution};
-use crate::geometry::{Closure, Operators, SingularForms};
+use crate::geometry::{Closure, Operators, SingularForms, dependence};
 use crate::normal::{Limits, normal_coefficients};
 use crate::program::weighted_cost;
 use crate::workbench::Workbench;
 use crate::zero::Verdict;
+
+/// Steps of building ([`crate::Graph::work`]) beyond which a derivation is given up: some seconds without
+/// optimisation, several times what the largest systems need that can be run at all.
+pub const MAX_WORK: u64 = 30_000_000;
 
 /// `sum_t M_st eta_t' = f_s`.
 #[derive(Clone, Debug)]
@@ -36,12 +40,15 @@ pub enum Class {
 /// Why a system has no equations of motion.
 #[derive(Clone, Debug)]
 pub enum DerivationError {
-    /// The forms are dependent.
-    SingularForms(SingularForms),
+    /// The forms are dependent, in these ways.
+    SingularForms(Vec<SingularForms>),
     /// The kinetic energy is not quadratic in the velocities.
     NotQuadratic(NotQuadratic),
-    /// The mass matrix is singular as a function: these parameters, by index, are without inertia.
-    SingularMass(Vec<usize>),
+    /// The mass matrix is singular as a function: a motion with these values of these parameters, by index, and all
+    /// others zero is without inertia; values where they are known.
+    SingularMass(Vec<(usize, Option<ExprId>)>),
+    /// The derivation is more work than [`MAX_WORK`].
+    TooLarge,
     /// Two routes gave different equations: a mistake of ours.
     RoutesDisagree {
         /// The equation, from 0.
@@ -71,6 +78,8 @@ pub struct Derivation {
     pub generalised_forces: Vec<ExprId>,
     /// The solved accelerations.
     pub solution: Solution,
+    /// The accelerations in other forms, equal to the solution's: what costs least is found when code is made.
+    pub alternatives: Vec<Vec<ExprId>>,
     /// The reactions `lambda_v` as functions of `t, x, eta`, inputs and `eta'` (as symbols); none for constraints
     /// without momentum in `T°`.
     pub reactions: Vec<Option<ExprId>>,
@@ -98,9 +107,11 @@ impl Derivation {
             .map_err(DerivationError::NotQuadratic)?;
         let generalised_forces = generalised_forces(bench, &system, &mut frame, &mut partials);
 
+        affordable(bench)?;
         let by_definition = poincare::equations(bench, &system, &mut frame);
         let by_projection = projection::equations(bench, &system, &mut frame, &mut partials, &terms, n);
-        for s in 0..l {
+        let agree = routes_agree(bench, &by_definition, &by_projection, l);
+        for s in if agree { 0..0 } else { 0..l } {
             let same = |bench: &mut Workbench, a: ExprId, b: ExprId| {
                 let difference = bench.graph.sub(a, b);
                 bench.zero.verdict(&mut bench.graph, difference) != Verdict::Nonzero
@@ -111,17 +122,28 @@ impl Derivation {
                 return Err(DerivationError::RoutesDisagree { equation: s });
             }
         }
-        let mut equations = cheapest(bench, &system, &by_definition, &by_projection);
-        for (force, q) in equations.forces.iter_mut().zip(&generalised_forces) {
-            *force = bench.graph.add(*force, *q);
+        let mut candidates = candidates(bench, &system, &by_definition, &by_projection);
+        for equations in &mut candidates {
+            for (force, q) in equations.forces.iter_mut().zip(&generalised_forces) {
+                *force = bench.graph.add(*force, *q);
+            }
         }
+        let equations = candidates.remove(0);
+        affordable(bench)?;
         let solution = Solution::new(bench, &equations.mass, &equations.forces)
-            .map_err(DerivationError::SingularMass)?;
+            .map_err(|rows| DerivationError::SingularMass(weightless(bench, &equations.mass, &rows)))?;
+
+        let alternatives = candidates
+            .into_iter()
+            .filter_map(|other| Solution::new(bench, &other.mass, &other.forces).ok())
+            .map(|other| other.accelerations)
+            .collect();
 
         let closure = {
             let Frame { operators, brackets, .. } = &mut frame;
             Closure::new(bench, &system.forms, operators, brackets)
         };
+        affordable(bench)?;
         let class = classify(bench, &system, &mut frame, &closure);
         let energies = Energies::new(bench, &system, &mut frame, &mut partials, &terms);
         let without_momentum = without_momentum(bench, &system, &frame, &mut partials, &terms);
@@ -139,6 +161,7 @@ impl Derivation {
                 })
             })
             .collect();
+        affordable(bench)?;
         let catastatic = system.forms.is_catastatic(&bench.graph);
         let explicit = explicit_time(bench, &system, &mut frame);
         let scleronomic = forms_scleronomic(bench, &system) && bench.vanishes(explicit);
@@ -163,6 +186,7 @@ impl Derivation {
             equations,
             generalised_forces,
             solution,
+            alternatives,
             reactions,
             without_momentum,
             energies,
@@ -191,6 +215,46 @@ impl Derivation {
     }
 }
 
+/// Gives a derivation up that has become more work than a compiler should do.
+fn affordable(bench: &Workbench) -> Result<(), DerivationError> {
+    if bench.graph.work() > MAX_WORK { Err(DerivationError::TooLarge) } else { Ok(()) }
+}
+
+/// The motion without inertia of a singular mass matrix, from a smallest set of rows that is dependent: by symmetry
+/// the coefficients of the rows are the motion.
+fn weightless(
+    bench: &mut Workbench,
+    mass: &[Vec<ExprId>],
+    rows: &[usize],
+) -> Vec<(usize, Option<ExprId>)> {
+    let Some((last, support)) = rows.split_last() else { return Vec::new() };
+    let others: Vec<&[ExprId]> = support.iter().map(|s| &mass[*s][..]).collect();
+    let Some(coefficients) = dependence(bench, &others, &mass[*last]) else {
+        return rows.iter().map(|s| (*s, None)).collect();
+    };
+    let negative = coefficients.into_iter().map(|c| bench.graph.neg(c)).collect::<Vec<_>>();
+    let one = bench.graph.one();
+    support.iter().copied().chain([*last]).zip(negative.into_iter().chain([one]).map(Some)).collect()
+}
+
+/// Whether the two routes agree at points modulo p: if so they are equal but for roots of other sign; if not, the zero
+/// test looks closer at each equation.
+fn routes_agree(bench: &mut Workbench, a: &Equations, b: &Equations, l: usize) -> bool {
+    let differences: Vec<ExprId> = (0..l)
+        .flat_map(|s| {
+            let masses = (0..l).map(move |t| (a.mass[s][t], b.mass[s][t]));
+            masses.chain([(a.forces[s], b.forces[s])])
+        })
+        .map(|(a, b)| bench.graph.sub(a, b))
+        .collect();
+    (0..3).all(|sample| {
+        bench
+            .zero
+            .residues(&mut bench.graph, sample, &differences, false)
+            .is_some_and(|residues| residues.iter().all(|residue| *residue == 0))
+    })
+}
+
 /// `Q_s = sum F beta_s`, with the force on the constraints.
 fn generalised_forces(
     bench: &mut Workbench,
@@ -213,13 +277,17 @@ fn generalised_forces(
     found.into_iter().map(|terms| bench.graph.sum(terms)).collect()
 }
 
-/// The cheapest of the equations by either route and of their normal form as polynomials in the `eta`.
-fn cheapest(
+/// The equations in several forms, the one to show first: normal forms where they are small, then both routes as they
+/// came out, as far as they are worth a program of their own.
+fn candidates(
     bench: &mut Workbench,
     system: &Mechanics,
     by_definition: &Equations,
     by_projection: &Equations,
-) -> Equations {
+) -> Vec<Equations> {
+    /// Estimates above which a further form is not worth the time to optimise it.
+    const WORTH_PROJECTION: u64 = 1000;
+    const WORTH_DEFINITION: u64 = 300;
     let l = system.forms.degrees;
     let mass: Vec<Vec<ExprId>> = (0..l)
         .map(|s| {
@@ -234,20 +302,14 @@ fn cheapest(
         })
         .collect();
     let sources = [&by_projection.forces[..l], &by_definition.forces[..l]];
-    let mut candidates: Vec<Vec<ExprId>> = Vec::new();
-    if let Some(normal) = sources.iter().find_map(|forces| normal_forces(bench, system, forces)) {
-        candidates.push(normal);
+    let mut lists: Vec<Vec<ExprId>> = Vec::new();
+    lists.extend(sources.iter().find_map(|forces| normal_forces(bench, system, forces)));
+    for (forces, worth) in sources.iter().zip([WORTH_PROJECTION, WORTH_DEFINITION]) {
+        if lists.is_empty() || weighted_cost(&bench.graph, forces) <= worth {
+            lists.push(forces.to_vec());
+        }
     }
-    for forces in sources {
-        candidates.push(forces.to_vec());
-    }
-    let forces = candidates
-        .into_iter()
-        .map(|forces| (weighted_cost(&bench.graph, &forces), forces))
-        .min_by_key(|(cost, _)| *cost)
-        .map(|(_, forces)| forces)
-        .unwrap_or_default();
-    Equations { mass, forces }
+    lists.into_iter().map(|forces| Equations { mass: mass.clone(), forces }).collect()
 }
 
 /// Every force as a polynomial in the `eta` with coefficients in normal form, where all are small.

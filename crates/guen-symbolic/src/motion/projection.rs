@@ -37,12 +37,13 @@ pub(super) fn equations(
     rows: usize,
 ) -> Equations {
     let l = system.forms.degrees;
+    let resting = resting_accelerations(bench, system, frame);
     let mut known: FastMap<ExprId, usize> = FastMap::default();
     let mut measured: Vec<Measured> = Vec::new();
     for u in terms.iter().flat_map(|term| &term.forms) {
         if !known.contains_key(u) {
             known.insert(*u, measured.len());
-            measured.push(measure(bench, system, frame, partials, *u));
+            measured.push(measure(bench, system, frame, partials, &resting, *u));
         }
     }
     let mut mass: Vec<Vec<Vec<ExprId>>> = vec![vec![Vec::new(); l]; rows];
@@ -105,31 +106,78 @@ pub(super) fn equations(
     }
 }
 
+/// `x''` at `eta' = 0`: `A x'' = -(A' x' + a_0')` along the motion, so that the operators are never differentiated.
+fn resting_accelerations(bench: &mut Workbench, system: &Mechanics, frame: &mut Frame) -> Vec<ExprId> {
+    let n = system.forms.len();
+    let right: Vec<ExprId> = system
+        .forms
+        .forms
+        .iter()
+        .map(|form| {
+            let mut terms = vec![frame.motion.of(&mut bench.graph, form.offset)];
+            for (a, velocity) in form.row.iter().zip(&frame.velocities) {
+                let rate = frame.motion.of(&mut bench.graph, *a);
+                terms.push(bench.graph.mul(rate, *velocity));
+            }
+            let sum = bench.graph.sum(terms);
+            let right = bench.graph.neg(sum);
+            bench.keep_large(right)
+        })
+        .collect();
+    (0..n)
+        .map(|i| {
+            let column: Vec<ExprId> = (1..=n).map(|j| frame.operators.xi[j][i]).collect();
+            let acceleration = bench.dot(&column, &right);
+            bench.keep_large(acceleration)
+        })
+        .collect()
+}
+
 fn measure(
     bench: &mut Workbench,
     system: &Mechanics,
     frame: &mut Frame,
     partials: &mut VelocityPartials,
+    resting: &[ExprId],
     u: ExprId,
 ) -> Measured {
-    let n = system.forms.len();
+    let (n, l) = (system.forms.len(), system.forms.degrees);
     let form = partials.affine(bench, u).expect("the decomposition yields affine forms");
     let components: Vec<ExprId> = (1..=n)
         .map(|s| {
             let component = frame.component(bench, &form, s);
-            bench.tidy(component)
+            let tidy = bench.tidy(component);
+            bench.keep_large(tidy)
         })
         .collect();
+    // The value by components along the operators, or by coordinates: what has fewer terms.
     let drift = frame.component(bench, &form, 0);
     let drift = bench.tidy(drift);
-    let mut value = vec![drift];
-    let mut acceleration = vec![frame.motion.of(&mut bench.graph, drift)];
-    for (s, component) in components.iter().enumerate().take(system.forms.degrees) {
-        value.push(bench.graph.mul(system.etas[s], *component));
-        let rate = frame.motion.of(&mut bench.graph, *component);
-        acceleration.push(bench.graph.mul(system.etas[s], rate));
+    let by_components = components[..l].iter().filter(|c| !bench.graph.is_zero(**c)).count();
+    let value = if by_components <= form.on_velocities.len() + form.on_etas.len() {
+        let moving = bench.dot(&components[..l], &system.etas[..l]);
+        bench.graph.add(drift, moving)
+    } else {
+        frame.constrain.of(&mut bench.graph, u)
+    };
+    // u' = sum_i (b_i x_i'' + b_i' x_i') + sum_j c_j' eta_j + u_0' at eta' = 0
+    let mut terms = vec![frame.motion.of(&mut bench.graph, form.offset)];
+    for (i, b) in &form.on_velocities {
+        let rate = frame.motion.of(&mut bench.graph, *b);
+        terms.push(bench.graph.mul(*b, resting[*i]));
+        terms.push(bench.graph.mul(rate, frame.velocities[*i]));
     }
-    Measured { form, value: bench.graph.sum(value), components, acceleration: bench.graph.sum(acceleration) }
+    for (j, c) in form.on_etas.iter().filter(|(j, _)| *j < l) {
+        let rate = frame.motion.of(&mut bench.graph, *c);
+        terms.push(bench.graph.mul(rate, system.etas[*j]));
+    }
+    let acceleration = bench.graph.sum(terms);
+    Measured {
+        form,
+        value: bench.keep_large(value),
+        components,
+        acceleration: bench.keep_large(acceleration),
+    }
 }
 
 /// `E_s(u)`, the exterior derivative of `u = sum b_i dx_i + sum c_j eta_j + u_0 dt` on (motion, `X_{s+1}`):
@@ -166,5 +214,6 @@ fn exterior(
     }
     let sum = bench.graph.sum(terms);
     // The curl of a true velocity is zero as a function, seldom as written.
-    bench.dropped(sum)
+    let turning = bench.dropped(sum);
+    bench.keep_large(turning)
 }

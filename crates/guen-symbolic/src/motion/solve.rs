@@ -5,6 +5,9 @@ use crate::geometry::adjugate;
 use crate::workbench::Workbench;
 use crate::zero::Verdict;
 
+/// Blocks up to this size are solved without names for intermediate results.
+const WRITTEN_OUT: usize = 2;
+
 /// Blocks without a usable pivot on the diagonal are inverted by their adjugate, up to this size.
 const ADJUGATE_SIZE: usize = 5;
 
@@ -51,6 +54,11 @@ impl Solution {
     ) -> Option<Vec<ExprId>> {
         let n = m.len();
         let original = (m.clone(), f.clone());
+        // Small blocks are written out, and simplify; in larger ones every intermediate result has many users.
+        let keep = |bench: &mut Workbench, e: ExprId| if n > WRITTEN_OUT { bench.graph.keep(e) } else { e };
+        for e in m.iter_mut().flatten().chain(&mut f) {
+            *e = keep(bench, *e);
+        }
         let mut order: Vec<usize> = Vec::new();
         let mut left: Vec<usize> = (0..n).collect();
         // Multipliers L_rk of each elimination step.
@@ -64,7 +72,8 @@ impl Solution {
             let mut multipliers = Vec::new();
             for r in left.clone() {
                 if !bench.graph.is_zero(m[r][k]) {
-                    multipliers.push((r, bench.graph.div(m[r][k], m[k][k])));
+                    let quotient = bench.graph.div(m[r][k], m[k][k]);
+                    multipliers.push((r, keep(bench, quotient)));
                 }
             }
             for (i, (r, factor)) in multipliers.iter().enumerate() {
@@ -72,10 +81,12 @@ impl Solution {
                     let product = bench.graph.mul(*factor, m[*c][k]);
                     let difference = bench.graph.sub(m[*r][*c], product);
                     let entry = bench.dropped(difference);
+                    let entry = keep(bench, entry);
                     (m[*r][*c], m[*c][*r]) = (entry, entry);
                 }
                 let product = bench.graph.mul(*factor, f[k]);
-                f[*r] = bench.graph.sub(f[*r], product);
+                let rest = bench.graph.sub(f[*r], product);
+                f[*r] = keep(bench, rest);
             }
             order.push(k);
             steps.push((k, multipliers));
@@ -88,7 +99,8 @@ impl Solution {
                 let product = bench.graph.mul(factor, x[r]);
                 terms.push(bench.graph.neg(product));
             }
-            x[k] = bench.graph.sum(terms);
+            let value = bench.graph.sum(terms);
+            x[k] = keep(bench, value);
         }
         Some(x)
     }

@@ -180,7 +180,10 @@ fn finish(g: &mut Graph, ring: &Ring, f: &Fraction, limits: &Limits) -> Result<E
 
 /// Arguments of functions in normal form, innermost first.
 fn prepare(g: &mut Graph, e: ExprId, limits: &Limits) -> ExprId {
-    let pending = g.reachable(&[e], |_| false);
+    // What is kept whole is a generator: nothing inside it is looked at.
+    let kept = |g: &Graph, id: ExprId| matches!(g.node(id), Node::Kept(_));
+    let inside: Vec<ExprId> = g.reachable(&[e], |_| false).into_iter().filter(|id| kept(g, *id)).collect();
+    let pending = g.reachable(&[e], |id| kept(g, id));
     let simple = pending.iter().all(|id| match g.node(*id) {
         Node::Function(_, x) => simple_argument(g, *x),
         Node::Atan2(y, x) => simple_argument(g, *y) && simple_argument(g, *x),
@@ -189,7 +192,7 @@ fn prepare(g: &mut Graph, e: ExprId, limits: &Limits) -> ExprId {
     if simple || pending.len() > limits.nodes {
         return e;
     }
-    let mut images: BTreeMap<ExprId, ExprId> = BTreeMap::new();
+    let mut images: BTreeMap<ExprId, ExprId> = inside.iter().map(|id| (*id, *id)).collect();
     for id in pending {
         let argument = |g: &mut Graph, x: ExprId, flat: bool| {
             let x = images[&x];
@@ -211,6 +214,7 @@ fn prepare(g: &mut Graph, e: ExprId, limits: &Limits) -> ExprId {
                 let x = argument(g, x, flat);
                 g.function(function, x)
             }
+            Node::Kept(x) => g.keep(images[&x]),
             Node::Atan2(y, x) => {
                 let (y, x) = (argument(g, y, false), argument(g, x, false));
                 g.atan2(y, x)

@@ -128,6 +128,7 @@ fn value(g: &Graph, e: ExprId, point: &[f64]) -> f64 {
         let v = match g.node(id) {
             Node::Number(r) => r.to_f64(),
             Node::Pi => std::f64::consts::PI,
+            Node::Kept(x) => values[x],
             Node::Symbol(s) => point[s.index()],
             Node::Sum { constant, terms } => {
                 terms.iter().fold(constant.to_f64(), |sum, (t, c)| sum + c.to_f64() * values[t])

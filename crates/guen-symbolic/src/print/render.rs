@@ -104,6 +104,9 @@ impl<'g> Printer<'g> {
         if matches!(self.graph.node(id), Node::Sum { .. }) {
             return self.sum(id, symbols);
         }
+        if let Node::Kept(x) = self.graph.node(id) {
+            return self.pieces[x].clone();
+        }
         let simple =
             |text: String, level| Piece { text, negated: None, leads_negative: false, level, symbols };
         match self.graph.node(id) {
@@ -119,6 +122,7 @@ impl<'g> Printer<'g> {
             Node::Pi => {
                 simple(if self.style == Style::Latex { "\\pi" } else { "pi" }.to_owned(), Level::Atom)
             }
+            Node::Kept(_) => unreachable!("what is kept has returned"),
             Node::Undefined => simple("undefined".to_owned(), Level::Atom),
             Node::Symbol(symbol) => {
                 let name = &self.graph.symbol_info(*symbol).name;

@@ -2,12 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use super::cost::OperationCount;
+use super::cost::{OperationCount, weighted_cost};
 use super::instruction::{FunctionProgram, Programs};
 use super::lower::{Code, PreparedTable, lower};
 use super::net::{Conversion, Field, Net, NetId, NetNode};
 use super::passes::{CANDIDATES, Changes, Pass, affordable, apply, rebuild};
-use crate::algebra::{ExprId, Graph, Substitution};
+use crate::algebra::{ExprId, FastMap, Graph, Node, Role, Substitution};
 
 /// One way to compute the outputs of a function.
 ///
@@ -20,6 +20,15 @@ pub struct Formulation {
     pub definitions: Vec<(ExprId, ExprId)>,
     /// What is computed.
     pub outputs: Vec<ExprId>,
+}
+
+/// How hard a function is optimised.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Effort {
+    /// Every candidate that is affordable.
+    Hot,
+    /// The first candidate alone.
+    Cold,
 }
 
 /// Collects functions and turns them into code.
@@ -41,25 +50,96 @@ pub struct ProgramBuilder<'a> {
     graph: &'a mut Graph,
     prepared: PreparedTable,
     functions: Vec<FunctionProgram>,
+    names: FastMap<ExprId, ExprId>,
 }
+
+/// Beyond this estimate a function is optimised only with names for what is kept whole.
+const LARGEST_UNNAMED: u64 = 400;
 
 impl<'a> ProgramBuilder<'a> {
     /// A builder without functions.
     pub fn new(graph: &'a mut Graph) -> Self {
-        ProgramBuilder { graph, prepared: PreparedTable::default(), functions: Vec::new() }
+        ProgramBuilder { graph, prepared: PreparedTable::default(), functions: Vec::new(), names: FastMap::default() }
     }
 
-    /// Adds a function of everything that its outputs depend on.
+    /// Adds a function of everything that its outputs depend on, optimised with all effort.
     pub fn add_function(&mut self, name: &str, outputs: &[ExprId]) {
-        self.add_cheapest(name, &[Formulation { definitions: Vec::new(), outputs: outputs.to_vec() }]);
+        self.add_equal(name, &[outputs.to_vec()]);
+    }
+
+    /// Adds a function that is called now and then: the time of expansion counts more than an operation.
+    pub fn add_cold(&mut self, name: &str, outputs: &[ExprId]) {
+        self.add_lists(name, &[outputs.to_vec()], Effort::Cold);
+    }
+
+    /// Adds a function given by several lists of equal expressions; returns which list was taken.
+    ///
+    /// What is kept whole in them gets a name; small functions are tried without names too.
+    pub fn add_equal(&mut self, name: &str, lists: &[Vec<ExprId>]) -> usize {
+        self.add_lists(name, lists, Effort::Hot)
+    }
+
+    fn add_lists(&mut self, name: &str, lists: &[Vec<ExprId>], effort: Effort) -> usize {
+        let mut formulations = Vec::new();
+        let mut origin = Vec::new();
+        for (index, outputs) in lists.iter().enumerate() {
+            let named = self.named(outputs);
+            let plain = named.as_ref().is_none_or(|_| weighted_cost(self.graph, outputs) <= LARGEST_UNNAMED);
+            if plain {
+                formulations.push(Formulation { definitions: Vec::new(), outputs: outputs.clone() });
+                origin.push(index);
+            }
+            if let Some(named) = named {
+                formulations.push(named);
+                origin.push(index);
+            }
+        }
+        let taken = self.add(name, &formulations, effort);
+        origin.get(taken).copied().unwrap_or(0)
+    }
+
+    /// The outputs with a symbol for everything that is kept whole, or `None` if nothing is.
+    fn named(&mut self, outputs: &[ExprId]) -> Option<Formulation> {
+        let kept: Vec<ExprId> = self
+            .graph
+            .reachable(outputs, |_| false)
+            .into_iter()
+            .filter(|id| matches!(self.graph.node(*id), Node::Kept(_)))
+            .collect();
+        if kept.is_empty() {
+            return None;
+        }
+        let mut definitions = Vec::new();
+        let mut names = Substitution::default();
+        for id in kept {
+            let Node::Kept(inside) = *self.graph.node(id) else { continue };
+            let definition = names.of(self.graph, inside);
+            // Any role will do that marks a state; these symbols never leave the program.
+            let symbol = match self.names.get(&id) {
+                Some(symbol) => *symbol,
+                None => {
+                    let symbol = self.graph.symbol("", Role::QuasiAcceleration);
+                    self.names.insert(id, symbol);
+                    symbol
+                }
+            };
+            names.add(id, symbol);
+            definitions.push((symbol, definition));
+        }
+        let outputs = outputs.iter().map(|e| names.of(self.graph, *e)).collect();
+        Some(Formulation { definitions, outputs })
     }
 
     /// Adds a function in the cheapest of several formulations, the first of equals; returns which one that is.
     pub fn add_cheapest(&mut self, name: &str, formulations: &[Formulation]) -> usize {
+        self.add(name, formulations, Effort::Hot)
+    }
+
+    fn add(&mut self, name: &str, formulations: &[Formulation], effort: Effort) -> usize {
         let mut best: Option<(u64, usize, Net, Vec<NetId>)> = None;
         for (index, formulation) in formulations.iter().enumerate() {
             let mut net = Net::default();
-            let roots = staged(self.graph, &mut net, formulation);
+            let roots = staged(self.graph, &mut net, formulation, effort);
             let cost = cost(self.graph, &net, &roots);
             if best.as_ref().is_none_or(|(least, ..)| cost < *least) {
                 best = Some((cost, index, net, roots));
@@ -96,7 +176,7 @@ fn cost(graph: &mut Graph, net: &Net, roots: &[NetId]) -> u64 {
 }
 
 /// The outputs, optimised depth by depth, with the definitions in place of their symbols.
-fn staged(graph: &mut Graph, net: &mut Net, formulation: &Formulation) -> Vec<NetId> {
+fn staged(graph: &mut Graph, net: &mut Net, formulation: &Formulation, effort: Effort) -> Vec<NetId> {
     // Definitions that are constants, symbols or numbers need no name: they join the coefficients.
     let mut trivial = Substitution::default();
     let mut depths: BTreeMap<ExprId, usize> = BTreeMap::new();
@@ -139,7 +219,7 @@ fn staged(graph: &mut Graph, net: &mut Net, formulation: &Formulation) -> Vec<Ne
     for level in levels {
         let expressions: Vec<ExprId> = level.iter().map(|(_, e)| *e).collect();
         let roots = Conversion::roots(graph, net, Field::Constants, &expressions);
-        let best = cheapest(graph, net, roots);
+        let best = cheapest(graph, net, roots, effort);
         for ((symbol, _), root) in level.iter().zip(&best) {
             if let Some(symbol) = symbol {
                 let atom = net.intern(NetNode::Atom(*symbol));
@@ -155,8 +235,12 @@ fn staged(graph: &mut Graph, net: &mut Net, formulation: &Formulation) -> Vec<Ne
 }
 
 /// The roots as the cheapest sequence of passes leaves them.
-fn cheapest(graph: &mut Graph, net: &mut Net, roots: Vec<NetId>) -> Vec<NetId> {
-    let tried = affordable(net.reachable(&roots).0.len());
+fn cheapest(graph: &mut Graph, net: &mut Net, roots: Vec<NetId>, effort: Effort) -> Vec<NetId> {
+    let affordable = affordable(net.reachable(&roots).0.len());
+    let tried = match effort {
+        Effort::Hot => affordable,
+        Effort::Cold => affordable.min(1),
+    };
     let mut best = (cost(graph, net, &roots), roots.clone());
     for passes in &CANDIDATES[..tried] {
         let mut candidate = roots.clone();

@@ -72,7 +72,7 @@ pub fn weighted_cost(graph: &Graph, roots: &[ExprId]) -> u64 {
     let mut cost = 0;
     for id in nodes {
         cost += match graph.node(id) {
-            Node::Number(_) | Node::Pi | Node::Symbol(_) | Node::Undefined => 0,
+            Node::Number(_) | Node::Pi | Node::Symbol(_) | Node::Undefined | Node::Kept(_) => 0,
             Node::Sum { constant, terms } => sum_cost(graph, terms.len(), !constant.is_zero(), terms),
             Node::Product(factors) => product_cost(graph, factors),
             Node::Function(Function::Sin | Function::Cos, x) => match angles.insert(*x, ()) {

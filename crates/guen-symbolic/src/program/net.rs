@@ -371,6 +371,7 @@ impl<'a> Conversion<'a> {
                 None => self.call(function, x),
             },
             Node::Function(function, x) => self.call(function, x),
+            Node::Kept(x) => self.known(x),
             Node::Atan2(y, x) => {
                 let (y, x) = (self.node_of(y), self.node_of(x));
                 Scaled::Times(one, self.net.intern(NetNode::Atan2(y, x)))

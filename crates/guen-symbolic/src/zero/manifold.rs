@@ -339,6 +339,7 @@ fn degree(graph: &Graph, e: ExprId, symbols: &[SymbolId]) -> Option<u32> {
                     own => Some(degree + own * u32::try_from(*e).ok()?),
                 })
             }
+            Node::Kept(x) => degrees[x],
             _ => {
                 graph.children(id).iter().try_fold(0, |_, child| degrees[child].filter(|degree| *degree == 0))
             }

@@ -159,6 +159,7 @@ pub fn evaluate<R: Real>(graph: &Graph, roots: &[ExprId], values: &dyn Fn(Symbol
                 .iter()
                 .fold(R::rational(&Rational::ONE), |product, (base, e)| product * known[base].power(*e)),
             Node::Function(function, x) => known[x].of(*function),
+            Node::Kept(x) => known[x],
             Node::Atan2(y, x) => known[y].angle(known[x]),
         };
         known.insert(id, value);
@@ -334,6 +335,7 @@ impl RealPoint {
                 Some(Ball { value, error: exponent(value) + 1.0 + relative })
             }
             Node::Function(function, x) => function_ball(*function, at(*x)?),
+            Node::Kept(x) => at(*x),
             Node::Atan2(y, x) => {
                 let (y, x) = (at(*y)?, at(*x)?);
                 let radius = exponent(x.value).max(exponent(y.value));

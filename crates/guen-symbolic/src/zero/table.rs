@@ -99,6 +99,7 @@ impl Table {
                 }
             }
             Node::Product(factors) => (Op::Product(factors.clone()), 0),
+            Node::Kept(x) => (Op::Sum(0, Box::new([(*x, 1)])), 0),
             Node::Atan2(y, x) => (Op::Atan2(*y, *x), ATOM),
             Node::Function(function, x) => {
                 let (function, x) = (*function, *x);

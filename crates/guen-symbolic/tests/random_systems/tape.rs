@@ -41,6 +41,7 @@ impl Tape {
                 }
                 Node::Function(Function::Sin, x) => Op::Sine(place[x]),
                 Node::Function(Function::Cos, x) => Op::Cosine(place[x]),
+                Node::Kept(x) => Op::Sum(0.0, vec![(place[x], 1.0)]),
                 other => panic!("drawn systems have no {other:?}"),
             })
             .collect();

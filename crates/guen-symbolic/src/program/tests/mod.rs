@@ -43,6 +43,7 @@ fn direct(graph: &Graph, roots: &[ExprId], symbols: &[f64]) -> Vec<f64> {
             }
             Node::Function(function, x) => f64::call(*function, &values[x.index()]),
             Node::Atan2(y, x) => values[y.index()].atan2(values[x.index()]),
+            Node::Kept(x) => values[x.index()],
             Node::Undefined => f64::NAN,
         };
     }

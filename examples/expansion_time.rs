@@ -1,0 +1,152 @@
+//! How long the macro takes: the expansion of every example system, stage by stage.
+//!
+//! ```text
+//! cargo run --example expansion_time
+//! ```
+//!
+//! Without `--release`: cargo builds procedural macros without optimisation, in a user's dev profile and in the release
+//! profile too, so these are the times that a user waits. (Only the tokens come from this program and not from the
+//! compiler.) The declarations of the examples are cut out of their files; the chains, of point masses on massless
+//! rods with absolute angles, are written here. Every time is the median of several.
+
+use std::process::ExitCode;
+use std::time::{Duration, Instant};
+
+use guen_language::diagnostics::collect;
+use guen_language::{derive, emit, expand, model, parse};
+use guen_study::Table;
+use proc_macro2::{TokenStream, TokenTree};
+
+/// The files whose declarations are expanded.
+const EXAMPLES: [(&str, &str); 3] = [
+    ("hoop", include_str!("hoop.rs")),
+    ("appell", include_str!("appell.rs")),
+    ("chaplygin_sled", include_str!("chaplygin_sled.rs")),
+];
+const CHAINS: [usize; 4] = [2, 5, 10, 20];
+/// A system is expanded this often, but not again once it took this long.
+const REPEATS: usize = 15;
+const LONG: Duration = Duration::from_secs(5);
+
+/// The times of the stages: parse, resolve, derive, emit.
+type Stages = [Duration; 4];
+
+fn main() -> ExitCode {
+    if !cfg!(debug_assertions) {
+        println!(
+            "this is an optimised build, and the compiler's macro is none: see `cargo run --example expansion_time`\n"
+        );
+    }
+    let mut systems: Vec<(String, TokenStream)> =
+        EXAMPLES.iter().map(|(name, source)| (name.to_string(), declaration(source))).collect();
+    systems.extend(CHAINS.iter().map(|&links| (format!("chain of {links}"), chain(links))));
+
+    let mut healthy = true;
+    let mut names = vec!["system"];
+    let mut table =
+        Table::new(&["tokens", "emitted", "parse", "resolve", "derive", "emit", "sum in ms"]).digits(3);
+    for (name, tokens) in &systems {
+        let (count, stages) = measured(tokens);
+        let [first, second] = [(); 2].map(|()| expand(tokens.clone()).to_string());
+        if first != second {
+            eprintln!("{name}: two expansions differ");
+            healthy = false;
+        }
+        let milliseconds = stages.map(|stage| stage.as_secs_f64() * 1e3);
+        let [parse, resolve, derive, emit] = milliseconds;
+        let sum = milliseconds.into_iter().sum();
+        table.row(&[size(tokens.clone()) as f64, count as f64, parse, resolve, derive, emit, sum]);
+        names.push(name);
+    }
+    // The names stand beside the table, whose cells are numbers.
+    let text = table.to_string();
+    let mut names = names.into_iter();
+    for (index, line) in text.lines().enumerate() {
+        let name = if index == 1 { "--------------" } else { names.next().unwrap_or_default() };
+        println!("{name:14}  {line}");
+    }
+    if healthy { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+}
+
+/// The declaration in a file: the group after `mechanical_system!`.
+fn declaration(source: &str) -> TokenStream {
+    let tokens: Vec<TokenTree> =
+        source.parse::<TokenStream>().expect("an example is Rust").into_iter().collect();
+    let found = tokens.windows(3).find_map(|three| match three {
+        [TokenTree::Ident(name), TokenTree::Punct(mark), TokenTree::Group(group)]
+            if name == "mechanical_system" && mark.as_char() == '!' =>
+        {
+            Some(group.stream())
+        }
+        _ => None,
+    });
+    found.expect("an example declares a system")
+}
+
+/// A chain of links that hangs in the plane.
+fn chain(links: usize) -> TokenStream {
+    let list =
+        |entry: &dyn Fn(usize) -> String, gap: &str| (1..=links).map(entry).collect::<Vec<_>>().join(gap);
+    let text = format!(
+        "pub system Chain {{
+            constants {{ m > 0, l > 0, g = 9.81 }}
+            coordinates {{ {} }}
+            let x0 = 0; let y0 = 0;
+            {}
+            parameters {{ {} }}
+            particles {{ {} }}
+            gravity = vec(0, -g);
+        }}",
+        list(&|i| format!("q{i}"), ", "),
+        list(&|i| format!("let x{i} = x{0} + l*sin(q{i}); let y{i} = y{0} - l*cos(q{i});", i - 1), " "),
+        list(&|i| format!("w{i} = dot(q{i});"), " "),
+        list(&|i| format!("m at vec(x{i}, y{i});"), " "),
+    );
+    text.parse().expect("the chain is made of tokens")
+}
+
+/// The number of tokens emitted, and the medians of the stages.
+fn measured(tokens: &TokenStream) -> (usize, Stages) {
+    let mut runs: Vec<Stages> = Vec::new();
+    let mut emitted = 0;
+    let begin = Instant::now();
+    while runs.len() < REPEATS && (runs.is_empty() || begin.elapsed() < LONG) {
+        let (tokens, stages) = staged(tokens.clone());
+        emitted = size(tokens);
+        runs.push(stages);
+    }
+    let median = |stage: usize| {
+        let mut times: Vec<Duration> = runs.iter().map(|run| run[stage]).collect();
+        times.sort();
+        times[times.len() / 2]
+    };
+    (emitted, std::array::from_fn(median))
+}
+
+/// What `expand` does, with a clock between the stages.
+fn staged(tokens: TokenStream) -> (TokenStream, Stages) {
+    let start = Instant::now();
+    let (declaration, report) = parse::parse(tokens);
+    assert!(report.is_empty(), "{report}");
+    let declaration = declaration.expect("there is a declaration where there is no fault");
+    let parsed = Instant::now();
+    let (model, report) = collect(|faults| model::resolve(&declaration, faults));
+    assert!(report.is_empty(), "{report}");
+    let model = model.expect("there is a model where there is no fault");
+    let resolved = Instant::now();
+    let (derived, report) = collect(|faults| derive::derive(model, faults));
+    assert!(report.is_empty(), "{report}");
+    let derived = derived.expect("there is a derivation where there is no fault");
+    let done = Instant::now();
+    let items = emit::emit(derived);
+    (items, [parsed - start, resolved - parsed, done - resolved, done.elapsed()])
+}
+
+/// The number of tokens, those in groups included.
+fn size(tokens: TokenStream) -> usize {
+    let inside = |token| match token {
+        TokenTree::Group(group) => 1 + size(group.stream()),
+        _ => 1,
+    };
+    tokens.into_iter().map(inside).sum()
+}

@@ -1,0 +1,14 @@
+//! What `mechanical_system!` generates, row by row of the table in the language reference.
+
+#[macro_use]
+#[path = "../systems/mod.rs"]
+mod systems;
+
+mod classification;
+mod constants;
+mod expansion;
+mod motion;
+mod operators;
+mod power;
+mod reals;
+mod state;

@@ -1,0 +1,16 @@
+//! A controller's library without `std`: the declaration and the run are in `sled`, the rest is what a machine
+//! without operating system has to bring along.
+#![no_std]
+
+mod sled;
+
+/// The heading of the sled after `seconds`.
+#[unsafe(no_mangle)]
+pub extern "C" fn heading(seconds: f64) -> f64 {
+    sled::heading(seconds)
+}
+
+#[panic_handler]
+fn halt(_: &core::panic::PanicInfo<'_>) -> ! {
+    loop {}
+}

@@ -1,0 +1,204 @@
+//! Declarations that several tests share. Each is a macro that hands its tokens to another one: to
+//! `guen::mechanical_system` for items, to `stringify` for the text that the libraries below the macro take.
+#![allow(unused_macros, reason = "every test takes the systems that it is about")]
+
+/// The hoop of section 3.1, with free kinetic energy in the velocities.
+macro_rules! hoop {
+    ($($consumer:ident)::+) => { $($consumer)::+! {
+        pub system Hoop {
+            constants { a > 0, A > 0, C > 0, g = 9.81 }
+            coordinates { theta, psi, phi, xi, eta, zeta }
+            parameters {
+                eta1 = dot(theta);
+                eta2 = dot(psi)*sin(theta);
+                eta3 = dot(psi)*cos(theta) + dot(phi);
+            }
+            constraints {
+                eta4: dot(xi) = a*sin(theta)*sin(psi)*dot(theta) - a*cos(theta)*cos(psi)*dot(psi) - a*cos(psi)*dot(phi);
+                eta5: dot(eta) + a*sin(theta)*cos(psi)*dot(theta) + a*cos(theta)*sin(psi)*dot(psi) + a*sin(psi)*dot(phi) = 0;
+                eta6: dot(zeta) - a*cos(theta)*dot(theta) = 0;
+            }
+            kinetic_energy = 1/2*(dot(xi)^2 + dot(eta)^2 + dot(zeta)^2) + 1/2*(A*eta1^2 + A*eta2^2 + C*eta3^2);
+            force_function = -a*g*sin(theta);
+        }
+    } };
+}
+
+/// Appell's system of section 3.2, with the axial inertia of its body.
+macro_rules! appell {
+    ($($consumer:ident)::+) => { $($consumer)::+! {
+        pub system Appell {
+            constants { a > 0, A > 0, C > 0, g = 9.81 }
+            coordinates { theta, psi, phi, xi, eta, zeta }
+            parameters {
+                eta1 = dot(theta);
+                eta2 = dot(psi)*sin(theta);
+                eta3 = dot(psi)*cos(theta) + dot(phi);
+            }
+            constraints {
+                eta4: dot(xi) + a*sin(theta)*dot(theta) = 0;
+                eta5: dot(eta) = 0;
+                eta6: dot(zeta) - a*cos(theta)*dot(theta) = 0;
+            }
+            kinetic_energy = 1/2*(dot(xi)^2 + dot(eta)^2 + dot(zeta)^2)
+                           + 1/2*(A*eta1^2 + A*eta2^2 + (C + a^2)*eta3^2);
+            force_function = -a*g*sin(theta);
+        }
+    } };
+}
+
+/// Chaplygin's sled of section 3.3.
+macro_rules! sled {
+    ($($consumer:ident)::+) => { $($consumer)::+! {
+        pub system Sled {
+            constants { m > 0, alpha, beta, k > 0, incline, g = 9.81 }
+            coordinates { phi, xi, eta }
+            parameters {
+                eta1 = dot(phi);
+                eta2 = dot(xi)*cos(phi) + dot(eta)*sin(phi);
+            }
+            constraints { eta3: dot(xi)*sin(phi) - dot(eta)*cos(phi) = 0; }
+            let x = xi + alpha*cos(phi) - beta*sin(phi);
+            let y = eta + alpha*sin(phi) + beta*cos(phi);
+            kinetic_energy = m/2*(dot(x)^2 + dot(y)^2) + m/2*k^2*dot(phi)^2;
+            force_function = m*g*sin(incline)*x;
+        }
+    } };
+}
+
+/// The sled in the parameters of the paper's closing remark.
+macro_rules! sled_in_xi {
+    ($($consumer:ident)::+) => { $($consumer)::+! {
+        pub system SledInXi {
+            constants { m > 0, alpha, beta, k > 0, incline, g = 9.81 }
+            coordinates { phi, xi, eta }
+            parameters {
+                eta1 = dot(phi);
+                eta2 = dot(xi);
+            }
+            constraints { eta3: dot(xi)*sin(phi) - dot(eta)*cos(phi) = 0; }
+            let x = xi + alpha*cos(phi) - beta*sin(phi);
+            let y = eta + alpha*sin(phi) + beta*cos(phi);
+            kinetic_energy = m/2*(dot(x)^2 + dot(y)^2) + m/2*k^2*dot(phi)^2;
+            force_function = m*g*sin(incline)*x;
+        }
+    } };
+}
+
+/// A unicycle with a trailer of length `d`, hitched to the unicycle's axle.
+macro_rules! trailer {
+    ($($consumer:ident)::+) => { $($consumer)::+! {
+        pub system Trailer {
+            constants { m > 0, J > 0, M > 0, K > 0, d > 0 }
+            coordinates { x, y, heading, trailing }
+            parameters {
+                speed = dot(x)*cos(heading) + dot(y)*sin(heading);
+                turning = dot(heading);
+            }
+            constraints {
+                wheel: dot(x)*sin(heading) - dot(y)*cos(heading) = 0;
+                axle: dot(x - d*cos(trailing))*sin(trailing) - dot(y - d*sin(trailing))*cos(trailing) = 0;
+            }
+            kinetic_energy = m/2*(dot(x)^2 + dot(y)^2) + J/2*turning^2
+                           + M/2*(dot(x - d*cos(trailing))^2 + dot(y - d*sin(trailing))^2)
+                           + K/2*dot(trailing)^2;
+        }
+    } };
+}
+
+/// A ball on a table that turns at a varying speed; `eta1..eta3` are its angular velocity in space.
+macro_rules! turntable {
+    ($($consumer:ident)::+) => { $($consumer)::+! {
+        pub system Turntable {
+            constants { m > 0, a > 0, Omega, swing, nu }
+            coordinates { x, y, psi, theta, phi }
+            let speed = Omega + swing*sin(nu*t);
+            parameters {
+                eta1 = dot(theta)*cos(psi) + dot(phi)*sin(theta)*sin(psi);
+                eta2 = dot(theta)*sin(psi) - dot(phi)*sin(theta)*cos(psi);
+                eta3 = dot(psi) + dot(phi)*cos(theta);
+            }
+            constraints {
+                east: dot(x) - a*eta2 + speed*y = 0;
+                north: dot(y) + a*eta1 - speed*x = 0;
+            }
+            kinetic_energy = m/2*(dot(x)^2 + dot(y)^2) + m*a^2/5*(eta1^2 + eta2^2 + eta3^2);
+        }
+    } };
+}
+
+/// The same ball on a table that turns evenly.
+macro_rules! even_turntable {
+    ($($consumer:ident)::+) => { $($consumer)::+! {
+        pub system EvenTurntable {
+            constants { m > 0, a > 0, Omega }
+            coordinates { x, y, psi, theta, phi }
+            parameters {
+                eta1 = dot(theta)*cos(psi) + dot(phi)*sin(theta)*sin(psi);
+                eta2 = dot(theta)*sin(psi) - dot(phi)*sin(theta)*cos(psi);
+                eta3 = dot(psi) + dot(phi)*cos(theta);
+            }
+            constraints {
+                east: dot(x) - a*eta2 + Omega*y = 0;
+                north: dot(y) + a*eta1 - Omega*x = 0;
+            }
+            kinetic_energy = m/2*(dot(x)^2 + dot(y)^2) + m*a^2/5*(eta1^2 + eta2^2 + eta3^2);
+        }
+    } };
+}
+
+/// A free rigid body in Euler's angles and its angular velocity in the body.
+macro_rules! euler_top {
+    ($($consumer:ident)::+) => { $($consumer)::+! {
+        pub system EulerTop {
+            constants { I1 > 0, I2 > 0, I3 > 0 }
+            coordinates { psi, theta, phi }
+            parameters {
+                p = dot(psi)*sin(theta)*sin(phi) + dot(theta)*cos(phi);
+                q = dot(psi)*sin(theta)*cos(phi) - dot(theta)*sin(phi);
+                r = dot(psi)*cos(theta) + dot(phi);
+            }
+            kinetic_energy = 1/2*(I1*p^2 + I2*q^2 + I3*r^2);
+        }
+    } };
+}
+
+/// A pendulum on a cart that is pushed, with friction in the joint and wind: inputs, outputs, a default of earlier
+/// constants.
+macro_rules! cart {
+    ($($consumer:ident)::+) => { $($consumer)::+! {
+        pub system Cart {
+            constants { M > 0, m > 0, l > 0 = 1/2, I > 0 = m*l^2/3, c >= 0 = 0.1, g = 9.81 }
+            inputs { push, wind }
+            coordinates { x, phi }
+            parameters { v = dot(x); omega = dot(phi); }
+            let bob = vec(x + l*sin(phi), -l*cos(phi));
+            kinetic_energy = M/2*v^2 + m/2*inner(dot(bob), dot(bob)) + I/2*omega^2;
+            potential_energy = m*g*bob.y;
+            forces {
+                push along v;
+                -c*omega along omega;
+                wind*exp(-t) along dot(x + l*sin(phi));
+            }
+            outputs {
+                height = bob.y;
+                hinge = push - (M + m)*g;
+                pointer = bob;
+            }
+        }
+    } };
+}
+
+/// A pendulum as a particle on a circle: a constraint on positions, and its reaction.
+macro_rules! particle_pendulum {
+    ($($consumer:ident)::+) => { $($consumer)::+! {
+        pub system ParticlePendulum {
+            constants { m > 0, l > 0, g = 9.81 }
+            coordinates { x, y }
+            parameters { omega = (x*dot(y) - y*dot(x))/l^2; }
+            holonomic { rod: x^2 + y^2 = l^2; }
+            kinetic_energy = m/2*(dot(x)^2 + dot(y)^2);
+            potential_energy = m*g*y;
+        }
+    } };
+}

@@ -1,0 +1,15 @@
+//! A force function depends on positions.
+//!
+//! repair: `-x*u;` => `-x;\n        forces { -x*u along u; }`
+
+guen::mechanical_system! {
+    pub system Point {
+        constants { m > 0 }
+        coordinates { x, y }
+        parameters { u = dot(x); v = dot(y); }
+        kinetic_energy = m/2*(u^2 + v^2);
+        force_function = -x*u;
+    }
+}
+
+fn main() {}

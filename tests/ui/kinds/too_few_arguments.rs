@@ -1,0 +1,15 @@
+//! A function takes its number of arguments.
+//!
+//! repair: `atan2(y)` => `atan2(y, x)`
+
+guen::mechanical_system! {
+    pub system Point {
+        constants { m > 0 }
+        coordinates { x, y }
+        parameters { u = dot(x); v = dot(y); }
+        kinetic_energy = m/2*(u^2 + v^2);
+        force_function = atan2(y);
+    }
+}
+
+fn main() {}

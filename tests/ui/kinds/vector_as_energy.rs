@@ -1,0 +1,16 @@
+//! An energy is a scalar.
+//!
+//! repair: `= p;` => `= p.x;`
+
+guen::mechanical_system! {
+    pub system Point {
+        constants { m > 0 }
+        coordinates { x, y }
+        parameters { u = dot(x); v = dot(y); }
+        kinetic_energy = m/2*(u^2 + v^2);
+        let p = vec(x, y);
+        force_function = p;
+    }
+}
+
+fn main() {}

@@ -1,0 +1,27 @@
+//! An expression is nested at most 128 levels.
+//!
+//! repair: none
+
+guen::mechanical_system! {
+    pub system Point {
+        constants { m > 0 }
+        coordinates { x, y }
+        parameters { u = dot(x); v = dot(y); }
+        kinetic_energy = m/2*(u^2 + v^2);
+        force_function = sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(
+            sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(
+            sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(
+            sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(
+            sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(
+            sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(
+            sin(sin(sin(sin(sin(sin(sin(sin(sin(sin(x))))))))))
+            ))))))))))))))))))))
+            ))))))))))))))))))))
+            ))))))))))))))))))))
+            ))))))))))))))))))))
+            ))))))))))))))))))))
+            ))))))))))))))))))));
+    }
+}
+
+fn main() {}

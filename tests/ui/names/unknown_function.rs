@@ -1,0 +1,15 @@
+//! A function that does not exist is answered with the nearest one.
+//!
+//! repair: `sine(x)` => `sin(x)`
+
+guen::mechanical_system! {
+    pub system Point {
+        constants { m > 0 }
+        coordinates { x, y }
+        parameters { u = dot(x); v = dot(y); }
+        kinetic_energy = m/2*(u^2 + v^2);
+        force_function = sine(x);
+    }
+}
+
+fn main() {}

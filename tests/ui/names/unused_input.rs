@@ -1,0 +1,15 @@
+//! An input is used.
+//!
+//! repair: `inputs { tau }` => `inputs { _tau }`
+
+guen::mechanical_system! {
+    pub system Point {
+        constants { m > 0 }
+        coordinates { x, y }
+        parameters { u = dot(x); v = dot(y); }
+        kinetic_energy = m/2*(u^2 + v^2);
+        inputs { tau }
+    }
+}
+
+fn main() {}

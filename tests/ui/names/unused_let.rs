@@ -1,0 +1,15 @@
+//! A name for an expression is used.
+//!
+//! repair: `let w` => `let _w`
+
+guen::mechanical_system! {
+    pub system Point {
+        constants { m > 0 }
+        coordinates { x, y }
+        parameters { u = dot(x); v = dot(y); }
+        kinetic_energy = m/2*(u^2 + v^2);
+        let w = x + y;
+    }
+}
+
+fn main() {}

@@ -1,0 +1,15 @@
+//! A scene has fixed statements.
+//!
+//! repair: none
+
+guen::mechanical_system! {
+    pub system Point {
+        constants { m > 0 }
+        coordinates { x, y }
+        parameters { u = dot(x); v = dot(y); }
+        kinetic_energy = m/2*(u^2 + v^2);
+        scene Small { trak x; }
+    }
+}
+
+fn main() {}

@@ -1,0 +1,14 @@
+//! Every combination of parameters has an inertia.
+//!
+//! repair: `(u + 2*v)^2` => `(u + 2*v)^2 + m*v^2`
+
+guen::mechanical_system! {
+    pub system Point {
+        constants { m > 0 }
+        coordinates { x, y }
+        parameters { u = dot(x); v = dot(y); }
+        kinetic_energy = m/2*(u + 2*v)^2;
+    }
+}
+
+fn main() {}

@@ -1,0 +1,14 @@
+//! Every combination of parameters has an inertia, wherever the system is.
+//!
+//! repair: `m/2*(cos(x)*u + sin(x)*v)^2` => `m/2*(cos(x)*u + sin(x)*v)^2 + m/2*v^2`
+
+guen::mechanical_system! {
+    pub system Point {
+        constants { m > 0 }
+        coordinates { x, y }
+        parameters { u = dot(x); v = dot(y); }
+        kinetic_energy = m/2*(cos(x)*u + sin(x)*v)^2;
+    }
+}
+
+fn main() {}

@@ -1,0 +1,15 @@
+//! An absolute value is written with `abs`.
+//!
+//! repair: `|x|` => `abs(x)`
+
+guen::mechanical_system! {
+    pub system Point {
+        constants { m > 0 }
+        coordinates { x, y }
+        parameters { u = dot(x); v = dot(y); }
+        kinetic_energy = m/2*(u^2 + v^2);
+        force_function = |x|;
+    }
+}
+
+fn main() {}

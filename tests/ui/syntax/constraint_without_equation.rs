@@ -1,0 +1,15 @@
+//! Every constraint is an equation.
+//!
+//! repair: `dot(y);` => `dot(y) = 0;`
+
+guen::mechanical_system! {
+    pub system Point {
+        constants { m > 0 }
+        coordinates { x, y }
+        parameters { u = dot(x); }
+        constraints { straight: dot(y); }
+        kinetic_energy = m/2*u^2;
+    }
+}
+
+fn main() {}

@@ -1,0 +1,16 @@
+//! `dot` is the derivative by time and takes one argument.
+//!
+//! repair: `dot(p, p)` => `inner(p, p)`
+
+guen::mechanical_system! {
+    pub system Point {
+        constants { m > 0 }
+        coordinates { x, y }
+        parameters { u = dot(x); v = dot(y); }
+        kinetic_energy = m/2*(u^2 + v^2);
+        let p = vec(x, y);
+        force_function = dot(p, p);
+    }
+}
+
+fn main() {}

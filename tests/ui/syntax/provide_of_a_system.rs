@@ -1,0 +1,15 @@
+//! The full system provides everything.
+//!
+//! repair: `\n        provide energy;` => ``
+
+guen::mechanical_system! {
+    pub system Point {
+        constants { m > 0 }
+        coordinates { x, y }
+        parameters { u = dot(x); v = dot(y); }
+        kinetic_energy = m/2*(u^2 + v^2);
+        provide energy;
+    }
+}
+
+fn main() {}

@@ -1,0 +1,17 @@
+//! There is one potential.
+//!
+//! repair: `\n        potential_energy = y;` => ``
+//! repair: `x;` => `x - y;`
+
+guen::mechanical_system! {
+    pub system Point {
+        constants { m > 0 }
+        coordinates { x, y }
+        parameters { u = dot(x); v = dot(y); }
+        kinetic_energy = m/2*(u^2 + v^2);
+        force_function = x;
+        potential_energy = y;
+    }
+}
+
+fn main() {}
