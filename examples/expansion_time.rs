@@ -7,7 +7,10 @@
 //! Without `--release`: cargo builds procedural macros without optimisation, in a user's dev profile and in the release
 //! profile too, so these are the times that a user waits. (Only the tokens come from this program and not from the
 //! compiler.) The declarations of the examples are cut out of their files; the chains, of point masses on massless
-//! rods with absolute angles, are written here. Every time is the median of several.
+//! rods with absolute angles, are written here.
+//!
+//! The times of the stages and their sum are medians of several expansions. The last column is the mean time on a
+//! processor, which does not depend on what else the machine does; it is known on Linux only.
 
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
@@ -44,9 +47,10 @@ fn main() -> ExitCode {
     let mut healthy = true;
     let mut names = vec!["system"];
     let mut table =
-        Table::new(&["tokens", "emitted", "parse", "resolve", "derive", "emit", "sum in ms"]).digits(3);
+        Table::new(&["tokens", "emitted", "parse", "resolve", "derive", "emit", "sum in ms", "on processor"])
+            .digits(3);
     for (name, tokens) in &systems {
-        let (count, stages) = measured(tokens);
+        let (count, stages, processor) = measured(tokens);
         let [first, second] = [(); 2].map(|()| expand(tokens.clone()).to_string());
         if first != second {
             eprintln!("{name}: two expansions differ");
@@ -55,7 +59,7 @@ fn main() -> ExitCode {
         let milliseconds = stages.map(|stage| stage.as_secs_f64() * 1e3);
         let [parse, resolve, derive, emit] = milliseconds;
         let sum = milliseconds.into_iter().sum();
-        table.row(&[size(tokens.clone()) as f64, count as f64, parse, resolve, derive, emit, sum]);
+        table.row(&[size(tokens.clone()) as f64, count as f64, parse, resolve, derive, emit, sum, processor]);
         names.push(name);
     }
     // The names stand beside the table, whose cells are numbers.
@@ -105,11 +109,13 @@ fn chain(links: usize) -> TokenStream {
     text.parse().expect("the chain is made of tokens")
 }
 
-/// The number of tokens emitted, and the medians of the stages.
-fn measured(tokens: &TokenStream) -> (usize, Stages) {
+/// The number of tokens emitted, the medians of the stages, and the mean time on a processor in
+/// milliseconds.
+fn measured(tokens: &TokenStream) -> (usize, Stages, f64) {
     let mut runs: Vec<Stages> = Vec::new();
     let mut emitted = 0;
     let begin = Instant::now();
+    let processor = processor_time();
     while runs.len() < REPEATS && (runs.is_empty() || begin.elapsed() < LONG) {
         let (tokens, stages) = staged(tokens.clone());
         emitted = size(tokens);
@@ -120,7 +126,15 @@ fn measured(tokens: &TokenStream) -> (usize, Stages) {
         times.sort();
         times[times.len() / 2]
     };
-    (emitted, std::array::from_fn(median))
+    let processor = (processor_time() - processor) * 1e3 / runs.len() as f64;
+    (emitted, std::array::from_fn(median), processor)
+}
+
+/// Seconds that this thread has spent on a processor; NaN where the system does not tell.
+fn processor_time() -> f64 {
+    let text = std::fs::read_to_string("/proc/thread-self/schedstat").unwrap_or_default();
+    let nanoseconds = text.split(' ').next().and_then(|first| first.parse::<f64>().ok());
+    nanoseconds.map_or(f64::NAN, |nanoseconds| nanoseconds * 1e-9)
 }
 
 /// What `expand` does, with a clock between the stages.

@@ -4,7 +4,6 @@ use guen_symbolic::{
     Derivation, DerivationError, ExprId, Limits, MAX_WORK, ProgramBuilder, Programs, SingularForms,
     Verdict, normal_coefficients, normal_form, weighted_cost,
 };
-use proc_macro2::Span;
 
 use crate::diagnostics::{Fault, Faults};
 use crate::model::{FormKind, Model};
@@ -356,7 +355,7 @@ fn report_missing_momenta(model: &mut Model<'_>, derivation: &mut Derivation, fa
         let name = form.name.clone();
         let c = derivation.frame.brackets.coefficient(&mut model.bench, r, s, v + 1);
         let text = short(model, c);
-        let place = model.kinetic_energy_span.unwrap_or(Span::call_site());
+        let place = model.kinetic_energy_span.unwrap_or(model.declaration.name.span());
         let parameter = |s: usize| match s.checked_sub(1) {
             None => "the time".to_owned(),
             Some(s) => format!("`{}`", model.forms[s].name),

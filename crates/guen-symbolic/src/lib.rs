@@ -24,7 +24,7 @@ pub use algebra::{
 };
 pub use geometry::{Brackets, Closure, Combination, Form, Forms, Operators, SingularForms};
 pub use motion::{
-    Class, Derivation, DerivationError, Energies, Equations, Force, Frame, Holonomic, KineticTerm, MAX_WORK,
+    Class, Derivation, DerivationError, Energies, Equations, Force, Frame, Holonomic, KineticTerm,
     Mechanics, NotQuadratic, Solution, VelocityForm, VelocityPartials, decompose,
 };
 pub use normal::{Limits, normal_coefficients, normal_form};
@@ -33,5 +33,5 @@ pub use program::{
     Arithmetic, Formulation, FunctionProgram, Instruction, Operation, OperationCount, ProgramBuilder,
     Programs, Value, evaluate_function, evaluate_prepare, weighted_cost,
 };
-pub use workbench::Workbench;
+pub use workbench::{MAX_WORK, Workbench};
 pub use zero::{Real, Verdict, ZeroTest, evaluate, evaluate_f64};

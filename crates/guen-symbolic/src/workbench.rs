@@ -9,6 +9,10 @@ use crate::zero::{Verdict, ZeroTest};
 /// What is tidied: coefficients and entries. Larger expressions stay as they are, before time is lost on them.
 const TIDYING: Limits = Limits { terms: 150, generators: 32, degree: 32, nodes: 400, steps: 6_000 };
 
+/// Steps of building ([`Graph::work`]) beyond which a derivation is given up: some seconds without optimisation,
+/// many times what the largest systems need that can be run at all.
+pub const MAX_WORK: u64 = 10_000_000;
+
 /// The graph together with what answers questions about it.
 pub struct Workbench {
     /// The expressions.
@@ -33,6 +37,9 @@ impl Workbench {
         if let Some(known) = self.tidied.get(&e) {
             return *known;
         }
+        if self.is_exhausted() {
+            return e;
+        }
         let tidy = if self.vanishes(e) {
             self.graph.zero()
         } else {
@@ -55,7 +62,7 @@ impl Workbench {
 
     /// Whether the expression is proved to be zero as a function of all its symbols.
     pub fn vanishes(&mut self, e: ExprId) -> bool {
-        if self.graph.as_number(e).is_some() {
+        if self.graph.as_number(e).is_some() || self.is_exhausted() {
             return self.graph.is_zero(e);
         }
         self.zero.verdict(&mut self.graph, e) == Verdict::Zero
@@ -66,7 +73,16 @@ impl Workbench {
         if self.graph.as_number(e).is_some() {
             return if self.graph.is_zero(e) { Verdict::Zero } else { Verdict::Nonzero };
         }
+        if self.is_exhausted() {
+            return Verdict::Unknown;
+        }
         self.zero.verdict_on_manifold(&mut self.graph, e)
+    }
+
+    /// Whether more was built than a compiler should spend. From then on questions about expressions stay open, so
+    /// that whoever is at work comes to an end soon; the result is given up.
+    pub fn is_exhausted(&self) -> bool {
+        self.graph.work() > MAX_WORK
     }
 
     /// A large expression kept whole, so that its users share it; a small one as it is.

@@ -13,42 +13,103 @@ pub(super) trait Loads {
     fn symbol(&self, symbol: SymbolId) -> String;
 }
 
-/// The statements of a program; values are called `v0`, `v1`, ...
-pub(super) fn statements(instructions: &[Instruction], loads: &dyn Loads) -> String {
-    let mut text = String::new();
-    for Instruction { result, operation } in instructions {
-        let r = result.index();
-        let v = |value: &Value| format!("v{}", value.index());
-        let _ = match operation {
-            Operation::Number(value) => write!(text, "let v{r} = {};", number(value)),
-            Operation::Pi => write!(text, "let v{r} = <R as __guen::Real>::pi();"),
-            Operation::Symbol(symbol) => write!(text, "let v{r} = {};", loads.symbol(*symbol)),
-            Operation::Prepared(k) => write!(text, "let v{r} = k[{k}];"),
-            Operation::Add(a, b) => write!(text, "let v{r} = {} + {};", v(a), v(b)),
-            Operation::Sub(a, b) => write!(text, "let v{r} = {} - {};", v(a), v(b)),
-            Operation::Neg(a) => write!(text, "let v{r} = -{};", v(a)),
-            Operation::Mul(a, b) => write!(text, "let v{r} = {} * {};", v(a), v(b)),
-            Operation::Div(a, b) => write!(text, "let v{r} = {} / {};", v(a), v(b)),
-            Operation::SinCos { angle, cosine } => {
-                write!(text, "let (v{r}, v{}) = <R as __guen::Real>::sin_cos({});", cosine.index(), v(angle))
-            }
-            Operation::Call(function, a) => write!(text, "let v{r} = {};", call(*function, &v(a))),
-            Operation::Atan2(y, x) => {
-                write!(text, "let v{r} = <R as __guen::Real>::atan2({}, {});", v(y), v(x))
-            }
-        };
+/// The body of a function: its statements, then its results as an array. Values are called `v0`, `v1`, ..; loads
+/// stand where they are used.
+///
+/// Long programs are cut into blocks that hand on what later ones need. Every `let` opens a lexical scope inside the
+/// one before, and the compiler's code for debug information recurses over them: five thousand in a row overflow its
+/// stack.
+pub(super) fn body(instructions: &[Instruction], outputs: &[Value], loads: &dyn Loads) -> String {
+    const BLOCK: usize = 100;
+    let values = instructions.iter().flat_map(defined).map(|v| v.index() + 1).max().unwrap_or(0);
+    let mut writer = Writer { names: vec![String::new(); values], text: String::new() };
+    // Where each value is used last; results count as used behind the end.
+    let mut last_use = vec![0; values];
+    let steps: Vec<&Instruction> = instructions.iter().filter(|i| !writer.load(i, loads)).collect();
+    for (place, step) in steps.iter().enumerate() {
+        for operand in step.operation.operands() {
+            last_use[operand.index()] = place;
+        }
     }
-    text
+    for output in outputs {
+        last_use[output.index()] = usize::MAX;
+    }
+    if steps.len() <= BLOCK {
+        steps.iter().for_each(|step| writer.statement(step));
+    } else {
+        for (number, block) in steps.chunks(BLOCK).enumerate() {
+            let end = number * BLOCK + block.len();
+            let handed: Vec<String> = block
+                .iter()
+                .flat_map(|step| defined(step))
+                .filter(|value| last_use[value.index()] >= end)
+                .map(|value| format!("v{},", value.index()))
+                .collect();
+            let handed = handed.concat();
+            let _ = write!(writer.text, "let ({handed}) = {{");
+            block.iter().for_each(|step| writer.statement(step));
+            let _ = write!(writer.text, "({handed}) }};");
+        }
+    }
+    writer.text.push('[');
+    for output in outputs {
+        let _ = write!(writer.text, "{},", writer.names[output.index()]);
+    }
+    writer.text.push(']');
+    writer.text
 }
 
-/// The results as an array.
-pub(super) fn array(outputs: &[Value]) -> String {
-    let mut text = String::from("[");
-    for value in outputs {
-        let _ = write!(text, "v{},", value.index());
+/// The values that an instruction defines.
+fn defined(instruction: &Instruction) -> impl Iterator<Item = Value> {
+    let second = match instruction.operation {
+        Operation::SinCos { cosine, .. } => Some(cosine),
+        _ => None,
+    };
+    core::iter::once(instruction.result).chain(second)
+}
+
+struct Writer {
+    /// How each value is written where it is used.
+    names: Vec<String>,
+    text: String,
+}
+
+impl Writer {
+    /// Takes in a load, which needs no statement; tells whether it was one.
+    fn load(&mut self, instruction: &Instruction, loads: &dyn Loads) -> bool {
+        let name = match &instruction.operation {
+            Operation::Symbol(symbol) => Some(loads.symbol(*symbol)),
+            Operation::Prepared(k) => Some(format!("k[{k}]")),
+            _ => None,
+        };
+        let is_load = name.is_some();
+        for value in defined(instruction) {
+            self.names[value.index()] = name.clone().unwrap_or_else(|| format!("v{}", value.index()));
+        }
+        is_load
     }
-    text.push(']');
-    text
+
+    fn statement(&mut self, Instruction { result, operation }: &Instruction) {
+        let r = result.index();
+        let v = |value: &Value| self.names[value.index()].as_str();
+        let statement = match operation {
+            Operation::Number(value) => format!("let v{r} = {};", number(value)),
+            Operation::Pi => format!("let v{r} = <R as __guen::Real>::pi();"),
+            // Loads have no statement.
+            Operation::Symbol(_) | Operation::Prepared(_) => String::new(),
+            Operation::Add(a, b) => format!("let v{r} = {} + {};", v(a), v(b)),
+            Operation::Sub(a, b) => format!("let v{r} = {} - {};", v(a), v(b)),
+            Operation::Neg(a) => format!("let v{r} = -{};", v(a)),
+            Operation::Mul(a, b) => format!("let v{r} = {} * {};", v(a), v(b)),
+            Operation::Div(a, b) => format!("let v{r} = {} / {};", v(a), v(b)),
+            Operation::SinCos { angle, cosine } => {
+                format!("let (v{r}, v{}) = <R as __guen::Real>::sin_cos({});", cosine.index(), v(angle))
+            }
+            Operation::Call(function, a) => format!("let v{r} = {};", call(*function, v(a))),
+            Operation::Atan2(y, x) => format!("let v{r} = <R as __guen::Real>::atan2({}, {});", v(y), v(x)),
+        };
+        self.text.push_str(&statement);
+    }
 }
 
 fn call(function: Function, argument: &str) -> String {

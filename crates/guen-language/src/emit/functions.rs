@@ -5,7 +5,7 @@ use std::fmt::Write;
 use guen_symbolic::{Role, SymbolId};
 use proc_macro2::TokenStream;
 
-use super::code::{Loads, array, statements};
+use super::code::{Loads, body};
 use super::{Layout, tokens};
 use crate::derive::{Derived, function};
 
@@ -94,9 +94,8 @@ pub(super) fn module(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
     );
     let _ = write!(
         text,
-        "#[inline] pub(super) fn prepare<R: __guen::Real>(c: &[R; {constants}]) -> [R; {hoisted}] {{ {} {} }}",
-        statements(&derived.programs.prepare, &places),
-        array(&derived.programs.prepared),
+        "#[inline] pub(super) fn prepare<R: __guen::Real>(c: &[R; {constants}]) -> [R; {hoisted}] {{ {} }}",
+        body(&derived.programs.prepare, &derived.programs.prepared, &places),
     );
     for program in &derived.programs.functions {
         let given = match signature(&program.name) {
@@ -109,11 +108,10 @@ pub(super) fn module(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
         };
         let _ = write!(
             text,
-            "#[inline] pub(super) fn {}<R: __guen::Real>(c: &[R; {constants}], k: &[R; {hoisted}]{given}) -> [R; {}] {{ {} {} }}",
+            "#[inline] pub(super) fn {}<R: __guen::Real>(c: &[R; {constants}], k: &[R; {hoisted}]{given}) -> [R; {}] {{ {} }}",
             program.name,
             program.outputs.len(),
-            statements(&program.instructions, &places),
-            array(&program.outputs),
+            body(&program.instructions, &program.outputs, &places),
         );
     }
     text.push('}');

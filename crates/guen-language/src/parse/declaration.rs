@@ -21,7 +21,8 @@ pub(crate) fn declaration(tokens: TokenStream, faults: &mut Faults) -> Option<De
             .report(Fault::new(Span::call_site(), format!("a declaration of more than {MAX_TOKENS} tokens")));
         return None;
     }
-    let mut cursor = Cursor::new(tokens, Span::call_site());
+    let end = tokens.clone().into_iter().last().map_or_else(Span::call_site, |token| token.span());
+    let mut cursor = Cursor::new(tokens, end);
     let declaration = system(&mut cursor, faults).ok();
     if declaration.is_some() {
         after_system(&mut cursor, faults);
@@ -270,6 +271,10 @@ fn section(kind: SectionKind, group: &Group, faults: &mut Faults, docs: Docs, ke
         }
         SectionKind::Coordinates => {
             let names = plain_names(group, faults, "the name of a coordinate", MAX_COORDINATES);
+            if group.stream().is_empty() {
+                let fault = Fault::new(keyword, "a system has at least one coordinate");
+                faults.report(fault.help("write `coordinates { x, y }`"));
+            }
             Item::Coordinates(of(docs, keyword, names))
         }
         SectionKind::Parameters => {

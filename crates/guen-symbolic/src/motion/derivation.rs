@@ -9,10 +9,6 @@ use crate::program::weighted_cost;
 use crate::workbench::Workbench;
 use crate::zero::Verdict;
 
-/// Steps of building ([`crate::Graph::work`]) beyond which a derivation is given up: some seconds without
-/// optimisation, several times what the largest systems need that can be run at all.
-pub const MAX_WORK: u64 = 30_000_000;
-
 /// `sum_t M_st eta_t' = f_s`.
 #[derive(Clone, Debug)]
 pub struct Equations {
@@ -47,7 +43,7 @@ pub enum DerivationError {
     /// The mass matrix is singular as a function: a motion with these values of these parameters, by index, and all
     /// others zero is without inertia; values where they are known.
     SingularMass(Vec<(usize, Option<ExprId>)>),
-    /// The derivation is more work than [`MAX_WORK`].
+    /// The derivation is more work than [`crate::MAX_WORK`].
     TooLarge,
     /// Two routes gave different equations: a mistake of ours.
     RoutesDisagree {
@@ -99,7 +95,9 @@ impl Derivation {
         let (n, l) = (system.forms.len(), system.forms.degrees);
         let equations_of_position: Vec<ExprId> = system.holonomic.iter().map(|h| h.equation).collect();
         bench.zero.set_manifold(&mut bench.graph, &equations_of_position);
-        let operators = Operators::new(bench, &system.forms).map_err(DerivationError::SingularForms)?;
+        let operators = Operators::new(bench, &system.forms);
+        affordable(bench)?;
+        let operators = operators.map_err(DerivationError::SingularForms)?;
         let mut frame = Frame::new(bench, &system, operators);
         let mut partials = VelocityPartials::of_system(bench, &system);
         let symbols: Vec<ExprId> = system.velocities.iter().chain(&system.etas).copied().collect();
@@ -130,7 +128,9 @@ impl Derivation {
         }
         let equations = candidates.remove(0);
         affordable(bench)?;
-        let solution = Solution::new(bench, &equations.mass, &equations.forces)
+        let solution = Solution::new(bench, &equations.mass, &equations.forces);
+        affordable(bench)?;
+        let solution = solution
             .map_err(|rows| DerivationError::SingularMass(weightless(bench, &equations.mass, &rows)))?;
 
         let alternatives = candidates
@@ -217,7 +217,7 @@ impl Derivation {
 
 /// Gives a derivation up that has become more work than a compiler should do.
 fn affordable(bench: &Workbench) -> Result<(), DerivationError> {
-    if bench.graph.work() > MAX_WORK { Err(DerivationError::TooLarge) } else { Ok(()) }
+    if bench.is_exhausted() { Err(DerivationError::TooLarge) } else { Ok(()) }
 }
 
 /// The motion without inertia of a singular mass matrix, from a smallest set of rows that is dependent: by symmetry

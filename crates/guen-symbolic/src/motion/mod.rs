@@ -11,7 +11,7 @@ mod solve;
 mod velocity_forms;
 
 pub use declaration::{Force, Holonomic, Mechanics};
-pub use derivation::{Class, Derivation, DerivationError, Equations, MAX_WORK};
+pub use derivation::{Class, Derivation, DerivationError, Equations};
 pub use energy::Energies;
 pub use frame::Frame;
 pub use kinetic::{KineticTerm, NotQuadratic, decompose};
