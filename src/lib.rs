@@ -50,7 +50,7 @@ pub use guen_runtime::{
     BracketCoefficients, Catastatic, Class, Coefficient, Conservative, ConstantsError, Coordinate, Cost,
     Dual, Function, Holonomic, IncompleteLieGroup, IntegrationError, LieGroup, Lift, Linearization,
     Monitored, Nonholonomic, Operator, Ordered, Real, Report, ReportSection, Rheonomic, Scleronomic, System,
-    from_fn, prelude, steppers,
+    Positions, PositionsError, Projected, from_fn, prelude, project, projected, steppers,
 };
 
 /// Declares a mechanical system and derives its equations of motion at compile time.
@@ -93,10 +93,11 @@ macro_rules! mechanical_system {
 pub mod __private {
     pub use guen_macros::mechanical_system;
     pub use guen_runtime::checks::{check_hoisted, check_pivot, largest};
+    pub use guen_runtime::consistent;
     pub use guen_runtime::{
         BracketCoefficients, Catastatic, Class, Coefficient, Conservative, ConstantsError, Cost, Dual,
         Holonomic, IncompleteLieGroup, LieGroup, Lift, Linearization, Monitored, Nonholonomic, Operator,
-        Real, Report, ReportSection, Rheonomic, Scleronomic, System, nalgebra_conversions, seeded,
+        Ordered, Positions, PositionsError, Real, Report, ReportSection, Rheonomic, Scleronomic, System, nalgebra_conversions, seeded,
         zero_bracket,
     };
 }

@@ -58,7 +58,8 @@ fn cases() -> Vec<Case> {
 
 fn case(path: &Path) -> Case {
     let text = fs::read_to_string(path).unwrap();
-    let comments: Vec<&str> = text.lines().map_while(|line| line.strip_prefix("//!")).map(str::trim).collect();
+    let comments: Vec<&str> =
+        text.lines().map_while(|line| line.strip_prefix("//!")).map(str::trim).collect();
     let path = path.strip_prefix(root()).unwrap().display().to_string();
     let law: Vec<&str> = comments.iter().copied().take_while(|line| !line.is_empty()).collect();
     let mut case = Case {
@@ -74,7 +75,8 @@ fn case(path: &Path) -> Case {
         if let Some(repair) = line.strip_prefix("repair: ") {
             says = true;
             if repair != "none" {
-                let (wrong, right) = repair.split_once("` => `").unwrap_or_else(|| panic!("{}: {line}", case.path));
+                let (wrong, right) =
+                    repair.split_once("` => `").unwrap_or_else(|| panic!("{}: {line}", case.path));
                 let strip = |s: &str| s.trim_start_matches('`').trim_end_matches('`').replace("\\n", "\n");
                 case.repairs.push((strip(wrong), strip(right)));
             }
@@ -221,17 +223,22 @@ fn the_table_of_errors_is_current() {
         let _ = writeln!(page, "\n## {}{}", theme[..1].to_uppercase(), &theme[1..]);
         for case in cases {
             let (_, drawn) = shown(&case);
-            let message: Vec<&str> = drawn.lines().take_while(|line| !line.trim_start().starts_with("-->")).collect();
+            let message: Vec<&str> =
+                drawn.lines().take_while(|line| !line.trim_start().starts_with("-->")).collect();
             let place: Vec<&str> = drawn.lines().skip(message.len() + 2).take(2).collect();
             let place: Vec<&str> =
                 place.iter().map(|line| line.split_once(" |").map_or(*line, |(_, code)| code)).collect();
             let indent = |line: &str| line.len() - line.trim_start().len();
-            let least = place.iter().filter(|line| !line.is_empty()).map(|line| indent(line)).min().unwrap_or(0);
+            let least =
+                place.iter().filter(|line| !line.is_empty()).map(|line| indent(line)).min().unwrap_or(0);
             let _ = writeln!(page, "\n### {}\n\n```text", case.law.trim_end_matches('.'));
             for line in place {
                 let line = line.get(least..).unwrap_or_default();
-                let line: String =
-                    if line.chars().count() > 160 { line.chars().take(160).chain(['…']).collect() } else { line.to_owned() };
+                let line: String = if line.chars().count() > 160 {
+                    line.chars().take(160).chain(['…']).collect()
+                } else {
+                    line.to_owned()
+                };
                 let _ = writeln!(page, "{}", line.trim_end());
             }
             let _ = writeln!(page, "```\n\n```text\n{}\n```", message.join("\n"));

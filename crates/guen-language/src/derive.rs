@@ -1,8 +1,8 @@
 //! From the model to what is emitted: the derivation, its faults in the user's names, and the programs.
 
 use guen_symbolic::{
-    Derivation, DerivationError, ExprId, Limits, MAX_WORK, ProgramBuilder, Programs, SingularForms,
-    Verdict, normal_coefficients, normal_form, weighted_cost,
+    Derivation, DerivationError, ExprId, Limits, MAX_WORK, ProgramBuilder, Programs, SingularForms, Verdict,
+    normal_coefficients, normal_form, weighted_cost,
 };
 
 use crate::diagnostics::{Fault, Faults};
@@ -19,6 +19,8 @@ pub struct Derived<'a> {
     pub programs: Programs,
     /// Functions that must not vanish: the domain of the chart.
     pub domain: Vec<ExprId>,
+    /// The same in words.
+    pub domain_names: Vec<String>,
     /// Expressions of constants that must not vanish.
     pub constant_pivots: Vec<ExprId>,
 }
@@ -47,6 +49,8 @@ pub mod function {
     pub const OUTPUTS: &str = "outputs";
     /// The holonomic constraints.
     pub const POSITIONS: &str = "positions";
+    /// The derivatives of the holonomic constraints, row by row; only where there are some.
+    pub const GRADIENTS: &str = "gradients";
     /// The functions that must not vanish.
     pub const DOMAIN: &str = "domain";
     /// The expressions of constants that must not vanish.
@@ -69,8 +73,7 @@ pub fn derive<'a>(mut model: Model<'a>, faults: &mut Faults) -> Option<Derived<'
         return None;
     }
     polish(&mut model, &mut derivation);
-    let domain: Vec<ExprId> =
-        derivation.frame.operators.chart.iter().chain(&derivation.solution.pivots).copied().collect();
+    let (domain, domain_names) = domain(&model, &derivation);
     let constant_pivots: Vec<ExprId> = derivation
         .frame
         .operators
@@ -80,7 +83,7 @@ pub fn derive<'a>(mut model: Model<'a>, faults: &mut Faults) -> Option<Derived<'
         .copied()
         .collect();
     let programs = programs(&mut model, &mut derivation, &domain, &constant_pivots);
-    Some(Derived { model, derivation, programs, domain, constant_pivots })
+    Some(Derived { model, derivation, programs, domain, domain_names, constant_pivots })
 }
 
 /// Energies, momenta and reactions as polynomials in the quasi-velocities, where that is cheaper.
@@ -114,6 +117,21 @@ fn polish(model: &mut Model<'_>, derivation: &mut Derivation) {
     derivation.power = polished(derivation.power);
 }
 
+/// The functions that must not vanish, and how they are written: large determinants by their rows.
+fn domain(model: &Model<'_>, derivation: &Derivation) -> (Vec<ExprId>, Vec<String>) {
+    const LONGEST: usize = 400;
+    let graph = &model.bench.graph;
+    let written =
+        |e: &ExprId, otherwise: &str| (*e, graph.text_limited(*e, LONGEST).unwrap_or(otherwise.to_owned()));
+    let chart = derivation.frame.operators.chart.iter().map(|e| written(e, "a factor of det A"));
+    let pivots = derivation.solution.pivots.iter().map(|e| written(e, "a pivot of the mass matrix"));
+    let determinants = derivation.solution.determinants.iter().map(|(rows, e)| {
+        let names: Vec<&str> = rows.iter().map(|s| model.forms[*s].name.as_str()).collect();
+        (*e, format!("det M[{}]", names.join(", ")))
+    });
+    chart.chain(pivots).chain(determinants).unzip()
+}
+
 fn programs(
     model: &mut Model<'_>,
     derivation: &mut Derivation,
@@ -134,14 +152,19 @@ fn programs(
         .collect();
     let reactions: Vec<ExprId> = derivation.reactions.iter().flatten().copied().collect();
     let positions: Vec<ExprId> = derivation.system.holonomic.iter().map(|h| h.equation).collect();
+    let holonomic = derivation.system.holonomic.iter();
+    let gradients: Vec<ExprId> =
+        holonomic.flat_map(|h| derivation.system.forms.forms[h.form].row.iter().copied()).collect();
     let rates: Vec<ExprId> =
         derivation.frame.velocities.iter().chain(&derivation.solution.accelerations).copied().collect();
     let limits = Limits::default();
-    let written_out: Vec<ExprId> =
-        rates.iter().map(|e| normal_form(&mut bench.graph, *e, &limits).unwrap_or(*e)).collect();
+    // Beyond this estimate normal forms run into their limits, and only cost time.
+    const LARGEST_WRITTEN_OUT: u64 = 600;
+    let written_out = (weighted_cost(&bench.graph, &rates) <= LARGEST_WRITTEN_OUT)
+        .then(|| rates.iter().map(|e| normal_form(&mut bench.graph, *e, &limits).unwrap_or(*e)).collect());
     let velocities = &derivation.frame.velocities;
     let others = derivation.alternatives.iter().map(|list| velocities.iter().chain(list).copied().collect());
-    let lists: Vec<Vec<ExprId>> = [rates, written_out].into_iter().chain(others).collect();
+    let lists: Vec<Vec<ExprId>> = [Some(rates), written_out].into_iter().flatten().chain(others).collect();
     let mut brackets: Vec<(String, Vec<ExprId>)> = Vec::new();
     for s in 1..=l {
         for r in 0..s {
@@ -160,11 +183,21 @@ fn programs(
     builder.add_cold(function::ENERGY, &[energies.integral]);
     builder.add_cold(function::KINETIC_ENERGY, &[energies.kinetic]);
     builder.add_cold(function::FORCE_FUNCTION, &[derivation.system.force_function]);
-    builder.add_cold(function::MOMENTA, &energies.momenta);
+    let momenta: Vec<ExprId> = energies
+        .momenta
+        .iter()
+        .zip(&derivation.known_momentum)
+        .filter(|(_, known)| **known)
+        .map(|(e, _)| *e)
+        .collect();
+    builder.add_cold(function::MOMENTA, &momenta);
     builder.add_cold(function::REACTIONS, &reactions);
     builder.add_cold(function::POWER, &[derivation.power]);
     builder.add_cold(function::OUTPUTS, &derivation.outputs);
     builder.add_cold(function::POSITIONS, &positions);
+    if !gradients.is_empty() {
+        builder.add_cold(function::GRADIENTS, &gradients);
+    }
     builder.add_cold(function::DOMAIN, domain);
     builder.add_cold(function::PIVOTS, constant_pivots);
     for (j, xi) in derivation.frame.operators.xi.iter().enumerate() {
@@ -295,14 +328,22 @@ fn report_singular_forms(model: &mut Model<'_>, singular: SingularForms, faults:
                 }
                 None => Fault::new(place, format!("constraint `{name}` is redundant beside {other_names}")),
             };
-            fault.help(format!("delete `{name}`, and declare one more parameter"))
+            if name == model.forms[last].written.text {
+                fault.help(format!("delete `{name}`, and declare one more parameter"))
+            } else {
+                let whole = &model.forms[last].written.text;
+                fault.help(format!(
+                    "impose the other components of `{whole}` one by one, as `{whole}_x: inner(e, vec(1, 0, 0)) = 0;`"
+                ))
+            }
         }
         Some((rest, _)) if model.bench.graph.roles(rest).is_constant() => {
             let text = short(model, rest);
             let number = model.bench.graph.as_number(rest).is_some();
             let unless = if number { String::new() } else { format!(" unless `{text} = 0`") };
             let fault = Fault::new(place, format!("constraint `{name}` contradicts {other_names}{unless}"));
-            let fault = if number { fault.note(format!("together they require `{text} = 0`")) } else { fault };
+            let fault =
+                if number { fault.note(format!("together they require `{text} = 0`")) } else { fault };
             fault.help(format!("delete `{name}`, and declare one more parameter"))
         }
         Some((rest, _)) => {

@@ -79,8 +79,27 @@ const SECTION_SYNONYMS: &[(&str, &str)] = &[
 
 /// Items of a generated module, and names that generated code uses for itself or for types of Rust.
 const GENERATED_ITEMS: &[&str] = &[
-    "State", "Prepared", "Coordinates", "Momenta", "Residuals", "Reactions", "Inputs", "Outputs", "Driven",
-    "Bracket", "R", "f64", "f32", "usize", "bool", "str", "u32", "i32", "i64", "u8", "program",
+    "State",
+    "Prepared",
+    "Coordinates",
+    "Momenta",
+    "Residuals",
+    "Reactions",
+    "Inputs",
+    "Outputs",
+    "Driven",
+    "Bracket",
+    "R",
+    "f64",
+    "f32",
+    "usize",
+    "bool",
+    "str",
+    "u32",
+    "i32",
+    "i64",
+    "u8",
+    "program",
 ];
 
 /// Strict and reserved keywords of Rust in any edition.
@@ -107,6 +126,14 @@ pub fn is_generated_item(word: &str) -> bool {
     let number = word.strip_prefix('X');
     GENERATED_ITEMS.contains(&word)
         || number.is_some_and(|n| !n.is_empty() && n.bytes().all(|b| b.is_ascii_digit()))
+}
+
+/// Whether a word in a pattern may mean an item: the operators and constants of a generated module are in capitals,
+/// and so are the variants of the prelude.
+pub fn is_pattern(word: &str) -> bool {
+    is_generated_item(word)
+        || matches!(word, "None" | "Some" | "Ok" | "Err")
+        || (word.len() > 1 && word.chars().all(|c| c.is_ascii_uppercase() || c == '_' || c.is_ascii_digit()))
 }
 
 /// Whether a word is a keyword of Rust, so that a name must be written with `r#`.

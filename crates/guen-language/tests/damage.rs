@@ -214,7 +214,11 @@ fn check(stream: &TokenStream) -> (bool, u64) {
     places(stream.clone(), &mut known);
     for fault in reports.iter().flat_map(Report::faults) {
         let is_inside = known.contains(&place(fault.span())) || stream.is_empty();
-        assert!(is_inside, "an error outside of the tokens: {fault}\nat {:?}\nof:\n{stream}", place(fault.span()));
+        assert!(
+            is_inside,
+            "an error outside of the tokens: {fault}\nat {:?}\nof:\n{stream}",
+            place(fault.span())
+        );
         let message = fault.message();
         assert!(!message.contains('\n') && !message.ends_with('.') && !message.is_empty(), "{message}");
         assert!(!fault.to_string().contains("this is a bug"), "{fault}\nof:\n{stream}");
@@ -227,7 +231,8 @@ const MOST_WORK: u64 = 1_000_000;
 
 #[test]
 fn damage_never_panics_and_is_told_inside_of_the_tokens() {
-    const ROUNDS: usize = 3000;
+    // More by `GUEN_ROUNDS=100000`.
+    let rounds = std::env::var("GUEN_ROUNDS").ok().and_then(|rounds| rounds.parse().ok()).unwrap_or(8000);
     let started = Instant::now();
     let pool = strangers();
     let sound: Vec<TokenStream> = SOUND.iter().map(|text| text.parse().unwrap()).collect();
@@ -236,7 +241,7 @@ fn damage_never_panics_and_is_told_inside_of_the_tokens() {
     }
     let (mut refused, mut most) = (0, 0);
     let mut sequence = Sequence(7);
-    for round in 0..ROUNDS {
+    for round in 0..rounds {
         let mut stream = sound[round % sound.len()].clone();
         // Mostly one wound: many end in the parser.
         for _ in 0..=sequence.below(3).pow(2) {
@@ -247,9 +252,9 @@ fn damage_never_panics_and_is_told_inside_of_the_tokens() {
         most = most.max(work);
         assert!(work < MOST_WORK, "{work} steps for:\n{stream}");
     }
-    println!("{ROUNDS} rounds, {refused} refused, at most {most} steps, {:?}", started.elapsed());
-    assert!(refused > ROUNDS / 2, "the damage is too gentle: {refused} of {ROUNDS} refused");
-    assert!(refused < ROUNDS, "the damage is too rough: all refused");
+    println!("{rounds} rounds, {refused} refused, at most {most} steps, {:?}", started.elapsed());
+    assert!(refused > rounds / 2, "the damage is too gentle: {refused} of {rounds} refused");
+    assert!(refused < rounds, "the damage is too rough: all refused");
 }
 
 #[test]
@@ -257,5 +262,33 @@ fn what_once_failed_is_told() {
     for text in ONCE_FAILED {
         let stream: TokenStream = text.parse().unwrap();
         assert!(check(&stream).0, "no error for:\n{text}");
+    }
+}
+
+/// Chains that are deep, but within the limits, end without exhausting the small stack of a test's thread.
+#[test]
+fn deep_chains_fit_the_stack() {
+    let chain =
+        |count: usize, link: &dyn Fn(usize) -> String| (1..=count).map(link).collect::<Vec<_>>().join(" ");
+    let defaults = chain(900, &|i| format!("c{i} = sin(c{} + 1)/2,", i - 1));
+    let positions = chain(900, &|i| format!("let a{i} = cos(a{} + x);", i - 1));
+    let velocities = chain(300, &|i| format!("let v{i} = v{}*x + dot(y);", i - 1));
+    for text in [
+        format!(
+            "system A {{ constants {{ c0, {defaults} }} coordinates {{ x }} parameters {{ u = dot(x); }} kinetic_energy = u^2 + c900^2*u^2; }}"
+        ),
+        format!(
+            "system A {{ coordinates {{ x }} let a0 = x; {positions} parameters {{ u = dot(x); }} kinetic_energy = u^2; force_function = a900; }}"
+        ),
+        format!(
+            "system A {{ coordinates {{ x, y }} let v0 = dot(x); {velocities} parameters {{ u = dot(x); w = v300; }} kinetic_energy = u^2 + w^2; }}"
+        ),
+        format!(
+            "system A {{ coordinates {{ x, y }} let v0 = dot(x); {velocities} parameters {{ u = dot(x); w = dot(y); }} kinetic_energy = u^2 + v300^2 + w^2; }}"
+        ),
+    ] {
+        let stream: TokenStream = text.parse().unwrap();
+        let (has_errors, _) = check(&stream);
+        assert!(!has_errors, "{}", pipeline(stream).0.iter().map(ToString::to_string).collect::<String>());
     }
 }

@@ -67,6 +67,8 @@ pub enum Cause {
         /// The number allowed.
         limit: u64,
     },
+    /// The state could not be put back onto the constraints on positions.
+    Positions,
     /// A setting or an argument makes no sense: nothing was integrated with it.
     Setting(Setting),
 }
@@ -89,6 +91,7 @@ impl fmt::Display for Cause {
             Self::NotFinite => f.write_str("the state or its rate is not finite"),
             Self::StepUnderflow => f.write_str("the step is too small to move time"),
             Self::TooManySteps { limit } => write!(f, "{limit} steps were not enough"),
+            Self::Positions => f.write_str("the constraints on positions cannot be restored"),
             Self::Setting(Setting::Step) => f.write_str("the step is not a positive number"),
             Self::Setting(Setting::Tolerance) => {
                 f.write_str("the tolerances are not nonnegative numbers with a positive sum")

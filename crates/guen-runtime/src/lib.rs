@@ -9,7 +9,8 @@
 //! | what acts on functions? | [`Operator`], [`Function`], [`Coordinate`], [`BracketCoefficients`] |
 //! | what is known at compile time? | [`Class`], the markers [`Holonomic`] to [`Conservative`], [`Cost`] |
 //! | how is it integrated? | [`steppers`]: [`Rk4`](steppers::Rk4), [`Dop853`](steppers::Dop853) |
-//! | what can go wrong? | [`ConstantsError`], [`IntegrationError`] with its [`Cause`] |
+//! | what holds of positions? | [`Positions`], [`consistent`], [`project`], [`projected`] |
+//! | what can go wrong? | [`ConstantsError`], [`IntegrationError`] with its [`Cause`], [`PositionsError`] |
 //!
 //! The crate knows nothing of the language or of the algebra, and can be used with systems written by hand.
 //!
@@ -33,6 +34,7 @@ mod lift;
 mod linearization;
 mod nalgebra_support;
 mod operator;
+mod positions;
 mod real;
 mod report;
 pub mod steppers;
@@ -49,6 +51,7 @@ pub use error::{Cause, ConstantsError, IntegrationError, Setting};
 pub use lift::Lift;
 pub use linearization::{Linearization, seeded};
 pub use operator::{Applied, Coordinate, Function, Operator};
+pub use positions::{Positions, PositionsError, Projected, consistent, project, projected};
 pub use real::{Ordered, Real};
 pub use report::{Report, ReportSection};
 pub use system::{FromFn, Monitored, System, from_fn};

@@ -1,5 +1,6 @@
 //! What a stepper integrates: a right-hand side over `N` reals, and what it may be asked to keep.
 
+use crate::positions::PositionsError;
 use crate::real::Real;
 
 /// A system of `N` ordinary differential equations of first order over the real `R`.
@@ -22,12 +23,28 @@ use crate::real::Real;
 pub trait System<R: Real, const N: usize> {
     /// The rate of change of the state at time `t`.
     fn rhs(&self, t: R, state: &[R; N]) -> [R; N];
+
+    /// Puts the state at the end of a step back to where it belongs; steppers call it for every step that they
+    /// accept. Does nothing, unless the system is [`projected`](crate::projected).
+    ///
+    /// # Errors
+    ///
+    /// Whatever keeps the state from being put back; the state is unchanged then, and the integration ends.
+    #[inline]
+    fn restore(&self, _t: R, _state: &mut [R; N]) -> Result<(), PositionsError> {
+        Ok(())
+    }
 }
 
 impl<R: Real, S: System<R, N> + ?Sized, const N: usize> System<R, N> for &S {
     #[inline]
     fn rhs(&self, t: R, state: &[R; N]) -> [R; N] {
         (**self).rhs(t, state)
+    }
+
+    #[inline]
+    fn restore(&self, t: R, state: &mut [R; N]) -> Result<(), PositionsError> {
+        (**self).restore(t, state)
     }
 }
 

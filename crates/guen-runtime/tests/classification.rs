@@ -37,7 +37,8 @@ fn coefficients_say_what_is_known() {
 
 #[test]
 fn costs_add_up_at_compile_time() {
-    const ONE: Cost = Cost { additions: 2, negations: 0, multiplications: 3, divisions: 0, roots: 1, calls: 1 };
+    const ONE: Cost =
+        Cost { additions: 2, negations: 0, multiplications: 3, divisions: 0, roots: 1, calls: 1 };
     const TWICE: Cost = ONE.plus(ONE);
     assert_eq!(TWICE.total(), 14);
     assert_eq!(ONE.to_string(), "7 operations (2 additions, 3 multiplications, 1 root, 1 call)");

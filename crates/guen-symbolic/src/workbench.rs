@@ -11,7 +11,7 @@ const TIDYING: Limits = Limits { terms: 150, generators: 32, degree: 32, nodes: 
 
 /// Steps of building ([`Graph::work`]) beyond which a derivation is given up: some seconds without optimisation,
 /// many times what the largest systems need that can be run at all.
-pub const MAX_WORK: u64 = 10_000_000;
+pub const MAX_WORK: u64 = 6_000_000;
 
 /// The graph together with what answers questions about it.
 pub struct Workbench {

@@ -31,7 +31,7 @@ pub(super) fn items(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
         .map(|f| f.cost)
         .unwrap_or_default();
     let (cost, prepare_cost) = (cost(&rhs), cost(&derived.programs.prepare_cost));
-    let domain: Vec<String> = derived.domain.iter().map(|e| derived.model.bench.graph.text(*e)).collect();
+    let domain = &derived.domain_names;
     let domain_count = domain.len();
     let mut markers = Vec::new();
     match derivation.class {

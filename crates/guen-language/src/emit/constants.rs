@@ -128,13 +128,21 @@ fn constructors(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
     let constants = &derived.model.constants;
     let graph = &derived.model.bench.graph;
     let names: Vec<&Ident> = constants.iter().map(|c| &c.name.ident).collect();
-    let required: Vec<&Ident> =
-        constants.iter().filter(|c| c.default.is_none()).map(|c| &c.name.ident).collect();
+    // A parameter named like a constant of the module, an operator or `None` would be a pattern.
+    let parameter = |name: &crate::syntax::Name| {
+        if crate::names::is_pattern(&name.text) {
+            format_ident!("{}_", name.text, span = name.span())
+        } else {
+            name.ident.clone()
+        }
+    };
+    let required: Vec<Ident> =
+        constants.iter().filter(|c| c.default.is_none()).map(|c| parameter(c.name)).collect();
     // Defaults may use earlier constants: they are evaluated in order, as locals that no constant can shadow.
     let locals: Vec<Ident> = (0..constants.len()).map(|i| format_ident!("__guen_c{i}")).collect();
     let values = constants.iter().zip(&locals).map(|(constant, local)| match constant.default {
         None => {
-            let name = &constant.name.ident;
+            let name = parameter(constant.name);
             quote!(let #local: R = #name;)
         }
         Some(default) => {

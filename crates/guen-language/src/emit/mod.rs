@@ -11,7 +11,9 @@ mod functions;
 mod motion;
 mod operators;
 mod outline;
+mod positions;
 mod records;
+mod uses;
 
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};
@@ -118,10 +120,12 @@ pub fn emit(mut derived: Derived<'_>) -> TokenStream {
         constants::items(&derived, &layout, &report),
         records::items(&derived, &layout),
         motion::items(&derived, &layout),
+        positions::items(&derived, &layout),
         operators::items(&mut derived, &layout),
         classification::items(&derived, &layout),
         documentation::constants(&report),
         functions::module(&derived, &layout),
+        uses::items(&derived.model),
     ];
     let docs = documentation::module(&report, system);
     let span = Span::call_site();

@@ -220,7 +220,8 @@ fn records(names: &Names) -> TokenStream {
 fn record(name: &str, fields: &[Ident]) -> TokenStream {
     let name = format_ident!("{name}");
     let count = fields.len();
-    let none = fields.is_empty().then(|| quote!(#[doc(hidden)] pub __guen_real: ::core::marker::PhantomData<R>,));
+    let none =
+        fields.is_empty().then(|| quote!(#[doc(hidden)] pub __guen_real: ::core::marker::PhantomData<R>,));
     quote! {
         /// Stands in for a faulty declaration.
         #[::core::prelude::v1::derive(
@@ -261,6 +262,12 @@ fn prepared(system: &Ident, names: &Names) -> TokenStream {
             pub fn residuals(&self, t: R, state: &State<R>) -> Residuals<R> { ::core::unreachable!() }
             /// The reactions.
             pub fn reactions(&self, t: R, state: &State<R> #driven) -> Reactions<R> { ::core::unreachable!() }
+            /// The coordinates on the holonomic constraints.
+            pub fn consistent(
+                &self, t: R, guess: &Coordinates<R>, given: &[&'static str],
+            ) -> ::core::result::Result<Coordinates<R>, __guen::PositionsError> {
+                ::core::unreachable!()
+            }
         }
     });
     let hold = (inputs > 0).then(|| {
@@ -270,8 +277,24 @@ fn prepared(system: &Ident, names: &Names) -> TokenStream {
         }
     });
     let owner = if inputs > 0 { format_ident!("Driven") } else { format_ident!("Prepared") };
+    let owners = ["Prepared", "Driven"].map(|owner| format_ident!("{owner}"));
+    let owners = &owners[..1 + usize::from(inputs > 0)];
+    let positions = (bound > 0).then(|| {
+        quote! {
+            #(impl<R: __guen::Real> __guen::Positions<R, #n, #bound> for #owners<R> {
+                fn gaps(&self, _: R, _: &[R; #n]) -> [R; #bound] { ::core::unreachable!() }
+                fn gradients(&self, _: R, _: &[R; #n]) -> [[R; #n]; #bound] { ::core::unreachable!() }
+            })*
+        }
+    });
     let kinds = [
-        "Holonomic", "LieGroup", "Nonholonomic", "IncompleteLieGroup", "Scleronomic", "Rheonomic", "Catastatic",
+        "Holonomic",
+        "LieGroup",
+        "Nonholonomic",
+        "IncompleteLieGroup",
+        "Scleronomic",
+        "Rheonomic",
+        "Catastatic",
         "Conservative",
     ];
     let kinds = kinds.map(|kind| format_ident!("{kind}"));
@@ -312,6 +335,7 @@ fn prepared(system: &Ident, names: &Names) -> TokenStream {
             #constraints
             #hold
         }
+        #positions
         impl<R: __guen::Real> State<R> {
             /// The state at given velocities.
             pub fn from_velocities(

@@ -44,10 +44,17 @@ pub(super) fn items(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
         "A value for each coordinate: a position, or the velocities `x'`.",
         coordinates.iter(),
     ));
-    let momenta: Vec<Field> = model.forms.iter().map(|f| form(f, "The momentum that goes with")).collect();
+    let known = &derived.derivation.known_momentum;
+    let momenta: Vec<Field> = model
+        .forms
+        .iter()
+        .zip(known)
+        .filter(|(_, known)| **known)
+        .map(|(f, _)| form(f, "The momentum that goes with"))
+        .collect();
     items.push(record(
         "Momenta",
-        "The momenta `dT/d eta_s`, and `(dT°/d eta_v)` for the constraints, (2.8).",
+        "The momenta `dT/d eta_s`, and `(dT°/d eta_v)` for the constraints, (2.8), as far as the kinetic energy speaks of them.",
         momenta.iter(),
     ));
     let constraints = &model.forms[layout.l..];
@@ -96,6 +103,8 @@ fn record<'a>(name: &str, docs: &str, fields: impl Iterator<Item = &'a Field>) -
         names.push(&field.name);
     }
     let count = idents.len();
+    // A name in a pattern would mean a constant or an operator of that name, if there is one.
+    let locals: Vec<Ident> = (0..count).map(|i| format_ident!("__guen_{i}")).collect();
     quote! {
         #[doc = #docs]
         #[::core::prelude::v1::derive(
@@ -113,8 +122,8 @@ fn record<'a>(name: &str, docs: &str, fields: impl Iterator<Item = &'a Field>) -
 
         impl<R> ::core::convert::From<[R; #count]> for #record<R> {
             #[inline]
-            fn from([#(#idents),*]: [R; #count]) -> Self {
-                #record { #(#idents),* }
+            fn from([#(#locals),*]: [R; #count]) -> Self {
+                #record { #(#idents: #locals),* }
             }
         }
 

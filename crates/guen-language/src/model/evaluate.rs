@@ -90,7 +90,9 @@ impl Evaluator<'_> {
         let what = place.description(self.entry.as_deref());
         let direct = name.filter(|name| self.scope.definition(name).is_none() && *name != "t");
         let on = match direct {
-            Some(name) => format!("{} `{name}`", role_name(role).replacen("a ", "the ", 1).replacen("an ", "the ", 1)),
+            Some(name) => {
+                format!("{} `{name}`", role_name(role).replacen("a ", "the ", 1).replacen("an ", "the ", 1))
+            }
             None => role_name(role).to_owned(),
         };
         let mut fault = Fault::new(span, format!("{what} cannot depend on {on}"));
@@ -383,7 +385,8 @@ impl Evaluator<'_> {
                 EXPONENT_TOO_LARGE
             }
             Node::Product(factors) if factors.len() > MAX_FACTORS => {
-                let fault = Fault::new(span, format!("a product of more than {MAX_FACTORS} different factors"));
+                let fault =
+                    Fault::new(span, format!("a product of more than {MAX_FACTORS} different factors"));
                 return self.fail(fault);
             }
             _ if self.has_large_exponent(e) => EXPONENT_TOO_LARGE,

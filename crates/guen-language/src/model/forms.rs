@@ -89,15 +89,17 @@ impl Evaluator<'_> {
             (Value::Vector(a), Value::Vector(b)) => {
                 Ok(Value::Vector(std::array::from_fn(|i| self.bench.graph.sub(a[i], b[i]))))
             }
-            _ => self.fail(Fault::new(
-                equation.equals,
-                format!(
-                    "the sides of an equation are of one kind, and these are {} and {}",
-                    left.kind(),
-                    right.kind()
-                ),
-            )
-            .help("to impose one component write `inner(e, u) = 0` with a unit vector `u`")),
+            _ => self.fail(
+                Fault::new(
+                    equation.equals,
+                    format!(
+                        "the sides of an equation are of one kind, and these are {} and {}",
+                        left.kind(),
+                        right.kind()
+                    ),
+                )
+                .help("to impose one component write `inner(e, u) = 0` with a unit vector `u`"),
+            ),
         }
     }
 
@@ -290,7 +292,9 @@ impl Evaluator<'_> {
             return None;
         }
         let inside = match &e.kind {
-            ExpressionKind::Sum { .. } | ExpressionKind::Negation(_) | ExpressionKind::Product { .. } => children(e),
+            ExpressionKind::Sum { .. } | ExpressionKind::Negation(_) | ExpressionKind::Product { .. } => {
+                children(e)
+            }
             _ => Vec::new(),
         };
         for child in inside {
@@ -346,11 +350,17 @@ impl Evaluator<'_> {
             (_, FormKind::Parameter) if self.bench.graph.roles(parts.offset).is_constant() => {
                 Fault::new(span, format!("parameter `{name}` has no velocity in it"))
                     .note("parameters are the quasi-velocities of the system, affine in the velocities")
-                    .help(format!("a physical constant is declared as `constants {{ {name} = {}, .. }}`", shortened(&source())))
+                    .help(format!(
+                        "a physical constant is declared as `constants {{ {name} = {}, .. }}`",
+                        shortened(&source())
+                    ))
             }
             (_, FormKind::Parameter) => Fault::new(span, format!("parameter `{name}` has no velocity in it"))
                 .note("parameters are the quasi-velocities of the system, affine in the velocities")
-                .help(format!("a name for an expression is declared as `let {name} = {};`", shortened(&source()))),
+                .help(format!(
+                    "a name for an expression is declared as `let {name} = {};`",
+                    shortened(&source())
+                )),
         };
         self.faults.report(fault);
     }

@@ -312,7 +312,10 @@ impl Evaluator<'_> {
             .find_map(|role| {
                 let symbol = symbols.iter().find(|s| graph.symbol_info(**s).role == role)?;
                 let name = &graph.symbol_info(*symbol).name;
-                Some(format!("{} `{name}`", role_name(role).trim_start_matches("a ").trim_start_matches("an ")))
+                Some(format!(
+                    "{} `{name}`",
+                    role_name(role).trim_start_matches("a ").trim_start_matches("an ")
+                ))
             })
             .map_or_else(|| "a velocity".to_owned(), |text| format!("the {text}"))
     }

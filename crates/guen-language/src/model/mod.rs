@@ -14,7 +14,7 @@ mod spatial;
 mod value;
 
 use guen_symbolic::{ExprId, Mechanics, Workbench};
-use proc_macro2::Span;
+use proc_macro2::{Ident, Span};
 
 use crate::syntax::{BoundKind, Declaration, Docs, Name};
 
@@ -38,6 +38,10 @@ pub struct Model<'a> {
     pub outputs: Vec<OutputEntry<'a>>,
     /// Components of vector equations that are identically `0 = 0`, by name.
     pub left_out: Vec<String>,
+    /// Every declared name, at its place.
+    pub declared: Vec<Ident>,
+    /// Every use of a name, at its place.
+    pub used: Vec<Ident>,
     /// The mechanical system.
     pub mechanics: Mechanics,
     /// Whether the kinetic energy is more than the words of `kinetic_energy`: particles or bodies add to it.

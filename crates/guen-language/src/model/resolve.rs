@@ -385,6 +385,10 @@ impl<'a, 'f> Resolver<'a, 'f> {
             .enumerate()
             .filter_map(|(form, raw)| raw.position.map(|equation| Holonomic { form, equation }))
             .collect();
+        // Written in velocities, or with bodies, the energy speaks of every momentum; written in the parameters alone it
+        // is given on the constraints.
+        let in_velocities = self.has_masses || bench.graph.roles(kinetic_energy).has(Role::Velocity);
+        let stated = raw.iter().map(|form| in_velocities || form.entry.mentioned_in_energy).collect();
         let mechanics = Mechanics {
             forms: Forms {
                 time: self.eval.time,
@@ -398,11 +402,15 @@ impl<'a, 'f> Resolver<'a, 'f> {
             inputs: self.inputs.iter().map(|input| input.symbol).collect(),
             holonomic,
             kinetic_energy,
+            stated,
             force_function,
             forces: self.forces,
             outputs: self.output_values,
         };
+        let (declared, used) = self.eval.scope.into_identifiers();
         Some(Model {
+            declared,
+            used,
             declaration: self.declaration,
             bench: self.eval.bench,
             constants: self.constants,

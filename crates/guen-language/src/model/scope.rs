@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use proc_macro2::Span;
+use proc_macro2::{Ident, Span};
 
 use super::value::Value;
 use crate::diagnostics::{Fault, Faults};
@@ -70,6 +70,9 @@ pub(super) struct Scope {
     later: BTreeMap<String, Span>,
     // Unknown names that were reported: one mistake is one error, however often the name is used.
     unknown: BTreeSet<String>,
+    // Every declared name and every use, as written: editors lead from one to the other.
+    declared: Vec<Ident>,
+    used: Vec<Ident>,
 }
 
 impl Scope {
@@ -86,6 +89,7 @@ impl Scope {
         category: Category,
         value: Option<Value>,
     ) {
+        self.declared.push(name.ident.clone());
         self.declare_text(faults, &name.text, name.span(), category, value, false);
     }
 
@@ -98,6 +102,7 @@ impl Scope {
         category: Category,
         value: Option<Value>,
     ) {
+        self.declared.push(Ident::new(text, span));
         self.declare_text(faults, text, span, category, value, true);
     }
 
@@ -135,6 +140,7 @@ impl Scope {
     pub(super) fn look_up(&mut self, faults: &mut Faults, name: &Name, place: &str) -> Option<Value> {
         if let Some(entry) = self.entries.get_mut(&name.text) {
             entry.used = true;
+            self.used.push(name.ident.clone());
             return entry.value.clone();
         }
         if !self.unknown.insert(name.text.clone()) {
@@ -173,6 +179,11 @@ impl Scope {
     /// The value of a declared name, without counting as a use.
     pub(super) fn peek(&self, text: &str) -> Option<&Value> {
         self.entries.get(text).and_then(|entry| entry.value.as_ref())
+    }
+
+    /// Every declared name and every use, as written.
+    pub(super) fn into_identifiers(self) -> (Vec<Ident>, Vec<Ident>) {
+        (self.declared, self.used)
     }
 
     /// Reports what is declared and never used: nothing that a person writes is silently ignored.

@@ -183,14 +183,32 @@ fn invisible_groups_are_parentheses() {
 }
 
 #[test]
+fn sources_have_few_parentheses() {
+    for source in [
+        "a*(b + c)^2 - sin(x)",
+        "-x^2 + (-x)^-2 - (a - b)",
+        "(a + b)/(c*d)*e - a/b/c",
+        "a*-b^(1/2) + (a^b)^c",
+        "(u + v).x + R.y.z + f(a, b + c).powi(2)",
+        "2^(x + 1)*(2).sqrt()",
+    ] {
+        let (expression, _) = parse_expression(tokens(source));
+        let expression = expression.unwrap();
+        assert_eq!(expression.source(), source);
+        assert_eq!(tree(&expression.source()), expression.to_string());
+    }
+}
+
+#[test]
 fn nodes_know_their_place() {
     let (expression, _) = parse_expression(tokens("a*(b + c)^2 - sin(x)"));
     let expression = expression.unwrap();
     let text = |span: proc_macro2::Span| span.source_text().unwrap();
     assert_eq!(text(expression.span), "-");
-    assert_eq!(text(expression.extent()), "a*(b + c)^2 - sin(x)");
+    assert_eq!(text(expression.extent()), "a");
     assert_eq!(text(expression.first_token()), "a");
-    assert_eq!(text(expression.last_token()), "(x)");
+    let (expression, _) = parse_expression(tokens("(b + c)"));
+    assert_eq!(text(expression.unwrap().extent()), "(b + c)");
 }
 
 #[test]

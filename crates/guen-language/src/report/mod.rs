@@ -48,9 +48,6 @@ impl Report {
             cost(derived),
         ];
         let (n, l) = (derived.model.coordinates.len(), derived.derivation.system.forms.degrees);
-        let plural = |count: usize, noun: &str| {
-            if count == 1 { format!("1 {noun}") } else { format!("{count} {noun}s") }
-        };
         let summary = format!(
             "{}, {}, {}: {}.",
             plural(n, "coordinate"),
@@ -308,6 +305,10 @@ fn momenta(derived: &Derived<'_>) -> Section {
     let l = derived.derivation.system.forms.degrees;
     for (j, momentum) in derived.derivation.energies.momenta.iter().enumerate() {
         let name = &derived.model.forms[j].name;
+        if !derived.derivation.known_momentum[j] {
+            lines.section.text.push(format!("(dT°/d{name}) is unknown: T is given on the constraints"));
+            continue;
+        }
         let (left, latex) = if j < l {
             (format!("dT/d{name}"), format!(r"\frac{{\partial T}}{{\partial {}}}", latex_of(name)))
         } else {
@@ -336,7 +337,8 @@ fn energies(derived: &Derived<'_>) -> Section {
 fn domain(derived: &Derived<'_>) -> Section {
     let graph = &derived.model.bench.graph;
     let nonzero = |e: &ExprId| graph.text_limited(*e, LONGEST).map(|text| format!("{text} != 0"));
-    let text = derived.domain.iter().chain(&derived.constant_pivots).filter_map(nonzero).collect();
+    let state = derived.domain_names.iter().map(|text| format!("{text} != 0"));
+    let text = state.chain(derived.constant_pivots.iter().filter_map(nonzero)).collect();
     Section { title: "Domain of the chart", text, latex: Vec::new() }
 }
 
@@ -350,15 +352,23 @@ fn cost(derived: &Derived<'_>) -> Section {
 }
 
 fn operations(count: &guen_symbolic::OperationCount) -> String {
-    format!(
-        "{} operations ({} additions, {} negations, {} multiplications, {} divisions, {} roots), {} sine and cosine pairs, {} other calls",
-        count.operations(),
-        count.additions,
-        count.negations,
-        count.multiplications,
-        count.divisions,
-        count.roots,
-        count.sines,
-        count.calls
-    )
+    let parts: Vec<String> = [
+        (count.additions, "addition"),
+        (count.negations, "negation"),
+        (count.multiplications, "multiplication"),
+        (count.divisions, "division"),
+        (count.roots, "root"),
+        (count.sines, "sine and cosine pair"),
+        (count.calls, "other call"),
+    ]
+    .into_iter()
+    .filter(|(number, _)| *number > 0)
+    .map(|(number, name)| plural(number as usize, name))
+    .collect();
+    let all = plural((count.operations() + count.sines + count.calls) as usize, "operation");
+    if parts.is_empty() { all } else { format!("{all}: {}", parts.join(", ")) }
+}
+
+fn plural(count: usize, noun: &str) -> String {
+    if count == 1 { format!("1 {noun}") } else { format!("{count} {noun}s") }
 }

@@ -180,26 +180,4 @@ impl Expression {
             ExpressionKind::Sum { first, .. } | ExpressionKind::Product { first, .. } => first.first_token(),
         }
     }
-
-    /// The last token; an argument list counts as one.
-    pub fn last_token(&self) -> Span {
-        if let Some(parentheses) = self.parentheses {
-            return parentheses;
-        }
-        match &self.kind {
-            ExpressionKind::Missing
-            | ExpressionKind::Number(_)
-            | ExpressionKind::Name(_)
-            | ExpressionKind::Field { .. } => self.span,
-            ExpressionKind::Call { list, .. } | ExpressionKind::Method { list, .. } => *list,
-            ExpressionKind::Negation(operand) => operand.last_token(),
-            ExpressionKind::Sum { first, rest } => {
-                rest.last().map_or(first.as_ref(), |term| &term.value).last_token()
-            }
-            ExpressionKind::Product { first, rest } => {
-                rest.last().map_or(first.as_ref(), |factor| &factor.value).last_token()
-            }
-            ExpressionKind::Power { exponent, .. } => exponent.last_token(),
-        }
-    }
 }

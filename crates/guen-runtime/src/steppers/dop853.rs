@@ -222,11 +222,12 @@ impl<R: Ordered, const N: usize> Course<R, N> for Run<'_, R, N> {
                 (time + h, h)
             };
             let size = if landing { span.abs() } else { step };
-            let trial = self.method.tableau.trial(system, time, &state, &slope, h);
+            let mut trial = self.method.tableau.trial(system, time, &state, &slope, h);
             statistics.evaluations += 11;
             let error = tolerance.error(size, &trial.error5, &trial.error3, &state, &trial.state);
             finite = all_finite(&trial.state) && !error.is_nan();
             if finite && error <= 1.0 {
+                system.restore(next, &mut trial.state).map_err(|_| Cause::Positions)?;
                 let next_slope = system.rhs(next, &trial.state);
                 statistics.evaluations += 1;
                 finite = all_finite(&next_slope);

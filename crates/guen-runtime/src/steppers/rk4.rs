@@ -186,11 +186,12 @@ impl<R: Real, const N: usize> Course<R, N> for Run<R, N> {
         if next == now {
             return Err(Cause::StepUnderflow);
         }
-        let state = step(system, now, &self.progress.state, h);
+        let mut state = step(system, now, &self.progress.state, h);
         self.progress.statistics.evaluations += 4;
         if !all_finite(&state) {
             return Err(Cause::NotFinite);
         }
+        system.restore(next, &mut state).map_err(|_| Cause::Positions)?;
         self.progress.statistics.accepted += 1;
         self.progress.time = next;
         self.progress.state = state;

@@ -18,6 +18,9 @@ pub(crate) const MAX_EXPONENT: i64 = 64;
 /// Numbers with more bits than this (about 10^400) are refused where they are written.
 const MAX_NUMBER_BITS: u64 = 1330;
 
+/// The terms `c m sin(x)^2` and `c m cos(x)^2` of a sum, and the factors of `m`.
+type SquarePair = (ExprId, ExprId, Vec<(ExprId, i32)>);
+
 impl Graph {
     /// An exact number.
     pub fn number(&mut self, value: impl Into<Rational>) -> ExprId {
@@ -145,10 +148,7 @@ impl Graph {
     }
 
     /// Two terms `c m sin(x)^2` and `c m cos(x)^2` with the same `c`, and the factors of `m`.
-    fn square_pair(
-        &self,
-        collected: &BTreeMap<(u64, ExprId), Rational>,
-    ) -> Option<(ExprId, ExprId, Vec<(ExprId, i32)>)> {
+    fn square_pair(&self, collected: &BTreeMap<(u64, ExprId), Rational>) -> Option<SquarePair> {
         if collected.len() < 2 {
             return None;
         }
@@ -361,7 +361,9 @@ impl Graph {
             Node::Number(_) | Node::Pi | Node::Symbol(_) | Node::Undefined | Node::Kept(_) => true,
             Node::Function(_, x) => self.as_symbol(*x).is_some(),
             Node::Atan2(..) => false,
-            Node::Sum { constant, terms } => constant.is_zero() && terms.len() == 1 && self.is_small_product(terms[0].0),
+            Node::Sum { constant, terms } => {
+                constant.is_zero() && terms.len() == 1 && self.is_small_product(terms[0].0)
+            }
             Node::Product(_) => self.is_small_product(e),
         };
         if small || self.roles(e).is_constant() { e } else { self.intern(Node::Kept(e)) }
@@ -374,7 +376,10 @@ impl Graph {
                     && factors.iter().all(|(base, k)| {
                         k.abs() == 1
                             && (self.roles(*base).is_constant()
-                                || matches!(self.node(*base), Node::Symbol(_) | Node::Function(..) | Node::Kept(_)))
+                                || matches!(
+                                    self.node(*base),
+                                    Node::Symbol(_) | Node::Function(..) | Node::Kept(_)
+                                ))
                     })
             }
             Node::Sum { .. } | Node::Atan2(..) => false,

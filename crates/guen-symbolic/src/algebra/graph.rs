@@ -1,5 +1,6 @@
 //! The graph: nodes, symbols, and the table that makes equal nodes one.
 
+use std::cell::Cell;
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
 
@@ -205,7 +206,8 @@ pub struct Graph {
     keys: Vec<u64>,
     roles: Vec<Roles>,
     depths: Vec<u32>,
-    work: u64,
+    // A cell, because looking at expressions is work too.
+    work: Cell<u64>,
     // Chains of nodes that share a key: a list per key, since two nodes may collide.
     heads: FastMap<u64, ExprId>,
     next: Vec<Option<ExprId>>,
@@ -239,10 +241,10 @@ impl Graph {
         self.nodes.len()
     }
 
-    /// Elementary steps of building so far, about one for each term or factor that was put together: a measure of
-    /// work that is the same on every machine.
+    /// Elementary steps so far, about one for each term or factor that was put together, and for each node that was
+    /// visited: a measure of work that is the same on every machine.
     pub fn work(&self) -> u64 {
-        self.work
+        self.work.get()
     }
 
     /// The number of nodes on the longest way from an expression down to a symbol or a number.
@@ -347,6 +349,7 @@ impl Graph {
             found.push(id);
             stack.extend(self.children(id));
         }
+        self.spend(found.len());
         found.sort_unstable();
         found
     }
@@ -359,13 +362,17 @@ impl Graph {
         symbols
     }
 
+    fn spend(&self, steps: usize) {
+        self.work.set(self.work.get() + steps as u64);
+    }
+
     /// The identifier of a node in normal form.
     pub(crate) fn intern(&mut self, node: Node) -> ExprId {
-        self.work += match &node {
-            Node::Sum { terms, .. } => 1 + terms.len() as u64,
-            Node::Product(factors) => 1 + factors.len() as u64,
+        self.spend(match &node {
+            Node::Sum { terms, .. } => 1 + terms.len(),
+            Node::Product(factors) => 1 + factors.len(),
             _ => 1,
-        };
+        });
         let key = self.structural_key(&node);
         if let Some(id) = self.lookup_key(key, &node) {
             return id;

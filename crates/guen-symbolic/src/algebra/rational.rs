@@ -219,7 +219,7 @@ impl Rational {
 
     /// `r` with `r^q` the value, if the value is an exact `q`-th power of a rational number.
     pub fn exact_root(&self, q: u32) -> Option<Self> {
-        if self.is_negative() && q % 2 == 0 {
+        if self.is_negative() && q.is_multiple_of(2) {
             return None;
         }
         let (n, d) = self.to_big_pair();

@@ -77,14 +77,14 @@ impl Closure {
                 break;
             }
             for y in &fresh {
-                for r in 0..=l {
+                for (r, flow) in flows.iter_mut().enumerate() {
                     if bench.graph.len() > start + NODE_LIMIT {
                         complete = false;
                         break;
                     }
                     let bracket = (0..constraints)
                         .map(|w| {
-                            let mut terms = vec![flows[r].of(&mut bench.graph, y[w])];
+                            let mut terms = vec![flow.of(&mut bench.graph, y[w])];
                             for (v, component) in y.iter().enumerate() {
                                 if !bench.graph.is_zero(*component) {
                                     let c = brackets.coefficient(bench, r, l + 1 + v, l + 1 + w);

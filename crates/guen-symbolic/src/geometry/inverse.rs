@@ -8,7 +8,7 @@
 use std::collections::BTreeMap;
 
 use super::Forms;
-use crate::algebra::{ExprId, Rational};
+use crate::algebra::{ExprId, Graph, Rational};
 use crate::workbench::Workbench;
 use crate::zero::Verdict;
 
@@ -168,8 +168,7 @@ pub(crate) fn dependence(
         return None;
     }
     // B^T c = r with B the minor of the rows and r the target on the same columns.
-    let matrix: Vec<Vec<ExprId>> =
-        columns.iter().map(|c| rows.iter().map(|row| row[*c]).collect()).collect();
+    let matrix: Vec<Vec<ExprId>> = columns.iter().map(|c| rows.iter().map(|row| row[*c]).collect()).collect();
     let (adjugate, determinant) = adjugate(bench, &matrix);
     let target: Vec<ExprId> = columns.iter().map(|c| target[*c]).collect();
     Some(
@@ -207,10 +206,9 @@ impl Solver<'_> {
                 let Some(equation) = equation else { continue };
                 for (c, a) in &equation.entries {
                     let number = self.bench.graph.as_number(*a).is_some();
-                    if !number
-                        && !(self.bench.graph.roles(*a).is_constant()
-                            && self.bench.graph.manifestly_nonzero(*a))
-                    {
+                    let promised =
+                        |graph: &Graph| graph.roles(*a).is_constant() && graph.manifestly_nonzero(*a);
+                    if !number && !promised(&self.bench.graph) {
                         continue;
                     }
                     let fill = (equation.entries.len() - 1) * (counts[c] - 1);
@@ -370,15 +368,16 @@ impl Solver<'_> {
             rows.swap(c, r);
             let pivot = rows[c][c];
             self.require(pivot);
-            for k in 0..2 * n {
-                rows[c][k] = self.bench.graph.div(rows[c][k], pivot);
+            for e in &mut rows[c] {
+                *e = self.bench.graph.div(*e, pivot);
             }
-            for r in (0..n).filter(|r| *r != c) {
-                let factor = rows[r][c];
-                for k in 0..2 * n {
-                    let product = self.bench.graph.mul(factor, rows[c][k]);
-                    let difference = self.bench.graph.sub(rows[r][k], product);
-                    rows[r][k] = self.bench.dropped(difference);
+            let pivot_row = rows[c].clone();
+            for row in rows.iter_mut().enumerate().filter(|(r, _)| *r != c).map(|(_, row)| row) {
+                let factor = row[c];
+                for (e, above) in row.iter_mut().zip(&pivot_row) {
+                    let product = self.bench.graph.mul(factor, *above);
+                    let difference = self.bench.graph.sub(*e, product);
+                    *e = self.bench.dropped(difference);
                 }
             }
         }

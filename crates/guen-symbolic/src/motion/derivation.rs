@@ -81,6 +81,8 @@ pub struct Derivation {
     pub reactions: Vec<Option<ExprId>>,
     /// Whether `dT°/d eta_j` vanishes identically with all `eta` free.
     pub without_momentum: Vec<bool>,
+    /// Whether the momentum of a form is known: it differs from zero, or `T°` states that it is zero.
+    pub known_momentum: Vec<bool>,
     /// Energies and momenta.
     pub energies: Energies,
     /// `h'` along the motion, with `eta'` as symbols.
@@ -147,10 +149,15 @@ impl Derivation {
         let class = classify(bench, &system, &mut frame, &closure);
         let energies = Energies::new(bench, &system, &mut frame, &mut partials, &terms);
         let without_momentum = without_momentum(bench, &system, &frame, &mut partials, &terms);
+        let known_momentum: Vec<bool> = without_momentum
+            .iter()
+            .zip(&system.stated)
+            .map(|(without, stated)| !without || *stated)
+            .collect();
         let reactions: Vec<Option<ExprId>> = (l..n)
             .map(|v| {
                 // lambda_v = sum_t M_vt eta_t' - f_v - Q_v
-                (!without_momentum[v]).then(|| {
+                known_momentum[v].then(|| {
                     let mut parts = vec![bench.graph.neg(by_projection.forces[v])];
                     parts.push(bench.graph.neg(generalised_forces[v]));
                     for (mass, acceleration) in by_projection.mass[v].iter().zip(&system.accelerations) {
@@ -189,6 +196,7 @@ impl Derivation {
             alternatives,
             reactions,
             without_momentum,
+            known_momentum,
             energies,
             power,
             outputs,
@@ -222,11 +230,7 @@ fn affordable(bench: &Workbench) -> Result<(), DerivationError> {
 
 /// The motion without inertia of a singular mass matrix, from a smallest set of rows that is dependent: by symmetry
 /// the coefficients of the rows are the motion.
-fn weightless(
-    bench: &mut Workbench,
-    mass: &[Vec<ExprId>],
-    rows: &[usize],
-) -> Vec<(usize, Option<ExprId>)> {
+fn weightless(bench: &mut Workbench, mass: &[Vec<ExprId>], rows: &[usize]) -> Vec<(usize, Option<ExprId>)> {
     let Some((last, support)) = rows.split_last() else { return Vec::new() };
     let others: Vec<&[ExprId]> = support.iter().map(|s| &mass[*s][..]).collect();
     let Some(coefficients) = dependence(bench, &others, &mass[*last]) else {
@@ -277,17 +281,16 @@ fn generalised_forces(
     found.into_iter().map(|terms| bench.graph.sum(terms)).collect()
 }
 
-/// The equations in several forms, the one to show first: normal forms where they are small, then both routes as they
-/// came out, as far as they are worth a program of their own.
+/// The equations in several forms, the one to show first: normal forms where they are small, then the projection as it
+/// came out, if it is worth a program of its own.
 fn candidates(
     bench: &mut Workbench,
     system: &Mechanics,
     by_definition: &Equations,
     by_projection: &Equations,
 ) -> Vec<Equations> {
-    /// Estimates above which a further form is not worth the time to optimise it.
-    const WORTH_PROJECTION: u64 = 1000;
-    const WORTH_DEFINITION: u64 = 300;
+    /// The estimate above which a further form is not worth the time to optimise it.
+    const WORTH: u64 = 1000;
     let l = system.forms.degrees;
     let mass: Vec<Vec<ExprId>> = (0..l)
         .map(|s| {
@@ -304,10 +307,8 @@ fn candidates(
     let sources = [&by_projection.forces[..l], &by_definition.forces[..l]];
     let mut lists: Vec<Vec<ExprId>> = Vec::new();
     lists.extend(sources.iter().find_map(|forces| normal_forces(bench, system, forces)));
-    for (forces, worth) in sources.iter().zip([WORTH_PROJECTION, WORTH_DEFINITION]) {
-        if lists.is_empty() || weighted_cost(&bench.graph, forces) <= worth {
-            lists.push(forces.to_vec());
-        }
+    if lists.is_empty() || weighted_cost(&bench.graph, sources[0]) <= WORTH {
+        lists.push(sources[0].to_vec());
     }
     lists.into_iter().map(|forces| Equations { mass: mass.clone(), forces }).collect()
 }

@@ -16,8 +16,10 @@ const ADJUGATE_SIZE: usize = 5;
 pub struct Solution {
     /// `eta_1'..eta_l'`.
     pub accelerations: Vec<ExprId>,
-    /// Pivots that depend on the state: with the chart's functions, the domain of the equations.
+    /// Pivots of small blocks that depend on the state: with the chart's functions, the domain of the equations.
     pub pivots: Vec<ExprId>,
+    /// Larger blocks by the parameters of their rows, with their determinants where these depend on the state.
+    pub determinants: Vec<(Vec<usize>, ExprId)>,
     /// Pivots that depend on constants alone: checked when a system is prepared.
     pub constant_pivots: Vec<ExprId>,
 }
@@ -32,13 +34,17 @@ impl Solution {
             return Err(dependent_rows(bench, mass));
         }
         let zero = bench.graph.zero();
-        let mut solution =
-            Solution { accelerations: vec![zero; l], pivots: Vec::new(), constant_pivots: Vec::new() };
+        let mut solution = Solution {
+            accelerations: vec![zero; l],
+            pivots: Vec::new(),
+            determinants: Vec::new(),
+            constant_pivots: Vec::new(),
+        };
         for block in blocks(bench, mass) {
             let matrix: Vec<Vec<ExprId>> =
                 block.iter().map(|s| block.iter().map(|t| mass[*s][*t]).collect()).collect();
             let right: Vec<ExprId> = block.iter().map(|s| forces[*s]).collect();
-            let values = solution.solve_block(bench, matrix, right).ok_or_else(|| block.clone())?;
+            let values = solution.solve_block(bench, &block, matrix, right).ok_or_else(|| block.clone())?;
             for (s, value) in block.into_iter().zip(values) {
                 solution.accelerations[s] = value;
             }
@@ -49,6 +55,7 @@ impl Solution {
     fn solve_block(
         &mut self,
         bench: &mut Workbench,
+        rows: &[usize],
         mut m: Vec<Vec<ExprId>>,
         mut f: Vec<ExprId>,
     ) -> Option<Vec<ExprId>> {
@@ -61,6 +68,7 @@ impl Solution {
         }
         let mut order: Vec<usize> = Vec::new();
         let mut left: Vec<usize> = (0..n).collect();
+        let mut pivots: Vec<ExprId> = Vec::new();
         // Multipliers L_rk of each elimination step.
         let mut steps: Vec<(usize, Vec<(usize, ExprId)>)> = Vec::new();
         while !left.is_empty() {
@@ -68,7 +76,7 @@ impl Solution {
                 return self.solve_by_adjugate(bench, &original.0, &original.1);
             };
             left.retain(|r| *r != k);
-            self.require(bench, m[k][k]);
+            pivots.push(m[k][k]);
             let mut multipliers = Vec::new();
             for r in left.clone() {
                 if !bench.graph.is_zero(m[r][k]) {
@@ -90,6 +98,17 @@ impl Solution {
             }
             order.push(k);
             steps.push((k, multipliers));
+        }
+        if n > WRITTEN_OUT {
+            let factors: Vec<_> = pivots.iter().map(|pivot| (*pivot, 1)).collect();
+            let determinant = bench.graph.product(&factors);
+            if bench.graph.roles(determinant).is_constant() {
+                self.require(bench, determinant);
+            } else {
+                self.determinants.push((rows.to_vec(), determinant));
+            }
+        } else {
+            pivots.into_iter().for_each(|pivot| self.require(bench, pivot));
         }
         // L^T x = D^-1 f', backwards.
         let mut x = vec![bench.graph.zero(); n];

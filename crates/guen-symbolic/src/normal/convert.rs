@@ -178,7 +178,9 @@ pub(super) fn convert(graph: &mut Graph, e: ExprId, limits: &Limits) -> Result<(
             Node::Undefined => return Err(Exceeded),
             Node::Function(f @ (Function::Sin | Function::Cos), x) => trigonometric.push((*id, f, x)),
             Node::Function(f @ Function::Exp, x) => exponentials.push((*id, f, x)),
-            Node::Symbol(_) | Node::Pi | Node::Function(..) | Node::Atan2(..) | Node::Kept(_) => collector.generator(*id),
+            Node::Symbol(_) | Node::Pi | Node::Function(..) | Node::Atan2(..) | Node::Kept(_) => {
+                collector.generator(*id)
+            }
             _ => {}
         }
     }
@@ -303,6 +305,8 @@ fn node_value(
             _ => generator(ring, id),
         },
         Node::Undefined => Err(Exceeded),
-        Node::Symbol(_) | Node::Pi | Node::Function(..) | Node::Atan2(..) | Node::Kept(_) => generator(ring, id),
+        Node::Symbol(_) | Node::Pi | Node::Function(..) | Node::Atan2(..) | Node::Kept(_) => {
+            generator(ring, id)
+        }
     }
 }

@@ -14,7 +14,7 @@ use crate::algebra::{ExprId, FastMap, Graph, Node, Role, Substitution};
 /// Definitions name intermediate results by symbols that later definitions and the outputs use. They stay whole: the
 /// optimiser works on what is defined at one depth together, and does not look through a name. A solve written with
 /// named entries keeps its sharing, and stays cheap to optimise.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, PartialEq, Debug, Default)]
 pub struct Formulation {
     /// Symbols and what they stand for; a definition uses only symbols defined before it.
     pub definitions: Vec<(ExprId, ExprId)>,
@@ -27,7 +27,9 @@ pub struct Formulation {
 enum Effort {
     /// Every candidate that is affordable.
     Hot,
-    /// The first candidate alone.
+    /// The first candidate alone, to rank formulations.
+    Brief,
+    /// The first candidate alone, and none for small functions.
     Cold,
 }
 
@@ -53,13 +55,21 @@ pub struct ProgramBuilder<'a> {
     names: FastMap<ExprId, ExprId>,
 }
 
+/// Cold functions with fewer nodes are lowered as they are.
+const SMALL: usize = 60;
+
 /// Beyond this estimate a function is optimised only with names for what is kept whole.
 const LARGEST_UNNAMED: u64 = 400;
 
 impl<'a> ProgramBuilder<'a> {
     /// A builder without functions.
     pub fn new(graph: &'a mut Graph) -> Self {
-        ProgramBuilder { graph, prepared: PreparedTable::default(), functions: Vec::new(), names: FastMap::default() }
+        ProgramBuilder {
+            graph,
+            prepared: PreparedTable::default(),
+            functions: Vec::new(),
+            names: FastMap::default(),
+        }
     }
 
     /// Adds a function of everything that its outputs depend on, optimised with all effort.
@@ -136,13 +146,31 @@ impl<'a> ProgramBuilder<'a> {
     }
 
     fn add(&mut self, name: &str, formulations: &[Formulation], effort: Effort) -> usize {
+        // Each formulation is looked at briefly; all effort goes into the best ones.
+        const LOOKED_AT_CLOSELY: usize = 1;
+        let mut ranked: Vec<(u64, usize)> = Vec::new();
         let mut best: Option<(u64, usize, Net, Vec<NetId>)> = None;
+        let is_short = effort == Effort::Cold || formulations.len() == 1;
         for (index, formulation) in formulations.iter().enumerate() {
+            if formulations[..index].contains(formulation) {
+                continue;
+            }
+            let brief = if is_short { effort } else { Effort::Brief };
             let mut net = Net::default();
-            let roots = staged(self.graph, &mut net, formulation, effort);
+            let roots = staged(self.graph, &mut net, formulation, brief);
             let cost = cost(self.graph, &net, &roots);
+            ranked.push((cost, index));
             if best.as_ref().is_none_or(|(least, ..)| cost < *least) {
                 best = Some((cost, index, net, roots));
+            }
+        }
+        ranked.sort_unstable();
+        for (_, index) in if is_short { &[] } else { &ranked[..ranked.len().min(LOOKED_AT_CLOSELY)] } {
+            let mut net = Net::default();
+            let roots = staged(self.graph, &mut net, &formulations[*index], effort);
+            let cost = cost(self.graph, &net, &roots);
+            if best.as_ref().is_none_or(|(least, ..)| cost < *least) {
+                best = Some((cost, *index, net, roots));
             }
         }
         let (_, index, net, roots) = best.unwrap_or_default();
@@ -236,11 +264,14 @@ fn staged(graph: &mut Graph, net: &mut Net, formulation: &Formulation, effort: E
 
 /// The roots as the cheapest sequence of passes leaves them.
 fn cheapest(graph: &mut Graph, net: &mut Net, roots: Vec<NetId>, effort: Effort) -> Vec<NetId> {
-    let affordable = affordable(net.reachable(&roots).0.len());
+    let nodes = net.reachable(&roots).0.len();
     let tried = match effort {
-        Effort::Hot => affordable,
-        Effort::Cold => affordable.min(1),
+        Effort::Hot | Effort::Brief => affordable(nodes),
+        // Small functions have little to share beyond equal nodes, which are one already.
+        Effort::Cold if nodes < SMALL => 0,
+        Effort::Cold => affordable(nodes).min(1),
     };
+    let tried = if effort == Effort::Brief { tried.min(1) } else { tried };
     let mut best = (cost(graph, net, &roots), roots.clone());
     for passes in &CANDIDATES[..tried] {
         let mut candidate = roots.clone();

@@ -131,6 +131,7 @@ fn time_as_coordinate(words: &mut Words, mechanics: &mut Mechanics) {
     mechanics.forms.coordinates.push(tau);
     mechanics.velocities.push(rate);
     mechanics.etas.insert(l, eta);
+    mechanics.stated.insert(l, false);
     mechanics.accelerations.push(acceleration);
     mechanics.force_function = by_tau.of(&mut words.graph, mechanics.force_function);
     replace(words, mechanics, by_tau);

@@ -75,7 +75,9 @@ impl Scene {
         force: ExprId,
     ) -> (Declared, Derived) {
         let words = self.words;
+        let stated = vec![true; words.etas.len()];
         let mechanics = Mechanics {
+            stated,
             forms: Forms { time: words.time, coordinates: words.x, forms, degrees },
             velocities: words.velocities,
             etas: words.etas,

@@ -44,6 +44,7 @@ pub fn drawn(seed: u64) -> (Words, Mechanics) {
         .map(|(form, equation)| Holonomic { form: *form, equation: *equation })
         .collect();
     let mechanics = Mechanics {
+        stated: vec![false; words.etas.len()],
         forms: rows.forms,
         velocities: words.velocities.clone(),
         etas: words.etas.clone(),

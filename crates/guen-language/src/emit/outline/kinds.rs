@@ -42,7 +42,9 @@ impl Kinds {
     /// The kind of an expression.
     pub(super) fn of(&self, e: &Expression) -> Kind {
         match &e.kind {
-            ExpressionKind::Missing | ExpressionKind::Number(_) | ExpressionKind::Power { .. } => Kind::Scalar,
+            ExpressionKind::Missing | ExpressionKind::Number(_) | ExpressionKind::Power { .. } => {
+                Kind::Scalar
+            }
             ExpressionKind::Name(name) => self.names.get(&name.text).copied().unwrap_or(Kind::Scalar),
             ExpressionKind::Call { function, arguments, .. } => match function.text.as_str() {
                 "vec" | "cross" | "unit" | "angular_velocity" | "angular_velocity_body" => Kind::Vector,

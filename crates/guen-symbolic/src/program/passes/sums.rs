@@ -31,9 +31,10 @@ pub(super) fn changes(graph: &mut Graph, net: &mut Net, roots: &[NetId]) -> Chan
         }
     }
     let mut touched = vec![false; rows.len()];
+    let mut ratios = Ratios::default();
     // Every round takes all pairs that do not overlap; few rounds find anything.
     for _ in 0..8 {
-        let found = shared_pairs(graph, &rows);
+        let found = shared_pairs(graph, &rows, &mut ratios);
         if found.is_empty() {
             break;
         }
@@ -85,7 +86,7 @@ struct Shared {
 }
 
 /// Pairs worth taking, the best first.
-fn shared_pairs(graph: &mut Graph, rows: &[Row]) -> Vec<Shared> {
+fn shared_pairs(graph: &mut Graph, rows: &[Row], known: &mut Ratios) -> Vec<Shared> {
     let mut occurrences: FastMap<NetId, u32> = FastMap::default();
     for row in rows {
         for node in row.terms.keys() {
@@ -122,7 +123,7 @@ fn shared_pairs(graph: &mut Graph, rows: &[Row]) -> Vec<Shared> {
         let mut ratios: Vec<(ExprId, Vec<usize>)> = Vec::new();
         for row in users {
             let (ka, kb) = (rows[*row].terms[&pair.0], rows[*row].terms[&pair.1]);
-            let ratio = if ka == kb { graph.one() } else { graph.div(kb, ka) };
+            let ratio = known.ratio(graph, kb, ka);
             match ratios.iter_mut().find(|(known, _)| *known == ratio) {
                 Some((_, users)) => users.push(*row),
                 None => ratios.push((ratio, vec![*row])),
@@ -133,9 +134,9 @@ fn shared_pairs(graph: &mut Graph, rows: &[Row]) -> Vec<Shared> {
                 continue;
             }
             let (mut pair, mut ratio) = (pair, ratio);
-            if !is_safe(graph, ratio, &rows[users[0]]) {
+            if !known.is_safe(graph, ratio, &rows[users[0]]) {
                 let turned = graph.powi(ratio, -1);
-                if !is_safe(graph, turned, &rows[users[0]]) {
+                if !known.is_safe(graph, turned, &rows[users[0]]) {
                     continue;
                 }
                 (pair, ratio) = ((pair.1, pair.0), turned);
@@ -154,21 +155,34 @@ fn shared_pairs(graph: &mut Graph, rows: &[Row]) -> Vec<Shared> {
     found
 }
 
-/// Whether everything that the ratio divides by is divided by in this row already, or known to differ from zero.
-fn is_safe(graph: &mut Graph, ratio: ExprId, row: &Row) -> bool {
-    let (_, factors) = constant_factors(graph, ratio);
-    for (base, e) in factors {
-        if e > 0 || graph.manifestly_nonzero(base) {
-            continue;
+/// Ratios and denominators of coefficients: every round asks for most of them again.
+#[derive(Default)]
+struct Ratios {
+    quotients: FastMap<(ExprId, ExprId), ExprId>,
+    denominators: FastMap<ExprId, Vec<ExprId>>,
+}
+
+impl Ratios {
+    /// `b / a`.
+    fn ratio(&mut self, graph: &mut Graph, b: ExprId, a: ExprId) -> ExprId {
+        if a == b {
+            return graph.one();
         }
-        let mut divided = false;
-        for k in row.terms.values() {
-            let (_, factors) = constant_factors(graph, *k);
-            divided |= factors.iter().any(|(b, e)| *b == base && *e < 0);
-        }
-        if !divided {
-            return false;
-        }
+        *self.quotients.entry((b, a)).or_insert_with(|| graph.div(b, a))
     }
-    true
+
+    /// What a constant divides by and is not known to differ from zero.
+    fn denominators(&mut self, graph: &mut Graph, constant: ExprId) -> &[ExprId] {
+        self.denominators.entry(constant).or_insert_with(|| {
+            let (_, factors) = constant_factors(graph, constant);
+            let doubtful = factors.into_iter().filter(|(_, e)| *e < 0).map(|(base, _)| base);
+            doubtful.filter(|base| !graph.manifestly_nonzero(*base)).collect()
+        })
+    }
+
+    /// Whether everything that the ratio divides by is divided by in this row already, or known to differ from zero.
+    fn is_safe(&mut self, graph: &mut Graph, ratio: ExprId, row: &Row) -> bool {
+        let doubtful = self.denominators(graph, ratio).to_vec();
+        doubtful.iter().all(|base| row.terms.values().any(|k| self.denominators(graph, *k).contains(base)))
+    }
 }

@@ -1,0 +1,64 @@
+//! What a system with constraints on positions offers beside its motion.
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use super::Layout;
+use crate::derive::Derived;
+
+pub(super) fn items(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
+    let count = derived.derivation.system.holonomic.len();
+    if count == 0 {
+        return TokenStream::new();
+    }
+    let n = layout.n;
+    let names: Vec<&str> = derived.model.coordinates.iter().map(|c| c.name.text.as_str()).collect();
+    let driven = (layout.inputs > 0).then(|| {
+        quote! {
+            impl<R: __guen::Real> __guen::Positions<R, #n, #count> for Driven<R> {
+                #[inline]
+                fn gaps(&self, t: R, coordinates: &[R; #n]) -> [R; #count] {
+                    __guen::Positions::gaps(&self.system, t, coordinates)
+                }
+
+                #[inline]
+                fn gradients(&self, t: R, coordinates: &[R; #n]) -> [[R; #n]; #count] {
+                    __guen::Positions::gradients(&self.system, t, coordinates)
+                }
+            }
+        }
+    });
+    quote! {
+        impl<R: __guen::Real> __guen::Positions<R, #n, #count> for Prepared<R> {
+            #[inline]
+            fn gaps(&self, t: R, coordinates: &[R; #n]) -> [R; #count] {
+                program::positions(&self.constants, &self.hoisted, t, coordinates)
+            }
+
+            #[inline]
+            fn gradients(&self, t: R, coordinates: &[R; #n]) -> [[R; #n]; #count] {
+                let entries = program::gradients(&self.constants, &self.hoisted, t, coordinates);
+                ::core::array::from_fn(|v| ::core::array::from_fn(|i| entries[v * #n + i]))
+            }
+        }
+        #driven
+
+        impl<R: __guen::Ordered> Prepared<R> {
+            /// Coordinates that fulfil the holonomic constraints at time `t`, near the guess: those named in `given`
+            /// stay as they are in it, the others are found by Newton's method.
+            ///
+            /// # Errors
+            ///
+            /// Too many are given, a name is unknown, or nothing near the guess fulfils the constraints.
+            pub fn consistent(
+                &self,
+                t: R,
+                guess: &Coordinates<R>,
+                given: &[&'static str],
+            ) -> ::core::result::Result<Coordinates<R>, __guen::PositionsError> {
+                let found = __guen::consistent(self, t, &::core::convert::From::from(*guess), &[#(#names),*], given)?;
+                ::core::result::Result::Ok(::core::convert::From::from(found))
+            }
+        }
+    }
+}

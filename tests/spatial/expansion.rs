@@ -1,0 +1,59 @@
+//! How long the declarations of these tests take to expand, and that none takes longer than a person waits.
+
+use std::sync::LazyLock;
+use std::time::{Duration, Instant};
+
+use proc_macro2::{TokenStream, TokenTree};
+
+/// The files with their declarations.
+const FILES: [&str; 7] = [
+    include_str!("balls.rs"),
+    include_str!("bicycle.rs"),
+    include_str!("hoop.rs"),
+    include_str!("linkages.rs"),
+    include_str!("pendulums.rs"),
+    include_str!("tops.rs"),
+    include_str!("vehicles.rs"),
+];
+
+/// Two seconds on a quiet machine of today; the tests run on others too.
+const LONGEST: Duration = Duration::from_secs(6);
+
+#[test]
+fn every_system_expands_in_seconds() {
+    for declaration in FILES.iter().flat_map(|file| declarations(file.parse().unwrap())) {
+        let name = declaration.clone().into_iter().filter_map(|token| match token {
+            TokenTree::Ident(name) => Some(name.to_string()),
+            _ => None,
+        });
+        let name = name.skip_while(|name| name != "system").nth(1).unwrap_or_default();
+        let start = clock();
+        let items = guen_language::expand(declaration).to_string();
+        let time = clock() - start;
+        assert!(items.contains("REPORT"), "{name} does not expand");
+        println!("{name:16} {:6.0} ms, {:4} kB", time.as_secs_f64() * 1e3, items.len() / 1024);
+        assert!(time < LONGEST, "{name} took {time:?}");
+    }
+}
+
+/// The time that this thread has run, where the system tells; elsewhere the time of day.
+fn clock() -> Duration {
+    static START: LazyLock<Instant> = LazyLock::new(Instant::now);
+    let spent = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
+    let nanoseconds = spent.as_deref().and_then(|text| text.split_whitespace().next()?.parse().ok());
+    nanoseconds.map_or_else(|| START.elapsed(), Duration::from_nanos)
+}
+
+/// The groups after `mechanical_system!`.
+fn declarations(source: TokenStream) -> Vec<TokenStream> {
+    let tokens: Vec<TokenTree> = source.into_iter().collect();
+    let found = tokens.windows(3).filter_map(|three| match three {
+        [TokenTree::Ident(name), TokenTree::Punct(mark), TokenTree::Group(group)]
+            if name == "mechanical_system" && mark.as_char() == '!' =>
+        {
+            Some(group.stream())
+        }
+        _ => None,
+    });
+    found.collect()
+}

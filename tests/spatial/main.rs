@@ -1,0 +1,22 @@
+//! Bodies in space: systems that are declared by positions, orientations, masses and contacts, each beside a
+//! calculation that shares nothing with the macro.
+
+#![allow(non_snake_case, reason = "constants are called as in the declarations")]
+#[macro_use]
+#[path = "../systems/mod.rs"]
+mod systems;
+
+#[allow(dead_code, reason = "the paper's tests need all of it")]
+#[path = "../paper/formulas.rs"]
+mod formulas;
+
+mod balls;
+mod bicycle;
+mod by_hand;
+mod expansion;
+mod hoop;
+mod linkages;
+mod pendulums;
+mod restoring;
+mod tops;
+mod vehicles;
