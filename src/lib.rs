@@ -47,8 +47,8 @@
 #![forbid(unsafe_code)]
 
 pub use guen_runtime::{
-    BracketCoefficients, Catastatic, Class, Coefficient, Conservative, ConstantsError, Coordinate, Cost,
-    Dual, Function, Holonomic, IncompleteLieGroup, IntegrationError, LieGroup, Lift, Linearization,
+    BodyFault, BracketCoefficients, Catastatic, Class, Coefficient, Conservative, ConstantsError, Coordinate,
+    Cost, Dual, Function, Holonomic, IncompleteLieGroup, IntegrationError, LieGroup, Lift, Linearization,
     Monitored, Nonholonomic, Operator, Ordered, Real, Report, ReportSection, Rheonomic, Scleronomic, System,
     Positions, PositionsError, Projected, from_fn, prelude, project, projected, steppers,
 };
@@ -92,7 +92,7 @@ macro_rules! mechanical_system {
 #[doc(hidden)]
 pub mod __private {
     pub use guen_macros::mechanical_system;
-    pub use guen_runtime::checks::{check_hoisted, check_pivot, largest};
+    pub use guen_runtime::checks::{check_hoisted, check_inertia, check_mass, check_pivot, largest};
     pub use guen_runtime::consistent;
     pub use guen_runtime::{
         BracketCoefficients, Catastatic, Class, Coefficient, Conservative, ConstantsError, Cost, Dual,

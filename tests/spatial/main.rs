@@ -17,6 +17,7 @@ mod expansion;
 mod hoop;
 mod linkages;
 mod pendulums;
+mod physical;
 mod restoring;
 mod tops;
 mod vehicles;

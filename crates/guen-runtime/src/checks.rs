@@ -1,5 +1,6 @@
 //! Checks that generated code calls, out of line.
 
+use crate::error::BodyFault;
 use crate::{ConstantsError, Real};
 
 /// Refuses a pivot of constants that is zero or not finite.
@@ -33,6 +34,66 @@ pub fn check_hoisted<R: Real>(value: R) -> Result<(), ConstantsError> {
         return Ok(());
     }
     Err(ConstantsError::SingularPivot { what: "an expression of the constants", value: value.to_f64() })
+}
+
+/// Refuses a negative mass.
+///
+/// ```
+/// assert!(guen_runtime::checks::check_mass(0.0, "frame").is_ok());
+/// assert!(guen_runtime::checks::check_mass(-1.0, "frame").is_err());
+/// ```
+///
+/// # Errors
+///
+/// [`ConstantsError::NotPhysical`].
+pub fn check_mass<R: Real>(mass: R, body: &'static str) -> Result<(), ConstantsError> {
+    let fault = BodyFault::NegativeMass;
+    if mass.to_f64() < 0.0 { Err(ConstantsError::NotPhysical { body, fault }) } else { Ok(()) }
+}
+
+/// Refuses an inertia, given by the matrix entries `xx, yy, zz, xy, yz, zx`, that no distribution of mass has.
+///
+/// ```text
+/// S = tr(I)/2 1 - I = integral of r r^T dm
+/// ```
+///
+/// must be positive semidefinite: all its principal minors are nonnegative. Then the principal moments are the sums
+/// `s_2 + s_3, s_3 + s_1, s_1 + s_2` of nonnegative numbers, which is what the triangle inequality says.
+///
+/// ```
+/// // A thin disc reaches the limit, C = 2 A; half of its moment about a diameter is too little.
+/// assert!(guen_runtime::checks::check_inertia(&[0.1, 0.1, 0.2, 0.0, 0.0, 0.0], "disc").is_ok());
+/// assert!(guen_runtime::checks::check_inertia(&[0.05, 0.05, 0.2, 0.0, 0.0, 0.0], "disc").is_err());
+/// ```
+///
+/// # Errors
+///
+/// [`ConstantsError::NotPhysical`].
+pub fn check_inertia<R: Real>(entries: &[R; 6], body: &'static str) -> Result<(), ConstantsError> {
+    /// Limits are meant to be reached: what is above them by this part of the trace is rounding.
+    const ROUNDING: f64 = 64.0 * f64::EPSILON;
+
+    let [xx, yy, zz, xy, yz, zx] = entries.map(Real::to_f64);
+    let half = (xx + yy + zz) / 2.0;
+    let fault = ConstantsError::NotPhysical { body, fault: BodyFault::Inertia };
+    if half == 0.0 {
+        // Without a trace there is nothing to measure by, and nothing but zero is physical.
+        let still = [xx, yy, zz, xy, yz, zx].iter().all(|entry| *entry == 0.0);
+        return if still { Ok(()) } else { Err(fault) };
+    }
+    // S over half the trace; the products of inertia enter with their signs turned.
+    let [a, b, c] = [xx, yy, zz].map(|moment| 1.0 - moment / half);
+    let [d, e, f] = [xy, yz, zx].map(|product| -product / half);
+    let minors = [
+        a,
+        b,
+        c,
+        a * b - d * d,
+        b * c - e * e,
+        c * a - f * f,
+        a * b * c + 2.0 * d * e * f - a * e * e - b * f * f - c * d * d,
+    ];
+    if half > 0.0 && minors.iter().all(|minor| *minor >= -ROUNDING) { Ok(()) } else { Err(fault) }
 }
 
 /// The largest absolute value, as a real without an order can have it: through `f64` for the comparison. Zero for

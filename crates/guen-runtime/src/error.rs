@@ -34,6 +34,23 @@ pub enum ConstantsError {
         /// Its value.
         value: f64,
     },
+    /// A body that no distribution of mass has.
+    NotPhysical {
+        /// The body's name.
+        body: &'static str,
+        /// What is wrong with it.
+        fault: BodyFault,
+    },
+}
+
+/// Why a body is none that could be made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum BodyFault {
+    /// Its mass is negative.
+    NegativeMass,
+    /// A principal moment of inertia is negative, or larger than the sum of the other two.
+    Inertia,
 }
 
 impl fmt::Display for ConstantsError {
@@ -42,6 +59,13 @@ impl fmt::Display for ConstantsError {
             Self::NotFinite { name, value } => write!(f, "constant `{name}` is {value}, which is not finite"),
             Self::OutOfBound { name, bound, value } => {
                 write!(f, "constant `{name}` is {value}, but `{bound}` is declared")
+            }
+            Self::NotPhysical { body, fault: BodyFault::NegativeMass } => {
+                write!(f, "body `{body}` has a negative mass")
+            }
+            Self::NotPhysical { body, fault: BodyFault::Inertia } => {
+                write!(f, "no distribution of mass has the inertia of body `{body}`: a principal moment is negative, ")?;
+                f.write_str("or larger than the sum of the other two")
             }
             Self::SingularPivot { what, value } => {
                 write!(f, "these constants make `{what}`, which the equations divide by, equal to {value}")

@@ -47,7 +47,7 @@ pub use classification::{
 };
 pub use cost::Cost;
 pub use dual::Dual;
-pub use error::{Cause, ConstantsError, IntegrationError, Setting};
+pub use error::{BodyFault, Cause, ConstantsError, IntegrationError, Setting};
 pub use lift::Lift;
 pub use linearization::{Linearization, seeded};
 pub use operator::{Applied, Coordinate, Function, Operator};

@@ -11,6 +11,7 @@ mod functions;
 mod motion;
 mod operators;
 mod outline;
+mod physical;
 mod positions;
 mod records;
 mod uses;
@@ -121,6 +122,7 @@ pub fn emit(mut derived: Derived<'_>) -> TokenStream {
         records::items(&derived, &layout),
         motion::items(&derived, &layout),
         positions::items(&derived, &layout),
+        physical::items(&derived, &layout),
         operators::items(&mut derived, &layout),
         classification::items(&derived, &layout),
         documentation::constants(&report),

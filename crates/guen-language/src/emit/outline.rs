@@ -299,6 +299,12 @@ fn prepared(system: &Ident, names: &Names) -> TokenStream {
     ];
     let kinds = kinds.map(|kind| format_ident!("{kind}"));
     quote! {
+        impl<R: __guen::Real> #system<R> {
+            /// The system with its bodies checked.
+            pub fn prepare_physical(self) -> ::core::result::Result<Prepared<R>, __guen::ConstantsError> {
+                ::core::unreachable!()
+            }
+        }
         /// The prepared system.
         #[::core::prelude::v1::derive(
             ::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq

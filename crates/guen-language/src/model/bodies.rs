@@ -28,7 +28,8 @@ impl Evaluator<'_> {
     pub(super) fn body(&mut self, body: &Body) -> Evaluated<(ExprId, Option<Weight>, BodyValue)> {
         let mut energy = Vec::new();
         let mut weight = None;
-        let mut value = BodyValue { name: body.name.text.clone(), center: None, orientation: None };
+        let name = body.name.text.clone();
+        let mut value = BodyValue { name, center: None, orientation: None, mass: None, inertia: None };
         let mass = body.mass.as_ref().map(|mass| self.scalar_at(Place::Mass, &mass.value)).transpose();
         let center =
             body.center.as_ref().map(|center| self.vector_at(Place::Position, &center.value)).transpose();
@@ -47,6 +48,7 @@ impl Evaluator<'_> {
         let inertia = body.inertia.as_ref().map(|inertia| self.inertia(&inertia.value));
         let (mass, center) = (mass?, center?);
         let (orientation, inertia) = (orientation.transpose()?, inertia.transpose()?);
+        (value.mass, value.inertia) = (mass, inertia);
         if let Some(position) = center {
             let velocity = self.vector_rate(&position);
             if let Some(mass) = mass {

@@ -34,6 +34,8 @@ pub struct Model<'a> {
     pub coordinates: Vec<SymbolEntry<'a>>,
     /// The forms `eta_1..eta_n`, parameters first.
     pub forms: Vec<FormEntry<'a>>,
+    /// Bodies in order.
+    pub bodies: Vec<BodyEntry>,
     /// Outputs in order.
     pub outputs: Vec<OutputEntry<'a>>,
     /// Components of vector equations that are identically `0 = 0`, by name.
@@ -97,6 +99,16 @@ pub struct FormEntry<'a> {
     pub kind: FormKind,
     /// Whether the kinetic energy mentions the name.
     pub mentioned_in_energy: bool,
+}
+
+/// What a body is made of.
+pub struct BodyEntry {
+    /// Its name.
+    pub name: String,
+    /// Its mass, if it has one.
+    pub mass: Option<ExprId>,
+    /// The matrix entries `xx, yy, zz, xy, yz, zx` of its inertia, if it has one.
+    pub inertia: Option<[ExprId; 6]>,
 }
 
 /// An output: a scalar, or the three components of a vector.

@@ -10,8 +10,8 @@ use super::forms::RawForm;
 use super::place::Place;
 use super::scope::{Category, Scope};
 use super::spatial::inner;
-use super::value::Value;
-use super::{ConstantEntry, FormKind, Model, OutputEntry, SymbolEntry};
+use super::value::{BodyValue, Value};
+use super::{BodyEntry, ConstantEntry, FormKind, Model, OutputEntry, SymbolEntry};
 use crate::diagnostics::{Fault, Faults};
 use crate::names::quoted;
 use crate::syntax::{
@@ -47,6 +47,7 @@ struct Resolver<'a, 'f> {
     gravity: Option<super::value::Vector>,
     force_function: Option<ExprId>,
     forces: Vec<Force>,
+    bodies: Vec<BodyEntry>,
     outputs: Vec<OutputEntry<'a>>,
     output_values: Vec<ExprId>,
 }
@@ -82,6 +83,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
             gravity: None,
             force_function: None,
             forces: Vec::new(),
+            bodies: Vec::new(),
             outputs: Vec::new(),
             output_values: Vec::new(),
         }
@@ -179,6 +181,8 @@ impl<'a, 'f> Resolver<'a, 'f> {
                     let value = self.eval.body(body).ok().map(|(energy, weight, value)| {
                         self.kinetic.push(energy);
                         self.weights.extend(weight);
+                        let BodyValue { name, mass, inertia, .. } = &value;
+                        self.bodies.push(BodyEntry { name: name.clone(), mass: *mass, inertia: *inertia });
                         Value::Body(Box::new(value))
                     });
                     self.eval.scope.declare(self.eval.faults, &body.name, Category::Body, value);
@@ -417,6 +421,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
             inputs: self.inputs,
             coordinates: self.coordinates,
             forms: raw.into_iter().map(|form| form.entry).collect(),
+            bodies: self.bodies,
             outputs: self.outputs,
             left_out: self.eval.left_out,
             mechanics,

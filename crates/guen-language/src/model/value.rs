@@ -25,6 +25,10 @@ pub(super) struct BodyValue {
     pub(super) center: Option<(Vector, Vector)>,
     /// Its orientation, if it has one.
     pub(super) orientation: Option<Rotation>,
+    /// Its mass, if it has one.
+    pub(super) mass: Option<ExprId>,
+    /// The matrix entries `xx, yy, zz, xy, yz, zx` of its inertia, if it has one.
+    pub(super) inertia: Option<[ExprId; 6]>,
 }
 
 /// A value of the language.

@@ -10,8 +10,9 @@ use crate::algebra::{ExprId, Flow, Rational};
 use crate::geometry::inverse::adjugate;
 use crate::workbench::Workbench;
 
-/// The closure may add this many nodes to the graph before it gives up.
-const NODE_LIMIT: usize = 400_000;
+/// Steps of building after which the brackets are not followed further: a classification is worth less than the
+/// equations that come after it.
+const WORK_LIMIT: u64 = 1_500_000;
 
 /// What the closure found.
 #[derive(Clone, Debug)]
@@ -37,67 +38,74 @@ impl Closure {
         let (n, l) = (forms.len(), forms.degrees);
         let constraints = n - l;
         let mut flows: Vec<Flow> = (0..=l).map(|r| displacement(bench, forms, operators, r)).collect();
-        let start = bench.graph.len();
+        let start = bench.graph.work();
         let mut growth = vec![l];
         let mut kept: Vec<Vec<ExprId>> = Vec::new();
         let mut complete = true;
+        let mut enlarges = |bench: &mut Workbench, kept: &mut Vec<Vec<ExprId>>, y: &Vec<ExprId>| {
+            if y.iter().all(|e| bench.graph.is_zero(*e)) {
+                return false;
+            }
+            kept.push(y.clone());
+            let rank = bench.zero.rank(&mut bench.graph, kept, true);
+            complete &= rank.is_some();
+            let larger = rank == Some(kept.len());
+            if !larger {
+                kept.pop();
+            }
+            larger
+        };
         // [X_r, X_s] modulo D_1 has the components C_rsv.
-        let mut candidates: Vec<Vec<ExprId>> = Vec::new();
-        for s in 1..=l {
+        let mut fresh = Vec::new();
+        'first: for s in 1..=l {
             for r in 0..s {
-                candidates.push((l + 1..=n).map(|v| brackets.coefficient(bench, r, s, v)).collect());
-            }
-        }
-        loop {
-            let mut fresh = Vec::new();
-            for y in candidates.drain(..) {
                 if kept.len() == constraints {
-                    break;
+                    break 'first;
                 }
-                if y.iter().all(|e| bench.graph.is_zero(*e)) {
-                    continue;
-                }
-                kept.push(y.clone());
-                match bench.zero.rank(&mut bench.graph, &kept, true) {
-                    Some(rank) if rank == kept.len() => fresh.push(y),
-                    Some(_) => {
-                        kept.pop();
-                    }
-                    None => {
-                        kept.pop();
-                        complete = false;
-                    }
-                }
-            }
-            if fresh.is_empty() {
-                break;
-            }
-            growth.push(l + kept.len());
-            if kept.len() == constraints {
-                break;
-            }
-            for y in &fresh {
-                for (r, flow) in flows.iter_mut().enumerate() {
-                    if bench.graph.len() > start + NODE_LIMIT {
-                        complete = false;
-                        break;
-                    }
-                    let bracket = (0..constraints)
-                        .map(|w| {
-                            let mut terms = vec![flow.of(&mut bench.graph, y[w])];
-                            for (v, component) in y.iter().enumerate() {
-                                if !bench.graph.is_zero(*component) {
-                                    let c = brackets.coefficient(bench, r, l + 1 + v, l + 1 + w);
-                                    terms.push(bench.graph.mul(*component, c));
-                                }
-                            }
-                            bench.graph.sum(terms)
-                        })
-                        .collect();
-                    candidates.push(bracket);
+                let y: Vec<ExprId> = (l + 1..=n).map(|v| brackets.coefficient(bench, r, s, v)).collect();
+                if enlarges(bench, &mut kept, &y) {
+                    fresh.push(y);
                 }
             }
         }
+        let mut exhausted = false;
+        while !fresh.is_empty() {
+            growth.push(l + kept.len());
+            let mut next = Vec::new();
+            'level: for y in &fresh {
+                for (r, flow) in flows.iter_mut().enumerate() {
+                    if kept.len() == constraints {
+                        break 'level;
+                    }
+                    let mut bracket = Vec::with_capacity(constraints);
+                    for w in 0..constraints {
+                        if bench.graph.work() > start + WORK_LIMIT {
+                            exhausted = true;
+                            break 'level;
+                        }
+                        let mut terms = vec![flow.of(&mut bench.graph, y[w])];
+                        for (v, component) in y.iter().enumerate() {
+                            if !bench.graph.is_zero(*component) {
+                                let c = brackets.coefficient(bench, r, l + 1 + v, l + 1 + w);
+                                terms.push(bench.graph.mul(*component, c));
+                            }
+                        }
+                        let sum = bench.graph.sum(terms);
+                        // The next derivative shares what this one has found.
+                        bracket.push(bench.keep_large(sum));
+                    }
+                    if enlarges(bench, &mut kept, &bracket) {
+                        next.push(bracket);
+                    }
+                }
+            }
+            fresh = next;
+            if exhausted {
+                // Of this level not all is known.
+                break;
+            }
+        }
+        complete &= !exhausted;
         // Ranks see through what vanishes; what is printed should not contain it.
         for e in kept.iter_mut().flatten() {
             *e = bench.dropped(*e);

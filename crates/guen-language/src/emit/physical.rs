@@ -1,0 +1,49 @@
+//! The check that a system's bodies are bodies: masses and inertias, where they depend on constants alone.
+
+use proc_macro2::TokenStream;
+use quote::{format_ident, quote};
+
+use super::constants::default_text;
+use super::{Layout, tokens};
+use crate::derive::Derived;
+
+pub(super) fn items(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
+    let graph = &derived.model.bench.graph;
+    let known = |e: &guen_symbolic::ExprId| graph.roles(*e).is_constant();
+    let value = |e: &guen_symbolic::ExprId| tokens(&default_text(derived, graph, *e));
+    let mut checks = Vec::new();
+    for body in &derived.model.bodies {
+        let name = &body.name;
+        if let Some(mass) = body.mass.as_ref().filter(|mass| known(mass)) {
+            let mass = value(mass);
+            checks.push(quote!(__guen::check_mass::<R>(#mass, #name)?;));
+        }
+        if let Some(entries) = body.inertia.as_ref().filter(|entries| entries.iter().all(known)) {
+            let entries = entries.iter().map(value);
+            checks.push(quote!(__guen::check_inertia::<R>(&[#(#entries),*], #name)?;));
+        }
+    }
+    if checks.is_empty() {
+        return TokenStream::new();
+    }
+    let system = &layout.system;
+    let locals = (0..layout.constants).map(|i| format_ident!("__guen_c{i}"));
+    quote! {
+        impl<R: __guen::Real> #system<R> {
+            /// [`prepare`](Self::prepare), and a check that every body is one that could be made: no mass is negative,
+            /// and every inertia is that of a distribution of mass in space, so that its principal moments are not
+            /// negative and none exceeds the sum of the others. What depends on the position is not checked.
+            ///
+            /// # Errors
+            ///
+            /// Those of `prepare`, and `NotPhysical` with the name of the body.
+            pub fn prepare_physical(self) -> ::core::result::Result<Prepared<R>, __guen::ConstantsError> {
+                let prepared = self.prepare()?;
+                #[allow(unused_variables, reason = "bodies need not use every constant")]
+                let [#(#locals),*] = prepared.constants;
+                #(#checks)*
+                ::core::result::Result::Ok(prepared)
+            }
+        }
+    }
+}
