@@ -49,8 +49,8 @@
 pub use guen_runtime::{
     BodyFault, BracketCoefficients, Catastatic, Class, Coefficient, Conservative, ConstantsError, Coordinate,
     Cost, Dual, Function, Holonomic, IncompleteLieGroup, IntegrationError, LieGroup, Lift, Linearization,
-    Monitored, Nonholonomic, Operator, Ordered, Real, Report, ReportSection, Rheonomic, Scleronomic, System,
-    Positions, PositionsError, Projected, from_fn, prelude, project, projected, steppers,
+    Monitored, Nonholonomic, Operator, Ordered, Positions, PositionsError, Projected, Real, Report,
+    ReportSection, Rheonomic, Scleronomic, System, from_fn, prelude, project, projected, steppers,
 };
 
 /// Declares a mechanical system and derives its equations of motion at compile time.
@@ -97,8 +97,8 @@ pub mod __private {
     pub use guen_runtime::{
         BracketCoefficients, Catastatic, Class, Coefficient, Conservative, ConstantsError, Cost, Dual,
         Holonomic, IncompleteLieGroup, LieGroup, Lift, Linearization, Monitored, Nonholonomic, Operator,
-        Ordered, Positions, PositionsError, Real, Report, ReportSection, Rheonomic, Scleronomic, System, nalgebra_conversions, seeded,
-        zero_bracket,
+        Ordered, Positions, PositionsError, Real, Report, ReportSection, Rheonomic, Scleronomic, System,
+        nalgebra_conversions, seeded, zero_bracket,
     };
 }
 

@@ -19,5 +19,6 @@ mod linkages;
 mod pendulums;
 mod physical;
 mod restoring;
+mod snakes;
 mod tops;
 mod vehicles;

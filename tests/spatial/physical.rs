@@ -34,7 +34,9 @@ fn the_limits_are_those_of_the_principal_moments() {
 fn products_of_inertia_count() {
     let brick = |c: f64| {
         let rotation = nalgebra::Rotation3::from_euler_angles(0.4, -0.9, 1.3);
-        let i = rotation.matrix() * nalgebra::Matrix3::from_diagonal(&[1.0, 2.0, c].into()) * rotation.matrix().transpose();
+        let i = rotation.matrix()
+            * nalgebra::Matrix3::from_diagonal(&[1.0, 2.0, c].into())
+            * rotation.matrix().transpose();
         Brick { m: 1.0, A: i[(0, 0)], B: i[(1, 1)], C: i[(2, 2)], D: i[(0, 1)], E: i[(1, 2)], F: i[(2, 0)] }
     };
     for c in [1.0, 1.5, 2.9, 3.0] {

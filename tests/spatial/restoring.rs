@@ -18,7 +18,7 @@ fn gradients_are_those_of_the_left_sides() {
     let x = [0.3, -0.4, 0.9];
     let seeds = std::array::from_fn(|i| guen::Dual::variable(x[i], i));
     let expected = varied.gaps(guen::Dual::constant(0.6), &seeds).map(|f| f.tangent);
-    for (found, expected) in bead.gradients(0.6, &x).iter().flatten().zip(expected.iter().flatten()) {
+    for (found, expected) in bead.linearized(0.6, &x).1.iter().flatten().zip(expected.iter().flatten()) {
         assert!((found - expected).abs() < 1e-14);
     }
 }
@@ -84,8 +84,10 @@ fn a_state_is_moved_the_shortest_way() {
 #[test]
 fn drift_does_not_accumulate() {
     let linkage = linkage();
-    let coordinates = linkage.consistent(0.0, &four_bar::Coordinates { q1: 0.8, q2: 0.5, q3: 1.5 }, &["q1"]).unwrap();
-    let start: [f64; 4] = four_bar::State { q1: coordinates.q1, q2: coordinates.q2, q3: coordinates.q3, turn: 3.0 }.into();
+    let coordinates =
+        linkage.consistent(0.0, &four_bar::Coordinates { q1: 0.8, q2: 0.5, q3: 1.5 }, &["q1"]).unwrap();
+    let start: [f64; 4] =
+        four_bar::State { q1: coordinates.q1, q2: coordinates.q2, q3: coordinates.q3, turn: 3.0 }.into();
     let driven = linkage.driven(four_bar::Inputs { motor: 0.0 });
     let worst = |restored: bool| {
         let mut most = 0.0_f64;

@@ -49,7 +49,7 @@ pub mod function {
     pub const OUTPUTS: &str = "outputs";
     /// The holonomic constraints.
     pub const POSITIONS: &str = "positions";
-    /// The derivatives of the holonomic constraints, row by row; only where there are some.
+    /// The holonomic constraints and then their derivatives, row by row; only where there are some.
     pub const GRADIENTS: &str = "gradients";
     /// The functions that must not vanish.
     pub const DOMAIN: &str = "domain";
@@ -152,9 +152,8 @@ fn programs(
         .collect();
     let reactions: Vec<ExprId> = derivation.reactions.iter().flatten().copied().collect();
     let positions: Vec<ExprId> = derivation.system.holonomic.iter().map(|h| h.equation).collect();
-    let holonomic = derivation.system.holonomic.iter();
-    let gradients: Vec<ExprId> =
-        holonomic.flat_map(|h| derivation.system.forms.forms[h.form].row.iter().copied()).collect();
+    let rows = derivation.system.holonomic.iter().map(|h| &derivation.system.forms.forms[h.form].row);
+    let gradients: Vec<ExprId> = positions.iter().chain(rows.flatten()).copied().collect();
     let rates: Vec<ExprId> =
         derivation.frame.velocities.iter().chain(&derivation.solution.accelerations).copied().collect();
     let limits = Limits::default();
@@ -163,7 +162,14 @@ fn programs(
     let written_out = (weighted_cost(&bench.graph, &rates) <= LARGEST_WRITTEN_OUT)
         .then(|| rates.iter().map(|e| normal_form(&mut bench.graph, *e, &limits).unwrap_or(*e)).collect());
     let velocities = &derivation.frame.velocities;
-    let others = derivation.alternatives.iter().map(|list| velocities.iter().chain(list).copied().collect());
+    // Another form may come out cheaper although it looks dearer, but hardly by more than half.
+    let most = 3 * weighted_cost(&bench.graph, &rates) / 2;
+    let others: Vec<Vec<ExprId>> = derivation
+        .alternatives
+        .iter()
+        .map(|list| velocities.iter().chain(list).copied().collect::<Vec<_>>())
+        .filter(|list| weighted_cost(&bench.graph, list) <= most)
+        .collect();
     let lists: Vec<Vec<ExprId>> = [Some(rates), written_out].into_iter().flatten().chain(others).collect();
     let mut brackets: Vec<(String, Vec<ExprId>)> = Vec::new();
     for s in 1..=l {

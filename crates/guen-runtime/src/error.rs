@@ -64,7 +64,10 @@ impl fmt::Display for ConstantsError {
                 write!(f, "body `{body}` has a negative mass")
             }
             Self::NotPhysical { body, fault: BodyFault::Inertia } => {
-                write!(f, "no distribution of mass has the inertia of body `{body}`: a principal moment is negative, ")?;
+                write!(
+                    f,
+                    "no distribution of mass has the inertia of body `{body}`: a principal moment is negative, "
+                )?;
                 f.write_str("or larger than the sum of the other two")
             }
             Self::SingularPivot { what, value } => {

@@ -15,8 +15,8 @@ pub trait Positions<R: Real, const N: usize, const H: usize> {
     /// The left sides `f_1 .. f_H`, each in its own unit.
     fn gaps(&self, t: R, coordinates: &[R; N]) -> [R; H];
 
-    /// The derivatives `F_vi = d f_v / d x_i`, exact, a row for each constraint.
-    fn gradients(&self, t: R, coordinates: &[R; N]) -> [[R; N]; H];
+    /// The left sides, and beside them the derivatives `F_vi = d f_v / d x_i`, exact, a row for each constraint.
+    fn linearized(&self, t: R, coordinates: &[R; N]) -> ([R; H], [[R; N]; H]);
 }
 
 impl<R: Real, S: Positions<R, N, H> + ?Sized, const N: usize, const H: usize> Positions<R, N, H> for &S {
@@ -26,8 +26,8 @@ impl<R: Real, S: Positions<R, N, H> + ?Sized, const N: usize, const H: usize> Po
     }
 
     #[inline]
-    fn gradients(&self, t: R, coordinates: &[R; N]) -> [[R; N]; H] {
-        (**self).gradients(t, coordinates)
+    fn linearized(&self, t: R, coordinates: &[R; N]) -> ([R; H], [[R; N]; H]) {
+        (**self).linearized(t, coordinates)
     }
 }
 
@@ -70,7 +70,10 @@ impl fmt::Display for PositionsError {
                 write!(f, "{left} coordinates are left to fulfil {constraints} constraints on positions")
             }
             Self::Singular { residual } => {
-                write!(f, "the constraints on positions become dependent, {residual:e} away from being fulfilled")
+                write!(
+                    f,
+                    "the constraints on positions become dependent, {residual:e} away from being fulfilled"
+                )
             }
             Self::NotFound { residual } => {
                 write!(f, "no coordinates near the guess fulfil the constraints; {residual:e} is left")
@@ -172,12 +175,12 @@ where
     let begin = *x;
     let precision = libm::sqrt(R::epsilon().to_f64());
     let mut extent = x.iter().fold(0.0_f64, |most, x| most.max(x.to_f64().abs()));
-    let mut f = system.gaps(t, x);
     for round in 0..STEPS {
+        let (f, gradients) = system.linearized(t, x);
         if f.iter().all(|f| f.to_f64() == 0.0) {
             return Ok(distance(x, &begin));
         }
-        let factor = Factor::new(system.gradients(t, x), free, &f)?;
+        let factor = Factor::new(gradients, free, &f)?;
         let step = factor.step(&f);
         let length = size(&step);
         if !length.is_finite() {
@@ -197,7 +200,7 @@ where
             let gaps = system.gaps(t, &trial);
             // Measured by the step that they would ask for, whatever units the constraints have.
             if size(&factor.step(&gaps)) <= (1.0 - part / 4.0) * length {
-                (*x, f) = (trial, gaps);
+                *x = trial;
                 break;
             }
             part /= 2.0;
@@ -206,7 +209,7 @@ where
             }
         }
     }
-    Err(PositionsError::NotFound { residual: largest(&f) })
+    Err(PositionsError::NotFound { residual: largest(&system.gaps(t, x)) })
 }
 
 /// `F` with the factor `L` of `F F^T = L L^T`.

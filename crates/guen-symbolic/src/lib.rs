@@ -28,7 +28,7 @@ pub use motion::{
     NotQuadratic, Solution, VelocityForm, VelocityPartials, decompose,
 };
 pub use normal::{Limits, normal_coefficients, normal_form};
-pub use print::latex_name;
+pub use print::{Notation, latex_name};
 pub use program::{
     Arithmetic, Formulation, FunctionProgram, Instruction, Operation, OperationCount, ProgramBuilder,
     Programs, Value, evaluate_function, evaluate_prepare, weighted_cost,

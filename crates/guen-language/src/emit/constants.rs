@@ -182,7 +182,11 @@ fn constructors(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
 }
 
 /// An expression of constants as one of Rust over the locals `__guen_c0`, `__guen_c1`, ...
-pub(super) fn default_text(derived: &Derived<'_>, graph: &guen_symbolic::Graph, e: guen_symbolic::ExprId) -> String {
+pub(super) fn default_text(
+    derived: &Derived<'_>,
+    graph: &guen_symbolic::Graph,
+    e: guen_symbolic::ExprId,
+) -> String {
     use guen_symbolic::Node;
     let of = |e| default_text(derived, graph, e);
     match graph.node(e) {

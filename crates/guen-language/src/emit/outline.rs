@@ -283,7 +283,7 @@ fn prepared(system: &Ident, names: &Names) -> TokenStream {
         quote! {
             #(impl<R: __guen::Real> __guen::Positions<R, #n, #bound> for #owners<R> {
                 fn gaps(&self, _: R, _: &[R; #n]) -> [R; #bound] { ::core::unreachable!() }
-                fn gradients(&self, _: R, _: &[R; #n]) -> [[R; #n]; #bound] { ::core::unreachable!() }
+                fn linearized(&self, _: R, _: &[R; #n]) -> ([R; #bound], [[R; #n]; #bound]) { ::core::unreachable!() }
             })*
         }
     });

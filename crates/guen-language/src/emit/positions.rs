@@ -22,8 +22,8 @@ pub(super) fn items(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
                 }
 
                 #[inline]
-                fn gradients(&self, t: R, coordinates: &[R; #n]) -> [[R; #n]; #count] {
-                    __guen::Positions::gradients(&self.system, t, coordinates)
+                fn linearized(&self, t: R, coordinates: &[R; #n]) -> ([R; #count], [[R; #n]; #count]) {
+                    __guen::Positions::linearized(&self.system, t, coordinates)
                 }
             }
         }
@@ -36,9 +36,10 @@ pub(super) fn items(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
             }
 
             #[inline]
-            fn gradients(&self, t: R, coordinates: &[R; #n]) -> [[R; #n]; #count] {
-                let entries = program::gradients(&self.constants, &self.hoisted, t, coordinates);
-                ::core::array::from_fn(|v| ::core::array::from_fn(|i| entries[v * #n + i]))
+            fn linearized(&self, t: R, coordinates: &[R; #n]) -> ([R; #count], [[R; #n]; #count]) {
+                let values = program::gradients(&self.constants, &self.hoisted, t, coordinates);
+                let row = |v| ::core::array::from_fn(|i| values[#count + v * #n + i]);
+                (::core::array::from_fn(|v| values[v]), ::core::array::from_fn(row))
             }
         }
         #driven

@@ -1,6 +1,6 @@
 //! What was derived, in readable notation: the same lines as text and as LaTeX.
 
-use guen_symbolic::{Class, ExprId, Graph};
+use guen_symbolic::{Class, ExprId, Graph, Notation};
 
 use crate::derive::{Derived, function};
 use crate::model::FormKind;
@@ -27,6 +27,9 @@ pub struct Report {
 
 /// Coefficients with the names that they multiply.
 type Terms = Vec<(ExprId, String)>;
+
+/// What stands in place of a longer line.
+const TOO_LONG: &str = ".. (too long to print)";
 
 /// Lines longer than this are left to the programs.
 const LONGEST: usize = 3000;
@@ -73,34 +76,37 @@ impl Report {
 
 /// Lines that are formulas, written twice.
 struct Lines<'g> {
-    graph: &'g Graph,
+    text: Notation<'g>,
+    latex: Notation<'g>,
     section: Section,
 }
 
 impl<'g> Lines<'g> {
     fn new(graph: &'g Graph, title: &'static str) -> Self {
-        Lines { graph, section: Section { title, text: Vec::new(), latex: Vec::new() } }
+        Lines {
+            text: Notation::text(graph, LONGEST),
+            latex: Notation::latex(graph, LONGEST),
+            section: Section { title, text: Vec::new(), latex: Vec::new() },
+        }
     }
 
     /// `left = right` with an expression on the right.
     fn equation(&mut self, left: &str, left_latex: &str, right: ExprId) {
-        let text = self.graph.text_limited(right, LONGEST);
-        let latex = self.graph.latex_limited(right, LONGEST);
+        let text = self.text.expression(right);
+        let latex = self.latex.expression(right);
         self.push(left, left_latex, text, latex);
     }
 
     /// `left = sum of coefficients times names`.
     fn combination(&mut self, left: &str, left_latex: &str, terms: &[(ExprId, String)]) {
-        let short = terms.iter().all(|(c, _)| self.graph.text_limited(*c, LONGEST).is_some());
         // Both sums take the plain names: LaTeX is made of them there.
         let terms: Vec<_> = terms.iter().map(|(c, name)| (*c, name.as_str())).collect();
-        let text = short.then(|| self.graph.text_sum(&terms));
-        let latex = short.then(|| self.graph.latex_sum(&terms));
+        let text = self.text.sum(&terms);
+        let latex = self.latex.sum(&terms);
         self.push(left, left_latex, text, latex);
     }
 
     fn push(&mut self, left: &str, left_latex: &str, text: Option<String>, latex: Option<String>) {
-        const TOO_LONG: &str = ".. (too long to print)";
         self.section.text.push(format!("{left} = {}", text.as_deref().unwrap_or(TOO_LONG)));
         self.section.latex.push(format!("{left_latex} = {}", latex.as_deref().unwrap_or(r"\ldots")));
     }
@@ -122,11 +128,14 @@ fn forms(derived: &Derived<'_>) -> Section {
             }
         }
         let terms: Vec<_> = terms.iter().map(|(c, name)| (*c, name.as_str())).collect();
-        let mut text = graph.text_sum(&terms);
-        let mut latex = graph.latex_sum(&terms);
+        let too_long = || TOO_LONG.to_owned();
+        let mut text = lines.text.sum(&terms).unwrap_or_else(too_long);
+        let mut latex = lines.latex.sum(&terms).unwrap_or_else(too_long);
         if !graph.is_zero(form.offset) {
-            text = format!("{text} + {}", graph.text(form.offset)).replace("+ -", "- ");
-            latex = format!("{latex} + {}", graph.latex(form.offset)).replace("+ -", "- ");
+            let offset = lines.text.expression(form.offset).unwrap_or_else(too_long);
+            text = format!("{text} + {offset}").replace("+ -", "- ");
+            let offset = lines.latex.expression(form.offset).unwrap_or_else(too_long);
+            latex = format!("{latex} + {offset}").replace("+ -", "- ");
         }
         let zero = if j < system.forms.degrees { "" } else { " = 0" };
         let position = (entry.kind == FormKind::Holonomic)
@@ -288,13 +297,14 @@ fn equations(derived: &mut Derived<'_>) -> Section {
         .collect();
     let graph = &derived.model.bench.graph;
     let mut section = Section { title: "Equations of motion (2.7)", text: Vec::new(), latex: Vec::new() };
+    let (mut text, mut latex) = (Notation::text(graph, LONGEST), Notation::latex(graph, LONGEST));
     for row in rows {
-        match (graph.text_limited(row, LONGEST), graph.latex_limited(row, LONGEST)) {
+        match (text.expression(row), latex.expression(row)) {
             (Some(text), Some(latex)) => {
                 section.text.push(format!("{text} = 0"));
                 section.latex.push(format!("{latex} = 0"));
             }
-            _ => section.text.push(".. (too long to print)".to_owned()),
+            _ => section.text.push(TOO_LONG.to_owned()),
         }
     }
     section

@@ -339,15 +339,27 @@ impl Graph {
 
     /// Everything below `roots`, roots included, children first; nodes for which `stop` holds are not entered nor listed.
     pub fn reachable(&self, roots: &[ExprId], mut stop: impl FnMut(ExprId) -> bool) -> Vec<ExprId> {
-        let mut seen: FastMap<ExprId, ()> = FastMap::default();
+        // A bit for each node: clearing them is nothing beside the nodes that are visited.
+        let mut seen = vec![0_u64; self.nodes.len() / 64 + 1];
         let mut found = Vec::new();
         let mut stack = roots.to_vec();
         while let Some(id) = stack.pop() {
-            if seen.insert(id, ()).is_some() || stop(id) {
+            let (word, bit) = (id.index() / 64, 1_u64 << (id.index() % 64));
+            if seen[word] & bit != 0 {
+                continue;
+            }
+            seen[word] |= bit;
+            if stop(id) {
                 continue;
             }
             found.push(id);
-            stack.extend(self.children(id));
+            match self.node(id) {
+                Node::Number(_) | Node::Pi | Node::Symbol(_) | Node::Undefined => {}
+                Node::Sum { terms, .. } => stack.extend(terms.iter().map(|t| t.0)),
+                Node::Product(factors) => stack.extend(factors.iter().map(|f| f.0)),
+                Node::Function(_, x) | Node::Kept(x) => stack.push(*x),
+                Node::Atan2(y, x) => stack.extend([*y, *x]),
+            }
         }
         self.spend(found.len());
         found.sort_unstable();

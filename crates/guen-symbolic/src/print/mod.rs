@@ -67,16 +67,70 @@ impl Graph {
     }
 
     fn named_sum(&self, terms: &[(ExprId, &str)], style: Style) -> String {
-        let mut printer = Printer::new(self, style, LONGEST_TEXT);
+        let note = |e: ExprId| {
+            let note = self.note(e);
+            if style == Style::Latex { format!("\\text{{{note}}}") } else { note }
+        };
+        let mut notation = Notation { printer: Printer::new(self, style, LONGEST_TEXT), style };
+        notation.combination(terms, |e| Some(note(e))).unwrap_or_default()
+    }
+
+    fn note(&self, e: ExprId) -> String {
+        format!("(an expression of {} parts, too long to show)", self.reachable(&[e], |_| false).len())
+    }
+}
+
+/// A way of writing that remembers what it has written: for many expressions that share their parts.
+///
+/// ```
+/// use guen_symbolic::{Graph, Notation, Role};
+/// let mut g = Graph::new();
+/// let x = g.symbol("x", Role::Coordinate);
+/// let (s, c) = g.sin_cos(x);
+/// let mut notation = Notation::text(&g, 100);
+/// assert_eq!(notation.expression(s).as_deref(), Some("sin(x)"));
+/// assert_eq!(notation.sum(&[(c, "X1"), (s, "X2")]).as_deref(), Some("cos(x) X1 + sin(x) X2"));
+/// ```
+pub struct Notation<'g> {
+    printer: Printer<'g>,
+    style: Style,
+}
+
+impl<'g> Notation<'g> {
+    /// The grammar of the language; expressions with more than `longest` bytes are not written.
+    pub fn text(graph: &'g Graph, longest: usize) -> Self {
+        Notation { printer: Printer::new(graph, Style::Text, longest), style: Style::Text }
+    }
+
+    /// LaTeX mathematics without delimiters.
+    pub fn latex(graph: &'g Graph, longest: usize) -> Self {
+        Notation { printer: Printer::new(graph, Style::Latex, longest), style: Style::Latex }
+    }
+
+    /// An expression, or `None` if it is too long.
+    pub fn expression(&mut self, e: ExprId) -> Option<String> {
+        self.printer.expression(e)
+    }
+
+    /// A linear combination of named things, or `None` if a coefficient is too long; zero coefficients are left out.
+    pub fn sum(&mut self, terms: &[(ExprId, &str)]) -> Option<String> {
+        self.combination(terms, |_| None)
+    }
+
+    fn combination(
+        &mut self,
+        terms: &[(ExprId, &str)],
+        otherwise: impl Fn(ExprId) -> Option<String>,
+    ) -> Option<String> {
         let mut line = String::new();
         for (coefficient, name) in terms {
-            if self.is_zero(*coefficient) {
+            if self.printer.graph().is_zero(*coefficient) {
                 continue;
             }
-            let (negative, text) = printer.coefficient(*coefficient).unwrap_or_else(|| {
-                let note = self.note(*coefficient);
-                (false, if style == Style::Latex { format!("\\text{{{note}}}") } else { note })
-            });
+            let (negative, text) = match self.printer.coefficient(*coefficient) {
+                Some(written) => written,
+                None => (false, otherwise(*coefficient)?),
+            };
             line.push_str(match (line.is_empty(), negative) {
                 (true, false) => "",
                 (true, true) => "-",
@@ -85,18 +139,14 @@ impl Graph {
             });
             if text != "1" {
                 line.push_str(&text);
-                line.push_str(if style == Style::Latex { "\\," } else { " " });
+                line.push_str(if self.style == Style::Latex { "\\," } else { " " });
             }
-            match style {
+            match self.style {
                 Style::Text => line.push_str(name),
                 Style::Latex => line.push_str(&latex_name(name)),
             }
         }
-        if line.is_empty() { "0".to_owned() } else { line }
-    }
-
-    fn note(&self, e: ExprId) -> String {
-        format!("(an expression of {} parts, too long to show)", self.reachable(&[e], |_| false).len())
+        Some(if line.is_empty() { "0".to_owned() } else { line })
     }
 }
 

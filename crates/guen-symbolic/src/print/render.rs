@@ -53,6 +53,10 @@ impl<'g> Printer<'g> {
         Printer { graph, style, limit, work: limit.saturating_mul(WORK_FACTOR), pieces: Default::default() }
     }
 
+    pub(super) fn graph(&self) -> &'g Graph {
+        self.graph
+    }
+
     /// The text of an expression, or `None` beyond the limit.
     pub(super) fn expression(&mut self, e: ExprId) -> Option<String> {
         self.prepare(e)?;
@@ -83,6 +87,8 @@ impl<'g> Printer<'g> {
     }
 
     fn prepare(&mut self, e: ExprId) -> Option<()> {
+        // Each expression may cost so much, also when many are written with one memory.
+        self.work = self.limit.saturating_mul(WORK_FACTOR);
         let pending = self.graph.reachable(&[e], |id| self.pieces.contains_key(&id));
         for id in pending {
             let piece = self.piece(id);
