@@ -109,6 +109,8 @@ mod pages {
     mod readme {}
     #[doc = include_str!("../docs/language.md")]
     mod language {}
+    #[doc = include_str!("../docs/bodies.md")]
+    mod bodies {}
     #[doc = include_str!("../docs/generated.md")]
     mod generated {}
     #[doc = include_str!("../docs/theory.md")]

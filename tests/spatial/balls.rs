@@ -118,8 +118,13 @@ fn balls_agree_with_the_calculation_by_hand() {
     let mut numbers = Numbers::new();
     for _ in 0..20 {
         let t = numbers.next();
-        check(&table, &on_table, t, &unit_quaternion(numbers.state::<9>()), &[], 6);
-        check(&belt, &on_belt, t, &unit_quaternion(numbers.state::<9>()), &[], 6);
+        // The forces of the contact; the reaction of the quaternion's length is nobody's force.
+        let state = unit_quaternion(numbers.state::<9>());
+        let table_ball::Reactions { rolling_x, rolling_y, .. } = table.reactions(t, &state.into());
+        check(&table, &on_table, t, &state, &[rolling_x, rolling_y], 6);
+        let state = unit_quaternion(numbers.state::<9>());
+        let belt_ball::Reactions { rolling_x, rolling_y, .. } = belt.reactions(t, &state.into());
+        check(&belt, &on_belt, t, &state, &[rolling_x, rolling_y], 6);
         let mut state = numbers.state::<8>();
         state[1] = 1.5 + state[1];
         on_belt.quaternions = false;

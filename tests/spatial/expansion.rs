@@ -6,12 +6,13 @@ use std::time::{Duration, Instant};
 use proc_macro2::{TokenStream, TokenTree};
 
 /// The files with their declarations.
-const FILES: [&str; 8] = [
+const FILES: [&str; 9] = [
     include_str!("balls.rs"),
     include_str!("bicycle.rs"),
     include_str!("hoop.rs"),
     include_str!("linkages.rs"),
     include_str!("pendulums.rs"),
+    include_str!("rotations.rs"),
     include_str!("snakes.rs"),
     include_str!("tops.rs"),
     include_str!("vehicles.rs"),

@@ -123,8 +123,19 @@ fn both_agree_with_the_calculation_by_hand() {
         let mut state: [f64; 10] = numbers.state();
         let length = state[..4].iter().map(|q| q * q).sum::<f64>().sqrt();
         state[..4].iter_mut().for_each(|q| *q /= length);
-        check(&quaternions, &Hand { quaternions: true }, 0.0, &state, &[], 7);
+        let reactions = quaternions.reactions(0.0, &state.into());
+        let contact = [reactions.rolling_x, reactions.rolling_y, reactions.rolling_z];
+        check(&quaternions, &Hand { quaternions: true }, 0.0, &state, &contact, 7);
     }
+}
+
+/// What is compared can differ: a hoop of other inertia is seen.
+#[test]
+#[should_panic(expected = "rates")]
+fn another_hoop_is_seen() {
+    let system = BodyHoop { a: A_RADIUS, A: DIAMETER, C: 1.01 * AXIS, g: 9.81 }.prepare().unwrap();
+    let state = [1.2, 0.3, 0.1, 0.0, 0.0, 0.0, 0.3, 0.4, 2.0];
+    check(&system, &Hand { quaternions: false }, 0.0, &state, &[], 6);
 }
 
 /// The same motion, as long as the hoop does not lie flat.

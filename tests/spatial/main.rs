@@ -19,6 +19,7 @@ mod linkages;
 mod pendulums;
 mod physical;
 mod restoring;
+mod rotations;
 mod snakes;
 mod tops;
 mod vehicles;

@@ -69,6 +69,7 @@ pub fn derive<'a>(mut model: Model<'a>, faults: &mut Faults) -> Option<Derived<'
     };
     let mut derivation = derivation?;
     report_missing_momenta(&mut model, &mut derivation, faults);
+    crate::scenes::report(&mut model, &derivation, faults);
     if faults.count() > before {
         return None;
     }

@@ -9,6 +9,7 @@ mod forms;
 mod functions;
 mod place;
 mod resolve;
+mod scenes;
 mod scope;
 mod spatial;
 mod value;
@@ -38,6 +39,8 @@ pub struct Model<'a> {
     pub bodies: Vec<BodyEntry>,
     /// Outputs in order.
     pub outputs: Vec<OutputEntry<'a>>,
+    /// Scenes whose names are sound.
+    pub scenes: Vec<SceneEntry>,
     /// Components of vector equations that are identically `0 = 0`, by name.
     pub left_out: Vec<String>,
     /// Every declared name, at its place.
@@ -109,6 +112,26 @@ pub struct BodyEntry {
     pub mass: Option<ExprId>,
     /// The matrix entries `xx, yy, zz, xy, yz, zx` of its inertia, if it has one.
     pub inertia: Option<[ExprId; 6]>,
+}
+
+/// A scene whose names are sound.
+pub struct SceneEntry {
+    /// Place of the word `scene`.
+    pub keyword: Span,
+    /// The constants that it fixes.
+    pub fixes: Vec<FixedConstant>,
+}
+
+/// A constant that a scene fixes.
+pub struct FixedConstant {
+    /// Its name.
+    pub name: String,
+    /// Place of the name after `fix`.
+    pub span: Span,
+    /// Its symbol.
+    pub symbol: ExprId,
+    /// The value, of constants.
+    pub value: ExprId,
 }
 
 /// An output: a scalar, or the three components of a vector.

@@ -11,7 +11,7 @@ use super::place::Place;
 use super::scope::{Category, Scope};
 use super::spatial::inner;
 use super::value::{BodyValue, Value};
-use super::{BodyEntry, ConstantEntry, FormKind, Model, OutputEntry, SymbolEntry};
+use super::{BodyEntry, ConstantEntry, FormKind, Model, OutputEntry, SceneEntry, SymbolEntry};
 use crate::diagnostics::{Fault, Faults};
 use crate::names::quoted;
 use crate::syntax::{
@@ -49,6 +49,7 @@ struct Resolver<'a, 'f> {
     forces: Vec<Force>,
     bodies: Vec<BodyEntry>,
     outputs: Vec<OutputEntry<'a>>,
+    scenes: Vec<SceneEntry>,
     output_values: Vec<ExprId>,
 }
 
@@ -85,6 +86,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
             forces: Vec::new(),
             bodies: Vec::new(),
             outputs: Vec::new(),
+            scenes: Vec::new(),
             output_values: Vec::new(),
         }
     }
@@ -206,12 +208,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
                     .note("`provide` chooses what a scene offers beside its state");
                 self.eval.faults.report(fault);
             }
-            Item::Scene(scene) => {
-                self.eval.faults.report(
-                    Fault::new(scene.keyword, "scenes are not supported yet")
-                        .note("the full system is generated once the scene is removed"),
-                );
-            }
+            Item::Scene(scene) => self.scenes.extend(self.eval.scene(scene)),
         }
     }
 
@@ -423,6 +420,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
             forms: raw.into_iter().map(|form| form.entry).collect(),
             bodies: self.bodies,
             outputs: self.outputs,
+            scenes: self.scenes,
             left_out: self.eval.left_out,
             mechanics,
             has_masses: self.has_masses,

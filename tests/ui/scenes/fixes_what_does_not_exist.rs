@@ -1,0 +1,16 @@
+//! A scene fixes what is declared.
+//!
+//! repair: none
+
+guen::mechanical_system! {
+    pub system Point {
+        constants { m > 0 }
+        coordinates { x, y }
+        parameters { u = dot(x); v = dot(y); }
+        kinetic_energy = m/2*(u^2 + v^2);
+        outputs { speed = sqrt(u^2 + v^2); }
+        scene Small { fix M = 1; }
+    }
+}
+
+fn main() {}

@@ -1,0 +1,16 @@
+//! A scene tracks coordinates and parameters.
+//!
+//! repair: none
+
+guen::mechanical_system! {
+    pub system Point {
+        constants { m > 0 }
+        coordinates { x, y }
+        parameters { u = dot(x); v = dot(y); }
+        kinetic_energy = m/2*(u^2 + v^2);
+        outputs { speed = sqrt(u^2 + v^2); }
+        scene Small { track speed; }
+    }
+}
+
+fn main() {}
