@@ -126,7 +126,7 @@ fn balls_agree_with_the_calculation_by_hand() {
         let belt_ball::Reactions { rolling_x, rolling_y, .. } = belt.reactions(t, &state.into());
         check(&belt, &on_belt, t, &state, &[rolling_x, rolling_y], 6);
         let mut state = numbers.state::<8>();
-        state[1] = 1.5 + state[1];
+        state[1] += 1.5;
         on_belt.quaternions = false;
         let reactions: [f64; 2] = angles.reactions(t, &state.into()).into();
         check(&angles, &on_belt, t, &state, &reactions, 5);

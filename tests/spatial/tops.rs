@@ -87,7 +87,7 @@ fn tops_agree_with_the_calculation_by_hand() {
         state[..4].iter_mut().for_each(|q| *q /= length);
         check(&redundant, &Hand { quaternions: true, inertia, constrained: false }, 0.0, &state, &[], 4);
         let mut state: [f64; 6] = numbers.state();
-        state[1] = 1.5 + state[1];
+        state[1] += 1.5;
         check(&angles, &Hand { quaternions: false, inertia, constrained: false }, 0.0, &state, &[], 3);
     }
 }
@@ -147,7 +147,7 @@ fn suslov_s_body_comes_to_turn_steadily() {
     let mut numbers = Numbers::new();
     for _ in 0..20 {
         let mut state: [f64; 5] = numbers.state();
-        state[1] = 1.5 + state[1];
+        state[1] += 1.5;
         let [p, q] = [state[3], state[4]];
         let rate: [f64; 5] = system.rhs(0.0, &state.into()).into();
         let turning = E * p + D * q;

@@ -137,6 +137,29 @@ where
 /// One evaluation of `f` and `F` and the solution of `H` equations where the state is off by what a step leaves;
 /// more only where that was much. No allocation.
 ///
+/// ```
+/// use guen_runtime::{Positions, project};
+///
+/// /// A point on the unit circle.
+/// struct Circle;
+///
+/// impl Positions<f64, 2, 1> for Circle {
+///     fn gaps(&self, _t: f64, [x, y]: &[f64; 2]) -> [f64; 1] {
+///         [x * x + y * y - 1.0]
+///     }
+///     fn linearized(&self, t: f64, x: &[f64; 2]) -> ([f64; 1], [[f64; 2]; 1]) {
+///         (self.gaps(t, x), [x.map(|x| 2.0 * x)])
+///     }
+/// }
+///
+/// // Two coordinates and a velocity, which stays.
+/// let mut state = [0.9, 1.2, 5.0];
+/// assert!((project(&Circle, 0.0, &mut state).unwrap() - 0.5).abs() < 1e-14);
+/// assert!((state[0] - 0.6).abs() < 1e-14 && (state[1] - 0.8).abs() < 1e-14 && state[2] == 5.0);
+/// // In the middle of the circle no way is the shortest.
+/// assert!(project(&Circle, 0.0, &mut [0.0, 0.0, 5.0]).is_err());
+/// ```
+///
 /// # Errors
 ///
 /// [`PositionsError`]; the state is unchanged then.

@@ -243,19 +243,17 @@ fn classification(derived: &mut Derived<'_>) -> Section {
         text.push("the iterated brackets were not followed to the end".to_owned());
     }
     for combination in &d.closure.integrable {
-        let parts: Vec<String> = combination
+        let known: Option<Vec<(ExprId, &str)>> = combination
             .terms
             .iter()
-            .map(|(v, f)| {
-                let name = &derived.model.forms[*v].name;
-                match f {
-                    None => format!("f*{name}"),
-                    Some(f) if *f == graph.one() => name.clone(),
-                    Some(f) => format!("({})*{name}", graph.text(*f)),
-                }
-            })
+            .map(|(v, f)| f.map(|f| (f, derived.model.forms[*v].name.as_str())))
             .collect();
-        text.push(format!("integrable: {}", parts.join(" + ")));
+        let written = known.and_then(|terms| Notation::text(graph, LONGEST).sum(&terms)).unwrap_or_else(|| {
+            let names: Vec<&str> =
+                combination.terms.iter().map(|(v, _)| derived.model.forms[*v].name.as_str()).collect();
+            format!("a combination of {}", names.join(", "))
+        });
+        text.push(format!("integrable: {written}"));
     }
     let yes =
         |holds: bool, what: &str, otherwise: &str| if holds { what.to_owned() } else { otherwise.to_owned() };
