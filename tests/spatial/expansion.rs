@@ -38,6 +38,36 @@ fn every_system_expands_in_seconds() {
     }
 }
 
+/// A snake of ten links: twelve coordinates, ten constraints. Its brackets go on for longer than anybody waits, and its
+/// equations of motion do not depend on them.
+#[test]
+fn a_long_snake_is_derived_though_not_wholly_classified() {
+    const LINKS: usize = 10;
+    let list = |first: usize, entry: &dyn Fn(usize) -> String| (first..=LINKS).map(entry).collect::<String>();
+    let text = format!(
+        "pub system Snake {{
+            constants {{ m > 0, I > 0, l > 0 }}
+            coordinates {{ x, y, {} }}
+            {}
+            let p1 = vec(x, y);
+            {}
+            bodies {{ {} }}
+            parameters {{ speed = inner(A1.x, dot(p1)); turn = dot(q1); }}
+            constraints {{ {} }}
+        }}",
+        list(1, &|i| format!("q{i}, ")),
+        list(1, &|i| format!("let A{i} = rot_z(q{i});")),
+        list(2, &|i| format!("let p{i} = p{0} - l*A{0}.x - l*A{i}.x;", i - 1)),
+        list(1, &|i| format!("b{i} {{ mass: m, inertia: diag(0, 0, I), center: p{i}, orientation: A{i} }}")),
+        list(1, &|i| format!("w{i}: inner(A{i}.y, dot(p{i})) = 0;")),
+    );
+    let start = clock();
+    let items = guen_language::expand(text.parse().unwrap()).to_string();
+    let time = clock() - start;
+    println!("snake of {LINKS}      {:6.0} ms", time.as_secs_f64() * 1e3);
+    assert!(items.contains("were not followed to the end") && time < LONGEST, "{time:?}");
+}
+
 /// The time that this thread has run, where the system tells; elsewhere the time of day.
 fn clock() -> Duration {
     static START: LazyLock<Instant> = LazyLock::new(Instant::now);

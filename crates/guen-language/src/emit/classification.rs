@@ -21,6 +21,9 @@ pub(super) fn items(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
     let growth = &derivation.closure.growth;
     let steps = growth.len();
     let integrable = derivation.closure.integrable.len();
+    let unfinished = (!derivation.closure.complete).then(|| {
+        quote!(#[doc = " The brackets of this system were not followed to the end: this is what is known."])
+    });
     let (scleronomic, catastatic, conservative) =
         (derivation.scleronomic, derivation.catastatic, derivation.conservative);
     let rhs = derived
@@ -60,8 +63,10 @@ pub(super) fn items(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
         /// The class of the forms as declared.
         pub const CLASS: __guen::Class = __guen::Class::#class;
         /// The growth vector: ranks less one of the distributions that iterated brackets of `X_0 .. X_l` span.
+        #unfinished
         pub const GROWTH: [usize; #steps] = [#(#growth),*];
         /// The number of independent integrable combinations of the constraints.
+        #unfinished
         pub const INTEGRABLE: usize = #integrable;
         /// Whether time occurs in neither the constraints nor the energies.
         pub const SCLERONOMIC: bool = #scleronomic;
