@@ -16,6 +16,7 @@ mod by_hand;
 mod expansion;
 mod hoop;
 mod linkages;
+mod manifold;
 mod pendulums;
 mod physical;
 mod restoring;

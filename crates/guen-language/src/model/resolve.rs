@@ -151,6 +151,11 @@ impl<'a, 'f> Resolver<'a, 'f> {
             }
             Item::Holonomic(section) => {
                 section.entries.iter().for_each(|c| self.eval.holonomic(c, &mut self.constraints));
+                // What is zero is judged on them from here on.
+                let positions: Vec<ExprId> =
+                    self.constraints.iter().filter_map(|form| form.position).collect();
+                let bench = &mut self.eval.bench;
+                bench.zero.set_manifold(&mut bench.graph, &positions);
             }
             Item::KineticEnergy(quantity) => {
                 self.energy = Some(quantity);

@@ -35,8 +35,11 @@ impl Evaluator<'_> {
             Some(other) => {
                 let noun = other.noun();
                 self.faults.report(
-                    Fault::new(name.span(), format!("`{name}` is {noun}, and a scene tracks coordinates and parameters"))
-                        .help(format!("a quantity that is computed is provided: `provide {name};`")),
+                    Fault::new(
+                        name.span(),
+                        format!("`{name}` is {noun}, and a scene tracks coordinates and parameters"),
+                    )
+                    .help(format!("a quantity that is computed is provided: `provide {name};`")),
                 );
             }
             None => self.unknown(name, "a scene"),
@@ -53,7 +56,12 @@ impl Evaluator<'_> {
                     Some(Value::Scalar(symbol)) => *symbol,
                     _ => return None,
                 };
-                return Some(FixedConstant { name: name.text.clone(), span: name.span(), symbol, value: fixed });
+                return Some(FixedConstant {
+                    name: name.text.clone(),
+                    span: name.span(),
+                    symbol,
+                    value: fixed,
+                });
             }
             (Some(Category::Constant), None) => {
                 self.faults.report(

@@ -248,11 +248,12 @@ fn classification(derived: &mut Derived<'_>) -> Section {
             .iter()
             .map(|(v, f)| f.map(|f| (f, derived.model.forms[*v].name.as_str())))
             .collect();
-        let written = known.and_then(|terms| Notation::text(graph, LONGEST).sum(&terms)).unwrap_or_else(|| {
-            let names: Vec<&str> =
-                combination.terms.iter().map(|(v, _)| derived.model.forms[*v].name.as_str()).collect();
-            format!("a combination of {}", names.join(", "))
-        });
+        let written =
+            known.and_then(|terms| Notation::text(graph, LONGEST).sum(&terms)).unwrap_or_else(|| {
+                let names: Vec<&str> =
+                    combination.terms.iter().map(|(v, _)| derived.model.forms[*v].name.as_str()).collect();
+                format!("a combination of {}", names.join(", "))
+            });
         text.push(format!("integrable: {written}"));
     }
     let yes =
