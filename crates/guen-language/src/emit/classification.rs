@@ -24,6 +24,7 @@ pub(super) fn items(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
     let unfinished = (!derivation.closure.complete).then(|| {
         quote!(#[doc = " The brackets of this system were not followed to the end: this is what is known."])
     });
+    let complete = derivation.closure.complete;
     let (scleronomic, catastatic, conservative) =
         (derivation.scleronomic, derivation.catastatic, derivation.conservative);
     let rhs = derived
@@ -68,6 +69,9 @@ pub(super) fn items(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
         /// The number of independent integrable combinations of the constraints.
         #unfinished
         pub const INTEGRABLE: usize = #integrable;
+        /// Whether the brackets were followed to the end; if not, `GROWTH` is only its beginning and `INTEGRABLE` counts
+        /// nothing.
+        pub const GROWTH_IS_COMPLETE: bool = #complete;
         /// Whether time occurs in neither the constraints nor the energies.
         pub const SCLERONOMIC: bool = #scleronomic;
         /// Whether the constraints have no terms without velocity.

@@ -366,6 +366,8 @@ fn prepared(system: &Ident, names: &Names) -> TokenStream {
         pub const GROWTH: [usize; 0] = [];
         /// The number of integrable combinations.
         pub const INTEGRABLE: usize = #n - #n;
+        /// Whether the growth vector is complete.
+        pub const GROWTH_IS_COMPLETE: bool = false;
         /// Scleronomic.
         pub const SCLERONOMIC: bool = true;
         /// Catastatic.
