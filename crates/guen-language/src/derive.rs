@@ -91,7 +91,8 @@ pub fn derive<'a>(mut model: Model<'a>, faults: &mut Faults) -> Option<Derived<'
 fn polish(model: &mut Model<'_>, derivation: &mut Derivation) {
     let system = &derivation.system;
     let variables: Vec<ExprId> = system.accelerations.iter().chain(&system.etas).copied().collect();
-    let limits = Limits::default();
+    // What is larger is read by nobody, and seldom gets cheaper.
+    let limits = Limits { nodes: 400, steps: 6_000, ..Limits::default() };
     let mut polished = |e: ExprId| {
         let graph = &mut model.bench.graph;
         let Some(coefficients) = normal_coefficients(graph, e, &variables, &limits) else { return e };

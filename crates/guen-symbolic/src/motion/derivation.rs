@@ -315,11 +315,12 @@ fn candidates(
 
 /// Every force as a polynomial in the `eta` with coefficients in normal form, where all are small.
 fn normal_forces(bench: &mut Workbench, system: &Mechanics, forces: &[ExprId]) -> Option<Vec<ExprId>> {
+    let limits = Limits { nodes: 800, steps: 12_000, ..Limits::default() };
     let variables = &system.etas[..system.forms.degrees];
     forces
         .iter()
         .map(|force| {
-            let coefficients = normal_coefficients(&mut bench.graph, *force, variables, &Limits::default())?;
+            let coefficients = normal_coefficients(&mut bench.graph, *force, variables, &limits)?;
             let terms: Vec<ExprId> = coefficients
                 .into_iter()
                 .map(|(exponents, c)| {

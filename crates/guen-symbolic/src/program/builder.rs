@@ -55,6 +55,9 @@ pub struct ProgramBuilder<'a> {
     names: FastMap<ExprId, ExprId>,
 }
 
+/// With more names than this only the first candidates are tried.
+const MANY_NAMES: usize = 150;
+
 /// Cold functions with fewer nodes are lowered as they are.
 const SMALL: usize = 60;
 
@@ -244,10 +247,13 @@ fn staged(graph: &mut Graph, net: &mut Net, formulation: &Formulation, effort: E
     }
     let mut link = Changes::default();
     let mut done: Vec<Vec<NetId>> = Vec::new();
+    // A level may be small where the whole is large: the time that can be spent is that of the whole.
+    let all: usize = levels.iter().map(Vec::len).sum();
     for level in levels {
         let expressions: Vec<ExprId> = level.iter().map(|(_, e)| *e).collect();
         let roots = Conversion::roots(graph, net, Field::Constants, &expressions);
-        let best = cheapest(graph, net, roots, effort);
+        let most = if all > MANY_NAMES { 2 } else { CANDIDATES.len() };
+        let best = cheapest(graph, net, roots, effort, most);
         for ((symbol, _), root) in level.iter().zip(&best) {
             if let Some(symbol) = symbol {
                 let atom = net.intern(NetNode::Atom(*symbol));
@@ -263,7 +269,7 @@ fn staged(graph: &mut Graph, net: &mut Net, formulation: &Formulation, effort: E
 }
 
 /// The roots as the cheapest sequence of passes leaves them.
-fn cheapest(graph: &mut Graph, net: &mut Net, roots: Vec<NetId>, effort: Effort) -> Vec<NetId> {
+fn cheapest(graph: &mut Graph, net: &mut Net, roots: Vec<NetId>, effort: Effort, most: usize) -> Vec<NetId> {
     let nodes = net.reachable(&roots).0.len();
     let tried = match effort {
         Effort::Hot | Effort::Brief => affordable(nodes),
@@ -271,7 +277,7 @@ fn cheapest(graph: &mut Graph, net: &mut Net, roots: Vec<NetId>, effort: Effort)
         Effort::Cold if nodes < SMALL => 0,
         Effort::Cold => affordable(nodes).min(1),
     };
-    let tried = if effort == Effort::Brief { tried.min(1) } else { tried };
+    let tried = if effort == Effort::Brief { tried.min(1) } else { tried.min(most) };
     let mut best = (cost(graph, net, &roots), roots.clone());
     for passes in &CANDIDATES[..tried] {
         let mut candidate = roots.clone();
