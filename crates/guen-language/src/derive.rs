@@ -2,7 +2,7 @@
 
 use guen_symbolic::{
     Derivation, DerivationError, ExprId, Limits, MAX_WORK, ProgramBuilder, Programs, SingularForms, Verdict,
-    normal_coefficients, normal_form, weighted_cost,
+    Workbench, normal_coefficients, normal_form, weighted_cost,
 };
 
 use crate::diagnostics::{Fault, Faults};
@@ -25,7 +25,7 @@ pub struct Derived<'a> {
     pub constant_pivots: Vec<ExprId>,
 }
 
-/// Names of the functions, in the order in which they are built; the operators and brackets follow.
+/// Names of the functions, in the order in which they are built.
 pub mod function {
     /// The rates of the state.
     pub const RHS: &str = "rhs";
@@ -55,6 +55,10 @@ pub mod function {
     pub const DOMAIN: &str = "domain";
     /// The expressions of constants that must not vanish.
     pub const PIVOTS: &str = "pivots";
+    /// The coefficients of `X_0`, then of `X_1`, and so on.
+    pub const OPERATORS: &str = "operators";
+    /// The coefficients of the brackets that do not vanish, in the order of [`bracket_pairs`](super::bracket_pairs).
+    pub const BRACKETS: &str = "brackets";
 }
 
 /// Derives a checked model; a system without equations of motion is reported.
@@ -134,13 +138,30 @@ fn domain(model: &Model<'_>, derivation: &Derivation) -> (Vec<ExprId>, Vec<Strin
     chart.chain(pivots).chain(determinants).unzip()
 }
 
+/// The pairs `r < s` of `X_0 .. X_l` whose bracket does not vanish identically.
+pub fn bracket_pairs(bench: &mut Workbench, derivation: &mut Derivation) -> Vec<(usize, usize)> {
+    let (n, l) = (derivation.system.forms.len(), derivation.system.forms.degrees);
+    let brackets = &mut derivation.frame.brackets;
+    let pairs = (1..=l).flat_map(|s| (0..s).map(move |r| (r, s)));
+    let mut found: Vec<(usize, usize)> = Vec::new();
+    for (r, s) in pairs {
+        if (1..=n).any(|t| {
+            let c = brackets.coefficient(bench, r, s, t);
+            !bench.graph.is_zero(c)
+        }) {
+            found.push((r, s));
+        }
+    }
+    found
+}
+
 fn programs(
     model: &mut Model<'_>,
     derivation: &mut Derivation,
     domain: &[ExprId],
     constant_pivots: &[ExprId],
 ) -> Programs {
-    let (n, l) = (derivation.system.forms.len(), derivation.system.forms.degrees);
+    let n = derivation.system.forms.len();
     let bench = &mut model.bench;
     let forms: Vec<ExprId> = derivation
         .system
@@ -173,16 +194,10 @@ fn programs(
         .filter(|list| weighted_cost(&bench.graph, list) <= most)
         .collect();
     let lists: Vec<Vec<ExprId>> = [Some(rates), written_out].into_iter().flatten().chain(others).collect();
-    let mut brackets: Vec<(String, Vec<ExprId>)> = Vec::new();
-    for s in 1..=l {
-        for r in 0..s {
-            let coefficients: Vec<ExprId> =
-                (1..=n).map(|t| derivation.frame.brackets.coefficient(bench, r, s, t)).collect();
-            if coefficients.iter().any(|c| !bench.graph.is_zero(*c)) {
-                brackets.push((format!("bracket_{r}_{s}"), coefficients));
-            }
-        }
-    }
+    let brackets: Vec<Vec<ExprId>> = bracket_pairs(bench, derivation)
+        .into_iter()
+        .map(|(r, s)| (1..=n).map(|t| derivation.frame.brackets.coefficient(bench, r, s, t)).collect())
+        .collect();
     let mut builder = ProgramBuilder::new(&mut bench.graph);
     let energies = &derivation.energies;
     builder.add_equal(function::RHS, &lists);
@@ -208,12 +223,9 @@ fn programs(
     }
     builder.add_cold(function::DOMAIN, domain);
     builder.add_cold(function::PIVOTS, constant_pivots);
-    for (j, xi) in derivation.frame.operators.xi.iter().enumerate() {
-        builder.add_cold(&format!("xi_{j}"), xi);
-    }
-    for (name, coefficients) in &brackets {
-        builder.add_cold(name, coefficients);
-    }
+    // All operators in one function, and all brackets in another: they share the inverse of the forms.
+    builder.add_cold(function::OPERATORS, &derivation.frame.operators.xi.concat());
+    builder.add_cold(function::BRACKETS, &brackets.concat());
     builder.finish()
 }
 

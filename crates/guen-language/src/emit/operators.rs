@@ -5,13 +5,13 @@ use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
 use super::Layout;
-use crate::derive::Derived;
+use crate::derive::{Derived, bracket_pairs};
 
 pub(super) fn items(derived: &mut Derived<'_>, layout: &Layout) -> TokenStream {
     let n = layout.n;
     let operators = (0..=n).map(|j| {
         let name = format_ident!("X{j}");
-        let program = format_ident!("xi_{j}");
+        let places = (j * n)..((j + 1) * n);
         let docs = match j {
             0 => "The operator `X_0 = d/dt + sum_i xi_0^i d/dx_i`: what happens by itself, (1.7).".to_owned(),
             _ => format!("The operator `X_{j}` of the form `{}`, (1.4).", derived.model.forms[j - 1].name),
@@ -34,7 +34,8 @@ pub(super) fn items(derived: &mut Derived<'_>, layout: &Layout) -> TokenStream {
                     x: &[R; #n],
                 ) -> [R; #n] {
                     let lifted: Prepared<R> = prepared.lift();
-                    program::#program(&lifted.constants, &lifted.hoisted, t, x)
+                    let all = program::operators(&lifted.constants, &lifted.hoisted, t, x);
+                    [#(all[#places]),*]
                 }
             }
         }
@@ -59,6 +60,7 @@ pub(super) fn items(derived: &mut Derived<'_>, layout: &Layout) -> TokenStream {
 
 fn brackets(derived: &mut Derived<'_>, layout: &Layout) -> Vec<TokenStream> {
     let (n, l) = (layout.n, layout.l);
+    let pairs = bracket_pairs(&mut derived.model.bench, &mut derived.derivation);
     let mut items = Vec::new();
     for s in 0..=l {
         for r in 0..=l {
@@ -72,8 +74,9 @@ fn brackets(derived: &mut Derived<'_>, layout: &Layout) -> Vec<TokenStream> {
             }
             let known = coefficients.iter().map(|c| knowledge(&mut model.bench, *c));
             let known: Vec<_> = known.collect();
-            let program = format_ident!("bracket_{}_{}", r.min(s), r.max(s));
-            let sign = (r > s).then(|| quote!(.map(|c| -c)));
+            let place = pairs.iter().position(|pair| *pair == (r.min(s), r.max(s))).unwrap_or(0);
+            let places = (place * n)..((place + 1) * n);
+            let sign = (r > s).then(|| quote!(-));
             items.push(quote! {
                 impl<B: __guen::Real> __guen::BracketCoefficients<B, #n> for Bracket<#r, #s> {
                     type Prepared = Prepared<B>;
@@ -86,7 +89,8 @@ fn brackets(derived: &mut Derived<'_>, layout: &Layout) -> Vec<TokenStream> {
                         x: &[R; #n],
                     ) -> [R; #n] {
                         let lifted: Prepared<R> = prepared.lift();
-                        program::#program(&lifted.constants, &lifted.hoisted, t, x) #sign
+                        let all = program::brackets(&lifted.constants, &lifted.hoisted, t, x);
+                        [#(#sign all[#places]),*]
                     }
                 }
             });
