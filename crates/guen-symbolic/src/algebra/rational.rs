@@ -207,6 +207,9 @@ impl Rational {
     pub fn content_gcd(&self, other: &Self) -> Self {
         use num_integer::Integer;
         if let (Small(a, b), Small(c, d)) = (&self.0, &other.0) {
+            if *b == 1 && *d == 1 && (a.unsigned_abs() == 1 || c.unsigned_abs() == 1) {
+                return Rational::ONE;
+            }
             let numerator = gcd(a.unsigned_abs().into(), c.unsigned_abs().into()) as i128;
             let (b, d) = (i128::from(*b), i128::from(*d));
             let lcm = b / gcd(b as u128, d as u128) as i128 * d;
@@ -237,12 +240,23 @@ impl From<i64> for Rational {
     }
 }
 
+/// An integer result, if it stays in the small form: almost all coefficients are integers, and need no reduction.
+fn small_integer(value: Option<i64>) -> Option<Rational> {
+    value.filter(|n| *n != i64::MIN).map(|n| Rational(Small(n, 1)))
+}
+
 macro_rules! operator {
-    ($trait:ident, $method:ident, |$a:ident, $b:ident, $c:ident, $d:ident| $small:expr) => {
+    ($trait:ident, $method:ident, $integers:expr, |$a:ident, $b:ident, $c:ident, $d:ident| $small:expr) => {
         impl $trait<&Rational> for &Rational {
             type Output = Rational;
             fn $method(self, other: &Rational) -> Rational {
                 if let (Small($a, $b), Small($c, $d)) = (&self.0, &other.0) {
+                    if *$b == 1
+                        && *$d == 1
+                        && let Some(result) = small_integer($integers(*$a, *$c))
+                    {
+                        return result;
+                    }
                     let ($a, $b, $c, $d) =
                         (i128::from(*$a), i128::from(*$b), i128::from(*$c), i128::from(*$d));
                     // Products of two 63-bit numbers fit; their sum may need one bit more, which i128 has.
@@ -260,11 +274,11 @@ macro_rules! operator {
         }
     };
 }
-operator!(Add, add, |a, b, c, d| (a * d + c * b, b * d));
-operator!(Sub, sub, |a, b, c, d| (a * d - c * b, b * d));
-operator!(Mul, mul, |a, b, c, d| (a * c, b * d));
+operator!(Add, add, i64::checked_add, |a, b, c, d| (a * d + c * b, b * d));
+operator!(Sub, sub, i64::checked_sub, |a, b, c, d| (a * d - c * b, b * d));
+operator!(Mul, mul, i64::checked_mul, |a, b, c, d| (a * c, b * d));
 // Division by zero is the caller's mistake: every caller asks first.
-operator!(Div, div, |a, b, c, d| (a * d, b * c));
+operator!(Div, div, |a: i64, c: i64| (c == 1).then_some(a), |a, b, c, d| (a * d, b * c));
 
 impl Neg for Rational {
     type Output = Rational;
@@ -331,6 +345,13 @@ mod tests {
         let back = &big * &Rational::from_decimal("1", 42).unwrap();
         assert_eq!(back.to_i64(), Some(662607015));
         assert_eq!(Rational::integer(i64::MAX) + Rational::ONE - Rational::ONE, Rational::integer(i64::MAX));
+        let least = Rational::integer(i64::MIN + 1);
+        assert_eq!(&least - &Rational::ONE + Rational::ONE, least);
+        assert_eq!(
+            Rational::integer(i64::MAX) * Rational::integer(2) / Rational::integer(2),
+            Rational::integer(i64::MAX)
+        );
+        assert_eq!(Rational::integer(6) / Rational::integer(4), Rational::new(3, 2));
     }
 
     #[test]
