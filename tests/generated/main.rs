@@ -7,6 +7,7 @@ mod systems;
 mod classification;
 mod constants;
 mod expansion;
+mod momenta;
 mod motion;
 mod operators;
 mod power;
