@@ -111,3 +111,24 @@ impl Flow {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Flow;
+    use crate::{Graph, Node, Role};
+
+    #[test]
+    fn what_is_kept_whole_has_the_derivative_of_what_is_inside() {
+        let mut g = Graph::new();
+        let x = g.symbol("x", Role::Coordinate);
+        let (s, one) = (g.sin(x), g.one());
+        let sum = g.add(s, one);
+        let inside = g.powi(sum, 3);
+        let kept = g.keep(inside);
+        assert!(matches!(g.node(kept), Node::Kept(_)));
+        let mut by_x = Flow::partial(&g, x);
+        let expected = by_x.of(&mut g, inside);
+        assert!(!g.is_zero(expected));
+        assert_eq!(by_x.of(&mut g, kept), expected);
+    }
+}
