@@ -281,6 +281,8 @@ fn the_compiler_shows_the_same() {
         return;
     }
     let compiler = trybuild::TestCases::new();
+    // What the compiler's lints say of a sound declaration.
+    compiler.compile_fail("tests/lints/*.rs");
     if std::env::var("GUEN_UI").is_ok_and(|value| value == "all") {
         compiler.compile_fail("tests/ui/*/*.rs");
     } else {

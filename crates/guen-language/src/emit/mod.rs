@@ -127,7 +127,7 @@ pub fn emit(mut derived: Derived<'_>) -> TokenStream {
         classification::items(&derived, &layout),
         documentation::constants(&report),
         functions::module(&derived, &layout),
-        uses::items(&derived.model),
+        uses::items(&derived.model.identifiers),
     ];
     let docs = documentation::module(&report, system);
     let span = Span::call_site();

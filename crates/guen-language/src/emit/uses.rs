@@ -1,24 +1,28 @@
-//! A function that is never called, in which every use of a name refers to a constant at the name's declaration: an
-//! editor leads from a coordinate in an expression to where it was declared.
+//! A function that is never called, in which every use of a name refers to a static at the name's declaration: an
+//! editor leads from a coordinate in an expression to where it was declared. What is never used is a local variable
+//! there, so that the compiler's own lint `unused_variables` says so at its place.
 //!
-//! Constants and not locals, because locals that come through `macro_rules!` are told apart by where they come from,
-//! and the names of the language are not.
+//! Statics and not locals, because locals that come through `macro_rules!` are told apart by where they come from,
+//! and the names of the language are not; statics and not constants, because the compiler suggests constants with
+//! similar names when a variable is unused.
 
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use crate::model::Model;
+use crate::model::Identifiers;
 
-pub(super) fn items(model: &Model<'_>) -> TokenStream {
-    let (declared, used) = (&model.declared, &model.used);
+pub(super) fn items(identifiers: &Identifiers) -> TokenStream {
+    let Identifiers { declared, used, unused } = identifiers;
     let count = used.len();
     quote! {
         #[allow(dead_code, reason = "for editors: it is never called")]
-        const _: () = {
-            fn uses_lead_to_declarations() {
-                #(const #declared: () = ();)*
-                let _: [(); #count] = [#(#used),*];
-            }
-        };
+        fn __guen_uses_lead_to_declarations() {
+            #(static #declared: () = ();)*
+            let _: [(); #count] = [#(#used),*];
+        }
+        #[allow(dead_code, reason = "for the compiler's lint: it is never called")]
+        fn __guen_nothing_is_ignored_in_silence() {
+            #(let #unused = ();)*
+        }
     }
 }

@@ -43,16 +43,25 @@ pub struct Model<'a> {
     pub scenes: Vec<SceneEntry>,
     /// Components of vector equations that are identically `0 = 0`, by name.
     pub left_out: Vec<String>,
-    /// Every declared name, at its place.
-    pub declared: Vec<Ident>,
-    /// Every use of a name, at its place.
-    pub used: Vec<Ident>,
+    /// Names as the user wrote them.
+    pub identifiers: Identifiers,
     /// The mechanical system.
     pub mechanics: Mechanics,
     /// Whether the kinetic energy is more than the words of `kinetic_energy`: particles or bodies add to it.
     pub has_masses: bool,
     /// The word `kinetic_energy`, where the energy is given by a formula.
     pub kinetic_energy_span: Option<Span>,
+}
+
+/// Names at their places: for editors, which lead from a use to the declaration, and for the compiler's lint on what
+/// is never used.
+pub struct Identifiers {
+    /// Every other declared name.
+    pub declared: Vec<Ident>,
+    /// Every use of a name.
+    pub used: Vec<Ident>,
+    /// Declared names that something has to use and nothing does, and that do not begin with `_`.
+    pub unused: Vec<Ident>,
 }
 
 /// A physical constant.

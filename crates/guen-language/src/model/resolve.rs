@@ -413,10 +413,8 @@ impl<'a, 'f> Resolver<'a, 'f> {
             forces: self.forces,
             outputs: self.output_values,
         };
-        let (declared, used) = self.eval.scope.into_identifiers();
         Some(Model {
-            declared,
-            used,
+            identifiers: self.eval.scope.into_identifiers(),
             declaration: self.declaration,
             bench: self.eval.bench,
             constants: self.constants,

@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use proc_macro2::{Ident, Span};
 
+use super::Identifiers;
 use super::value::Value;
 use crate::diagnostics::{Fault, Faults};
 use crate::names;
@@ -45,7 +46,7 @@ impl Category {
         }
     }
 
-    /// Whether a declaration without any use is a mistake: forms, bodies and outputs are used by being there.
+    /// Whether something that is declared has to be used: forms, bodies and outputs are used by being there.
     fn must_be_used(self) -> bool {
         matches!(self, Category::Constant | Category::Input | Category::Coordinate | Category::Let)
     }
@@ -54,6 +55,8 @@ impl Category {
 struct Entry {
     category: Category,
     span: Span,
+    /// The place among the declared names.
+    written: usize,
     value: Option<Value>,
     used: bool,
     /// Part of a vector: it shares the place of the whole.
@@ -133,7 +136,8 @@ impl Scope {
         }
         let used = text.starts_with('_');
         self.order.push(text.to_owned());
-        self.entries.insert(text.to_owned(), Entry { category, span, value, used, derived });
+        let written = self.declared.len() - 1;
+        self.entries.insert(text.to_owned(), Entry { category, span, written, value, used, derived });
     }
 
     /// The value of a name in use, or `None` after a fault that is reported here or was before.
@@ -181,24 +185,33 @@ impl Scope {
         self.entries.get(text).and_then(|entry| entry.value.as_ref())
     }
 
-    /// Every declared name and every use, as written.
-    pub(super) fn into_identifiers(self) -> (Vec<Ident>, Vec<Ident>) {
-        (self.declared, self.used)
+    /// Reports coordinates that nothing mentions: without them the number of forms means nothing.
+    pub(super) fn report_unused(&self, faults: &mut Faults) {
+        for text in self.unused().filter(|text| self.entries[*text].category == Category::Coordinate) {
+            faults.report(
+                Fault::new(
+                    self.entries[text].span,
+                    format!("`{text}` is declared as a coordinate and never used"),
+                )
+                .help(format!("use it, remove it, or call it `_{text}` to keep it")),
+            );
+        }
     }
 
-    /// Reports what is declared and never used: nothing that a person writes is silently ignored.
-    pub(super) fn report_unused(&self, faults: &mut Faults) {
-        for text in &self.order {
-            let entry = &self.entries[text];
-            if !entry.used && !entry.derived && entry.category.must_be_used() {
-                faults.report(
-                    Fault::new(
-                        entry.span,
-                        format!("`{text}` is declared as {} and never used", entry.category.noun()),
-                    )
-                    .help(format!("use it, remove it, or call it `_{text}` to keep it")),
-                );
-            }
-        }
+    /// Names without any use, in the order of declaration.
+    fn unused(&self) -> impl Iterator<Item = &str> {
+        self.order.iter().map(String::as_str).filter(|text| {
+            let entry = &self.entries[*text];
+            !entry.used && !entry.derived && entry.category.must_be_used()
+        })
+    }
+
+    /// Every name as written, sorted by whether it is used.
+    pub(super) fn into_identifiers(self) -> Identifiers {
+        let idle: BTreeSet<usize> = self.unused().map(|text| self.entries[text].written).collect();
+        let places = self.declared.into_iter().enumerate();
+        let (unused, declared): (Vec<_>, Vec<_>) = places.partition(|(i, _)| idle.contains(i));
+        let names = |list: Vec<(usize, Ident)>| list.into_iter().map(|(_, name)| name).collect();
+        Identifiers { declared: names(declared), used: self.used, unused: names(unused) }
     }
 }

@@ -1,0 +1,31 @@
+//! What is never used is reported by the compiler's own lint, at its place.
+#![deny(unused_variables)]
+
+guen::mechanical_system! {
+    pub system Point {
+        constants { m > 0, k, _spare }
+        inputs { tau }
+        coordinates { x, y }
+        parameters { u = dot(x); v = dot(y); }
+        kinetic_energy = m/2*(u^2 + v^2);
+        let r#type = x + y;
+    }
+}
+
+/// On purpose.
+mod silent {
+    #![allow(unused_variables)]
+
+    guen::mechanical_system! {
+        pub system Point {
+            constants { m > 0, k }
+            coordinates { x }
+            parameters { u = dot(x); }
+            kinetic_energy = m/2*u^2;
+        }
+    }
+}
+
+fn main() {
+    let _ = (Point { m: 1.0, k: 0.0, _spare: 0.0 }.prepare(), silent::Point { m: 1.0, k: 0.0 }.prepare());
+}
