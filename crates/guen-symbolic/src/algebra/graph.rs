@@ -1,9 +1,8 @@
 //! The graph: nodes, symbols, and the table that makes equal nodes one.
 
 use std::cell::Cell;
-use std::collections::HashMap;
-use std::hash::{BuildHasherDefault, Hasher};
 
+use super::map::spread;
 use super::{Function, Rational};
 
 /// An expression of a [`Graph`]; children always have smaller identifiers than their parents.
@@ -151,39 +150,103 @@ pub enum PowerError {
     DivisionByZero,
 }
 
-/// Structural hashes are good hashes already.
-#[derive(Default)]
-pub(crate) struct Identity(u64);
-
-impl Hasher for Identity {
-    fn finish(&self) -> u64 {
-        self.0
-    }
-    fn write(&mut self, bytes: &[u8]) {
-        for &byte in bytes {
-            self.write_u64(byte.into());
-        }
-    }
-    fn write_u32(&mut self, value: u32) {
-        self.write_u64(value.into());
-    }
-    fn write_u64(&mut self, value: u64) {
-        self.0 = mix(self.0 ^ value);
-    }
-    fn write_usize(&mut self, value: usize) {
-        self.write_u64(value as u64);
-    }
-}
-
-/// A map for look-ups only: nothing iterates over it, so its order never reaches an expansion.
-pub(crate) type FastMap<K, V> = HashMap<K, V, BuildHasherDefault<Identity>>;
-
 /// The finaliser of the splitmix64 generator (Steele, Lea, Flood 2014): a fixed mixing of 64 bits.
 pub(crate) fn mix(value: u64) -> u64 {
     let mut z = value.wrapping_add(0x9e37_79b9_7f4a_7c15);
     z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
     z ^ (z >> 31)
+}
+
+/// The memory of a traversal: kept, because clearing it would cost more than the nodes that are visited.
+#[derive(Default)]
+struct Search {
+    /// The number of the search that has seen a node last.
+    seen: Vec<u32>,
+    number: u32,
+    stack: Vec<u32>,
+    height: usize,
+}
+
+impl Search {
+    fn begin(&mut self, nodes: usize) {
+        if self.seen.len() < nodes || self.number == u32::MAX {
+            let room = nodes.next_power_of_two();
+            *self = Search { seen: vec![0; room], number: 0, stack: vec![0; room], height: 0 };
+        }
+        self.number += 1;
+        self.height = 0;
+    }
+
+    /// A node to be visited, unless it was pushed before: so the stack has room for it.
+    #[inline(always)]
+    fn push(&mut self, id: ExprId) {
+        let (seen, stack): (&mut [u32], &mut [u32]) = (&mut self.seen, &mut self.stack);
+        let index = id.0 as usize;
+        if seen[index] != self.number {
+            seen[index] = self.number;
+            stack[self.height] = id.0;
+            self.height += 1;
+        }
+    }
+
+    fn pop(&mut self) -> Option<ExprId> {
+        if self.height == 0 {
+            return None;
+        }
+        self.height -= 1;
+        Some(ExprId(self.stack[self.height]))
+    }
+}
+
+/// Sorts different identifiers: few by insertion, many by a bit for each.
+pub(crate) fn sort_ids(ids: &mut [ExprId]) {
+    const FEW: usize = 12;
+    if ids.len() <= FEW {
+        let mut next = 1;
+        while next < ids.len() {
+            let id = ids[next];
+            let mut at = next;
+            while at > 0 && ids[at - 1].0 > id.0 {
+                ids[at] = ids[at - 1];
+                at -= 1;
+            }
+            ids[at] = id;
+            next += 1;
+        }
+        return;
+    }
+    let (mut least, mut most) = (u32::MAX, 0);
+    let mut index = 0;
+    while index < ids.len() {
+        let id = ids[index].0;
+        if id < least {
+            least = id;
+        }
+        if id > most {
+            most = id;
+        }
+        index += 1;
+    }
+    let base = least / 64;
+    let mut bits = vec![0_u64; (most / 64 - base) as usize + 1];
+    let words: &mut [u64] = &mut bits;
+    index = 0;
+    while index < ids.len() {
+        let id = ids[index].0;
+        words[(id / 64 - base) as usize] |= 1 << (id % 64);
+        index += 1;
+    }
+    let (mut word, mut next) = (0, 0);
+    while word < words.len() {
+        let mut left = words[word];
+        while left != 0 {
+            ids[next] = ExprId((base + word as u32) * 64 + left.trailing_zeros());
+            next += 1;
+            left &= left - 1;
+        }
+        word += 1;
+    }
 }
 
 /// A hash-consed graph of expressions over its own symbols.
@@ -208,9 +271,9 @@ pub struct Graph {
     depths: Vec<u32>,
     // A cell, because looking at expressions is work too.
     work: Cell<u64>,
-    // Chains of nodes that share a key: a list per key, since two nodes may collide.
-    heads: FastMap<u64, ExprId>,
-    next: Vec<Option<ExprId>>,
+    search: Cell<Search>,
+    // Places of the nodes by their keys: one more than an identifier, zero for none; a power of two of them.
+    slots: Vec<u32>,
     symbols: Vec<Symbol>,
     symbol_nodes: Vec<ExprId>,
     role_counts: [u32; 8],
@@ -339,30 +402,47 @@ impl Graph {
 
     /// Everything below `roots`, roots included, children first; nodes for which `stop` holds are not entered nor listed.
     pub fn reachable(&self, roots: &[ExprId], mut stop: impl FnMut(ExprId) -> bool) -> Vec<ExprId> {
-        // A bit for each node: clearing them is nothing beside the nodes that are visited.
-        let mut seen = vec![0_u64; self.nodes.len() / 64 + 1];
+        let nodes: &[Node] = &self.nodes;
+        // Whoever asks from within `stop` gets memory of its own.
+        let mut search = self.search.take();
+        search.begin(nodes.len());
         let mut found = Vec::new();
-        let mut stack = roots.to_vec();
-        while let Some(id) = stack.pop() {
-            let (word, bit) = (id.index() / 64, 1_u64 << (id.index() % 64));
-            if seen[word] & bit != 0 {
-                continue;
-            }
-            seen[word] |= bit;
+        for root in roots {
+            search.push(*root);
+        }
+        while let Some(id) = search.pop() {
             if stop(id) {
                 continue;
             }
             found.push(id);
-            match self.node(id) {
+            match &nodes[id.0 as usize] {
                 Node::Number(_) | Node::Pi | Node::Symbol(_) | Node::Undefined => {}
-                Node::Sum { terms, .. } => stack.extend(terms.iter().map(|t| t.0)),
-                Node::Product(factors) => stack.extend(factors.iter().map(|f| f.0)),
-                Node::Function(_, x) | Node::Kept(x) => stack.push(*x),
-                Node::Atan2(y, x) => stack.extend([*y, *x]),
+                Node::Sum { terms, .. } => {
+                    let terms: &[(ExprId, Rational)] = terms;
+                    let mut index = 0;
+                    while index < terms.len() {
+                        search.push(terms[index].0);
+                        index += 1;
+                    }
+                }
+                Node::Product(factors) => {
+                    let factors: &[(ExprId, i32)] = factors;
+                    let mut index = 0;
+                    while index < factors.len() {
+                        search.push(factors[index].0);
+                        index += 1;
+                    }
+                }
+                Node::Function(_, x) | Node::Kept(x) => search.push(*x),
+                Node::Atan2(y, x) => {
+                    search.push(*y);
+                    search.push(*x);
+                }
             }
         }
+        self.search.set(search);
         self.spend(found.len());
-        found.sort_unstable();
+        sort_ids(&mut found);
         found
     }
 
@@ -410,12 +490,16 @@ impl Graph {
     }
 
     fn lookup_key(&self, key: u64, node: &Node) -> Option<ExprId> {
-        let mut candidate = self.heads.get(&key).copied();
-        while let Some(id) = candidate {
-            if self.node(id) == node {
-                return Some(id);
+        let (slots, keys): (&[u32], &[u64]) = (&self.slots, &self.keys);
+        let mask = slots.len().checked_sub(1)?;
+        let mut at = spread(key) as usize & mask;
+        while slots[at] != 0 {
+            let id = slots[at] - 1;
+            // Two nodes may have one key.
+            if keys[id as usize] == key && self.node(ExprId(id)) == node {
+                return Some(ExprId(id));
             }
-            candidate = self.next[id.index()];
+            at = (at + 1) & mask;
         }
         None
     }
@@ -434,21 +518,28 @@ impl Graph {
         self.nodes.push(node);
         self.keys.push(key);
         self.roles.push(roles);
-        let head = self.heads.insert(key, id);
-        self.next.push(head);
+        if self.slots.len() < 2 * self.nodes.len() {
+            self.slots = vec![0; (4 * self.nodes.len()).next_power_of_two()];
+            (0..self.nodes.len()).for_each(|index| self.place(index));
+        } else {
+            self.place(id.index());
+        }
         id
     }
 
+    /// Gives a node its place in the table.
+    fn place(&mut self, index: usize) {
+        let slots: &mut [u32] = &mut self.slots;
+        let mask = slots.len() - 1;
+        let mut at = spread(self.keys[index]) as usize & mask;
+        while slots[at] != 0 {
+            at = (at + 1) & mask;
+        }
+        slots[at] = index as u32 + 1;
+    }
+
     fn structural_key(&self, node: &Node) -> u64 {
-        let rational = |value: &Rational| match value.to_i64_pair() {
-            Some((n, d)) => mix(n as u64) ^ mix(d as u64).rotate_left(1),
-            None => {
-                let (n, d) = value.to_big_pair();
-                n.iter_u64_digits()
-                    .chain(d.iter_u64_digits())
-                    .fold(u64::from(value.is_negative()), |h, w| mix(h ^ w))
-            }
-        };
+        let rational = |value: &Rational| value.hash64();
         let key = |id: ExprId| self.keys[id.index()];
         match node {
             Node::Number(value) => mix(0x4e00 ^ rational(value)),

@@ -8,12 +8,14 @@ mod build;
 mod derivative;
 mod functions;
 mod graph;
+mod map;
 mod rational;
 mod substitute;
 
 pub use derivative::Flow;
 pub use functions::Function;
-pub(crate) use graph::FastMap;
+pub(crate) use graph::mix;
 pub use graph::{Bound, ExprId, Graph, Node, PowerError, Role, Roles, Symbol, SymbolId};
+pub(crate) use map::{FastMap, Key, spread};
 pub use rational::Rational;
 pub use substitute::Substitution;

@@ -11,6 +11,8 @@ use num_bigint::{BigInt, BigUint, Sign};
 use num_rational::BigRational;
 use num_traits::{One, Signed, ToPrimitive};
 
+use super::graph::mix;
+
 /// An exact rational number in lowest terms with a positive denominator.
 ///
 /// ```
@@ -147,6 +149,17 @@ impl Rational {
         match &self.0 {
             Small(n, 1) => Some(*n),
             _ => None,
+        }
+    }
+
+    /// A fixed mixing of the value, for keys and tables.
+    pub(crate) fn hash64(&self) -> u64 {
+        match &self.0 {
+            Small(n, d) => mix(*n as u64) ^ mix(*d as u64).rotate_left(1),
+            Big(value) => {
+                let digits = value.numer().iter_u64_digits().chain(value.denom().iter_u64_digits());
+                digits.fold(u64::from(value.is_negative()), |hash, digit| mix(hash ^ digit))
+            }
         }
     }
 

@@ -1,7 +1,8 @@
 //! Replacing subexpressions, the same way everywhere, each shared node once.
 
 use super::Rational;
-use super::graph::{ExprId, FastMap, Graph, Node};
+use super::graph::{ExprId, Graph, Node};
+use super::map::FastMap;
 
 /// A simultaneous replacement of expressions (usually symbols) by others, with what was replaced so far.
 ///

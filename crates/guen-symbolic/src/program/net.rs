@@ -8,14 +8,32 @@
 use std::collections::BTreeMap;
 
 use super::passes::angles::{Angle, Angles};
-use crate::algebra::{ExprId, FastMap, Function, Graph, Node, Rational};
+use crate::algebra::{ExprId, FastMap, Function, Graph, Key, Node, Rational, mix, spread};
 
 /// A node of a [`Net`]; children have smaller identifiers than their parents.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub(super) struct NetId(pub(super) u32);
 
+impl Key for NetId {
+    fn hash(&self) -> u32 {
+        spread(self.0 as u64)
+    }
+}
+
+impl Key for (NetId, NetId) {
+    fn hash(&self) -> u32 {
+        spread((self.0.0 as u64) << 32 | self.1.0 as u64)
+    }
+}
+
+impl Key for (ExprId, NetId) {
+    fn hash(&self) -> u32 {
+        spread((self.0.0 as u64) << 32 | self.1.0 as u64)
+    }
+}
+
 /// What a node is.
-#[derive(Clone, PartialEq, Eq, Hash, Debug)]
+#[derive(Clone, PartialEq, Eq, Debug)]
 pub(super) enum NetNode {
     /// A symbol of the state, or whatever else is an atom.
     Atom(ExprId),
@@ -32,6 +50,37 @@ pub(super) enum NetNode {
 }
 
 impl NetNode {
+    fn hash(&self) -> u32 {
+        let mut hash;
+        match self {
+            NetNode::Atom(e) => hash = mix(0x4100 ^ (e.0 as u64) << 16),
+            NetNode::Constant(e) => hash = mix(0x4300 ^ (e.0 as u64) << 16),
+            NetNode::Sum(linear) => {
+                hash = mix(0x5300 ^ (linear.constant.0 as u64) << 16);
+                let terms: &[(NetId, ExprId)] = &linear.terms;
+                let mut index = 0;
+                while index < terms.len() {
+                    let (node, k) = terms[index];
+                    hash = mix(hash ^ ((node.0 as u64) << 32 | k.0 as u64));
+                    index += 1;
+                }
+            }
+            NetNode::Product(factors) => {
+                hash = 0x5000;
+                let factors: &[(NetId, i32)] = factors;
+                let mut index = 0;
+                while index < factors.len() {
+                    let (node, e) = factors[index];
+                    hash = mix(hash ^ ((node.0 as u64) << 32 | e as u32 as u64));
+                    index += 1;
+                }
+            }
+            NetNode::Call(function, x) => hash = mix(function.code() << 32 ^ x.0 as u64),
+            NetNode::Atan2(y, x) => hash = mix((y.0 as u64) << 32 ^ (x.0 as u64) ^ 1 << 63),
+        }
+        spread(hash)
+    }
+
     /// The nodes directly below.
     pub(super) fn children(&self, mut visit: impl FnMut(NetId)) {
         match self {
@@ -48,7 +97,7 @@ impl NetNode {
 }
 
 /// `constant + sum coefficient * node`, ordered by node.
-#[derive(Clone, PartialEq, Eq, Hash, Debug)]
+#[derive(Clone, PartialEq, Eq, Debug)]
 pub(super) struct Linear {
     pub(super) constant: ExprId,
     pub(super) terms: Vec<(NetId, ExprId)>,
@@ -65,7 +114,9 @@ pub(super) enum Scaled {
 #[derive(Default)]
 pub(super) struct Net {
     nodes: Vec<NetNode>,
-    table: FastMap<NetNode, NetId>,
+    hashes: Vec<u32>,
+    /// One more than the number of a node, zero for none; a power of two of them.
+    slots: Vec<u32>,
 }
 
 impl Net {
@@ -78,13 +129,42 @@ impl Net {
     }
 
     pub(super) fn intern(&mut self, node: NetNode) -> NetId {
-        if let Some(id) = self.table.get(&node) {
-            return *id;
+        if self.slots.len() <= 2 * self.nodes.len() {
+            self.grow();
         }
-        let id = NetId(self.nodes.len() as u32);
-        self.nodes.push(node.clone());
-        self.table.insert(node, id);
-        id
+        let hash = node.hash();
+        let (slots, hashes): (&mut [u32], &[u32]) = (&mut self.slots, &self.hashes);
+        let mask = slots.len() - 1;
+        let mut at = hash as usize & mask;
+        while slots[at] != 0 {
+            let found = slots[at] - 1;
+            if hashes[found as usize] == hash && self.nodes[found as usize] == node {
+                return NetId(found);
+            }
+            at = (at + 1) & mask;
+        }
+        let id = self.nodes.len() as u32;
+        slots[at] = id + 1;
+        self.nodes.push(node);
+        self.hashes.push(hash);
+        NetId(id)
+    }
+
+    fn grow(&mut self) {
+        const FEWEST_SLOTS: usize = 256;
+        let mut table = vec![0_u32; (4 * self.nodes.len()).next_power_of_two().max(FEWEST_SLOTS)];
+        let (slots, hashes): (&mut [u32], &[u32]) = (&mut table, &self.hashes);
+        let mask = slots.len() - 1;
+        let mut index = 0;
+        while index < hashes.len() {
+            let mut at = hashes[index] as usize & mask;
+            while slots[at] != 0 {
+                at = (at + 1) & mask;
+            }
+            index += 1;
+            slots[at] = index as u32;
+        }
+        self.slots = table;
     }
 
     /// `product node^exponent`; products among the nodes are opened.
@@ -176,27 +256,64 @@ impl Net {
 
     /// Everything below the roots, children first, and how many parents (or roots) use each node.
     pub(super) fn reachable(&self, roots: &[NetId]) -> (Vec<NetId>, Vec<u32>) {
-        let mut uses = vec![0_u32; self.nodes.len()];
-        let mut found = Vec::new();
-        let mut stack = Vec::new();
+        let nodes: &[NetNode] = &self.nodes;
+        let mut counts = vec![0_u32; nodes.len()];
+        let uses: &mut [u32] = &mut counts;
+        // Children are older than their parents: from the youngest root on downwards every node has been counted before
+        // it is met. What is still to be met ends the search.
+        let (mut next, mut pending) = (0, 0);
         for root in roots {
-            uses[root.0 as usize] += 1;
-            if uses[root.0 as usize] == 1 {
-                stack.push(*root);
+            let index = root.0 as usize;
+            uses[index] += 1;
+            if uses[index] == 1 {
+                pending += 1;
+            }
+            if next <= index {
+                next = index + 1;
             }
         }
-        while let Some(id) = stack.pop() {
-            found.push(id);
-            self.children(id, |child| {
-                let slot = &mut uses[child.0 as usize];
-                *slot += 1;
-                if *slot == 1 {
-                    stack.push(child);
+        let mut found = Vec::new();
+        while pending > 0 {
+            next -= 1;
+            if uses[next] == 0 {
+                continue;
+            }
+            pending -= 1;
+            found.push(NetId(next as u32));
+            let mut count = |child: NetId| {
+                let index = child.0 as usize;
+                uses[index] += 1;
+                if uses[index] == 1 {
+                    pending += 1;
                 }
-            });
+            };
+            match &nodes[next] {
+                NetNode::Atom(_) | NetNode::Constant(_) => {}
+                NetNode::Sum(linear) => {
+                    let terms: &[(NetId, ExprId)] = &linear.terms;
+                    let mut index = 0;
+                    while index < terms.len() {
+                        count(terms[index].0);
+                        index += 1;
+                    }
+                }
+                NetNode::Product(factors) => {
+                    let factors: &[(NetId, i32)] = factors;
+                    let mut index = 0;
+                    while index < factors.len() {
+                        count(factors[index].0);
+                        index += 1;
+                    }
+                }
+                NetNode::Call(_, x) => count(*x),
+                NetNode::Atan2(y, x) => {
+                    count(*y);
+                    count(*x);
+                }
+            }
         }
-        found.sort_unstable();
-        (found, uses)
+        found.reverse();
+        (found, counts)
     }
 }
 
@@ -291,7 +408,7 @@ impl<'a> Conversion<'a> {
         let pending = graph.reachable(roots, |id| field.contains(graph, id));
         let mut uses: FastMap<ExprId, u32> = FastMap::default();
         for id in pending.iter().flat_map(|id| graph.children(*id)).chain(roots.iter().copied()) {
-            *uses.entry(id).or_default() += 1;
+            *uses.or_default(id) += 1;
         }
         let angles = match field {
             Field::Constants => Angles::of(graph, &pending),

@@ -174,7 +174,7 @@ impl Table {
 
     fn monomial(&mut self, monomial: Monomial) -> u32 {
         let next = self.lcms.len() as u32;
-        let index = *self.monomials.entry(monomial).or_insert(next);
+        let index = *self.monomials.or_insert_with(monomial, || next);
         if index == next {
             self.lcms.push(FIRST_LCM);
         }
@@ -270,7 +270,7 @@ fn expand(graph: &Graph, x: ExprId) -> Option<Combination> {
         }
         known.insert(id, combination);
     }
-    known.remove(&x)
+    known.get(&x).cloned()
 }
 
 fn multiply(a: &Combination, b: &Combination) -> Option<Combination> {

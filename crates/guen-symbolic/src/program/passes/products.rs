@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, BinaryHeap};
 
 use super::super::net::{Linear, Net, NetId, NetNode, constant_factors, split_sign};
 use super::Changes;
-use crate::algebra::{ExprId, FastMap, Graph, Rational};
+use crate::algebra::{ExprId, FastMap, Graph, Key, Rational, spread};
 
 /// More monomials than this stay as they are.
 const LARGEST_PROBLEM: usize = 20_000;
@@ -27,6 +27,18 @@ enum Factor {
 }
 
 const TAG: u32 = 30;
+
+impl Key for Literal {
+    fn hash(&self) -> u32 {
+        spread(self.0 as u64)
+    }
+}
+
+impl Key for Pair {
+    fn hash(&self) -> u32 {
+        spread(self.0)
+    }
+}
 
 impl Literal {
     fn new(factor: Factor) -> Self {
@@ -83,7 +95,7 @@ impl Search {
     fn add(&mut self, monomial: Monomial) -> usize {
         let index = self.monomials.len();
         for (literal, _) in &monomial {
-            self.occurrences.entry(*literal).or_default().push(index as u32);
+            self.occurrences.or_default(*literal).push(index as u32);
         }
         self.monomials.push(monomial);
         index
@@ -100,11 +112,11 @@ impl Search {
             shared.extend(monomial.iter().filter(|(literal, _)| self.occurrences[literal].len() >= 2));
             for (i, (a, n)) in shared.iter().enumerate() {
                 if *n >= 2 {
-                    *self.counts.entry(Pair::new(*a, *a)).or_default() += 1;
+                    *self.counts.or_default(Pair::new(*a, *a)) += 1;
                 }
                 for (b, _) in &shared[i + 1..] {
                     if !(a.is_constant() && b.is_constant()) {
-                        *self.counts.entry(Pair::new(*a, *b)).or_default() += 1;
+                        *self.counts.or_default(Pair::new(*a, *b)) += 1;
                     }
                 }
             }
@@ -117,7 +129,7 @@ impl Search {
     /// One more or one less of a pair; pairs that were never counted cannot become frequent by losing some.
     fn change(&mut self, pair: Pair, up: bool) {
         if up {
-            let count = self.counts.entry(pair).or_default();
+            let count = self.counts.or_default(pair);
             *count += 1;
             if *count >= 2 {
                 self.heap.push((*count, Reverse(pair)));
@@ -194,7 +206,7 @@ impl Search {
                     self.change(Pair::new(joined, joined), true);
                 }
                 monomial.push((joined, times));
-                self.occurrences.entry(joined).or_default().push(index);
+                self.occurrences.or_default(joined).push(index);
             } else if let Some(entry) = monomial.iter_mut().find(|(l, _)| *l == joined) {
                 if entry.1 < 2 && entry.1 + times >= 2 {
                     self.change(Pair::new(joined, joined), true);

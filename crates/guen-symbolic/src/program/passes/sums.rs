@@ -90,7 +90,7 @@ fn shared_pairs(graph: &mut Graph, rows: &[Row], known: &mut Ratios) -> Vec<Shar
     let mut occurrences: FastMap<NetId, u32> = FastMap::default();
     for row in rows {
         for node in row.terms.keys() {
-            *occurrences.entry(*node).or_default() += 1;
+            *occurrences.or_default(*node) += 1;
         }
     }
     let mut pairs: FastMap<(NetId, NetId), Vec<usize>> = FastMap::default();
@@ -102,7 +102,7 @@ fn shared_pairs(graph: &mut Graph, rows: &[Row], known: &mut Ratios) -> Vec<Shar
         }
         for (i, a) in shared.iter().enumerate() {
             for b in &shared[i + 1..] {
-                let users = pairs.entry((*a, *b)).or_default();
+                let users = pairs.or_default((*a, *b));
                 if users.is_empty() {
                     order.push((*a, *b));
                 }
@@ -168,12 +168,12 @@ impl Ratios {
         if a == b {
             return graph.one();
         }
-        *self.quotients.entry((b, a)).or_insert_with(|| graph.div(b, a))
+        *self.quotients.or_insert_with((b, a), || graph.div(b, a))
     }
 
     /// What a constant divides by and is not known to differ from zero.
     fn denominators(&mut self, graph: &mut Graph, constant: ExprId) -> &[ExprId] {
-        self.denominators.entry(constant).or_insert_with(|| {
+        self.denominators.or_insert_with(constant, || {
             let (_, factors) = constant_factors(graph, constant);
             let doubtful = factors.into_iter().filter(|(_, e)| *e < 0).map(|(base, _)| base);
             doubtful.filter(|base| !graph.manifestly_nonzero(*base)).collect()
