@@ -2,6 +2,7 @@
 
 use std::cell::Cell;
 
+use super::build::content_of;
 use super::map::spread;
 use super::{Function, Rational};
 
@@ -158,6 +159,36 @@ pub(crate) fn mix(value: u64) -> u64 {
     z ^ (z >> 31)
 }
 
+fn is_product(node: &Node, factors: &[(ExprId, i32)]) -> bool {
+    let Node::Product(others) = node else { return false };
+    let others: &[(ExprId, i32)] = others;
+    if others.len() != factors.len() {
+        return false;
+    }
+    let mut index = 0;
+    while index < factors.len() {
+        if others[index].0.0 != factors[index].0.0 || others[index].1 != factors[index].1 {
+            return false;
+        }
+        index += 1;
+    }
+    true
+}
+
+fn same_terms(others: &[(ExprId, Rational)], terms: &[(ExprId, Rational)]) -> bool {
+    if others.len() != terms.len() {
+        return false;
+    }
+    let mut index = 0;
+    while index < terms.len() {
+        if others[index].0.0 != terms[index].0.0 || others[index].1 != terms[index].1 {
+            return false;
+        }
+        index += 1;
+    }
+    true
+}
+
 /// The memory of a traversal: kept, because clearing it would cost more than the nodes that are visited.
 #[derive(Default)]
 struct Search {
@@ -269,6 +300,8 @@ pub struct Graph {
     keys: Vec<u64>,
     roles: Vec<Roles>,
     depths: Vec<u32>,
+    // Of sums: whether their content is one.
+    primitive: Vec<bool>,
     // A cell, because looking at expressions is work too.
     work: Cell<u64>,
     search: Cell<Search>,
@@ -369,7 +402,7 @@ impl Graph {
         self.symbols.push(Symbol { name: name.to_owned(), role, bound });
         // The key is the place in the declaration, not the name: renaming must not change rounding.
         let key = mix(mix(0x5300 + role as u64) ^ u64::from(ordinal));
-        let node = self.push(Node::Symbol(id), key, Roles::of(role));
+        let node = self.push(Node::Symbol(id), key, Roles::of(role), 0);
         self.symbol_nodes.push(node);
         node
     }
@@ -400,12 +433,39 @@ impl Graph {
         }
     }
 
+    /// The same without a list.
+    pub(crate) fn visit_children(&self, id: ExprId, mut visit: impl FnMut(ExprId)) {
+        match self.node(id) {
+            Node::Number(_) | Node::Pi | Node::Symbol(_) | Node::Undefined => {}
+            Node::Sum { terms, .. } => {
+                let terms: &[(ExprId, Rational)] = terms;
+                let mut index = 0;
+                while index < terms.len() {
+                    visit(terms[index].0);
+                    index += 1;
+                }
+            }
+            Node::Product(factors) => {
+                let factors: &[(ExprId, i32)] = factors;
+                let mut index = 0;
+                while index < factors.len() {
+                    visit(factors[index].0);
+                    index += 1;
+                }
+            }
+            Node::Function(_, x) | Node::Kept(x) => visit(*x),
+            Node::Atan2(y, x) => {
+                visit(*y);
+                visit(*x);
+            }
+        }
+    }
+
     /// Everything below `roots`, roots included, children first; nodes for which `stop` holds are not entered nor listed.
     pub fn reachable(&self, roots: &[ExprId], mut stop: impl FnMut(ExprId) -> bool) -> Vec<ExprId> {
-        let nodes: &[Node] = &self.nodes;
         // Whoever asks from within `stop` gets memory of its own.
         let mut search = self.search.take();
-        search.begin(nodes.len());
+        search.begin(self.nodes.len());
         let mut found = Vec::new();
         for root in roots {
             search.push(*root);
@@ -415,30 +475,7 @@ impl Graph {
                 continue;
             }
             found.push(id);
-            match &nodes[id.0 as usize] {
-                Node::Number(_) | Node::Pi | Node::Symbol(_) | Node::Undefined => {}
-                Node::Sum { terms, .. } => {
-                    let terms: &[(ExprId, Rational)] = terms;
-                    let mut index = 0;
-                    while index < terms.len() {
-                        search.push(terms[index].0);
-                        index += 1;
-                    }
-                }
-                Node::Product(factors) => {
-                    let factors: &[(ExprId, i32)] = factors;
-                    let mut index = 0;
-                    while index < factors.len() {
-                        search.push(factors[index].0);
-                        index += 1;
-                    }
-                }
-                Node::Function(_, x) | Node::Kept(x) => search.push(*x),
-                Node::Atan2(y, x) => {
-                    search.push(*y);
-                    search.push(*x);
-                }
-            }
+            self.visit_children(id, |child| search.push(child));
         }
         self.search.set(search);
         self.spend(found.len());
@@ -460,43 +497,111 @@ impl Graph {
 
     /// The identifier of a node in normal form.
     pub(crate) fn intern(&mut self, node: Node) -> ExprId {
-        self.spend(match &node {
-            Node::Sum { terms, .. } => 1 + terms.len(),
-            Node::Product(factors) => 1 + factors.len(),
-            _ => 1,
-        });
+        self.spend(1);
         let key = self.structural_key(&node);
-        if let Some(id) = self.lookup_key(key, &node) {
+        if let Some(id) = self.lookup(key, |other| *other == node) {
             return id;
         }
-        let roles = match &node {
-            Node::Symbol(_) => unreachable!("symbols are made by `symbol`"),
-            Node::Number(_) | Node::Pi | Node::Undefined => Roles::NONE,
-            Node::Sum { terms, .. } => {
-                terms.iter().fold(Roles::NONE, |roles, (term, _)| roles.or(self.roles(*term)))
+        let depth = |child: &ExprId| self.depths[child.index()];
+        let (roles, below) = match &node {
+            Node::Symbol(_) | Node::Sum { .. } | Node::Product(_) => {
+                unreachable!("symbols, sums and products are made elsewhere")
             }
-            Node::Product(factors) => {
-                factors.iter().fold(Roles::NONE, |roles, (base, _)| roles.or(self.roles(*base)))
-            }
-            Node::Function(_, x) | Node::Kept(x) => self.roles(*x),
-            Node::Atan2(y, x) => self.roles(*y).or(self.roles(*x)),
+            Node::Number(_) | Node::Pi | Node::Undefined => (Roles::NONE, 0),
+            Node::Function(_, x) | Node::Kept(x) => (self.roles(*x), depth(x)),
+            Node::Atan2(y, x) => (self.roles(*y).or(self.roles(*x)), depth(y).max(depth(x))),
         };
-        self.push(node, key, roles)
+        self.push(node, key, roles, below)
+    }
+
+    /// The identifier of a sum with at least one term, in the graph's order.
+    pub(super) fn intern_sum(&mut self, constant: Rational, terms: Vec<(ExprId, Rational)>) -> ExprId {
+        self.spend(1 + terms.len());
+        let key = self.sum_key(&constant, &terms);
+        let same = |node: &Node| match node {
+            Node::Sum { constant: other, terms: others } => *other == constant && same_terms(others, &terms),
+            _ => false,
+        };
+        if let Some(id) = self.lookup(key, same) {
+            return id;
+        }
+        let (mut roles, mut depth) = (Roles::NONE, 0);
+        let mut index = 0;
+        while index < terms.len() {
+            let child = terms[index].0.0 as usize;
+            roles = roles.or(self.roles[child]);
+            depth = depth.max(self.depths[child]);
+            index += 1;
+        }
+        let primitive = content_of(&constant, &terms).is_one();
+        let id = self.push(Node::Sum { constant, terms: terms.into_boxed_slice() }, key, roles, depth);
+        self.primitive[id.index()] = primitive;
+        id
+    }
+
+    /// The identifier of a product of more than one power, in the graph's order.
+    pub(super) fn intern_product(&mut self, factors: Vec<(ExprId, i32)>) -> ExprId {
+        self.spend(1 + factors.len());
+        let key = self.product_key(&factors);
+        if let Some(id) = self.lookup(key, |node| is_product(node, &factors)) {
+            return id;
+        }
+        let (mut roles, mut depth) = (Roles::NONE, 0);
+        let mut index = 0;
+        while index < factors.len() {
+            let child = factors[index].0.0 as usize;
+            roles = roles.or(self.roles[child]);
+            depth = depth.max(self.depths[child]);
+            index += 1;
+        }
+        self.push(Node::Product(factors.into_boxed_slice()), key, roles, depth)
+    }
+
+    /// A product, if the graph has it already.
+    pub(super) fn find_product(&self, factors: &[(ExprId, i32)]) -> Option<ExprId> {
+        self.lookup(self.product_key(factors), |node| is_product(node, factors))
+    }
+
+    /// Whether the coefficients of a sum have no factor in common and the first is positive.
+    pub(super) fn is_primitive(&self, id: ExprId) -> bool {
+        self.primitive[id.0 as usize]
+    }
+
+    /// Where an expression stands in a list in the graph's order, or where it would have to be put.
+    pub(super) fn place_of<T>(&self, list: &[(ExprId, T)], id: ExprId) -> Result<usize, usize> {
+        let keys: &[u64] = &self.keys;
+        let key = keys[id.0 as usize];
+        let (mut low, mut high) = (0, list.len());
+        while low < high {
+            // Lists are put together from sorted ones: often the end is the place.
+            let at = if high == list.len() { high - 1 } else { (low + high) / 2 };
+            let other = list[at].0;
+            if other.0 == id.0 {
+                return Ok(at);
+            }
+            let other_key = keys[other.0 as usize];
+            if other_key < key || other_key == key && other.0 < id.0 {
+                low = at + 1;
+            } else {
+                high = at;
+            }
+        }
+        Err(low)
     }
 
     /// The identifier of a node, if the graph has it already.
     pub(crate) fn find(&self, node: &Node) -> Option<ExprId> {
-        self.lookup_key(self.structural_key(node), node)
+        self.lookup(self.structural_key(node), |other| other == node)
     }
 
-    fn lookup_key(&self, key: u64, node: &Node) -> Option<ExprId> {
+    fn lookup(&self, key: u64, same: impl Fn(&Node) -> bool) -> Option<ExprId> {
         let (slots, keys): (&[u32], &[u64]) = (&self.slots, &self.keys);
         let mask = slots.len().checked_sub(1)?;
         let mut at = spread(key) as usize & mask;
         while slots[at] != 0 {
             let id = slots[at] - 1;
             // Two nodes may have one key.
-            if keys[id as usize] == key && self.node(ExprId(id)) == node {
+            if keys[id as usize] == key && same(&self.nodes[id as usize]) {
                 return Some(ExprId(id));
             }
             at = (at + 1) & mask;
@@ -504,17 +609,10 @@ impl Graph {
         None
     }
 
-    fn push(&mut self, node: Node, key: u64, roles: Roles) -> ExprId {
+    fn push(&mut self, node: Node, key: u64, roles: Roles, below: u32) -> ExprId {
         let id = ExprId(self.nodes.len() as u32);
-        let depth = |child: &ExprId| self.depths[child.index()];
-        let below = match &node {
-            Node::Number(_) | Node::Pi | Node::Symbol(_) | Node::Undefined => 0,
-            Node::Sum { terms, .. } => terms.iter().map(|(term, _)| depth(term)).max().unwrap_or(0),
-            Node::Product(factors) => factors.iter().map(|(base, _)| depth(base)).max().unwrap_or(0),
-            Node::Function(_, x) | Node::Kept(x) => depth(x),
-            Node::Atan2(y, x) => depth(y).max(depth(x)),
-        };
         self.depths.push(below + 1);
+        self.primitive.push(false);
         self.nodes.push(node);
         self.keys.push(key);
         self.roles.push(roles);
@@ -538,6 +636,30 @@ impl Graph {
         slots[at] = index as u32 + 1;
     }
 
+    fn sum_key(&self, constant: &Rational, terms: &[(ExprId, Rational)]) -> u64 {
+        let keys: &[u64] = &self.keys;
+        let mut hash = mix(0x2b00 ^ constant.hash64());
+        let mut index = 0;
+        while index < terms.len() {
+            let (term, c) = &terms[index];
+            hash = mix(hash ^ keys[term.0 as usize]) ^ c.hash64();
+            index += 1;
+        }
+        hash
+    }
+
+    fn product_key(&self, factors: &[(ExprId, i32)]) -> u64 {
+        let keys: &[u64] = &self.keys;
+        let mut hash = mix(0x2a00);
+        let mut index = 0;
+        while index < factors.len() {
+            let (base, e) = factors[index];
+            hash = mix(mix(hash ^ keys[base.0 as usize]) ^ e as u64);
+            index += 1;
+        }
+        hash
+    }
+
     fn structural_key(&self, node: &Node) -> u64 {
         let rational = |value: &Rational| value.hash64();
         let key = |id: ExprId| self.keys[id.index()];
@@ -547,12 +669,8 @@ impl Graph {
             Node::Undefined => mix(0x5500),
             Node::Kept(x) => mix(0x4b00 ^ key(*x)),
             Node::Symbol(symbol) => key(self.symbol_nodes[symbol.index()]),
-            Node::Sum { constant, terms } => terms
-                .iter()
-                .fold(mix(0x2b00 ^ rational(constant)), |h, (term, c)| mix(h ^ key(*term)) ^ rational(c)),
-            Node::Product(factors) => {
-                factors.iter().fold(mix(0x2a00), |h, (base, e)| mix(mix(h ^ key(*base)) ^ *e as u64))
-            }
+            Node::Sum { constant, terms } => self.sum_key(constant, terms),
+            Node::Product(factors) => self.product_key(factors),
             Node::Function(function, x) => mix(mix(0x4600 ^ function.code()) ^ key(*x)),
             Node::Atan2(y, x) => mix(mix(0x4100 ^ key(*y)) ^ key(*x)),
         }

@@ -43,7 +43,9 @@ impl Substitution {
     }
 
     fn step(&self, graph: &mut Graph, id: ExprId) -> ExprId {
-        if graph.children(id).iter().all(|child| self.images[child] == *child) {
+        let mut same = true;
+        graph.visit_children(id, |child| same = same && self.images[&child] == child);
+        if same {
             return id;
         }
         match graph.node(id).clone() {

@@ -85,8 +85,22 @@ impl NetNode {
     pub(super) fn children(&self, mut visit: impl FnMut(NetId)) {
         match self {
             NetNode::Atom(_) | NetNode::Constant(_) => {}
-            NetNode::Sum(linear) => linear.terms.iter().for_each(|(node, _)| visit(*node)),
-            NetNode::Product(factors) => factors.iter().for_each(|(node, _)| visit(*node)),
+            NetNode::Sum(linear) => {
+                let terms: &[(NetId, ExprId)] = &linear.terms;
+                let mut index = 0;
+                while index < terms.len() {
+                    visit(terms[index].0);
+                    index += 1;
+                }
+            }
+            NetNode::Product(factors) => {
+                let factors: &[(NetId, i32)] = factors;
+                let mut index = 0;
+                while index < factors.len() {
+                    visit(factors[index].0);
+                    index += 1;
+                }
+            }
             NetNode::Call(_, x) => visit(*x),
             NetNode::Atan2(y, x) => {
                 visit(*y);
@@ -280,37 +294,14 @@ impl Net {
             }
             pending -= 1;
             found.push(NetId(next as u32));
-            let mut count = |child: NetId| {
+            let count = |child: NetId| {
                 let index = child.0 as usize;
                 uses[index] += 1;
                 if uses[index] == 1 {
                     pending += 1;
                 }
             };
-            match &nodes[next] {
-                NetNode::Atom(_) | NetNode::Constant(_) => {}
-                NetNode::Sum(linear) => {
-                    let terms: &[(NetId, ExprId)] = &linear.terms;
-                    let mut index = 0;
-                    while index < terms.len() {
-                        count(terms[index].0);
-                        index += 1;
-                    }
-                }
-                NetNode::Product(factors) => {
-                    let factors: &[(NetId, i32)] = factors;
-                    let mut index = 0;
-                    while index < factors.len() {
-                        count(factors[index].0);
-                        index += 1;
-                    }
-                }
-                NetNode::Call(_, x) => count(*x),
-                NetNode::Atan2(y, x) => {
-                    count(*y);
-                    count(*x);
-                }
-            }
+            nodes[next].children(count);
         }
         found.reverse();
         (found, counts)

@@ -77,7 +77,8 @@ impl Table {
     pub(crate) fn scan(&mut self, graph: &Graph) {
         for index in self.ops.len()..graph.len() {
             let id = ExprId(index as u32);
-            let below = graph.children(id).iter().fold(0, |flags, child| flags | self.flags[child.index()]);
+            let mut below = 0;
+            graph.visit_children(id, |child| below |= self.flags[child.index()]);
             let (op, own) = self.read(graph, id);
             self.ops.push(op);
             self.flags.push(below | own);
