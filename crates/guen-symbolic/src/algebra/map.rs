@@ -176,6 +176,10 @@ impl<K: Key, V> FastMap<K, V> {
         self.entries.is_empty()
     }
 
+    pub(crate) fn len(&self) -> usize {
+        self.entries.len()
+    }
+
     /// All entries in the order in which they were made.
     pub(crate) fn iter(&self) -> impl Iterator<Item = (&K, &V)> {
         self.entries.iter().map(|entry| (&entry.key, &entry.value))
@@ -222,9 +226,118 @@ impl<K: fmt::Debug, V: fmt::Debug> fmt::Debug for FastMap<K, V> {
     }
 }
 
+/// What a [`SortedMap`] is sorted by.
+pub(crate) trait Ordinal: Copy {
+    /// The place in the order.
+    fn ordinal(self) -> u32;
+}
+
+impl Ordinal for ExprId {
+    fn ordinal(self) -> u32 {
+        self.0
+    }
+}
+
+/// A map of a few entries in ascending order: a list that is searched.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(crate) struct SortedMap<K, V>(Vec<(K, V)>);
+
+impl<K: Ordinal, V> SortedMap<K, V> {
+    pub(crate) fn with_capacity(capacity: usize) -> Self {
+        SortedMap(Vec::with_capacity(capacity))
+    }
+
+    /// A map of entries that are in ascending order.
+    pub(crate) fn from_sorted(entries: Vec<(K, V)>) -> Self {
+        SortedMap(entries)
+    }
+
+    /// Where a key is, or where it would have to be put.
+    fn place(&self, key: K) -> Result<usize, usize> {
+        let entries: &[(K, V)] = &self.0;
+        let ordinal = key.ordinal();
+        let (mut low, mut high) = (0, entries.len());
+        while low < high {
+            // Most maps are filled in order: often the end is the place.
+            let at = if high == entries.len() { high - 1 } else { (low + high) / 2 };
+            let other = entries[at].0.ordinal();
+            if other == ordinal {
+                return Ok(at);
+            }
+            if other < ordinal {
+                low = at + 1;
+            } else {
+                high = at;
+            }
+        }
+        Err(low)
+    }
+
+    /// The value of a key, which starts with the one given.
+    pub(crate) fn or_insert(&mut self, key: K, value: V) -> &mut V {
+        let at = match self.place(key) {
+            Ok(at) => at,
+            Err(at) => {
+                if at == self.0.len() {
+                    self.0.push((key, value));
+                } else {
+                    self.0.insert(at, (key, value));
+                }
+                at
+            }
+        };
+        &mut self.0[at].1
+    }
+
+    pub(crate) fn get(&self, key: K) -> Option<&V> {
+        match self.place(key) {
+            Ok(at) => Some(&self.0[at].1),
+            Err(_) => None,
+        }
+    }
+
+    pub(crate) fn remove(&mut self, key: K) -> Option<V> {
+        match self.place(key) {
+            Ok(at) => Some(self.0.remove(at).1),
+            Err(_) => None,
+        }
+    }
+
+    /// The entries in ascending order.
+    pub(crate) fn entries(&self) -> &[(K, V)] {
+        &self.0
+    }
+
+    /// The same with their contents.
+    pub(crate) fn into_entries(self) -> Vec<(K, V)> {
+        self.0
+    }
+}
+
+impl<K, V> Default for SortedMap<K, V> {
+    fn default() -> Self {
+        SortedMap(Vec::new())
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn sorted_maps_stay_sorted() {
+        let mut map: SortedMap<ExprId, u32> = SortedMap::default();
+        for n in 0..200_u32 {
+            // 77 and 200 have no factor in common: every key once, in no order.
+            *map.or_insert(ExprId(n * 77 % 200), 1) += n;
+        }
+        *map.or_insert(ExprId(77), 0) += 10;
+        assert_eq!(map.get(ExprId(77)), Some(&12));
+        assert_eq!(map.remove(ExprId(77)), Some(12));
+        assert_eq!(map.get(ExprId(77)), None);
+        assert!(map.entries().windows(2).all(|pair| pair[0].0 < pair[1].0));
+        assert_eq!(map.into_entries().len(), 199);
+    }
 
     #[test]
     fn finds_what_was_put_in() {

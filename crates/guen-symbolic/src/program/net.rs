@@ -5,10 +5,10 @@
 //! graph computes with exactly; in a program each is one prepared value. Nothing is flattened or expanded
 //! once it is here, so that what a pass shares stays shared.
 
-use std::collections::BTreeMap;
-
 use super::passes::angles::{Angle, Angles};
-use crate::algebra::{ExprId, FastMap, Function, Graph, Key, Node, Rational, mix, spread};
+use crate::algebra::{
+    ExprId, FastMap, Function, Graph, Key, Node, Ordinal, Rational, SortedMap, mix, spread,
+};
 
 /// A node of a [`Net`]; children have smaller identifiers than their parents.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
@@ -17,6 +17,12 @@ pub(super) struct NetId(pub(super) u32);
 impl Key for NetId {
     fn hash(&self) -> u32 {
         spread(self.0 as u64)
+    }
+}
+
+impl Ordinal for NetId {
+    fn ordinal(self) -> u32 {
+        self.0
     }
 }
 
@@ -110,6 +116,33 @@ impl NetNode {
     }
 }
 
+/// Powers of nodes.
+pub(super) type Powers = SortedMap<NetId, i32>;
+
+/// Coefficients of nodes.
+pub(super) type Terms = SortedMap<NetId, ExprId>;
+
+/// Adds `k` to the coefficient of a node.
+pub(super) fn add_term(graph: &mut Graph, terms: &mut Terms, node: NetId, k: ExprId) {
+    let slot = terms.or_insert(node, graph.zero());
+    *slot = graph.add(*slot, k);
+}
+
+/// The terms whose coefficients are not zero.
+pub(super) fn nonzero(graph: &Graph, terms: Terms) -> Vec<(NetId, ExprId)> {
+    let mut terms = terms.into_entries();
+    let zero = graph.zero();
+    let mut index = 0;
+    while index < terms.len() {
+        if terms[index].1 == zero {
+            terms.remove(index);
+        } else {
+            index += 1;
+        }
+    }
+    terms
+}
+
 /// `constant + sum coefficient * node`, ordered by node.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(super) struct Linear {
@@ -182,24 +215,39 @@ impl Net {
     }
 
     /// `product node^exponent`; products among the nodes are opened.
-    pub(super) fn product(&mut self, factors: impl IntoIterator<Item = (NetId, i32)>) -> NetId {
-        let mut collected: BTreeMap<NetId, i32> = BTreeMap::new();
-        for (node, e) in factors {
+    pub(super) fn product(&mut self, factors: &[(NetId, i32)]) -> NetId {
+        let mut collected: Powers = SortedMap::with_capacity(factors.len() + 4);
+        let mut next = 0;
+        while next < factors.len() {
+            let (node, e) = factors[next];
+            next += 1;
             match self.node(node) {
                 NetNode::Product(inner) => {
-                    for (node, k) in inner {
-                        *collected.entry(*node).or_default() += k * e;
+                    let inner: &[(NetId, i32)] = inner;
+                    let mut index = 0;
+                    while index < inner.len() {
+                        let (node, k) = inner[index];
+                        *collected.or_insert(node, 0) += k * e;
+                        index += 1;
                     }
                 }
-                _ => *collected.entry(node).or_default() += e,
+                _ => *collected.or_insert(node, 0) += e,
             }
         }
         self.plain_product(collected)
     }
 
     /// The same, products among the nodes kept as they are.
-    pub(super) fn plain_product(&mut self, collected: BTreeMap<NetId, i32>) -> NetId {
-        let factors: Vec<_> = collected.into_iter().filter(|(_, e)| *e != 0).collect();
+    pub(super) fn plain_product(&mut self, collected: Powers) -> NetId {
+        let mut factors = collected.into_entries();
+        let mut index = 0;
+        while index < factors.len() {
+            if factors[index].1 == 0 {
+                factors.remove(index);
+            } else {
+                index += 1;
+            }
+        }
         match factors[..] {
             [(node, 1)] => node,
             _ => self.intern(NetNode::Product(factors)),
@@ -222,12 +270,19 @@ impl Net {
         &mut self,
         graph: &mut Graph,
         constants: &[(ExprId, Rational)],
-        terms: BTreeMap<NetId, Vec<(ExprId, Rational)>>,
+        collected: &[(NetId, Vec<(ExprId, Rational)>)],
     ) -> Scaled {
         let constant = graph.linear(constants);
-        let mut terms: Vec<_> =
-            terms.into_iter().map(|(node, coefficients)| (node, graph.linear(&coefficients))).collect();
-        terms.retain(|(_, k)| !graph.is_zero(*k));
+        let mut terms = Vec::with_capacity(collected.len());
+        let mut index = 0;
+        while index < collected.len() {
+            let (node, coefficients) = &collected[index];
+            let k = graph.linear(coefficients);
+            if !graph.is_zero(k) {
+                terms.push((*node, k));
+            }
+            index += 1;
+        }
         self.primitive(graph, Linear { constant, terms })
     }
 
@@ -436,7 +491,7 @@ impl<'a> Conversion<'a> {
             }
             Node::Sum { constant, terms } => {
                 let mut constants = vec![(one, constant)];
-                let mut collected: BTreeMap<NetId, Vec<(ExprId, Rational)>> = BTreeMap::new();
+                let mut collected: SortedMap<NetId, Vec<(ExprId, Rational)>> = SortedMap::default();
                 for (term, c) in terms.iter() {
                     match self.known(*term) {
                         Scaled::Constant(k) => constants.push((k, c.clone())),
@@ -447,14 +502,14 @@ impl<'a> Conversion<'a> {
                                 constants.push((self.graph.mul(k, inner.constant), c.clone()));
                                 for (node, coefficient) in inner.terms {
                                     let k = self.graph.mul(k, coefficient);
-                                    collected.entry(node).or_default().push((k, c.clone()));
+                                    collected.or_insert(node, Vec::new()).push((k, c.clone()));
                                 }
                             }
-                            _ => collected.entry(node).or_default().push((k, c.clone())),
+                            _ => collected.or_insert(node, Vec::new()).push((k, c.clone())),
                         },
                     }
                 }
-                self.net.linear(self.graph, &constants, collected)
+                self.net.linear(self.graph, &constants, collected.entries())
             }
             Node::Product(factors) => {
                 let mut constants = Vec::new();
@@ -469,7 +524,7 @@ impl<'a> Conversion<'a> {
                     }
                 }
                 let k = self.graph.product(&constants);
-                Scaled::Times(k, self.net.product(rest))
+                Scaled::Times(k, self.net.product(&rest))
             }
             Node::Function(function @ (Function::Sin | Function::Cos), x) => match self.angles.get(x) {
                 Some(angle) => {
@@ -533,8 +588,8 @@ impl<'a> Conversion<'a> {
         let (one, zero) = (self.graph.one(), self.graph.zero());
         let minus = self.graph.number(-1);
         let (plus, minus) = if backwards { (minus, one) } else { (one, minus) };
-        let (ss, cc) = (self.net.product([(a.0, 1), (b.0, 1)]), self.net.product([(a.1, 1), (b.1, 1)]));
-        let (sc, cs) = (self.net.product([(a.0, 1), (b.1, 1)]), self.net.product([(a.1, 1), (b.0, 1)]));
+        let (ss, cc) = (self.net.product(&[(a.0, 1), (b.0, 1)]), self.net.product(&[(a.1, 1), (b.1, 1)]));
+        let (sc, cs) = (self.net.product(&[(a.0, 1), (b.1, 1)]), self.net.product(&[(a.1, 1), (b.0, 1)]));
         let mut sum = |x: NetId, k: ExprId, y: NetId| {
             let mut terms = vec![(x, one), (y, k)];
             if x == y {
