@@ -4,8 +4,6 @@
 //! integer exponents, and carries no number: numbers belong to the sums above. Sums inside products are
 //! primitive (content one, first coefficient positive). Nothing distributes products over sums.
 
-use std::collections::BTreeMap;
-
 use super::graph::{ExprId, Graph, Node, PowerError};
 use super::{Function, Rational};
 
@@ -20,6 +18,49 @@ const MAX_NUMBER_BITS: u64 = 1330;
 
 /// The terms `c m sin(x)^2` and `c m cos(x)^2` of a sum, and the factors of `m`.
 type SquarePair = (ExprId, ExprId, Vec<(ExprId, i32)>);
+
+/// What all coefficients of a sum have in common, with the sign of the first.
+pub(super) fn content_of(constant: &Rational, terms: &[(ExprId, Rational)]) -> Rational {
+    let mut content = constant.abs();
+    let mut index = 0;
+    while index < terms.len() {
+        content = content.content_gcd(&terms[index].1);
+        index += 1;
+    }
+    if terms[0].1.is_negative() { -content } else { content }
+}
+
+/// Adds `c * term` to terms in the graph's order.
+fn add_term(graph: &Graph, terms: &mut Vec<(ExprId, Rational)>, term: ExprId, c: Rational) {
+    match graph.place_of(terms, term) {
+        Ok(at) => {
+            let slot = &mut terms[at].1;
+            *slot = &*slot + &c;
+        }
+        Err(at) if at == terms.len() => terms.push((term, c)),
+        Err(at) => terms.insert(at, (term, c)),
+    }
+}
+
+/// Multiplies factors in the graph's order by `base^e`.
+fn add_power(graph: &Graph, factors: &mut Vec<(ExprId, i32)>, base: ExprId, e: i32) {
+    match graph.place_of(factors, base) {
+        Ok(at) => factors[at].1 += e,
+        Err(at) if at == factors.len() => factors.push((base, e)),
+        Err(at) => factors.insert(at, (base, e)),
+    }
+}
+
+fn drop_zeros(terms: &mut Vec<(ExprId, Rational)>) {
+    let mut index = 0;
+    while index < terms.len() {
+        if terms[index].1.is_zero() {
+            terms.retain(|(_, c)| !c.is_zero());
+            return;
+        }
+        index += 1;
+    }
+}
 
 impl Graph {
     /// An exact number.
@@ -75,12 +116,11 @@ impl Graph {
     /// `sum coefficient * term`, in normal form.
     pub fn linear(&mut self, terms: &[(ExprId, Rational)]) -> ExprId {
         let mut constant = Rational::ZERO;
-        let mut collected: BTreeMap<(u64, ExprId), Rational> = BTreeMap::new();
-        let mut add = |graph: &Graph, id: ExprId, c: &Rational| {
-            let slot = collected.entry(graph.key(id)).or_default();
-            *slot = &*slot + c;
-        };
-        for (id, coefficient) in terms {
+        let mut collected: Vec<(ExprId, Rational)> = Vec::with_capacity(terms.len() + FLATTEN_TERMS);
+        let mut next = 0;
+        while next < terms.len() {
+            let (id, coefficient) = &terms[next];
+            next += 1;
             if coefficient.is_zero() {
                 continue;
             }
@@ -88,28 +128,33 @@ impl Graph {
                 Node::Undefined => return *id,
                 Node::Number(value) => constant = constant + value * coefficient,
                 Node::Sum { constant: inner, terms } if terms.len() <= FLATTEN_TERMS => {
-                    constant = constant + inner * coefficient;
-                    for (term, c) in terms {
-                        add(self, *term, &(c * coefficient));
+                    if !inner.is_zero() {
+                        constant = constant + inner * coefficient;
+                    }
+                    let terms: &[(ExprId, Rational)] = terms;
+                    let mut index = 0;
+                    while index < terms.len() {
+                        let (term, c) = &terms[index];
+                        add_term(self, &mut collected, *term, c * coefficient);
+                        index += 1;
                     }
                 }
                 Node::Sum { .. } => {
                     let (content, primitive) = self.split_content(*id);
-                    add(self, primitive, &(&content * coefficient));
+                    add_term(self, &mut collected, primitive, &content * coefficient);
                 }
-                _ => add(self, *id, coefficient),
+                _ => add_term(self, &mut collected, *id, coefficient.clone()),
             }
         }
-        collected.retain(|_, c| !c.is_zero());
+        drop_zeros(&mut collected);
         self.fold_squares(&mut collected, &mut constant);
         self.finish_sum(constant, collected)
     }
 
-    fn finish_sum(&mut self, constant: Rational, collected: BTreeMap<(u64, ExprId), Rational>) -> ExprId {
-        if collected.is_empty() {
+    fn finish_sum(&mut self, constant: Rational, terms: Vec<(ExprId, Rational)>) -> ExprId {
+        if terms.is_empty() {
             return self.intern(Node::Number(constant));
         }
-        let terms: Box<[_]> = collected.into_iter().map(|((_, id), c)| (id, c)).collect();
         if terms.len() == 1 && constant.is_zero() {
             let (id, c) = &terms[0];
             if c.is_one() {
@@ -121,17 +166,21 @@ impl Graph {
             {
                 let constant = inner * c;
                 let terms = inner_terms.iter().map(|(term, k)| (*term, k * c)).collect();
-                return self.intern(Node::Sum { constant, terms });
+                return self.intern_sum(constant, terms);
             }
         }
-        self.intern(Node::Sum { constant, terms })
+        self.intern_sum(constant, terms)
     }
 
     /// `c m sin(x)^2 + c m cos(x)^2 = c m`, for as long as such a pair is left.
-    fn fold_squares(&mut self, collected: &mut BTreeMap<(u64, ExprId), Rational>, constant: &mut Rational) {
+    fn fold_squares(&mut self, collected: &mut Vec<(ExprId, Rational)>, constant: &mut Rational) {
         while let Some((sine_term, cosine_term, rest)) = self.square_pair(collected) {
-            let c = collected.remove(&self.key(sine_term)).expect("the pair comes from this map");
-            collected.remove(&self.key(cosine_term));
+            let mut take = |id: ExprId| match self.place_of(collected, id) {
+                Ok(at) => collected.remove(at).1,
+                Err(_) => unreachable!("the pair comes from this list"),
+            };
+            let c = take(sine_term);
+            take(cosine_term);
             let rest = self.product(&rest);
             let (inner, terms) = match self.node(rest) {
                 Node::Number(value) => (value.clone(), Vec::new()),
@@ -140,32 +189,39 @@ impl Graph {
             };
             *constant = &*constant + &(&inner * &c);
             for (term, k) in terms {
-                let slot = collected.entry(self.key(term)).or_default();
-                *slot = &*slot + &(&k * &c);
+                add_term(self, collected, term, &k * &c);
             }
-            collected.retain(|_, c| !c.is_zero());
+            drop_zeros(collected);
         }
     }
 
     /// Two terms `c m sin(x)^2` and `c m cos(x)^2` with the same `c`, and the factors of `m`.
-    fn square_pair(&self, collected: &BTreeMap<(u64, ExprId), Rational>) -> Option<SquarePair> {
+    fn square_pair(&self, collected: &[(ExprId, Rational)]) -> Option<SquarePair> {
         if collected.len() < 2 {
             return None;
         }
-        for ((_, id), c) in collected {
+        let mut next = 0;
+        while next < collected.len() {
+            let (id, c) = &collected[next];
+            next += 1;
             let Node::Product(factors) = self.node(*id) else { continue };
-            for (i, (base, e)) in factors.iter().enumerate() {
-                let Node::Function(Function::Sin, x) = *self.node(*base) else { continue };
-                if *e < 2 {
-                    continue;
-                }
-                let mut rest = factors.to_vec();
-                rest[i].1 -= 2;
-                if let Some(partner) = self.existing_partner(x, &rest)
-                    && collected.get(&self.key(partner)) == Some(c)
+            let factors: &[(ExprId, i32)] = factors;
+            let mut i = 0;
+            while i < factors.len() {
+                let (base, e) = factors[i];
+                if e >= 2
+                    && let Node::Function(Function::Sin, x) = *self.node(base)
                 {
-                    return Some((*id, partner, rest));
+                    let mut rest = factors.to_vec();
+                    rest[i].1 -= 2;
+                    if let Some(partner) = self.existing_partner(x, &rest)
+                        && let Ok(at) = self.place_of(collected, partner)
+                        && collected[at].1 == *c
+                    {
+                        return Some((*id, partner, rest));
+                    }
                 }
+                i += 1;
             }
         }
         None
@@ -174,16 +230,15 @@ impl Graph {
     /// The monomial `cos(x)^2 * rest`, if the graph has it already: only then can it be a term of a sum.
     fn existing_partner(&self, x: ExprId, rest: &[(ExprId, i32)]) -> Option<ExprId> {
         let cosine = self.find(&Node::Function(Function::Cos, x))?;
-        let mut factors: BTreeMap<(u64, ExprId), i32> = BTreeMap::new();
+        let mut factors: Vec<(ExprId, i32)> = Vec::with_capacity(rest.len() + 1);
         for (base, e) in rest.iter().copied().chain([(cosine, 2)]) {
-            *factors.entry(self.key(base)).or_default() += e;
+            add_power(self, &mut factors, base, e);
         }
-        let factors: Box<[_]> =
-            factors.into_iter().filter(|(_, e)| *e != 0).map(|((_, base), e)| (base, e)).collect();
+        factors.retain(|(_, e)| *e != 0);
         match &factors[..] {
             [] => None,
             [(base, 1)] => Some(*base),
-            _ => self.find(&Node::Product(factors)),
+            _ => self.find_product(&factors),
         }
     }
 
@@ -211,11 +266,13 @@ impl Graph {
     /// `product base^exponent`, in normal form.
     pub fn product(&mut self, factors: &[(ExprId, i32)]) -> ExprId {
         let mut coefficient = Rational::ONE;
-        let mut collected: BTreeMap<(u64, ExprId), i32> = BTreeMap::new();
+        let mut collected: Vec<(ExprId, i32)> = Vec::with_capacity(factors.len() + 4);
         let mut exponentials: Vec<(ExprId, Rational)> = Vec::new();
         let mut undefined = false;
-        let mut stack: Vec<(ExprId, i32)> = factors.to_vec();
-        while let Some((id, e)) = stack.pop() {
+        let mut next = factors.len();
+        while next > 0 {
+            next -= 1;
+            let (id, e) = factors[next];
             if e == 0 {
                 continue;
             }
@@ -227,17 +284,13 @@ impl Graph {
                 },
                 Node::Sum { .. } => {
                     let (content, primitive) = self.split_content(id);
-                    // A positive or negative content leaves the product; it cannot be zero.
-                    coefficient = coefficient * content.powi(e).expect("contents are not zero");
-                    if matches!(self.node(primitive), Node::Sum { .. }) {
-                        *collected.entry(self.key(primitive)).or_default() += e;
-                    } else {
-                        stack.push((primitive, e));
+                    if !content.is_one() {
+                        // A positive or negative content leaves the product; it cannot be zero.
+                        coefficient = coefficient * content.powi(e).expect("contents are not zero");
                     }
+                    self.collect_factor(&mut collected, &mut exponentials, primitive, e);
                 }
-                Node::Product(inner) => stack.extend(inner.iter().map(|(base, k)| (*base, k * e))),
-                Node::Function(Function::Exp, x) => exponentials.push((*x, Rational::integer(e.into()))),
-                _ => *collected.entry(self.key(id)).or_default() += e,
+                _ => self.collect_factor(&mut collected, &mut exponentials, id, e),
             }
         }
         if undefined {
@@ -251,57 +304,87 @@ impl Graph {
             let argument = self.linear(&exponentials);
             let exponential = self.exp(argument);
             if matches!(self.node(exponential), Node::Function(Function::Exp, _)) {
-                *collected.entry(self.key(exponential)).or_default() += 1;
+                add_power(self, &mut collected, exponential, 1);
             } else if exponential != self.one() {
                 // exp(ln(x y) + z) exp(-z) is a product itself.
-                let mut again: Vec<_> = collected.into_iter().map(|((_, id), e)| (id, e)).collect();
-                again.push((exponential, 1));
-                let rest = self.product(&again);
+                collected.push((exponential, 1));
+                let rest = self.product(&collected);
                 return self.scale(rest, &coefficient);
             }
         }
         // q-th powers of q-th roots, and even powers of absolute values, are what is below them.
-        let reducible: Vec<_> = collected
-            .iter()
-            .filter_map(|((_, id), e)| match self.node(*id) {
+        let mut reducible: Vec<(ExprId, ExprId, i32, i32)> = Vec::new();
+        let mut zeros = false;
+        let mut index = 0;
+        while index < collected.len() {
+            let (id, e) = collected[index];
+            zeros |= e == 0;
+            match self.node(id) {
                 Node::Function(Function::Root(q), x) if e.unsigned_abs() >= *q => {
-                    Some((*id, *x, *q as i32, *e))
+                    reducible.push((id, *x, *q as i32, e));
                 }
-                Node::Function(Function::Abs, x) if *e % 2 == 0 && *e != 0 => Some((*id, *x, 1, *e)),
-                _ => None,
-            })
-            .collect();
+                Node::Function(Function::Abs, x) if e % 2 == 0 && e != 0 => reducible.push((id, *x, 1, e)),
+                _ => {}
+            }
+            index += 1;
+        }
         if !reducible.is_empty() {
             let mut again: Vec<(ExprId, i32)> = Vec::new();
             for (id, x, q, e) in reducible {
-                collected.remove(&self.key(id));
+                collected.retain(|(other, _)| *other != id);
                 again.push((x, e / q));
                 again.push((id, e % q));
             }
-            again.extend(collected.into_iter().map(|((_, id), e)| (id, e)));
+            again.extend(collected);
             let rest = self.product(&again);
             return self.scale(rest, &coefficient);
         }
-        let factors: Box<[_]> =
-            collected.into_iter().filter(|(_, e)| *e != 0).map(|((_, id), e)| (id, e)).collect();
-        let monomial = match &factors[..] {
+        if zeros {
+            collected.retain(|(_, e)| *e != 0);
+        }
+        let monomial = match &collected[..] {
             [] => return self.intern(Node::Number(coefficient)),
             [(base, 1)] => *base,
-            _ => self.intern(Node::Product(factors)),
+            _ => self.intern_product(collected),
         };
         if coefficient.is_one() { monomial } else { self.scale(monomial, &coefficient) }
     }
 
+    /// Adds a power of what is neither a number nor a sum with a content to the factors of a product.
+    fn collect_factor(
+        &self,
+        collected: &mut Vec<(ExprId, i32)>,
+        exponentials: &mut Vec<(ExprId, Rational)>,
+        id: ExprId,
+        e: i32,
+    ) {
+        match self.node(id) {
+            Node::Product(inner) => {
+                let inner: &[(ExprId, i32)] = inner;
+                let mut index = inner.len();
+                while index > 0 {
+                    index -= 1;
+                    let (base, k) = inner[index];
+                    match self.node(base) {
+                        Node::Function(Function::Exp, x) => {
+                            exponentials.push((*x, Rational::integer((k * e).into())));
+                        }
+                        _ => add_power(self, collected, base, k * e),
+                    }
+                }
+            }
+            Node::Function(Function::Exp, x) => exponentials.push((*x, Rational::integer(e.into()))),
+            _ => add_power(self, collected, id, e),
+        }
+    }
+
     /// Content and primitive part of a sum: `sum = content * primitive`, the first coefficient of the primitive positive.
     pub(crate) fn split_content(&mut self, id: ExprId) -> (Rational, ExprId) {
+        if self.is_primitive(id) {
+            return (Rational::ONE, id);
+        }
         let Node::Sum { constant, terms } = self.node(id) else { return (Rational::ONE, id) };
-        let mut content = terms.iter().fold(constant.abs(), |g, (_, c)| g.content_gcd(c));
-        if terms[0].1.is_negative() {
-            content = -content;
-        }
-        if content.is_one() {
-            return (content, id);
-        }
+        let content = content_of(constant, terms);
         let inverse = content.recip().expect("a sum has a term");
         if let [(term, _)] = &terms[..]
             && constant.is_zero()
@@ -310,7 +393,7 @@ impl Graph {
         }
         let constant = constant * &inverse;
         let terms = terms.iter().map(|(term, c)| (*term, c * &inverse)).collect();
-        (content, self.intern(Node::Sum { constant, terms }))
+        (content, self.intern_sum(constant, terms))
     }
 
     /// A term's coefficient and monomial: `3*x` is `(3, x)`, a number is itself times one.

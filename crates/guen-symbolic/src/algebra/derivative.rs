@@ -1,7 +1,8 @@
 //! One memoised directional derivative: partial derivatives, flows and `X_s(f)` are all of this kind.
 
 use super::Rational;
-use super::graph::{ExprId, FastMap, Graph, Node, Roles, SymbolId};
+use super::graph::{ExprId, Graph, Node, Roles, SymbolId};
+use super::map::FastMap;
 
 /// A direction `sum v_k d/dx_k` in the space of symbols, with what was differentiated along it so far.
 ///

@@ -1,9 +1,9 @@
 //! The graph: nodes, symbols, and the table that makes equal nodes one.
 
 use std::cell::Cell;
-use std::collections::HashMap;
-use std::hash::{BuildHasherDefault, Hasher};
 
+use super::build::content_of;
+use super::map::spread;
 use super::{Function, Rational};
 
 /// An expression of a [`Graph`]; children always have smaller identifiers than their parents.
@@ -151,39 +151,133 @@ pub enum PowerError {
     DivisionByZero,
 }
 
-/// Structural hashes are good hashes already.
-#[derive(Default)]
-pub(crate) struct Identity(u64);
-
-impl Hasher for Identity {
-    fn finish(&self) -> u64 {
-        self.0
-    }
-    fn write(&mut self, bytes: &[u8]) {
-        for &byte in bytes {
-            self.write_u64(byte.into());
-        }
-    }
-    fn write_u32(&mut self, value: u32) {
-        self.write_u64(value.into());
-    }
-    fn write_u64(&mut self, value: u64) {
-        self.0 = mix(self.0 ^ value);
-    }
-    fn write_usize(&mut self, value: usize) {
-        self.write_u64(value as u64);
-    }
-}
-
-/// A map for look-ups only: nothing iterates over it, so its order never reaches an expansion.
-pub(crate) type FastMap<K, V> = HashMap<K, V, BuildHasherDefault<Identity>>;
-
 /// The finaliser of the splitmix64 generator (Steele, Lea, Flood 2014): a fixed mixing of 64 bits.
 pub(crate) fn mix(value: u64) -> u64 {
     let mut z = value.wrapping_add(0x9e37_79b9_7f4a_7c15);
     z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
     z ^ (z >> 31)
+}
+
+fn is_product(node: &Node, factors: &[(ExprId, i32)]) -> bool {
+    let Node::Product(others) = node else { return false };
+    let others: &[(ExprId, i32)] = others;
+    if others.len() != factors.len() {
+        return false;
+    }
+    let mut index = 0;
+    while index < factors.len() {
+        if others[index].0.0 != factors[index].0.0 || others[index].1 != factors[index].1 {
+            return false;
+        }
+        index += 1;
+    }
+    true
+}
+
+fn same_terms(others: &[(ExprId, Rational)], terms: &[(ExprId, Rational)]) -> bool {
+    if others.len() != terms.len() {
+        return false;
+    }
+    let mut index = 0;
+    while index < terms.len() {
+        if others[index].0.0 != terms[index].0.0 || others[index].1 != terms[index].1 {
+            return false;
+        }
+        index += 1;
+    }
+    true
+}
+
+/// The memory of a traversal: kept, because clearing it would cost more than the nodes that are visited.
+#[derive(Default)]
+struct Search {
+    /// The number of the search that has seen a node last.
+    seen: Vec<u32>,
+    number: u32,
+    stack: Vec<u32>,
+    height: usize,
+}
+
+impl Search {
+    fn begin(&mut self, nodes: usize) {
+        if self.seen.len() < nodes || self.number == u32::MAX {
+            let room = nodes.next_power_of_two();
+            *self = Search { seen: vec![0; room], number: 0, stack: vec![0; room], height: 0 };
+        }
+        self.number += 1;
+        self.height = 0;
+    }
+
+    /// A node to be visited, unless it was pushed before: so the stack has room for it.
+    #[inline(always)]
+    fn push(&mut self, id: ExprId) {
+        let (seen, stack): (&mut [u32], &mut [u32]) = (&mut self.seen, &mut self.stack);
+        let index = id.0 as usize;
+        if seen[index] != self.number {
+            seen[index] = self.number;
+            stack[self.height] = id.0;
+            self.height += 1;
+        }
+    }
+
+    fn pop(&mut self) -> Option<ExprId> {
+        if self.height == 0 {
+            return None;
+        }
+        self.height -= 1;
+        Some(ExprId(self.stack[self.height]))
+    }
+}
+
+/// Sorts different identifiers: few by insertion, many by a bit for each.
+pub(crate) fn sort_ids(ids: &mut [ExprId]) {
+    const FEW: usize = 12;
+    if ids.len() <= FEW {
+        let mut next = 1;
+        while next < ids.len() {
+            let id = ids[next];
+            let mut at = next;
+            while at > 0 && ids[at - 1].0 > id.0 {
+                ids[at] = ids[at - 1];
+                at -= 1;
+            }
+            ids[at] = id;
+            next += 1;
+        }
+        return;
+    }
+    let (mut least, mut most) = (u32::MAX, 0);
+    let mut index = 0;
+    while index < ids.len() {
+        let id = ids[index].0;
+        if id < least {
+            least = id;
+        }
+        if id > most {
+            most = id;
+        }
+        index += 1;
+    }
+    let base = least / 64;
+    let mut bits = vec![0_u64; (most / 64 - base) as usize + 1];
+    let words: &mut [u64] = &mut bits;
+    index = 0;
+    while index < ids.len() {
+        let id = ids[index].0;
+        words[(id / 64 - base) as usize] |= 1 << (id % 64);
+        index += 1;
+    }
+    let (mut word, mut next) = (0, 0);
+    while word < words.len() {
+        let mut left = words[word];
+        while left != 0 {
+            ids[next] = ExprId((base + word as u32) * 64 + left.trailing_zeros());
+            next += 1;
+            left &= left - 1;
+        }
+        word += 1;
+    }
 }
 
 /// A hash-consed graph of expressions over its own symbols.
@@ -206,11 +300,13 @@ pub struct Graph {
     keys: Vec<u64>,
     roles: Vec<Roles>,
     depths: Vec<u32>,
+    // Of sums: whether their content is one.
+    primitive: Vec<bool>,
     // A cell, because looking at expressions is work too.
     work: Cell<u64>,
-    // Chains of nodes that share a key: a list per key, since two nodes may collide.
-    heads: FastMap<u64, ExprId>,
-    next: Vec<Option<ExprId>>,
+    search: Cell<Search>,
+    // Places of the nodes by their keys: one more than an identifier, zero for none; a power of two of them.
+    slots: Vec<u32>,
     symbols: Vec<Symbol>,
     symbol_nodes: Vec<ExprId>,
     role_counts: [u32; 8],
@@ -306,7 +402,7 @@ impl Graph {
         self.symbols.push(Symbol { name: name.to_owned(), role, bound });
         // The key is the place in the declaration, not the name: renaming must not change rounding.
         let key = mix(mix(0x5300 + role as u64) ^ u64::from(ordinal));
-        let node = self.push(Node::Symbol(id), key, Roles::of(role));
+        let node = self.push(Node::Symbol(id), key, Roles::of(role), 0);
         self.symbol_nodes.push(node);
         node
     }
@@ -337,32 +433,53 @@ impl Graph {
         }
     }
 
+    /// The same without a list.
+    pub(crate) fn visit_children(&self, id: ExprId, mut visit: impl FnMut(ExprId)) {
+        match self.node(id) {
+            Node::Number(_) | Node::Pi | Node::Symbol(_) | Node::Undefined => {}
+            Node::Sum { terms, .. } => {
+                let terms: &[(ExprId, Rational)] = terms;
+                let mut index = 0;
+                while index < terms.len() {
+                    visit(terms[index].0);
+                    index += 1;
+                }
+            }
+            Node::Product(factors) => {
+                let factors: &[(ExprId, i32)] = factors;
+                let mut index = 0;
+                while index < factors.len() {
+                    visit(factors[index].0);
+                    index += 1;
+                }
+            }
+            Node::Function(_, x) | Node::Kept(x) => visit(*x),
+            Node::Atan2(y, x) => {
+                visit(*y);
+                visit(*x);
+            }
+        }
+    }
+
     /// Everything below `roots`, roots included, children first; nodes for which `stop` holds are not entered nor listed.
     pub fn reachable(&self, roots: &[ExprId], mut stop: impl FnMut(ExprId) -> bool) -> Vec<ExprId> {
-        // A bit for each node: clearing them is nothing beside the nodes that are visited.
-        let mut seen = vec![0_u64; self.nodes.len() / 64 + 1];
+        // Whoever asks from within `stop` gets memory of its own.
+        let mut search = self.search.take();
+        search.begin(self.nodes.len());
         let mut found = Vec::new();
-        let mut stack = roots.to_vec();
-        while let Some(id) = stack.pop() {
-            let (word, bit) = (id.index() / 64, 1_u64 << (id.index() % 64));
-            if seen[word] & bit != 0 {
-                continue;
-            }
-            seen[word] |= bit;
+        for root in roots {
+            search.push(*root);
+        }
+        while let Some(id) = search.pop() {
             if stop(id) {
                 continue;
             }
             found.push(id);
-            match self.node(id) {
-                Node::Number(_) | Node::Pi | Node::Symbol(_) | Node::Undefined => {}
-                Node::Sum { terms, .. } => stack.extend(terms.iter().map(|t| t.0)),
-                Node::Product(factors) => stack.extend(factors.iter().map(|f| f.0)),
-                Node::Function(_, x) | Node::Kept(x) => stack.push(*x),
-                Node::Atan2(y, x) => stack.extend([*y, *x]),
-            }
+            self.visit_children(id, |child| search.push(child));
         }
+        self.search.set(search);
         self.spend(found.len());
-        found.sort_unstable();
+        sort_ids(&mut found);
         found
     }
 
@@ -380,75 +497,171 @@ impl Graph {
 
     /// The identifier of a node in normal form.
     pub(crate) fn intern(&mut self, node: Node) -> ExprId {
-        self.spend(match &node {
-            Node::Sum { terms, .. } => 1 + terms.len(),
-            Node::Product(factors) => 1 + factors.len(),
-            _ => 1,
-        });
+        self.spend(1);
         let key = self.structural_key(&node);
-        if let Some(id) = self.lookup_key(key, &node) {
+        if let Some(id) = self.lookup(key, |other| *other == node) {
             return id;
         }
-        let roles = match &node {
-            Node::Symbol(_) => unreachable!("symbols are made by `symbol`"),
-            Node::Number(_) | Node::Pi | Node::Undefined => Roles::NONE,
-            Node::Sum { terms, .. } => {
-                terms.iter().fold(Roles::NONE, |roles, (term, _)| roles.or(self.roles(*term)))
+        let depth = |child: &ExprId| self.depths[child.index()];
+        let (roles, below) = match &node {
+            Node::Symbol(_) | Node::Sum { .. } | Node::Product(_) => {
+                unreachable!("symbols, sums and products are made elsewhere")
             }
-            Node::Product(factors) => {
-                factors.iter().fold(Roles::NONE, |roles, (base, _)| roles.or(self.roles(*base)))
-            }
-            Node::Function(_, x) | Node::Kept(x) => self.roles(*x),
-            Node::Atan2(y, x) => self.roles(*y).or(self.roles(*x)),
+            Node::Number(_) | Node::Pi | Node::Undefined => (Roles::NONE, 0),
+            Node::Function(_, x) | Node::Kept(x) => (self.roles(*x), depth(x)),
+            Node::Atan2(y, x) => (self.roles(*y).or(self.roles(*x)), depth(y).max(depth(x))),
         };
-        self.push(node, key, roles)
+        self.push(node, key, roles, below)
+    }
+
+    /// The identifier of a sum with at least one term, in the graph's order.
+    pub(super) fn intern_sum(&mut self, constant: Rational, terms: Vec<(ExprId, Rational)>) -> ExprId {
+        self.spend(1 + terms.len());
+        let key = self.sum_key(&constant, &terms);
+        let same = |node: &Node| match node {
+            Node::Sum { constant: other, terms: others } => *other == constant && same_terms(others, &terms),
+            _ => false,
+        };
+        if let Some(id) = self.lookup(key, same) {
+            return id;
+        }
+        let (mut roles, mut depth) = (Roles::NONE, 0);
+        let mut index = 0;
+        while index < terms.len() {
+            let child = terms[index].0.0 as usize;
+            roles = roles.or(self.roles[child]);
+            depth = depth.max(self.depths[child]);
+            index += 1;
+        }
+        let primitive = content_of(&constant, &terms).is_one();
+        let id = self.push(Node::Sum { constant, terms: terms.into_boxed_slice() }, key, roles, depth);
+        self.primitive[id.index()] = primitive;
+        id
+    }
+
+    /// The identifier of a product of more than one power, in the graph's order.
+    pub(super) fn intern_product(&mut self, factors: Vec<(ExprId, i32)>) -> ExprId {
+        self.spend(1 + factors.len());
+        let key = self.product_key(&factors);
+        if let Some(id) = self.lookup(key, |node| is_product(node, &factors)) {
+            return id;
+        }
+        let (mut roles, mut depth) = (Roles::NONE, 0);
+        let mut index = 0;
+        while index < factors.len() {
+            let child = factors[index].0.0 as usize;
+            roles = roles.or(self.roles[child]);
+            depth = depth.max(self.depths[child]);
+            index += 1;
+        }
+        self.push(Node::Product(factors.into_boxed_slice()), key, roles, depth)
+    }
+
+    /// A product, if the graph has it already.
+    pub(super) fn find_product(&self, factors: &[(ExprId, i32)]) -> Option<ExprId> {
+        self.lookup(self.product_key(factors), |node| is_product(node, factors))
+    }
+
+    /// Whether the coefficients of a sum have no factor in common and the first is positive.
+    pub(super) fn is_primitive(&self, id: ExprId) -> bool {
+        self.primitive[id.0 as usize]
+    }
+
+    /// Where an expression stands in a list in the graph's order, or where it would have to be put.
+    pub(super) fn place_of<T>(&self, list: &[(ExprId, T)], id: ExprId) -> Result<usize, usize> {
+        let keys: &[u64] = &self.keys;
+        let key = keys[id.0 as usize];
+        let (mut low, mut high) = (0, list.len());
+        while low < high {
+            // Lists are put together from sorted ones: often the end is the place.
+            let at = if high == list.len() { high - 1 } else { (low + high) / 2 };
+            let other = list[at].0;
+            if other.0 == id.0 {
+                return Ok(at);
+            }
+            let other_key = keys[other.0 as usize];
+            if other_key < key || other_key == key && other.0 < id.0 {
+                low = at + 1;
+            } else {
+                high = at;
+            }
+        }
+        Err(low)
     }
 
     /// The identifier of a node, if the graph has it already.
     pub(crate) fn find(&self, node: &Node) -> Option<ExprId> {
-        self.lookup_key(self.structural_key(node), node)
+        self.lookup(self.structural_key(node), |other| other == node)
     }
 
-    fn lookup_key(&self, key: u64, node: &Node) -> Option<ExprId> {
-        let mut candidate = self.heads.get(&key).copied();
-        while let Some(id) = candidate {
-            if self.node(id) == node {
-                return Some(id);
+    fn lookup(&self, key: u64, same: impl Fn(&Node) -> bool) -> Option<ExprId> {
+        let (slots, keys): (&[u32], &[u64]) = (&self.slots, &self.keys);
+        let mask = slots.len().checked_sub(1)?;
+        let mut at = spread(key) as usize & mask;
+        while slots[at] != 0 {
+            let id = slots[at] - 1;
+            // Two nodes may have one key.
+            if keys[id as usize] == key && same(&self.nodes[id as usize]) {
+                return Some(ExprId(id));
             }
-            candidate = self.next[id.index()];
+            at = (at + 1) & mask;
         }
         None
     }
 
-    fn push(&mut self, node: Node, key: u64, roles: Roles) -> ExprId {
+    fn push(&mut self, node: Node, key: u64, roles: Roles, below: u32) -> ExprId {
         let id = ExprId(self.nodes.len() as u32);
-        let depth = |child: &ExprId| self.depths[child.index()];
-        let below = match &node {
-            Node::Number(_) | Node::Pi | Node::Symbol(_) | Node::Undefined => 0,
-            Node::Sum { terms, .. } => terms.iter().map(|(term, _)| depth(term)).max().unwrap_or(0),
-            Node::Product(factors) => factors.iter().map(|(base, _)| depth(base)).max().unwrap_or(0),
-            Node::Function(_, x) | Node::Kept(x) => depth(x),
-            Node::Atan2(y, x) => depth(y).max(depth(x)),
-        };
         self.depths.push(below + 1);
+        self.primitive.push(false);
         self.nodes.push(node);
         self.keys.push(key);
         self.roles.push(roles);
-        let head = self.heads.insert(key, id);
-        self.next.push(head);
+        if self.slots.len() < 2 * self.nodes.len() {
+            self.slots = vec![0; (4 * self.nodes.len()).next_power_of_two()];
+            (0..self.nodes.len()).for_each(|index| self.place(index));
+        } else {
+            self.place(id.index());
+        }
         id
     }
 
+    /// Gives a node its place in the table.
+    fn place(&mut self, index: usize) {
+        let slots: &mut [u32] = &mut self.slots;
+        let mask = slots.len() - 1;
+        let mut at = spread(self.keys[index]) as usize & mask;
+        while slots[at] != 0 {
+            at = (at + 1) & mask;
+        }
+        slots[at] = index as u32 + 1;
+    }
+
+    fn sum_key(&self, constant: &Rational, terms: &[(ExprId, Rational)]) -> u64 {
+        let keys: &[u64] = &self.keys;
+        let mut hash = mix(0x2b00 ^ constant.hash64());
+        let mut index = 0;
+        while index < terms.len() {
+            let (term, c) = &terms[index];
+            hash = mix(hash ^ keys[term.0 as usize]) ^ c.hash64();
+            index += 1;
+        }
+        hash
+    }
+
+    fn product_key(&self, factors: &[(ExprId, i32)]) -> u64 {
+        let keys: &[u64] = &self.keys;
+        let mut hash = mix(0x2a00);
+        let mut index = 0;
+        while index < factors.len() {
+            let (base, e) = factors[index];
+            hash = mix(mix(hash ^ keys[base.0 as usize]) ^ e as u64);
+            index += 1;
+        }
+        hash
+    }
+
     fn structural_key(&self, node: &Node) -> u64 {
-        let rational = |value: &Rational| match value.to_i64_pair() {
-            Some((n, d)) => mix(n as u64) ^ mix(d as u64).rotate_left(1),
-            None => {
-                let (n, d) = value.to_big_pair();
-                n.iter_u64_digits()
-                    .chain(d.iter_u64_digits())
-                    .fold(u64::from(value.is_negative()), |h, w| mix(h ^ w))
-            }
-        };
+        let rational = |value: &Rational| value.hash64();
         let key = |id: ExprId| self.keys[id.index()];
         match node {
             Node::Number(value) => mix(0x4e00 ^ rational(value)),
@@ -456,12 +669,8 @@ impl Graph {
             Node::Undefined => mix(0x5500),
             Node::Kept(x) => mix(0x4b00 ^ key(*x)),
             Node::Symbol(symbol) => key(self.symbol_nodes[symbol.index()]),
-            Node::Sum { constant, terms } => terms
-                .iter()
-                .fold(mix(0x2b00 ^ rational(constant)), |h, (term, c)| mix(h ^ key(*term)) ^ rational(c)),
-            Node::Product(factors) => {
-                factors.iter().fold(mix(0x2a00), |h, (base, e)| mix(mix(h ^ key(*base)) ^ *e as u64))
-            }
+            Node::Sum { constant, terms } => self.sum_key(constant, terms),
+            Node::Product(factors) => self.product_key(factors),
             Node::Function(function, x) => mix(mix(0x4600 ^ function.code()) ^ key(*x)),
             Node::Atan2(y, x) => mix(mix(0x4100 ^ key(*y)) ^ key(*x)),
         }

@@ -8,12 +8,14 @@ mod build;
 mod derivative;
 mod functions;
 mod graph;
+mod map;
 mod rational;
 mod substitute;
 
 pub use derivative::Flow;
 pub use functions::Function;
-pub(crate) use graph::FastMap;
 pub use graph::{Bound, ExprId, Graph, Node, PowerError, Role, Roles, Symbol, SymbolId};
+pub(crate) use graph::{mix, sort_ids};
+pub(crate) use map::{FastMap, Key, Ordinal, SortedMap, spread};
 pub use rational::Rational;
 pub use substitute::Substitution;

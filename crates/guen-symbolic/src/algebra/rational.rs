@@ -11,6 +11,8 @@ use num_bigint::{BigInt, BigUint, Sign};
 use num_rational::BigRational;
 use num_traits::{One, Signed, ToPrimitive};
 
+use super::graph::mix;
+
 /// An exact rational number in lowest terms with a positive denominator.
 ///
 /// ```
@@ -30,6 +32,15 @@ enum Repr {
 use Repr::{Big, Small};
 
 fn gcd(a: u128, b: u128) -> u128 {
+    let (mut a, mut b) = (a, b);
+    while b != 0 {
+        (a, b) = (b, a % b);
+    }
+    a
+}
+
+/// The same where both fit a word: a division of wide integers is a call.
+fn gcd_of_words(a: u64, b: u64) -> u64 {
     let (mut a, mut b) = (a, b);
     while b != 0 {
         (a, b) = (b, a % b);
@@ -77,8 +88,16 @@ impl Rational {
         debug_assert!(denominator != 0, "a rational number with a zero denominator");
         let negative = (numerator < 0) != (denominator < 0);
         let (n, d) = (numerator.unsigned_abs(), denominator.unsigned_abs());
-        let g = gcd(n, d).max(1);
-        let (n, d) = (n / g, d / g);
+        let (n, d) = match (u64::try_from(n), u64::try_from(d)) {
+            (Ok(n), Ok(d)) => {
+                let g = gcd_of_words(n, d).max(1);
+                ((n / g) as u128, (d / g) as u128)
+            }
+            _ => {
+                let g = gcd(n, d).max(1);
+                (n / g, d / g)
+            }
+        };
         match (i64::try_from(n), i64::try_from(d)) {
             (Ok(n), Ok(d)) => Rational(Small(if negative { -n } else { n }, d)),
             _ => {
@@ -150,6 +169,17 @@ impl Rational {
         }
     }
 
+    /// A fixed mixing of the value, for keys and tables.
+    pub(crate) fn hash64(&self) -> u64 {
+        match &self.0 {
+            Small(n, d) => mix(*n as u64) ^ mix(*d as u64).rotate_left(1),
+            Big(value) => {
+                let digits = value.numer().iter_u64_digits().chain(value.denom().iter_u64_digits());
+                digits.fold(u64::from(value.is_negative()), |hash, digit| mix(hash ^ digit))
+            }
+        }
+    }
+
     /// Numerator and denominator as big integers.
     pub fn to_big_pair(&self) -> (BigInt, BigInt) {
         let value = self.to_ratio();
@@ -173,6 +203,7 @@ impl Rational {
     pub fn recip(&self) -> Option<Self> {
         match &self.0 {
             Small(0, _) => None,
+            Small(1 | -1, 1) => Some(self.clone()),
             Small(n, d) => Some(Self::reduce((*d).into(), (*n).into())),
             Big(value) => Some(Self::from_ratio(value.recip())),
         }
@@ -180,6 +211,9 @@ impl Rational {
 
     /// `self^n`, or `None` for a negative power of zero.
     pub fn powi(&self, n: i32) -> Option<Self> {
+        if n == 1 || self.is_one() && n >= 0 {
+            return Some(self.clone());
+        }
         let mut base = if n < 0 { self.recip()? } else { self.clone() };
         let mut exponent = n.unsigned_abs();
         let mut result = Rational::ONE;
@@ -210,10 +244,12 @@ impl Rational {
             if *b == 1 && *d == 1 && (a.unsigned_abs() == 1 || c.unsigned_abs() == 1) {
                 return Rational::ONE;
             }
-            let numerator = gcd(a.unsigned_abs().into(), c.unsigned_abs().into()) as i128;
-            let (b, d) = (i128::from(*b), i128::from(*d));
-            let lcm = b / gcd(b as u128, d as u128) as i128 * d;
-            return Self::reduce(numerator, lcm);
+            let numerator = gcd_of_words(a.unsigned_abs(), c.unsigned_abs());
+            if *b == 1 && *d == 1 && numerator <= i64::MAX as u64 {
+                return Rational(Small(numerator as i64, 1));
+            }
+            let lcm = i128::from(*b / gcd_of_words(*b as u64, *d as u64) as i64) * i128::from(*d);
+            return Self::reduce(numerator.into(), lcm);
         }
         let (a, b) = self.to_big_pair();
         let (c, d) = other.to_big_pair();
@@ -240,22 +276,24 @@ impl From<i64> for Rational {
     }
 }
 
-/// An integer result, if it stays in the small form: almost all coefficients are integers, and need no reduction.
-fn small_integer(value: Option<i64>) -> Option<Rational> {
-    value.filter(|n| *n != i64::MIN).map(|n| Rational(Small(n, 1)))
+/// Integers below this in size, almost all coefficients, are computed with directly: their products fit.
+const LARGE: i64 = 1 << 31;
+
+fn are_short(a: i64, b: i64) -> bool {
+    -LARGE < a && a < LARGE && -LARGE < b && b < LARGE
 }
 
 macro_rules! operator {
-    ($trait:ident, $method:ident, $integers:expr, |$a:ident, $b:ident, $c:ident, $d:ident| $small:expr) => {
+    ($trait:ident, $method:ident, |$a:ident, $b:ident, $c:ident, $d:ident| $integers:expr, $small:expr) => {
         impl $trait<&Rational> for &Rational {
             type Output = Rational;
             fn $method(self, other: &Rational) -> Rational {
                 if let (Small($a, $b), Small($c, $d)) = (&self.0, &other.0) {
-                    if *$b == 1
-                        && *$d == 1
-                        && let Some(result) = small_integer($integers(*$a, *$c))
-                    {
-                        return result;
+                    if *$b == 1 && *$d == 1 && are_short(*$a, *$c) {
+                        let ($a, $c) = (*$a, *$c);
+                        if let Some(result) = $integers {
+                            return Rational(Small(result, 1));
+                        }
                     }
                     let ($a, $b, $c, $d) =
                         (i128::from(*$a), i128::from(*$b), i128::from(*$c), i128::from(*$d));
@@ -274,15 +312,20 @@ macro_rules! operator {
         }
     };
 }
-operator!(Add, add, i64::checked_add, |a, b, c, d| (a * d + c * b, b * d));
-operator!(Sub, sub, i64::checked_sub, |a, b, c, d| (a * d - c * b, b * d));
-operator!(Mul, mul, i64::checked_mul, |a, b, c, d| (a * c, b * d));
+operator!(Add, add, |a, b, c, d| Some(a + c), (a * d + c * b, b * d));
+operator!(Sub, sub, |a, b, c, d| Some(a - c), (a * d - c * b, b * d));
+operator!(Mul, mul, |a, b, c, d| Some(a * c), (a * c, b * d));
 // Division by zero is the caller's mistake: every caller asks first.
-operator!(Div, div, |a: i64, c: i64| (c == 1).then_some(a), |a, b, c, d| (a * d, b * c));
+operator!(Div, div, |a, b, c, d| if c == 1 { Some(a) } else { None }, (a * d, b * c));
 
 impl Neg for Rational {
     type Output = Rational;
     fn neg(self) -> Rational {
+        if let Small(n, d) = self.0
+            && n != i64::MIN
+        {
+            return Rational(Small(-n, d));
+        }
         &Rational::MINUS_ONE * &self
     }
 }

@@ -1,7 +1,8 @@
 //! Replacing subexpressions, the same way everywhere, each shared node once.
 
 use super::Rational;
-use super::graph::{ExprId, FastMap, Graph, Node};
+use super::graph::{ExprId, Graph, Node};
+use super::map::FastMap;
 
 /// A simultaneous replacement of expressions (usually symbols) by others, with what was replaced so far.
 ///
@@ -42,7 +43,9 @@ impl Substitution {
     }
 
     fn step(&self, graph: &mut Graph, id: ExprId) -> ExprId {
-        if graph.children(id).iter().all(|child| self.images[child] == *child) {
+        let mut same = true;
+        graph.visit_children(id, |child| same = same && self.images[&child] == child);
+        if same {
             return id;
         }
         match graph.node(id).clone() {

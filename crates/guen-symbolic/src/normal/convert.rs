@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::algebra::{ExprId, Function, Graph, Node, Rational, Role, Roles};
+use crate::algebra::{ExprId, FastMap, Function, Graph, Node, Rational, Role, Roles, sort_ids};
 
 use super::Limits;
 use super::poly::{Budget, Exceeded, MAX_GENERATORS, Mono, Poly, Result};
@@ -153,9 +153,9 @@ pub(super) fn convert(graph: &mut Graph, e: ExprId, limits: &Limits) -> Result<(
     // Radicands are converted, arguments of all other functions are not entered.
     let mut nodes = Vec::new();
     let mut stack = vec![e];
-    let mut seen = std::collections::BTreeSet::new();
+    let mut seen: FastMap<ExprId, ()> = FastMap::default();
     while let Some(id) = stack.pop() {
-        if !seen.insert(id) {
+        if seen.insert(id, ()).is_some() {
             continue;
         }
         if seen.len() > limits.nodes {
@@ -164,12 +164,12 @@ pub(super) fn convert(graph: &mut Graph, e: ExprId, limits: &Limits) -> Result<(
         nodes.push(id);
         match graph.node(id) {
             Node::Sum { .. } | Node::Product(_) | Node::Function(Function::Root(_) | Function::Abs, _) => {
-                stack.extend(graph.children(id));
+                graph.visit_children(id, |child| stack.push(child));
             }
             _ => {}
         }
     }
-    nodes.sort_unstable();
+    sort_ids(&mut nodes);
     let mut collector =
         Collector { graph, images: BTreeMap::new(), generators: Vec::new(), angles: Vec::new() };
     let (mut trigonometric, mut exponentials) = (Vec::new(), Vec::new());
@@ -210,15 +210,15 @@ pub(super) fn convert(graph: &mut Graph, e: ExprId, limits: &Limits) -> Result<(
         relations: Vec::new(),
         budget: Budget::new(limits.steps, limits.terms),
     };
-    let mut values: BTreeMap<ExprId, Fraction> = BTreeMap::new();
+    let mut values: FastMap<ExprId, Fraction> = FastMap::default();
     for id in nodes {
         let value = node_value(graph, &mut ring, &values, &images, id)?;
-        if value.num.terms.iter().any(|(mono, _)| mono.degree() > limits.degree) {
+        if value.num.exceeds(limits.degree) {
             return Err(Exceeded);
         }
         values.insert(id, value);
     }
-    let value = values.remove(&e).ok_or(Exceeded)?;
+    let value = values.get(&e).cloned().ok_or(Exceeded)?;
     let value = ring.settle(value)?;
     Ok((ring, value))
 }
@@ -238,7 +238,7 @@ fn class(graph: &Graph, id: ExprId) -> u8 {
 fn node_value(
     graph: &mut Graph,
     ring: &mut Ring,
-    values: &BTreeMap<ExprId, Fraction>,
+    values: &FastMap<ExprId, Fraction>,
     images: &BTreeMap<ExprId, Image>,
     id: ExprId,
 ) -> Result<Fraction> {

@@ -1,6 +1,7 @@
 //! Sparse polynomials over the rationals: packed monomials, products and exact division.
 
 use std::cell::Cell;
+use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
 use crate::algebra::Rational;
@@ -72,25 +73,35 @@ impl Mono {
     }
 
     pub(super) fn part(&self, mask: &Mono) -> Mono {
-        Mono(std::array::from_fn(|i| self.0[i] & mask.0[i]))
+        let (a, b) = (&self.0, &mask.0);
+        Mono([a[0] & b[0], a[1] & b[1], a[2] & b[2], a[3] & b[3]])
     }
 
     pub(super) fn without(&self, mask: &Mono) -> Mono {
-        Mono(std::array::from_fn(|i| self.0[i] & !mask.0[i]))
+        let (a, b) = (&self.0, &mask.0);
+        Mono([a[0] & !b[0], a[1] & !b[1], a[2] & !b[2], a[3] & !b[3]])
     }
 
     pub(super) fn is_one(&self) -> bool {
-        self.0 == [0; WORDS]
+        self.0[0] | self.0[1] | self.0[2] | self.0[3] == 0
     }
 
     pub(super) fn times(&self, other: &Mono) -> Result<Mono> {
-        let mut words = self.0;
-        let mut guard = 0;
-        for (word, o) in words.iter_mut().zip(&other.0) {
-            *word += o;
-            guard |= *word;
+        let (a, b) = (&self.0, &other.0);
+        let words = [a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3]];
+        if (words[0] | words[1] | words[2] | words[3]) & GUARD == 0 { Ok(Mono(words)) } else { Err(Exceeded) }
+    }
+
+    /// Less, equal or greater, as numbers: derived comparisons are several calls.
+    fn compare(&self, other: &Mono) -> Ordering {
+        let mut word = 0;
+        while word < WORDS {
+            if self.0[word] != other.0[word] {
+                return if self.0[word] < other.0[word] { Ordering::Less } else { Ordering::Greater };
+            }
+            word += 1;
         }
-        if guard & GUARD == 0 { Ok(Mono(words)) } else { Err(Exceeded) }
+        Ordering::Equal
     }
 
     pub(super) fn over(&self, other: &Mono) -> Option<Mono> {
@@ -105,27 +116,82 @@ impl Mono {
         Some(Mono(words))
     }
 
-    fn bytewise(&self, other: &Mono, choose: impl Fn(u8, u8) -> u8) -> Mono {
-        if self.0 == other.0 {
-            return *self;
-        }
-        Mono(std::array::from_fn(|i| {
-            let (a, b) = (self.0[i].to_be_bytes(), other.0[i].to_be_bytes());
-            u64::from_be_bytes(std::array::from_fn(|k| choose(a[k], b[k])))
-        }))
+    /// All bits of those bytes in which this is not less: the guards stay where nothing was borrowed.
+    fn not_less(a: u64, b: u64) -> u64 {
+        ((((a | GUARD) - b) & GUARD) >> 7) * 0xff
     }
 
     pub(super) fn gcd(&self, other: &Mono) -> Mono {
-        self.bytewise(other, u8::min)
+        let mut words = self.0;
+        let mut word = 0;
+        while word < WORDS {
+            let (a, b) = (words[word], other.0[word]);
+            if a != b {
+                let larger = Self::not_less(a, b);
+                words[word] = a & !larger | b & larger;
+            }
+            word += 1;
+        }
+        Mono(words)
     }
 
     pub(super) fn lcm(&self, other: &Mono) -> Mono {
-        self.bytewise(other, u8::max)
+        let mut words = self.0;
+        let mut word = 0;
+        while word < WORDS {
+            let (a, b) = (words[word], other.0[word]);
+            if a != b {
+                let larger = Self::not_less(a, b);
+                words[word] = a & larger | b & !larger;
+            }
+            word += 1;
+        }
+        Mono(words)
     }
 
     pub(super) fn degree(&self) -> u32 {
-        self.0.iter().flat_map(|word| word.to_be_bytes()).map(u32::from).sum()
+        const PAIRS: u64 = 0x00ff_00ff_00ff_00ff;
+        let mut sum = 0;
+        let mut word = 0;
+        while word < WORDS {
+            let pairs = (self.0[word] & PAIRS) + (self.0[word] >> 8 & PAIRS);
+            let fours = pairs + (pairs >> 32);
+            sum += (fours & 0xffff) + (fours >> 16 & 0xffff);
+            word += 1;
+        }
+        sum as u32
     }
+}
+
+/// Monomials in descending order with the places of their coefficients.
+type Row = Vec<(Mono, u32)>;
+
+/// Two rows as one; coefficients of equal monomials are added in the place of the first.
+fn merge(a: &[(Mono, u32)], b: &[(Mono, u32)], coefficients: &mut [Rational]) -> Row {
+    let mut merged = Row::with_capacity(a.len() + b.len());
+    let (mut i, mut k) = (0, 0);
+    while i < a.len() && k < b.len() {
+        match a[i].0.compare(&b[k].0) {
+            Ordering::Greater => {
+                merged.push(a[i]);
+                i += 1;
+            }
+            Ordering::Less => {
+                merged.push(b[k]);
+                k += 1;
+            }
+            Ordering::Equal => {
+                let (first, second) = (a[i].1 as usize, b[k].1 as usize);
+                coefficients[first] = &coefficients[first] + &coefficients[second];
+                merged.push(a[i]);
+                i += 1;
+                k += 1;
+            }
+        }
+    }
+    merged.extend_from_slice(&a[i..]);
+    merged.extend_from_slice(&b[k..]);
+    merged
 }
 
 /// A polynomial: terms in descending order of their monomials, no coefficient zero.
@@ -151,6 +217,25 @@ impl Poly {
         if value.is_zero() { Poly::zero() } else { Poly { terms: vec![(mono, value)] } }
     }
 
+    /// From different monomials in any order, with coefficients that are not zero.
+    pub(super) fn from_unsorted(mut terms: Vec<(Mono, Rational)>) -> Self {
+        const FEW: usize = 24;
+        if terms.len() > FEW {
+            terms.sort_unstable_by(|a, b| b.0.compare(&a.0));
+        } else {
+            let mut next = 1;
+            while next < terms.len() {
+                let mut at = next;
+                while at > 0 && terms[at - 1].0.compare(&terms[at].0) == Ordering::Less {
+                    terms.swap(at - 1, at);
+                    at -= 1;
+                }
+                next += 1;
+            }
+        }
+        Poly { terms }
+    }
+
     pub(super) fn collect(terms: BTreeMap<Mono, Rational>) -> Self {
         Poly { terms: terms.into_iter().rev().filter(|(_, c)| !c.is_zero()).collect() }
     }
@@ -173,7 +258,43 @@ impl Poly {
     }
 
     pub(super) fn max_exponent(&self, generator: usize) -> u32 {
-        self.terms.iter().map(|(mono, _)| mono.exponent(generator)).max().unwrap_or(0)
+        let (word, shift) = Mono::shift(generator);
+        let terms: &[(Mono, Rational)] = &self.terms;
+        let mut most = 0;
+        let mut index = 0;
+        while index < terms.len() {
+            let exponent = terms[index].0.0[word] >> shift & 0xff;
+            if exponent > most {
+                most = exponent;
+            }
+            index += 1;
+        }
+        most as u32
+    }
+
+    /// Whether a term has a larger degree.
+    pub(super) fn exceeds(&self, degree: u32) -> bool {
+        let terms: &[(Mono, Rational)] = &self.terms;
+        let mut index = 0;
+        while index < terms.len() {
+            if terms[index].0.degree() > degree {
+                return true;
+            }
+            index += 1;
+        }
+        false
+    }
+
+    /// The largest exponents of all generators.
+    pub(super) fn max_exponents(&self) -> Mono {
+        let terms: &[(Mono, Rational)] = &self.terms;
+        let mut most = Mono::ONE;
+        let mut index = 0;
+        while index < terms.len() {
+            most = most.lcm(&terms[index].0);
+            index += 1;
+        }
+        most
     }
 
     pub(super) fn scaled(&self, factor: &Rational) -> Poly {
@@ -183,15 +304,18 @@ impl Poly {
         if factor.is_zero() {
             return Poly::zero();
         }
-        Poly { terms: self.terms.iter().map(|(mono, c)| (*mono, c * factor)).collect() }
+        let mut terms = Vec::with_capacity(self.terms.len());
+        for (mono, c) in &self.terms {
+            terms.push((*mono, c * factor));
+        }
+        Poly { terms }
     }
 
-    pub(super) fn times_mono(&self, factor: &Mono) -> Result<Poly> {
-        if factor.is_one() {
-            return Ok(self.clone());
+    fn times_term(&self, factor: &Mono, k: &Rational) -> Result<Poly> {
+        let mut terms = Vec::with_capacity(self.terms.len());
+        for (mono, c) in &self.terms {
+            terms.push((mono.times(factor)?, c * k));
         }
-        let terms =
-            self.terms.iter().map(|(mono, c)| Ok((mono.times(factor)?, c.clone()))).collect::<Result<_>>()?;
         Ok(Poly { terms })
     }
 
@@ -211,51 +335,76 @@ impl Poly {
     pub(super) fn plus(&self, other: &Poly, budget: &Budget) -> Result<Poly> {
         budget.spend((self.len() + other.len()) / 4 + 1)?;
         let mut terms = Vec::with_capacity(self.len() + other.len());
-        let (mut a, mut b) = (self.terms.iter().peekable(), other.terms.iter().peekable());
-        loop {
-            match (a.peek(), b.peek()) {
-                (Some(x), Some(y)) if x.0 == y.0 => {
-                    let sum = &x.1 + &y.1;
+        let (a, b): (&[(Mono, Rational)], &[(Mono, Rational)]) = (&self.terms, &other.terms);
+        let (mut i, mut k) = (0, 0);
+        while i < a.len() && k < b.len() {
+            match a[i].0.compare(&b[k].0) {
+                Ordering::Greater => {
+                    terms.push((a[i].0, a[i].1.clone()));
+                    i += 1;
+                }
+                Ordering::Less => {
+                    terms.push((b[k].0, b[k].1.clone()));
+                    k += 1;
+                }
+                Ordering::Equal => {
+                    let sum = &a[i].1 + &b[k].1;
                     if !sum.is_zero() {
-                        terms.push((x.0, sum));
+                        terms.push((a[i].0, sum));
                     }
-                    a.next();
-                    b.next();
+                    i += 1;
+                    k += 1;
                 }
-                (Some(x), y) if y.is_none_or(|y| x.0 > y.0) => {
-                    terms.push((*x).clone());
-                    a.next();
-                }
-                (_, Some(y)) => {
-                    terms.push((*y).clone());
-                    b.next();
-                }
-                _ => break,
             }
+        }
+        for (mono, c) in a[i..].iter().chain(&b[k..]) {
+            terms.push((*mono, c.clone()));
         }
         if terms.len() > budget.terms { Err(Exceeded) } else { Ok(Poly { terms }) }
     }
 
     pub(super) fn times(&self, other: &Poly, budget: &Budget) -> Result<Poly> {
         if let [(mono, c)] = &other.terms[..] {
-            return Ok(self.times_mono(mono)?.scaled(c));
+            return self.times_term(mono, c);
         }
         if let [(mono, c)] = &self.terms[..] {
-            return Ok(other.times_mono(mono)?.scaled(c));
+            return other.times_term(mono, c);
         }
         budget.spend(self.len() * other.len())?;
-        let mut terms: BTreeMap<Mono, Rational> = BTreeMap::new();
+        // Row by row the products are in order: rows are merged in pairs. What is moved are monomials with the places of
+        // their coefficients.
+        let mut coefficients: Vec<Rational> = Vec::with_capacity(self.len() * other.len());
+        let mut rows: Vec<Row> = Vec::with_capacity(self.len());
         for (m, c) in &self.terms {
+            let mut row = Row::with_capacity(other.len());
             for (n, d) in &other.terms {
-                let slot = terms.entry(m.times(n)?).or_default();
-                *slot = &*slot + &(c * d);
+                row.push((m.times(n)?, coefficients.len() as u32));
+                coefficients.push(c * d);
             }
-            if terms.len() > 4 * budget.terms {
-                return Err(Exceeded);
+            rows.push(row);
+        }
+        while rows.len() > 1 {
+            let mut merged = Vec::with_capacity(rows.len() / 2 + 1);
+            for pair in rows.chunks(2) {
+                merged.push(match pair {
+                    [a, b] => merge(a, b, &mut coefficients),
+                    _ => pair.concat(),
+                });
+            }
+            rows = merged;
+        }
+        let row = rows.pop().unwrap_or_default();
+        if row.len() > 4 * budget.terms {
+            return Err(Exceeded);
+        }
+        let mut terms = Vec::with_capacity(row.len());
+        for (mono, place) in row {
+            let c = std::mem::take(&mut coefficients[place as usize]);
+            if !c.is_zero() {
+                terms.push((mono, c));
             }
         }
-        let product = Poly::collect(terms);
-        if product.len() > budget.terms { Err(Exceeded) } else { Ok(product) }
+        if terms.len() > budget.terms { Err(Exceeded) } else { Ok(Poly { terms }) }
     }
 
     /// The quotient, if the division leaves nothing.

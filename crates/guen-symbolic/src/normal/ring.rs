@@ -90,33 +90,51 @@ impl Ring {
             return Ok(p);
         }
         let mask = Mono::mask([generator]);
-        let mut parts: BTreeMap<u32, BTreeMap<Mono, Rational>> = BTreeMap::new();
+        // By powers of the generator's power: within one of them all monomials differ.
+        let mut parts: Vec<Vec<(Mono, Rational)>> = Vec::new();
         for (mono, c) in p.terms {
             let e = mono.exponent(generator);
             let mono = mono.without(&mask).times(&Mono::power(generator, e % order)?)?;
-            parts.entry(e / order).or_default().insert(mono, c);
+            let k = (e / order) as usize;
+            while parts.len() <= k {
+                parts.push(Vec::new());
+            }
+            parts[k].push((mono, c));
         }
         let mut result = Poly::zero();
         let (mut power, mut exponent) = (Poly::one(), 0);
-        for (k, part) in parts {
+        for (k, part) in parts.into_iter().enumerate() {
+            if part.is_empty() {
+                continue;
+            }
             while exponent < k {
                 power = power.times(value, &self.budget)?;
                 exponent += 1;
             }
-            result = result.plus(&Poly::collect(part).times(&power, &self.budget)?, &self.budget)?;
+            result = result.plus(&Poly::from_unsorted(part).times(&power, &self.budget)?, &self.budget)?;
         }
         Ok(result)
     }
 
     /// The working form.
     pub(super) fn reduce(&self, mut p: Poly) -> Result<Poly> {
+        // Exponents of one generator fall, those of others may rise: they are counted again after each rewriting.
+        let mut most = p.max_exponents();
         for relation in self.relations.iter().rev() {
-            p = self.rewrite(p, relation.generator, relation.order, &relation.value)?;
-        }
-        for angle in &self.angles {
-            if p.max_exponent(angle.cos) >= 2 {
-                p = self.rewrite(p, angle.cos, 2, &Self::complement(angle.sin)?)?;
+            if most.exponent(relation.generator) >= relation.order {
+                p = self.rewrite(p, relation.generator, relation.order, &relation.value)?;
+                most = p.max_exponents();
             }
+        }
+        let angles: &[Angle] = &self.angles;
+        let mut index = 0;
+        while index < angles.len() {
+            let angle = &angles[index];
+            if most.exponent(angle.cos) >= 2 {
+                p = self.rewrite(p, angle.cos, 2, &Self::complement(angle.sin)?)?;
+                most = p.max_exponents();
+            }
+            index += 1;
         }
         Ok(p)
     }
@@ -274,6 +292,9 @@ impl Ring {
     }
 
     pub(super) fn product(&self, a: &Fraction, b: &Fraction) -> Result<Fraction> {
+        if a.den.is_one() && b.den.is_one() {
+            return Ok(Fraction::whole(self.times(&a.num, &b.num)?));
+        }
         let mut den = a.den.clone();
         den.mono = den.mono.times(&b.den.mono)?;
         for (poly, k) in &b.den.polys {

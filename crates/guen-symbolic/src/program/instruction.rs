@@ -1,7 +1,7 @@
 //! Straight-line code: one operation per instruction, every value defined once and before its use.
 
 use super::OperationCount;
-use crate::algebra::{Function, Rational, SymbolId};
+use crate::algebra::{Function, Key, Rational, SymbolId, mix, spread};
 
 /// A value of one program, numbered from 0 in the order of definition.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
@@ -63,6 +63,27 @@ impl Operation {
             | Operation::Atan2(a, b) => (Some(a), Some(b)),
         };
         a.into_iter().chain(b)
+    }
+}
+
+impl Key for Operation {
+    fn hash(&self) -> u32 {
+        let pair = |a: u32, b: u32| (a as u64) << 32 | b as u64;
+        let (kind, content) = match self {
+            Operation::Number(value) => (1, value.hash64()),
+            Operation::Pi => (2, 0),
+            Operation::Symbol(symbol) => (3, symbol.0 as u64),
+            Operation::Prepared(index) => (4, *index as u64),
+            Operation::Add(a, b) => (5, pair(a.0, b.0)),
+            Operation::Sub(a, b) => (6, pair(a.0, b.0)),
+            Operation::Neg(a) => (7, a.0 as u64),
+            Operation::Mul(a, b) => (8, pair(a.0, b.0)),
+            Operation::Div(a, b) => (9, pair(a.0, b.0)),
+            Operation::SinCos { angle, cosine } => (10, pair(angle.0, cosine.0)),
+            Operation::Call(function, a) => (11, mix(function.code() << 32 ^ a.0 as u64)),
+            Operation::Atan2(a, b) => (12, pair(a.0, b.0)),
+        };
+        spread(mix(content ^ kind << 60))
     }
 }
 

@@ -18,7 +18,7 @@ pub(super) struct PreparedTable {
 impl PreparedTable {
     fn index(&mut self, k: ExprId) -> usize {
         let next = self.expressions.len();
-        let index = *self.indices.entry(k).or_insert(next);
+        let index = *self.indices.or_insert_with(k, || next);
         if index == next {
             self.expressions.push(k);
         }

@@ -5,17 +5,41 @@
 //! graph computes with exactly; in a program each is one prepared value. Nothing is flattened or expanded
 //! once it is here, so that what a pass shares stays shared.
 
-use std::collections::BTreeMap;
-
 use super::passes::angles::{Angle, Angles};
-use crate::algebra::{ExprId, FastMap, Function, Graph, Node, Rational};
+use crate::algebra::{
+    ExprId, FastMap, Function, Graph, Key, Node, Ordinal, Rational, SortedMap, mix, spread,
+};
 
 /// A node of a [`Net`]; children have smaller identifiers than their parents.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub(super) struct NetId(pub(super) u32);
 
+impl Key for NetId {
+    fn hash(&self) -> u32 {
+        spread(self.0 as u64)
+    }
+}
+
+impl Ordinal for NetId {
+    fn ordinal(self) -> u32 {
+        self.0
+    }
+}
+
+impl Key for (NetId, NetId) {
+    fn hash(&self) -> u32 {
+        spread((self.0.0 as u64) << 32 | self.1.0 as u64)
+    }
+}
+
+impl Key for (ExprId, NetId) {
+    fn hash(&self) -> u32 {
+        spread((self.0.0 as u64) << 32 | self.1.0 as u64)
+    }
+}
+
 /// What a node is.
-#[derive(Clone, PartialEq, Eq, Hash, Debug)]
+#[derive(Clone, PartialEq, Eq, Debug)]
 pub(super) enum NetNode {
     /// A symbol of the state, or whatever else is an atom.
     Atom(ExprId),
@@ -32,12 +56,57 @@ pub(super) enum NetNode {
 }
 
 impl NetNode {
+    fn hash(&self) -> u32 {
+        let mut hash;
+        match self {
+            NetNode::Atom(e) => hash = mix(0x4100 ^ (e.0 as u64) << 16),
+            NetNode::Constant(e) => hash = mix(0x4300 ^ (e.0 as u64) << 16),
+            NetNode::Sum(linear) => {
+                hash = mix(0x5300 ^ (linear.constant.0 as u64) << 16);
+                let terms: &[(NetId, ExprId)] = &linear.terms;
+                let mut index = 0;
+                while index < terms.len() {
+                    let (node, k) = terms[index];
+                    hash = mix(hash ^ ((node.0 as u64) << 32 | k.0 as u64));
+                    index += 1;
+                }
+            }
+            NetNode::Product(factors) => {
+                hash = 0x5000;
+                let factors: &[(NetId, i32)] = factors;
+                let mut index = 0;
+                while index < factors.len() {
+                    let (node, e) = factors[index];
+                    hash = mix(hash ^ ((node.0 as u64) << 32 | e as u32 as u64));
+                    index += 1;
+                }
+            }
+            NetNode::Call(function, x) => hash = mix(function.code() << 32 ^ x.0 as u64),
+            NetNode::Atan2(y, x) => hash = mix((y.0 as u64) << 32 ^ (x.0 as u64) ^ 1 << 63),
+        }
+        spread(hash)
+    }
+
     /// The nodes directly below.
     pub(super) fn children(&self, mut visit: impl FnMut(NetId)) {
         match self {
             NetNode::Atom(_) | NetNode::Constant(_) => {}
-            NetNode::Sum(linear) => linear.terms.iter().for_each(|(node, _)| visit(*node)),
-            NetNode::Product(factors) => factors.iter().for_each(|(node, _)| visit(*node)),
+            NetNode::Sum(linear) => {
+                let terms: &[(NetId, ExprId)] = &linear.terms;
+                let mut index = 0;
+                while index < terms.len() {
+                    visit(terms[index].0);
+                    index += 1;
+                }
+            }
+            NetNode::Product(factors) => {
+                let factors: &[(NetId, i32)] = factors;
+                let mut index = 0;
+                while index < factors.len() {
+                    visit(factors[index].0);
+                    index += 1;
+                }
+            }
             NetNode::Call(_, x) => visit(*x),
             NetNode::Atan2(y, x) => {
                 visit(*y);
@@ -47,8 +116,35 @@ impl NetNode {
     }
 }
 
+/// Powers of nodes.
+pub(super) type Powers = SortedMap<NetId, i32>;
+
+/// Coefficients of nodes.
+pub(super) type Terms = SortedMap<NetId, ExprId>;
+
+/// Adds `k` to the coefficient of a node.
+pub(super) fn add_term(graph: &mut Graph, terms: &mut Terms, node: NetId, k: ExprId) {
+    let slot = terms.or_insert(node, graph.zero());
+    *slot = graph.add(*slot, k);
+}
+
+/// The terms whose coefficients are not zero.
+pub(super) fn nonzero(graph: &Graph, terms: Terms) -> Vec<(NetId, ExprId)> {
+    let mut terms = terms.into_entries();
+    let zero = graph.zero();
+    let mut index = 0;
+    while index < terms.len() {
+        if terms[index].1 == zero {
+            terms.remove(index);
+        } else {
+            index += 1;
+        }
+    }
+    terms
+}
+
 /// `constant + sum coefficient * node`, ordered by node.
-#[derive(Clone, PartialEq, Eq, Hash, Debug)]
+#[derive(Clone, PartialEq, Eq, Debug)]
 pub(super) struct Linear {
     pub(super) constant: ExprId,
     pub(super) terms: Vec<(NetId, ExprId)>,
@@ -65,7 +161,9 @@ pub(super) enum Scaled {
 #[derive(Default)]
 pub(super) struct Net {
     nodes: Vec<NetNode>,
-    table: FastMap<NetNode, NetId>,
+    hashes: Vec<u32>,
+    /// One more than the number of a node, zero for none; a power of two of them.
+    slots: Vec<u32>,
 }
 
 impl Net {
@@ -78,34 +176,78 @@ impl Net {
     }
 
     pub(super) fn intern(&mut self, node: NetNode) -> NetId {
-        if let Some(id) = self.table.get(&node) {
-            return *id;
+        if self.slots.len() <= 2 * self.nodes.len() {
+            self.grow();
         }
-        let id = NetId(self.nodes.len() as u32);
-        self.nodes.push(node.clone());
-        self.table.insert(node, id);
-        id
+        let hash = node.hash();
+        let (slots, hashes): (&mut [u32], &[u32]) = (&mut self.slots, &self.hashes);
+        let mask = slots.len() - 1;
+        let mut at = hash as usize & mask;
+        while slots[at] != 0 {
+            let found = slots[at] - 1;
+            if hashes[found as usize] == hash && self.nodes[found as usize] == node {
+                return NetId(found);
+            }
+            at = (at + 1) & mask;
+        }
+        let id = self.nodes.len() as u32;
+        slots[at] = id + 1;
+        self.nodes.push(node);
+        self.hashes.push(hash);
+        NetId(id)
+    }
+
+    fn grow(&mut self) {
+        const FEWEST_SLOTS: usize = 256;
+        let mut table = vec![0_u32; (4 * self.nodes.len()).next_power_of_two().max(FEWEST_SLOTS)];
+        let (slots, hashes): (&mut [u32], &[u32]) = (&mut table, &self.hashes);
+        let mask = slots.len() - 1;
+        let mut index = 0;
+        while index < hashes.len() {
+            let mut at = hashes[index] as usize & mask;
+            while slots[at] != 0 {
+                at = (at + 1) & mask;
+            }
+            index += 1;
+            slots[at] = index as u32;
+        }
+        self.slots = table;
     }
 
     /// `product node^exponent`; products among the nodes are opened.
-    pub(super) fn product(&mut self, factors: impl IntoIterator<Item = (NetId, i32)>) -> NetId {
-        let mut collected: BTreeMap<NetId, i32> = BTreeMap::new();
-        for (node, e) in factors {
+    pub(super) fn product(&mut self, factors: &[(NetId, i32)]) -> NetId {
+        let mut collected: Powers = SortedMap::with_capacity(factors.len() + 4);
+        let mut next = 0;
+        while next < factors.len() {
+            let (node, e) = factors[next];
+            next += 1;
             match self.node(node) {
                 NetNode::Product(inner) => {
-                    for (node, k) in inner {
-                        *collected.entry(*node).or_default() += k * e;
+                    let inner: &[(NetId, i32)] = inner;
+                    let mut index = 0;
+                    while index < inner.len() {
+                        let (node, k) = inner[index];
+                        *collected.or_insert(node, 0) += k * e;
+                        index += 1;
                     }
                 }
-                _ => *collected.entry(node).or_default() += e,
+                _ => *collected.or_insert(node, 0) += e,
             }
         }
         self.plain_product(collected)
     }
 
     /// The same, products among the nodes kept as they are.
-    pub(super) fn plain_product(&mut self, collected: BTreeMap<NetId, i32>) -> NetId {
-        let factors: Vec<_> = collected.into_iter().filter(|(_, e)| *e != 0).collect();
+    pub(super) fn plain_product(&mut self, collected: Powers) -> NetId {
+        let mut factors = collected.into_entries();
+        let mut index = 0;
+        while index < factors.len() {
+            if factors[index].1 == 0 {
+                factors.remove(index);
+            } else {
+                index += 1;
+            }
+        }
         match factors[..] {
             [(node, 1)] => node,
             _ => self.intern(NetNode::Product(factors)),
@@ -128,12 +270,19 @@ impl Net {
         &mut self,
         graph: &mut Graph,
         constants: &[(ExprId, Rational)],
-        terms: BTreeMap<NetId, Vec<(ExprId, Rational)>>,
+        collected: &[(NetId, Vec<(ExprId, Rational)>)],
     ) -> Scaled {
         let constant = graph.linear(constants);
-        let mut terms: Vec<_> =
-            terms.into_iter().map(|(node, coefficients)| (node, graph.linear(&coefficients))).collect();
-        terms.retain(|(_, k)| !graph.is_zero(*k));
+        let mut terms = Vec::with_capacity(collected.len());
+        let mut index = 0;
+        while index < collected.len() {
+            let (node, coefficients) = &collected[index];
+            let k = graph.linear(coefficients);
+            if !graph.is_zero(k) {
+                terms.push((*node, k));
+            }
+            index += 1;
+        }
         self.primitive(graph, Linear { constant, terms })
     }
 
@@ -176,27 +325,41 @@ impl Net {
 
     /// Everything below the roots, children first, and how many parents (or roots) use each node.
     pub(super) fn reachable(&self, roots: &[NetId]) -> (Vec<NetId>, Vec<u32>) {
-        let mut uses = vec![0_u32; self.nodes.len()];
-        let mut found = Vec::new();
-        let mut stack = Vec::new();
+        let nodes: &[NetNode] = &self.nodes;
+        let mut counts = vec![0_u32; nodes.len()];
+        let uses: &mut [u32] = &mut counts;
+        // Children are older than their parents: from the youngest root on downwards every node has been counted before
+        // it is met. What is still to be met ends the search.
+        let (mut next, mut pending) = (0, 0);
         for root in roots {
-            uses[root.0 as usize] += 1;
-            if uses[root.0 as usize] == 1 {
-                stack.push(*root);
+            let index = root.0 as usize;
+            uses[index] += 1;
+            if uses[index] == 1 {
+                pending += 1;
+            }
+            if next <= index {
+                next = index + 1;
             }
         }
-        while let Some(id) = stack.pop() {
-            found.push(id);
-            self.children(id, |child| {
-                let slot = &mut uses[child.0 as usize];
-                *slot += 1;
-                if *slot == 1 {
-                    stack.push(child);
+        let mut found = Vec::new();
+        while pending > 0 {
+            next -= 1;
+            if uses[next] == 0 {
+                continue;
+            }
+            pending -= 1;
+            found.push(NetId(next as u32));
+            let count = |child: NetId| {
+                let index = child.0 as usize;
+                uses[index] += 1;
+                if uses[index] == 1 {
+                    pending += 1;
                 }
-            });
+            };
+            nodes[next].children(count);
         }
-        found.sort_unstable();
-        (found, uses)
+        found.reverse();
+        (found, counts)
     }
 }
 
@@ -291,7 +454,7 @@ impl<'a> Conversion<'a> {
         let pending = graph.reachable(roots, |id| field.contains(graph, id));
         let mut uses: FastMap<ExprId, u32> = FastMap::default();
         for id in pending.iter().flat_map(|id| graph.children(*id)).chain(roots.iter().copied()) {
-            *uses.entry(id).or_default() += 1;
+            *uses.or_default(id) += 1;
         }
         let angles = match field {
             Field::Constants => Angles::of(graph, &pending),
@@ -328,7 +491,7 @@ impl<'a> Conversion<'a> {
             }
             Node::Sum { constant, terms } => {
                 let mut constants = vec![(one, constant)];
-                let mut collected: BTreeMap<NetId, Vec<(ExprId, Rational)>> = BTreeMap::new();
+                let mut collected: SortedMap<NetId, Vec<(ExprId, Rational)>> = SortedMap::default();
                 for (term, c) in terms.iter() {
                     match self.known(*term) {
                         Scaled::Constant(k) => constants.push((k, c.clone())),
@@ -339,14 +502,14 @@ impl<'a> Conversion<'a> {
                                 constants.push((self.graph.mul(k, inner.constant), c.clone()));
                                 for (node, coefficient) in inner.terms {
                                     let k = self.graph.mul(k, coefficient);
-                                    collected.entry(node).or_default().push((k, c.clone()));
+                                    collected.or_insert(node, Vec::new()).push((k, c.clone()));
                                 }
                             }
-                            _ => collected.entry(node).or_default().push((k, c.clone())),
+                            _ => collected.or_insert(node, Vec::new()).push((k, c.clone())),
                         },
                     }
                 }
-                self.net.linear(self.graph, &constants, collected)
+                self.net.linear(self.graph, &constants, collected.entries())
             }
             Node::Product(factors) => {
                 let mut constants = Vec::new();
@@ -361,7 +524,7 @@ impl<'a> Conversion<'a> {
                     }
                 }
                 let k = self.graph.product(&constants);
-                Scaled::Times(k, self.net.product(rest))
+                Scaled::Times(k, self.net.product(&rest))
             }
             Node::Function(function @ (Function::Sin | Function::Cos), x) => match self.angles.get(x) {
                 Some(angle) => {
@@ -425,8 +588,8 @@ impl<'a> Conversion<'a> {
         let (one, zero) = (self.graph.one(), self.graph.zero());
         let minus = self.graph.number(-1);
         let (plus, minus) = if backwards { (minus, one) } else { (one, minus) };
-        let (ss, cc) = (self.net.product([(a.0, 1), (b.0, 1)]), self.net.product([(a.1, 1), (b.1, 1)]));
-        let (sc, cs) = (self.net.product([(a.0, 1), (b.1, 1)]), self.net.product([(a.1, 1), (b.0, 1)]));
+        let (ss, cc) = (self.net.product(&[(a.0, 1), (b.0, 1)]), self.net.product(&[(a.1, 1), (b.1, 1)]));
+        let (sc, cs) = (self.net.product(&[(a.0, 1), (b.1, 1)]), self.net.product(&[(a.1, 1), (b.0, 1)]));
         let mut sum = |x: NetId, k: ExprId, y: NetId| {
             let mut terms = vec![(x, one), (y, k)];
             if x == y {

@@ -11,9 +11,12 @@ const OF_UNIT: u64 = 3;
 const OF_PI: u64 = 4;
 const OF_ATOM: u64 = 5;
 
-/// A residue not yet computed, or one that does not exist: no residue is that large.
-const UNSET: u64 = u64::MAX;
-const POLE: u64 = u64::MAX - 1;
+/// How values are stored: one not yet computed, one that does not exist, and residues from [`SET`] on.
+const UNSET: u64 = 0;
+const POLE: u64 = 1;
+const SET: u64 = 2;
+
+const MINUS_ONE: u64 = PRIME - 1;
 
 /// A random point.
 #[derive(Debug, Default)]
@@ -62,56 +65,117 @@ impl Sample {
             self.units.clear();
         }
         if self.values.len() <= e.index() {
-            self.values.resize(table.ops.len(), UNSET);
+            self.make_room(table.ops.len());
         }
-        let mut stack = vec![e];
+        let known = self.values[e.index()];
+        if known != UNSET {
+            return if known == POLE { None } else { Some(known - SET) };
+        }
+        let ops: &[Op] = &table.ops;
+        let mut stack = vec![e.0];
         while let Some(&id) = stack.last() {
-            if self.values[id.index()] != UNSET {
+            let op = &ops[id as usize];
+            let values: &[u64] = &self.values;
+            if values[id as usize] != UNSET {
                 stack.pop();
                 continue;
             }
             let before = stack.len();
             let mut pole = false;
-            let mut need = |child: ExprId| match self.values[child.index()] {
-                UNSET => stack.push(child),
+            let mut need = |child: ExprId| match values[child.0 as usize] {
+                UNSET => stack.push(child.0),
                 POLE => pole = true,
                 _ => {}
             };
-            match &table.ops[id.index()] {
-                Op::Sum(_, terms) => terms.iter().for_each(|(term, _)| need(*term)),
-                Op::Product(factors) => factors.iter().for_each(|(base, _)| need(*base)),
+            match op {
+                Op::Sum(_, terms) => {
+                    let terms: &[(ExprId, u64)] = terms;
+                    let mut index = 0;
+                    while index < terms.len() {
+                        need(terms[index].0);
+                        index += 1;
+                    }
+                }
+                Op::Product(factors) => {
+                    let factors: &[(ExprId, i32)] = factors;
+                    let mut index = 0;
+                    while index < factors.len() {
+                        need(factors[index].0);
+                        index += 1;
+                    }
+                }
                 Op::At(_, x) => need(*x),
-                Op::Atan2(y, x) => [*y, *x].into_iter().for_each(need),
+                Op::Atan2(y, x) => {
+                    need(*y);
+                    need(*x);
+                }
                 Op::Constant(_) | Op::Pi | Op::Symbol(_) | Op::Of(..) => {}
             }
             if pole {
                 stack.truncate(before - 1);
-                self.values[id.index()] = POLE;
+                self.values[id as usize] = POLE;
             } else if stack.len() == before {
                 stack.pop();
-                self.values[id.index()] = self.step(graph, table, &table.ops[id.index()]).unwrap_or(POLE);
+                let value = self.step(graph, table, op);
+                self.values[id as usize] = value.map_or(POLE, |value| value + SET);
             }
         }
-        Some(self.values[e.index()]).filter(|value| *value != POLE)
+        match self.values[e.index()] {
+            POLE => None,
+            value => Some(value - SET),
+        }
+    }
+
+    /// Room for the values of so many nodes, in powers of two: zeroed memory is cheap also without optimisation.
+    fn make_room(&mut self, nodes: usize) {
+        let mut values = vec![UNSET; nodes.next_power_of_two()];
+        values[..self.values.len()].copy_from_slice(&self.values);
+        self.values = values;
     }
 
     /// The value of a node whose children are done and exist.
     fn step(&mut self, graph: &Graph, table: &Table, op: &Op) -> Option<u64> {
-        let at = |id: &ExprId| self.values[id.index()];
+        let values: &[u64] = &self.values;
+        let at = |id: &ExprId| values[id.0 as usize] - SET;
         match op {
             Op::Constant(value) => *value,
             Op::Pi => Some(self.draw(OF_PI, 0)),
             Op::Symbol(symbol) => Some(self.symbol(graph, *symbol)),
             Op::Sum(constant, terms) => {
-                Some(terms.iter().fold(*constant, |sum, (term, c)| add(sum, mul(*c, at(term)))))
+                let terms: &[(ExprId, u64)] = terms;
+                let mut sum = *constant;
+                let mut index = 0;
+                while index < terms.len() {
+                    let (term, c) = &terms[index];
+                    let value = at(term);
+                    sum = match *c {
+                        1 => add(sum, value),
+                        MINUS_ONE => sub(sum, value),
+                        c => add(sum, mul(c, value)),
+                    };
+                    index += 1;
+                }
+                Some(sum)
             }
             Op::Product(factors) => {
                 // One inversion for all denominators together.
                 let (mut above, mut below) = (1, 1);
-                for (base, e) in factors {
-                    let power = field::pow(at(base), e.unsigned_abs().into());
-                    let side = if *e < 0 { &mut below } else { &mut above };
-                    *side = mul(*side, power);
+                let factors: &[(ExprId, i32)] = factors;
+                let mut index = 0;
+                while index < factors.len() {
+                    let (base, e) = &factors[index];
+                    let value = at(base);
+                    match *e {
+                        1 => above = mul(above, value),
+                        2 => above = mul(above, mul(value, value)),
+                        -1 => below = mul(below, value),
+                        e => {
+                            let power = field::pow(value, e.unsigned_abs().into());
+                            let side = if e < 0 { &mut below } else { &mut above };
+                            *side = mul(*side, power);
+                        }
+                    }
+                    index += 1;
                 }
                 if below == 1 { Some(above) } else { Some(mul(above, inverse(below)?)) }
             }

@@ -77,7 +77,8 @@ impl Table {
     pub(crate) fn scan(&mut self, graph: &Graph) {
         for index in self.ops.len()..graph.len() {
             let id = ExprId(index as u32);
-            let below = graph.children(id).iter().fold(0, |flags, child| flags | self.flags[child.index()]);
+            let mut below = 0;
+            graph.visit_children(id, |child| below |= self.flags[child.index()]);
             let (op, own) = self.read(graph, id);
             self.ops.push(op);
             self.flags.push(below | own);
@@ -174,7 +175,7 @@ impl Table {
 
     fn monomial(&mut self, monomial: Monomial) -> u32 {
         let next = self.lcms.len() as u32;
-        let index = *self.monomials.entry(monomial).or_insert(next);
+        let index = *self.monomials.or_insert_with(monomial, || next);
         if index == next {
             self.lcms.push(FIRST_LCM);
         }
@@ -270,7 +271,7 @@ fn expand(graph: &Graph, x: ExprId) -> Option<Combination> {
         }
         known.insert(id, combination);
     }
-    known.remove(&x)
+    known.get(&x).cloned()
 }
 
 fn multiply(a: &Combination, b: &Combination) -> Option<Combination> {

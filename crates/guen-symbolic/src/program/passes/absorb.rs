@@ -1,8 +1,6 @@
 //! `k (a x + b y) = (k a) x + (k b) y` where that is one multiplication less: constants are multiplied once per system.
 
-use std::collections::BTreeMap;
-
-use super::super::net::{Linear, Net, NetId, NetNode};
+use super::super::net::{Linear, Net, NetId, NetNode, Terms, add_term, nonzero};
 use super::{Changes, is_unit};
 use crate::algebra::{ExprId, FastMap, Graph};
 
@@ -18,7 +16,7 @@ pub(super) fn changes(graph: &mut Graph, net: &mut Net, roots: &[NetId]) -> Chan
         let NetNode::Sum(linear) = changes.get(&id).unwrap_or_else(|| net.node(id)) else { continue };
         let linear = linear.clone();
         let mut constant = linear.constant;
-        let mut collected: BTreeMap<NetId, ExprId> = BTreeMap::new();
+        let mut collected = Terms::with_capacity(linear.terms.len());
         let mut changed = false;
         for (child, k) in linear.terms {
             let single = uses.get(child.0 as usize) == Some(&1);
@@ -30,8 +28,7 @@ pub(super) fn changes(graph: &mut Graph, net: &mut Net, roots: &[NetId]) -> Chan
                 let inner = scaled(graph, &inner.clone(), k);
                 constant = graph.add(constant, inner.constant);
                 for (node, k) in inner.terms {
-                    let slot = collected.entry(node).or_insert(graph.zero());
-                    *slot = graph.add(*slot, k);
+                    add_term(graph, &mut collected, node, k);
                 }
                 gone.insert(child, ());
                 changed = true;
@@ -57,11 +54,10 @@ pub(super) fn changes(graph: &mut Graph, net: &mut Net, roots: &[NetId]) -> Chan
                 k = graph.one();
                 changed = true;
             }
-            let slot = collected.entry(child).or_insert(graph.zero());
-            *slot = graph.add(*slot, k);
+            add_term(graph, &mut collected, child, k);
         }
         if changed {
-            let terms = collected.into_iter().filter(|(_, k)| !graph.is_zero(*k)).collect();
+            let terms = nonzero(graph, collected);
             changes.insert(id, NetNode::Sum(Linear { constant, terms }));
         }
     }

@@ -70,7 +70,7 @@ impl Angles {
             return Angles::default();
         }
         let angles = angles
-            .into_iter()
+            .into_pairs()
             .map(|(x, multiples)| {
                 let angle = multiples
                     .into_iter()

@@ -1,8 +1,6 @@
 //! `x (a + b) = x a + x b` for short sums that few products use, so that later passes can group terms anew.
 
-use std::collections::BTreeMap;
-
-use super::super::net::{Linear, Net, NetId, NetNode};
+use super::super::net::{Linear, Net, NetId, NetNode, Terms, add_term, nonzero};
 use super::Changes;
 use crate::algebra::{ExprId, FastMap, Graph};
 
@@ -29,11 +27,9 @@ pub(super) fn changes(graph: &mut Graph, net: &mut Net, roots: &[NetId]) -> Chan
         for _ in 0..DEPTH {
             let mut progress = false;
             let mut constant = linear.constant;
-            let mut collected: BTreeMap<NetId, ExprId> = BTreeMap::new();
-            let mut add = |graph: &mut Graph, node: NetId, k: ExprId| {
-                let slot = collected.entry(node).or_insert(graph.zero());
-                *slot = graph.add(*slot, k);
-            };
+            let mut collected = Terms::with_capacity(linear.terms.len());
+            let mut add =
+                |graph: &mut Graph, node: NetId, k: ExprId| add_term(graph, &mut collected, node, k);
             let mut size = linear.terms.len();
             for (node, k) in &linear.terms {
                 let Some((rest, factor)) = expandable(net, &uses, *node) else {
@@ -47,7 +43,9 @@ pub(super) fn changes(graph: &mut Graph, net: &mut Net, roots: &[NetId]) -> Chan
                     continue;
                 }
                 for (part, c) in inner.terms {
-                    let product = net.product(rest.iter().copied().chain([(part, 1)]));
+                    let mut factors = rest.clone();
+                    factors.push((part, 1));
+                    let product = net.product(&factors);
                     let k = graph.mul(*k, c);
                     add(graph, product, k);
                 }
@@ -56,7 +54,7 @@ pub(super) fn changes(graph: &mut Graph, net: &mut Net, roots: &[NetId]) -> Chan
                     if rest.is_empty() {
                         constant = graph.add(constant, k);
                     } else {
-                        let product = net.product(rest);
+                        let product = net.product(&rest);
                         add(graph, product, k);
                     }
                 }
@@ -68,7 +66,7 @@ pub(super) fn changes(graph: &mut Graph, net: &mut Net, roots: &[NetId]) -> Chan
             if !progress {
                 break;
             }
-            let terms = collected.into_iter().filter(|(_, k)| !graph.is_zero(*k)).collect();
+            let terms = nonzero(graph, collected);
             linear = Linear { constant, terms };
             changed = true;
         }

@@ -1,10 +1,8 @@
 //! `x a + x b + c = x (a + b) + c`, greedily by the factor that most terms share, constants included.
 
-use std::collections::BTreeMap;
-
-use super::super::net::{Linear, Net, NetId, NetNode, split_sign};
+use super::super::net::{Linear, Net, NetId, NetNode, Powers, Terms, add_term, nonzero, split_sign};
 use super::Changes;
-use crate::algebra::{ExprId, Graph};
+use crate::algebra::{ExprId, FastMap, Graph, Key, spread};
 
 /// Sums with more terms stay as they are.
 const LARGEST_SUM: usize = 400;
@@ -13,7 +11,7 @@ const LARGEST_SUM: usize = 400;
 #[derive(Clone, Debug)]
 struct Term {
     k: ExprId,
-    powers: BTreeMap<NetId, i32>,
+    powers: Powers,
 }
 
 /// What several terms have in common.
@@ -23,6 +21,15 @@ enum Common {
     Power(NetId, bool),
     /// A coefficient up to its sign.
     Coefficient(ExprId),
+}
+
+impl Key for Common {
+    fn hash(&self) -> u32 {
+        spread(match self {
+            Common::Power(node, above) => (node.0 as u64) << 1 | *above as u64,
+            Common::Coefficient(k) => (k.0 as u64) << 1 | 1 << 40,
+        })
+    }
 }
 
 pub(super) fn changes(graph: &mut Graph, net: &mut Net, roots: &[NetId], open_shared: bool) -> Changes {
@@ -40,9 +47,9 @@ pub(super) fn changes(graph: &mut Graph, net: &mut Net, roots: &[NetId], open_sh
             .map(|(node, k)| {
                 let powers = match net.node(*node) {
                     NetNode::Product(factors) if open_shared || uses[node.0 as usize] == 1 => {
-                        factors.iter().copied().collect()
+                        Powers::from_sorted(factors.clone())
                     }
-                    _ => BTreeMap::from([(*node, 1)]),
+                    _ => Powers::from_sorted(vec![(*node, 1)]),
                 };
                 Term { k: *k, powers }
             })
@@ -57,7 +64,7 @@ pub(super) fn changes(graph: &mut Graph, net: &mut Net, roots: &[NetId], open_sh
 
 /// The sum with common factors taken out; the depth of recursion is bounded by the degree of the terms.
 fn factor(graph: &mut Graph, net: &mut Net, mut constant: ExprId, mut terms: Vec<Term>) -> Linear {
-    let mut finished: BTreeMap<NetId, ExprId> = BTreeMap::new();
+    let mut finished = Terms::default();
     while let Some(common) = most_common(graph, &terms) {
         let mut group = Vec::new();
         let mut rest = Vec::new();
@@ -66,7 +73,7 @@ fn factor(graph: &mut Graph, net: &mut Net, mut constant: ExprId, mut terms: Vec
         for term in terms {
             let belongs = match common {
                 Common::Power(node, above) => {
-                    let e = term.powers.get(&node).copied().unwrap_or(0);
+                    let e = term.powers.get(node).copied().unwrap_or(0);
                     let belongs = e != 0 && (e > 0) == above;
                     if belongs {
                         exponent = exponent.min(e.abs());
@@ -78,19 +85,22 @@ fn factor(graph: &mut Graph, net: &mut Net, mut constant: ExprId, mut terms: Vec
             if belongs { group.push(term) } else { rest.push(term) }
         }
         terms = rest;
-        let mut factors: BTreeMap<NetId, i32> = BTreeMap::new();
+        let mut factors = Powers::default();
         let zero = graph.zero();
         let mut inner_constant = zero;
         match common {
             Common::Power(node, above) => {
                 let e = if above { exponent } else { -exponent };
-                factors.insert(node, e);
+                factors.or_insert(node, e);
                 for term in &mut group {
-                    *term.powers.entry(node).or_default() -= e;
-                    term.powers.retain(|_, e| *e != 0);
+                    let left = term.powers.or_insert(node, 0);
+                    *left -= e;
+                    if *left == 0 {
+                        term.powers.remove(node);
+                    }
                 }
                 let (bare, left): (Vec<_>, Vec<_>) =
-                    group.into_iter().partition(|term| term.powers.is_empty());
+                    group.into_iter().partition(|term| term.powers.entries().is_empty());
                 for term in bare {
                     inner_constant = graph.add(inner_constant, term.k);
                 }
@@ -102,7 +112,7 @@ fn factor(graph: &mut Graph, net: &mut Net, mut constant: ExprId, mut terms: Vec
                 for term in &mut group {
                     term.k = if split_sign(graph, term.k).0 { minus } else { one };
                 }
-                if !graph.is_zero(constant) && finished.is_empty() && terms.is_empty() {
+                if !graph.is_zero(constant) && finished.entries().is_empty() && terms.is_empty() {
                     let (negative, size) = split_sign(graph, constant);
                     if size == k {
                         inner_constant = if negative { minus } else { one };
@@ -121,42 +131,45 @@ fn factor(graph: &mut Graph, net: &mut Net, mut constant: ExprId, mut terms: Vec
             _ => net.intern(NetNode::Sum(inner)),
         };
         match net.node(node) {
-            NetNode::Product(inner) if !factors.is_empty() => {
+            NetNode::Product(inner) if !factors.entries().is_empty() => {
                 for (node, e) in inner {
-                    *factors.entry(*node).or_default() += e;
+                    *factors.or_insert(*node, 0) += e;
                 }
             }
-            _ => *factors.entry(node).or_default() += 1,
+            _ => *factors.or_insert(node, 0) += 1,
         }
         let node = net.plain_product(factors);
-        let slot = finished.entry(node).or_insert(zero);
-        *slot = graph.add(*slot, outer);
+        add_term(graph, &mut finished, node, outer);
     }
     for term in terms {
         let node = net.plain_product(term.powers);
-        let slot = finished.entry(node).or_insert(graph.zero());
-        *slot = graph.add(*slot, term.k);
+        add_term(graph, &mut finished, node, term.k);
     }
-    let terms = finished.into_iter().filter(|(_, k)| !graph.is_zero(*k)).collect();
+    let terms = nonzero(graph, finished);
     Linear { constant, terms }
 }
 
 /// The factor that most terms share, if two do; powers before coefficients, older nodes before younger.
 fn most_common(graph: &mut Graph, terms: &[Term]) -> Option<Common> {
-    let mut counts: BTreeMap<Common, usize> = BTreeMap::new();
+    let mut counts: FastMap<Common, usize> = FastMap::default();
     for term in terms {
-        for (node, e) in &term.powers {
-            *counts.entry(Common::Power(*node, *e > 0)).or_default() += 1;
+        let powers = term.powers.entries();
+        let mut index = 0;
+        while index < powers.len() {
+            let (node, e) = powers[index];
+            *counts.or_default(Common::Power(node, e > 0)) += 1;
+            index += 1;
         }
         let (_, k) = split_sign(graph, term.k);
         if k != graph.one() {
-            *counts.entry(Common::Coefficient(k)).or_default() += 1;
+            *counts.or_default(Common::Coefficient(k)) += 1;
         }
     }
     let mut best: Option<(usize, Common)> = None;
-    for (common, count) in counts {
-        if count >= 2 && best.is_none_or(|(most, _)| count > most) {
-            best = Some((count, common));
+    for (common, count) in counts.iter() {
+        if *count >= 2 && best.is_none_or(|(most, first)| *count > most || *count == most && *common < first)
+        {
+            best = Some((*count, *common));
         }
     }
     best.map(|(_, common)| common)

@@ -11,9 +11,7 @@ mod products;
 mod signs;
 mod sums;
 
-use std::collections::BTreeMap;
-
-use super::net::{Linear, Net, NetId, NetNode};
+use super::net::{Linear, Net, NetId, NetNode, Powers, Terms, add_term, nonzero};
 use crate::algebra::{ExprId, FastMap, Graph};
 
 /// New contents of some nodes, in terms of nodes whose contents may change as well.
@@ -119,19 +117,25 @@ fn with_children(graph: &mut Graph, net: &mut Net, node: NetNode, image: impl Fn
     match node {
         NetNode::Atom(_) | NetNode::Constant(_) => net.intern(node),
         NetNode::Sum(linear) => {
-            let mut collected: BTreeMap<NetId, ExprId> = BTreeMap::new();
-            for (child, k) in linear.terms {
-                let slot = collected.entry(image(child)).or_insert(graph.zero());
-                *slot = graph.add(*slot, k);
+            let old: &[(NetId, ExprId)] = &linear.terms;
+            let mut collected = Terms::with_capacity(old.len());
+            let mut index = 0;
+            while index < old.len() {
+                let (child, k) = old[index];
+                add_term(graph, &mut collected, image(child), k);
+                index += 1;
             }
-            let mut terms: Vec<_> = collected.into_iter().collect();
-            terms.retain(|(_, k)| !graph.is_zero(*k));
+            let terms = nonzero(graph, collected);
             net.sum(graph, Linear { constant: linear.constant, terms })
         }
         NetNode::Product(factors) => {
-            let mut collected: BTreeMap<NetId, i32> = BTreeMap::new();
-            for (child, e) in factors {
-                *collected.entry(image(child)).or_default() += e;
+            let factors: &[(NetId, i32)] = &factors;
+            let mut collected = Powers::with_capacity(factors.len());
+            let mut index = 0;
+            while index < factors.len() {
+                let (child, e) = factors[index];
+                *collected.or_insert(image(child), 0) += e;
+                index += 1;
             }
             net.plain_product(collected)
         }

@@ -3,12 +3,9 @@
 //! A monomial is a coefficient and powers of nodes; a power `x^-2` counts as the factor `1/x` twice. The counts
 //! are kept up to date in a heap, so the work is near-linear in the sizes of the monomials, which are small.
 
-use std::cmp::Reverse;
-use std::collections::{BTreeMap, BinaryHeap};
-
-use super::super::net::{Linear, Net, NetId, NetNode, constant_factors, split_sign};
+use super::super::net::{Linear, Net, NetId, NetNode, Powers, Terms, add_term, constant_factors, split_sign};
 use super::Changes;
-use crate::algebra::{ExprId, FastMap, Graph, Rational};
+use crate::algebra::{ExprId, FastMap, Graph, Key, Rational, spread};
 
 /// More monomials than this stay as they are.
 const LARGEST_PROBLEM: usize = 20_000;
@@ -27,6 +24,18 @@ enum Factor {
 }
 
 const TAG: u32 = 30;
+
+impl Key for Literal {
+    fn hash(&self) -> u32 {
+        spread(self.0 as u64)
+    }
+}
+
+impl Key for Pair {
+    fn hash(&self) -> u32 {
+        spread(self.0)
+    }
+}
 
 impl Literal {
     fn new(factor: Factor) -> Self {
@@ -76,14 +85,58 @@ struct Search {
     monomials: Vec<Monomial>,
     occurrences: FastMap<Literal, Vec<u32>>,
     counts: FastMap<Pair, u32>,
-    heap: BinaryHeap<(u32, Reverse<Pair>)>,
+    heap: Heap,
+}
+
+/// Counts with their pairs, the largest count first, of equal counts the smallest pair: a binary heap of plain words.
+#[derive(Default)]
+struct Heap(Vec<u128>);
+
+impl Heap {
+    fn push(&mut self, count: u32, pair: Pair) {
+        self.0.push((count as u128) << 64 | !pair.0 as u128);
+        let words: &mut [u128] = &mut self.0;
+        let mut at = words.len() - 1;
+        let word = words[at];
+        while at > 0 && words[(at - 1) / 2] < word {
+            words[at] = words[(at - 1) / 2];
+            at = (at - 1) / 2;
+        }
+        words[at] = word;
+    }
+
+    fn pop(&mut self) -> Option<(u32, Pair)> {
+        let last = self.0.pop()?;
+        let words: &mut [u128] = &mut self.0;
+        let mut top = last;
+        if !words.is_empty() {
+            top = words[0];
+            let mut at = 0;
+            loop {
+                let mut child = 2 * at + 1;
+                if child >= words.len() {
+                    break;
+                }
+                if child + 1 < words.len() && words[child] < words[child + 1] {
+                    child += 1;
+                }
+                if words[child] <= last {
+                    break;
+                }
+                words[at] = words[child];
+                at = child;
+            }
+            words[at] = last;
+        }
+        Some(((top >> 64) as u32, Pair(!(top as u64))))
+    }
 }
 
 impl Search {
     fn add(&mut self, monomial: Monomial) -> usize {
         let index = self.monomials.len();
         for (literal, _) in &monomial {
-            self.occurrences.entry(*literal).or_default().push(index as u32);
+            self.occurrences.or_default(*literal).push(index as u32);
         }
         self.monomials.push(monomial);
         index
@@ -97,30 +150,46 @@ impl Search {
                 continue;
             }
             shared.clear();
-            shared.extend(monomial.iter().filter(|(literal, _)| self.occurrences[literal].len() >= 2));
-            for (i, (a, n)) in shared.iter().enumerate() {
-                if *n >= 2 {
-                    *self.counts.entry(Pair::new(*a, *a)).or_default() += 1;
+            let monomial: &[(Literal, u32)] = monomial;
+            let mut index = 0;
+            while index < monomial.len() {
+                if self.occurrences[&monomial[index].0].len() >= 2 {
+                    shared.push(monomial[index]);
                 }
-                for (b, _) in &shared[i + 1..] {
+                index += 1;
+            }
+            let shared: &[(Literal, u32)] = &shared;
+            index = 0;
+            while index < shared.len() {
+                let (a, n) = shared[index];
+                if n >= 2 {
+                    *self.counts.or_default(Pair::new(a, a)) += 1;
+                }
+                index += 1;
+                let mut other = index;
+                while other < shared.len() {
+                    let b = shared[other].0;
                     if !(a.is_constant() && b.is_constant()) {
-                        *self.counts.entry(Pair::new(*a, *b)).or_default() += 1;
+                        *self.counts.or_default(Pair::new(a, b)) += 1;
                     }
+                    other += 1;
                 }
             }
         }
-        // The heap orders what the map does not.
-        self.heap =
-            self.counts.iter().filter(|(_, n)| **n >= 2).map(|(pair, n)| (*n, Reverse(*pair))).collect();
+        for (pair, n) in self.counts.iter() {
+            if *n >= 2 {
+                self.heap.push(*n, *pair);
+            }
+        }
     }
 
     /// One more or one less of a pair; pairs that were never counted cannot become frequent by losing some.
     fn change(&mut self, pair: Pair, up: bool) {
         if up {
-            let count = self.counts.entry(pair).or_default();
+            let count = self.counts.or_default(pair);
             *count += 1;
             if *count >= 2 {
-                self.heap.push((*count, Reverse(pair)));
+                self.heap.push(*count, pair);
             }
         } else if let Some(count) = self.counts.get_mut(&pair) {
             *count -= 1;
@@ -131,12 +200,12 @@ impl Search {
     fn run(&mut self, graph: &Graph, net: &mut Net) -> bool {
         let mut joined = false;
         self.count_all();
-        while let Some((count, Reverse(pair))) = self.heap.pop() {
+        while let Some((count, pair)) = self.heap.pop() {
             let current = self.counts.get(&pair).copied().unwrap_or(0);
             if current != count {
                 // Counts only fall between pushes: what is left of this pair waits for its turn.
                 if current >= 2 && current < count {
-                    self.heap.push((current, Reverse(pair)));
+                    self.heap.push(current, pair);
                 }
                 continue;
             }
@@ -157,15 +226,13 @@ impl Search {
             if monomial.len() > LONGEST_MONOMIAL {
                 continue;
             }
-            let power =
-                |literal: Literal| monomial.iter().find(|(l, _)| *l == literal).map_or(0, |(_, n)| *n);
-            let (na, nb) = (power(a), power(b));
+            let (na, nb) = (power(monomial, a), power(monomial, b));
             let times = if a == b { na / 2 } else { na.min(nb) };
             if times == 0 {
                 continue;
             }
             let mut monomial = core::mem::take(&mut self.monomials[index as usize]);
-            let is_new = monomial.iter().all(|(l, _)| *l != joined);
+            let is_new = power(&monomial, joined) == 0;
             let used = if a == b { 2 * times } else { times };
             for (literal, before) in [(a, na), (b, nb)] {
                 let after = before - used;
@@ -173,10 +240,13 @@ impl Search {
                     self.change(Pair::new(literal, literal), false);
                 }
                 if after == 0 {
-                    for (other, _) in &monomial {
-                        if *other != literal && !(other.is_constant() && literal.is_constant()) {
-                            self.change(Pair::new(literal, *other), false);
+                    let mut place = 0;
+                    while place < monomial.len() {
+                        let other = monomial[place].0;
+                        if other != literal && !(other.is_constant() && literal.is_constant()) {
+                            self.change(Pair::new(literal, other), false);
                         }
+                        place += 1;
                     }
                     monomial.retain(|(l, _)| *l != literal);
                 } else if let Some(entry) = monomial.iter_mut().find(|(l, _)| *l == literal) {
@@ -187,14 +257,16 @@ impl Search {
                 }
             }
             if is_new {
-                for (other, _) in &monomial {
-                    self.change(Pair::new(joined, *other), true);
+                let mut place = 0;
+                while place < monomial.len() {
+                    self.change(Pair::new(joined, monomial[place].0), true);
+                    place += 1;
                 }
                 if times >= 2 {
                     self.change(Pair::new(joined, joined), true);
                 }
                 monomial.push((joined, times));
-                self.occurrences.entry(joined).or_default().push(index);
+                self.occurrences.or_default(joined).push(index);
             } else if let Some(entry) = monomial.iter_mut().find(|(l, _)| *l == joined) {
                 if entry.1 < 2 && entry.1 + times >= 2 {
                     self.change(Pair::new(joined, joined), true);
@@ -208,12 +280,24 @@ impl Search {
     }
 }
 
+/// The power of a factor in a monomial, zero if it does not occur.
+fn power(monomial: &[(Literal, u32)], literal: Literal) -> u32 {
+    let mut index = 0;
+    while index < monomial.len() {
+        if monomial[index].0.0 == literal.0 {
+            return monomial[index].1;
+        }
+        index += 1;
+    }
+    0
+}
+
 /// The factor that stands for a pair.
 fn join(graph: &Graph, net: &mut Net, pair: Pair) -> Literal {
     use Factor::{Above, Below, Constant};
     let mut product = |a: (NetId, i32), b: (NetId, i32)| {
-        let mut factors = BTreeMap::from([a]);
-        *factors.entry(b.0).or_default() += b.1;
+        let mut factors = Powers::from_sorted(vec![a]);
+        *factors.or_insert(b.0, 0) += b.1;
         net.plain_product(factors)
     };
     let (a, b) = pair.literals();
@@ -225,7 +309,7 @@ fn join(graph: &Graph, net: &mut Net, pair: Pair) -> Literal {
             Above(net.intern(NetNode::Sum(Linear { constant: graph.zero(), terms: vec![(a, k)] })))
         }
         (Below(a), Constant(k)) | (Constant(k), Below(a)) => {
-            let reciprocal = net.plain_product(BTreeMap::from([(a, -1)]));
+            let reciprocal = net.plain_product(Powers::from_sorted(vec![(a, -1)]));
             Above(net.intern(NetNode::Sum(Linear { constant: graph.zero(), terms: vec![(reciprocal, k)] })))
         }
         (Constant(_), Constant(_)) => unreachable!("constants are not paired with each other"),
@@ -259,10 +343,11 @@ pub(super) fn changes(graph: &mut Graph, net: &mut Net, roots: &[NetId], split_c
             net.children(*id, |child| whole.push(child));
         }
     }
-    whole.sort_unstable();
-    whole.dedup();
-    for id in whole {
-        if matches!(net.node(id), NetNode::Product(_)) {
+    // In the order of their numbers, each once.
+    let mut is_whole = vec![0_u8; net.len()];
+    whole.into_iter().for_each(|id| is_whole[id.0 as usize] = 1);
+    for id in nodes {
+        if is_whole[id.0 as usize] != 0 && matches!(net.node(id), NetNode::Product(_)) {
             let index = monomial(graph, net, &mut search, &mut known, one, id, split_constants);
             inner_products.push((id, index));
         }
@@ -277,14 +362,13 @@ pub(super) fn changes(graph: &mut Graph, net: &mut Net, roots: &[NetId], split_c
     for (id, place) in places {
         let NetNode::Sum(linear) = net.node(id) else { continue };
         let constant = linear.constant;
-        let mut collected: BTreeMap<NetId, ExprId> = BTreeMap::new();
+        let mut collected = Terms::with_capacity(place.len());
         for (negative, index) in place {
             let (k, node) = finish(graph, net, &search.monomials[index]);
             let k = if negative { graph.mul(k, minus) } else { k };
-            let slot = collected.entry(node).or_insert(graph.zero());
-            *slot = graph.add(*slot, k);
+            add_term(graph, &mut collected, node, k);
         }
-        let terms: Vec<_> = collected.into_iter().collect();
+        let terms = collected.into_entries();
         let unchanged = matches!(net.node(id), NetNode::Sum(linear) if linear.terms == terms);
         if !unchanged && terms != [(id, one)] {
             changes.insert(id, NetNode::Sum(Linear { constant, terms }));
@@ -346,11 +430,11 @@ fn monomial(
 /// What is left of a monomial, as a coefficient and a node.
 fn finish(graph: &mut Graph, net: &mut Net, monomial: &[(Literal, u32)]) -> (ExprId, NetId) {
     let mut constants = Vec::new();
-    let mut factors: BTreeMap<NetId, i32> = BTreeMap::new();
+    let mut factors = Powers::with_capacity(monomial.len());
     for (literal, n) in monomial {
         match literal.factor() {
-            Factor::Above(node) => *factors.entry(node).or_default() += *n as i32,
-            Factor::Below(node) => *factors.entry(node).or_default() -= *n as i32,
+            Factor::Above(node) => *factors.or_insert(node, 0) += *n as i32,
+            Factor::Below(node) => *factors.or_insert(node, 0) -= *n as i32,
             Factor::Constant(k) => constants.push((k, 1)),
         }
     }

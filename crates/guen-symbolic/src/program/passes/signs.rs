@@ -16,13 +16,13 @@ pub(super) fn changes(graph: &mut Graph, net: &mut Net, roots: &[NetId]) -> Chan
     let (nodes, _) = net.reachable(roots);
     let mut turning = Turning { net, sums: FastMap::default(), parents: FastMap::default() };
     for id in &nodes {
-        turning.net.children(*id, |child| turning.parents.entry(child).or_default().push(Some(*id)));
+        turning.net.children(*id, |child| turning.parents.or_default(child).push(Some(*id)));
         if let NetNode::Sum(linear) = turning.net.node(*id) {
             turning.sums.insert(*id, linear.clone());
         }
     }
     for root in roots {
-        turning.parents.entry(*root).or_default().push(None);
+        turning.parents.or_default(*root).push(None);
     }
     let bad: Vec<NetId> = nodes
         .iter()

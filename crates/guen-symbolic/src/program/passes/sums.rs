@@ -3,9 +3,7 @@
 //! `k a + k r b + ..` and `q a + q r b + ..` share `z = a + r b`. The ratio must be one in which nothing new is
 //! divided by: a constant that is not known to differ from zero never becomes a denominator.
 
-use std::collections::{BTreeMap, BTreeSet};
-
-use super::super::net::{Linear, Net, NetId, NetNode, constant_factors};
+use super::super::net::{Linear, Net, NetId, NetNode, Terms, constant_factors, nonzero};
 use super::{Changes, is_unit};
 use crate::algebra::{ExprId, FastMap, Graph};
 
@@ -17,7 +15,7 @@ const LARGEST_PROBLEM: usize = 6_000;
 struct Row {
     id: NetId,
     constant: ExprId,
-    terms: BTreeMap<NetId, ExprId>,
+    terms: Terms,
 }
 
 pub(super) fn changes(graph: &mut Graph, net: &mut Net, roots: &[NetId]) -> Changes {
@@ -27,7 +25,7 @@ pub(super) fn changes(graph: &mut Graph, net: &mut Net, roots: &[NetId]) -> Chan
         if let NetNode::Sum(linear) = net.node(id)
             && linear.terms.len() >= 2
         {
-            rows.push(Row { id, constant: linear.constant, terms: linear.terms.iter().copied().collect() });
+            rows.push(Row { id, constant: linear.constant, terms: Terms::from_sorted(linear.terms.clone()) });
         }
     }
     let mut touched = vec![false; rows.len()];
@@ -38,10 +36,10 @@ pub(super) fn changes(graph: &mut Graph, net: &mut Net, roots: &[NetId]) -> Chan
         if found.is_empty() {
             break;
         }
-        let mut used: BTreeSet<usize> = BTreeSet::new();
+        let mut used = vec![false; rows.len()];
         let mut progress = false;
         for shared in found {
-            let users: Vec<usize> = shared.users.iter().copied().filter(|row| !used.contains(row)).collect();
+            let users: Vec<usize> = shared.users.iter().copied().filter(|row| !used[*row]).collect();
             if users.len() < 2 {
                 continue;
             }
@@ -55,12 +53,12 @@ pub(super) fn changes(graph: &mut Graph, net: &mut Net, roots: &[NetId]) -> Chan
                 if rows[row].id == z {
                     continue;
                 }
-                used.insert(row);
+                used[row] = true;
                 touched[row] = true;
                 progress = true;
-                let k = rows[row].terms.remove(&a).expect("the pair is in the row");
-                rows[row].terms.remove(&b);
-                let slot = rows[row].terms.entry(z).or_insert(zero);
+                let k = rows[row].terms.remove(a).expect("the pair is in the row");
+                rows[row].terms.remove(b);
+                let slot = rows[row].terms.or_insert(z, zero);
                 *slot = graph.add(*slot, k);
             }
         }
@@ -71,7 +69,7 @@ pub(super) fn changes(graph: &mut Graph, net: &mut Net, roots: &[NetId]) -> Chan
     let mut changes = Changes::default();
     for (row, touched) in rows.into_iter().zip(touched) {
         if touched {
-            let terms = row.terms.into_iter().filter(|(_, k)| !graph.is_zero(*k)).collect();
+            let terms = nonzero(graph, row.terms);
             changes.insert(row.id, NetNode::Sum(Linear { constant: row.constant, terms }));
         }
     }
@@ -85,69 +83,90 @@ struct Shared {
     users: Vec<usize>,
 }
 
+/// A row with a pair, and its coefficients of the pair.
+type User = (usize, ExprId, ExprId);
+
 /// Pairs worth taking, the best first.
 fn shared_pairs(graph: &mut Graph, rows: &[Row], known: &mut Ratios) -> Vec<Shared> {
     let mut occurrences: FastMap<NetId, u32> = FastMap::default();
     for row in rows {
-        for node in row.terms.keys() {
-            *occurrences.entry(*node).or_default() += 1;
+        let terms = row.terms.entries();
+        let mut index = 0;
+        while index < terms.len() {
+            *occurrences.or_default(terms[index].0) += 1;
+            index += 1;
         }
     }
-    let mut pairs: FastMap<(NetId, NetId), Vec<usize>> = FastMap::default();
-    let mut order: Vec<(NetId, NetId)> = Vec::new();
+    // Most pairs have one user: others follow in a list.
+    let mut pairs: FastMap<(NetId, NetId), (User, Vec<User>)> = FastMap::default();
     'rows: for (index, row) in rows.iter().enumerate() {
-        let shared: Vec<NetId> = row.terms.keys().copied().filter(|node| occurrences[node] >= 2).collect();
+        let mut shared: Vec<(NetId, ExprId)> = Vec::new();
+        for term in row.terms.entries() {
+            if occurrences[&term.0] >= 2 {
+                shared.push(*term);
+            }
+        }
         if shared.len() > LONGEST_SUM {
             continue;
         }
-        for (i, a) in shared.iter().enumerate() {
-            for b in &shared[i + 1..] {
-                let users = pairs.entry((*a, *b)).or_default();
-                if users.is_empty() {
-                    order.push((*a, *b));
+        let shared: &[(NetId, ExprId)] = &shared;
+        let mut i = 0;
+        while i < shared.len() {
+            let (a, ka) = shared[i];
+            i += 1;
+            let mut k = i;
+            while k < shared.len() {
+                let (b, kb) = shared[k];
+                let user = (index, ka, kb);
+                let (first, more) = pairs.or_insert_with((a, b), || (user, Vec::new()));
+                if first.0 != index {
+                    more.push(user);
                 }
-                users.push(index);
-                if order.len() > LARGEST_PROBLEM {
+                if pairs.len() > LARGEST_PROBLEM {
                     break 'rows;
                 }
+                k += 1;
             }
         }
     }
     let mut found = Vec::new();
-    for pair in order {
-        let users = &pairs[&pair];
-        if users.len() < 2 {
+    for (pair, (first, more)) in pairs.into_pairs() {
+        if more.is_empty() {
             continue;
         }
         // By ratio b/a; where that is not safe, the pair is left alone in this row.
-        let mut ratios: Vec<(ExprId, Vec<usize>)> = Vec::new();
-        for row in users {
-            let (ka, kb) = (rows[*row].terms[&pair.0], rows[*row].terms[&pair.1]);
-            let ratio = known.ratio(graph, kb, ka);
+        let mut ratios: Vec<(ExprId, Vec<User>)> = Vec::new();
+        for user in [first].into_iter().chain(more) {
+            let ratio = known.ratio(graph, user.2, user.1);
             match ratios.iter_mut().find(|(known, _)| *known == ratio) {
-                Some((_, users)) => users.push(*row),
-                None => ratios.push((ratio, vec![*row])),
+                Some((_, users)) => users.push(user),
+                None => ratios.push((ratio, vec![user])),
             }
         }
         for (ratio, users) in ratios {
             if users.len() < 2 {
                 continue;
             }
-            let (mut pair, mut ratio) = (pair, ratio);
-            if !known.is_safe(graph, ratio, &rows[users[0]]) {
-                let turned = graph.powi(ratio, -1);
-                if !known.is_safe(graph, turned, &rows[users[0]]) {
+            let (mut pair, mut ratio, mut turned) = (pair, ratio, false);
+            if !known.is_safe(graph, ratio, &rows[users[0].0]) {
+                let inverse = graph.powi(ratio, -1);
+                if !known.is_safe(graph, inverse, &rows[users[0].0]) {
                     continue;
                 }
-                (pair, ratio) = ((pair.1, pair.0), turned);
+                (pair, ratio, turned) = ((pair.1, pair.0), inverse, true);
             }
             let mut gain = -1 - i64::from(!is_unit(graph, ratio));
-            for row in &users {
+            for (_, ka, kb) in &users {
                 // One addition and the multiplication by the coefficient of b.
-                gain += 1 + i64::from(!is_unit(graph, rows[*row].terms[&pair.1]));
+                gain += 1 + i64::from(!is_unit(graph, if turned { *ka } else { *kb }));
             }
             if gain > 0 {
-                found.push(Shared { gain, pair, ratio, users });
+                found.push(Shared {
+                    gain,
+                    pair,
+                    ratio,
+                    users: users.into_iter().map(|user| user.0).collect(),
+                });
             }
         }
     }
@@ -168,12 +187,12 @@ impl Ratios {
         if a == b {
             return graph.one();
         }
-        *self.quotients.entry((b, a)).or_insert_with(|| graph.div(b, a))
+        *self.quotients.or_insert_with((b, a), || graph.div(b, a))
     }
 
     /// What a constant divides by and is not known to differ from zero.
     fn denominators(&mut self, graph: &mut Graph, constant: ExprId) -> &[ExprId] {
-        self.denominators.entry(constant).or_insert_with(|| {
+        self.denominators.or_insert_with(constant, || {
             let (_, factors) = constant_factors(graph, constant);
             let doubtful = factors.into_iter().filter(|(_, e)| *e < 0).map(|(base, _)| base);
             doubtful.filter(|base| !graph.manifestly_nonzero(*base)).collect()
@@ -182,7 +201,13 @@ impl Ratios {
 
     /// Whether everything that the ratio divides by is divided by in this row already, or known to differ from zero.
     fn is_safe(&mut self, graph: &mut Graph, ratio: ExprId, row: &Row) -> bool {
-        let doubtful = self.denominators(graph, ratio).to_vec();
-        doubtful.iter().all(|base| row.terms.values().any(|k| self.denominators(graph, *k).contains(base)))
+        let doubtful = self.denominators(graph, ratio);
+        if doubtful.is_empty() {
+            return true;
+        }
+        let doubtful = doubtful.to_vec();
+        doubtful
+            .iter()
+            .all(|base| row.terms.entries().iter().any(|(_, k)| self.denominators(graph, *k).contains(base)))
     }
 }
