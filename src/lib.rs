@@ -50,7 +50,7 @@ pub use guen_runtime::{
     BodyFault, BracketCoefficients, Catastatic, Class, Coefficient, Conservative, ConstantsError, Coordinate,
     Cost, Dual, Function, Holonomic, IncompleteLieGroup, IntegrationError, LieGroup, Lift, Linearization,
     Monitored, Nonholonomic, Operator, Ordered, Positions, PositionsError, Projected, Real, Report,
-    ReportSection, Rheonomic, Scleronomic, System, from_fn, prelude, project, projected, steppers,
+    ReportSection, Rheonomic, Scleronomic, System, from_fn, lanes, prelude, project, projected, steppers,
 };
 
 /// Declares a mechanical system and derives its equations of motion at compile time.

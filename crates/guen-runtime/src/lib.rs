@@ -20,7 +20,10 @@
 //! - `std`: nothing yet; what needs an operating system goes behind it. Elementary functions come from `libm` with
 //!   or without it.
 #![no_std]
-#![forbid(unsafe_code)]
+#![deny(unsafe_code)]
+
+#[cfg(feature = "std")]
+extern crate std;
 
 mod bracket;
 pub mod checks;
@@ -28,8 +31,10 @@ mod classification;
 mod cost;
 mod decimal;
 mod dual;
+mod elementary;
 mod error;
 mod float;
+pub mod lanes;
 mod lift;
 mod linearization;
 mod nalgebra_support;
