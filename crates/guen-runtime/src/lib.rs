@@ -44,6 +44,7 @@ mod real;
 mod report;
 pub mod steppers;
 mod system;
+mod tuned;
 
 pub use bracket::{BracketCoefficients, Coefficient};
 pub use classification::{
@@ -60,6 +61,11 @@ pub use positions::{Positions, PositionsError, Projected, consistent, project, p
 pub use real::{Ordered, Real};
 pub use report::{Report, ReportSection};
 pub use system::{FromFn, Monitored, System, from_fn};
+pub use tuned::{
+    Digits7, Digits7Functions, Digits13, Digits13Functions, Functions, Fused, FusedOperations, Tuned,
+};
+#[cfg(feature = "std")]
+pub use tuned::{Std, StdFunctions};
 
 #[cfg(feature = "nalgebra")]
 pub use nalgebra;

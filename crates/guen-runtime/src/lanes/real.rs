@@ -184,6 +184,27 @@ impl<V: Register> Lanes for Vector<V> {
     fn finite(self) -> Mask {
         Mask::from_bits(self.0.finite())
     }
+
+    #[inline(always)]
+    fn sin_cos_13(self) -> (Self, Self) {
+        elementary::sin_cos_13(self)
+    }
+
+    #[inline(always)]
+    fn sin_cos_7(self) -> (Self, Self) {
+        elementary::sin_cos_7(self)
+    }
+
+    #[inline(always)]
+    fn fused(self, b: Self, c: Self) -> Self {
+        Self(self.0.fused(b.0, c.0))
+    }
+
+    // Every longer register has the instruction; arrays are no better than numbers.
+    #[inline(always)]
+    fn vectorize_fused<T>(function: impl FnOnce() -> T) -> T {
+        V::vectorize(function)
+    }
 }
 
 impl Lanes for f64 {
@@ -202,5 +223,34 @@ impl Lanes for f64 {
     #[inline(always)]
     fn finite(self) -> Mask {
         Mask::from_bits(u32::from(self.is_finite()))
+    }
+
+    #[inline(always)]
+    fn sin_cos_13(self) -> (Self, Self) {
+        let (sin, cos) = elementary::sin_cos_13(Vector(self));
+        (sin.0, cos.0)
+    }
+
+    #[inline(always)]
+    fn sin_cos_7(self) -> (Self, Self) {
+        let (sin, cos) = elementary::sin_cos_7(Vector(self));
+        (sin.0, cos.0)
+    }
+
+    #[inline(always)]
+    fn fused(self, b: Self, c: Self) -> Self {
+        elementary::fused(self, b, c)
+    }
+
+    #[inline(always)]
+    fn vectorize_fused<T>(function: impl FnOnce() -> T) -> T {
+        #[cfg(target_arch = "x86_64")]
+        {
+            super::x86::fused(function)
+        }
+        #[cfg(not(target_arch = "x86_64"))]
+        {
+            function()
+        }
     }
 }

@@ -76,6 +76,17 @@ fn with_avx512<T>(function: impl FnOnce() -> T) -> T {
     function()
 }
 
+/// Calls a function where fused multiply-add is one instruction, if the processor has it.
+#[inline(always)]
+pub(super) fn fused<T>(function: impl FnOnce() -> T) -> T {
+    if has_avx2() {
+        // SAFETY: the processor has been asked.
+        unsafe { with_avx2(function) }
+    } else {
+        function()
+    }
+}
+
 /// Four lanes.
 #[derive(Clone, Copy)]
 struct Avx2(__m256d);
