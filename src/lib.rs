@@ -48,10 +48,14 @@
 
 pub use guen_runtime::{
     BodyFault, BracketCoefficients, Catastatic, Class, Coefficient, Conservative, ConstantsError, Coordinate,
-    Cost, Dual, Function, Holonomic, IncompleteLieGroup, IntegrationError, LieGroup, Lift, Linearization,
-    Monitored, Nonholonomic, Operator, Ordered, Positions, PositionsError, Projected, Real, Report,
-    ReportSection, Rheonomic, Scleronomic, System, from_fn, prelude, project, projected, steppers,
+    Cost, Digits7, Digits13, Dual, Function, Functions, Fused, Holonomic, IncompleteLieGroup,
+    IntegrationError, Laned, LieGroup, Lift, Linearization, Monitored, Nonholonomic, Operator, Ordered,
+    Positions, PositionsError, Projected, Real, Report, ReportSection, Rheonomic, Scleronomic, System, Tuned,
+    from_fn, lanes, prelude, project, projected, steppers,
 };
+
+#[cfg(feature = "std")]
+pub use guen_runtime::Std;
 
 /// Declares a mechanical system and derives its equations of motion at compile time.
 ///
@@ -94,11 +98,12 @@ pub mod __private {
     pub use guen_macros::mechanical_system;
     pub use guen_runtime::checks::{check_hoisted, check_inertia, check_mass, check_pivot, largest};
     pub use guen_runtime::consistent;
+    pub use guen_runtime::lanes::Lanes;
     pub use guen_runtime::{
         BracketCoefficients, Catastatic, Class, Coefficient, Conservative, ConstantsError, Cost, Dual,
-        Holonomic, IncompleteLieGroup, LieGroup, Lift, Linearization, Monitored, Nonholonomic, Operator,
-        Ordered, Positions, PositionsError, Real, Report, ReportSection, Rheonomic, Scleronomic, System,
-        nalgebra_conversions, seeded, zero_bracket,
+        Holonomic, IncompleteLieGroup, Laned, LieGroup, Lift, Linearization, Monitored, Nonholonomic,
+        Operator, Ordered, Positions, PositionsError, Real, Report, ReportSection, Rheonomic, Scleronomic,
+        System, nalgebra_conversions, seeded, zero_bracket,
     };
 }
 

@@ -112,7 +112,7 @@ impl<R: Real, const N: usize> Mul for Dual<R, N> {
     #[inline]
     fn mul(self, other: Self) -> Self {
         let (u, v) = (self.value, other.value);
-        Self { value: u * v, tangent: self.zip(other, |du, dv| v * du + u * dv) }
+        Self { value: u * v, tangent: self.zip(other, |du, dv| v.times_plus(du, u * dv)) }
     }
 }
 
@@ -197,6 +197,36 @@ impl<R: Real, const N: usize> Real for Dual<R, N> {
     #[inline]
     fn epsilon() -> Self {
         Self::constant(R::epsilon())
+    }
+
+    // d(u v + w) = (v du + u dv) + dw
+    #[inline]
+    fn times_plus(self, b: Self, c: Self) -> Self {
+        let (u, v) = (self.value, b.value);
+        let product = self.zip(b, |du, dv| v.times_plus(du, u * dv));
+        let tangent = core::array::from_fn(|k| product[k] + c.tangent[k]);
+        Self { value: u.times_plus(v, c.value), tangent }
+    }
+
+    #[inline]
+    fn times_minus(self, b: Self, c: Self) -> Self {
+        let (u, v) = (self.value, b.value);
+        let product = self.zip(b, |du, dv| v.times_plus(du, u * dv));
+        let tangent = core::array::from_fn(|k| product[k] - c.tangent[k]);
+        Self { value: u.times_minus(v, c.value), tangent }
+    }
+
+    #[inline]
+    fn minus_times(self, b: Self, c: Self) -> Self {
+        let (u, v) = (b.value, c.value);
+        let product = b.zip(c, |du, dv| v.times_plus(du, u * dv));
+        let tangent = core::array::from_fn(|k| self.tangent[k] - product[k]);
+        Self { value: self.value.minus_times(u, v), tangent }
+    }
+
+    #[inline(always)]
+    fn vectorize<T>(function: impl FnOnce() -> T) -> T {
+        R::vectorize(function)
     }
 
     // sin' = cos, cos' = -sin

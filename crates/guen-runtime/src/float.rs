@@ -3,6 +3,8 @@
 //! `libm` is ordinary Rust, so the results do not depend on the platform's C library, nor on whether some other
 //! crate of the build switches `std` on. What `core` itself defines to the bit, such as `abs`, is taken from there.
 
+use crate::elementary;
+use crate::lanes::register::Vector;
 use crate::real::{Ordered, Real};
 
 /// `|num| / |den|` as `quotient * 2^-shift`, the last bit of the quotient set if a remainder was dropped.
@@ -77,6 +79,22 @@ macro_rules! real_for_float {
             $float::EPSILON
         }
 
+        // As written on floats: without optimisation one call, not one for each operator.
+        #[inline]
+        fn times_plus(self, b: Self, c: Self) -> Self {
+            self * b + c
+        }
+
+        #[inline]
+        fn times_minus(self, b: Self, c: Self) -> Self {
+            self * b - c
+        }
+
+        #[inline]
+        fn minus_times(self, b: Self, c: Self) -> Self {
+            self - b * c
+        }
+
         $(
             #[inline]
             fn $method(self) -> Self {
@@ -111,18 +129,31 @@ macro_rules! real_for_float {
     };
 }
 
+#[inline]
+fn sin_cos(x: f64) -> (f64, f64) {
+    let (sin, cos) = elementary::sin_cos(Vector(x));
+    (sin.0, cos.0)
+}
+
+/// Through `f64`, hence rounded correctly but for one argument in some 2^28.
+#[inline]
+fn sin_cos_single(x: f32) -> (f32, f32) {
+    let (sin, cos) = sin_cos(x.into());
+    (sin as f32, cos as f32)
+}
+
 impl Real for f64 {
     real_for_float!(f64, 1 << 53, libm::scalbn, {
-        sin: libm::sin, cos: libm::cos, tan: libm::tan, asin: libm::asin, acos: libm::acos, atan: libm::atan,
+        tan: libm::tan, asin: libm::asin, acos: libm::acos, atan: libm::atan,
         sinh: libm::sinh, cosh: libm::cosh, tanh: libm::tanh, exp: libm::exp, ln: libm::log,
-        sqrt: libm::sqrt, abs: f64::abs,
-    }, sin_cos: libm::sincos, atan2: libm::atan2);
+        sqrt: elementary::sqrt, abs: f64::abs,
+    }, sin_cos: sin_cos, atan2: libm::atan2);
 
     #[inline]
     fn root(self, q: u32) -> Self {
         match q {
             1 => self,
-            2 => libm::sqrt(self),
+            2 => elementary::sqrt(self),
             3 => libm::cbrt(self),
             _ => high_root(self, q),
         }
@@ -131,10 +162,10 @@ impl Real for f64 {
 
 impl Real for f32 {
     real_for_float!(f32, 1 << 24, libm::scalbnf, {
-        sin: libm::sinf, cos: libm::cosf, tan: libm::tanf, asin: libm::asinf, acos: libm::acosf,
+        tan: libm::tanf, asin: libm::asinf, acos: libm::acosf,
         atan: libm::atanf, sinh: libm::sinhf, cosh: libm::coshf, tanh: libm::tanhf, exp: libm::expf,
         ln: libm::logf, sqrt: libm::sqrtf, abs: f32::abs,
-    }, sin_cos: libm::sincosf, atan2: libm::atan2f);
+    }, sin_cos: sin_cos_single, atan2: libm::atan2f);
 
     #[inline]
     fn root(self, q: u32) -> Self {

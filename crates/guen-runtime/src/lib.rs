@@ -20,7 +20,10 @@
 //! - `std`: nothing yet; what needs an operating system goes behind it. Elementary functions come from `libm` with
 //!   or without it.
 #![no_std]
-#![forbid(unsafe_code)]
+#![deny(unsafe_code)]
+
+#[cfg(feature = "std")]
+extern crate std;
 
 mod bracket;
 pub mod checks;
@@ -28,8 +31,10 @@ mod classification;
 mod cost;
 mod decimal;
 mod dual;
+mod elementary;
 mod error;
 mod float;
+pub mod lanes;
 mod lift;
 mod linearization;
 mod nalgebra_support;
@@ -39,6 +44,7 @@ mod real;
 mod report;
 pub mod steppers;
 mod system;
+mod tuned;
 
 pub use bracket::{BracketCoefficients, Coefficient};
 pub use classification::{
@@ -54,7 +60,12 @@ pub use operator::{Applied, Coordinate, Function, Operator};
 pub use positions::{Positions, PositionsError, Projected, consistent, project, projected};
 pub use real::{Ordered, Real};
 pub use report::{Report, ReportSection};
-pub use system::{FromFn, Monitored, System, from_fn};
+pub use system::{FromFn, Laned, Monitored, System, from_fn};
+pub use tuned::{
+    Digits7, Digits7Functions, Digits13, Digits13Functions, Functions, Fused, FusedOperations, Tuned,
+};
+#[cfg(feature = "std")]
+pub use tuned::{Std, StdFunctions};
 
 #[cfg(feature = "nalgebra")]
 pub use nalgebra;

@@ -211,6 +211,51 @@ pub trait Real:
         Self::one() / self
     }
 
+    /// `self * b + c`. With one rounding where the real is [`Fused`](crate::Fused); every other real rounds twice, as
+    /// if it were written so. Generated code calls this and the next two for products that are used in one sum.
+    ///
+    /// Not named `mul_add`, because `f64` has a method of that name, which rounds once.
+    ///
+    /// ```
+    /// use guen_runtime::Real;
+    /// assert_eq!(2.0_f64.times_plus(3.0, 4.0), 10.0);
+    /// ```
+    #[inline(always)]
+    fn times_plus(self, b: Self, c: Self) -> Self {
+        self * b + c
+    }
+
+    /// `self * b - c`, as [`times_plus`](Real::times_plus).
+    #[inline(always)]
+    fn times_minus(self, b: Self, c: Self) -> Self {
+        self * b - c
+    }
+
+    /// `self - b * c`, as [`times_plus`](Real::times_plus).
+    #[inline(always)]
+    fn minus_times(self, b: Self, c: Self) -> Self {
+        self - b * c
+    }
+
+    /// Calls a function, with the instructions that the real consists of at hand.
+    ///
+    /// For numbers this is the call and nothing else. For [`Lanes`](crate::lanes::Lanes), whose instructions a
+    /// default build must not use everywhere, it is a function compiled for them into which the argument is inlined:
+    /// so the argument should be a closure marked `#[inline(always)]`, around straight-line code. Calls nest.
+    ///
+    /// ```
+    /// use guen_runtime::Real;
+    ///
+    /// fn square<R: Real>(x: R) -> R {
+    ///     R::vectorize(#[inline(always)] || x * x)
+    /// }
+    /// assert_eq!(square(3.0), 9.0);
+    /// ```
+    #[inline(always)]
+    fn vectorize<T>(function: impl FnOnce() -> T) -> T {
+        function()
+    }
+
     /// Whether the number is neither infinite nor NaN; of a composed number, whether all its parts are finite.
     fn is_finite(self) -> bool;
 }

@@ -1,5 +1,6 @@
 //! What a stepper integrates: a right-hand side over `N` reals, and what it may be asked to keep.
 
+use crate::lanes::Lanes;
 use crate::positions::PositionsError;
 use crate::real::Real;
 
@@ -46,6 +47,43 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize> System<R, N> for &S {
     fn restore(&self, t: R, state: &mut [R; N]) -> Result<(), PositionsError> {
         (**self).restore(t, state)
     }
+}
+
+/// A system over `f64` of which several, with constants of their own, can be put into lanes.
+///
+/// Generated systems are; so is one written by hand that is generic in its real:
+///
+/// ```
+/// use guen_runtime::lanes::Lanes;
+/// use guen_runtime::{Laned, Real, System};
+///
+/// struct Decay<R>(R);
+///
+/// impl<R: Real> System<R, 1> for Decay<R> {
+///     #[inline]
+///     fn rhs(&self, _t: R, &[x]: &[R; 1]) -> [R; 1] {
+///         R::vectorize(#[inline(always)] || [-self.0 * x])
+///     }
+/// }
+///
+/// impl Laned<1> for Decay<f64> {
+///     type In<L: Lanes> = Decay<L>;
+///
+///     fn gather<'a, L: Lanes>(member: impl Fn(usize) -> &'a Self) -> Decay<L> {
+///         Decay(L::from_fn(|lane| member(lane).0))
+///     }
+/// }
+/// # fn is_laned<S: Laned<1>>(_: S) {}
+/// # is_laned(Decay(0.5));
+/// ```
+pub trait Laned<const N: usize>: System<f64, N> {
+    /// The system over lanes.
+    type In<L: Lanes>: System<L, N>;
+
+    /// The systems `member(0) .. member(L::COUNT - 1)` side by side.
+    fn gather<'a, L: Lanes>(member: impl Fn(usize) -> &'a Self) -> Self::In<L>
+    where
+        Self: 'a;
 }
 
 /// A system with quantities that its exact solutions keep, for a monitor to watch.

@@ -22,13 +22,19 @@ pub(super) trait Loads {
 pub(super) fn body(instructions: &[Instruction], outputs: &[Value], loads: &dyn Loads) -> String {
     const BLOCK: usize = 100;
     let values = instructions.iter().flat_map(defined).map(|v| v.index() + 1).max().unwrap_or(0);
-    let mut writer = Writer { names: vec![String::new(); values], text: String::new() };
+    let absorbed = absorbed(instructions, outputs, values);
+    let mut writer = Writer { names: vec![String::new(); values], text: String::new(), absorbed };
     // Where each value is used last; results count as used behind the end.
     let mut last_use = vec![0; values];
-    let steps: Vec<&Instruction> = instructions.iter().filter(|i| !writer.load(i, loads)).collect();
+    let mut steps: Vec<&Instruction> = instructions.iter().filter(|i| !writer.load(i, loads)).collect();
+    steps.retain(|step| writer.absorbed[step.result.index()].is_none());
     for (place, step) in steps.iter().enumerate() {
         for operand in step.operation.operands() {
             last_use[operand.index()] = place;
+            if let Some((a, b)) = writer.absorbed[operand.index()] {
+                last_use[a.index()] = place;
+                last_use[b.index()] = place;
+            }
         }
     }
     for output in outputs {
@@ -59,6 +65,30 @@ pub(super) fn body(instructions: &[Instruction], outputs: &[Value], loads: &dyn 
     writer.text
 }
 
+/// The factors of products that have no statement of their own, by value: those that one sum uses and nothing else.
+/// The sum is written as a call that lets the real fuse both; of two products the first.
+fn absorbed(instructions: &[Instruction], outputs: &[Value], values: usize) -> Vec<Option<(Value, Value)>> {
+    let mut uses = vec![0_usize; values];
+    let mut factors = vec![None; values];
+    for value in instructions.iter().flat_map(|i| i.operation.operands()).chain(outputs.iter().copied()) {
+        uses[value.index()] += 1;
+    }
+    let mut absorbed = vec![None; values];
+    for Instruction { result, operation } in instructions {
+        match *operation {
+            Operation::Mul(a, b) => factors[result.index()] = Some((a, b)),
+            Operation::Add(a, b) | Operation::Sub(a, b) => {
+                let product = |v: &Value| uses[v.index()] == 1 && factors[v.index()].is_some();
+                if let Some(v) = [a, b].into_iter().find(product) {
+                    absorbed[v.index()] = factors[v.index()];
+                }
+            }
+            _ => {}
+        }
+    }
+    absorbed
+}
+
 /// The values that an instruction defines.
 fn defined(instruction: &Instruction) -> impl Iterator<Item = Value> {
     let second = match instruction.operation {
@@ -72,6 +102,8 @@ struct Writer {
     /// How each value is written where it is used.
     names: Vec<String>,
     text: String,
+    /// The factors of products that are written inside of a sum.
+    absorbed: Vec<Option<(Value, Value)>>,
 }
 
 impl Writer {
@@ -92,13 +124,25 @@ impl Writer {
     fn statement(&mut self, Instruction { result, operation }: &Instruction) {
         let r = result.index();
         let v = |value: &Value| self.names[value.index()].as_str();
+        let product = |value: &Value| self.absorbed[value.index()];
+        let fused = |method: &str, [a, b, c]: [&Value; 3]| {
+            format!("let v{r} = <R as __guen::Real>::{method}({}, {}, {});", v(a), v(b), v(c))
+        };
         let statement = match operation {
             Operation::Number(value) => format!("let v{r} = {};", number(value)),
             Operation::Pi => format!("let v{r} = <R as __guen::Real>::pi();"),
             // Loads have no statement.
             Operation::Symbol(_) | Operation::Prepared(_) => String::new(),
-            Operation::Add(a, b) => format!("let v{r} = {} + {};", v(a), v(b)),
-            Operation::Sub(a, b) => format!("let v{r} = {} - {};", v(a), v(b)),
+            Operation::Add(a, b) => match (product(a), product(b)) {
+                (Some((x, y)), _) => fused("times_plus", [&x, &y, b]),
+                (_, Some((x, y))) => fused("times_plus", [&x, &y, a]),
+                _ => format!("let v{r} = {} + {};", v(a), v(b)),
+            },
+            Operation::Sub(a, b) => match (product(a), product(b)) {
+                (Some((x, y)), _) => fused("times_minus", [&x, &y, b]),
+                (_, Some((x, y))) => fused("minus_times", [a, &x, &y]),
+                _ => format!("let v{r} = {} - {};", v(a), v(b)),
+            },
             Operation::Neg(a) => format!("let v{r} = -{};", v(a)),
             Operation::Mul(a, b) => format!("let v{r} = {} * {};", v(a), v(b)),
             Operation::Div(a, b) => format!("let v{r} = {} / {};", v(a), v(b)),

@@ -51,6 +51,10 @@ impl Places {
     }
 }
 
+/// The start of a call that has the closure after it compiled with the instructions of the real: see
+/// `Real::vectorize`.
+const VECTORIZED: &str = "<R as __guen::Real>::vectorize(#[inline(always)] ||";
+
 /// What a function of the state is given.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Signature {
@@ -108,7 +112,7 @@ pub(super) fn module(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
         };
         let _ = write!(
             text,
-            "#[inline] pub(super) fn {}<R: __guen::Real>(c: &[R; {constants}], k: &[R; {hoisted}]{given}) -> [R; {}] {{ {} }}",
+            "#[inline] pub(super) fn {}<R: __guen::Real>(c: &[R; {constants}], k: &[R; {hoisted}]{given}) -> [R; {}] {{ {VECTORIZED} {{ {} }}) }}",
             program.name,
             program.outputs.len(),
             body(&program.instructions, &program.outputs, &places),

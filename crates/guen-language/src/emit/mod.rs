@@ -8,6 +8,7 @@ mod code;
 mod constants;
 mod documentation;
 mod functions;
+mod lanes;
 mod motion;
 mod operators;
 mod outline;
@@ -121,6 +122,7 @@ pub fn emit(mut derived: Derived<'_>) -> TokenStream {
         constants::items(&derived, &layout, &report),
         records::items(&derived, &layout),
         motion::items(&derived, &layout),
+        lanes::items(&layout),
         positions::items(&derived, &layout),
         physical::items(&derived, &layout),
         operators::items(&mut derived, &layout),

@@ -13,11 +13,13 @@ mod control;
 pub mod dop853;
 mod dop853_coefficients;
 mod integrate;
+mod lanes;
 pub mod rk4;
 mod tableau;
 
 pub use dop853::Dop853;
 pub use integrate::{Done, Outcome, Statistics};
+pub use lanes::InLanes;
 pub use rk4::Rk4;
 
 use crate::real::Real;

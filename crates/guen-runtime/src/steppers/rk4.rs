@@ -33,14 +33,19 @@ where
     R: Real,
     S: System<R, N> + ?Sized,
 {
-    let half = h * R::from_ratio(1, 2);
-    let k1 = system.rhs(t, x);
-    let k2 = system.rhs(t + half, &shifted(x, half, &k1));
-    let k3 = system.rhs(t + half, &shifted(x, half, &k2));
-    let k4 = system.rhs(t + h, &shifted(x, h, &k3));
-    let two = R::from_ratio(2, 1);
-    let sixth = h * R::from_ratio(1, 6);
-    core::array::from_fn(|i| x[i] + sixth * (k1[i] + two * (k2[i] + k3[i]) + k4[i]))
+    R::vectorize(
+        #[inline(always)]
+        || {
+            let half = h * R::from_ratio(1, 2);
+            let k1 = system.rhs(t, x);
+            let k2 = system.rhs(t + half, &shifted(x, half, &k1));
+            let k3 = system.rhs(t + half, &shifted(x, half, &k2));
+            let k4 = system.rhs(t + h, &shifted(x, h, &k3));
+            let two = R::from_ratio(2, 1);
+            let sixth = h * R::from_ratio(1, 6);
+            core::array::from_fn(|i| x[i] + sixth * (k1[i] + two * (k2[i] + k3[i]) + k4[i]))
+        },
+    )
 }
 
 /// The classical Runge-Kutta method with a fixed step.
@@ -132,7 +137,7 @@ struct Run<R, const N: usize> {
 
 /// The steps from one time to another: `origin + k h` for `k = 1 .. count - 1`, then the target.
 #[derive(Clone, Copy)]
-struct Leg<R> {
+pub(super) struct Leg<R> {
     origin: R,
     target: R,
     /// The step with its direction.
@@ -144,7 +149,7 @@ struct Leg<R> {
 }
 
 impl<R: Real> Leg<R> {
-    fn new(origin: R, target: R, step: R) -> Result<Self, Cause> {
+    pub(super) fn new(origin: R, target: R, step: R) -> Result<Self, Cause> {
         /// Beyond this many steps `f64` no longer counts them one by one.
         const COUNTABLE: f64 = (1_u64 << 53) as f64;
         /// Roundings by which a span may exceed a whole number of steps without being given a further one: those
@@ -164,6 +169,17 @@ impl<R: Real> Leg<R> {
         let count = libm::ceil(steps * (1.0 - slack)).max(1.0) as i64;
         Ok(Self { origin, target, h: if span < 0.0 { -step } else { step }, index: 0, count })
     }
+
+    /// The end and the length of the next step.
+    pub(super) fn next(&mut self, now: R) -> Result<(R, R), Cause> {
+        self.index += 1;
+        let (next, h) = if self.index == self.count {
+            (self.target, self.target - now)
+        } else {
+            (self.origin + self.h * R::from_ratio(self.index, 1), self.h)
+        };
+        if next == now { Err(Cause::StepUnderflow) } else { Ok((next, h)) }
+    }
 }
 
 impl<R: Real, const N: usize> Course<R, N> for Run<R, N> {
@@ -177,15 +193,7 @@ impl<R: Real, const N: usize> Course<R, N> for Run<R, N> {
             Some(leg) if leg.target == target && leg.index < leg.count => leg,
             _ => Leg::new(now, target, self.step)?,
         };
-        leg.index += 1;
-        let (next, h) = if leg.index == leg.count {
-            (target, target - now)
-        } else {
-            (leg.origin + leg.h * R::from_ratio(leg.index, 1), leg.h)
-        };
-        if next == now {
-            return Err(Cause::StepUnderflow);
-        }
+        let (next, h) = leg.next(now)?;
         let mut state = step(system, now, &self.progress.state, h);
         self.progress.statistics.evaluations += 4;
         if !all_finite(&state) {

@@ -1,0 +1,69 @@
+//! The hoop of the paper: declared with its three constraints, and the smallest program known.
+
+use guen::{Real, mechanical_system};
+
+mechanical_system! {
+    /// A hoop of radius `a` and mass one that rolls without slipping on a horizontal plane.
+    pub system Hoop {
+        constants   { a > 0, A > 0, C > 0, g = 9.81 }
+        coordinates { theta, psi, phi, xi, eta, zeta }
+        parameters {
+            eta1 = dot(theta);
+            eta2 = dot(psi)*sin(theta);
+            eta3 = dot(psi)*cos(theta) + dot(phi);
+        }
+        constraints {
+            eta4: dot(xi)   = a*sin(theta)*sin(psi)*dot(theta) - a*cos(theta)*cos(psi)*dot(psi) - a*cos(psi)*dot(phi);
+            eta5: dot(eta)  + a*sin(theta)*cos(psi)*dot(theta) + a*cos(theta)*sin(psi)*dot(psi) + a*sin(psi)*dot(phi) = 0;
+            eta6: dot(zeta) - a*cos(theta)*dot(theta) = 0;
+        }
+        kinetic_energy = 1/2*(dot(xi)^2 + dot(eta)^2 + dot(zeta)^2) + 1/2*(A*eta1^2 + A*eta2^2 + C*eta3^2);
+        force_function = -a*g*sin(theta);
+    }
+}
+
+/// The radius, and what else of the constants occurs.
+#[derive(Clone, Copy)]
+pub struct ByHand<R> {
+    pub a: R,
+    pub k: [R; 5],
+}
+
+impl ByHand<f64> {
+    pub fn new(a: f64, inertia: f64, axial: f64, g: f64) -> Self {
+        let square = a * a;
+        let tilt = inertia + square;
+        let k = [
+            inertia / tilt,
+            (axial + square) / tilt,
+            a * g / tilt,
+            axial / inertia,
+            square / (axial + square),
+        ];
+        Self { a, k }
+    }
+}
+
+impl<R: Real> ByHand<R> {
+    #[inline(always)]
+    pub fn rhs(&self, &[theta, psi, _, _, _, _, eta1, eta2, eta3]: &[R; 9]) -> [R; 9] {
+        let [k1, k2, k3, k4, k5] = self.k;
+        let (sin, cos) = theta.sin_cos();
+        let (sin_psi, cos_psi) = psi.sin_cos();
+        let w = eta2 / sin;
+        let c = cos * w;
+        let p = self.a * eta1;
+        let (u, v) = (p * sin, self.a * eta3);
+        [
+            eta1,
+            w,
+            eta3 - c,
+            u * sin_psi - v * cos_psi,
+            -u * cos_psi - v * sin_psi,
+            p * cos,
+            k1 * eta2 * c - k2 * eta2 * eta3 - k3 * cos,
+            eta1 * (k4 * eta3 - c),
+            k5 * eta1 * eta2,
+        ]
+    }
+}

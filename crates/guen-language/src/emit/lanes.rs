@@ -1,0 +1,48 @@
+//! How several prepared systems become one over lanes.
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use super::Layout;
+
+pub(super) fn items(layout: &Layout) -> TokenStream {
+    let size = layout.size;
+    let prepared = quote! {
+        Prepared {
+            constants: ::core::array::from_fn(|k| <L as __guen::Lanes>::from_fn(|lane| member(lane).constants[k])),
+            hoisted: ::core::array::from_fn(|k| <L as __guen::Lanes>::from_fn(|lane| member(lane).hoisted[k])),
+        }
+    };
+    if layout.inputs == 0 {
+        return quote! {
+            impl __guen::Laned<#size> for Prepared<f64> {
+                type In<L: __guen::Lanes> = Prepared<L>;
+
+                fn gather<'a, L: __guen::Lanes>(
+                    member: impl ::core::ops::Fn(usize) -> &'a Self,
+                ) -> Prepared<L> {
+                    #prepared
+                }
+            }
+        };
+    }
+    let inputs = layout.inputs;
+    quote! {
+        impl __guen::Laned<#size> for Driven<f64> {
+            type In<L: __guen::Lanes> = Driven<L>;
+
+            fn gather<'a, L: __guen::Lanes>(
+                driven: impl ::core::ops::Fn(usize) -> &'a Self,
+            ) -> Driven<L> {
+                let member = |lane: usize| &driven(lane).system;
+                let inputs: [L; #inputs] = ::core::array::from_fn(|k| {
+                    <L as __guen::Lanes>::from_fn(|lane| {
+                        let inputs: [f64; #inputs] = ::core::convert::From::from(driven(lane).inputs);
+                        inputs[k]
+                    })
+                });
+                Driven { system: #prepared, inputs: ::core::convert::From::from(inputs) }
+            }
+        }
+    }
+}
