@@ -7,6 +7,7 @@
 
 pub mod by_hand;
 pub mod chains;
+pub mod platform;
 mod random;
 mod subjects;
 pub mod systems;

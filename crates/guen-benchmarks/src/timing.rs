@@ -108,25 +108,28 @@ impl fmt::Display for Comparison {
     }
 }
 
-/// Times pairs of batches.
-pub fn compare(first: &mut dyn Timed, second: &mut dyn Timed, pairs: usize) -> Comparison {
-    let counts = [repetitions(first), repetitions(second)];
-    let mut shortest = [f64::INFINITY; 2];
-    let mut ratios: Vec<f64> = (0..pairs)
-        .map(|pair| {
-            let mut times = [0.0; 2];
-            for turn in 0..2 {
-                let which = (pair + turn) % 2;
-                let program: &mut dyn Timed = if which == 0 { first } else { second };
-                times[which] =
-                    seconds(program, counts[which]) * 1e9 / (counts[which] * program.evaluations()) as f64;
-                shortest[which] = shortest[which].min(times[which]);
+/// How often a program is repeated to fill a batch.
+#[derive(Clone, Copy, Debug)]
+pub struct Batch(usize);
+
+impl Batch {
+    /// Finds the repetitions, which warms the program up as well.
+    pub fn of(program: &mut dyn Timed) -> Self {
+        let mut times = 1;
+        loop {
+            let taken = seconds(program, times);
+            if taken >= BATCH.as_secs_f64() {
+                return Batch(times);
             }
-            times[0] / times[1]
-        })
-        .collect();
-    let (ratio, interval) = median_with_interval(&mut ratios);
-    Comparison { nanoseconds: shortest, ratio, interval }
+            let factor = (1.2 * BATCH.as_secs_f64() / taken.max(1e-9)).clamp(1.5, 100.0);
+            times = (times as f64 * factor).ceil() as usize;
+        }
+    }
+
+    /// The time of one evaluation in one batch.
+    pub fn nanoseconds(self, program: &mut dyn Timed) -> f64 {
+        seconds(program, self.0) * 1e9 / (self.0 * program.evaluations()) as f64
+    }
 }
 
 fn seconds(program: &mut dyn Timed, times: usize) -> f64 {
@@ -135,17 +138,24 @@ fn seconds(program: &mut dyn Timed, times: usize) -> f64 {
     start.elapsed().as_secs_f64()
 }
 
-/// How often a program is to be repeated for one batch.
-fn repetitions(program: &mut dyn Timed) -> usize {
-    let mut times = 1;
-    loop {
-        let taken = seconds(program, times);
-        if taken >= BATCH.as_secs_f64() {
-            return times;
-        }
-        let factor = (1.2 * BATCH.as_secs_f64() / taken.max(1e-9)).clamp(1.5, 100.0);
-        times = (times as f64 * factor).ceil() as usize;
-    }
+/// Times pairs of batches.
+pub fn compare(first: &mut dyn Timed, second: &mut dyn Timed, pairs: usize) -> Comparison {
+    let batches = [Batch::of(first), Batch::of(second)];
+    let mut shortest = [f64::INFINITY; 2];
+    let mut ratios: Vec<f64> = (0..pairs)
+        .map(|pair| {
+            let mut times = [0.0; 2];
+            for turn in 0..2 {
+                let which = (pair + turn) % 2;
+                let program: &mut dyn Timed = if which == 0 { first } else { second };
+                times[which] = batches[which].nanoseconds(program);
+                shortest[which] = shortest[which].min(times[which]);
+            }
+            times[0] / times[1]
+        })
+        .collect();
+    let (ratio, interval) = median_with_interval(&mut ratios);
+    Comparison { nanoseconds: shortest, ratio, interval }
 }
 
 /// The median, and the interval between order statistics that a median lies in with 95 percent: of `n` values as many
