@@ -27,6 +27,7 @@ pub mod checks;
 mod classification;
 mod cost;
 mod decimal;
+mod differentiable;
 mod dual;
 mod error;
 mod float;
@@ -39,6 +40,7 @@ mod real;
 mod report;
 pub mod steppers;
 mod system;
+mod vitals;
 
 pub use bracket::{BracketCoefficients, Coefficient};
 pub use classification::{
@@ -46,6 +48,7 @@ pub use classification::{
     Scleronomic,
 };
 pub use cost::Cost;
+pub use differentiable::{Differentiable, Equations, Generic, generic};
 pub use dual::Dual;
 pub use error::{BodyFault, Cause, ConstantsError, IntegrationError, Setting};
 pub use lift::Lift;
@@ -55,6 +58,7 @@ pub use positions::{Positions, PositionsError, Projected, consistent, project, p
 pub use real::{Ordered, Real};
 pub use report::{Report, ReportSection};
 pub use system::{FromFn, Monitored, System, from_fn};
+pub use vitals::Vitals;
 
 #[cfg(feature = "nalgebra")]
 pub use nalgebra;
