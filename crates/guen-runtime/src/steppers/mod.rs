@@ -10,6 +10,7 @@
 //! is finite, and a failure carries the last of them.
 
 mod adaptive;
+mod collocation;
 mod control;
 mod course;
 mod dense;
@@ -18,9 +19,12 @@ mod dop853_coefficients;
 mod euler;
 mod events;
 mod fixed;
+mod gauss;
 mod guard;
 mod integration;
 mod landing;
+mod lu;
+mod radau5;
 pub mod rk4;
 mod rk8;
 mod tableau;
@@ -32,8 +36,10 @@ pub use dense::Dense;
 pub use dop853::Dop853;
 pub use euler::Euler;
 pub use events::{Direction, Event, Occurrence};
+pub use gauss::{Gauss4, Gauss6};
 pub use guard::Guard;
 pub use integration::Integration;
+pub use radau5::Radau5;
 pub use rk4::Rk4;
 pub use rk8::Rk8;
 pub use tsit5::Tsit5;
