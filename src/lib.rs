@@ -47,10 +47,11 @@
 #![forbid(unsafe_code)]
 
 pub use guen_runtime::{
-    BodyFault, BracketCoefficients, Catastatic, Class, Coefficient, Conservative, ConstantsError, Coordinate,
-    Cost, Dual, Function, Holonomic, IncompleteLieGroup, IntegrationError, LieGroup, Lift, Linearization,
-    Monitored, Nonholonomic, Operator, Ordered, Positions, PositionsError, Projected, Real, Report,
-    ReportSection, Rheonomic, Scleronomic, System, from_fn, prelude, project, projected, steppers,
+    BodyFault, BracketCoefficients, Catastatic, Cause, Class, Coefficient, Conservative, ConstantsError,
+    Coordinate, Cost, Differentiable, Dual, Equations, Function, Generic, Holonomic, IncompleteLieGroup,
+    IntegrationError, LieGroup, Lift, Linearization, Monitored, Nonholonomic, Operator, Ordered, Positions,
+    PositionsError, Projected, Real, Report, ReportSection, Rheonomic, Scleronomic, Setting, System, Vitals,
+    from_fn, generic, prelude, project, projected, steppers,
 };
 
 /// Declares a mechanical system and derives its equations of motion at compile time.
@@ -95,10 +96,10 @@ pub mod __private {
     pub use guen_runtime::checks::{check_hoisted, check_inertia, check_mass, check_pivot, largest};
     pub use guen_runtime::consistent;
     pub use guen_runtime::{
-        BracketCoefficients, Catastatic, Class, Coefficient, Conservative, ConstantsError, Cost, Dual,
-        Holonomic, IncompleteLieGroup, LieGroup, Lift, Linearization, Monitored, Nonholonomic, Operator,
-        Ordered, Positions, PositionsError, Real, Report, ReportSection, Rheonomic, Scleronomic, System,
-        nalgebra_conversions, seeded, zero_bracket,
+        BracketCoefficients, Catastatic, Class, Coefficient, Conservative, ConstantsError, Cost,
+        Differentiable, Dual, Holonomic, IncompleteLieGroup, LieGroup, Lift, Linearization, Monitored,
+        Nonholonomic, Operator, Ordered, Positions, PositionsError, Real, Report, ReportSection, Rheonomic,
+        Scleronomic, System, Vitals, nalgebra_conversions, seeded, zero_bracket,
     };
 }
 

@@ -8,6 +8,7 @@ mod code;
 mod constants;
 mod documentation;
 mod functions;
+mod integrated;
 mod motion;
 mod operators;
 mod outline;
