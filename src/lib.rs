@@ -47,11 +47,12 @@
 #![forbid(unsafe_code)]
 
 pub use guen_runtime::{
-    BodyFault, BracketCoefficients, Catastatic, Class, Coefficient, Conservative, ConstantsError, Coordinate,
-    Cost, Digits7, Digits13, Dual, Function, Functions, Fused, Holonomic, IncompleteLieGroup,
-    IntegrationError, Laned, LieGroup, Lift, Linearization, Monitored, Nonholonomic, Operator, Ordered,
-    Positions, PositionsError, Projected, Real, Report, ReportSection, Rheonomic, Scleronomic, System, Tuned,
-    from_fn, lanes, prelude, project, projected, steppers,
+    BodyFault, BracketCoefficients, Catastatic, Cause, Class, Coefficient, Conservative, ConstantsError,
+    Coordinate, Cost, Differentiable, Digits7, Digits13, Dual, Equations, Function, Functions, Fused,
+    Generic, Holonomic, IncompleteLieGroup, IntegrationError, Laned, LieGroup, Lift, Linearization,
+    Monitored, Nonholonomic, Operator, Ordered, Positions, PositionsError, Projected, Real, Report,
+    ReportSection, Rheonomic, Scleronomic, Setting, System, Tuned, Vitals, from_fn, generic, lanes, prelude,
+    project, projected, steppers,
 };
 
 #[cfg(feature = "std")]
@@ -100,10 +101,10 @@ pub mod __private {
     pub use guen_runtime::consistent;
     pub use guen_runtime::lanes::Lanes;
     pub use guen_runtime::{
-        BracketCoefficients, Catastatic, Class, Coefficient, Conservative, ConstantsError, Cost, Dual,
-        Holonomic, IncompleteLieGroup, Laned, LieGroup, Lift, Linearization, Monitored, Nonholonomic,
-        Operator, Ordered, Positions, PositionsError, Real, Report, ReportSection, Rheonomic, Scleronomic,
-        System, nalgebra_conversions, seeded, zero_bracket,
+        BracketCoefficients, Catastatic, Class, Coefficient, Conservative, ConstantsError, Cost,
+        Differentiable, Dual, Holonomic, IncompleteLieGroup, Laned, LieGroup, Lift, Linearization, Monitored,
+        Nonholonomic, Operator, Ordered, Positions, PositionsError, Real, Report, ReportSection, Rheonomic,
+        Scleronomic, System, Vitals, nalgebra_conversions, seeded, zero_bracket,
     };
 }
 

@@ -1,7 +1,14 @@
 //! Published decimal numbers, turned into [`Real::from_parts`](crate::Real::from_parts)'s form at compile time.
 
+use crate::real::Real;
+
 /// A number as a sum of two scaled integers, for [`Real::from_parts`](crate::Real::from_parts).
 pub(crate) type Parts = [(i64, i32); 2];
+
+/// A row of published numbers in the real `R`.
+pub(crate) fn reals<R: Real, const M: usize>(parts: &[Parts; M]) -> [R; M] {
+    core::array::from_fn(|j| R::from_parts(&parts[j]))
+}
 
 /// Bits of the leading part: the precision of `f64`, so that an `f64` is the decimal rounded once.
 const LEADING: u32 = 53;

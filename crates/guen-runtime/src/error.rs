@@ -80,7 +80,7 @@ impl fmt::Display for ConstantsError {
 impl Error for ConstantsError {}
 
 /// Why an integration could not go on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Cause {
     /// A state or a rate is infinite or NaN: the motion left the domain of the chart or of a force, or grew out
@@ -96,6 +96,41 @@ pub enum Cause {
     },
     /// The state could not be put back onto the constraints on positions.
     Positions,
+    /// The equations of an implicit step were not solved: the step is too long for them, or the Jacobian is singular
+    /// or not finite. An adaptive stepper reports this only after shorter steps did not avoid it.
+    NoConvergence,
+    /// An energy that the exact motion keeps has changed by more than the guard allows. The time and state beside
+    /// this cause are the last at which it was within the bound.
+    Energy {
+        /// The time at which the change was found.
+        found: f64,
+        /// The change, relative to the scale of the energy.
+        change: f64,
+        /// The limit.
+        limit: f64,
+    },
+    /// A constraint on positions is violated by more than the guard allows. The time and state beside this cause are
+    /// the last at which it was not.
+    Residual {
+        /// The time at which the violation was found.
+        found: f64,
+        /// The largest left side of the constraints, in its own unit.
+        residual: f64,
+        /// The limit.
+        limit: f64,
+    },
+    /// The motion came to the edge of the chart, where the equations divide by zero. The time and state beside this
+    /// cause are the last on this side of the limit.
+    Edge {
+        /// The time at which it was found.
+        found: f64,
+        /// Which of the functions that must not vanish; a generated system has their formulas in `DOMAIN`.
+        function: usize,
+        /// Its value there relative to its largest one since the start; negative if it has changed its sign.
+        distance: f64,
+        /// The limit.
+        limit: f64,
+    },
     /// A setting or an argument makes no sense: nothing was integrated with it.
     Setting(Setting),
 }
@@ -110,6 +145,14 @@ pub enum Setting {
     Tolerance,
     /// The time to go to is not finite.
     Time,
+    /// The times of samples do not run in order from the start to the end.
+    Samples,
+    /// An event's tolerance is not a nonnegative number.
+    Event,
+    /// A limit of the guard is negative or no number.
+    Guard,
+    /// The number of evaluations allowed is not enough for one step.
+    Budget,
 }
 
 impl fmt::Display for Cause {
@@ -123,15 +166,42 @@ impl fmt::Display for Cause {
             Self::Setting(Setting::Tolerance) => {
                 f.write_str("the tolerances are not nonnegative numbers with a positive sum")
             }
+            Self::NoConvergence => f.write_str("the equations of an implicit step cannot be solved"),
+            Self::Energy { found, change, limit } => {
+                write!(
+                    f,
+                    "by t = {found} the energy had changed by {change:e} of its scale, and {limit:e} is allowed"
+                )
+            }
+            Self::Residual { found, residual, limit } => {
+                write!(f, "by t = {found} a constraint was off by {residual:e}, and {limit:e} is allowed")
+            }
+            Self::Edge { found, function, distance, limit } => {
+                write!(
+                    f,
+                    "by t = {found} the motion had come to the edge of the chart: function {function} that must "
+                )?;
+                write!(f, "not vanish was at {distance:e} of its largest value, and {limit:e} is the limit")
+            }
             Self::Setting(Setting::Time) => f.write_str("the final time is not finite"),
+            Self::Setting(Setting::Samples) => {
+                f.write_str("the times of samples do not run in order from the start to the end")
+            }
+            Self::Setting(Setting::Event) => {
+                f.write_str("the tolerance of an event is not a nonnegative number")
+            }
+            Self::Setting(Setting::Guard) => f.write_str("a limit of the guard is not a nonnegative number"),
+            Self::Setting(Setting::Budget) => {
+                f.write_str("the number of evaluations is not enough for one step")
+            }
         }
     }
 }
 
 /// A failed integration: where it stopped, why, and what had been reached.
 ///
-/// `time` and `state` are those of the last accepted step, so the part of the motion before the failure is not
-/// lost: continue from there with other settings, or take it as the result.
+/// `time` and `state` are those of the last accepted step, or the last that a guard found in order, so the part of the
+/// motion before the failure is not lost: continue from there with other settings, or take it as the result.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct IntegrationError<R, const N: usize> {
     /// The time that was reached.

@@ -5,10 +5,10 @@
 //! | question | answer |
 //! | --- | --- |
 //! | what is a number? | [`Real`], [`Ordered`], [`Dual`]; [`Lift`] embeds a base real |
-//! | what is integrated? | [`System`], [`Monitored`], [`from_fn`] |
+//! | what is integrated? | [`System`], [`Monitored`], [`Differentiable`], [`from_fn`], [`generic`] |
 //! | what acts on functions? | [`Operator`], [`Function`], [`Coordinate`], [`BracketCoefficients`] |
 //! | what is known at compile time? | [`Class`], the markers [`Holonomic`] to [`Conservative`], [`Cost`] |
-//! | how is it integrated? | [`steppers`]: [`Rk4`](steppers::Rk4), [`Dop853`](steppers::Dop853) |
+//! | how is it integrated? | [`steppers`]: an [`Integration`](steppers::Integration) run by one of nine methods |
 //! | what holds of positions? | [`Positions`], [`consistent`], [`project`], [`projected`] |
 //! | what can go wrong? | [`ConstantsError`], [`IntegrationError`] with its [`Cause`], [`PositionsError`] |
 //!
@@ -30,6 +30,7 @@ pub mod checks;
 mod classification;
 mod cost;
 mod decimal;
+mod differentiable;
 mod dual;
 mod elementary;
 mod error;
@@ -45,6 +46,7 @@ mod report;
 pub mod steppers;
 mod system;
 mod tuned;
+mod vitals;
 
 pub use bracket::{BracketCoefficients, Coefficient};
 pub use classification::{
@@ -52,6 +54,7 @@ pub use classification::{
     Scleronomic,
 };
 pub use cost::Cost;
+pub use differentiable::{Differentiable, Equations, Generic, generic};
 pub use dual::Dual;
 pub use error::{BodyFault, Cause, ConstantsError, IntegrationError, Setting};
 pub use lift::Lift;
@@ -66,13 +69,17 @@ pub use tuned::{
 };
 #[cfg(feature = "std")]
 pub use tuned::{Std, StdFunctions};
+pub use vitals::Vitals;
 
 #[cfg(feature = "nalgebra")]
 pub use nalgebra;
 
 /// What a program that integrates systems wants in scope.
 pub mod prelude {
-    pub use crate::steppers::{Done, Dop853, Outcome, Rk4, Statistics};
+    pub use crate::steppers::{
+        Direction, Done, Dop853, Euler, Event, Gauss4, Gauss6, Guard, Integration, Outcome, Radau5, Rk4, Rk8,
+        Statistics, Tsit5,
+    };
     pub use crate::{
         Cause, Coordinate, Dual, Function, IntegrationError, Lift, Monitored, Operator, Ordered, Real,
         System, from_fn,

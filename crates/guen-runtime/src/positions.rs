@@ -7,8 +7,10 @@
 use core::error::Error;
 use core::fmt;
 
+use crate::differentiable::Differentiable;
 use crate::real::{Ordered, Real};
 use crate::system::{Monitored, System};
+use crate::vitals::Vitals;
 
 /// A system with constraints on positions `f(t, x) = 0`: `H` of them, on `N` coordinates.
 pub trait Positions<R: Real, const N: usize, const H: usize> {
@@ -336,6 +338,28 @@ where
 
     fn restore(&self, t: R, state: &mut [R; M]) -> Result<(), PositionsError> {
         project(&self.0, t, state).map(|_| ())
+    }
+
+    fn vitals(&self, t: R, state: &[R; M]) -> Vitals<R> {
+        self.0.vitals(t, state)
+    }
+
+    fn edges(&self, t: R, state: &[R; M], values: &mut [R]) -> usize {
+        self.0.edges(t, state, values)
+    }
+}
+
+impl<R, S, const N: usize, const H: usize, const M: usize> Differentiable<R, M> for Projected<S, N, H>
+where
+    R: Ordered,
+    S: Differentiable<R, M> + Positions<R, N, H>,
+{
+    fn jacobian(&self, t: R, state: &[R; M]) -> [[R; M]; M] {
+        self.0.jacobian(t, state)
+    }
+
+    fn along(&self, t: R, state: &[R; M], dt: R, dx: &[R; M]) -> [R; M] {
+        self.0.along(t, state, dt, dx)
     }
 }
 

@@ -3,6 +3,7 @@
 use crate::lanes::Lanes;
 use crate::positions::PositionsError;
 use crate::real::Real;
+use crate::vitals::Vitals;
 
 /// A system of `N` ordinary differential equations of first order over the real `R`.
 ///
@@ -35,6 +36,21 @@ pub trait System<R: Real, const N: usize> {
     fn restore(&self, _t: R, _state: &mut [R; N]) -> Result<(), PositionsError> {
         Ok(())
     }
+
+    /// Quantities that the exact motion keeps, for the [`Guard`](crate::steppers::Guard) of a stepper to look at now
+    /// and then. None, unless a system says more; generated systems do.
+    #[inline]
+    fn vitals(&self, _t: R, _state: &[R; N]) -> Vitals<R> {
+        Vitals::default()
+    }
+
+    /// Writes functions that must not vanish, since the system's chart or its equations end there, to the head of
+    /// `values`, and returns how many: none, unless a system says more. What does not fit is left out. A guard refuses
+    /// to go on where one of them changes its sign or becomes small.
+    #[inline]
+    fn edges(&self, _t: R, _state: &[R; N], _values: &mut [R]) -> usize {
+        0
+    }
 }
 
 impl<R: Real, S: System<R, N> + ?Sized, const N: usize> System<R, N> for &S {
@@ -46,6 +62,16 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize> System<R, N> for &S {
     #[inline]
     fn restore(&self, t: R, state: &mut [R; N]) -> Result<(), PositionsError> {
         (**self).restore(t, state)
+    }
+
+    #[inline]
+    fn vitals(&self, t: R, state: &[R; N]) -> Vitals<R> {
+        (**self).vitals(t, state)
+    }
+
+    #[inline]
+    fn edges(&self, t: R, state: &[R; N], values: &mut [R]) -> usize {
+        (**self).edges(t, state, values)
     }
 }
 

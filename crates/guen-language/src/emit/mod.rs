@@ -8,6 +8,7 @@ mod code;
 mod constants;
 mod documentation;
 mod functions;
+mod integrated;
 mod lanes;
 mod motion;
 mod operators;

@@ -3,7 +3,7 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
-use super::Layout;
+use super::{Layout, integrated};
 use crate::derive::Derived;
 use crate::model::FormKind;
 
@@ -307,19 +307,27 @@ fn systems(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
         }
     };
     if layout.inputs == 0 {
-        let monitored = monitored(quote!(Prepared<R>), quote!(self));
+        let (owner, prepared) = (quote!(Prepared<R>), quote!(self));
+        let guarded = integrated::guarded(derived, layout, &prepared);
+        let differentiable = integrated::differentiable(layout, &owner, &prepared);
+        let monitored = monitored(owner, prepared);
         return quote! {
             impl<R: __guen::Real> __guen::System<R, #size> for Prepared<R> {
                 #[inline]
                 fn rhs(&self, t: R, state: &[R; #size]) -> [R; #size] {
                     program::rhs(&self.constants, &self.hoisted, t, state, &[])
                 }
+
+                #guarded
             }
+            #differentiable
             #monitored
         };
     }
-    let _ = derived;
-    let monitored = monitored(quote!(Driven<R>), quote!(self.system));
+    let (owner, prepared) = (quote!(Driven<R>), quote!(self.system));
+    let guarded = integrated::guarded(derived, layout, &prepared);
+    let differentiable = integrated::differentiable(layout, &owner, &prepared);
+    let monitored = monitored(owner, prepared);
     quote! {
         /// A prepared system with inputs that are held: what steppers integrate during a step.
         #[::core::prelude::v1::derive(
@@ -346,7 +354,10 @@ fn systems(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
                 let inputs = ::core::convert::From::from(self.inputs);
                 program::rhs(&self.system.constants, &self.system.hoisted, t, state, &inputs)
             }
+
+            #guarded
         }
+        #differentiable
         #monitored
     }
 }

@@ -359,6 +359,10 @@ fn prepared(system: &Ident, names: &Names) -> TokenStream {
             fn energy(&self, _: R, _: &[R; #size]) -> R { ::core::unreachable!() }
             fn residual(&self, _: R, _: &[R; #size]) -> R { ::core::unreachable!() }
         }
+        impl<R: __guen::Real> __guen::Differentiable<R, #size> for #owner<R> {
+            fn jacobian(&self, _: R, _: &[R; #size]) -> [[R; #size]; #size] { ::core::unreachable!() }
+            fn along(&self, _: R, _: &[R; #size], _: R, _: &[R; #size]) -> [R; #size] { ::core::unreachable!() }
+        }
         #(impl<R> __guen::#kinds for #owner<R> {})*
         /// The class.
         pub const CLASS: __guen::Class = __guen::Class::Undecided;

@@ -1,23 +1,75 @@
-//! Step control for DOP853: how large an error is, and which step comes next.
+//! Step control: how large an error is, and which step comes next.
 //!
 //! Everything is computed in `f64`, whatever the real of the state: a step size needs few digits, and so the
 //! step stays a constant when the state is a dual, whose tangents must not be led through the control.
 //!
 //! Source: the program `dop853.f` named in the coefficients' module, with its default settings and without the
-//! stabilised control (`beta = 0`).
+//! stabilised control (`beta = 0`); the other methods differ in the constants that they give.
 
+use crate::error::{Cause, Setting};
 use crate::real::Real;
 
-/// The factor on the step that is predicted to meet the tolerance just so.
-const SAFETY: f64 = 0.9;
-/// A step is never shortened below this part of the one before.
-const SHORTEN: f64 = 0.333;
-/// A step never grows beyond this multiple of the one before.
-const GROW: f64 = 6.0;
+/// How a method's step follows its error.
+#[derive(Clone, Copy, Debug)]
+pub struct Control {
+    /// The error of a step falls as this power of the step.
+    pub power: u32,
+    /// The factor on the step that is predicted to meet the tolerance just so.
+    pub safety: f64,
+    /// A step is never shortened below this part of the one before.
+    pub shorten: f64,
+    /// A step never grows beyond this multiple of the one before.
+    pub grow: f64,
+}
 
-/// `x^(1/8)`: the error of a step falls as the eighth power of the step. Three roots are faster than a power.
-fn eighth_root(x: f64) -> f64 {
-    libm::sqrt(libm::sqrt(libm::sqrt(x)))
+impl Control {
+    /// `x^(1/power)`, to about ten digits for powers that are none of two.
+    pub fn root(&self, x: f64) -> f64 {
+        match self.power {
+            1 => x,
+            2 => libm::sqrt(x),
+            4 => libm::sqrt(libm::sqrt(x)),
+            8 => libm::sqrt(libm::sqrt(libm::sqrt(x))),
+            power => libm::pow(x, 1.0 / f64::from(power)),
+        }
+    }
+
+    /// The factor to the next step after an accepted step with this error.
+    pub fn factor_after_success(&self, error: f64) -> f64 {
+        if error == 0.0 { self.grow } else { (self.safety / self.root(error)).clamp(self.shorten, self.grow) }
+    }
+
+    /// The factor to the repeated step after a rejected step with this error, which may be infinite.
+    pub fn factor_after_failure(&self, error: f64) -> f64 {
+        f64::max(self.shorten, self.safety / self.root(error))
+    }
+
+    /// The factor to the repeated step after one that was not finite, about whose error nothing is known.
+    pub fn factor_out_of_domain(&self) -> f64 {
+        self.shorten
+    }
+
+    /// The first step, from the guess `h`, the size of the slope and its change over the guess:
+    /// `step^power max(|x'|, |x''|) = 1/100`, at most a hundred times the guess.
+    pub fn first_step(&self, h: f64, slope_size: f64, change_size: f64, longest: f64) -> f64 {
+        /// Below this, neither slope nor curvature limits the step.
+        const STILL: f64 = 1e-15;
+
+        let size = (change_size / h).max(slope_size);
+        let step = if size <= STILL { f64::max(1e-6, 1e-3 * h) } else { self.root(0.01 / size) };
+        // An infinite curvature would give a zero step: the trial steps will find out how short is short enough.
+        let step = if step > 0.0 { step } else { h };
+        step.min(100.0 * h).min(longest)
+    }
+}
+
+/// A rest of less than this part of a step is not left for a step of its own.
+pub(super) const STRETCH: f64 = 1.01;
+
+/// The shortest step at this time: it must span so many spacings of numbers.
+pub(super) fn shortest<R: Real>(time: R) -> f64 {
+    const SPACINGS: f64 = 10.0;
+    SPACINGS * time.to_f64().abs() * R::epsilon().to_f64()
 }
 
 /// The tolerances: an error `e` in an entry `x` counts as `e / (absolute + relative |x|)`.
@@ -28,49 +80,24 @@ pub(super) struct Tolerance {
 }
 
 impl Tolerance {
-    pub fn is_valid(self) -> bool {
-        self.relative >= 0.0 && self.relative.is_finite() && self.absolute > 0.0 && self.absolute.is_finite()
+    pub fn check(self) -> Result<(), Cause> {
+        let valid = self.relative >= 0.0
+            && self.relative.is_finite()
+            && self.absolute > 0.0
+            && self.absolute.is_finite();
+        if valid { Ok(()) } else { Err(Cause::Setting(Setting::Tolerance)) }
     }
 
-    /// The sum of the squares of the entries of `error`, each measured by the tolerance at the larger of the
-    /// entries of `x` and `y`.
-    fn squares<R: Real, const N: usize>(self, error: &[R; N], x: &[R; N], y: &[R; N]) -> f64 {
-        let mut sum = 0.0;
-        for i in 0..N {
-            let size = x[i].to_f64().abs().max(y[i].to_f64().abs());
-            let part = error[i].to_f64() / (self.absolute + self.relative * size);
-            sum += part * part;
-        }
-        sum
+    /// What an error in each entry is multiplied by, the larger of the entries of `x` and `y` counting.
+    #[inline]
+    pub fn weights<R: Real, const N: usize>(self, x: &[R; N], y: &[R; N]) -> [f64; N] {
+        core::array::from_fn(|i| {
+            let (a, b) = (x[i].to_f64().abs(), y[i].to_f64().abs());
+            1.0 / (self.absolute + self.relative * if a > b { a } else { b })
+        })
     }
 
-    /// The error of a step of size `h` in units of the tolerance; a step is good up to one.
-    ///
-    /// ```text
-    /// err = |h| s5 / sqrt(N (s5 + s3 / 100))
-    /// ```
-    ///
-    /// with `s5`, `s3` the sums of squares of the two estimates, as slopes. Since `s5` falls as `h^10` and `s3` as
-    /// `h^6`, this falls as `h^8`.
-    pub fn error<R: Real, const N: usize>(
-        self,
-        h: f64,
-        error5: &[R; N],
-        error3: &[R; N],
-        x: &[R; N],
-        y: &[R; N],
-    ) -> f64 {
-        let five = self.squares(error5, x, y);
-        let three = self.squares(error3, x, y);
-        let denominator = five + 0.01 * three;
-        if denominator == 0.0 {
-            return 0.0;
-        }
-        h.abs() * five / libm::sqrt(N as f64 * denominator)
-    }
-
-    /// Two quantities for the first step: a guess that moves the state by about a hundredth of its size, and the
-    /// size of the slope.
+    /// A guess for the first step that moves the state by about a hundredth of its size, and the size of the slope.
     pub fn first_guess<R: Real, const N: usize>(
         self,
         x: &[R; N],
@@ -82,8 +109,9 @@ impl Tolerance {
         /// The guess then.
         const TINY: f64 = 1e-6;
 
-        let slope_squares = self.squares(slope, x, x);
-        let state_squares = self.squares(x, x, x);
+        let weights = self.weights(x, x);
+        let slope_squares = squares(slope, &weights);
+        let state_squares = squares(x, &weights);
         let guess = if slope_squares <= NEGLIGIBLE || state_squares <= NEGLIGIBLE {
             TINY
         } else {
@@ -91,38 +119,20 @@ impl Tolerance {
         };
         (guess.min(longest), libm::sqrt(slope_squares))
     }
-
-    /// The first step, from the guess `h`, the size of the slope and its change over the guess:
-    /// `step^8 max(|x'|, |x''|) = 1/100`, at most a hundred times the guess.
-    pub fn first_step<R: Real, const N: usize>(
-        self,
-        h: f64,
-        slope_size: f64,
-        change: &[R; N],
-        x: &[R; N],
-        longest: f64,
-    ) -> f64 {
-        /// Below this, neither slope nor curvature limits the step.
-        const STILL: f64 = 1e-15;
-
-        let curvature = libm::sqrt(self.squares(change, x, x)) / h;
-        let size = curvature.max(slope_size);
-        let step = if size <= STILL { f64::max(1e-6, 1e-3 * h) } else { eighth_root(0.01 / size) };
-        // An infinite curvature would give a zero step: the trial steps will find out how short is short enough.
-        let step = if step > 0.0 { step } else { h };
-        step.min(100.0 * h).min(longest)
-    }
 }
 
-/// The factor to the next step after an accepted step with this error.
-pub(super) fn factor_after_success(error: f64) -> f64 {
-    if error == 0.0 { GROW } else { (SAFETY / eighth_root(error)).clamp(SHORTEN, GROW) }
+/// The sum of the squares of the weighted entries.
+#[inline]
+pub(super) fn squares<R: Real, const N: usize>(values: &[R; N], weights: &[f64; N]) -> f64 {
+    let parts: [f64; N] = core::array::from_fn(|i| {
+        let part = values[i].to_f64() * weights[i];
+        part * part
+    });
+    parts.iter().sum()
 }
 
-/// The factor to the repeated step after a rejected step with this error, which may be infinite.
-pub(super) fn factor_after_failure(error: f64) -> f64 {
-    f64::max(SHORTEN, SAFETY / eighth_root(error))
+/// The root of the mean of the squares of the weighted entries.
+#[inline]
+pub(super) fn mean_size<R: Real, const N: usize>(values: &[R; N], weights: &[f64; N]) -> f64 {
+    libm::sqrt(squares(values, weights) / (N.max(1) as f64))
 }
-
-/// The factor to the repeated step after one that was not finite, about whose error nothing is known.
-pub(super) const FACTOR_OUT_OF_DOMAIN: f64 = SHORTEN;

@@ -1,15 +1,16 @@
-//! Dormand and Prince's method of order eight with estimates of orders five and three: the adaptive driver. One
+//! Dormand and Prince's method of order eight with estimates of orders five and three: the adaptive method. One
 //! step of it is a [`Trial`] of the [`Tableau`].
-
-use core::ops::ControlFlow;
 
 pub use super::tableau::{Tableau, Trial};
 
-use super::control::{self, Tolerance};
-use super::integrate::{Course, Done, Progress};
-use super::{all_finite, shifted};
-use crate::error::{Cause, IntegrationError, Setting};
-use crate::real::Ordered;
+use super::adaptive::{Adaptive, Attempt, Pair, Settings, Step};
+use super::control::{self, Control, Tolerance};
+use super::course::Method;
+use super::dense::Dense;
+use super::landing::short_ways;
+use super::shifted;
+use super::tableau::Stages;
+use crate::real::{Ordered, Real};
 use crate::system::System;
 
 /// DOP853: order eight, with a step that adapts to a tolerance.
@@ -20,15 +21,16 @@ use crate::system::System;
 /// err = |h| s5 / sqrt(N (s5 + s3 / 100)) <= 1      s_q = sum_i (error_q,i / (atol + rtol max |x_i|))^2
 /// ```
 ///
-/// with the estimates `error_5` and `error_3` of the [`Trial`] and the maximum over both ends of the step. The
-/// next step is the present one times `0.9 err^(-1/8)`, between a third and six times, and no longer than the
-/// present one after a rejection.
+/// with the estimates `error_5` and `error_3` of the [`Trial`] and the maximum over both ends of the step. Since `s5`
+/// falls as `h^10` and `s3` as `h^6`, this falls as `h^8`. The next step is the present one times `0.9 err^(-1/8)`,
+/// between a third and six times, and no longer than the present one after a rejection.
 ///
-/// - For smooth right-hand sides that are not stiff. Not symplectic; there is no dense output yet.
+/// - For smooth right-hand sides that are not stiff. Not symplectic.
 /// - Tolerances and steps are `f64` for every real; with duals the values alone decide the steps.
 /// - A trial that is not finite is repeated with a shorter step, so a motion may approach the edge of a domain;
-///   if it cannot be continued, the error says [`Cause::NotFinite`].
-/// - Cost of a step: 12 evaluations if accepted, 11 if not.
+///   if it cannot be continued, the error says [`Cause::NotFinite`](crate::Cause::NotFinite).
+/// - Cost of a step: 12 evaluations if accepted, 11 if not; three more where dense output, of order seven, is asked
+///   for.
 /// - Source: E. Hairer and G. Wanner's program `dop853.f`, described in Hairer, Norsett and Wanner, *Solving
 ///   Ordinary Differential Equations I*, second edition, Springer 1993, as the program's own header says.
 ///   Differs from it in three points: trials that are not finite are caught, the step before a landing is
@@ -77,181 +79,54 @@ impl<R: Ordered> Dop853<R> {
         Self { first_step: Some(first_step), ..self }
     }
 
-    /// Integrates from `x0` at `t0` to `t1`, forwards or backwards, calling the observer after each accepted
-    /// step; when it breaks, the run ends with [`Outcome::Stopped`](super::Outcome::Stopped). The last step is
-    /// shortened to land on `t1`. A span of zero is no step at all.
-    ///
-    /// # Errors
-    ///
-    /// Tolerances or a first step that make no sense; too many steps; a step that underflows; a state or rate
-    /// that is not finite. The error carries the last good time and state.
-    pub fn integrate<S, O, const N: usize>(
-        &self,
-        system: &S,
-        t0: R,
-        x0: &[R; N],
-        t1: R,
-        observer: O,
-    ) -> Result<Done<R, N>, IntegrationError<R, N>>
-    where
-        S: System<R, N> + ?Sized,
-        O: FnMut(R, &[R; N]) -> ControlFlow<()>,
-    {
-        self.course(t0, x0).integrate(system, t1, observer)
-    }
-
-    /// Integrates from `x0` at `t0` through the given times, and calls `visit` with the index, the time and the
-    /// state at each of them, exactly: steps are shortened to land there, so many times make many steps. The
-    /// times may repeat and may turn back.
-    ///
-    /// # Errors
-    ///
-    /// Those of [`integrate`](Dop853::integrate); times visited before stay visited.
-    pub fn sample<S, V, const N: usize>(
-        &self,
-        system: &S,
-        t0: R,
-        x0: &[R; N],
-        times: &[R],
-        visit: V,
-    ) -> Result<Done<R, N>, IntegrationError<R, N>>
-    where
-        S: System<R, N> + ?Sized,
-        V: FnMut(usize, R, &[R; N]),
-    {
-        self.course(t0, x0).sample(system, times, visit)
-    }
-
-    fn course<const N: usize>(&self, t0: R, x0: &[R; N]) -> Run<'_, R, N> {
-        Run { method: self, progress: Progress::new(t0, x0), ready: None }
+    fn settings(&self) -> Settings {
+        let tolerance = Tolerance { relative: self.rtol, absolute: self.atol };
+        Settings { tolerance, max_steps: self.max_steps, first_step: self.first_step }
     }
 }
 
-/// A run of the method.
-struct Run<'a, R, const N: usize> {
-    method: &'a Dop853<R>,
-    progress: Progress<R, N>,
-    /// What the next step starts with; absent before the first.
-    ready: Option<Ready<R, N>>,
-}
+impl<R: Real, const N: usize> Pair<R, N> for Tableau<R> {
+    type Stages = Stages<R, N>;
 
-/// The slope at the present state, which the step before computed, and the step to try.
-#[derive(Clone, Copy)]
-struct Ready<R, const N: usize> {
-    slope: [R; N],
-    step: f64,
-}
+    const TRIAL: u64 = 11;
+    const CONTROL: Control = Control { power: 8, safety: 0.9, shorten: 0.333, grow: 6.0 };
 
-impl<R: Ordered, const N: usize> Run<'_, R, N> {
-    fn tolerance(&self) -> Tolerance {
-        Tolerance { relative: self.method.rtol, absolute: self.method.atol }
-    }
-
-    /// Checks the settings and finds the first slope and step.
-    fn start<S>(&mut self, system: &S, target: R) -> Result<Ready<R, N>, Cause>
+    #[inline]
+    fn attempt<S>(&self, system: &S, t: R, x: &[R; N], k1: &[R; N], h: R) -> Attempt<R, Stages<R, N>, N>
     where
         S: System<R, N> + ?Sized,
     {
-        let tolerance = self.tolerance();
-        if !tolerance.is_valid() {
-            return Err(Cause::Setting(Setting::Tolerance));
+        let stages = self.stages(system, t, x, k1, h);
+        let slope = self.slope(&stages);
+        Attempt { state: shifted(x, h, &slope), stages, end: None }
+    }
+
+    #[inline]
+    fn error(&self, attempt: &Attempt<R, Stages<R, N>, N>, h: f64, weights: &[f64; N]) -> f64 {
+        let slope = self.slope(&attempt.stages);
+        let five = control::squares(&self.error5(&attempt.stages), weights);
+        let three = control::squares(&self.error3(&attempt.stages, &slope), weights);
+        let denominator = five + 0.01 * three;
+        if denominator == 0.0 {
+            return 0.0;
         }
-        let Progress { time, state, .. } = self.progress;
-        if !time.is_finite() || !all_finite(&state) {
-            return Err(Cause::NotFinite);
-        }
-        let slope = system.rhs(time, &state);
-        self.progress.statistics.evaluations += 1;
-        if !all_finite(&slope) {
-            return Err(Cause::NotFinite);
-        }
-        if let Some(step) = self.method.first_step {
-            let valid = step > 0.0 && step.is_finite();
-            return if valid { Ok(Ready { slope, step }) } else { Err(Cause::Setting(Setting::Step)) };
-        }
-        let span = (target - time).to_f64();
-        let (guess, slope_size) = tolerance.first_guess(&state, &slope, span.abs());
-        let h = R::from_f64(guess.copysign(span));
-        let ahead = system.rhs(time + h, &shifted(&state, h, &slope));
-        self.progress.statistics.evaluations += 1;
-        let change = core::array::from_fn(|i| ahead[i] - slope[i]);
-        let step = if all_finite(&change) {
-            tolerance.first_step(guess, slope_size, &change, &state, span.abs())
-        } else {
-            guess
-        };
-        Ok(Ready { slope, step })
+        h * five / libm::sqrt(N as f64 * denominator)
+    }
+
+    fn dense<S>(&self, system: &S, step: &Step<'_, R, Stages<R, N>, N>) -> (Dense<R, N>, u64)
+    where
+        S: System<R, N> + ?Sized,
+    {
+        (self.dense(system, step.stages, step.from, step.to, step.end, step.h), 3)
     }
 }
 
-impl<R: Ordered, const N: usize> Course<R, N> for Run<'_, R, N> {
-    fn progress(&self) -> &Progress<R, N> {
-        &self.progress
-    }
+impl<R: Ordered, S: System<R, N> + ?Sized, const N: usize> Method<R, S, N> for Dop853<R> {
+    type Course<'a> = Adaptive<'a, Tableau<R>, Stages<R, N>, R, N>;
 
-    fn advance<S: System<R, N> + ?Sized>(&mut self, system: &S, target: R) -> Result<(), Cause> {
-        /// A rest of less than this part of a step is not left for a step of its own.
-        const STRETCH: f64 = 1.01;
-        /// How many spacings of numbers at the present time a step must span.
-        const SPACINGS: f64 = 10.0;
-
-        let Ready { slope, mut step } = match self.ready {
-            Some(ready) => ready,
-            None => self.start(system, target)?,
-        };
-        let tolerance = self.tolerance();
-        let Progress { time, state, .. } = self.progress;
-        let rest = target - time;
-        let span = rest.to_f64();
-        let shortest = SPACINGS * time.to_f64().abs() * R::epsilon().to_f64();
-        let mut rejected = false;
-        let mut finite = true;
-        loop {
-            let statistics = &mut self.progress.statistics;
-            if statistics.accepted + statistics.rejected >= self.method.max_steps {
-                return Err(Cause::TooManySteps { limit: self.method.max_steps });
-            }
-            if step <= shortest {
-                return Err(if finite { Cause::StepUnderflow } else { Cause::NotFinite });
-            }
-            let landing = STRETCH * step > span.abs();
-            let (next, h) = if landing {
-                (target, rest)
-            } else {
-                let h = R::from_f64(step.copysign(span));
-                (time + h, h)
-            };
-            let size = if landing { span.abs() } else { step };
-            let mut trial = self.method.tableau.trial(system, time, &state, &slope, h);
-            statistics.evaluations += 11;
-            let error = tolerance.error(size, &trial.error5, &trial.error3, &state, &trial.state);
-            finite = all_finite(&trial.state) && !error.is_nan();
-            if finite && error <= 1.0 {
-                system.restore(next, &mut trial.state).map_err(|_| Cause::Positions)?;
-                let next_slope = system.rhs(next, &trial.state);
-                statistics.evaluations += 1;
-                finite = all_finite(&next_slope);
-                if finite {
-                    statistics.accepted += 1;
-                    let mut next_step = size * control::factor_after_success(error);
-                    if rejected {
-                        next_step = next_step.min(size);
-                    }
-                    // What was asked for beyond the landing has not become wrong by the landing.
-                    if landing {
-                        next_step = next_step.max(step);
-                    }
-                    self.progress.time = next;
-                    self.progress.state = trial.state;
-                    self.ready = Some(Ready { slope: next_slope, step: next_step });
-                    return Ok(());
-                }
-            }
-            statistics.rejected += 1;
-            rejected = true;
-            let factor =
-                if finite { control::factor_after_failure(error) } else { control::FACTOR_OUT_OF_DOMAIN };
-            step = size * factor;
-        }
+    fn start(&self, t0: R, x0: &[R; N]) -> Self::Course<'_> {
+        Adaptive::new(&self.tableau, self.settings(), t0, x0)
     }
 }
+
+short_ways!(Dop853 over Ordered, systems System);

@@ -1,11 +1,12 @@
 //! The published coefficients of DOP853, as decimals of up to 30 digits.
 //!
 //! Source: E. Hairer and G. Wanner's program `dop853.f` (version of April 25, 1996, corrected August 8, 2005),
-//! parameters `c`, `a`, `b`, `er` and `bhh`; scipy's table `dop853_coefficients.py` has the same numbers. Stages
+//! parameters `c`, `a`, `b`, `er`, `bhh` and, for the interpolant, `d`; scipy's table `dop853_coefficients.py` has the same numbers. Stages
 //! count from 1; a row lists the nonzero coefficients only, and its documentation the stages that they belong
 //! to. The tests check the row sums and the order conditions of all three formulas.
 //!
-//! The coefficients of the interpolant (`a14.`, `a15.`, `a16.`, `d`) belong here, too, once there is dense output.
+//! Digits: nodes, matrix and weights fulfil their sums to 27 digits, so a longer real loses at the 28th; the
+//! weights of the interpolant are tested to as many as their own sums have.
 
 use crate::decimal::{Parts, decimal};
 
@@ -143,6 +144,110 @@ pub(super) const B3: [Parts; 3] = [
     decimal("2.20588235294117647058823529412e-2"),
 ];
 
+/// The nodes of stages 14 to 16.
+pub(super) const C_DENSE: [Parts; 3] =
+    [decimal("1e-1"), decimal("2e-1"), decimal("7.77777777777777777777777777778e-1")];
+
+/// Stage 14, from stages 1, 7, 8, 9, 10, 11, 12 and 13, the slope at the end of the step.
+pub(super) const A14: [Parts; 8] = [
+    decimal("5.61675022830479523392909219681e-2"),
+    decimal("2.53500210216624811088794765333e-1"),
+    decimal("-2.46239037470802489917441475441e-1"),
+    decimal("-1.24191423263816360469010140626e-1"),
+    decimal("1.5329179827876569731206322685e-1"),
+    decimal("8.20105229563468988491666602057e-3"),
+    decimal("7.56789766054569976138603589584e-3"),
+    decimal("-8.298e-3"),
+];
+
+/// Stage 15, from stages 1, 6, 7, 8, 11, 12, 13, 14.
+pub(super) const A15: [Parts; 8] = [
+    decimal("3.18346481635021405060768473261e-2"),
+    decimal("2.83009096723667755288322961402e-2"),
+    decimal("5.35419883074385676223797384372e-2"),
+    decimal("-5.49237485713909884646569340306e-2"),
+    decimal("-1.08347328697249322858509316994e-4"),
+    decimal("3.82571090835658412954920192323e-4"),
+    decimal("-3.40465008687404560802977114492e-4"),
+    decimal("1.41312443674632500278074618366e-1"),
+];
+
+/// Stage 16, from stages 1, 6, 7, 8, 9, 13, 14, 15.
+pub(super) const A16: [Parts; 8] = [
+    decimal("-4.28896301583791923408573538692e-1"),
+    decimal("-4.69762141536116384314449447206"),
+    decimal("7.68342119606259904184240953878"),
+    decimal("4.06898981839711007970213554331"),
+    decimal("3.56727187455281109270669543021e-1"),
+    decimal("-1.39902416515901462129418009734e-3"),
+    decimal("2.9475147891527723389556272149"),
+    decimal("-9.15095847217987001081870187138"),
+];
+
+/// The weights of term `r4` of the interpolant, of stages 1, 6 to 12, 13, 14, 15, 16.
+pub(super) const D4: [Parts; 12] = [
+    decimal("-0.84289382761090128651353491142e1"),
+    decimal("0.56671495351937776962531783590e0"),
+    decimal("-0.30689499459498916912797304727e1"),
+    decimal("0.23846676565120698287728149680e1"),
+    decimal("0.21170345824450282767155149946e1"),
+    decimal("-0.87139158377797299206789907490e0"),
+    decimal("0.22404374302607882758541771650e1"),
+    decimal("0.63157877876946881815570249290e0"),
+    decimal("-0.88990336451333310820698117400e-1"),
+    decimal("0.18148505520854727256656404962e2"),
+    decimal("-0.91946323924783554000451984436e1"),
+    decimal("-0.44360363875948939664310572000e1"),
+];
+
+/// The weights of term `r5` of the interpolant, of stages 1, 6 to 12, 13, 14, 15, 16.
+pub(super) const D5: [Parts; 12] = [
+    decimal("0.10427508642579134603413151009e2"),
+    decimal("0.24228349177525818288430175319e3"),
+    decimal("0.16520045171727028198505394887e3"),
+    decimal("-0.37454675472269020279518312152e3"),
+    decimal("-0.22113666853125306036270938578e2"),
+    decimal("0.77334326684722638389603898808e1"),
+    decimal("-0.30674084731089398182061213626e2"),
+    decimal("-0.93321305264302278729567221706e1"),
+    decimal("0.15697238121770843886131091075e2"),
+    decimal("-0.31139403219565177677282850411e2"),
+    decimal("-0.93529243588444783865713862664e1"),
+    decimal("0.35816841486394083752465898540e2"),
+];
+
+/// The weights of term `r6` of the interpolant, of stages 1, 6 to 12, 13, 14, 15, 16.
+pub(super) const D6: [Parts; 12] = [
+    decimal("0.19985053242002433820987653617e2"),
+    decimal("-0.38703730874935176555105901742e3"),
+    decimal("-0.18917813819516756882830838328e3"),
+    decimal("0.52780815920542364900561016686e3"),
+    decimal("-0.11573902539959630126141871134e2"),
+    decimal("0.68812326946963000169666922661e1"),
+    decimal("-0.10006050966910838403183860980e1"),
+    decimal("0.77771377980534432092869265740e0"),
+    decimal("-0.27782057523535084065932004339e1"),
+    decimal("-0.60196695231264120758267380846e2"),
+    decimal("0.84320405506677161018159903784e2"),
+    decimal("0.11992291136182789328035130030e2"),
+];
+
+/// The weights of term `r7` of the interpolant, of stages 1, 6 to 12, 13, 14, 15, 16.
+pub(super) const D7: [Parts; 12] = [
+    decimal("-0.25693933462703749003312586129e2"),
+    decimal("-0.15418974869023643374053993627e3"),
+    decimal("-0.23152937917604549567536039109e3"),
+    decimal("0.35763911791061412378285349910e3"),
+    decimal("0.93405324183624310003907691704e2"),
+    decimal("-0.37458323136451633156875139351e2"),
+    decimal("0.10409964950896230045147246184e3"),
+    decimal("0.29840293426660503123344363579e2"),
+    decimal("-0.43533456590011143754432175058e2"),
+    decimal("0.96324553959188282948394950600e2"),
+    decimal("-0.39177261675615439165231486172e2"),
+    decimal("-0.14972683625798562581422125276e3"),
+];
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -188,6 +293,20 @@ mod tests {
         for (weights, total) in [(&B[..], 1), (&E5[..], 0), (&B3[..], 1)] {
             let sum: i128 = weights.iter().map(fixed).sum();
             assert!((sum - (total << 110)).abs() <= LAST_DIGIT, "{sum}");
+        }
+    }
+
+    /// The conditions that the further stages and the weights of the interpolant have to meet in all their digits:
+    /// rows sum to their nodes, and what is added to the cubic through both ends vanishes for a constant slope.
+    #[test]
+    fn the_interpolant_keeps_constant_slopes() {
+        for (row, node) in [&A14, &A15, &A16].into_iter().zip(&C_DENSE) {
+            let sum: i128 = row.iter().map(fixed).sum();
+            assert!((sum - fixed(node)).abs() <= 10 * LAST_DIGIT, "{sum}");
+        }
+        for weights in [&D4, &D5, &D6, &D7] {
+            let sum: i128 = weights.iter().map(fixed).sum();
+            assert!(sum.abs() <= 10 * LAST_DIGIT, "{sum}");
         }
     }
 

@@ -3,8 +3,9 @@
 //! All lanes share their times, which are those of a run in plain `f64`, and so are the states, to the bit. A lane that
 //! fails is set aside with its error, and the others go on.
 
-use super::integrate::{Done, Outcome, Statistics};
-use super::rk4::{Leg, Rk4, step};
+use super::course::{Done, Outcome, Statistics};
+use super::fixed::Leg;
+use super::rk4::{Rk4, step};
 use crate::error::{Cause, IntegrationError, Setting};
 use crate::lanes::{Lanes, Mask};
 use crate::system::System;

@@ -9,18 +9,42 @@
 //! stops at given times exactly. Sizes are fixed at compile time and nothing is allocated. Every accepted state
 //! is finite, and a failure carries the last of them.
 
+mod adaptive;
+mod collocation;
 mod control;
+mod course;
+mod dense;
 pub mod dop853;
 mod dop853_coefficients;
-mod integrate;
+mod euler;
+mod events;
+mod fixed;
+mod gauss;
+mod guard;
+mod integration;
+mod landing;
 mod lanes;
+mod lu;
+mod radau5;
 pub mod rk4;
+mod rk8;
 mod tableau;
+mod tsit5;
+mod tsit5_coefficients;
 
+pub use course::{Course, Done, Method, Outcome, Reached, Statistics};
+pub use dense::Dense;
 pub use dop853::Dop853;
-pub use integrate::{Done, Outcome, Statistics};
+pub use euler::Euler;
+pub use events::{Direction, Event, Occurrence};
+pub use gauss::{Gauss4, Gauss6};
+pub use guard::Guard;
+pub use integration::Integration;
 pub use lanes::InLanes;
+pub use radau5::Radau5;
 pub use rk4::Rk4;
+pub use rk8::Rk8;
+pub use tsit5::Tsit5;
 
 use crate::real::Real;
 
@@ -45,5 +69,6 @@ fn weighted<R: Real, const N: usize, const M: usize>(weights: &[R; M], slopes: [
 /// Whether every entry is finite.
 #[inline]
 fn all_finite<R: Real, const N: usize>(x: &[R; N]) -> bool {
-    x.iter().all(|entry| entry.is_finite())
+    // All of them, without a branch in between.
+    x.iter().fold(true, |finite, entry| finite & entry.is_finite())
 }

@@ -1,10 +1,11 @@
 //! The classical method of order four, with a fixed step.
 
-use core::ops::ControlFlow;
-
-use super::integrate::{Course, Done, Progress};
-use super::{all_finite, shifted};
-use crate::error::{Cause, IntegrationError, Setting};
+use super::course::{Method, Reached, Statistics};
+use super::dense::Dense;
+use super::fixed::{Fixed, Formula, Slopes};
+use super::landing::short_ways;
+use super::shifted;
+use crate::error::Cause;
 use crate::real::Real;
 use crate::system::System;
 
@@ -35,17 +36,24 @@ where
 {
     R::vectorize(
         #[inline(always)]
-        || {
-            let half = h * R::from_ratio(1, 2);
-            let k1 = system.rhs(t, x);
-            let k2 = system.rhs(t + half, &shifted(x, half, &k1));
-            let k3 = system.rhs(t + half, &shifted(x, half, &k2));
-            let k4 = system.rhs(t + h, &shifted(x, h, &k3));
-            let two = R::from_ratio(2, 1);
-            let sixth = h * R::from_ratio(1, 6);
-            core::array::from_fn(|i| x[i] + sixth * (k1[i] + two * (k2[i] + k3[i]) + k4[i]))
-        },
+        || step_from(system, t, x, &system.rhs(t, x), h),
     )
+}
+
+/// The step, where the slope at its beginning is known.
+#[inline(always)]
+fn step_from<R, S, const N: usize>(system: &S, t: R, x: &[R; N], k1: &[R; N], h: R) -> [R; N]
+where
+    R: Real,
+    S: System<R, N> + ?Sized,
+{
+    let half = h * R::from_ratio(1, 2);
+    let k2 = system.rhs(t + half, &shifted(x, half, k1));
+    let k3 = system.rhs(t + half, &shifted(x, half, &k2));
+    let k4 = system.rhs(t + h, &shifted(x, h, &k3));
+    let two = R::from_ratio(2, 1);
+    let sixth = h * R::from_ratio(1, 6);
+    core::array::from_fn(|i| x[i] + sixth * (k1[i] + two * (k2[i] + k3[i]) + k4[i]))
 }
 
 /// The classical Runge-Kutta method with a fixed step.
@@ -55,6 +63,7 @@ where
 ///   shortened to land on the final time; a rest of a few roundings is merged into the step before it.
 /// - The step is a positive duration; the direction follows from the times. A span of zero is no step at all.
 /// - Works for every [`Real`]: lanes, which share their time, included.
+/// - Dense output is the cubic through both ends of a step with their slopes, off by `O(h^4)` as the steps are.
 ///
 /// ```
 /// use core::ops::ControlFlow;
@@ -78,132 +87,44 @@ pub struct Rk4<R = f64> {
     pub step: R,
 }
 
-impl<R: Real> Rk4<R> {
-    /// Integrates from `x0` at `t0` to `t1`, calling the observer after each step; when it breaks, the run ends
-    /// with [`Outcome::Stopped`](super::Outcome::Stopped).
-    ///
-    /// # Errors
-    ///
-    /// A step that is not positive and finite, or too small to move time; a state that is not finite. The error
-    /// carries the last good time and state.
-    pub fn integrate<S, O, const N: usize>(
+impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Formula<R, S, N> for Rk4<R> {
+    type Memory = Slopes<R, N>;
+    const EVALUATIONS: u32 = 4;
+
+    #[inline]
+    fn step(
         &self,
         system: &S,
-        t0: R,
-        x0: &[R; N],
-        t1: R,
-        observer: O,
-    ) -> Result<Done<R, N>, IntegrationError<R, N>>
-    where
-        S: System<R, N> + ?Sized,
-        O: FnMut(R, &[R; N]) -> ControlFlow<()>,
-    {
-        self.course(t0, x0).integrate(system, t1, observer)
+        slopes: &mut Self::Memory,
+        from: &Reached<R, N>,
+        h: R,
+        _dense: bool,
+        statistics: &mut Statistics,
+    ) -> Result<[R; N], Cause> {
+        let slope = slopes.begin(system, from, statistics);
+        statistics.evaluations += 3;
+        Ok(step_from(system, from.time, &from.state, &slope, h))
     }
 
-    /// Integrates from `x0` at `t0` through the given times, and calls `visit` with the index, the time and the
-    /// state at each of them, exactly. The times may repeat and may turn back. From each one a new sequence of
-    /// full steps begins.
-    ///
-    /// # Errors
-    ///
-    /// Those of [`integrate`](Rk4::integrate); times visited before stay visited.
-    pub fn sample<S, V, const N: usize>(
+    fn dense(
         &self,
         system: &S,
-        t0: R,
-        x0: &[R; N],
-        times: &[R],
-        visit: V,
-    ) -> Result<Done<R, N>, IntegrationError<R, N>>
-    where
-        S: System<R, N> + ?Sized,
-        V: FnMut(usize, R, &[R; N]),
-    {
-        self.course(t0, x0).sample(system, times, visit)
-    }
-
-    fn course<const N: usize>(&self, t0: R, x0: &[R; N]) -> Run<R, N> {
-        Run { step: self.step, progress: Progress::new(t0, x0), leg: None }
+        slopes: &mut Self::Memory,
+        from: &Reached<R, N>,
+        to: &Reached<R, N>,
+        h: R,
+        statistics: &mut Statistics,
+    ) -> Dense<R, N> {
+        slopes.hermite(system, from, to, h, statistics)
     }
 }
 
-/// A run with a fixed step, in legs between the times that it has to land on.
-struct Run<R, const N: usize> {
-    step: R,
-    progress: Progress<R, N>,
-    leg: Option<Leg<R>>,
-}
+impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Method<R, S, N> for Rk4<R> {
+    type Course<'a> = Fixed<'a, Self, Slopes<R, N>, R, N>;
 
-/// The steps from one time to another: `origin + k h` for `k = 1 .. count - 1`, then the target.
-#[derive(Clone, Copy)]
-pub(super) struct Leg<R> {
-    origin: R,
-    target: R,
-    /// The step with its direction.
-    h: R,
-    /// Steps made.
-    index: i64,
-    /// Steps to make.
-    count: i64,
-}
-
-impl<R: Real> Leg<R> {
-    pub(super) fn new(origin: R, target: R, step: R) -> Result<Self, Cause> {
-        /// Beyond this many steps `f64` no longer counts them one by one.
-        const COUNTABLE: f64 = (1_u64 << 53) as f64;
-        /// Roundings by which a span may exceed a whole number of steps without being given a further one: those
-        /// of the span, of the quotient, and of the step as the user divided it.
-        const ROUNDINGS: f64 = 4.0;
-
-        let size = step.to_f64();
-        if !(step.is_finite() && size > 0.0) {
-            return Err(Cause::Setting(Setting::Step));
-        }
-        let span = (target - origin).to_f64();
-        let steps = (span / size).abs();
-        if steps >= COUNTABLE || steps.is_nan() {
-            return Err(Cause::StepUnderflow);
-        }
-        let slack = ROUNDINGS * f64::max(R::epsilon().to_f64(), f64::EPSILON);
-        let count = libm::ceil(steps * (1.0 - slack)).max(1.0) as i64;
-        Ok(Self { origin, target, h: if span < 0.0 { -step } else { step }, index: 0, count })
-    }
-
-    /// The end and the length of the next step.
-    pub(super) fn next(&mut self, now: R) -> Result<(R, R), Cause> {
-        self.index += 1;
-        let (next, h) = if self.index == self.count {
-            (self.target, self.target - now)
-        } else {
-            (self.origin + self.h * R::from_ratio(self.index, 1), self.h)
-        };
-        if next == now { Err(Cause::StepUnderflow) } else { Ok((next, h)) }
+    fn start(&self, t0: R, x0: &[R; N]) -> Self::Course<'_> {
+        Fixed::new(self, Slopes::new(), self.step, t0, x0)
     }
 }
 
-impl<R: Real, const N: usize> Course<R, N> for Run<R, N> {
-    fn progress(&self) -> &Progress<R, N> {
-        &self.progress
-    }
-
-    fn advance<S: System<R, N> + ?Sized>(&mut self, system: &S, target: R) -> Result<(), Cause> {
-        let now = self.progress.time;
-        let mut leg = match self.leg {
-            Some(leg) if leg.target == target && leg.index < leg.count => leg,
-            _ => Leg::new(now, target, self.step)?,
-        };
-        let (next, h) = leg.next(now)?;
-        let mut state = step(system, now, &self.progress.state, h);
-        self.progress.statistics.evaluations += 4;
-        if !all_finite(&state) {
-            return Err(Cause::NotFinite);
-        }
-        system.restore(next, &mut state).map_err(|_| Cause::Positions)?;
-        self.progress.statistics.accepted += 1;
-        self.progress.time = next;
-        self.progress.state = state;
-        self.leg = Some(leg);
-        Ok(())
-    }
-}
+short_ways!(Rk4 over Real, systems System);

@@ -1,9 +1,11 @@
-//! One step of DOP853: from a state and its slope to the next state and two estimates of the error, without any
-//! decision about them.
+//! One step of DOP853: from a state and its slope to the next state, two estimates of the error, and the polynomial
+//! between, without any decision about them.
 
+use super::course::Reached;
+use super::dense::Dense;
 use super::dop853_coefficients as published;
 use super::{shifted, weighted};
-use crate::decimal::Parts;
+use crate::decimal::reals;
 use crate::real::Real;
 use crate::system::System;
 
@@ -27,6 +29,11 @@ pub struct Tableau<R = f64> {
     b: [R; 8],
     e5: [R; 8],
     b3: [R; 3],
+    c_dense: [R; 3],
+    a14: [R; 8],
+    a15: [R; 8],
+    a16: [R; 8],
+    d: [[R; 12]; 4],
 }
 
 /// A step on trial: the new state, and how far formulas of lower order are from it.
@@ -40,12 +47,12 @@ pub struct Trial<R, const N: usize> {
     pub error3: [R; N],
 }
 
+/// The slopes of stages 1 and 6 to 12, which weights and interpolant are made of.
+pub type Stages<R, const N: usize> = [[R; N]; 8];
+
 impl<R: Real> Tableau<R> {
     /// Converts the published decimals.
     pub fn new() -> Self {
-        fn reals<R: Real, const M: usize>(parts: &[Parts; M]) -> [R; M] {
-            core::array::from_fn(|j| R::from_parts(&parts[j]))
-        }
         Self {
             c: reals(&published::C),
             a2: reals(&published::A2),
@@ -62,6 +69,11 @@ impl<R: Real> Tableau<R> {
             b: reals(&published::B),
             e5: reals(&published::E5),
             b3: reals(&published::B3),
+            c_dense: reals(&published::C_DENSE),
+            a14: reals(&published::A14),
+            a15: reals(&published::A15),
+            a16: reals(&published::A16),
+            d: [reals(&published::D4), reals(&published::D5), reals(&published::D6), reals(&published::D7)],
         }
     }
 
@@ -83,7 +95,30 @@ impl<R: Real> Tableau<R> {
     /// assert!((trial.state[0] - 0.25_f64.exp()).abs() < 1e-11);
     /// assert!(trial.error5[0].abs() < 1e-6 && trial.error3[0].abs() < 1e-3);
     /// ```
+    #[inline]
     pub fn trial<S, const N: usize>(&self, system: &S, t: R, x: &[R; N], k1: &[R; N], h: R) -> Trial<R, N>
+    where
+        S: System<R, N> + ?Sized,
+    {
+        let stages = self.stages(system, t, x, k1, h);
+        let slope = self.slope(&stages);
+        Trial {
+            state: shifted(x, h, &slope),
+            error5: self.error5(&stages),
+            error3: self.error3(&stages, &slope),
+        }
+    }
+
+    /// The slopes of the stages, by eleven evaluations.
+    #[inline]
+    pub(super) fn stages<S, const N: usize>(
+        &self,
+        system: &S,
+        t: R,
+        x: &[R; N],
+        k1: &[R; N],
+        h: R,
+    ) -> Stages<R, N>
     where
         S: System<R, N> + ?Sized,
     {
@@ -101,14 +136,58 @@ impl<R: Real> Tableau<R> {
         let k10 = at(8, weighted(&self.a10, [k1, &k4, &k5, &k6, &k7, &k8, &k9]));
         let k11 = at(9, weighted(&self.a11, [k1, &k4, &k5, &k6, &k7, &k8, &k9, &k10]));
         let k12 = at(10, weighted(&self.a12, [k1, &k4, &k5, &k6, &k7, &k8, &k9, &k10, &k11]));
-        let stages = [k1, &k6, &k7, &k8, &k9, &k10, &k11, &k12];
-        let slope = weighted(&self.b, stages);
-        let slope3 = weighted(&self.b3, [k1, &k9, &k12]);
-        Trial {
-            state: shifted(x, h, &slope),
-            error5: weighted(&self.e5, stages),
-            error3: core::array::from_fn(|i| slope[i] - slope3[i]),
-        }
+        [*k1, k6, k7, k8, k9, k10, k11, k12]
+    }
+
+    /// The mean slope of order eight.
+    #[inline]
+    pub(super) fn slope<const N: usize>(&self, stages: &Stages<R, N>) -> [R; N] {
+        weighted(&self.b, stages.each_ref())
+    }
+
+    /// The mean slope less that of the formula of order five.
+    #[inline]
+    pub(super) fn error5<const N: usize>(&self, stages: &Stages<R, N>) -> [R; N] {
+        weighted(&self.e5, stages.each_ref())
+    }
+
+    /// The mean slope less that of the formula of order three.
+    #[inline]
+    pub(super) fn error3<const N: usize>(&self, stages: &Stages<R, N>, slope: &[R; N]) -> [R; N] {
+        let slope3 = weighted(&self.b3, [&stages[0], &stages[4], &stages[7]]);
+        core::array::from_fn(|i| slope[i] - slope3[i])
+    }
+
+    /// The interpolant of order seven over the step from `from` to `to` with these stages, and the slope `end` at its
+    /// end: three evaluations.
+    ///
+    /// ```text
+    /// r4 .. r7 = h sum_i d_i k_i      i = 1, 6 .. 16
+    /// ```
+    pub(super) fn dense<S, const N: usize>(
+        &self,
+        system: &S,
+        stages: &Stages<R, N>,
+        from: &Reached<R, N>,
+        to: &Reached<R, N>,
+        end: &[R; N],
+        h: R,
+    ) -> Dense<R, N>
+    where
+        S: System<R, N> + ?Sized,
+    {
+        let at = |i: usize, slope: [R; N]| {
+            system.rhs(from.time + self.c_dense[i] * h, &shifted(&from.state, h, &slope))
+        };
+        let [k1, k6, k7, k8, k9, k10, k11, k12] = stages;
+        let k14 = at(0, weighted(&self.a14, [k1, k7, k8, k9, k10, k11, k12, end]));
+        let k15 = at(1, weighted(&self.a15, [k1, k6, k7, k8, k11, k12, end, &k14]));
+        let k16 = at(2, weighted(&self.a16, [k1, k6, k7, k8, k9, end, &k14, &k15]));
+        let further = self.d.map(|d| {
+            let slope = weighted(&d, [k1, k6, k7, k8, k9, k10, k11, k12, end, &k14, &k15, &k16]);
+            slope.map(|slope| h * slope)
+        });
+        Dense::hermite(from.time, h, &from.state, k1, &to.state, end).with_terms(further)
     }
 }
 

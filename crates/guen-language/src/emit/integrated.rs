@@ -1,0 +1,94 @@
+//! What steppers ask of a system besides its rates: quantities for guards, and derivatives for implicit methods.
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use super::Layout;
+use crate::derive::Derived;
+
+/// The methods `vitals` and `edges` of the trait `System`. `prepared` is the prepared system.
+pub(super) fn guarded(derived: &Derived<'_>, layout: &Layout, prepared: &TokenStream) -> TokenStream {
+    let (size, n) = (layout.size, layout.n);
+    let positions: Vec<usize> = (0..n).collect();
+    let program = |name: TokenStream, state: TokenStream| quote!(program::#name(&#prepared.constants, &#prepared.hoisted, t, #state));
+    let (energy, kinetic) =
+        (program(quote!(energy), quote!(state)), program(quote!(kinetic_energy), quote!(state)));
+    let potential = program(quote!(force_function), quote!(&x));
+    let residual = program(quote!(positions), quote!(&x));
+    let domain = program(quote!(domain), quote!(state));
+    // Only an energy that is kept is worth its price.
+    let (measured, energy, scale) = if derived.derivation.conservative {
+        (
+            quote! {
+                let ([energy], [kinetic], [potential]) = (#energy, #kinetic, #potential);
+            },
+            quote!(::core::option::Option::Some(energy)),
+            quote!(__guen::Real::abs(kinetic) + __guen::Real::abs(potential)),
+        )
+    } else {
+        (quote!(), quote!(::core::option::Option::None), quote!(<R as __guen::Real>::zero()))
+    };
+    let edges = (!derived.domain.is_empty()).then(|| {
+        quote! {
+            fn edges(&self, t: R, state: &[R; #size], values: &mut [R]) -> usize {
+                let mut written = 0;
+                for (place, value) in ::core::iter::Iterator::zip(values.iter_mut(), #domain) {
+                    *place = value;
+                    written += 1;
+                }
+                written
+            }
+        }
+    });
+    quote! {
+        fn vitals(&self, t: R, state: &[R; #size]) -> __guen::Vitals<R> {
+            let x = [#(state[#positions]),*];
+            #measured
+            __guen::Vitals { energy: #energy, scale: #scale, residual: __guen::largest(&#residual) }
+        }
+
+        #edges
+    }
+}
+
+/// The trait `Differentiable`, by dual numbers over the real. `owner` is the system, `held` the inputs as an
+/// expression of it over any real `T`.
+pub(super) fn differentiable(layout: &Layout, owner: &TokenStream, prepared: &TokenStream) -> TokenStream {
+    let size = layout.size;
+    let held = |real: TokenStream| {
+        if layout.inputs == 0 {
+            quote!(&[])
+        } else {
+            let inputs = layout.inputs;
+            quote! {
+                &<[R; #inputs] as ::core::convert::From<Inputs<R>>>::from(self.inputs).map(<#real>::constant)
+            }
+        }
+    };
+    let by_state = quote!(__guen::Dual<R, #size>);
+    let by_time = quote!(__guen::Dual<R, 1>);
+    let (held_by_state, held_by_time) = (held(by_state.clone()), held(by_time.clone()));
+    quote! {
+        impl<R: __guen::Real> __guen::Differentiable<R, #size> for #owner
+        where
+            #by_state: __guen::Lift<R>,
+            #by_time: __guen::Lift<R>,
+        {
+            fn jacobian(&self, t: R, state: &[R; #size]) -> [[R; #size]; #size] {
+                let lifted: Prepared<#by_state> = #prepared.lift();
+                let rates = program::rhs(
+                    &lifted.constants, &lifted.hoisted, <#by_state>::constant(t), &__guen::seeded(state), #held_by_state,
+                );
+                rates.map(|rate| rate.tangent)
+            }
+
+            fn along(&self, t: R, state: &[R; #size], dt: R, dx: &[R; #size]) -> [R; #size] {
+                let lifted: Prepared<#by_time> = #prepared.lift();
+                let time = __guen::Dual { value: t, tangent: [dt] };
+                let state = ::core::array::from_fn(|i| __guen::Dual { value: state[i], tangent: [dx[i]] });
+                let rates = program::rhs(&lifted.constants, &lifted.hoisted, time, &state, #held_by_time);
+                rates.map(|rate| rate.tangent[0])
+            }
+        }
+    }
+}

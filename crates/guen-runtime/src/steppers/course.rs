@@ -1,0 +1,120 @@
+//! What a method is to a driver: something that starts a course, and a course that goes on step by step.
+
+use core::ops::AddAssign;
+
+use super::dense::Dense;
+use crate::error::{Cause, IntegrationError};
+use crate::real::Real;
+
+/// The work that an integration did.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Statistics {
+    /// Evaluations of the right-hand side, those for dense output included. A derivative along one direction counts as
+    /// one.
+    pub evaluations: u64,
+    /// Evaluations of the Jacobian; none with explicit methods.
+    pub jacobians: u64,
+    /// Steps that advanced the state.
+    pub accepted: u64,
+    /// Trial steps that were repeated with a shorter step; none with a fixed step.
+    pub rejected: u64,
+}
+
+impl AddAssign for Statistics {
+    /// Adds the work of a further run.
+    fn add_assign(&mut self, other: Self) {
+        self.evaluations += other.evaluations;
+        self.jacobians += other.jacobians;
+        self.accepted += other.accepted;
+        self.rejected += other.rejected;
+    }
+}
+
+/// How an integration that did not fail came to its end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Outcome {
+    /// It arrived at the time asked for, exactly.
+    Arrived,
+    /// The observer, or the receiver of events, stopped it.
+    Stopped,
+    /// A terminal event ended it: the one at this position among the events.
+    Event(usize),
+}
+
+/// The result of an integration.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Done<R, const N: usize> {
+    /// The time reached.
+    pub time: R,
+    /// The state at that time.
+    pub state: [R; N],
+    /// Whether that is the time asked for.
+    pub outcome: Outcome,
+    /// The work done.
+    pub statistics: Statistics,
+}
+
+/// Where a run stands: the last accepted time and state, and the work so far.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reached<R, const N: usize> {
+    /// The time.
+    pub time: R,
+    /// The state at that time.
+    pub state: [R; N],
+    /// The work done.
+    pub statistics: Statistics,
+}
+
+impl<R: Real, const N: usize> Reached<R, N> {
+    /// The beginning of a run, before any work.
+    pub fn new(time: R, state: &[R; N]) -> Self {
+        Self { time, state: *state, statistics: Statistics::default() }
+    }
+
+    pub(super) fn done(&self, outcome: Outcome) -> Done<R, N> {
+        Done { time: self.time, state: self.state, outcome, statistics: self.statistics }
+    }
+
+    pub(super) fn failed(&self, cause: Cause) -> IntegrationError<R, N> {
+        IntegrationError { time: self.time, state: self.state, cause, statistics: self.statistics }
+    }
+}
+
+/// A method with its settings, as an [`Integration`](super::Integration) uses it.
+///
+/// All methods of this module are one, and a method written elsewhere becomes one by this trait and [`Course`]. The
+/// system's type is a parameter because implicit methods ask more of it than explicit ones.
+#[diagnostic::on_unimplemented(
+    message = "the method `{Self}` cannot integrate `{S}`",
+    note = "an implicit method needs a `Differentiable` system, an adaptive one an `Ordered` real"
+)]
+pub trait Method<R: Real, S: ?Sized, const N: usize> {
+    /// A run of the method.
+    type Course<'a>: Course<R, S, N>
+    where
+        Self: 'a;
+
+    /// Begins a run at time `t0` with the state `x0`. Nothing is checked yet.
+    fn start(&self, t0: R, x0: &[R; N]) -> Self::Course<'_>;
+}
+
+/// A run of one method from one initial state.
+pub trait Course<R: Real, S: ?Sized, const N: usize> {
+    /// Evaluations of the right-hand side in a usual step, by which a guard chooses how often to look.
+    const EVALUATIONS: u32;
+
+    /// Where the run stands.
+    fn reached(&self) -> &Reached<R, N>;
+
+    /// Makes one accepted step towards `target`, which is not the present time. The step that reaches the target
+    /// sets the time to it, to the bit. With `dense`, what [`dense`](Course::dense) needs is kept.
+    ///
+    /// # Errors
+    ///
+    /// What made the step impossible; the run stands where it stood.
+    fn advance(&mut self, system: &S, target: R, dense: bool) -> Result<(), Cause>;
+
+    /// The motion over the step made last, as a polynomial. To be asked for only after a step that was made with
+    /// `dense`. May evaluate the right-hand side, which is counted.
+    fn dense(&mut self, system: &S) -> Dense<R, N>;
+}

@@ -1,0 +1,76 @@
+//! The explicit method of Euler, with a fixed step.
+
+use super::course::{Method, Reached, Statistics};
+use super::dense::Dense;
+use super::fixed::{Fixed, Formula, Slopes};
+use super::landing::short_ways;
+use super::shifted;
+use crate::error::Cause;
+use crate::real::Real;
+use crate::system::System;
+
+/// The explicit method of Euler with a fixed step.
+///
+/// ```text
+/// x(t + h) = x + h f(t, x) + O(h^2)
+/// ```
+///
+/// - Order 1: for comparisons, and for programs that have to be followed by hand; [`Rk4`](super::Rk4) reaches any
+///   accuracy with less work.
+/// - Steps, demands and dense output as of [`Rk4`](super::Rk4). One evaluation a step.
+/// - Source: L. Euler, *Institutionum calculi integralis*, volume 1, section 2, chapter 7 (1768).
+///
+/// ```
+/// use core::ops::ControlFlow;
+/// use guen_runtime::{from_fn, steppers::Euler};
+///
+/// let growth = from_fn(|_t: f64, &[x]: &[f64; 1]| [x]);
+/// let done = Euler { step: 0.5 }.integrate(&growth, 0.0, &[1.0], 1.0, |_, _| ControlFlow::Continue(())).unwrap();
+/// assert_eq!(done.state, [2.25]);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Euler<R = f64> {
+    /// The step, in units of time: positive and finite.
+    pub step: R,
+}
+
+impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Formula<R, S, N> for Euler<R> {
+    type Memory = Slopes<R, N>;
+    const EVALUATIONS: u32 = 1;
+
+    #[inline]
+    fn step(
+        &self,
+        system: &S,
+        slopes: &mut Self::Memory,
+        from: &Reached<R, N>,
+        h: R,
+        _dense: bool,
+        statistics: &mut Statistics,
+    ) -> Result<[R; N], Cause> {
+        let slope = slopes.begin(system, from, statistics);
+        Ok(shifted(&from.state, h, &slope))
+    }
+
+    fn dense(
+        &self,
+        system: &S,
+        slopes: &mut Self::Memory,
+        from: &Reached<R, N>,
+        to: &Reached<R, N>,
+        h: R,
+        statistics: &mut Statistics,
+    ) -> Dense<R, N> {
+        slopes.hermite(system, from, to, h, statistics)
+    }
+}
+
+impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Method<R, S, N> for Euler<R> {
+    type Course<'a> = Fixed<'a, Self, Slopes<R, N>, R, N>;
+
+    fn start(&self, t0: R, x0: &[R; N]) -> Self::Course<'_> {
+        Fixed::new(self, Slopes::new(), self.step, t0, x0)
+    }
+}
+
+short_ways!(Euler over Real, systems System);

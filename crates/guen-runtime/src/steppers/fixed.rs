@@ -1,0 +1,207 @@
+//! What methods with a fixed step share: where the steps begin and end, and the loop around a formula.
+
+use super::all_finite;
+use super::course::{Course, Reached, Statistics};
+use super::dense::Dense;
+use crate::error::{Cause, Setting};
+use crate::real::Real;
+use crate::system::System;
+
+/// A formula that makes one step.
+pub trait Formula<R: Real, S: ?Sized, const N: usize> {
+    /// What a step leaves for the next one and for dense output.
+    type Memory: Copy;
+
+    const EVALUATIONS: u32;
+
+    /// The state one step of size `h` further, `h` of either sign. Counts its work.
+    fn step(
+        &self,
+        system: &S,
+        memory: &mut Self::Memory,
+        from: &Reached<R, N>,
+        h: R,
+        dense: bool,
+        statistics: &mut Statistics,
+    ) -> Result<[R; N], Cause>;
+
+    /// The polynomial over the step of size `h` that led from `from` to `to`.
+    fn dense(
+        &self,
+        system: &S,
+        memory: &mut Self::Memory,
+        from: &Reached<R, N>,
+        to: &Reached<R, N>,
+        h: R,
+        statistics: &mut Statistics,
+    ) -> Dense<R, N>;
+}
+
+/// A run with a fixed step, in legs between the times that it has to land on.
+#[derive(Clone, Copy, Debug)]
+pub struct Fixed<'a, F, M, R, const N: usize> {
+    formula: &'a F,
+    memory: M,
+    step: R,
+    reached: Reached<R, N>,
+    before: Reached<R, N>,
+    leg: Option<Leg<R>>,
+}
+
+impl<'a, F, M, R: Real, const N: usize> Fixed<'a, F, M, R, N> {
+    pub(super) fn new(formula: &'a F, memory: M, step: R, t0: R, x0: &[R; N]) -> Self {
+        let reached = Reached::new(t0, x0);
+        Self { formula, memory, step, reached, before: reached, leg: None }
+    }
+}
+
+impl<F, R, S, const N: usize> Course<R, S, N> for Fixed<'_, F, F::Memory, R, N>
+where
+    F: Formula<R, S, N>,
+    R: Real,
+    S: System<R, N> + ?Sized,
+{
+    const EVALUATIONS: u32 = F::EVALUATIONS;
+
+    fn reached(&self) -> &Reached<R, N> {
+        &self.reached
+    }
+
+    fn advance(&mut self, system: &S, target: R, dense: bool) -> Result<(), Cause> {
+        let now = self.reached.time;
+        let mut leg = match self.leg {
+            Some(leg) if leg.target == target && leg.index < leg.count => leg,
+            _ => Leg::new(now, target, self.step)?,
+        };
+        let (next, h) = leg.next(now)?;
+        let mut statistics = self.reached.statistics;
+        let made = self.formula.step(system, &mut self.memory, &self.reached, h, dense, &mut statistics);
+        self.reached.statistics = statistics;
+        let mut state = made?;
+        if !all_finite(&state) {
+            return Err(Cause::NotFinite);
+        }
+        system.restore(next, &mut state).map_err(|_| Cause::Positions)?;
+        self.before = self.reached;
+        self.reached.statistics.accepted += 1;
+        self.reached.time = next;
+        self.reached.state = state;
+        self.leg = Some(leg);
+        Ok(())
+    }
+
+    fn dense(&mut self, system: &S) -> Dense<R, N> {
+        let h = self.reached.time - self.before.time;
+        let mut statistics = self.reached.statistics;
+        let dense =
+            self.formula.dense(system, &mut self.memory, &self.before, &self.reached, h, &mut statistics);
+        self.reached.statistics = statistics;
+        dense
+    }
+}
+
+/// The slopes that an explicit formula knows: at the beginning of its last step, and where it stands if somebody has
+/// asked for it already.
+#[derive(Clone, Copy, Debug)]
+pub struct Slopes<R, const N: usize> {
+    pub(super) first: [R; N],
+    pub(super) ahead: Option<[R; N]>,
+}
+
+impl<R: Real, const N: usize> Slopes<R, N> {
+    pub(super) fn new() -> Self {
+        Self { first: [R::zero(); N], ahead: None }
+    }
+
+    /// The slope where the next step begins, evaluated unless it is known.
+    #[inline]
+    pub(super) fn begin<S>(&mut self, system: &S, from: &Reached<R, N>, statistics: &mut Statistics) -> [R; N]
+    where
+        S: System<R, N> + ?Sized,
+    {
+        self.first = match self.ahead.take() {
+            Some(slope) => slope,
+            None => {
+                statistics.evaluations += 1;
+                system.rhs(from.time, &from.state)
+            }
+        };
+        self.first
+    }
+
+    /// The slope at the end of the last step, which the next one will begin with.
+    pub(super) fn end<S>(&mut self, system: &S, to: &Reached<R, N>, statistics: &mut Statistics) -> [R; N]
+    where
+        S: System<R, N> + ?Sized,
+    {
+        let slope = self.ahead.unwrap_or_else(|| {
+            statistics.evaluations += 1;
+            system.rhs(to.time, &to.state)
+        });
+        self.ahead = Some(slope);
+        slope
+    }
+
+    /// The cubic through both ends with their slopes.
+    pub(super) fn hermite<S>(
+        &mut self,
+        system: &S,
+        from: &Reached<R, N>,
+        to: &Reached<R, N>,
+        h: R,
+        statistics: &mut Statistics,
+    ) -> Dense<R, N>
+    where
+        S: System<R, N> + ?Sized,
+    {
+        let end = self.end(system, to, statistics);
+        Dense::hermite(from.time, h, &from.state, &self.first, &to.state, &end)
+    }
+}
+
+/// The steps from one time to another: `origin + k h` for `k = 1 .. count - 1`, then the target.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Leg<R> {
+    origin: R,
+    target: R,
+    /// The step with its direction.
+    h: R,
+    /// Steps made.
+    index: i64,
+    /// Steps to make.
+    count: i64,
+}
+
+impl<R: Real> Leg<R> {
+    pub(super) fn new(origin: R, target: R, step: R) -> Result<Self, Cause> {
+        /// Beyond this many steps `f64` no longer counts them one by one.
+        const COUNTABLE: f64 = (1_u64 << 53) as f64;
+        /// Roundings by which a span may exceed a whole number of steps without being given a further one: those
+        /// of the span, of the quotient, and of the step as the user divided it.
+        const ROUNDINGS: f64 = 4.0;
+
+        let size = step.to_f64();
+        if !(step.is_finite() && size > 0.0) {
+            return Err(Cause::Setting(Setting::Step));
+        }
+        let span = (target - origin).to_f64();
+        let steps = (span / size).abs();
+        if steps >= COUNTABLE || steps.is_nan() {
+            return Err(Cause::StepUnderflow);
+        }
+        let slack = ROUNDINGS * f64::max(R::epsilon().to_f64(), f64::EPSILON);
+        let count = libm::ceil(steps * (1.0 - slack)).max(1.0) as i64;
+        Ok(Self { origin, target, h: if span < 0.0 { -step } else { step }, index: 0, count })
+    }
+
+    /// The end and the length of the next step.
+    pub(super) fn next(&mut self, now: R) -> Result<(R, R), Cause> {
+        self.index += 1;
+        let (next, h) = if self.index == self.count {
+            (self.target, self.target - now)
+        } else {
+            (self.origin + self.h * R::from_ratio(self.index, 1), self.h)
+        };
+        if next == now { Err(Cause::StepUnderflow) } else { Ok((next, h)) }
+    }
+}

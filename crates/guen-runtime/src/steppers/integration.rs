@@ -1,0 +1,321 @@
+//! The driver that all methods share: from a start to a time, with samples, events, an observer and guards.
+
+use core::ops::ControlFlow;
+
+use super::course::{Course, Done, Method, Outcome, Reached};
+use super::dense::Dense;
+use super::events::{Crossing, Event, Occurrence, Tracker};
+use super::guard::{Guard, Watch};
+use crate::error::{Cause, IntegrationError, Setting};
+use crate::real::{Ordered, Real};
+use crate::system::System;
+
+type Observer<'a, R, const N: usize> = &'a mut dyn FnMut(R, &[R; N]) -> ControlFlow<()>;
+type Visitor<'a, R, const N: usize> = &'a mut dyn FnMut(usize, R, &[R; N]);
+type Receiver<'a, R, const N: usize> = &'a mut dyn FnMut(&Occurrence<R, N>) -> ControlFlow<()>;
+
+/// An integration of a system from a state: what to look at on the way, to be run by any method.
+///
+/// - [`observe`](Integration::observe): every accepted step, and the state at which a terminal event ends the run.
+/// - [`sample`](Integration::sample): the states at given times, from the dense output, so that samples do not change
+///   the steps.
+/// - [`events`](Integration::events): functions of the state that cross zero, located on the dense output.
+/// - [`guard`](Integration::guard): what must not happen; a [`Guard`] with its defaults is always there.
+///
+/// Within a step the order is that of time, then samples before events before the observer. Samples and states of
+/// events are put back onto the constraints by [`System::restore`], as steps are. Runs go backwards as well; a span of
+/// zero is no step, and has the sample at its time but no event. What was shown before a failure stays shown.
+///
+/// | method | error of the dense output within a step | further evaluations for it |
+/// | --- | --- | --- |
+/// | [`Euler`](super::Euler), [`Rk4`](super::Rk4) | `O(h^4)`, cubic Hermite | none: the slope at the end is the next step's |
+/// | [`Rk8`](super::Rk8), [`Dop853`](super::Dop853) | `O(h^8)` | 3 (and one that `Rk8`'s next step uses) |
+/// | [`Tsit5`](super::Tsit5) | `O(h^5)` | none |
+/// | [`Gauss4`](super::Gauss4), [`Gauss6`](super::Gauss6) | `O(h^4)` and `O(h^6)`, Hermite | 2 and 4 |
+/// | [`Radau5`](super::Radau5) | `O(h^4)`, collocation | none |
+///
+/// No allocation; every callback is called through a reference, once in a step.
+///
+/// ```
+/// use core::ops::ControlFlow;
+/// use guen_runtime::from_fn;
+/// use guen_runtime::steppers::{Direction, Dop853, Event, Integration, Outcome};
+///
+/// // A stone, thrown up with 10 m/s.
+/// let stone = from_fn(|_t: f64, &[_, v]: &[f64; 2]| [v, -9.81]);
+/// let (height, speed) = (|_t: f64, x: &[f64; 2]| x[0], |_t: f64, x: &[f64; 2]| x[1]);
+/// let (mut samples, mut top) = (Vec::new(), 0.0);
+/// let done = Integration::new(&stone, 0.0, &[0.0, 10.0])
+///     .sample(&[0.0, 0.5, 1.0], &mut |_k, _t, x| samples.push(x[0]))
+///     .events(
+///         [Event::new(&speed), Event::new(&height).direction(Direction::Falling).terminal()],
+///         &mut |event| {
+///             if event.index == 0 {
+///                 top = event.time;
+///             }
+///             ControlFlow::Continue(())
+///         },
+///     )
+///     .run(&Dop853::new(1e-10, 1e-10), 100.0)
+///     .unwrap();
+/// assert_eq!(done.outcome, Outcome::Event(1));
+/// assert!((done.time - 20.0 / 9.81).abs() < 1e-12 && (top - 10.0 / 9.81).abs() < 1e-12);
+/// assert!((samples[1] - (5.0 - 9.81 / 8.0)).abs() < 1e-12);
+/// ```
+pub struct Integration<'a, R, S: ?Sized, const N: usize, const E: usize = 0> {
+    system: &'a S,
+    start: Reached<R, N>,
+    guard: Guard,
+    observer: Option<Observer<'a, R, N>>,
+    samples: &'a [R],
+    visitor: Option<Visitor<'a, R, N>>,
+    events: [Event<'a, R, N>; E],
+    receiver: Option<Receiver<'a, R, N>>,
+}
+
+impl<R: Real, S: ?Sized, const N: usize, const E: usize> core::fmt::Debug for Integration<'_, R, S, N, E> {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.debug_struct("Integration")
+            .field("start", &self.start)
+            .field("guard", &self.guard)
+            .field("samples", &self.samples)
+            .field("events", &self.events)
+            .finish_non_exhaustive()
+    }
+}
+
+impl<'a, R: Real, S: System<R, N> + ?Sized, const N: usize> Integration<'a, R, S, N> {
+    /// An integration from the state `x0` at time `t0`.
+    pub fn new(system: &'a S, t0: R, x0: &[R; N]) -> Self {
+        Self {
+            system,
+            start: Reached::new(t0, x0),
+            guard: Guard::default(),
+            observer: None,
+            samples: &[],
+            visitor: None,
+            events: [],
+            receiver: None,
+        }
+    }
+}
+
+impl<'a, R: Real, S: System<R, N> + ?Sized, const N: usize, const E: usize> Integration<'a, R, S, N, E> {
+    /// Shows each accepted step to `observer`, but not the start; when it breaks, the run ends with
+    /// [`Outcome::Stopped`].
+    #[must_use]
+    pub fn observe(self, observer: &'a mut dyn FnMut(R, &[R; N]) -> ControlFlow<()>) -> Self {
+        Self { observer: Some(observer), ..self }
+    }
+
+    /// Calls `visit` with the position, the time and the state at each of these times, which run in order from the
+    /// start to the end of the integration and may repeat. Those after a terminal event are not visited.
+    #[must_use]
+    pub fn sample(self, times: &'a [R], visit: &'a mut dyn FnMut(usize, R, &[R; N])) -> Self {
+        Self { samples: times, visitor: Some(visit), ..self }
+    }
+
+    /// Watches with these limits in place of the default ones.
+    #[must_use]
+    pub fn guard(self, guard: Guard) -> Self {
+        Self { guard, ..self }
+    }
+
+    /// Reports these events to `receive`; when it breaks, the run ends there with [`Outcome::Stopped`], and after a
+    /// terminal event with [`Outcome::Event`].
+    #[must_use]
+    pub fn events<const F: usize>(
+        self,
+        events: [Event<'a, R, N>; F],
+        receive: &'a mut dyn FnMut(&Occurrence<R, N>) -> ControlFlow<()>,
+    ) -> Integration<'a, R, S, N, F>
+    where
+        R: Ordered,
+    {
+        let Self { system, start, guard, observer, samples, visitor, .. } = self;
+        Integration { system, start, guard, observer, samples, visitor, events, receiver: Some(receive) }
+    }
+
+    /// Runs to time `t1`, forwards or backwards.
+    ///
+    /// # Errors
+    ///
+    /// Settings that make no sense, before anything is integrated; else what stopped the method or what the guard
+    /// found, with the last time and state that are known to be in order.
+    pub fn run<M>(mut self, method: &M, t1: R) -> Result<Done<R, N>, IntegrationError<R, N>>
+    where
+        M: Method<R, S, N>,
+    {
+        self.check(t1).map_err(|cause| self.start.failed(cause))?;
+        let mut course = method.start(self.start.time, &self.start.state);
+        let evaluations = <M::Course<'_> as Course<R, S, N>>::EVALUATIONS;
+        let mut watch =
+            Watch::new(self.guard, evaluations, &self.start).map_err(|cause| self.start.failed(cause))?;
+        let mut trackers: [Tracker; E] =
+            core::array::from_fn(|i| Tracker::new(self.events[i].value(self.start.time, &self.start.state)));
+        let mut visited = 0;
+        let start = self.start;
+        while visited < self.samples.len() && self.samples[visited] == start.time {
+            self.visit(visited, start.time, &start.state);
+            visited += 1;
+        }
+        let mut before = start;
+        while before.time != t1 {
+            let dense = E > 0 || visited < self.samples.len();
+            if let Err(cause) = course.advance(self.system, t1, dense) {
+                // The steps since the last look may be the ones that went wrong.
+                let reached = *course.reached();
+                return Err(match watch.look(self.system, &reached) {
+                    Ok(()) => reached.failed(cause),
+                    Err(earlier) => watch.good(&reached).failed(earlier),
+                });
+            }
+            let reached = *course.reached();
+            if let Err(cause) = watch.step(self.system, &reached) {
+                return Err(watch.good(&reached).failed(cause));
+            }
+            if dense {
+                let ended = self.within_step(&mut course, &before, &mut trackers, &mut visited);
+                if let Some(done) = ended.map_err(|cause| before.failed(cause))? {
+                    return Ok(done);
+                }
+            }
+            if let Some(observer) = &mut self.observer {
+                if observer(reached.time, &reached.state).is_break() {
+                    return Ok(course.reached().done(Outcome::Stopped));
+                }
+            }
+            before = *course.reached();
+        }
+        Ok(course.reached().done(Outcome::Arrived))
+    }
+
+    /// Refuses settings that make no sense.
+    fn check(&self, t1: R) -> Result<(), Cause> {
+        if !t1.is_finite() {
+            return Err(Cause::Setting(Setting::Time));
+        }
+        if !self.events.iter().all(Event::is_valid) {
+            return Err(Cause::Setting(Setting::Event));
+        }
+        let forwards = (t1 - self.start.time).to_f64() >= 0.0;
+        let mut last = self.start.time;
+        for &time in self.samples.iter().chain([&t1]) {
+            let ahead = (time - last).to_f64();
+            if !(ahead == 0.0 || (ahead > 0.0) == forwards) || ahead.is_nan() {
+                return Err(Cause::Setting(Setting::Samples));
+            }
+            last = time;
+        }
+        Ok(())
+    }
+
+    fn visit(&mut self, index: usize, time: R, state: &[R; N]) {
+        if let Some(visitor) = &mut self.visitor {
+            visitor(index, time, state);
+        }
+    }
+
+    /// Samples and events of the step from `before` to where the course stands. Answers with the end of the run, if
+    /// one of them ended it.
+    fn within_step<C>(
+        &mut self,
+        course: &mut C,
+        before: &Reached<R, N>,
+        trackers: &mut [Tracker; E],
+        visited: &mut usize,
+    ) -> Result<Option<Done<R, N>>, Cause>
+    where
+        C: Course<R, S, N>,
+    {
+        let after = *course.reached();
+        let backwards = (after.time - before.time).to_f64() < 0.0;
+        // Whether `a` comes before `b` in the order in which the run goes.
+        let earlier = |a: R, b: R| a != b && ((b - a).to_f64() < 0.0) == backwards;
+        let mut polynomial: Option<Dense<R, N>> = None;
+        let mut crossings = [None; E];
+        let mut from = [before.time; E];
+        let values: [f64; E] = core::array::from_fn(|i| self.events[i].value(after.time, &after.state));
+        let mut next = 0..E;
+        loop {
+            // Looks for the next crossing of each event that has none waiting: all of them at first, later the one
+            // that was reported last.
+            for i in next.clone() {
+                let event = &self.events[i];
+                let side = trackers[i];
+                if event.needs_dense() || !side.stays(values[i]) {
+                    let dense = *polynomial.get_or_insert_with(|| course.dense(self.system));
+                    let state = |t: R| if t == after.time { after.state } else { dense.at(t) };
+                    let span = (before.time, after.time);
+                    crossings[i] = trackers[i].next(event, span, from[i], values[i], state);
+                } else if !values[i].is_nan() {
+                    trackers[i] = Tracker::new(values[i]);
+                }
+            }
+            let mut first: Option<usize> = None;
+            for i in 0..E {
+                if let Some(crossing) = crossings[i] {
+                    let sooner =
+                        first.and_then(|f| crossings[f]).is_none_or(|c| earlier(crossing.time, c.time));
+                    if sooner {
+                        first = Some(i);
+                    }
+                }
+            }
+            let until = first.and_then(|i| crossings[i]).map_or(after.time, |crossing| crossing.time);
+            while *visited < self.samples.len() && !earlier(until, self.samples[*visited]) {
+                let time = self.samples[*visited];
+                let state = self.state(course, &mut polynomial, &after, time)?;
+                self.visit(*visited, time, &state);
+                *visited += 1;
+            }
+            let Some(i) = first else { return Ok(None) };
+            let Some(crossing) = crossings[i].take() else { return Ok(None) };
+            from[i] = crossing.time;
+            next = i..i + 1;
+            let since_start = (crossing.time - self.start.time).to_f64().abs();
+            if since_start <= NEAR_START * self.events[i].resolution(crossing.time) {
+                continue;
+            }
+            let state = self.state(course, &mut polynomial, &after, crossing.time)?;
+            let Crossing { time, rising } = crossing;
+            let occurrence = Occurrence { index: i, time, state, rising };
+            let stopped = self.receiver.as_mut().is_some_and(|receiver| receiver(&occurrence).is_break());
+            let outcome = match (self.events[i].is_terminal(), stopped) {
+                (true, _) => Outcome::Event(i),
+                (false, true) => Outcome::Stopped,
+                (false, false) => continue,
+            };
+            if let Some(observer) = &mut self.observer {
+                // The run is over, whatever the observer answers.
+                let _ = observer(time, &state);
+            }
+            let statistics = course.reached().statistics;
+            return Ok(Some(Reached { time, state, statistics }.done(outcome)));
+        }
+    }
+
+    /// The state at a time within the step, on the constraints.
+    fn state<C>(
+        &self,
+        course: &mut C,
+        polynomial: &mut Option<Dense<R, N>>,
+        after: &Reached<R, N>,
+        time: R,
+    ) -> Result<[R; N], Cause>
+    where
+        C: Course<R, S, N>,
+    {
+        if time == after.time {
+            return Ok(after.state);
+        }
+        let dense = polynomial.get_or_insert_with(|| course.dense(self.system));
+        let mut state = dense.at(time);
+        self.system.restore(time, &mut state).map_err(|_| Cause::Positions)?;
+        Ok(state)
+    }
+}
+
+/// Events are reported from this many resolutions after the start: a run that continues from an event starts at most
+/// one from it, and turns back no faster than sixteen times as slowly.
+const NEAR_START: f64 = 16.0;

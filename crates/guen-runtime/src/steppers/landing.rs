@@ -1,0 +1,103 @@
+//! The two short ways to run a method, `integrate` and `sample`, which every method offers by itself.
+
+use super::course::{Course, Done, Method, Outcome, Reached};
+use super::guard::{Guard, Watch};
+use crate::error::{Cause, IntegrationError, Setting};
+use crate::real::Real;
+use crate::system::System;
+
+/// Goes through the given times in their order, whatever it is, landing on each of them exactly.
+pub(super) fn visit_times<M, R, S, V, const N: usize>(
+    method: &M,
+    system: &S,
+    t0: R,
+    x0: &[R; N],
+    times: &[R],
+    mut visit: V,
+) -> Result<Done<R, N>, IntegrationError<R, N>>
+where
+    M: Method<R, S, N>,
+    R: Real,
+    S: System<R, N> + ?Sized,
+    V: FnMut(usize, R, &[R; N]),
+{
+    let start = Reached::new(t0, x0);
+    let mut course = method.start(t0, x0);
+    let evaluations = <M::Course<'_> as Course<R, S, N>>::EVALUATIONS;
+    let mut watch = Watch::new(Guard::default(), evaluations, &start).map_err(|cause| start.failed(cause))?;
+    for (index, &time) in times.iter().enumerate() {
+        if !time.is_finite() {
+            return Err(course.reached().failed(Cause::Setting(Setting::Time)));
+        }
+        while course.reached().time != time {
+            if let Err(cause) = course.advance(system, time, false) {
+                let reached = *course.reached();
+                return Err(match watch.look(system, &reached) {
+                    Ok(()) => reached.failed(cause),
+                    Err(earlier) => watch.good(&reached).failed(earlier),
+                });
+            }
+            let reached = course.reached();
+            if let Err(cause) = watch.step(system, reached) {
+                return Err(watch.good(reached).failed(cause));
+            }
+        }
+        visit(index, time, &course.reached().state);
+    }
+    Ok(course.reached().done(Outcome::Arrived))
+}
+
+/// The methods `integrate` and `sample` of a method over the real `R`, for systems with the given bounds.
+macro_rules! short_ways {
+    ($Method:ident over $Real:ident, systems $($bound:tt)+) => {
+        impl<R: $Real> $Method<R> {
+            /// Integrates from `x0` at `t0` to `t1`, forwards or backwards, calling the observer after each accepted
+            /// step; when it breaks, the run ends with [`Outcome::Stopped`](super::Outcome::Stopped). The last step
+            /// lands on `t1`. A span of zero is no step at all. The same as an
+            /// [`Integration`](super::Integration) with an observer and nothing else.
+            ///
+            /// # Errors
+            ///
+            /// Settings that make no sense; else what stopped the method, or what the default
+            /// [`Guard`](super::Guard) found. The error carries the last good time and state.
+            pub fn integrate<S, O, const N: usize>(
+                &self,
+                system: &S,
+                t0: R,
+                x0: &[R; N],
+                t1: R,
+                mut observer: O,
+            ) -> Result<super::Done<R, N>, $crate::IntegrationError<R, N>>
+            where
+                S: $($bound)+<R, N> + ?Sized,
+                O: FnMut(R, &[R; N]) -> core::ops::ControlFlow<()>,
+            {
+                super::Integration::new(system, t0, x0).observe(&mut observer).run(self, t1)
+            }
+
+            /// Integrates from `x0` at `t0` through the given times, and calls `visit` with the index, the time and
+            /// the state at each of them, exactly: steps are shortened to land there, so many times make many steps
+            /// (an [`Integration`](super::Integration) samples without landing). The times may repeat and may turn
+            /// back.
+            ///
+            /// # Errors
+            ///
+            /// Those of `integrate`; times visited before stay visited.
+            pub fn sample<S, V, const N: usize>(
+                &self,
+                system: &S,
+                t0: R,
+                x0: &[R; N],
+                times: &[R],
+                visit: V,
+            ) -> Result<super::Done<R, N>, $crate::IntegrationError<R, N>>
+            where
+                S: $($bound)+<R, N> + ?Sized,
+                V: FnMut(usize, R, &[R; N]),
+            {
+                super::landing::visit_times(self, system, t0, x0, times, visit)
+            }
+        }
+    };
+}
+pub(super) use short_ways;

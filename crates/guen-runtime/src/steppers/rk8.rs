@@ -1,0 +1,101 @@
+//! The formula of order eight of DOP853, with a fixed step.
+
+use super::course::{Method, Reached, Statistics};
+use super::dense::Dense;
+use super::fixed::{Fixed, Formula, Slopes};
+use super::landing::short_ways;
+use super::shifted;
+use super::tableau::{Stages, Tableau};
+use crate::error::Cause;
+use crate::real::Real;
+use crate::system::System;
+
+/// A Runge-Kutta method of order eight with a fixed step: the weights of [`Dop853`](super::Dop853), without its error
+/// estimates.
+///
+/// - Order 8, 12 evaluations a step; steps, demands and guarantees as of [`Rk4`](super::Rk4). On smooth motions it is
+///   the cheapest fixed step at every accuracy; `docs/integrators.md` has the figures.
+/// - Works for every [`Real`]: lanes, which share their time, included.
+/// - Dense output is DOP853's, `O(h^8)`: three evaluations more on steps where it is asked for.
+/// - Source: that of [`Dop853`](super::Dop853).
+///
+/// ```
+/// use core::ops::ControlFlow;
+/// use guen_runtime::{from_fn, steppers::Rk8};
+///
+/// let oscillator = from_fn(|_t: f64, &[x, v]: &[f64; 2]| [v, -x]);
+/// let done = Rk8::new(0.25)
+///     .integrate(&oscillator, 0.0, &[0.0, 1.0], 10.0, |_t, _x| ControlFlow::Continue(()))
+///     .unwrap();
+/// assert_eq!(done.statistics.evaluations, 40 * 12);
+/// assert!((done.state[0] - 10.0_f64.sin()).abs() < 1e-10);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rk8<R = f64> {
+    /// The step, in units of time: positive and finite.
+    pub step: R,
+    tableau: Tableau<R>,
+}
+
+impl<R: Real> Rk8<R> {
+    /// The method with this step.
+    pub fn new(step: R) -> Self {
+        Self { step, tableau: Tableau::new() }
+    }
+}
+
+/// The slopes at the ends of a step, and those of its stages where dense output wants them.
+#[derive(Clone, Copy, Debug)]
+pub struct Memory<R, const N: usize> {
+    slopes: Slopes<R, N>,
+    stages: Stages<R, N>,
+}
+
+impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Formula<R, S, N> for Rk8<R> {
+    type Memory = Memory<R, N>;
+    const EVALUATIONS: u32 = 12;
+
+    #[inline]
+    fn step(
+        &self,
+        system: &S,
+        memory: &mut Self::Memory,
+        from: &Reached<R, N>,
+        h: R,
+        dense: bool,
+        statistics: &mut Statistics,
+    ) -> Result<[R; N], Cause> {
+        let k1 = memory.slopes.begin(system, from, statistics);
+        let stages = self.tableau.stages(system, from.time, &from.state, &k1, h);
+        statistics.evaluations += 11;
+        if dense {
+            memory.stages = stages;
+        }
+        Ok(shifted(&from.state, h, &self.tableau.slope(&stages)))
+    }
+
+    fn dense(
+        &self,
+        system: &S,
+        memory: &mut Self::Memory,
+        from: &Reached<R, N>,
+        to: &Reached<R, N>,
+        h: R,
+        statistics: &mut Statistics,
+    ) -> Dense<R, N> {
+        let end = memory.slopes.end(system, to, statistics);
+        statistics.evaluations += 3;
+        self.tableau.dense(system, &memory.stages, from, to, &end, h)
+    }
+}
+
+impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Method<R, S, N> for Rk8<R> {
+    type Course<'a> = Fixed<'a, Self, Memory<R, N>, R, N>;
+
+    fn start(&self, t0: R, x0: &[R; N]) -> Self::Course<'_> {
+        let memory = Memory { slopes: Slopes::new(), stages: [[R::zero(); N]; 8] };
+        Fixed::new(self, memory, self.step, t0, x0)
+    }
+}
+
+short_ways!(Rk8 over Real, systems System);

@@ -1,0 +1,161 @@
+//! Tsitouras's pair of orders five and four, with a step that adapts to a tolerance.
+
+use super::adaptive::{Adaptive, Attempt, Pair, Settings, Step};
+use super::control::{self, Control, Tolerance};
+use super::course::Method;
+use super::dense::Dense;
+use super::landing::short_ways;
+use super::tsit5_coefficients as published;
+use super::{shifted, weighted};
+use crate::decimal::reals;
+use crate::real::{Ordered, Real};
+use crate::system::System;
+
+/// Tsit5: order five, with a step that adapts to a tolerance.
+///
+/// A step is accepted if its estimated error, in the mean over the entries, is below `atol + rtol |x_i|`:
+///
+/// ```text
+/// err = |h| sqrt(sum_i (error_i / (atol + rtol max |x_i|))^2 / N) <= 1
+/// ```
+///
+/// with the difference to the formula of order four. The next step is the present one times `0.9 err^(-1/5)`, between
+/// a fifth and five times, and no longer than the present one after a rejection.
+///
+/// - For low accuracy, and for short steps between samples and inputs; from about 1e-4 on
+///   [`Dop853`](super::Dop853) needs fewer evaluations. Not for stiff systems; not symplectic.
+/// - Tolerances, steps, domains and failures as of [`Dop853`](super::Dop853).
+/// - Cost of a step: 6 evaluations, accepted or not. Dense output, of order four (`O(h^5)`), costs none.
+/// - Source: C. Tsitouras, *Runge-Kutta pairs of order 5(4) satisfying only the first column simplifying assumption*,
+///   Computers & Mathematics with Applications 62 (2011) 770-775. Step control as of DOP853 with other constants.
+///
+/// ```
+/// use core::ops::ControlFlow;
+/// use guen_runtime::{from_fn, steppers::Tsit5};
+///
+/// let oscillator = from_fn(|_t: f64, &[x, v]: &[f64; 2]| [v, -x]);
+/// let done = Tsit5::new(1e-6, 1e-6)
+///     .integrate(&oscillator, 0.0, &[0.0, 1.0], 10.0, |_t, _x| ControlFlow::Continue(()))
+///     .unwrap();
+/// assert!((done.state[0] - 10.0_f64.sin()).abs() < 1e-4);
+/// assert!(done.statistics.evaluations < 300);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tsit5<R = f64> {
+    /// The tolerance relative to each entry of the state: nonnegative.
+    pub rtol: f64,
+    /// The absolute tolerance, the same for every entry of the state: positive.
+    pub atol: f64,
+    /// The largest number of trial steps of one run.
+    pub max_steps: u64,
+    /// The first step to try, a positive duration; estimated from the right-hand side if absent.
+    pub first_step: Option<f64>,
+    pub(super) formula: Formula<R>,
+}
+
+impl<R: Ordered> Tsit5<R> {
+    /// The number of trial steps allowed unless another one is set.
+    pub const MAX_STEPS: u64 = 100_000;
+
+    /// The method with the given relative and absolute tolerances.
+    pub fn new(rtol: f64, atol: f64) -> Self {
+        Self { rtol, atol, max_steps: Self::MAX_STEPS, first_step: None, formula: Formula::new() }
+    }
+
+    /// The same with another limit on the number of trial steps.
+    pub fn with_max_steps(self, max_steps: u64) -> Self {
+        Self { max_steps, ..self }
+    }
+
+    /// The same with a given first step.
+    pub fn with_first_step(self, first_step: f64) -> Self {
+        Self { first_step: Some(first_step), ..self }
+    }
+
+    fn settings(&self) -> Settings {
+        let tolerance = Tolerance { relative: self.rtol, absolute: self.atol };
+        Settings { tolerance, max_steps: self.max_steps, first_step: self.first_step }
+    }
+}
+
+/// The coefficients in the real `R`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Formula<R> {
+    c: [R; 5],
+    a2: [R; 1],
+    a3: [R; 2],
+    a4: [R; 3],
+    a5: [R; 4],
+    a6: [R; 5],
+    b: [R; 6],
+    e: [R; 7],
+    d: [R; 7],
+}
+
+/// The slopes of all seven stages.
+type Stages<R, const N: usize> = [[R; N]; 7];
+
+impl<R: Real> Formula<R> {
+    pub(super) fn new() -> Self {
+        Self {
+            c: reals(&published::C),
+            a2: reals(&published::A2),
+            a3: reals(&published::A3),
+            a4: reals(&published::A4),
+            a5: reals(&published::A5),
+            a6: reals(&published::A6),
+            b: reals(&published::B),
+            e: reals(&published::E),
+            d: reals(&published::D),
+        }
+    }
+}
+
+impl<R: Real, const N: usize> Pair<R, N> for Formula<R> {
+    type Stages = Stages<R, N>;
+
+    const TRIAL: u64 = 6;
+    const CONTROL: Control = Control { power: 5, safety: 0.9, shorten: 0.2, grow: 5.0 };
+
+    #[inline]
+    fn attempt<S>(&self, system: &S, t: R, x: &[R; N], k1: &[R; N], h: R) -> Attempt<R, Stages<R, N>, N>
+    where
+        S: System<R, N> + ?Sized,
+    {
+        let at = |i: usize, slope: [R; N]| system.rhs(t + self.c[i] * h, &shifted(x, h, &slope));
+        let k2 = at(0, weighted(&self.a2, [k1]));
+        let k3 = at(1, weighted(&self.a3, [k1, &k2]));
+        let k4 = at(2, weighted(&self.a4, [k1, &k2, &k3]));
+        let k5 = at(3, weighted(&self.a5, [k1, &k2, &k3, &k4]));
+        let k6 = at(4, weighted(&self.a6, [k1, &k2, &k3, &k4, &k5]));
+        let state = shifted(x, h, &weighted(&self.b, [k1, &k2, &k3, &k4, &k5, &k6]));
+        let k7 = system.rhs(t + h, &state);
+        Attempt { state, stages: [*k1, k2, k3, k4, k5, k6, k7], end: Some(k7) }
+    }
+
+    #[inline]
+    fn error(&self, attempt: &Attempt<R, Stages<R, N>, N>, h: f64, weights: &[f64; N]) -> f64 {
+        h * control::mean_size(&weighted(&self.e, attempt.stages.each_ref()), weights)
+    }
+
+    fn dense<S>(&self, _system: &S, step: &Step<'_, R, Stages<R, N>, N>) -> (Dense<R, N>, u64)
+    where
+        S: System<R, N> + ?Sized,
+    {
+        let Step { from, to, stages, h, .. } = *step;
+        // The formula's own slope at the end: where a constraint was restored, the state's is another.
+        let hermite = Dense::hermite(from.time, h, &from.state, &stages[0], &to.state, &stages[6]);
+        let bend = weighted(&self.d, stages.each_ref());
+        (hermite.with_terms([bend.map(|bend| h * bend)]), 0)
+    }
+}
+
+impl<R: Ordered, S: System<R, N> + ?Sized, const N: usize> Method<R, S, N> for Tsit5<R> {
+    type Course<'a> = Adaptive<'a, Formula<R>, Stages<R, N>, R, N>;
+
+    fn start(&self, t0: R, x0: &[R; N]) -> Self::Course<'_> {
+        Adaptive::new(&self.formula, self.settings(), t0, x0)
+    }
+}
+
+short_ways!(Tsit5 over Ordered, systems System);
