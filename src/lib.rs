@@ -48,9 +48,10 @@
 
 pub use guen_runtime::{
     BodyFault, BracketCoefficients, Catastatic, Class, Coefficient, Conservative, ConstantsError, Coordinate,
-    Cost, Dual, Function, Holonomic, IncompleteLieGroup, IntegrationError, LieGroup, Lift, Linearization,
-    Monitored, Nonholonomic, Operator, Ordered, Positions, PositionsError, Projected, Real, Report,
-    ReportSection, Rheonomic, Scleronomic, System, from_fn, prelude, project, projected, steppers,
+    Cost, Dual, Function, Holonomic, IncompleteLieGroup, IntegrationError, LieGroup, Lift, Liftable,
+    Linearizable, Linearization, Monitored, Nonholonomic, Operator, Ordered, OutputLinearization, Positions,
+    PositionsError, Projected, Real, Report, ReportSection, Rheonomic, Scleronomic, System, from_fn, prelude,
+    project, projected, steppers,
 };
 
 /// Declares a mechanical system and derives its equations of motion at compile time.
@@ -96,9 +97,9 @@ pub mod __private {
     pub use guen_runtime::consistent;
     pub use guen_runtime::{
         BracketCoefficients, Catastatic, Class, Coefficient, Conservative, ConstantsError, Cost, Dual,
-        Holonomic, IncompleteLieGroup, LieGroup, Lift, Linearization, Monitored, Nonholonomic, Operator,
-        Ordered, Positions, PositionsError, Real, Report, ReportSection, Rheonomic, Scleronomic, System,
-        nalgebra_conversions, seeded, zero_bracket,
+        Holonomic, IncompleteLieGroup, LieGroup, Lift, Liftable, Linearizable, Linearization, Monitored,
+        Nonholonomic, Operator, Ordered, OutputLinearization, Positions, PositionsError, Real, Report,
+        ReportSection, Rheonomic, Scleronomic, System, nalgebra_conversions, seeded, zero_bracket,
     };
 }
 

@@ -6,6 +6,7 @@ use guen_symbolic::{
 };
 
 use crate::diagnostics::{Fault, Faults};
+use crate::jacobians::Jacobians;
 use crate::model::{FormKind, Model};
 use crate::names::quoted;
 
@@ -23,6 +24,8 @@ pub struct Derived<'a> {
     pub domain_names: Vec<String>,
     /// Expressions of constants that must not vanish.
     pub constant_pivots: Vec<ExprId>,
+    /// Where the derivatives belong that have code of their own.
+    pub jacobians: Jacobians,
 }
 
 /// Names of the functions, in the order in which they are built.
@@ -55,6 +58,10 @@ pub mod function {
     pub const DOMAIN: &str = "domain";
     /// The expressions of constants that must not vanish.
     pub const PIVOTS: &str = "pivots";
+    /// The derivatives of the rates by state and inputs, those that do not vanish.
+    pub const LINEARIZATION: &str = "linearization";
+    /// The derivatives of the outputs likewise.
+    pub const OUTPUT_LINEARIZATION: &str = "output_linearization";
     /// The coefficients of `X_0`, then of `X_1`, and so on.
     pub const OPERATORS: &str = "operators";
     /// The coefficients of the brackets that do not vanish, in the order of [`bracket_pairs`](super::bracket_pairs).
@@ -87,8 +94,9 @@ pub fn derive<'a>(mut model: Model<'a>, faults: &mut Faults) -> Option<Derived<'
         .chain(&derivation.solution.constant_pivots)
         .copied()
         .collect();
-    let programs = programs(&mut model, &mut derivation, &domain, &constant_pivots);
-    Some(Derived { model, derivation, programs, domain, domain_names, constant_pivots })
+    let mut programs = programs(&mut model, &mut derivation, &domain, &constant_pivots);
+    let jacobians = Jacobians::add(&mut programs, &model);
+    Some(Derived { model, derivation, programs, domain, domain_names, constant_pivots, jacobians })
 }
 
 /// Energies, momenta and reactions as polynomials in the quasi-velocities, where that is cheaper.

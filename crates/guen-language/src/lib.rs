@@ -10,6 +10,7 @@
 pub mod derive;
 pub mod diagnostics;
 pub mod emit;
+pub mod jacobians;
 pub mod limits;
 pub mod model;
 pub mod names;

@@ -49,7 +49,7 @@ pub use cost::Cost;
 pub use dual::Dual;
 pub use error::{BodyFault, Cause, ConstantsError, IntegrationError, Setting};
 pub use lift::Lift;
-pub use linearization::{Linearization, seeded};
+pub use linearization::{Liftable, Linearizable, Linearization, OutputLinearization, seeded};
 pub use operator::{Applied, Coordinate, Function, Operator};
 pub use positions::{Positions, PositionsError, Projected, consistent, project, projected};
 pub use real::{Ordered, Real};

@@ -73,7 +73,9 @@ pub(super) fn signature(name: &str) -> Signature {
     match name {
         function::PIVOTS => Signature::Constants,
         function::FORMS => Signature::Velocities,
-        function::RHS | function::OUTPUTS => Signature::Driven,
+        function::RHS | function::OUTPUTS | function::LINEARIZATION | function::OUTPUT_LINEARIZATION => {
+            Signature::Driven
+        }
         function::REACTIONS | function::POWER => Signature::Accelerated,
         function::VELOCITIES | function::ENERGY | function::KINETIC_ENERGY | function::MOMENTA => {
             Signature::State

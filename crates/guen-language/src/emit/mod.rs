@@ -8,6 +8,7 @@ mod code;
 mod constants;
 mod documentation;
 mod functions;
+mod linearization;
 mod motion;
 mod operators;
 mod outline;
@@ -121,6 +122,7 @@ pub fn emit(mut derived: Derived<'_>) -> TokenStream {
         constants::items(&derived, &layout, &report),
         records::items(&derived, &layout),
         motion::items(&derived, &layout),
+        linearization::items(&derived, &layout),
         positions::items(&derived, &layout),
         physical::items(&derived, &layout),
         operators::items(&mut derived, &layout),

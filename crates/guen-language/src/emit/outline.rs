@@ -341,6 +341,24 @@ fn prepared(system: &Ident, names: &Names) -> TokenStream {
             #constraints
             #hold
         }
+        impl<R> __guen::Linearizable<R, #size, #inputs> for Prepared<R>
+        where
+            R: __guen::Lift<R>,
+        {
+            fn rates(&self, _: R, _: &[R; #size], _: &[R; #inputs]) -> [R; #size] { ::core::unreachable!() }
+            fn linearization(
+                &self, _: R, _: &[R; #size], _: &[R; #inputs]
+            ) -> __guen::Linearization<R, #size, #inputs> {
+                ::core::unreachable!()
+            }
+        }
+        impl<R: __guen::Real> __guen::Liftable<R, #size, #inputs> for Prepared<R> {
+            fn lifted_rates<S: __guen::Real + __guen::Lift<R>>(
+                &self, _: S, _: &[S; #size], _: &[S; #inputs]
+            ) -> [S; #size] {
+                ::core::unreachable!()
+            }
+        }
         #positions
         impl<R: __guen::Real> State<R> {
             /// The state at given velocities.
@@ -381,6 +399,8 @@ fn prepared(system: &Ident, names: &Names) -> TokenStream {
         pub const COST: __guen::Cost = NO_COST;
         /// The cost of `prepare`.
         pub const PREPARE_COST: __guen::Cost = NO_COST;
+        /// The cost of a linearisation.
+        pub const LINEARIZATION_COST: ::core::option::Option<__guen::Cost> = ::core::option::Option::None;
         /// The domain of the chart.
         pub const DOMAIN: [&str; 0] = [];
         /// The report.
