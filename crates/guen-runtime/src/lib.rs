@@ -9,6 +9,7 @@
 //! | what acts on functions? | [`Operator`], [`Function`], [`Coordinate`], [`BracketCoefficients`] |
 //! | what is known at compile time? | [`Class`], the markers [`Holonomic`] to [`Conservative`], [`Cost`] |
 //! | how is it integrated? | [`steppers`]: [`Rk4`](steppers::Rk4), [`Dop853`](steppers::Dop853) |
+//! | how is it controlled? | [`Linearizable`], [`control`] |
 //! | what holds of positions? | [`Positions`], [`consistent`], [`project`], [`projected`] |
 //! | what can go wrong? | [`ConstantsError`], [`IntegrationError`] with its [`Cause`], [`PositionsError`] |
 //!
@@ -25,6 +26,7 @@
 mod bracket;
 pub mod checks;
 mod classification;
+pub mod control;
 mod cost;
 mod decimal;
 mod dual;

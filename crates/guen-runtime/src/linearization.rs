@@ -33,7 +33,7 @@ pub struct OutputLinearization<R, const N: usize, const M: usize, const P: usize
 }
 
 /// A system of `N` equations with `M` inputs whose rates and exact Jacobians can be computed: what the analyses of
-/// control take. Every prepared system is one.
+/// [`control`](crate::control) take. Every prepared system is one.
 ///
 /// ```
 /// use guen_runtime::{Linearizable, Linearization};
