@@ -46,6 +46,7 @@
 #![no_std]
 #![forbid(unsafe_code)]
 
+pub use guen_runtime::control;
 pub use guen_runtime::{
     BodyFault, BracketCoefficients, Catastatic, Class, Coefficient, Conservative, ConstantsError, Coordinate,
     Cost, Dual, Function, Holonomic, IncompleteLieGroup, IntegrationError, LieGroup, Lift, Liftable,
@@ -94,13 +95,13 @@ macro_rules! mechanical_system {
 pub mod __private {
     pub use guen_macros::mechanical_system;
     pub use guen_runtime::checks::{check_hoisted, check_inertia, check_mass, check_pivot, largest};
-    pub use guen_runtime::consistent;
     pub use guen_runtime::{
         BracketCoefficients, Catastatic, Class, Coefficient, Conservative, ConstantsError, Cost, Dual,
         Holonomic, IncompleteLieGroup, LieGroup, Lift, Liftable, Linearizable, Linearization, Monitored,
         Nonholonomic, Operator, Ordered, OutputLinearization, Positions, PositionsError, Real, Report,
         ReportSection, Rheonomic, Scleronomic, System, nalgebra_conversions, seeded, zero_bracket,
     };
+    pub use guen_runtime::{consistent, control};
 }
 
 /// The Rust blocks of the pages under `docs/` and of the README, compiled and run as doctests.

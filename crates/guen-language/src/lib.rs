@@ -7,6 +7,7 @@
 //!
 //! Every stage reports what is wrong through [`diagnostics`]; [`report`] writes down what was derived.
 
+mod control;
 pub mod derive;
 pub mod diagnostics;
 pub mod emit;

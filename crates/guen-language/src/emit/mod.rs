@@ -6,6 +6,7 @@
 mod classification;
 mod code;
 mod constants;
+mod control;
 mod documentation;
 mod functions;
 mod linearization;
@@ -123,6 +124,7 @@ pub fn emit(mut derived: Derived<'_>) -> TokenStream {
         records::items(&derived, &layout),
         motion::items(&derived, &layout),
         linearization::items(&derived, &layout),
+        control::items(&derived, &layout),
         positions::items(&derived, &layout),
         physical::items(&derived, &layout),
         operators::items(&mut derived, &layout),

@@ -3,6 +3,7 @@
 //! The rest of the user's crate then reports its own mistakes only, and completion keeps working. Bodies are
 //! never reached, since the crate does not compile. What is a vector is guessed from how it is written.
 
+mod control;
 mod kinds;
 
 use proc_macro2::{Ident, TokenStream};
@@ -287,6 +288,7 @@ fn prepared(system: &Ident, names: &Names) -> TokenStream {
             })*
         }
     });
+    let control = control::items(&control::Sizes { n, size, inputs }, bound > 0, !names.outputs.is_empty());
     let kinds = [
         "Holonomic",
         "LieGroup",
@@ -341,24 +343,7 @@ fn prepared(system: &Ident, names: &Names) -> TokenStream {
             #constraints
             #hold
         }
-        impl<R> __guen::Linearizable<R, #size, #inputs> for Prepared<R>
-        where
-            R: __guen::Lift<R>,
-        {
-            fn rates(&self, _: R, _: &[R; #size], _: &[R; #inputs]) -> [R; #size] { ::core::unreachable!() }
-            fn linearization(
-                &self, _: R, _: &[R; #size], _: &[R; #inputs]
-            ) -> __guen::Linearization<R, #size, #inputs> {
-                ::core::unreachable!()
-            }
-        }
-        impl<R: __guen::Real> __guen::Liftable<R, #size, #inputs> for Prepared<R> {
-            fn lifted_rates<S: __guen::Real + __guen::Lift<R>>(
-                &self, _: S, _: &[S; #size], _: &[S; #inputs]
-            ) -> [S; #size] {
-                ::core::unreachable!()
-            }
-        }
+        #control
         #positions
         impl<R: __guen::Real> State<R> {
             /// The state at given velocities.
@@ -399,8 +384,6 @@ fn prepared(system: &Ident, names: &Names) -> TokenStream {
         pub const COST: __guen::Cost = NO_COST;
         /// The cost of `prepare`.
         pub const PREPARE_COST: __guen::Cost = NO_COST;
-        /// The cost of a linearisation.
-        pub const LINEARIZATION_COST: ::core::option::Option<__guen::Cost> = ::core::option::Option::None;
         /// The domain of the chart.
         pub const DOMAIN: [&str; 0] = [];
         /// The report.

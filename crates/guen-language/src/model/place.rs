@@ -81,7 +81,8 @@ impl Place {
             Place::Gravity => timed,
             Place::Holonomic | Place::ForceFunction | Place::Mass | Place::Position => positions,
             Place::Parameter | Place::Constraint | Place::KineticEnergy | Place::Direction => velocities,
-            Place::Let | Place::Force | Place::Output => all,
+            Place::Let | Place::Force => all,
+            Place::Output => all.or(Roles::of(Role::QuasiAcceleration)),
         }
     }
 }
@@ -100,5 +101,12 @@ pub(super) fn role_name(role: Role) -> &'static str {
 }
 
 /// Every kind of symbol, in the order in which a message names the first that is not allowed.
-pub(super) const ROLES: [Role; 6] =
-    [Role::Input, Role::Velocity, Role::QuasiVelocity, Role::Coordinate, Role::Time, Role::Constant];
+pub(super) const ROLES: [Role; 7] = [
+    Role::QuasiAcceleration,
+    Role::Input,
+    Role::Velocity,
+    Role::QuasiVelocity,
+    Role::Coordinate,
+    Role::Time,
+    Role::Constant,
+];

@@ -23,5 +23,5 @@ pub use controllability::{Controllability, Uncontrollable, controllability};
 pub use dense::solve;
 pub use discrete::{DiscreteError, Flow, Frozen};
 pub use inverse::{InverseDynamicsError, MassForm, inverse_dynamics};
-pub use reduced::{Component, Leaf, Quaternion, ReduceError, Reduced};
+pub use reduced::{Component, Leaf, Quaternion, ReduceError, Reduced, independent};
 pub use steady::{SteadyError, SteadyMotion, named, steady};

@@ -64,6 +64,26 @@ impl fmt::Display for ReduceError {
 
 impl Error for ReduceError {}
 
+/// The coordinates that are named, among the names of a state, which begin with those of the coordinates.
+///
+/// # Errors
+///
+/// [`ReduceError::UnknownCoordinate`].
+pub fn independent<const N: usize, const S: usize>(
+    names: &[&'static str],
+    state: &[&'static str; S],
+) -> Result<[bool; N], ReduceError> {
+    let mut found = [false; N];
+    for name in names {
+        let place = state.iter().take(N).position(|known| known == name);
+        match place.and_then(|i| found.get_mut(i)) {
+            Some(entry) => *entry = true,
+            None => return Err(ReduceError::UnknownCoordinate { name }),
+        }
+    }
+    Ok(found)
+}
+
 /// The linear model of a system in a basis `z` of its leaf: independent positions, then the quasi-velocities.
 ///
 /// ```text
