@@ -94,7 +94,7 @@ macro_rules! mechanical_system {
 #[doc(hidden)]
 pub mod __private {
     pub use guen_macros::mechanical_system;
-    pub use guen_runtime::checks::{check_hoisted, check_inertia, check_mass, check_pivot, largest};
+    pub use guen_runtime::checks::{check_hoisted, check_inertia, check_mass, check_pivot, clamped, largest};
     pub use guen_runtime::{
         BracketCoefficients, Catastatic, Class, Coefficient, Conservative, ConstantsError, Cost, Dual,
         Holonomic, IncompleteLieGroup, LieGroup, Lift, Liftable, Linearizable, Linearization, Monitored,

@@ -239,3 +239,26 @@ fn inputs_that_are_not_affine() {
     let form = system.mass_form(0.0, &Default::default(), &inputs);
     assert!((form.mass[0][0] * 1.5 + form.bias[0] - form.input[0][0] * inputs.rpm).abs() < 1e-12);
 }
+
+guen::mechanical_system! {
+    /// Limits from constants, from numbers, and none.
+    pub system Limited {
+        constants { strong > 0 }
+        inputs { motor in -strong..2*strong, brake in 0..1.5, free }
+        coordinates { x }
+        parameters { v = dot(x); }
+        kinetic_energy = v^2/2;
+        forces { motor - brake*v + free along v; }
+    }
+}
+
+#[test]
+fn inputs_have_limits() {
+    let system = Limited { strong: 4.0 }.prepare().unwrap();
+    let (lower, upper) = system.limits();
+    assert_eq!((lower.motor, lower.brake, lower.free), (-4.0, 0.0, f64::NEG_INFINITY));
+    assert_eq!((upper.motor, upper.brake, upper.free), (8.0, 1.5, f64::INFINITY));
+    let clamped = system.clamped(&limited::Inputs { motor: 9.0, brake: -0.1, free: 1e9 });
+    assert_eq!((clamped.motor, clamped.brake, clamped.free), (8.0, 0.0, 1e9));
+    assert!(system.clamped(&limited::Inputs { motor: f64::NAN, ..Default::default() }).motor.is_nan());
+}

@@ -9,6 +9,7 @@ mod constants;
 mod control;
 mod documentation;
 mod functions;
+mod limits;
 mod linearization;
 mod motion;
 mod operators;
@@ -125,6 +126,7 @@ pub fn emit(mut derived: Derived<'_>) -> TokenStream {
         motion::items(&derived, &layout),
         linearization::items(&derived, &layout),
         control::items(&derived, &layout),
+        limits::items(&derived, &layout),
         positions::items(&derived, &layout),
         physical::items(&derived, &layout),
         operators::items(&mut derived, &layout),

@@ -82,6 +82,8 @@ pub struct SymbolEntry<'a> {
     pub docs: &'a Docs,
     /// The symbol.
     pub symbol: ExprId,
+    /// The least and the largest value, of constants, where an input declares them.
+    pub limits: Option<[ExprId; 2]>,
 }
 
 /// Which section a form comes from.

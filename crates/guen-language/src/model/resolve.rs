@@ -16,7 +16,7 @@ use crate::diagnostics::{Fault, Faults};
 use crate::names::quoted;
 use crate::syntax::{
     BoundKind, Constant, Declaration, Definition, Expression, ExpressionKind, Force as WrittenForce, Item,
-    Quantity, SectionKind,
+    Plain, Quantity, SectionKind,
 };
 
 /// Checks names, kinds and forms. `None` if a fault was reported that leaves no model.
@@ -122,15 +122,21 @@ impl<'a, 'f> Resolver<'a, 'f> {
             Item::Inputs(section) => {
                 for plain in &section.entries {
                     let symbol = self.eval.bench.graph.symbol(&plain.name.text, Role::Input);
+                    let limits = plain.limits.as_deref().and_then(|limits| self.limits(plain, limits));
                     self.declare_symbol(&plain.name, Category::Input, symbol);
-                    self.inputs.push(SymbolEntry { name: &plain.name, docs: &plain.docs, symbol });
+                    self.inputs.push(SymbolEntry { name: &plain.name, docs: &plain.docs, symbol, limits });
                 }
             }
             Item::Coordinates(section) => {
                 for plain in &section.entries {
                     let symbol = self.eval.bench.graph.symbol(&plain.name.text, Role::Coordinate);
                     self.declare_symbol(&plain.name, Category::Coordinate, symbol);
-                    self.coordinates.push(SymbolEntry { name: &plain.name, docs: &plain.docs, symbol });
+                    self.coordinates.push(SymbolEntry {
+                        name: &plain.name,
+                        docs: &plain.docs,
+                        symbol,
+                        limits: None,
+                    });
                 }
                 for plain in &section.entries {
                     let name = format!("dot({})", plain.name.text);
@@ -246,6 +252,20 @@ impl<'a, 'f> Resolver<'a, 'f> {
             default: default.and_then(Result::ok),
             symbol,
         });
+    }
+
+    /// The limits of an input; two numbers have to stand in their order.
+    fn limits(&mut self, plain: &Plain, limits: &[Expression; 2]) -> Option<[ExprId; 2]> {
+        self.eval.entry = Some(plain.name.text.clone());
+        let values = limits.each_ref().map(|e| self.eval.scalar_at(Place::Limit, e).ok());
+        let [Some(lower), Some(upper)] = values else { return None };
+        let graph = &mut self.eval.bench.graph;
+        let span = graph.sub(upper, lower);
+        if graph.as_number(span).is_some_and(|span| span.is_negative()) {
+            let fault = Fault::new(limits[0].extent(), "the lower limit is above the upper one");
+            self.eval.faults.report(fault.help("limits are written `name in lower..upper`"));
+        }
+        Some([lower, upper])
     }
 
     /// A default that is a number must keep the bound beside it.
