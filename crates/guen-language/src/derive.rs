@@ -6,6 +6,7 @@ use guen_symbolic::{
 };
 
 use crate::diagnostics::{Fault, Faults};
+use crate::jacobians::Jacobians;
 use crate::model::{FormKind, Model};
 use crate::names::quoted;
 
@@ -23,6 +24,8 @@ pub struct Derived<'a> {
     pub domain_names: Vec<String>,
     /// Expressions of constants that must not vanish.
     pub constant_pivots: Vec<ExprId>,
+    /// Where the derivatives belong that have code of their own.
+    pub jacobians: Jacobians,
 }
 
 /// Names of the functions, in the order in which they are built.
@@ -55,6 +58,16 @@ pub mod function {
     pub const DOMAIN: &str = "domain";
     /// The expressions of constants that must not vanish.
     pub const PIVOTS: &str = "pivots";
+    /// The differentials of the integrable combinations of constraints, row by row.
+    pub const LEAF: &str = "leaf";
+    /// The lower triangle of the mass matrix, the bias, and the matrix of the inputs.
+    pub const MASS_FORM: &str = "mass_form";
+    /// The reactions as a covector on the velocities; only where all are known.
+    pub const REACTION_COVECTOR: &str = "reaction_covector";
+    /// The derivatives of the rates by state and inputs, those that do not vanish.
+    pub const LINEARIZATION: &str = "linearization";
+    /// The derivatives of the outputs likewise.
+    pub const OUTPUT_LINEARIZATION: &str = "output_linearization";
     /// The coefficients of `X_0`, then of `X_1`, and so on.
     pub const OPERATORS: &str = "operators";
     /// The coefficients of the brackets that do not vanish, in the order of [`bracket_pairs`](super::bracket_pairs).
@@ -74,6 +87,7 @@ pub fn derive<'a>(mut model: Model<'a>, faults: &mut Faults) -> Option<Derived<'
     let mut derivation = derivation?;
     report_missing_momenta(&mut model, &mut derivation, faults);
     crate::scenes::report(&mut model, &derivation, faults);
+    report_unknown_reactions(&model, &derivation, faults);
     if faults.count() > before {
         return None;
     }
@@ -87,8 +101,9 @@ pub fn derive<'a>(mut model: Model<'a>, faults: &mut Faults) -> Option<Derived<'
         .chain(&derivation.solution.constant_pivots)
         .copied()
         .collect();
-    let programs = programs(&mut model, &mut derivation, &domain, &constant_pivots);
-    Some(Derived { model, derivation, programs, domain, domain_names, constant_pivots })
+    let mut programs = programs(&mut model, &mut derivation, &domain, &constant_pivots);
+    let jacobians = Jacobians::add(&mut programs, &model);
+    Some(Derived { model, derivation, programs, domain, domain_names, constant_pivots, jacobians })
 }
 
 /// Energies, momenta and reactions as polynomials in the quasi-velocities, where that is cheaper.
@@ -198,6 +213,7 @@ fn programs(
         .into_iter()
         .map(|(r, s)| (1..=n).map(|t| derivation.frame.brackets.coefficient(bench, r, s, t)).collect())
         .collect();
+    let control = crate::control::Lists::new(bench, derivation);
     let mut builder = ProgramBuilder::new(&mut bench.graph);
     let energies = &derivation.energies;
     builder.add_equal(function::RHS, &lists);
@@ -226,7 +242,23 @@ fn programs(
     // All operators in one function, and all brackets in another: they share the inverse of the forms.
     builder.add_cold(function::OPERATORS, &derivation.frame.operators.xi.concat());
     builder.add_cold(function::BRACKETS, &brackets.concat());
+    control.add(&mut builder);
     builder.finish()
+}
+
+/// Outputs that ask for a reaction that the kinetic energy does not determine.
+fn report_unknown_reactions(model: &Model<'_>, derivation: &Derivation, faults: &mut Faults) {
+    let degrees = derivation.system.forms.degrees;
+    for (form, span) in &model.reactions {
+        if derivation.reactions[*form - degrees].is_none() {
+            let name = &model.forms[*form].name;
+            faults.report(
+                Fault::new(*span, format!("the reaction of `{name}` is not known"))
+                    .note(format!("the kinetic energy says nothing of the momentum that goes with `{name}`"))
+                    .help("write the energy in the velocities, before the constraint"),
+            );
+        }
+    }
 }
 
 fn report(model: &mut Model<'_>, error: DerivationError, faults: &mut Faults) {

@@ -7,9 +7,11 @@
 //!
 //! Every stage reports what is wrong through [`diagnostics`]; [`report`] writes down what was derived.
 
+mod control;
 pub mod derive;
 pub mod diagnostics;
 pub mod emit;
+pub mod jacobians;
 pub mod limits;
 pub mod model;
 pub mod names;

@@ -1,7 +1,7 @@
 //! Checks that generated code calls, out of line.
 
 use crate::error::BodyFault;
-use crate::{ConstantsError, Real};
+use crate::{ConstantsError, Ordered, Real};
 
 /// Refuses a pivot of constants that is zero or not finite.
 ///
@@ -94,6 +94,24 @@ pub fn check_inertia<R: Real>(entries: &[R; 6], body: &'static str) -> Result<()
         a * b * c + 2.0 * d * e * f - a * e * e - b * f * f - c * d * d,
     ];
     if half > 0.0 && minors.iter().all(|minor| *minor >= -ROUNDING) { Ok(()) } else { Err(fault) }
+}
+
+/// A value inside of limits; what cannot be compared with them stays as it is.
+///
+/// ```
+/// use guen_runtime::checks::clamped;
+/// assert_eq!((clamped(3.0, -1.0, 1.0), clamped(-3.0, -1.0, 1.0), clamped(0.5, -1.0, 1.0)), (1.0, -1.0, 0.5));
+/// assert!(clamped(f64::NAN, -1.0, 1.0).is_nan());
+/// ```
+#[inline]
+pub fn clamped<R: Ordered>(value: R, lower: R, upper: R) -> R {
+    if value < lower {
+        lower
+    } else if value > upper {
+        upper
+    } else {
+        value
+    }
 }
 
 /// The largest absolute value, as a real without an order can have it: through `f64` for the comparison. Zero for

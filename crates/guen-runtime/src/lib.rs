@@ -9,6 +9,7 @@
 //! | what acts on functions? | [`Operator`], [`Function`], [`Coordinate`], [`BracketCoefficients`] |
 //! | what is known at compile time? | [`Class`], the markers [`Holonomic`] to [`Conservative`], [`Cost`] |
 //! | how is it integrated? | [`steppers`]: an [`Integration`](steppers::Integration) run by one of nine methods |
+//! | how is it controlled? | [`Linearizable`], [`control`] |
 //! | what holds of positions? | [`Positions`], [`consistent`], [`project`], [`projected`] |
 //! | what can go wrong? | [`ConstantsError`], [`IntegrationError`] with its [`Cause`], [`PositionsError`] |
 //!
@@ -28,6 +29,7 @@ extern crate std;
 mod bracket;
 pub mod checks;
 mod classification;
+pub mod control;
 mod cost;
 mod decimal;
 mod differentiable;
@@ -58,7 +60,7 @@ pub use differentiable::{Differentiable, Equations, Generic, generic};
 pub use dual::Dual;
 pub use error::{BodyFault, Cause, ConstantsError, IntegrationError, Setting};
 pub use lift::Lift;
-pub use linearization::{Linearization, seeded};
+pub use linearization::{Liftable, Linearizable, Linearization, OutputLinearization, seeded};
 pub use operator::{Applied, Coordinate, Function, Operator};
 pub use positions::{Positions, PositionsError, Projected, consistent, project, projected};
 pub use real::{Ordered, Real};

@@ -1,6 +1,6 @@
-//! The linearisation of a right-hand side, and the seeds of the duals that it is computed with.
+//! The linearisation of rates and of outputs, and the seeds of the duals that derivatives are computed with.
 
-use crate::{Dual, Real};
+use crate::{Dual, Lift, Real};
 
 /// The exact Jacobians of a right-hand side: `d(state)' = A d(state) + B d(inputs)`.
 ///
@@ -15,6 +15,81 @@ pub struct Linearization<R, const N: usize, const M: usize> {
     pub a: [[R; N]; N],
     /// `b[i][j]`, the derivative of the rate `i` by the input `j`: `N` by `M`.
     pub b: [[R; M]; N],
+}
+
+/// The exact Jacobians of `P` outputs: `d(outputs) = C d(state) + D d(inputs)`.
+///
+/// ```
+/// use guen_runtime::OutputLinearization;
+/// let position = OutputLinearization { c: [[1.0, 0.0]], d: [[0.0]] };
+/// assert_eq!(position.c[0], [1.0, 0.0]);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OutputLinearization<R, const N: usize, const M: usize, const P: usize> {
+    /// `c[i][j]`, the derivative of the output `i` by the state `j`: `P` by `N`.
+    pub c: [[R; N]; P],
+    /// `d[i][j]`, the derivative of the output `i` by the input `j`: `P` by `M`.
+    pub d: [[R; M]; P],
+}
+
+/// A system of `N` equations with `M` inputs whose rates and exact Jacobians can be computed: what the analyses of
+/// [`control`](crate::control) take. Every prepared system is one.
+///
+/// ```
+/// use guen_runtime::{Linearizable, Linearization};
+///
+/// /// `x'' = u - sin(x)`.
+/// struct Pendulum;
+/// impl Linearizable<f64, 2, 1> for Pendulum {
+///     fn rates(&self, _t: f64, [x, v]: &[f64; 2], [u]: &[f64; 1]) -> [f64; 2] {
+///         [*v, u - x.sin()]
+///     }
+///     fn linearization(&self, _t: f64, [x, _]: &[f64; 2], _: &[f64; 1]) -> Linearization<f64, 2, 1> {
+///         Linearization { a: [[0.0, 1.0], [-x.cos(), 0.0]], b: [[0.0], [1.0]] }
+///     }
+/// }
+/// assert_eq!(Pendulum.linearization(0.0, &[0.0, 0.0], &[0.0]).a[1][0], -1.0);
+/// ```
+pub trait Linearizable<R: Real, const N: usize, const M: usize> {
+    /// The rates of the state.
+    fn rates(&self, t: R, state: &[R; N], inputs: &[R; M]) -> [R; N];
+
+    /// The Jacobians of the rates by state and inputs.
+    fn linearization(&self, t: R, state: &[R; N], inputs: &[R; M]) -> Linearization<R, N, M>;
+}
+
+impl<R: Real, S: Linearizable<R, N, M> + ?Sized, const N: usize, const M: usize> Linearizable<R, N, M>
+    for &S
+{
+    #[inline]
+    fn rates(&self, t: R, state: &[R; N], inputs: &[R; M]) -> [R; N] {
+        (**self).rates(t, state, inputs)
+    }
+
+    #[inline]
+    fn linearization(&self, t: R, state: &[R; N], inputs: &[R; M]) -> Linearization<R, N, M> {
+        (**self).linearization(t, state, inputs)
+    }
+}
+
+/// A system whose rates can be computed in any real over `B`, duals included. Every prepared system is one.
+///
+/// ```
+/// use guen_runtime::{Dual, Lift, Liftable, Real};
+///
+/// /// `x' = k x + u`.
+/// struct Growth { k: f64 }
+/// impl Liftable<f64, 1, 1> for Growth {
+///     fn lifted_rates<S: Real + Lift<f64>>(&self, _t: S, [x]: &[S; 1], [u]: &[S; 1]) -> [S; 1] {
+///         [S::lift(self.k) * *x + *u]
+///     }
+/// }
+/// let [rate] = Growth { k: 2.0 }.lifted_rates(Dual::constant(0.0), &[Dual::<f64, 1>::variable(3.0, 0)], &[Dual::constant(0.0)]);
+/// assert_eq!((rate.value, rate.tangent), (6.0, [2.0]));
+/// ```
+pub trait Liftable<B: Real, const N: usize, const M: usize> {
+    /// The rates of the state over a real into which `B` is embedded.
+    fn lifted_rates<S: Real + Lift<B>>(&self, t: S, state: &[S; N], inputs: &[S; M]) -> [S; N];
 }
 
 /// Each value as the variable with its own index: the duals whose tangents are derivatives by all of them.

@@ -25,13 +25,14 @@ pub use algebra::{
 pub use geometry::{Brackets, Closure, Combination, Form, Forms, Operators, SingularForms};
 pub use motion::{
     Class, Derivation, DerivationError, Energies, Equations, Force, Frame, Holonomic, KineticTerm, Mechanics,
-    NotQuadratic, Solution, VelocityForm, VelocityPartials, decompose,
+    MotionSymbol, NotQuadratic, Solution, VelocityForm, VelocityPartials, decompose,
 };
 pub use normal::{Limits, normal_coefficients, normal_form};
 pub use print::{Notation, latex_name};
 pub use program::{
-    Arithmetic, Formulation, FunctionProgram, Instruction, Operation, OperationCount, ProgramBuilder,
-    Programs, Value, evaluate_function, evaluate_prepare, weighted_cost,
+    Arithmetic, Formulation, FunctionProgram, Instruction, LARGEST_DIFFERENTIATED, LARGEST_JACOBIAN,
+    Operation, OperationCount, Pattern, ProgramBuilder, Programs, Value, evaluate_function, evaluate_prepare,
+    weighted_cost,
 };
 pub use workbench::{MAX_WORK, Workbench};
 pub use zero::{Real, Verdict, ZeroTest, evaluate, evaluate_f64};

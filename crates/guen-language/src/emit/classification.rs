@@ -100,7 +100,7 @@ pub(super) fn items(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
     }
 }
 
-fn cost(count: &OperationCount) -> TokenStream {
+pub(super) fn cost(count: &OperationCount) -> TokenStream {
     let OperationCount { additions, negations, multiplications, divisions, roots, sines, calls } = *count;
     // The runtime counts every elementary function as a call.
     let calls = sines + calls;

@@ -42,7 +42,13 @@ impl Places {
                             .iter()
                             .position(|eta| graph.as_symbol(*eta) == Some(symbol))
                             .map_or_else(|| "unknown_form".to_owned(), |s| format!("s[{}]", n + s)),
-                        Role::QuasiAcceleration => format!("a[{i}]"),
+                        Role::QuasiAcceleration => derived
+                            .model
+                            .mechanics
+                            .accelerations
+                            .iter()
+                            .position(|a| graph.as_symbol(*a) == Some(symbol))
+                            .map_or_else(|| "unknown_acceleration".to_owned(), |s| format!("a[{s}]")),
                         Role::Input => format!("u[{i}]"),
                     }
                 })
@@ -77,8 +83,12 @@ pub(super) fn signature(name: &str) -> Signature {
     match name {
         function::PIVOTS => Signature::Constants,
         function::FORMS => Signature::Velocities,
-        function::RHS | function::OUTPUTS => Signature::Driven,
-        function::REACTIONS | function::POWER => Signature::Accelerated,
+        function::RHS
+        | function::OUTPUTS
+        | function::MASS_FORM
+        | function::LINEARIZATION
+        | function::OUTPUT_LINEARIZATION => Signature::Driven,
+        function::REACTIONS | function::REACTION_COVECTOR | function::POWER => Signature::Accelerated,
         function::VELOCITIES | function::ENERGY | function::KINETIC_ENERGY | function::MOMENTA => {
             Signature::State
         }

@@ -6,10 +6,13 @@
 mod classification;
 mod code;
 mod constants;
+mod control;
 mod documentation;
 mod functions;
 mod integrated;
 mod lanes;
+mod limits;
+mod linearization;
 mod motion;
 mod operators;
 mod outline;
@@ -124,6 +127,9 @@ pub fn emit(mut derived: Derived<'_>) -> TokenStream {
         records::items(&derived, &layout),
         motion::items(&derived, &layout),
         lanes::items(&layout),
+        linearization::items(&derived, &layout),
+        control::items(&derived, &layout),
+        limits::items(&derived, &layout),
         positions::items(&derived, &layout),
         physical::items(&derived, &layout),
         operators::items(&mut derived, &layout),

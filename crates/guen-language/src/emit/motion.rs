@@ -23,7 +23,7 @@ pub(super) fn items(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
 }
 
 /// The parameter and the argument of inputs, where the system has some.
-fn inputs(layout: &Layout) -> (TokenStream, TokenStream) {
+pub(super) fn inputs(layout: &Layout) -> (TokenStream, TokenStream) {
     if layout.inputs == 0 {
         (quote!(), quote!(&[]))
     } else {
@@ -79,7 +79,6 @@ fn methods(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
     });
     let residuals = residuals(derived, layout);
     let domain_count = derived.domain.len();
-    let linearize = linearize(layout);
     quote! {
         /// The rates of the state: velocities by (1.8), accelerations by (2.7). No allocation, no branch.
         #[inline]
@@ -138,7 +137,6 @@ fn methods(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
         #reactions
         #outputs
         #residuals
-        #linearize
     }
 }
 
@@ -173,60 +171,6 @@ fn residuals(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
             let positions = program::positions(&self.constants, &self.hoisted, t, &x);
             let _ = (&forms, &positions);
             ::core::convert::From::from([#(#values),*])
-        }
-    }
-}
-
-/// Exact Jacobians of the right-hand side, by dual numbers over the real.
-fn linearize(layout: &Layout) -> TokenStream {
-    let (size, inputs) = (layout.size, layout.inputs);
-    if inputs == 0 {
-        quote! {
-            /// The exact linearisation `d(state)' = A d(state)` at a state: `a[i][j]` is the derivative of the rate
-            /// `i` by the state `j`. Computed by dual numbers, about as long as the state times one right-hand side.
-            pub fn linearize(&self, t: R, state: &State<R>) -> __guen::Linearization<R, #size, 0>
-            where
-                __guen::Dual<R, #size>: __guen::Lift<R>,
-            {
-                let lifted: Prepared<__guen::Dual<R, #size>> = self.lift();
-                let state: [R; #size] = ::core::convert::From::from(*state);
-                let rates = program::rhs(
-                    &lifted.constants, &lifted.hoisted, __guen::Dual::constant(t), &__guen::seeded(&state), &[],
-                );
-                __guen::Linearization { a: rates.map(|rate| rate.tangent), b: [[]; #size] }
-            }
-        }
-    } else {
-        quote! {
-            /// The exact linearisation `d(state)' = A d(state) + B d(inputs)`: `a[i][j]` and `b[i][j]` are the
-            /// derivatives of the rate `i` by the state `j` and by the input `j`. Computed by dual numbers.
-            pub fn linearize(
-                &self,
-                t: R,
-                state: &State<R>,
-                inputs: &Inputs<R>,
-            ) -> __guen::Linearization<R, #size, #inputs>
-            where
-                __guen::Dual<R, #size>: __guen::Lift<R>,
-                __guen::Dual<R, #inputs>: __guen::Lift<R>,
-            {
-                let state: [R; #size] = ::core::convert::From::from(*state);
-                let inputs: [R; #inputs] = ::core::convert::From::from(*inputs);
-                let lifted: Prepared<__guen::Dual<R, #size>> = self.lift();
-                let by_state = program::rhs(
-                    &lifted.constants, &lifted.hoisted, __guen::Dual::constant(t), &__guen::seeded(&state),
-                    &inputs.map(__guen::Dual::constant),
-                );
-                let lifted: Prepared<__guen::Dual<R, #inputs>> = self.lift();
-                let by_input = program::rhs(
-                    &lifted.constants, &lifted.hoisted, __guen::Dual::constant(t),
-                    &state.map(__guen::Dual::constant), &__guen::seeded(&inputs),
-                );
-                __guen::Linearization {
-                    a: by_state.map(|rate| rate.tangent),
-                    b: by_input.map(|rate| rate.tangent),
-                }
-            }
         }
     }
 }

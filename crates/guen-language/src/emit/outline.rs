@@ -3,6 +3,7 @@
 //! The rest of the user's crate then reports its own mistakes only, and completion keeps working. Bodies are
 //! never reached, since the crate does not compile. What is a vector is guessed from how it is written.
 
+mod control;
 mod kinds;
 
 use proc_macro2::{Ident, TokenStream};
@@ -287,6 +288,7 @@ fn prepared(system: &Ident, names: &Names) -> TokenStream {
             })*
         }
     });
+    let control = control::items(&control::Sizes { n, size, inputs }, bound > 0, !names.outputs.is_empty());
     let kinds = [
         "Holonomic",
         "LieGroup",
@@ -341,6 +343,7 @@ fn prepared(system: &Ident, names: &Names) -> TokenStream {
             #constraints
             #hold
         }
+        #control
         #positions
         impl<R: __guen::Real> State<R> {
             /// The state at given velocities.

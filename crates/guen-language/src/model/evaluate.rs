@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use guen_symbolic::{ExprId, Flow, Node, PowerError, Rational, Role, Roles, Verdict, Workbench};
 use proc_macro2::Span;
 
+use super::accelerations::MotionSymbols;
 use super::place::{Place, ROLES, role_name};
 use super::scope::Scope;
 use super::value::{Value, Vector};
@@ -32,6 +33,10 @@ pub(super) struct Evaluator<'f> {
     pub(super) expansions: BTreeMap<ExprId, ExprId>,
     /// Components of vector equations that say `0 = 0`.
     pub(super) left_out: Vec<String>,
+    /// Accelerations and reactions that outputs use.
+    pub(super) motion: MotionSymbols,
+    /// Arguments of `quaternion`.
+    pub(super) quaternions: Vec<[ExprId; 4]>,
     /// Divisors with their places, for a second look once the holonomic constraints are known.
     pub(super) divisors: Vec<(ExprId, Span)>,
 }
@@ -210,7 +215,7 @@ impl Evaluator<'_> {
         }
     }
 
-    fn name(&mut self, name: &Name) -> Evaluated {
+    pub(super) fn name(&mut self, name: &Name) -> Evaluated {
         match name.text.as_str() {
             "t" => return Ok(Value::Scalar(self.time)),
             "pi" => return Ok(Value::Scalar(self.bench.graph.pi())),

@@ -3,6 +3,7 @@
 use guen_symbolic::{ExprId, Function, Rational, Role, Roles};
 use proc_macro2::Span;
 
+use super::accelerations::REACTION;
 use super::evaluate::{Evaluated, Evaluator};
 use super::place::role_name;
 use super::spatial::{cross, inner, inverse, minus, plus};
@@ -14,6 +15,9 @@ use crate::syntax::{Expression, Name};
 impl Evaluator<'_> {
     /// `function(arguments)`.
     pub(super) fn call(&mut self, function: &Name, arguments: &[Expression], list: Span) -> Evaluated {
+        if function.text == REACTION && self.scope.category(REACTION).is_none() {
+            return self.reaction(function, arguments, list);
+        }
         if !names::is_function(&function.text) {
             return self.not_a_function(function, arguments);
         }
@@ -261,6 +265,7 @@ impl Evaluator<'_> {
                 for (component, value) in q.iter_mut().zip(&values) {
                     *component = self.angle(function, value)?;
                 }
+                self.quaternions.push(q);
                 Ok(Value::Rotation(Box::new(self.quaternion(q))))
             }
             "transpose" | "angular_velocity" | "angular_velocity_body" => match &values[0].0 {
@@ -283,8 +288,23 @@ impl Evaluator<'_> {
 
     /// `dot(e)`.
     fn rate_of(&mut self, value: &Value, span: Span) -> Evaluated {
-        let fixed = Roles::of(Role::Velocity).or(Roles::of(Role::QuasiVelocity)).or(Roles::of(Role::Input));
-        if value.expressions().iter().any(|e| self.bench.graph.roles(*e).meets(fixed)) {
+        let moving = Roles::of(Role::Velocity).or(Roles::of(Role::QuasiVelocity));
+        let without_rate = Roles::of(Role::Input).or(Roles::of(Role::QuasiAcceleration));
+        let roles = value.expressions().iter().fold(Roles::NONE, |all, e| all.or(self.bench.graph.roles(*e)));
+        if self.knows_motion() && roles.meets(moving) && !roles.meets(without_rate) {
+            match value {
+                Value::Scalar(e) => {
+                    let rate = self.rate_along_motion(*e);
+                    return self.check_size(rate, span);
+                }
+                Value::Vector(v) => {
+                    let rates = v.map(|e| self.rate_along_motion(e));
+                    return self.checked_vector(rates, span);
+                }
+                _ => {}
+            }
+        }
+        if roles.meets(moving.or(without_rate)) {
             return self.fail(
                 Fault::new(span, "`dot` is the rate of something that depends on time and coordinates only")
                     .note(format!("this contains {}", self.moving_kind(value))),
@@ -307,7 +327,7 @@ impl Evaluator<'_> {
     fn moving_kind(&self, value: &Value) -> String {
         let graph = &self.bench.graph;
         let symbols = graph.symbols_in(&value.expressions());
-        [Role::Velocity, Role::QuasiVelocity, Role::Input]
+        [Role::QuasiAcceleration, Role::Velocity, Role::QuasiVelocity, Role::Input]
             .into_iter()
             .find_map(|role| {
                 let symbol = symbols.iter().find(|s| graph.symbol_info(**s).role == role)?;

@@ -3,6 +3,7 @@
 //! What comes in was parsed without a fault. What goes out is a [`Model`] around a
 //! [`guen_symbolic::Mechanics`], in which every expression is an exact one over checked names.
 
+mod accelerations;
 mod bodies;
 mod evaluate;
 mod forms;
@@ -39,6 +40,10 @@ pub struct Model<'a> {
     pub bodies: Vec<BodyEntry>,
     /// Outputs in order.
     pub outputs: Vec<OutputEntry<'a>>,
+    /// Unit quaternions among the coordinates, by the indices of `w, x, y, z`.
+    pub quaternions: Vec<[usize; 4]>,
+    /// Constraints whose reactions outputs use, with the place.
+    pub reactions: Vec<(usize, Span)>,
     /// Scenes whose names are sound.
     pub scenes: Vec<SceneEntry>,
     /// Components of vector equations that are identically `0 = 0`, by name.
@@ -86,6 +91,8 @@ pub struct SymbolEntry<'a> {
     pub docs: &'a Docs,
     /// The symbol.
     pub symbol: ExprId,
+    /// The least and the largest value, of constants, where an input declares them.
+    pub limits: Option<[ExprId; 2]>,
 }
 
 /// Which section a form comes from.

@@ -7,6 +7,8 @@ use guen_symbolic::{Role, Roles};
 pub(super) enum Place {
     /// The default of a constant.
     Default,
+    /// A limit of an input.
+    Limit,
     /// The right side of a `let`.
     Let,
     /// A parameter.
@@ -38,6 +40,7 @@ impl Place {
     pub(super) fn description(self, entry: Option<&str>) -> String {
         let (named, nameless) = match self {
             Place::Default => ("the default of", "the default of a constant"),
+            Place::Limit => ("a limit of", "a limit of an input"),
             Place::Let => ("", "a `let`"),
             Place::Parameter => ("parameter", "a parameter"),
             Place::Constraint => ("constraint", "a constraint"),
@@ -62,6 +65,7 @@ impl Place {
     pub(super) fn rule(self) -> Option<&'static str> {
         Some(match self {
             Place::Default => "a default is a number, or made of constants declared before it",
+            Place::Limit => "the limits of inputs are made of numbers and constants",
             Place::Gravity => "gravity is one vector for the whole system, of constants and `t`",
             Place::Mass => "a mass depends on time and coordinates at most",
             Place::Position => "positions and orientations depend on time and coordinates",
@@ -77,11 +81,12 @@ impl Place {
         let velocities = positions.or(Roles::of(Role::Velocity)).or(Roles::of(Role::QuasiVelocity));
         let all = velocities.or(Roles::of(Role::Input));
         match self {
-            Place::Default => constants,
+            Place::Default | Place::Limit => constants,
             Place::Gravity => timed,
             Place::Holonomic | Place::ForceFunction | Place::Mass | Place::Position => positions,
             Place::Parameter | Place::Constraint | Place::KineticEnergy | Place::Direction => velocities,
-            Place::Let | Place::Force | Place::Output => all,
+            Place::Let | Place::Force => all,
+            Place::Output => all.or(Roles::of(Role::QuasiAcceleration)),
         }
     }
 }
@@ -100,5 +105,12 @@ pub(super) fn role_name(role: Role) -> &'static str {
 }
 
 /// Every kind of symbol, in the order in which a message names the first that is not allowed.
-pub(super) const ROLES: [Role; 6] =
-    [Role::Input, Role::Velocity, Role::QuasiVelocity, Role::Coordinate, Role::Time, Role::Constant];
+pub(super) const ROLES: [Role; 7] = [
+    Role::QuasiAcceleration,
+    Role::Input,
+    Role::Velocity,
+    Role::QuasiVelocity,
+    Role::Coordinate,
+    Role::Time,
+    Role::Constant,
+];

@@ -16,7 +16,7 @@ use crate::diagnostics::{Fault, Faults};
 use crate::names::quoted;
 use crate::syntax::{
     BoundKind, Constant, Declaration, Definition, Expression, ExpressionKind, Force as WrittenForce, Item,
-    Quantity, SectionKind,
+    Plain, Quantity, SectionKind,
 };
 
 /// Checks names, kinds and forms. `None` if a fault was reported that leaves no model.
@@ -69,6 +69,8 @@ impl<'a, 'f> Resolver<'a, 'f> {
                 entry: None,
                 expansions: BTreeMap::new(),
                 left_out: Vec::new(),
+                motion: super::accelerations::MotionSymbols::default(),
+                quaternions: Vec::new(),
                 divisors: Vec::new(),
             },
             constants: Vec::new(),
@@ -120,15 +122,21 @@ impl<'a, 'f> Resolver<'a, 'f> {
             Item::Inputs(section) => {
                 for plain in &section.entries {
                     let symbol = self.eval.bench.graph.symbol(&plain.name.text, Role::Input);
+                    let limits = plain.limits.as_deref().and_then(|limits| self.limits(plain, limits));
                     self.declare_symbol(&plain.name, Category::Input, symbol);
-                    self.inputs.push(SymbolEntry { name: &plain.name, docs: &plain.docs, symbol });
+                    self.inputs.push(SymbolEntry { name: &plain.name, docs: &plain.docs, symbol, limits });
                 }
             }
             Item::Coordinates(section) => {
                 for plain in &section.entries {
                     let symbol = self.eval.bench.graph.symbol(&plain.name.text, Role::Coordinate);
                     self.declare_symbol(&plain.name, Category::Coordinate, symbol);
-                    self.coordinates.push(SymbolEntry { name: &plain.name, docs: &plain.docs, symbol });
+                    self.coordinates.push(SymbolEntry {
+                        name: &plain.name,
+                        docs: &plain.docs,
+                        symbol,
+                        limits: None,
+                    });
                 }
                 for plain in &section.entries {
                     let name = format!("dot({})", plain.name.text);
@@ -136,6 +144,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
                 }
                 let graph = &self.eval.bench.graph;
                 let moving = self.coordinates.iter().map(|c| c.symbol).zip(self.velocities.iter().copied());
+                self.eval.motion.coordinates = moving.clone().collect();
                 self.eval.rate = Some(Flow::new(graph, moving.chain([(self.eval.time, graph.one())])));
             }
             Item::Let(definition) => {
@@ -243,6 +252,20 @@ impl<'a, 'f> Resolver<'a, 'f> {
             default: default.and_then(Result::ok),
             symbol,
         });
+    }
+
+    /// The limits of an input; two numbers have to stand in their order.
+    fn limits(&mut self, plain: &Plain, limits: &[Expression; 2]) -> Option<[ExprId; 2]> {
+        self.eval.entry = Some(plain.name.text.clone());
+        let values = limits.each_ref().map(|e| self.eval.scalar_at(Place::Limit, e).ok());
+        let [Some(lower), Some(upper)] = values else { return None };
+        let graph = &mut self.eval.bench.graph;
+        let span = graph.sub(upper, lower);
+        if graph.as_number(span).is_some_and(|span| span.is_negative()) {
+            let fault = Fault::new(limits[0].extent(), "the lower limit is above the upper one");
+            self.eval.faults.report(fault.help("limits are written `name in lower..upper`"));
+        }
+        Some([lower, upper])
     }
 
     /// A default that is a number must keep the bound beside it.
@@ -384,9 +407,14 @@ impl<'a, 'f> Resolver<'a, 'f> {
         let kinetic_energy = bench.graph.sum(self.kinetic);
         let accelerations = raw[..degrees]
             .iter()
-            .map(|form| bench.graph.symbol(&format!("{}'", form.entry.name), Role::QuasiAcceleration))
+            .map(|form| {
+                // Outputs may have asked for it.
+                let known = self.eval.motion.rates.get(&form.symbol).copied();
+                let name = || format!("{}'", form.entry.name);
+                known.unwrap_or_else(|| bench.graph.symbol(&name(), Role::QuasiAcceleration))
+            })
             .collect();
-        let holonomic = raw
+        let holonomic: Vec<Holonomic> = raw
             .iter()
             .enumerate()
             .filter_map(|(form, raw)| raw.position.map(|equation| Holonomic { form, equation }))
@@ -395,6 +423,17 @@ impl<'a, 'f> Resolver<'a, 'f> {
         // is given on the constraints.
         let in_velocities = self.has_masses || bench.graph.roles(kinetic_energy).has(Role::Velocity);
         let stated = raw.iter().map(|form| in_velocities || form.entry.mentioned_in_energy).collect();
+        let etas: Vec<ExprId> = raw.iter().map(|form| form.symbol).collect();
+        let motion_symbols = self.eval.motion.meanings(&etas, degrees);
+        let reactions = self
+            .eval
+            .motion
+            .reactions
+            .iter()
+            .filter_map(|(eta, _, span)| Some((etas.iter().position(|known| known == eta)?, *span)))
+            .collect();
+        let coordinates: Vec<ExprId> = self.coordinates.iter().map(|c| c.symbol).collect();
+        let quaternions = unit_quaternions(bench, &self.eval.quaternions, &coordinates, &holonomic);
         let mechanics = Mechanics {
             forms: Forms {
                 time: self.eval.time,
@@ -403,7 +442,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
                 degrees,
             },
             velocities,
-            etas: raw.iter().map(|form| form.symbol).collect(),
+            etas,
             accelerations,
             inputs: self.inputs.iter().map(|input| input.symbol).collect(),
             holonomic,
@@ -412,6 +451,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
             force_function,
             forces: self.forces,
             outputs: self.output_values,
+            motion_symbols,
         };
         Some(Model {
             identifiers: self.eval.scope.into_identifiers(),
@@ -423,6 +463,8 @@ impl<'a, 'f> Resolver<'a, 'f> {
             forms: raw.into_iter().map(|form| form.entry).collect(),
             bodies: self.bodies,
             outputs: self.outputs,
+            quaternions,
+            reactions,
             scenes: self.scenes,
             left_out: self.eval.left_out,
             mechanics,
@@ -430,6 +472,42 @@ impl<'a, 'f> Resolver<'a, 'f> {
             kinetic_energy_span: self.energy.map(|energy| energy.keyword),
         })
     }
+}
+
+/// The arguments of `quaternion` that are four coordinates of their own, with a holonomic constraint on their norm.
+fn unit_quaternions(
+    bench: &mut Workbench,
+    arguments: &[[ExprId; 4]],
+    coordinates: &[ExprId],
+    holonomic: &[Holonomic],
+) -> Vec<[usize; 4]> {
+    let mut found: Vec<[usize; 4]> = Vec::new();
+    for q in arguments {
+        let places = q.map(|e| coordinates.iter().position(|coordinate| *coordinate == e));
+        let [Some(w), Some(x), Some(y), Some(z)] = places else { continue };
+        let places = [w, x, y, z];
+        let distinct = (0..4).all(|i| places[..i].iter().all(|other| *other != places[i]));
+        if !distinct || found.iter().flatten().any(|known| places.contains(known)) {
+            continue;
+        }
+        let has_norm = holonomic.iter().any(|constraint| {
+            let slopes =
+                coordinates.iter().map(|x| bench.partial(constraint.equation, *x)).collect::<Vec<_>>();
+            let ratio = bench.graph.div(slopes[w], q[0]);
+            bench.graph.as_number(ratio).is_some_and(|number| !number.is_zero())
+                && slopes.iter().enumerate().all(|(i, slope)| {
+                    let expected = match places.iter().position(|place| *place == i) {
+                        Some(k) => bench.graph.mul(ratio, q[k]),
+                        None => bench.graph.zero(),
+                    };
+                    *slope == expected
+                })
+        });
+        if has_norm {
+            found.push(places);
+        }
+    }
+    found
 }
 
 /// Gravity without anything that has a mass would be ignored: it is refused instead.

@@ -4,7 +4,7 @@ use proc_macro2::{Delimiter, Group, Span, TokenStream, TokenTree};
 
 use super::attributes::docs;
 use super::cursor::Cursor;
-use super::lists::{plain_names, stray_semicolon};
+use super::lists::{INPUT, plain_names, stray_semicolon};
 use super::names::name;
 use super::{bodies, constants, definitions, energies, equations, forces, particles, scene};
 use crate::diagnostics::{Fault, Faults, Reported};
@@ -267,7 +267,7 @@ fn section(kind: SectionKind, group: &Group, faults: &mut Faults, docs: Docs, ke
     match kind {
         SectionKind::Constants => Item::Constants(of(docs, keyword, constants::constants(group, faults))),
         SectionKind::Inputs => {
-            Item::Inputs(of(docs, keyword, plain_names(group, faults, "the name of an input", MAX_ENTRIES)))
+            Item::Inputs(of(docs, keyword, plain_names(group, faults, INPUT, MAX_ENTRIES)))
         }
         SectionKind::Coordinates => {
             let names = plain_names(group, faults, "the name of a coordinate", MAX_COORDINATES);

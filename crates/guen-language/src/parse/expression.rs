@@ -146,7 +146,7 @@ fn postfix(cursor: &mut Cursor, faults: &mut Faults, depth: usize) -> Parsed {
                     .help(format_args!("write `dot({})`", short_name(&value))),
             );
             value = Expression::missing(span);
-        } else if cursor.eat('.').is_some() {
+        } else if !cursor.is_pair('.', '.') && cursor.eat('.').is_some() {
             depth = deeper(depth, span, faults)?;
             value = member(cursor, faults, depth, value)?;
         } else if let Some(what) = juxtaposed(cursor) {

@@ -4,10 +4,14 @@ use proc_macro2::{Group, TokenTree};
 
 use super::attributes::docs;
 use super::cursor::Cursor;
+use super::expression::expression;
 use super::names::name;
 use crate::diagnostics::{Fault, Faults, Reported};
 use crate::limits::{MAX_COORDINATES, MAX_ENTRIES};
-use crate::syntax::Plain;
+use crate::syntax::{Expression, Plain};
+
+/// What an entry of `inputs` is, in messages.
+pub(crate) const INPUT: &str = "the name of an input";
 
 /// Entries that each take their `;`.
 pub(crate) fn entries<T>(
@@ -125,6 +129,7 @@ pub(crate) fn plain_names(group: &Group, faults: &mut Faults, role: &str, most: 
     separated(&mut Cursor::inside(group), faults, most, at_end, begins, |cursor, faults| {
         let docs = docs(cursor, faults)?;
         let name = name(cursor, faults, role)?;
+        let limits = limits(cursor, faults, role);
         if let Some(TokenTree::Punct(mark)) = cursor.peek().filter(|_| !ends_name(cursor)) {
             let fault =
                 Fault::new(cursor.span(), format!("expected `,` after {role}, found {}", cursor.found()));
@@ -138,8 +143,38 @@ pub(crate) fn plain_names(group: &Group, faults: &mut Faults, role: &str, most: 
             cursor.recover_to_comma();
             let _: Reported = reported;
         }
-        Ok(Plain { docs, name })
+        Ok(Plain { docs, name, limits })
     })
+}
+
+/// `in lower..upper` after the name of an input.
+fn limits(cursor: &mut Cursor, faults: &mut Faults, role: &str) -> Option<Box<[Expression; 2]>> {
+    let span = cursor.eat_word("in")?;
+    let mut read = || -> Result<[Expression; 2], Reported> {
+        if role != INPUT {
+            return Err(faults.report(Fault::new(span, "only `inputs` have limits")));
+        }
+        let lower = expression(cursor, faults)?;
+        if !cursor.is_pair('.', '.') {
+            let fault = Fault::new(cursor.span(), format!("expected `..`, found {}", cursor.found()));
+            return Err(faults.report(fault.help("limits are written `name in lower..upper`")));
+        }
+        cursor.skip(2);
+        if let Some(span) = cursor.eat('=') {
+            let fault = Fault::new(span, "limits are written with `..`");
+            faults.report(
+                fault.help("both ends belong to what the input may be: write `name in lower..upper`"),
+            );
+        }
+        Ok([lower, expression(cursor, faults)?])
+    };
+    match read() {
+        Ok(limits) => Some(Box::new(limits)),
+        Err(Reported { .. }) => {
+            cursor.recover_to_comma();
+            None
+        }
+    }
 }
 
 /// Whether what follows a name belongs to the list or to the next entry.

@@ -65,7 +65,11 @@ impl Display for Expression {
 
 impl Display for Plain {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        write!(f, "{}", self.name.ident)
+        write!(f, "{}", self.name.ident)?;
+        if let Some(limits) = &self.limits {
+            write!(f, " in {}..{}", limits[0], limits[1])?;
+        }
+        Ok(())
     }
 }
 

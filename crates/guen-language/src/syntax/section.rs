@@ -141,13 +141,15 @@ pub struct Section<T> {
     pub entries: Vec<T>,
 }
 
-/// An entry that is only a name: a coordinate or an input.
+/// A coordinate, or an input with or without limits: `name`, `name in lower..upper`.
 #[derive(Debug, Clone)]
 pub struct Plain {
     /// Doc comments.
     pub docs: Docs,
     /// The name.
     pub name: Name,
+    /// The least and the largest value, of an input that has limits.
+    pub limits: Option<Box<[Expression; 2]>>,
 }
 
 /// `name`, `name > 0`, `name = e`, `name > 0 = e`.

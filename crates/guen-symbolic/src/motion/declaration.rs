@@ -21,6 +21,18 @@ pub struct Holonomic {
     pub equation: ExprId,
 }
 
+/// What a symbol in an output stands for. (The rates of the parameters have symbols of their own,
+/// [`Mechanics::accelerations`], and may occur in outputs too.)
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum MotionSymbol {
+    /// `x_i''`, by the index of the coordinate.
+    CoordinateAcceleration(usize),
+    /// The rate of a constraint's `eta_v`, which is zero.
+    ConstraintRate,
+    /// The reaction of a constraint, by the index of its form.
+    Reaction(usize),
+}
+
 /// A mechanical system.
 #[derive(Clone, Debug)]
 pub struct Mechanics {
@@ -47,4 +59,6 @@ pub struct Mechanics {
     pub forces: Vec<Force>,
     /// Quantities computed on request.
     pub outputs: Vec<ExprId>,
+    /// Symbols in the outputs for what follows from the motion.
+    pub motion_symbols: Vec<(ExprId, MotionSymbol)>,
 }

@@ -1,7 +1,9 @@
 //! The derivation as a whole: from a declared system to everything that is emitted.
 
 use super::velocity_forms::VelocityPartials;
-use super::{Energies, Frame, Mechanics, NotQuadratic, Solution, decompose, poincare, projection};
+use super::{
+    Energies, Frame, Mechanics, MotionSymbol, NotQuadratic, Solution, decompose, poincare, projection,
+};
 use crate::algebra::{ExprId, FastMap, Flow, Role, Roles, Substitution};
 use crate::geometry::{Closure, Operators, SingularForms, dependence};
 use crate::normal::{Limits, normal_coefficients};
@@ -181,7 +183,7 @@ impl Derivation {
             bench.vanishes(power)
         });
         let power = power.unwrap_or(bench.graph.zero());
-        let outputs = system.outputs.iter().map(|e| frame.constrain.of(&mut bench.graph, *e)).collect();
+        let outputs = outputs(bench, &system, &mut frame, &solution.accelerations, &reactions);
         Ok(Derivation {
             system,
             frame,
@@ -221,6 +223,46 @@ impl Derivation {
         }
         found
     }
+}
+
+/// The outputs on the constraints, with what they ask of the motion.
+fn outputs(
+    bench: &mut Workbench,
+    system: &Mechanics,
+    frame: &mut Frame,
+    accelerations: &[ExprId],
+    reactions: &[Option<ExprId>],
+) -> Vec<ExprId> {
+    let l = system.forms.degrees;
+    let constrained: Vec<ExprId> =
+        system.outputs.iter().map(|e| frame.constrain.of(&mut bench.graph, *e)).collect();
+    let moving = Roles::of(Role::QuasiAcceleration);
+    if !constrained.iter().any(|e| bench.graph.roles(*e).meets(moving)) {
+        return constrained;
+    }
+    let solved: Vec<(ExprId, ExprId)> =
+        system.accelerations.iter().copied().zip(accelerations.iter().copied()).collect();
+    let mut by_motion = Substitution::new(solved.iter().copied());
+    // d/dt along the motion: t at one, x at x', eta at eta'.
+    let rates = system.forms.coordinates.iter().zip(&frame.velocities).map(|(x, v)| (*x, *v));
+    let etas = system.etas[..l].iter().copied().zip(accelerations.iter().copied());
+    let mut along =
+        Flow::new(&bench.graph, rates.chain(etas).chain([(system.forms.time, bench.graph.one())]));
+    let mut images = Vec::new();
+    for (symbol, meaning) in &system.motion_symbols {
+        let image = match meaning {
+            MotionSymbol::CoordinateAcceleration(i) => along.of(&mut bench.graph, frame.velocities[*i]),
+            MotionSymbol::ConstraintRate => bench.graph.zero(),
+            // Whoever asks for a reaction that is not known has been told.
+            MotionSymbol::Reaction(j) => match reactions[*j - l] {
+                Some(reaction) => by_motion.of(&mut bench.graph, reaction),
+                None => bench.graph.zero(),
+            },
+        };
+        images.push((*symbol, bench.keep_large(image)));
+    }
+    let mut by_motion = Substitution::new(solved.into_iter().chain(images));
+    constrained.into_iter().map(|e| by_motion.of(&mut bench.graph, e)).collect()
 }
 
 /// Gives a derivation up that has become more work than a compiler should do.

@@ -10,7 +10,7 @@ mod projection;
 mod solve;
 mod velocity_forms;
 
-pub use declaration::{Force, Holonomic, Mechanics};
+pub use declaration::{Force, Holonomic, Mechanics, MotionSymbol};
 pub use derivation::{Class, Derivation, DerivationError, Equations};
 pub use energy::Energies;
 pub use frame::Frame;

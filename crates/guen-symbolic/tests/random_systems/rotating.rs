@@ -88,6 +88,7 @@ impl Scene {
             force_function: force,
             forces: Vec::new(),
             outputs: Vec::new(),
+            motion_symbols: Vec::new(),
         };
         let declared = Declared::new(&words.graph, &mechanics);
         (declared, derive(words.graph, mechanics, 0).expect("a regular system"))

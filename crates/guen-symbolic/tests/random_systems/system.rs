@@ -55,6 +55,7 @@ pub fn drawn(seed: u64) -> (Words, Mechanics) {
         force_function,
         forces,
         outputs: Vec::new(),
+        motion_symbols: Vec::new(),
     };
     (words, mechanics)
 }

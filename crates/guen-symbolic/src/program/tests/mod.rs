@@ -1,5 +1,6 @@
 //! Programs equal their expressions, with and without each pass.
 
+mod jacobian;
 mod systems;
 
 use super::lower::{PreparedTable, lower};

@@ -1,0 +1,100 @@
+//! What controllers take of a derived system, as expressions: the leaf, the equations apart, the covector of reactions.
+
+use guen_symbolic::{Derivation, ExprId, ProgramBuilder, Role, Roles, Substitution, Workbench};
+
+use crate::derive::function;
+
+/// The lists of the functions that are added.
+pub(crate) struct Lists {
+    leaf: Vec<ExprId>,
+    mass_form: Vec<ExprId>,
+    covector: Option<Vec<ExprId>>,
+}
+
+/// The integrable combinations of constraints whose coefficients are known, as places in the list of all.
+pub(crate) fn known_combinations(derivation: &Derivation) -> Vec<usize> {
+    let all = derivation.closure.integrable.iter().enumerate();
+    all.filter(|(_, combination)| combination.terms.iter().all(|(_, c)| c.is_some()))
+        .map(|(i, _)| i)
+        .collect()
+}
+
+/// Whether the reactions of all constraints are known, so that their sum is.
+pub(crate) fn has_covector(derivation: &Derivation) -> bool {
+    !derivation.reactions.is_empty() && derivation.reactions.iter().all(Option::is_some)
+}
+
+impl Lists {
+    pub(crate) fn new(bench: &mut Workbench, derivation: &Derivation) -> Self {
+        let covector = has_covector(derivation).then(|| covector(bench, derivation));
+        Lists { leaf: leaf(bench, derivation), mass_form: mass_form(bench, derivation), covector }
+    }
+
+    pub(crate) fn add(self, builder: &mut ProgramBuilder<'_>) {
+        builder.add_cold(function::LEAF, &self.leaf);
+        builder.add_cold(function::MASS_FORM, &self.mass_form);
+        if let Some(covector) = self.covector {
+            builder.add_cold(function::REACTION_COVECTOR, &covector);
+        }
+    }
+}
+
+/// `sum_v f_v a_vi` of every integrable combination `sum_v f_v eta_v`, row by row.
+fn leaf(bench: &mut Workbench, derivation: &Derivation) -> Vec<ExprId> {
+    let forms = &derivation.system.forms.forms;
+    let mut rows = Vec::new();
+    for place in known_combinations(derivation) {
+        let terms = &derivation.closure.integrable[place].terms;
+        for i in 0..forms.len() {
+            let parts = terms.iter().filter_map(|(v, f)| Some(((*f)?, forms[*v].row[i])));
+            let parts: Vec<ExprId> = parts.map(|(f, a)| bench.graph.mul(f, a)).collect();
+            let sum = bench.graph.sum(parts);
+            rows.push(bench.tidy(sum));
+        }
+    }
+    rows
+}
+
+/// The lower triangle of `M`, row by row, then the bias, then `G`, for `M eta' + bias = G u`.
+fn mass_form(bench: &mut Workbench, derivation: &Derivation) -> Vec<ExprId> {
+    let equations = &derivation.equations;
+    let inputs = &derivation.system.inputs;
+    let mut list: Vec<ExprId> =
+        equations.mass.iter().enumerate().flat_map(|(s, row)| row[..=s].iter().copied()).collect();
+    let slopes: Vec<Vec<ExprId>> = equations
+        .forces
+        .iter()
+        .map(|force| inputs.iter().map(|input| bench.partial(*force, *input)).collect())
+        .collect();
+    let driven = Roles::of(Role::Input);
+    let is_affine = !slopes.iter().flatten().any(|slope| bench.graph.roles(*slope).meets(driven));
+    let zero = bench.graph.zero();
+    let mut idle = Substitution::new(inputs.iter().map(|input| (*input, zero)));
+    for (force, slopes) in equations.forces.iter().zip(&slopes) {
+        let bias = if is_affine {
+            let free = idle.of(&mut bench.graph, *force);
+            bench.graph.neg(free)
+        } else {
+            // Exact at these inputs: G u - f.
+            let made = bench.dot(slopes, inputs);
+            bench.graph.sub(made, *force)
+        };
+        list.push(bias);
+    }
+    list.extend(slopes.into_iter().flatten());
+    list
+}
+
+/// `R_i = sum_v lambda_v a_vi`.
+fn covector(bench: &mut Workbench, derivation: &Derivation) -> Vec<ExprId> {
+    let forms = &derivation.system.forms;
+    (0..forms.len())
+        .map(|i| {
+            let parts = derivation.reactions.iter().zip(&forms.forms[forms.degrees..]);
+            let parts: Vec<ExprId> = parts
+                .filter_map(|(reaction, form)| Some(bench.graph.mul((*reaction)?, form.row[i])))
+                .collect();
+            bench.graph.sum(parts)
+        })
+        .collect()
+}

@@ -1,0 +1,204 @@
+//! The exact linearisations of rates and outputs: by code of their own, or by dual numbers where that would be long.
+
+use guen_symbolic::Pattern;
+use proc_macro2::{Ident, TokenStream};
+use quote::{format_ident, quote};
+
+use super::Layout;
+use super::classification::cost;
+use super::motion::inputs;
+use crate::derive::{Derived, function};
+
+pub(super) fn items(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
+    let jacobians = &derived.jacobians;
+    let rates = Target {
+        method: "linearize",
+        docs: "The exact linearisation of [`rhs`](Self::rhs), `d(state)' = A d(state) + B d(inputs)`: `a[i][j]` and \
+               `b[i][j]` are the derivatives of the rate `i` by the state `j` and by the input `j`.",
+        code: function::LINEARIZATION,
+        of: function::RHS,
+        rows: layout.size,
+        pattern: jacobians.rates.as_ref(),
+        fields: ["a", "b"],
+        record: "Linearization",
+    };
+    let outputs = derived.derivation.outputs.len();
+    let outputs = (outputs > 0).then_some(Target {
+        method: "linearize_outputs",
+        docs: "The exact linearisation of [`outputs`](Self::outputs), `d(outputs) = C d(state) + D d(inputs)`: a row for \
+               each scalar output, three for a vector, in the order of the declaration.",
+        code: function::OUTPUT_LINEARIZATION,
+        of: function::OUTPUTS,
+        rows: outputs,
+        pattern: jacobians.outputs.as_ref(),
+        fields: ["c", "d"],
+        record: "OutputLinearization",
+    });
+    let methods = [Some(rates), outputs].into_iter().flatten().map(|target| target.method(layout));
+    let linearizable = linearizable(layout);
+    let program = derived.programs.functions.iter().find(|f| f.name == function::LINEARIZATION);
+    let cost = match program {
+        Some(program) => {
+            let cost = cost(&program.cost);
+            quote!(::core::option::Option::Some(#cost))
+        }
+        None => quote!(::core::option::Option::None),
+    };
+    quote! {
+        /// The operations of one linearisation of the rates; `None` where it is computed by dual numbers.
+        pub const LINEARIZATION_COST: ::core::option::Option<__guen::Cost> = #cost;
+
+        impl<R: __guen::Real> Prepared<R> {
+            #(#methods)*
+        }
+        #linearizable
+    }
+}
+
+/// A function that is linearised.
+struct Target<'a> {
+    method: &'static str,
+    docs: &'static str,
+    /// The function of the derivatives, and the function itself.
+    code: &'static str,
+    of: &'static str,
+    rows: usize,
+    pattern: Option<&'a Pattern>,
+    /// The matrices by state and by inputs.
+    fields: [&'static str; 2],
+    record: &'static str,
+}
+
+impl Target<'_> {
+    fn method(&self, layout: &Layout) -> TokenStream {
+        let (parameter, argument) = inputs(layout);
+        let (size, count, rows) = (layout.size, layout.inputs, self.rows);
+        let [method, code, of, record] = [self.method, self.code, self.of, self.record].map(ident);
+        let [by_state, by_input] = self.fields.map(ident);
+        let docs = match self.pattern {
+            Some(pattern) => format!(
+                "{} {} of {} entries do not vanish identically; they are computed by straight-line code.",
+                self.docs,
+                pattern.len(),
+                rows * (size + count),
+            ),
+            None => format!("{} Computed by dual numbers.", self.docs),
+        };
+        let types = match self.record {
+            "Linearization" => quote!(__guen::#record<R, #size, #count>),
+            _ => quote!(__guen::#record<R, #size, #count, #rows>),
+        };
+        let (bounds, body) = match self.pattern {
+            Some(pattern) => {
+                let cells = cells(pattern, rows, size, count);
+                let body = quote! {
+                    let entries = program::#code(
+                        &self.constants, &self.hoisted, t, &::core::convert::From::from(*state), #argument,
+                    );
+                    let _ = &entries;
+                    #cells
+                };
+                (quote!(), body)
+            }
+            None => by_duals(layout, &of),
+        };
+        quote! {
+            #[doc = #docs]
+            pub fn #method(&self, t: R, state: &State<R> #parameter) -> #types #bounds {
+                #body
+                __guen::#record { #by_state: by_state, #by_input: by_input }
+            }
+        }
+    }
+}
+
+fn ident(name: &str) -> Ident {
+    format_ident!("{name}")
+}
+
+/// The matrices from the entries that do not vanish.
+fn cells(pattern: &Pattern, rows: usize, size: usize, count: usize) -> TokenStream {
+    let (mut by_state, mut by_input) = (Vec::new(), Vec::new());
+    for (k, (row, column)) in pattern.iter().enumerate() {
+        if *column < size {
+            by_state.push(quote!(by_state[#row][#column] = entries[#k];));
+        } else {
+            let column = column - size;
+            by_input.push(quote!(by_input[#row][#column] = entries[#k];));
+        }
+    }
+    let declared = |name: &str, columns: usize, none: bool| {
+        let name = ident(name);
+        let mutable = (!none).then(|| quote!(mut));
+        quote!(let #mutable #name = [[<R as __guen::Real>::zero(); #columns]; #rows];)
+    };
+    let state = declared("by_state", size, by_state.is_empty());
+    let input = declared("by_input", count, by_input.is_empty());
+    quote!(#state #input #(#by_state)* #(#by_input)*)
+}
+
+/// The matrices by two evaluations in duals.
+fn by_duals(layout: &Layout, of: &Ident) -> (TokenStream, TokenStream) {
+    let (size, count) = (layout.size, layout.inputs);
+    let (input_bound, held, by_input) = if count == 0 {
+        (quote!(), quote!(let inputs: [R; 0] = [];), quote!(let by_input = by_state.map(|_| []);))
+    } else {
+        (
+            quote!(__guen::Dual<R, #count>: __guen::Lift<R>,),
+            quote!(let inputs: [R; #count] = ::core::convert::From::from(*inputs);),
+            quote! {
+                let lifted: Prepared<__guen::Dual<R, #count>> = self.lift();
+                let by_input = program::#of(
+                    &lifted.constants, &lifted.hoisted, __guen::Dual::constant(t),
+                    &state.map(__guen::Dual::constant), &__guen::seeded(&inputs),
+                ).map(|value| value.tangent);
+            },
+        )
+    };
+    let body = quote! {
+        let state: [R; #size] = ::core::convert::From::from(*state);
+        #held
+        let lifted: Prepared<__guen::Dual<R, #size>> = self.lift();
+        let by_state = program::#of(
+            &lifted.constants, &lifted.hoisted, __guen::Dual::constant(t), &__guen::seeded(&state),
+            &inputs.map(__guen::Dual::constant),
+        ).map(|value| value.tangent);
+        #by_input
+    };
+    (quote!(where __guen::Dual<R, #size>: __guen::Lift<R>, #input_bound), body)
+}
+
+/// What analyses of the runtime take: rates and linearisation over arrays, with the inputs beside the state.
+fn linearizable(layout: &Layout) -> TokenStream {
+    let (size, count) = (layout.size, layout.inputs);
+    let typed = if count == 0 { quote!() } else { quote!(, &::core::convert::From::from(*inputs)) };
+    quote! {
+        impl<R: __guen::Real> __guen::Liftable<R, #size, #count> for Prepared<R> {
+            #[inline]
+            fn lifted_rates<S: __guen::Real + __guen::Lift<R>>(
+                &self, t: S, state: &[S; #size], inputs: &[S; #count],
+            ) -> [S; #size] {
+                let lifted: Prepared<S> = self.lift();
+                program::rhs(&lifted.constants, &lifted.hoisted, t, state, inputs)
+            }
+        }
+
+        impl<R> __guen::Linearizable<R, #size, #count> for Prepared<R>
+        where
+            R: __guen::Lift<R>,
+        {
+            #[inline]
+            fn rates(&self, t: R, state: &[R; #size], inputs: &[R; #count]) -> [R; #size] {
+                program::rhs(&self.constants, &self.hoisted, t, state, inputs)
+            }
+
+            #[inline]
+            fn linearization(
+                &self, t: R, state: &[R; #size], inputs: &[R; #count],
+            ) -> __guen::Linearization<R, #size, #count> {
+                let _ = inputs;
+                self.linearize(t, &::core::convert::From::from(*state) #typed)
+            }
+        }
+    }
+}

@@ -1,0 +1,40 @@
+//! The derivatives that are emitted as code: of the rates, and of the outputs, by state and inputs.
+
+use guen_symbolic::{Pattern, Programs, Role, SymbolId};
+
+use crate::derive::function;
+use crate::model::Model;
+
+/// Where the outputs of the functions [`function::LINEARIZATION`] and [`function::OUTPUT_LINEARIZATION`] belong, in a
+/// matrix with a column for every coordinate, parameter and input; `None` where there is no such function.
+#[derive(Clone, Debug, Default)]
+pub struct Jacobians {
+    /// Of the rates of the state.
+    pub rates: Option<Pattern>,
+    /// Of the outputs.
+    pub outputs: Option<Pattern>,
+}
+
+impl Jacobians {
+    /// Adds the functions to the programs, unless they are too large: then duals do their work.
+    pub(crate) fn add(programs: &mut Programs, model: &Model<'_>) -> Self {
+        let graph = &model.bench.graph;
+        let etas = &model.mechanics.etas[..model.mechanics.forms.degrees];
+        let states = model.coordinates.iter().map(|c| c.symbol).chain(etas.iter().copied());
+        let variables: Vec<SymbolId> = states
+            .chain(model.inputs.iter().map(|input| input.symbol))
+            .filter_map(|symbol| graph.as_symbol(symbol))
+            .collect();
+        let is_constant = |symbol: SymbolId| graph.symbol_info(symbol).role == Role::Constant;
+        let mut add = |name: &str, of: &str| {
+            let of = programs.functions.iter().position(|f| f.name == of)?;
+            programs.add_jacobian(name, of, &variables, is_constant)
+        };
+        Jacobians {
+            rates: add(function::LINEARIZATION, function::RHS),
+            outputs: (!model.outputs.is_empty())
+                .then(|| add(function::OUTPUT_LINEARIZATION, function::OUTPUTS))
+                .flatten(),
+        }
+    }
+}

@@ -1,0 +1,121 @@
+//! What outputs may speak of beyond the state: accelerations and reactions.
+//!
+//! In an output `dot(e)` of something with velocities or parameters is its rate along the motion, and `reaction(name)`
+//! the multiplier of a constraint. The model introduces symbols for them; the derivation, which knows the motion, puts
+//! in what they are.
+
+use std::collections::BTreeMap;
+
+use guen_symbolic::{ExprId, Flow, MotionSymbol, Role, Roles};
+use proc_macro2::Span;
+
+use super::evaluate::{Evaluated, Evaluator};
+use super::place::Place;
+use super::scope::Category;
+use super::value::Value;
+use crate::diagnostics::Fault;
+use crate::syntax::{Expression, ExpressionKind, Name};
+
+/// The word that is a function in outputs only, and a name like any other elsewhere.
+pub(super) const REACTION: &str = "reaction";
+
+/// The symbols introduced so far.
+#[derive(Default)]
+pub(super) struct MotionSymbols {
+    /// Coordinates with their velocities.
+    pub(super) coordinates: Vec<(ExprId, ExprId)>,
+    /// Velocities and quasi-velocities, with the symbols of their rates.
+    pub(super) rates: BTreeMap<ExprId, ExprId>,
+    /// Quasi-velocities of constraints, with the symbols of their reactions and the places that ask for them.
+    pub(super) reactions: Vec<(ExprId, ExprId, Span)>,
+}
+
+impl MotionSymbols {
+    /// What each symbol stands for; `etas` are the quasi-velocities in order. The rates of the first `degrees` of them
+    /// are known to the mechanics already.
+    pub(super) fn meanings(&self, etas: &[ExprId], degrees: usize) -> Vec<(ExprId, MotionSymbol)> {
+        let form = |eta: &ExprId| etas.iter().position(|known| known == eta);
+        let rates = self.rates.iter().filter_map(|(of, rate)| {
+            let coordinate = self.coordinates.iter().position(|(_, velocity)| velocity == of);
+            let meaning = match (coordinate, form(of)) {
+                (Some(i), _) => MotionSymbol::CoordinateAcceleration(i),
+                (None, Some(j)) if j >= degrees => MotionSymbol::ConstraintRate,
+                _ => return None,
+            };
+            Some((*rate, meaning))
+        });
+        let reactions = self
+            .reactions
+            .iter()
+            .filter_map(|(eta, reaction, _)| Some((*reaction, MotionSymbol::Reaction(form(eta)?))));
+        rates.chain(reactions).collect()
+    }
+}
+
+impl Evaluator<'_> {
+    /// Whether rates of velocities may be asked for.
+    pub(super) fn knows_motion(&self) -> bool {
+        self.place == Place::Output
+    }
+
+    /// `d/dt` of a function of time, coordinates, velocities and quasi-velocities, along the motion.
+    pub(super) fn rate_along_motion(&mut self, e: ExprId) -> ExprId {
+        let graph = &mut self.bench.graph;
+        let moving = Roles::of(Role::Velocity).or(Roles::of(Role::QuasiVelocity));
+        for symbol in graph.symbols_in(&[e]) {
+            let info = graph.symbol_info(symbol);
+            if !moving.has(info.role) {
+                continue;
+            }
+            let name = format!("dot({})", info.name);
+            let of = graph.symbol_expr(symbol);
+            if !self.motion.rates.contains_key(&of) {
+                let rate = graph.symbol(&name, Role::QuasiAcceleration);
+                self.motion.rates.insert(of, rate);
+            }
+        }
+        let rates = self.motion.coordinates.iter().copied();
+        let rates = rates.chain(self.motion.rates.iter().map(|(of, rate)| (*of, *rate)));
+        let rates: Vec<_> = rates.chain([(self.time, graph.one())]).collect();
+        Flow::new(graph, rates).of(graph, e)
+    }
+
+    /// `reaction(name)`: the multiplier of a constraint, the three of a vector constraint.
+    pub(super) fn reaction(&mut self, function: &Name, arguments: &[Expression], list: Span) -> Evaluated {
+        if !self.knows_motion() {
+            let place = self.place.description(self.entry.as_deref());
+            let fault = Fault::new(function.span(), format!("{place} cannot depend on a reaction"));
+            return self.fail(fault.note("reactions follow from the motion: only `outputs` may use them"));
+        }
+        let [Expression { kind: ExpressionKind::Name(name), .. }] = arguments else {
+            return self.fail(
+                Fault::new(list, "`reaction` takes the name of a constraint")
+                    .help("write `reaction(name)` with a name from `constraints` or `holonomic`"),
+            );
+        };
+        let value = self.name(name)?;
+        let category = self.scope.category(&name.text);
+        if category != Some(Category::Constraint) {
+            let noun = category.map_or("no constraint", Category::noun);
+            return self.fail(Fault::new(
+                name.span(),
+                format!("`{name}` is {noun}, and reactions are of constraints"),
+            ));
+        }
+        let mut symbol_of = |eta: ExprId| {
+            let Some(symbol) = self.bench.graph.as_symbol(eta) else { return eta };
+            if let Some((_, known, _)) = self.motion.reactions.iter().find(|(of, ..)| *of == eta) {
+                return *known;
+            }
+            let text = format!("reaction({})", self.bench.graph.symbol_info(symbol).name);
+            let reaction = self.bench.graph.symbol(&text, Role::QuasiAcceleration);
+            self.motion.reactions.push((eta, reaction, name.span()));
+            reaction
+        };
+        Ok(match value {
+            Value::Vector(etas) => Value::Vector(etas.map(&mut symbol_of)),
+            Value::Scalar(eta) => Value::Scalar(symbol_of(eta)),
+            other => other,
+        })
+    }
+}

@@ -1,0 +1,27 @@
+//! A system as the plant of a controller: equilibria, reduced bases, discrete pairs, controllability, inverse dynamics.
+//!
+//! Everything works on arrays of fixed size, without allocation, on what [`Linearizable`](crate::Linearizable) and
+//! [`Liftable`](crate::Liftable) systems compute; prepared systems offer the same with names. Whatever decides a rank
+//! does it with a tolerance that is stated, and reports what it found.
+//!
+//! | question | answer |
+//! | --- | --- |
+//! | where does it rest, or turn steadily? | [`steady`] |
+//! | how does it deviate, on its leaf? | [`Leaf::reduce`], [`Reduced`] |
+//! | what happens over one period? | [`Frozen`], [`Flow`] |
+//! | what can the inputs reach? | [`controllability`] |
+//! | which inputs give these accelerations? | [`MassForm`], [`inverse_dynamics`] |
+
+mod controllability;
+mod dense;
+mod discrete;
+mod inverse;
+mod reduced;
+mod steady;
+
+pub use controllability::{Controllability, Uncontrollable, controllability};
+pub use dense::solve;
+pub use discrete::{DiscreteError, Flow, Frozen};
+pub use inverse::{InverseDynamicsError, MassForm, inverse_dynamics};
+pub use reduced::{Component, Leaf, Quaternion, ReduceError, Reduced, independent};
+pub use steady::{SteadyError, SteadyMotion, named, steady};

@@ -1,0 +1,361 @@
+//! A linear model on the leaf: positions that the constraints leave independent, and the quasi-velocities.
+
+use core::error::Error;
+use core::fmt;
+
+use super::dense::{apply, largest, product};
+use crate::linearization::{Linearization, OutputLinearization};
+use crate::real::{Ordered, Real};
+
+/// Four coordinates that are a unit quaternion, by their indices: `w, x, y, z`.
+pub type Quaternion = [usize; 4];
+
+/// What a component of a reduced basis is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Component {
+    /// A coordinate, by its index.
+    Coordinate(usize),
+    /// A component of the rotation vector of a quaternion, in the body's axes: `q -> q (1 + theta/2)`.
+    Rotation {
+        /// The index of the quaternion.
+        quaternion: usize,
+        /// 0, 1 or 2 for the body's `x`, `y` or `z`.
+        axis: usize,
+    },
+    /// A quasi-velocity, by its index among the parameters.
+    Parameter(usize),
+}
+
+/// Why there is no reduced basis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum ReduceError {
+    /// A name is no coordinate.
+    UnknownCoordinate {
+        /// The name.
+        name: &'static str,
+    },
+    /// The differentials of the integrable combinations, by the positions that may be dependent, have a smaller rank
+    /// than there are combinations: more positions are named independent than are, or the leaf has an edge here.
+    Dependent {
+        /// The rank found.
+        rank: usize,
+        /// The rank needed.
+        needed: usize,
+    },
+    /// A differential or a derivative is infinite or NaN.
+    NotFinite,
+}
+
+impl fmt::Display for ReduceError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::UnknownCoordinate { name } => write!(f, "`{name}` is not a coordinate of this system"),
+            Self::Dependent { rank, needed } => write!(
+                f,
+                "the integrable constraints determine {needed} positions by the others, but {rank} of those that are \
+                 not named independent can be solved for here"
+            ),
+            Self::NotFinite => f.write_str("a derivative or a constraint is not finite"),
+        }
+    }
+}
+
+impl Error for ReduceError {}
+
+/// The coordinates that are named, among the names of a state, which begin with those of the coordinates.
+///
+/// # Errors
+///
+/// [`ReduceError::UnknownCoordinate`].
+pub fn independent<const N: usize, const S: usize>(
+    names: &[&'static str],
+    state: &[&'static str; S],
+) -> Result<[bool; N], ReduceError> {
+    let mut found = [false; N];
+    for name in names {
+        let place = state.iter().take(N).position(|known| known == name);
+        match place.and_then(|i| found.get_mut(i)) {
+            Some(entry) => *entry = true,
+            None => return Err(ReduceError::UnknownCoordinate { name }),
+        }
+    }
+    Ok(found)
+}
+
+/// The linear model of a system in a basis `z` of its leaf: independent positions, then the quasi-velocities.
+///
+/// ```text
+/// d(state) = E dz      dz = P d(state)      A_z = P (A E - E')      B_z = P B
+/// ```
+///
+/// `E'` is the rate of the basis along the motion; it differs from zero for the rotation components of quaternions
+/// alone. `S` states, `M` inputs, `Z` components.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reduced<R, const S: usize, const M: usize, const Z: usize> {
+    /// `A_z` and `B_z`.
+    pub linear: Linearization<R, Z, M>,
+    /// The rates of the components along the motion, for models with an offset.
+    pub rates: [R; Z],
+    /// `E`, `S` by `Z`.
+    pub basis: [[R; Z]; S],
+    /// `P`, `Z` by `S`: a left inverse of `E`.
+    pub projection: [[R; S]; Z],
+    /// What each component is.
+    pub components: [Component; Z],
+}
+
+impl<R: Real, const S: usize, const M: usize, const Z: usize> Reduced<R, S, M, Z> {
+    /// The components of a small deviation of the state on the leaf.
+    pub fn project(&self, deviation: &[R; S]) -> [R; Z] {
+        apply(&self.projection, deviation)
+    }
+
+    /// The deviation of the state that has these components.
+    pub fn lift(&self, components: &[R; Z]) -> [R; S] {
+        apply(&self.basis, components)
+    }
+
+    /// The linearisation of outputs in this basis: `C E` and `D`.
+    pub fn outputs<const P: usize>(
+        &self,
+        outputs: &OutputLinearization<R, S, M, P>,
+    ) -> OutputLinearization<R, Z, M, P> {
+        OutputLinearization { c: product(&outputs.c, &self.basis), d: outputs.d }
+    }
+}
+
+/// A state's leaf: where the motion stays that begins there.
+#[derive(Clone, Copy, Debug)]
+pub struct Leaf<'a, R, const N: usize, const H: usize> {
+    /// The coordinates.
+    pub coordinates: [R; N],
+    /// Their rates.
+    pub velocities: [R; N],
+    /// The differentials of the integrable combinations by the coordinates, a row for each: `F dx = 0` on the leaf.
+    pub rows: [[R; N]; H],
+    /// The unit quaternions among the coordinates; the norm of each is one of the combinations.
+    pub quaternions: &'a [Quaternion],
+    /// Coordinates that are to stay independent; naming a component of a quaternion names its rotation.
+    pub independent: [bool; N],
+}
+
+impl<R: Ordered, const N: usize, const H: usize> Leaf<'_, R, N, H> {
+    /// The linear model in a basis of the leaf.
+    ///
+    /// ```text
+    /// dx_dep = -F_dep^-1 F_ind dx_ind
+    /// ```
+    ///
+    /// The dependent positions are chosen by complete pivoting among those that are not to stay independent. Exact at
+    /// every state, equilibrium or not: the leaf is kept by the motion, and the independent positions are coordinates on
+    /// it. Takes `Z = S - H` components.
+    ///
+    /// ```
+    /// use guen_runtime::{Linearization, control::{Component, Leaf}};
+    /// // Two coordinates with x' = y' = v: on the leaf x - y = const one of them is enough.
+    /// let linear = Linearization { a: [[0.0, 0.0, 1.0], [0.0, 0.0, 1.0], [0.0, 0.0, 0.0]], b: [[0.0], [0.0], [1.0]] };
+    /// let leaf = Leaf {
+    ///     coordinates: [0.0, 0.0], velocities: [0.0, 0.0], rows: [[1.0, -1.0]], quaternions: &[], independent: [false, true],
+    /// };
+    /// let reduced = leaf.reduce::<3, 1, 2>(&linear, &[0.0; 3]).unwrap();
+    /// assert_eq!(reduced.components, [Component::Coordinate(1), Component::Parameter(0)]);
+    /// assert_eq!(reduced.linear.a, [[0.0, 1.0], [0.0, 0.0]]);
+    /// assert_eq!(reduced.lift(&[0.1, 0.0]), [0.1, 0.1, 0.0]);
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// [`ReduceError`].
+    pub fn reduce<const S: usize, const M: usize, const Z: usize>(
+        &self,
+        linear: &Linearization<R, S, M>,
+        rates: &[R; S],
+    ) -> Result<Reduced<R, S, M, Z>, ReduceError> {
+        let slots = self.slots();
+        let count = N - self.quaternions.len();
+        let solved = self.solve(&slots[..count])?;
+        let mut basis = [[R::zero(); Z]; S];
+        let mut turning = [[R::zero(); Z]; S];
+        let mut projection = [[R::zero(); S]; Z];
+        let mut components = [Component::Parameter(0); Z];
+        let mut z = 0;
+        for (place, slot) in slots[..count].iter().enumerate() {
+            if solved.is_dependent[place] || z >= Z {
+                continue;
+            }
+            self.displace(*slot, R::one(), &mut basis, &mut turning, z);
+            for (k, dependent) in solved.dependent[..solved.rank].iter().enumerate() {
+                self.displace(slots[*dependent], solved.gain[k][place], &mut basis, &mut turning, z);
+            }
+            self.measure(*slot, &mut projection[z]);
+            components[z] = *slot;
+            z += 1;
+        }
+        for parameter in 0..S.saturating_sub(N) {
+            if z < Z {
+                basis[N + parameter][z] = R::one();
+                projection[z][N + parameter] = R::one();
+                components[z] = Component::Parameter(parameter);
+                z += 1;
+            }
+        }
+        let mut moved = product(&linear.a, &basis);
+        for i in 0..S {
+            for j in 0..Z {
+                moved[i][j] -= turning[i][j];
+            }
+        }
+        let linear = Linearization { a: product(&projection, &moved), b: product(&projection, &linear.b) };
+        let all = linear.a.iter().flatten().chain(linear.b.iter().flatten());
+        if !all.copied().all(Real::is_finite) {
+            return Err(ReduceError::NotFinite);
+        }
+        Ok(Reduced { linear, rates: apply(&projection, rates), basis, projection, components })
+    }
+
+    /// Coordinates that are no part of a quaternion as they are, and the rotations of the quaternions, in order.
+    fn slots(&self) -> [Component; N] {
+        let mut slots = [Component::Parameter(0); N];
+        let mut count = 0;
+        for i in 0..N {
+            let member = self.quaternions.iter().position(|q| q.contains(&i));
+            let slot = match member {
+                None => Component::Coordinate(i),
+                Some(quaternion) => {
+                    // The first three of the four coordinates, in order, stand for the three axes.
+                    let axis = self.quaternions[quaternion].iter().filter(|j| **j < i).count();
+                    if axis == 3 {
+                        continue;
+                    }
+                    Component::Rotation { quaternion, axis }
+                }
+            };
+            slots[count] = slot;
+            count += 1;
+        }
+        slots
+    }
+
+    /// `dx` of a displacement along a slot: four components of `q e_axis / 2`, or one.
+    fn direction(&self, slot: Component, of: &[R; N]) -> [(usize, R); 4] {
+        match slot {
+            Component::Rotation { quaternion, axis } => {
+                let members = self.quaternions[quaternion];
+                let [w, x, y, z] = members.map(|i| of[i]);
+                // (w + v) e = -v.e + w e + v x e
+                let image = match axis {
+                    0 => [-x, w, z, -y],
+                    1 => [-y, -z, w, x],
+                    _ => [-z, y, -x, w],
+                };
+                let half = R::from_ratio(1, 2);
+                core::array::from_fn(|k| (members[k], half * image[k]))
+            }
+            Component::Coordinate(i) => [(i, R::one()), (i, R::zero()), (i, R::zero()), (i, R::zero())],
+            Component::Parameter(_) => [(0, R::zero()); 4],
+        }
+    }
+
+    fn displace<const S: usize, const Z: usize>(
+        &self,
+        slot: Component,
+        by: R,
+        basis: &mut [[R; Z]; S],
+        turning: &mut [[R; Z]; S],
+        column: usize,
+    ) {
+        for (i, part) in self.direction(slot, &self.coordinates) {
+            basis[i][column] += by * part;
+        }
+        if matches!(slot, Component::Rotation { .. }) {
+            for (i, part) in self.direction(slot, &self.velocities) {
+                turning[i][column] += by * part;
+            }
+        }
+    }
+
+    /// The row of `P`: a coordinate itself, or `theta = 2 (q* dq)/|q|^2`.
+    fn measure<const S: usize>(&self, slot: Component, row: &mut [R; S]) {
+        let mut scale = R::one();
+        if let Component::Rotation { quaternion, .. } = slot {
+            let square = self.quaternions[quaternion]
+                .iter()
+                .fold(R::zero(), |sum, i| sum + self.coordinates[*i] * self.coordinates[*i]);
+            // q e_axis / 2 has the length |q|/2.
+            scale = R::from_ratio(4, 1) / square;
+        }
+        for (i, part) in self.direction(slot, &self.coordinates) {
+            row[i] += scale * part;
+        }
+    }
+
+    /// Which slots depend on the others, and how.
+    fn solve(&self, slots: &[Component]) -> Result<Solved<R, N, H>, ReduceError> {
+        /// An entry that is smaller than this beside the largest one is no pivot.
+        const SMALLEST: f64 = 1e-10;
+        let mut f = [[R::zero(); N]; H];
+        for (row, given) in f.iter_mut().zip(&self.rows) {
+            for (entry, slot) in row.iter_mut().zip(slots) {
+                *entry = self
+                    .direction(*slot, &self.coordinates)
+                    .iter()
+                    .fold(R::zero(), |sum, (i, part)| sum + given[*i] * *part);
+            }
+        }
+        let scale = largest(self.rows.iter().flatten().copied());
+        if !scale.is_finite() {
+            return Err(ReduceError::NotFinite);
+        }
+        let is_free = |slot: &Component| match *slot {
+            Component::Coordinate(i) => !self.independent[i],
+            Component::Rotation { quaternion, .. } => {
+                self.quaternions[quaternion].iter().all(|i| !self.independent[*i])
+            }
+            Component::Parameter(_) => false,
+        };
+        let mut solved = Solved { rank: 0, dependent: [0; H], is_dependent: [false; N], gain: f };
+        let needed = H.saturating_sub(self.quaternions.len());
+        while solved.rank < needed {
+            let k = solved.rank;
+            let mut best = (SMALLEST * scale, None);
+            for (i, row) in f.iter().enumerate().skip(k) {
+                for (j, slot) in slots.iter().enumerate() {
+                    let size = row[j].to_f64().abs();
+                    if size > best.0 && is_free(slot) && !solved.is_dependent[j] {
+                        best = (size, Some((i, j)));
+                    }
+                }
+            }
+            let Some((i, j)) = best.1 else {
+                return Err(ReduceError::Dependent { rank: k, needed });
+            };
+            f.swap(k, i);
+            let pivot = f[k];
+            f[k] = pivot.map(|entry| entry / pivot[j]);
+            let unit = f[k];
+            for (other, row) in f.iter_mut().enumerate() {
+                if other != k {
+                    let factor = row[j];
+                    for (entry, one) in row.iter_mut().zip(&unit) {
+                        *entry -= factor * *one;
+                    }
+                }
+            }
+            solved.dependent[k] = j;
+            solved.is_dependent[j] = true;
+            solved.rank += 1;
+        }
+        solved.gain = f.map(|row| row.map(|entry| -entry));
+        Ok(solved)
+    }
+}
+
+/// `dy_dependent = gain dy_independent`.
+struct Solved<R, const N: usize, const H: usize> {
+    rank: usize,
+    dependent: [usize; H],
+    is_dependent: [bool; N],
+    gain: [[R; N]; H],
+}

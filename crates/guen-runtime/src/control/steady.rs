@@ -1,0 +1,226 @@
+//! Equilibria and steady motions: states and inputs at which given rates vanish.
+
+use core::error::Error;
+use core::fmt;
+
+use super::dense::{Basis, dot, largest, length, transpose};
+use crate::linearization::Linearizable;
+use crate::real::Ordered;
+
+/// Why there is no steady motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum SteadyError {
+    /// A name is none of the system's state or inputs.
+    UnknownName {
+        /// The name.
+        name: &'static str,
+    },
+    /// The steady motions here are a family: so many further quantities have to be fixed.
+    Family {
+        /// How many quantities are left open.
+        dimension: usize,
+    },
+    /// No steady motion near the guess has the fixed quantities.
+    NotFound {
+        /// The largest rate that should vanish, where the search ended.
+        residual: f64,
+    },
+    /// A rate or a derivative is infinite or NaN.
+    NotFinite,
+}
+
+impl fmt::Display for SteadyError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::UnknownName { name } => write!(f, "`{name}` is neither in the state nor among the inputs"),
+            Self::Family { dimension } => {
+                write!(
+                    f,
+                    "the steady motions here are a family of dimension {dimension}: fix as many quantities"
+                )
+            }
+            Self::NotFound { residual } => {
+                write!(
+                    f,
+                    "no steady motion near the guess has the fixed quantities; a rate of {residual:e} is left"
+                )
+            }
+            Self::NotFinite => f.write_str("a rate or a derivative is not finite"),
+        }
+    }
+}
+
+impl Error for SteadyError {}
+
+/// What a search for a steady motion may do: see [`steady`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SteadyMotion<const N: usize, const M: usize> {
+    /// States whose rate need not vanish, such as the place of a car that drives in a circle. They stay as in the guess.
+    pub drifting: [bool; N],
+    /// Further states that stay as in the guess.
+    pub fixed_states: [bool; N],
+    /// Inputs that stay as in the guess.
+    pub fixed_inputs: [bool; M],
+}
+
+/// Finds names among those of the state and of the inputs.
+///
+/// # Errors
+///
+/// [`SteadyError::UnknownName`].
+pub fn named<const N: usize, const M: usize>(
+    names: &[&'static str],
+    states: &[&'static str; N],
+    inputs: &[&'static str; M],
+) -> Result<([bool; N], [bool; M]), SteadyError> {
+    let (mut in_states, mut in_inputs) = ([false; N], [false; M]);
+    for name in names {
+        if let Some(i) = states.iter().position(|known| known == name) {
+            in_states[i] = true;
+        } else if let Some(i) = inputs.iter().position(|known| known == name) {
+            in_inputs[i] = true;
+        } else {
+            return Err(SteadyError::UnknownName { name });
+        }
+    }
+    Ok((in_states, in_inputs))
+}
+
+/// A state and inputs near a guess at which all rates vanish that do not drift.
+///
+/// ```text
+/// r_i(t, s, u) = 0 for all i that do not drift;   (ds, du) from the linearisation, by Gauss and Newton
+/// ```
+///
+/// - What is fixed or drifts stays as in the guess. Directions that no rate depends on stay as well; if any are left
+///   at the end, there is a family of solutions, and that is reported: a car's steady turns have a speed and a radius,
+///   and both have to be chosen.
+/// - Steps are halved as long as they do not make the rates smaller. A direction counts as one that the rates depend
+///   on if more than `1e-9` of the longest derivative is left of its own beside the others.
+///
+/// ```
+/// use guen_runtime::{Linearizable, Linearization, control::{SteadyError, SteadyMotion, steady}};
+///
+/// /// `x'' = u - sin(x)`.
+/// struct Pendulum;
+/// impl Linearizable<f64, 2, 1> for Pendulum {
+///     fn rates(&self, _t: f64, [x, v]: &[f64; 2], [u]: &[f64; 1]) -> [f64; 2] {
+///         [*v, u - x.sin()]
+///     }
+///     fn linearization(&self, _t: f64, [x, _]: &[f64; 2], _: &[f64; 1]) -> Linearization<f64, 2, 1> {
+///         Linearization { a: [[0.0, 1.0], [-x.cos(), 0.0]], b: [[0.0], [1.0]] }
+///     }
+/// }
+/// let holding = SteadyMotion { drifting: [false; 2], fixed_states: [true, false], fixed_inputs: [false] };
+/// let (state, [torque]) = steady(&Pendulum, 0.0, &[0.5, 1.0], &[0.0], &holding).unwrap();
+/// assert!(state == [0.5, 0.0] && (torque - 0.5_f64.sin()).abs() < 1e-15);
+/// // Every angle can be held by some torque.
+/// let open = SteadyMotion { fixed_states: [false; 2], ..holding };
+/// assert_eq!(steady(&Pendulum, 0.0, &[0.5, 1.0], &[0.0], &open), Err(SteadyError::Family { dimension: 1 }));
+/// ```
+///
+/// # Errors
+///
+/// [`SteadyError`].
+pub fn steady<R: Ordered, S, const N: usize, const M: usize>(
+    system: &S,
+    t: R,
+    state: &[R; N],
+    inputs: &[R; M],
+    request: &SteadyMotion<N, M>,
+) -> Result<([R; N], [R; M]), SteadyError>
+where
+    S: Linearizable<R, N, M> + ?Sized,
+{
+    const STEPS: usize = 100;
+    const HALVINGS: usize = 30;
+    const INDEPENDENT: f64 = 1e-9;
+
+    let open = |j: usize| {
+        if j < N { !request.drifting[j] && !request.fixed_states[j] } else { !request.fixed_inputs[j - N] }
+    };
+    let unknowns = (0..N + M).filter(|j| open(*j)).count();
+    let rates = |s: &[R; N], u: &[R; M]| {
+        let mut rates = system.rates(t, s, u);
+        for (rate, drifts) in rates.iter_mut().zip(&request.drifting) {
+            if *drifts {
+                *rate = R::zero();
+            }
+        }
+        rates
+    };
+    let precision = R::epsilon().sqrt().to_f64();
+    let (mut s, mut u) = (*state, *inputs);
+    let mut r = rates(&s, &u);
+    for _ in 0..STEPS {
+        let linear = system.linearization(t, &s, &u);
+        let (by_state, by_input) = (transpose(&linear.a), transpose(&linear.b));
+        let column = |j: usize| {
+            let mut column = *by_state.get(j).or_else(|| by_input.get(j.wrapping_sub(N)))?;
+            for (entry, drifts) in column.iter_mut().zip(&request.drifting) {
+                if *drifts {
+                    *entry = R::zero();
+                }
+            }
+            open(j).then_some(column)
+        };
+        let scale = largest((0..N + M).filter_map(|j| column(j).map(|c| length(&c))));
+        let size = length(&r).to_f64();
+        if !(scale.is_finite() && size.is_finite()) {
+            return Err(SteadyError::NotFinite);
+        }
+        let mut basis = Basis::<R, N>::new();
+        let order = basis.add_all(N + M, column, INDEPENDENT * scale);
+        let rank = basis.count;
+        // R y = -Q^T r, backwards.
+        let mut y = [R::zero(); N];
+        for k in (0..rank).rev() {
+            let q = &basis.vectors[k];
+            let mut rest = -dot(q, &r);
+            let entry = |j: usize| column(order[j]).map_or(R::zero(), |c| dot(q, &c));
+            for (j, value) in y.iter().enumerate().take(rank).skip(k + 1) {
+                rest -= entry(j) * *value;
+            }
+            y[k] = rest / entry(k);
+        }
+        let length_of_step = largest(y[..rank].iter().copied());
+        let extent = 1.0 + largest(s.iter().chain(&u).copied());
+        let moved = |factor: R| {
+            let (mut s, mut u) = (s, u);
+            for (j, change) in order.iter().zip(&y).take(rank) {
+                let place = if *j < N { &mut s[*j] } else { &mut u[*j - N] };
+                *place += factor * *change;
+            }
+            (s, u)
+        };
+        if length_of_step <= precision * extent {
+            // The last step of Newton's method squares what is left.
+            (s, u) = moved(R::one());
+            let rest = rates(&s, &u);
+            let residual = largest(rest.iter().copied());
+            if !(residual <= precision * precision * 1e3 * (scale * extent).max(1.0)) {
+                return Err(SteadyError::NotFound { residual });
+            }
+            if unknowns > rank {
+                return Err(SteadyError::Family { dimension: unknowns - rank });
+            }
+            return Ok((s, u));
+        }
+        let mut factor = R::one();
+        let mut accepted = None;
+        for _ in 0..HALVINGS {
+            let (trial_s, trial_u) = moved(factor);
+            let trial = rates(&trial_s, &trial_u);
+            let new = length(&trial).to_f64();
+            if new < size * (1.0 - 1e-4 * factor.to_f64()) {
+                accepted = Some((trial_s, trial_u, trial));
+                break;
+            }
+            factor *= R::from_ratio(1, 2);
+        }
+        let Some(next) = accepted else { break };
+        (s, u, r) = next;
+    }
+    Err(SteadyError::NotFound { residual: largest(r.iter().copied()) })
+}

@@ -1,0 +1,117 @@
+//! Code without what nothing uses.
+
+use crate::algebra::{FastMap, Function};
+use crate::program::cost::OperationCount;
+use crate::program::instruction::{FunctionProgram, Instruction, Operation, Value};
+
+/// The values that an instruction defines.
+pub(super) fn defined(instruction: &Instruction) -> impl Iterator<Item = Value> + use<> {
+    let second = match instruction.operation {
+        Operation::SinCos { cosine, .. } => Some(cosine),
+        _ => None,
+    };
+    std::iter::once(instruction.result).chain(second)
+}
+
+/// Which values the outputs depend on.
+fn used(instructions: &[Instruction], outputs: &[Value]) -> Vec<bool> {
+    let values = instructions.iter().flat_map(defined).map(|v| v.index() + 1).max().unwrap_or(0);
+    let mut used = vec![false; values];
+    outputs.iter().for_each(|v| used[v.index()] = true);
+    for instruction in instructions.iter().rev() {
+        if defined(instruction).any(|v| used[v.index()]) {
+            instruction.operation.operands().for_each(|v| used[v.index()] = true);
+        }
+    }
+    used
+}
+
+/// The instructions that outputs need, in a function of its own; a sine without its cosine is called alone.
+pub(super) fn function(name: &str, instructions: &[Instruction], outputs: Vec<Value>) -> FunctionProgram {
+    let used = used(instructions, &outputs);
+    let mut numbers: FastMap<Value, Value> = FastMap::default();
+    let mut values = 0;
+    let mut fresh = |numbers: &mut FastMap<Value, Value>, v: Value| {
+        let new = Value(values);
+        values += 1;
+        numbers.insert(v, new);
+        new
+    };
+    let mut kept = Vec::new();
+    for Instruction { result, operation } in instructions {
+        let cosine = match operation {
+            Operation::SinCos { cosine, .. } => Some(*cosine),
+            _ => None,
+        };
+        let (first, second) = (used[result.index()], cosine.is_some_and(|v| used[v.index()]));
+        if !first && !second {
+            continue;
+        }
+        let of = |v: &Value| numbers[v];
+        let (result, operation) = match operation {
+            Operation::SinCos { angle, cosine } => {
+                let angle = of(angle);
+                match (first, second) {
+                    (true, true) => {
+                        let sine = fresh(&mut numbers, *result);
+                        let cosine = fresh(&mut numbers, *cosine);
+                        (sine, Operation::SinCos { angle, cosine })
+                    }
+                    (true, false) => (fresh(&mut numbers, *result), Operation::Call(Function::Sin, angle)),
+                    _ => (fresh(&mut numbers, *cosine), Operation::Call(Function::Cos, angle)),
+                }
+            }
+            other => {
+                let operation = renamed(other, &of);
+                (fresh(&mut numbers, *result), operation)
+            }
+        };
+        kept.push(Instruction { result, operation });
+    }
+    let outputs = outputs.iter().map(|v| numbers[v]).collect();
+    let cost = OperationCount::of(&kept);
+    FunctionProgram { name: name.to_owned(), instructions: kept, outputs, values: values as usize, cost }
+}
+
+/// The operation over other values.
+fn renamed(operation: &Operation, of: &impl Fn(&Value) -> Value) -> Operation {
+    match operation {
+        Operation::Add(a, b) => Operation::Add(of(a), of(b)),
+        Operation::Sub(a, b) => Operation::Sub(of(a), of(b)),
+        Operation::Neg(a) => Operation::Neg(of(a)),
+        Operation::Mul(a, b) => Operation::Mul(of(a), of(b)),
+        Operation::Div(a, b) => Operation::Div(of(a), of(b)),
+        Operation::Call(function, a) => Operation::Call(*function, of(a)),
+        Operation::Atan2(y, x) => Operation::Atan2(of(y), of(x)),
+        Operation::SinCos { angle, cosine } => Operation::SinCos { angle: of(angle), cosine: of(cosine) },
+        load @ (Operation::Number(_) | Operation::Pi | Operation::Symbol(_) | Operation::Prepared(_)) => {
+            load.clone()
+        }
+    }
+}
+
+/// Lets a function load from the list of prepared values, which grows by those that are new and needed.
+pub(super) fn renumber_prepared(program: &mut FunctionProgram, prepared: &mut Vec<Value>, stored: &[Value]) {
+    let known = prepared.len();
+    let mut places: FastMap<usize, usize> = FastMap::default();
+    for instruction in &mut program.instructions {
+        if let Operation::Prepared(index) = &mut instruction.operation
+            && *index >= known
+        {
+            *index = *places.entry(*index).or_insert_with(|| {
+                prepared.push(stored[*index]);
+                prepared.len() - 1
+            });
+        }
+    }
+}
+
+/// The first instructions, and of the others those that the outputs need.
+pub(super) fn instructions(all: &[Instruction], outputs: &[Value], keep: usize) -> Vec<Instruction> {
+    let used = used(all, outputs);
+    all.iter()
+        .enumerate()
+        .filter(|(place, instruction)| *place < keep || defined(instruction).any(|v| used[v.index()]))
+        .map(|(_, instruction)| instruction.clone())
+        .collect()
+}

@@ -1,0 +1,13 @@
+//! What controllers take of a system: linearisations, leaves, discrete models, steady motions, reactions.
+
+#[macro_use]
+#[path = "../systems/mod.rs"]
+mod systems;
+
+mod balance;
+mod jacobians;
+mod leaves;
+mod long;
+mod models;
+mod motion;
+mod vehicles;

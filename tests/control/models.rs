@@ -1,0 +1,221 @@
+//! Discrete models, steady motions and controllability.
+
+use guen::control::{DiscreteError, Flow, Frozen, SteadyError, controllability};
+use guen::prelude::*;
+
+use crate::jacobians::{Cart, Hoop, Sled, cart, hoop, sled};
+use crate::vehicles::{robot, small_robot};
+
+fn pole_cart() -> cart::Prepared {
+    Cart { M: 2.0, m: 0.6, l: 0.5, I: 0.05, c: 0.1, g: 9.81 }.prepare().unwrap()
+}
+
+/// The linear model over a period, against its own integration in small steps.
+#[test]
+fn the_frozen_pair_solves_the_linear_model() {
+    let (system, inputs) = (pole_cart(), cart::Inputs { push: 1.0, wind: 0.5 });
+    let state = cart::State { x: 0.1, phi: 2.0, v: 0.4, omega: -3.0 };
+    let linear = system.linearize(0.0, &state, &inputs);
+    let rates: [f64; 4] = system.rhs(0.0, &state, &inputs).into();
+    for h in [0.01, 2.0] {
+        let pair = Frozen::new(&linear, &rates, h).unwrap();
+        let (ds, du) = ([0.1, -0.2, 0.3, 0.05], [0.7, -0.4]);
+        let model = from_fn(|_t: f64, s: &[f64; 4]| {
+            std::array::from_fn(|i| {
+                let free: f64 = (0..4).map(|j| linear.a[i][j] * s[j]).sum();
+                rates[i] + free + (0..2).map(|j| linear.b[i][j] * du[j]).sum::<f64>()
+            })
+        });
+        let end = Dop853::new(1e-13, 1e-13)
+            .integrate(&model, 0.0, &ds, h, |_, _| ControlFlow::Continue(()))
+            .unwrap();
+        for i in 0..4 {
+            let free: f64 = (0..4).map(|j| pair.phi[i][j] * ds[j]).sum();
+            let found = pair.offset[i] + free + (0..2).map(|j| pair.gamma[i][j] * du[j]).sum::<f64>();
+            assert!(
+                (found - end.state[i]).abs() < 1e-9 * (1.0 + end.state[i].abs()),
+                "{found} {}",
+                end.state[i]
+            );
+        }
+    }
+    let broken = [f64::NAN; 4];
+    assert_eq!(Frozen::new(&linear, &broken, 0.1), Err(DiscreteError::NotFinite));
+}
+
+/// The Jacobian of the flow against differences of it, and its state against the stepper, bit for bit.
+#[test]
+fn the_flow_and_its_derivatives() {
+    let (system, inputs) = (pole_cart(), cart::Inputs { push: 1.0, wind: 0.5 });
+    let (state, u): ([f64; 4], [f64; 2]) = ([0.1, 2.0, 0.4, -3.0], inputs.into());
+    let (h, steps) = (0.08, 4);
+    let flow = Flow::new(&system, 0.2, &state, &u, h, steps).unwrap();
+    let next = |s: &[f64; 4], u: &[f64; 2]| {
+        let driven = system.driven((*u).into());
+        (0..steps)
+            .fold(*s, |s, k| guen::steppers::rk4::step(&driven, 0.2 + f64::from(k) * (h / 4.0), &s, h / 4.0))
+    };
+    assert_eq!(flow.next, next(&state, &u));
+    let e = 1e-6;
+    for j in 0..6 {
+        let moved = |by: f64| {
+            let (mut s, mut v) = (state, u);
+            if j < 4 {
+                s[j] += by
+            } else {
+                v[j - 4] += by
+            }
+            next(&s, &v)
+        };
+        let (above, below) = (moved(e), moved(-e));
+        for i in 0..4 {
+            let expected = (above[i] - below[i]) / (2.0 * e);
+            let found = if j < 4 { flow.phi[i][j] } else { flow.gamma[i][j - 4] };
+            assert!((found - expected).abs() < 1e-8, "({i}, {j}): {found} and {expected}");
+        }
+    }
+    assert_eq!(Flow::new(&system, 0.0, &state, &u, h, 0), Err(DiscreteError::NoSteps));
+    // To first order in the period both models are one; they differ in the second.
+    let rates: [f64; 4] = system.rhs(0.2, &state.into(), &inputs).into();
+    let linear = system.linearize(0.2, &state.into(), &inputs);
+    let difference = |h: f64| {
+        let frozen = Frozen::new(&linear, &rates, h).unwrap();
+        let flow = Flow::new(&system, 0.2, &state, &u, h, 1).unwrap();
+        (frozen.phi[3][1] - flow.phi[3][1]).abs()
+    };
+    let order = (difference(0.02) / difference(0.01)).log2();
+    assert!((order - 2.0).abs() < 0.2, "{order}");
+}
+
+#[test]
+fn equilibria_of_a_cart() {
+    let system = pole_cart();
+    let guess = cart::State { x: 0.3, phi: 2.9, v: 0.2, omega: 0.4 };
+    // Upright, wherever the cart is, without a push; the wind is fixed to a breeze.
+    let breeze = cart::Inputs { push: 0.0, wind: 0.5 };
+    let (state, inputs) = system.equilibrium(0.0, &guess, &breeze, &["x", "wind"]).unwrap();
+    assert_eq!((state.x, state.v, state.omega, inputs.wind), (0.3, 0.0, 0.0, 0.5));
+    // The wind pushes cart and pole alike: the push holds against both, and the pole leans.
+    assert!((inputs.push + 0.5).abs() < 1e-12, "{inputs:?}");
+    let rates: [f64; 4] = system.rhs(0.0, &state, &inputs).into();
+    assert!(rates.iter().all(|rate| rate.abs() < 1e-12), "{rates:?}");
+    assert!((state.phi.tan() - 0.5 / (0.6 * 9.81)).abs() < 1e-12 && state.phi > 3.0, "{}", state.phi);
+    // Without a word on the place and the wind there is a family.
+    assert_eq!(system.equilibrium(0.0, &guess, &breeze, &[]), Err(SteadyError::Family { dimension: 2 }));
+    // A pole that leans by a given angle and no wind: none.
+    let fixed = ["x", "phi", "wind"];
+    let found = system.equilibrium(0.0, &cart::State { phi: 2.0, ..guess }, &Default::default(), &fixed);
+    assert!(matches!(found, Err(SteadyError::NotFound { residual }) if residual > 0.1), "{found:?}");
+    assert_eq!(
+        system.equilibrium(0.0, &guess, &breeze, &["speed"]),
+        Err(SteadyError::UnknownName { name: "speed" })
+    );
+}
+
+/// A rolling hoop's circle: tilt and rolling are chosen, the turning follows; then it does go in a circle.
+#[test]
+fn the_circle_of_a_hoop() {
+    let system = Hoop { a: 0.7, A: 0.4, C: 0.6, g: 9.81 }.prepare().unwrap();
+    let guess = hoop::State { theta: 1.2, eta2: 0.5, eta3: 4.0, ..Default::default() };
+    let drifting = ["psi", "phi", "xi", "eta", "zeta"];
+    let found = system.steady_motion(0.0, &guess, &drifting, &["theta"]);
+    assert_eq!(found, Err(SteadyError::Family { dimension: 1 }));
+    let state = system.steady_motion(0.0, &guess, &drifting, &["theta", "eta3"]).unwrap();
+    assert!(
+        state.eta1 == 0.0 && state.eta2.abs() > 0.1 && state.theta == 1.2 && state.eta3 == 4.0,
+        "{state:?}"
+    );
+    // A cot(theta) eta2^2 - (C + a^2) eta2 eta3 = a g cos(theta), from (3.6).
+    let left = 0.4 / 1.2_f64.tan() * state.eta2 * state.eta2 - (0.6 + 0.49) * state.eta2 * 4.0;
+    assert!((left - 0.7 * 9.81 * 1.2_f64.cos()).abs() < 1e-12, "{left}");
+    // One turn of psi later it is where it was.
+    let turn = 2.0 * std::f64::consts::PI / system.velocities(0.0, &state).psi.abs();
+    let end = Dop853::new(1e-12, 1e-12)
+        .integrate(&system, 0.0, &state.into(), turn, |_, _| ControlFlow::Continue(()))
+        .unwrap();
+    let end = hoop::State::from(end.state);
+    assert!(end.xi.abs() < 1e-8 && end.eta.abs() < 1e-8 && (end.theta - 1.2).abs() < 1e-8, "{end:?}");
+}
+
+guen::mechanical_system! {
+    /// A car with a trailer whose coordinate is the angle at the hitch, with rolling resistance.
+    pub system Hitched {
+        constants { m > 0, J > 0, base > 0, d > 0, c > 0 }
+        inputs { thrust, steering_torque }
+        coordinates { x, y, heading, hitch, steering }
+        let rear = vec(x, y);
+        let ahead = vec(cos(heading), sin(heading));
+        let left = vec(-sin(heading), cos(heading));
+        let tongue = vec(cos(heading + hitch), sin(heading + hitch));
+        let across = vec(-sin(heading + hitch), cos(heading + hitch));
+        let trailer = rear - d*tongue;
+        parameters { speed = inner(dot(rear), ahead); steer = dot(steering); }
+        constraints {
+            rear_grip: inner(dot(rear), left) = 0;
+            front_grip: inner(dot(rear + base*ahead), cos(steering)*left - sin(steering)*ahead) = 0;
+            trailer_grip: inner(dot(trailer), across) = 0;
+        }
+        particles { m at rear + base/2*ahead; m/2 at trailer; }
+        kinetic_energy = J/2*(dot(heading)^2 + dot(steering)^2 + dot(heading + hitch)^2);
+        forces { thrust - c*speed along speed; steering_torque along steer; }
+    }
+}
+
+/// A car with a trailer that turns steadily: the hitch angle and the thrust follow from steering and speed.
+#[test]
+fn a_turning_car() {
+    let (base, d, c) = (2.5, 3.0, 40.0);
+    let system = Hitched { m: 900.0, J: 1200.0, base, d, c }.prepare().unwrap();
+    let guess = hitched::State { hitch: -0.2, steering: 0.3, speed: 4.0, ..Default::default() };
+    let drifting = ["x", "y", "heading"];
+    let none = hitched::Inputs::default();
+    let open = system.steady_motion(0.0, &guess, &none, &drifting, &[]);
+    assert_eq!(open, Err(SteadyError::Family { dimension: 2 }));
+    let (state, inputs) =
+        system.steady_motion(0.0, &guess, &none, &drifting, &["steering", "speed"]).unwrap();
+    let rates = system.rhs(0.0, &state, &inputs);
+    assert!([rates.hitch, rates.steering, rates.speed, rates.steer].iter().all(|rate| rate.abs() < 1e-10));
+    assert!((state.steering, state.speed) == (0.3, 4.0) && state.steer.abs() < 1e-15);
+    // The trailer's axle points to the centre of the turn: d = R sin(-hitch) with R = base/tan(steering).
+    let radius = base / 0.3_f64.tan();
+    assert!((state.hitch.sin() + d / radius).abs() < 1e-12, "{}", state.hitch);
+    assert!((rates.heading - 4.0 / radius).abs() < 1e-12 && inputs.thrust > 100.0, "{inputs:?}");
+    // A hitch too long for so tight a turn.
+    let tight = hitched::State { steering: 0.9, ..guess };
+    let found = system.steady_motion(0.0, &tight, &none, &drifting, &["steering", "speed"]);
+    assert!(matches!(found, Err(SteadyError::NotFound { .. })), "{found:?}");
+}
+
+/// At rest a nonholonomic system has modes that no input reaches, although its brackets reach every place.
+#[test]
+fn what_inputs_reach() {
+    let system = small_robot();
+    let upright = robot::State::default();
+    let reduced =
+        system.reduce(0.0, &upright, &Default::default(), &["x", "y", "heading", "tilt", "left"]).unwrap();
+    let found = controllability(&reduced.linear, 1e-9);
+    // Sideways it cannot go; and the left wheel is bound to x and heading to first order.
+    assert_eq!((found.rank, found.zero_modes), (6, 2));
+    assert!(found.modes().iter().any(|mode| mode[1].abs() > 1e-6));
+    let error = found.require().unwrap_err();
+    assert!(error.to_string().contains("nonholonomic"), "{error}");
+    assert_eq!(*robot::GROWTH.last().unwrap(), 5);
+    // In motion the sideways place is reached through the heading.
+    let (state, inputs) = system
+        .steady_motion(
+            0.0,
+            &robot::State { speed: 1.0, ..upright },
+            &Default::default(),
+            &["x", "y", "heading", "left", "right"],
+            &["speed", "turn"],
+        )
+        .unwrap();
+    let moving = system.reduce(0.0, &state, &inputs, &["x", "y", "heading", "tilt", "left"]).unwrap();
+    assert_eq!(controllability(&moving.linear, 1e-9).rank, 7);
+
+    // The sled on a slope has no inputs at all: nothing is reached, and every conserved direction is found.
+    let sled = Sled { m: 1.3, alpha: 0.2, beta: 0.1, k: 0.5, incline: 0.0, g: 9.81 }.prepare().unwrap();
+    let linear = sled.linearize(0.0, &sled::State::default());
+    let found = controllability(&linear, 1e-9);
+    assert_eq!((found.rank, found.zero_modes), (0, 3));
+}
