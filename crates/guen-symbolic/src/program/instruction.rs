@@ -66,6 +66,12 @@ impl Operation {
     }
 }
 
+impl Key for Value {
+    fn hash(&self) -> u32 {
+        spread(self.0 as u64)
+    }
+}
+
 impl Key for Operation {
     fn hash(&self) -> u32 {
         let pair = |a: u32, b: u32| (a as u64) << 32 | b as u64;

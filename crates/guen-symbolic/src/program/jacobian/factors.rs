@@ -191,7 +191,7 @@ impl Code {
             return self.emit(plain);
         }
         let next = self.stored.len();
-        let place = *self.places.entry(value).or_insert(next);
+        let place = *self.places.or_insert_with(value, || next);
         if place == next {
             self.stored.push(value);
         }

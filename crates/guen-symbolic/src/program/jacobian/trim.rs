@@ -93,12 +93,12 @@ fn renamed(operation: &Operation, of: &impl Fn(&Value) -> Value) -> Operation {
 /// Lets a function load from the list of prepared values, which grows by those that are new and needed.
 pub(super) fn renumber_prepared(program: &mut FunctionProgram, prepared: &mut Vec<Value>, stored: &[Value]) {
     let known = prepared.len();
-    let mut places: FastMap<usize, usize> = FastMap::default();
+    let mut places: Vec<Option<usize>> = vec![None; stored.len()];
     for instruction in &mut program.instructions {
         if let Operation::Prepared(index) = &mut instruction.operation
             && *index >= known
         {
-            *index = *places.entry(*index).or_insert_with(|| {
+            *index = *places[*index].get_or_insert_with(|| {
                 prepared.push(stored[*index]);
                 prepared.len() - 1
             });
