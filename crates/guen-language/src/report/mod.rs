@@ -48,7 +48,7 @@ impl Report {
         let sections = vec![
             forms(derived, writer),
             operators(derived, writer),
-            brackets(derived, writer, &brackets_found),
+            brackets(writer, &brackets_found),
             classification(derived, writer),
             velocities(derived, writer),
             equations(writer, &rows),
@@ -197,7 +197,7 @@ fn bracket_terms(derived: &mut Derived<'_>) -> Vec<(usize, usize, Terms)> {
     found
 }
 
-fn brackets(derived: &Derived<'_>, writer: &mut Writer<'_>, all: &[(usize, usize, Terms)]) -> Section {
+fn brackets(writer: &mut Writer<'_>, all: &[(usize, usize, Terms)]) -> Section {
     let mut lines = Lines::new(writer, "Brackets (1.14)");
     let (vanishing, found): (Vec<_>, Vec<_>) = all.iter().partition(|(_, _, terms)| terms.is_empty());
     let vanishing: Vec<(String, String)> = vanishing
