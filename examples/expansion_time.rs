@@ -6,11 +6,12 @@
 //!
 //! Without `--release`: cargo builds procedural macros without optimisation, in a user's dev profile and in the release
 //! profile too, so these are the times that a user waits. (Only the tokens come from this program and not from the
-//! compiler.) The declarations of the examples are cut out of their files; the chains, of point masses on massless
-//! rods with absolute angles, are written here.
+//! compiler.) The declarations of the examples are cut out of their files; beside them stand chains of point masses and
+//! the largest systems of the tests: vehicles, snakes, contacts with a square root, moving belts, prescribed motions.
 //!
-//! The times of the stages and their sum are medians of several expansions. The last column is the mean time on a
-//! processor, which does not depend on what else the machine does; it is known on Linux only.
+//! The times of the stages and their sum are medians of several expansions, followed by the shares of deriving and
+//! emitting in percent. The last column is the mean time on a processor, which depends less on what else the machine
+//! does; it is known on Linux only.
 
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
@@ -20,13 +21,18 @@ use guen_language::{derive, emit, expand, model, parse};
 use guen_study::Table;
 use proc_macro2::{TokenStream, TokenTree};
 
-/// The files whose declarations are expanded.
-const EXAMPLES: [(&str, &str); 3] = [
+#[path = "../tests/systems/large.rs"]
+mod large;
+
+/// The files whose first declarations are expanded.
+const FILES: [(&str, &str); 4] = [
     ("hoop", include_str!("hoop.rs")),
     ("appell", include_str!("appell.rs")),
     ("chaplygin_sled", include_str!("chaplygin_sled.rs")),
+    ("bicycle", include_str!("../tests/spatial/bicycle.rs")),
 ];
 const CHAINS: [usize; 4] = [2, 5, 10, 20];
+const SNAKES: [usize; 3] = [5, 7, 10];
 /// A system is expanded this often, but not again once it took this long.
 const REPEATS: usize = 15;
 const LONG: Duration = Duration::from_secs(5);
@@ -41,14 +47,28 @@ fn main() -> ExitCode {
         );
     }
     let mut systems: Vec<(String, TokenStream)> =
-        EXAMPLES.iter().map(|(name, source)| (name.to_string(), declaration(source))).collect();
-    systems.extend(CHAINS.iter().map(|&links| (format!("chain of {links}"), chain(links))));
+        FILES.iter().map(|(name, source)| (name.to_string(), declaration(source))).collect();
+    let mut add = |name: String, text: &str| systems.push((name, text.parse().expect("these are tokens")));
+    CHAINS.iter().for_each(|&links| add(format!("chain of {links}"), &large::chain(links)));
+    SNAKES.iter().for_each(|&links| add(format!("snake of {links}"), &large::snake(links)));
+    add("tricycle".to_owned(), large::TRICYCLE);
+    add("ellipsoid".to_owned(), large::LADEN_ELLIPSOID);
 
     let mut healthy = true;
     let mut names = vec!["system"];
-    let mut table =
-        Table::new(&["tokens", "emitted", "parse", "resolve", "derive", "emit", "sum in ms", "on processor"])
-            .digits(3);
+    let mut table = Table::new(&[
+        "tokens",
+        "emitted",
+        "parse",
+        "resolve",
+        "derive",
+        "emit",
+        "sum in ms",
+        "derive %",
+        "emit %",
+        "on processor",
+    ])
+    .digits(3);
     for (name, tokens) in &systems {
         let (count, stages, processor) = measured(tokens);
         let [first, second] = [(); 2].map(|()| expand(tokens.clone()).to_string());
@@ -57,9 +77,11 @@ fn main() -> ExitCode {
             healthy = false;
         }
         let milliseconds = stages.map(|stage| stage.as_secs_f64() * 1e3);
-        let [parse, resolve, derive, emit] = milliseconds;
-        let sum = milliseconds.into_iter().sum();
-        table.row(&[size(tokens.clone()) as f64, count as f64, parse, resolve, derive, emit, sum, processor]);
+        let [_, _, derive, emit] = milliseconds;
+        let sum: f64 = milliseconds.into_iter().sum();
+        let shares = [derive, emit].map(|time| 100.0 * time / sum);
+        let sizes = [size(tokens.clone()) as f64, count as f64];
+        table.row(&[&sizes[..], &milliseconds, &[sum], &shares, &[processor]].concat());
         names.push(name);
     }
     // The names stand beside the table, whose cells are numbers.
@@ -85,28 +107,6 @@ fn declaration(source: &str) -> TokenStream {
         _ => None,
     });
     found.expect("an example declares a system")
-}
-
-/// A chain of links that hangs in the plane.
-fn chain(links: usize) -> TokenStream {
-    let list =
-        |entry: &dyn Fn(usize) -> String, gap: &str| (1..=links).map(entry).collect::<Vec<_>>().join(gap);
-    let text = format!(
-        "pub system Chain {{
-            constants {{ m > 0, l > 0, g = 9.81 }}
-            coordinates {{ {} }}
-            let x0 = 0; let y0 = 0;
-            {}
-            parameters {{ {} }}
-            particles {{ {} }}
-            gravity = vec(0, -g);
-        }}",
-        list(&|i| format!("q{i}"), ", "),
-        list(&|i| format!("let x{i} = x{0} + l*sin(q{i}); let y{i} = y{0} - l*cos(q{i});", i - 1), " "),
-        list(&|i| format!("w{i} = dot(q{i});"), " "),
-        list(&|i| format!("m at vec(x{i}, y{i});"), " "),
-    );
-    text.parse().expect("the chain is made of tokens")
 }
 
 /// The number of tokens emitted, the medians of the stages, and the mean time on a processor in

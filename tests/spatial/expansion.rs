@@ -5,6 +5,8 @@ use std::time::{Duration, Instant};
 
 use proc_macro2::{TokenStream, TokenTree};
 
+use crate::large::{LADEN_ELLIPSOID, TRICYCLE, snake};
+
 /// The files with their declarations.
 const FILES: [&str; 9] = [
     include_str!("balls.rs"),
@@ -23,7 +25,8 @@ const LONGEST: Duration = Duration::from_secs(6);
 
 #[test]
 fn every_system_expands_in_seconds() {
-    for declaration in FILES.iter().flat_map(|file| declarations(file.parse().unwrap())) {
+    let others = [TRICYCLE, LADEN_ELLIPSOID].map(|text| text.parse().unwrap());
+    for declaration in FILES.iter().flat_map(|file| declarations(file.parse().unwrap())).chain(others) {
         let name = declaration.clone().into_iter().filter_map(|token| match token {
             TokenTree::Ident(name) => Some(name.to_string()),
             _ => None,
@@ -43,26 +46,8 @@ fn every_system_expands_in_seconds() {
 #[test]
 fn a_long_snake_is_derived_though_not_wholly_classified() {
     const LINKS: usize = 10;
-    let list = |first: usize, entry: &dyn Fn(usize) -> String| (first..=LINKS).map(entry).collect::<String>();
-    let text = format!(
-        "pub system Snake {{
-            constants {{ m > 0, I > 0, l > 0 }}
-            coordinates {{ x, y, {} }}
-            {}
-            let p1 = vec(x, y);
-            {}
-            bodies {{ {} }}
-            parameters {{ speed = inner(A1.x, dot(p1)); turn = dot(q1); }}
-            constraints {{ {} }}
-        }}",
-        list(1, &|i| format!("q{i}, ")),
-        list(1, &|i| format!("let A{i} = rot_z(q{i});")),
-        list(2, &|i| format!("let p{i} = p{0} - l*A{0}.x - l*A{i}.x;", i - 1)),
-        list(1, &|i| format!("b{i} {{ mass: m, inertia: diag(0, 0, I), center: p{i}, orientation: A{i} }}")),
-        list(1, &|i| format!("w{i}: inner(A{i}.y, dot(p{i})) = 0;")),
-    );
     let start = clock();
-    let items = guen_language::expand(text.parse().unwrap()).to_string();
+    let items = guen_language::expand(snake(LINKS).parse().unwrap()).to_string();
     let time = clock() - start;
     println!("snake of {LINKS}      {:6.0} ms", time.as_secs_f64() * 1e3);
     assert!(items.contains("were not followed to the end") && time < LONGEST, "{time:?}");

@@ -6,6 +6,10 @@
 #[path = "../systems/mod.rs"]
 mod systems;
 
+#[allow(dead_code, reason = "the examples use the rest")]
+#[path = "../systems/large.rs"]
+mod large;
+
 #[allow(dead_code, reason = "the paper's tests need all of it")]
 #[path = "../paper/formulas.rs"]
 mod formulas;

@@ -1,6 +1,6 @@
 //! What was derived, in readable notation: the same lines as text and as LaTeX.
 
-use guen_symbolic::{Class, ExprId, Graph, Notation};
+use guen_symbolic::{Class, ExprId, Notation};
 
 use crate::derive::{Derived, function};
 use crate::model::FormKind;
@@ -38,15 +38,22 @@ impl Report {
     /// Writes down what was derived.
     pub fn new(derived: &mut Derived<'_>) -> Self {
         let name = derived.model.declaration.name.text.clone();
+        let brackets_found = bracket_terms(derived);
+        let rows = equation_rows(derived);
+        let derived = &*derived;
+        // One memory for all sections: the parts of an expression are written once.
+        let graph = &derived.model.bench.graph;
+        let writer =
+            &mut Writer { text: Notation::text(graph, LONGEST), latex: Notation::latex(graph, LONGEST) };
         let sections = vec![
-            forms(derived),
-            operators(derived),
-            brackets(derived),
-            classification(derived),
-            velocities(derived),
-            equations(derived),
-            momenta(derived),
-            energies(derived),
+            forms(derived, writer),
+            operators(derived, writer),
+            brackets(writer, &brackets_found),
+            classification(derived, writer),
+            velocities(derived, writer),
+            equations(writer, &rows),
+            momenta(derived, writer),
+            energies(derived, writer),
             domain(derived),
             cost(derived),
         ];
@@ -74,26 +81,27 @@ impl Report {
     }
 }
 
-/// Lines that are formulas, written twice.
-struct Lines<'g> {
+/// Both ways of writing.
+struct Writer<'g> {
     text: Notation<'g>,
     latex: Notation<'g>,
+}
+
+/// Lines that are formulas, written twice.
+struct Lines<'w, 'g> {
+    writer: &'w mut Writer<'g>,
     section: Section,
 }
 
-impl<'g> Lines<'g> {
-    fn new(graph: &'g Graph, title: &'static str) -> Self {
-        Lines {
-            text: Notation::text(graph, LONGEST),
-            latex: Notation::latex(graph, LONGEST),
-            section: Section { title, text: Vec::new(), latex: Vec::new() },
-        }
+impl<'w, 'g> Lines<'w, 'g> {
+    fn new(writer: &'w mut Writer<'g>, title: &'static str) -> Self {
+        Lines { writer, section: Section { title, text: Vec::new(), latex: Vec::new() } }
     }
 
     /// `left = right` with an expression on the right.
     fn equation(&mut self, left: &str, left_latex: &str, right: ExprId) {
-        let text = self.text.expression(right);
-        let latex = self.latex.expression(right);
+        let text = self.writer.text.expression(right);
+        let latex = self.writer.latex.expression(right);
         self.push(left, left_latex, text, latex);
     }
 
@@ -101,8 +109,8 @@ impl<'g> Lines<'g> {
     fn combination(&mut self, left: &str, left_latex: &str, terms: &[(ExprId, String)]) {
         // Both sums take the plain names: LaTeX is made of them there.
         let terms: Vec<_> = terms.iter().map(|(c, name)| (*c, name.as_str())).collect();
-        let text = self.text.sum(&terms);
-        let latex = self.latex.sum(&terms);
+        let text = self.writer.text.sum(&terms);
+        let latex = self.writer.latex.sum(&terms);
         self.push(left, left_latex, text, latex);
     }
 
@@ -116,9 +124,9 @@ fn latex_of(name: &str) -> String {
     guen_symbolic::latex_name(name)
 }
 
-fn forms(derived: &Derived<'_>) -> Section {
+fn forms(derived: &Derived<'_>, writer: &mut Writer<'_>) -> Section {
     let graph = &derived.model.bench.graph;
-    let mut lines = Lines::new(graph, "Forms (1.1), (1.6)");
+    let mut lines = Lines::new(writer, "Forms (1.1), (1.6)");
     let system = &derived.derivation.system;
     for (j, (entry, form)) in derived.model.forms.iter().zip(&system.forms.forms).enumerate() {
         let mut terms = Terms::new();
@@ -129,12 +137,12 @@ fn forms(derived: &Derived<'_>) -> Section {
         }
         let terms: Vec<_> = terms.iter().map(|(c, name)| (*c, name.as_str())).collect();
         let too_long = || TOO_LONG.to_owned();
-        let mut text = lines.text.sum(&terms).unwrap_or_else(too_long);
-        let mut latex = lines.latex.sum(&terms).unwrap_or_else(too_long);
+        let mut text = lines.writer.text.sum(&terms).unwrap_or_else(too_long);
+        let mut latex = lines.writer.latex.sum(&terms).unwrap_or_else(too_long);
         if !graph.is_zero(form.offset) {
-            let offset = lines.text.expression(form.offset).unwrap_or_else(too_long);
+            let offset = lines.writer.text.expression(form.offset).unwrap_or_else(too_long);
             text = format!("{text} + {offset}").replace("+ -", "- ");
-            let offset = lines.latex.expression(form.offset).unwrap_or_else(too_long);
+            let offset = lines.writer.latex.expression(form.offset).unwrap_or_else(too_long);
             latex = format!("{latex} + {offset}").replace("+ -", "- ");
         }
         let zero = if j < system.forms.degrees { "" } else { " = 0" };
@@ -152,9 +160,9 @@ fn forms(derived: &Derived<'_>) -> Section {
     lines.section
 }
 
-fn operators(derived: &Derived<'_>) -> Section {
+fn operators(derived: &Derived<'_>, writer: &mut Writer<'_>) -> Section {
     let graph = &derived.model.bench.graph;
-    let mut lines = Lines::new(graph, "Operators of displacement (1.4), (1.7)");
+    let mut lines = Lines::new(writer, "Operators of displacement (1.4), (1.7)");
     for (j, xi) in derived.derivation.frame.operators.xi.iter().enumerate() {
         let mut terms = Terms::new();
         if j == 0 {
@@ -170,10 +178,10 @@ fn operators(derived: &Derived<'_>) -> Section {
     lines.section
 }
 
-fn brackets(derived: &mut Derived<'_>) -> Section {
+/// The brackets with their coefficients; those that vanish have none.
+fn bracket_terms(derived: &mut Derived<'_>) -> Vec<(usize, usize, Terms)> {
     let (n, l) = (derived.model.coordinates.len(), derived.derivation.system.forms.degrees);
-    let mut found: Vec<(usize, usize, Terms)> = Vec::new();
-    let mut vanishing = Vec::new();
+    let mut found = Vec::new();
     for r in 0..=l {
         for s in r + 1..=l {
             let mut terms = Terms::new();
@@ -183,15 +191,19 @@ fn brackets(derived: &mut Derived<'_>) -> Section {
                     terms.push((c, format!("X{t}")));
                 }
             }
-            if terms.is_empty() {
-                vanishing.push((format!("(X{r}, X{s})"), format!("(X_{{{r}}}, X_{{{s}}})")));
-            } else {
-                found.push((r, s, terms));
-            }
+            found.push((r, s, terms));
         }
     }
-    let graph = &derived.model.bench.graph;
-    let mut lines = Lines::new(graph, "Brackets (1.14)");
+    found
+}
+
+fn brackets(writer: &mut Writer<'_>, all: &[(usize, usize, Terms)]) -> Section {
+    let mut lines = Lines::new(writer, "Brackets (1.14)");
+    let (vanishing, found): (Vec<_>, Vec<_>) = all.iter().partition(|(_, _, terms)| terms.is_empty());
+    let vanishing: Vec<(String, String)> = vanishing
+        .into_iter()
+        .map(|(r, s, _)| (format!("(X{r}, X{s})"), format!("(X_{{{r}}}, X_{{{s}}})")))
+        .collect();
     for (r, s, terms) in &found {
         lines.combination(&format!("(X{r}, X{s})"), &format!("(X_{{{r}}}, X_{{{s}}})"), terms);
     }
@@ -219,10 +231,9 @@ pub(crate) fn class_name(class: Class) -> &'static str {
     }
 }
 
-fn classification(derived: &mut Derived<'_>) -> Section {
+fn classification(derived: &Derived<'_>, writer: &mut Writer<'_>) -> Section {
     let d = &derived.derivation;
     let (n, l) = (derived.model.coordinates.len(), d.system.forms.degrees);
-    let graph = &derived.model.bench.graph;
     let mut text = Vec::new();
     let growth: Vec<String> = d.closure.growth.iter().map(ToString::to_string).collect();
     let rank = d.closure.growth.last().copied().unwrap_or(l);
@@ -248,12 +259,11 @@ fn classification(derived: &mut Derived<'_>) -> Section {
             .iter()
             .map(|(v, f)| f.map(|f| (f, derived.model.forms[*v].name.as_str())))
             .collect();
-        let written =
-            known.and_then(|terms| Notation::text(graph, LONGEST).sum(&terms)).unwrap_or_else(|| {
-                let names: Vec<&str> =
-                    combination.terms.iter().map(|(v, _)| derived.model.forms[*v].name.as_str()).collect();
-                format!("a combination of {}", names.join(", "))
-            });
+        let written = known.and_then(|terms| writer.text.sum(&terms)).unwrap_or_else(|| {
+            let names: Vec<&str> =
+                combination.terms.iter().map(|(v, _)| derived.model.forms[*v].name.as_str()).collect();
+            format!("a combination of {}", names.join(", "))
+        });
         text.push(format!("integrable: {written}"));
     }
     let yes =
@@ -269,8 +279,8 @@ fn classification(derived: &mut Derived<'_>) -> Section {
     Section { title: "Classification", text, latex: Vec::new() }
 }
 
-fn velocities(derived: &Derived<'_>) -> Section {
-    let mut lines = Lines::new(&derived.model.bench.graph, "Velocities (1.8)");
+fn velocities(derived: &Derived<'_>, writer: &mut Writer<'_>) -> Section {
+    let mut lines = Lines::new(writer, "Velocities (1.8)");
     let system = &derived.derivation.system;
     for (x, value) in system.velocities.iter().zip(&derived.derivation.frame.velocities) {
         let name = derived.model.bench.graph.text(*x);
@@ -279,11 +289,11 @@ fn velocities(derived: &Derived<'_>) -> Section {
     lines.section
 }
 
-fn equations(derived: &mut Derived<'_>) -> Section {
+/// The left sides of the equations of motion.
+fn equation_rows(derived: &mut Derived<'_>) -> Vec<ExprId> {
     let graph = &mut derived.model.bench.graph;
     let d = &derived.derivation;
-    let rows: Vec<ExprId> = d
-        .equations
+    d.equations
         .mass
         .iter()
         .zip(&d.equations.forces)
@@ -293,12 +303,13 @@ fn equations(derived: &mut Derived<'_>) -> Section {
             terms.push(graph.neg(*force));
             graph.sum(terms)
         })
-        .collect();
-    let graph = &derived.model.bench.graph;
+        .collect()
+}
+
+fn equations(writer: &mut Writer<'_>, rows: &[ExprId]) -> Section {
     let mut section = Section { title: "Equations of motion (2.7)", text: Vec::new(), latex: Vec::new() };
-    let (mut text, mut latex) = (Notation::text(graph, LONGEST), Notation::latex(graph, LONGEST));
     for row in rows {
-        match (text.expression(row), latex.expression(row)) {
+        match (writer.text.expression(*row), writer.latex.expression(*row)) {
             (Some(text), Some(latex)) => {
                 section.text.push(format!("{text} = 0"));
                 section.latex.push(format!("{latex} = 0"));
@@ -309,8 +320,8 @@ fn equations(derived: &mut Derived<'_>) -> Section {
     section
 }
 
-fn momenta(derived: &Derived<'_>) -> Section {
-    let mut lines = Lines::new(&derived.model.bench.graph, "Momenta (2.8)");
+fn momenta(derived: &Derived<'_>, writer: &mut Writer<'_>) -> Section {
+    let mut lines = Lines::new(writer, "Momenta (2.8)");
     let l = derived.derivation.system.forms.degrees;
     for (j, momentum) in derived.derivation.energies.momenta.iter().enumerate() {
         let name = &derived.model.forms[j].name;
@@ -331,8 +342,8 @@ fn momenta(derived: &Derived<'_>) -> Section {
     lines.section
 }
 
-fn energies(derived: &Derived<'_>) -> Section {
-    let mut lines = Lines::new(&derived.model.bench.graph, "Energies");
+fn energies(derived: &Derived<'_>, writer: &mut Writer<'_>) -> Section {
+    let mut lines = Lines::new(writer, "Energies");
     let d = &derived.derivation;
     lines.equation("T", "T", d.energies.kinetic);
     lines.equation("U", "U", d.system.force_function);

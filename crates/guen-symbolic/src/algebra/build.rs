@@ -4,7 +4,7 @@
 //! integer exponents, and carries no number: numbers belong to the sums above. Sums inside products are
 //! primitive (content one, first coefficient positive). Nothing distributes products over sums.
 
-use super::graph::{ExprId, Graph, Node, PowerError};
+use super::graph::{ExprId, Graph, Node, Order, PowerError};
 use super::{Function, Rational};
 
 /// Sums with more terms stay nested: flattening them would copy their terms into every user.
@@ -42,9 +42,9 @@ fn add_term(graph: &Graph, terms: &mut Vec<(ExprId, Rational)>, term: ExprId, c:
     }
 }
 
-/// Multiplies factors in the graph's order by `base^e`.
-fn add_power(graph: &Graph, factors: &mut Vec<(ExprId, i32)>, base: ExprId, e: i32) {
-    match graph.place_of(factors, base) {
+/// Multiplies factors in the graph's order, or in the reverse, by `base^e`.
+fn add_power(graph: &Graph, factors: &mut Vec<(ExprId, i32)>, base: ExprId, e: i32, order: Order) {
+    match graph.place_in(factors, base, order) {
         Ok(at) => factors[at].1 += e,
         Err(at) if at == factors.len() => factors.push((base, e)),
         Err(at) => factors.insert(at, (base, e)),
@@ -104,7 +104,24 @@ impl Graph {
 
     /// `factor * a`.
     pub fn scale(&mut self, a: ExprId, factor: &Rational) -> ExprId {
-        self.linear(&[(a, factor.clone())])
+        match self.node(a) {
+            Node::Sum { constant, terms } if terms.len() <= FLATTEN_TERMS && !factor.is_zero() => {
+                // What has no square to fold has none as a multiple.
+                let constant = constant * factor;
+                let old: &[(ExprId, Rational)] = terms;
+                let mut terms = Vec::with_capacity(old.len());
+                let mut index = 0;
+                while index < old.len() {
+                    terms.push((old[index].0, &old[index].1 * factor));
+                    index += 1;
+                }
+                self.finish_sum(constant, terms)
+            }
+            Node::Number(_) | Node::Undefined | Node::Sum { .. } => self.linear(&[(a, factor.clone())]),
+            _ if factor.is_one() => a,
+            _ if factor.is_zero() => self.linear(&[]),
+            _ => self.intern_sum(Rational::ZERO, vec![(a, factor.clone())]),
+        }
     }
 
     /// The sum of many expressions.
@@ -204,6 +221,9 @@ impl Graph {
         while next < collected.len() {
             let (id, c) = &collected[next];
             next += 1;
+            if !self.has_sine_squared(*id) {
+                continue;
+            }
             let Node::Product(factors) = self.node(*id) else { continue };
             let factors: &[(ExprId, i32)] = factors;
             let mut i = 0;
@@ -232,7 +252,7 @@ impl Graph {
         let cosine = self.find(&Node::Function(Function::Cos, x))?;
         let mut factors: Vec<(ExprId, i32)> = Vec::with_capacity(rest.len() + 1);
         for (base, e) in rest.iter().copied().chain([(cosine, 2)]) {
-            add_power(self, &mut factors, base, e);
+            add_power(self, &mut factors, base, e, Order::Ascending);
         }
         factors.retain(|(_, e)| *e != 0);
         match &factors[..] {
@@ -269,6 +289,7 @@ impl Graph {
         let mut collected: Vec<(ExprId, i32)> = Vec::with_capacity(factors.len() + 4);
         let mut exponentials: Vec<(ExprId, Rational)> = Vec::new();
         let mut undefined = false;
+        // From the last factor to the first: lists come in order, so that each is put behind those before.
         let mut next = factors.len();
         while next > 0 {
             next -= 1;
@@ -293,6 +314,7 @@ impl Graph {
                 _ => self.collect_factor(&mut collected, &mut exponentials, id, e),
             }
         }
+        collected.reverse();
         if undefined {
             return self.intern(Node::Undefined);
         }
@@ -304,7 +326,7 @@ impl Graph {
             let argument = self.linear(&exponentials);
             let exponential = self.exp(argument);
             if matches!(self.node(exponential), Node::Function(Function::Exp, _)) {
-                add_power(self, &mut collected, exponential, 1);
+                add_power(self, &mut collected, exponential, 1, Order::Ascending);
             } else if exponential != self.one() {
                 // exp(ln(x y) + z) exp(-z) is a product itself.
                 collected.push((exponential, 1));
@@ -350,7 +372,8 @@ impl Graph {
         if coefficient.is_one() { monomial } else { self.scale(monomial, &coefficient) }
     }
 
-    /// Adds a power of what is neither a number nor a sum with a content to the factors of a product.
+    /// Adds a power of what is neither a number nor a sum with a content to the factors of a product, in descending
+    /// order.
     fn collect_factor(
         &self,
         collected: &mut Vec<(ExprId, i32)>,
@@ -369,12 +392,12 @@ impl Graph {
                         Node::Function(Function::Exp, x) => {
                             exponentials.push((*x, Rational::integer((k * e).into())));
                         }
-                        _ => add_power(self, collected, base, k * e),
+                        _ => add_power(self, collected, base, k * e, Order::Descending),
                     }
                 }
             }
             Node::Function(Function::Exp, x) => exponentials.push((*x, Rational::integer(e.into()))),
-            _ => add_power(self, collected, id, e),
+            _ => add_power(self, collected, id, e, Order::Descending),
         }
     }
 
@@ -384,16 +407,23 @@ impl Graph {
             return (Rational::ONE, id);
         }
         let Node::Sum { constant, terms } = self.node(id) else { return (Rational::ONE, id) };
-        let content = content_of(constant, terms);
-        let inverse = content.recip().expect("a sum has a term");
-        if let [(term, _)] = &terms[..]
+        if let [(term, content)] = &terms[..]
             && constant.is_zero()
         {
-            return (content, *term);
+            return (content.clone(), *term);
         }
+        if let Some(known) = self.contents.get(&id) {
+            // The same work as the first time: limits on work do not depend on what is remembered.
+            self.spend(1 + terms.len());
+            return known.clone();
+        }
+        let content = content_of(constant, terms);
+        let inverse = content.recip().expect("a sum has a term");
         let constant = constant * &inverse;
         let terms = terms.iter().map(|(term, c)| (*term, c * &inverse)).collect();
-        (content, self.intern_sum(constant, terms))
+        let primitive = self.intern_sum(constant, terms);
+        self.contents.insert(id, (content.clone(), primitive));
+        (content, primitive)
     }
 
     /// A term's coefficient and monomial: `3*x` is `(3, x)`, a number is itself times one.

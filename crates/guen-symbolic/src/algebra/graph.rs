@@ -3,7 +3,7 @@
 use std::cell::Cell;
 
 use super::build::content_of;
-use super::map::spread;
+use super::map::{FastMap, spread};
 use super::{Function, Rational};
 
 /// An expression of a [`Graph`]; children always have smaller identifiers than their parents.
@@ -189,6 +189,18 @@ fn same_terms(others: &[(ExprId, Rational)], terms: &[(ExprId, Rational)]) -> bo
     true
 }
 
+/// The order of a list by the graph's keys.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Order {
+    Ascending,
+    Descending,
+}
+
+/// A sum whose coefficients have no factor in common, the first one positive.
+const PRIMITIVE: u8 = 1;
+/// A product with a sine whose exponent is at least two.
+const SINE_SQUARED: u8 = 2;
+
 /// The memory of a traversal: kept, because clearing it would cost more than the nodes that are visited.
 #[derive(Default)]
 struct Search {
@@ -300,8 +312,10 @@ pub struct Graph {
     keys: Vec<u64>,
     roles: Vec<Roles>,
     depths: Vec<u32>,
-    // Of sums: whether their content is one.
-    primitive: Vec<bool>,
+    // What is known of sums and products by their looks, see the constants.
+    flags: Vec<u8>,
+    // Content and primitive part of sums that are not primitive.
+    pub(super) contents: FastMap<ExprId, (Rational, ExprId)>,
     // A cell, because looking at expressions is work too.
     work: Cell<u64>,
     search: Cell<Search>,
@@ -461,6 +475,14 @@ impl Graph {
         }
     }
 
+    /// The factors of a product, none of any other node.
+    pub(crate) fn factors(&self, id: ExprId) -> &[(ExprId, i32)] {
+        match self.node(id) {
+            Node::Product(factors) => factors,
+            _ => &[],
+        }
+    }
+
     /// Everything below `roots`, roots included, children first; nodes for which `stop` holds are not entered nor listed.
     pub fn reachable(&self, roots: &[ExprId], mut stop: impl FnMut(ExprId) -> bool) -> Vec<ExprId> {
         // Whoever asks from within `stop` gets memory of its own.
@@ -491,7 +513,7 @@ impl Graph {
         symbols
     }
 
-    fn spend(&self, steps: usize) {
+    pub(super) fn spend(&self, steps: usize) {
         self.work.set(self.work.get() + steps as u64);
     }
 
@@ -535,7 +557,9 @@ impl Graph {
         }
         let primitive = content_of(&constant, &terms).is_one();
         let id = self.push(Node::Sum { constant, terms: terms.into_boxed_slice() }, key, roles, depth);
-        self.primitive[id.index()] = primitive;
+        if primitive {
+            self.flags[id.index()] = PRIMITIVE;
+        }
         id
     }
 
@@ -546,15 +570,21 @@ impl Graph {
         if let Some(id) = self.lookup(key, |node| is_product(node, &factors)) {
             return id;
         }
-        let (mut roles, mut depth) = (Roles::NONE, 0);
+        let (mut roles, mut depth, mut flags) = (Roles::NONE, 0, 0);
         let mut index = 0;
         while index < factors.len() {
-            let child = factors[index].0.0 as usize;
+            let (base, e) = factors[index];
+            let child = base.0 as usize;
             roles = roles.or(self.roles[child]);
             depth = depth.max(self.depths[child]);
+            if e >= 2 && matches!(self.nodes[child], Node::Function(Function::Sin, _)) {
+                flags = SINE_SQUARED;
+            }
             index += 1;
         }
-        self.push(Node::Product(factors.into_boxed_slice()), key, roles, depth)
+        let id = self.push(Node::Product(factors.into_boxed_slice()), key, roles, depth);
+        self.flags[id.index()] = flags;
+        id
     }
 
     /// A product, if the graph has it already.
@@ -564,11 +594,21 @@ impl Graph {
 
     /// Whether the coefficients of a sum have no factor in common and the first is positive.
     pub(super) fn is_primitive(&self, id: ExprId) -> bool {
-        self.primitive[id.0 as usize]
+        self.flags[id.0 as usize] & PRIMITIVE != 0
+    }
+
+    /// Whether a product has a sine with an exponent of at least two.
+    pub(super) fn has_sine_squared(&self, id: ExprId) -> bool {
+        self.flags[id.0 as usize] & SINE_SQUARED != 0
     }
 
     /// Where an expression stands in a list in the graph's order, or where it would have to be put.
     pub(super) fn place_of<T>(&self, list: &[(ExprId, T)], id: ExprId) -> Result<usize, usize> {
+        self.place_in(list, id, Order::Ascending)
+    }
+
+    /// The same for a list in that order or in the reverse.
+    pub(super) fn place_in<T>(&self, list: &[(ExprId, T)], id: ExprId, order: Order) -> Result<usize, usize> {
         let keys: &[u64] = &self.keys;
         let key = keys[id.0 as usize];
         let (mut low, mut high) = (0, list.len());
@@ -580,7 +620,8 @@ impl Graph {
                 return Ok(at);
             }
             let other_key = keys[other.0 as usize];
-            if other_key < key || other_key == key && other.0 < id.0 {
+            let is_before = other_key < key || other_key == key && other.0 < id.0;
+            if is_before == (order == Order::Ascending) {
                 low = at + 1;
             } else {
                 high = at;
@@ -612,7 +653,7 @@ impl Graph {
     fn push(&mut self, node: Node, key: u64, roles: Roles, below: u32) -> ExprId {
         let id = ExprId(self.nodes.len() as u32);
         self.depths.push(below + 1);
-        self.primitive.push(false);
+        self.flags.push(0);
         self.nodes.push(node);
         self.keys.push(key);
         self.roles.push(roles);

@@ -335,7 +335,8 @@ impl Poly {
     pub(super) fn plus(&self, other: &Poly, budget: &Budget) -> Result<Poly> {
         budget.spend((self.len() + other.len()) / 4 + 1)?;
         let mut terms = Vec::with_capacity(self.len() + other.len());
-        let (a, b): (&[(Mono, Rational)], &[(Mono, Rational)]) = (&self.terms, &other.terms);
+        let a: &[(Mono, Rational)] = &self.terms;
+        let b: &[(Mono, Rational)] = &other.terms;
         let (mut i, mut k) = (0, 0);
         while i < a.len() && k < b.len() {
             match a[i].0.compare(&b[k].0) {

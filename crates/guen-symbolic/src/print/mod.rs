@@ -48,6 +48,10 @@ impl Graph {
 
     /// [`Graph::text`], or `None` if it has more than `max_chars` bytes.
     pub fn text_limited(&self, e: ExprId, max_chars: usize) -> Option<String> {
+        if let Some(symbol) = self.as_symbol(e) {
+            let name = &self.symbol_info(symbol).name;
+            return (name.len() <= max_chars).then(|| name.clone());
+        }
         Printer::new(self, Style::Text, max_chars).expression(e)
     }
 

@@ -56,13 +56,24 @@ impl FactorKey {
     }
 }
 
-/// The symbols below a node from those of its children: the first few, in order.
-pub(super) fn merge_symbols<'a>(children: impl IntoIterator<Item = &'a [u32]>) -> Vec<u32> {
-    let mut symbols: Vec<u32> = children.into_iter().flatten().copied().collect();
-    symbols.sort_unstable();
-    symbols.dedup();
-    symbols.truncate(SYMBOLS_COMPARED);
-    symbols
+/// Adds the symbols below a child to those below its parent: the first few, in order.
+pub(super) fn merge_symbols(symbols: &mut Vec<u32>, child: &[u32]) {
+    let mut at = 0;
+    let mut next = 0;
+    while next < child.len() {
+        let symbol = child[next];
+        while at < symbols.len() && symbols[at] < symbol {
+            at += 1;
+        }
+        if at == SYMBOLS_COMPARED {
+            return;
+        }
+        if at == symbols.len() || symbols[at] != symbol {
+            symbols.insert(at, symbol);
+            symbols.truncate(SYMBOLS_COMPARED);
+        }
+        next += 1;
+    }
 }
 
 impl TermKey {

@@ -1,6 +1,6 @@
 //! Writing nodes, children first, so that depth costs no stack.
 
-use crate::algebra::{ExprId, Function, Graph, Node, Rational};
+use crate::algebra::{ExprId, FastMap, Function, Graph, Node, Rational};
 
 use super::Style;
 use super::names::latex_name;
@@ -45,7 +45,7 @@ pub(super) struct Printer<'g> {
     style: Style,
     limit: usize,
     work: usize,
-    pieces: std::collections::BTreeMap<ExprId, Piece>,
+    pieces: FastMap<ExprId, Piece>,
 }
 
 impl<'g> Printer<'g> {
@@ -102,8 +102,8 @@ impl<'g> Printer<'g> {
     }
 
     fn piece(&self, id: ExprId) -> Piece {
-        let children = self.graph.children(id);
-        let mut symbols = merge_symbols(children.iter().map(|child| &self.pieces[child].symbols[..]));
+        let mut symbols = Vec::new();
+        self.graph.visit_children(id, |child| merge_symbols(&mut symbols, &self.pieces[&child].symbols));
         if let Some(symbol) = self.graph.as_symbol(id) {
             symbols.push(symbol.index() as u32);
         }

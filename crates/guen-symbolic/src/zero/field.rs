@@ -105,12 +105,21 @@ pub(crate) fn root(a: u64, q: u32) -> Option<u64> {
     Some(if odd == 1 { value } else { pow(value, inverse_modulo(odd, PRIME - 1)) })
 }
 
+/// Integers below this in size are below the prime.
+const SMALL: i64 = 1 << 60;
+
 /// The residue of a rational number.
 ///
 /// `None` also for a nonzero number that the prime divides: nothing may be called zero for that reason.
 pub(crate) fn residue(value: &Rational) -> Option<u64> {
     if value.is_zero() {
         return Some(0);
+    }
+    if let Some(n) = value.to_i64()
+        && -SMALL < n
+        && n < SMALL
+    {
+        return Some(if n < 0 { PRIME - n.unsigned_abs() } else { n as u64 });
     }
     let (n, d) = match value.to_i64_pair() {
         Some((n, d)) => {

@@ -96,8 +96,8 @@ impl Sample {
                         index += 1;
                     }
                 }
-                Op::Product(factors) => {
-                    let factors: &[(ExprId, i32)] = factors;
+                Op::Product => {
+                    let factors = graph.factors(ExprId(id));
                     let mut index = 0;
                     while index < factors.len() {
                         need(factors[index].0);
@@ -116,7 +116,7 @@ impl Sample {
                 self.values[id as usize] = POLE;
             } else if stack.len() == before {
                 stack.pop();
-                let value = self.step(graph, table, op);
+                let value = self.step(graph, table, ExprId(id), op);
                 self.values[id as usize] = value.map_or(POLE, |value| value + SET);
             }
         }
@@ -134,7 +134,7 @@ impl Sample {
     }
 
     /// The value of a node whose children are done and exist.
-    fn step(&mut self, graph: &Graph, table: &Table, op: &Op) -> Option<u64> {
+    fn step(&mut self, graph: &Graph, table: &Table, id: ExprId, op: &Op) -> Option<u64> {
         let values: &[u64] = &self.values;
         let at = |id: &ExprId| values[id.0 as usize] - SET;
         match op {
@@ -157,10 +157,10 @@ impl Sample {
                 }
                 Some(sum)
             }
-            Op::Product(factors) => {
+            Op::Product => {
                 // One inversion for all denominators together.
                 let (mut above, mut below) = (1, 1);
-                let factors: &[(ExprId, i32)] = factors;
+                let factors = graph.factors(id);
                 let mut index = 0;
                 while index < factors.len() {
                     let (base, e) = &factors[index];

@@ -30,7 +30,8 @@ pub(crate) enum Op {
     Pi,
     Symbol(SymbolId),
     Sum(u64, Box<[(ExprId, u64)]>),
-    Product(Box<[(ExprId, i32)]>),
+    /// The factors are those of the graph's node.
+    Product,
     /// A function of a combination of monomials.
     Of(Function, u32),
     /// An algebraic function, or an atom.
@@ -92,14 +93,17 @@ impl Table {
             Node::Pi => (Op::Pi, TRANSCENDENTAL),
             Node::Symbol(symbol) => (Op::Symbol(*symbol), 0),
             Node::Sum { constant, terms } => {
-                let residues: Option<Box<[_]>> =
-                    terms.iter().map(|(term, c)| Some((*term, field::residue(c)?))).collect();
-                match (field::residue(constant), residues) {
-                    (Some(constant), Some(terms)) => (Op::Sum(constant, terms), 0),
-                    _ => (Op::Constant(None), UNDEFINED),
+                let mut residues = Vec::with_capacity(terms.len());
+                for (term, c) in terms {
+                    let Some(residue) = field::residue(c) else { return (Op::Constant(None), UNDEFINED) };
+                    residues.push((*term, residue));
+                }
+                match field::residue(constant) {
+                    Some(constant) => (Op::Sum(constant, residues.into_boxed_slice()), 0),
+                    None => (Op::Constant(None), UNDEFINED),
                 }
             }
-            Node::Product(factors) => (Op::Product(factors.clone()), 0),
+            Node::Product(_) => (Op::Product, 0),
             Node::Kept(x) => (Op::Sum(0, Box::new([(*x, 1)])), 0),
             Node::Atan2(y, x) => (Op::Atan2(*y, *x), ATOM),
             Node::Function(function, x) => {

@@ -1,0 +1,116 @@
+//! Declarations as text, for those who ask how long an expansion takes: families by their number of links, and systems as
+//! large as the language is meant for.
+
+/// A chain of point masses on massless links that hangs in the plane; the angles are absolute.
+pub fn chain(links: usize) -> String {
+    let list =
+        |entry: &dyn Fn(usize) -> String, gap: &str| (1..=links).map(entry).collect::<Vec<_>>().join(gap);
+    format!(
+        "pub system Chain {{
+            constants {{ m > 0, l > 0, g = 9.81 }}
+            coordinates {{ {} }}
+            let x0 = 0; let y0 = 0;
+            {}
+            parameters {{ {} }}
+            particles {{ {} }}
+            gravity = vec(0, -g);
+        }}",
+        list(&|i| format!("q{i}"), ", "),
+        list(&|i| format!("let x{i} = x{0} + l*sin(q{i}); let y{i} = y{0} - l*cos(q{i});", i - 1), " "),
+        list(&|i| format!("w{i} = dot(q{i});"), " "),
+        list(&|i| format!("m at vec(x{i}, y{i});"), " "),
+    )
+}
+
+/// A planar snake of links with a wheel each: two coordinates more than links, a constraint for each of them.
+pub fn snake(links: usize) -> String {
+    let list = |first: usize, entry: &dyn Fn(usize) -> String| (first..=links).map(entry).collect::<String>();
+    format!(
+        "pub system Snake {{
+            constants {{ m > 0, I > 0, l > 0 }}
+            coordinates {{ x, y, {} }}
+            {}
+            let p1 = vec(x, y);
+            {}
+            bodies {{ {} }}
+            parameters {{ speed = inner(A1.x, dot(p1)); turn = dot(q1); }}
+            constraints {{ {} }}
+        }}",
+        list(1, &|i| format!("q{i}, ")),
+        list(1, &|i| format!("let A{i} = rot_z(q{i});")),
+        list(2, &|i| format!("let p{i} = p{0} - l*A{0}.x - l*A{i}.x;", i - 1)),
+        list(1, &|i| format!("b{i} {{ mass: m, inertia: diag(0, 0, I), center: p{i}, orientation: A{i} }}")),
+        list(1, &|i| format!("w{i}: inner(A{i}.y, dot(p{i})) = 0;")),
+    )
+}
+
+/// Ten coordinates and five constraints: a tricycle on a belt that moves in two directions, its front contact found with
+/// a square root, with a rider of three bodies whose arm is swung by a prescribed motion.
+pub const TRICYCLE: &str = "pub system Tricycle {
+    constants {
+        rr > 0, rf > 0, base > 0, track > 0, mr > 0, mb > 0, mh > 0, mf > 0, I > 0, J > 0, K > 0, L > 0, v, e, nu, g = 9.81
+    }
+    inputs { pedal, handle }
+    coordinates { x, y, yaw, steer, left, right, front, tilt, arm, hook }
+    let up = vec(0, 0, 1);
+    let B = rot_z(yaw);
+    let axle = vec(x, y, rr);
+    let H = B*rot_y(-0.3)*rot_z(steer);
+    let W = H*rot_y(front);
+    let tip = axle + base*B.x + H.x*e;
+    let contact = tip - rf*unit(up - inner(up, H.y)*H.y);
+    let P = B*rot_x(tilt);
+    let Q = P*rot_y(arm + e*cos(nu*t));
+    let Z = Q*rot_x(hook);
+    let drift = vec(v, v*sin(nu*t), 0);
+    let seat = axle + base/3*B.x;
+    bodies {
+        frame { mass: mb, inertia: sym(J, K, L, 0, 0, -J/4), center: axle + base/2*B.x, orientation: B }
+        l { mass: mr, inertia: diag(I, 2*I, I), center: axle + track*B.y, orientation: B*rot_y(left) }
+        r { mass: mr, inertia: diag(I, 2*I, I), center: axle - track*B.y, orientation: B*rot_y(right) }
+        fork { mass: mh, inertia: diag(I, I, I/3), center: tip + e*H.z, orientation: H }
+        wheel { mass: mf, inertia: diag(I, 2*I, I), center: tip, orientation: W }
+        rider { mass: mb, inertia: diag(J, K, L), center: seat + e*P.z, orientation: P }
+        limb { mass: mh, inertia: diag(J, K, L), center: seat + base*P.z + e*Q.z, orientation: Q }
+        hand { mass: mh, inertia: diag(J, K, L), center: seat + base*P.z + base*Q.z + e*Z.z, orientation: Z }
+    }
+    gravity = -g*up;
+    parameters {
+        speed = inner(B.x, dot(axle) - drift); turn = dot(steer); lean = dot(tilt); bend = dot(arm); grab = dot(hook);
+    }
+    constraints {
+        one: inner(B.x, l.velocity_at(axle + track*B.y - rr*up) - drift) = 0;
+        two: inner(B.x, r.velocity_at(axle - track*B.y - rr*up) - drift) = 0;
+        three: inner(B.y, dot(axle) - drift) = 0;
+        ahead: inner(cross(up, H.y), wheel.velocity_at(contact) - drift) = 0;
+        side: inner(H.y, wheel.velocity_at(contact) - drift) = 0;
+    }
+    forces {
+        pedal*B.y along r.angular_velocity - frame.angular_velocity;
+        handle*H.z along fork.angular_velocity - frame.angular_velocity;
+    }
+}";
+
+/// Nine coordinates and three constraints: an ellipsoid that rolls on a turning table, with a rod on it that swings by a
+/// prescribed motion and slides, and a particle in a tube.
+pub const LADEN_ELLIPSOID: &str = "pub system LadenEllipsoid {
+    constants {
+        m > 0, mr > 0, mp > 0, a > 0, b > 0, c > 0, A > 0, B > 0, C > 0, l > 0, Omega, e, nu, g = 9.81
+    }
+    coordinates { x, y, z, yaw, roll, pitch, swing, slide, depth }
+    let R = rot_z(yaw)*rot_x(roll)*rot_y(pitch);
+    let n = transpose(R)*vec(0, 0, 1);
+    let size = sqrt((a*n.x)^2 + (b*n.y)^2 + (c*n.z)^2);
+    let lowest = vec(a^2*n.x, b^2*n.y, c^2*n.z)/-size;
+    let p = vec(x, y, z);
+    let S = R*rot_y(swing + e*sin(nu*t));
+    let foot = p + R*lowest;
+    bodies {
+        stone { mass: m, inertia: diag(A, B, C), center: p, orientation: R }
+        rod { mass: mr, inertia: diag(A, B, 0), center: p + (l + slide)*S.x, orientation: S }
+    }
+    particles { mp at p + depth*R.z; }
+    gravity = vec(0, 0, -g);
+    parameters { spin = angular_velocity_body(R); w = dot(swing); u = dot(slide); k = dot(depth); }
+    constraints { rolling: stone.velocity_at(foot) = cross(vec(0, 0, Omega), foot); }
+}";
