@@ -197,12 +197,22 @@ impl<R: Ordered, const N: usize> Run<'_, R, N> {
         S: Differentiable<R, N> + ?Sized,
     {
         const ITERATIONS: u32 = 10;
+        /// Part of the tolerance that the equations are solved to at least.
+        const LOOSEST: f64 = 0.03;
+        const ROUNDINGS: f64 = 10.0;
         /// A rate of convergence that is none.
         const HOPELESS: f64 = 0.99;
 
-        let epsilon = R::epsilon().to_f64();
-        let rtol = self.method.rtol;
-        let enough = (10.0 * epsilon / rtol).max(libm::sqrt(rtol).min(0.03));
+        // The tolerance relative to the entry that it is strictest for: what is solved for is better than it by a
+        // factor that grows with it, so that the error of order five is not lost, but never better than rounding.
+        let strictest = self
+            .reached
+            .state
+            .iter()
+            .zip(weights)
+            .fold(0.0_f64, |most, (x, weight)| most.max(x.to_f64().abs() * weight));
+        let relative = 1.0 / strictest;
+        let enough = (ROUNDINGS * R::epsilon().to_f64() / relative).max(libm::sqrt(relative).min(LOOSEST));
         let mut z = start.unwrap_or([[R::zero(); N]; 3]);
         let (mut last, mut rate) = (f64::INFINITY, 0.0);
         for iteration in 1..=ITERATIONS {
