@@ -159,9 +159,9 @@ impl<'a, R: Real, S: System<R, N> + ?Sized, const N: usize, const E: usize> Inte
             self.visit(visited, start.time, &start.state);
             visited += 1;
         }
-        let mut before = start;
-        while before.time != t1 {
+        while course.reached().time != t1 {
             let dense = E > 0 || visited < self.samples.len();
+            let before = if dense { *course.reached() } else { start };
             if let Err(cause) = course.advance(self.system, t1, dense) {
                 // The steps since the last look may be the ones that went wrong.
                 let reached = *course.reached();
@@ -170,9 +170,8 @@ impl<'a, R: Real, S: System<R, N> + ?Sized, const N: usize, const E: usize> Inte
                     Err(earlier) => watch.good(&reached).failed(earlier),
                 });
             }
-            let reached = *course.reached();
-            if let Err(cause) = watch.step(self.system, &reached) {
-                return Err(watch.good(&reached).failed(cause));
+            if let Err(cause) = watch.step(self.system, course.reached()) {
+                return Err(watch.good(course.reached()).failed(cause));
             }
             if dense {
                 let ended = self.within_step(&mut course, &before, &mut trackers, &mut visited);
@@ -181,11 +180,11 @@ impl<'a, R: Real, S: System<R, N> + ?Sized, const N: usize, const E: usize> Inte
                 }
             }
             if let Some(observer) = &mut self.observer {
+                let reached = course.reached();
                 if observer(reached.time, &reached.state).is_break() {
-                    return Ok(course.reached().done(Outcome::Stopped));
+                    return Ok(reached.done(Outcome::Stopped));
                 }
             }
-            before = *course.reached();
         }
         Ok(course.reached().done(Outcome::Arrived))
     }

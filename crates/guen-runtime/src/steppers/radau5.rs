@@ -324,17 +324,17 @@ where
                     let sum = combined(&self.method.error, &z);
                     let defect: [R; N] = core::array::from_fn(|k| slope[k] + recip * sum[k]);
                     let mut off = lu.solve(defect);
-                    let mut error = control::mean_size(&off, &weights);
-                    if error >= 1.0 && (rejected || self.last.is_none()) {
+                    let mut margin = control::margin::<N>(control::squares(&off, &weights));
+                    if margin < 1.0 && (rejected || self.last.is_none()) {
                         let moved = core::array::from_fn(|k| state[k] + off[k]);
                         let again = system.rhs(time, &moved);
                         self.reached.statistics.evaluations += 1;
                         off = lu.solve(core::array::from_fn(|k| again[k] + recip * sum[k]));
-                        error = control::mean_size(&off, &weights);
+                        margin = control::margin::<N>(control::squares(&off, &weights));
                     }
                     let mut reached: [R; N] = core::array::from_fn(|k| state[k] + z[2][k]);
-                    let finite = all_finite(&reached) && !error.is_nan();
-                    if finite && error <= 1.0 {
+                    let finite = all_finite(&reached) && !margin.is_nan();
+                    if finite && margin >= 1.0 {
                         system.restore(next, &mut reached).map_err(|_| Cause::Positions)?;
                         let next_slope = system.rhs(next, &reached);
                         self.reached.statistics.evaluations += 1;
@@ -342,7 +342,7 @@ where
                             // Many iterations are a sign that the step is long for Newton's method.
                             let effort =
                                 f64::from(ITERATIONS_CHEAP) / f64::from(ITERATIONS_CHEAP + iterations);
-                            let mut growth = effort * CONTROL.factor_after_success(error);
+                            let mut growth = effort * CONTROL.factor_after_success(margin);
                             if rejected {
                                 growth = growth.min(1.0);
                             }
@@ -367,7 +367,7 @@ where
                         CONTROL.factor_out_of_domain()
                     } else if finite {
                         trouble = Cause::StepUnderflow;
-                        CONTROL.factor_after_failure(error)
+                        CONTROL.factor_after_failure(margin)
                     } else {
                         trouble = Cause::NotFinite;
                         CONTROL.factor_out_of_domain()

@@ -134,8 +134,9 @@ impl<R: Real, const N: usize> Pair<R, N> for Formula<R> {
     }
 
     #[inline]
-    fn error(&self, attempt: &Attempt<R, Stages<R, N>, N>, h: f64, weights: &[f64; N]) -> f64 {
-        h * control::mean_size(&weighted(&self.e, attempt.stages.each_ref()), weights)
+    fn margin(&self, attempt: &Attempt<R, Stages<R, N>, N>, h: f64, weights: &[f64; N]) -> f64 {
+        let squares = control::squares(&weighted(&self.e, attempt.stages.each_ref()), weights);
+        control::margin::<N>(h * h * squares)
     }
 
     fn dense<S>(&self, _system: &S, step: &Step<'_, R, Stages<R, N>, N>) -> (Dense<R, N>, u64)
