@@ -93,7 +93,7 @@ pub struct Formula<R> {
 }
 
 /// The slopes of all seven stages.
-type Stages<R, const N: usize> = [[R; N]; 7];
+pub type Stages<R, const N: usize> = [[R; N]; 7];
 
 impl<R: Real> Formula<R> {
     pub(super) fn new() -> Self {
@@ -108,6 +108,11 @@ impl<R: Real> Formula<R> {
             e: reals(&published::E),
             d: reals(&published::D),
         }
+    }
+
+    /// The estimated error of each entry after a step of size `h`.
+    pub(super) fn estimate<const N: usize>(&self, stages: &Stages<R, N>, h: f64) -> [f64; N] {
+        weighted(&self.e, stages.each_ref()).map(|error| (h * error.to_f64()).abs())
     }
 }
 
