@@ -79,8 +79,8 @@ pub use nalgebra;
 /// What a program that integrates systems wants in scope.
 pub mod prelude {
     pub use crate::steppers::{
-        Direction, Done, Dop853, Euler, Event, Gauss4, Gauss6, Guard, Integration, Outcome, Radau5, Rk4, Rk8,
-        Statistics, Tsit5,
+        Bounded, Direction, Done, Dop853, Euler, Event, Gauss4, Gauss6, Guard, Integration, Outcome, Radau5,
+        Rk4, Rk8, Statistics, Tsit5,
     };
     pub use crate::{
         Cause, Coordinate, Dual, Function, IntegrationError, Lift, Monitored, Operator, Ordered, Real,

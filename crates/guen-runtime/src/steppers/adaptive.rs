@@ -30,8 +30,9 @@ pub trait Pair<R: Real, const N: usize> {
     where
         S: System<R, N> + ?Sized;
 
-    /// The error of a step of size `h` in units of the tolerance; a step is good up to one.
-    fn error(&self, attempt: &Attempt<R, Self::Stages, N>, h: f64, weights: &[f64; N]) -> f64;
+    /// How far a step of size `h` is from being rejected: `err^-2`, with the error in units of the tolerance. A step is
+    /// good from one on. The reciprocal square is what takes the shortest to compute while the next step waits for it.
+    fn margin(&self, attempt: &Attempt<R, Self::Stages, N>, h: f64, weights: &[f64; N]) -> f64;
 
     /// The polynomial over a step, with the slope at its end, and the evaluations that it took.
     fn dense<S>(&self, system: &S, step: &Step<'_, R, Self::Stages, N>) -> (Dense<R, N>, u64)
@@ -161,9 +162,9 @@ where
             let size = if landing { span.abs() } else { step };
             let attempt = self.pair.attempt(system, time, &state, &slope, h);
             statistics.evaluations += P::TRIAL;
-            let error = self.pair.error(&attempt, size, &tolerance.weights(&state, &attempt.state));
-            finite = all_finite(&attempt.state) && !error.is_nan();
-            if finite && error <= 1.0 {
+            let margin = self.pair.margin(&attempt, size, &tolerance.weights(&state, &attempt.state));
+            finite = all_finite(&attempt.state) && !margin.is_nan();
+            if finite && margin >= 1.0 {
                 let mut accepted = attempt.state;
                 system.restore(next, &mut accepted).map_err(|_| Cause::Positions)?;
                 let next_slope = match attempt.end {
@@ -176,7 +177,7 @@ where
                 };
                 finite = all_finite(&next_slope);
                 if finite {
-                    let mut next_step = size * P::CONTROL.factor_after_success(error);
+                    let mut next_step = size * P::CONTROL.factor_after_success(margin);
                     if rejected {
                         next_step = next_step.min(size);
                     }
@@ -198,7 +199,7 @@ where
             statistics.rejected += 1;
             rejected = true;
             let factor = if finite {
-                P::CONTROL.factor_after_failure(error)
+                P::CONTROL.factor_after_failure(margin)
             } else {
                 P::CONTROL.factor_out_of_domain()
             };

@@ -102,15 +102,15 @@ impl<R: Real, const N: usize> Pair<R, N> for Tableau<R> {
     }
 
     #[inline]
-    fn error(&self, attempt: &Attempt<R, Stages<R, N>, N>, h: f64, weights: &[f64; N]) -> f64 {
+    fn margin(&self, attempt: &Attempt<R, Stages<R, N>, N>, h: f64, weights: &[f64; N]) -> f64 {
         let slope = self.slope(&attempt.stages);
         let five = control::squares(&self.error5(&attempt.stages), weights);
         let three = control::squares(&self.error3(&attempt.stages, &slope), weights);
-        let denominator = five + 0.01 * three;
-        if denominator == 0.0 {
-            return 0.0;
+        if five == 0.0 {
+            return f64::INFINITY;
         }
-        h * five / libm::sqrt(N as f64 * denominator)
+        let size = h * five;
+        N as f64 * (five + 0.01 * three) / (size * size)
     }
 
     fn dense<S>(&self, system: &S, step: &Step<'_, R, Stages<R, N>, N>) -> (Dense<R, N>, u64)

@@ -82,7 +82,9 @@ where
             return Err(Cause::NotFinite);
         }
         system.restore(next, &mut state).map_err(|_| Cause::Positions)?;
-        self.before = self.reached;
+        if dense {
+            self.before = self.reached;
+        }
         self.reached.statistics.accepted += 1;
         self.reached.time = next;
         self.reached.state = state;

@@ -11,16 +11,19 @@ use crate::system::System;
 
 /// With a look at one to two right-hand sides, guards cost about one percent.
 const EVALUATIONS_BETWEEN_LOOKS: u32 = 160;
+/// A run that ends before its first look is looked at if it has made so many, so that guards cost at most about three
+/// percent of it.
+const EVALUATIONS_WORTH_A_LOOK: u32 = 100;
 /// As many functions that must not vanish are watched; further ones are not.
 const EDGES: usize = 16;
 
 /// What a run must not violate. A stepper watches these by default, of whatever the system tells in
 /// [`System::vitals`] and [`System::edges`].
 ///
-/// Every accepted state is tested to be finite. Every [`every`](Guard::every) steps, and before an error is returned,
-/// the guard looks at the rest. Where it finds a fault, the run ends with the cause, and with the time and state of the
-/// last look that found none; an observer has been shown the steps since then. A run of fewer steps is tested for
-/// finite states only.
+/// Every accepted state is tested to be finite. Every [`every`](Guard::every) steps, at the end of the run and before an
+/// error is returned, the guard looks at the rest. Where it finds a fault, the run ends with the cause, and with the
+/// time and state of the last look that found none; an observer has been shown the steps since then. A run of less than
+/// about a hundred right-hand sides is tested for finite states only, unless `every` is set.
 ///
 /// With lanes, which have no order among them, the first lane alone is looked at, except that all must be finite.
 ///
@@ -68,6 +71,8 @@ pub(super) struct Watch<R, const N: usize> {
     guard: Guard,
     every: u32,
     until_look: u32,
+    /// Whether a run that ends before its first look is long enough for one.
+    worth: u32,
     /// Where the last look found everything in order.
     good: Reached<R, N>,
     /// What the first look learned from the initial state.
@@ -88,7 +93,8 @@ impl<R: Real, const N: usize> Watch<R, N> {
             return Err(Cause::Setting(Setting::Guard));
         }
         let every = guard.every.unwrap_or(EVALUATIONS_BETWEEN_LOOKS / evaluations.max(1)).max(1);
-        Ok(Self { guard, every, until_look: every, good: *start, start: None })
+        let worth = if guard.every.is_some() { 1 } else { EVALUATIONS_WORTH_A_LOOK / evaluations.max(1) };
+        Ok(Self { guard, every, until_look: every, worth, good: *start, start: None })
     }
 
     /// Counts a step, and looks if it is time to.
@@ -103,6 +109,16 @@ impl<R: Real, const N: usize> Watch<R, N> {
         }
         self.until_look = self.every;
         self.look(system, reached)
+    }
+
+    /// Looks at the end of a run, unless it was just looked at or the run was short.
+    pub fn finish<S>(&mut self, system: &S, reached: &Reached<R, N>) -> Result<(), Cause>
+    where
+        S: System<R, N> + ?Sized,
+    {
+        let steps = self.every - self.until_look;
+        let due = if self.start.is_some() { steps > 0 } else { steps >= self.worth.max(1) };
+        if due && self.every != u32::MAX { self.look(system, reached) } else { Ok(()) }
     }
 
     /// The last time and state that were found in order, with the work done since then counted.

@@ -159,9 +159,9 @@ impl<'a, R: Real, S: System<R, N> + ?Sized, const N: usize, const E: usize> Inte
             self.visit(visited, start.time, &start.state);
             visited += 1;
         }
-        let mut before = start;
-        while before.time != t1 {
+        while course.reached().time != t1 {
             let dense = E > 0 || visited < self.samples.len();
+            let before = if dense { *course.reached() } else { start };
             if let Err(cause) = course.advance(self.system, t1, dense) {
                 // The steps since the last look may be the ones that went wrong.
                 let reached = *course.reached();
@@ -170,24 +170,23 @@ impl<'a, R: Real, S: System<R, N> + ?Sized, const N: usize, const E: usize> Inte
                     Err(earlier) => watch.good(&reached).failed(earlier),
                 });
             }
-            let reached = *course.reached();
-            if let Err(cause) = watch.step(self.system, &reached) {
-                return Err(watch.good(&reached).failed(cause));
+            if let Err(cause) = watch.step(self.system, course.reached()) {
+                return Err(watch.good(course.reached()).failed(cause));
             }
             if dense {
                 let ended = self.within_step(&mut course, &before, &mut trackers, &mut visited);
                 if let Some(done) = ended.map_err(|cause| before.failed(cause))? {
-                    return Ok(done);
+                    return finished(&mut watch, self.system, course.reached(), done);
                 }
             }
             if let Some(observer) = &mut self.observer {
+                let reached = course.reached();
                 if observer(reached.time, &reached.state).is_break() {
-                    return Ok(course.reached().done(Outcome::Stopped));
+                    return finished(&mut watch, self.system, reached, reached.done(Outcome::Stopped));
                 }
             }
-            before = *course.reached();
         }
-        Ok(course.reached().done(Outcome::Arrived))
+        finished(&mut watch, self.system, course.reached(), course.reached().done(Outcome::Arrived))
     }
 
     /// Refuses settings that make no sense.
@@ -313,6 +312,19 @@ impl<'a, R: Real, S: System<R, N> + ?Sized, const N: usize, const E: usize> Inte
         let mut state = dense.at(time);
         self.system.restore(time, &mut state).map_err(|_| Cause::Positions)?;
         Ok(state)
+    }
+}
+
+/// The result of a run, if the last look finds it in order.
+pub(super) fn finished<R: Real, S: System<R, N> + ?Sized, const N: usize>(
+    watch: &mut Watch<R, N>,
+    system: &S,
+    reached: &Reached<R, N>,
+    done: Done<R, N>,
+) -> Result<Done<R, N>, IntegrationError<R, N>> {
+    match watch.finish(system, reached) {
+        Ok(()) => Ok(done),
+        Err(cause) => Err(watch.good(reached).failed(cause)),
     }
 }
 

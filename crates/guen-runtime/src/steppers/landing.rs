@@ -2,6 +2,7 @@
 
 use super::course::{Course, Done, Method, Outcome, Reached};
 use super::guard::{Guard, Watch};
+use super::integration::finished;
 use crate::error::{Cause, IntegrationError, Setting};
 use crate::real::Real;
 use crate::system::System;
@@ -44,7 +45,7 @@ where
         }
         visit(index, time, &course.reached().state);
     }
-    Ok(course.reached().done(Outcome::Arrived))
+    finished(&mut watch, system, course.reached(), course.reached().done(Outcome::Arrived))
 }
 
 /// The methods `integrate` and `sample` of a method over the real `R`, for systems with the given bounds.

@@ -1,15 +1,23 @@
 //! Steppers: methods that carry a state through time.
 //!
-//! | method | order | step | kept invariants | demands |
+//! | method | order | step | for | demands |
 //! | --- | --- | --- | --- | --- |
-//! | [`Rk4`] | 4 | fixed | none: not symplectic | any [`Real`] |
-//! | [`Dop853`] | 8, errors estimated by orders 5 and 3 | adaptive | none: not symplectic | an [`Ordered`](crate::Ordered) real, a smooth and not stiff right-hand side |
+//! | [`Euler`] | 1 | fixed | comparisons | any [`Real`] |
+//! | [`Rk4`] | 4 | fixed | inputs that change at every step | any [`Real`] |
+//! | [`Rk8`] | 8 | fixed | smooth motions, lanes | any [`Real`] |
+//! | [`Gauss4`], [`Gauss6`] | 4, 6 | fixed, implicit | long runs, moderate stiffness | [`Ordered`](crate::Ordered), [`Differentiable`](crate::Differentiable) |
+//! | [`Tsit5`] | 5, dense output 4 | adaptive | low accuracy | [`Ordered`](crate::Ordered) |
+//! | [`Dop853`] | 8, dense output 7 | adaptive | the usual choice | [`Ordered`](crate::Ordered) |
+//! | [`Radau5`] | 5, dense output 3 | adaptive, implicit | stiff systems | [`Ordered`](crate::Ordered), [`Differentiable`](crate::Differentiable) |
+//! | [`Bounded`] | 8 or 5 | fixed number of evaluations | control periods | [`Ordered`](crate::Ordered) |
 //!
-//! Both are driven alike: `integrate` shows each accepted step to an observer, which may stop the run; `sample`
-//! stops at given times exactly. Sizes are fixed at compile time and nothing is allocated. Every accepted state
-//! is finite, and a failure carries the last of them.
+//! All but the last are driven alike, by an [`Integration`]: an observer sees every accepted step and may stop the run,
+//! samples and [`Event`]s lie on the [`Dense`] output, a [`Guard`] watches what the system keeps. Each has the short ways
+//! `integrate`, with an observer, and `sample`, which lands on given times. Sizes are fixed at compile time and nothing
+//! is allocated. Every accepted state is finite, and a failure carries the last one that was in order.
 
 mod adaptive;
+mod bounded;
 mod collocation;
 mod control;
 mod course;
@@ -32,6 +40,7 @@ mod tableau;
 mod tsit5;
 mod tsit5_coefficients;
 
+pub use bounded::{Bound, Bounded};
 pub use course::{Course, Done, Method, Outcome, Reached, Statistics};
 pub use dense::Dense;
 pub use dop853::Dop853;

@@ -197,12 +197,22 @@ impl<R: Ordered, const N: usize> Run<'_, R, N> {
         S: Differentiable<R, N> + ?Sized,
     {
         const ITERATIONS: u32 = 10;
+        /// Part of the tolerance that the equations are solved to at least.
+        const LOOSEST: f64 = 0.03;
+        const ROUNDINGS: f64 = 10.0;
         /// A rate of convergence that is none.
         const HOPELESS: f64 = 0.99;
 
-        let epsilon = R::epsilon().to_f64();
-        let rtol = self.method.rtol;
-        let enough = (10.0 * epsilon / rtol).max(libm::sqrt(rtol).min(0.03));
+        // The tolerance relative to the entry that it is strictest for: what is solved for is better than it by a
+        // factor that grows with it, so that the error of order five is not lost, but never better than rounding.
+        let strictest = self
+            .reached
+            .state
+            .iter()
+            .zip(weights)
+            .fold(0.0_f64, |most, (x, weight)| most.max(x.to_f64().abs() * weight));
+        let relative = 1.0 / strictest;
+        let enough = (ROUNDINGS * R::epsilon().to_f64() / relative).max(libm::sqrt(relative).min(LOOSEST));
         let mut z = start.unwrap_or([[R::zero(); N]; 3]);
         let (mut last, mut rate) = (f64::INFINITY, 0.0);
         for iteration in 1..=ITERATIONS {
@@ -314,17 +324,17 @@ where
                     let sum = combined(&self.method.error, &z);
                     let defect: [R; N] = core::array::from_fn(|k| slope[k] + recip * sum[k]);
                     let mut off = lu.solve(defect);
-                    let mut error = control::mean_size(&off, &weights);
-                    if error >= 1.0 && (rejected || self.last.is_none()) {
+                    let mut margin = control::margin::<N>(control::squares(&off, &weights));
+                    if margin < 1.0 && (rejected || self.last.is_none()) {
                         let moved = core::array::from_fn(|k| state[k] + off[k]);
                         let again = system.rhs(time, &moved);
                         self.reached.statistics.evaluations += 1;
                         off = lu.solve(core::array::from_fn(|k| again[k] + recip * sum[k]));
-                        error = control::mean_size(&off, &weights);
+                        margin = control::margin::<N>(control::squares(&off, &weights));
                     }
                     let mut reached: [R; N] = core::array::from_fn(|k| state[k] + z[2][k]);
-                    let finite = all_finite(&reached) && !error.is_nan();
-                    if finite && error <= 1.0 {
+                    let finite = all_finite(&reached) && !margin.is_nan();
+                    if finite && margin >= 1.0 {
                         system.restore(next, &mut reached).map_err(|_| Cause::Positions)?;
                         let next_slope = system.rhs(next, &reached);
                         self.reached.statistics.evaluations += 1;
@@ -332,7 +342,7 @@ where
                             // Many iterations are a sign that the step is long for Newton's method.
                             let effort =
                                 f64::from(ITERATIONS_CHEAP) / f64::from(ITERATIONS_CHEAP + iterations);
-                            let mut growth = effort * CONTROL.factor_after_success(error);
+                            let mut growth = effort * CONTROL.factor_after_success(margin);
                             if rejected {
                                 growth = growth.min(1.0);
                             }
@@ -357,7 +367,7 @@ where
                         CONTROL.factor_out_of_domain()
                     } else if finite {
                         trouble = Cause::StepUnderflow;
-                        CONTROL.factor_after_failure(error)
+                        CONTROL.factor_after_failure(margin)
                     } else {
                         trouble = Cause::NotFinite;
                         CONTROL.factor_out_of_domain()

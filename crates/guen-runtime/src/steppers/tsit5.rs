@@ -93,7 +93,7 @@ pub struct Formula<R> {
 }
 
 /// The slopes of all seven stages.
-type Stages<R, const N: usize> = [[R; N]; 7];
+pub type Stages<R, const N: usize> = [[R; N]; 7];
 
 impl<R: Real> Formula<R> {
     pub(super) fn new() -> Self {
@@ -108,6 +108,11 @@ impl<R: Real> Formula<R> {
             e: reals(&published::E),
             d: reals(&published::D),
         }
+    }
+
+    /// The estimated error of each entry after a step of size `h`.
+    pub(super) fn estimate<const N: usize>(&self, stages: &Stages<R, N>, h: f64) -> [f64; N] {
+        weighted(&self.e, stages.each_ref()).map(|error| (h * error.to_f64()).abs())
     }
 }
 
@@ -134,8 +139,9 @@ impl<R: Real, const N: usize> Pair<R, N> for Formula<R> {
     }
 
     #[inline]
-    fn error(&self, attempt: &Attempt<R, Stages<R, N>, N>, h: f64, weights: &[f64; N]) -> f64 {
-        h * control::mean_size(&weighted(&self.e, attempt.stages.each_ref()), weights)
+    fn margin(&self, attempt: &Attempt<R, Stages<R, N>, N>, h: f64, weights: &[f64; N]) -> f64 {
+        let squares = control::squares(&weighted(&self.e, attempt.stages.each_ref()), weights);
+        control::margin::<N>(h * h * squares)
     }
 
     fn dense<S>(&self, _system: &S, step: &Step<'_, R, Stages<R, N>, N>) -> (Dense<R, N>, u64)

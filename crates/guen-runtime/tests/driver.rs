@@ -1,0 +1,313 @@
+//! The driver: samples, events and observers in their order, backwards and over nothing, with every method.
+
+use core::ops::ControlFlow;
+
+use guen_runtime::prelude::*;
+use guen_runtime::steppers::{Method, Occurrence};
+use guen_runtime::{Equations, Generic, Setting, generic};
+
+/// `x'' = -x`
+struct Oscillator;
+
+impl Equations<2> for Oscillator {
+    fn rates<R: Real>(&self, _t: R, &[x, v]: &[R; 2]) -> [R; 2] {
+        [v, -x]
+    }
+}
+
+type Turning = Generic<Oscillator>;
+
+const START: [f64; 2] = [0.0, 1.0];
+
+fn go_on<T>(_: T) -> ControlFlow<()> {
+    ControlFlow::Continue(())
+}
+
+/// Runs a check with every method, each set so that its states are right to about 1e-6, dense output included.
+macro_rules! with_every_method {
+    ($check:ident) => {
+        $check("Euler", &Euler { step: 2e-5 }, 1e-4);
+        $check("RK4", &Rk4 { step: 0.02 }, 1e-6);
+        $check("RK8", &Rk8::new(0.1), 1e-6);
+        $check("DOP853", &Dop853::new(1e-9, 1e-9), 1e-6);
+        $check("Tsit5", &Tsit5::new(1e-9, 1e-9), 1e-6);
+        $check("Gauss 4", &Gauss4::new(0.02), 1e-6);
+        $check("Gauss 6", &Gauss6::new(0.05), 1e-6);
+        $check("Radau 5", &Radau5::new(1e-9, 1e-9), 1e-6);
+    };
+}
+
+#[test]
+fn samples_lie_on_the_motion_and_do_not_change_the_steps() {
+    fn check<M: Method<f64, Turning, 2>>(name: &str, method: &M, tolerance: f64) {
+        let times: Vec<f64> = (0..=50).map(|k| 0.06 * f64::from(k)).collect();
+        for sign in [1.0, -1.0] {
+            let times: Vec<f64> = times.iter().map(|t| sign * t).collect();
+            let mut seen = Vec::new();
+            let sampled = Integration::new(&generic(Oscillator), 0.0, &START)
+                .sample(&times, &mut |k, t, x| {
+                    assert_eq!(times[k], t);
+                    assert!((x[0] - t.sin()).abs() < tolerance, "{name} at {t}: {x:?}");
+                    assert!((x[1] - t.cos()).abs() < tolerance, "{name} at {t}: {x:?}");
+                    seen.push(k);
+                })
+                .run(method, sign * 3.0)
+                .unwrap();
+            assert_eq!(seen, (0..=50).collect::<Vec<_>>());
+            let plain = Integration::new(&generic(Oscillator), 0.0, &START).run(method, sign * 3.0).unwrap();
+            assert_eq!(plain.state, sampled.state, "{name}: samples change the motion");
+        }
+    }
+    with_every_method!(check);
+}
+
+#[test]
+fn events_are_found_in_the_order_of_time_by_every_method() {
+    fn check<M: Method<f64, Turning, 2>>(name: &str, method: &M, tolerance: f64) {
+        use std::f64::consts::PI;
+        // x rises through zero at 2 pi, falls at pi; v crosses at pi/2 and 3 pi/2; x = 1/2 at pi/6 and 5 pi/6.
+        let position = |_: f64, x: &[f64; 2]| x[0];
+        let speed = |_: f64, x: &[f64; 2]| x[1];
+        let half = |_: f64, x: &[f64; 2]| x[0] - 0.5;
+        let events = [
+            Event::new(&position).direction(Direction::Falling),
+            Event::new(&speed),
+            Event::new(&half).direction(Direction::Rising),
+            Event::new(&position).direction(Direction::Rising).terminal(),
+        ];
+        let mut found: Vec<Occurrence<f64, 2>> = Vec::new();
+        let mut last = (0.0, START);
+        let done = Integration::new(&generic(Oscillator), 0.0, &START)
+            .events(events, &mut |event| {
+                found.push(*event);
+                go_on(event)
+            })
+            .observe(&mut |t, x| {
+                assert!(t > last.0, "{name}: time stands still at {t}");
+                last = (t, *x);
+                ControlFlow::Continue(())
+            })
+            .run(method, 100.0)
+            .unwrap();
+        let expected = [
+            (2, PI / 6.0, true),
+            (1, PI / 2.0, false),
+            (0, PI, false),
+            (1, 1.5 * PI, true),
+            (3, 2.0 * PI, true),
+        ];
+        assert_eq!(found.len(), expected.len(), "{name}: {found:?}");
+        for (event, (index, time, rising)) in found.iter().zip(expected) {
+            assert_eq!((event.index, event.rising), (index, rising), "{name}");
+            assert!((event.time - time).abs() < tolerance, "{name}: {} instead of {time}", event.time);
+        }
+        assert_eq!(done.outcome, Outcome::Event(3));
+        assert_eq!((done.time, done.state), last, "{name}: the observer sees the end");
+        assert!((done.time - 2.0 * PI).abs() < tolerance && done.state[0] >= 0.0);
+    }
+    with_every_method!(check);
+}
+
+/// A stone falls from 1 m; `t = sqrt(2 / g)` is known.
+fn falling() -> impl System<f64, 2> {
+    from_fn(|_t: f64, &[_, v]: &[f64; 2]| [v, -9.81])
+}
+
+#[test]
+fn an_event_is_found_to_its_tolerance_and_past_the_crossing() {
+    let height = |_: f64, x: &[f64; 2]| x[0];
+    let exact = (2.0_f64 / 9.81).sqrt();
+    for tolerance in [1e-3, 1e-6, 1e-9, 0.0] {
+        let done = Integration::new(&falling(), 0.0, &[1.0, 0.0])
+            .events([Event::new(&height).terminal().within(tolerance)], &mut |event| go_on(event))
+            .run(&Rk4 { step: 0.1 }, 1.0)
+            .unwrap();
+        let late = done.time - exact;
+        assert!(late >= -2e-16 && late <= tolerance.max(1e-15), "{tolerance:e}: {late:e}");
+        assert!(done.state[0] <= 0.0);
+    }
+}
+
+#[test]
+fn a_run_that_continues_from_an_event_does_not_find_it_again() {
+    // Ten bounces without loss: at odd multiples of sqrt(2/g).
+    let height = |_: f64, x: &[f64; 2]| x[0];
+    let exact = (2.0_f64 / 9.81).sqrt();
+    let (mut time, mut state) = (0.0, [1.0, 0.0]);
+    for bounce in 0..10 {
+        let done = Integration::new(&falling(), time, &state)
+            .events([Event::new(&height).terminal()], &mut |event| go_on(event))
+            .run(&Dop853::new(1e-12, 1e-12), 100.0)
+            .unwrap();
+        let expected = exact * f64::from(2 * bounce + 1);
+        assert!((done.time - expected).abs() < 1e-10, "bounce {bounce}: {} {expected}", done.time);
+        (time, state) = (done.time, [done.state[0], -done.state[1]]);
+    }
+}
+
+#[test]
+fn samples_after_a_terminal_event_are_not_taken() {
+    let height = |_: f64, x: &[f64; 2]| x[0];
+    let times = [0.0, 0.2, 0.4, 0.5, 0.9];
+    let mut seen = Vec::new();
+    Integration::new(&falling(), 0.0, &[1.0, 0.0])
+        .sample(&times, &mut |_, t, _| seen.push(t))
+        .events([Event::new(&height).terminal()], &mut |event| go_on(event))
+        .run(&Rk4 { step: 1.0 }, 1.0)
+        .unwrap();
+    assert_eq!(seen, [0.0, 0.2, 0.4]);
+}
+
+#[test]
+fn the_receiver_of_events_can_stop_the_run() {
+    let position = |_: f64, x: &[f64; 2]| x[0];
+    let mut count = 0;
+    let done = Integration::new(&generic(Oscillator), 0.0, &START)
+        .events([Event::new(&position)], &mut |_| {
+            count += 1;
+            if count == 3 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        })
+        .run(&Dop853::new(1e-10, 1e-10), 100.0)
+        .unwrap();
+    assert_eq!(done.outcome, Outcome::Stopped);
+    assert!((done.time - 3.0 * std::f64::consts::PI).abs() < 1e-8);
+}
+
+#[test]
+fn crossings_within_a_step_are_seen_where_checks_are_asked_for() {
+    // The clock's step is 10; its hand crosses zero eleven times in it: sin(pi (t + 1/2)) changes at every t = k + 1/2.
+    let clock = from_fn(|_t: f64, _: &[f64; 1]| [1.0]);
+    let hand = |_: f64, x: &[f64; 1]| (std::f64::consts::PI * (x[0] + 0.5)).sin();
+    let count = |checks: u32| {
+        let mut times = Vec::new();
+        Integration::new(&clock, 0.0, &[0.0])
+            .events([Event::new(&hand).with_checks(checks)], &mut |event| {
+                times.push(event.time);
+                go_on(event)
+            })
+            .run(&Rk4 { step: 10.0 }, 10.0)
+            .unwrap();
+        times
+    };
+    // An even number of crossings between two looks is none.
+    assert_eq!(count(1).len(), 0);
+    let all = count(37);
+    assert_eq!(all.len(), 10);
+    for (k, time) in all.iter().enumerate() {
+        assert!((time - (k as f64 + 0.5)).abs() < 1e-13, "{time}");
+    }
+}
+
+#[test]
+fn touching_zero_is_no_event_unless_a_step_ends_there() {
+    let clock = from_fn(|_t: f64, _: &[f64; 1]| [1.0]);
+    let touch = |_: f64, x: &[f64; 1]| (x[0] - 1.0) * (x[0] - 1.0);
+    let count = |step: f64| {
+        let mut count = 0;
+        Integration::new(&clock, 0.0, &[0.0])
+            .events([Event::new(&touch)], &mut |event| {
+                count += 1;
+                go_on(event)
+            })
+            .run(&Rk4 { step }, 2.0)
+            .unwrap();
+        count
+    };
+    assert_eq!((count(0.3), count(0.5)), (0, 1));
+}
+
+#[test]
+fn events_are_found_backwards() {
+    let position = |_: f64, x: &[f64; 2]| x[0];
+    let mut found = Vec::new();
+    Integration::new(&generic(Oscillator), 0.0, &START)
+        .events([Event::new(&position).direction(Direction::Rising)], &mut |event| {
+            found.push(event.time);
+            go_on(event)
+        })
+        .run(&Dop853::new(1e-11, 1e-11), -10.0)
+        .unwrap();
+    // Going backwards the sine rises where it falls forwards: at -pi, -3 pi.
+    assert_eq!(found.len(), 2);
+    let expected = [-std::f64::consts::PI, -3.0 * std::f64::consts::PI];
+    assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-9), "{found:?}");
+}
+
+#[test]
+fn a_span_of_zero_has_its_sample_and_no_event() {
+    let position = |_: f64, x: &[f64; 2]| x[0];
+    let mut seen = 0;
+    let done = Integration::new(&generic(Oscillator), 1.0, &[0.0, 1.0])
+        .sample(&[1.0, 1.0], &mut |_, _, _| seen += 1)
+        .events([Event::new(&position)], &mut |_| unreachable!("no event"))
+        .observe(&mut |_, _| unreachable!("no step"))
+        .run(&Dop853::new(1e-9, 1e-9), 1.0)
+        .unwrap();
+    assert_eq!((seen, done.time, done.statistics), (2, 1.0, Statistics::default()));
+}
+
+#[test]
+fn senseless_settings_are_refused_before_anything_is_done() {
+    let system = from_fn(|_t: f64, _: &[f64; 1]| -> [f64; 1] { unreachable!("nothing is evaluated") });
+    let method = Dop853::new(1e-9, 1e-9);
+    let value = |_: f64, x: &[f64; 1]| x[0];
+    let cause = |result: Result<Done<f64, 1>, IntegrationError<f64, 1>>| result.unwrap_err().cause;
+    for times in [[0.5, 0.4], [-0.1, 0.5], [0.5, 1.5], [0.5, f64::NAN]] {
+        let run = Integration::new(&system, 0.0, &[1.0]).sample(&times, &mut |_, _, _| ()).run(&method, 1.0);
+        assert_eq!(cause(run), Cause::Setting(Setting::Samples), "{times:?}");
+    }
+    let mut receive = |_: &Occurrence<f64, 1>| ControlFlow::Continue(());
+    let run = Integration::new(&system, 0.0, &[1.0])
+        .events([Event::new(&value).within(f64::NAN)], &mut receive)
+        .run(&method, 1.0);
+    assert_eq!(cause(run), Cause::Setting(Setting::Event));
+    let run = Integration::new(&system, 0.0, &[1.0])
+        .guard(Guard { energy: -1.0, ..Guard::default() })
+        .run(&method, 1.0);
+    assert_eq!(cause(run), Cause::Setting(Setting::Guard));
+    assert_eq!(
+        cause(Integration::new(&system, 0.0, &[1.0]).run(&method, f64::INFINITY)),
+        Cause::Setting(Setting::Time)
+    );
+}
+
+#[test]
+fn evaluations_for_dense_output_are_counted() {
+    fn check<M: Method<f64, Counting, 2>>(name: &str, method: &M, _: f64) {
+        let system = Counting::default();
+        let done = Integration::new(&system, 0.0, &START)
+            .sample(&[0.31, 0.32, 0.77], &mut |_, _, _| ())
+            .run(method, 1.0)
+            .unwrap();
+        assert_eq!(done.statistics.evaluations, system.0.get(), "{name}");
+    }
+    check("RK4", &Rk4 { step: 0.02 }, 0.0);
+    check("RK8", &Rk8::new(0.1), 0.0);
+    check("DOP853", &Dop853::new(1e-9, 1e-9), 0.0);
+    check("Tsit5", &Tsit5::new(1e-9, 1e-9), 0.0);
+    check("Gauss 4", &Gauss4::new(0.02), 0.0);
+    check("Gauss 6", &Gauss6::new(0.05), 0.0);
+    check("Radau 5", &Radau5::new(1e-9, 1e-9), 0.0);
+}
+
+/// The oscillator, counting evaluations and derivatives along a direction.
+#[derive(Default)]
+struct Counting(core::cell::Cell<u64>);
+
+impl System<f64, 2> for Counting {
+    fn rhs(&self, _: f64, &[x, v]: &[f64; 2]) -> [f64; 2] {
+        self.0.set(self.0.get() + 1);
+        [v, -x]
+    }
+}
+
+impl guen_runtime::Differentiable<f64, 2> for Counting {
+    fn jacobian(&self, _: f64, _: &[f64; 2]) -> [[f64; 2]; 2] {
+        [[0.0, 1.0], [-1.0, 0.0]]
+    }
+
+    fn along(&self, _: f64, _: &[f64; 2], _: f64, &[dx, dv]: &[f64; 2]) -> [f64; 2] {
+        self.0.set(self.0.get() + 1);
+        [dv, -dx]
+    }
+}
