@@ -106,7 +106,7 @@ fn nothing_to_do_is_done() {
 
 #[test]
 fn functions_are_exchanged_on_request() {
-    let ensemble = Ensemble::of_states(Oscillator(1.0), (0..9).map(|i| [2.0 + 0.1 * f64::from(i), 1.0]));
+    let ensemble = Ensemble::of_states(Oscillator(1.1), (0..9).map(|i| [2.0 + 0.1 * f64::from(i), 1.0]));
     let own = ensemble.integrate(&METHOD, 0.0, 1.0);
     let short = ensemble.clone().with_choice::<Digits7Functions>().integrate(&METHOD, 0.0, 1.0);
     let fused = ensemble.with_choice::<(FusedOperations, Digits7Functions)>().integrate(&METHOD, 0.0, 1.0);
