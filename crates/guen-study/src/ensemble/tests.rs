@@ -108,14 +108,14 @@ fn nothing_to_do_is_done() {
 fn functions_are_exchanged_on_request() {
     // Steps so long that a rounding of the rate shows in the state.
     let method = Rk4 { step: 0.5 };
-    let ensemble = Ensemble::of_states(Oscillator(1.1), (0..9).map(|i| [2.0 + 0.1 * f64::from(i), 1.0]));
+    let ensemble = Ensemble::of_states(Oscillator(1.1), (0..60).map(|i| [2.0 + 0.01 * f64::from(i), 1.0]));
     let own = ensemble.integrate(&method, 0.0, 3.0);
     let short = ensemble.clone().with_choice::<Digits7Functions>().integrate(&method, 0.0, 3.0);
     let fused = ensemble.with_choice::<(FusedOperations, Digits7Functions)>().integrate(&method, 0.0, 3.0);
-    let state = |ends: &[End<2>], i: usize| ends[i].as_ref().unwrap().state[0];
-    for i in 0..9 {
+    let state = |ends: &[End<2>], i: usize| ends[i].as_ref().unwrap().state[1];
+    for i in 0..60 {
         let (own, short, fused) = (state(&own, i), state(&short, i), state(&fused, i));
         assert!(own != short && (own - short).abs() < 1e-5 && (fused - short).abs() < 1e-10);
     }
-    assert!((0..9).any(|i| state(&short, i) != state(&fused, i)));
+    assert!((0..60).any(|i| state(&short, i) != state(&fused, i)));
 }
