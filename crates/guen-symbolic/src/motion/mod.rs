@@ -15,5 +15,6 @@ pub use derivation::{Class, Derivation, DerivationError, Equations};
 pub use energy::Energies;
 pub use frame::Frame;
 pub use kinetic::{KineticTerm, NotQuadratic, decompose};
+pub use poincare::equations as equations_by_definition;
 pub use solve::Solution;
 pub use velocity_forms::{VelocityForm, VelocityPartials};

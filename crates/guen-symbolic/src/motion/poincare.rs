@@ -4,13 +4,13 @@ use super::{Equations, Frame, Mechanics};
 use crate::algebra::{ExprId, Flow, Substitution};
 use crate::workbench::Workbench;
 
-/// `sum_t M_st eta_t' = f_s` for `s = 1..l` without the generalised forces `Q_s`, from
+/// `sum_t M_st eta_t' = f_s` for `s = 1..l` without the generalised forces `Q_s`, before any simplification, from
 ///
 /// ```text
 /// d/dt dT/d eta_s - X_s(T + U) - sum_{t<=l} (C_0st + sum_r eta_r C_rst) dT/d eta_t
 ///                              - sum_{v>l}  (C_0sv + sum_r eta_r C_rsv) (dT°/d eta_v) = Q_s.       (2.7)
 /// ```
-pub(super) fn equations(bench: &mut Workbench, system: &Mechanics, frame: &mut Frame) -> Equations {
+pub fn equations(bench: &mut Workbench, system: &Mechanics, frame: &mut Frame) -> Equations {
     let (n, l) = (system.forms.len(), system.forms.degrees);
     let zero = bench.graph.zero();
     // T° with every parameter free: x' = xi_0 + sum_{j<=n} eta_j xi_j.
