@@ -204,7 +204,11 @@ pub(super) fn default_text(
                 parts.push(number(constant));
             }
             for (term, c) in terms {
-                parts.push(if c.is_one() { of(*term) } else { format!("{} * {}", number(c), of(*term)) });
+                parts.push(match c {
+                    c if c.is_one() => of(*term),
+                    c if c.is_minus_one() => format!("(-{})", of(*term)),
+                    c => format!("{} * {}", number(c), of(*term)),
+                });
             }
             format!("({})", parts.join(" + "))
         }

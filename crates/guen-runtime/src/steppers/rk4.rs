@@ -5,6 +5,7 @@ use super::dense::Dense;
 use super::fixed::{Fixed, Formula, Slopes};
 use super::landing::short_ways;
 use super::shifted;
+use crate::cost::Cost;
 use crate::error::Cause;
 use crate::real::Real;
 use crate::system::System;
@@ -54,6 +55,19 @@ where
     let two = R::from_ratio(2, 1);
     let sixth = h * R::from_ratio(1, 6);
     core::array::from_fn(|i| x[i] + sixth * (k1[i] + two * (k2[i] + k3[i]) + k4[i]))
+}
+
+/// The operations of one [`step`] of a system of `n` equations whose right-hand side costs `rhs`.
+///
+/// ```
+/// use guen_runtime::{Cost, steppers::rk4};
+/// let rhs = Cost { additions: 1, multiplications: 2, ..Cost::ZERO };
+/// assert_eq!(rk4::cost(rhs, 2), Cost { additions: 21, multiplications: 20, ..Cost::ZERO });
+/// ```
+pub const fn cost(rhs: Cost, n: u32) -> Cost {
+    // Three stages x + h k, and x + h/6 (k1 + 2 (k2 + k3) + k4); h/2 and h/6; t + h/2 twice, and t + h.
+    let own = Cost { additions: 7 * n + 3, multiplications: 5 * n + 2, ..Cost::ZERO };
+    rhs.plus(rhs).plus(rhs).plus(rhs).plus(own)
 }
 
 /// The classical Runge-Kutta method with a fixed step.

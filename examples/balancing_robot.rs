@@ -1,0 +1,213 @@
+//! A robot that balances on two wheels: from the declaration to a controller that withstands a push.
+//!
+//! ```text
+//! cargo run --release --example balancing_robot
+//! ```
+//!
+//! The plant is declared once, in `crates/guen-bare/src/plant.rs`, and serves three times: as the simulated robot, as the
+//! model that the controller is designed with, and inside the bare static library that would run on the robot.
+
+use std::error::Error;
+use std::path::Path;
+use std::process::ExitCode;
+
+use guen::Linearization;
+use guen::control::{Component, Frozen, controllability};
+use guen::prelude::*;
+use guen_study::{Plot, Table};
+use nalgebra::{Matrix2, SMatrix};
+
+#[path = "../crates/guen-bare/src/controller.rs"]
+mod controller;
+#[path = "../crates/guen-bare/src/plant.rs"]
+mod plant;
+
+use controller::{FED_BACK, Gain, OPERATIONS_PER_PERIOD, Reference};
+use plant::Robot;
+use plant::robot::{self, Inputs, State};
+
+/// The controller's period, in seconds, and the steps in which the plant is simulated meanwhile.
+const PERIOD: f64 = 0.005;
+const STEPS: usize = 5;
+const UNTIL: f64 = 12.0;
+
+/// Somebody pushes the chassis for a tenth of a second.
+const PUSH: f64 = 60.0;
+const PUSHED: std::ops::Range<f64> = 4.0..4.1;
+
+/// What the controller has to achieve.
+const LARGEST_TILT: f64 = 0.5;
+const SPEED_ERROR: f64 = 0.01;
+const HEADING_ERROR: f64 = 0.01;
+
+type Square = SMatrix<f64, FED_BACK, FED_BACK>;
+type Torques = SMatrix<f64, FED_BACK, 2>;
+
+fn main() -> Result<ExitCode, Box<dyn Error>> {
+    let robot = Robot {
+        m: 10.0,
+        mw: 1.0,
+        h: 0.5,
+        b: 0.3,
+        r: 0.1,
+        A: 0.5,
+        B: 0.4,
+        C: 0.2,
+        I: 0.003,
+        J: 0.005,
+        c: 0.01,
+        torque_max: 4.0,
+        g: 9.81,
+    }
+    .prepare()?;
+
+    // 1. Where to stand. Upright at rest is one of a family: any place, any heading. Newton's method confirms it.
+    let places = ["x", "y", "heading", "left", "right", "push"];
+    let guess = State { tilt: 0.1, ..Default::default() };
+    let (upright, held) = robot.equilibrium(0.0, &guess, &Inputs::default(), &places)?;
+    println!(
+        "upright: tilt {:.1e}, torques {:.1e} and {:.1e}",
+        upright.tilt, held.left_torque, held.right_torque
+    );
+
+    // 2. The linear model there, on the leaf: one wheel's angle follows from the other's and the heading.
+    let leaf = robot.reduce(0.0, &upright, &held, &["x", "y", "heading", "tilt", "left"])?;
+    println!("the brackets reach all of a leaf of dimension {}", robot::GROWTH.last().unwrap_or(&0));
+
+    // 3. What can be controlled there. Not everything: no wheel moves the robot sideways while it stands.
+    let all = controllability(&leaf.linear, 1e-9);
+    match all.require() {
+        Ok(_) => {
+            return Err(
+                "a robot on wheels that cannot slip is controllable at rest: something is wrong".into()
+            );
+        }
+        Err(error) => println!("the whole leaf: {error}"),
+    }
+    // So the places and the wheels are left to whoever plans the path.
+    let fed_back = [
+        Component::Coordinate(2),
+        Component::Coordinate(3),
+        Component::Parameter(0),
+        Component::Parameter(1),
+        Component::Parameter(2),
+    ];
+    let rows = fed_back.map(|one| leaf.components.iter().position(|c| *c == one).unwrap_or(0));
+    let linear = Linearization {
+        a: rows.map(|i| rows.map(|j| leaf.linear.a[i][j])),
+        b: rows.map(|i| [leaf.linear.b[i][0], leaf.linear.b[i][1]]),
+    };
+    controllability(&linear, 1e-9).require()?;
+
+    // 4. The gain: the discrete model over one period, and the Riccati equation for it.
+    let model = Frozen::new(&linear, &[0.0; FED_BACK], PERIOD)?;
+    let a = Square::from_fn(|i, j| model.phi[i][j]);
+    let b = Torques::from_fn(|i, j| model.gamma[i][j]);
+    let weights = Square::from_diagonal(&[4.0, 20.0, 6.0, 0.5, 1.0].into());
+    let effort = Matrix2::identity() * 0.3;
+    let riccati = solve_riccati(a, b, weights, effort).ok_or("the Riccati equation has no solution")?;
+    let gain =
+        (effort + b.transpose() * riccati * b).try_inverse().ok_or("the Riccati equation is singular")?
+            * b.transpose()
+            * riccati
+            * a;
+    let residual = (a.transpose() * riccati * a + weights - a.transpose() * riccati * b * gain - riccati)
+        .amax()
+        / riccati.amax();
+    let slowest = (a - b * gain).complex_eigenvalues().iter().map(|z| z.norm()).fold(0.0, f64::max);
+    let gain: Gain = std::array::from_fn(|i| std::array::from_fn(|j| gain[(i, j)]));
+    let mut table = Table::new(&["heading", "tilt", "speed", "turn", "fall"]).digits(4);
+    for row in &gain {
+        table.row(row);
+    }
+    println!("\ngains of the two motors, in newton metres per radian, metre per second, ..\n{table}");
+    println!("residual of the Riccati equation {residual:.1e}, slowest pole {slowest:.4} per period");
+    println!("one period: {OPERATIONS_PER_PERIOD}\n");
+
+    // 5. The run: start off balance, set off, turn, and be pushed. The motors are held during each period.
+    let mut state = State { tilt: 0.1, ..Default::default() };
+    let mut record: Vec<(f64, State, Inputs)> = Vec::new();
+    let mut at_limit = 0;
+    for k in 0..(UNTIL / PERIOD) as usize {
+        let t = k as f64 * PERIOD;
+        let reference = reference(t);
+        let (torques, _) = controller::period(&robot, &gain, &reference, &state, PERIOD);
+        at_limit += usize::from(torques.left_torque.abs() == robot.constants().torque_max);
+        let inputs = Inputs { push: if PUSHED.contains(&t) { PUSH } else { 0.0 }, ..torques };
+        record.push((t, state, inputs));
+        let plant = robot.driven(inputs);
+        let end =
+            Rk4 { step: PERIOD / STEPS as f64 }
+                .integrate(&plant, t, &state.into(), t + PERIOD, |_, _| ControlFlow::Continue(()))?;
+        state = end.state.into();
+    }
+
+    let mut table =
+        Table::new(&["t", "x", "y", "heading", "tilt", "speed", "left torque", "right torque"]).digits(4);
+    for (t, s, u) in record.iter().step_by(record.len() / 12) {
+        table.row(&[*t, s.x, s.y, s.heading, s.tilt, s.speed, u.left_torque, u.right_torque]);
+    }
+    println!("{table}\n");
+    draw(&record)?;
+
+    // 6. Did it work?
+    let tilt = record.iter().map(|(_, s, _)| s.tilt.abs()).fold(0.0, f64::max);
+    let aim = reference(UNTIL);
+    let (speed, heading) = ((state.speed - aim.speed).abs(), (state.heading - aim.heading).abs());
+    println!("largest tilt {tilt:.3}; errors at the end: speed {speed:.1e}, heading {heading:.1e}");
+    println!("the left motor was at its limit in {at_limit} of {} periods", record.len());
+    let works = tilt < LARGEST_TILT && speed < SPEED_ERROR && heading < HEADING_ERROR && at_limit > 0;
+    Ok(if works { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+}
+
+/// What the robot is told: stand, drive, turn to the left while driving.
+fn reference(t: f64) -> Reference {
+    let speed = (0.8 * (t - 1.0)).clamp(0.0, 0.8);
+    let turning = t.clamp(6.0, 9.0);
+    let turn = if turning == t { 0.5 } else { 0.0 };
+    Reference { heading: 0.5 * (turning - 6.0), speed, turn }
+}
+
+/// The stabilising solution of `P = A^T P A - A^T P B (R + B^T P B)^-1 B^T P A + Q`, by the doubling algorithm: after `k`
+/// steps it is the cost of `2^k` periods (Chu, Fan, Lin and Wang, 2004).
+fn solve_riccati(a: Square, b: Torques, q: Square, r: Matrix2<f64>) -> Option<Square> {
+    /// Cost of so many periods, `2^60`, is for ever.
+    const DOUBLINGS: usize = 60;
+    let (mut a, mut g, mut h) = (a, b * r.try_inverse()? * b.transpose(), q);
+    for _ in 0..DOUBLINGS {
+        let w = (Square::identity() + g * h).try_inverse()?;
+        let next = h + a.transpose() * h * w * a;
+        g += a * w * g * a.transpose();
+        a = a * w * a;
+        let change = (next - h).amax();
+        h = next;
+        if change <= 1e-14 * h.amax() {
+            return Some(h);
+        }
+    }
+    None
+}
+
+fn draw(record: &[(f64, State, Inputs)]) -> Result<(), Box<dyn Error>> {
+    let pictures = Path::new("target/guen/balancing_robot");
+    let curve = |f: fn(&State, &Inputs) -> f64| record.iter().map(move |(t, s, u)| (*t, f(s, u)));
+    Plot::new("Balance: the push comes after four seconds")
+        .axes("t in s", "")
+        .line("tilt, in rad", curve(|s, _| s.tilt))
+        .line("speed, in m/s", curve(|s, _| s.speed))
+        .line("heading, in rad", curve(|s, _| s.heading))
+        .save(pictures.join("balance.svg"))?;
+    Plot::new("The path of the axle")
+        .axes("x in m", "y in m")
+        .equal_scale(true)
+        .line("", record.iter().map(|(_, s, _)| (s.x, s.y)))
+        .mark_ends(true)
+        .save(pictures.join("path.svg"))?;
+    Plot::new("The motors and their limits")
+        .axes("t in s", "torque in N m")
+        .line("left", curve(|_, u| u.left_torque))
+        .line("right", curve(|_, u| u.right_torque))
+        .save(pictures.join("torques.svg"))?;
+    println!("pictures: balance.svg, path.svg and torques.svg in {}", pictures.display());
+    Ok(())
+}
