@@ -48,9 +48,10 @@
 
 pub use guen_runtime::{
     BodyFault, BracketCoefficients, Catastatic, Class, Coefficient, Conservative, ConstantsError, Coordinate,
-    Cost, Dual, Function, Holonomic, IncompleteLieGroup, IntegrationError, LieGroup, Lift, Linearization,
-    Monitored, Nonholonomic, Operator, Ordered, Positions, PositionsError, Projected, Real, Report,
-    ReportSection, Rheonomic, Scleronomic, System, from_fn, prelude, project, projected, steppers,
+    Cost, Dual, Function, Holonomic, IncompleteLieGroup, IntegrationError, Level, LevelInfo, Levels,
+    LieGroup, Lift, Linearization, Monitored, Nonholonomic, Operator, Ordered, Positions, PositionsError,
+    Projected, Real, Report, ReportSection, Rheonomic, Scleronomic, System, from_fn, prelude, project,
+    projected, steppers,
 };
 
 /// Declares a mechanical system and derives its equations of motion at compile time.
@@ -92,13 +93,15 @@ macro_rules! mechanical_system {
 #[doc(hidden)]
 pub mod __private {
     pub use guen_macros::mechanical_system;
-    pub use guen_runtime::checks::{check_hoisted, check_inertia, check_mass, check_pivot, largest};
+    pub use guen_runtime::checks::{
+        check_fixed, check_hoisted, check_inertia, check_mass, check_pivot, largest,
+    };
     pub use guen_runtime::consistent;
     pub use guen_runtime::{
         BracketCoefficients, Catastatic, Class, Coefficient, Conservative, ConstantsError, Cost, Dual,
-        Holonomic, IncompleteLieGroup, LieGroup, Lift, Linearization, Monitored, Nonholonomic, Operator,
-        Ordered, Positions, PositionsError, Real, Report, ReportSection, Rheonomic, Scleronomic, System,
-        nalgebra_conversions, seeded, zero_bracket,
+        Holonomic, IncompleteLieGroup, Level, LevelInfo, Levels, LieGroup, Lift, Linearization, Monitored,
+        Nonholonomic, Operator, Ordered, Positions, PositionsError, Real, Report, ReportSection, Rheonomic,
+        Scleronomic, System, nalgebra_conversions, seeded, zero_bracket,
     };
 }
 

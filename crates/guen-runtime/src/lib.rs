@@ -8,6 +8,7 @@
 //! | what is integrated? | [`System`], [`Monitored`], [`from_fn`] |
 //! | what acts on functions? | [`Operator`], [`Function`], [`Coordinate`], [`BracketCoefficients`] |
 //! | what is known at compile time? | [`Class`], the markers [`Holonomic`] to [`Conservative`], [`Cost`] |
+//! | which level of detail? | [`Level`], [`LevelInfo`], [`Levels`] |
 //! | how is it integrated? | [`steppers`]: [`Rk4`](steppers::Rk4), [`Dop853`](steppers::Dop853) |
 //! | what holds of positions? | [`Positions`], [`consistent`], [`project`], [`projected`] |
 //! | what can go wrong? | [`ConstantsError`], [`IntegrationError`] with its [`Cause`], [`PositionsError`] |
@@ -30,6 +31,7 @@ mod decimal;
 mod dual;
 mod error;
 mod float;
+mod level;
 mod lift;
 mod linearization;
 mod nalgebra_support;
@@ -48,6 +50,7 @@ pub use classification::{
 pub use cost::Cost;
 pub use dual::Dual;
 pub use error::{BodyFault, Cause, ConstantsError, IntegrationError, Setting};
+pub use level::{Level, LevelInfo, Levels};
 pub use lift::Lift;
 pub use linearization::{Linearization, seeded};
 pub use operator::{Applied, Coordinate, Function, Operator};
@@ -63,7 +66,7 @@ pub use nalgebra;
 pub mod prelude {
     pub use crate::steppers::{Done, Dop853, Outcome, Rk4, Statistics};
     pub use crate::{
-        Cause, Coordinate, Dual, Function, IntegrationError, Lift, Monitored, Operator, Ordered, Real,
+        Cause, Coordinate, Dual, Function, IntegrationError, Level, Lift, Monitored, Operator, Ordered, Real,
         System, from_fn,
     };
     pub use core::ops::ControlFlow;

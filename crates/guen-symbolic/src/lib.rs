@@ -24,8 +24,8 @@ pub use algebra::{
 };
 pub use geometry::{Brackets, Closure, Combination, Form, Forms, Operators, SingularForms};
 pub use motion::{
-    Class, Derivation, DerivationError, Energies, Equations, Force, Frame, Holonomic, KineticTerm, Mechanics,
-    NotQuadratic, Solution, VelocityForm, VelocityPartials, decompose,
+    Class, Dependence, Derivation, DerivationError, Energies, Equations, Force, Frame, Holonomic,
+    KineticTerm, Mechanics, NotQuadratic, Solution, VelocityForm, VelocityPartials, decompose,
 };
 pub use normal::{Limits, normal_coefficients, normal_form};
 pub use print::{Notation, latex_name};

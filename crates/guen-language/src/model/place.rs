@@ -7,6 +7,8 @@ use guen_symbolic::{Role, Roles};
 pub(super) enum Place {
     /// The default of a constant.
     Default,
+    /// The value of a constant that a scene fixes.
+    Fixed,
     /// The right side of a `let`.
     Let,
     /// A parameter.
@@ -38,6 +40,7 @@ impl Place {
     pub(super) fn description(self, entry: Option<&str>) -> String {
         let (named, nameless) = match self {
             Place::Default => ("the default of", "the default of a constant"),
+            Place::Fixed => ("the value of", "the value of a constant"),
             Place::Let => ("", "a `let`"),
             Place::Parameter => ("parameter", "a parameter"),
             Place::Constraint => ("constraint", "a constraint"),
@@ -62,6 +65,7 @@ impl Place {
     pub(super) fn rule(self) -> Option<&'static str> {
         Some(match self {
             Place::Default => "a default is a number, or made of constants declared before it",
+            Place::Fixed => "a constant is fixed to a number, or to an expression of constants",
             Place::Gravity => "gravity is one vector for the whole system, of constants and `t`",
             Place::Mass => "a mass depends on time and coordinates at most",
             Place::Position => "positions and orientations depend on time and coordinates",
@@ -77,7 +81,7 @@ impl Place {
         let velocities = positions.or(Roles::of(Role::Velocity)).or(Roles::of(Role::QuasiVelocity));
         let all = velocities.or(Roles::of(Role::Input));
         match self {
-            Place::Default => constants,
+            Place::Default | Place::Fixed => constants,
             Place::Gravity => timed,
             Place::Holonomic | Place::ForceFunction | Place::Mass | Place::Position => positions,
             Place::Parameter | Place::Constraint | Place::KineticEnergy | Place::Direction => velocities,

@@ -11,6 +11,7 @@ mod evaluate;
 mod instruction;
 mod lower;
 mod net;
+mod part;
 mod passes;
 #[cfg(test)]
 mod tests;
