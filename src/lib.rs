@@ -50,10 +50,11 @@ pub use guen_runtime::control;
 pub use guen_runtime::{
     BodyFault, BracketCoefficients, Catastatic, Cause, Class, Coefficient, Conservative, ConstantsError,
     Coordinate, Cost, Differentiable, Digits7, Digits13, Dual, Equations, Function, Functions, Fused,
-    Generic, Holonomic, IncompleteLieGroup, IntegrationError, Laned, LieGroup, Lift, Liftable, Linearizable,
-    Linearization, Monitored, Nonholonomic, Operator, Ordered, OutputLinearization, Positions,
-    PositionsError, Projected, Real, Report, ReportSection, Rheonomic, Scleronomic, Setting, System, Tuned,
-    Vitals, from_fn, generic, lanes, prelude, project, projected, steppers,
+    Generic, Holonomic, IncompleteLieGroup, IntegrationError, Laned, Level, LevelInfo, Levels, LieGroup,
+    Lift, Liftable, Linearizable, Linearization, Monitored, Nonholonomic, Operator, Ordered,
+    OutputLinearization, Positions, PositionsError, Projected, Real, Report, ReportSection, Rheonomic,
+    Scleronomic, Setting, System, Tuned, Vitals, from_fn, generic, lanes, prelude, project, projected,
+    steppers,
 };
 
 #[cfg(feature = "std")]
@@ -98,14 +99,16 @@ macro_rules! mechanical_system {
 #[doc(hidden)]
 pub mod __private {
     pub use guen_macros::mechanical_system;
-    pub use guen_runtime::checks::{check_hoisted, check_inertia, check_mass, check_pivot, clamped, largest};
+    pub use guen_runtime::checks::{
+        check_fixed, check_hoisted, check_inertia, check_mass, check_pivot, clamped, largest,
+    };
     pub use guen_runtime::lanes::Lanes;
     pub use guen_runtime::{
         BracketCoefficients, Catastatic, Class, Coefficient, Conservative, ConstantsError, Cost,
-        Differentiable, Dual, Holonomic, IncompleteLieGroup, Laned, LieGroup, Lift, Liftable, Linearizable,
-        Linearization, Monitored, Nonholonomic, Operator, Ordered, OutputLinearization, Positions,
-        PositionsError, Real, Report, ReportSection, Rheonomic, Scleronomic, System, Vitals,
-        nalgebra_conversions, seeded, zero_bracket,
+        Differentiable, Dual, Holonomic, IncompleteLieGroup, Laned, Level, LevelInfo, Levels, LieGroup, Lift,
+        Liftable, Linearizable, Linearization, Monitored, Nonholonomic, Operator, Ordered,
+        OutputLinearization, Positions, PositionsError, Real, Report, ReportSection, Rheonomic, Scleronomic,
+        System, Vitals, nalgebra_conversions, seeded, zero_bracket,
     };
     pub use guen_runtime::{consistent, control};
 }

@@ -270,7 +270,7 @@ fn the_compiler_shows_the_same() {
         "kinds/input_through_a_let",
         "limits/tower_of_powers",
         "names/unknown_name_with_a_near_one",
-        "scenes/scene",
+        "scenes/fixes_a_mass_at_zero",
         "several/code_that_uses_a_faulty_system",
         "several/three_faults_in_three_sections",
         "singular/combination_without_inertia",

@@ -1,10 +1,11 @@
 //! Declarations that several tests share. Each is a macro that hands its tokens to another one: to
-//! `guen::mechanical_system` for items, to `stringify` for the text that the libraries below the macro take.
+//! `guen::mechanical_system` for items, to `stringify` for the text that the libraries below the macro take. What
+//! follows the name and a `;` is added to the declaration: scenes.
 #![allow(unused_macros, reason = "every test takes the systems that it is about")]
 
 /// The hoop of section 3.1, with free kinetic energy in the velocities.
 macro_rules! hoop {
-    ($($consumer:ident)::+) => { $($consumer)::+! {
+    ($($consumer:ident)::+ $(; $($more:tt)*)?) => { $($consumer)::+! {
         pub system Hoop {
             constants { a > 0, A > 0, C > 0, g = 9.81 }
             coordinates { theta, psi, phi, xi, eta, zeta }
@@ -20,13 +21,14 @@ macro_rules! hoop {
             }
             kinetic_energy = 1/2*(dot(xi)^2 + dot(eta)^2 + dot(zeta)^2) + 1/2*(A*eta1^2 + A*eta2^2 + C*eta3^2);
             force_function = -a*g*sin(theta);
+            $($($more)*)?
         }
     } };
 }
 
 /// Appell's system of section 3.2, with the axial inertia of its body.
 macro_rules! appell {
-    ($($consumer:ident)::+) => { $($consumer)::+! {
+    ($($consumer:ident)::+ $(; $($more:tt)*)?) => { $($consumer)::+! {
         pub system Appell {
             constants { a > 0, A > 0, C > 0, g = 9.81 }
             coordinates { theta, psi, phi, xi, eta, zeta }
@@ -43,13 +45,14 @@ macro_rules! appell {
             kinetic_energy = 1/2*(dot(xi)^2 + dot(eta)^2 + dot(zeta)^2)
                            + 1/2*(A*eta1^2 + A*eta2^2 + (C + a^2)*eta3^2);
             force_function = -a*g*sin(theta);
+            $($($more)*)?
         }
     } };
 }
 
 /// Chaplygin's sled of section 3.3.
 macro_rules! sled {
-    ($($consumer:ident)::+) => { $($consumer)::+! {
+    ($($consumer:ident)::+ $(; $($more:tt)*)?) => { $($consumer)::+! {
         pub system Sled {
             constants { m > 0, alpha, beta, k > 0, incline, g = 9.81 }
             coordinates { phi, xi, eta }
@@ -62,13 +65,14 @@ macro_rules! sled {
             let y = eta + alpha*sin(phi) + beta*cos(phi);
             kinetic_energy = m/2*(dot(x)^2 + dot(y)^2) + m/2*k^2*dot(phi)^2;
             force_function = m*g*sin(incline)*x;
+            $($($more)*)?
         }
     } };
 }
 
 /// The sled in the parameters of the paper's closing remark.
 macro_rules! sled_in_xi {
-    ($($consumer:ident)::+) => { $($consumer)::+! {
+    ($($consumer:ident)::+ $(; $($more:tt)*)?) => { $($consumer)::+! {
         pub system SledInXi {
             constants { m > 0, alpha, beta, k > 0, incline, g = 9.81 }
             coordinates { phi, xi, eta }
@@ -81,13 +85,14 @@ macro_rules! sled_in_xi {
             let y = eta + alpha*sin(phi) + beta*cos(phi);
             kinetic_energy = m/2*(dot(x)^2 + dot(y)^2) + m/2*k^2*dot(phi)^2;
             force_function = m*g*sin(incline)*x;
+            $($($more)*)?
         }
     } };
 }
 
 /// A unicycle with a trailer of length `d`, hitched to the unicycle's axle.
 macro_rules! trailer {
-    ($($consumer:ident)::+) => { $($consumer)::+! {
+    ($($consumer:ident)::+ $(; $($more:tt)*)?) => { $($consumer)::+! {
         pub system Trailer {
             constants { m > 0, J > 0, M > 0, K > 0, d > 0 }
             coordinates { x, y, heading, trailing }
@@ -102,13 +107,14 @@ macro_rules! trailer {
             kinetic_energy = m/2*(dot(x)^2 + dot(y)^2) + J/2*turning^2
                            + M/2*(dot(x - d*cos(trailing))^2 + dot(y - d*sin(trailing))^2)
                            + K/2*dot(trailing)^2;
+            $($($more)*)?
         }
     } };
 }
 
 /// A ball on a table that turns at a varying speed; `eta1..eta3` are its angular velocity in space.
 macro_rules! turntable {
-    ($($consumer:ident)::+) => { $($consumer)::+! {
+    ($($consumer:ident)::+ $(; $($more:tt)*)?) => { $($consumer)::+! {
         pub system Turntable {
             constants { m > 0, a > 0, Omega, swing, nu }
             coordinates { x, y, psi, theta, phi }
@@ -123,13 +129,14 @@ macro_rules! turntable {
                 north: dot(y) + a*eta1 - speed*x = 0;
             }
             kinetic_energy = m/2*(dot(x)^2 + dot(y)^2) + m*a^2/5*(eta1^2 + eta2^2 + eta3^2);
+            $($($more)*)?
         }
     } };
 }
 
 /// The same ball on a table that turns evenly.
 macro_rules! even_turntable {
-    ($($consumer:ident)::+) => { $($consumer)::+! {
+    ($($consumer:ident)::+ $(; $($more:tt)*)?) => { $($consumer)::+! {
         pub system EvenTurntable {
             constants { m > 0, a > 0, Omega }
             coordinates { x, y, psi, theta, phi }
@@ -143,13 +150,14 @@ macro_rules! even_turntable {
                 north: dot(y) + a*eta1 - Omega*x = 0;
             }
             kinetic_energy = m/2*(dot(x)^2 + dot(y)^2) + m*a^2/5*(eta1^2 + eta2^2 + eta3^2);
+            $($($more)*)?
         }
     } };
 }
 
 /// A free rigid body in Euler's angles and its angular velocity in the body.
 macro_rules! euler_top {
-    ($($consumer:ident)::+) => { $($consumer)::+! {
+    ($($consumer:ident)::+ $(; $($more:tt)*)?) => { $($consumer)::+! {
         pub system EulerTop {
             constants { I1 > 0, I2 > 0, I3 > 0 }
             coordinates { psi, theta, phi }
@@ -159,6 +167,7 @@ macro_rules! euler_top {
                 r = dot(psi)*cos(theta) + dot(phi);
             }
             kinetic_energy = 1/2*(I1*p^2 + I2*q^2 + I3*r^2);
+            $($($more)*)?
         }
     } };
 }
@@ -166,7 +175,7 @@ macro_rules! euler_top {
 /// A pendulum on a cart that is pushed, with friction in the joint and wind: inputs, outputs, a default of earlier
 /// constants.
 macro_rules! cart {
-    ($($consumer:ident)::+) => { $($consumer)::+! {
+    ($($consumer:ident)::+ $(; $($more:tt)*)?) => { $($consumer)::+! {
         pub system Cart {
             constants { M > 0, m > 0, l > 0 = 1/2, I > 0 = m*l^2/3, c >= 0 = 0.1, g = 9.81 }
             inputs { push, wind }
@@ -185,13 +194,14 @@ macro_rules! cart {
                 hinge = push - (M + m)*g;
                 pointer = bob;
             }
+            $($($more)*)?
         }
     } };
 }
 
 /// A pendulum as a particle on a circle: a constraint on positions, and its reaction.
 macro_rules! particle_pendulum {
-    ($($consumer:ident)::+) => { $($consumer)::+! {
+    ($($consumer:ident)::+ $(; $($more:tt)*)?) => { $($consumer)::+! {
         pub system ParticlePendulum {
             constants { m > 0, l > 0, g = 9.81 }
             coordinates { x, y }
@@ -199,6 +209,7 @@ macro_rules! particle_pendulum {
             holonomic { rod: x^2 + y^2 = l^2; }
             kinetic_energy = m/2*(dot(x)^2 + dot(y)^2);
             potential_energy = m*g*y;
+            $($($more)*)?
         }
     } };
 }

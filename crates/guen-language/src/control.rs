@@ -1,15 +1,8 @@
 //! What controllers take of a derived system, as expressions: the leaf, the equations apart, the covector of reactions.
 
-use guen_symbolic::{Derivation, ExprId, ProgramBuilder, Role, Roles, Substitution, Workbench};
+use guen_symbolic::{Derivation, ExprId, Role, Roles, Substitution, Workbench};
 
-use crate::derive::function;
-
-/// The lists of the functions that are added.
-pub(crate) struct Lists {
-    leaf: Vec<ExprId>,
-    mass_form: Vec<ExprId>,
-    covector: Option<Vec<ExprId>>,
-}
+use crate::derive::{Quantity, function};
 
 /// The integrable combinations of constraints whose coefficients are known, as places in the list of all.
 pub(crate) fn known_combinations(derivation: &Derivation) -> Vec<usize> {
@@ -24,19 +17,14 @@ pub(crate) fn has_covector(derivation: &Derivation) -> bool {
     !derivation.reactions.is_empty() && derivation.reactions.iter().all(Option::is_some)
 }
 
-impl Lists {
-    pub(crate) fn new(bench: &mut Workbench, derivation: &Derivation) -> Self {
-        let covector = has_covector(derivation).then(|| covector(bench, derivation));
-        Lists { leaf: leaf(bench, derivation), mass_form: mass_form(bench, derivation), covector }
+/// The functions and what they compute.
+pub(crate) fn quantities(bench: &mut Workbench, derivation: &Derivation) -> Vec<Quantity> {
+    let mut found =
+        vec![(function::LEAF, leaf(bench, derivation)), (function::MASS_FORM, mass_form(bench, derivation))];
+    if has_covector(derivation) {
+        found.push((function::REACTION_COVECTOR, covector(bench, derivation)));
     }
-
-    pub(crate) fn add(self, builder: &mut ProgramBuilder<'_>) {
-        builder.add_cold(function::LEAF, &self.leaf);
-        builder.add_cold(function::MASS_FORM, &self.mass_form);
-        if let Some(covector) = self.covector {
-            builder.add_cold(function::REACTION_COVECTOR, &covector);
-        }
-    }
+    found
 }
 
 /// `sum_v f_v a_vi` of every integrable combination `sum_v f_v eta_v`, row by row.

@@ -2,7 +2,7 @@
 
 use guen_symbolic::{Pattern, Programs, Role, SymbolId};
 
-use crate::derive::function;
+use crate::derive::{Selection, function};
 use crate::model::Model;
 
 /// Where the outputs of the functions [`function::LINEARIZATION`] and [`function::OUTPUT_LINEARIZATION`] belong, in a
@@ -17,12 +17,14 @@ pub struct Jacobians {
 
 impl Jacobians {
     /// Adds the functions to the programs, unless they are too large: then duals do their work.
-    pub(crate) fn add(programs: &mut Programs, model: &Model<'_>) -> Self {
+    pub(crate) fn add(programs: &mut Programs, model: &Model<'_>, selection: &Selection) -> Self {
+        if !selection.linearization {
+            return Jacobians::default();
+        }
         let graph = &model.bench.graph;
-        let etas = &model.mechanics.etas[..model.mechanics.forms.degrees];
-        let states = model.coordinates.iter().map(|c| c.symbol).chain(etas.iter().copied());
+        let states = selection.variables.iter().map(|place| model.variable(*place));
         let variables: Vec<SymbolId> = states
-            .chain(model.inputs.iter().map(|input| input.symbol))
+            .chain(selection.inputs.iter().map(|input| model.inputs[*input].symbol))
             .filter_map(|symbol| graph.as_symbol(symbol))
             .collect();
         let is_constant = |symbol: SymbolId| graph.symbol_info(symbol).role == Role::Constant;
@@ -32,7 +34,7 @@ impl Jacobians {
         };
         Jacobians {
             rates: add(function::LINEARIZATION, function::RHS),
-            outputs: (!model.outputs.is_empty())
+            outputs: (!selection.outputs.is_empty())
                 .then(|| add(function::OUTPUT_LINEARIZATION, function::OUTPUTS))
                 .flatten(),
         }

@@ -17,7 +17,6 @@ pub mod model;
 pub mod names;
 pub mod parse;
 pub mod report;
-mod scenes;
 pub mod syntax;
 
 use proc_macro2::TokenStream;

@@ -36,6 +36,23 @@ pub fn check_hoisted<R: Real>(value: R) -> Result<(), ConstantsError> {
     Err(ConstantsError::SingularPivot { what: "an expression of the constants", value: value.to_f64() })
 }
 
+/// Refuses a constant of a system that is not what a scene fixes it at.
+///
+/// ```
+/// assert!(guen_runtime::checks::check_fixed(9.81, 9.81, "g").is_ok());
+/// assert!(guen_runtime::checks::check_fixed(1.62, 9.81, "g").is_err());
+/// ```
+///
+/// # Errors
+///
+/// [`ConstantsError::Contradicted`] with both values.
+pub fn check_fixed<R: Real>(value: R, fixed: R, name: &'static str) -> Result<(), ConstantsError> {
+    if value == fixed {
+        return Ok(());
+    }
+    Err(ConstantsError::Contradicted { name, fixed: fixed.to_f64(), value: value.to_f64() })
+}
+
 /// Refuses a negative mass.
 ///
 /// ```

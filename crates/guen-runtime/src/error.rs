@@ -34,6 +34,15 @@ pub enum ConstantsError {
         /// Its value.
         value: f64,
     },
+    /// A constant of the system has another value than a scene fixes.
+    Contradicted {
+        /// The constant's name.
+        name: &'static str,
+        /// The value that the scene fixes.
+        fixed: f64,
+        /// The value in the system.
+        value: f64,
+    },
     /// A body that no distribution of mass has.
     NotPhysical {
         /// The body's name.
@@ -59,6 +68,9 @@ impl fmt::Display for ConstantsError {
             Self::NotFinite { name, value } => write!(f, "constant `{name}` is {value}, which is not finite"),
             Self::OutOfBound { name, bound, value } => {
                 write!(f, "constant `{name}` is {value}, but `{bound}` is declared")
+            }
+            Self::Contradicted { name, fixed, value } => {
+                write!(f, "constant `{name}` is {value}, but the scene fixes it at {fixed}")
             }
             Self::NotPhysical { body, fault: BodyFault::NegativeMass } => {
                 write!(f, "body `{body}` has a negative mass")

@@ -10,6 +10,7 @@
 //! | what is known at compile time? | [`Class`], the markers [`Holonomic`] to [`Conservative`], [`Cost`] |
 //! | how is it integrated? | [`steppers`]: an [`Integration`](steppers::Integration) run by one of nine methods |
 //! | how is it controlled? | [`Linearizable`], [`control`] |
+//! | which level of detail? | [`Level`], [`LevelInfo`], [`Levels`] |
 //! | what holds of positions? | [`Positions`], [`consistent`], [`project`], [`projected`] |
 //! | what can go wrong? | [`ConstantsError`], [`IntegrationError`] with its [`Cause`], [`PositionsError`] |
 //!
@@ -38,6 +39,7 @@ mod elementary;
 mod error;
 mod float;
 pub mod lanes;
+mod level;
 mod lift;
 mod linearization;
 mod nalgebra_support;
@@ -59,6 +61,7 @@ pub use cost::Cost;
 pub use differentiable::{Differentiable, Equations, Generic, generic};
 pub use dual::Dual;
 pub use error::{BodyFault, Cause, ConstantsError, IntegrationError, Setting};
+pub use level::{Level, LevelInfo, Levels};
 pub use lift::Lift;
 pub use linearization::{Liftable, Linearizable, Linearization, OutputLinearization, seeded};
 pub use operator::{Applied, Coordinate, Function, Operator};
@@ -84,7 +87,7 @@ pub mod prelude {
         Rk4, Rk8, Statistics, Tsit5,
     };
     pub use crate::{
-        Cause, Coordinate, Dual, Function, IntegrationError, Lift, Monitored, Operator, Ordered, Real,
+        Cause, Coordinate, Dual, Function, IntegrationError, Level, Lift, Monitored, Operator, Ordered, Real,
         System, from_fn,
     };
     pub use core::ops::ControlFlow;

@@ -116,6 +116,10 @@ pub trait Laned<const N: usize>: System<f64, N> {
 ///
 /// The quantities are computed from the state alone, by other expressions than the right-hand side, so a change
 /// in them measures what the integration got wrong.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no energy to watch",
+    note = "a scene has one if it says `provide energy;`"
+)]
 pub trait Monitored<R: Real, const N: usize>: System<R, N> {
     /// The energy integral at time `t`, in the units of the declared energies; a system that is
     /// [`Conservative`](crate::Conservative) keeps it.

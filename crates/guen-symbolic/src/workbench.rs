@@ -21,12 +21,14 @@ pub struct Workbench {
     pub zero: ZeroTest,
     tidied: FastMap<ExprId, ExprId>,
     limits: Limits,
+    /// Work that was done before the present derivation began.
+    before: u64,
 }
 
 impl Workbench {
     /// A workbench around a graph.
     pub fn new(graph: Graph) -> Self {
-        Workbench { graph, zero: ZeroTest::new(), tidied: FastMap::default(), limits: TIDYING }
+        Workbench { graph, zero: ZeroTest::new(), tidied: FastMap::default(), limits: TIDYING, before: 0 }
     }
 
     /// The expression in normal form where that is small, zero if it is proved to vanish, else as it is.
@@ -82,7 +84,12 @@ impl Workbench {
     /// Whether more was built than a compiler should spend. From then on questions about expressions stay open, so
     /// that whoever is at work comes to an end soon; the result is given up.
     pub fn is_exhausted(&self) -> bool {
-        self.graph.work() > MAX_WORK
+        self.graph.work() - self.before > MAX_WORK
+    }
+
+    /// Begins a further derivation in the same graph, with a limit of its own.
+    pub fn begin_another(&mut self) {
+        self.before = self.graph.work();
     }
 
     /// A large expression kept whole, so that its users share it; a small one as it is.

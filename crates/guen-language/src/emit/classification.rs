@@ -4,11 +4,11 @@ use guen_symbolic::{Class, OperationCount};
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
-use super::Layout;
-use crate::derive::{Derived, function};
+use super::{Layout, Subject};
+use crate::derive::function;
 
-pub(super) fn items(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
-    let derivation = &derived.derivation;
+pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
+    let derivation = &subject.level.derivation;
     let system = &layout.system;
     let class = match derivation.class {
         Class::LieGroup => "HolonomicConstant",
@@ -27,15 +27,9 @@ pub(super) fn items(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
     let complete = derivation.closure.complete;
     let (scleronomic, catastatic, conservative) =
         (derivation.scleronomic, derivation.catastatic, derivation.conservative);
-    let rhs = derived
-        .programs
-        .functions
-        .iter()
-        .find(|f| f.name == function::RHS)
-        .map(|f| f.cost)
-        .unwrap_or_default();
-    let (cost, prepare_cost) = (cost(&rhs), cost(&derived.programs.prepare_cost));
-    let domain = &derived.domain_names;
+    let rhs = subject.level.program(function::RHS).map(|f| f.cost).unwrap_or_default();
+    let (cost, prepare_cost) = (cost(&rhs), cost(&subject.level.programs.prepare_cost));
+    let domain = &subject.level.domain_names;
     let domain_count = domain.len();
     let mut markers = Vec::new();
     match derivation.class {

@@ -1,24 +1,53 @@
 //! The struct of physical constants, `prepare`, and the prepared system.
 
+use guen_symbolic::ExprId;
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
 use super::code::number;
-use super::{Layout, documentation, tokens};
-use crate::derive::Derived;
+use super::{Layout, Subject, documentation, tokens, variable_ident};
 use crate::report::Report;
 use crate::syntax::BoundKind;
 
-pub(super) fn items(derived: &Derived<'_>, layout: &Layout, report: &Report) -> TokenStream {
+/// A field of the struct of constants.
+struct Field {
+    ident: Ident,
+    /// The name without `r#`.
+    name: String,
+    docs: TokenStream,
+    bound: Option<BoundKind>,
+    default: Option<ExprId>,
+}
+
+/// The constants that a scene does not fix, then the variables that it holds.
+fn fields(subject: &Subject<'_, '_>) -> Vec<Field> {
+    let Subject { model, level } = subject;
+    let constants = level.selection.constants.iter().map(|c| &model.constants[*c]).map(|c| Field {
+        ident: c.name.ident.clone(),
+        name: c.name.text.clone(),
+        docs: documentation::entry(c.docs, &format!("The constant `{}`.", c.name)),
+        bound: c.bound,
+        default: c.default,
+    });
+    let held = level.selection.held.iter().map(|held| {
+        let name = model.variable_name(held.place).to_owned();
+        let text = format!("The value at which `{name}` stays.");
+        let ident = variable_ident(model, held.place);
+        Field { ident, name, docs: quote!(#[doc = #text]), bound: None, default: None }
+    });
+    constants.chain(held).collect()
+}
+
+pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, report: &Report) -> TokenStream {
     let system = &layout.system;
-    let model = &derived.model;
-    let names: Vec<&Ident> = model.constants.iter().map(|c| &c.name.ident).collect();
-    let docs =
-        model.constants.iter().map(|c| documentation::entry(c.docs, &format!("The constant `{}`.", c.name)));
-    let head = documentation::system(report, &model.declaration.docs);
+    let fields = fields(subject);
+    let names: Vec<&Ident> = fields.iter().map(|field| &field.ident).collect();
+    let docs = fields.iter().map(|field| &field.docs);
+    let written = subject.scene().map_or(&subject.model.declaration.docs, |(scene, _)| &scene.docs);
+    let head = documentation::system(report, written);
     let (count, hoisted) = (layout.constants, layout.hoisted);
-    let checks = checks(derived);
-    let constructors = constructors(derived, layout);
+    let checks = checks(subject, &fields);
+    let constructors = constructors(subject, layout, &fields);
     // A system without constants still has a type parameter to carry.
     let marker = (count == 0).then(|| {
         quote! {
@@ -28,8 +57,9 @@ pub(super) fn items(derived: &Derived<'_>, layout: &Layout, report: &Report) -> 
     });
     let marker_value = (count == 0).then(|| quote!(__guen_real: ::core::marker::PhantomData,));
     let indices = 0..count;
+    let what = if layout.is_whole { "system" } else { "scene" };
     let prepared_docs = format!(
-        "The system [`{system}`] with its constants checked and everything that depends on them alone computed once. Immutable; it alone runs."
+        "The {what} [`{system}`] with its constants checked and everything that depends on them alone computed once. Immutable; it alone runs."
     );
     quote! {
         #head
@@ -88,9 +118,9 @@ pub(super) fn items(derived: &Derived<'_>, layout: &Layout, report: &Report) -> 
 }
 
 /// Finite, and inside the bound, each constant.
-fn checks(derived: &Derived<'_>) -> TokenStream {
-    let checks = derived.model.constants.iter().enumerate().map(|(i, constant)| {
-        let name = &constant.name.text;
+fn checks(subject: &Subject<'_, '_>, fields: &[Field]) -> TokenStream {
+    let given = fields.iter().enumerate().map(|(i, field)| {
+        let name = &field.name;
         let finite = quote! {
             if !<R as __guen::Real>::is_finite(constants[#i]) {
                 return ::core::result::Result::Err(__guen::ConstantsError::NotFinite {
@@ -99,59 +129,76 @@ fn checks(derived: &Derived<'_>) -> TokenStream {
                 });
             }
         };
-        let bound = constant.bound.map(|bound| {
-            let (relation, holds) = match bound {
-                BoundKind::Positive => ("> 0", quote!(value > 0.0)),
-                BoundKind::Nonnegative => (">= 0", quote!(value >= 0.0)),
-                BoundKind::Nonzero => ("!= 0", quote!(value != 0.0)),
-            };
-            let text = format!("{name} {relation}");
-            quote! {
-                let value = <R as __guen::Real>::to_f64(constants[#i]);
-                if !(#holds) {
-                    return ::core::result::Result::Err(__guen::ConstantsError::OutOfBound {
-                        name: #name,
-                        bound: #text,
-                        value,
-                    });
-                }
-            }
-        });
+        let bound = field.bound.map(|bound| check_bound(name, bound, &quote!(constants[#i])));
         quote!(#finite #bound)
     });
-    quote!(#(#checks)*)
+    // A constant that is fixed to a number was checked when it was declared; one that is made of others is checked here.
+    let graph = &subject.model.bench.graph;
+    let fixes = subject.scene().map_or(&[][..], |(_, facts)| &facts.fixes);
+    let fixed: Vec<TokenStream> = fixes
+        .iter()
+        .filter(|(_, value)| graph.as_number(*value).is_none())
+        .filter_map(|(c, value)| {
+            let constant = &subject.model.constants[*c];
+            let value = tokens(&default_text(subject, *value));
+            constant.bound.map(|bound| check_bound(&constant.name.text, bound, &value))
+        })
+        .collect();
+    let locals = (0..fields.len()).map(|i| format_ident!("__guen_c{i}"));
+    let locals = (!fixed.is_empty()).then(|| {
+        quote! {
+            #[allow(unused_variables, reason = "the fixed constants need not use every other")]
+            let [#(#locals),*] = constants;
+        }
+    });
+    quote!(#(#given)* #locals #(#fixed)*)
+}
+
+fn check_bound(name: &str, bound: BoundKind, value: &TokenStream) -> TokenStream {
+    let (relation, holds) = match bound {
+        BoundKind::Positive => ("> 0", quote!(value > 0.0)),
+        BoundKind::Nonnegative => (">= 0", quote!(value >= 0.0)),
+        BoundKind::Nonzero => ("!= 0", quote!(value != 0.0)),
+    };
+    let text = format!("{name} {relation}");
+    quote! {
+        let value = <R as __guen::Real>::to_f64(#value);
+        if !(#holds) {
+            return ::core::result::Result::Err(__guen::ConstantsError::OutOfBound {
+                name: #name,
+                bound: #text,
+                value,
+            });
+        }
+    }
 }
 
 /// `new` with the constants that have no default, and `Default` if all have one.
-fn constructors(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
+fn constructors(subject: &Subject<'_, '_>, layout: &Layout, fields: &[Field]) -> TokenStream {
     let system = &layout.system;
-    let constants = &derived.model.constants;
-    let graph = &derived.model.bench.graph;
-    let names: Vec<&Ident> = constants.iter().map(|c| &c.name.ident).collect();
+    let names: Vec<&Ident> = fields.iter().map(|field| &field.ident).collect();
     // A parameter named like a constant of the module, an operator or `None` would be a pattern.
-    let parameter = |name: &crate::syntax::Name| {
-        if crate::names::is_pattern(&name.text) {
-            format_ident!("{}_", name.text, span = name.span())
+    let parameter = |field: &Field| {
+        if crate::names::is_pattern(&field.name) {
+            format_ident!("{}_", field.name, span = field.ident.span())
         } else {
-            name.ident.clone()
+            field.ident.clone()
         }
     };
-    let required: Vec<Ident> =
-        constants.iter().filter(|c| c.default.is_none()).map(|c| parameter(c.name)).collect();
+    let required: Vec<Ident> = fields.iter().filter(|field| field.default.is_none()).map(parameter).collect();
     // Defaults may use earlier constants: they are evaluated in order, as locals that no constant can shadow.
-    let locals: Vec<Ident> = (0..constants.len()).map(|i| format_ident!("__guen_c{i}")).collect();
-    let values = constants.iter().zip(&locals).map(|(constant, local)| match constant.default {
+    let locals: Vec<Ident> = (0..fields.len()).map(|i| format_ident!("__guen_c{i}")).collect();
+    let values = fields.iter().zip(&locals).map(|(field, local)| match field.default {
         None => {
-            let name = parameter(constant.name);
+            let name = parameter(field);
             quote!(let #local: R = #name;)
         }
         Some(default) => {
-            let text = default_text(derived, graph, default);
-            let value = tokens(&text);
+            let value = tokens(&default_text(subject, default));
             quote!(let #local: R = #value;)
         }
     });
-    let marker = (constants.is_empty()).then(|| quote!(__guen_real: ::core::marker::PhantomData,));
+    let marker = (fields.is_empty()).then(|| quote!(__guen_real: ::core::marker::PhantomData,));
     let docs = if required.is_empty() {
         "The system with its default constants.".to_owned()
     } else {
@@ -181,23 +228,26 @@ fn constructors(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
     }
 }
 
-/// An expression of constants as one of Rust over the locals `__guen_c0`, `__guen_c1`, ...
-pub(super) fn default_text(
-    derived: &Derived<'_>,
-    graph: &guen_symbolic::Graph,
-    e: guen_symbolic::ExprId,
-) -> String {
+/// An expression of constants as one of Rust over the locals `__guen_c0`, `__guen_c1`, .., one for each field; constants
+/// that a scene fixes are at their values.
+pub(super) fn default_text(subject: &Subject<'_, '_>, e: ExprId) -> String {
     use guen_symbolic::Node;
-    let of = |e| default_text(derived, graph, e);
+    let of = |e| default_text(subject, e);
+    let graph = &subject.model.bench.graph;
+    let constants = &subject.model.constants;
     match graph.node(e) {
         Node::Number(value) => number(value),
         Node::Pi => "<R as __guen::Real>::pi()".to_owned(),
-        Node::Symbol(symbol) => derived
-            .model
-            .constants
-            .iter()
-            .position(|c| graph.as_symbol(c.symbol) == Some(*symbol))
-            .map_or_else(String::new, |i| format!("__guen_c{i}")),
+        Node::Symbol(symbol) => {
+            let is_it = |c: &usize| graph.as_symbol(constants[*c].symbol) == Some(*symbol);
+            let fixes = subject.scene().map_or(&[][..], |(_, facts)| &facts.fixes);
+            match subject.level.selection.constants.iter().position(is_it) {
+                Some(i) => format!("__guen_c{i}"),
+                None => {
+                    fixes.iter().find(|(c, _)| is_it(c)).map_or_else(String::new, |(_, value)| of(*value))
+                }
+            }
+        }
         Node::Sum { constant, terms } => {
             let mut parts = Vec::new();
             if !constant.is_zero() {

@@ -3,19 +3,21 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
-use super::Layout;
 use super::motion::inputs;
+use super::{Layout, Subject};
 use crate::control::{has_covector, known_combinations};
-use crate::derive::Derived;
 
-pub(super) fn items(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
+pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
+    if !layout.is_whole {
+        return TokenStream::new();
+    }
     let mass_form = mass_form(layout);
     let inverse = (layout.inputs > 0).then(|| inverse_dynamics(layout));
     let steady = steady(layout);
-    let reduce = reduce(derived, layout);
-    let reactions = reactions(derived, layout);
+    let reduce = reduce(subject, layout);
+    let reactions = reactions(subject, layout);
     let size = layout.size;
-    let reduced = size - known_combinations(&derived.derivation).len();
+    let reduced = size - known_combinations(&subject.level.derivation).len();
     quote! {
         /// The size of the reduced basis: the positions that the integrable constraints leave independent, and the
         /// parameters.
@@ -39,15 +41,21 @@ fn mass_form(layout: &Layout) -> TokenStream {
     let (l, count) = (layout.size - layout.n, layout.inputs);
     let triangle = l * (l + 1) / 2;
     let input_at = triangle + l;
+    let entries = if l == 0 {
+        quote!(let entries: [R; 0] = [];)
+    } else {
+        quote! {
+            let entries = program::mass_form(
+                &self.constants, &self.hoisted, t, &::core::convert::From::from(*state), #argument,
+            );
+        }
+    };
     quote! {
         /// The equations of motion apart, `M eta' + bias = G u`: the mass matrix, what the forces are without inputs
         /// with its sign turned, and the matrix of the inputs. Where forces are not affine in the inputs, `G` holds
         /// their derivatives, and the equation is exact at these inputs.
         pub fn mass_form(&self, t: R, state: &State<R> #parameter) -> __guen::control::MassForm<R, #l, #count> {
-            let entries = program::mass_form(
-                &self.constants, &self.hoisted, t, &::core::convert::From::from(*state), #argument,
-            );
-            let _ = &entries;
+            #entries
             let entry = |s: usize, k: usize| if s < k { entries[k * (k + 1) / 2 + s] } else { entries[s * (s + 1) / 2 + k] };
             __guen::control::MassForm {
                 mass: ::core::array::from_fn(|s| ::core::array::from_fn(|k| entry(s, k))),
@@ -142,14 +150,19 @@ fn steady(layout: &Layout) -> TokenStream {
     }
 }
 
-fn reduce(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
+fn reduce(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let (parameter, argument) = inputs(layout);
     let (n, size, count) = (layout.n, layout.size, layout.inputs);
     let pass = if count == 0 { quote!() } else { quote!(, inputs) };
-    let combinations = known_combinations(&derived.derivation).len();
+    let combinations = known_combinations(&subject.level.derivation).len();
     let reduced = size - combinations;
-    let quaternions = derived.model.quaternions.iter().map(|[w, x, y, z]| quote!([#w, #x, #y, #z]));
+    let quaternions = subject.model.quaternions.iter().map(|[w, x, y, z]| quote!([#w, #x, #y, #z]));
     let positions: Vec<usize> = (0..n).collect();
+    let entries = if combinations == 0 {
+        quote!(let entries: [R; 0] = [];)
+    } else {
+        quote!(let entries = program::leaf(&self.constants, &self.hoisted, t, &coordinates);)
+    };
     quote! {
         /// The linearisation on the leaf of all integrable combinations of constraints: independent positions, then the
         /// parameters, [`REDUCED`] in all. Coordinates named in `independent` stay independent, the others are chosen by
@@ -163,8 +176,7 @@ fn reduce(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
         ) -> ::core::result::Result<__guen::control::Reduced<R, #size, #count, #reduced>, __guen::control::ReduceError> {
             let s: [R; #size] = ::core::convert::From::from(*state);
             let coordinates = [#(s[#positions]),*];
-            let entries = program::leaf(&self.constants, &self.hoisted, t, &coordinates);
-            let _ = &entries;
+            #entries
             let leaf = __guen::control::Leaf::<R, #n, #combinations> {
                 coordinates,
                 velocities: program::velocities(&self.constants, &self.hoisted, t, &s),
@@ -179,11 +191,11 @@ fn reduce(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
 }
 
 /// The covector of the reactions, and the forces of vector constraints.
-fn reactions(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
+fn reactions(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let (parameter, argument) = inputs(layout);
     let (n, size) = (layout.n, layout.size);
     let accelerations: Vec<usize> = (n..size).collect();
-    let covector = has_covector(&derived.derivation).then(|| {
+    let covector = has_covector(&subject.level.derivation).then(|| {
         quote! {
             impl<R: __guen::Real> Prepared<R> {
                 /// The reactions of all constraints as one covector on the velocities, `R_i = sum_v lambda_v a_vi`: the
@@ -198,7 +210,7 @@ fn reactions(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
             }
         }
     });
-    let methods = vectors(derived, layout).into_iter().map(|(name, fields)| {
+    let methods = vectors(subject, layout).into_iter().map(|(name, fields)| {
         let docs = format!(
             "The reaction of the vector constraint `{name}`, as a force or torque in the world's axes."
         );
@@ -226,8 +238,8 @@ fn reactions(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
 
 /// Constraints that were written as vectors, with the fields of their components among the reactions; of a component that
 /// says `0 = 0` there is none. Left out if a reaction is not known.
-fn vectors(derived: &Derived<'_>, layout: &Layout) -> Vec<(Ident, [Option<Ident>; 3])> {
-    let constraints = &derived.model.forms[layout.l..];
+fn vectors(subject: &Subject<'_, '_>, layout: &Layout) -> Vec<(Ident, [Option<Ident>; 3])> {
+    let constraints = &subject.model.forms[layout.l..];
     let mut found: Vec<(Ident, [Option<Ident>; 3])> = Vec::new();
     for form in constraints {
         let name = &form.written.ident;
@@ -237,7 +249,7 @@ fn vectors(derived: &Derived<'_>, layout: &Layout) -> Vec<(Ident, [Option<Ident>
         let of = |axis: &str| format!("{}_{axis}", form.written.text);
         let parts = ["x", "y", "z"].map(|axis| {
             let place = constraints.iter().position(|c| c.name == of(axis) && c.written.ident == *name);
-            place.map(|v| (derived.derivation.reactions[v].is_some(), format_ident!("{}", of(axis))))
+            place.map(|v| (subject.level.derivation.reactions[v].is_some(), format_ident!("{}", of(axis))))
         });
         if parts.iter().flatten().all(|(known, _)| *known) {
             found.push((name.clone(), parts.map(|part| part.map(|(_, ident)| ident))));

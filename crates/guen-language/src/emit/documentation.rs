@@ -32,11 +32,13 @@ pub(super) fn system(report: &Report, docs: &Docs) -> TokenStream {
 }
 
 /// The documentation of the module.
-pub(super) fn module(report: &Report, system: &Ident) -> TokenStream {
-    let text = format!(
-        "What belongs to the system [`{system}`]: its state, operators, brackets and classification.\n\n{}",
-        report.summary
-    );
+pub(super) fn module(report: &Report, system: &Ident, is_whole: bool) -> TokenStream {
+    let what = if is_whole {
+        format!("What belongs to the system [`{system}`]: its state, operators, brackets and classification.")
+    } else {
+        format!("What belongs to the scene [`{system}`]: its state, and what it provides.")
+    };
+    let text = format!("{what}\n\n{}", report.summary);
     quote!(#[doc = #text])
 }
 

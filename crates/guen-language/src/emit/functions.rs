@@ -2,12 +2,12 @@
 
 use std::fmt::Write;
 
-use guen_symbolic::{Role, SymbolId};
+use guen_symbolic::{ExprId, SymbolId};
 use proc_macro2::TokenStream;
 
 use super::code::{Loads, body};
-use super::{Layout, tokens};
-use crate::derive::{Derived, function};
+use super::{Layout, Subject, tokens};
+use crate::derive::function;
 
 /// Where the values of symbols are: in the arrays that a function takes.
 struct Places(Vec<String>);
@@ -19,41 +19,34 @@ impl Loads for Places {
 }
 
 impl Places {
-    fn new(derived: &Derived<'_>) -> Self {
-        let graph = &derived.model.bench.graph;
-        let n = derived.model.coordinates.len();
-        let mut counts = [0_usize; 8];
-        Places(
-            graph
-                .symbols()
-                .map(|symbol| {
-                    let role = graph.symbol_info(symbol).role;
-                    let i = counts[role as usize];
-                    counts[role as usize] += 1;
-                    match role {
-                        Role::Time => "t".to_owned(),
-                        Role::Constant => format!("c[{i}]"),
-                        Role::Coordinate => format!("s[{i}]"),
-                        Role::Velocity => format!("w[{i}]"),
-                        Role::QuasiVelocity => derived
-                            .model
-                            .mechanics
-                            .etas
-                            .iter()
-                            .position(|eta| graph.as_symbol(*eta) == Some(symbol))
-                            .map_or_else(|| "unknown_form".to_owned(), |s| format!("s[{}]", n + s)),
-                        Role::QuasiAcceleration => derived
-                            .model
-                            .mechanics
-                            .accelerations
-                            .iter()
-                            .position(|a| graph.as_symbol(*a) == Some(symbol))
-                            .map_or_else(|| "unknown_acceleration".to_owned(), |s| format!("a[{s}]")),
-                        Role::Input => format!("u[{i}]"),
-                    }
-                })
-                .collect(),
-        )
+    /// The places of a level; with all coordinates of the system for what does not belong to the state.
+    fn new(subject: &Subject<'_, '_>, everywhere: bool) -> Self {
+        let Subject { model, level } = subject;
+        let (graph, selection) = (&model.bench.graph, &level.selection);
+        let mut places = vec![String::from("unknown_symbol"); graph.symbols().count()];
+        let mut put = |e: ExprId, place: String| {
+            if let Some(symbol) = graph.as_symbol(e) {
+                places[symbol.index()] = place;
+            }
+        };
+        let mechanics = &model.mechanics;
+        put(mechanics.forms.time, "t".to_owned());
+        let constants = selection.constants.iter().map(|c| model.constants[*c].symbol);
+        let constants = constants.chain(selection.held.iter().map(|held| held.symbol));
+        constants.enumerate().for_each(|(i, symbol)| put(symbol, format!("c[{i}]")));
+        if everywhere {
+            let coordinates = mechanics.forms.coordinates.iter().enumerate();
+            coordinates.for_each(|(i, x)| put(*x, format!("s[{i}]")));
+        } else {
+            let variables = selection.variables.iter().enumerate();
+            variables.for_each(|(i, place)| put(model.variable(*place), format!("s[{i}]")));
+        }
+        mechanics.velocities.iter().enumerate().for_each(|(i, w)| put(*w, format!("w[{i}]")));
+        let accelerations = selection.parameters.iter().enumerate();
+        accelerations.for_each(|(i, s)| put(mechanics.accelerations[*s], format!("a[{i}]")));
+        let inputs = selection.inputs.iter().enumerate();
+        inputs.for_each(|(i, u)| put(mechanics.inputs[*u], format!("u[{i}]")));
+        Places(places)
     }
 }
 
@@ -66,8 +59,10 @@ const VECTORIZED: &str = "<R as __guen::Real>::vectorize(#[inline(always)] ||";
 pub(super) enum Signature {
     /// Prepared values alone.
     Constants,
-    /// Time and coordinates.
+    /// Time and the coordinates of the state.
     Position,
+    /// Time and all coordinates of the system.
+    Everywhere,
     /// Time, coordinates and velocities.
     Velocities,
     /// Time and the whole state.
@@ -93,14 +88,16 @@ pub(super) fn signature(name: &str) -> Signature {
             Signature::State
         }
         function::DOMAIN => Signature::State,
+        function::OPERATORS | function::BRACKETS => Signature::Everywhere,
         _ => Signature::Position,
     }
 }
 
 /// The module: `prepare` and every function, generic over the real.
-pub(super) fn module(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
-    let places = Places::new(derived);
-    let Layout { n, l, size, constants, hoisted, inputs, .. } = layout;
+pub(super) fn module(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
+    let programs = &subject.level.programs;
+    let (places, everywhere) = (Places::new(subject, false), Places::new(subject, true));
+    let Layout { n, l, size, all, constants, hoisted, inputs, .. } = layout;
     let mut text = String::from(
         "#[allow(unused_variables, reason = \"every function has the signature of its kind\")]
         #[allow(clippy::all, clippy::pedantic, clippy::nursery, clippy::restriction, reason = \"straight-line code for the compiler\")]
@@ -109,12 +106,15 @@ pub(super) fn module(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
     let _ = write!(
         text,
         "#[inline] pub(super) fn prepare<R: __guen::Real>(c: &[R; {constants}]) -> [R; {hoisted}] {{ {} }}",
-        body(&derived.programs.prepare, &derived.programs.prepared, &places),
+        body(&programs.prepare, &programs.prepared, &places),
     );
-    for program in &derived.programs.functions {
-        let given = match signature(&program.name) {
+    for program in &programs.functions {
+        let signature = signature(&program.name);
+        let places = if signature == Signature::Everywhere { &everywhere } else { &places };
+        let given = match signature {
             Signature::Constants => String::new(),
             Signature::Position => format!(", t: R, s: &[R; {n}]"),
+            Signature::Everywhere => format!(", t: R, s: &[R; {all}]"),
             Signature::Velocities => format!(", t: R, s: &[R; {n}], w: &[R; {n}]"),
             Signature::State => format!(", t: R, s: &[R; {size}]"),
             Signature::Driven => format!(", t: R, s: &[R; {size}], u: &[R; {inputs}]"),
@@ -125,7 +125,7 @@ pub(super) fn module(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
             "#[inline] pub(super) fn {}<R: __guen::Real>(c: &[R; {constants}], k: &[R; {hoisted}]{given}) -> [R; {}] {{ {VECTORIZED} {{ {} }}) }}",
             program.name,
             program.outputs.len(),
-            body(&program.instructions, &program.outputs, &places),
+            body(&program.instructions, &program.outputs, places),
         );
     }
     text.push('}');

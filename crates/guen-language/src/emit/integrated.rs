@@ -3,11 +3,13 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::Layout;
-use crate::derive::Derived;
+use super::{Layout, Subject};
+use crate::derive::function;
 
-/// The methods `vitals` and `edges` of the trait `System`. `prepared` is the prepared system.
-pub(super) fn guarded(derived: &Derived<'_>, layout: &Layout, prepared: &TokenStream) -> TokenStream {
+/// The methods `vitals` and `edges` of the trait `System`, as far as the level has what they look at. `prepared` is the
+/// prepared system.
+pub(super) fn guarded(subject: &Subject<'_, '_>, layout: &Layout, prepared: &TokenStream) -> TokenStream {
+    let level = subject.level;
     let (size, n) = (layout.size, layout.n);
     let positions: Vec<usize> = (0..n).collect();
     let program = |name: TokenStream, state: TokenStream| quote!(program::#name(&#prepared.constants, &#prepared.hoisted, t, #state));
@@ -17,7 +19,7 @@ pub(super) fn guarded(derived: &Derived<'_>, layout: &Layout, prepared: &TokenSt
     let residual = program(quote!(positions), quote!(&x));
     let domain = program(quote!(domain), quote!(state));
     // Only an energy that is kept is worth its price.
-    let (measured, energy, scale) = if derived.derivation.conservative {
+    let (measured, energy, scale) = if layout.is_whole && level.derivation.conservative {
         (
             quote! {
                 let ([energy], [kinetic], [potential]) = (#energy, #kinetic, #potential);
@@ -28,7 +30,12 @@ pub(super) fn guarded(derived: &Derived<'_>, layout: &Layout, prepared: &TokenSt
     } else {
         (quote!(), quote!(::core::option::Option::None), quote!(<R as __guen::Real>::zero()))
     };
-    let edges = (!derived.domain.is_empty()).then(|| {
+    let residual = if level.selection.holonomic.is_empty() {
+        quote!(<R as __guen::Real>::zero())
+    } else {
+        quote!(__guen::largest(&#residual))
+    };
+    let edges = level.program(function::DOMAIN).map(|_| {
         quote! {
             fn edges(&self, t: R, state: &[R; #size], values: &mut [R]) -> usize {
                 let mut written = 0;
@@ -42,9 +49,10 @@ pub(super) fn guarded(derived: &Derived<'_>, layout: &Layout, prepared: &TokenSt
     });
     quote! {
         fn vitals(&self, t: R, state: &[R; #size]) -> __guen::Vitals<R> {
-            let x = [#(state[#positions]),*];
+            let x: [R; #n] = [#(state[#positions]),*];
+            let _ = (t, &x);
             #measured
-            __guen::Vitals { energy: #energy, scale: #scale, residual: __guen::largest(&#residual) }
+            __guen::Vitals { energy: #energy, scale: #scale, residual: #residual }
         }
 
         #edges

@@ -4,21 +4,21 @@ use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
 use super::constants::default_text;
-use super::{Layout, tokens};
-use crate::derive::Derived;
+use super::{Layout, Subject, tokens};
+use crate::model::SymbolEntry;
 
-pub(super) fn items(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
-    let inputs = &derived.model.inputs;
+pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
+    let inputs = subject.level.selection.inputs.iter().map(|input| &subject.model.inputs[*input]);
+    let inputs: Vec<&SymbolEntry<'_>> = inputs.collect();
     if inputs.iter().all(|input| input.limits.is_none()) {
         return TokenStream::new();
     }
-    let graph = &derived.model.bench.graph;
     let end = |which: usize, otherwise: &str| -> Vec<TokenStream> {
         let unlimited = format_ident!("{otherwise}");
         inputs
             .iter()
             .map(|input| match input.limits {
-                Some(limits) => tokens(&default_text(derived, graph, limits[which])),
+                Some(limits) => tokens(&default_text(subject, limits[which])),
                 None => quote!(<R as __guen::Real>::from_f64(::core::primitive::f64::#unlimited)),
             })
             .collect()

@@ -4,13 +4,17 @@ use guen_symbolic::Pattern;
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
-use super::Layout;
 use super::classification::cost;
 use super::motion::inputs;
-use crate::derive::{Derived, function};
+use super::{Layout, Subject};
+use crate::derive::function;
 
-pub(super) fn items(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
-    let jacobians = &derived.jacobians;
+pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
+    let level = subject.level;
+    if !level.selection.linearization {
+        return TokenStream::new();
+    }
+    let jacobians = &level.jacobians;
     let rates = Target {
         method: "linearize",
         docs: "The exact linearisation of [`rhs`](Self::rhs), `d(state)' = A d(state) + B d(inputs)`: `a[i][j]` and \
@@ -22,7 +26,7 @@ pub(super) fn items(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
         fields: ["a", "b"],
         record: "Linearization",
     };
-    let outputs = derived.derivation.outputs.len();
+    let outputs = level.program(function::OUTPUTS).map_or(0, |program| program.outputs.len());
     let outputs = (outputs > 0).then_some(Target {
         method: "linearize_outputs",
         docs: "The exact linearisation of [`outputs`](Self::outputs), `d(outputs) = C d(state) + D d(inputs)`: a row for \
@@ -36,8 +40,7 @@ pub(super) fn items(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
     });
     let methods = [Some(rates), outputs].into_iter().flatten().map(|target| target.method(layout));
     let linearizable = linearizable(layout);
-    let program = derived.programs.functions.iter().find(|f| f.name == function::LINEARIZATION);
-    let cost = match program {
+    let cost = match level.program(function::LINEARIZATION) {
         Some(program) => {
             let cost = cost(&program.cost);
             quote!(::core::option::Option::Some(#cost))

@@ -11,8 +11,10 @@ mod documentation;
 mod functions;
 mod integrated;
 mod lanes;
+mod levels;
 mod limits;
 mod linearization;
+mod missing;
 mod motion;
 mod operators;
 mod outline;
@@ -24,13 +26,15 @@ mod uses;
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};
 
-use crate::derive::Derived;
-use crate::syntax::Declaration;
+use crate::derive::{Derived, Level, Place, SceneFacts};
+use crate::model::Model;
+use crate::syntax::{Declaration, Name, Scene};
 
 pub use outline::outline;
 
-/// The name of the module beside the struct: `RollingHoop` becomes `rolling_hoop`.
-pub(crate) fn module_name(system: &Ident) -> Ident {
+/// The name of the module beside the struct: `RollingHoop` becomes `rolling_hoop`; where that is the name itself, what
+/// it is a module of (a system, a scene) is appended.
+pub(crate) fn module_name(system: &Ident, what: &str) -> Ident {
     let text = system.to_string();
     let text = text.strip_prefix("r#").unwrap_or(&text);
     let letters: Vec<char> = text.chars().collect();
@@ -47,7 +51,8 @@ pub(crate) fn module_name(system: &Ident) -> Ident {
         name.extend(letter.to_lowercase());
     }
     if name == text {
-        name.push_str("_system");
+        name.push('_');
+        name.push_str(what);
     }
     if crate::names::is_rust_keyword(&name) {
         if crate::names::can_be_raw(&name) {
@@ -63,37 +68,70 @@ pub(crate) fn facade(declaration: &Declaration) -> TokenStream {
     declaration.crate_path.clone().unwrap_or_else(|| quote!(::guen))
 }
 
+/// A level of detail on its way to Rust items: the system itself, or one of its scenes. The same files emit both.
+pub(crate) struct Subject<'d, 'a> {
+    /// The model.
+    pub(crate) model: &'d Model<'a>,
+    /// The level.
+    pub(crate) level: &'d Level,
+}
+
+impl<'d, 'a> Subject<'d, 'a> {
+    /// The scene, unless it is the system itself.
+    pub(crate) fn scene(&self) -> Option<(&'d Scene, &'d SceneFacts)> {
+        let facts = self.level.scene.as_ref()?;
+        Some((self.model.scenes[facts.index].scene, facts))
+    }
+
+    /// The name of the struct.
+    pub(crate) fn name(&self) -> &'d Name {
+        self.scene().map_or(&self.model.declaration.name, |(scene, _)| &scene.name)
+    }
+}
+
 /// Sizes and names that every part of the emission needs.
 struct Layout {
-    /// The system's name.
+    /// The name of the struct.
     system: Ident,
-    /// Numbers: coordinates `n`, parameters `l`, state `n + l`, constants, hoisted values, inputs.
+    /// Numbers: coordinates, parameters and state of the level, coordinates of the whole system, constants, hoisted
+    /// values, inputs.
     n: usize,
     l: usize,
     size: usize,
+    all: usize,
     constants: usize,
     hoisted: usize,
     inputs: usize,
     /// Fields of the state.
     state: Vec<Ident>,
+    /// Whether this is the system itself.
+    is_whole: bool,
 }
 
 impl Layout {
-    fn new(derived: &Derived<'_>) -> Self {
-        let model = &derived.model;
-        let (n, l) = (model.coordinates.len(), model.mechanics.forms.degrees);
-        let parameters = model.forms[..l].iter().map(form_ident);
-        let state = model.coordinates.iter().map(|c| c.name.ident.clone()).chain(parameters).collect();
+    fn new(subject: &Subject<'_, '_>) -> Self {
+        let Subject { model, level } = subject;
+        let selection = &level.selection;
         Layout {
-            system: model.declaration.name.ident.clone(),
-            n,
-            l,
-            size: n + l,
-            constants: model.constants.len(),
-            hoisted: derived.programs.prepared.len(),
-            inputs: model.inputs.len(),
-            state,
+            system: subject.name().ident.clone(),
+            n: selection.coordinates.len(),
+            l: selection.parameters.len(),
+            size: selection.variables.len(),
+            all: model.coordinates.len(),
+            constants: selection.constants.len() + selection.held.len(),
+            hoisted: level.programs.prepared.len(),
+            inputs: selection.inputs.len(),
+            state: selection.variables.iter().map(|place| variable_ident(model, *place)).collect(),
+            is_whole: level.scene.is_none(),
         }
+    }
+}
+
+/// The field of a variable.
+fn variable_ident(model: &Model<'_>, place: Place) -> Ident {
+    match place.checked_sub(model.coordinates.len()) {
+        None => model.coordinates[place].name.ident.clone(),
+        Some(s) => form_ident(&model.forms[s]),
     }
 }
 
@@ -114,41 +152,63 @@ fn tokens(text: &str) -> TokenStream {
     })
 }
 
-/// Emits a derived system.
-pub fn emit(mut derived: Derived<'_>) -> TokenStream {
-    let layout = Layout::new(&derived);
-    let facade = facade(derived.model.declaration);
-    let module = module_name(&layout.system);
-    let visibility = derived.model.declaration.visibility.outside();
-    let report = crate::report::Report::new(&mut derived);
+/// Emits a derived system with its scenes.
+pub fn emit(derived: Derived<'_>) -> TokenStream {
+    let Derived { model, system, scenes } = &derived;
+    let facade = facade(model.declaration);
+    let whole = Subject { model, level: system };
+    let inner: Vec<TokenStream> = scenes
+        .iter()
+        .map(|scene| {
+            let private = quote!(super::__guen);
+            module(&Subject { model, level: scene }, &private, &quote!(pub), &TokenStream::new())
+        })
+        .collect();
+    let levels = levels::table(model, scenes);
+    let uses = uses::items(&model.identifiers);
+    let visibility = model.declaration.visibility.outside();
+    module(&whole, &quote!(#facade::__private), &quote!(#visibility), &quote!(#levels #uses #(#inner)*))
+}
+
+/// The module of a level, and the struct beside it.
+fn module(
+    subject: &Subject<'_, '_>,
+    private: &TokenStream,
+    visibility: &TokenStream,
+    inner: &TokenStream,
+) -> TokenStream {
+    let layout = Layout::new(subject);
     let system = &layout.system;
+    let module = module_name(system, if layout.is_whole { "system" } else { "scene" });
+    let report = crate::report::Report::new(subject);
     let parts = [
-        constants::items(&derived, &layout, &report),
-        records::items(&derived, &layout),
-        motion::items(&derived, &layout),
+        constants::items(subject, &layout, &report),
+        records::items(subject, &layout),
+        motion::items(subject, &layout),
         lanes::items(&layout),
-        linearization::items(&derived, &layout),
-        control::items(&derived, &layout),
-        limits::items(&derived, &layout),
-        positions::items(&derived, &layout),
-        physical::items(&derived, &layout),
-        operators::items(&mut derived, &layout),
-        classification::items(&derived, &layout),
+        linearization::items(subject, &layout),
+        control::items(subject, &layout),
+        limits::items(subject, &layout),
+        positions::items(subject, &layout),
+        physical::items(subject, &layout),
+        operators::items(subject, &layout),
+        classification::items(subject, &layout),
+        levels::items(subject, &layout),
+        missing::items(subject, &layout),
         documentation::constants(&report),
-        functions::module(&derived, &layout),
-        uses::items(&derived.model.identifiers),
+        functions::module(subject, &layout),
     ];
-    let docs = documentation::module(&report, system);
-    let span = Span::call_site();
-    let alias = Ident::new("__guen", span);
+    let docs = documentation::module(&report, system, layout.is_whole);
+    let alias = Ident::new("__guen", Span::call_site());
     quote! {
         #docs
         #[allow(non_snake_case, non_camel_case_types, non_upper_case_globals, reason = "names are the user's own")]
         #[allow(unreachable_pub, reason = "the visibility of the module is the user's choice")]
         #visibility mod #module {
             #[allow(unused_imports, reason = "small systems use few of its items")]
-            use #facade::__private as #alias;
+            use #private as #alias;
             #(#parts)*
+            #inner
         }
         #[allow(unused_imports, reason = "the module alone may be what is used")]
         #visibility use #module::#system;

@@ -3,18 +3,26 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
-use super::{Layout, integrated};
-use crate::derive::Derived;
+use super::{Layout, Subject, integrated};
+use crate::derive::function;
 use crate::model::FormKind;
 
-pub(super) fn items(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
-    let methods = methods(derived, layout);
-    let pivots = pivots(derived);
-    let systems = systems(derived, layout);
-    let state = state(derived, layout);
+pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
+    let rates = rates(layout);
+    let whole = layout.is_whole.then(|| whole(layout));
+    let chosen = chosen(subject, layout);
+    let domain = domain(subject);
+    let residuals = residuals(subject, layout);
+    let pivots = pivots(subject);
+    let systems = systems(subject, layout);
+    let state = layout.is_whole.then(|| state(subject, layout));
     quote! {
         impl<R: __guen::Real> Prepared<R> {
-            #methods
+            #rates
+            #whole
+            #chosen
+            #domain
+            #residuals
             #pivots
         }
         #state
@@ -31,54 +39,21 @@ pub(super) fn inputs(layout: &Layout) -> (TokenStream, TokenStream) {
     }
 }
 
-fn methods(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
+/// A function of time and state with one result.
+fn scalar(name: &str, docs: &str) -> TokenStream {
+    let method = format_ident!("{name}");
+    quote! {
+        #[doc = #docs]
+        #[inline]
+        pub fn #method(&self, t: R, state: &State<R>) -> R {
+            let [value] = program::#method(&self.constants, &self.hoisted, t, &::core::convert::From::from(*state));
+            value
+        }
+    }
+}
+
+fn rates(layout: &Layout) -> TokenStream {
     let (parameter, argument) = inputs(layout);
-    let n = layout.n;
-    let size = layout.size;
-    let positions: Vec<usize> = (0..n).collect();
-    let accelerations: Vec<usize> = (n..size).collect();
-    let scalar = |name: &str, docs: &str| {
-        let method = format_ident!("{name}");
-        quote! {
-            #[doc = #docs]
-            #[inline]
-            pub fn #method(&self, t: R, state: &State<R>) -> R {
-                let [value] = program::#method(&self.constants, &self.hoisted, t, &::core::convert::From::from(*state));
-                value
-            }
-        }
-    };
-    let energy = scalar(
-        "energy",
-        "The energy integral `h = sum x' dT°/dx' - T° - U`; kinetic plus potential energy where `T°` is homogeneous in the velocities.",
-    );
-    let kinetic = scalar("kinetic_energy", "The kinetic energy `T` on the constraints.");
-    let reactions = derived.derivation.reactions.iter().any(Option::is_some).then(|| {
-        quote! {
-            /// The reactions at a state, from `lambda_v = d/dt (dT°/d eta_v) - X_v(T° + U) - ... - Q_v` on the motion.
-            #[inline]
-            pub fn reactions(&self, t: R, state: &State<R> #parameter) -> Reactions<R> {
-                let s: [R; #size] = ::core::convert::From::from(*state);
-                let rates = program::rhs(&self.constants, &self.hoisted, t, &s, #argument);
-                ::core::convert::From::from(program::reactions(
-                    &self.constants, &self.hoisted, t, &s, #argument, &[#(rates[#accelerations]),*],
-                ))
-            }
-        }
-    });
-    let outputs = (!derived.model.outputs.is_empty()).then(|| {
-        quote! {
-            /// The declared outputs at a state.
-            #[inline]
-            pub fn outputs(&self, t: R, state: &State<R> #parameter) -> Outputs<R> {
-                Outputs::from_values(&program::outputs(
-                    &self.constants, &self.hoisted, t, &::core::convert::From::from(*state), #argument,
-                ))
-            }
-        }
-    });
-    let residuals = residuals(derived, layout);
-    let domain_count = derived.domain.len();
     quote! {
         /// The rates of the state: velocities by (1.8), accelerations by (2.7). No allocation, no branch.
         #[inline]
@@ -87,7 +62,17 @@ fn methods(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
                 &self.constants, &self.hoisted, t, &::core::convert::From::from(*state), #argument,
             ))
         }
+    }
+}
 
+/// What only the system itself has, and no scene can choose.
+fn whole(layout: &Layout) -> TokenStream {
+    let (parameter, argument) = inputs(layout);
+    let (n, size) = (layout.n, layout.size);
+    let positions: Vec<usize> = (0..n).collect();
+    let accelerations: Vec<usize> = (n..size).collect();
+    let kinetic = scalar("kinetic_energy", "The kinetic energy `T` on the constraints.");
+    quote! {
         /// The velocities `x' = xi_0 + sum_s eta_s xi_s` of a state, (1.8).
         #[inline]
         pub fn velocities(&self, t: R, state: &State<R>) -> Coordinates<R> {
@@ -96,7 +81,6 @@ fn methods(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
             ))
         }
 
-        #energy
         #kinetic
 
         /// The force function `U`.
@@ -126,41 +110,108 @@ fn methods(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
             );
             value
         }
-
-        /// Functions that must not vanish: where one of them is zero the declaration's chart ends. Their formulas
-        /// are in [`DOMAIN`].
-        #[inline]
-        pub fn domain(&self, t: R, state: &State<R>) -> [R; #domain_count] {
-            program::domain(&self.constants, &self.hoisted, t, &::core::convert::From::from(*state))
-        }
-
-        #reactions
-        #outputs
-        #residuals
     }
 }
 
-/// Residuals of constraints, through the velocities that the state stands for.
-fn residuals(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
-    let model = &derived.model;
-    let constraints = &model.forms[layout.l..];
+/// Energy, reactions and outputs: what a scene has if it provides them.
+fn chosen(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
+    let (parameter, argument) = inputs(layout);
+    let size = layout.size;
+    let accelerations: Vec<usize> = (layout.n..size).collect();
+    let selection = &subject.level.selection;
+    let energy = selection.energy.then(|| {
+        scalar(
+            "energy",
+            "The energy integral `h = sum x' dT°/dx' - T° - U`; kinetic plus potential energy where `T°` is homogeneous in the velocities.",
+        )
+    });
+    let reactions = (!selection.reactions.is_empty()).then(|| {
+        quote! {
+            /// The reactions at a state, from `lambda_v = d/dt (dT°/d eta_v) - X_v(T° + U) - ... - Q_v` on the motion.
+            #[inline]
+            pub fn reactions(&self, t: R, state: &State<R> #parameter) -> Reactions<R> {
+                let s: [R; #size] = ::core::convert::From::from(*state);
+                let rates = program::rhs(&self.constants, &self.hoisted, t, &s, #argument);
+                ::core::convert::From::from(program::reactions(
+                    &self.constants, &self.hoisted, t, &s, #argument, &[#(rates[#accelerations]),*],
+                ))
+            }
+        }
+    });
+    let outputs = (!selection.outputs.is_empty()).then(|| {
+        quote! {
+            /// The declared outputs at a state.
+            #[inline]
+            pub fn outputs(&self, t: R, state: &State<R> #parameter) -> Outputs<R> {
+                Outputs::from_values(&program::outputs(
+                    &self.constants, &self.hoisted, t, &::core::convert::From::from(*state), #argument,
+                ))
+            }
+        }
+    });
+    quote!(#energy #reactions #outputs)
+}
+
+/// The functions that must not vanish.
+fn domain(subject: &Subject<'_, '_>) -> TokenStream {
+    let count = subject.level.domain_names.len();
+    let (inputs, values) = match subject.level.program(function::DOMAIN) {
+        Some(_) => (
+            quote!(t: R, state: &State<R>),
+            quote!(program::domain(&self.constants, &self.hoisted, t, &::core::convert::From::from(*state))),
+        ),
+        None => (quote!(_t: R, _state: &State<R>), quote!([])),
+    };
+    quote! {
+        /// Functions that must not vanish: where one of them is zero the declaration's chart ends. Their formulas
+        /// are in [`DOMAIN`].
+        #[inline]
+        pub fn domain(&self, #inputs) -> [R; #count] {
+            #values
+        }
+    }
+}
+
+/// Residuals of constraints: for the whole system of all, through the velocities that the state stands for; for a scene
+/// of the holonomic ones whose coordinates it has.
+fn residuals(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
+    let holonomic = &subject.level.selection.holonomic;
+    let (n, size) = (layout.n, layout.size);
+    let positions: Vec<usize> = (0..n).collect();
+    let at_positions = (!holonomic.is_empty())
+        .then(|| quote!(let positions = program::positions(&self.constants, &self.hoisted, t, &x);));
+    if !layout.is_whole {
+        return at_positions.map_or_else(TokenStream::new, |at_positions| {
+            quote! {
+                /// What is left of the holonomic constraints at a state.
+                pub fn residuals(&self, t: R, state: &State<R>) -> Residuals<R> {
+                    let s: [R; #size] = ::core::convert::From::from(*state);
+                    let x = [#(s[#positions]),*];
+                    #at_positions
+                    ::core::convert::From::from(positions)
+                }
+            }
+        });
+    }
+    let constraints = &subject.model.forms[layout.l..];
     if constraints.is_empty() {
         return TokenStream::new();
     }
-    let (n, size) = (layout.n, layout.size);
-    let positions: Vec<usize> = (0..n).collect();
-    let mut holonomic = 0_usize;
-    let values = constraints.iter().enumerate().map(|(v, form)| {
-        if form.kind == FormKind::Holonomic {
-            let i = holonomic;
-            holonomic += 1;
-            quote!(positions[#i])
-        } else {
-            let j = layout.l + v;
-            quote!(forms[#j])
-        }
-    });
-    let values: Vec<_> = values.collect();
+    let mut positions_before = 0_usize;
+    let values: Vec<_> = constraints
+        .iter()
+        .enumerate()
+        .map(|(v, form)| {
+            if form.kind == FormKind::Holonomic {
+                let i = positions_before;
+                positions_before += 1;
+                quote!(positions[#i])
+            } else {
+                let j = layout.l + v;
+                quote!(forms[#j])
+            }
+        })
+        .collect();
     quote! {
         /// What is left of every constraint at a state.
         pub fn residuals(&self, t: R, state: &State<R>) -> Residuals<R> {
@@ -168,22 +219,23 @@ fn residuals(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
             let x = [#(s[#positions]),*];
             let velocities = program::velocities(&self.constants, &self.hoisted, t, &s);
             let forms = program::forms(&self.constants, &self.hoisted, t, &x, &velocities);
-            let positions = program::positions(&self.constants, &self.hoisted, t, &x);
-            let _ = (&forms, &positions);
+            #at_positions
+            let _ = &forms;
             ::core::convert::From::from([#(#values),*])
         }
     }
 }
 
 /// Pivots that depend on constants alone.
-fn pivots(derived: &Derived<'_>) -> TokenStream {
-    let texts: Vec<String> =
-        derived.constant_pivots.iter().map(|e| derived.model.bench.graph.text(*e)).collect();
+fn pivots(subject: &Subject<'_, '_>) -> TokenStream {
+    let Subject { model, level } = subject;
+    let texts: Vec<String> = level.constant_pivots.iter().map(|e| model.bench.graph.text(*e)).collect();
     let indices = 0..texts.len();
+    let values =
+        (!texts.is_empty()).then(|| quote!(let pivots = program::pivots(&self.constants, &self.hoisted);));
     quote! {
         fn check_pivots(&self) -> ::core::result::Result<(), __guen::ConstantsError> {
-            let pivots = program::pivots(&self.constants, &self.hoisted);
-            let _ = &pivots;
+            #values
             #(__guen::check_pivot(pivots[#indices], #texts)?;)*
             for value in &self.hoisted {
                 __guen::check_hoisted(*value)?;
@@ -194,11 +246,11 @@ fn pivots(derived: &Derived<'_>) -> TokenStream {
 }
 
 /// `State::from_velocities`.
-fn state(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
+fn state(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let (n, l) = (layout.n, layout.l);
-    let constraints = derived.model.forms.len() - l;
+    let constraints = subject.model.forms.len() - l;
     let parameters: Vec<usize> = (0..l).collect();
-    let rest: Vec<usize> = (l..derived.model.forms.len()).collect();
+    let rest: Vec<usize> = (l..subject.model.forms.len()).collect();
     let positions: Vec<usize> = (0..n).collect();
     let fields: Vec<&Ident> = layout.state[..n].iter().collect();
     quote! {
@@ -232,10 +284,30 @@ fn state(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
 }
 
 /// The prepared system, or the system with held inputs, as something that steppers integrate.
-fn systems(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
+fn systems(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let (size, n) = (layout.size, layout.n);
     let positions: Vec<usize> = (0..n).collect();
+    let selection = &subject.level.selection;
+    let residual = |prepared: &TokenStream| {
+        if selection.holonomic.is_empty() {
+            return quote! {
+                fn residual(&self, _t: R, _state: &[R; #size]) -> R {
+                    <R as __guen::Real>::zero()
+                }
+            };
+        }
+        quote! {
+            fn residual(&self, t: R, state: &[R; #size]) -> R {
+                let x = [#(state[#positions]),*];
+                __guen::largest(&program::positions(&#prepared.constants, &#prepared.hoisted, t, &x))
+            }
+        }
+    };
     let monitored = |owner: TokenStream, prepared: TokenStream| {
+        if !selection.energy {
+            return TokenStream::new();
+        }
+        let residual = residual(&prepared);
         quote! {
             impl<R: __guen::Real> __guen::Monitored<R, #size> for #owner {
                 fn energy(&self, t: R, state: &[R; #size]) -> R {
@@ -243,16 +315,13 @@ fn systems(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
                     value
                 }
 
-                fn residual(&self, t: R, state: &[R; #size]) -> R {
-                    let x = [#(state[#positions]),*];
-                    __guen::largest(&program::positions(&#prepared.constants, &#prepared.hoisted, t, &x))
-                }
+                #residual
             }
         }
     };
     if layout.inputs == 0 {
         let (owner, prepared) = (quote!(Prepared<R>), quote!(self));
-        let guarded = integrated::guarded(derived, layout, &prepared);
+        let guarded = integrated::guarded(subject, layout, &prepared);
         let differentiable = integrated::differentiable(layout, &owner, &prepared);
         let monitored = monitored(owner, prepared);
         return quote! {
@@ -269,7 +338,7 @@ fn systems(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
         };
     }
     let (owner, prepared) = (quote!(Driven<R>), quote!(self.system));
-    let guarded = integrated::guarded(derived, layout, &prepared);
+    let guarded = integrated::guarded(subject, layout, &prepared);
     let differentiable = integrated::differentiable(layout, &owner, &prepared);
     let monitored = monitored(owner, prepared);
     quote! {

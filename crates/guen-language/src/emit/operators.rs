@@ -1,20 +1,22 @@
 //! The operators of displacement and their brackets.
 
-use guen_symbolic::{ExprId, Role, Roles, Workbench};
+use guen_symbolic::{ExprId, Graph, Role, Roles};
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
-use super::Layout;
-use crate::derive::{Derived, bracket_pairs};
+use super::{Layout, Subject};
 
-pub(super) fn items(derived: &mut Derived<'_>, layout: &Layout) -> TokenStream {
-    let n = layout.n;
+pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
+    if !subject.level.selection.operators {
+        return TokenStream::new();
+    }
+    let n = layout.all;
     let operators = (0..=n).map(|j| {
         let name = format_ident!("X{j}");
         let places = (j * n)..((j + 1) * n);
         let docs = match j {
             0 => "The operator `X_0 = d/dt + sum_i xi_0^i d/dx_i`: what happens by itself, (1.7).".to_owned(),
-            _ => format!("The operator `X_{j}` of the form `{}`, (1.4).", derived.model.forms[j - 1].name),
+            _ => format!("The operator `X_{j}` of the form `{}`, (1.4).", subject.model.forms[j - 1].name),
         };
         let is_time = j == 0;
         quote! {
@@ -41,11 +43,14 @@ pub(super) fn items(derived: &mut Derived<'_>, layout: &Layout) -> TokenStream {
         }
     });
     let operators: Vec<_> = operators.collect();
-    let brackets = brackets(derived, layout);
+    let brackets = brackets(subject, layout);
+    let last = subject.model.last_operator();
+    let docs =
+        format!("The commutator `(X_I, X_J) = sum_t C_IJt X_t`, (1.14), for `I` and `J` from 0 to {last}.");
     quote! {
         #(#operators)*
 
-        /// The commutator `(X_I, X_J) = sum_t C_IJt X_t`, (1.14), for `I` and `J` up to the number of parameters.
+        #[doc = #docs]
         ///
         /// What the derivation knows of each coefficient is in `COEFFICIENTS`, their values come from
         /// `coefficients`.
@@ -58,23 +63,21 @@ pub(super) fn items(derived: &mut Derived<'_>, layout: &Layout) -> TokenStream {
     }
 }
 
-fn brackets(derived: &mut Derived<'_>, layout: &Layout) -> Vec<TokenStream> {
-    let (n, l) = (layout.n, layout.l);
-    let pairs = bracket_pairs(&mut derived.model.bench, &mut derived.derivation);
+fn brackets(subject: &Subject<'_, '_>, layout: &Layout) -> Vec<TokenStream> {
+    let n = layout.all;
+    let last = subject.model.last_operator();
+    let graph = &subject.model.bench.graph;
     let mut items = Vec::new();
-    for s in 0..=l {
-        for r in 0..=l {
-            let Derived { model, derivation, .. } = derived;
-            let coefficients: Vec<ExprId> =
-                (1..=n).map(|t| derivation.frame.brackets.coefficient(&mut model.bench, r, s, t)).collect();
-            let zero = coefficients.iter().all(|c| model.bench.graph.is_zero(*c));
-            if zero {
+    for s in 0..=last {
+        for r in 0..=last {
+            let found = subject.level.brackets.iter().enumerate();
+            let pair = (r.min(s), r.max(s));
+            let Some((place, bracket)) = found.into_iter().find(|(_, known)| (known.r, known.s) == pair)
+            else {
                 items.push(quote!(__guen::zero_bracket!(#r, #s, #n);));
                 continue;
-            }
-            let known = coefficients.iter().map(|c| knowledge(&mut model.bench, *c));
-            let known: Vec<_> = known.collect();
-            let place = pairs.iter().position(|pair| *pair == (r.min(s), r.max(s))).unwrap_or(0);
+            };
+            let known = bracket.coefficients.iter().map(|c| knowledge(graph, *c, r > s));
             let places = (place * n)..((place + 1) * n);
             let sign = (r > s).then(|| quote!(-));
             items.push(quote! {
@@ -99,18 +102,19 @@ fn brackets(derived: &mut Derived<'_>, layout: &Layout) -> Vec<TokenStream> {
     items
 }
 
-/// What is known of a coefficient at compile time.
-fn knowledge(bench: &mut Workbench, c: ExprId) -> TokenStream {
-    if let Some(value) = bench.graph.as_number(c) {
+/// What is known of a coefficient, or of its negative, at compile time.
+fn knowledge(graph: &Graph, c: ExprId, negative: bool) -> TokenStream {
+    if let Some(value) = graph.as_number(c) {
         if value.is_zero() {
             return quote!(__guen::Coefficient::Zero);
         }
+        let value = if negative { -value.clone() } else { value.clone() };
         if let Some((numerator, denominator)) = value.to_i64_pair() {
             return quote!(__guen::Coefficient::Number { numerator: #numerator, denominator: #denominator });
         }
     }
     let moving = Roles::of(Role::Coordinate).or(Roles::of(Role::Time));
-    if bench.graph.roles(c).meets(moving) {
+    if graph.roles(c).meets(moving) {
         quote!(__guen::Coefficient::Variable)
     } else {
         quote!(__guen::Coefficient::Constant)

@@ -22,7 +22,7 @@ pub fn outline(declaration: &Declaration) -> TokenStream {
     }
     let names = Names::new(declaration);
     let facade = facade(declaration);
-    let module = module_name(system);
+    let module = module_name(system, "system");
     let visibility = declaration.visibility.outside();
     let records = records(&names);
     let constants = constants(system, &names);

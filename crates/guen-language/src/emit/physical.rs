@@ -4,15 +4,14 @@ use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
 use super::constants::default_text;
-use super::{Layout, tokens};
-use crate::derive::Derived;
+use super::{Layout, Subject, tokens};
 
-pub(super) fn items(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
-    let graph = &derived.model.bench.graph;
+pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
+    let graph = &subject.model.bench.graph;
     let known = |e: &guen_symbolic::ExprId| graph.roles(*e).is_constant();
-    let value = |e: &guen_symbolic::ExprId| tokens(&default_text(derived, graph, *e));
+    let value = |e: &guen_symbolic::ExprId| tokens(&default_text(subject, *e));
     let mut checks = Vec::new();
-    for body in &derived.model.bodies {
+    for body in &subject.model.bodies {
         let name = &body.name;
         if let Some(mass) = body.mass.as_ref().filter(|mass| known(mass)) {
             let mass = value(mass);

@@ -3,16 +3,17 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::Layout;
-use crate::derive::Derived;
+use super::{Layout, Subject};
 
-pub(super) fn items(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
-    let count = derived.derivation.system.holonomic.len();
+pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
+    let Subject { model, level } = subject;
+    let count = level.selection.holonomic.len();
     if count == 0 {
         return TokenStream::new();
     }
     let n = layout.n;
-    let names: Vec<&str> = derived.model.coordinates.iter().map(|c| c.name.text.as_str()).collect();
+    let coordinates = level.selection.coordinates.iter().map(|i| &model.coordinates[*i]);
+    let names: Vec<&str> = coordinates.map(|c| c.name.text.as_str()).collect();
     let driven = (layout.inputs > 0).then(|| {
         quote! {
             impl<R: __guen::Real> __guen::Positions<R, #n, #count> for Driven<R> {

@@ -3,98 +3,85 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
-use super::{Layout, documentation, form_ident};
-use crate::derive::Derived;
+use super::{Layout, Subject, documentation, form_ident};
 use crate::syntax::Docs;
 
 /// A field of a record.
+#[derive(Clone)]
 struct Field {
     ident: Ident,
     docs: TokenStream,
     name: String,
 }
 
-pub(super) fn items(derived: &Derived<'_>, layout: &Layout) -> TokenStream {
-    let model = &derived.model;
+pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
+    let Subject { model, level } = subject;
+    let selection = &level.selection;
     let field = |ident: &Ident, docs: &Docs, fallback: String| Field {
         ident: ident.clone(),
         docs: documentation::entry(docs, &fallback),
         name: ident.to_string().trim_start_matches("r#").to_owned(),
     };
-    let coordinates: Vec<Field> = model
-        .coordinates
-        .iter()
-        .map(|c| field(&c.name.ident, c.docs, format!("The coordinate `{}`.", c.name)))
-        .collect();
-    let form = |form: &crate::model::FormEntry<'_>, what: &str| {
-        field(&form_ident(form), form.docs, format!("{what} `{}`.", form.name))
+    let coordinates = selection.coordinates.iter().map(|i| &model.coordinates[*i]);
+    let coordinates: Vec<Field> =
+        coordinates.map(|c| field(&c.name.ident, c.docs, format!("The coordinate `{}`.", c.name))).collect();
+    let forms = |indices: &[usize], what: &str| -> Vec<Field> {
+        let forms = indices.iter().map(|j| &model.forms[*j]);
+        forms.map(|form| field(&form_ident(form), form.docs, format!("{what} `{}`.", form.name))).collect()
     };
-    let parameters: Vec<Field> =
-        model.forms[..layout.l].iter().map(|f| form(f, "The quasi-velocity")).collect();
-    let state_docs = format!(
-        "A state of the system: {} coordinates, then {} quasi-velocities, in the order of the declaration.",
-        layout.n, layout.l
-    );
+    let parameters = forms(&selection.parameters, "The quasi-velocity");
+    let whose = if layout.is_whole { "the system" } else { "the scene" };
+    let count = |count: usize, noun: &str| format!("{count} {noun}{}", if count == 1 { "" } else { "s" });
+    let (kept, speeds) =
+        (count(layout.n, "coordinate"), count(layout.l, "quasi-velocity").replace("ys", "ies"));
+    let state_docs = format!("A state of {whose}: {kept}, then {speeds}, in the order of the declaration.");
     let mut items = Vec::new();
-    items.push(record("State", &state_docs, coordinates.iter().chain(&parameters)));
-    let size = layout.size;
-    items.push(quote!(__guen::nalgebra_conversions!(State, #size);));
-    items.push(record(
-        "Coordinates",
-        "A value for each coordinate: a position, or the velocities `x'`.",
-        coordinates.iter(),
-    ));
-    let known = &derived.derivation.known_momentum;
-    let momenta: Vec<Field> = model
-        .forms
-        .iter()
-        .zip(known)
-        .filter(|(_, known)| **known)
-        .map(|(f, _)| form(f, "The momentum that goes with"))
-        .collect();
-    items.push(record(
+    let mut add = |name: &str, docs: &str, fields: &[Field]| {
+        if !fields.is_empty() {
+            items.push(record(name, docs, fields));
+        }
+    };
+    let state = [coordinates.clone(), parameters].concat();
+    add("State", &state_docs, &state);
+    let positions = "A value for each coordinate: a position, or the velocities `x'`.";
+    // A scene needs them for its holonomic constraints only.
+    if layout.is_whole || !selection.holonomic.is_empty() {
+        add("Coordinates", positions, &coordinates);
+    }
+    add(
         "Momenta",
         "The momenta `dT/d eta_s`, and `(dT°/d eta_v)` for the constraints, (2.8), as far as the kinetic energy speaks of them.",
-        momenta.iter(),
-    ));
-    let constraints = &model.forms[layout.l..];
-    if !constraints.is_empty() {
-        let residuals: Vec<Field> = constraints.iter().map(|f| form(f, "What is left of")).collect();
-        items.push(record(
-            "Residuals",
-            "What is left of each constraint: `eta_v` of a velocity constraint, `f(t, x)` of a holonomic one; zero where it holds.",
-            residuals.iter(),
-        ));
-    }
-    let known: Vec<Field> = constraints
-        .iter()
-        .zip(&derived.derivation.reactions)
-        .filter(|(_, reaction)| reaction.is_some())
-        .map(|(f, _)| form(f, "The multiplier of"))
-        .collect();
-    if !known.is_empty() {
-        items.push(record(
-            "Reactions",
-            "The reactions `lambda_v`: the generalised force of each constraint along its own form. As a covector on `x'` they are `R_i = sum_v lambda_v a_vi`.",
-            known.iter(),
-        ));
-    }
-    if !model.inputs.is_empty() {
-        let inputs: Vec<Field> = model
-            .inputs
-            .iter()
-            .map(|c| field(&c.name.ident, c.docs, format!("The input `{}`.", c.name)))
-            .collect();
-        items.push(record("Inputs", "The control inputs, constant during a step.", inputs.iter()));
-    }
-    if !model.outputs.is_empty() {
-        items.push(outputs(derived));
+        &forms(&selection.momenta, "The momentum that goes with"),
+    );
+    let bound: Vec<usize> = if layout.is_whole {
+        (layout.l..model.forms.len()).collect()
+    } else {
+        selection.holonomic.iter().map(|h| level.derivation.system.holonomic[*h].form).collect()
+    };
+    add(
+        "Residuals",
+        "What is left of each constraint: `eta_v` of a velocity constraint, `f(t, x)` of a holonomic one; zero where it holds.",
+        &forms(&bound, "What is left of"),
+    );
+    add(
+        "Reactions",
+        "The reactions `lambda_v`: the generalised force of each constraint along its own form. As a covector on `x'` they are `R_i = sum_v lambda_v a_vi`.",
+        &forms(&selection.reactions, "The multiplier of"),
+    );
+    let inputs = selection.inputs.iter().map(|u| &model.inputs[*u]);
+    let inputs: Vec<Field> =
+        inputs.map(|u| field(&u.name.ident, u.docs, format!("The input `{}`.", u.name))).collect();
+    add("Inputs", "The control inputs, constant during a step.", &inputs);
+    let size = layout.size;
+    items.push(quote!(__guen::nalgebra_conversions!(State, #size);));
+    if !selection.outputs.is_empty() {
+        items.push(outputs(subject));
     }
     quote!(#(#items)*)
 }
 
 /// A record of reals with conversions from and to an array.
-fn record<'a>(name: &str, docs: &str, fields: impl Iterator<Item = &'a Field>) -> TokenStream {
+fn record(name: &str, docs: &str, fields: &[Field]) -> TokenStream {
     let record = format_ident!("{name}");
     let (mut idents, mut doc, mut names) = (Vec::new(), Vec::new(), Vec::new());
     for field in fields {
@@ -137,16 +124,26 @@ fn record<'a>(name: &str, docs: &str, fields: impl Iterator<Item = &'a Field>) -
 }
 
 /// Outputs: scalars are reals, vectors arrays of three.
-fn outputs(derived: &Derived<'_>) -> TokenStream {
-    let outputs = &derived.model.outputs;
+fn outputs(subject: &Subject<'_, '_>) -> TokenStream {
+    let outputs: Vec<_> =
+        subject.level.selection.outputs.iter().map(|o| &subject.model.outputs[*o]).collect();
     let idents: Vec<&Ident> = outputs.iter().map(|o| &o.name.ident).collect();
     let docs = outputs.iter().map(|o| documentation::entry(o.docs, &format!("The output `{}`.", o.name)));
     let types = outputs.iter().map(|o| if o.components.len() == 1 { quote!(R) } else { quote!([R; 3]) });
-    let values = outputs.iter().map(|o| {
-        let parts = o.components.iter().map(|i| quote!(values[#i]));
-        if o.components.len() == 1 { quote!(#(#parts)*) } else { quote!([#(#parts),*]) }
-    });
-    let count = derived.derivation.outputs.len();
+    let mut count = 0_usize;
+    let values: Vec<TokenStream> = outputs
+        .iter()
+        .map(|o| {
+            let parts: Vec<TokenStream> = (0..o.components.len())
+                .map(|i| {
+                    let place = count + i;
+                    quote!(values[#place])
+                })
+                .collect();
+            count += parts.len();
+            if parts.len() == 1 { quote!(#(#parts)*) } else { quote!([#(#parts),*]) }
+        })
+        .collect();
     quote! {
         /// The declared outputs.
         #[::core::prelude::v1::derive(

@@ -18,7 +18,7 @@ mod value;
 use guen_symbolic::{ExprId, Mechanics, Workbench};
 use proc_macro2::{Ident, Span};
 
-use crate::syntax::{BoundKind, Declaration, Docs, Name};
+use crate::syntax::{BoundKind, Declaration, Docs, Name, Scene};
 
 pub use resolve::resolve;
 
@@ -45,7 +45,9 @@ pub struct Model<'a> {
     /// Constraints whose reactions outputs use, with the place.
     pub reactions: Vec<(usize, Span)>,
     /// Scenes whose names are sound.
-    pub scenes: Vec<SceneEntry>,
+    pub scenes: Vec<SceneEntry<'a>>,
+    /// Whether the system or a scene provides operators: then all brackets are derived.
+    pub provides_operators: bool,
     /// Components of vector equations that are identically `0 = 0`, by name.
     pub left_out: Vec<String>,
     /// Names as the user wrote them.
@@ -67,6 +69,13 @@ pub struct Identifiers {
     pub used: Vec<Ident>,
     /// Declared names that something has to use and nothing does, and that do not begin with `_`.
     pub unused: Vec<Ident>,
+}
+
+impl Model<'_> {
+    /// The last operator whose brackets are derived.
+    pub fn last_operator(&self) -> usize {
+        if self.provides_operators { self.coordinates.len() } else { self.mechanics.forms.degrees }
+    }
 }
 
 /// A physical constant.
@@ -131,22 +140,22 @@ pub struct BodyEntry {
 }
 
 /// A scene whose names are sound.
-pub struct SceneEntry {
-    /// Place of the word `scene`.
-    pub keyword: Span,
+pub struct SceneEntry<'a> {
+    /// What was written.
+    pub scene: &'a Scene,
     /// The constants that it fixes.
-    pub fixes: Vec<FixedConstant>,
+    pub fixes: Vec<FixedConstant<'a>>,
+    /// The parameters and coordinates that it holds at their initial values.
+    pub held: Vec<&'a Name>,
 }
 
 /// A constant that a scene fixes.
-pub struct FixedConstant {
-    /// Its name.
-    pub name: String,
-    /// Place of the name after `fix`.
-    pub span: Span,
+pub struct FixedConstant<'a> {
+    /// The name after `fix`.
+    pub name: &'a Name,
     /// Its symbol.
     pub symbol: ExprId,
-    /// The value, of constants.
+    /// The value, a number or made of constants that are not fixed.
     pub value: ExprId,
 }
 

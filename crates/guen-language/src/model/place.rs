@@ -9,6 +9,8 @@ pub(super) enum Place {
     Default,
     /// A limit of an input.
     Limit,
+    /// The value of a constant that a scene fixes.
+    Fixed,
     /// The right side of a `let`.
     Let,
     /// A parameter.
@@ -41,6 +43,7 @@ impl Place {
         let (named, nameless) = match self {
             Place::Default => ("the default of", "the default of a constant"),
             Place::Limit => ("a limit of", "a limit of an input"),
+            Place::Fixed => ("the value of", "the value of a constant"),
             Place::Let => ("", "a `let`"),
             Place::Parameter => ("parameter", "a parameter"),
             Place::Constraint => ("constraint", "a constraint"),
@@ -66,6 +69,7 @@ impl Place {
         Some(match self {
             Place::Default => "a default is a number, or made of constants declared before it",
             Place::Limit => "the limits of inputs are made of numbers and constants",
+            Place::Fixed => "a constant is fixed to a number, or to an expression of constants",
             Place::Gravity => "gravity is one vector for the whole system, of constants and `t`",
             Place::Mass => "a mass depends on time and coordinates at most",
             Place::Position => "positions and orientations depend on time and coordinates",
@@ -81,7 +85,7 @@ impl Place {
         let velocities = positions.or(Roles::of(Role::Velocity)).or(Roles::of(Role::QuasiVelocity));
         let all = velocities.or(Roles::of(Role::Input));
         match self {
-            Place::Default | Place::Limit => constants,
+            Place::Default | Place::Limit | Place::Fixed => constants,
             Place::Gravity => timed,
             Place::Holonomic | Place::ForceFunction | Place::Mass | Place::Position => positions,
             Place::Parameter | Place::Constraint | Place::KineticEnergy | Place::Direction => velocities,

@@ -16,7 +16,7 @@ use crate::diagnostics::{Fault, Faults};
 use crate::names::quoted;
 use crate::syntax::{
     BoundKind, Constant, Declaration, Definition, Expression, ExpressionKind, Force as WrittenForce, Item,
-    Plain, Quantity, SectionKind,
+    Plain, Quantity, Scene, SectionKind,
 };
 
 /// Checks names, kinds and forms. `None` if a fault was reported that leaves no model.
@@ -49,8 +49,9 @@ struct Resolver<'a, 'f> {
     forces: Vec<Force>,
     bodies: Vec<BodyEntry>,
     outputs: Vec<OutputEntry<'a>>,
-    scenes: Vec<SceneEntry>,
+    scenes: Vec<SceneEntry<'a>>,
     output_values: Vec<ExprId>,
+    provides_operators: bool,
 }
 
 impl<'a, 'f> Resolver<'a, 'f> {
@@ -90,6 +91,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
             outputs: Vec::new(),
             scenes: Vec::new(),
             output_values: Vec::new(),
+            provides_operators: false,
         }
     }
 
@@ -217,12 +219,23 @@ impl<'a, 'f> Resolver<'a, 'f> {
             Item::Forces(section) => section.entries.iter().for_each(|force| self.force(force)),
             Item::Outputs(section) => section.entries.iter().for_each(|output| self.output(output)),
             Item::Provide(section) => {
-                let at = section.keyword;
-                let fault = Fault::new(at, "the full system provides everything already")
-                    .note("`provide` chooses what a scene offers beside its state");
-                self.eval.faults.report(fault);
+                for provide in &section.entries {
+                    if provide.name.text == "operators" && provide.of.is_none() {
+                        self.provides_operators = true;
+                        continue;
+                    }
+                    let at = provide.name.span();
+                    let fault = Fault::new(at, "the full system provides everything already")
+                        .note("`provide` chooses what a scene offers beside its state")
+                        .note("of a system only `provide operators;` says something: that the brackets of all operators are derived");
+                    self.eval.faults.report(fault);
+                }
             }
-            Item::Scene(scene) => self.scenes.extend(self.eval.scene(scene)),
+            Item::Scene(scene) => {
+                let earlier: Vec<&Scene> = self.scenes.iter().map(|entry| entry.scene).collect();
+                let entry = self.eval.scene(scene, self.declaration, &earlier);
+                self.scenes.extend(entry);
+            }
         }
     }
 
@@ -453,6 +466,9 @@ impl<'a, 'f> Resolver<'a, 'f> {
             outputs: self.output_values,
             motion_symbols,
         };
+        let provides = self.scenes.iter().flat_map(|entry| &entry.scene.provides);
+        let provides_operators =
+            self.provides_operators || provides.into_iter().any(|provide| provide.name.text == "operators");
         Some(Model {
             identifiers: self.eval.scope.into_identifiers(),
             declaration: self.declaration,
@@ -467,6 +483,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
             reactions,
             scenes: self.scenes,
             left_out: self.eval.left_out,
+            provides_operators,
             mechanics,
             has_masses: self.has_masses,
             kinetic_energy_span: self.energy.map(|energy| energy.keyword),

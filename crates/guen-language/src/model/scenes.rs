@@ -1,112 +1,235 @@
 //! Scenes: their names and values are checked as the language says.
 
+use std::collections::BTreeSet;
+
+use guen_symbolic::{Bound, ExprId, Substitution};
+
 use super::evaluate::Evaluator;
 use super::place::Place;
 use super::scope::Category;
 use super::value::Value;
 use super::{FixedConstant, SceneEntry};
 use crate::diagnostics::Fault;
+use crate::emit::module_name;
 use crate::names;
-use crate::syntax::{Fix, Name, Provide, Scene};
+use crate::syntax::{Declaration, Fix, Name, Provide, Scene};
 
 /// What a scene may provide beside outputs.
 const QUANTITIES: [&str; 4] = ["energy", "reactions", "linearization", "operators"];
 
 impl Evaluator<'_> {
     /// Checks a scene's statements at their words; `None` after a fault.
-    pub(super) fn scene(&mut self, scene: &Scene) -> Option<SceneEntry> {
+    pub(super) fn scene<'a>(
+        &mut self,
+        scene: &'a Scene,
+        declaration: &Declaration,
+        earlier: &[&Scene],
+    ) -> Option<SceneEntry<'a>> {
         let before = self.faults.count();
+        self.scene_name(&scene.name, declaration, earlier);
         let mut fixes = Vec::new();
+        let mut held = Vec::new();
+        self.once(&scene.tracks, "tracked");
         for name in &scene.tracks {
             self.tracked(name);
         }
+        self.once(scene.fixes.iter().map(|fix| &fix.name), "fixed");
         for fix in &scene.fixes {
-            fixes.extend(self.fixed(fix));
+            match fix.value {
+                Some(_) => fixes.extend(self.fixed(fix)),
+                None => held.extend(self.held(&fix.name, &scene.tracks)),
+            }
         }
+        self.once(scene.provides.iter().filter(|p| p.of.is_none()).map(|provide| &provide.name), "provided");
         for provide in &scene.provides {
             self.provided(provide);
         }
-        (self.faults.count() == before).then_some(SceneEntry { keyword: scene.keyword, fixes })
+        self.resolve_values(&mut fixes);
+        (self.faults.count() == before).then_some(SceneEntry { scene, fixes, held })
+    }
+
+    /// A scene becomes a struct and a module in the module of the system.
+    fn scene_name(&mut self, name: &Name, declaration: &Declaration, earlier: &[&Scene]) {
+        let module = module_name(&name.ident, "scene");
+        let taken = if names::is_generated_item(&name.text) || module == "program" {
+            Some(format!("the module of `{}` has an item of this name", declaration.name))
+        } else if name.text == declaration.name.text {
+            Some("this is the name of the system".to_owned())
+        } else {
+            earlier
+                .iter()
+                .find(|other| {
+                    other.name.text == name.text || module_name(&other.name.ident, "scene") == module
+                })
+                .map(|other| format!("`{}` and `{name}` would share the module `{module}`", other.name))
+        };
+        if let Some(why) = taken {
+            let fault = Fault::new(name.span(), format!("a scene cannot be called `{name}` here")).note(why);
+            self.faults.report(fault.help("choose another name"));
+        }
+    }
+
+    /// Names that stand twice in the statements of one kind.
+    fn once<'n>(&mut self, names: impl IntoIterator<Item = &'n Name>, what: &str) {
+        let mut seen = BTreeSet::new();
+        for name in names {
+            if !seen.insert(&name.text) {
+                self.faults.report(Fault::new(name.span(), format!("`{name}` is {what} twice")));
+            }
+        }
     }
 
     fn tracked(&mut self, name: &Name) {
         match self.scope.category(&name.text) {
-            Some(Category::Coordinate | Category::Parameter) => {}
+            Some(Category::Coordinate | Category::Parameter) => self.scope.refer(name),
             Some(other) => {
                 let noun = other.noun();
-                self.faults.report(
-                    Fault::new(
-                        name.span(),
-                        format!("`{name}` is {noun}, and a scene tracks coordinates and parameters"),
-                    )
-                    .help(format!("a quantity that is computed is provided: `provide {name};`")),
+                let fault = Fault::new(
+                    name.span(),
+                    format!("`{name}` is {noun}, and a scene tracks coordinates and parameters"),
                 );
+                self.faults.report(match other {
+                    Category::Output => {
+                        fault.help(format!("a quantity that is computed is provided: `provide {name};`"))
+                    }
+                    Category::Let => {
+                        fault.help(format!("declare it under `outputs`, and write `provide {name};`"))
+                    }
+                    _ => fault,
+                });
             }
             None => self.unknown(name, "a scene"),
         }
     }
 
-    fn fixed(&mut self, fix: &Fix) -> Option<FixedConstant> {
-        let name = &fix.name;
-        match (self.scope.category(&name.text), &fix.value) {
-            (Some(Category::Constant), Some(value)) => {
+    /// `fix name = value`.
+    fn fixed<'a>(&mut self, fix: &'a Fix) -> Option<FixedConstant<'a>> {
+        let (name, written) = (&fix.name, fix.value.as_ref()?);
+        match self.scope.category(&name.text) {
+            Some(Category::Constant) => {
+                self.scope.refer(name);
+                self.entry = Some(name.text.clone());
                 // A number, or made of constants; a fault is reported there.
-                let fixed = self.scalar_at(Place::Default, value).ok()?;
+                let value = self.scalar_at(Place::Fixed, written).ok()?;
                 let symbol = match self.scope.peek(&name.text) {
                     Some(Value::Scalar(symbol)) => *symbol,
                     _ => return None,
                 };
-                return Some(FixedConstant {
-                    name: name.text.clone(),
-                    span: name.span(),
-                    symbol,
-                    value: fixed,
-                });
+                return Some(FixedConstant { name, symbol, value });
             }
-            (Some(Category::Constant), None) => {
+            Some(Category::Coordinate | Category::Parameter) => {
+                self.faults.report(
+                    Fault::new(written.first_token(), format!("`{name}` is fixed at its initial value"))
+                        .help(format!("write `fix {name};`")),
+                );
+            }
+            _ => self.not_fixed(name),
+        }
+        None
+    }
+
+    /// `fix name`.
+    fn held<'a>(&mut self, name: &'a Name, tracks: &[Name]) -> Option<&'a Name> {
+        match self.scope.category(&name.text) {
+            Some(Category::Coordinate | Category::Parameter) => {
+                if tracks.iter().any(|tracked| tracked.text == name.text) {
+                    let fault = Fault::new(name.span(), format!("`{name}` is tracked and fixed"));
+                    self.faults
+                        .report(fault.note("what is fixed is a constant of the scene, and has no rate"));
+                    return None;
+                }
+                self.scope.refer(name);
+                return Some(name);
+            }
+            Some(Category::Constant) => {
                 self.faults.report(
                     Fault::new(name.span(), format!("constant `{name}` is fixed to a value"))
                         .help(format!("write `fix {name} = 1;`")),
                 );
             }
-            (Some(Category::Coordinate | Category::Parameter), None) => {}
-            (Some(Category::Coordinate | Category::Parameter), Some(value)) => {
-                self.faults.report(
-                    Fault::new(value.first_token(), format!("`{name}` is fixed at its initial value"))
-                        .help(format!("write `fix {name};`")),
-                );
-            }
-            (Some(other), _) => {
+            _ => self.not_fixed(name),
+        }
+        None
+    }
+
+    fn not_fixed(&mut self, name: &Name) {
+        match self.scope.category(&name.text) {
+            Some(other) => {
                 let noun = other.noun();
                 self.faults.report(Fault::new(
                     name.span(),
                     format!("`{name}` is {noun}, and a scene fixes constants, and parameters or coordinates at rest"),
                 ));
             }
-            (None, _) => self.unknown(name, "a scene"),
+            None => self.unknown(name, "a scene"),
         }
-        None
+    }
+
+    /// Values that use fixed constants get the values of these; what cannot be is reported.
+    fn resolve_values(&mut self, fixes: &mut [FixedConstant<'_>]) {
+        let symbols: Vec<ExprId> = fixes.iter().map(|fix| fix.symbol).collect();
+        // Each round replaces every fixed constant by its value: a value that needs more rounds uses itself.
+        for _ in 0..fixes.len() {
+            let values: Vec<ExprId> = fixes.iter().map(|fix| fix.value).collect();
+            let mut by_values = Substitution::new(symbols.iter().copied().zip(values));
+            for fix in fixes.iter_mut() {
+                fix.value = by_values.of(&mut self.bench.graph, fix.value);
+            }
+        }
+        for fix in fixes {
+            let graph = &self.bench.graph;
+            let inside: Vec<ExprId> =
+                graph.symbols_in(&[fix.value]).into_iter().map(|symbol| graph.symbol_expr(symbol)).collect();
+            if inside.iter().any(|symbol| symbols.contains(symbol)) {
+                let text = format!("the value of `{}` depends on itself", fix.name);
+                self.faults.report(Fault::new(fix.name.span(), text));
+                continue;
+            }
+            let Some(symbol) = graph.as_symbol(fix.symbol) else { continue };
+            let Some(number) = graph.as_number(fix.value) else { continue };
+            let broken = match graph.symbol_info(symbol).bound {
+                Bound::Positive => (number.is_negative() || number.is_zero()).then_some("> 0"),
+                Bound::NonNegative => number.is_negative().then_some(">= 0"),
+                Bound::NonZero => number.is_zero().then_some("!= 0"),
+                _ => None,
+            };
+            if let Some(bound) = broken {
+                let name = fix.name;
+                let fault =
+                    Fault::new(name.span(), format!("this value does not keep the bound `{name} {bound}`"));
+                self.faults.report(fault.help("change the value, or the bound under `constants`"));
+            }
+        }
     }
 
     fn provided(&mut self, provide: &Provide) {
         let name = &provide.name;
-        let is_known = QUANTITIES.contains(&name.text.as_str())
-            || self.scope.category(&name.text) == Some(Category::Output);
-        if !is_known {
+        let is_output = self.scope.category(&name.text) == Some(Category::Output);
+        if is_output {
+            self.scope.refer(name);
+        } else if !QUANTITIES.contains(&name.text.as_str()) {
             let near = names::nearest(&name.text, QUANTITIES);
             let fault = Fault::new(name.span(), format!("a scene cannot provide `{name}`"));
-            self.faults.report(match near {
-                Some(near) => fault.help(format!("did you mean `{near}`?")),
-                None => fault.help(format!("it provides {} and declared outputs", names::quoted(QUANTITIES))),
+            self.faults.report(match (near, self.scope.category(&name.text)) {
+                (_, Some(Category::Coordinate | Category::Parameter)) => {
+                    fault.help(format!("variables are tracked: `track {name};`"))
+                }
+                (Some(near), _) => fault.help(format!("did you mean `{near}`?")),
+                (None, _) => {
+                    fault.help(format!("it provides {} and declared outputs", names::quoted(QUANTITIES)))
+                }
             });
         }
         let Some(of) = &provide.of else { return };
+        self.once(of, "provided");
         for constraint in of {
             if name.text != "reactions" {
                 self.faults.report(Fault::new(constraint.span(), format!("`{name}` takes no names")));
                 return;
             }
-            if self.scope.category(&constraint.text) != Some(Category::Constraint) {
+            if self.scope.category(&constraint.text) == Some(Category::Constraint) {
+                self.scope.refer(constraint);
+            } else {
                 self.faults.report(
                     Fault::new(constraint.span(), format!("`{constraint}` is not a constraint"))
                         .note("reactions are those of constraints"),

@@ -180,6 +180,11 @@ impl Scope {
         self.entries.get(text).map(|entry| entry.category)
     }
 
+    /// Notes a place that refers to a declared name without using its value.
+    pub(super) fn refer(&mut self, name: &Name) {
+        self.used.push(name.ident.clone());
+    }
+
     /// The value of a declared name, without counting as a use.
     pub(super) fn peek(&self, text: &str) -> Option<&Value> {
         self.entries.get(text).and_then(|entry| entry.value.as_ref())

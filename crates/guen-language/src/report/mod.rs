@@ -1,8 +1,11 @@
 //! What was derived, in readable notation: the same lines as text and as LaTeX.
 
-use guen_symbolic::{Class, ExprId, Notation};
+mod scene;
 
-use crate::derive::{Derived, function};
+use guen_symbolic::{Class, ExprId, Graph, Notation};
+
+use crate::derive::function;
+use crate::emit::Subject;
 use crate::model::FormKind;
 
 /// A heading with its lines.
@@ -35,36 +38,37 @@ const TOO_LONG: &str = ".. (too long to print)";
 const LONGEST: usize = 3000;
 
 impl Report {
-    /// Writes down what was derived.
-    pub fn new(derived: &mut Derived<'_>) -> Self {
-        let name = derived.model.declaration.name.text.clone();
-        let brackets_found = bracket_terms(derived);
-        let rows = equation_rows(derived);
-        let derived = &*derived;
-        // One memory for all sections: the parts of an expression are written once.
-        let graph = &derived.model.bench.graph;
-        let writer =
-            &mut Writer { text: Notation::text(graph, LONGEST), latex: Notation::latex(graph, LONGEST) };
-        let sections = vec![
-            forms(derived, writer),
-            operators(derived, writer),
-            brackets(writer, &brackets_found),
-            classification(derived, writer),
-            velocities(derived, writer),
-            equations(writer, &rows),
-            momenta(derived, writer),
-            energies(derived, writer),
-            domain(derived),
-            cost(derived),
-        ];
-        let (n, l) = (derived.model.coordinates.len(), derived.derivation.system.forms.degrees);
-        let summary = format!(
-            "{}, {}, {}: {}.",
-            plural(n, "coordinate"),
-            if l == 1 { "1 degree of freedom".to_owned() } else { format!("{l} degrees of freedom") },
-            plural(n - l, "constraint"),
-            class_name(derived.derivation.class),
-        );
+    /// Writes down what was derived of a level of detail.
+    pub(crate) fn new(subject: &Subject<'_, '_>) -> Self {
+        let selection = &subject.level.selection;
+        let operators = |lines: &mut Vec<Section>| {
+            lines.push(self::operators(subject));
+            lines.push(self::brackets(subject));
+        };
+        let mut sections = Vec::new();
+        if subject.level.scene.is_some() {
+            sections.extend(scene::sections(subject));
+            if selection.operators {
+                operators(&mut sections);
+            }
+            sections.push(classification(subject));
+            sections.push(scene::rates(subject));
+            if selection.energy {
+                sections.push(scene::energy(subject));
+            }
+        } else {
+            sections.push(forms(subject));
+            operators(&mut sections);
+            sections.push(classification(subject));
+            sections.push(velocities(subject));
+            sections.push(equations(subject));
+            sections.push(momenta(subject));
+            sections.push(energies(subject));
+        }
+        sections.push(domain(subject));
+        sections.push(cost(subject));
+        let summary = if subject.level.scene.is_some() { scene::summary(subject) } else { summary(subject) };
+        let name = subject.name().text.clone();
         Report { name, summary, sections: sections.into_iter().filter(|s| !s.text.is_empty()).collect() }
     }
 
@@ -81,27 +85,26 @@ impl Report {
     }
 }
 
-/// Both ways of writing.
-struct Writer<'g> {
+/// Lines that are formulas, written twice.
+struct Lines<'g> {
     text: Notation<'g>,
     latex: Notation<'g>,
-}
-
-/// Lines that are formulas, written twice.
-struct Lines<'w, 'g> {
-    writer: &'w mut Writer<'g>,
     section: Section,
 }
 
-impl<'w, 'g> Lines<'w, 'g> {
-    fn new(writer: &'w mut Writer<'g>, title: &'static str) -> Self {
-        Lines { writer, section: Section { title, text: Vec::new(), latex: Vec::new() } }
+impl<'g> Lines<'g> {
+    fn new(graph: &'g Graph, title: &'static str) -> Self {
+        Lines {
+            text: Notation::text(graph, LONGEST),
+            latex: Notation::latex(graph, LONGEST),
+            section: Section { title, text: Vec::new(), latex: Vec::new() },
+        }
     }
 
     /// `left = right` with an expression on the right.
     fn equation(&mut self, left: &str, left_latex: &str, right: ExprId) {
-        let text = self.writer.text.expression(right);
-        let latex = self.writer.latex.expression(right);
+        let text = self.text.expression(right);
+        let latex = self.latex.expression(right);
         self.push(left, left_latex, text, latex);
     }
 
@@ -109,8 +112,8 @@ impl<'w, 'g> Lines<'w, 'g> {
     fn combination(&mut self, left: &str, left_latex: &str, terms: &[(ExprId, String)]) {
         // Both sums take the plain names: LaTeX is made of them there.
         let terms: Vec<_> = terms.iter().map(|(c, name)| (*c, name.as_str())).collect();
-        let text = self.writer.text.sum(&terms);
-        let latex = self.writer.latex.sum(&terms);
+        let text = self.text.sum(&terms);
+        let latex = self.latex.sum(&terms);
         self.push(left, left_latex, text, latex);
     }
 
@@ -120,15 +123,27 @@ impl<'w, 'g> Lines<'w, 'g> {
     }
 }
 
+fn summary(subject: &Subject<'_, '_>) -> String {
+    let derivation = &subject.level.derivation;
+    let (n, l) = (subject.model.coordinates.len(), derivation.system.forms.degrees);
+    format!(
+        "{}, {}, {}: {}.",
+        plural(n, "coordinate"),
+        if l == 1 { "1 degree of freedom".to_owned() } else { format!("{l} degrees of freedom") },
+        plural(n - l, "constraint"),
+        class_name(derivation.class),
+    )
+}
+
 fn latex_of(name: &str) -> String {
     guen_symbolic::latex_name(name)
 }
 
-fn forms(derived: &Derived<'_>, writer: &mut Writer<'_>) -> Section {
-    let graph = &derived.model.bench.graph;
-    let mut lines = Lines::new(writer, "Forms (1.1), (1.6)");
-    let system = &derived.derivation.system;
-    for (j, (entry, form)) in derived.model.forms.iter().zip(&system.forms.forms).enumerate() {
+fn forms(subject: &Subject<'_, '_>) -> Section {
+    let graph = &subject.model.bench.graph;
+    let mut lines = Lines::new(graph, "Forms (1.1), (1.6)");
+    let system = &subject.level.derivation.system;
+    for (j, (entry, form)) in subject.model.forms.iter().zip(&system.forms.forms).enumerate() {
         let mut terms = Terms::new();
         for (a, x) in form.row.iter().zip(&system.velocities) {
             if !graph.is_zero(*a) {
@@ -137,12 +152,12 @@ fn forms(derived: &Derived<'_>, writer: &mut Writer<'_>) -> Section {
         }
         let terms: Vec<_> = terms.iter().map(|(c, name)| (*c, name.as_str())).collect();
         let too_long = || TOO_LONG.to_owned();
-        let mut text = lines.writer.text.sum(&terms).unwrap_or_else(too_long);
-        let mut latex = lines.writer.latex.sum(&terms).unwrap_or_else(too_long);
+        let mut text = lines.text.sum(&terms).unwrap_or_else(too_long);
+        let mut latex = lines.latex.sum(&terms).unwrap_or_else(too_long);
         if !graph.is_zero(form.offset) {
-            let offset = lines.writer.text.expression(form.offset).unwrap_or_else(too_long);
+            let offset = lines.text.expression(form.offset).unwrap_or_else(too_long);
             text = format!("{text} + {offset}").replace("+ -", "- ");
-            let offset = lines.writer.latex.expression(form.offset).unwrap_or_else(too_long);
+            let offset = lines.latex.expression(form.offset).unwrap_or_else(too_long);
             latex = format!("{latex} + {offset}").replace("+ -", "- ");
         }
         let zero = if j < system.forms.degrees { "" } else { " = 0" };
@@ -154,21 +169,21 @@ fn forms(derived: &Derived<'_>, writer: &mut Writer<'_>) -> Section {
         lines.section.text.push(format!("{} = {text}{zero}{position}", entry.name));
         lines.section.latex.push(format!("{} = {latex}{zero}", latex_of(&entry.name)));
     }
-    for name in &derived.model.left_out {
+    for name in &subject.model.left_out {
         lines.section.text.push(format!("{name} is left out: it says 0 = 0"));
     }
     lines.section
 }
 
-fn operators(derived: &Derived<'_>, writer: &mut Writer<'_>) -> Section {
-    let graph = &derived.model.bench.graph;
-    let mut lines = Lines::new(writer, "Operators of displacement (1.4), (1.7)");
-    for (j, xi) in derived.derivation.frame.operators.xi.iter().enumerate() {
+fn operators(subject: &Subject<'_, '_>) -> Section {
+    let graph = &subject.model.bench.graph;
+    let mut lines = Lines::new(graph, "Operators of displacement (1.4), (1.7)");
+    for (j, xi) in subject.level.derivation.frame.operators.xi.iter().enumerate() {
         let mut terms = Terms::new();
         if j == 0 {
             terms.push((graph.one(), "d/dt".to_owned()));
         }
-        for (c, x) in xi.iter().zip(&derived.derivation.system.forms.coordinates) {
+        for (c, x) in xi.iter().zip(&subject.level.derivation.system.forms.coordinates) {
             if !graph.is_zero(*c) {
                 terms.push((*c, format!("d/d{}", graph.text(*x))));
             }
@@ -178,32 +193,25 @@ fn operators(derived: &Derived<'_>, writer: &mut Writer<'_>) -> Section {
     lines.section
 }
 
-/// The brackets with their coefficients; those that vanish have none.
-fn bracket_terms(derived: &mut Derived<'_>) -> Vec<(usize, usize, Terms)> {
-    let (n, l) = (derived.model.coordinates.len(), derived.derivation.system.forms.degrees);
-    let mut found = Vec::new();
-    for r in 0..=l {
-        for s in r + 1..=l {
-            let mut terms = Terms::new();
-            for t in 1..=n {
-                let c = derived.derivation.frame.brackets.coefficient(&mut derived.model.bench, r, s, t);
-                if !derived.model.bench.graph.is_zero(c) {
-                    terms.push((c, format!("X{t}")));
-                }
+fn brackets(subject: &Subject<'_, '_>) -> Section {
+    let graph = &subject.model.bench.graph;
+    let last = subject.model.last_operator();
+    let mut found: Vec<(usize, usize, Terms)> = Vec::new();
+    let mut vanishing = Vec::new();
+    for r in 0..=last {
+        for s in r + 1..=last {
+            let bracket = subject.level.brackets.iter().find(|bracket| (bracket.r, bracket.s) == (r, s));
+            let coefficients = bracket.map_or(&[][..], |bracket| &bracket.coefficients);
+            let terms = coefficients.iter().enumerate().filter(|(_, c)| !graph.is_zero(**c));
+            let terms: Terms = terms.map(|(t, c)| (*c, format!("X{}", t + 1))).collect();
+            if terms.is_empty() {
+                vanishing.push((format!("(X{r}, X{s})"), format!("(X_{{{r}}}, X_{{{s}}})")));
+            } else {
+                found.push((r, s, terms));
             }
-            found.push((r, s, terms));
         }
     }
-    found
-}
-
-fn brackets(writer: &mut Writer<'_>, all: &[(usize, usize, Terms)]) -> Section {
-    let mut lines = Lines::new(writer, "Brackets (1.14)");
-    let (vanishing, found): (Vec<_>, Vec<_>) = all.iter().partition(|(_, _, terms)| terms.is_empty());
-    let vanishing: Vec<(String, String)> = vanishing
-        .into_iter()
-        .map(|(r, s, _)| (format!("(X{r}, X{s})"), format!("(X_{{{r}}}, X_{{{s}}})")))
-        .collect();
+    let mut lines = Lines::new(graph, "Brackets (1.14)");
     for (r, s, terms) in &found {
         lines.combination(&format!("(X{r}, X{s})"), &format!("(X_{{{r}}}, X_{{{s}}})"), terms);
     }
@@ -231,9 +239,10 @@ pub(crate) fn class_name(class: Class) -> &'static str {
     }
 }
 
-fn classification(derived: &Derived<'_>, writer: &mut Writer<'_>) -> Section {
-    let d = &derived.derivation;
-    let (n, l) = (derived.model.coordinates.len(), d.system.forms.degrees);
+fn classification(subject: &Subject<'_, '_>) -> Section {
+    let d = &subject.level.derivation;
+    let (n, l) = (subject.model.coordinates.len(), d.system.forms.degrees);
+    let graph = &subject.model.bench.graph;
     let mut text = Vec::new();
     let growth: Vec<String> = d.closure.growth.iter().map(ToString::to_string).collect();
     let rank = d.closure.growth.last().copied().unwrap_or(l);
@@ -257,13 +266,14 @@ fn classification(derived: &Derived<'_>, writer: &mut Writer<'_>) -> Section {
         let known: Option<Vec<(ExprId, &str)>> = combination
             .terms
             .iter()
-            .map(|(v, f)| f.map(|f| (f, derived.model.forms[*v].name.as_str())))
+            .map(|(v, f)| f.map(|f| (f, subject.model.forms[*v].name.as_str())))
             .collect();
-        let written = known.and_then(|terms| writer.text.sum(&terms)).unwrap_or_else(|| {
-            let names: Vec<&str> =
-                combination.terms.iter().map(|(v, _)| derived.model.forms[*v].name.as_str()).collect();
-            format!("a combination of {}", names.join(", "))
-        });
+        let written =
+            known.and_then(|terms| Notation::text(graph, LONGEST).sum(&terms)).unwrap_or_else(|| {
+                let names: Vec<&str> =
+                    combination.terms.iter().map(|(v, _)| subject.model.forms[*v].name.as_str()).collect();
+                format!("a combination of {}", names.join(", "))
+            });
         text.push(format!("integrable: {written}"));
     }
     let yes =
@@ -279,37 +289,22 @@ fn classification(derived: &Derived<'_>, writer: &mut Writer<'_>) -> Section {
     Section { title: "Classification", text, latex: Vec::new() }
 }
 
-fn velocities(derived: &Derived<'_>, writer: &mut Writer<'_>) -> Section {
-    let mut lines = Lines::new(writer, "Velocities (1.8)");
-    let system = &derived.derivation.system;
-    for (x, value) in system.velocities.iter().zip(&derived.derivation.frame.velocities) {
-        let name = derived.model.bench.graph.text(*x);
+fn velocities(subject: &Subject<'_, '_>) -> Section {
+    let mut lines = Lines::new(&subject.model.bench.graph, "Velocities (1.8)");
+    let system = &subject.level.derivation.system;
+    for (x, value) in system.velocities.iter().zip(&subject.level.derivation.frame.velocities) {
+        let name = subject.model.bench.graph.text(*x);
         lines.equation(&name, &latex_of(&name), *value);
     }
     lines.section
 }
 
-/// The left sides of the equations of motion.
-fn equation_rows(derived: &mut Derived<'_>) -> Vec<ExprId> {
-    let graph = &mut derived.model.bench.graph;
-    let d = &derived.derivation;
-    d.equations
-        .mass
-        .iter()
-        .zip(&d.equations.forces)
-        .map(|(row, force)| {
-            let mut terms: Vec<ExprId> =
-                row.iter().zip(&d.system.accelerations).map(|(m, a)| graph.mul(*m, *a)).collect();
-            terms.push(graph.neg(*force));
-            graph.sum(terms)
-        })
-        .collect()
-}
-
-fn equations(writer: &mut Writer<'_>, rows: &[ExprId]) -> Section {
+fn equations(subject: &Subject<'_, '_>) -> Section {
+    let graph = &subject.model.bench.graph;
     let mut section = Section { title: "Equations of motion (2.7)", text: Vec::new(), latex: Vec::new() };
-    for row in rows {
-        match (writer.text.expression(*row), writer.latex.expression(*row)) {
+    let (mut text, mut latex) = (Notation::text(graph, LONGEST), Notation::latex(graph, LONGEST));
+    for row in &subject.level.equations {
+        match (text.expression(*row), latex.expression(*row)) {
             (Some(text), Some(latex)) => {
                 section.text.push(format!("{text} = 0"));
                 section.latex.push(format!("{latex} = 0"));
@@ -320,12 +315,12 @@ fn equations(writer: &mut Writer<'_>, rows: &[ExprId]) -> Section {
     section
 }
 
-fn momenta(derived: &Derived<'_>, writer: &mut Writer<'_>) -> Section {
-    let mut lines = Lines::new(writer, "Momenta (2.8)");
-    let l = derived.derivation.system.forms.degrees;
-    for (j, momentum) in derived.derivation.energies.momenta.iter().enumerate() {
-        let name = &derived.model.forms[j].name;
-        if !derived.derivation.known_momentum[j] {
+fn momenta(subject: &Subject<'_, '_>) -> Section {
+    let mut lines = Lines::new(&subject.model.bench.graph, "Momenta (2.8)");
+    let l = subject.level.derivation.system.forms.degrees;
+    for (j, momentum) in subject.level.derivation.energies.momenta.iter().enumerate() {
+        let name = &subject.model.forms[j].name;
+        if !subject.level.derivation.known_momentum[j] {
             lines.section.text.push(format!("(dT°/d{name}) is unknown: T is given on the constraints"));
             continue;
         }
@@ -342,9 +337,9 @@ fn momenta(derived: &Derived<'_>, writer: &mut Writer<'_>) -> Section {
     lines.section
 }
 
-fn energies(derived: &Derived<'_>, writer: &mut Writer<'_>) -> Section {
-    let mut lines = Lines::new(writer, "Energies");
-    let d = &derived.derivation;
+fn energies(subject: &Subject<'_, '_>) -> Section {
+    let mut lines = Lines::new(&subject.model.bench.graph, "Energies");
+    let d = &subject.level.derivation;
     lines.equation("T", "T", d.energies.kinetic);
     lines.equation("U", "U", d.system.force_function);
     lines.equation("h", "h", d.energies.integral);
@@ -354,20 +349,20 @@ fn energies(derived: &Derived<'_>, writer: &mut Writer<'_>) -> Section {
     lines.section
 }
 
-fn domain(derived: &Derived<'_>) -> Section {
-    let graph = &derived.model.bench.graph;
+fn domain(subject: &Subject<'_, '_>) -> Section {
+    let graph = &subject.model.bench.graph;
     let nonzero = |e: &ExprId| graph.text_limited(*e, LONGEST).map(|text| format!("{text} != 0"));
-    let state = derived.domain_names.iter().map(|text| format!("{text} != 0"));
-    let text = state.chain(derived.constant_pivots.iter().filter_map(nonzero)).collect();
+    let state = subject.level.domain_names.iter().map(|text| format!("{text} != 0"));
+    let text = state.chain(subject.level.constant_pivots.iter().filter_map(nonzero)).collect();
     Section { title: "Domain of the chart", text, latex: Vec::new() }
 }
 
-fn cost(derived: &Derived<'_>) -> Section {
+fn cost(subject: &Subject<'_, '_>) -> Section {
     let mut text = Vec::new();
-    if let Some(rhs) = derived.programs.functions.iter().find(|f| f.name == function::RHS) {
+    if let Some(rhs) = subject.level.program(function::RHS) {
         text.push(format!("right-hand side: {}", operations(&rhs.cost)));
     }
-    text.push(format!("prepared once: {}", operations(&derived.programs.prepare_cost)));
+    text.push(format!("prepared once: {}", operations(&subject.level.programs.prepare_cost)));
     Section { title: "Cost", text, latex: Vec::new() }
 }
 

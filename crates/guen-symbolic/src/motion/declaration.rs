@@ -1,7 +1,8 @@
 //! A mechanical system as the derivation takes it: checked names, kinds and shapes, nothing derived yet.
 
-use crate::algebra::ExprId;
+use crate::algebra::{ExprId, Substitution};
 use crate::geometry::Forms;
+use crate::workbench::Workbench;
 
 /// A generalised force: it does the work `magnitude * (displacement of along)`.
 #[derive(Clone, Debug)]
@@ -61,4 +62,28 @@ pub struct Mechanics {
     pub outputs: Vec<ExprId>,
     /// Symbols in the outputs for what follows from the motion.
     pub motion_symbols: Vec<(ExprId, MotionSymbol)>,
+}
+
+impl Mechanics {
+    /// The system with constants replaced by values, before anything is derived. What vanishes then is dropped, so that
+    /// the derivation starts from the smaller system and not from the larger one with numbers in it.
+    pub fn with_values(&self, bench: &mut Workbench, values: &[(ExprId, ExprId)]) -> Mechanics {
+        let mut values = Substitution::new(values.iter().copied());
+        let mut system = self.clone();
+        for form in &mut system.forms.forms {
+            for entry in form.row.iter_mut().chain([&mut form.offset]) {
+                let value = values.of(&mut bench.graph, *entry);
+                *entry = bench.tidy(value);
+            }
+        }
+        let expressions = [&mut system.kinetic_energy, &mut system.force_function]
+            .into_iter()
+            .chain(system.holonomic.iter_mut().map(|h| &mut h.equation))
+            .chain(system.forces.iter_mut().flat_map(|force| [&mut force.magnitude, &mut force.along]))
+            .chain(&mut system.outputs);
+        for expression in expressions {
+            *expression = values.of(&mut bench.graph, *expression);
+        }
+        system
+    }
 }

@@ -1,6 +1,7 @@
 //! From operators and energies to the equations of motion, (2.1)-(2.10), by two independent routes.
 
 mod declaration;
+mod dependence;
 mod derivation;
 mod energy;
 mod frame;
@@ -11,6 +12,7 @@ mod solve;
 mod velocity_forms;
 
 pub use declaration::{Force, Holonomic, Mechanics, MotionSymbol};
+pub use dependence::Dependence;
 pub use derivation::{Class, Derivation, DerivationError, Equations};
 pub use energy::Energies;
 pub use frame::Frame;

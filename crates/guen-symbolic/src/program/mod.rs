@@ -12,6 +12,7 @@ mod instruction;
 mod jacobian;
 mod lower;
 mod net;
+mod part;
 mod passes;
 #[cfg(test)]
 mod tests;

@@ -1,0 +1,108 @@
+//! Which variables a scene keeps: the least set that contains what is asked for and is closed under "the rate of a kept
+//! variable depends on it".
+
+use guen_symbolic::{Dependence, ExprId, Workbench};
+
+use super::selection::Place;
+
+/// Why a variable is kept.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Reason {
+    /// `track` names it, or there is no `track` and it is a parameter.
+    Tracked,
+    /// Something that the scene provides depends on it.
+    Provided(String),
+    /// The rate of this variable depends on it.
+    Rate(Place),
+    /// It is part of a unit quaternion with this coordinate.
+    Whole(Place),
+}
+
+/// The variables and what their rates are.
+pub struct Flow<'a> {
+    /// The symbols by place; none for a variable that is held.
+    pub variables: &'a [Option<ExprId>],
+    /// The rates by place.
+    pub rates: &'a [ExprId],
+    /// Groups of coordinates that stay together.
+    pub wholes: &'a [Vec<Place>],
+}
+
+impl Flow<'_> {
+    /// The least closed set with these variables and with those that some quantities depend on; by place the reason, or
+    /// none for a variable that leaves. What is tracked is closed first, so that the other reasons say what came in
+    /// only by what is provided.
+    pub fn closure(
+        &self,
+        bench: &mut Workbench,
+        dependence: &mut Dependence,
+        tracked: &[Place],
+        provided: &[(String, ExprId)],
+    ) -> Vec<Option<Reason>> {
+        let mut kept: Vec<Option<Reason>> = vec![None; self.variables.len()];
+        for place in tracked {
+            kept[*place] = Some(Reason::Tracked);
+        }
+        self.close(bench, dependence, &mut kept);
+        for (name, e) in provided {
+            for place in self.missing(bench, dependence, &kept, *e) {
+                kept[place] = Some(Reason::Provided(name.clone()));
+            }
+        }
+        self.close(bench, dependence, &mut kept);
+        kept
+    }
+
+    /// The variables that an expression depends on and that are not kept.
+    fn missing(
+        &self,
+        bench: &mut Workbench,
+        dependence: &mut Dependence,
+        kept: &[Option<Reason>],
+        e: ExprId,
+    ) -> Vec<Place> {
+        let left = (0..kept.len()).filter(|place| kept[*place].is_none());
+        let on = |place: &Place| self.variables[*place].is_some_and(|x| dependence.depends(bench, e, x));
+        left.filter(on).collect()
+    }
+
+    fn close(&self, bench: &mut Workbench, dependence: &mut Dependence, kept: &mut [Option<Reason>]) {
+        let mut looked_at = vec![false; kept.len()];
+        while let Some(place) = (0..kept.len()).find(|place| kept[*place].is_some() && !looked_at[*place]) {
+            looked_at[place] = true;
+            for other in self.missing(bench, dependence, kept, self.rates[place]) {
+                kept[other] = Some(Reason::Rate(place));
+            }
+            for whole in self.wholes.iter().filter(|whole| whole.contains(&place)) {
+                for other in whole {
+                    kept[*other].get_or_insert(Reason::Whole(place));
+                }
+            }
+        }
+    }
+
+    /// The variables that leave and are pure quadratures, in layers: the rates of each layer depend on what is kept
+    /// and on the layers before.
+    pub fn quadratures(
+        &self,
+        bench: &mut Workbench,
+        dependence: &mut Dependence,
+        kept: &[Option<Reason>],
+    ) -> Vec<Vec<Place>> {
+        let mut known: Vec<Option<Reason>> = kept.to_vec();
+        let mut layers = Vec::new();
+        loop {
+            let layer: Vec<Place> = (0..known.len())
+                .filter(|place| known[*place].is_none() && self.variables[*place].is_some())
+                .filter(|place| self.missing(bench, dependence, &known, self.rates[*place]).is_empty())
+                .collect();
+            if layer.is_empty() {
+                return layers;
+            }
+            for place in &layer {
+                known[*place] = Some(Reason::Tracked);
+            }
+            layers.push(layer);
+        }
+    }
+}

@@ -1,0 +1,58 @@
+//! The formulas of the whole system, function by function: what scenes choose from.
+
+use guen_symbolic::{Derivation, ExprId};
+
+use super::{Commutator, Quantity, function};
+use crate::model::Model;
+
+/// The rates of the whole state in several equal forms: as shown, then as the optimiser may like them better.
+pub(super) fn rates(derivation: &Derivation) -> Vec<Vec<ExprId>> {
+    let velocities = &derivation.frame.velocities;
+    let accelerations = [&derivation.solution.accelerations].into_iter().chain(&derivation.alternatives);
+    accelerations.map(|list| velocities.iter().chain(list).copied().collect()).collect()
+}
+
+/// All other functions, in the order in which they are built.
+pub(super) fn whole(
+    model: &mut Model<'_>,
+    derivation: &Derivation,
+    brackets: &[Commutator],
+    domain: Vec<ExprId>,
+    pivots: Vec<ExprId>,
+) -> Vec<Quantity> {
+    let bench = &mut model.bench;
+    let system = &derivation.system;
+    let forms = system.forms.forms.iter().map(|form| {
+        let linear = bench.dot(&form.row, &system.velocities);
+        bench.graph.add(linear, form.offset)
+    });
+    let forms = forms.collect();
+    let energies = &derivation.energies;
+    let known = energies.momenta.iter().zip(&derivation.known_momentum);
+    let momenta = known.filter(|(_, known)| **known).map(|(e, _)| *e).collect();
+    let positions: Vec<ExprId> = system.holonomic.iter().map(|h| h.equation).collect();
+    let rows = system.holonomic.iter().flat_map(|h| &system.forms.forms[h.form].row);
+    let gradients: Vec<ExprId> = positions.iter().chain(rows).copied().collect();
+    let mut quantities = vec![
+        (function::VELOCITIES, derivation.frame.velocities.clone()),
+        (function::FORMS, forms),
+        (function::ENERGY, vec![energies.integral]),
+        (function::KINETIC_ENERGY, vec![energies.kinetic]),
+        (function::FORCE_FUNCTION, vec![system.force_function]),
+        (function::MOMENTA, momenta),
+        (function::REACTIONS, derivation.reactions.iter().flatten().copied().collect()),
+        (function::POWER, vec![derivation.power]),
+        (function::OUTPUTS, derivation.outputs.clone()),
+        (function::POSITIONS, positions),
+    ];
+    if !gradients.is_empty() {
+        quantities.push((function::GRADIENTS, gradients));
+    }
+    quantities.push((function::DOMAIN, domain));
+    quantities.push((function::PIVOTS, pivots));
+    // All operators in one function, and all brackets in another: they share the inverse of the forms.
+    quantities.push((function::OPERATORS, derivation.frame.operators.xi.concat()));
+    let coefficients = brackets.iter().flat_map(|bracket| &bracket.coefficients);
+    quantities.push((function::BRACKETS, coefficients.copied().collect()));
+    quantities
+}

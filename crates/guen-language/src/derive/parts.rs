@@ -1,0 +1,208 @@
+//! The functions of a scene, and the cheapest programs for them.
+
+use guen_symbolic::{Dependence, Derivation, ExprId, Programs, Role, Substitution, Workbench};
+
+use super::fixed::Holding;
+use super::manifold::Replacement;
+use super::selection::Selection;
+use super::{Commutator, constant_pivots, domain, extend, formulas, function, programs};
+use crate::model::Model;
+
+/// A function of a scene: its name, the places of its results in the function of the whole system, and the results.
+pub(super) struct Part {
+    name: &'static str,
+    places: Vec<usize>,
+    outputs: Vec<ExprId>,
+}
+
+/// An expression with several replacements made, one after the other.
+pub(super) fn replaced(bench: &mut Workbench, replacements: &mut [Replacement], e: ExprId) -> ExprId {
+    replacements.iter_mut().fold(e, |e, replacement| replacement.of(bench, e))
+}
+
+/// Expressions of the whole system as a scene sees them.
+pub(super) struct View {
+    pub(super) holding: Holding,
+    pub(super) replacements: Vec<Replacement>,
+    pub(super) dependence: Dependence,
+    /// Symbols that left.
+    pub(super) idle: Vec<ExprId>,
+}
+
+impl View {
+    /// With what is held as a constant and what is eliminated replaced.
+    pub(super) fn replaced(&mut self, model: &mut Model<'_>, e: ExprId) -> ExprId {
+        let e = self.holding.of(&mut model.bench, e);
+        replaced(&mut model.bench, &mut self.replacements, e)
+    }
+
+    /// The same without what left.
+    pub(super) fn of(&mut self, model: &mut Model<'_>, e: ExprId) -> ExprId {
+        let e = self.replaced(model, e);
+        self.dependence.without_idle(&mut model.bench, e, &self.idle)
+    }
+
+    /// Whether an expression depends on something that left.
+    fn is_lost(&mut self, model: &mut Model<'_>, e: ExprId) -> bool {
+        self.idle.iter().any(|symbol| self.dependence.depends(&mut model.bench, e, *symbol))
+    }
+}
+
+/// The functions of a scene, the words for its domain, and the expressions of constants that must not vanish.
+pub(super) fn parts(
+    model: &mut Model<'_>,
+    derivation: &Derivation,
+    brackets: &[Commutator],
+    selection: &Selection,
+    view: &mut View,
+) -> (Vec<Part>, Vec<String>, Vec<ExprId>) {
+    let l = derivation.system.forms.degrees;
+    let n = model.coordinates.len();
+    let (chart, names) = domain(model, derivation);
+    let pivots = constant_pivots(derivation);
+    let whole = formulas::whole(model, derivation, brackets, chart.clone(), pivots.clone());
+    let mut parts = Vec::new();
+    let outputs = |name: &str| {
+        whole.iter().find(|(known, _)| *known == name).map_or(&[][..], |(_, outputs)| &outputs[..])
+    };
+    let mut push = |model: &mut Model<'_>, view: &mut View, name: &'static str, places: Vec<usize>| {
+        let outputs = places.iter().map(|place| view.of(model, outputs(name)[*place])).collect();
+        if !places.is_empty() {
+            parts.push(Part { name, places, outputs });
+        }
+    };
+    push(model, view, function::ENERGY, selection.energy.then_some(0).into_iter().collect());
+    let components = selection.outputs.iter().flat_map(|o| model.outputs[*o].components.clone()).collect();
+    push(model, view, function::OUTPUTS, components);
+    push(model, view, function::POSITIONS, selection.holonomic.clone());
+    let count = derivation.system.holonomic.len();
+    let rows =
+        selection.holonomic.iter().flat_map(|h| selection.coordinates.iter().map(move |i| count + h * n + i));
+    push(model, view, function::GRADIENTS, selection.holonomic.iter().copied().chain(rows).collect());
+
+    // Of the chart's functions those that the scene's variables determine; what became constant is a pivot.
+    let (mut determined, mut domain_names) = (Vec::new(), Vec::new());
+    let mut constants: Vec<(Option<usize>, ExprId)> = Vec::new();
+    for (place, pivot) in pivots.iter().enumerate() {
+        constants.push((Some(place), view.holding.of(&mut model.bench, *pivot)));
+    }
+    for (place, (e, name)) in chart.into_iter().zip(names).enumerate() {
+        let seen = view.replaced(model, e);
+        if view.is_lost(model, seen) {
+            continue;
+        }
+        let seen = view.of(model, seen);
+        if model.bench.graph.roles(seen).is_constant() {
+            constants.push((None, seen));
+        } else {
+            determined.push(place);
+            let same = seen == e;
+            domain_names.push(if same { name } else { super::written(model, seen, &name) });
+        }
+    }
+    push(model, view, function::DOMAIN, determined);
+    constants.retain(|(_, e)| model.bench.graph.as_number(*e).is_none());
+    let constant_pivots: Vec<ExprId> = constants.iter().map(|(_, e)| *e).collect();
+    if !constants.is_empty() {
+        // A pivot that the whole system does not have is only there where something is held, and nothing is shared.
+        let places = constants.iter().filter_map(|(place, _)| *place).collect();
+        parts.push(Part { name: function::PIVOTS, places, outputs: constant_pivots.clone() });
+    }
+    if !selection.reactions.is_empty() {
+        let known: Vec<usize> =
+            (0..model.forms.len() - l).filter(|v| derivation.reactions[*v].is_some()).collect();
+        let place = |v: &usize| known.iter().position(|other| *other == v - l);
+        let places: Vec<usize> = selection.reactions.iter().filter_map(place).collect();
+        let outputs = selection.reactions.iter().filter_map(|v| derivation.reactions[v - l]);
+        let outputs: Vec<ExprId> = outputs.collect();
+        let outputs = outputs.into_iter().map(|e| reaction(model, derivation, selection, view, e)).collect();
+        parts.push(Part { name: function::REACTIONS, places, outputs });
+    }
+    if selection.operators {
+        // Operators act on functions of all coordinates, whatever the scene's state is.
+        for name in [function::OPERATORS, function::BRACKETS] {
+            let outputs = outputs(name).to_vec();
+            parts.push(Part { name, places: (0..outputs.len()).collect(), outputs });
+        }
+    }
+    (parts, domain_names, constant_pivots)
+}
+
+/// A reaction with the accelerations of the kept parameters as they are computed, and the others written out.
+fn reaction(
+    model: &mut Model<'_>,
+    derivation: &Derivation,
+    selection: &Selection,
+    view: &mut View,
+    e: ExprId,
+) -> ExprId {
+    let solved = |parameters: &mut dyn Iterator<Item = usize>| {
+        let (symbols, values) = (&derivation.system.accelerations, &derivation.solution.accelerations);
+        Substitution::new(parameters.map(|s| (symbols[s], values[s])))
+    };
+    let l = derivation.system.forms.degrees;
+    let held: Vec<usize> =
+        selection.held.iter().filter_map(|held| held.place.checked_sub(model.coordinates.len())).collect();
+    let left = |s: &usize| !selection.parameters.contains(s) && !held.contains(s);
+    let partly = solved(&mut (0..l).filter(left)).of(&mut model.bench.graph, e);
+    let partly = view.of(model, partly);
+    if !view.is_lost(model, partly) {
+        return partly;
+    }
+    let wholly = solved(&mut (0..l).filter(|s| !held.contains(s))).of(&mut model.bench.graph, e);
+    view.of(model, wholly)
+}
+
+/// The cheapest programs of a scene, and whether its right-hand side is a part of the whole system's.
+///
+/// Rates that are optimised together with those that left may share what they do not share alone, so that a part of the
+/// larger program is tried beside a program of its own: the whole system's where nothing was fixed, so that every result
+/// is the same to the bit; else that of the system at the fixed values.
+pub(super) fn cheapest(
+    model: &mut Model<'_>,
+    selection: &Selection,
+    system: Option<&Programs>,
+    mut lists: Vec<Vec<ExprId>>,
+    mut kept: Vec<Vec<ExprId>>,
+    parts: &[Part],
+) -> (Programs, bool) {
+    extend(&mut model.bench, &mut kept);
+    let alone = programs(&mut model.bench, &kept, &[]);
+    let quantities: Vec<_> = parts.iter().map(|part| (part.name, part.outputs.clone())).collect();
+    let mut wanted = vec![(function::RHS, selection.variables.clone())];
+    let part = match system {
+        Some(system) => {
+            wanted.extend(parts.iter().map(|part| (part.name, part.places.clone())));
+            Some(system.part(&wanted))
+        }
+        None if selection.variables.len() == lists[0].len() => None,
+        None => {
+            extend(&mut model.bench, &mut lists);
+            wanted.extend(parts.iter().map(|part| (part.name, (0..part.outputs.len()).collect())));
+            Some(programs(&mut model.bench, &lists, &quantities).part(&wanted))
+        }
+    };
+    let cost = |programs: &Programs| programs.functions[0].cost.weighted();
+    match part {
+        Some(part) if cost(&part) <= cost(&alone) && fits(model, selection, &part) => {
+            (part, system.is_some())
+        }
+        _ => (programs(&mut model.bench, &kept, &quantities), false),
+    }
+}
+
+/// Whether programs read nothing that left.
+fn fits(model: &Model<'_>, selection: &Selection, programs: &Programs) -> bool {
+    let graph = &model.bench.graph;
+    let variables = selection.variables.iter().map(|place| model.variable(*place));
+    let accelerations = selection.parameters.iter().map(|s| model.mechanics.accelerations[*s]);
+    let inputs = selection.inputs.iter().map(|u| model.inputs[*u].symbol);
+    let kept: Vec<_> =
+        variables.chain(accelerations).chain(inputs).filter_map(|e| graph.as_symbol(e)).collect();
+    let is_everywhere = |name: &str| matches!(name, function::OPERATORS | function::BRACKETS);
+    programs.functions.iter().filter(|function| !is_everywhere(&function.name)).all(|function| {
+        function.symbols().all(|symbol| {
+            matches!(graph.symbol_info(symbol).role, Role::Time | Role::Constant) || kept.contains(&symbol)
+        })
+    })
+}

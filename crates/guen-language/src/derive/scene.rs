@@ -1,0 +1,292 @@
+//! A scene as a level of detail: what it keeps, its formulas, its programs.
+
+use std::rc::Rc;
+
+use guen_symbolic::{Dependence, Derivation, ExprId, Substitution};
+
+use super::closure::{Flow, Reason};
+use super::fixed::{self, Holding};
+use super::manifold::{Replacement, quaternions};
+use super::parts::{View, cheapest, parts, replaced};
+use super::selection::{Held, Place, Selection};
+use super::{Commutator, Level, commutators, formulas, polish};
+use crate::diagnostics::{Fault, Faults};
+use crate::jacobians::Jacobians;
+use crate::model::{Model, SceneEntry};
+
+/// What there is to tell of a scene beside its formulas.
+pub struct SceneFacts {
+    /// Its index in the model.
+    pub index: usize,
+    /// Why each variable is kept, by its place in the whole state; none for those that left.
+    pub reasons: Vec<Option<Reason>>,
+    /// Variables that left and are pure quadratures, in layers: see [`Flow::quadratures`].
+    pub quadratures: Vec<Vec<Place>>,
+    /// Coordinates that holonomic equations eliminated.
+    pub eliminated: Vec<usize>,
+    /// The constants that are fixed, by index, and their values.
+    pub fixes: Vec<(usize, ExprId)>,
+    /// Whether the right-hand side is a part of the whole system's, operation by operation.
+    pub is_part: bool,
+}
+
+/// A derivation with its brackets, as scenes share it.
+type Shared = (Rc<Derivation>, Rc<Vec<Commutator>>);
+
+/// Derives every scene; those with faults are reported and left out.
+pub(super) fn derive(model: &mut Model<'_>, system: &Level, faults: &mut Faults) -> Vec<Level> {
+    let scenes = std::mem::take(&mut model.scenes);
+    let mut derived: Vec<(Vec<(ExprId, ExprId)>, Shared)> =
+        vec![(Vec::new(), (system.derivation.clone(), system.brackets.clone()))];
+    let mut levels = Vec::new();
+    for (index, scene) in scenes.iter().enumerate() {
+        let values: Vec<(ExprId, ExprId)> = scene.fixes.iter().map(|fix| (fix.symbol, fix.value)).collect();
+        let known = derived.iter().find(|(known, _)| *known == values).map(|(_, shared)| shared.clone());
+        let shared = known.or_else(|| {
+            let mut derivation = fixed::derivation(model, &system.derivation, scene, faults)?;
+            polish(&mut model.bench, &mut derivation);
+            let brackets = commutators(model, &mut derivation);
+            let shared = (Rc::new(derivation), Rc::new(brackets));
+            derived.push((values, shared.clone()));
+            Some(shared)
+        });
+        let Some((derivation, brackets)) = shared else { continue };
+        // What is zero is judged on the holonomic equations at the values of this scene.
+        let equations: Vec<ExprId> = derivation.system.holonomic.iter().map(|h| h.equation).collect();
+        model.bench.zero.set_manifold(&mut model.bench.graph, &equations);
+        levels.extend(level(model, system, (derivation, brackets), (index, scene), faults));
+    }
+    model.scenes = scenes;
+    levels
+}
+
+fn level(
+    model: &mut Model<'_>,
+    system: &Level,
+    (derivation, brackets): Shared,
+    (index, scene): (usize, &SceneEntry<'_>),
+    faults: &mut Faults,
+) -> Option<Level> {
+    let (n, size) = model.sizes();
+    let lists = formulas::rates(&derivation);
+    let held = fixed::held(model, &lists[0], &scene.held, faults)?;
+    let mut holding = Holding::new(model, &held);
+    let lists: Vec<Vec<ExprId>> = lists
+        .into_iter()
+        .map(|list| list.into_iter().map(|e| holding.of(&mut model.bench, e)).collect())
+        .collect();
+    let mut selection = provided(model, &derivation, scene, faults)?;
+    let tracked = tracked(model, &held, scene, faults)?;
+    let wanted = wanted(model, &derivation, &mut holding, &lists[0], &selection);
+
+    // What is kept, with the fewest variables that the holonomic equations allow.
+    let variables: Vec<Option<ExprId>> =
+        (0..size).map(|p| (!fixed::is_held(&held, p)).then(|| model.variable(p))).collect();
+    let bench = &mut model.bench;
+    let wholes = quaternions(bench, &derivation.system);
+    let mut dependence = Dependence::default();
+    let written = Flow { variables: &variables, rates: &lists[0], wholes: &wholes };
+    let mut reasons = written.closure(bench, &mut dependence, &tracked, &wanted);
+    let mut replacements: Vec<Replacement> = Vec::new();
+    for candidate in Replacement::all(bench, &derivation.system) {
+        if candidate.coordinates.iter().any(|i| reasons[*i].is_none() || tracked.contains(i)) {
+            continue;
+        }
+        replacements.push(candidate);
+        let rates: Vec<ExprId> = lists[0].iter().map(|e| replaced(bench, &mut replacements, *e)).collect();
+        let provided = wanted.iter().map(|(name, e)| (name.clone(), replaced(bench, &mut replacements, *e)));
+        let provided: Vec<_> = provided.collect();
+        let flow = Flow { variables: &variables, rates: &rates, wholes: &wholes };
+        let fewer = flow.closure(bench, &mut dependence, &tracked, &provided);
+        let count = |reasons: &[Option<Reason>]| reasons.iter().flatten().count();
+        if count(&fewer) < count(&reasons) {
+            reasons = fewer;
+        } else {
+            replacements.pop();
+        }
+    }
+    let quadratures = written.quadratures(bench, &mut dependence, &reasons);
+    selection.variables = (0..size).filter(|p| reasons[*p].is_some()).collect();
+    selection.coordinates = selection.variables.iter().copied().filter(|p| *p < n).collect();
+    selection.parameters = selection.variables.iter().filter_map(|p| p.checked_sub(n)).collect();
+
+    // Expressions without what left.
+    let mut view = View { holding, replacements, dependence, idle: Vec::new() };
+    let rates: Vec<ExprId> = selection.variables.iter().map(|p| view.replaced(model, lists[0][*p])).collect();
+    let results: Vec<ExprId> = rates.iter().copied().chain(wanted.iter().map(|(_, e)| *e)).collect();
+    let needed = |model: &mut Model<'_>, view: &mut View, symbol: ExprId| {
+        results.iter().any(|e| view.dependence.depends(&mut model.bench, *e, symbol))
+    };
+    selection.inputs =
+        (0..model.inputs.len()).filter(|i| needed(model, &mut view, model.inputs[*i].symbol)).collect();
+    let left_variables = (0..size).filter(|p| reasons[*p].is_none()).map(|p| model.variable(p));
+    let left_inputs = model.inputs.iter().enumerate().filter(|(i, _)| !selection.inputs.contains(i));
+    view.idle = left_variables.chain(left_inputs.map(|(_, input)| input.symbol)).collect();
+    let kept: Vec<Vec<ExprId>> = lists
+        .iter()
+        .map(|list| selection.variables.iter().map(|p| view.of(model, list[*p])).collect())
+        .collect();
+    let rates = kept[0].clone();
+
+    let coordinates = selection.coordinates.clone();
+    selection.holonomic = (0..derivation.system.holonomic.len())
+        .filter(|h| {
+            let equation = view.holding.of(&mut model.bench, derivation.system.holonomic[*h].equation);
+            let depends = |view: &mut View, model: &mut Model<'_>, i: usize| {
+                let x = model.coordinates[i].symbol;
+                view.dependence.depends(&mut model.bench, equation, x)
+            };
+            let on: Vec<usize> = (0..n).filter(|i| depends(&mut view, model, *i)).collect();
+            !on.is_empty() && on.iter().all(|i| coordinates.contains(i))
+        })
+        .collect();
+    selection.held = held;
+    selection.constants = (0..model.constants.len())
+        .filter(|c| scene.fixes.iter().all(|fix| fix.symbol != model.constants[*c].symbol))
+        .collect();
+
+    let (parts, domain_names, constant_pivots) = parts(model, &derivation, &brackets, &selection, &mut view);
+    let energy = view.of(model, derivation.energies.integral);
+    let shares = Rc::ptr_eq(&derivation, &system.derivation) && selection.held.is_empty();
+    let whole = shares.then_some(&system.programs);
+    let (mut programs, is_part) = cheapest(model, &selection, whole, lists, kept, &parts);
+    let jacobians = Jacobians::add(&mut programs, model, &selection);
+    let fixes = scene
+        .fixes
+        .iter()
+        .filter_map(|fix| Some((model.constants.iter().position(|c| c.symbol == fix.symbol)?, fix.value)));
+    let facts = SceneFacts {
+        index,
+        reasons,
+        quadratures,
+        eliminated: view.replacements.iter().flat_map(|r| r.coordinates.clone()).collect(),
+        fixes: fixes.collect(),
+        is_part,
+    };
+    Some(Level {
+        selection,
+        derivation,
+        brackets,
+        rates,
+        equations: Vec::new(),
+        energy,
+        programs,
+        domain_names,
+        constant_pivots,
+        jacobians,
+        scene: Some(facts),
+    })
+}
+
+/// What the scene says it provides; what the system does not have is reported.
+fn provided(
+    model: &Model<'_>,
+    derivation: &Derivation,
+    scene: &SceneEntry<'_>,
+    faults: &mut Faults,
+) -> Option<Selection> {
+    let l = derivation.system.forms.degrees;
+    let before = faults.count();
+    let mut selection = Selection::default();
+    let known = |v: &usize| derivation.reactions[*v - l].is_some();
+    for provide in &scene.scene.provides {
+        let name = &provide.name;
+        match name.text.as_str() {
+            "energy" => selection.energy = true,
+            "linearization" => selection.linearization = true,
+            "operators" => selection.operators = true,
+            "reactions" => match &provide.of {
+                None => {
+                    let all = (l..model.forms.len()).filter(known);
+                    let (count, bound) = (selection.reactions.len(), model.forms.len() - l);
+                    selection.reactions.extend(all);
+                    if selection.reactions.len() == count {
+                        faults.report(no_reaction(name, bound == 0));
+                    }
+                }
+                Some(of) => {
+                    for constraint in of {
+                        let forms = model.constraints(&constraint.text);
+                        if forms.is_empty() {
+                            let text = format!("`{constraint}` was left out: it says 0 = 0");
+                            faults.report(Fault::new(constraint.span(), text));
+                        } else if !forms.iter().all(known) {
+                            faults.report(no_reaction(constraint, false));
+                        } else {
+                            selection.reactions.extend(forms);
+                        }
+                    }
+                }
+            },
+            output => {
+                selection.outputs.extend(model.outputs.iter().position(|known| known.name.text == output));
+            }
+        }
+    }
+    for list in [&mut selection.reactions, &mut selection.outputs] {
+        list.sort_unstable();
+        list.dedup();
+    }
+    (faults.count() == before).then_some(selection)
+}
+
+fn no_reaction(name: &crate::syntax::Name, is_free: bool) -> Fault {
+    if is_free {
+        return Fault::new(name.span(), "this system has no constraints, and so no reactions");
+    }
+    Fault::new(name.span(), "the kinetic energy does not tell this reaction")
+        .note("it is given on the constraints, where the momentum is lost")
+        .help("write the energy in the velocities, with the constraints dropped")
+}
+
+/// The variables that the scene tracks: those named, else the parameters.
+fn tracked(
+    model: &Model<'_>,
+    held: &[Held],
+    scene: &SceneEntry<'_>,
+    faults: &mut Faults,
+) -> Option<Vec<Place>> {
+    let (n, size) = model.sizes();
+    let named = scene.scene.tracks.iter().flat_map(|name| model.places(&name.text));
+    let tracked: Vec<Place> =
+        if scene.scene.tracks.is_empty() { (n..size).collect() } else { named.collect() };
+    let tracked: Vec<Place> = tracked.into_iter().filter(|place| !fixed::is_held(held, *place)).collect();
+    if tracked.is_empty() {
+        let name = &scene.scene.name;
+        let fault = Fault::new(name.span(), format!("scene `{name}` has nothing that moves"))
+            .note("without `track` the parameters are tracked, and all of them are fixed");
+        faults.report(fault.help("write `track` and what somebody will look at"));
+        return None;
+    }
+    Some(tracked)
+}
+
+/// What is provided and depends on the state, by name, with accelerations as functions of the state.
+fn wanted(
+    model: &mut Model<'_>,
+    derivation: &Derivation,
+    holding: &mut Holding,
+    rates: &[ExprId],
+    selection: &Selection,
+) -> Vec<(String, ExprId)> {
+    let (n, l) = (model.coordinates.len(), derivation.system.forms.degrees);
+    let accelerations = derivation.system.accelerations.iter().copied().zip(rates[n..].iter().copied());
+    let mut solved = Substitution::new(accelerations);
+    let mut found = Vec::new();
+    if selection.energy {
+        found.push(("energy".to_owned(), derivation.energies.integral));
+    }
+    for v in &selection.reactions {
+        let name = format!("reactions({})", model.forms[*v].name);
+        found.extend(derivation.reactions[*v - l].map(|e| (name, e)));
+    }
+    for output in selection.outputs.iter().map(|o| &model.outputs[*o]) {
+        let name = &output.name.text;
+        found.extend(output.components.iter().map(|c| (name.clone(), derivation.outputs[*c])));
+    }
+    for (_, e) in &mut found {
+        *e = holding.of(&mut model.bench, *e);
+        *e = solved.of(&mut model.bench.graph, *e);
+    }
+    found
+}

@@ -1,0 +1,199 @@
+//! Levels of detail as types with a common trait: how states and constants of the system and of a scene become each other.
+
+use proc_macro2::{Ident, TokenStream};
+use quote::{format_ident, quote};
+
+use super::constants::default_text;
+use super::{Layout, Subject, module_name, tokens, variable_ident};
+use crate::derive::{Level, Place};
+use crate::model::Model;
+
+/// `Level` for what steppers integrate; for a scene the conversions too.
+pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
+    let Subject { model, level } = subject;
+    let (_, full) = model.sizes();
+    let size = layout.size;
+    let places = &level.selection.variables;
+    let name = &subject.name().text;
+    let layers: Vec<TokenStream> = subject.scene().map_or(Vec::new(), |(_, facts)| {
+        facts.quadratures.iter().map(|layer| quote!(&[#(#layer),*])).collect()
+    });
+    let held = level.selection.held.iter().map(|held| held.place);
+    let held: Vec<(Place, usize)> = held.zip(level.selection.constants.len()..).collect();
+    let owner = |owner: TokenStream, prepared: TokenStream| {
+        let hold = (!held.is_empty()).then(|| {
+            let values = held.iter().map(|(place, c)| quote!(full[#place] = #prepared.constants[#c];));
+            quote! {
+                #[inline]
+                fn hold(&self, full: &mut [R; #full]) {
+                    #(#values)*
+                }
+            }
+        });
+        quote! {
+            impl<R: __guen::Real> __guen::Level<R, #size, #full> for #owner {
+                const PLACES: [usize; #size] = [#(#places),*];
+                const QUADRATURES: &'static [&'static [usize]] = &[#(#layers),*];
+                const INFO: __guen::LevelInfo = INFO;
+                #hold
+            }
+        }
+    };
+    let prepared = owner(quote!(Prepared<R>), quote!(self));
+    let driven = (layout.inputs > 0).then(|| owner(quote!(Driven<R>), quote!(self.system)));
+    let conversions = (!layout.is_whole).then(|| conversions(subject, layout));
+    quote! {
+        /// What this level of detail costs.
+        pub const INFO: __guen::LevelInfo = __guen::LevelInfo {
+            name: #name,
+            variables: &State::<f64>::NAMES,
+            cost: COST,
+            prepare_cost: PREPARE_COST,
+        };
+        #prepared
+        #driven
+        #conversions
+    }
+}
+
+/// The table of all levels.
+pub(super) fn table(model: &Model<'_>, scenes: &[Level]) -> TokenStream {
+    let modules: Vec<Ident> = scenes
+        .iter()
+        .filter_map(|level| level.scene.as_ref())
+        .map(|facts| module_name(&model.scenes[facts.index].scene.name.ident, "scene"))
+        .collect();
+    let count = 1 + modules.len();
+    quote! {
+        /// The system and its scenes, in the order of the declaration: what each costs.
+        pub const LEVELS: [__guen::LevelInfo; #count] = [INFO, #(#modules::INFO),*];
+
+        /// The system and its scenes side by side, as a table to print.
+        pub const fn levels() -> __guen::Levels {
+            __guen::Levels(&LEVELS)
+        }
+    }
+}
+
+fn conversions(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
+    let Subject { model, level } = subject;
+    let scene = &layout.system;
+    let whole = &model.declaration.name.ident;
+    let fields = &layout.state;
+    let selection = &level.selection;
+    let constants: Vec<&Ident> =
+        selection.constants.iter().map(|c| &model.constants[*c].name.ident).collect();
+    let held: Vec<Ident> = selection.held.iter().map(|held| variable_ident(model, held.place)).collect();
+    let marker = |is_empty: bool| is_empty.then(|| quote!(__guen_real: ::core::marker::PhantomData,));
+    let own_marker = marker(layout.constants == 0);
+    let whole_marker = marker(model.constants.is_empty());
+    let fixes = subject.scene().map_or(&[][..], |(_, facts)| &facts.fixes);
+    let locals: Vec<Ident> = (0..constants.len()).map(|i| format_ident!("__guen_c{i}")).collect();
+    let fixed: Vec<&Ident> = fixes.iter().map(|(c, _)| &model.constants[*c].name.ident).collect();
+    let fixed_names: Vec<&str> = fixes.iter().map(|(c, _)| model.constants[*c].name.text.as_str()).collect();
+    let values: Vec<TokenStream> =
+        fixes.iter().map(|(_, value)| tokens(&default_text(subject, *value))).collect();
+    let inputs: Vec<&Ident> = selection.inputs.iter().map(|u| &model.inputs[*u].name.ident).collect();
+    let of_inputs = (!inputs.is_empty()).then(|| {
+        quote! {
+            impl<R> ::core::convert::From<super::Inputs<R>> for Inputs<R> {
+                /// Those inputs of the system that the scene has.
+                #[inline]
+                fn from(inputs: super::Inputs<R>) -> Self {
+                    Inputs { #(#inputs: inputs.#inputs),* }
+                }
+            }
+        }
+    });
+    let what = if fixes.is_empty() { "" } else { ", if they are those that the scene fixes" };
+    let docs =
+        format!("The scene with the constants of the system{what}, and what it holds as it is in a state.");
+    let of_system = held.is_empty().then(|| {
+        if fixes.is_empty() {
+            quote! {
+                impl<R: __guen::Real> ::core::convert::From<super::#whole<R>> for #scene<R> {
+                    #[inline]
+                    fn from(system: super::#whole<R>) -> Self {
+                        let _ = &system;
+                        #scene { #(#constants: system.#constants,)* #own_marker }
+                    }
+                }
+            }
+        } else {
+            quote! {
+                impl<R: __guen::Real> ::core::convert::TryFrom<super::#whole<R>> for #scene<R> {
+                    type Error = __guen::ConstantsError;
+                    #[inline]
+                    fn try_from(system: super::#whole<R>) -> ::core::result::Result<Self, Self::Error> {
+                        Self::check_fixed(&system)?;
+                        ::core::result::Result::Ok(#scene { #(#constants: system.#constants,)* #own_marker })
+                    }
+                }
+            }
+        }
+    });
+    let state_name = if held.is_empty() { quote!(_state) } else { quote!(state) };
+    let count = constants.len();
+    quote! {
+        impl<R: __guen::Real> #scene<R> {
+            #[doc = #docs]
+            ///
+            /// # Errors
+            ///
+            /// `Contradicted` with the first constant that has another value in the system than the scene fixes.
+            pub fn of(
+                system: &super::#whole<R>,
+                #state_name: &super::State<R>,
+            ) -> ::core::result::Result<Self, __guen::ConstantsError> {
+                Self::check_fixed(system)?;
+                ::core::result::Result::Ok(#scene {
+                    #(#constants: system.#constants,)*
+                    #(#held: #state_name.#held,)*
+                    #own_marker
+                })
+            }
+
+            #[allow(unused_variables, reason = "the fixed constants need not use every other")]
+            fn check_fixed(system: &super::#whole<R>) -> ::core::result::Result<(), __guen::ConstantsError> {
+                let [#(#locals),*]: [R; #count] = [#(system.#constants),*];
+                #(__guen::check_fixed(system.#fixed, #values, #fixed_names)?;)*
+                ::core::result::Result::Ok(())
+            }
+
+            /// The constants of the system, with those that the scene fixes at their values.
+            #[allow(unused_variables, reason = "the fixed constants need not use every other")]
+            pub fn system(&self) -> super::#whole<R> {
+                let [#(#locals),*]: [R; #count] = [#(self.#constants),*];
+                super::#whole { #(#constants: #locals,)* #(#fixed: #values,)* #whole_marker }
+            }
+        }
+
+        #of_system
+
+        impl<R: ::core::marker::Copy> ::core::convert::From<&super::State<R>> for State<R> {
+            /// The variables of the scene out of a state of the system.
+            #[inline]
+            fn from(state: &super::State<R>) -> Self {
+                State { #(#fields: state.#fields),* }
+            }
+        }
+
+        impl<R: ::core::marker::Copy> ::core::convert::From<super::State<R>> for State<R> {
+            #[inline]
+            fn from(state: super::State<R>) -> Self {
+                ::core::convert::From::from(&state)
+            }
+        }
+
+        impl<R> State<R> {
+            /// A state of the system: its variables that the scene has from here, the others from `rest`.
+            #[inline]
+            #[allow(clippy::needless_update, unused_variables, reason = "a scene may have every variable")]
+            pub fn within(self, rest: super::State<R>) -> super::State<R> {
+                super::State { #(#fields: self.#fields,)* ..rest }
+            }
+        }
+
+        #of_inputs
+    }
+}

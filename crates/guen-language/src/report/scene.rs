@@ -1,0 +1,89 @@
+//! What there is to tell of a scene: what it keeps and why, what left, and its rates.
+
+use super::{Lines, Section, class_name, latex_of, plural};
+use crate::derive::{Place, Reason, SceneFacts};
+use crate::emit::Subject;
+use crate::names::quoted;
+
+fn facts<'d>(subject: &Subject<'d, '_>) -> &'d SceneFacts {
+    subject.level.scene.as_ref().expect("a report of a scene")
+}
+
+/// One sentence.
+pub(super) fn summary(subject: &Subject<'_, '_>) -> String {
+    let facts = facts(subject);
+    let of = &subject.model.declaration.name;
+    format!(
+        "A scene of [`{of}`](super::{of}): {} of {}; {}.",
+        subject.level.selection.variables.len(),
+        plural(facts.reasons.len(), "variable"),
+        class_name(subject.level.derivation.class),
+    )
+}
+
+/// What is kept, what left, what is fixed, each with its reason.
+pub(super) fn sections(subject: &Subject<'_, '_>) -> Vec<Section> {
+    let Subject { model, level } = subject;
+    let facts = facts(subject);
+    let name = |place: Place| model.variable_name(place);
+    let kept = facts.reasons.iter().enumerate().filter_map(|(place, reason)| {
+        Some(match reason.as_ref()? {
+            Reason::Tracked => format!("{}: tracked", name(place)),
+            Reason::Provided(what) => format!("{}: `provide {what}` needs it", name(place)),
+            Reason::Rate(by) => format!("{}: the rate of {} depends on it", name(place), name(*by)),
+            Reason::Whole(by) => format!("{}: of one quaternion with {}", name(place), name(*by)),
+        })
+    });
+    let layer = |place: Place| facts.quadratures.iter().position(|layer| layer.contains(&place));
+    let left = facts.reasons.iter().enumerate().filter(|(_, reason)| reason.is_none()).map(|(place, _)| {
+        if let Some(held) = level.selection.held.iter().find(|held| held.place == place) {
+            return format!("{}: its rate vanishes identically, and it is a constant here", name(held.place));
+        }
+        if facts.eliminated.contains(&place) {
+            return format!("{}: a holonomic equation tells what it would be", name(place));
+        }
+        match layer(place) {
+            Some(0) => format!("{}: nothing kept depends on it; a quadrature of what is kept", name(place)),
+            Some(layer) => {
+                let before = facts.quadratures[..layer].iter().flatten().map(|place| name(*place));
+                format!(
+                    "{}: nothing kept depends on it; a quadrature of what is kept and of {}",
+                    name(place),
+                    quoted(before)
+                )
+            }
+            None => format!("{}: nothing kept depends on it", name(place)),
+        }
+    });
+    let graph = &model.bench.graph;
+    let fixed =
+        facts.fixes.iter().map(|(c, value)| format!("{} = {}", model.constants[*c].name, graph.text(*value)));
+    let section = |title, text: Vec<String>| Section { title, text, latex: Vec::new() };
+    vec![
+        section("Variables that are kept", kept.collect()),
+        section("Variables that left", left.collect()),
+        section("Constants that are fixed", fixed.collect()),
+    ]
+}
+
+/// The rates of the kept variables.
+pub(super) fn rates(subject: &Subject<'_, '_>) -> Section {
+    let Subject { model, level } = subject;
+    let mut lines = Lines::new(&model.bench.graph, "Rates");
+    for (place, rate) in level.selection.variables.iter().zip(&level.rates) {
+        let name = model.variable_name(*place);
+        lines.equation(&format!("{name}'"), &format!(r"\dot {{{}}}", latex_of(name)), *rate);
+    }
+    let mut section = lines.section;
+    if facts(subject).is_part {
+        section.text.push("computed by the same operations as in the whole system".to_owned());
+    }
+    section
+}
+
+/// The energy integral.
+pub(super) fn energy(subject: &Subject<'_, '_>) -> Section {
+    let mut lines = Lines::new(&subject.model.bench.graph, "Energies");
+    lines.equation("h", "h", subject.level.energy);
+    lines.section
+}

@@ -1,0 +1,91 @@
+//! A part of programs: some outputs of some functions, and only what they need.
+
+use super::{FunctionProgram, Instruction, Operation, OperationCount, Programs, Value};
+use crate::algebra::SymbolId;
+
+impl Programs {
+    /// The programs of chosen outputs of chosen functions, in the order given: the instructions that they need and the
+    /// prepared values that these need, each as it is in the whole, so that every result is the same to the bit.
+    /// Functions that are not there are left out.
+    ///
+    /// ```
+    /// use guen_symbolic::{Graph, ProgramBuilder, Role};
+    /// let mut g = Graph::new();
+    /// let (x, m, k) = (g.symbol("x", Role::Coordinate), g.symbol("m", Role::Constant), g.symbol("k", Role::Constant));
+    /// let (u, v) = (g.mul(m, x), g.mul(k, x));
+    /// let (u, v) = (g.sin(u), g.exp(v));
+    /// let mut builder = ProgramBuilder::new(&mut g);
+    /// builder.add_function("both", &[u, v]);
+    /// let whole = builder.finish();
+    /// let part = whole.part(&[("both", vec![1])]);
+    /// assert_eq!((whole.functions[0].cost.operations(), part.functions[0].cost.operations()), (2, 1));
+    /// assert_eq!(part.functions[0].cost.sines, 0);
+    /// ```
+    pub fn part(&self, wanted: &[(&str, Vec<usize>)]) -> Programs {
+        let mut functions: Vec<FunctionProgram> = Vec::new();
+        for (name, places) in wanted {
+            let Some(whole) = self.functions.iter().find(|function| function.name == *name) else { continue };
+            let outputs: Vec<Value> = places.iter().map(|place| whole.outputs[*place]).collect();
+            let instructions = needed(&whole.instructions, whole.values, &outputs);
+            let cost = OperationCount::of(&instructions);
+            functions.push(FunctionProgram {
+                name: whole.name.clone(),
+                instructions,
+                outputs,
+                values: whole.values,
+                cost,
+            });
+        }
+        let mut used = vec![false; self.prepared.len()];
+        for instruction in functions.iter().flat_map(|function| &function.instructions) {
+            if let Operation::Prepared(k) = instruction.operation {
+                used[k] = true;
+            }
+        }
+        let kept: Vec<usize> = (0..used.len()).filter(|k| used[*k]).collect();
+        let mut moved = vec![0; used.len()];
+        for (new, old) in kept.iter().enumerate() {
+            moved[*old] = new;
+        }
+        for instruction in functions.iter_mut().flat_map(|function| &mut function.instructions) {
+            if let Operation::Prepared(k) = &mut instruction.operation {
+                *k = moved[*k];
+            }
+        }
+        let prepared: Vec<Value> = kept.iter().map(|k| self.prepared[*k]).collect();
+        let prepare = needed(&self.prepare, self.prepare_values, &prepared);
+        let prepare_cost = OperationCount::of(&prepare);
+        Programs { prepare, prepared, prepare_values: self.prepare_values, prepare_cost, functions }
+    }
+}
+
+impl FunctionProgram {
+    /// The symbols that the function reads.
+    pub fn symbols(&self) -> impl Iterator<Item = SymbolId> {
+        self.instructions.iter().filter_map(|instruction| match instruction.operation {
+            Operation::Symbol(symbol) => Some(symbol),
+            _ => None,
+        })
+    }
+}
+
+/// The instructions that some values need, in their order.
+fn needed(instructions: &[Instruction], count: usize, values: &[Value]) -> Vec<Instruction> {
+    let mut live = vec![false; count];
+    for value in values {
+        live[value.index()] = true;
+    }
+    let mut kept: Vec<Instruction> = Vec::new();
+    for instruction in instructions.iter().rev() {
+        let second = match instruction.operation {
+            Operation::SinCos { cosine, .. } => live[cosine.index()],
+            _ => false,
+        };
+        if live[instruction.result.index()] || second {
+            instruction.operation.operands().for_each(|operand| live[operand.index()] = true);
+            kept.push(instruction.clone());
+        }
+    }
+    kept.reverse();
+    kept
+}
