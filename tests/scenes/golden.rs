@@ -1,7 +1,5 @@
 //! Variables and operations of the scenes that the paper's systems are looked at by.
 
-use guen::prelude::*;
-
 hoop! { guen::mechanical_system;
     scene Tilt { track theta; }
     scene Unit { track theta; fix a = 1, g = 9.81; provide energy; }

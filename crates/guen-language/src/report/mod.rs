@@ -2,7 +2,7 @@
 
 mod scene;
 
-use guen_symbolic::{Class, ExprId, Graph, Notation};
+use guen_symbolic::{Class, ExprId, Notation};
 
 use crate::derive::function;
 use crate::emit::Subject;
@@ -41,29 +41,33 @@ impl Report {
     /// Writes down what was derived of a level of detail.
     pub(crate) fn new(subject: &Subject<'_, '_>) -> Self {
         let selection = &subject.level.selection;
-        let operators = |lines: &mut Vec<Section>| {
-            lines.push(self::operators(subject));
-            lines.push(self::brackets(subject));
+        // One memory for all sections: the parts of an expression are written once.
+        let graph = &subject.model.bench.graph;
+        let writer =
+            &mut Writer { text: Notation::text(graph, LONGEST), latex: Notation::latex(graph, LONGEST) };
+        let operators = |lines: &mut Vec<Section>, writer: &mut Writer<'_>| {
+            lines.push(self::operators(subject, writer));
+            lines.push(self::brackets(subject, writer));
         };
         let mut sections = Vec::new();
         if subject.level.scene.is_some() {
             sections.extend(scene::sections(subject));
             if selection.operators {
-                operators(&mut sections);
+                operators(&mut sections, writer);
             }
-            sections.push(classification(subject));
-            sections.push(scene::rates(subject));
+            sections.push(classification(subject, writer));
+            sections.push(scene::rates(subject, writer));
             if selection.energy {
-                sections.push(scene::energy(subject));
+                sections.push(scene::energy(subject, writer));
             }
         } else {
-            sections.push(forms(subject));
-            operators(&mut sections);
-            sections.push(classification(subject));
-            sections.push(velocities(subject));
-            sections.push(equations(subject));
-            sections.push(momenta(subject));
-            sections.push(energies(subject));
+            sections.push(forms(subject, writer));
+            operators(&mut sections, writer);
+            sections.push(classification(subject, writer));
+            sections.push(velocities(subject, writer));
+            sections.push(equations(subject, writer));
+            sections.push(momenta(subject, writer));
+            sections.push(energies(subject, writer));
         }
         sections.push(domain(subject));
         sections.push(cost(subject));
@@ -85,26 +89,27 @@ impl Report {
     }
 }
 
-/// Lines that are formulas, written twice.
-struct Lines<'g> {
+/// Both ways of writing.
+struct Writer<'g> {
     text: Notation<'g>,
     latex: Notation<'g>,
+}
+
+/// Lines that are formulas, written twice.
+struct Lines<'w, 'g> {
+    writer: &'w mut Writer<'g>,
     section: Section,
 }
 
-impl<'g> Lines<'g> {
-    fn new(graph: &'g Graph, title: &'static str) -> Self {
-        Lines {
-            text: Notation::text(graph, LONGEST),
-            latex: Notation::latex(graph, LONGEST),
-            section: Section { title, text: Vec::new(), latex: Vec::new() },
-        }
+impl<'w, 'g> Lines<'w, 'g> {
+    fn new(writer: &'w mut Writer<'g>, title: &'static str) -> Self {
+        Lines { writer, section: Section { title, text: Vec::new(), latex: Vec::new() } }
     }
 
     /// `left = right` with an expression on the right.
     fn equation(&mut self, left: &str, left_latex: &str, right: ExprId) {
-        let text = self.text.expression(right);
-        let latex = self.latex.expression(right);
+        let text = self.writer.text.expression(right);
+        let latex = self.writer.latex.expression(right);
         self.push(left, left_latex, text, latex);
     }
 
@@ -112,8 +117,8 @@ impl<'g> Lines<'g> {
     fn combination(&mut self, left: &str, left_latex: &str, terms: &[(ExprId, String)]) {
         // Both sums take the plain names: LaTeX is made of them there.
         let terms: Vec<_> = terms.iter().map(|(c, name)| (*c, name.as_str())).collect();
-        let text = self.text.sum(&terms);
-        let latex = self.latex.sum(&terms);
+        let text = self.writer.text.sum(&terms);
+        let latex = self.writer.latex.sum(&terms);
         self.push(left, left_latex, text, latex);
     }
 
@@ -139,9 +144,9 @@ fn latex_of(name: &str) -> String {
     guen_symbolic::latex_name(name)
 }
 
-fn forms(subject: &Subject<'_, '_>) -> Section {
+fn forms(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
     let graph = &subject.model.bench.graph;
-    let mut lines = Lines::new(graph, "Forms (1.1), (1.6)");
+    let mut lines = Lines::new(writer, "Forms (1.1), (1.6)");
     let system = &subject.level.derivation.system;
     for (j, (entry, form)) in subject.model.forms.iter().zip(&system.forms.forms).enumerate() {
         let mut terms = Terms::new();
@@ -152,12 +157,12 @@ fn forms(subject: &Subject<'_, '_>) -> Section {
         }
         let terms: Vec<_> = terms.iter().map(|(c, name)| (*c, name.as_str())).collect();
         let too_long = || TOO_LONG.to_owned();
-        let mut text = lines.text.sum(&terms).unwrap_or_else(too_long);
-        let mut latex = lines.latex.sum(&terms).unwrap_or_else(too_long);
+        let mut text = lines.writer.text.sum(&terms).unwrap_or_else(too_long);
+        let mut latex = lines.writer.latex.sum(&terms).unwrap_or_else(too_long);
         if !graph.is_zero(form.offset) {
-            let offset = lines.text.expression(form.offset).unwrap_or_else(too_long);
+            let offset = lines.writer.text.expression(form.offset).unwrap_or_else(too_long);
             text = format!("{text} + {offset}").replace("+ -", "- ");
-            let offset = lines.latex.expression(form.offset).unwrap_or_else(too_long);
+            let offset = lines.writer.latex.expression(form.offset).unwrap_or_else(too_long);
             latex = format!("{latex} + {offset}").replace("+ -", "- ");
         }
         let zero = if j < system.forms.degrees { "" } else { " = 0" };
@@ -175,9 +180,9 @@ fn forms(subject: &Subject<'_, '_>) -> Section {
     lines.section
 }
 
-fn operators(subject: &Subject<'_, '_>) -> Section {
+fn operators(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
     let graph = &subject.model.bench.graph;
-    let mut lines = Lines::new(graph, "Operators of displacement (1.4), (1.7)");
+    let mut lines = Lines::new(writer, "Operators of displacement (1.4), (1.7)");
     for (j, xi) in subject.level.derivation.frame.operators.xi.iter().enumerate() {
         let mut terms = Terms::new();
         if j == 0 {
@@ -193,7 +198,7 @@ fn operators(subject: &Subject<'_, '_>) -> Section {
     lines.section
 }
 
-fn brackets(subject: &Subject<'_, '_>) -> Section {
+fn brackets(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
     let graph = &subject.model.bench.graph;
     let last = subject.model.last_operator();
     let mut found: Vec<(usize, usize, Terms)> = Vec::new();
@@ -211,7 +216,7 @@ fn brackets(subject: &Subject<'_, '_>) -> Section {
             }
         }
     }
-    let mut lines = Lines::new(graph, "Brackets (1.14)");
+    let mut lines = Lines::new(writer, "Brackets (1.14)");
     for (r, s, terms) in &found {
         lines.combination(&format!("(X{r}, X{s})"), &format!("(X_{{{r}}}, X_{{{s}}})"), terms);
     }
@@ -239,10 +244,9 @@ pub(crate) fn class_name(class: Class) -> &'static str {
     }
 }
 
-fn classification(subject: &Subject<'_, '_>) -> Section {
+fn classification(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
     let d = &subject.level.derivation;
     let (n, l) = (subject.model.coordinates.len(), d.system.forms.degrees);
-    let graph = &subject.model.bench.graph;
     let mut text = Vec::new();
     let growth: Vec<String> = d.closure.growth.iter().map(ToString::to_string).collect();
     let rank = d.closure.growth.last().copied().unwrap_or(l);
@@ -268,12 +272,11 @@ fn classification(subject: &Subject<'_, '_>) -> Section {
             .iter()
             .map(|(v, f)| f.map(|f| (f, subject.model.forms[*v].name.as_str())))
             .collect();
-        let written =
-            known.and_then(|terms| Notation::text(graph, LONGEST).sum(&terms)).unwrap_or_else(|| {
-                let names: Vec<&str> =
-                    combination.terms.iter().map(|(v, _)| subject.model.forms[*v].name.as_str()).collect();
-                format!("a combination of {}", names.join(", "))
-            });
+        let written = known.and_then(|terms| writer.text.sum(&terms)).unwrap_or_else(|| {
+            let names: Vec<&str> =
+                combination.terms.iter().map(|(v, _)| subject.model.forms[*v].name.as_str()).collect();
+            format!("a combination of {}", names.join(", "))
+        });
         text.push(format!("integrable: {written}"));
     }
     let yes =
@@ -289,8 +292,8 @@ fn classification(subject: &Subject<'_, '_>) -> Section {
     Section { title: "Classification", text, latex: Vec::new() }
 }
 
-fn velocities(subject: &Subject<'_, '_>) -> Section {
-    let mut lines = Lines::new(&subject.model.bench.graph, "Velocities (1.8)");
+fn velocities(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
+    let mut lines = Lines::new(writer, "Velocities (1.8)");
     let system = &subject.level.derivation.system;
     for (x, value) in system.velocities.iter().zip(&subject.level.derivation.frame.velocities) {
         let name = subject.model.bench.graph.text(*x);
@@ -299,12 +302,10 @@ fn velocities(subject: &Subject<'_, '_>) -> Section {
     lines.section
 }
 
-fn equations(subject: &Subject<'_, '_>) -> Section {
-    let graph = &subject.model.bench.graph;
+fn equations(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
     let mut section = Section { title: "Equations of motion (2.7)", text: Vec::new(), latex: Vec::new() };
-    let (mut text, mut latex) = (Notation::text(graph, LONGEST), Notation::latex(graph, LONGEST));
     for row in &subject.level.equations {
-        match (text.expression(*row), latex.expression(*row)) {
+        match (writer.text.expression(*row), writer.latex.expression(*row)) {
             (Some(text), Some(latex)) => {
                 section.text.push(format!("{text} = 0"));
                 section.latex.push(format!("{latex} = 0"));
@@ -315,8 +316,8 @@ fn equations(subject: &Subject<'_, '_>) -> Section {
     section
 }
 
-fn momenta(subject: &Subject<'_, '_>) -> Section {
-    let mut lines = Lines::new(&subject.model.bench.graph, "Momenta (2.8)");
+fn momenta(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
+    let mut lines = Lines::new(writer, "Momenta (2.8)");
     let l = subject.level.derivation.system.forms.degrees;
     for (j, momentum) in subject.level.derivation.energies.momenta.iter().enumerate() {
         let name = &subject.model.forms[j].name;
@@ -337,8 +338,8 @@ fn momenta(subject: &Subject<'_, '_>) -> Section {
     lines.section
 }
 
-fn energies(subject: &Subject<'_, '_>) -> Section {
-    let mut lines = Lines::new(&subject.model.bench.graph, "Energies");
+fn energies(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
+    let mut lines = Lines::new(writer, "Energies");
     let d = &subject.level.derivation;
     lines.equation("T", "T", d.energies.kinetic);
     lines.equation("U", "U", d.system.force_function);

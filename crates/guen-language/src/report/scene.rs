@@ -1,6 +1,6 @@
 //! What there is to tell of a scene: what it keeps and why, what left, and its rates.
 
-use super::{Lines, Section, class_name, latex_of, plural};
+use super::{Lines, Section, Writer, class_name, latex_of, plural};
 use crate::derive::{Place, Reason, SceneFacts};
 use crate::emit::Subject;
 use crate::names::quoted;
@@ -67,9 +67,9 @@ pub(super) fn sections(subject: &Subject<'_, '_>) -> Vec<Section> {
 }
 
 /// The rates of the kept variables.
-pub(super) fn rates(subject: &Subject<'_, '_>) -> Section {
+pub(super) fn rates(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
     let Subject { model, level } = subject;
-    let mut lines = Lines::new(&model.bench.graph, "Rates");
+    let mut lines = Lines::new(writer, "Rates");
     for (place, rate) in level.selection.variables.iter().zip(&level.rates) {
         let name = model.variable_name(*place);
         lines.equation(&format!("{name}'"), &format!(r"\dot {{{}}}", latex_of(name)), *rate);
@@ -82,8 +82,8 @@ pub(super) fn rates(subject: &Subject<'_, '_>) -> Section {
 }
 
 /// The energy integral.
-pub(super) fn energy(subject: &Subject<'_, '_>) -> Section {
-    let mut lines = Lines::new(&subject.model.bench.graph, "Energies");
+pub(super) fn energy(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
+    let mut lines = Lines::new(writer, "Energies");
     lines.equation("h", "h", subject.level.energy);
     lines.section
 }
