@@ -4,7 +4,7 @@
 //! integer exponents, and carries no number: numbers belong to the sums above. Sums inside products are
 //! primitive (content one, first coefficient positive). Nothing distributes products over sums.
 
-use super::graph::{ExprId, Graph, Node, Order, PowerError};
+use super::graph::{COSINES, ExprId, Graph, Node, Order, PowerError, SINE_SQUARED};
 use super::{Function, Rational};
 
 /// Sums with more terms stay nested: flattening them would copy their terms into every user.
@@ -214,14 +214,20 @@ impl Graph {
 
     /// Two terms `c m sin(x)^2` and `c m cos(x)^2` with the same `c`, and the factors of `m`.
     fn square_pair(&self, collected: &[(ExprId, Rational)]) -> Option<SquarePair> {
-        if collected.len() < 2 {
+        let mut looks = 0;
+        let mut next = 0;
+        while next < collected.len() {
+            looks |= self.looks(collected[next].0);
+            next += 1;
+        }
+        if collected.len() < 2 || looks & SINE_SQUARED == 0 || looks & COSINES == 0 {
             return None;
         }
-        let mut next = 0;
+        next = 0;
         while next < collected.len() {
             let (id, c) = &collected[next];
             next += 1;
-            if !self.has_sine_squared(*id) {
+            if self.looks(*id) & SINE_SQUARED == 0 {
                 continue;
             }
             let Node::Product(factors) = self.node(*id) else { continue };
@@ -314,7 +320,13 @@ impl Graph {
                 _ => self.collect_factor(&mut collected, &mut exponentials, id, e),
             }
         }
-        collected.reverse();
+        let turned: &mut [(ExprId, i32)] = &mut collected;
+        let (mut low, mut high) = (0, turned.len());
+        while low + 1 < high {
+            high -= 1;
+            (turned[low], turned[high]) = (turned[high], turned[low]);
+            low += 1;
+        }
         if undefined {
             return self.intern(Node::Undefined);
         }

@@ -85,7 +85,8 @@ impl Flow {
                     if graph.is_zero(slope) {
                         continue;
                     }
-                    let mut product = factors.to_vec();
+                    let mut product = Vec::with_capacity(factors.len() + 1);
+                    product.extend_from_slice(&factors);
                     product[i].1 -= 1;
                     product.push((slope, 1));
                     terms.push((graph.product(&product), Rational::integer((*e).into())));

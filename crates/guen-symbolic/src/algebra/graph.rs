@@ -199,7 +199,10 @@ pub(super) enum Order {
 /// A sum whose coefficients have no factor in common, the first one positive.
 const PRIMITIVE: u8 = 1;
 /// A product with a sine whose exponent is at least two.
-const SINE_SQUARED: u8 = 2;
+pub(super) const SINE_SQUARED: u8 = 2;
+/// A product with a cosine whose exponent is at least two, or negative: without one of these nothing folds with a square
+/// of a sine.
+pub(super) const COSINES: u8 = 4;
 
 /// The memory of a traversal: kept, because clearing it would cost more than the nodes that are visited.
 #[derive(Default)]
@@ -577,8 +580,10 @@ impl Graph {
             let child = base.0 as usize;
             roles = roles.or(self.roles[child]);
             depth = depth.max(self.depths[child]);
-            if e >= 2 && matches!(self.nodes[child], Node::Function(Function::Sin, _)) {
-                flags = SINE_SQUARED;
+            match self.nodes[child] {
+                Node::Function(Function::Sin, _) if e >= 2 => flags |= SINE_SQUARED,
+                Node::Function(Function::Cos, _) if e >= 2 || e < 0 => flags |= COSINES,
+                _ => {}
             }
             index += 1;
         }
@@ -597,9 +602,9 @@ impl Graph {
         self.flags[id.0 as usize] & PRIMITIVE != 0
     }
 
-    /// Whether a product has a sine with an exponent of at least two.
-    pub(super) fn has_sine_squared(&self, id: ExprId) -> bool {
-        self.flags[id.0 as usize] & SINE_SQUARED != 0
+    /// What is known of a sum or product by its looks: a set of the constants here.
+    pub(super) fn looks(&self, id: ExprId) -> u8 {
+        self.flags[id.0 as usize]
     }
 
     /// Where an expression stands in a list in the graph's order, or where it would have to be put.
