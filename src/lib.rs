@@ -42,23 +42,23 @@
 //! | feature | default | what it brings |
 //! | --- | --- | --- |
 //! | `nalgebra` | yes | conversions between states and `nalgebra::SVector` |
-//! | `std` | yes | nothing of its own yet; recordings and pictures are in the crate `guen-study` |
+//! | `std` | yes | `Std`, and lanes chosen at run time; recordings and pictures are in the crate `guen-study` |
 #![no_std]
 #![forbid(unsafe_code)]
 
 pub use guen_runtime::control;
 pub use guen_runtime::{
-    BodyFault, BracketCoefficients, Catastatic, Cause, Class, Coefficient, Conservative, ConstantsError,
-    Coordinate, Cost, Differentiable, Digits7, Digits13, Dual, Equations, Function, Functions, Fused,
-    Generic, Holonomic, IncompleteLieGroup, IntegrationError, Laned, Level, LevelInfo, Levels, LieGroup,
-    Lift, Liftable, Linearizable, Linearization, Monitored, Nonholonomic, Operator, Ordered,
-    OutputLinearization, Positions, PositionsError, Projected, Real, Report, ReportSection, Rheonomic,
-    Scleronomic, Setting, System, Tuned, Vitals, from_fn, generic, lanes, prelude, project, projected,
-    steppers,
+    BodyFault, BracketCoefficients, Catastatic, Cause, Choice, Class, Coefficient, Conservative,
+    ConstantsError, Coordinate, Cost, Differentiable, Digits7, Digits7Functions, Digits13, Digits13Functions,
+    Dual, Equations, Function, Functions, Fused, FusedOperations, Generic, Holonomic, IncompleteLieGroup,
+    IntegrationError, Laned, Level, LevelInfo, Levels, LieGroup, Lift, Liftable, Linearizable, Linearization,
+    Monitored, Nonholonomic, Operator, Ordered, OutputLinearization, Positions, PositionsError, Projected,
+    Real, Report, ReportSection, Rheonomic, Scleronomic, Setting, System, Tuned, Vitals, from_fn, generic,
+    lanes, prelude, project, projected, steppers,
 };
 
 #[cfg(feature = "std")]
-pub use guen_runtime::Std;
+pub use guen_runtime::{Std, StdFunctions};
 
 /// Declares a mechanical system and derives its equations of motion at compile time.
 ///
@@ -124,6 +124,8 @@ mod pages {
     mod bodies {}
     #[doc = include_str!("../docs/generated.md")]
     mod generated {}
+    #[doc = include_str!("../docs/reals.md")]
+    mod reals {}
     #[doc = include_str!("../docs/theory.md")]
     mod theory {}
     #[doc = include_str!("../docs/internals.md")]

@@ -6,6 +6,8 @@
 //! | --- | --- |
 //! | what is a number? | [`Real`], [`Ordered`], [`Dual`]; [`Lift`] embeds a base real |
 //! | what is integrated? | [`System`], [`Monitored`], [`Differentiable`], [`from_fn`], [`generic`] |
+//! | which functions does it have? | [`Tuned`]: [`Digits13`], [`Digits7`], [`Fused`], [`Functions`] of your own |
+//! | how many at once? | [`lanes`]; [`Laned`] systems |
 //! | what acts on functions? | [`Operator`], [`Function`], [`Coordinate`], [`BracketCoefficients`] |
 //! | what is known at compile time? | [`Class`], the markers [`Holonomic`] to [`Conservative`], [`Cost`] |
 //! | how is it integrated? | [`steppers`]: an [`Integration`](steppers::Integration) run by one of nine methods |
@@ -19,8 +21,8 @@
 //! # Features
 //!
 //! - `nalgebra`: re-exports that crate, and [`nalgebra_conversions!`] has an effect.
-//! - `std`: nothing yet; what needs an operating system goes behind it. Elementary functions come from `libm` with
-//!   or without it.
+//! - `std`: [`Std`], the platform's elementary functions; [`lanes`] chosen at run time, and not by the target of the
+//!   build. Without it everything else gives the same bits.
 #![no_std]
 #![deny(unsafe_code)]
 

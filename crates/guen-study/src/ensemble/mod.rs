@@ -146,7 +146,7 @@ impl<S, const N: usize, C> Ensemble<S, N, C> {
     /// let ensemble = Ensemble::of_states(pendulum, (1..10).map(|i| [0.3 * i as f64, 0.0]));
     /// let steps = ensemble.each(|pendulum, start| {
     ///     let go_on = |_, _: &[f64; 2]| ControlFlow::Continue(());
-    ///     Dop853::new(1e-9, 1e-9).integrate(pendulum, 0.0, start, 20.0, go_on).map(|done| done.statistics.accepted)
+    ///     Dop853::new(1e-9, 1e-9).integrate(pendulum, 0.0, start, 20.0, go_on).unwrap().statistics.accepted
     /// });
     /// assert!(steps[8] > steps[0]);
     /// ```
