@@ -73,15 +73,7 @@ where
             Some(leg) if leg.target == target && leg.index < leg.count => leg,
             _ => Leg::new(now, target, self.step)?,
         };
-        leg.index += 1;
-        let (next, h) = if leg.index == leg.count {
-            (target, target - now)
-        } else {
-            (leg.origin + leg.h * R::from_ratio(leg.index, 1), leg.h)
-        };
-        if next == now {
-            return Err(Cause::StepUnderflow);
-        }
+        let (next, h) = leg.next(now)?;
         let mut statistics = self.reached.statistics;
         let made = self.formula.step(system, &mut self.memory, &self.reached, h, dense, &mut statistics);
         self.reached.statistics = statistics;
@@ -171,7 +163,7 @@ impl<R: Real, const N: usize> Slopes<R, N> {
 
 /// The steps from one time to another: `origin + k h` for `k = 1 .. count - 1`, then the target.
 #[derive(Clone, Copy, Debug)]
-struct Leg<R> {
+pub struct Leg<R> {
     origin: R,
     target: R,
     /// The step with its direction.
@@ -183,7 +175,7 @@ struct Leg<R> {
 }
 
 impl<R: Real> Leg<R> {
-    fn new(origin: R, target: R, step: R) -> Result<Self, Cause> {
+    pub(super) fn new(origin: R, target: R, step: R) -> Result<Self, Cause> {
         /// Beyond this many steps `f64` no longer counts them one by one.
         const COUNTABLE: f64 = (1_u64 << 53) as f64;
         /// Roundings by which a span may exceed a whole number of steps without being given a further one: those
@@ -202,5 +194,16 @@ impl<R: Real> Leg<R> {
         let slack = ROUNDINGS * f64::max(R::epsilon().to_f64(), f64::EPSILON);
         let count = libm::ceil(steps * (1.0 - slack)).max(1.0) as i64;
         Ok(Self { origin, target, h: if span < 0.0 { -step } else { step }, index: 0, count })
+    }
+
+    /// The end and the length of the next step.
+    pub(super) fn next(&mut self, now: R) -> Result<(R, R), Cause> {
+        self.index += 1;
+        let (next, h) = if self.index == self.count {
+            (self.target, self.target - now)
+        } else {
+            (self.origin + self.h * R::from_ratio(self.index, 1), self.h)
+        };
+        if next == now { Err(Cause::StepUnderflow) } else { Ok((next, h)) }
     }
 }
