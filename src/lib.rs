@@ -126,6 +126,8 @@ mod pages {
     mod generated {}
     #[doc = include_str!("../docs/reals.md")]
     mod reals {}
+    #[doc = include_str!("../docs/integrators.md")]
+    mod integrators {}
     #[doc = include_str!("../docs/theory.md")]
     mod theory {}
     #[doc = include_str!("../docs/internals.md")]

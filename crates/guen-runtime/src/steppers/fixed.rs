@@ -163,7 +163,7 @@ impl<R: Real, const N: usize> Slopes<R, N> {
 
 /// The steps from one time to another: `origin + k h` for `k = 1 .. count - 1`, then the target.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Leg<R> {
+pub struct Leg<R> {
     origin: R,
     target: R,
     /// The step with its direction.

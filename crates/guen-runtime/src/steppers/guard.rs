@@ -36,14 +36,14 @@ const EDGES: usize = 16;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Guard {
     /// The largest change of the energy since the start, relative to the largest scale `|T| + |U|` at the start and at
-    /// looks since then; for systems that keep their energy. By default 0.01: a run that is off by more is rarely one
+    /// the looks until now; for systems that keep their energy. By default 0.01: a run that is off by more is rarely one
     /// that somebody wants, whatever its accuracy was meant to be.
     pub energy: f64,
     /// The largest left side of a constraint on positions, in its own unit. By default without limit, since units are
     /// the declaration's.
     pub residual: f64,
     /// The distance to the edge of the chart at which to stop: each function that must not vanish, relative to its
-    /// largest value at the start and at looks since then. By default `1e-8`, where a term with its square in the
+    /// largest value at the start and at the looks before. By default `1e-8`, where a term with its square in the
     /// denominator has no digits left in `f64`. A change of its sign always ends the run.
     pub edge: f64,
     /// Look every so many steps, at least every one; chosen by the method's cost if absent.
@@ -137,11 +137,14 @@ impl<R: Real, const N: usize> Watch<R, N> {
         let found = reached.time.to_f64();
         let vitals = system.vitals(reached.time, &reached.state);
         if let (Some(energy), Some(before)) = (vitals.energy, start.energy) {
-            let change = relative((energy - before).to_f64().abs(), start.scale);
+            // With the scale of this state, for the start may have none: at rest, where the potential is zero. A state
+            // that blew up is no larger than its own energy, so that its change is about one.
+            let scale = start.scale.max(vitals.scale.to_f64());
+            let change = relative((energy - before).to_f64().abs(), scale);
             if !(change <= guard.energy) {
                 return Err(Cause::Energy { found, change, limit: guard.energy });
             }
-            start.scale = start.scale.max(vitals.scale.to_f64());
+            start.scale = scale;
         }
         let residual = vitals.residual.to_f64();
         if !(residual <= guard.residual) {
