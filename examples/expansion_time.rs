@@ -6,8 +6,8 @@
 //!
 //! Without `--release`: cargo builds procedural macros without optimisation, in a user's dev profile and in the release
 //! profile too, so these are the times that a user waits. (Only the tokens come from this program and not from the
-//! compiler.) The declarations of the examples are cut out of their files; the chains, of point masses on massless
-//! rods with absolute angles, are written here.
+//! compiler.) The declarations of the examples are cut out of their files; the chains are those of the benchmarks,
+//! with absolute angles.
 //!
 //! The times of the stages and their sum are medians of several expansions. The last column is the mean time on a
 //! processor, which does not depend on what else the machine does; it is known on Linux only.
@@ -15,6 +15,8 @@
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
+use guen_benchmarks::chains::{Angles, declaration as declaration_of_chain};
+use guen_benchmarks::timing::processor_time;
 use guen_language::diagnostics::collect;
 use guen_language::{derive, emit, expand, model, parse};
 use guen_study::Table;
@@ -89,24 +91,7 @@ fn declaration(source: &str) -> TokenStream {
 
 /// A chain of links that hangs in the plane.
 fn chain(links: usize) -> TokenStream {
-    let list =
-        |entry: &dyn Fn(usize) -> String, gap: &str| (1..=links).map(entry).collect::<Vec<_>>().join(gap);
-    let text = format!(
-        "pub system Chain {{
-            constants {{ m > 0, l > 0, g = 9.81 }}
-            coordinates {{ {} }}
-            let x0 = 0; let y0 = 0;
-            {}
-            parameters {{ {} }}
-            particles {{ {} }}
-            gravity = vec(0, -g);
-        }}",
-        list(&|i| format!("q{i}"), ", "),
-        list(&|i| format!("let x{i} = x{0} + l*sin(q{i}); let y{i} = y{0} - l*cos(q{i});", i - 1), " "),
-        list(&|i| format!("w{i} = dot(q{i});"), " "),
-        list(&|i| format!("m at vec(x{i}, y{i});"), " "),
-    );
-    text.parse().expect("the chain is made of tokens")
+    declaration_of_chain("Chain", links, Angles::Absolute).parse().expect("the chain is made of tokens")
 }
 
 /// The number of tokens emitted, the medians of the stages, and the mean time on a processor in
@@ -128,13 +113,6 @@ fn measured(tokens: &TokenStream) -> (usize, Stages, f64) {
     };
     let processor = (processor_time() - processor) * 1e3 / runs.len() as f64;
     (emitted, std::array::from_fn(median), processor)
-}
-
-/// Seconds that this thread has spent on a processor; NaN where the system does not tell.
-fn processor_time() -> f64 {
-    let text = std::fs::read_to_string("/proc/thread-self/schedstat").unwrap_or_default();
-    let nanoseconds = text.split(' ').next().and_then(|first| first.parse::<f64>().ok());
-    nanoseconds.map_or(f64::NAN, |nanoseconds| nanoseconds * 1e-9)
 }
 
 /// What `expand` does, with a clock between the stages.
