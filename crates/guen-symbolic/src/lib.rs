@@ -25,8 +25,7 @@ pub use algebra::{
 pub use geometry::{Brackets, Closure, Combination, Form, Forms, Operators, SingularForms};
 pub use motion::{
     Class, Derivation, DerivationError, Energies, Equations, Force, Frame, Holonomic, KineticTerm, Mechanics,
-    NotQuadratic, Solution, VelocityForm, VelocityPartials, decompose,
-    equations_by_definition,
+    NotQuadratic, Solution, VelocityForm, VelocityPartials, decompose, equations_by_definition,
 };
 pub use normal::{Limits, normal_coefficients, normal_form};
 pub use print::{Notation, latex_name};
