@@ -6,8 +6,9 @@
 //!
 //! Without `--release`: cargo builds procedural macros without optimisation, in a user's dev profile and in the release
 //! profile too, so these are the times that a user waits. (Only the tokens come from this program and not from the
-//! compiler.) The declarations of the examples are cut out of their files; beside them stand chains of point masses and
-//! the largest systems of the tests: vehicles, snakes, contacts with a square root, moving belts, prescribed motions.
+//! compiler.) The declarations of the examples are cut out of their files; beside them stand the chains of the benchmarks,
+//! with absolute angles, and the largest systems of the tests: vehicles, snakes, contacts with a square root, moving
+//! belts, prescribed motions.
 //!
 //! The times of the stages and their sum are medians of several expansions, followed by the shares of deriving and
 //! emitting in percent. The last column is the mean time on a processor, which depends less on what else the machine
@@ -16,6 +17,8 @@
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
+use guen_benchmarks::chains::{Angles, declaration as declaration_of_chain};
+use guen_benchmarks::timing::processor_time;
 use guen_language::diagnostics::collect;
 use guen_language::{derive, emit, expand, model, parse};
 use guen_study::Table;
@@ -49,7 +52,9 @@ fn main() -> ExitCode {
     let mut systems: Vec<(String, TokenStream)> =
         FILES.iter().map(|(name, source)| (name.to_string(), declaration(source))).collect();
     let mut add = |name: String, text: &str| systems.push((name, text.parse().expect("these are tokens")));
-    CHAINS.iter().for_each(|&links| add(format!("chain of {links}"), &large::chain(links)));
+    CHAINS.iter().for_each(|&links| {
+        add(format!("chain of {links}"), &declaration_of_chain("Chain", links, Angles::Absolute));
+    });
     SNAKES.iter().for_each(|&links| add(format!("snake of {links}"), &large::snake(links)));
     add("tricycle".to_owned(), large::TRICYCLE);
     add("ellipsoid".to_owned(), large::LADEN_ELLIPSOID);
@@ -128,13 +133,6 @@ fn measured(tokens: &TokenStream) -> (usize, Stages, f64) {
     };
     let processor = (processor_time() - processor) * 1e3 / runs.len() as f64;
     (emitted, std::array::from_fn(median), processor)
-}
-
-/// Seconds that this thread has spent on a processor; NaN where the system does not tell.
-fn processor_time() -> f64 {
-    let text = std::fs::read_to_string("/proc/thread-self/schedstat").unwrap_or_default();
-    let nanoseconds = text.split(' ').next().and_then(|first| first.parse::<f64>().ok());
-    nanoseconds.map_or(f64::NAN, |nanoseconds| nanoseconds * 1e-9)
 }
 
 /// What `expand` does, with a clock between the stages.

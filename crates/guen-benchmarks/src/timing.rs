@@ -177,6 +177,26 @@ pub fn median_with_interval(values: &mut [f64]) -> (f64, (f64, f64)) {
     (median, (values[out], values[n - 1 - out]))
 }
 
+/// Seconds that this thread has spent on a processor, whatever else the machine did; NaN where the system does not tell.
+pub fn processor_time() -> f64 {
+    let text = std::fs::read_to_string("/proc/thread-self/schedstat").unwrap_or_default();
+    let nanoseconds = text.split(' ').next().and_then(|first| first.parse::<f64>().ok());
+    nanoseconds.map_or(f64::NAN, |nanoseconds| nanoseconds * 1e-9)
+}
+
+/// Seconds that processes started and waited for by this one have spent on processors, in steps of a hundredth; NaN
+/// where the system does not tell.
+pub fn processor_time_of_children() -> f64 {
+    /// The clock of `/proc`, the same on all architectures of Linux.
+    const TICKS_PER_SECOND: f64 = 100.0;
+    let text = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
+    // Behind the name, which may contain spaces, `cutime` and `cstime` are the fourteenth and fifteenth field.
+    let fields = text.rsplit(") ").next().unwrap_or_default();
+    let ticks = fields.split(' ').skip(13).take(2).map(|field| field.parse::<f64>().unwrap_or(f64::NAN));
+    let ticks: Vec<f64> = ticks.collect();
+    if ticks.len() == 2 { ticks.iter().sum::<f64>() / TICKS_PER_SECOND } else { f64::NAN }
+}
+
 /// What the figures of a run depend on, one fact per line.
 pub fn conditions() -> String {
     let cpu = std::fs::read_to_string("/proc/cpuinfo")

@@ -78,6 +78,7 @@ impl Raw {
 }
 
 /// Elimination without pivoting: mass matrices are positive definite.
+#[allow(clippy::needless_range_loop, reason = "indices as in the formulas")]
 fn solved<R: Real>(mut m: Vec<Vec<R>>, mut f: Vec<R>) -> Vec<R> {
     let n = f.len();
     for j in 0..n {

@@ -2,6 +2,7 @@
 //!
 //! By elimination in the mass matrix, as textbooks have it, and by the tensions of the links. The latter is what
 //! somebody writes who knows that each mass feels its two links only: work in proportion to the number of links.
+#![allow(clippy::needless_range_loop, reason = "indices as in the formulas")]
 
 use guen::{Real, System, from_fn};
 
@@ -13,10 +14,8 @@ pub fn chain_by_elimination<R: Real, const L: usize, const N: usize>([l, g]: [R;
     from_fn(move |_t, state: &[R; N]| {
         let mut rates = [R::zero(); N];
         let solved = eliminated::<R, L>(&below, gravity, &angles(state), &angular_rates(state));
-        for i in 0..L {
-            rates[i] = state[L + i];
-            rates[L + i] = solved[i];
-        }
+        rates[..L].copy_from_slice(&state[L..]);
+        rates[L..].copy_from_slice(&solved);
         rates
     })
 }
@@ -57,7 +56,7 @@ fn eliminated<R: Real, const L: usize>(below: &[R; L], gravity: R, q: &[R; L], w
         for i in j + 1..L {
             let factor = column[j][i] * inverse[j];
             for k in i..L {
-                column[i][k] = column[i][k] - factor * column[j][k];
+                column[i][k] -= factor * column[j][k];
             }
             force[i] -= factor * force[j];
         }
@@ -86,10 +85,8 @@ pub fn chain_by_tensions<R: Real, const L: usize, const N: usize>([l, g]: [R; 2]
     from_fn(move |_t, state: &[R; N]| {
         let mut rates = [R::zero(); N];
         let solved = by_tensions::<R, L>(gravity, &angles(state), &angular_rates(state));
-        for i in 0..L {
-            rates[i] = state[L + i];
-            rates[L + i] = solved[i];
-        }
+        rates[..L].copy_from_slice(&state[L..]);
+        rates[L..].copy_from_slice(&solved);
         rates
     })
 }

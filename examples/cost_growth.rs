@@ -1,0 +1,196 @@
+//! How cost grows with the size of a system: planar chains, in absolute and in relative angles.
+//!
+//! ```text
+//! cargo run --example cost_growth            # up to 20 links
+//! cargo run --example cost_growth -- 12      # up to 12
+//! ```
+//!
+//! For each number of links: the operations of the right-hand side, the time of the expansion, and the time that rustc
+//! then spends on what was emitted, with one instance of the right-hand side in `f64`: for checking alone, without
+//! optimisation, and with it. What rustc takes for an empty crate is not in these figures. All times are those on processors,
+//! which do not depend on what else the machine does; they are known on Linux only. Below each table stand the exponents
+//! `p` of fits `c links^p`.
+//!
+//! Without `--release`: cargo builds procedural macros without optimisation, so that is the time that a user waits.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, ExitCode};
+use std::{env, fs, io};
+
+use guen_benchmarks::chains::{Angles, declaration};
+use guen_benchmarks::timing::{processor_time, processor_time_of_children};
+use guen_language::diagnostics::collect;
+use guen_language::{derive, emit, model, parse};
+use guen_study::Table;
+
+const MOST: usize = 20;
+/// Below this, costs that do not grow are most of the whole: the fits leave it out.
+const ASYMPTOTIC: usize = 5;
+/// The numbers of links that are shown.
+const LINKS: [usize; 8] = [1, 2, 3, 5, 7, 10, 14, 20];
+const COLUMNS: [&str; 6] = ["links", "operations", "expand/ms", "check/ms", "opt 0/ms", "opt 3/ms"];
+
+fn main() -> ExitCode {
+    if !cfg!(debug_assertions) {
+        println!(
+            "this is an optimised build, and the compiler's macro is none: see `cargo run --example cost_growth`\n"
+        );
+    }
+    let most = env::args().nth(1).and_then(|word| word.parse().ok()).unwrap_or(MOST);
+    let compiler = match Compiler::new() {
+        Ok(compiler) => compiler,
+        Err(error) => {
+            eprintln!("rustc's times need a build of guen: {error}");
+            return ExitCode::FAILURE;
+        }
+    };
+    for (angles, name) in [(Angles::Absolute, "absolute"), (Angles::Relative, "relative")] {
+        let mut rows: Vec<[f64; 6]> = Vec::new();
+        let mut table = Table::new(&COLUMNS).digits(4);
+        for links in LINKS.into_iter().filter(|links| *links <= most) {
+            // The whole takes a minute or two: say how far it is.
+            eprint!("\r{name} angles, {links} links   ");
+            match row(&compiler, links, angles) {
+                Ok(row) => {
+                    table.row(&row);
+                    rows.push(row);
+                }
+                Err(error) => eprintln!("\n{links} links: {error}"),
+            }
+        }
+        eprintln!();
+        println!("chains in {name} angles\n{table}");
+        let exponents: Vec<String> =
+            (1..6).map(|column| format!("{} {:.2}", COLUMNS[column], exponent(&rows, column))).collect();
+        println!("exponents from {ASYMPTOTIC} links on: {}\n", exponents.join(", "));
+    }
+    ExitCode::SUCCESS
+}
+
+/// One line of the table.
+fn row(compiler: &Compiler, links: usize, angles: Angles) -> Result<[f64; 6], String> {
+    let text = declaration("Chain", links, angles);
+    let start = processor_time();
+    let (code, operations) = expanded(&text)?;
+    let expansion = (processor_time() - start) * 1e3;
+    let source = format!(
+        "{code}\npub fn rates(chain: &chain::Prepared<f64>, state: &[f64; {0}]) -> [f64; {0}] {{ guen::System::rhs(chain, 0.0, state) }}",
+        2 * links
+    );
+    let mut times = [0.0; 3];
+    for (time, mode) in times.iter_mut().zip(Mode::ALL) {
+        let spent = compiler.time(&source, mode).map_err(|error| error.to_string())?;
+        let empty = compiler.time("", mode).map_err(|error| error.to_string())?;
+        *time = (spent - empty).max(0.0);
+    }
+    let [check, plain, optimised] = times;
+    Ok([links as f64, f64::from(operations), expansion, check, plain, optimised])
+}
+
+/// What the macro makes of a declaration, and the operations of its right-hand side.
+fn expanded(text: &str) -> Result<(String, u32), String> {
+    let tokens = text.parse().map_err(|error| format!("{error:?}"))?;
+    let (parsed, report) = parse::parse(tokens);
+    let parsed = parsed.ok_or_else(|| report.to_string())?;
+    let (resolved, report) = collect(|faults| model::resolve(&parsed, faults));
+    let resolved = resolved.ok_or_else(|| report.to_string())?;
+    let (derived, report) = collect(|faults| derive::derive(resolved, faults));
+    let derived = derived.ok_or_else(|| report.to_string())?;
+    let rates = derived.programs.functions.iter().find(|program| program.name == derive::function::RHS);
+    let cost = rates.map(|program| program.cost).unwrap_or_default();
+    let operations = cost.operations() + cost.sines + cost.calls;
+    Ok((emit::emit(derived).to_string(), operations))
+}
+
+/// The slope of the regression of logarithms.
+fn exponent(rows: &[[f64; 6]], column: usize) -> f64 {
+    let points: Vec<(f64, f64)> = rows
+        .iter()
+        .filter(|row| row[0] >= ASYMPTOTIC as f64 && row[column] > 0.0)
+        .map(|row| (row[0].ln(), row[column].ln()))
+        .collect();
+    let n = points.len() as f64;
+    let (x, y) = points.iter().fold((0.0, 0.0), |(x, y), point| (x + point.0 / n, y + point.1 / n));
+    let (xy, xx) = points
+        .iter()
+        .fold((0.0, 0.0), |(xy, xx), point| (xy + (point.0 - x) * (point.1 - y), xx + (point.0 - x).powi(2)));
+    xy / xx
+}
+
+/// What rustc is asked for.
+#[derive(Clone, Copy)]
+enum Mode {
+    Check,
+    Plain,
+    Optimised,
+}
+
+impl Mode {
+    const ALL: [Mode; 3] = [Mode::Check, Mode::Plain, Mode::Optimised];
+
+    fn arguments(self) -> &'static [&'static str] {
+        match self {
+            Mode::Check => &["--emit=metadata"],
+            Mode::Plain => &["--emit=metadata,link", "-Copt-level=0", "-Cdebuginfo=2"],
+            Mode::Optimised => &["--emit=metadata,link", "-Copt-level=3"],
+        }
+    }
+}
+
+/// rustc with a `guen` to link to.
+struct Compiler {
+    folder: PathBuf,
+    library: PathBuf,
+}
+
+impl Compiler {
+    /// Builds `guen`, or finds it built, in this program's own target folder.
+    fn new() -> io::Result<Self> {
+        let program = env::current_exe()?;
+        // .../debug/examples/cost_growth
+        let target = program.ancestors().nth(3).ok_or_else(|| io::Error::other("no target folder"))?;
+        let output = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
+            .args(["build", "--offline", "-p", "guen", "--lib", "--message-format=json", "--target-dir"])
+            .arg(target)
+            .current_dir(env!("CARGO_MANIFEST_DIR"))
+            .output()?;
+        let text = String::from_utf8_lossy(&output.stdout);
+        let library = text
+            .split('"')
+            .filter(|word| word.ends_with(".rlib"))
+            .find(|word| Path::new(word).file_name().is_some_and(|name| name == "libguen.rlib"));
+        let library =
+            library.ok_or_else(|| io::Error::other(String::from_utf8_lossy(&output.stderr).into_owned()))?;
+        let folder = target.join("guen/cost_growth");
+        fs::create_dir_all(&folder)?;
+        Ok(Compiler { folder, library: PathBuf::from(library) })
+    }
+
+    /// The milliseconds that rustc takes for a crate.
+    fn time(&self, source: &str, mode: Mode) -> io::Result<f64> {
+        let file = self.folder.join("growth.rs");
+        fs::write(&file, source)?;
+        let mut dependencies = std::ffi::OsString::from("dependency=");
+        // The library is in the folder above that of what it depends on, or beside it.
+        let place = self.library.parent().unwrap_or(&self.folder);
+        dependencies.push(if place.ends_with("deps") { place.to_owned() } else { place.join("deps") });
+        let mut library = std::ffi::OsString::from("guen=");
+        library.push(&self.library);
+        let start = processor_time_of_children();
+        let output = Command::new("rustc")
+            .args(["--edition=2024", "--crate-type=lib", "--cap-lints=allow", "--out-dir"])
+            .arg(&self.folder)
+            .args(mode.arguments())
+            .arg("-L")
+            .arg(dependencies)
+            .arg("--extern")
+            .arg(library)
+            .arg(&file)
+            .output()?;
+        if output.status.success() {
+            Ok((processor_time_of_children() - start) * 1e3)
+        } else {
+            Err(io::Error::other(String::from_utf8_lossy(&output.stderr).into_owned()))
+        }
+    }
+}
