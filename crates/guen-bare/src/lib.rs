@@ -54,6 +54,7 @@ pub struct Gains {
 #[allow(unsafe_code, reason = "a name for C")]
 #[unsafe(no_mangle)]
 pub extern "C" fn guen_robot_prepare(constants: &Constants, plant: &mut Plant) -> bool {
+    #[allow(non_snake_case, reason = "the constants have their names from the declaration")]
     let [m, mw, h, b, r, A, B, C, I, J, c, torque_max, g] = constants.values;
     match (Robot { m, mw, h, b, r, A, B, C, I, J, c, torque_max, g }).prepare() {
         Ok(prepared) => {
