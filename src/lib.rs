@@ -42,6 +42,7 @@
 //! | feature | default | what it brings |
 //! | --- | --- | --- |
 //! | `nalgebra` | yes | conversions between states and `nalgebra::SVector` |
+//! | `serde` | no | serde's traits for constants, states and inputs; for recordings the feature of `guen-study` |
 //! | `std` | yes | nothing of its own yet; recordings and pictures are in the crate `guen-study` |
 #![no_std]
 #![forbid(unsafe_code)]
@@ -99,7 +100,8 @@ pub mod __private {
         BracketCoefficients, Catastatic, Class, Coefficient, Conservative, ConstantsError, Cost, Dual,
         Holonomic, IncompleteLieGroup, LieGroup, Lift, Liftable, Linearizable, Linearization, Monitored,
         Nonholonomic, Operator, Ordered, OutputLinearization, Positions, PositionsError, Real, Report,
-        ReportSection, Rheonomic, Scleronomic, System, nalgebra_conversions, seeded, zero_bracket,
+        ReportSection, Rheonomic, Scleronomic, System, nalgebra_conversions, seeded, serde_record,
+        zero_bracket,
     };
     pub use guen_runtime::{consistent, control};
 }

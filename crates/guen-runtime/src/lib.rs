@@ -18,6 +18,7 @@
 //! # Features
 //!
 //! - `nalgebra`: re-exports that crate, and [`nalgebra_conversions!`] has an effect.
+//! - `serde`: re-exports that crate, and [`serde_record!`] has an effect.
 //! - `std`: nothing yet; what needs an operating system goes behind it. Elementary functions come from `libm` with
 //!   or without it.
 #![no_std]
@@ -39,6 +40,7 @@ mod operator;
 mod positions;
 mod real;
 mod report;
+mod serde_support;
 pub mod steppers;
 mod system;
 
@@ -60,6 +62,11 @@ pub use system::{FromFn, Monitored, System, from_fn};
 
 #[cfg(feature = "nalgebra")]
 pub use nalgebra;
+#[cfg(feature = "serde")]
+pub use serde;
+#[cfg(feature = "serde")]
+#[doc(hidden)]
+pub use serde_support::{deserialize_record, serialize_record};
 
 /// What a program that integrates systems wants in scope.
 pub mod prelude {

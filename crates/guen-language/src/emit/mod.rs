@@ -17,6 +17,7 @@ mod outline;
 mod physical;
 mod positions;
 mod records;
+mod serde;
 mod uses;
 
 use proc_macro2::{Ident, Span, TokenStream};
@@ -127,6 +128,7 @@ pub fn emit(mut derived: Derived<'_>) -> TokenStream {
         linearization::items(&derived, &layout),
         control::items(&derived, &layout),
         limits::items(&derived, &layout),
+        serde::items(&derived, &layout),
         positions::items(&derived, &layout),
         physical::items(&derived, &layout),
         operators::items(&mut derived, &layout),
