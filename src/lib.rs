@@ -53,7 +53,7 @@ pub use guen_runtime::{
     Cost, Dual, Function, Holonomic, IncompleteLieGroup, IntegrationError, LieGroup, Lift, Liftable,
     Linearizable, Linearization, Monitored, Nonholonomic, Operator, Ordered, OutputLinearization, Positions,
     PositionsError, Projected, Real, Report, ReportSection, Rheonomic, Scleronomic, System, from_fn, prelude,
-    project, projected, steppers,
+    project, projected, seeded, steppers,
 };
 
 /// Declares a mechanical system and derives its equations of motion at compile time.
