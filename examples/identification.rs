@@ -34,7 +34,7 @@ mechanical_system! {
 const SOUGHT: usize = 4;
 const NAMES: [&str; SOUGHT] = ["ahead", "k", "drag", "swirl"];
 const TRUE: [f64; SOUGHT] = [0.15, 0.4, 0.9, 0.05];
-const GUESS: [f64; SOUGHT] = [0.05, 0.6, 0.5, 0.1];
+const GUESS: [f64; SOUGHT] = [0.08, 0.5, 0.5, 0.1];
 const MASS: f64 = 3.0;
 
 /// A place is measured every fortieth of a second, to so many metres.
@@ -50,7 +50,7 @@ fn run<R: Ordered>(constants: [R; SOUGHT]) -> Result<Vec<[R; 2]>, Box<dyn Error>
     let [ahead, k, drag, swirl] = constants;
     let sled = Sled { m: R::from_f64(MASS), ahead, k, drag, swirl }.prepare()?;
     let mut state: [R; 5] =
-        sled::State { turning: R::from_f64(4.0), speed: R::from_f64(1.5), ..Default::default() }.into();
+        sled::State { turning: R::from_f64(2.5), speed: R::from_f64(1.5), ..Default::default() }.into();
     let h = R::from_f64(BETWEEN / 4.0);
     let places = (0..SAMPLES).map(|_| {
         for _ in 0..4 {
@@ -83,7 +83,8 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
     let mut constants = GUESS;
     let mut table = Table::new(&["ahead", "k", "drag", "swirl", "error in m"]).digits(6);
     let mut spread = SVector::<f64, SOUGHT>::zeros();
-    for _ in 0..20 {
+    let mut damping = 1e-2;
+    for _ in 0..40 {
         let motion = run::<Dual<f64, SOUGHT>>(std::array::from_fn(|i| Dual::variable(constants[i], i)))?;
         // J^T J d = -J^T r over all coordinates of all places.
         let (mut normal, mut right) =
@@ -100,27 +101,22 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
         table.row(&[constants[0], constants[1], constants[2], constants[3], error]);
         let inverse = normal.try_inverse().ok_or("these measurements do not determine the constants")?;
         spread = inverse.diagonal().map(|variance| NOISE * variance.sqrt());
-        let change = inverse * right;
-        // Far from the truth the full step may go too far, and out of the bounds that `prepare` checks.
-        let mut step = 1.0;
+        // Far from the truth a full step may go too far, and out of the bounds that `prepare` checks: Levenberg and
+        // Marquardt's damping shortens it until it is better than nothing.
         let better = |constants: [f64; SOUGHT]| {
             let motion = run(constants).ok()?;
             let gaps = motion.iter().flatten().zip(measured.iter().flatten()).map(|(a, b)| (a - b) * (a - b));
-            Some(constants).filter(|_| gaps.sum::<f64>() <= sum)
+            Some(constants).filter(|_| gaps.sum::<f64>() < sum * (1.0 - 1e-9))
         };
-        constants = loop {
-            let trial = std::array::from_fn(|i| constants[i] + step * change[i]);
-            if let Some(found) = better(trial) {
-                break found;
-            }
-            step *= 0.5;
-            if step < 1e-3 {
-                break constants;
-            }
-        };
-        if change.norm() < 1e-9 {
-            break;
-        }
+        let next = (0..12).find_map(|_| {
+            let damped = normal + SMatrix::from_diagonal(&(normal.diagonal() * damping));
+            let change = damped.try_inverse()? * right;
+            let found = better(std::array::from_fn(|i| constants[i] + change[i]));
+            damping *= if found.is_some() { 0.1 } else { 10.0 };
+            found
+        });
+        let Some(next) = next else { break };
+        constants = next;
     }
     println!("{table}\n");
     let mut works = true;

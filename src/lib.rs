@@ -47,14 +47,13 @@
 #![no_std]
 #![forbid(unsafe_code)]
 
-pub use guen_runtime::control;
 pub use guen_runtime::{
     BodyFault, BracketCoefficients, Catastatic, Class, Coefficient, Conservative, ConstantsError, Coordinate,
-    Cost, Dual, Function, Holonomic, IncompleteLieGroup, IntegrationError, LieGroup, Lift, Liftable,
-    Linearizable, Linearization, Monitored, Nonholonomic, Operator, Ordered, OutputLinearization, Positions,
-    PositionsError, Projected, Real, Report, ReportSection, Rheonomic, Scleronomic, System, from_fn, prelude,
-    project, projected, seeded, steppers,
+    Cost, Dual, Function, Holonomic, IncompleteLieGroup, IntegrationError, LieGroup, Lift, Linearization,
+    Monitored, Nonholonomic, Operator, Ordered, Positions, PositionsError, Projected, Real, Report,
+    ReportSection, Rheonomic, Scleronomic, System, from_fn, prelude, project, projected, steppers,
 };
+pub use guen_runtime::{Liftable, Linearizable, OutputLinearization, control, seeded};
 
 /// Declares a mechanical system and derives its equations of motion at compile time.
 ///
@@ -95,15 +94,16 @@ macro_rules! mechanical_system {
 #[doc(hidden)]
 pub mod __private {
     pub use guen_macros::mechanical_system;
-    pub use guen_runtime::checks::{check_hoisted, check_inertia, check_mass, check_pivot, clamped, largest};
+    pub use guen_runtime::checks::clamped;
+    pub use guen_runtime::checks::{check_hoisted, check_inertia, check_mass, check_pivot, largest};
+    pub use guen_runtime::consistent;
     pub use guen_runtime::{
         BracketCoefficients, Catastatic, Class, Coefficient, Conservative, ConstantsError, Cost, Dual,
-        Holonomic, IncompleteLieGroup, LieGroup, Lift, Liftable, Linearizable, Linearization, Monitored,
-        Nonholonomic, Operator, Ordered, OutputLinearization, Positions, PositionsError, Real, Report,
-        ReportSection, Rheonomic, Scleronomic, System, nalgebra_conversions, seeded, serde_record,
-        zero_bracket,
+        Holonomic, IncompleteLieGroup, LieGroup, Lift, Linearization, Monitored, Nonholonomic, Operator,
+        Ordered, Positions, PositionsError, Real, Report, ReportSection, Rheonomic, Scleronomic, System,
+        nalgebra_conversions, seeded, zero_bracket,
     };
-    pub use guen_runtime::{consistent, control};
+    pub use guen_runtime::{Liftable, Linearizable, OutputLinearization, control, serde_record};
 }
 
 /// The Rust blocks of the pages under `docs/` and of the README, compiled and run as doctests.
