@@ -31,8 +31,11 @@ const PERIOD: f64 = 0.005;
 const STEPS: usize = 5;
 const UNTIL: f64 = 12.0;
 
+/// The speed that it is to drive with.
+const CRUISE: f64 = 0.8;
+
 /// Somebody pushes the chassis for a tenth of a second.
-const PUSH: f64 = 60.0;
+const PUSH: f64 = 150.0;
 const PUSHED: std::ops::Range<f64> = 4.0..4.1;
 
 /// What the controller has to achieve.
@@ -56,7 +59,7 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
         I: 0.003,
         J: 0.005,
         c: 0.01,
-        torque_max: 4.0,
+        torque_max: 3.0,
         g: 9.81,
     }
     .prepare()?;
@@ -124,13 +127,23 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
     println!("residual of the Riccati equation {residual:.1e}, slowest pole {slowest:.4} per period");
     println!("one period: {OPERATIONS_PER_PERIOD}\n");
 
+    // Friction in the motors asks for a torque while it drives: that of the steady motion at this speed.
+    let guess = State { speed: CRUISE, ..upright };
+    let (_, cruising) = robot.steady_motion(
+        0.0,
+        &guess,
+        &held,
+        &["x", "y", "heading", "left", "right"],
+        &["speed", "push", "turn"],
+    )?;
+
     // 5. The run: start off balance, set off, turn, and be pushed. The motors are held during each period.
     let mut state = State { tilt: 0.1, ..Default::default() };
     let mut record: Vec<(f64, State, Inputs)> = Vec::new();
     let mut at_limit = 0;
     for k in 0..(UNTIL / PERIOD) as usize {
         let t = k as f64 * PERIOD;
-        let reference = reference(t);
+        let reference = reference(t, cruising.left_torque);
         let (torques, _) = controller::period(&robot, &gain, &reference, &state, PERIOD);
         at_limit += usize::from(torques.left_torque.abs() == robot.constants().torque_max);
         let inputs = Inputs { push: if PUSHED.contains(&t) { PUSH } else { 0.0 }, ..torques };
@@ -152,7 +165,7 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
 
     // 6. Did it work?
     let tilt = record.iter().map(|(_, s, _)| s.tilt.abs()).fold(0.0, f64::max);
-    let aim = reference(UNTIL);
+    let aim = reference(UNTIL, 0.0);
     let (speed, heading) = ((state.speed - aim.speed).abs(), (state.heading - aim.heading).abs());
     println!("largest tilt {tilt:.3}; errors at the end: speed {speed:.1e}, heading {heading:.1e}");
     println!("the left motor was at its limit in {at_limit} of {} periods", record.len());
@@ -161,11 +174,11 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
 }
 
 /// What the robot is told: stand, drive, turn to the left while driving.
-fn reference(t: f64) -> Reference {
-    let speed = (0.8 * (t - 1.0)).clamp(0.0, 0.8);
+fn reference(t: f64, holding: f64) -> Reference {
+    let speed = (0.8 * (t - 1.0)).clamp(0.0, CRUISE);
     let turning = t.clamp(6.0, 9.0);
     let turn = if turning == t { 0.5 } else { 0.0 };
-    Reference { heading: 0.5 * (turning - 6.0), speed, turn }
+    Reference { heading: 0.5 * (turning - 6.0), speed, turn, torque: holding * speed / CRUISE }
 }
 
 /// The stabilising solution of `P = A^T P A - A^T P B (R + B^T P B)^-1 B^T P A + Q`, by the doubling algorithm: after `k`

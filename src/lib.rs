@@ -43,19 +43,20 @@
 //! | --- | --- | --- |
 //! | `nalgebra` | yes | conversions between states and `nalgebra::SVector` |
 //! | `std` | yes | `Std`, and lanes chosen at run time; recordings and pictures are in the crate `guen-study` |
+//! | `serde` | no | serde's traits for constants, states and inputs; for recordings the feature of `guen-study` |
 #![no_std]
 #![forbid(unsafe_code)]
 
-pub use guen_runtime::control;
 pub use guen_runtime::{
     BodyFault, BracketCoefficients, Catastatic, Cause, Choice, Class, Coefficient, Conservative,
     ConstantsError, Coordinate, Cost, Differentiable, Digits7, Digits7Functions, Digits13, Digits13Functions,
     Dual, Equations, Function, Functions, Fused, FusedOperations, Generic, Holonomic, IncompleteLieGroup,
-    IntegrationError, Laned, Level, LevelInfo, Levels, LieGroup, Lift, Liftable, Linearizable, Linearization,
-    Monitored, Nonholonomic, Operator, Ordered, OutputLinearization, Positions, PositionsError, Projected,
-    Real, Report, ReportSection, Rheonomic, Scleronomic, Setting, System, Tuned, Vitals, from_fn, generic,
-    lanes, prelude, project, projected, steppers,
+    IntegrationError, Laned, Level, LevelInfo, Levels, LieGroup, Lift, Linearization, Monitored,
+    Nonholonomic, Operator, Ordered, Positions, PositionsError, Projected, Real, Report, ReportSection,
+    Rheonomic, Scleronomic, Setting, System, Tuned, Vitals, from_fn, generic, lanes, prelude, project,
+    projected, steppers,
 };
+pub use guen_runtime::{Liftable, Linearizable, OutputLinearization, control, seeded};
 
 #[cfg(feature = "std")]
 pub use guen_runtime::{Std, StdFunctions};
@@ -110,7 +111,7 @@ pub mod __private {
         OutputLinearization, Positions, PositionsError, Real, Report, ReportSection, Rheonomic, Scleronomic,
         System, Vitals, nalgebra_conversions, seeded, zero_bracket,
     };
-    pub use guen_runtime::{consistent, control};
+    pub use guen_runtime::{consistent, control, serde_record};
 }
 
 /// The Rust blocks of the pages under `docs/` and of the README, compiled and run as doctests.

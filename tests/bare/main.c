@@ -16,9 +16,9 @@ static void print(const double *values, int count) {
 
 int main(int count, char **words) {
     const guen_robot_constants constants = {
-        {10.0, 1.0, 0.5, 0.3, 0.1, 0.5, 0.4, 0.2, 0.003, 0.005, 0.01, 4.0, 9.81}};
-    const guen_robot_gain gain = {{{-0.4, -28.0, -2.2, -0.5, -6.5}, {0.4, -28.0, -2.2, 0.5, -6.5}}};
-    const guen_robot_reference reference = {0.3, 0.8, 0.0};
+        {10.0, 1.0, 0.5, 0.3, 0.1, 0.5, 0.4, 0.2, 0.003, 0.005, 0.01, 1.5, 9.81}};
+    const guen_robot_gain gain = {{{-2.5, -21.0, -3.0, -1.05, -4.4}, {2.5, -21.0, -3.0, 1.05, -4.4}}};
+    const guen_robot_reference reference = {0.3, 0.8, 0.0, 0.08};
     guen_robot_plant plant;
     guen_robot_state state = {{0.0, 0.0, 0.0, 0.1, 0.0, 0.0, 0.2, 0.1, -0.3}};
     guen_robot_torques torques;

@@ -17,10 +17,11 @@ typedef struct { double values[9]; } guen_robot_state;
 /* of the left and of the right motor, and a push at the chassis, which the controller takes for zero */
 typedef struct { double values[3]; } guen_robot_torques;
 
-/* u = -K z: for each motor the gains of heading, tilt, speed, turn, fall */
+/* u = torque - K z: for each motor the gains of heading, tilt, speed, turn, fall */
 typedef struct { double values[2][5]; } guen_robot_gain;
 
-typedef struct { double heading, speed, turn; } guen_robot_reference;
+/* what is aimed at, and the torque of each motor that holds it */
+typedef struct { double heading, speed, turn, torque; } guen_robot_reference;
 
 /* The plant with its constants checked and prepared; for guen_robot_prepare to fill. */
 #define GUEN_ROBOT_WORDS 128

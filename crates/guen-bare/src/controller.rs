@@ -18,17 +18,19 @@ pub struct Reference<R = f64> {
     pub speed: R,
     /// The turning, in radians per second.
     pub turn: R,
+    /// What each motor gives at that speed against friction, in newton metres.
+    pub torque: R,
 }
 
-/// The feedback `u = -K (z - z_ref)`, a row for each motor.
+/// The feedback `u = u_ref - K (z - z_ref)`, a row for each motor.
 pub type Gain<R = f64> = [[R; FED_BACK]; 2];
 
 /// The operations of one period besides eight comparisons, the same in every state: four right-hand sides, what
 /// Runge and Kutta's method does with them, and the feedback.
 pub const OPERATIONS_PER_PERIOD: Cost = rk4::cost(super::plant::robot::COST, 9).plus(Cost {
-    additions: 11,
+    additions: 13,
     multiplications: 10,
-    negations: 4,
+    negations: 2,
     ..Cost::ZERO
 });
 
@@ -48,11 +50,12 @@ pub fn period<R: Ordered>(
         state.fall,
     ];
     let torque = |row: &[R; FED_BACK]| {
-        -(row[0] * deviation[0]
-            + row[1] * deviation[1]
-            + row[2] * deviation[2]
-            + row[3] * deviation[3]
-            + row[4] * deviation[4])
+        reference.torque
+            - (row[0] * deviation[0]
+                + row[1] * deviation[1]
+                + row[2] * deviation[2]
+                + row[3] * deviation[3]
+                + row[4] * deviation[4])
     };
     let wanted = Inputs { left_torque: torque(&gain[0]), right_torque: torque(&gain[1]), push: R::zero() };
     let torques = robot.clamped(&wanted);

@@ -54,6 +54,7 @@ pub struct Gains {
 #[allow(unsafe_code, reason = "a name for C")]
 #[unsafe(no_mangle)]
 pub extern "C" fn guen_robot_prepare(constants: &Constants, plant: &mut Plant) -> bool {
+    #[allow(non_snake_case, reason = "the constants have their names from the declaration")]
     let [m, mw, h, b, r, A, B, C, I, J, c, torque_max, g] = constants.values;
     match (Robot { m, mw, h, b, r, A, B, C, I, J, c, torque_max, g }).prepare() {
         Ok(prepared) => {
@@ -98,6 +99,15 @@ pub extern "C" fn guen_robot_operations() -> u32 {
 /// What the machine does if the impossible happens. Only where panics abort: elsewhere `std` brings its own.
 #[cfg(panic = "abort")]
 #[panic_handler]
-fn halt(_: &core::panic::PanicInfo<'_>) -> ! {
-    loop {}
+fn handler(_: &core::panic::PanicInfo<'_>) -> ! {
+    halted()
+}
+
+/// Out of line, so that whoever looks at the program's symbols sees whether anything in it can panic.
+#[cfg(panic = "abort")]
+#[inline(never)]
+fn halted() -> ! {
+    loop {
+        core::hint::spin_loop();
+    }
 }

@@ -21,6 +21,7 @@
 //! # Features
 //!
 //! - `nalgebra`: re-exports that crate, and [`nalgebra_conversions!`] has an effect.
+//! - `serde`: re-exports that crate, and [`serde_record!`] has an effect.
 //! - `std`: [`Std`], the platform's elementary functions; [`lanes`] chosen at run time, and not by the target of the
 //!   build. Without it everything else gives the same bits.
 #![no_std]
@@ -49,6 +50,7 @@ mod operator;
 mod positions;
 mod real;
 mod report;
+mod serde_support;
 pub mod steppers;
 mod system;
 mod tuned;
@@ -81,6 +83,11 @@ pub use vitals::Vitals;
 
 #[cfg(feature = "nalgebra")]
 pub use nalgebra;
+#[cfg(feature = "serde")]
+pub use serde;
+#[cfg(feature = "serde")]
+#[doc(hidden)]
+pub use serde_support::{deserialize_record, serialize_record};
 
 /// What a program that integrates systems wants in scope.
 pub mod prelude {

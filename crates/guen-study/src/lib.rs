@@ -45,6 +45,8 @@ mod monitor;
 mod plot;
 mod progress;
 mod recording;
+#[cfg(feature = "serde")]
+mod stored;
 mod table;
 
 pub use ensemble::{End, Ensemble, Sampled};
@@ -53,4 +55,6 @@ pub use monitor::{Invariants, Monitor, drift, residuals};
 pub use plot::Plot;
 pub use progress::Progress;
 pub use recording::Recording;
+#[cfg(feature = "serde")]
+pub use stored::StoredRecording;
 pub use table::{Table, significant};

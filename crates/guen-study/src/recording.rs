@@ -40,12 +40,12 @@ use crate::error::{StudyError, at_path, create_parents};
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Recording<const N: usize> {
-    names: &'static [&'static str],
-    times: Vec<f64>,
-    states: Vec<[f64; N]>,
-    limit: usize,
-    stride: u64,
-    seen: u64,
+    pub(crate) names: &'static [&'static str],
+    pub(crate) times: Vec<f64>,
+    pub(crate) states: Vec<[f64; N]>,
+    pub(crate) limit: usize,
+    pub(crate) stride: u64,
+    pub(crate) seen: u64,
 }
 
 impl<const N: usize> Recording<N> {

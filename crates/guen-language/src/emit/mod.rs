@@ -21,6 +21,7 @@ mod outline;
 mod physical;
 mod positions;
 mod records;
+mod serde;
 mod uses;
 
 use proc_macro2::{Ident, Span, TokenStream};
@@ -189,6 +190,7 @@ fn module(
         linearization::items(subject, &layout),
         control::items(subject, &layout),
         limits::items(subject, &layout),
+        serde::items(subject, &layout),
         positions::items(subject, &layout),
         physical::items(subject, &layout),
         operators::items(subject, &layout),

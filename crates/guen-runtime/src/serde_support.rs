@@ -1,0 +1,167 @@
+//! Records in files: serde for the structs of a generated system, as a macro that generated code calls always and that
+//! expands to nothing without the feature `serde`: only this crate knows whether the feature is on.
+
+/// Implements serde's `Serialize` and `Deserialize` for a record of reals, as a struct of its fields.
+///
+/// `serde_record!(Type, "Type", count, [names], to_array, from_array)`: the names in order, and the way from and to an
+/// array. Every field has to be there when it is read, each once, and no other. Without the feature `serde` it expands to
+/// nothing. Works without a prelude and from any crate name.
+///
+/// ```
+/// #[derive(Debug, PartialEq, Clone, Copy)]
+/// struct Point<R> { x: R, y: R }
+/// guen_runtime::serde_record!(Point, "Point", 2, ["x", "y"], |p| [p.x, p.y], |[x, y]| Point { x, y });
+/// ```
+#[cfg(feature = "serde")]
+#[macro_export]
+macro_rules! serde_record {
+    ($Type:ident, $name:literal, $n:literal, $names:expr, $to:expr, $from:expr) => {
+        impl<R: $crate::serde::Serialize + ::core::marker::Copy> $crate::serde::Serialize for $Type<R> {
+            fn serialize<S: $crate::serde::Serializer>(
+                &self,
+                serializer: S,
+            ) -> ::core::result::Result<S::Ok, S::Error> {
+                let to: fn(&$Type<R>) -> [R; $n] = $to;
+                $crate::serialize_record(serializer, $name, &$names, &to(self))
+            }
+        }
+
+        impl<'de, R: $crate::serde::Deserialize<'de>> $crate::serde::Deserialize<'de> for $Type<R> {
+            fn deserialize<D: $crate::serde::Deserializer<'de>>(
+                deserializer: D,
+            ) -> ::core::result::Result<Self, D::Error> {
+                const NAMES: [&'static str; $n] = $names;
+                let from: fn([R; $n]) -> $Type<R> = $from;
+                let values = $crate::deserialize_record::<D, R, $n>(deserializer, $name, &NAMES)?;
+                ::core::result::Result::Ok(from(values))
+            }
+        }
+    };
+}
+
+/// Expands to nothing: the feature `serde`, with which it implements serde's traits for a record, is off.
+#[cfg(not(feature = "serde"))]
+#[macro_export]
+macro_rules! serde_record {
+    ($Type:ident, $name:literal, $n:literal, $names:expr, $to:expr, $from:expr) => {};
+}
+
+#[cfg(feature = "serde")]
+pub use with_serde::{deserialize_record, serialize_record};
+
+#[cfg(feature = "serde")]
+mod with_serde {
+    use core::fmt;
+    use core::marker::PhantomData;
+
+    use serde::de::{Deserialize, DeserializeSeed, Deserializer, Error, MapAccess, SeqAccess, Visitor};
+    use serde::ser::{Serialize, SerializeStruct, Serializer};
+
+    /// Writes a record as a struct; [`serde_record!`](crate::serde_record) calls it.
+    ///
+    /// # Errors
+    ///
+    /// Those of the serializer.
+    #[doc(hidden)]
+    pub fn serialize_record<S: Serializer, R: Serialize>(
+        serializer: S,
+        name: &'static str,
+        names: &[&'static str],
+        values: &[R],
+    ) -> Result<S::Ok, S::Error> {
+        let mut record = serializer.serialize_struct(name, names.len())?;
+        for (name, value) in names.iter().zip(values) {
+            record.serialize_field(name, value)?;
+        }
+        record.end()
+    }
+
+    /// Reads a record; [`serde_record!`](crate::serde_record) calls it.
+    ///
+    /// # Errors
+    ///
+    /// Those of the deserializer; a field that is missing, unknown or there twice.
+    #[doc(hidden)]
+    pub fn deserialize_record<'de, D: Deserializer<'de>, R: Deserialize<'de>, const N: usize>(
+        deserializer: D,
+        name: &'static str,
+        names: &'static [&'static str],
+    ) -> Result<[R; N], D::Error> {
+        deserializer.deserialize_struct(name, names, Fields { name, names, real: PhantomData })
+    }
+
+    struct Fields<R, const N: usize> {
+        name: &'static str,
+        names: &'static [&'static str],
+        real: PhantomData<R>,
+    }
+
+    /// All values, or the name of the first that is missing.
+    fn all<R, E: Error, const N: usize>(
+        values: [Option<R>; N],
+        names: &'static [&'static str],
+    ) -> Result<[R; N], E> {
+        if let Some(missing) = values.iter().position(Option::is_none) {
+            return Err(E::missing_field(names[missing]));
+        }
+        let mut values = values.into_iter().flatten();
+        // The count was checked a line above, so that no value is missing here.
+        Ok([(); N].map(|()| values.next().expect("every field is there")))
+    }
+
+    impl<'de, R: Deserialize<'de>, const N: usize> Visitor<'de> for Fields<R, N> {
+        type Value = [R; N];
+
+        fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+            write!(f, "the {N} fields of `{}`", self.name)
+        }
+
+        fn visit_seq<A: SeqAccess<'de>>(self, mut sequence: A) -> Result<[R; N], A::Error> {
+            let mut values = [const { None }; N];
+            for (k, value) in values.iter_mut().enumerate() {
+                *value = Some(sequence.next_element()?.ok_or_else(|| A::Error::invalid_length(k, &self))?);
+            }
+            all(values, self.names)
+        }
+
+        fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<[R; N], A::Error> {
+            let mut values: [Option<R>; N] = [const { None }; N];
+            while let Some(place) = map.next_key_seed(FieldName(self.names))? {
+                if values[place].is_some() {
+                    return Err(A::Error::duplicate_field(self.names[place]));
+                }
+                values[place] = Some(map.next_value()?);
+            }
+            all(values, self.names)
+        }
+    }
+
+    /// A name among those of the fields, as its place.
+    struct FieldName(&'static [&'static str]);
+
+    impl<'de> DeserializeSeed<'de> for FieldName {
+        type Value = usize;
+
+        fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<usize, D::Error> {
+            deserializer.deserialize_identifier(self)
+        }
+    }
+
+    impl Visitor<'_> for FieldName {
+        type Value = usize;
+
+        fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+            f.write_str("the name of a field")
+        }
+
+        fn visit_u64<E: Error>(self, place: u64) -> Result<usize, E> {
+            let known = usize::try_from(place).ok().filter(|place| *place < self.0.len());
+            known.ok_or_else(|| E::invalid_value(serde::de::Unexpected::Unsigned(place), &self))
+        }
+
+        fn visit_str<E: Error>(self, name: &str) -> Result<usize, E> {
+            let place = self.0.iter().position(|known| *known == name);
+            place.ok_or_else(|| E::unknown_field(name, self.0))
+        }
+    }
+}
