@@ -182,18 +182,20 @@ fn programs(
     let limits = Limits::default();
     // Beyond this estimate normal forms run into their limits, and only cost time.
     const LARGEST_WRITTEN_OUT: u64 = 600;
-    let written_out = (weighted_cost(&bench.graph, &rates) <= LARGEST_WRITTEN_OUT)
-        .then(|| rates.iter().map(|e| normal_form(&mut bench.graph, *e, &limits).unwrap_or(*e)).collect());
-    let velocities = &derivation.frame.velocities;
-    // Another form may come out cheaper although it looks dearer, but hardly by more than half.
-    let most = 3 * weighted_cost(&bench.graph, &rates) / 2;
-    let others: Vec<Vec<ExprId>> = derivation
-        .alternatives
-        .iter()
-        .map(|list| velocities.iter().chain(list).copied().collect::<Vec<_>>())
-        .filter(|list| weighted_cost(&bench.graph, list) <= most)
-        .collect();
-    let lists: Vec<Vec<ExprId>> = [Some(rates), written_out].into_iter().flatten().chain(others).collect();
+    let mut lists = vec![rates];
+    lists.extend(derivation.alternatives.iter().cloned());
+    let mut estimates: Vec<u64> = lists.iter().map(|list| weighted_cost(&bench.graph, list)).collect();
+    let best = (0..lists.len()).min_by_key(|i| estimates[*i]).unwrap_or_default();
+    if estimates[best] <= LARGEST_WRITTEN_OUT {
+        let written_out: Vec<ExprId> =
+            lists[best].iter().map(|e| normal_form(&mut bench.graph, *e, &limits).unwrap_or(*e)).collect();
+        estimates.insert(1, weighted_cost(&bench.graph, &written_out));
+        lists.insert(1, written_out);
+    }
+    // A form may come out cheaper although it looks dearer, but hardly by more than half.
+    let most = 3 * estimates.iter().copied().min().unwrap_or_default() / 2;
+    let mut estimate = estimates.into_iter();
+    lists.retain(|_| estimate.next().is_some_and(|cost| cost <= most));
     let brackets: Vec<Vec<ExprId>> = bracket_pairs(bench, derivation)
         .into_iter()
         .map(|(r, s)| (1..=n).map(|t| derivation.frame.brackets.coefficient(bench, r, s, t)).collect())

@@ -4,6 +4,7 @@ use std::cell::Cell;
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
 
+use super::angles::BaseAngles;
 use super::{Function, Rational};
 
 /// An expression of a [`Graph`]; children always have smaller identifiers than their parents.
@@ -214,6 +215,7 @@ pub struct Graph {
     symbols: Vec<Symbol>,
     symbol_nodes: Vec<ExprId>,
     role_counts: [u32; 8],
+    pub(super) base_angles: BaseAngles,
 }
 
 impl Graph {

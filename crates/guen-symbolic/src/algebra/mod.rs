@@ -4,6 +4,7 @@
 //! expressions in a normal form that makes equal subexpressions one. The graph never decides whether
 //! something vanishes *as a function*: that is the question of `crate::zero`.
 
+mod angles;
 mod build;
 mod derivative;
 mod functions;
@@ -11,6 +12,7 @@ mod graph;
 mod rational;
 mod substitute;
 
+pub(crate) use angles::AngleParts;
 pub use derivative::Flow;
 pub use functions::Function;
 pub(crate) use graph::FastMap;
