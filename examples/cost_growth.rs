@@ -96,7 +96,8 @@ fn expanded(text: &str) -> Result<(String, u32), String> {
     let resolved = resolved.ok_or_else(|| report.to_string())?;
     let (derived, report) = collect(|faults| derive::derive(resolved, faults));
     let derived = derived.ok_or_else(|| report.to_string())?;
-    let rates = derived.programs.functions.iter().find(|program| program.name == derive::function::RHS);
+    let rates =
+        derived.system.programs.functions.iter().find(|program| program.name == derive::function::RHS);
     let cost = rates.map(|program| program.cost).unwrap_or_default();
     let operations = cost.operations() + cost.sines + cost.calls;
     Ok((emit::emit(derived).to_string(), operations))

@@ -281,14 +281,19 @@ fn commutators(model: &mut Model<'_>, derivation: &mut Derivation) -> Vec<Commut
 fn extend(bench: &mut Workbench, lists: &mut Vec<Vec<ExprId>>) {
     // Beyond this estimate normal forms run into their limits, and only cost time.
     const LARGEST_WRITTEN_OUT: u64 = 600;
-    let cost = weighted_cost(&bench.graph, &lists[0]);
-    // Another form may come out cheaper although it looks dearer, but hardly by more than half.
-    let others: Vec<Vec<ExprId>> = lists.split_off(1);
-    lists.extend((cost <= LARGEST_WRITTEN_OUT).then(|| {
+    let mut estimates: Vec<u64> = lists.iter().map(|list| weighted_cost(&bench.graph, list)).collect();
+    let best = (0..lists.len()).min_by_key(|i| estimates[*i]).unwrap_or_default();
+    if estimates[best] <= LARGEST_WRITTEN_OUT {
         let limits = Limits::default();
-        lists[0].iter().map(|e| normal_form(&mut bench.graph, *e, &limits).unwrap_or(*e)).collect()
-    }));
-    lists.extend(others.into_iter().filter(|list| weighted_cost(&bench.graph, list) <= 3 * cost / 2));
+        let written_out: Vec<ExprId> =
+            lists[best].iter().map(|e| normal_form(&mut bench.graph, *e, &limits).unwrap_or(*e)).collect();
+        estimates.insert(1, weighted_cost(&bench.graph, &written_out));
+        lists.insert(1, written_out);
+    }
+    // A form may come out cheaper although it looks dearer, but hardly by more than half.
+    let most = 3 * estimates.iter().copied().min().unwrap_or_default() / 2;
+    let mut estimate = estimates.into_iter();
+    lists.retain(|_| estimate.next().is_some_and(|cost| cost <= most));
 }
 
 /// The code of the rates, given in several equal forms, and of everything else.

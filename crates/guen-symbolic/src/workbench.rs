@@ -119,6 +119,13 @@ impl Workbench {
         e
     }
 
+    /// Chooses base angles for some expressions, see [`Graph::choose_base_angles`]. What was tidied before may be
+    /// tidied again.
+    pub fn choose_base_angles(&mut self, given: &[ExprId], roots: &[ExprId]) {
+        self.graph.choose_base_angles(given, roots);
+        self.tidied = FastMap::default();
+    }
+
     /// Zero if it is proved to vanish, else the expression as it is: cheaper than [`Workbench::tidy`].
     pub fn dropped(&mut self, e: ExprId) -> ExprId {
         if self.vanishes(e) { self.graph.zero() } else { e }

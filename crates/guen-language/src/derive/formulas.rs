@@ -7,9 +7,10 @@ use crate::model::Model;
 
 /// The rates of the whole state in several equal forms: as shown, then as the optimiser may like them better.
 pub(super) fn rates(derivation: &Derivation) -> Vec<Vec<ExprId>> {
-    let velocities = &derivation.frame.velocities;
-    let accelerations = [&derivation.solution.accelerations].into_iter().chain(&derivation.alternatives);
-    accelerations.map(|list| velocities.iter().chain(list).copied().collect()).collect()
+    let shown = [&derivation.frame.velocities[..], &derivation.solution.accelerations].concat();
+    let mut lists = vec![shown];
+    lists.extend(derivation.alternatives.iter().cloned());
+    lists
 }
 
 /// All other functions, in the order in which they are built.

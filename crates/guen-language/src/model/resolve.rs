@@ -57,6 +57,7 @@ struct Resolver<'a, 'f> {
 impl<'a, 'f> Resolver<'a, 'f> {
     fn new(declaration: &'a Declaration, faults: &'f mut Faults) -> Self {
         let mut graph = Graph::new();
+        graph.keep_angles_whole();
         let time = graph.symbol("t", Role::Time);
         Resolver {
             declaration,

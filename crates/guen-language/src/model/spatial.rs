@@ -4,7 +4,7 @@ use guen_symbolic::{ExprId, Workbench};
 use proc_macro2::Span;
 
 use super::evaluate::{Evaluated, Evaluator};
-use super::value::{Rotation, Value, Vector};
+use super::value::{Rotation, Turn, Value, Vector};
 use crate::diagnostics::Fault;
 
 impl Evaluator<'_> {
@@ -30,9 +30,7 @@ impl Evaluator<'_> {
                 let turned = apply(&mut self.bench, &r.matrix, &v);
                 self.checked_vector(turned, span)
             }
-            (Value::Rotation(a), Value::Rotation(b)) => {
-                Ok(Value::Rotation(Box::new(compose(&mut self.bench, &a, &b))))
-            }
+            (Value::Rotation(a), Value::Rotation(b)) => Ok(Value::Rotation(Box::new(self.composed(&a, &b)))),
             (Value::Vector(_), Value::Vector(_)) => self.fail(
                 Fault::new(span, "a product of two vectors has two meanings")
                     .help("write `inner(u, v)` or `cross(u, v)`"),
@@ -87,7 +85,51 @@ impl Evaluator<'_> {
             })
         });
         let spin = axis.map(|e| bench.graph.mul(rate, e));
-        Rotation { matrix, world_rate: spin, body_rate: spin }
+        let turns = Some(vec![Turn { axis, angle }]);
+        Rotation { matrix, world_rate: spin, body_rate: spin, turns }
+    }
+
+    /// `A B`. Turns about one axis that meet become one, `rot_z(a)*rot_z(b) = rot_z(a + b)`: nobody would compute sines
+    /// and cosines of sums of angles from those of every joint.
+    fn composed(&mut self, a: &Rotation, b: &Rotation) -> Rotation {
+        if let (Some(before), Some(after)) = (&a.turns, &b.turns)
+            && let (Some((last, before)), Some((first, after))) = (before.split_last(), after.split_first())
+            && let Some(angle) = self.joined(last, first)
+        {
+            let turned = self.turn(last.axis, angle);
+            let (before, after) = (before.to_vec(), after.to_vec());
+            let middle = if self.bench.graph.is_zero(angle) { None } else { Some(turned) };
+            let parts = [self.chain(&before), middle, self.chain(&after)];
+            let whole = parts.into_iter().flatten().reduce(|a, b| self.composed(&a, &b));
+            return whole.unwrap_or_else(|| self.turn(last.axis, angle));
+        }
+        compose(&mut self.bench, a, b)
+    }
+
+    /// The product of turns, the first on the left; `None` for no turn at all.
+    fn chain(&mut self, turns: &[Turn]) -> Option<Rotation> {
+        let mut product: Option<Rotation> = None;
+        for turn in turns {
+            let next = self.turn(turn.axis, turn.angle);
+            product = Some(match product {
+                None => next,
+                Some(product) => compose(&mut self.bench, &product, &next),
+            });
+        }
+        product
+    }
+
+    /// The angle of two turns about the same axis, or about opposite ones.
+    fn joined(&mut self, a: &Turn, b: &Turn) -> Option<ExprId> {
+        let graph = &mut self.bench.graph;
+        let opposite = b.axis.map(|e| graph.neg(e));
+        if a.axis == b.axis {
+            Some(graph.add(a.angle, b.angle))
+        } else if a.axis == opposite {
+            Some(graph.sub(a.angle, b.angle))
+        } else {
+            None
+        }
     }
 
     /// The homogeneous `v -> q v q*` of a quaternion, with the angular velocities `2 q' q*` and `2 q* q'`.
@@ -134,7 +176,7 @@ impl Evaluator<'_> {
                 bench.graph.scale(sum, &2.into())
             })
         };
-        Rotation { world_rate: rate(true), body_rate: rate(false), matrix }
+        Rotation { world_rate: rate(true), body_rate: rate(false), matrix, turns: None }
     }
 }
 
@@ -178,6 +220,10 @@ pub(super) fn inverse(bench: &mut Workbench, r: &Rotation) -> Rotation {
         matrix: transposed(&r.matrix),
         world_rate: r.body_rate.map(|e| bench.graph.neg(e)),
         body_rate: r.world_rate.map(|e| bench.graph.neg(e)),
+        turns: r.turns.as_ref().map(|turns| {
+            let back = |turn: &Turn| Turn { angle: bench.graph.neg(turn.angle), ..*turn };
+            turns.iter().rev().map(back).collect()
+        }),
     }
 }
 
@@ -196,5 +242,6 @@ fn compose(bench: &mut Workbench, a: &Rotation, b: &Rotation) -> Rotation {
         matrix,
         world_rate: plus(bench, &a.world_rate, &carried),
         body_rate: plus(bench, &pulled, &b.body_rate),
+        turns: a.turns.as_ref().zip(b.turns.as_ref()).map(|(a, b)| [&a[..], b].concat()),
     }
 }

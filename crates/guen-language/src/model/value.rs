@@ -14,6 +14,17 @@ pub(super) struct Rotation {
     pub(super) world_rate: Vector,
     /// The angular velocity in the body's axes.
     pub(super) body_rate: Vector,
+    /// The turns about fixed axes that the rotation is made of, if it is.
+    pub(super) turns: Option<Vec<Turn>>,
+}
+
+/// A turn by an angle about a fixed unit axis.
+#[derive(Clone, Copy)]
+pub(super) struct Turn {
+    /// The axis.
+    pub(super) axis: Vector,
+    /// The angle.
+    pub(super) angle: ExprId,
 }
 
 /// A rigid body as a value.

@@ -2,6 +2,7 @@
 
 use std::cell::Cell;
 
+use super::angles::BaseAngles;
 use super::build::content_of;
 use super::map::{FastMap, spread};
 use super::{Function, Rational};
@@ -327,6 +328,7 @@ pub struct Graph {
     symbols: Vec<Symbol>,
     symbol_nodes: Vec<ExprId>,
     role_counts: [u32; 8],
+    pub(super) base_angles: BaseAngles,
 }
 
 impl Graph {

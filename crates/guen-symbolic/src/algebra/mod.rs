@@ -4,6 +4,7 @@
 //! expressions in a normal form that makes equal subexpressions one. The graph never decides whether
 //! something vanishes *as a function*: that is the question of `crate::zero`.
 
+mod angles;
 mod build;
 mod derivative;
 mod functions;
@@ -12,6 +13,7 @@ mod map;
 mod rational;
 mod substitute;
 
+pub(crate) use angles::AngleParts;
 pub use derivative::Flow;
 pub use functions::Function;
 pub use graph::{Bound, ExprId, Graph, Node, PowerError, Role, Roles, Symbol, SymbolId};

@@ -87,3 +87,12 @@ impl Mechanics {
         system
     }
 }
+
+impl Mechanics {
+    /// Everything that the equations of motion are made of.
+    pub(crate) fn expressions(&self) -> Vec<ExprId> {
+        let forms = self.forms.forms.iter().flat_map(|form| form.row.iter().chain([&form.offset]));
+        let forces = self.forces.iter().flat_map(|force| [&force.magnitude, &force.along]);
+        forms.chain(forces).chain([&self.kinetic_energy, &self.force_function]).copied().collect()
+    }
+}

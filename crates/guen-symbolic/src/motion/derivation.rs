@@ -3,6 +3,7 @@
 use super::velocity_forms::VelocityPartials;
 use super::{
     Energies, Frame, Mechanics, MotionSymbol, NotQuadratic, Solution, decompose, poincare, projection,
+    rephrased,
 };
 use crate::algebra::{ExprId, FastMap, Flow, Role, Roles, Substitution};
 use crate::geometry::{Closure, Operators, SingularForms, dependence};
@@ -76,7 +77,7 @@ pub struct Derivation {
     pub generalised_forces: Vec<ExprId>,
     /// The solved accelerations.
     pub solution: Solution,
-    /// The accelerations in other forms, equal to the solution's: what costs least is found when code is made.
+    /// The rates of the state in other forms, velocities first, accelerations equal to the solution's: what costs least is found when code is made.
     pub alternatives: Vec<Vec<ExprId>>,
     /// The reactions `lambda_v` as functions of `t, x, eta`, inputs and `eta'` (as symbols); none for constraints
     /// without momentum in `T°`.
@@ -99,6 +100,7 @@ impl Derivation {
         let (n, l) = (system.forms.len(), system.forms.degrees);
         let equations_of_position: Vec<ExprId> = system.holonomic.iter().map(|h| h.equation).collect();
         bench.zero.set_manifold(&mut bench.graph, &equations_of_position);
+        bench.choose_base_angles(&[], &system.expressions());
         let operators = Operators::new(bench, &system.forms);
         affordable(bench)?;
         let operators = operators.map_err(DerivationError::SingularForms)?;
@@ -137,11 +139,18 @@ impl Derivation {
         let solution = solution
             .map_err(|rows| DerivationError::SingularMass(weightless(bench, &equations.mass, &rows)))?;
 
-        let alternatives = candidates
+        let mut alternatives: Vec<Vec<ExprId>> = candidates
             .into_iter()
             .filter_map(|other| Solution::new(bench, &other.mass, &other.forces).ok())
-            .map(|other| other.accelerations)
+            .map(|other| [&frame.velocities[..], &other.accelerations].concat())
             .collect();
+        let own = [&frame.velocities[..], &solution.accelerations].concat();
+        for rates in rephrased::rates(bench, &system, &mut frame, &equations, &by_projection) {
+            if are_equal(bench, &own, &rates, system.forms.len())? {
+                alternatives.push(rates);
+            }
+        }
+        affordable(bench)?;
 
         let closure = {
             let Frame { operators, brackets, .. } = &mut frame;
@@ -293,16 +302,42 @@ fn routes_agree(bench: &mut Workbench, a: &Equations, b: &Equations, l: usize) -
         })
         .map(|(a, b)| bench.graph.sub(a, b))
         .collect();
+    vanish(bench, &differences)
+}
+
+/// Whether the rates in other words agree at points modulo p. Where only the sign of a root may differ they are not
+/// taken; a proved difference is a mistake of ours.
+fn are_equal(
+    bench: &mut Workbench,
+    own: &[ExprId],
+    other: &[ExprId],
+    velocities: usize,
+) -> Result<bool, DerivationError> {
+    let differences: Vec<ExprId> = own.iter().zip(other).map(|(a, b)| bench.graph.sub(*a, *b)).collect();
+    if vanish(bench, &differences) {
+        return Ok(true);
+    }
+    for (place, e) in differences.into_iter().enumerate() {
+        if bench.zero.verdict(&mut bench.graph, e) == Verdict::Nonzero {
+            // Velocities come first.
+            return Err(DerivationError::RoutesDisagree { equation: place.saturating_sub(velocities) });
+        }
+    }
+    Ok(false)
+}
+
+/// Whether all of them vanish at a few points modulo p.
+fn vanish(bench: &mut Workbench, es: &[ExprId]) -> bool {
     (0..3).all(|sample| {
         bench
             .zero
-            .residues(&mut bench.graph, sample, &differences, false)
+            .residues(&mut bench.graph, sample, es, false)
             .is_some_and(|residues| residues.iter().all(|residue| *residue == 0))
     })
 }
 
 /// `Q_s = sum F beta_s`, with the force on the constraints.
-fn generalised_forces(
+pub(super) fn generalised_forces(
     bench: &mut Workbench,
     system: &Mechanics,
     frame: &mut Frame,
@@ -325,7 +360,7 @@ fn generalised_forces(
 
 /// The equations in several forms, the one to show first: normal forms where they are small, then the projection as it
 /// came out, if it is worth a program of its own.
-fn candidates(
+pub(super) fn candidates(
     bench: &mut Workbench,
     system: &Mechanics,
     by_definition: &Equations,

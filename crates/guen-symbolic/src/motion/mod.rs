@@ -8,7 +8,9 @@ mod frame;
 mod kinetic;
 mod poincare;
 mod projection;
+mod rephrased;
 mod solve;
+mod symmetry;
 mod velocity_forms;
 
 pub use declaration::{Force, Holonomic, Mechanics, MotionSymbol};

@@ -14,6 +14,7 @@
 use super::velocity_forms::VelocityPartials;
 use super::{Equations, Frame, KineticTerm, Mechanics, VelocityForm};
 use crate::algebra::{ExprId, FastMap};
+use crate::program::weighted_cost;
 use crate::workbench::Workbench;
 
 /// What is needed of one velocity form, each computed once.
@@ -171,7 +172,15 @@ fn measure(
         let rate = frame.motion.of(&mut bench.graph, *c);
         terms.push(bench.graph.mul(rate, system.etas[*j]));
     }
-    let acceleration = bench.graph.sum(terms);
+    let mut acceleration = bench.graph.sum(terms);
+    if by_components <= form.on_velocities.len() + form.on_etas.len() {
+        // The same from the components, u' = sum_s u_s' eta_s + ..: short where the operators have made them short.
+        let other = frame.motion.of(&mut bench.graph, value);
+        let cost = |e: ExprId| weighted_cost(&bench.graph, &[e]);
+        if other != acceleration && cost(other) < cost(acceleration) {
+            acceleration = other;
+        }
+    }
     Measured {
         form,
         value: bench.keep_large(value),

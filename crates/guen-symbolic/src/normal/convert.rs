@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::algebra::{ExprId, FastMap, Function, Graph, Node, Rational, Role, Roles, sort_ids};
+use crate::algebra::{AngleParts, ExprId, FastMap, Function, Graph, Node, Rational, Role, Roles, sort_ids};
 
 use super::Limits;
 use super::poly::{Budget, Exceeded, MAX_GENERATORS, Mono, Poly, Result};
@@ -27,21 +27,6 @@ enum Image {
     /// A sine or cosine: multiples of base angles.
     Angle(Vec<(ExprId, i64)>),
     Exponential(Vec<(ExprId, i64)>),
-}
-
-/// The terms of an argument; the number is the multiple of one.
-fn argument_terms(graph: &Graph, x: ExprId) -> Vec<(ExprId, Rational)> {
-    match graph.node(x) {
-        Node::Number(value) => vec![(graph.one(), value.clone())],
-        Node::Sum { constant, terms } => {
-            let mut parts = terms.to_vec();
-            if !constant.is_zero() {
-                parts.push((graph.one(), constant.clone()));
-            }
-            parts
-        }
-        _ => vec![(x, Rational::ONE)],
-    }
 }
 
 fn fits(parts: &[(ExprId, Rational)]) -> bool {
@@ -80,23 +65,23 @@ impl Collector<'_> {
         true
     }
 
+    /// The terms of an argument: of sines and cosines by base angles.
+    fn parts(&self, x: ExprId, exponential: bool) -> AngleParts {
+        if exponential { self.graph.linear_parts(x) } else { self.graph.angle_parts(x) }
+    }
+
     /// Base angles, or exponents, of all functions of one family, and each function as multiples of them.
     fn family(&mut self, nodes: &[(ExprId, Function, ExprId)], exponential: bool) {
         let most = if exponential { MAX_EXPONENTIAL } else { MAX_MULTIPLE };
         let mut lcm: BTreeMap<ExprId, i64> = BTreeMap::new();
-        for (_, _, x) in nodes {
-            let parts = argument_terms(self.graph, *x);
-            if fits(&parts) {
-                for (term, c) in parts {
-                    let d = c.to_i64_pair().map_or(1, |pair| pair.1);
-                    let slot = lcm.entry(term).or_insert(1);
-                    let common = num_integer::lcm(*slot, d);
-                    *slot = if common <= MAX_FRACTION { common } else { *slot };
-                }
-            }
+        let parts: Vec<AngleParts> = nodes.iter().map(|(_, _, x)| self.parts(*x, exponential)).collect();
+        for (term, c) in parts.iter().filter(|parts| fits(parts)).flatten() {
+            let d = c.to_i64_pair().map_or(1, |pair| pair.1);
+            let slot = lcm.entry(*term).or_insert(1);
+            let common = num_integer::lcm(*slot, d);
+            *slot = if common <= MAX_FRACTION { common } else { *slot };
         }
-        for (id, _, x) in nodes {
-            let parts = argument_terms(self.graph, *x);
+        for ((id, _, x), parts) in nodes.iter().zip(parts) {
             let mut multiples = Some(Vec::new()).filter(|_| fits(&parts));
             for (term, c) in &parts {
                 let l = lcm.get(term).copied().unwrap_or(1);

@@ -225,17 +225,13 @@ fn prepare(g: &mut Graph, e: ExprId, limits: &Limits) -> ExprId {
     images[&e]
 }
 
-/// Whether an argument is a sum of monomials in symbols already.
+/// Whether an argument is a sum of monomials in symbols already, or a sum of such sums.
 fn simple_argument(g: &Graph, x: ExprId) -> bool {
-    let monomial = |id: ExprId| match g.node(id) {
-        Node::Number(_) | Node::Pi | Node::Symbol(_) => true,
-        Node::Product(factors) => {
-            factors.iter().all(|(base, _)| matches!(g.node(*base), Node::Symbol(_) | Node::Pi))
-        }
-        _ => false,
-    };
     match g.node(x) {
-        Node::Sum { terms, .. } => terms.iter().all(|(term, _)| monomial(*term)),
-        _ => monomial(x),
+        Node::Sum { terms, .. } => {
+            terms.iter().all(|(term, _)| g.is_monomial(*term))
+                || g.linear_parts(x).iter().all(|(term, _)| g.is_monomial(*term))
+        }
+        _ => g.is_monomial(x),
     }
 }

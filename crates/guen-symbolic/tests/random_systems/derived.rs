@@ -11,6 +11,8 @@ pub struct Derived {
     pub bench: Workbench,
     pub derivation: Derivation,
     pub accelerations: Tape,
+    /// The rates in other words, velocities first.
+    pub alternatives: Vec<Tape>,
     /// Those of the constraints whose reaction is known.
     pub reactions: Vec<(usize, Tape)>,
 }
@@ -24,18 +26,20 @@ pub fn derive(graph: Graph, mechanics: Mechanics, seed: u64) -> Option<Derived> 
         Err(other) => panic!("seed {seed}: {other:?}"),
     };
     let accelerations = Tape::new(&bench.graph, &derivation.solution.accelerations);
+    let alternatives = derivation.alternatives.iter().map(|rates| Tape::new(&bench.graph, rates)).collect();
     let reactions = derivation
         .reactions
         .iter()
         .enumerate()
         .filter_map(|(v, e)| e.map(|e| (v, Tape::new(&bench.graph, &[e]))))
         .collect();
-    Some(Derived { bench, derivation, accelerations, reactions })
+    Some(Derived { bench, derivation, accelerations, alternatives, reactions })
 }
 
 /// Differences from the multipliers in units of condition times scale.
 pub struct Differences {
     pub accelerations: f64,
+    pub alternatives: f64,
     pub reactions: f64,
     pub covector: f64,
 }
@@ -62,6 +66,17 @@ impl Derived {
         };
         let own = self.accelerate(declared, point);
         let accelerations = worst(&mut own.into_iter().zip(reference.accelerations.iter().copied()));
+        let rates: Vec<f64> = declared
+            .velocities
+            .iter()
+            .map(|v| point[*v])
+            .chain(reference.accelerations.iter().copied())
+            .collect();
+        let mut alternatives = 0.0_f64;
+        for tape in &self.alternatives {
+            let found = worst(&mut tape.at(point).into_iter().zip(rates.iter().copied()));
+            alternatives = alternatives.max(found);
+        }
         let lambdas: Vec<(usize, f64)> =
             self.reactions.iter().map(|(v, tape)| (*v, tape.at(point).remove(0))).collect();
         let reactions = worst(&mut lambdas.iter().map(|(v, value)| (*value, reference.reactions[*v])));
@@ -75,7 +90,7 @@ impl Derived {
             all.iter().zip(&forms[declared.degrees..]).map(|(lambda, row)| lambda * row[i]).sum::<f64>()
         });
         let covector = worst(&mut covector.zip(reference.covector.iter().copied()));
-        Differences { accelerations, reactions, covector }
+        Differences { accelerations, alternatives, reactions, covector }
     }
 
     /// `x''` at a state that has its `eta'`.

@@ -71,6 +71,7 @@ fn equations_of_drawn_systems_are_those_with_multipliers() {
         "constant part of T°",
         "integrable row, not exact",
         "integrable only in combination",
+        "rates in other words",
     ] {
         assert!(tally.features[name] >= SHOWN, "{name} differs from zero in too few systems");
     }

@@ -85,6 +85,8 @@ impl Tally {
         };
         let differences = derived.compare(&declared, &mut point, &reference);
         self.hold(seed, "eta'", differences.accelerations);
+        self.hold(seed, "rates in other words", differences.alternatives);
+        self.count("rates in other words", !derived.alternatives.is_empty());
         self.hold(seed, "lambda", differences.reactions);
         self.hold(seed, "reaction covector", differences.covector);
 

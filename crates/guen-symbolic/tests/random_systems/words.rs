@@ -71,8 +71,16 @@ impl Words {
                 g.mul(s, b)
             }
             6 => {
-                let sum = g.add(a, b);
-                g.cos(sum)
+                // Sums and differences, halves and multiples, constants: some of them base angles, some not.
+                let argument = match factor.to_i64_pair() {
+                    Some((1, 2)) => g.linear(&[(a, Rational::new(1, 2)), (b, Rational::new(1, 2))]),
+                    Some((-1, 2)) => g.linear(&[(a, Rational::new(1, 2)), (b, Rational::MINUS_ONE)]),
+                    Some((1, 3)) => g.sum([a, b, self.constants[1]]),
+                    Some((2, 3)) => g.linear(&[(a, Rational::integer(2)), (b, Rational::ONE)]),
+                    Some((-2, 3)) => g.sub(a, b),
+                    _ => g.add(a, b),
+                };
+                g.cos(argument)
             }
             _ => {
                 let s = g.sin(a);
