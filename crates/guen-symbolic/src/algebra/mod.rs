@@ -10,12 +10,16 @@ mod functions;
 mod graph;
 mod map;
 mod rational;
+mod search;
 mod substitute;
+mod symbol;
 
 pub use derivative::Flow;
 pub use functions::Function;
-pub use graph::{Bound, ExprId, Graph, Node, PowerError, Role, Roles, Symbol, SymbolId};
-pub(crate) use graph::{mix, sort_ids};
+pub(crate) use graph::mix;
+pub use graph::{ExprId, Graph, Node, PowerError, SymbolId};
 pub(crate) use map::{FastMap, Key, Ordinal, SortedMap, spread};
 pub use rational::Rational;
+pub(crate) use search::sort_ids;
 pub use substitute::Substitution;
+pub use symbol::{Bound, Role, Roles, Symbol};

@@ -12,6 +12,7 @@ mod instruction;
 mod lower;
 mod net;
 mod passes;
+mod terms;
 #[cfg(test)]
 mod tests;
 
