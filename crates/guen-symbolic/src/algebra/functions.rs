@@ -1,7 +1,8 @@
 //! The elementary functions: normal forms at special values, parity, and derivatives, one table each.
 
 use super::Rational;
-use super::graph::{Bound, ExprId, Graph, Node};
+use super::graph::{ExprId, Graph, Node};
+use super::symbol::Bound;
 
 /// An elementary function of one argument.
 ///

@@ -5,6 +5,8 @@ use std::cell::Cell;
 use super::angles::BaseAngles;
 use super::build::content_of;
 use super::map::{FastMap, spread};
+use super::search::{Search, sort_ids};
+use super::symbol::{Bound, Role, Roles, Symbol};
 use super::{Function, Rational};
 
 /// An expression of a [`Graph`]; children always have smaller identifiers than their parents.
@@ -27,88 +29,6 @@ impl SymbolId {
     pub fn index(self) -> usize {
         self.0 as usize
     }
-}
-
-/// What a symbol stands for.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-pub enum Role {
-    /// The time `t`.
-    Time,
-    /// A physical constant.
-    Constant,
-    /// A coordinate `x_i`.
-    Coordinate,
-    /// The rate `x_i'` of a coordinate.
-    Velocity,
-    /// A quasi-velocity `eta_j`.
-    QuasiVelocity,
-    /// The rate `eta_s'` of a quasi-velocity.
-    QuasiAcceleration,
-    /// A control input.
-    Input,
-}
-
-/// A set of [`Role`]s: which kinds of symbol occur below a node.
-#[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
-pub struct Roles(u8);
-
-impl Roles {
-    /// No role at all.
-    pub const NONE: Roles = Roles(0);
-
-    /// The set of one role.
-    pub const fn of(role: Role) -> Self {
-        Roles(1 << role as u8)
-    }
-
-    /// The union.
-    pub const fn or(self, other: Roles) -> Self {
-        Roles(self.0 | other.0)
-    }
-
-    /// Whether the role is in the set.
-    pub const fn has(self, role: Role) -> bool {
-        self.0 & (1 << role as u8) != 0
-    }
-
-    /// Whether both sets share a role.
-    pub const fn meets(self, other: Roles) -> bool {
-        self.0 & other.0 != 0
-    }
-
-    /// Whether nothing beyond physical constants occurs.
-    pub const fn is_constant(self) -> bool {
-        self.0 & !Roles::of(Role::Constant).0 == 0
-    }
-}
-
-/// What a declaration promises about a physical constant.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
-pub enum Bound {
-    /// Nothing.
-    #[default]
-    Free,
-    /// `c > 0`.
-    Positive,
-    /// `c >= 0`.
-    NonNegative,
-    /// `c < 0`.
-    Negative,
-    /// `c <= 0`.
-    NonPositive,
-    /// `c != 0`.
-    NonZero,
-}
-
-/// A named symbol.
-#[derive(Clone, Debug)]
-pub struct Symbol {
-    /// The name in the declaration.
-    pub name: String,
-    /// What it stands for.
-    pub role: Role,
-    /// The promise about its value.
-    pub bound: Bound,
 }
 
 /// A node of the graph, in normal form.
@@ -204,97 +124,6 @@ pub(super) const SINE_SQUARED: u8 = 2;
 /// A product with a cosine whose exponent is at least two, or negative: without one of these nothing folds with a square
 /// of a sine.
 pub(super) const COSINES: u8 = 4;
-
-/// The memory of a traversal: kept, because clearing it would cost more than the nodes that are visited.
-#[derive(Default)]
-struct Search {
-    /// The number of the search that has seen a node last.
-    seen: Vec<u32>,
-    number: u32,
-    stack: Vec<u32>,
-    height: usize,
-}
-
-impl Search {
-    fn begin(&mut self, nodes: usize) {
-        if self.seen.len() < nodes || self.number == u32::MAX {
-            let room = nodes.next_power_of_two();
-            *self = Search { seen: vec![0; room], number: 0, stack: vec![0; room], height: 0 };
-        }
-        self.number += 1;
-        self.height = 0;
-    }
-
-    /// A node to be visited, unless it was pushed before: so the stack has room for it.
-    #[inline(always)]
-    fn push(&mut self, id: ExprId) {
-        let (seen, stack): (&mut [u32], &mut [u32]) = (&mut self.seen, &mut self.stack);
-        let index = id.0 as usize;
-        if seen[index] != self.number {
-            seen[index] = self.number;
-            stack[self.height] = id.0;
-            self.height += 1;
-        }
-    }
-
-    fn pop(&mut self) -> Option<ExprId> {
-        if self.height == 0 {
-            return None;
-        }
-        self.height -= 1;
-        Some(ExprId(self.stack[self.height]))
-    }
-}
-
-/// Sorts different identifiers: few by insertion, many by a bit for each.
-pub(crate) fn sort_ids(ids: &mut [ExprId]) {
-    const FEW: usize = 12;
-    if ids.len() <= FEW {
-        let mut next = 1;
-        while next < ids.len() {
-            let id = ids[next];
-            let mut at = next;
-            while at > 0 && ids[at - 1].0 > id.0 {
-                ids[at] = ids[at - 1];
-                at -= 1;
-            }
-            ids[at] = id;
-            next += 1;
-        }
-        return;
-    }
-    let (mut least, mut most) = (u32::MAX, 0);
-    let mut index = 0;
-    while index < ids.len() {
-        let id = ids[index].0;
-        if id < least {
-            least = id;
-        }
-        if id > most {
-            most = id;
-        }
-        index += 1;
-    }
-    let base = least / 64;
-    let mut bits = vec![0_u64; (most / 64 - base) as usize + 1];
-    let words: &mut [u64] = &mut bits;
-    index = 0;
-    while index < ids.len() {
-        let id = ids[index].0;
-        words[(id / 64 - base) as usize] |= 1 << (id % 64);
-        index += 1;
-    }
-    let (mut word, mut next) = (0, 0);
-    while word < words.len() {
-        let mut left = words[word];
-        while left != 0 {
-            ids[next] = ExprId((base + word as u32) * 64 + left.trailing_zeros());
-            next += 1;
-            left &= left - 1;
-        }
-        word += 1;
-    }
-}
 
 /// A hash-consed graph of expressions over its own symbols.
 ///
@@ -584,7 +413,7 @@ impl Graph {
             depth = depth.max(self.depths[child]);
             match self.nodes[child] {
                 Node::Function(Function::Sin, _) if e >= 2 => flags |= SINE_SQUARED,
-                Node::Function(Function::Cos, _) if e >= 2 || e < 0 => flags |= COSINES,
+                Node::Function(Function::Cos, _) if e != 0 && e != 1 => flags |= COSINES,
                 _ => {}
             }
             index += 1;

@@ -14,6 +14,7 @@ mod lower;
 mod net;
 mod part;
 mod passes;
+mod terms;
 #[cfg(test)]
 mod tests;
 

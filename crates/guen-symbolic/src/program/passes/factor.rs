@@ -1,6 +1,7 @@
 //! `x a + x b + c = x (a + b) + c`, greedily by the factor that most terms share, constants included.
 
-use super::super::net::{Linear, Net, NetId, NetNode, Powers, Terms, add_term, nonzero, split_sign};
+use super::super::net::{Linear, Net, NetId, NetNode, split_sign};
+use super::super::terms::{Powers, Terms, add_term, nonzero};
 use super::Changes;
 use crate::algebra::{ExprId, FastMap, Graph, Key, spread};
 

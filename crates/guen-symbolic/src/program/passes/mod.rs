@@ -11,7 +11,8 @@ mod products;
 mod signs;
 mod sums;
 
-use super::net::{Linear, Net, NetId, NetNode, Powers, Terms, add_term, nonzero};
+use super::net::{Linear, Net, NetId, NetNode};
+use super::terms::{Powers, Terms, add_term, nonzero};
 use crate::algebra::{ExprId, FastMap, Graph};
 
 /// New contents of some nodes, in terms of nodes whose contents may change as well.

@@ -3,7 +3,8 @@
 //! A monomial is a coefficient and powers of nodes; a power `x^-2` counts as the factor `1/x` twice. The counts
 //! are kept up to date in a heap, so the work is near-linear in the sizes of the monomials, which are small.
 
-use super::super::net::{Linear, Net, NetId, NetNode, Powers, Terms, add_term, constant_factors, split_sign};
+use super::super::net::{Linear, Net, NetId, NetNode, constant_factors, split_sign};
+use super::super::terms::{Powers, Terms, add_term};
 use super::Changes;
 use crate::algebra::{ExprId, FastMap, Graph, Key, Rational, spread};
 
