@@ -3,6 +3,7 @@
 use serde_json::Value;
 
 /// One trajectory of a system.
+#[derive(Clone)]
 pub struct Case {
     pub label: String,
     constants: Value,

@@ -7,8 +7,9 @@ mod systems;
 
 use accuracy::{Subject, bounds, method};
 use case::Case;
-use guen::Dual;
 use guen::prelude::*;
+use guen::steppers::Method;
+use guen::{Differentiable, Dual};
 
 /// The largest distance between two vectors, in units of the largest entry of the second.
 fn relative(found: &[f64], expected: &[f64]) -> f64 {
@@ -26,7 +27,7 @@ fn follow<S, D, const N: usize, const M: usize>(
     energy: impl Fn(Dual<f64, M>, &[Dual<f64, M>; N]) -> Dual<f64, M>,
     conserved: bool,
 ) where
-    S: System<f64, N>,
+    S: System<f64, N> + Differentiable<f64, N>,
     D: System<Dual<f64, M>, N>,
 {
     let bounds: Vec<[f64; N]> = bounds(subject, &case.times, &case.states);
@@ -64,6 +65,78 @@ fn follow<S, D, const N: usize, const M: usize>(
     );
     assert!(worst.0 <= 1.0, "{}: entry {} at t = {}", case.label, worst.2, worst.1);
     assert!(worst_energy <= 1.0 && drift <= 1.0, "{}: energy", case.label);
+
+    // The other methods, on their dense output, to a tolerance: the bounds above are for steps that err by a rounding.
+    differentiated(case, &subject.system, &start);
+    let tolerance = 1e-9;
+    let allowed = 10.0 * tolerance / accuracy::RTOL;
+    sampled(case, &subject.system, &start, &bounds, allowed, &Dop853::new(tolerance, tolerance));
+    sampled(case, &subject.system, &start, &bounds, allowed, &Tsit5::new(tolerance, tolerance));
+    sampled(case, &subject.system, &start, &bounds, allowed, &Rk8::new(0.005));
+    // Shorter, because debug builds solve linear systems slowly.
+    let mut early = case.clone();
+    early.times.retain(|t| *t <= 4.0);
+    sampled(&early, &subject.system, &start, &bounds, allowed, &Gauss6::new(0.005));
+    sampled(&early, &subject.system, &start, &bounds, allowed, &Radau5::new(tolerance, tolerance));
+}
+
+/// Samples on the dense output, against the reference.
+fn sampled<S, M, const N: usize>(
+    case: &Case,
+    system: &S,
+    start: &[f64; N],
+    bounds: &[[f64; N]],
+    allowed: f64,
+    method: &M,
+) where
+    S: System<f64, N>,
+    M: Method<f64, S, N>,
+{
+    let mut worst = 0.0_f64;
+    let result = Integration::new(system, 0.0, start)
+        .sample(&case.times, &mut |k, _, x| {
+            for i in 0..N {
+                worst = worst.max((x[i] - case.states[k][i]).abs() / bounds[k][i]);
+            }
+        })
+        .run(method, *case.times.last().unwrap());
+    let name = std::any::type_name::<M>().rsplit("::").next().unwrap();
+    if let Err(error) = result {
+        // A fixed step may be too long for a case, and then says so; an adaptive one has no excuse.
+        assert!(matches!(error.cause, Cause::Energy { .. }) && error.statistics.rejected == 0, "{error}");
+        assert!(["Rk8", "Gauss6"].contains(&name), "{name}: {error}");
+        println!("{:24} {name}: {error}", case.label);
+        return;
+    }
+    println!("{:24} {name}: {worst:.1e} of the bound, {allowed:.1e} allowed", case.label);
+    assert!(worst <= allowed, "{}: {name}", case.label);
+}
+
+/// The derivatives that implicit methods take, against differences of the rates.
+fn differentiated<S, const N: usize>(case: &Case, system: &S, start: &[f64; N])
+where
+    S: Differentiable<f64, N>,
+{
+    let (jacobian, rates) = (system.jacobian(0.0, start), system.rhs(0.0, start));
+    let difference = |along: &[f64; N], dt: f64| -> [f64; N] {
+        // The error of a central difference of this step: about the square of it, and its reciprocal in roundings.
+        let h = 1e-5;
+        let at = |s: f64| system.rhs(s * dt, &std::array::from_fn(|i| start[i] + s * along[i]));
+        let (ahead, behind) = (at(h), at(-h));
+        std::array::from_fn(|i| (ahead[i] - behind[i]) / (2.0 * h))
+    };
+    for j in 0..N {
+        let unit = std::array::from_fn(|i| f64::from(u8::from(i == j)));
+        let column = jacobian.map(|row| row[j]);
+        let expected = difference(&unit, 0.0);
+        let size = expected.iter().fold(1.0_f64, |most, x| most.max(x.abs()));
+        let off = column.iter().zip(expected).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));
+        assert!(off <= 1e-5 * size, "{}: column {j} of the Jacobian: {off:e}", case.label);
+    }
+    let (along, expected) = (system.along(0.0, start, 1.0, &rates), difference(&rates, 1.0));
+    let size = expected.iter().fold(1.0_f64, |most, x| most.max(x.abs()));
+    let off = along.iter().zip(expected).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));
+    assert!(off <= 1e-5 * size, "{}: second derivatives: {off:e}", case.label);
 }
 
 /// A test of a system against its file: constants, coordinates, quasi-velocities, then how reactions are read.

@@ -141,13 +141,13 @@ impl<R: Real, const N: usize> Watch<R, N> {
             // that blew up is no larger than its own energy, so that its change is about one.
             let scale = start.scale.max(vitals.scale.to_f64());
             let change = relative((energy - before).to_f64().abs(), scale);
-            if !(change <= guard.energy) {
+            if exceeds(change, guard.energy) {
                 return Err(Cause::Energy { found, change, limit: guard.energy });
             }
             start.scale = scale;
         }
         let residual = vitals.residual.to_f64();
-        if !(residual <= guard.residual) {
+        if exceeds(residual, guard.residual) {
             return Err(Cause::Residual { found, residual, limit: guard.residual });
         }
         start.edges(system, reached, guard.edge)?;
@@ -182,7 +182,7 @@ impl<R: Real> Start<R> {
         for (function, (largest, value)) in self.largest.iter_mut().zip(values).take(self.edges).enumerate() {
             let distance = if *largest == value { 1.0 } else { value / *largest };
             // A function that starts at zero has no sign to change and no size to compare with.
-            if *largest != 0.0 && !(distance > limit) {
+            if *largest != 0.0 && (distance <= limit || distance.is_nan()) {
                 let found = reached.time.to_f64();
                 return Err(Cause::Edge { found, function, distance, limit });
             }
@@ -206,4 +206,9 @@ where
 /// A change in units of a scale; what does not change at all is no change even of nothing.
 fn relative(change: f64, scale: f64) -> f64 {
     if change == 0.0 { 0.0 } else { change / scale }
+}
+
+/// Whether a value is above its limit, or none at all.
+fn exceeds(value: f64, limit: f64) -> bool {
+    value > limit || value.is_nan()
 }
