@@ -24,8 +24,6 @@ ROOT = Path(__file__).resolve().parents[2]
 ROUNDS = 31
 PEERS = {"sympy": with_sympy, "casadi": with_casadi}
 FLAGS = {"O3": ["-O3", "-march=native"], "fast": ["-O3", "-march=native", "-ffast-math"]}
-# Declared in other words, a system is the same for the peers.
-SAME = {"hoop-body": "hoop"}
 
 
 def main():
@@ -34,7 +32,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         ours = Server(built_by_cargo(), processor)
         systems = [describe(line) for line in ours.ask("list").split(";")]
-        systems = [s for s in systems if SAME.get(s[0], s[0]) in with_sympy.MODELS and (not wanted or s[0] in wanted)]
+        systems = [s for s in systems if s[0] in with_sympy.MODELS and (not wanted or s[0] in wanted)]
         operations = generate(systems, Path(folder))
         peers = {flag: Server(compiled(Path(folder), flag), processor) for flag in FLAGS}
         print(ours.ask("conditions").replace(";", "\n"))
@@ -76,15 +74,10 @@ def generate(systems, folder):
             for fixed in (True, False):
                 program = f"{peer}_{'fixed' if fixed else 'free'}"
                 print(f"generating {name} {program}", file=sys.stderr)
-                model = SAME.get(name, name)
-                if model != name:
-                    module.MODELS[name] = module.MODELS[model]
-                    if model in with_sympy.SMALL:
-                        with_sympy.SMALL.add(name)
                 text, count = module.c_function(name, program, constants, fixed)
                 texts.append(text)
                 operations[name, program] = count
-                table.append(f'    {{"{name}", "{program}", {size}, {name.replace("-", "_")}_{program}}},')
+                table.append(f'    {{"{name}", "{program}", {size}, {name}_{program}}},')
     texts.append("static const struct { const char *system, *program; int size; rates_fn rates; } PROGRAMS[] = {")
     (folder / "generated.c").write_text("\n".join([*texts, *table, "    {0, 0, 0, 0},\n};\n"]))
     return operations

@@ -191,7 +191,7 @@ def c_function(name, suffix, constants, fixed):
     values = {n: v[0] / v[1] if fixed else symbols[i] for i, (n, v) in enumerate(constants)}
     model = MODELS[name](values)
     rates = ca.cse(model.derivatives())
-    title = f"{name.replace('-', '_')}_{suffix}_casadi"
+    title = f"{name}_{suffix}_casadi"
     function = ca.Function(title, [symbols, ca.vertcat(model.q, model.u)], [rates])
     with tempfile.TemporaryDirectory() as folder:
         here = os.getcwd()
@@ -206,7 +206,7 @@ def c_function(name, suffix, constants, fixed):
     start = text.index(f"static int casadi_f0(")
     body = text[start : text.index("\n}\n", start) + 3].replace("casadi_f0", title).replace("casadi_real", "double").replace("casadi_int", "long long")
     wrapper = (
-        f"static void {name.replace('-', '_')}_{suffix}(const double *restrict k, const double *restrict s, double *restrict r) {{\n"
+        f"static void {name}_{suffix}(const double *restrict k, const double *restrict s, double *restrict r) {{\n"
         f"    const double *arg[2] = {{k, s}};\n    double *res[1] = {{r}};\n    {title}(arg, res, 0, 0, 0);\n}}"
     )
     return body + wrapper, function.n_instructions()

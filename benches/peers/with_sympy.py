@@ -206,7 +206,7 @@ def c_function(name, suffix, constants, fixed):
     steps, outputs = min(candidates, key=count)
     expand = create_expand_pow_optimization(6)
     code = lambda e: sp.ccode(expand(e))
-    lines = [f"static void {name.replace('-', '_')}_{suffix}(const double *restrict given, const double *restrict state, double *restrict rates) {{"]
+    lines = [f"static void {name}_{suffix}(const double *restrict given, const double *restrict state, double *restrict rates) {{"]
     if not fixed:
         lines += [f"    const double {n} = given[{i}];" for i, (n, _) in enumerate(constants)]
     else:
