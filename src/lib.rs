@@ -117,6 +117,8 @@ mod pages {
     mod bodies {}
     #[doc = include_str!("../docs/generated.md")]
     mod generated {}
+    #[doc = include_str!("../docs/control.md")]
+    mod control {}
     #[doc = include_str!("../docs/theory.md")]
     mod theory {}
     #[doc = include_str!("../docs/internals.md")]
