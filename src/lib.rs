@@ -129,6 +129,8 @@ mod pages {
     mod reals {}
     #[doc = include_str!("../docs/integrators.md")]
     mod integrators {}
+    #[doc = include_str!("../docs/control.md")]
+    mod control {}
     #[doc = include_str!("../docs/theory.md")]
     mod theory {}
     #[doc = include_str!("../docs/internals.md")]
