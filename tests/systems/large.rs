@@ -1,27 +1,6 @@
 //! Declarations as text, for those who ask how long an expansion takes: families by their number of links, and systems as
 //! large as the language is meant for.
 
-/// A chain of point masses on massless links that hangs in the plane; the angles are absolute.
-pub fn chain(links: usize) -> String {
-    let list =
-        |entry: &dyn Fn(usize) -> String, gap: &str| (1..=links).map(entry).collect::<Vec<_>>().join(gap);
-    format!(
-        "pub system Chain {{
-            constants {{ m > 0, l > 0, g = 9.81 }}
-            coordinates {{ {} }}
-            let x0 = 0; let y0 = 0;
-            {}
-            parameters {{ {} }}
-            particles {{ {} }}
-            gravity = vec(0, -g);
-        }}",
-        list(&|i| format!("q{i}"), ", "),
-        list(&|i| format!("let x{i} = x{0} + l*sin(q{i}); let y{i} = y{0} - l*cos(q{i});", i - 1), " "),
-        list(&|i| format!("w{i} = dot(q{i});"), " "),
-        list(&|i| format!("m at vec(x{i}, y{i});"), " "),
-    )
-}
-
 /// A planar snake of links with a wheel each: two coordinates more than links, a constraint for each of them.
 pub fn snake(links: usize) -> String {
     let list = |first: usize, entry: &dyn Fn(usize) -> String| (first..=links).map(entry).collect::<String>();
