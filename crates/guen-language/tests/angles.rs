@@ -14,7 +14,7 @@ fn cost(text: &str) -> (u64, u32) {
         derive::derive(model, faults)
     });
     assert!(report.is_empty(), "{report}");
-    let cost = derived.expect("a derivation").programs.functions[0].cost;
+    let cost = derived.expect("a derivation").system.programs.functions[0].cost;
     (cost.weighted(), cost.sines)
 }
 
