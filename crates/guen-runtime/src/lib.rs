@@ -62,7 +62,8 @@ pub use real::{Ordered, Real};
 pub use report::{Report, ReportSection};
 pub use system::{FromFn, Laned, Monitored, System, from_fn};
 pub use tuned::{
-    Digits7, Digits7Functions, Digits13, Digits13Functions, Functions, Fused, FusedOperations, Tuned,
+    Choice, Digits7, Digits7Functions, Digits13, Digits13Functions, Functions, Fused, FusedOperations, Own,
+    Tuned,
 };
 #[cfg(feature = "std")]
 pub use tuned::{Std, StdFunctions};

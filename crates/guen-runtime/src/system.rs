@@ -86,6 +86,17 @@ pub trait Laned<const N: usize>: System<f64, N> {
         Self: 'a;
 }
 
+impl<S: Laned<N>, const N: usize> Laned<N> for &S {
+    type In<L: Lanes> = S::In<L>;
+
+    fn gather<'a, L: Lanes>(member: impl Fn(usize) -> &'a Self) -> S::In<L>
+    where
+        Self: 'a,
+    {
+        S::gather(|lane| *member(lane))
+    }
+}
+
 /// A system with quantities that its exact solutions keep, for a monitor to watch.
 ///
 /// The quantities are computed from the state alone, by other expressions than the right-hand side, so a change

@@ -434,3 +434,36 @@ macro_rules! std_functions {
 std_functions!(f64: tan asin acos atan sinh cosh tanh exp ln sqrt);
 #[cfg(feature = "std")]
 std_functions!(f32: tan asin acos atan sinh cosh tanh exp ln sqrt);
+
+/// A choice of real over lanes of every kind, for code that makes lanes itself.
+///
+/// [`Own`] is the lanes as they are; [`Digits13Functions`], [`Digits7Functions`] and [`FusedOperations`] exchange
+/// operations, and a pair does both.
+pub trait Choice: 'static {
+    /// The real over the lanes `L`.
+    type Of<L: Lanes>: Lanes;
+}
+
+/// The functions and operations that a real has by itself.
+#[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd)]
+pub struct Own;
+
+impl Choice for Own {
+    type Of<L: Lanes> = L;
+}
+
+impl Choice for Digits13Functions {
+    type Of<L: Lanes> = Digits13<L>;
+}
+
+impl Choice for Digits7Functions {
+    type Of<L: Lanes> = Digits7<L>;
+}
+
+impl Choice for FusedOperations {
+    type Of<L: Lanes> = Fused<L>;
+}
+
+impl<A: Choice, B: Choice> Choice for (A, B) {
+    type Of<L: Lanes> = A::Of<B::Of<L>>;
+}

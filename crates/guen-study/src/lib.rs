@@ -9,6 +9,7 @@
 //! | how good is it? | [`Monitor`] and its [`Invariants`]; [`drift`] and [`residuals`] as curves |
 //! | what are the numbers? | [`Table`], aligned for a terminal; [`significant`] for one number |
 //! | what does it look like? | [`Plot`], an SVG picture |
+//! | what if it begins elsewhere? | [`Ensemble`]: many motions in lanes and on threads |
 //! | what went wrong? | [`StudyError`] |
 //!
 //! ```
@@ -38,6 +39,7 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+mod ensemble;
 mod error;
 mod monitor;
 mod plot;
@@ -45,6 +47,7 @@ mod progress;
 mod recording;
 mod table;
 
+pub use ensemble::{End, Ensemble, Sampled};
 pub use error::StudyError;
 pub use monitor::{Invariants, Monitor, drift, residuals};
 pub use plot::Plot;

@@ -200,6 +200,14 @@ impl Backend {
         }
     }
 
+    /// How many lanes suit its registers, as measured by `benches/lanes.rs`.
+    pub fn width(self) -> Width {
+        match self {
+            Self::Portable | Self::Avx2 => Width::Four,
+            Self::Avx512 => Width::Eight,
+        }
+    }
+
     /// The fastest that this processor has.
     pub fn best() -> Self {
         let available = |backend: &Self| backend.is_available();

@@ -31,6 +31,16 @@ impl<const N: usize> InLanes<N> {
     }
 }
 
+impl<const N: usize> IntoIterator for InLanes<N> {
+    type Item = Result<Done<f64, N>, IntegrationError<f64, N>>;
+    type IntoIter = core::iter::Flatten<core::array::IntoIter<Option<Self::Item>, MOST>>;
+
+    /// The ends, one for each lane.
+    fn into_iter(self) -> Self::IntoIter {
+        self.ends.into_iter().flatten()
+    }
+}
+
 impl Rk4<f64> {
     /// Integrates the states in the lanes of `x0`, all from `t0` through the given times, and calls `visit` with the
     /// index, the time, the states and the lanes still going at each of them. In each lane the result is that of

@@ -1,0 +1,245 @@
+//! Many motions at once: of one system from many states, or of many systems, over lanes and threads.
+//!
+//! What a trajectory is does not depend on its neighbours, on the number of threads or on the processor: lanes compute
+//! the bits of plain `f64`, and results are in the order of what was put in.
+
+mod threads;
+
+use std::marker::PhantomData;
+use std::thread::available_parallelism;
+
+use guen_runtime::lanes::{Backend, LaneTask, Lanes, Width, dispatch_on};
+use guen_runtime::steppers::{Done, Rk4};
+use guen_runtime::{Choice, IntegrationError, Laned, Own};
+
+use threads::in_turn;
+
+/// The end of one trajectory: the last time and state with the work done, or the same with a cause.
+pub type End<const N: usize> = Result<Done<f64, N>, IntegrationError<f64, N>>;
+
+/// One trajectory at the times that were asked for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sampled<const N: usize> {
+    /// The states at the first of the times, as many as were reached.
+    pub states: Vec<[f64; N]>,
+    /// The end of the trajectory.
+    pub end: End<N>,
+}
+
+/// Many motions: each a system and an initial state.
+///
+/// - Work is shared between threads, [`available_parallelism`] of them, and each of them integrates several
+///   trajectories at once in lanes. Neither changes a bit of any result.
+/// - A trajectory that fails, because its motion leaves the domain or grows out of range, fails alone.
+/// - Long runs show their [`Progress`](crate::Progress) on a terminal.
+///
+/// ```
+/// use guen_runtime::lanes::Lanes;
+/// use guen_runtime::steppers::Rk4;
+/// use guen_runtime::{Laned, Real, System};
+/// use guen_study::Ensemble;
+///
+/// /// `x' = -rate x`
+/// #[derive(Clone, Copy)]
+/// struct Decay<R>(R);
+///
+/// impl<R: Real> System<R, 1> for Decay<R> {
+///     #[inline]
+///     fn rhs(&self, _t: R, &[x]: &[R; 1]) -> [R; 1] {
+///         R::vectorize(#[inline(always)] || [-self.0 * x])
+///     }
+/// }
+///
+/// impl Laned<1> for Decay<f64> {
+///     type In<L: Lanes> = Decay<L>;
+///
+///     fn gather<'a, L: Lanes>(member: impl Fn(usize) -> &'a Self) -> Decay<L> {
+///         Decay(L::from_fn(|lane| member(lane).0))
+///     }
+/// }
+///
+/// // One system from many states; then many systems from one state each.
+/// let states = (0..100).map(|i| [i as f64]);
+/// let ends = Ensemble::of_states(&Decay(1.0), states).integrate(&Rk4 { step: 0.01 }, 0.0, 1.0);
+/// let last = ends[99].as_ref().unwrap();
+/// assert!((last.state[0] - 99.0 * f64::exp(-1.0)).abs() < 1e-7);
+///
+/// let systems = (0..100).map(|i| (Decay(i as f64 / 10.0), [1.0]));
+/// let ends = Ensemble::of_systems(systems).integrate(&Rk4 { step: 0.01 }, 0.0, 1.0);
+/// assert!((ends[10].as_ref().unwrap().state[0] - f64::exp(-1.0)).abs() < 1e-9);
+/// ```
+#[derive(Clone, Debug)]
+pub struct Ensemble<S, const N: usize, C = Own> {
+    /// One for each start, or one for all.
+    systems: Vec<S>,
+    starts: Vec<[f64; N]>,
+    threads: usize,
+    backend: Backend,
+    width: Width,
+    choice: PhantomData<fn() -> C>,
+}
+
+impl<S, const N: usize> Ensemble<S, N> {
+    /// One system and many initial states.
+    pub fn of_states(system: S, states: impl IntoIterator<Item: Into<[f64; N]>>) -> Self {
+        Self::new(vec![system], states.into_iter().map(Into::into).collect())
+    }
+
+    /// Many systems, each with its initial state: the same system with other constants, or with other inputs held.
+    pub fn of_systems(members: impl IntoIterator<Item = (S, impl Into<[f64; N]>)>) -> Self {
+        let (systems, starts) = members.into_iter().map(|(system, start)| (system, start.into())).unzip();
+        Self::new(systems, starts)
+    }
+
+    fn new(systems: Vec<S>, starts: Vec<[f64; N]>) -> Self {
+        let threads = available_parallelism().map_or(1, usize::from);
+        let backend = Backend::best();
+        Self { systems, starts, threads, backend, width: backend.width(), choice: PhantomData }
+    }
+}
+
+impl<S, const N: usize, C> Ensemble<S, N, C> {
+    /// Uses so many threads, one at least.
+    pub fn with_threads(self, threads: usize) -> Self {
+        Self { threads: threads.max(1), ..self }
+    }
+
+    /// Uses lanes of a certain kind and number instead of those that suit this processor best.
+    pub fn with_lanes(self, backend: Backend, width: Width) -> Self {
+        Self { backend, width, ..self }
+    }
+
+    /// Exchanges the elementary functions, as in `with_choice::<Digits7Functions>()`.
+    pub fn with_choice<D: Choice>(self) -> Ensemble<S, N, D> {
+        let Self { systems, starts, threads, backend, width, .. } = self;
+        Ensemble { systems, starts, threads, backend, width, choice: PhantomData }
+    }
+
+    /// The number of trajectories.
+    pub fn len(&self) -> usize {
+        self.starts.len()
+    }
+
+    /// Whether there is nothing to do.
+    pub fn is_empty(&self) -> bool {
+        self.starts.is_empty()
+    }
+
+    /// A system and its initial state.
+    pub fn member(&self, index: usize) -> Option<(&S, &[f64; N])> {
+        self.starts.get(index).map(|start| (self.system(index), start))
+    }
+
+    fn system(&self, index: usize) -> &S {
+        &self.systems[if self.systems.len() == 1 { 0 } else { index }]
+    }
+
+    /// Does something with every member, one by one on several threads: what no method in lanes can do, such as a step
+    /// that follows the error, or a recording.
+    ///
+    /// ```
+    /// use guen_runtime::{from_fn, steppers::Dop853};
+    /// use guen_study::Ensemble;
+    /// use std::ops::ControlFlow;
+    ///
+    /// let pendulum = from_fn(|_t: f64, &[q, w]: &[f64; 2]| [w, -q.sin()]);
+    /// let ensemble = Ensemble::of_states(pendulum, (1..10).map(|i| [0.3 * i as f64, 0.0]));
+    /// let steps = ensemble.each(|pendulum, start| {
+    ///     let go_on = |_, _: &[f64; 2]| ControlFlow::Continue(());
+    ///     Dop853::new(1e-9, 1e-9).integrate(pendulum, 0.0, start, 20.0, go_on).unwrap().statistics.accepted
+    /// });
+    /// assert!(steps[8] > steps[0]);
+    /// ```
+    pub fn each<T: Send>(&self, work: impl Fn(&S, &[f64; N]) -> T + Sync) -> Vec<T>
+    where
+        S: Sync,
+    {
+        in_turn(self.len(), 1, self.threads, |range| {
+            range.map(|i| work(self.system(i), &self.starts[i])).collect()
+        })
+    }
+}
+
+impl<S: Laned<N> + Sync, const N: usize, C: Choice> Ensemble<S, N, C> {
+    /// Integrates every member from `t0` to `t1`.
+    ///
+    /// The end of each is that of [`Rk4::integrate`] for it alone, to the bit.
+    pub fn integrate(&self, method: &Rk4, t0: f64, t1: f64) -> Vec<End<N>> {
+        self.run(
+            &Task { ensemble: self, method, t0, times: &[t1], visit: |_: &mut (), _| () },
+            |((), end)| end,
+        )
+    }
+
+    /// Integrates every member from `t0` through the given times, which may turn back, and keeps the states at them.
+    ///
+    /// The states and the end of each are those of [`Rk4::sample`] for it alone, to the bit.
+    pub fn sample(&self, method: &Rk4, t0: f64, times: &[f64]) -> Vec<Sampled<N>> {
+        let visit = |states: &mut Vec<[f64; N]>, state| states.push(state);
+        self.run(&Task { ensemble: self, method, t0, times, visit }, |(states, end)| Sampled { states, end })
+    }
+
+    fn run<K: Default + Send, V, T: Send>(
+        &self,
+        task: &Task<'_, S, V, N, C>,
+        result: impl Fn((K, End<N>)) -> T + Sync,
+    ) -> Vec<T>
+    where
+        V: Fn(&mut K, [f64; N]) + Sync,
+    {
+        in_turn(self.len(), self.width.lanes(), self.threads, |range| {
+            let groups = range.step_by(self.width.lanes());
+            let ends = groups.flat_map(|first| {
+                dispatch_on(self.backend, self.width, Group { task, first, kept: PhantomData::<K> })
+            });
+            ends.map(&result).collect()
+        })
+    }
+}
+
+/// What is done with all members: `visit` is shown the states at the times.
+struct Task<'a, S, V, const N: usize, C> {
+    ensemble: &'a Ensemble<S, N, C>,
+    method: &'a Rk4,
+    t0: f64,
+    times: &'a [f64],
+    visit: V,
+}
+
+/// The task for as many members as there are lanes, from `first` on.
+struct Group<'a, S, K, V, const N: usize, C> {
+    task: &'a Task<'a, S, V, N, C>,
+    first: usize,
+    kept: PhantomData<K>,
+}
+
+impl<S, K, V, const N: usize, C> LaneTask for Group<'_, S, K, V, N, C>
+where
+    S: Laned<N>,
+    K: Default,
+    V: Fn(&mut K, [f64; N]),
+    C: Choice,
+{
+    type Output = Vec<(K, End<N>)>;
+
+    #[inline(always)]
+    fn run<L: Lanes>(self) -> Self::Output {
+        let Task { ensemble, method, t0, times, visit } = self.task;
+        let count = L::COUNT.min(ensemble.len() - self.first);
+        // Lanes without a member of their own repeat the last one.
+        let member = |lane: usize| self.first + lane.min(count - 1);
+        let system = S::gather::<C::Of<L>>(|lane| ensemble.system(member(lane)));
+        let start: [C::Of<L>; N] =
+            std::array::from_fn(|i| Lanes::from_fn(|lane| ensemble.starts[member(lane)][i]));
+        let mut kept: Vec<K> = (0..L::COUNT).map(|_| K::default()).collect();
+        let ends = method.sample_in_lanes(&system, *t0, &start, times, |_, _, state, going| {
+            for lane in going.lanes() {
+                visit(&mut kept[lane], state.map(|entry| entry.lane(lane)));
+            }
+        });
+        kept.into_iter().zip(ends).take(count).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests;
