@@ -123,7 +123,8 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
         .line("nine tenths", most)
         .line("all", all)
         .save(pictures.join("spread.svg"))?;
-    let mut tracks = Plot::new("Tracks of some of them").size(640, 640).axes("x in m", "y in m").equal_scale(true);
+    let mut tracks =
+        Plot::new("Tracks of some of them").size(640, 640).axes("x in m", "y in m").equal_scale(true);
     for (motion, (hoop, _)) in motions.iter().zip(&hoops).take(7) {
         let points = motion.states.iter().zip(&times).map(|(state, t)| {
             let [x, y, _] = hoop.outputs(*t, &hoop::State::from(*state)).contact;

@@ -94,7 +94,10 @@ fn hoops<R: Real>(name: &'static str, states: &[[f64; 9]]) -> Candidate {
     let error = own.iter().zip(states).fold(0.0, |error, (own, state)| {
         let rates = System::rhs(&hoop, R::zero(), own);
         let exact = System::rhs(&exact, 0.0, state);
-        rates.iter().zip(exact).fold(error, |error, (rate, exact)| f64::max(error, (rate.to_f64() - exact).abs()))
+        rates
+            .iter()
+            .zip(exact)
+            .fold(error, |error, (rate, exact)| f64::max(error, (rate.to_f64() - exact).abs()))
     });
     let (first, mut results) = (own.clone(), own.clone());
     let throughput = move || {
@@ -166,7 +169,9 @@ fn main() {
         ],
     );
     let states: Vec<[f64; 9]> = (0..COUNT)
-        .map(|i| [0.5 + part(i), 6.0 * part(i), 1.0, 0.0, 0.0, 0.8, part(i) - 0.4, 3.0 - part(i), 0.9 + part(i)])
+        .map(|i| {
+            [0.5 + part(i), 6.0 * part(i), 1.0, 0.0, 0.0, 0.8, part(i) - 0.4, 3.0 - part(i), 0.9 + part(i)]
+        })
         .collect();
     table(
         "the hoop's right-hand side",

@@ -48,8 +48,7 @@ impl<R: Real> ByHand<R> {
     #[inline(always)]
     pub fn rhs(&self, &[theta, psi, _, _, _, _, eta1, eta2, eta3]: &[R; 9]) -> [R; 9] {
         let [k1, k2, k3, k4, k5] = self.k;
-        let (sin, cos) = theta.sin_cos();
-        let (sin_psi, cos_psi) = psi.sin_cos();
+        let ((sin, cos), (sin_psi, cos_psi)) = R::sin_cos_pair(theta, psi);
         let w = eta2 / sin;
         let c = cos * w;
         let p = self.a * eta1;

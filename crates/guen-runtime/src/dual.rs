@@ -237,6 +237,15 @@ impl<R: Real, const N: usize> Real for Dual<R, N> {
     }
 
     #[inline]
+    fn sin_cos_pair(first: Self, second: Self) -> ((Self, Self), (Self, Self)) {
+        let ((sin, cos), (next_sin, next_cos)) = R::sin_cos_pair(first.value, second.value);
+        (
+            (first.chain(sin, cos), first.chain(cos, -sin)),
+            (second.chain(next_sin, next_cos), second.chain(next_cos, -next_sin)),
+        )
+    }
+
+    #[inline]
     fn sin(self) -> Self {
         let (sin, cos) = self.value.sin_cos();
         self.chain(sin, cos)

@@ -4,6 +4,7 @@
 //! crate of the build switches `std` on. What `core` itself defines to the bit, such as `abs`, is taken from there.
 
 use crate::elementary;
+use crate::lanes::Two;
 use crate::lanes::register::Vector;
 use crate::real::{Ordered, Real};
 
@@ -150,6 +151,13 @@ impl Real for f64 {
     }, sin_cos: sin_cos, atan2: libm::atan2);
 
     #[inline]
+    fn sin_cos_pair(first: Self, second: Self) -> ((Self, Self), (Self, Self)) {
+        let angles = Vector::<Two>::from_fn(|i| if i == 0 { first } else { second });
+        let (sin, cos) = elementary::sin_cos(angles);
+        ((sin.lane(0), cos.lane(0)), (sin.lane(1), cos.lane(1)))
+    }
+
+    #[inline]
     fn root(self, q: u32) -> Self {
         match q {
             1 => self,
@@ -166,6 +174,13 @@ impl Real for f32 {
         atan: libm::atanf, sinh: libm::sinhf, cosh: libm::coshf, tanh: libm::tanhf, exp: libm::expf,
         ln: libm::logf, sqrt: libm::sqrtf, abs: f32::abs,
     }, sin_cos: sin_cos_single, atan2: libm::atan2f);
+
+    #[inline]
+    fn sin_cos_pair(first: Self, second: Self) -> ((Self, Self), (Self, Self)) {
+        let single = |(sin, cos): (f64, f64)| (sin as f32, cos as f32);
+        let (first, second) = f64::sin_cos_pair(first.into(), second.into());
+        (single(first), single(second))
+    }
 
     #[inline]
     fn root(self, q: u32) -> Self {

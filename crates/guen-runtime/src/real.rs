@@ -111,6 +111,18 @@ pub trait Real:
     /// Sine and cosine together; the angle is in radians. Generated code calls this once per angle.
     fn sin_cos(self) -> (Self, Self);
 
+    /// Sines and cosines of two angles. Generated code calls this where two angles are known at the same time:
+    /// registers of two lanes have them for little more than the price of one.
+    ///
+    /// ```
+    /// use guen_runtime::Real;
+    /// assert_eq!(Real::sin_cos_pair(0.5, 2.0), (Real::sin_cos(0.5), Real::sin_cos(2.0)));
+    /// ```
+    #[inline(always)]
+    fn sin_cos_pair(first: Self, second: Self) -> ((Self, Self), (Self, Self)) {
+        (first.sin_cos(), second.sin_cos())
+    }
+
     /// Sine.
     #[inline]
     fn sin(self) -> Self {

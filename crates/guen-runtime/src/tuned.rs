@@ -113,6 +113,12 @@ macro_rules! functions {
                 x.sin_cos()
             }
 
+            /// [`Real::sin_cos_pair`].
+            #[inline(always)]
+            fn sin_cos_pair(first: R, second: R) -> ((R, R), (R, R)) {
+                (Self::sin_cos(first), Self::sin_cos(second))
+            }
+
             $(
                 #[doc = concat!("[`Real::", stringify!($method), "`].")]
                 #[inline(always)]
@@ -199,6 +205,12 @@ macro_rules! functions {
             fn sin_cos(self) -> (Self, Self) {
                 let (sin, cos) = F::sin_cos(self.value);
                 (Self::new(sin), Self::new(cos))
+            }
+
+            #[inline(always)]
+            fn sin_cos_pair(first: Self, second: Self) -> ((Self, Self), (Self, Self)) {
+                let ((sin, cos), (next_sin, next_cos)) = F::sin_cos_pair(first.value, second.value);
+                ((Self::new(sin), Self::new(cos)), (Self::new(next_sin), Self::new(next_cos)))
             }
 
             #[inline(always)]
@@ -390,6 +402,11 @@ impl<L: Lanes> Functions<L> for Digits7Functions {
 pub struct FusedOperations;
 
 impl<L: Lanes> Functions<L> for FusedOperations {
+    #[inline(always)]
+    fn sin_cos_pair(first: L, second: L) -> ((L, L), (L, L)) {
+        L::sin_cos_pair(first, second)
+    }
+
     #[inline(always)]
     fn times_plus(a: L, b: L, c: L) -> L {
         a.fused(b, c)

@@ -145,3 +145,17 @@ fn single_precision_is_rounded_once_more() {
         assert_eq!((sin, cos), (exact.0 as f32, exact.1 as f32));
     }
 }
+
+#[test]
+fn two_angles_at_once_give_the_bits_of_each() {
+    let bits = |(sin, cos): (f64, f64)| [sin.to_bits(), cos.to_bits()];
+    // Of every two neighbours one may be out of range.
+    for (x, y) in logarithmic(1e-300, 1e9).zip(even(1e6)).take(20_000) {
+        let (first, second) = f64::sin_cos_pair(x, y);
+        assert_eq!((bits(first), bits(second)), (bits(Real::sin_cos(x)), bits(Real::sin_cos(y))), "{x} {y}");
+        let (x, y) = (x as f32, y as f32);
+        assert_eq!(f32::sin_cos_pair(x, y), (Real::sin_cos(x), Real::sin_cos(y)));
+    }
+    let ((sin, _), (other, _)) = f64::sin_cos_pair(f64::NAN, -0.0);
+    assert!(sin.is_nan() && other == 0.0 && other.is_sign_negative());
+}

@@ -31,6 +31,7 @@ fn numbers() -> Vec<f64> {
 /// Everything that a real can do with three numbers, as numbers.
 fn everything<R: Real>(a: R, b: R, c: R) -> Vec<R> {
     let (sin, cos) = a.sin_cos();
+    let (first, second) = R::sin_cos_pair(b, c);
     let mut assigned = a;
     assigned += b;
     assigned *= c;
@@ -45,6 +46,10 @@ fn everything<R: Real>(a: R, b: R, c: R) -> Vec<R> {
         assigned,
         sin,
         cos,
+        first.0,
+        first.1,
+        second.0,
+        second.1,
         a.sin(),
         a.cos(),
         a.tan(),

@@ -28,6 +28,7 @@ pub(super) fn body(instructions: &[Instruction], outputs: &[Value], loads: &dyn 
     let mut last_use = vec![0; values];
     let mut steps: Vec<&Instruction> = instructions.iter().filter(|i| !writer.load(i, loads)).collect();
     steps.retain(|step| writer.absorbed[step.result.index()].is_none());
+    bring_angles_together(&mut steps);
     for (place, step) in steps.iter().enumerate() {
         for operand in step.operation.operands() {
             last_use[operand.index()] = place;
@@ -41,7 +42,7 @@ pub(super) fn body(instructions: &[Instruction], outputs: &[Value], loads: &dyn 
         last_use[output.index()] = usize::MAX;
     }
     if steps.len() <= BLOCK {
-        steps.iter().for_each(|step| writer.statement(step));
+        writer.statements(&steps);
     } else {
         for (number, block) in steps.chunks(BLOCK).enumerate() {
             let end = number * BLOCK + block.len();
@@ -53,7 +54,7 @@ pub(super) fn body(instructions: &[Instruction], outputs: &[Value], loads: &dyn 
                 .collect();
             let handed = handed.concat();
             let _ = write!(writer.text, "let ({handed}) = {{");
-            block.iter().for_each(|step| writer.statement(step));
+            writer.statements(block);
             let _ = write!(writer.text, "({handed}) }};");
         }
     }
@@ -89,6 +90,27 @@ fn absorbed(instructions: &[Instruction], outputs: &[Value], values: usize) -> V
     absorbed
 }
 
+/// Moves sines and cosines behind others before which their angle is known, so that two and two have one statement.
+fn bring_angles_together(steps: &mut [&Instruction]) {
+    let mut place = 0;
+    while place < steps.len() {
+        let known = |angle: &Value, until: usize| {
+            !steps[place..until].iter().flat_map(|step| defined(step)).any(|value| value == *angle)
+        };
+        let partner = (place + 1..steps.len()).find(|&other| {
+            match (&steps[place].operation, &steps[other].operation) {
+                (Operation::SinCos { .. }, Operation::SinCos { angle, .. }) => known(angle, other),
+                _ => false,
+            }
+        });
+        if let Some(partner) = partner {
+            steps[place + 1..=partner].rotate_right(1);
+            place += 1;
+        }
+        place += 1;
+    }
+}
+
 /// The values that an instruction defines.
 fn defined(instruction: &Instruction) -> impl Iterator<Item = Value> {
     let second = match instruction.operation {
@@ -119,6 +141,41 @@ impl Writer {
             self.names[value.index()] = name.clone().unwrap_or_else(|| format!("v{}", value.index()));
         }
         is_load
+    }
+
+    fn statements(&mut self, mut steps: &[&Instruction]) {
+        while let [step, rest @ ..] = steps {
+            steps = match rest {
+                [other, rest @ ..] if self.pair(step, other) => rest,
+                _ => {
+                    self.statement(step);
+                    rest
+                }
+            };
+        }
+    }
+
+    /// One statement for two sines and cosines, unless they are none, or one is of the other.
+    fn pair(&mut self, first: &Instruction, second: &Instruction) -> bool {
+        let (Operation::SinCos { angle, cosine }, Operation::SinCos { angle: next, cosine: next_cosine }) =
+            (&first.operation, &second.operation)
+        else {
+            return false;
+        };
+        if defined(first).any(|value| value == *next) {
+            return false;
+        }
+        let _ = write!(
+            self.text,
+            "let ((v{}, v{}), (v{}, v{})) = <R as __guen::Real>::sin_cos_pair({}, {});",
+            first.result.index(),
+            cosine.index(),
+            second.result.index(),
+            next_cosine.index(),
+            self.names[angle.index()],
+            self.names[next.index()],
+        );
+        true
     }
 
     fn statement(&mut self, Instruction { result, operation }: &Instruction) {
@@ -244,5 +301,43 @@ mod tests {
             let error = (&sum - &value).abs().to_f64() / value.to_f64();
             assert!(error < 1e-90, "{error}");
         }
+    }
+
+    /// The text of a right-hand side, without blanks and without the path of the trait.
+    fn rates(declaration: &str) -> String {
+        let text = crate::expand(declaration.parse().unwrap()).to_string();
+        let text: String = text.split_whitespace().collect();
+        let from = text.find("fnrhs<R:__guen::Real>").unwrap();
+        let to = from + text[from..].find("#[inline]").unwrap();
+        text[from..to].replace("<Ras__guen::Real>::", "")
+    }
+
+    #[test]
+    fn angles_known_together_have_one_call_and_nested_ones_do_not() {
+        let of = |potential: &str| {
+            rates(&format!(
+                "pub system S {{ coordinates {{ x, y }} parameters {{ u = dot(x); v = dot(y); }}
+                 kinetic_energy = (u^2 + v^2)/2; potential_energy = {potential}; }}"
+            ))
+        };
+        let together = of("sin(x)*cos(y)");
+        assert!(together.contains("=sin_cos_pair(s[0],s[1])"), "{together}");
+        assert_eq!(together.matches("sin_cos").count(), 1, "{together}");
+        let nested = of("sin(sin(x))*y - cos(sin(x))");
+        assert_eq!(
+            (nested.matches("sin_cos(").count(), nested.matches("sin_cos_pair").count()),
+            (2, 0),
+            "{nested}"
+        );
+    }
+
+    #[test]
+    fn a_product_in_one_sum_is_written_inside_of_it() {
+        let rates = rates(
+            "pub system S { coordinates { x, y } parameters { u = dot(x); v = dot(y); }
+             kinetic_energy = (u^2 + v^2)/2; forces { 3*x*y + u along u; u - x*x along v; } }",
+        );
+        assert!(rates.contains("=times_plus(") && rates.contains("=minus_times("), "{rates}");
+        assert!(!rates.contains('+') && !rates.contains("u-"), "{rates}");
     }
 }

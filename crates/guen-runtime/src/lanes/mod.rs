@@ -41,6 +41,12 @@ pub(crate) mod register;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
+/// Two lanes that the target always has.
+#[cfg(target_arch = "x86_64")]
+pub(crate) type Two = x86::Sse2;
+#[cfg(not(target_arch = "x86_64"))]
+pub(crate) type Two = Pair<f64>;
+
 use register::{Pair, Register, Vector};
 
 use crate::lift::Lift;
@@ -175,7 +181,7 @@ impl Width {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Backend {
-    /// Arrays of `f64`, for every platform.
+    /// Pairs of `f64`, for every platform; on x86-64 in registers of 128 bits.
     Portable,
     /// Registers of 256 bits, with fused multiply-add: x86-64 since about 2013.
     Avx2,
@@ -243,8 +249,8 @@ pub fn dispatch_on<T: LaneTask>(backend: Backend, width: Width, task: T) -> T::O
     };
     result.unwrap_or_else(|task| match width {
         Width::One => task.run::<f64>(),
-        Width::Four => run::<Pair<Pair<f64>>, T>(task),
-        Width::Eight => run::<Pair<Pair<Pair<f64>>>, T>(task),
+        Width::Four => run::<Pair<Two>, T>(task),
+        Width::Eight => run::<Pair<Pair<Two>>, T>(task),
     })
 }
 

@@ -87,6 +87,10 @@ pub(super) fn fused<T>(function: impl FnOnce() -> T) -> T {
     }
 }
 
+/// Two lanes, on every processor of x86-64.
+#[derive(Clone, Copy)]
+pub(crate) struct Sse2(__m128d);
+
 /// Four lanes.
 #[derive(Clone, Copy)]
 struct Avx2(__m256d);
@@ -99,7 +103,8 @@ struct Avx512Half(__m256d);
 #[derive(Clone, Copy)]
 struct Avx512(__m512d);
 
-/// What one instruction does. SAFETY of all: a value of these types exists only where the processor has been asked.
+/// What one instruction does. SAFETY of all: a value of these types exists only where the processor has been asked, or
+/// need not be.
 macro_rules! instructions {
     ($($method:ident: $instruction:ident;)*) => {
         $(
@@ -285,5 +290,78 @@ impl Register for Avx512 {
     fn vectorize<T>(function: impl FnOnce() -> T) -> T {
         // SAFETY: as of every instruction here.
         unsafe { with_avx512(function) }
+    }
+}
+
+impl Register for Sse2 {
+    lanes!(2);
+
+    instructions! {
+        add: _mm_add_pd;
+        sub: _mm_sub_pd;
+        mul: _mm_mul_pd;
+        div: _mm_div_pd;
+        and: _mm_and_pd;
+        xor: _mm_xor_pd;
+    }
+
+    #[inline(always)]
+    fn splat(x: f64) -> Self {
+        // SAFETY: as of every instruction here.
+        Self(unsafe { _mm_set1_pd(x) })
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        // SAFETY: as of every instruction here.
+        Self(unsafe { _mm_sqrt_pd(self.0) })
+    }
+
+    // The instruction came later.
+    #[inline(always)]
+    fn fused(self, b: Self, c: Self) -> Self {
+        Self::from_fn(|i| crate::elementary::fused(self.lane(i), b.lane(i), c.lane(i)))
+    }
+
+    #[inline(always)]
+    fn without(self, other: Self) -> Self {
+        // SAFETY: as of every instruction here. This one inverts its first operand.
+        Self(unsafe { _mm_andnot_pd(other.0, self.0) })
+    }
+
+    #[inline(always)]
+    fn raised<const BY: i32>(self) -> Self {
+        // SAFETY: as of every instruction here.
+        Self(unsafe { _mm_castsi128_pd(_mm_slli_epi64::<BY>(_mm_castpd_si128(self.0))) })
+    }
+
+    #[inline(always)]
+    fn by_sign(self, set: Self, clear: Self) -> Self {
+        // SAFETY: as of every instruction here. Signs are spread over halves, the upper halves over both.
+        Self(unsafe {
+            let halves = _mm_srai_epi32::<31>(_mm_castpd_si128(self.0));
+            let mask = _mm_castsi128_pd(_mm_shuffle_epi32::<0b11_11_01_01>(halves));
+            _mm_or_pd(_mm_and_pd(mask, set.0), _mm_andnot_pd(mask, clear.0))
+        })
+    }
+
+    #[inline(always)]
+    fn some_above(self, limit: f64) -> bool {
+        // SAFETY: as of every instruction here.
+        unsafe { _mm_movemask_pd(_mm_cmpgt_pd(self.0, _mm_set1_pd(limit))) != 0 }
+    }
+
+    #[inline(always)]
+    fn finite(self) -> u32 {
+        // SAFETY: as of every instruction here. `x - x` is NaN unless `x` is finite, and NaN equals nothing.
+        unsafe {
+            let rest = _mm_sub_pd(self.0, self.0);
+            _mm_movemask_pd(_mm_cmpeq_pd(rest, rest)) as u32
+        }
+    }
+
+    #[inline(always)]
+    fn vectorize<T>(function: impl FnOnce() -> T) -> T {
+        function()
     }
 }
