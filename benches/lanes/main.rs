@@ -9,6 +9,7 @@
 //! candidates take turns; a ratio is the median of the ratios of the rounds.
 
 mod chain;
+mod ensemble;
 mod hoop;
 
 use std::hint::black_box;
@@ -173,4 +174,5 @@ fn main() {
     println!("built for AVX2: {}, run with: {:?}", cfg!(target_feature = "avx2"), Backend::best());
     table("hoop", HoopSubject(hoop));
     table("chain of 10", ChainSubject(chain));
+    ensemble::table(hoop);
 }

@@ -25,9 +25,14 @@ pub use rk4::Rk4;
 use crate::real::Real;
 
 /// `x + h k`
-#[inline]
+// A loop, because the calls behind `core::array::from_fn` are not always inlined, and lanes need that.
+#[inline(always)]
 fn shifted<R: Real, const N: usize>(x: &[R; N], h: R, slope: &[R; N]) -> [R; N] {
-    core::array::from_fn(|i| x[i] + h * slope[i])
+    let mut shifted = *x;
+    for (entry, slope) in shifted.iter_mut().zip(slope) {
+        *entry += h * *slope;
+    }
+    shifted
 }
 
 /// `sum_j w_j k_j`

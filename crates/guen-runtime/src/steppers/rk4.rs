@@ -43,7 +43,11 @@ where
             let k4 = system.rhs(t + h, &shifted(x, h, &k3));
             let two = R::from_ratio(2, 1);
             let sixth = h * R::from_ratio(1, 6);
-            core::array::from_fn(|i| x[i] + sixth * (k1[i] + two * (k2[i] + k3[i]) + k4[i]))
+            let mut next = *x;
+            for i in 0..N {
+                next[i] += sixth * (k1[i] + two * (k2[i] + k3[i]) + k4[i]);
+            }
+            next
         },
     )
 }
