@@ -42,20 +42,21 @@
 //! | feature | default | what it brings |
 //! | --- | --- | --- |
 //! | `nalgebra` | yes | conversions between states and `nalgebra::SVector` |
-//! | `std` | yes | nothing of its own yet; recordings and pictures are in the crate `guen-study` |
+//! | `std` | yes | `Std`, and lanes chosen at run time; recordings and pictures are in the crate `guen-study` |
 #![no_std]
 #![forbid(unsafe_code)]
 
 pub use guen_runtime::{
-    BodyFault, BracketCoefficients, Catastatic, Class, Coefficient, Conservative, ConstantsError, Coordinate,
-    Cost, Digits7, Digits13, Dual, Function, Functions, Fused, Holonomic, IncompleteLieGroup,
-    IntegrationError, Laned, LieGroup, Lift, Linearization, Monitored, Nonholonomic, Operator, Ordered,
-    Positions, PositionsError, Projected, Real, Report, ReportSection, Rheonomic, Scleronomic, System, Tuned,
-    from_fn, lanes, prelude, project, projected, steppers,
+    BodyFault, BracketCoefficients, Catastatic, Choice, Class, Coefficient, Conservative, ConstantsError,
+    Coordinate, Cost, Digits7, Digits7Functions, Digits13, Digits13Functions, Dual, Function, Functions,
+    Fused, FusedOperations, Holonomic, IncompleteLieGroup, IntegrationError, Laned, LieGroup, Lift,
+    Linearization, Monitored, Nonholonomic, Operator, Ordered, Positions, PositionsError, Projected, Real,
+    Report, ReportSection, Rheonomic, Scleronomic, System, Tuned, from_fn, lanes, prelude, project,
+    projected, steppers,
 };
 
 #[cfg(feature = "std")]
-pub use guen_runtime::Std;
+pub use guen_runtime::{Std, StdFunctions};
 
 /// Declares a mechanical system and derives its equations of motion at compile time.
 ///
@@ -118,6 +119,8 @@ mod pages {
     mod bodies {}
     #[doc = include_str!("../docs/generated.md")]
     mod generated {}
+    #[doc = include_str!("../docs/reals.md")]
+    mod reals {}
     #[doc = include_str!("../docs/theory.md")]
     mod theory {}
     #[doc = include_str!("../docs/internals.md")]

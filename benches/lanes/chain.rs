@@ -66,6 +66,7 @@ pub struct ByHand<R> {
 
 impl<R: Real> ByHand<R> {
     /// `M_ij = (N - max(i, j)) cos(q_i - q_j)`, solved by `L D L^T` in place; loops of constant length.
+    #[allow(clippy::needless_range_loop, reason = "indices as in the formulas")]
     #[inline(always)]
     pub fn rhs(&self, state: &[R; 2 * LINKS]) -> [R; 2 * LINKS] {
         let mut sines = [R::zero(); LINKS];
@@ -103,7 +104,8 @@ impl<R: Real> ByHand<R> {
                     matrix[i][k] -= product;
                 }
                 matrix[i][i] -= factor * matrix[i][j];
-                force[i] = force[i] - factor * force[j];
+                let product = factor * force[j];
+                force[i] -= product;
             }
         }
         for i in (0..LINKS).rev() {
@@ -114,10 +116,8 @@ impl<R: Real> ByHand<R> {
             force[i] = sum * inverse[i];
         }
         let mut rates = [R::zero(); 2 * LINKS];
-        for i in 0..LINKS {
-            rates[i] = state[LINKS + i];
-            rates[LINKS + i] = force[i];
-        }
+        rates[..LINKS].copy_from_slice(&state[LINKS..]);
+        rates[LINKS..].copy_from_slice(&force);
         rates
     }
 }

@@ -1,7 +1,7 @@
-//! [`Real`] for `f32` and `f64`, every elementary function through the crate `libm`.
+//! [`Real`] for `f32` and `f64`: sine and cosine of our own, the other elementary functions through the crate `libm`.
 //!
-//! `libm` is ordinary Rust, so the results do not depend on the platform's C library, nor on whether some other
-//! crate of the build switches `std` on. What `core` itself defines to the bit, such as `abs`, is taken from there.
+//! Both are ordinary Rust, so the results do not depend on the platform's C library, nor on whether some other crate of
+//! the build switches `std` on. What IEEE 754 defines to the bit, such as `abs` and the square root, is the processor's.
 
 use crate::elementary;
 use crate::lanes::Two;

@@ -5,6 +5,8 @@
 //! | question | answer |
 //! | --- | --- |
 //! | what is a number? | [`Real`], [`Ordered`], [`Dual`]; [`Lift`] embeds a base real |
+//! | which functions does it have? | [`Tuned`]: [`Digits13`], [`Digits7`], [`Fused`], [`Functions`] of your own |
+//! | how many at once? | [`lanes`]; [`Laned`] systems |
 //! | what is integrated? | [`System`], [`Monitored`], [`from_fn`] |
 //! | what acts on functions? | [`Operator`], [`Function`], [`Coordinate`], [`BracketCoefficients`] |
 //! | what is known at compile time? | [`Class`], the markers [`Holonomic`] to [`Conservative`], [`Cost`] |
@@ -17,8 +19,8 @@
 //! # Features
 //!
 //! - `nalgebra`: re-exports that crate, and [`nalgebra_conversions!`] has an effect.
-//! - `std`: nothing yet; what needs an operating system goes behind it. Elementary functions come from `libm` with
-//!   or without it.
+//! - `std`: [`Std`], the platform's elementary functions; [`lanes`] chosen at run time, and not by the target of the
+//!   build. Without it everything else gives the same bits.
 #![no_std]
 #![deny(unsafe_code)]
 

@@ -15,9 +15,10 @@ use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAss
 /// - **Constants** enter as exact ratios ([`from_ratio`](Real::from_ratio)) or as sums of scaled integers
 ///   ([`from_parts`](Real::from_parts)), never as `f64` literals: a run in extended precision must solve the
 ///   system that was written, and `0.1_f64` is not one tenth.
-/// - **Elementary functions** of `f32` and `f64` always go through the crate `libm`, with or without `std`.
-///   `std`'s functions may come from the platform, and which ones a dependency calls can change with the
-///   features of the build; here the same input gives the same bits in every build.
+/// - **Elementary functions** of `f32` and `f64` are our own (sine and cosine, straight-line code with errors below
+///   0.8 ulp for `f64`) or those of the crate `libm`, with or without `std`. `std`'s functions may come from the
+///   platform, and which ones a dependency calls can change with the features of the build; here the same input
+///   gives the same bits in every build. Other functions are other types: see [`Tuned`](crate::Tuned).
 /// - **Domains** are those of IEEE arithmetic: outside of them the result is NaN or infinite, never a panic.
 ///   Whether a value is usable is asked once per step, with [`is_finite`](Real::is_finite).
 ///

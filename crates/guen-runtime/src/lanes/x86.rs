@@ -117,7 +117,7 @@ macro_rules! instructions {
 }
 
 macro_rules! lanes {
-    ($count:literal) => {
+    ($count:literal of $register:ty) => {
         const COUNT: usize = $count;
 
         #[inline(always)]
@@ -127,13 +127,13 @@ macro_rules! lanes {
                 *entry = lane(i);
             }
             // SAFETY: a register is the array of its lanes.
-            Self(unsafe { transmute::<[f64; $count], _>(all) })
+            Self(unsafe { transmute::<[f64; $count], $register>(all) })
         }
 
         #[inline(always)]
         fn lane(self, index: usize) -> f64 {
             // SAFETY: a register is the array of its lanes.
-            let all: [f64; $count] = unsafe { transmute(self.0) };
+            let all = unsafe { transmute::<$register, [f64; $count]>(self.0) };
             all[index]
         }
     };
@@ -142,7 +142,7 @@ macro_rules! lanes {
 macro_rules! register256 {
     ($register:ident, $context:ident) => {
         impl Register for $register {
-            lanes!(4);
+            lanes!(4 of __m256d);
 
             instructions! {
                 add: _mm256_add_pd;
@@ -217,7 +217,7 @@ register256!(Avx2, with_avx2);
 register256!(Avx512Half, with_avx512);
 
 impl Register for Avx512 {
-    lanes!(8);
+    lanes!(8 of __m512d);
 
     instructions! {
         add: _mm512_add_pd;
@@ -294,7 +294,7 @@ impl Register for Avx512 {
 }
 
 impl Register for Sse2 {
-    lanes!(2);
+    lanes!(2 of __m128d);
 
     instructions! {
         add: _mm_add_pd;
