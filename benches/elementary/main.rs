@@ -86,13 +86,32 @@ fn sines<R: Real>(name: &'static str, arguments: &[f64]) -> Candidate {
     Candidate { name, error, throughput: Box::new(throughput), latency: Box::new(latency) }
 }
 
-fn hoops<R: Real>(name: &'static str, states: &[[f64; 9]]) -> Candidate {
-    let [a, inertia, axial, g] = [1.0, 0.5, 1.0, 9.81].map(R::from_f64);
+/// The constants of the hoop.
+const HOOP: [f64; 4] = [1.0, 0.5, 1.0, 9.81];
+
+/// The derived right-hand side over some real.
+fn derived<R: Real>(name: &'static str, states: &[[f64; 9]]) -> Candidate {
+    let [a, inertia, axial, g] = HOOP.map(R::from_f64);
     let hoop = hoop::Hoop { a, A: inertia, C: axial, g }.prepare().expect("constants are in order");
-    let exact = hoop::Hoop { a: 1.0, A: 0.5, C: 1.0, g: 9.81 }.prepare().expect("constants are in order");
+    hoops(name, states, move |state| System::rhs(&hoop, R::zero(), state))
+}
+
+fn by_hand(name: &'static str, states: &[[f64; 9]]) -> Candidate {
+    let [a, inertia, axial, g] = HOOP;
+    let hoop = hoop::ByHand::new(a, inertia, axial, g);
+    hoops(name, states, move |state: &[f64; 9]| hoop.rhs(state))
+}
+
+fn hoops<R: Real>(
+    name: &'static str,
+    states: &[[f64; 9]],
+    rhs: impl Fn(&[R; 9]) -> [R; 9] + Copy + 'static,
+) -> Candidate {
+    let [a, inertia, axial, g] = HOOP;
+    let exact = hoop::Hoop { a, A: inertia, C: axial, g }.prepare().expect("constants are in order");
     let own: Vec<[R; 9]> = states.iter().map(|state| state.map(R::from_f64)).collect();
     let error = own.iter().zip(states).fold(0.0, |error, (own, state)| {
-        let rates = System::rhs(&hoop, R::zero(), own);
+        let rates = rhs(own);
         let exact = System::rhs(&exact, 0.0, state);
         rates
             .iter()
@@ -104,7 +123,7 @@ fn hoops<R: Real>(name: &'static str, states: &[[f64; 9]]) -> Candidate {
         timed(PASSES * COUNT, || {
             for _ in 0..PASSES {
                 for (state, result) in black_box(&own).iter().zip(&mut results) {
-                    *result = System::rhs(&hoop, R::zero(), state);
+                    *result = rhs(state);
                 }
                 black_box(&results);
             }
@@ -115,7 +134,7 @@ fn hoops<R: Real>(name: &'static str, states: &[[f64; 9]]) -> Candidate {
             let mut state = first[0];
             let small = R::from_f64(1e-12);
             for _ in 0..PASSES * COUNT {
-                let rates = System::rhs(&hoop, R::zero(), &state);
+                let rates = rhs(&state);
                 for (entry, rate) in state.iter_mut().zip(rates) {
                     *entry += small * rate;
                 }
@@ -176,14 +195,15 @@ fn main() {
     table(
         "the hoop's right-hand side",
         vec![
-            hoops::<f64>("f64", &states),
-            hoops::<Libm>("libm", &states),
-            hoops::<Std>("Std", &states),
-            hoops::<Digits13>("Digits13", &states),
-            hoops::<Digits7>("Digits7", &states),
-            hoops::<Fused>("Fused", &states),
-            hoops::<Fused<Digits7>>("Fused<Digits7>", &states),
-            hoops::<f32>("f32", &states),
+            derived::<f64>("f64", &states),
+            by_hand("f64, by hand", &states),
+            derived::<Libm>("libm", &states),
+            derived::<Std>("Std", &states),
+            derived::<Digits13>("Digits13", &states),
+            derived::<Digits7>("Digits7", &states),
+            derived::<Fused>("Fused", &states),
+            derived::<Fused<Digits7>>("Fused<Digits7>", &states),
+            derived::<f32>("f32", &states),
         ],
     );
 }
