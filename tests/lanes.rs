@@ -1,0 +1,87 @@
+//! Declared systems in lanes: every function of a state, and ensembles of systems whose constants and inputs differ.
+
+#[macro_use]
+mod systems;
+
+use guen::Laned;
+use guen::lanes::{Backend, LaneTask, Lanes, Width, dispatch_on};
+use guen::prelude::*;
+use guen_study::Ensemble;
+
+hoop!(guen::mechanical_system);
+cart!(guen::mechanical_system);
+
+fn part(i: usize, k: usize) -> f64 {
+    ((i + 1) as f64 * (0.618 + 0.21 * k as f64)).fract()
+}
+
+fn hoops() -> Vec<(hoop::Prepared, hoop::State)> {
+    (0..19)
+        .map(|i| {
+            let hoop = Hoop { a: 1.0 + part(i, 1), A: 0.5, C: 1.0, g: 9.81 }.prepare().unwrap();
+            let state = std::array::from_fn(|k| 0.2 + part(i, k));
+            (hoop, hoop::State::from(state))
+        })
+        .collect()
+}
+
+/// What a prepared hoop computes of a state, in order.
+fn everything<R: Real>(hoop: &hoop::Prepared<R>, state: &hoop::State<R>) -> Vec<R> {
+    let t = R::from_f64(0.5);
+    let mut values = <[R; 9]>::from(hoop.rhs(t, state)).to_vec();
+    values.extend([hoop.energy(t, state), hoop.kinetic_energy(t, state), hoop.force_function(t, state)]);
+    values.extend(<[R; 6]>::from(hoop.velocities(t, state)));
+    values.extend(<[R; 6]>::from(hoop.momenta(t, state)));
+    values.extend(<[R; 3]>::from(hoop.reactions(t, state)));
+    values.extend(<[R; 3]>::from(hoop.residuals(t, state)));
+    values
+}
+
+struct Hoops;
+
+impl LaneTask for Hoops {
+    type Output = ();
+
+    fn run<L: Lanes>(self) {
+        let hoops = hoops();
+        for first in 0..hoops.len() - L::COUNT {
+            let gathered = <hoop::Prepared as Laned<9>>::gather::<L>(|lane| &hoops[first + lane].0);
+            let states: Vec<[f64; 9]> = hoops[first..].iter().map(|(_, state)| (*state).into()).collect();
+            let state: [L; 9] = std::array::from_fn(|k| L::from_fn(|lane| states[lane][k]));
+            let values = everything(&gathered, &hoop::State::from(state));
+            for lane in 0..L::COUNT {
+                let (hoop, state) = &hoops[first + lane];
+                let expected = everything(hoop, state);
+                let got: Vec<f64> = values.iter().map(|value| value.lane(lane)).collect();
+                assert_eq!(got, expected);
+            }
+        }
+    }
+}
+
+#[test]
+fn every_function_of_a_declared_system_has_the_bits_of_numbers() {
+    for backend in Backend::ALL {
+        for width in [Width::One, Width::Four, Width::Eight] {
+            dispatch_on(backend, width, Hoops);
+        }
+    }
+}
+
+#[test]
+fn inputs_are_gathered_with_their_systems() {
+    let carts: Vec<(cart::Driven, cart::State)> = (0..11)
+        .map(|i| {
+            let cart = Cart::new(1.0 + part(i, 0), 0.5).prepare().unwrap();
+            let inputs = cart::Inputs { push: part(i, 2), wind: part(i, 3) };
+            (cart.driven(inputs), cart::State { phi: part(i, 1), ..Default::default() })
+        })
+        .collect();
+    let method = Rk4 { step: 0.01 };
+    let ends = Ensemble::of_systems(carts.iter().copied()).integrate(&method, 0.0, 1.0);
+    for ((cart, start), end) in carts.iter().zip(ends) {
+        let alone = method.integrate(cart, 0.0, &(*start).into(), 1.0, |_, _| ControlFlow::Continue(()));
+        assert_eq!(end, alone);
+        assert!(alone.is_ok());
+    }
+}
