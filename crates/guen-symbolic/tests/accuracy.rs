@@ -64,6 +64,7 @@ fn chain(graph: &mut Graph) -> (Mechanics, [ExprId; 3]) {
         force_function: graph.sum(force),
         forces: vec![pull],
         outputs: Vec::new(),
+        motion_symbols: Vec::new(),
     };
     (mechanics, constants)
 }
