@@ -1,6 +1,8 @@
 //! Guards: motions that reach the edge of a chart or leave their invariants end in a typed error, and what they return
 //! is in order.
 
+#![allow(clippy::result_large_err, reason = "an error keeps the state that was reached")]
+
 use guen::prelude::*;
 use guen::steppers::Method;
 
