@@ -1,6 +1,8 @@
 //! Guards: motions that reach the edge of a chart or leave their invariants end in a typed error, and what they return
 //! is in order.
 
+#![allow(clippy::result_large_err, reason = "an error keeps the state that was reached")]
+
 use guen::prelude::*;
 use guen::steppers::Method;
 
@@ -186,4 +188,20 @@ fn a_residual_limit_is_watched() {
             .run(&Rk4 { step: 0.1 }, 20.0)
             .is_ok()
     );
+}
+
+#[test]
+fn a_start_that_is_not_finite_is_called_that() {
+    let system = prepared();
+    for start in [[f64::NAN; 9], [f64::INFINITY; 9]] {
+        let go_on = |_: f64, _: &[f64; 9]| ControlFlow::Continue(());
+        let fixed = Rk4 { step: 1e-3 }.integrate(&system, 2.0, &start, 3.0, go_on).unwrap_err();
+        let adaptive = Dop853::new(1e-9, 1e-9).integrate(&system, 2.0, &start, 3.0, go_on).unwrap_err();
+        let implicit = Gauss6::new(1e-3).integrate(&system, 2.0, &start, 3.0, go_on).unwrap_err();
+        let sampled = Rk8::new(1e-3).sample(&system, 2.0, &start, &[3.0], |_, _, _| ()).unwrap_err();
+        for error in [fixed, adaptive, sampled] {
+            assert_eq!((error.cause, error.time), (Cause::NotFinite, 2.0));
+        }
+        assert!(matches!(implicit.cause, Cause::NotFinite | Cause::NoConvergence));
+    }
 }

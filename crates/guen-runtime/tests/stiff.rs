@@ -182,9 +182,9 @@ fn bounded_work_never_exceeds_its_bound_and_says_what_it_left() {
         let found = bounded.advance(&system, 0.0, &start, 0.5).unwrap();
         assert_eq!((found.statistics.accepted, bounded.steps()), (steps, steps as u32));
         assert!(found.statistics.evaluations <= u64::from(evaluations));
-        for i in 0..2 {
-            let off = (found.state[i] - reference[i]).abs();
-            assert!(off <= found.error[i] + 4e-16, "{evaluations}: {off:e} {:e}", found.error[i]);
+        for ((x, expected), error) in found.state.iter().zip(reference).zip(found.error) {
+            let off = (x - expected).abs();
+            assert!(off <= error + 4e-16, "{evaluations}: {off:e} {error:e}");
         }
         assert!(found.error[0] <= last);
         last = found.error[0];
@@ -193,13 +193,13 @@ fn bounded_work_never_exceeds_its_bound_and_says_what_it_left() {
         let found = Bounded::tsit5(evaluations).advance(&system, 0.0, &start, 0.5).unwrap();
         assert_eq!(found.statistics.accepted, steps);
         assert_eq!(found.statistics.evaluations, 6 * steps + 1);
-        for i in 0..2 {
+        for ((x, expected), error) in found.state.iter().zip(reference).zip(found.error) {
             // An estimate, not a bound: of the formula of order four, for one step half the length of a swing.
-            let off = (found.state[i] - reference[i]).abs();
-            println!("{evaluations}: {off:.1e}, estimated {:.1e}", found.error[i]);
-            assert!(off <= 3.0 * found.error[i] + 4e-16, "{evaluations}: {off:e} {:e}", found.error[i]);
+            let off = (x - expected).abs();
+            println!("{evaluations}: {off:.1e}, estimated {error:.1e}");
+            assert!(off <= 3.0 * error + 4e-16, "{evaluations}: {off:e} {error:e}");
             // An estimate that is far too large is no help either.
-            assert!(found.error[i] < 1e-3);
+            assert!(error < 1e-3);
         }
     }
     for bounded in [Bounded::dop853(11), Bounded::tsit5(6)] {

@@ -196,10 +196,10 @@ mod tests {
         (block[next][next], block[next][next + 1]) = (re, im);
         (block[next + 1][next], block[next + 1][next + 1]) = (-im, re);
         for i in 0..S {
-            for j in 0..S {
-                let left: f64 = (0..S).map(|k| method.inverse[i][k] * method.basis[k][j]).sum();
-                let right: f64 = (0..S).map(|k| method.basis[i][k] * block[k][j]).sum();
-                let one: f64 = (0..S).map(|k| method.to_basis[i][k] * method.basis[k][j]).sum();
+            let left = combined(&method.inverse[i], &method.basis);
+            let right = combined(&method.basis[i], &block);
+            let one = combined(&method.to_basis[i], &method.basis);
+            for (j, ((left, right), one)) in left.into_iter().zip(right).zip(one).enumerate() {
                 assert!((left - right).abs() < 1e-12, "{i} {j}: {left} {right}");
                 assert!((one - f64::from(u8::from(i == j))).abs() < 1e-12, "{i} {j}: {one}");
             }

@@ -5,7 +5,7 @@
 //! back to the last look that did not, so that what it returns was seen to be in order.
 
 use super::course::Reached;
-use crate::error::{Cause, Setting};
+use crate::error::{Cause, IntegrationError, Setting};
 use crate::real::Real;
 use crate::system::System;
 
@@ -119,6 +119,21 @@ impl<R: Real, const N: usize> Watch<R, N> {
         let steps = self.every - self.until_look;
         let due = if self.start.is_some() { steps > 0 } else { steps >= self.worth.max(1) };
         if due && self.every != u32::MAX { self.look(system, reached) } else { Ok(()) }
+    }
+
+    /// The error of a run that cannot go on from where it stands: for the cause given, unless the steps since the last
+    /// look went wrong before.
+    pub fn stopped<S>(&mut self, system: &S, reached: &Reached<R, N>, cause: Cause) -> IntegrationError<R, N>
+    where
+        S: System<R, N> + ?Sized,
+    {
+        if reached.time == self.good.time {
+            return reached.failed(cause);
+        }
+        match self.look(system, reached) {
+            Ok(()) => reached.failed(cause),
+            Err(earlier) => self.good(reached).failed(earlier),
+        }
     }
 
     /// The last time and state that were found in order, with the work done since then counted.

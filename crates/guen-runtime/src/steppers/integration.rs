@@ -163,12 +163,7 @@ impl<'a, R: Real, S: System<R, N> + ?Sized, const N: usize, const E: usize> Inte
             let dense = E > 0 || visited < self.samples.len();
             let before = if dense { *course.reached() } else { start };
             if let Err(cause) = course.advance(self.system, t1, dense) {
-                // The steps since the last look may be the ones that went wrong.
-                let reached = *course.reached();
-                return Err(match watch.look(self.system, &reached) {
-                    Ok(()) => reached.failed(cause),
-                    Err(earlier) => watch.good(&reached).failed(earlier),
-                });
+                return Err(watch.stopped(self.system, course.reached(), cause));
             }
             if let Err(cause) = watch.step(self.system, course.reached()) {
                 return Err(watch.good(course.reached()).failed(cause));

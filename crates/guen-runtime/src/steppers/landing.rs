@@ -32,11 +32,7 @@ where
         }
         while course.reached().time != time {
             if let Err(cause) = course.advance(system, time, false) {
-                let reached = *course.reached();
-                return Err(match watch.look(system, &reached) {
-                    Ok(()) => reached.failed(cause),
-                    Err(earlier) => watch.good(&reached).failed(earlier),
-                });
+                return Err(watch.stopped(system, course.reached(), cause));
             }
             let reached = course.reached();
             if let Err(cause) = watch.step(system, reached) {
