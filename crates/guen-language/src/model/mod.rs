@@ -9,6 +9,7 @@ mod evaluate;
 mod forms;
 mod functions;
 mod place;
+mod quaternions;
 mod resolve;
 mod scenes;
 mod scope;
