@@ -74,7 +74,7 @@ fn interleaved<const K: usize>(mut works: [&mut dyn FnMut(usize); K]) -> [f64; K
     for _ in 0..ROUNDS {
         for (work, best) in works.iter_mut().zip(&mut best) {
             let begin = Instant::now();
-            (0..CALLS).for_each(|k| work(k));
+            (0..CALLS).for_each(&mut **work);
             *best = best.min(begin.elapsed().as_secs_f64() * 1e9 / CALLS as f64);
         }
     }

@@ -23,6 +23,9 @@ const PERIODS: usize = 2000;
 /// Code and constants of the three functions of the library together; what is beyond it has crept in.
 const LARGEST_CODE: u64 = 24_000;
 
+/// Bytes of stack of one period: some dozens of doubles for the stages, and what the compiler keeps beside them.
+const LARGEST_STACK: usize = 4_096;
+
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
@@ -52,7 +55,7 @@ fn program(library: &Path) -> PathBuf {
     let program = library.with_file_name("bare_robot");
     let compiler = env::var_os("CC").unwrap_or_else(|| "cc".into());
     run(Command::new(compiler)
-        .args(["-std=c11", "-Wall", "-Werror", "-O1", "-Wl,--gc-sections", "-I"])
+        .args(["-std=c11", "-Wall", "-Werror", "-O1", "-pthread", "-Wl,--gc-sections", "-I"])
         .arg(root().join("crates/guen-bare/include"))
         .arg(root().join("tests/bare/main.c"))
         .arg(library)
@@ -119,6 +122,10 @@ fn a_c_program_runs_the_bare_library_bit_for_bit() {
         assert_eq!(found, expected, "period {k}");
     }
     assert_eq!(found.lines().count(), PERIODS + 2);
+
+    let stack: usize = run(Command::new(&program).arg("stack")).trim().parse().unwrap();
+    println!("one period takes {stack} bytes of stack");
+    assert!(stack > 0 && stack < LARGEST_STACK, "{stack}");
 
     let Some(symbols) = elf::symbols(&fs::read(&program).unwrap()) else {
         println!("the program is no 64-bit ELF file: its symbols are not checked");

@@ -69,10 +69,7 @@ impl Evaluator<'_> {
             }
             let name = format!("dot({})", info.name);
             let of = graph.symbol_expr(symbol);
-            if !self.motion.rates.contains_key(&of) {
-                let rate = graph.symbol(&name, Role::QuasiAcceleration);
-                self.motion.rates.insert(of, rate);
-            }
+            self.motion.rates.entry(of).or_insert_with(|| graph.symbol(&name, Role::QuasiAcceleration));
         }
         let rates = self.motion.coordinates.iter().copied();
         let rates = rates.chain(self.motion.rates.iter().map(|(of, rate)| (*of, *rate)));

@@ -1,4 +1,4 @@
-//! Unit quaternions among the coordinates.
+//! Which coordinates are unit quaternions: reduced bases take rotation components in their place.
 
 use guen_symbolic::{ExprId, Holonomic, Workbench};
 

@@ -70,21 +70,16 @@ pub fn solve<R: Ordered, const N: usize, const M: usize>(
         b.swap(k, pivot);
         for i in k + 1..N {
             let factor = a[i][k] / a[k][k];
-            for j in k..N {
-                let change = factor * a[k][j];
-                a[i][j] -= change;
-            }
-            for j in 0..M {
-                let change = factor * b[k][j];
-                b[i][j] -= change;
-            }
+            let (row, right) = (a[k], b[k]);
+            a[i].iter_mut().zip(&row).skip(k).for_each(|(x, y)| *x -= factor * *y);
+            b[i].iter_mut().zip(&right).for_each(|(x, y)| *x -= factor * *y);
         }
     }
     for k in (0..N).rev() {
-        for j in 0..M {
+        b[k] = core::array::from_fn(|j| {
             let rest = (k + 1..N).fold(b[k][j], |rest, i| rest - a[k][i] * b[i][j]);
-            b[k][j] = rest / a[k][k];
-        }
+            rest / a[k][k]
+        });
     }
     b.iter().flatten().all(|x| x.is_finite()).then_some(b)
 }
@@ -121,7 +116,8 @@ impl<R: Ordered, const N: usize> Basis<R, N> {
         }
         let rest = self.remainder(vector);
         let size = length(&rest);
-        if !(size.to_f64() > least) {
+        // Of NaN nothing is left that counts.
+        if size.to_f64() <= least || !size.is_finite() {
             return false;
         }
         self.vectors[self.count] = rest.map(|x| x / size);

@@ -136,6 +136,8 @@ where
     const STEPS: usize = 100;
     const HALVINGS: usize = 30;
     const INDEPENDENT: f64 = 1e-9;
+    /// Roundings of the largest rate, in units of what the linearisation makes of the state, that count as none.
+    const ROUNDINGS: f64 = 1e3;
 
     let open = |j: usize| {
         if j < N { !request.drifting[j] && !request.fixed_states[j] } else { !request.fixed_inputs[j - N] }
@@ -199,7 +201,10 @@ where
             (s, u) = moved(R::one());
             let rest = rates(&s, &u);
             let residual = largest(rest.iter().copied());
-            if !(residual <= precision * precision * 1e3 * (scale * extent).max(1.0)) {
+            if residual.is_nan() {
+                return Err(SteadyError::NotFinite);
+            }
+            if residual > ROUNDINGS * precision * precision * (scale * extent).max(1.0) {
                 return Err(SteadyError::NotFound { residual });
             }
             if unknowns > rank {
