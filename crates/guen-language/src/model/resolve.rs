@@ -8,7 +8,6 @@ use super::bodies::Weight;
 use super::evaluate::{Evaluator, children};
 use super::forms::RawForm;
 use super::place::Place;
-use super::quaternions::unit_quaternions;
 use super::scope::{Category, Scope};
 use super::spatial::inner;
 use super::value::{BodyValue, Value};
