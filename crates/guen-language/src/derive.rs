@@ -19,7 +19,7 @@ use guen_symbolic::{
 use crate::diagnostics::Faults;
 use crate::model::Model;
 
-pub use closure::Reason;
+pub use closure::{Quadrature, Reason};
 pub use scene::SceneFacts;
 pub use selection::{Held, Place, Selection};
 
