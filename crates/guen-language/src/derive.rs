@@ -20,7 +20,7 @@ use crate::diagnostics::Faults;
 use crate::jacobians::Jacobians;
 use crate::model::Model;
 
-pub use closure::Reason;
+pub use closure::{Quadrature, Reason};
 pub use scene::SceneFacts;
 pub use selection::{Held, Place, Selection};
 

@@ -88,21 +88,34 @@ impl Flow<'_> {
         bench: &mut Workbench,
         dependence: &mut Dependence,
         kept: &[Option<Reason>],
-    ) -> Vec<Vec<Place>> {
+    ) -> Vec<Vec<Quadrature>> {
         let mut known: Vec<Option<Reason>> = kept.to_vec();
-        let mut layers = Vec::new();
+        let mut layers: Vec<Vec<Quadrature>> = Vec::new();
         loop {
-            let layer: Vec<Place> = (0..known.len())
+            let places: Vec<Place> = (0..known.len())
                 .filter(|place| known[*place].is_none() && self.variables[*place].is_some())
                 .filter(|place| self.missing(bench, dependence, &known, self.rates[*place]).is_empty())
                 .collect();
-            if layer.is_empty() {
+            if places.is_empty() {
                 return layers;
             }
-            for place in &layer {
-                known[*place] = Some(Reason::Tracked);
+            let layer = places.iter().map(|place| {
+                let needs = self.missing(bench, dependence, kept, self.rates[*place]);
+                Quadrature { place: *place, needs }
+            });
+            layers.push(layer.collect());
+            for place in places {
+                known[place] = Some(Reason::Tracked);
             }
-            layers.push(layer);
         }
     }
+}
+
+/// A variable that left and is an integral of what is known.
+#[derive(Clone, Debug)]
+pub struct Quadrature {
+    /// The variable.
+    pub place: Place,
+    /// The quadratures of the layers before that its rate depends on.
+    pub needs: Vec<Place>,
 }

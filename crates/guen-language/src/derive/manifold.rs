@@ -45,7 +45,7 @@ pub(super) struct Replacement {
     pub(super) coordinates: Vec<usize>,
     substitution: Substitution,
     /// Whether the result must be compared with what was there.
-    is_trial: bool,
+    pub(super) is_trial: bool,
 }
 
 impl Replacement {

@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use guen_symbolic::{Dependence, Derivation, ExprId, Substitution};
 
-use super::closure::{Flow, Reason};
+use super::closure::{Flow, Quadrature, Reason};
 use super::fixed::{self, Holding};
 use super::manifold::{Replacement, quaternions};
 use super::parts::{View, cheapest, parts, replaced};
@@ -21,7 +21,7 @@ pub struct SceneFacts {
     /// Why each variable is kept, by its place in the whole state; none for those that left.
     pub reasons: Vec<Option<Reason>>,
     /// Variables that left and are pure quadratures, in layers: see [`Flow::quadratures`].
-    pub quadratures: Vec<Vec<Place>>,
+    pub quadratures: Vec<Vec<Quadrature>>,
     /// Coordinates that holonomic equations eliminated.
     pub eliminated: Vec<usize>,
     /// The constants that are fixed, by index, and their values.
@@ -159,7 +159,12 @@ fn level(
         index,
         reasons,
         quadratures,
-        eliminated: view.replacements.iter().flat_map(|r| r.coordinates.clone()).collect(),
+        eliminated: view
+            .replacements
+            .iter()
+            .filter(|r| !r.is_trial)
+            .flat_map(|r| r.coordinates.clone())
+            .collect(),
         fixes: fixes.collect(),
         is_part,
     };

@@ -16,7 +16,9 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let places = &level.selection.variables;
     let name = &subject.name().text;
     let layers: Vec<TokenStream> = subject.scene().map_or(Vec::new(), |(_, facts)| {
-        facts.quadratures.iter().map(|layer| quote!(&[#(#layer),*])).collect()
+        let layers = facts.quadratures.iter();
+        let places = layers.map(|layer| layer.iter().map(|quadrature| quadrature.place));
+        places.map(|places| quote!(&[#(#places),*])).collect()
     });
     let held = level.selection.held.iter().map(|held| held.place);
     let held: Vec<(Place, usize)> = held.zip(level.selection.constants.len()..).collect();

@@ -5,6 +5,7 @@
 
 mod control;
 mod kinds;
+mod scenes;
 
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
@@ -28,6 +29,8 @@ pub fn outline(declaration: &Declaration) -> TokenStream {
     let constants = constants(system, &names);
     let prepared = prepared(system, &names);
     let operators = operators(&names);
+    let scenes = scenes::items(declaration, &names);
+    let levels = levels(&names);
     quote! {
         /// The module of a system whose declaration has faults.
         #[allow(
@@ -41,6 +44,12 @@ pub fn outline(declaration: &Declaration) -> TokenStream {
             #records
             #prepared
             #operators
+            #levels
+            /// The system and its scenes.
+            pub const LEVELS: [__guen::LevelInfo; 0] = [];
+            /// The system and its scenes as a table.
+            pub const fn levels() -> __guen::Levels { __guen::Levels(&LEVELS) }
+            #scenes
         }
         #[allow(unused_imports, reason = "stands in for a faulty declaration")]
         #visibility use #module::#system;
@@ -48,7 +57,7 @@ pub fn outline(declaration: &Declaration) -> TokenStream {
 }
 
 /// The names of the fields.
-#[derive(Default)]
+#[derive(Clone, Default)]
 struct Names {
     constants: Vec<Ident>,
     required: Vec<Ident>,
@@ -447,6 +456,22 @@ fn operators(names: &Names) -> TokenStream {
             ) -> [R; #n] {
                 ::core::unreachable!()
             }
+        }
+    }
+}
+
+/// The common trait of the system and its scenes.
+fn levels(names: &Names) -> TokenStream {
+    let size = names.state.len();
+    let owner = if names.inputs.is_empty() { format_ident!("Prepared") } else { format_ident!("Driven") };
+    quote! {
+        /// What the level costs.
+        pub const INFO: __guen::LevelInfo =
+            __guen::LevelInfo { name: "", variables: &[], cost: NO_COST, prepare_cost: NO_COST };
+        impl<R: __guen::Real> __guen::Level<R, #size, #size> for #owner<R> {
+            const PLACES: [usize; #size] = [0; #size];
+            const QUADRATURES: &'static [&'static [usize]] = &[];
+            const INFO: __guen::LevelInfo = INFO;
         }
     }
 }

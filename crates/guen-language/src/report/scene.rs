@@ -34,7 +34,7 @@ pub(super) fn sections(subject: &Subject<'_, '_>) -> Vec<Section> {
             Reason::Whole(by) => format!("{}: of one quaternion with {}", name(place), name(*by)),
         })
     });
-    let layer = |place: Place| facts.quadratures.iter().position(|layer| layer.contains(&place));
+    let quadrature = |place: Place| facts.quadratures.iter().flatten().find(|known| known.place == place);
     let left = facts.reasons.iter().enumerate().filter(|(_, reason)| reason.is_none()).map(|(place, _)| {
         if let Some(held) = level.selection.held.iter().find(|held| held.place == place) {
             return format!("{}: its rate vanishes identically, and it is a constant here", name(held.place));
@@ -42,17 +42,16 @@ pub(super) fn sections(subject: &Subject<'_, '_>) -> Vec<Section> {
         if facts.eliminated.contains(&place) {
             return format!("{}: a holonomic equation tells what it would be", name(place));
         }
-        match layer(place) {
-            Some(0) => format!("{}: nothing kept depends on it; a quadrature of what is kept", name(place)),
-            Some(layer) => {
-                let before = facts.quadratures[..layer].iter().flatten().map(|place| name(*place));
-                format!(
-                    "{}: nothing kept depends on it; a quadrature of what is kept and of {}",
-                    name(place),
-                    quoted(before)
-                )
+        let left = format!("{}: nothing kept depends on it", name(place));
+        match quadrature(place) {
+            None => left,
+            Some(quadrature) if quadrature.needs.is_empty() => {
+                format!("{left}; a quadrature of what is kept")
             }
-            None => format!("{}: nothing kept depends on it", name(place)),
+            Some(quadrature) => {
+                let needs = quoted(quadrature.needs.iter().map(|place| name(*place)));
+                format!("{left}; a quadrature of what is kept and of {needs}")
+            }
         }
     });
     let graph = &model.bench.graph;
