@@ -37,7 +37,7 @@ guen::mechanical_system! {
 
 /// Integrates rates and power together, and compares the work with the change of energy at every step. `M` is one more
 /// than `N`. Returns the largest change.
-fn balance<const N: usize, const M: usize>(
+pub fn balance<const N: usize, const M: usize>(
     name: &str,
     system: &impl Monitored<f64, N>,
     power: impl Fn(f64, &[f64; N]) -> f64,

@@ -5,7 +5,9 @@
 mod systems;
 
 mod balance;
+#[macro_use]
 mod jacobians;
+mod examples;
 mod leaves;
 mod long;
 mod models;
