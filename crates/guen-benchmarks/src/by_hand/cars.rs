@@ -13,8 +13,7 @@ pub fn car<R: Real, const N: usize>([m, yaw, _steer, l, mass, inertia, d]: [R; 7
     let [c0, c1, c2] = [yaw / m, mass / m, inertia / (m * d * d)];
     from_fn(move |_t, state: &[R; N]| {
         let [speed, turning] = [state[N - 2], state[N - 1]];
-        let (sin, cos) = state[2].sin_cos();
-        let (steer_sin, steer_cos) = state[3].sin_cos();
+        let ((sin, cos), (steer_sin, steer_cos)) = R::sin_cos_pair(state[2], state[3]);
         let kappa = by_length * (steer_sin / steer_cos);
         let kappa_rate = turning * (by_length + l * kappa * kappa);
         let heading_rate = speed * kappa;

@@ -22,7 +22,7 @@ pub fn chain_by_elimination<R: Real, const L: usize, const N: usize>([l, g]: [R;
 
 #[inline(always)]
 fn eliminated<R: Real, const L: usize>(below: &[R; L], gravity: R, q: &[R; L], w: &[R; L]) -> [R; L] {
-    let turn: [(R, R); L] = core::array::from_fn(|i| q[i].sin_cos());
+    let turn: [(R, R); L] = turns(&q);
     // Sums of `n_ij cos(q_j) w_j^2` and of the sines, the part above each link running upwards.
     let square: [R; L] = core::array::from_fn(|i| w[i] * w[i]);
     let mut force = [R::zero(); L];
@@ -110,10 +110,25 @@ pub fn joints<R: Real, const L: usize, const N: usize>([l, g]: [R; 2]) -> impl S
     })
 }
 
+/// Sines and cosines of all angles, two at a time.
+#[inline(always)]
+fn turns<R: Real, const L: usize>(q: &[R; L]) -> [(R, R); L] {
+    let mut turns = [(R::zero(), R::one()); L];
+    let mut i = 0;
+    while i + 1 < L {
+        (turns[i], turns[i + 1]) = R::sin_cos_pair(q[i], q[i + 1]);
+        i += 2;
+    }
+    if i < L {
+        turns[i] = q[i].sin_cos();
+    }
+    turns
+}
+
 #[inline(always)]
 fn by_tensions<R: Real, const L: usize>(gravity: R, q: &[R; L], w: &[R; L]) -> [R; L] {
     let two = R::from_ratio(2, 1);
-    let turn: [(R, R); L] = core::array::from_fn(|i| q[i].sin_cos());
+    let turn: [(R, R); L] = turns(q);
     // Sine and cosine from each link to the next; nothing follows the last one.
     let bend: [(R, R); L] = core::array::from_fn(|i| {
         let ((s, c), (s_next, c_next)) = (turn[i], turn[if i + 1 < L { i + 1 } else { i }]);

@@ -8,8 +8,7 @@ pub fn hoop<R: Real>([a, A, C, g]: [R; 4]) -> impl System<R, 9> {
     let [k1, k2, k3] = [A / (A + a * a), (C + a * a) / (A + a * a), a * g / (A + a * a)];
     let [k4, k5] = [C / A, a * a / (C + a * a)];
     from_fn(move |_t, &[theta, psi, _phi, _xi, _eta, _zeta, eta1, eta2, eta3]: &[R; 9]| {
-        let (sin, cos) = theta.sin_cos();
-        let (sin_psi, cos_psi) = psi.sin_cos();
+        let ((sin, cos), (sin_psi, cos_psi)) = R::sin_cos_pair(theta, psi);
         let w = eta2 / sin;
         let c = cos * w;
         let p = a * eta1;
@@ -34,8 +33,7 @@ pub fn rate_hoop<R: Real>([a, A, C, g]: [R; 4]) -> impl System<R, 9> {
     let [k1, k2, k3] = [A / (A + a * a), (C + a * a) / (A + a * a), a * g / (A + a * a)];
     let [k4, k6] = [C / A, R::one() + a * a / (C + a * a)];
     from_fn(move |_t, &[theta, psi, _phi, _xi, _eta, _zeta, tilting, turning, rolling]: &[R; 9]| {
-        let (sin, cos) = theta.sin_cos();
-        let (sin_psi, cos_psi) = psi.sin_cos();
+        let ((sin, cos), (sin_psi, cos_psi)) = R::sin_cos_pair(theta, psi);
         let c = turning * cos;
         let across = turning * sin;
         let axial = c + rolling;

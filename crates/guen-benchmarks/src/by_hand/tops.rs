@@ -6,8 +6,7 @@ use guen::{Real, System, from_fn};
 pub fn euler_top<R: Real>([i1, i2, i3]: [R; 3]) -> impl System<R, 6> {
     let [k1, k2, k3] = [(i2 - i3) / i1, (i3 - i1) / i2, (i1 - i2) / i3];
     from_fn(move |_t, &[_psi, theta, phi, p, q, r]: &[R; 6]| {
-        let (sin, cos) = theta.sin_cos();
-        let (s, c) = phi.sin_cos();
+        let ((sin, cos), (s, c)) = R::sin_cos_pair(theta, phi);
         let turning = (p * s + q * c) / sin;
         [turning, p * c - q * s, r - turning * cos, k1 * q * r, k2 * r * p, k3 * p * q]
     })
@@ -17,8 +16,7 @@ pub fn euler_top<R: Real>([i1, i2, i3]: [R; 3]) -> impl System<R, 6> {
 pub fn turntable<R: Real>([a, omega]: [R; 2]) -> impl System<R, 8> {
     let k = R::from_ratio(5, 7) * omega / a;
     from_fn(move |_t, &[x, y, psi, theta, _phi, eta1, eta2, eta3]: &[R; 8]| {
-        let (sin, cos) = theta.sin_cos();
-        let (s, c) = psi.sin_cos();
+        let ((sin, cos), (s, c)) = R::sin_cos_pair(theta, psi);
         let east = a * eta2 - omega * y;
         let north = omega * x - a * eta1;
         let spinning = (eta1 * s - eta2 * c) / sin;

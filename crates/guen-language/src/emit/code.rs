@@ -28,7 +28,7 @@ pub(super) fn body(instructions: &[Instruction], outputs: &[Value], loads: &dyn 
     let mut last_use = vec![0; values];
     let mut steps: Vec<&Instruction> = instructions.iter().filter(|i| !writer.load(i, loads)).collect();
     steps.retain(|step| writer.absorbed[step.result.index()].is_none());
-    bring_angles_together(&mut steps);
+    bring_angles_together(&mut steps, &writer.absorbed);
     for (place, step) in steps.iter().enumerate() {
         for operand in step.operation.operands() {
             last_use[operand.index()] = place;
@@ -90,25 +90,59 @@ fn absorbed(instructions: &[Instruction], outputs: &[Value], values: usize) -> V
     absorbed
 }
 
-/// Moves sines and cosines behind others before which their angle is known, so that two and two have one statement.
-fn bring_angles_together(steps: &mut [&Instruction]) {
+/// Moves sines and cosines behind others on which their angle does not depend, with the few steps that compute the
+/// angle, so that two and two have one statement.
+fn bring_angles_together(steps: &mut [&Instruction], absorbed: &[Option<(Value, Value)>]) {
+    let is_angle = |step: &Instruction| matches!(step.operation, Operation::SinCos { .. });
     let mut place = 0;
     while place < steps.len() {
-        let known = |angle: &Value, until: usize| {
-            !steps[place..until].iter().flat_map(|step| defined(step)).any(|value| value == *angle)
-        };
-        let partner = (place + 1..steps.len()).find(|&other| {
-            match (&steps[place].operation, &steps[other].operation) {
-                (Operation::SinCos { .. }, Operation::SinCos { angle, .. }) => known(angle, other),
-                _ => false,
+        let found = is_angle(steps[place])
+            .then(|| {
+                let later = (place + 1..steps.len()).filter(|other| is_angle(steps[*other]));
+                later.into_iter().find_map(|other| Some((other, needed(steps, place, other, absorbed)?)))
+            })
+            .flatten();
+        if let Some((partner, needed)) = found {
+            for step in needed {
+                steps[place..=step].rotate_right(1);
+                place += 1;
             }
-        });
-        if let Some(partner) = partner {
             steps[place + 1..=partner].rotate_right(1);
             place += 1;
         }
         place += 1;
     }
+}
+
+/// The steps between two that the later one needs, in their order; `None` if it needs the earlier one, or many.
+fn needed(
+    steps: &[&Instruction],
+    first: usize,
+    last: usize,
+    absorbed: &[Option<(Value, Value)>],
+) -> Option<Vec<usize>> {
+    /// An angle is a sum of a few terms; what is longer stays where it is.
+    const MOST: usize = 6;
+    let operands = |step: &Instruction| -> Vec<Value> {
+        let factors = |v: Value| absorbed[v.index()].map(|(a, b)| [a, b]);
+        step.operation
+            .operands()
+            .flat_map(|v| [v].into_iter().chain(factors(v).into_iter().flatten()))
+            .collect()
+    };
+    let mut values = operands(steps[last]);
+    let mut found = Vec::new();
+    for place in (first..last).rev() {
+        if defined(steps[place]).any(|value| values.contains(&value)) {
+            if place == first || found.len() == MOST {
+                return None;
+            }
+            found.push(place);
+            values.extend(operands(steps[place]));
+        }
+    }
+    found.reverse();
+    Some(found)
 }
 
 /// The values that an instruction defines.
@@ -323,6 +357,9 @@ mod tests {
         let together = of("sin(x)*cos(y)");
         assert!(together.contains("=sin_cos_pair(s[0],s[1])"), "{together}");
         assert_eq!(together.matches("sin_cos").count(), 1, "{together}");
+        // The angle of the second is made first.
+        let added = of("sin(x)*sin(x + 2*y)");
+        assert!(added.contains("sin_cos_pair") && !added.contains("sin_cos("), "{added}");
         let nested = of("sin(sin(x))*y - cos(sin(x))");
         assert_eq!(
             (nested.matches("sin_cos(").count(), nested.matches("sin_cos_pair").count()),
