@@ -1,7 +1,15 @@
-//! Scenes: the least model that yields what somebody looks at.
+//! Scenes: that they keep what they must and nothing else, that their equations are those of the whole system, and that
+//! levels of detail can be changed during a run.
 
 #[macro_use]
 #[path = "../systems/mod.rs"]
 mod systems;
 
+mod closure;
+mod compare;
+mod equations;
+mod fixing;
 mod golden;
+mod kinds;
+mod levels;
+mod models;
