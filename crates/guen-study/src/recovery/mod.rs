@@ -169,12 +169,18 @@ where
     let (fine, coarse) = (path.integrated(&Rule::new(1), run)?, path.integrated(&Rule::new(2), check)?);
 
     let known = |place: &usize| S::QUADRATURES.iter().any(|layer| layer.contains(place));
-    let mut bound = [f64::INFINITY; FULL];
+    // What the scene holds is exact: `hold` writes there, and nowhere else.
+    let mut held = [f64::NAN; FULL];
+    core.hold(&mut held);
+    let mut bound = held.map(|value| if value.is_nan() { f64::INFINITY } else { 0.0 });
     let mut roundings = [0.0; FULL];
     let mut errors = Vec::with_capacity(fine.len());
-    for (k, (a, b)) in fine.iter().zip(&coarse).enumerate() {
+    for place in (0..FULL).filter(known).chain(S::PLACES) {
+        bound[place] = 0.0;
+    }
+    for (a, b) in fine.iter().zip(&coarse) {
         for place in (0..FULL).filter(known).chain(S::PLACES) {
-            let before = if k == 0 { 0.0 } else { bound[place] - roundings[place] };
+            let before = bound[place] - roundings[place];
             // Every sum over an interval is rounded to the size of what it is added to.
             roundings[place] += f64::EPSILON * a[place].abs();
             bound[place] = before.max((a[place] - b[place]).abs()) + roundings[place];
