@@ -10,7 +10,8 @@
 //! | what are the numbers? | [`Table`], aligned for a terminal; [`significant`] for one number |
 //! | what does it look like? | [`Plot`], an SVG picture |
 //! | what if it begins elsewhere? | [`Ensemble`]: many motions in lanes and on threads |
-//! | what went wrong? | [`StudyError`] |
+//! | what did a scene leave out? | [`recover`]: integrals along a recorded run of a scene, with their errors |
+//! | what went wrong? | [`StudyError`], [`RecoveryError`] |
 //!
 //! ```
 //! use guen_runtime::{from_fn, steppers::Dop853};
@@ -45,6 +46,7 @@ mod monitor;
 mod plot;
 mod progress;
 mod recording;
+mod recovery;
 #[cfg(feature = "serde")]
 mod stored;
 mod table;
@@ -55,6 +57,7 @@ pub use monitor::{Invariants, Monitor, drift, residuals};
 pub use plot::Plot;
 pub use progress::Progress;
 pub use recording::Recording;
+pub use recovery::{Nodes, Recovered, RecoveryError, recover};
 #[cfg(feature = "serde")]
 pub use stored::StoredRecording;
 pub use table::{Table, significant};
