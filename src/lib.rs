@@ -101,7 +101,7 @@ macro_rules! mechanical_system {
 pub mod __private {
     pub use guen_macros::mechanical_system;
     pub use guen_runtime::checks::{
-        check_fixed, check_hoisted, check_inertia, check_mass, check_pivot, clamped, largest,
+        check_fixed, check_hoisted, check_inertia, check_limits, check_mass, check_pivot, clamped, largest,
     };
     pub use guen_runtime::lanes::Lanes;
     pub use guen_runtime::{

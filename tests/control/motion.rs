@@ -243,8 +243,8 @@ fn inputs_that_are_not_affine() {
 guen::mechanical_system! {
     /// Limits from constants, from numbers, and none.
     pub system Limited {
-        constants { strong > 0 }
-        inputs { motor in -strong..2*strong, brake in 0..1.5, free }
+        constants { strong > 0, weak = 0 }
+        inputs { motor in -strong..2*strong, brake in weak..1.5, free }
         coordinates { x }
         parameters { v = dot(x); }
         kinetic_energy = v^2/2;
@@ -254,11 +254,13 @@ guen::mechanical_system! {
 
 #[test]
 fn inputs_have_limits() {
-    let system = Limited { strong: 4.0 }.prepare().unwrap();
+    let system = Limited::new(4.0).prepare().unwrap();
     let (lower, upper) = system.limits();
     assert_eq!((lower.motor, lower.brake, lower.free), (-4.0, 0.0, f64::NEG_INFINITY));
     assert_eq!((upper.motor, upper.brake, upper.free), (8.0, 1.5, f64::INFINITY));
     let clamped = system.clamped(&limited::Inputs { motor: 9.0, brake: -0.1, free: 1e9 });
     assert_eq!((clamped.motor, clamped.brake, clamped.free), (8.0, 0.0, 1e9));
     assert!(system.clamped(&limited::Inputs { motor: f64::NAN, ..Default::default() }).motor.is_nan());
+    let crossed = Limited { strong: 4.0, weak: 2.0 }.prepare().unwrap_err();
+    assert_eq!(crossed, guen::ConstantsError::Limits { input: "brake", lower: 2.0, upper: 1.5 });
 }

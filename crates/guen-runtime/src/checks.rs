@@ -53,6 +53,24 @@ pub fn check_fixed<R: Real>(value: R, fixed: R, name: &'static str) -> Result<()
     Err(ConstantsError::Contradicted { name, fixed: fixed.to_f64(), value: value.to_f64() })
 }
 
+/// Refuses limits of an input that leave no value between them.
+///
+/// ```
+/// assert!(guen_runtime::checks::check_limits(-1.0, 1.0, "tau").is_ok());
+/// assert!(guen_runtime::checks::check_limits(1.0, -1.0, "tau").is_err());
+/// ```
+///
+/// # Errors
+///
+/// [`ConstantsError::Limits`] with both limits.
+pub fn check_limits<R: Real>(lower: R, upper: R, input: &'static str) -> Result<(), ConstantsError> {
+    let (lower, upper) = (lower.to_f64(), upper.to_f64());
+    if lower <= upper {
+        return Ok(());
+    }
+    Err(ConstantsError::Limits { input, lower, upper })
+}
+
 /// Refuses a negative mass.
 ///
 /// ```

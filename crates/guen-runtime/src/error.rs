@@ -43,6 +43,15 @@ pub enum ConstantsError {
         /// The value in the system.
         value: f64,
     },
+    /// The lower limit of an input is above the upper one.
+    Limits {
+        /// The input's name.
+        input: &'static str,
+        /// The lower limit.
+        lower: f64,
+        /// The upper limit.
+        upper: f64,
+    },
     /// A body that no distribution of mass has.
     NotPhysical {
         /// The body's name.
@@ -71,6 +80,9 @@ impl fmt::Display for ConstantsError {
             }
             Self::Contradicted { name, fixed, value } => {
                 write!(f, "constant `{name}` is {value}, but the scene fixes it at {fixed}")
+            }
+            Self::Limits { input, lower, upper } => {
+                write!(f, "the limits of input `{input}` leave no value: from {lower} to {upper}")
             }
             Self::NotPhysical { body, fault: BodyFault::NegativeMass } => {
                 write!(f, "body `{body}` has a negative mass")

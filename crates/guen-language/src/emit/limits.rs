@@ -7,10 +7,19 @@ use super::constants::default_text;
 use super::{Layout, Subject, tokens};
 use crate::model::SymbolEntry;
 
+/// The inputs of the level.
+fn given<'d>(subject: &Subject<'d, '_>) -> Vec<&'d SymbolEntry<'d>> {
+    subject.level.selection.inputs.iter().map(|input| &subject.model.inputs[*input]).collect()
+}
+
+/// Whether an input of the level has limits.
+pub(super) fn has_any(subject: &Subject<'_, '_>) -> bool {
+    given(subject).iter().any(|input| input.limits.is_some())
+}
+
 pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
-    let inputs = subject.level.selection.inputs.iter().map(|input| &subject.model.inputs[*input]);
-    let inputs: Vec<&SymbolEntry<'_>> = inputs.collect();
-    if inputs.iter().all(|input| input.limits.is_none()) {
+    let inputs = given(subject);
+    if !has_any(subject) {
         return TokenStream::new();
     }
     let end = |which: usize, otherwise: &str| -> Vec<TokenStream> {
@@ -26,8 +35,17 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let (lower, upper) = (end(0, "NEG_INFINITY"), end(1, "INFINITY"));
     let names: Vec<&Ident> = inputs.iter().map(|input| &input.name.ident).collect();
     let locals: Vec<Ident> = (0..layout.constants).map(|i| format_ident!("__guen_c{i}")).collect();
+    let limited: Vec<&Ident> =
+        inputs.iter().filter(|input| input.limits.is_some()).map(|input| &input.name.ident).collect();
+    let texts = limited.iter().map(|name| name.to_string().trim_start_matches("r#").to_owned());
     quote! {
         impl<R: __guen::Real> Prepared<R> {
+            fn check_limits(&self) -> ::core::result::Result<(), __guen::ConstantsError> {
+                let (lower, upper) = self.limits();
+                #(__guen::check_limits(lower.#limited, upper.#limited, #texts)?;)*
+                ::core::result::Result::Ok(())
+            }
+
             /// The limits of the inputs as declared, the lower and the upper ones; infinite where there are none. They
             /// do not enter the equations: whoever drives the system holds its inputs inside, as
             /// [`clamped`](Self::clamped) does.

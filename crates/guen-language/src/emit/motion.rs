@@ -3,7 +3,7 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
-use super::{Layout, Subject, integrated};
+use super::{Layout, Subject, integrated, limits};
 use crate::derive::function;
 use crate::model::FormKind;
 
@@ -231,12 +231,14 @@ fn pivots(subject: &Subject<'_, '_>) -> TokenStream {
     let Subject { model, level } = subject;
     let texts: Vec<String> = level.constant_pivots.iter().map(|e| model.bench.graph.text(*e)).collect();
     let indices = 0..texts.len();
+    let limits = limits::has_any(subject).then(|| quote!(self.check_limits()?;));
     let values =
         (!texts.is_empty()).then(|| quote!(let pivots = program::pivots(&self.constants, &self.hoisted);));
     quote! {
         fn check_pivots(&self) -> ::core::result::Result<(), __guen::ConstantsError> {
             #values
             #(__guen::check_pivot(pivots[#indices], #texts)?;)*
+            #limits
             for value in &self.hoisted {
                 __guen::check_hoisted(*value)?;
             }
