@@ -57,6 +57,7 @@ guen::mechanical_system! {
         scene Left { track x; }
         scene Right { track y; provide linearization; }
         scene Told { track x; provide effort, pull, linearization; }
+        scene Limited { track x; fix limit = k*2, k = 3/4; }
     }
 }
 

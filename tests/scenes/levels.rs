@@ -50,7 +50,7 @@ fn there_and_back() {
     }
     of(HOOP.prepare().unwrap());
     of(hoop::Tilt::from(HOOP).prepare().unwrap());
-    of(&hoop::Told::from(HOOP).prepare().unwrap());
+    of(hoop::Told::from(HOOP).prepare().unwrap());
     of(hoop::Everything::from(HOOP).prepare().unwrap());
     of(appell::Rolling { a: 0.75, A: 0.6, C: 0.9, g: 9.81, eta3: 1.7 }.prepare().unwrap());
     of(convoy::Dash::from(CONVOY).prepare().unwrap().driven(Default::default()));

@@ -13,3 +13,6 @@ mod golden;
 mod kinds;
 mod levels;
 mod models;
+mod positions;
+mod provided;
+mod strange;

@@ -3,6 +3,7 @@
 
 use guen_symbolic::{ExprId, Flow, Mechanics, Role, Substitution, Verdict, Workbench};
 
+use super::fixed::Holding;
 use super::selection::Place;
 
 /// The coordinates in an equation, by index.
@@ -50,11 +51,12 @@ pub(super) struct Replacement {
 
 impl Replacement {
     /// What the equations offer, in their order: a coordinate that enters linearly with a number before it is solved for,
-    /// and a point of a unit sphere stands for all of them where nothing depends on which one it is.
-    pub(super) fn all(bench: &mut Workbench, system: &Mechanics) -> Vec<Replacement> {
+    /// and a point of a unit sphere stands for all of them where nothing depends on which one it is. What is held is a
+    /// constant in the equations too.
+    pub(super) fn all(bench: &mut Workbench, system: &Mechanics, holding: &mut Holding) -> Vec<Replacement> {
         let mut found = Vec::new();
         for holonomic in &system.holonomic {
-            let equation = holonomic.equation;
+            let equation = holding.of(bench, holonomic.equation);
             if let Some(coordinates) = unit(bench, system, equation) {
                 let values = coordinates.iter().enumerate().map(|(k, i)| {
                     let value = if k == 0 { bench.graph.one() } else { bench.graph.zero() };

@@ -15,9 +15,17 @@ pub(super) struct Part {
     outputs: Vec<ExprId>,
 }
 
-/// An expression with several replacements made, one after the other.
-pub(super) fn replaced(bench: &mut Workbench, replacements: &mut [Replacement], e: ExprId) -> ExprId {
-    replacements.iter_mut().fold(e, |e, replacement| replacement.of(bench, e))
+/// An expression with several replacements made. One can bring in what another replaces, so that they are made again
+/// while that changes something; as often as there are of them, since each is to leave for good.
+pub(super) fn replaced(bench: &mut Workbench, replacements: &mut [Replacement], mut e: ExprId) -> ExprId {
+    for _ in 0..replacements.len() {
+        let image = replacements.iter_mut().fold(e, |e, replacement| replacement.of(bench, e));
+        if image == e {
+            break;
+        }
+        e = image;
+    }
+    e
 }
 
 /// Expressions of the whole system as a scene sees them.

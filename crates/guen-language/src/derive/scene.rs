@@ -88,7 +88,7 @@ fn level(
     let written = Flow { variables: &variables, rates: &lists[0], wholes: &wholes };
     let mut reasons = written.closure(bench, &mut dependence, &tracked, &wanted);
     let mut replacements: Vec<Replacement> = Vec::new();
-    for candidate in Replacement::all(bench, &derivation.system) {
+    for candidate in Replacement::all(bench, &derivation.system, &mut holding) {
         if candidate.coordinates.iter().any(|i| reasons[*i].is_none() || tracked.contains(i)) {
             continue;
         }
