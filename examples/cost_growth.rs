@@ -11,6 +11,8 @@
 //! which do not depend on what else the machine does; they are known on Linux only. Below each table stand the exponents
 //! `p` of fits `c links^p`.
 //!
+//! Then the hoop and Chaplygin's sled, each without scenes and with five that nobody uses.
+//!
 //! Without `--release`: cargo builds procedural macros without optimisation, so that is the time that a user waits.
 
 use std::path::{Path, PathBuf};
@@ -22,6 +24,9 @@ use guen_benchmarks::timing::{processor_time, processor_time_of_children};
 use guen_language::diagnostics::collect;
 use guen_language::{derive, emit, model, parse};
 use guen_study::Table;
+
+#[path = "../tests/systems/scenes.rs"]
+mod scenes;
 
 const MOST: usize = 20;
 /// Below this, costs that do not grow are most of the whole: the fits leave it out.
@@ -64,18 +69,44 @@ fn main() -> ExitCode {
             (1..6).map(|column| format!("{} {:.2}", COLUMNS[column], exponent(&rows, column))).collect();
         println!("exponents from {ASYMPTOTIC} links on: {}\n", exponents.join(", "));
     }
+    if let Err(error) = unused_scenes(&compiler) {
+        eprintln!("systems with scenes: {error}");
+        return ExitCode::FAILURE;
+    }
     ExitCode::SUCCESS
+}
+
+/// Prints the costs of the hoop and of the sled without scenes and with five.
+fn unused_scenes(compiler: &Compiler) -> Result<(), String> {
+    let systems = [("hoop", include_str!("hoop.rs"), 9), ("sled", include_str!("chaplygin_sled.rs"), 5)];
+    for ((module, source, variables), (_, five)) in systems.into_iter().zip(scenes::FIVE) {
+        let mut table = Table::new(&[&["scenes"], &COLUMNS[1..]].concat()).digits(4);
+        let bare = scenes::declaration(source);
+        // The first expansion of a process is slower than the others.
+        expanded(&bare.to_string())?;
+        for (count, tokens) in [(0.0, bare.clone()), (5.0, scenes::added(bare, five))] {
+            let costs = costs(compiler, &tokens.to_string(), module, variables)?;
+            table.row(&[&[count], &costs[..]].concat());
+        }
+        println!("{module}, without scenes and with five that are not used\n{table}\n");
+    }
+    Ok(())
 }
 
 /// One line of the table.
 fn row(compiler: &Compiler, links: usize, angles: Angles) -> Result<[f64; 6], String> {
     let text = declaration("Chain", links, angles);
+    let [operations, expansion, check, plain, optimised] = costs(compiler, &text, "chain", 2 * links)?;
+    Ok([links as f64, operations, expansion, check, plain, optimised])
+}
+
+/// Operations, and the milliseconds of the expansion and of what rustc is asked for.
+fn costs(compiler: &Compiler, text: &str, module: &str, variables: usize) -> Result<[f64; 5], String> {
     let start = processor_time();
-    let (code, operations) = expanded(&text)?;
+    let (code, operations) = expanded(text)?;
     let expansion = (processor_time() - start) * 1e3;
     let source = format!(
-        "{code}\npub fn rates(chain: &chain::Prepared<f64>, state: &[f64; {0}]) -> [f64; {0}] {{ guen::System::rhs(chain, 0.0, state) }}",
-        2 * links
+        "{code}\npub fn rates(it: &{module}::Prepared<f64>, state: &[f64; {variables}]) -> [f64; {variables}] {{ guen::System::rhs(it, 0.0, state) }}",
     );
     let mut times = [0.0; 3];
     for (time, mode) in times.iter_mut().zip(Mode::ALL) {
@@ -84,7 +115,7 @@ fn row(compiler: &Compiler, links: usize, angles: Angles) -> Result<[f64; 6], St
         *time = (spent - empty).max(0.0);
     }
     let [check, plain, optimised] = times;
-    Ok([links as f64, f64::from(operations), expansion, check, plain, optimised])
+    Ok([f64::from(operations), expansion, check, plain, optimised])
 }
 
 /// What the macro makes of a declaration, and the operations of its right-hand side.

@@ -8,7 +8,8 @@
 //! profile too, so these are the times that a user waits. (Only the tokens come from this program and not from the
 //! compiler.) The declarations of the examples are cut out of their files; beside them stand the chains of the benchmarks,
 //! with absolute angles, and the largest systems of the tests: vehicles, snakes, contacts with a square root, moving
-//! belts, prescribed motions.
+//! belts, prescribed motions. Systems with five scenes stand below themselves without: what scenes cost while the macro
+//! runs. In the program a scene that is not used costs nothing, for what is emitted is generic.
 //!
 //! The times of the stages and their sum are medians of several expansions, followed by the shares of deriving and
 //! emitting in percent. The last column is the mean time on a processor, which depends less on what else the machine
@@ -26,6 +27,8 @@ use proc_macro2::{TokenStream, TokenTree};
 
 #[path = "../tests/systems/large.rs"]
 mod large;
+#[path = "../tests/systems/scenes.rs"]
+mod scenes;
 
 /// The files whose first declarations are expanded.
 const FILES: [(&str, &str); 4] = [
@@ -49,8 +52,14 @@ fn main() -> ExitCode {
             "this is an optimised build, and the compiler's macro is none: see `cargo run --example expansion_time`\n"
         );
     }
-    let mut systems: Vec<(String, TokenStream)> =
-        FILES.iter().map(|(name, source)| (name.to_string(), declaration(source))).collect();
+    let mut systems: Vec<(String, TokenStream)> = Vec::new();
+    for (name, source) in FILES {
+        let tokens = scenes::declaration(source);
+        systems.push((name.to_owned(), tokens.clone()));
+        if let Some((_, five)) = scenes::FIVE.iter().find(|(owner, _)| *owner == name) {
+            systems.push(("  with scenes".to_owned(), scenes::added(tokens, five)));
+        }
+    }
     let mut add = |name: String, text: &str| systems.push((name, text.parse().expect("these are tokens")));
     CHAINS.iter().for_each(|&links| {
         add(format!("chain of {links}"), &declaration_of_chain("Chain", links, Angles::Absolute));
@@ -97,21 +106,6 @@ fn main() -> ExitCode {
         println!("{name:14}  {line}");
     }
     if healthy { ExitCode::SUCCESS } else { ExitCode::FAILURE }
-}
-
-/// The declaration in a file: the group after `mechanical_system!`.
-fn declaration(source: &str) -> TokenStream {
-    let tokens: Vec<TokenTree> =
-        source.parse::<TokenStream>().expect("an example is Rust").into_iter().collect();
-    let found = tokens.windows(3).find_map(|three| match three {
-        [TokenTree::Ident(name), TokenTree::Punct(mark), TokenTree::Group(group)]
-            if name == "mechanical_system" && mark.as_char() == '!' =>
-        {
-            Some(group.stream())
-        }
-        _ => None,
-    });
-    found.expect("an example declares a system")
 }
 
 /// The number of tokens emitted, the medians of the stages, and the mean time on a processor in

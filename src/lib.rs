@@ -125,6 +125,8 @@ mod pages {
     mod bodies {}
     #[doc = include_str!("../docs/generated.md")]
     mod generated {}
+    #[doc = include_str!("../docs/scenes.md")]
+    mod scenes {}
     #[doc = include_str!("../docs/reals.md")]
     mod reals {}
     #[doc = include_str!("../docs/integrators.md")]
