@@ -22,7 +22,7 @@ pub fn chain_by_elimination<R: Real, const L: usize, const N: usize>([l, g]: [R;
 
 #[inline(always)]
 fn eliminated<R: Real, const L: usize>(below: &[R; L], gravity: R, q: &[R; L], w: &[R; L]) -> [R; L] {
-    let turn: [(R, R); L] = turns(&q);
+    let turn: [(R, R); L] = turns(q);
     // Sums of `n_ij cos(q_j) w_j^2` and of the sines, the part above each link running upwards.
     let square: [R; L] = core::array::from_fn(|i| w[i] * w[i]);
     let mut force = [R::zero(); L];
