@@ -9,6 +9,7 @@ pub(super) const FINE: usize = 8;
 pub(super) fn points() -> [f64; FINE + 1] {
     std::array::from_fn(|j| match j {
         0 => 0.0,
+        _ if 2 * j == FINE => 0.5,
         FINE => 1.0,
         _ => 0.5 * (1.0 - (PI * j as f64 / FINE as f64).cos()),
     })
