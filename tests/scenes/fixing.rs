@@ -45,6 +45,9 @@ fn everything_with_a_held_parameter() {
         let found: [f64; 3] = scene.reactions(0.0, &small).into();
         let expected: [f64; 3] = whole.reactions(0.0, &full).into();
         assert_agree(&found, &expected, NEAR, "reactions");
+        let (found, expected) = (scene.outputs(0.0, &small).axial, whole.outputs(0.0, &full).axial);
+        assert_agree(&[found], &[expected], NEAR, "output");
+        assert_agree(&[found], &[full.eta3 * full.theta.cos() * full.eta1], NEAR, "output by hand");
         let places: [usize; 3] = <appell::measured::Prepared as Level<f64, 3, 9>>::PLACES;
         let expected = part(&whole.linearize(0.0, &full).a, &places);
         assert_agree(scene.linearize(0.0, &small).a.as_flattened(), &expected, NEAR, "linearisation");

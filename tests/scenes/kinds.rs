@@ -53,10 +53,11 @@ guen::mechanical_system! {
         kinetic_energy = m/2*(u^2 + v^2);
         potential_energy = k/4*(x^4 + y^4);
         forces { one + both along u; two*both along v; }
-        outputs { effort = one*u + two*u; pull = vec(one, 2*x, 0); }
+        outputs { effort = one*u + two*u; pull = vec(one, 2*x, 0); jolt = dot(u); }
         scene Left { track x; }
         scene Right { track y; provide linearization; }
         scene Told { track x; provide effort, pull, linearization; }
+        scene Jolt { track y; provide jolt; }
         scene Limited { track x; fix limit = k*2, k = 3/4; }
     }
 }

@@ -24,8 +24,9 @@ sled! { guen::mechanical_system;
 }
 
 appell! { guen::mechanical_system;
+    outputs { axial = dot(eta3*sin(theta)); }
     scene Rolling { fix eta3; provide energy; }
-    scene Measured { fix eta3; provide energy, reactions, linearization; }
+    scene Measured { fix eta3; provide energy, reactions, linearization, axial; }
     scene Spinning { fix eta3, a = 3/4; }
 }
 

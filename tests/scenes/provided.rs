@@ -59,6 +59,20 @@ fn an_output_with_an_acceleration() {
     }
 }
 
+/// An acceleration that is provided brings in what it depends on, inputs too.
+#[test]
+fn what_an_acceleration_needs() {
+    assert_eq!(pair::jolt::State::NAMES, ["x", "y", "u", "v"]);
+    assert_eq!(pair::jolt::Inputs::NAMES, ["one", "two", "both"]);
+    let (whole, jolt) = (PAIR.prepare().unwrap(), pair::Jolt::from(PAIR).prepare().unwrap());
+    let inputs = pair::Inputs { one: 0.3, two: -0.7, both: 0.4 };
+    for state in states::<4>(57, 100, -2.0, 2.0) {
+        let found = jolt.outputs(0.0, &state.into(), &inputs.into()).jolt;
+        assert_agree(&[found], &[whole.outputs(0.0, &state.into(), &inputs).jolt], NEAR, "output");
+        assert_agree(&[found], &[whole.rhs(0.0, &state.into(), &inputs).u], NEAR, "rate");
+    }
+}
+
 /// Operators act on functions of all coordinates, whatever the state of the scene is: here at fixed constants.
 #[test]
 fn operators_and_brackets() {
