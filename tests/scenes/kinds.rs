@@ -81,6 +81,21 @@ guen::mechanical_system! {
     }
 }
 
+guen::mechanical_system! {
+    /// Ties whose reactions have accelerations: of `u`, which depends on `y`, and of `turn`, which rests.
+    pub system Tied {
+        constants { m > 0, k }
+        coordinates { w, x, y, z, c, d }
+        parameters { s = dot(w); u = dot(x); v = dot(y); turn = dot(c); }
+        constraints { cord: dot(z) = dot(x); gear: dot(d) = dot(c); }
+        kinetic_energy = m/2*(dot(w)^2 + dot(x)^2 + dot(y)^2 + dot(z)^2 + dot(c)^2 + dot(d)^2);
+        potential_energy = k*x*y + k*(d - c);
+        scene Cord { track w; provide reactions(cord); }
+        scene Gear { track w; fix turn; provide reactions(gear); }
+    }
+}
+
+pub const TIED: Tied = Tied { m: 1.3, k: 0.7 };
 pub const NEEDLESS: Needless = Needless { m: 1.3, k: 0.7 };
 pub const KEPLER: Kepler = Kepler { mu: 1.2 };
 pub const BEAD: Bead = Bead { m: 1.3, k: 0.7, nu: 2.1 };

@@ -4,7 +4,7 @@ use guen::prelude::*;
 use guen::{BracketCoefficients, Linearizable};
 
 use crate::compare::{assert_agree, states};
-use crate::kinds::{PAIR, pair};
+use crate::kinds::{PAIR, TIED, pair, tied};
 use crate::models::{HOOP, Hoop, hoop};
 
 const NEAR: f64 = 1e-12;
@@ -70,6 +70,23 @@ fn what_an_acceleration_needs() {
         let found = jolt.outputs(0.0, &state.into(), &inputs.into()).jolt;
         assert_agree(&[found], &[whole.outputs(0.0, &state.into(), &inputs).jolt], NEAR, "output");
         assert_agree(&[found], &[whole.rhs(0.0, &state.into(), &inputs).u], NEAR, "rate");
+    }
+}
+
+/// Reactions have accelerations, of variables that nobody tracks or that are held.
+#[test]
+fn reactions_with_accelerations() {
+    assert_eq!(tied::cord::State::NAMES, ["w", "x", "y", "s", "u", "v"]);
+    assert_eq!(tied::gear::State::NAMES, ["w", "s"]);
+    let (whole, cord) = (TIED.prepare().unwrap(), tied::Cord::from(TIED).prepare().unwrap());
+    for state in states::<10>(58, 100, -2.0, 2.0) {
+        let full = tied::State::from(state);
+        let expected = whole.reactions(0.0, &full);
+        // m z'' = cord, with 2 m x'' = -k y; m d'' = 0 = gear - k.
+        assert_agree(&[expected.cord, expected.gear], &[-TIED.k * full.y / 2.0, TIED.k], NEAR, "by hand");
+        assert_agree(&[cord.reactions(0.0, &full.into()).cord], &[expected.cord], NEAR, "cord");
+        let gear = tied::Gear::of(&TIED, &full).unwrap().prepare().unwrap();
+        assert_agree(&[gear.reactions(0.0, &full.into()).gear], &[expected.gear], NEAR, "gear");
     }
 }
 
