@@ -7,6 +7,7 @@ mod systems;
 
 mod closure;
 mod compare;
+mod ensembles;
 mod equations;
 mod fixing;
 mod golden;
