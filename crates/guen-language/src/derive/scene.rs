@@ -20,7 +20,8 @@ pub struct SceneFacts {
     pub index: usize,
     /// Why each variable is kept, by its place in the whole state; none for those that left.
     pub reasons: Vec<Option<Reason>>,
-    /// Variables that left and are pure quadratures, in layers: see [`Flow::quadratures`].
+    /// Variables that left and are pure quadratures, in layers: the rates of each depend on what is kept and on the layers
+    /// before.
     pub quadratures: Vec<Vec<Quadrature>>,
     /// Coordinates that holonomic equations eliminated.
     pub eliminated: Vec<usize>,
