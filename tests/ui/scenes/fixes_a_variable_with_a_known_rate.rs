@@ -1,6 +1,6 @@
 //! What a scene fixes without a value is at rest, whatever else is fixed.
 //!
-//! repair: `, x` => ``
+//! repair: `, x; }` => `; }`
 
 guen::mechanical_system! {
     pub system Sled {

@@ -1,6 +1,6 @@
 //! A fixed value does not depend on itself.
 //!
-//! repair: `, k = 2*alpha` => ``
+//! repair: `alpha = 2*alpha` => `alpha = 2*k`
 
 guen::mechanical_system! {
     pub system Sled {
@@ -14,7 +14,7 @@ guen::mechanical_system! {
         potential_energy = -m*g*sin(incline)*x;
         forces { push along speed; }
         outputs { height = -sin(incline)*x; }
-        scene Small { fix alpha = k, k = 2*alpha; }
+        scene Small { fix alpha = 2*alpha; }
     }
 }
 

@@ -14,7 +14,7 @@ guen::mechanical_system! {
         forces { -c*u along u; }
         scene Across { track y; fix m = 1; provide energy; }
         scene Along { track x; fix u; }
-        scene Light { fix m = 0; }
+        scene Light { track y; fix u; }
     }
 }
 
