@@ -45,6 +45,7 @@
 //! | `std` | yes | `Std`, and lanes chosen at run time; recordings and pictures are in the crate `guen-study` |
 //! | `serde` | no | serde's traits for constants, states and inputs; for recordings the feature of `guen-study` |
 #![no_std]
+#![cfg_attr(docsrs, feature(doc_cfg))]
 #![forbid(unsafe_code)]
 
 pub use guen_runtime::{
