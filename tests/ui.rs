@@ -10,9 +10,9 @@ use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use guen_language::diagnostics::{Fault, Report, collect};
+use guen_language::diagnostics::{POINTER, Report, collect};
 use guen_language::{derive, emit, model, parse};
-use proc_macro2::{TokenStream, TokenTree};
+use proc_macro2::{Span, TokenStream, TokenTree};
 
 /// A file with a faulty declaration.
 struct Case {
@@ -130,16 +130,16 @@ fn reports(tokens: TokenStream) -> Vec<Report> {
     reports
 }
 
-/// A fault as the compiler draws it.
-fn draw(fault: &Fault, case: &Case) -> String {
-    let (start, end) = (fault.span().start(), fault.span().end());
+/// An error as the compiler draws it.
+fn draw(span: Span, message: &str, case: &Case) -> String {
+    let (start, end) = (span.start(), span.end());
     let source = case.text.lines().nth(start.line - 1).unwrap_or_default();
     let number = start.line.to_string();
     let margin = " ".repeat(number.len());
     // On one line; a place of several lines is drawn to the end of its first one.
     let last = if end.line == start.line { end.column } else { source.chars().count() };
     let mut text = String::new();
-    let mut lines = fault.to_string().lines().map(str::to_owned).collect::<Vec<_>>().into_iter();
+    let mut lines = message.lines();
     let _ = writeln!(text, "error: {}", lines.next().unwrap_or_default());
     for line in lines {
         let _ = writeln!(text, "       {line}");
@@ -153,13 +153,13 @@ fn draw(fault: &Fault, case: &Case) -> String {
 }
 
 fn shown(case: &Case) -> (usize, String) {
-    let faults: Vec<Fault> = invocations(&case.text)
+    let drawn: Vec<String> = invocations(&case.text)
         .into_iter()
         .flat_map(reports)
-        .flat_map(|report| report.faults().to_vec())
+        .flat_map(|report| report.errors().collect::<Vec<_>>())
+        .map(|(span, message)| draw(span, &message, case))
         .collect();
-    let drawn: Vec<String> = faults.iter().map(|fault| draw(fault, case)).collect();
-    (faults.len(), drawn.join("\n"))
+    (drawn.len(), drawn.join("\n"))
 }
 
 #[test]
@@ -226,6 +226,8 @@ fn the_table_of_errors_is_current() {
             let message: Vec<&str> =
                 drawn.lines().take_while(|line| !line.trim_start().starts_with("-->")).collect();
             let place: Vec<&str> = drawn.lines().skip(message.len() + 2).take(2).collect();
+            // The page need not point to itself.
+            let message: Vec<&str> = message.into_iter().filter(|line| line.trim() != POINTER).collect();
             let place: Vec<&str> =
                 place.iter().map(|line| line.split_once(" |").map_or(*line, |(_, code)| code)).collect();
             let indent = |line: &str| line.len() - line.trim_start().len();
