@@ -25,6 +25,7 @@
 //! pivot and may go in the order of least fill; for a chain it is tridiagonal. `lambda_c` is constant and takes forces
 //! like weight out of `g` where they are constant along a difference: at rest the tensions are known.
 
+mod angles;
 mod balance;
 mod pattern;
 mod sparse;
@@ -35,6 +36,7 @@ use super::solve::{Elimination, eliminate};
 use super::{Equations, Frame};
 use crate::algebra::{ExprId, FastMap, Node, Rational};
 use crate::normal::{Limits, normal_coefficients};
+use crate::program::weighted_cost;
 use crate::workbench::Workbench;
 use balance::{Balance, balance};
 use pattern::Pattern;
@@ -135,7 +137,7 @@ pub(super) fn solve(
             terms(bench, e, etas)
         })
         .collect();
-    let constant = constant_reactions(bench, &rows, &mut rest);
+    let constant = constant_reactions(bench, &rows, &inverse, &mut rest);
     let stretched_constant = stretched.of(bench, &constant);
     let known = stretched.rates(bench, &stretched_constant);
     let accelerations: Vec<Vec<ExprId>> = (0..moving.len())
@@ -174,57 +176,112 @@ pub(super) fn solve(
         push_products(bench, &mut parts, own, &along, &weights, &rest, true);
         right.push(parts);
     }
-    let coupled: Vec<Vec<(usize, ExprId)>> = along
-        .iter()
-        .map(|own| {
-            let meeting = (0..count).filter(|t| own.meets(&across[*t]));
-            meeting.map(|t| (t, own.dot(bench, &across[t], &weights))).collect()
-        })
-        .collect();
-
-    // One scale for all tensions, and one for their equations: both leave ones where there were constants.
-    let scale = most_common(bench, matrix.iter().flatten().copied());
-    let size = most_common(bench, right.iter().flatten().copied());
-    let divided = |bench: &mut Workbench, e: ExprId, by: &[(ExprId, i32)]| {
-        let factors: Vec<_> = [(e, 1)].into_iter().chain(by.iter().copied()).collect();
-        let quotient = bench.graph.product(&factors);
-        bench.tidy(quotient)
-    };
-    for entry in matrix.iter_mut().flatten() {
-        if *entry != zero {
-            *entry = divided(bench, *entry, &[(scale, -1)]);
-            *entry = bench.graph.keep(*entry);
+    // eta' = P K N sigma + P K P^T g - P c
+    let mut coupled: Vec<Vec<(usize, ExprId)>> = Vec::new();
+    let mut direct: Vec<Vec<ExprId>> = Vec::new();
+    for (y, own) in inverse.iter().zip(&along) {
+        let meeting = (0..count).filter(|t| own.meets(&across[*t]));
+        coupled.push(meeting.map(|t| (t, own.dot(bench, &across[t], &weights))).collect());
+        let sum = weighted(bench, y, &accelerations);
+        let mut parts = terms(bench, sum, etas);
+        for e in &mut parts {
+            *e = bench.graph.neg(*e);
+        }
+        push_products(bench, &mut parts, own, &along, &weights, &rest, false);
+        direct.push(parts);
+    }
+    let mut system = System { matrix, right, coupled, direct };
+    if let Some(roots) = angles::between(bench, &system.entries()) {
+        // Only neighbours meet: in the angles between them the entries are short.
+        let other = bench.in_base_angles(&roots, |bench| system.rewritten(bench, etas));
+        if other.cost(bench, &frame.velocities) < system.cost(bench, &frame.velocities) {
+            system = other;
         }
     }
-    let right: Vec<ExprId> = right
-        .into_iter()
-        .map(|parts| {
-            let parts: Vec<ExprId> =
-                parts.into_iter().map(|e| bench.graph.product(&[(e, 1), (size, -1)])).collect();
-            let sum = bench.graph.sum(parts);
-            bench.graph.keep(sum)
-        })
-        .collect();
-    let tensions = by_least_fill(bench, matrix, right)?;
-
-    let accelerations = (0..l)
-        .map(|s| {
-            // eta' = P K N sigma + P K P^T g - P c
-            let mut parts = Vec::new();
-            for (t, e) in &coupled[s] {
-                let e = divided(bench, *e, &[(size, 1), (scale, -1)]);
-                let e = bench.graph.keep(e);
-                parts.push(bench.graph.mul(e, tensions[*t]));
-            }
-            push_products(bench, &mut parts, &along[s], &along, &weights, &rest, false);
-            let sum = weighted(bench, &inverse[s], &accelerations);
-            for e in terms(bench, sum, etas) {
-                parts.push(bench.graph.neg(e));
-            }
-            bench.graph.sum(parts)
-        })
-        .collect();
+    let accelerations = system.solved(bench)?;
     Some(Tensions { accelerations, divisors, is_clear: 2 * ours <= theirs })
+}
+
+/// The equations of the tensions, and the accelerations by tensions.
+struct System {
+    matrix: Vec<Vec<ExprId>>,
+    /// Terms of the right sides.
+    right: Vec<Vec<ExprId>>,
+    /// The rows of `P K N`.
+    coupled: Vec<Vec<(usize, ExprId)>>,
+    /// Terms of the accelerations without tensions.
+    direct: Vec<Vec<ExprId>>,
+}
+
+impl System {
+    /// The coefficients of the tensions.
+    fn entries(&self) -> Vec<ExprId> {
+        let lower = self.matrix.iter().enumerate().flat_map(|(s, row)| &row[..=s]);
+        lower.copied().chain(self.coupled.iter().flatten().map(|(_, e)| *e)).collect()
+    }
+
+    fn cost(&self, bench: &Workbench, beside: &[ExprId]) -> u64 {
+        let terms = self.right.iter().chain(&self.direct).flatten();
+        let all: Vec<ExprId> = self.entries().iter().chain(terms).chain(beside).copied().collect();
+        weighted_cost(&bench.graph, &all)
+    }
+
+    /// The same, tidied in the present base angles.
+    fn rewritten(&self, bench: &mut Workbench, etas: &[ExprId]) -> Self {
+        let lists = |bench: &mut Workbench, lists: &[Vec<ExprId>]| -> Vec<Vec<ExprId>> {
+            let sums = lists.iter().map(|list| {
+                let sum = bench.graph.sum(list.iter().copied());
+                terms(bench, sum, etas)
+            });
+            sums.collect()
+        };
+        let count = self.matrix.len();
+        let mut matrix = vec![vec![bench.graph.zero(); count]; count];
+        for s in 0..count {
+            for t in 0..=s {
+                let entry = bench.tidy(self.matrix[s][t]);
+                (matrix[s][t], matrix[t][s]) = (entry, entry);
+            }
+        }
+        let coupled =
+            self.coupled.iter().map(|row| row.iter().map(|(t, e)| (*t, bench.tidy(*e))).collect()).collect();
+        System { matrix, right: lists(bench, &self.right), coupled, direct: lists(bench, &self.direct) }
+    }
+
+    /// The accelerations.
+    fn solved(mut self, bench: &mut Workbench) -> Option<Vec<ExprId>> {
+        // One scale for all tensions, and one for their equations: both leave ones where there were constants.
+        let scale = most_common(bench, self.matrix.iter().flatten().copied());
+        let size = most_common(bench, self.right.iter().flatten().copied());
+        for entry in self.matrix.iter_mut().flatten() {
+            if !bench.graph.is_zero(*entry) {
+                let quotient = bench.graph.div(*entry, scale);
+                *entry = bench.tidy(quotient);
+            }
+        }
+        let right: Vec<ExprId> = self
+            .right
+            .into_iter()
+            .map(|parts| {
+                let parts: Vec<ExprId> = parts.into_iter().map(|e| bench.graph.div(e, size)).collect();
+                bench.graph.sum(parts)
+            })
+            .collect();
+        let tensions = by_least_fill(bench, self.matrix, right)?;
+        let rows = self.coupled.into_iter().zip(self.direct);
+        let accelerations = rows.map(|(coupled, direct)| {
+            let mut parts = Vec::new();
+            for (t, e) in coupled {
+                let e = bench.graph.product(&[(e, 1), (size, 1), (scale, -1)]);
+                let e = bench.tidy(e);
+                let e = bench.graph.keep(e);
+                parts.push(bench.graph.mul(e, tensions[t]));
+            }
+            parts.extend(direct);
+            bench.graph.sum(parts)
+        });
+        Some(accelerations.collect())
+    }
 }
 
 /// `sum_k y_k (sum of parts_k)`.
@@ -290,35 +347,48 @@ fn summands(bench: &mut Workbench, e: ExprId) -> Vec<ExprId> {
     }
 }
 
-/// Reactions that are constant and take terms out of the forces: `g - B^T lambda_c` is what is left.
-fn constant_reactions(bench: &mut Workbench, rows: &[Vector], rest: &mut [Vec<ExprId>]) -> Vector {
+/// Reactions that are constant and take terms out of the forces: `g - B^T lambda_c` is what is left, and rather of those
+/// parameters that have a difference of their own.
+fn constant_reactions(
+    bench: &mut Workbench,
+    rows: &[Vector],
+    inverse: &[Vector],
+    rest: &mut [Vec<ExprId>],
+) -> Vector {
     let mut found = Vector::default();
     for (k, row) in rows.iter().enumerate() {
-        let Some((s, b)) = row.entries().first() else { continue };
-        let mut ratios = Vec::new();
-        for term in &rest[*s] {
-            let ratio = bench.graph.div(*term, *b);
-            if bench.graph.roles(ratio).is_constant() && balance::divides_safely(bench, ratio) {
-                ratios.push(ratio);
+        let dearness = |lists: &[(usize, Vec<ExprId>)]| -> usize {
+            lists.iter().map(|(s, terms)| terms.len() * inverse[*s].len()).sum()
+        };
+        let own: Vec<(usize, Vec<ExprId>)> =
+            row.entries().iter().map(|(s, _)| (*s, rest[*s].clone())).collect();
+        let mut best = (dearness(&own), None);
+        for (s, b) in row.entries() {
+            let mut ratios = Vec::new();
+            for term in &rest[*s] {
+                let ratio = bench.graph.div(*term, *b);
+                if bench.graph.roles(ratio).is_constant() && balance::divides_safely(bench, ratio) {
+                    ratios.push(ratio);
+                }
+            }
+            if ratios.is_empty() {
+                continue;
+            }
+            let ratio = bench.graph.sum(ratios);
+            let mut changed = Vec::new();
+            for (s, b) in row.entries() {
+                let product = bench.graph.mul(ratio, *b);
+                let left = bench.graph.sum(rest[*s].iter().copied());
+                let left = bench.graph.sub(left, product);
+                let left = bench.tidy(left);
+                changed.push((*s, summands(bench, left)));
+            }
+            let left = dearness(&changed);
+            if left < best.0 {
+                best = (left, Some((ratio, changed)));
             }
         }
-        if ratios.is_empty() {
-            continue;
-        }
-        let ratio = bench.graph.sum(ratios);
-        let mut changed: Vec<(usize, Vec<ExprId>)> = Vec::new();
-        let (mut before, mut after) = (0, 0);
-        for (s, b) in row.entries() {
-            let product = bench.graph.mul(ratio, *b);
-            let left = bench.graph.sum(rest[*s].iter().copied());
-            let left = bench.graph.sub(left, product);
-            let left = bench.tidy(left);
-            let left = summands(bench, left);
-            before += rest[*s].len();
-            after += left.len();
-            changed.push((*s, left));
-        }
-        if after < before {
+        if let (_, Some((ratio, changed))) = best {
             changed.into_iter().for_each(|(s, left)| rest[s] = left);
             found.add(bench, k, ratio);
         }
