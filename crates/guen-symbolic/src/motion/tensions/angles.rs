@@ -3,36 +3,80 @@
 use crate::algebra::{ExprId, Function, Graph, Node, Rational};
 use crate::workbench::Workbench;
 
-/// Sines of base angles in which expressions that depend on two angles each depend on one: differences along a forest
-/// of the angles, and one angle of each of its trees. `None` if no expression depends on two.
-pub(super) fn between(bench: &mut Workbench, entries: &[ExprId]) -> Option<Vec<ExprId>> {
-    let mut angles: Vec<ExprId> = Vec::new();
-    // To which tree an angle belongs.
-    let mut trees: Vec<usize> = Vec::new();
-    let mut differences: Vec<ExprId> = Vec::new();
-    for e in entries {
-        let own = angles_in(&bench.graph, *e);
-        for angle in &own {
-            if !angles.contains(angle) {
-                trees.push(angles.len());
-                angles.push(*angle);
+/// Differences of angles that meet in an expression, as the edges of a forest.
+pub(super) struct Between {
+    edges: Vec<(ExprId, ExprId, ExprId)>,
+}
+
+impl Between {
+    /// From the expressions that depend on two base angles each.
+    pub(super) fn new(bench: &mut Workbench, entries: &[ExprId]) -> Self {
+        let mut edges = Vec::new();
+        let mut trees = Trees::default();
+        for e in entries {
+            if let [a, b] = angles_in(&bench.graph, *e)[..]
+                && trees.join(a, b)
+            {
+                edges.push((a, b, shorter(bench, *e, a, b)));
             }
         }
-        let [a, b] = own[..] else { continue };
-        let place = |angle: ExprId| angles.iter().position(|known| *known == angle);
-        let (Some(i), Some(j)) = (place(a), place(b)) else { continue };
-        let (first, second) = (trees[i], trees[j]);
-        if first != second {
-            trees.iter_mut().filter(|tree| **tree == second).for_each(|tree| *tree = first);
-            differences.push(shorter(bench, *e, a, b));
+        Between { edges }
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.edges.is_empty()
+    }
+
+    /// Does something with an expression while its own base angles are those between neighbours; `None` if it does not
+    /// depend on two of these. Only on what it depends: a sum of many angles between neighbours is long when multiplied out.
+    pub(super) fn within<T>(
+        &self,
+        bench: &mut Workbench,
+        e: ExprId,
+        work: impl FnOnce(&mut Workbench) -> T,
+    ) -> Option<T> {
+        let own = angles_in(&bench.graph, e);
+        let inside: Vec<_> =
+            self.edges.iter().filter(|(a, b, _)| own.contains(a) && own.contains(b)).collect();
+        if inside.is_empty() {
+            return None;
         }
+        let mut trees = Trees::default();
+        for (a, b, _) in &inside {
+            trees.join(*a, *b);
+        }
+        let roots = own.into_iter().filter(|angle| trees.is_root(*angle));
+        let angles: Vec<ExprId> = roots.chain(inside.iter().map(|(_, _, angle)| *angle)).collect();
+        let sines: Vec<ExprId> = angles.into_iter().map(|angle| bench.graph.sin(angle)).collect();
+        Some(bench.in_base_angles(&sines, work))
     }
-    if differences.is_empty() {
-        return None;
+}
+
+/// Angles that are joined, each with the number of its tree.
+#[derive(Default)]
+struct Trees(Vec<(ExprId, usize)>);
+
+impl Trees {
+    fn place(&mut self, angle: ExprId) -> usize {
+        self.0.iter().position(|(known, _)| *known == angle).unwrap_or_else(|| {
+            self.0.push((angle, self.0.len()));
+            self.0.len() - 1
+        })
     }
-    let roots = angles.iter().enumerate().filter(|(i, _)| trees[*i] == *i).map(|(_, angle)| *angle);
-    let all: Vec<ExprId> = roots.chain(differences).collect();
-    Some(all.into_iter().map(|angle| bench.graph.sin(angle)).collect())
+
+    /// Joins the trees of two angles, if they are two.
+    fn join(&mut self, a: ExprId, b: ExprId) -> bool {
+        let (a, b) = (self.place(a), self.place(b));
+        let (first, second) = (self.0[a].1, self.0[b].1);
+        self.0.iter_mut().filter(|(_, tree)| *tree == second).for_each(|(_, tree)| *tree = first);
+        first != second
+    }
+
+    /// Whether an angle stands for its tree, or is in none.
+    fn is_root(&self, angle: ExprId) -> bool {
+        let place = self.0.iter().position(|(known, _)| *known == angle);
+        place.is_none_or(|place| self.0[place].1 == place)
+    }
 }
 
 /// The base angles of an expression's sines and cosines.

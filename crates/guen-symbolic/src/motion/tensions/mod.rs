@@ -38,6 +38,7 @@ use crate::algebra::{ExprId, FastMap, Node, Rational};
 use crate::normal::{Limits, normal_coefficients};
 use crate::program::weighted_cost;
 use crate::workbench::Workbench;
+use angles::Between;
 use balance::{Balance, balance};
 use pattern::Pattern;
 use sparse::Vector;
@@ -191,9 +192,10 @@ pub(super) fn solve(
         direct.push(parts);
     }
     let mut system = System { matrix, right, coupled, direct };
-    if let Some(roots) = angles::between(bench, &system.entries()) {
+    let between = Between::new(bench, &system.entries());
+    if !between.is_empty() {
         // Only neighbours meet: in the angles between them the entries are short.
-        let other = bench.in_base_angles(&roots, |bench| system.rewritten(bench, etas));
+        let other = system.rewritten(bench, &between, etas);
         if other.cost(bench, &frame.velocities) < system.cost(bench, &frame.velocities) {
             system = other;
         }
@@ -226,25 +228,28 @@ impl System {
         weighted_cost(&bench.graph, &all)
     }
 
-    /// The same, tidied in the present base angles.
-    fn rewritten(&self, bench: &mut Workbench, etas: &[ExprId]) -> Self {
+    /// The same in the angles between neighbours.
+    fn rewritten(&self, bench: &mut Workbench, between: &Between, etas: &[ExprId]) -> Self {
         let lists = |bench: &mut Workbench, lists: &[Vec<ExprId>]| -> Vec<Vec<ExprId>> {
             let sums = lists.iter().map(|list| {
                 let sum = bench.graph.sum(list.iter().copied());
-                terms(bench, sum, etas)
+                between.within(bench, sum, |bench| terms(bench, sum, etas)).unwrap_or_else(|| list.clone())
             });
             sums.collect()
         };
-        let count = self.matrix.len();
-        let mut matrix = vec![vec![bench.graph.zero(); count]; count];
-        for s in 0..count {
+        let tidy =
+            |bench: &mut Workbench, e: ExprId| between.within(bench, e, |bench| bench.tidy(e)).unwrap_or(e);
+        let mut matrix = self.matrix.clone();
+        for s in 0..matrix.len() {
             for t in 0..=s {
-                let entry = bench.tidy(self.matrix[s][t]);
+                let entry = tidy(bench, matrix[s][t]);
                 (matrix[s][t], matrix[t][s]) = (entry, entry);
             }
         }
-        let coupled =
-            self.coupled.iter().map(|row| row.iter().map(|(t, e)| (*t, bench.tidy(*e))).collect()).collect();
+        let mut coupled = self.coupled.clone();
+        for (_, e) in coupled.iter_mut().flatten() {
+            *e = tidy(bench, *e);
+        }
         System { matrix, right: lists(bench, &self.right), coupled, direct: lists(bench, &self.direct) }
     }
 
