@@ -107,56 +107,67 @@ fn spread<R: Real>(
     last: usize,
 ) {
     let below = (k - 1).min(last - k);
-    // Whole blocks where that costs nothing: unknown coefficients are zeros.
-    let count = if size_of::<R>() <= 8 { below.next_multiple_of(BLOCK) } else { below };
+    if size_of::<R>() > size_of::<f64>() {
+        one_by_one(factors, sums, pairs, now, k, below);
+    } else if below == 0 {
+    } else if below <= BLOCK {
+        in_blocks::<R, 1>(factors, sums, pairs, now, k);
+    } else {
+        in_blocks::<R, 2>(factors, sums, pairs, now, k);
+    }
+    if 2 * k <= last {
+        for (sum, [a, b]) in sums.iter_mut().zip(pairs) {
+            if let Some(square) = sum.get_mut(2 * k) {
+                *square += now[usize::from(*a)] * now[usize::from(*b)];
+            }
+        }
+    }
+    for (row, value) in factors.iter_mut().zip(now) {
+        if let Some(place) = row.get_mut(k - 1) {
+            *place = *value;
+        }
+    }
+}
+
+/// `sum_{k+j} += a_k b_j + b_k a_j` for `B` blocks of `j`, from one. Coefficients that are not known yet are zeros.
+#[inline(always)]
+fn in_blocks<R: Real, const B: usize>(
+    factors: &[[R; KEPT]],
+    sums: &mut [[R; SUMS]],
+    pairs: &[[u16; 2]],
+    now: &[R],
+    k: usize,
+) {
     for (sum, [a, b]) in sums.iter_mut().zip(pairs) {
         let (a, b) = (usize::from(*a), usize::from(*b));
         let (of_a, of_b) = (now[a], now[b]);
-        let ahead = &mut sum[k + 1..][..count];
-        let (row_a, row_b) = (&factors[a][..count], &factors[b][..count]);
-        if a == b {
-            add(ahead, row_a, of_a + of_a);
-        } else {
-            add_two(ahead, [row_a, row_b], [of_b, of_a]);
-        }
-        if 2 * k <= last {
-            sum[2 * k] += of_a * of_b;
-        }
-    }
-    if k <= KEPT {
-        for (row, value) in factors.iter_mut().zip(now) {
-            row[k - 1] = *value;
+        let (ahead, _) = sum[k + 1..].as_chunks_mut::<BLOCK>();
+        let (row_a, row_b) = (factors[a].as_chunks::<BLOCK>().0, factors[b].as_chunks::<BLOCK>().0);
+        for ((ahead, row_a), row_b) in ahead.iter_mut().zip(row_a).zip(row_b).take(B) {
+            // Read as a whole, then written as a whole: so it is clear that nothing is written that is still to be read.
+            let mut block = *ahead;
+            let (row_a, row_b) = (*row_a, *row_b);
+            for i in 0..BLOCK {
+                block[i] += row_a[i] * of_b + row_b[i] * of_a;
+            }
+            *ahead = block;
         }
     }
 }
 
-/// `sum_i += a_i c`
-#[inline(always)]
-fn add<R: Real>(sums: &mut [R], row: &[R], c: R) {
-    let (blocks, rest) = sums.as_chunks_mut::<BLOCK>();
-    let (rows, row_rest) = row.as_chunks::<BLOCK>();
-    for (sums, row) in blocks.iter_mut().zip(rows) {
-        for i in 0..BLOCK {
-            sums[i] += row[i] * c;
+/// The same for exactly so many `j`: of long reals every product counts.
+fn one_by_one<R: Real>(
+    factors: &[[R; KEPT]],
+    sums: &mut [[R; SUMS]],
+    pairs: &[[u16; 2]],
+    now: &[R],
+    k: usize,
+    below: usize,
+) {
+    for (sum, [a, b]) in sums.iter_mut().zip(pairs) {
+        let (a, b) = (usize::from(*a), usize::from(*b));
+        for j in 1..=below {
+            sum[k + j] += factors[a][j - 1] * now[b] + factors[b][j - 1] * now[a];
         }
-    }
-    for (sum, a) in rest.iter_mut().zip(row_rest) {
-        *sum += *a * c;
-    }
-}
-
-/// `sum_i += a_i c + b_i d`
-#[inline(always)]
-fn add_two<R: Real>(sums: &mut [R], [a, b]: [&[R]; 2], [c, d]: [R; 2]) {
-    let (blocks, rest) = sums.as_chunks_mut::<BLOCK>();
-    let (rows_a, rest_a) = a.as_chunks::<BLOCK>();
-    let (rows_b, rest_b) = b.as_chunks::<BLOCK>();
-    for ((sums, a), b) in blocks.iter_mut().zip(rows_a).zip(rows_b) {
-        for i in 0..BLOCK {
-            sums[i] += a[i] * c + b[i] * d;
-        }
-    }
-    for ((sum, a), b) in rest.iter_mut().zip(rest_a).zip(rest_b) {
-        *sum += *a * c + *b * d;
     }
 }
