@@ -56,6 +56,7 @@ pub use guen_runtime::{
     Rheonomic, Scleronomic, Setting, System, Tuned, Vitals, from_fn, generic, lanes, prelude, project,
     projected, steppers,
 };
+pub use guen_runtime::{Coefficients, Convolutions, HIGHEST_ORDER, TaylorSeries};
 pub use guen_runtime::{Liftable, Linearizable, OutputLinearization, control, seeded};
 
 #[cfg(feature = "std")]
@@ -108,7 +109,7 @@ pub mod __private {
         BracketCoefficients, Catastatic, Class, Coefficient, Conservative, ConstantsError, Cost,
         Differentiable, Dual, Holonomic, IncompleteLieGroup, Laned, Level, LevelInfo, Levels, LieGroup, Lift,
         Liftable, Linearizable, Linearization, Monitored, Nonholonomic, Operator, Ordered,
-        OutputLinearization, Positions, PositionsError, Real, Report, ReportSection, Rheonomic, Scleronomic,
+        Coefficients, Convolutions, HIGHEST_ORDER, TaylorSeries, OutputLinearization, Positions, PositionsError, Real, Report, ReportSection, Rheonomic, Scleronomic,
         System, Vitals, nalgebra_conversions, seeded, zero_bracket,
     };
     pub use guen_runtime::{consistent, control, serde_record};

@@ -9,6 +9,7 @@ use super::fixed::{self, Holding};
 use super::manifold::{Replacement, quaternions};
 use super::parts::{View, cheapest, parts, replaced};
 use super::selection::{Held, Place, Selection};
+use super::series;
 use super::{Commutator, Level, commutators, formulas, polish};
 use crate::diagnostics::{Fault, Faults};
 use crate::jacobians::Jacobians;
@@ -152,6 +153,9 @@ fn level(
     let whole = shares.then_some(&system.programs);
     let (mut programs, is_part) = cheapest(model, &selection, whole, lists, kept, &parts);
     let jacobians = Jacobians::add(&mut programs, model, &selection);
+    let word = scene.scene.provides.iter().find(|provide| provide.name.text == "taylor");
+    let series =
+        word.and_then(|word| series::of(model, &selection, &programs, word.name.span(), faults));
     let fixes = scene
         .fixes
         .iter()
@@ -179,6 +183,7 @@ fn level(
         programs,
         domain_names,
         constant_pivots,
+        series,
         jacobians,
         scene: Some(facts),
     })
@@ -201,6 +206,8 @@ fn provided(
             "energy" => selection.energy = true,
             "linearization" => selection.linearization = true,
             "operators" => selection.operators = true,
+            // Of the programs, once they are there.
+            "taylor" => {}
             "reactions" => match &provide.of {
                 None => {
                     let all = (l..model.forms.len()).filter(known);

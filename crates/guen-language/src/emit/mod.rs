@@ -21,6 +21,7 @@ mod outline;
 mod physical;
 mod positions;
 mod records;
+mod series;
 mod serde;
 mod uses;
 
@@ -187,6 +188,7 @@ fn module(
         records::items(subject, &layout),
         motion::items(subject, &layout),
         lanes::items(&layout),
+        series::items(subject, &layout),
         linearization::items(subject, &layout),
         control::items(subject, &layout),
         limits::items(subject, &layout),

@@ -52,6 +52,7 @@ struct Resolver<'a, 'f> {
     scenes: Vec<SceneEntry<'a>>,
     output_values: Vec<ExprId>,
     provides_operators: bool,
+    taylor: Option<proc_macro2::Span>,
 }
 
 impl<'a, 'f> Resolver<'a, 'f> {
@@ -93,6 +94,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
             scenes: Vec::new(),
             output_values: Vec::new(),
             provides_operators: false,
+            taylor: None,
         }
     }
 
@@ -226,9 +228,13 @@ impl<'a, 'f> Resolver<'a, 'f> {
                         continue;
                     }
                     let at = provide.name.span();
+                    if provide.name.text == "taylor" && provide.of.is_none() {
+                        self.taylor = Some(at);
+                        continue;
+                    }
                     let fault = Fault::new(at, "the full system provides everything already")
                         .note("`provide` chooses what a scene offers beside its state")
-                        .note("of a system only `provide operators;` says something: that the brackets of all operators are derived");
+                        .note("of a system two say something: `provide operators;`, that the brackets of all operators are derived, and `provide taylor;`, that it has a Taylor series");
                     self.eval.faults.report(fault);
                 }
             }
@@ -486,6 +492,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
             scenes: self.scenes,
             left_out: self.eval.left_out,
             provides_operators,
+            taylor: self.taylor,
             mechanics,
             has_masses: self.has_masses,
             kinetic_energy_span: self.energy.map(|energy| energy.keyword),

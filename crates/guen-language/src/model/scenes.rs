@@ -15,7 +15,7 @@ use crate::names;
 use crate::syntax::{Declaration, Fix, Name, Provide, Scene};
 
 /// What a scene may provide beside outputs.
-const QUANTITIES: [&str; 4] = ["energy", "reactions", "linearization", "operators"];
+const QUANTITIES: [&str; 5] = ["energy", "reactions", "linearization", "operators", "taylor"];
 
 impl Evaluator<'_> {
     /// Checks a scene's statements at their words; `None` after a fault.
