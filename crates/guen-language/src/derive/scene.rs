@@ -9,10 +9,11 @@ use super::fixed::{self, Holding};
 use super::manifold::{Replacement, quaternions};
 use super::parts::{View, cheapest, parts, replaced};
 use super::selection::{Held, Place, Selection};
-use super::{Commutator, Level, commutators, formulas, polish};
+use super::{Commutator, Level, carried, commutators, formulas, polish};
 use crate::diagnostics::{Fault, Faults};
 use crate::jacobians::Jacobians;
 use crate::model::{Model, SceneEntry};
+use crate::syntax::Name;
 
 /// What there is to tell of a scene beside its formulas.
 pub struct SceneFacts {
@@ -150,6 +151,9 @@ fn level(
     let energy = view.of(model, derivation.energies.integral);
     let shares = Rc::ptr_eq(&derivation, &system.derivation) && selection.held.is_empty();
     let whole = shares.then_some(&system.programs);
+    let word = scene.scene.provides.iter().map(|provide| &provide.name);
+    let word = word.into_iter().find(|name| name.text == "carried" && !is_output(model, name));
+    let forms = word.map(|_| kept.clone()).unwrap_or_default();
     let (mut programs, is_part) = cheapest(model, &selection, whole, lists, kept, &parts);
     let jacobians = Jacobians::add(&mut programs, model, &selection);
     let fixes = scene
@@ -169,7 +173,7 @@ fn level(
         fixes: fixes.collect(),
         is_part,
     };
-    Some(Level {
+    let mut level = Level {
         selection,
         derivation,
         brackets,
@@ -181,7 +185,16 @@ fn level(
         constant_pivots,
         jacobians,
         scene: Some(facts),
-    })
+        carried: None,
+    };
+    if let Some(word) = word {
+        level.carried = Some(carried::derive(model, &level, &forms, word, faults)?);
+    }
+    Some(level)
+}
+
+fn is_output(model: &Model<'_>, name: &Name) -> bool {
+    model.outputs.iter().any(|output| output.name.text == name.text)
 }
 
 /// What the scene says it provides; what the system does not have is reported.
@@ -224,6 +237,8 @@ fn provided(
                     }
                 }
             },
+            // A form of its own, derived when this one is.
+            "carried" if !is_output(model, name) => {}
             output => {
                 selection.outputs.extend(model.outputs.iter().position(|known| known.name.text == output));
             }
@@ -236,7 +251,7 @@ fn provided(
     (faults.count() == before).then_some(selection)
 }
 
-fn no_reaction(name: &crate::syntax::Name, is_free: bool) -> Fault {
+fn no_reaction(name: &Name, is_free: bool) -> Fault {
     if is_free {
         return Fault::new(name.span(), "this system has no constraints, and so no reactions");
     }
