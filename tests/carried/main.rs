@@ -2,3 +2,5 @@
 
 mod functions;
 mod hoop;
+#[path = "../control/long.rs"]
+mod long;

@@ -67,7 +67,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
             }
         }
 
-        const _: () = ::core::assert!(#size == <[&str]>::len(&State::<f64>::NAMES));
+        const _: () = ::core::assert!(#size == State::<f64>::NAMES.len());
     }
 }
 

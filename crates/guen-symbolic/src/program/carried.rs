@@ -250,7 +250,10 @@ impl Carrying<'_> {
         for member in &members {
             let mut flow = Flow::new(graph, moving.iter().copied());
             let slopes = member.arguments.map(|u| flow.of(graph, u));
-            let functions = member.functions(graph, slopes, &mut carried);
+            // Relations that contain other functions are met with these as they will be.
+            let before = carried.functions.iter().map(|function| (function.symbol, function.rejoined));
+            let ahead = Substitution::new(before).of(graph, member.arguments[0]);
+            let functions = member.functions(graph, slopes, ahead, &mut carried);
             moving.extend(functions.iter().map(|function| (function.symbol, function.rate)));
             carried.functions.extend(functions);
         }
@@ -259,11 +262,12 @@ impl Carrying<'_> {
 }
 
 impl Member {
-    /// The functions with their rates, where those of the arguments are given.
+    /// The functions with their rates, where those of the arguments are given, and the argument among rejoined functions.
     fn functions(
         &self,
         graph: &mut Graph,
         slopes: [ExprId; 2],
+        ahead: ExprId,
         carried: &mut Carried,
     ) -> Vec<CarriedFunction> {
         let g = graph;
@@ -335,7 +339,7 @@ impl Member {
                         let quotient = g.product(&[(u, 1), (s, -order)]);
                         carried.invariants.push(g.sub(one, quotient));
                         // Newton's step: w + (u/w^(q-1) - w)/q.
-                        let ahead = g.product(&[(u, 1), (s, 1 - order)]);
+                        let ahead = g.product(&[(ahead, 1), (s, 1 - order)]);
                         let missing = g.sub(ahead, s);
                         let step = g.scale(missing, &share);
                         rejoined = g.add(s, step);
