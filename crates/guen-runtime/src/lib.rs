@@ -31,6 +31,7 @@
 extern crate std;
 
 mod bracket;
+mod carrying;
 pub mod checks;
 mod classification;
 pub mod control;
@@ -58,6 +59,7 @@ mod tuned;
 mod vitals;
 
 pub use bracket::{BracketCoefficients, Coefficient};
+pub use carrying::{Carrying, Rejoined, rejoined};
 pub use classification::{
     Catastatic, Class, Conservative, Holonomic, IncompleteLieGroup, LieGroup, Nonholonomic, Rheonomic,
     Scleronomic,

@@ -40,6 +40,9 @@ impl Places {
         } else {
             let variables = selection.variables.iter().enumerate();
             variables.for_each(|(i, place)| put(model.variable(*place), format!("s[{i}]")));
+            let carried = selection.carried.iter().map(|function| function.symbol);
+            let first = selection.variables.len();
+            carried.enumerate().for_each(|(i, symbol)| put(symbol, format!("s[{}]", first + i)));
         }
         mechanics.velocities.iter().enumerate().for_each(|(i, w)| put(*w, format!("w[{i}]")));
         let accelerations = selection.parameters.iter().enumerate();
@@ -87,7 +90,7 @@ pub(super) fn signature(name: &str) -> Signature {
         function::VELOCITIES | function::ENERGY | function::KINETIC_ENERGY | function::MOMENTA => {
             Signature::State
         }
-        function::DOMAIN => Signature::State,
+        function::DOMAIN | function::CARRY | function::INVARIANTS | function::REJOINED => Signature::State,
         function::OPERATORS | function::BRACKETS => Signature::Everywhere,
         _ => Signature::Position,
     }

@@ -53,6 +53,7 @@ struct Resolver<'a, 'f> {
     output_values: Vec<ExprId>,
     provides_operators: bool,
     taylor: Option<proc_macro2::Span>,
+    provides_carried: Option<&'a crate::syntax::Name>,
 }
 
 impl<'a, 'f> Resolver<'a, 'f> {
@@ -95,6 +96,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
             output_values: Vec::new(),
             provides_operators: false,
             taylor: None,
+            provides_carried: None,
         }
     }
 
@@ -223,18 +225,29 @@ impl<'a, 'f> Resolver<'a, 'f> {
             Item::Outputs(section) => section.entries.iter().for_each(|output| self.output(output)),
             Item::Provide(section) => {
                 for provide in &section.entries {
-                    if provide.name.text == "operators" && provide.of.is_none() {
-                        self.provides_operators = true;
-                        continue;
+                    match provide.name.text.as_str() {
+                        "operators" if provide.of.is_none() => {
+                            self.provides_operators = true;
+                            continue;
+                        }
+                        "carried" if provide.of.is_none() => {
+                            self.provides_carried = Some(&provide.name);
+                            continue;
+                        }
+                        "taylor" if provide.of.is_none() => {
+                            self.taylor = Some(provide.name.span());
+                            continue;
+                        }
+                        _ => {}
                     }
                     let at = provide.name.span();
-                    if provide.name.text == "taylor" && provide.of.is_none() {
-                        self.taylor = Some(at);
-                        continue;
-                    }
                     let fault = Fault::new(at, "the full system provides everything already")
                         .note("`provide` chooses what a scene offers beside its state")
-                        .note("of a system two say something: `provide operators;`, that the brackets of all operators are derived, and `provide taylor;`, that it has a Taylor series");
+                        .note(
+                            "of a system three say something: `operators`, that the brackets of all operators are \
+                             derived, `taylor`, that it has a Taylor series, and `carried`, that it has a form \
+                             without elementary calls",
+                        );
                     self.eval.faults.report(fault);
                 }
             }
@@ -493,6 +506,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
             left_out: self.eval.left_out,
             provides_operators,
             taylor: self.taylor,
+            provides_carried: self.provides_carried,
             mechanics,
             has_masses: self.has_masses,
             kinetic_energy_span: self.energy.map(|energy| energy.keyword),
@@ -517,7 +531,7 @@ fn report_idle_gravity(declaration: &Declaration, faults: &mut Faults) {
 /// Items of the generated module, and what generated code calls by short names: no system can have such a name.
 fn check_system_name(declaration: &Declaration, faults: &mut Faults) {
     let name = &declaration.name;
-    if !crate::names::is_generated_item(&name.text) {
+    if !crate::names::is_generated_item(&name.text) && !super::scenes::is_carried_form(name, declaration) {
         return;
     }
     faults.report(
