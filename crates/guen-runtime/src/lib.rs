@@ -24,6 +24,7 @@
 //! - `serde`: re-exports that crate, and [`serde_record!`] has an effect.
 //! - `std`: [`Std`], the platform's elementary functions; [`lanes`] chosen at run time, and not by the target of the
 //!   build. Without it everything else gives the same bits.
+#![cfg_attr(docsrs, feature(doc_cfg))]
 #![no_std]
 #![deny(unsafe_code)]
 

@@ -21,7 +21,7 @@ pub struct Equations {
     pub forces: Vec<ExprId>,
 }
 
-/// The classification of the forms as declared.
+/// The classification of the forms as declared, after (1.13) and (1.14).
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Class {
     /// Holonomic, all coefficients constant: Poincaré's case.
