@@ -48,13 +48,13 @@
 #![forbid(unsafe_code)]
 
 pub use guen_runtime::{
-    BodyFault, BracketCoefficients, Catastatic, Cause, Choice, Class, Coefficient, Conservative,
-    ConstantsError, Coordinate, Cost, Differentiable, Digits7, Digits7Functions, Digits13, Digits13Functions,
-    Dual, Equations, Function, Functions, Fused, FusedOperations, Generic, Holonomic, IncompleteLieGroup,
-    IntegrationError, Laned, Level, LevelInfo, Levels, LieGroup, Lift, Linearization, Monitored,
-    Nonholonomic, Operator, Ordered, Positions, PositionsError, Projected, Real, Report, ReportSection,
-    Rheonomic, Scleronomic, Setting, System, Tuned, Vitals, from_fn, generic, lanes, prelude, project,
-    projected, steppers,
+    Bodies, Body, BodyFault, BracketCoefficients, Catastatic, Cause, Choice, Class, Coefficient,
+    Conservative, ConstantsError, Coordinate, Cost, Differentiable, Digits7, Digits7Functions, Digits13,
+    Digits13Functions, Dual, Equations, Function, Functions, Fused, FusedOperations, Generic, Holonomic,
+    IncompleteLieGroup, IntegrationError, Laned, Level, LevelInfo, Levels, LieGroup, Lift, Linearization,
+    Monitored, Nonholonomic, Operator, Ordered, Positions, PositionsError, Projected, Real, Report,
+    ReportSection, Rheonomic, Scleronomic, Setting, System, Tuned, Vitals, from_fn, generic, lanes, prelude,
+    project, projected, steppers,
 };
 pub use guen_runtime::{Liftable, Linearizable, OutputLinearization, control, seeded};
 
@@ -105,9 +105,9 @@ pub mod __private {
     };
     pub use guen_runtime::lanes::Lanes;
     pub use guen_runtime::{
-        BracketCoefficients, Catastatic, Class, Coefficient, Conservative, ConstantsError, Cost,
-        Differentiable, Dual, Holonomic, IncompleteLieGroup, Laned, Level, LevelInfo, Levels, LieGroup, Lift,
-        Liftable, Linearizable, Linearization, Monitored, Nonholonomic, Operator, Ordered,
+        Bodies, Body, BracketCoefficients, Catastatic, Class, Coefficient, Conservative, ConstantsError,
+        Cost, Differentiable, Dual, Holonomic, IncompleteLieGroup, Laned, Level, LevelInfo, Levels, LieGroup,
+        Lift, Liftable, Linearizable, Linearization, Monitored, Nonholonomic, Operator, Ordered,
         OutputLinearization, Positions, PositionsError, Real, Report, ReportSection, Rheonomic, Scleronomic,
         System, Vitals, nalgebra_conversions, seeded, zero_bracket,
     };

@@ -14,6 +14,7 @@
 //! | how is it controlled? | [`Linearizable`], [`control`] |
 //! | which level of detail? | [`Level`], [`LevelInfo`], [`Levels`] |
 //! | what holds of positions? | [`Positions`], [`consistent`], [`project`], [`projected`] |
+//! | where are its bodies? | [`Bodies`] |
 //! | what can go wrong? | [`ConstantsError`], [`IntegrationError`] with its [`Cause`], [`PositionsError`] |
 //!
 //! The crate knows nothing of the language or of the algebra, and can be used with systems written by hand.
@@ -30,6 +31,7 @@
 #[cfg(feature = "std")]
 extern crate std;
 
+mod bodies;
 mod bracket;
 pub mod checks;
 mod classification;
@@ -56,6 +58,7 @@ mod system;
 mod tuned;
 mod vitals;
 
+pub use bodies::{Bodies, Body};
 pub use bracket::{BracketCoefficients, Coefficient};
 pub use classification::{
     Catastatic, Class, Conservative, Holonomic, IncompleteLieGroup, LieGroup, Nonholonomic, Rheonomic,

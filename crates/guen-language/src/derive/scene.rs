@@ -177,6 +177,7 @@ fn level(
         equations: Vec::new(),
         energy,
         programs,
+        placed: None,
         domain_names,
         constant_pivots,
         jacobians,

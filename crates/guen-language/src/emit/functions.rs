@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use guen_symbolic::{ExprId, SymbolId};
+use guen_symbolic::{ExprId, Programs, SymbolId};
 use proc_macro2::TokenStream;
 
 use super::code::{Loads, body};
@@ -93,15 +93,23 @@ pub(super) fn signature(name: &str) -> Signature {
     }
 }
 
-/// The module: `prepare` and every function, generic over the real.
-pub(super) fn module(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
-    let programs = &subject.level.programs;
+/// The modules: `prepare` and every function, generic over the real.
+pub(super) fn modules(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
+    let mut text = module("program", &subject.level.programs, subject, layout);
+    if let Some(placed) = &subject.level.placed {
+        text.push_str(&module("placed", placed, subject, layout));
+    }
+    tokens(&text)
+}
+
+fn module(name: &str, programs: &Programs, subject: &Subject<'_, '_>, layout: &Layout) -> String {
     let (places, everywhere) = (Places::new(subject, false), Places::new(subject, true));
-    let Layout { n, l, size, all, constants, hoisted, inputs, .. } = layout;
-    let mut text = String::from(
+    let Layout { n, l, size, all, constants, inputs, .. } = layout;
+    let hoisted = programs.prepared.len();
+    let mut text = format!(
         "#[allow(unused_variables, reason = \"every function has the signature of its kind\")]
         #[allow(clippy::all, clippy::pedantic, clippy::nursery, clippy::restriction, reason = \"straight-line code for the compiler\")]
-        mod program { use super::__guen;",
+        mod {name} {{ use super::__guen;"
     );
     let _ = write!(
         text,
@@ -129,5 +137,5 @@ pub(super) fn module(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream 
         );
     }
     text.push('}');
-    tokens(&text)
+    text
 }
