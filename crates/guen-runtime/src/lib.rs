@@ -14,6 +14,7 @@
 //! | how is it controlled? | [`Linearizable`], [`control`] |
 //! | which level of detail? | [`Level`], [`LevelInfo`], [`Levels`] |
 //! | what holds of positions? | [`Positions`], [`consistent`], [`project`], [`projected`] |
+//! | where are its bodies? | [`Bodies`] |
 //! | what can go wrong? | [`ConstantsError`], [`IntegrationError`] with its [`Cause`], [`PositionsError`] |
 //!
 //! The crate knows nothing of the language or of the algebra, and can be used with systems written by hand.
@@ -31,6 +32,7 @@
 #[cfg(feature = "std")]
 extern crate std;
 
+mod bodies;
 mod bracket;
 mod carrying;
 pub mod checks;
@@ -59,6 +61,7 @@ mod system;
 mod tuned;
 mod vitals;
 
+pub use bodies::{Bodies, Body};
 pub use bracket::{BracketCoefficients, Coefficient};
 pub use carrying::{Carrying, Rejoined, rejoined};
 pub use classification::{

@@ -7,7 +7,6 @@
 //! `algebra` (expressions) -> `zero` (does it vanish?) -> `normal` (polynomial normal forms) -> `print`
 //! -> `geometry` (forms, operators, brackets, class) -> `motion` (equations) -> `program` (straight-line code).
 #![cfg_attr(docsrs, feature(doc_cfg))]
-
 #![forbid(unsafe_code)]
 
 mod algebra;
