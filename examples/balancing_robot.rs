@@ -14,7 +14,7 @@ use std::process::ExitCode;
 use guen::Linearization;
 use guen::control::{Component, Frozen, controllability};
 use guen::prelude::*;
-use guen_study::{Plot, Table};
+use guen_study::{Plot, Recording, Table, Viewer};
 use nalgebra::{Matrix2, SMatrix};
 
 #[path = "../crates/guen-bare/src/controller.rs"]
@@ -162,6 +162,7 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
     }
     println!("{table}\n");
     draw(&record)?;
+    play(&robot, &record)?;
 
     // 6. Did it work?
     let tilt = record.iter().map(|(_, s, _)| s.tilt.abs()).fold(0.0, f64::max);
@@ -222,5 +223,39 @@ fn draw(record: &[(f64, State, Inputs)]) -> Result<(), Box<dyn Error>> {
         .line("right", curve(|_, u| u.right_torque))
         .save(pictures.join("torques.svg"))?;
     println!("pictures: balance.svg, path.svg and torques.svg in {}", pictures.display());
+    Ok(())
+}
+
+/// The run as a page. Nothing says what the bodies look like: they are drawn by their masses and inertias.
+fn play(robot: &robot::Prepared, record: &[(f64, State, Inputs)]) -> Result<(), Box<dyn Error>> {
+    const METRES_PER_NEWTON: f64 = 0.004;
+    let mut recording = Recording::new(&State::NAMES);
+    for (t, state, _) in record {
+        recording.record(*t, &(*state).into());
+    }
+    let inputs = |t: f64| record[((t / PERIOD).round() as usize).min(record.len() - 1)].2;
+    let height = robot.constants().r + robot.constants().h;
+    let page = Path::new("target/guen/balancing_robot/robot.html");
+    Viewer::new("A robot that balances on two wheels, drives, is pushed and turns", &recording)
+        .bodies(robot)
+        .arrow("push", 0.012, |t, state| {
+            let State { x, y, heading, .. } = (*state).into();
+            let length = METRES_PER_NEWTON * inputs(t).push;
+            let [c, s] = [heading.cos(), heading.sin()];
+            let behind = 0.15 + length;
+            [[x - behind * c, y - behind * s, height], [length * c, length * s, 0.0]]
+        })
+        .path("middle of the axle", |_, state| [state[0], state[1], 0.0])
+        .panel("lean in rad")
+        .curve("tilt", |_, state| State::from(*state).tilt)
+        .panel("speed in m/s, turn in rad/s")
+        .curve("speed", |_, state| State::from(*state).speed)
+        .curve("turn", |_, state| State::from(*state).turn)
+        .panel("torques in N m")
+        .curve("left", |t, _| inputs(t).left_torque)
+        .curve("right", |t, _| inputs(t).right_torque)
+        .follow("chassis")
+        .write(page)?;
+    println!("to play: {}", page.display());
     Ok(())
 }

@@ -49,14 +49,15 @@
 #![forbid(unsafe_code)]
 
 pub use guen_runtime::{
-    BodyFault, BracketCoefficients, Catastatic, Cause, Choice, Class, Coefficient, Conservative,
-    ConstantsError, Coordinate, Cost, Differentiable, Digits7, Digits7Functions, Digits13, Digits13Functions,
-    Dual, Equations, Function, Functions, Fused, FusedOperations, Generic, Holonomic, IncompleteLieGroup,
-    IntegrationError, Laned, Level, LevelInfo, Levels, LieGroup, Lift, Linearization, Monitored,
-    Nonholonomic, Operator, Ordered, Positions, PositionsError, Projected, Real, Report, ReportSection,
-    Rheonomic, Scleronomic, Setting, System, Tuned, Vitals, from_fn, generic, lanes, prelude, project,
-    projected, steppers,
+    Bodies, Body, BodyFault, BracketCoefficients, Carrying, Catastatic, Cause, Choice, Class, Coefficient,
+    Conservative, ConstantsError, Coordinate, Cost, Differentiable, Digits7, Digits7Functions, Digits13,
+    Digits13Functions, Dual, Equations, Function, Functions, Fused, FusedOperations, Generic, Holonomic,
+    IncompleteLieGroup, IntegrationError, Laned, Level, LevelInfo, Levels, LieGroup, Lift, Linearization,
+    Monitored, Nonholonomic, Operator, Ordered, Positions, PositionsError, Projected, Real, Rejoined, Report,
+    ReportSection, Rheonomic, Scleronomic, Setting, System, Tuned, Vitals, from_fn, generic, lanes, prelude,
+    project, projected, rejoined, steppers,
 };
+pub use guen_runtime::{Coefficients, Convolutions, HIGHEST_ORDER, TaylorSeries};
 pub use guen_runtime::{Liftable, Linearizable, OutputLinearization, control, seeded};
 
 #[cfg(feature = "std")]
@@ -102,15 +103,17 @@ macro_rules! mechanical_system {
 pub mod __private {
     pub use guen_macros::mechanical_system;
     pub use guen_runtime::checks::{
-        check_fixed, check_hoisted, check_inertia, check_limits, check_mass, check_pivot, clamped, largest,
+        check_fixed, check_hoisted, check_inertia, check_limits, check_mass, check_pivot, clamped, drift,
+        largest,
     };
     pub use guen_runtime::lanes::Lanes;
     pub use guen_runtime::{
-        BracketCoefficients, Catastatic, Class, Coefficient, Conservative, ConstantsError, Cost,
-        Differentiable, Dual, Holonomic, IncompleteLieGroup, Laned, Level, LevelInfo, Levels, LieGroup, Lift,
-        Liftable, Linearizable, Linearization, Monitored, Nonholonomic, Operator, Ordered,
-        OutputLinearization, Positions, PositionsError, Real, Report, ReportSection, Rheonomic, Scleronomic,
-        System, Vitals, nalgebra_conversions, seeded, zero_bracket,
+        Bodies, Body, BracketCoefficients, Carrying, Catastatic, Class, Coefficient, Coefficients,
+        Conservative, ConstantsError, Convolutions, Cost, Differentiable, Dual, HIGHEST_ORDER, Holonomic,
+        IncompleteLieGroup, Laned, Level, LevelInfo, Levels, LieGroup, Lift, Liftable, Linearizable,
+        Linearization, Monitored, Nonholonomic, Operator, Ordered, OutputLinearization, Positions,
+        PositionsError, Real, Report, ReportSection, Rheonomic, Scleronomic, System, TaylorSeries, Vitals,
+        nalgebra_conversions, seeded, zero_bracket,
     };
     pub use guen_runtime::{consistent, control, serde_record};
 }

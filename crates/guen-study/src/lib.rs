@@ -9,6 +9,7 @@
 //! | how good is it? | [`Monitor`] and its [`Invariants`]; [`drift`] and [`residuals`] as curves |
 //! | what are the numbers? | [`Table`], aligned for a terminal; [`significant`] for one number |
 //! | what does it look like? | [`Plot`], an SVG picture |
+//! | how does it move? | `Viewer`, an HTML page that plays a recording; feature `viewer` |
 //! | what if it begins elsewhere? | [`Ensemble`]: many motions in lanes and on threads |
 //! | what did a scene leave out? | [`recover`]: integrals along a recorded run of a scene, with their errors |
 //! | what went wrong? | [`StudyError`], [`RecoveryError`] |
@@ -51,6 +52,8 @@ mod recovery;
 #[cfg(feature = "serde")]
 mod stored;
 mod table;
+#[cfg(feature = "viewer")]
+mod viewer;
 
 pub use ensemble::{End, Ensemble, Sampled};
 pub use error::StudyError;
@@ -62,3 +65,5 @@ pub use recovery::{Nodes, Recovered, RecoveryError, recover};
 #[cfg(feature = "serde")]
 pub use stored::StoredRecording;
 pub use table::{Table, significant};
+#[cfg(feature = "viewer")]
+pub use viewer::{Pose, Shape, Viewer};
