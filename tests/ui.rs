@@ -209,56 +209,79 @@ fn every_expectation_has_a_case() {
     assert!(cases().len() >= 60);
 }
 
-/// `docs/errors.md`: a row for every case with one error, in the order of the themes.
+/// What each theme is about, as its page says. A new folder under `tests/ui` needs a line here.
+const THEMES: [(&str, &str); 10] = [
+    ("energies", "kinetic energy, force function, forces and gravity"),
+    ("forms", "parameters and constraints: linear, independent, as many as there are coordinates"),
+    ("kinds", "scalars, vectors and rotations; what may depend on what"),
+    ("limits", "bounds on the size of what is declared"),
+    ("names", "unknown, reserved, declared twice"),
+    ("scenes", "tracked, fixed and provided"),
+    ("several", "several faults at once"),
+    ("singular", "a direction without inertia"),
+    ("spatial", "bodies, rotations, constraints on positions"),
+    ("syntax", "punctuation, sections, habits from other languages"),
+];
+
+/// `docs/errors.md` and a page for every theme: all cases with one error.
 #[test]
-fn the_table_of_errors_is_current() {
+fn the_pages_of_errors_are_current() {
     let mut themes: BTreeMap<String, Vec<Case>> = BTreeMap::new();
     for case in cases().into_iter().filter(|case| case.errors == 1) {
         themes.entry(case.theme.clone()).or_default().push(case);
     }
-    let mut page = String::from(
-        "# Errors\n\nEvery mistake that the macro finds, with the line of a small example, the message and a repair. The page is\nwritten by `TRYBUILD=overwrite cargo test --test ui` from the cases under `tests/ui`, where each example is a whole\nfile, and the repairs are tried. `^` stands under the place that the compiler underlines.\n",
+    let mut index = String::from(
+        "# Errors\n\nEvery mistake that the macro finds, with the line of a small example, the message and a repair. The pages are\nwritten by `TRYBUILD=overwrite cargo test --test ui` from the cases under `tests/ui`, where each example is a whole\nfile, and the repairs are tried. `^` stands under the place that the compiler underlines.\n\nThe search of the book finds a message by any of its words.\n\n| page | about | errors |\n| --- | --- | --- |\n",
     );
+    let mut written = Vec::new();
     for (theme, cases) in themes {
-        let _ = writeln!(page, "\n## {}{}", theme[..1].to_uppercase(), &theme[1..]);
-        for case in cases {
-            let (_, drawn) = shown(&case);
-            let message: Vec<&str> =
-                drawn.lines().take_while(|line| !line.trim_start().starts_with("-->")).collect();
-            let place: Vec<&str> = drawn.lines().skip(message.len() + 2).take(2).collect();
-            // The page need not point to itself.
-            let message: Vec<&str> = message.into_iter().filter(|line| line.trim() != POINTER).collect();
-            let place: Vec<&str> =
-                place.iter().map(|line| line.split_once(" |").map_or(*line, |(_, code)| code)).collect();
-            let indent = |line: &str| line.len() - line.trim_start().len();
-            let least =
-                place.iter().filter(|line| !line.is_empty()).map(|line| indent(line)).min().unwrap_or(0);
-            let _ = writeln!(page, "\n### {}\n\n```text", case.law.trim_end_matches('.'));
-            for line in place {
-                let line = line.get(least..).unwrap_or_default();
-                let line: String = if line.chars().count() > 160 {
-                    line.chars().take(160).chain(['…']).collect()
-                } else {
-                    line.to_owned()
-                };
-                let _ = writeln!(page, "{}", line.trim_end());
-            }
-            let _ = writeln!(page, "```\n\n```text\n{}\n```", message.join("\n"));
-            for (from, to) in &case.repairs {
-                let repair = match (from.as_str(), to.as_str()) {
-                    (from, "") => format!("remove `{from}`"),
-                    (from, to) => format!("`{from}` becomes `{to}`"),
-                };
-                let _ = writeln!(page, "\nRepair: {repair}.");
-            }
+        let (_, about) = THEMES.iter().find(|(name, _)| *name == theme).expect("a theme has a line in THEMES");
+        let _ = writeln!(index, "| [{theme}](errors/{theme}.md) | {about} | {} |", cases.len());
+        let mut page = format!("# Errors: {theme}\n\nAbout {about}. [What this page is](../errors.md).\n");
+        cases.iter().for_each(|case| page += &entry(case));
+        written.push((format!("docs/errors/{theme}.md"), page));
+    }
+    written.push(("docs/errors.md".to_owned(), index));
+    for (path, page) in written {
+        let file = root().join(&path);
+        if overwrite() {
+            fs::write(&file, &page).unwrap();
         }
+        let current = fs::read_to_string(&file).unwrap_or_default();
+        assert!(current == page, "{path} is stale: run `TRYBUILD=overwrite cargo test --test ui`");
     }
-    let path = root().join("docs/errors.md");
-    if overwrite() {
-        fs::write(&path, &page).unwrap();
+}
+
+/// The law of a case, its line, its message and its repairs.
+fn entry(case: &Case) -> String {
+    let (_, drawn) = shown(case);
+    let message: Vec<&str> = drawn.lines().take_while(|line| !line.trim_start().starts_with("-->")).collect();
+    let place: Vec<&str> = drawn.lines().skip(message.len() + 2).take(2).collect();
+    // The page need not point to itself.
+    let message: Vec<&str> = message.into_iter().filter(|line| line.trim() != POINTER).collect();
+    let place: Vec<&str> =
+        place.iter().map(|line| line.split_once(" |").map_or(*line, |(_, code)| code)).collect();
+    let indent = |line: &str| line.len() - line.trim_start().len();
+    let least = place.iter().filter(|line| !line.is_empty()).map(|line| indent(line)).min().unwrap_or(0);
+    let mut text = format!("\n## {}\n\n```text\n", case.law.trim_end_matches('.'));
+    for line in place {
+        let line = line.get(least..).unwrap_or_default();
+        let line: String = if line.chars().count() > 160 {
+            line.chars().take(160).chain(['…']).collect()
+        } else {
+            line.to_owned()
+        };
+        let _ = writeln!(text, "{}", line.trim_end());
     }
-    let current = fs::read_to_string(&path).unwrap_or_default();
-    assert!(current == page, "docs/errors.md is stale: run `TRYBUILD=overwrite cargo test --test ui`");
+    let _ = writeln!(text, "```\n\n```text\n{}\n```", message.join("\n"));
+    for (from, to) in &case.repairs {
+        let repair = match (from.as_str(), to.as_str()) {
+            (from, "") => format!("remove `{from}`"),
+            (from, to) => format!("`{from}` becomes `{to}`"),
+        };
+        let _ = writeln!(text, "\nRepair: {repair}.");
+    }
+    text
 }
 
 /// A case of every theme through the compiler, against the same files; all with `GUEN_UI=all`.
