@@ -45,6 +45,7 @@
 //! | `std` | yes | `Std`, and lanes chosen at run time; recordings and pictures are in the crate `guen-study` |
 //! | `serde` | no | serde's traits for constants, states and inputs; for recordings the feature of `guen-study` |
 #![no_std]
+#![cfg_attr(docsrs, feature(doc_cfg))]
 #![forbid(unsafe_code)]
 
 pub use guen_runtime::{
@@ -56,6 +57,7 @@ pub use guen_runtime::{
     ReportSection, Rheonomic, Scleronomic, Setting, System, Tuned, Vitals, from_fn, generic, lanes, prelude,
     project, projected, rejoined, steppers,
 };
+pub use guen_runtime::{Coefficients, Convolutions, HIGHEST_ORDER, TaylorSeries};
 pub use guen_runtime::{Liftable, Linearizable, OutputLinearization, control, seeded};
 
 #[cfg(feature = "std")]
@@ -66,7 +68,7 @@ pub use guen_runtime::{Std, StdFunctions};
 /// For `pub system Hoop { .. }` it generates the struct `Hoop` of physical constants and, beside it, the module
 /// `hoop` with everything else: `State`, `Prepared`, the operators `X0 ..`, their `Bracket`s, classification and
 /// costs as constants, and the text of what was derived. The sections of a declaration are described in the
-/// language reference, `docs/language.md` of the repository.
+/// book, chapter "The language" (`docs/language.md` of the repository).
 ///
 /// ```
 /// guen::mechanical_system! {
@@ -106,36 +108,12 @@ pub mod __private {
     };
     pub use guen_runtime::lanes::Lanes;
     pub use guen_runtime::{
-        BracketCoefficients, Carrying, Catastatic, Class, Coefficient, Conservative, ConstantsError, Cost,
-        Differentiable, Dual, Holonomic, IncompleteLieGroup, Laned, Level, LevelInfo, Levels, LieGroup, Lift,
-        Liftable, Linearizable, Linearization, Monitored, Nonholonomic, Operator, Ordered,
-        OutputLinearization, Positions, PositionsError, Real, Report, ReportSection, Rheonomic, Scleronomic,
-        System, Vitals, nalgebra_conversions, seeded, zero_bracket,
+        BracketCoefficients, Carrying, Catastatic, Class, Coefficient, Coefficients, Conservative,
+        ConstantsError, Convolutions, Cost, Differentiable, Dual, HIGHEST_ORDER, Holonomic,
+        IncompleteLieGroup, Laned, Level, LevelInfo, Levels, LieGroup, Lift, Liftable, Linearizable,
+        Linearization, Monitored, Nonholonomic, Operator, Ordered, OutputLinearization, Positions,
+        PositionsError, Real, Report, ReportSection, Rheonomic, Scleronomic, System, TaylorSeries, Vitals,
+        nalgebra_conversions, seeded, zero_bracket,
     };
     pub use guen_runtime::{consistent, control, serde_record};
-}
-
-/// The Rust blocks of the pages under `docs/` and of the README, compiled and run as doctests.
-#[cfg(doctest)]
-mod pages {
-    #[doc = include_str!("../README.md")]
-    mod readme {}
-    #[doc = include_str!("../docs/language.md")]
-    mod language {}
-    #[doc = include_str!("../docs/bodies.md")]
-    mod bodies {}
-    #[doc = include_str!("../docs/generated.md")]
-    mod generated {}
-    #[doc = include_str!("../docs/scenes.md")]
-    mod scenes {}
-    #[doc = include_str!("../docs/reals.md")]
-    mod reals {}
-    #[doc = include_str!("../docs/integrators.md")]
-    mod integrators {}
-    #[doc = include_str!("../docs/control.md")]
-    mod control {}
-    #[doc = include_str!("../docs/theory.md")]
-    mod theory {}
-    #[doc = include_str!("../docs/internals.md")]
-    mod internals {}
 }

@@ -9,12 +9,13 @@ mod manifold;
 mod parts;
 mod scene;
 mod selection;
+mod series;
 
 use std::rc::Rc;
 
 use guen_symbolic::{
-    Derivation, ExprId, FunctionProgram, Limits, ProgramBuilder, Programs, Workbench, normal_coefficients,
-    normal_form, weighted_cost,
+    Derivation, ExprId, FunctionProgram, Limits, ProgramBuilder, Programs, SeriesProgram, Workbench,
+    normal_coefficients, normal_form, weighted_cost,
 };
 
 use crate::diagnostics::Faults;
@@ -55,6 +56,8 @@ pub struct Level {
     pub domain_names: Vec<String>,
     /// Expressions of constants that must not vanish.
     pub constant_pivots: Vec<ExprId>,
+    /// The recurrences of its Taylor series, if it provides one.
+    pub series: Option<SeriesProgram>,
     /// Where the derivatives belong that have code of their own.
     pub jacobians: Jacobians,
     /// What there is to tell of a scene; none for the system itself.
@@ -153,7 +156,10 @@ pub fn derive<'a>(mut model: Model<'a>, faults: &mut Faults) -> Option<Derived<'
     }
     polish(&mut model.bench, &mut derivation);
     let brackets = commutators(&mut model, &mut derivation);
-    let system = whole(&mut model, Rc::new(derivation), Rc::new(brackets), faults);
+    let mut system = whole(&mut model, Rc::new(derivation), Rc::new(brackets), faults);
+    if let Some(word) = model.taylor {
+        system.series = series::of(&model, &system.selection, &system.programs, word, faults);
+    }
     let scenes = scene::derive(&mut model, &system, faults);
     (faults.count() == before).then_some(Derived { model, system, scenes })
 }
@@ -205,6 +211,7 @@ fn whole(
         programs,
         domain_names,
         constant_pivots,
+        series: None,
         jacobians,
         scene: None,
         carried: None,

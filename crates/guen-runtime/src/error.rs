@@ -187,6 +187,8 @@ pub enum Setting {
     Guard,
     /// The number of evaluations allowed is not enough for one step.
     Budget,
+    /// The order of the method is none that it has.
+    Order,
 }
 
 impl fmt::Display for Cause {
@@ -228,6 +230,7 @@ impl fmt::Display for Cause {
                 f.write_str("the tolerance of an event is not a nonnegative number")
             }
             Self::Setting(Setting::Guard) => f.write_str("a limit of the guard is not a nonnegative number"),
+            Self::Setting(Setting::Order) => f.write_str("the order is not between 2 and 32"),
             Self::Setting(Setting::Budget) => {
                 f.write_str("the number of evaluations is not enough for one step")
             }

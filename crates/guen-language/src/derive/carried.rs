@@ -69,6 +69,7 @@ pub(super) fn derive(
         domain_names,
         constant_pivots: Vec::new(),
         jacobians: Jacobians::default(),
+        series: None,
         scene: None,
         carried: None,
     }))

@@ -9,7 +9,7 @@ use super::fixed::{self, Holding};
 use super::manifold::{Replacement, quaternions};
 use super::parts::{View, cheapest, parts, replaced};
 use super::selection::{Held, Place, Selection};
-use super::{Commutator, Level, carried, commutators, formulas, polish};
+use super::{Commutator, Level, carried, commutators, formulas, polish, series};
 use crate::diagnostics::{Fault, Faults};
 use crate::jacobians::Jacobians;
 use crate::model::{Model, SceneEntry};
@@ -151,11 +151,15 @@ fn level(
     let energy = view.of(model, derivation.energies.integral);
     let shares = Rc::ptr_eq(&derivation, &system.derivation) && selection.held.is_empty();
     let whole = shares.then_some(&system.programs);
-    let word = scene.scene.provides.iter().map(|provide| &provide.name);
-    let word = word.into_iter().find(|name| name.text == "carried" && !is_output(model, name));
-    let forms = word.map(|_| kept.clone()).unwrap_or_default();
+    let provided = |word: &str| {
+        let names = scene.scene.provides.iter().map(|provide| &provide.name);
+        names.into_iter().find(|name| name.text == word && !is_output(model, name))
+    };
+    let (carries, expands) = (provided("carried"), provided("taylor"));
+    let forms = carries.map(|_| kept.clone()).unwrap_or_default();
     let (mut programs, is_part) = cheapest(model, &selection, whole, lists, kept, &parts);
     let jacobians = Jacobians::add(&mut programs, model, &selection);
+    let series = expands.and_then(|word| series::of(model, &selection, &programs, word.span(), faults));
     let fixes = scene
         .fixes
         .iter()
@@ -183,11 +187,12 @@ fn level(
         programs,
         domain_names,
         constant_pivots,
+        series,
         jacobians,
         scene: Some(facts),
         carried: None,
     };
-    if let Some(word) = word {
+    if let Some(word) = carries {
         level.carried = Some(carried::derive(model, &level, &forms, word, faults)?);
     }
     Some(level)
@@ -214,6 +219,8 @@ fn provided(
             "energy" => selection.energy = true,
             "linearization" => selection.linearization = true,
             "operators" => selection.operators = true,
+            // Of the programs, once they are there.
+            "taylor" => {}
             "reactions" => match &provide.of {
                 None => {
                     let all = (l..model.forms.len()).filter(known);

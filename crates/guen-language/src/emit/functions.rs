@@ -10,7 +10,7 @@ use super::{Layout, Subject, tokens};
 use crate::derive::function;
 
 /// Where the values of symbols are: in the arrays that a function takes.
-struct Places(Vec<String>);
+pub(super) struct Places(Vec<String>);
 
 impl Loads for Places {
     fn symbol(&self, symbol: SymbolId) -> String {
@@ -130,6 +130,9 @@ pub(super) fn module(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream 
             program.outputs.len(),
             body(&program.instructions, &program.outputs, places),
         );
+    }
+    if let Some(series) = &subject.level.series {
+        text.push_str(&super::series::function(series, &places, layout));
     }
     text.push('}');
     tokens(&text)

@@ -23,6 +23,7 @@ mod physical;
 mod positions;
 mod records;
 mod serde;
+mod series;
 mod uses;
 
 use proc_macro2::{Ident, Span, TokenStream};
@@ -191,6 +192,7 @@ fn module(
         records::items(subject, &layout),
         motion::items(subject, &layout),
         lanes::items(&layout),
+        series::items(subject, &layout),
         linearization::items(subject, &layout),
         control::items(subject, &layout),
         limits::items(subject, &layout),

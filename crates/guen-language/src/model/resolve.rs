@@ -52,6 +52,7 @@ struct Resolver<'a, 'f> {
     scenes: Vec<SceneEntry<'a>>,
     output_values: Vec<ExprId>,
     provides_operators: bool,
+    taylor: Option<proc_macro2::Span>,
     provides_carried: Option<&'a crate::syntax::Name>,
 }
 
@@ -94,6 +95,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
             scenes: Vec::new(),
             output_values: Vec::new(),
             provides_operators: false,
+            taylor: None,
             provides_carried: None,
         }
     }
@@ -232,12 +234,20 @@ impl<'a, 'f> Resolver<'a, 'f> {
                             self.provides_carried = Some(&provide.name);
                             continue;
                         }
+                        "taylor" if provide.of.is_none() => {
+                            self.taylor = Some(provide.name.span());
+                            continue;
+                        }
                         _ => {}
                     }
                     let at = provide.name.span();
                     let fault = Fault::new(at, "the full system provides everything already")
                         .note("`provide` chooses what a scene offers beside its state")
-                        .note("of a system only `provide operators;` says something, that the brackets of all operators are derived, and `provide carried;`, a form without elementary calls");
+                        .note(
+                            "of a system three say something: `operators`, that the brackets of all operators are \
+                             derived, `taylor`, that it has a Taylor series, and `carried`, that it has a form \
+                             without elementary calls",
+                        );
                     self.eval.faults.report(fault);
                 }
             }
@@ -495,6 +505,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
             scenes: self.scenes,
             left_out: self.eval.left_out,
             provides_operators,
+            taylor: self.taylor,
             provides_carried: self.provides_carried,
             mechanics,
             has_masses: self.has_masses,

@@ -15,7 +15,7 @@ use crate::names;
 use crate::syntax::{Declaration, Fix, Item, Name, Provide, Scene};
 
 /// What a scene may provide beside outputs.
-const QUANTITIES: [&str; 5] = ["energy", "reactions", "linearization", "operators", "carried"];
+const QUANTITIES: [&str; 6] = ["energy", "reactions", "linearization", "operators", "carried", "taylor"];
 
 /// Whether a name is that of a carried form, and the declaration asks for one.
 pub(super) fn is_carried_form(name: &Name, declaration: &Declaration) -> bool {

@@ -15,6 +15,7 @@ mod lower;
 mod net;
 mod part;
 mod passes;
+mod taylor;
 mod terms;
 #[cfg(test)]
 mod tests;
@@ -25,3 +26,4 @@ pub use cost::{OperationCount, weighted_cost};
 pub use evaluate::{Arithmetic, evaluate_function, evaluate_prepare};
 pub use instruction::{FunctionProgram, Instruction, Operation, Programs, Value};
 pub use jacobian::{LARGEST_DIFFERENTIATED, LARGEST_JACOBIAN, Pattern};
+pub use taylor::{NotAnalytic, SeriesProgram, SeriesStep, Source, Start};
