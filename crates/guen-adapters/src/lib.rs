@@ -9,6 +9,7 @@
 //! of differences: a prepared system is [`Linearizable`](guen_runtime::Linearizable), and so is a scene that provides its linearisation. What is
 //! [`Differentiable`](guen_runtime::Differentiable) only (a carried form, a driven system, another scene, equations
 //! written by hand) becomes so by [`ByDuals`].
+#![cfg_attr(docsrs, feature(doc_cfg))]
 #![forbid(unsafe_code)]
 
 mod by_duals;
