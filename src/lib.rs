@@ -52,9 +52,9 @@ pub use guen_runtime::{
     ConstantsError, Coordinate, Cost, Differentiable, Digits7, Digits7Functions, Digits13, Digits13Functions,
     Dual, Equations, Function, Functions, Fused, FusedOperations, Generic, Holonomic, IncompleteLieGroup,
     IntegrationError, Laned, Level, LevelInfo, Levels, LieGroup, Lift, Linearization, Monitored,
-    Nonholonomic, Operator, Ordered, Positions, PositionsError, Projected, Real, Report, ReportSection,
-    Rheonomic, Scleronomic, Setting, System, Tuned, Vitals, from_fn, generic, lanes, prelude, project,
-    projected, steppers,
+    Nonholonomic, Operator, Ordered, Positions, PositionsError, Projected, Real, Recast, Report,
+    ReportSection, Rheonomic, Scleronomic, Setting, System, Tuned, Vitals, from_fn, generic, lanes, prelude,
+    project, projected, steppers,
 };
 pub use guen_runtime::{Liftable, Linearizable, OutputLinearization, control, seeded};
 
@@ -108,8 +108,8 @@ pub mod __private {
         BracketCoefficients, Catastatic, Class, Coefficient, Conservative, ConstantsError, Cost,
         Differentiable, Dual, Holonomic, IncompleteLieGroup, Laned, Level, LevelInfo, Levels, LieGroup, Lift,
         Liftable, Linearizable, Linearization, Monitored, Nonholonomic, Operator, Ordered,
-        OutputLinearization, Positions, PositionsError, Real, Report, ReportSection, Rheonomic, Scleronomic,
-        System, Vitals, nalgebra_conversions, seeded, zero_bracket,
+        OutputLinearization, Positions, PositionsError, Real, Recast, Report, ReportSection, Rheonomic,
+        Scleronomic, System, Vitals, nalgebra_conversions, seeded, zero_bracket,
     };
     pub use guen_runtime::{consistent, control, serde_record};
 }

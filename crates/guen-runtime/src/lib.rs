@@ -7,6 +7,7 @@
 //! | what is a number? | [`Real`], [`Ordered`], [`Dual`]; [`Lift`] embeds a base real |
 //! | what is integrated? | [`System`], [`Monitored`], [`Differentiable`], [`from_fn`], [`generic`] |
 //! | which functions does it have? | [`Tuned`]: [`Digits13`], [`Digits7`], [`Fused`], [`Functions`] of your own |
+//! | over which reals? | [`Recast`], what can be made anew over each |
 //! | how many at once? | [`lanes`]; [`Laned`] systems |
 //! | what acts on functions? | [`Operator`], [`Function`], [`Coordinate`], [`BracketCoefficients`] |
 //! | what is known at compile time? | [`Class`], the markers [`Holonomic`] to [`Conservative`], [`Cost`] |
@@ -49,6 +50,7 @@ mod nalgebra_support;
 mod operator;
 mod positions;
 mod real;
+mod recast;
 mod report;
 mod serde_support;
 pub mod steppers;
@@ -71,6 +73,7 @@ pub use linearization::{Liftable, Linearizable, Linearization, OutputLinearizati
 pub use operator::{Applied, Coordinate, Function, Operator};
 pub use positions::{Positions, PositionsError, Projected, consistent, project, projected};
 pub use real::{Ordered, Real};
+pub use recast::Recast;
 pub use report::{Report, ReportSection};
 pub use system::{FromFn, Laned, Monitored, System, from_fn};
 pub use tuned::{

@@ -10,6 +10,7 @@
 //! | what are the numbers? | [`Table`], aligned for a terminal; [`significant`] for one number |
 //! | what does it look like? | [`Plot`], an SVG picture |
 //! | what if it begins elsewhere? | [`Ensemble`]: many motions in lanes and on threads |
+//! | which method, which real, which step? | `Study`, with the feature `study`: the trade of speed for accuracy, measured |
 //! | what did a scene leave out? | [`recover`]: integrals along a recorded run of a scene, with their errors |
 //! | what went wrong? | [`StudyError`], [`RecoveryError`] |
 //!
@@ -49,6 +50,8 @@ mod recording;
 mod recovery;
 #[cfg(feature = "serde")]
 mod stored;
+#[cfg(feature = "study")]
+mod study;
 mod table;
 
 pub use ensemble::{End, Ensemble, Sampled};
@@ -60,4 +63,10 @@ pub use recording::Recording;
 pub use recovery::{Nodes, Recovered, RecoveryError, recover};
 #[cfg(feature = "serde")]
 pub use stored::StoredRecording;
+#[cfg(feature = "study")]
+pub use study::{
+    Choice, Closures, Cost, Digits71, Ending, Failure, FailureKind, Forecast, Knob, Nearby, NoChoice,
+    ReferenceReport, Report, Row, Settings, Stopwatch, Study, Trade, Tried, Unit, median_with_interval,
+    pareto_front,
+};
 pub use table::{Table, significant};
