@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Duration;
 
-use guen::{Differentiable, Laned, Recast, mechanical_system};
+use guen::mechanical_system;
 use guen_study::{Report, Study, Trade, Unit};
 
 mechanical_system! {
@@ -35,6 +35,7 @@ mechanical_system! {
         }
         kinetic_energy = 1/2*(dot(xi)^2 + dot(eta)^2 + dot(zeta)^2) + 1/2*(A*eta1^2 + A*eta2^2 + C*eta3^2);
         force_function = -a*g*sin(theta);
+        provide taylor, carried;
     }
 }
 
@@ -55,6 +56,7 @@ mechanical_system! {
         }
         kinetic_energy = 1/2*((A + a^2)*eta1^2 + A*eta2^2 + (C + a^2)*eta3^2);
         force_function = -a*g*sin(theta);
+        provide taylor, carried;
     }
 }
 
@@ -72,6 +74,7 @@ mechanical_system! {
         let y = eta + alpha*sin(phi) + beta*cos(phi);
         kinetic_energy = m/2*(dot(x)^2 + dot(y)^2) + m/2*k^2*dot(phi)^2;
         force_function = m*g*sin(incline)*x;
+        provide taylor, carried;
     }
 }
 
@@ -130,6 +133,8 @@ fn arguments() -> Result<Option<Arguments>, String> {
 /// The errors that choices are made for, and the time that the most accurate choice is to fit into.
 const ERRORS: [f64; 4] = [1e-3, 1e-6, 1e-9, 1e-12];
 const PERIOD: f64 = 20e-6;
+/// From where to where, in seconds.
+const SPAN: Range<f64> = 0.0..10.0;
 /// The error of the trial, the number of its states, how far they are away, and how often a choice may say that it will
 /// not hold.
 const TRIED: f64 = 1e-6;
@@ -141,16 +146,12 @@ const EXCUSES: usize = 2;
 fn study<S, const N: usize>(
     arguments: &Arguments,
     name: &str,
-    system: S,
+    study: Study<S, N>,
     start: [f64; N],
     span: Range<f64>,
-) -> Result<bool, Box<dyn Error>>
-where
-    S: Recast<N>,
-    S::In<f64>: Differentiable<f64, N> + Laned<N> + Sync + Clone,
-{
-    let seconds = if arguments.quick { 5 } else { 28 };
-    let mut study = Study::new(system, start, span.clone())?
+) -> Result<bool, Box<dyn Error>> {
+    let seconds = if arguments.quick { 5 } else { 26 };
+    let mut study = study
         .title(format!("{name}, {} s", span.end - span.start))
         .within(Duration::from_secs(seconds))
         .show_progress();
@@ -248,7 +249,14 @@ fn run(arguments: &Arguments) -> Result<bool, Box<dyn Error>> {
             eta3: 2.5,
             ..Default::default()
         };
-        fine &= study(arguments, "hoop", hoop, start.into(), 0.0..10.0)?;
+        let form = hoop.prepare()?.carried()?;
+        let trade = Study::new(hoop, start, SPAN)?.with_taylor()?.with_form(
+            "carried",
+            form,
+            move |x| hoop::State::from(*x).carried(&form, 0.0).into(),
+            |y| hoop::State::from(hoop::carried::State::from(*y)).into(),
+        );
+        fine &= study(arguments, "hoop", trade, start.into(), SPAN)?;
     }
     if wanted("appell") {
         let appell = Appell { a: 1.0, A: 0.5, C: 1.0, g: 9.81 };
@@ -260,12 +268,26 @@ fn run(arguments: &Arguments) -> Result<bool, Box<dyn Error>> {
             eta3: 3.0,
             ..Default::default()
         };
-        fine &= study(arguments, "appell", appell, start.into(), 0.0..10.0)?;
+        let form = appell.prepare()?.carried()?;
+        let trade = Study::new(appell, start, SPAN)?.with_taylor()?.with_form(
+            "carried",
+            form,
+            move |x| appell::State::from(*x).carried(&form, 0.0).into(),
+            |y| appell::State::from(appell::carried::State::from(*y)).into(),
+        );
+        fine &= study(arguments, "appell", trade, start.into(), SPAN)?;
     }
     if wanted("sled") {
         let sled = Sled { m: 1.0, alpha: 0.2, beta: 0.1, k: 0.5, incline: 0.1, g: 9.81 };
         let start = sled::State { phi: 0.3, eta1: 1.5, eta2: 0.5, ..Default::default() };
-        fine &= study(arguments, "sled", sled, start.into(), 0.0..10.0)?;
+        let form = sled.prepare()?.carried()?;
+        let trade = Study::new(sled, start, SPAN)?.with_taylor()?.with_form(
+            "carried",
+            form,
+            move |x| sled::State::from(*x).carried(&form, 0.0).into(),
+            |y| sled::State::from(sled::carried::State::from(*y)).into(),
+        );
+        fine &= study(arguments, "sled", trade, start.into(), SPAN)?;
     }
     Ok(fine)
 }

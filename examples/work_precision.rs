@@ -36,6 +36,7 @@ mechanical_system! {
         }
         kinetic_energy = 1/2*(dot(xi)^2 + dot(eta)^2 + dot(zeta)^2) + 1/2*(A*eta1^2 + A*eta2^2 + C*eta3^2);
         force_function = -a*g*sin(theta);
+        provide taylor;
     }
 }
 
@@ -146,6 +147,7 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
     all.extend(rows("Radau 5", hoop, &reference, tolerances(), |tolerance| {
         Radau5::new(tolerance, tolerance)
     }));
+    all.extend(rows("Taylor", hoop, &reference, tolerances(), Taylor::new));
     time(&mut all);
 
     println!("The hoop over {} s: step or tolerance, and what it costs.\n", reference.span);
@@ -169,9 +171,9 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
             candidates.min_by(|a, b| a.microseconds.total_cmp(&b.microseconds))
         };
         let base = cheapest("DOP853").map_or(f64::NAN, |row| row.microseconds);
-        for method in ["Euler", "RK4", "RK8", "Gauss 4", "Gauss 6", "Tsit5", "DOP853", "Radau 5"] {
+        for method in ["Euler", "RK4", "RK8", "Gauss 4", "Gauss 6", "Tsit5", "DOP853", "Taylor", "Radau 5"] {
             let Some(row) = cheapest(method) else {
-                if ["RK8", "Gauss 6", "DOP853", "Tsit5"].contains(&method) {
+                if ["RK8", "Gauss 6", "DOP853", "Tsit5", "Taylor"].contains(&method) {
                     missed.push((method, accuracy));
                 }
                 continue;

@@ -38,6 +38,7 @@
 //! assert!(picture.starts_with("<svg"));
 //! # Ok::<(), guen_study::StudyError>(())
 //! ```
+#![cfg_attr(docsrs, feature(doc_cfg))]
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 

@@ -10,7 +10,7 @@ use super::{Layout, Subject, tokens};
 use crate::derive::function;
 
 /// Where the values of symbols are: in the arrays that a function takes.
-struct Places(Vec<String>);
+pub(super) struct Places(Vec<String>);
 
 impl Loads for Places {
     fn symbol(&self, symbol: SymbolId) -> String {
@@ -40,6 +40,9 @@ impl Places {
         } else {
             let variables = selection.variables.iter().enumerate();
             variables.for_each(|(i, place)| put(model.variable(*place), format!("s[{i}]")));
+            let carried = selection.carried.iter().map(|function| function.symbol);
+            let first = selection.variables.len();
+            carried.enumerate().for_each(|(i, symbol)| put(symbol, format!("s[{}]", first + i)));
         }
         mechanics.velocities.iter().enumerate().for_each(|(i, w)| put(*w, format!("w[{i}]")));
         let accelerations = selection.parameters.iter().enumerate();
@@ -87,7 +90,7 @@ pub(super) fn signature(name: &str) -> Signature {
         function::VELOCITIES | function::ENERGY | function::KINETIC_ENERGY | function::MOMENTA => {
             Signature::State
         }
-        function::DOMAIN => Signature::State,
+        function::DOMAIN | function::CARRY | function::INVARIANTS | function::REJOINED => Signature::State,
         function::OPERATORS | function::BRACKETS => Signature::Everywhere,
         _ => Signature::Position,
     }
@@ -127,6 +130,9 @@ pub(super) fn module(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream 
             program.outputs.len(),
             body(&program.instructions, &program.outputs, places),
         );
+    }
+    if let Some(series) = &subject.level.series {
+        text.push_str(&super::series::function(series, &places, layout));
     }
     text.push('}');
     tokens(&text)

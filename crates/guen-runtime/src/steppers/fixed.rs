@@ -63,6 +63,8 @@ where
 {
     const EVALUATIONS: u32 = F::EVALUATIONS;
 
+    type Polynomial = Dense<R, N>;
+
     fn reached(&self) -> &Reached<R, N> {
         &self.reached
     }

@@ -13,6 +13,7 @@ pub(super) fn run(real: &str, method: &str, argument: Argument, setting: f64, sp
         Argument::Field => format!("{method} {{ step: {step} }}"),
         Argument::Step => format!("{method}::new({step})"),
         Argument::Tolerances => format!("{method}::new({setting:?}, {setting:?})"),
+        Argument::Tolerance => format!("{method}::new({setting:?})"),
     };
     if real == "f64" {
         return format!(

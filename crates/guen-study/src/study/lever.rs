@@ -78,6 +78,35 @@ pub(super) struct Lever<const N: usize> {
     pub code: Box<dyn Fn(f64) -> String>,
 }
 
+impl<const M: usize> Lever<M> {
+    /// The same lever for states that are carried there and back.
+    pub fn of_form<A, B, const N: usize>(self, form: &str, way: Rc<(A, B)>) -> Lever<N>
+    where
+        A: Fn(&[f64; N]) -> [f64; M] + 'static,
+        B: Fn(&[f64; M]) -> [f64; N] + 'static,
+    {
+        let Self { method, real, settings, make, code, .. } = self;
+        let make = make.map(|make| -> Box<dyn Fn(f64) -> Run<N>> {
+            Box::new(move |setting| {
+                let (run, way) = (make(setting), Rc::clone(&way));
+                Box::new(move |task, out| {
+                    let starts: Vec<[f64; M]> = task.starts.iter().map(&way.0).collect();
+                    let &Task { t0, times, deadline, .. } = task;
+                    let mut states = Vec::new();
+                    let outcome = run(&Task { starts: &starts, t0, times, deadline }, &mut states);
+                    out.extend(states.iter().map(&way.1));
+                    outcome
+                })
+            })
+        });
+        let name = form.to_owned();
+        let code = Box::new(move |setting| {
+            format!("// `system` and `start` are those of the form `{name}`\n{}", code(setting))
+        });
+        Lever { method, real, form: form.to_owned(), settings, make, code }
+    }
+}
+
 /// Deadlines are looked at after so many steps.
 const STEPS_BETWEEN_LOOKS: u32 = 64;
 
@@ -244,4 +273,6 @@ pub(super) enum Argument {
     Step,
     /// `Method::new(rtol, atol)`.
     Tolerances,
+    /// `Method::new(tolerance)`.
+    Tolerance,
 }

@@ -27,8 +27,8 @@ use std::ops::Range;
 use std::rc::Rc;
 use std::time::Duration;
 
-use guen_runtime::steppers::Method;
-use guen_runtime::{Real, Recast, System};
+use guen_runtime::steppers::{Method, Taylor};
+use guen_runtime::{Real, Recast, System, TaylorSeries};
 
 pub use digits71::Digits71;
 pub use front::pareto_front;
@@ -231,44 +231,44 @@ impl<S, const N: usize> Study<S, N> {
         self
     }
 
-    /// The same with a lever whose state is another one, such as a form that carries sines and cosines along: a system
-    /// of `M` variables, with the way there and back.
+    /// The same with the explicit methods on another form of the equations, whose state is another one: a system of `M`
+    /// variables with the way there and back, such as the carried form of a system that says `provide carried;`. Errors
+    /// are those of the state that comes back. The way there and back counts as the form's cost.
+    ///
+    /// ```
+    /// # use guen_runtime::{Equations, Real, generic};
+    /// # #[derive(Clone)]
+    /// # struct Pendulum;
+    /// # impl Equations<2> for Pendulum {
+    /// #     fn rates<R: Real>(&self, _t: R, &[q, w]: &[R; 2]) -> [R; 2] { [w, -q.sin()] }
+    /// # }
+    /// use guen_runtime::from_fn;
+    /// use guen_study::Study;
+    ///
+    /// // `s = sin q` and `c = cos q` as states: a right-hand side without a call.
+    /// let carried = from_fn(|_t: f64, &[_, w, s, c]: &[f64; 4]| [w, -s, c * w, -s * w]);
+    /// let study = Study::new(generic(Pendulum), [1.0, 0.0], 0.0..5.0)?.with_form(
+    ///     "carried",
+    ///     carried,
+    ///     |&[q, w]: &[f64; 2]| [q, w, q.sin(), q.cos()],
+    ///     |&[q, w, _, _]| [q, w],
+    /// );
+    /// # Ok::<(), guen_runtime::ConstantsError>(())
+    /// ```
     #[must_use]
-    pub fn with_form<T, A, const M: usize>(
+    pub fn with_form<T, const M: usize>(
         mut self,
+        name: &str,
         system: T,
-        [method, real, form]: [&str; 3],
-        (to, back): (fn(&[f64; N]) -> [f64; M], fn(&[f64; M]) -> [f64; N]),
-        settings: Settings,
-        make: impl Fn(f64) -> A + 'static,
-        code: impl Fn(f64) -> String + 'static,
+        to: impl Fn(&[f64; N]) -> [f64; M] + 'static,
+        back: impl Fn(&[f64; M]) -> [f64; N] + 'static,
     ) -> Self
     where
         T: System<f64, M> + 'static,
-        A: Method<f64, T, M> + 'static,
     {
-        let system = Rc::new(system);
-        let make = move |setting: f64| -> Run<N> {
-            let (system, method) = (Rc::clone(&system), make(setting));
-            Box::new(move |task, out| {
-                let starts: Vec<[f64; M]> = task.starts.iter().map(to).collect();
-                let inner =
-                    lever::Task { starts: &starts, t0: task.t0, times: task.times, deadline: task.deadline };
-                let mut states = Vec::new();
-                let outcome = lever::run_method::<f64, T, A, M>(&system, &method, &inner, &mut states);
-                out.extend(states.iter().map(back));
-                outcome
-            })
-        };
-        let [method, real, form] = [method, real, form].map(str::to_owned);
-        self.levers.push(Lever {
-            method,
-            real,
-            form,
-            settings,
-            make: Ok(Box::new(make)),
-            code: Box::new(code),
-        });
+        let levers = lever::explicit_levers::<f64, T, M>("f64", &Rc::new(system), self.span());
+        let way = Rc::new((to, back));
+        self.levers.extend(levers.into_iter().map(|lever| lever.of_form(name, Rc::clone(&way))));
         self
     }
 
@@ -369,6 +369,21 @@ impl<S: Recast<N>, const N: usize> Study<S, N> {
     {
         let system = self.system.recast::<f64>()?;
         Ok(self.with_method_on(system, [name, "f64", "declared"], settings, make, code))
+    }
+
+    /// The same with Taylor series, of a system that says `provide taylor;`.
+    ///
+    /// # Errors
+    ///
+    /// Those of `prepare`.
+    pub fn with_taylor(self) -> Result<Self, guen_runtime::ConstantsError>
+    where
+        S::In<f64>: TaylorSeries<f64, N>,
+    {
+        let span = self.span();
+        self.with_method("Taylor", Settings::Tolerances, Taylor::<f64>::new, move |tolerance| {
+            code::run("f64", "Taylor", lever::Argument::Tolerance, tolerance, span)
+        })
     }
 
     /// The same with references by other methods, for systems that explicit ones are too slow for: the first is the

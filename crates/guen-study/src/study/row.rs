@@ -65,9 +65,11 @@ impl Failure {
         let kind = match cause {
             Cause::NotFinite => FailureKind::NotFinite,
             Cause::NoConvergence => FailureKind::NoConvergence,
-            Cause::Energy { .. } | Cause::Residual { .. } | Cause::Edge { .. } | Cause::Positions => {
-                FailureKind::Guard
-            }
+            Cause::Energy { .. }
+            | Cause::Residual { .. }
+            | Cause::Edge { .. }
+            | Cause::Carried { .. }
+            | Cause::Positions => FailureKind::Guard,
             Cause::Setting(_) => FailureKind::Setting,
             _ => FailureKind::Steps,
         };

@@ -34,8 +34,6 @@ const FEW: usize = 5;
 const MANY: usize = 41;
 /// Rows within this factor of the front in cost are timed often, and tried from states nearby.
 const NEAR_FRONT: f64 = 2.5;
-/// A timing lasts at least this long, by repetition.
-const SHORTEST: f64 = 20e-6;
 
 /// A row on its way.
 struct Tried<const N: usize> {
@@ -336,14 +334,11 @@ fn costs<S, const N: usize>(
             if !budget.goes_on(Stage::Timing, part) {
                 break 'rounds;
             }
-            let repetitions = (SHORTEST / tried[k].rough).ceil().clamp(1.0, 1e4);
             let taken = study.stopwatch.seconds(k, &mut || {
-                for _ in 0..repetitions as usize {
-                    states.clear();
-                    let _ = std::hint::black_box(run(&task, &mut states));
-                }
+                states.clear();
+                let _ = std::hint::black_box(run(&task, &mut states));
             });
-            seconds[k].push(taken / (repetitions * starts));
+            seconds[k].push(taken / starts);
         }
     }
     for (one, mut seconds) in tried.iter_mut().zip(seconds) {

@@ -1,14 +1,17 @@
 //! Times on a machine that has other work to do: medians, their intervals, and when two of them are a tie.
 
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// What measures how long a run takes. The default is the machine's clock; another one makes a study repeatable, or
 /// tells it times that were recorded elsewhere.
 pub trait Stopwatch {
-    /// Does the work, and returns the seconds that it is to count for. `row` is the position of the setting in the
-    /// report.
+    /// Does the work, as often as it takes to tell how long it takes, and returns the seconds of doing it once. `row` is the
+    /// position of the setting in the report.
     fn seconds(&mut self, row: usize, work: &mut dyn FnMut()) -> f64;
 }
+
+/// A timing lasts at least this long: some hundred times what reading the clock takes.
+const SHORTEST: Duration = Duration::from_micros(20);
 
 /// The machine's clock.
 #[derive(Clone, Copy, Debug, Default)]
@@ -17,8 +20,19 @@ pub(super) struct Wall;
 impl Stopwatch for Wall {
     fn seconds(&mut self, _row: usize, work: &mut dyn FnMut()) -> f64 {
         let start = Instant::now();
-        work();
-        start.elapsed().as_secs_f64()
+        let mut done = 0_u32;
+        loop {
+            // As often as before, so that the clock is read seldom.
+            let further = done.max(1);
+            for _ in 0..further {
+                work();
+            }
+            done += further;
+            let elapsed = start.elapsed();
+            if elapsed >= SHORTEST {
+                return elapsed.as_secs_f64() / f64::from(done);
+            }
+        }
     }
 }
 
