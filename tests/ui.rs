@@ -235,7 +235,8 @@ fn the_pages_of_errors_are_current() {
     );
     let mut written = Vec::new();
     for (theme, cases) in themes {
-        let (_, about) = THEMES.iter().find(|(name, _)| *name == theme).expect("a theme has a line in THEMES");
+        let (_, about) =
+            THEMES.iter().find(|(name, _)| *name == theme).expect("a theme has a line in THEMES");
         let _ = writeln!(index, "| [{theme}](errors/{theme}.md) | {about} | {} |", cases.len());
         let mut page = format!("# Errors: {theme}\n\nAbout {about}. [What this page is](../errors.md).\n");
         cases.iter().for_each(|case| page += &entry(case));

@@ -7,6 +7,7 @@
 //! | what is a number? | [`Real`], [`Ordered`], [`Dual`]; [`Lift`] embeds a base real |
 //! | what is integrated? | [`System`], [`Monitored`], [`Differentiable`], [`TaylorSeries`], [`from_fn`], [`generic`] |
 //! | which functions does it have? | [`Tuned`]: [`Digits13`], [`Digits7`], [`Fused`], [`Functions`] of your own |
+//! | over which reals? | [`Recast`], what can be made anew over each |
 //! | how many at once? | [`lanes`]; [`Laned`] systems |
 //! | what acts on functions? | [`Operator`], [`Function`], [`Coordinate`], [`BracketCoefficients`] |
 //! | what is known at compile time? | [`Class`], the markers [`Holonomic`] to [`Conservative`], [`Cost`] |
@@ -53,6 +54,7 @@ mod nalgebra_support;
 mod operator;
 mod positions;
 mod real;
+mod recast;
 mod report;
 mod serde_support;
 mod series;
@@ -78,6 +80,7 @@ pub use linearization::{Liftable, Linearizable, Linearization, OutputLinearizati
 pub use operator::{Applied, Coordinate, Function, Operator};
 pub use positions::{Positions, PositionsError, Projected, consistent, project, projected};
 pub use real::{Ordered, Real};
+pub use recast::Recast;
 pub use report::{Report, ReportSection};
 pub use series::{Coefficients, Convolutions, HIGHEST_ORDER, TaylorSeries};
 pub use system::{FromFn, Laned, Monitored, System, from_fn};

@@ -22,6 +22,7 @@ mod operators;
 mod outline;
 mod physical;
 mod positions;
+mod recast;
 mod records;
 mod serde;
 mod series;
