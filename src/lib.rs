@@ -51,10 +51,10 @@ pub use guen_runtime::{
     Bodies, Body, BodyFault, BracketCoefficients, Catastatic, Cause, Choice, Class, Coefficient,
     Conservative, ConstantsError, Coordinate, Cost, Differentiable, Digits7, Digits7Functions, Digits13,
     Digits13Functions, Dual, Equations, Function, Functions, Fused, FusedOperations, Generic, Holonomic,
-    IncompleteLieGroup, IntegrationError, Laned, Level, LevelInfo, Levels, LieGroup, Lift, Linearization,
-    Monitored, Nonholonomic, Operator, Ordered, Positions, PositionsError, Projected, Real, Report,
-    ReportSection, Rheonomic, Scleronomic, Setting, System, Tuned, Vitals, from_fn, generic, lanes, prelude,
-    project, projected, steppers,
+    IncompleteLieGroup, IntegrationError, Laned, LatexDocument, Level, LevelInfo, Levels, LieGroup, Lift,
+    Linearization, Monitored, Nonholonomic, Operator, Ordered, Positions, PositionsError, Projected, Real,
+    Report, ReportSection, Rheonomic, Scleronomic, Setting, System, Tuned, Vitals, from_fn, generic, lanes,
+    prelude, project, projected, steppers,
 };
 pub use guen_runtime::{Liftable, Linearizable, OutputLinearization, control, seeded};
 

@@ -74,7 +74,7 @@ pub use linearization::{Liftable, Linearizable, Linearization, OutputLinearizati
 pub use operator::{Applied, Coordinate, Function, Operator};
 pub use positions::{Positions, PositionsError, Projected, consistent, project, projected};
 pub use real::{Ordered, Real};
-pub use report::{Report, ReportSection};
+pub use report::{LatexDocument, MarkdownDocument, Report, ReportSection};
 pub use system::{FromFn, Laned, Monitored, System, from_fn};
 pub use tuned::{
     Choice, Digits7, Digits7Functions, Digits13, Digits13Functions, Functions, Fused, FusedOperations, Own,

@@ -39,6 +39,16 @@ const GREEK: &[(&str, char, &str)] = &[
     ("Omega", 'Ω', "\\Omega"),
 ];
 
+/// The letter behind a command of LaTeX, `eta` for `\\eta`.
+///
+/// ```
+/// assert_eq!(guen_symbolic::greek_letter("eta"), Some('η'));
+/// assert_eq!(guen_symbolic::greek_letter("sin"), None);
+/// ```
+pub fn greek_letter(command: &str) -> Option<char> {
+    GREEK.iter().find(|(name, ..)| *name == command).map(|(_, letter, _)| *letter)
+}
+
 /// A name of a declaration as LaTeX: `eta1` is `\eta_{1}`, `dot(x)` and `x'` are rates, `d/dx` is an operator.
 ///
 /// ```
