@@ -94,14 +94,25 @@ impl Parser<'_> {
         }
     }
 
-    /// The text of a group in which nothing is LaTeX.
+    /// The text of a group of letters, Greek ones among them as groups of their own.
     fn verbatim(&mut self) -> String {
         self.rest.next_if_eq(&'{');
-        let mut text = String::new();
-        for c in self.rest.by_ref() {
+        let (mut text, mut depth) = (String::new(), 0);
+        while let Some(c) = self.rest.next() {
             match c {
-                '}' => break,
-                '\\' => {}
+                '{' => depth += 1,
+                '}' if depth == 0 => break,
+                '}' => depth -= 1,
+                '\\' => {
+                    let mut name = String::new();
+                    while let Some(c) = self.rest.next_if(|c| depth > 0 && c.is_ascii_alphabetic()) {
+                        name.push(c);
+                    }
+                    match guen_symbolic::greek_letter(&name) {
+                        Some(letter) => text.push(letter),
+                        None => text.push_str(&name),
+                    }
+                }
                 c => text.push(c),
             }
         }
@@ -124,11 +135,15 @@ impl Parser<'_> {
                 }
                 element(out, "mn", &digits);
             }
-            // A sign at the beginning of a line that was broken is still one between terms.
-            '+' | '=' => out.push_str(&format!("<mo form=\"infix\">{c}</mo>")),
-            '-' if self.rest.peek() == Some(&' ') => out.push_str("<mo form=\"infix\">−</mo>"),
-            '-' => out.push_str("<mo>−</mo>"),
-            '(' | ')' | '[' | ']' | ',' | '|' => element(out, "mo", &c.to_string()),
+            // A sign that a term begins with is still one between terms; the space before it is that between the formulas.
+            '+' | '=' => out.push_str(&format!("<mo form=\"infix\"{}>{c}</mo>", lead(out))),
+            '-' if self.rest.peek() == Some(&' ') => {
+                out.push_str(&format!("<mo form=\"infix\"{}>−</mo>", lead(out)));
+            }
+            '-' => out.push_str("<mo form=\"prefix\">−</mo>"),
+            '(' | '[' => out.push_str(&format!("<mo form=\"prefix\">{c}</mo>")),
+            ')' | ']' => out.push_str(&format!("<mo form=\"postfix\">{c}</mo>")),
+            ',' | '|' => element(out, "mo", &c.to_string()),
             ' ' => {}
             c => element(out, "mi", &c.to_string()),
         }
@@ -165,10 +180,10 @@ impl Parser<'_> {
             }
             "dot" | "ddot" | "dddot" => {
                 self.rest.next_if_eq(&' ');
-                out.push_str("<mover accent=\"true\">");
+                // As an accent, browsers set the dot into the letter.
+                out.push_str("<mover>");
                 self.argument(out);
-                let dots = ["˙", "¨", "⃛"][name.len() - 3];
-                out.push_str(&format!("<mo stretchy=\"false\">{dots}</mo></mover>"));
+                out.push_str(&format!("<mo>{}</mo></mover>", ".".repeat(name.len() - 2)));
             }
             "mathrm" | "text" | "operatorname" | "mathit" => {
                 let words = self.verbatim();
@@ -177,6 +192,10 @@ impl Parser<'_> {
                 if name == "operatorname" {
                     out.push_str("<mo>&#8289;</mo>");
                 }
+            }
+            "left" | "right" if self.rest.next_if_eq(&'|').is_some() => {
+                let form = if name == "left" { "prefix" } else { "postfix" };
+                out.push_str(&format!("<mo form=\"{form}\">|</mo>"));
             }
             // The mark itself follows.
             "left" | "right" => self.atom(out),
@@ -192,11 +211,16 @@ impl Parser<'_> {
                     let start = out.len();
                     element(out, "mi", name);
                     self.scripts(out, start);
-                    out.push_str("<mo>&#8289;</mo><mspace width=\"0.1em\"/>");
+                    out.push_str("<mo>&#8289;</mo><mspace width=\"0.17em\"/>");
                 }
             },
         }
     }
+}
+
+/// The attribute of a sign that is the first thing of a term.
+fn lead(out: &str) -> &'static str {
+    if out.ends_with("<math displaystyle=\"true\"><mrow>") { " lspace=\"0.05em\"" } else { "" }
 }
 
 /// One element, whatever the number of those inside.
@@ -233,17 +257,18 @@ mod tests {
         assert_eq!(math(r"\frac{1}{2}"), "<mfrac><mrow><mn>1</mn></mrow><mrow><mn>2</mn></mrow></mfrac>");
         assert_eq!(
             math(r"\dot{\eta}_{1}"),
-            "<msub><mrow><mover accent=\"true\"><mrow><mi>η</mi></mrow><mo stretchy=\"false\">˙</mo></mover></mrow><mrow><mn>1</mn></mrow></msub>"
+            "<msub><mrow><mover><mrow><mi>η</mi></mrow><mo>.</mo></mover></mrow><mrow><mn>1</mn></mrow></msub>"
         );
         assert_eq!(
             math(r"\sin^{2}\theta"),
-            "<msup><mrow><mi>sin</mi></mrow><mrow><mn>2</mn></mrow></msup><mo>&#8289;</mo><mspace width=\"0.1em\"/><mi>θ</mi>"
+            "<msup><mrow><mi>sin</mi></mrow><mrow><mn>2</mn></mrow></msup><mo>&#8289;</mo><mspace width=\"0.17em\"/><mi>θ</mi>"
         );
         assert_eq!(math(r"\sqrt[3]{x}"), "<mroot><mrow><mi>x</mi></mrow><mrow><mn>3</mn></mrow></mroot>");
+        assert_eq!(math(r"\mathrm{a{\alpha}{\beta}}"), "<mi>aαβ</mi>");
         assert_eq!(math(r"\text{a < b}"), "<mtext>a &lt; b</mtext>");
         assert_eq!(
             math(r"\left(a - b\right)"),
-            "<mo>(</mo><mi>a</mi><mo form=\"infix\">−</mo><mi>b</mi><mo>)</mo>"
+            "<mo form=\"prefix\">(</mo><mi>a</mi><mo form=\"infix\">−</mo><mi>b</mi><mo form=\"postfix\">)</mo>"
         );
     }
 

@@ -80,7 +80,7 @@ impl Report {
             sections.push(momenta(subject, writer));
             sections.push(energies(subject, writer));
         }
-        sections.push(domain(subject));
+        sections.push(domain(subject, writer));
         sections.push(cost(subject));
         let summary = if subject.level.scene.is_some() { scene::summary(subject) } else { summary(subject) };
         let name = subject.name().text.clone();
@@ -371,12 +371,27 @@ fn energies(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
     lines.section
 }
 
-fn domain(subject: &Subject<'_, '_>) -> Section {
-    let graph = &subject.model.bench.graph;
-    let nonzero = |e: &ExprId| graph.text_limited(*e, LONGEST).map(|text| format!("{text} != 0"));
-    let state = subject.level.domain_names.iter().map(|text| format!("{text} != 0"));
-    let text = state.chain(subject.level.constant_pivots.iter().filter_map(nonzero)).collect();
-    Section::words("Domain of the chart", text)
+/// What must not vanish: formulas, then what is told in words.
+fn domain(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
+    let d = &subject.level.derivation;
+    let known: Vec<ExprId> = d.frame.operators.chart.iter().chain(&d.solution.pivots).copied().collect();
+    let written: Vec<_> = known.iter().map(|e| writer.text.expression(*e)).collect();
+    let (mut formulas, mut words) = (Vec::new(), Vec::new());
+    for name in &subject.level.domain_names {
+        match written.iter().position(|text| text.as_ref() == Some(name)) {
+            Some(place) => formulas.push(known[place]),
+            None => words.push(format!("{name} != 0")),
+        }
+    }
+    let mut section = Section::words("Domain of the chart", Vec::new());
+    for e in formulas.iter().chain(&subject.level.constant_pivots) {
+        if let (Some(text), Some(latex)) = (writer.text.expression(*e), writer.latex.expression(*e)) {
+            section.text.push(format!("{text} != 0"));
+            section.latex.push(format!(r"{latex} \neq 0"));
+        }
+    }
+    section.text.extend(words);
+    section
 }
 
 fn cost(subject: &Subject<'_, '_>) -> Section {

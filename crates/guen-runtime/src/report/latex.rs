@@ -47,7 +47,9 @@ impl fmt::Display for LatexDocument<'_> {
             escaped(f, section.title)?;
             f.write_str("}\n")?;
             for formula in section.formulas {
-                write!(f, "{FORMULA}{formula}{AFTER}")?;
+                f.write_str(FORMULA)?;
+                breakable(f, formula)?;
+                f.write_str(AFTER)?;
             }
             let words = section.words();
             for (i, line) in words.iter().enumerate() {
@@ -62,6 +64,74 @@ impl fmt::Display for LatexDocument<'_> {
         f.write_str(if self.whole { "\\end{document}\n" } else { "" })
     }
 }
+
+/// A formula whose lines may break in its outer parentheses too, if it is long: between `\left` and `\right` LaTeX breaks
+/// nothing.
+fn breakable(f: &mut fmt::Formatter<'_>, formula: &str) -> fmt::Result {
+    /// About a line.
+    const LONG: usize = 160;
+    if formula.len() <= LONG {
+        return f.write_str(formula);
+    }
+    let mut depth = 0_i32;
+    let mut rest = formula;
+    while let Some(c) = rest.chars().next() {
+        let outer = [("\\left(", "\\bigl("), ("\\right)", "\\bigr)")];
+        if let Some((from, to)) = outer.iter().find(|(from, _)| depth == 0 && rest.starts_with(from)) {
+            f.write_str(to)?;
+            rest = &rest[from.len()..];
+            continue;
+        }
+        depth += i32::from(c == '{') - i32::from(c == '}');
+        f.write_char(c)?;
+        rest = &rest[c.len_utf8()..];
+    }
+    Ok(())
+}
+
+/// The small letters from alpha to omega, in the order of their code points.
+const GREEK: [&str; 25] = [
+    "alpha",
+    "beta",
+    "gamma",
+    "delta",
+    "epsilon",
+    "zeta",
+    "eta",
+    "theta",
+    "iota",
+    "kappa",
+    "lambda",
+    "mu",
+    "nu",
+    "xi",
+    "mathit{o}",
+    "pi",
+    "rho",
+    "varsigma",
+    "sigma",
+    "tau",
+    "upsilon",
+    "phi",
+    "chi",
+    "psi",
+    "omega",
+];
+
+/// The capital letters that do not look Latin.
+const CAPITALS: [(char, &str); 11] = [
+    ('Γ', "Gamma"),
+    ('Δ', "Delta"),
+    ('Θ', "Theta"),
+    ('Λ', "Lambda"),
+    ('Ξ', "Xi"),
+    ('Π', "Pi"),
+    ('Σ', "Sigma"),
+    ('Υ', "Upsilon"),
+    ('Φ', "Phi"),
+    ('Ψ', "Psi"),
+    ('Ω', "Omega"),
+];
 
 /// Words: what is between backticks in typewriter, and everything that LaTeX would understand otherwise as a letter.
 fn escaped(f: &mut fmt::Formatter<'_>, line: &str) -> fmt::Result {
@@ -79,6 +149,11 @@ fn escaped(f: &mut fmt::Formatter<'_>, line: &str) -> fmt::Result {
             '^' => f.write_str("\\textasciicircum{}")?,
             '~' => f.write_str("\\textasciitilde{}")?,
             '<' | '>' | '|' => write!(f, "${c}$")?,
+            'α'..='ω' => write!(f, "$\\{}$", GREEK[c as usize - 'α' as usize])?,
+            'Γ'..='Ω' => match CAPITALS.iter().find(|(letter, _)| *letter == c) {
+                Some((_, command)) => write!(f, "$\\{command}$")?,
+                None => f.write_char(c)?,
+            },
             '°' => f.write_str("$^\\circ$")?,
             '{' | '}' | '$' | '&' | '#' | '%' | '_' => write!(f, "\\{c}")?,
             c => f.write_char(c)?,

@@ -54,6 +54,7 @@ pub fn greek_letter(command: &str) -> Option<char> {
 /// ```
 /// assert_eq!(guen_symbolic::latex_name("dot(theta)"), "\\dot{\\theta}");
 /// assert_eq!(guen_symbolic::latex_name("eta1'"), "\\dot{\\eta}_{1}");
+/// assert_eq!(guen_symbolic::latex_name("αβ"), "\\mathrm{{\\alpha}{\\beta}}");
 /// assert_eq!(guen_symbolic::latex_name("mass_body"), "\\mathrm{mass}_{\\mathrm{body}}");
 /// ```
 pub fn latex_name(name: &str) -> String {
@@ -110,5 +111,9 @@ fn word(text: &str) -> String {
     if !digits.is_empty() && digits.chars().all(|c| c.is_ascii_digit()) && !stem.is_empty() {
         return format!("{}{digits}", word(stem));
     }
-    format!("\\mathrm{{{text}}}")
+    let upright = text.chars().map(|c| match GREEK.iter().find(|(_, letter, _)| *letter == c) {
+        Some((_, _, command)) => format!("{{{command}}}"),
+        None => c.to_string(),
+    });
+    format!("\\mathrm{{{}}}", upright.collect::<String>())
 }
