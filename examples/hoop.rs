@@ -201,7 +201,7 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
 /// The first seconds as a page: the hoop on its plane, where it touches it, and what it has to keep.
 fn play(hoop: &hoop::Prepared, start: hoop::State, until: f64, path: &Path) -> Result<(), Box<dyn Error>> {
     const PICTURES_PER_SECOND: f64 = 60.0;
-    const THICKNESS: f64 = 0.05;
+    const THICKNESS: f64 = 0.1;
     let shown = until.clamp(-MINUTE / 2.0, MINUTE / 2.0);
     let count = (shown.abs() * PICTURES_PER_SECOND).ceil().max(1.0);
     let times: Vec<f64> = (0..=count as usize).map(|k| shown * k as f64 / count).collect();
@@ -217,9 +217,8 @@ fn play(hoop: &hoop::Prepared, start: hoop::State, until: f64, path: &Path) -> R
                 .turned([0.0, 0.0, 1.0], phi)
         })
         .path("contact", |t, state| hoop.outputs(t, &(*state).into()).contact)
-        .panel("angles in rad")
+        .panel("tilt in rad")
         .curve("theta", |_, state| state[0])
-        .curve("psi", |_, state| state[1])
         .monitored(hoop)
         .panel("zeta - a sin(theta), which no constraint says")
         .curve("hidden", |t, state| hoop.outputs(t, &(*state).into()).hidden)

@@ -124,13 +124,13 @@ fn times(until: f64) -> Vec<f64> {
 fn turntable(path: &Path) -> Result<(), Box<dyn Error>> {
     use turntable::State;
     let system = Turntable::new(0.2, 0.08, 1.8).prepare_physical()?;
-    let start = State { w: 1.0, x: 0.55, omega_x: 1.5, omega_y: 2.0, ..Default::default() };
+    let start = State { w: 1.0, x: 0.55, omega_x: 9.0, omega_y: 1.0, ..Default::default() };
     let rate = system.constants().Omega;
     let mut recording = Recording::new(&State::NAMES);
     Dop853::new(1e-11, 1e-11).sample(&system, 0.0, &start.into(), &times(30.0), recording.visit())?;
 
     let table = [
-        Shape::disc(1.2, 0.03).at([0.0, 0.0, -0.015]).coloured(0xb8a07a),
+        Shape::disc(0.8, 0.03).at([0.0, 0.0, -0.015]).coloured(0xb8a07a),
         Shape::cylinder(0.05, 0.4).at([0.0, 0.0, -0.23]).coloured(0x777777),
     ];
     Viewer::new("A ball on a turntable", &recording)
@@ -184,7 +184,7 @@ fn car(path: &Path) -> Result<(), Box<dyn Error>> {
 
     let constants = system.constants();
     let wheel =
-        |x: f64, y: f64| Shape::disc(0.32, 0.2).about([0.0, 1.0, 0.0]).at([x, y, 0.32]).coloured(0x333a42);
+        |x: f64, y: f64| Shape::disc(0.32, 0.2).about([0.0, 1.0, 0.0]).at([x, y, 0.32]).coloured(0x4a525b);
     let [from_rear, half_track] = [constants.l / 2.0, 0.75];
     let body = [
         Shape::cuboid([3.7, 1.6, 0.55]).at([0.05, 0.0, 0.6]),

@@ -53,10 +53,10 @@ pub use guen_runtime::{
     Bodies, Body, BodyFault, BracketCoefficients, Carrying, Catastatic, Cause, Choice, Class, Coefficient,
     Conservative, ConstantsError, Coordinate, Cost, Differentiable, Digits7, Digits7Functions, Digits13,
     Digits13Functions, Dual, Equations, Function, Functions, Fused, FusedOperations, Generic, Holonomic,
-    IncompleteLieGroup, IntegrationError, Laned, Level, LevelInfo, Levels, LieGroup, Lift, Linearization,
-    Monitored, Nonholonomic, Operator, Ordered, Positions, PositionsError, Projected, Real, Recast, Rejoined,
-    Report, ReportSection, Rheonomic, Scleronomic, Setting, System, Tuned, Vitals, from_fn, generic, lanes,
-    prelude, project, projected, rejoined, steppers,
+    IncompleteLieGroup, IntegrationError, Laned, LatexDocument, Level, LevelInfo, Levels, LieGroup, Lift,
+    Linearization, Monitored, Nonholonomic, Operator, Ordered, Positions, PositionsError, Projected, Real,
+    Recast, Rejoined, Report, ReportSection, Rheonomic, Scleronomic, Setting, System, Tuned, Vitals, from_fn,
+    generic, lanes, prelude, project, projected, rejoined, steppers,
 };
 pub use guen_runtime::{Coefficients, Convolutions, HIGHEST_ORDER, TaylorSeries};
 pub use guen_runtime::{Liftable, Linearizable, OutputLinearization, control, seeded};

@@ -81,7 +81,7 @@ pub use operator::{Applied, Coordinate, Function, Operator};
 pub use positions::{Positions, PositionsError, Projected, consistent, project, projected};
 pub use real::{Ordered, Real};
 pub use recast::Recast;
-pub use report::{Report, ReportSection};
+pub use report::{LatexDocument, MarkdownDocument, Report, ReportSection};
 pub use series::{Coefficients, Convolutions, HIGHEST_ORDER, TaylorSeries};
 pub use system::{FromFn, Laned, Monitored, System, from_fn};
 pub use tuned::{

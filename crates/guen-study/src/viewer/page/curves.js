@@ -8,6 +8,18 @@ function ticks(from, to, count) {
   return found;
 }
 
+/** Texts for ticks, with the digits that tell them apart, and a power of ten that all of them are to be multiplied by. */
+function labels(values) {
+  const most = Math.max(...values.map(Math.abs));
+  const power = most > 0 && (most >= 1e5 || most < 1e-2) ? Math.floor(Math.log10(most)) : 0;
+  const step = values.length > 1 ? (values[1] - values[0]) / 10 ** power : 1;
+  const digits = Math.min(Math.max(0, Math.ceil(-Math.log10(Math.abs(step)) - 1e-9)), 8);
+  // A step such as 2.5 needs one more.
+  const finer = values.some((v) => Math.abs(Number((v / 10 ** power).toFixed(digits)) - v / 10 ** power) > Math.abs(step) * 1e-3) ? 1 : 0;
+  const texts = values.map((value) => (value / 10 ** power).toFixed(digits + finer).replace(/^-(0(\.0*)?)$/, "$1").replace("-", "−"));
+  return { texts, power };
+}
+
 function makePanel(panel, parent, onPick) {
   const figure = document.createElement("figure");
   const caption = document.createElement("figcaption");
@@ -20,6 +32,8 @@ function makePanel(panel, parent, onPick) {
     caption.append(reading);
     return reading;
   });
+  const factor = document.createElement("small");
+  caption.append(factor);
   const canvas = document.createElement("canvas");
   canvas.setAttribute("role", "img");
   canvas.setAttribute("aria-label", `${panel.name} over time`);
@@ -40,7 +54,8 @@ function makePanel(panel, parent, onPick) {
   const room = (high - low) * 0.06;
   [low, high] = [low - room, high + room];
 
-  const [left, right, top, bottom] = [56, 8, 6, 20];
+  const [right, top, bottom] = [8, 6, 20];
+  let left = 48;
   const layer = document.createElement("canvas");
   let [width, height, ratio] = [0, 0, 1];
   const x = (t) => left + ((width - left - right) * t) / motion.end;
@@ -57,22 +72,30 @@ function makePanel(panel, parent, onPick) {
     pen.fillStyle = ink;
     pen.strokeStyle = line;
     pen.lineWidth = 1;
+    const heights = ticks(low, high, 4);
+    const { texts, power } = labels(heights);
+    left = Math.max(40, ...texts.map((text) => pen.measureText(text).width + 12));
+    canvas.dataset.left = String(left);
     pen.textAlign = "right";
     pen.textBaseline = "middle";
     pen.beginPath();
-    for (const tick of ticks(low, high, 4)) {
+    heights.forEach((tick, i) => {
       pen.moveTo(left, Math.round(y(tick)) + 0.5);
       pen.lineTo(width - right, Math.round(y(tick)) + 0.5);
-      pen.fillText(short(Math.abs(tick) < (high - low) * 1e-9 ? 0 : tick), left - 6, y(tick));
-    }
+      pen.fillText(texts[i], left - 6, y(tick));
+    });
+    factor.textContent = power === 0 ? "" : `values / 1e${power}`.replace("-", "−");
     pen.textAlign = "center";
     pen.textBaseline = "alphabetic";
-    for (const tick of ticks(motion.start, motion.start + motion.end, Math.max(2, Math.floor(width / 80)))) {
+    const moments = ticks(motion.start, motion.start + motion.end, Math.max(2, Math.floor(width / 80)));
+    const times = moments.map((tick) => short(tick));
+    moments.forEach((tick, i) => {
       const at = x(tick - motion.start);
       pen.moveTo(Math.round(at) + 0.5, height - bottom);
       pen.lineTo(Math.round(at) + 0.5, height - bottom + 4);
-      if (at < width - right - 4) pen.fillText(short(tick), Math.max(at, left), height - 4);
-    }
+      const half = pen.measureText(times[i]).width / 2;
+      pen.fillText(times[i], Math.min(Math.max(at, left), width - half - 1), height - 4);
+    });
     pen.stroke();
     pen.lineWidth = 1.6;
     pen.lineJoin = "round";

@@ -4,10 +4,11 @@
 // of the two backgrounds would swallow.
 const PALETTE = [0x0072b2, 0xd55e00, 0x009e73, 0xcc79a7, 0xe69f00, 0x56b4e9];
 
+/** A colour in another tone, which wins over the plain one where both are drawn. */
 const paint = (colour, tone = 0) => {
   const shade = new THREE.Color(colour);
   if (tone) shade.offsetHSL(0, 0, tone);
-  return new THREE.MeshStandardMaterial({ color: shade, roughness: 0.55, metalness: 0.05, side: THREE.DoubleSide });
+  return new THREE.MeshStandardMaterial({ color: shade, roughness: 0.55, metalness: 0.05, side: THREE.DoubleSide, polygonOffset: tone !== 0, polygonOffsetFactor: -4, polygonOffsetUnits: -4 });
 };
 
 /** The other tone: lighter on dark colours, darker on light ones. */
@@ -40,7 +41,7 @@ function cylinder([radius, length], colour) {
   body.rotation.x = Math.PI / 2;
   group.add(body);
   const light = paint(colour, otherTone(colour));
-  const lift = Math.max(length, radius * 0.01) * 0.004;
+  const lift = radius * 2e-3;
   for (const side of [1, -1]) {
     const z = side * (length / 2 + lift);
     for (const from of [0, Math.PI]) {

@@ -48,7 +48,7 @@ function makeStage() {
   function distance() {
     const narrow = Math.min(1, camera.aspect);
     const size = following ? Math.max(bodySize * 2.2, radius / 40) : radius;
-    return (size * 1.08) / Math.sin((camera.fov * Math.PI) / 360) / narrow;
+    return (size * 0.84) / Math.sin((camera.fov * Math.PI) / 360) / narrow;
   }
   function look() {
     const from = motion.from ? new THREE.Vector3(...motion.from) : new THREE.Vector3(-0.75, -1.25, 0.8).applyQuaternion(level);

@@ -10,8 +10,7 @@ if (degrees > 90) notes.push(`Samples are far apart: a body turns by ${degrees}Â
 let stage = null;
 try {
   stage = makeStage();
-  // Up to six digits are a number; finer ones are written as powers.
-  if (motion.square) notes.push(`Squares of the ground: ${short(motion.square)}.`);
+  if (motion.square) notes.push(`The squares of the ground have sides of ${short(motion.square)}.`);
 } catch (error) {
   const trouble = byId("trouble");
   trouble.textContent = `This browser shows no motion in space (${error.message}). The curves are here.`;
