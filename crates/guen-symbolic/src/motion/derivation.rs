@@ -161,9 +161,13 @@ impl Derivation {
                 affordable(bench)?;
                 let solution = solution
                     .map_err(|rows| DerivationError::SingularMass(weightless(bench, &equations.mass, &rows)))?;
-                let others = candidates
+                let others: Vec<Solution> = candidates
                     .into_iter()
                     .filter_map(|other| Solution::new(bench, &other.mass, &other.forces).ok())
+                    .collect();
+                let others = others
+                    .into_iter()
+                    .chain(Solution::shared(bench, &equations.mass, &equations.forces))
                     .map(|other| other.accelerations)
                     .chain(tensions.map(|tensions| tensions.accelerations));
                 alternatives.extend(others.map(|other| [&frame.velocities[..], &other].concat()));

@@ -32,7 +32,7 @@ mod sparse;
 mod tree;
 
 use super::projection::Squares;
-use super::solve::{Elimination, eliminate};
+use super::solve::{Elimination, Naming, eliminate};
 use super::{Equations, Frame};
 use crate::algebra::{ExprId, FastMap, Node, Rational};
 use crate::normal::{Limits, normal_coefficients};
@@ -458,6 +458,6 @@ fn by_least_fill(
         }
         Some(k)
     };
-    eliminate(bench, matrix, right, &|bench, e| bench.graph.keep(e), false, choose)
+    eliminate(bench, matrix, right, Naming::Definite, choose)
         .map(|Elimination { values, .. }| values)
 }
