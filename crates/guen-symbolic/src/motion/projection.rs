@@ -10,10 +10,13 @@
 //! derivative of the form `u` on (motion, `X_s`). A true velocity is a closed form, so that `E_s` is zero and costs
 //! nothing; quasi-velocities give their gyroscopic terms through the structure coefficients of their own form alone.
 //! Rows `s > l` are the equations of the reactions.
+//!
+//! Where `T°` is a sum of squares with constant masses, the forms are handed on as they are, before they are
+//! multiplied out: see `tensions`.
 
 use super::velocity_forms::VelocityPartials;
 use super::{Equations, Frame, KineticTerm, Mechanics, VelocityForm};
-use crate::algebra::{ExprId, FastMap};
+use crate::algebra::{ExprId, FastMap, Rational};
 use crate::program::weighted_cost;
 use crate::workbench::Workbench;
 
@@ -24,8 +27,31 @@ struct Measured {
     value: ExprId,
     /// `u_s` for `s = 1..n`.
     components: Vec<ExprId>,
+    /// The component along `X_0`.
+    drift: ExprId,
     /// `D(u)`: the acceleration at `eta' = 0`.
     acceleration: ExprId,
+}
+
+/// The quadratic part of `T°` as `1/2 sum_k m_k u_k^2` with positive constants `m_k`:
+/// `sum_k m_k u_ks (D(u_k) + sum_t u_kt eta_t') = g_s`.
+pub(super) struct Squares {
+    /// `m_k`.
+    pub(super) masses: Vec<ExprId>,
+    /// `u_ks`, a row for each form, `s = 1..l`.
+    pub(super) components: Vec<Vec<ExprId>>,
+    /// The components along `X_0`.
+    pub(super) drifts: Vec<ExprId>,
+    /// `g_s`, everything but the inertia and the accelerations of the forms, without the generalised forces.
+    pub(super) rest: Vec<ExprId>,
+}
+
+/// The equations of a route, and what they were multiplied out from.
+pub(super) struct Projected {
+    /// `sum_t M_st eta_t' = f_s` for `s = 1..rows`, without the generalised forces.
+    pub(super) equations: Equations,
+    /// `None` where the energy is no sum of squares with constant masses.
+    pub(super) squares: Option<Squares>,
 }
 
 /// `sum_t M_st eta_t' = f_s` for `s = 1..rows`, without the generalised forces.
@@ -36,7 +62,7 @@ pub(super) fn equations(
     partials: &mut VelocityPartials,
     terms: &[KineticTerm],
     rows: usize,
-) -> Equations {
+) -> Projected {
     let l = system.forms.degrees;
     let resting = resting_accelerations(bench, system, frame);
     let mut known: FastMap<ExprId, usize> = FastMap::default();
@@ -49,7 +75,9 @@ pub(super) fn equations(
     }
     let mut mass: Vec<Vec<Vec<ExprId>>> = vec![vec![Vec::new(); l]; rows];
     let mut forces: Vec<Vec<ExprId>> = vec![Vec::new(); rows];
-    for (displacement, force) in frame.displacements.iter_mut().zip(&mut forces) {
+    // The part of the forces that the accelerations of the forms do not have.
+    let mut rest: Vec<Vec<ExprId>> = vec![Vec::new(); rows];
+    for (displacement, force) in frame.displacements.iter_mut().zip(&mut rest) {
         force.push(displacement.of(&mut bench.graph, system.force_function));
     }
     for term in terms {
@@ -62,7 +90,7 @@ pub(super) fn equations(
             let w_slope = frame.displacements[s].of(&mut bench.graph, w);
             if !bench.graph.is_zero(w_slope) {
                 let all: Vec<_> = values.iter().copied().chain([w_slope]).map(|e| (e, 1)).collect();
-                forces[s].push(bench.graph.product(&all));
+                rest[s].push(bench.graph.product(&all));
             }
             for (place, k) in factors.iter().enumerate() {
                 let partner =
@@ -74,7 +102,7 @@ pub(super) fn equations(
                     // D(w) v u_s + w v' u_s
                     if !bench.graph.is_zero(w_rate) {
                         let part = bench.graph.product(&[(w_rate, 1), (partner_value, 1), (component, 1)]);
-                        forces[s].push(bench.graph.neg(part));
+                        rest[s].push(bench.graph.neg(part));
                     }
                     if let Some(other) = partner {
                         let part =
@@ -93,18 +121,47 @@ pub(super) fn equations(
                 let turning = exterior(bench, system, frame, &measured[*k].form, s);
                 if !bench.graph.is_zero(turning) {
                     let part = bench.graph.product(&[(w, 1), (partner_value, 1), (turning, 1)]);
-                    forces[s].push(bench.graph.neg(part));
+                    rest[s].push(bench.graph.neg(part));
                 }
             }
         }
     }
-    Equations {
+    let squares = masses(bench, terms).map(|masses| {
+        let forms: Vec<&Measured> = masses.iter().map(|(u, _)| &measured[known[u]]).collect();
+        Squares {
+            components: forms.iter().map(|form| form.components[..l].to_vec()).collect(),
+            drifts: forms.iter().map(|form| form.drift).collect(),
+            masses: masses.iter().map(|(_, mass)| *mass).collect(),
+            rest: rest[..l].iter().map(|terms| bench.graph.sum(terms.iter().copied())).collect(),
+        }
+    });
+    let equations = Equations {
         mass: mass
             .into_iter()
             .map(|row| row.into_iter().map(|terms| bench.graph.sum(terms)).collect())
             .collect(),
-        forces: forces.into_iter().map(|terms| bench.graph.sum(terms)).collect(),
+        forces: forces.into_iter().zip(rest).map(|(a, b)| bench.graph.sum(b.into_iter().chain(a))).collect(),
+    };
+    Projected { equations, squares }
+}
+
+/// Forms and their masses, if all products of forms are squares with positive constants before them.
+fn masses(bench: &mut Workbench, terms: &[KineticTerm]) -> Option<Vec<(ExprId, ExprId)>> {
+    let mut found = Vec::new();
+    for term in terms {
+        match term.forms[..] {
+            [u, v] if u == v && bench.graph.roles(term.weight).is_constant() => {
+                let mass = bench.graph.scale(term.weight, &Rational::integer(2));
+                if !bench.graph.manifestly_positive(mass) {
+                    return None;
+                }
+                found.push((u, mass));
+            }
+            [_, _] => return None,
+            _ => {}
+        }
     }
+    Some(found)
 }
 
 /// `x''` at `eta' = 0`: `A x'' = -(A' x' + a_0')` along the motion, so that the operators are never differentiated.
@@ -185,6 +242,7 @@ fn measure(
         form,
         value: bench.keep_large(value),
         components,
+        drift,
         acceleration: bench.keep_large(acceleration),
     }
 }

@@ -52,53 +52,29 @@ impl Solution {
         Ok(solution)
     }
 
+    /// Accelerations that were found in another way; what was divided by must not vanish.
+    pub(super) fn known(bench: &Workbench, accelerations: Vec<ExprId>, divisors: &[ExprId]) -> Self {
+        let (pivots, determinants, constant_pivots) = Default::default();
+        let mut solution = Solution { accelerations, pivots, determinants, constant_pivots };
+        divisors.iter().for_each(|divisor| solution.require(bench, *divisor));
+        solution
+    }
+
     fn solve_block(
         &mut self,
         bench: &mut Workbench,
         rows: &[usize],
-        mut m: Vec<Vec<ExprId>>,
-        mut f: Vec<ExprId>,
+        m: Vec<Vec<ExprId>>,
+        f: Vec<ExprId>,
     ) -> Option<Vec<ExprId>> {
         let n = m.len();
-        let original = (m.clone(), f.clone());
         // Small blocks are written out, and simplify; in larger ones every intermediate result has many users.
         let keep = |bench: &mut Workbench, e: ExprId| if n > WRITTEN_OUT { bench.graph.keep(e) } else { e };
-        for e in m.iter_mut().flatten().chain(&mut f) {
-            *e = keep(bench, *e);
-        }
-        let mut order: Vec<usize> = Vec::new();
-        let mut left: Vec<usize> = (0..n).collect();
-        let mut pivots: Vec<ExprId> = Vec::new();
-        // Multipliers L_rk of each elimination step.
-        let mut steps: Vec<(usize, Vec<(usize, ExprId)>)> = Vec::new();
-        while !left.is_empty() {
-            let Some(k) = choose_pivot(bench, &m, &left) else {
-                return self.solve_by_adjugate(bench, &original.0, &original.1);
-            };
-            left.retain(|r| *r != k);
-            pivots.push(m[k][k]);
-            let mut multipliers = Vec::new();
-            for r in left.clone() {
-                if !bench.graph.is_zero(m[r][k]) {
-                    let quotient = bench.graph.div(m[r][k], m[k][k]);
-                    multipliers.push((r, keep(bench, quotient)));
-                }
-            }
-            for (i, (r, factor)) in multipliers.iter().enumerate() {
-                for (c, _) in &multipliers[..=i] {
-                    let product = bench.graph.mul(*factor, m[*c][k]);
-                    let difference = bench.graph.sub(m[*r][*c], product);
-                    let entry = bench.dropped(difference);
-                    let entry = keep(bench, entry);
-                    (m[*r][*c], m[*c][*r]) = (entry, entry);
-                }
-                let product = bench.graph.mul(*factor, f[k]);
-                let rest = bench.graph.sub(f[*r], product);
-                f[*r] = keep(bench, rest);
-            }
-            order.push(k);
-            steps.push((k, multipliers));
-        }
+        let Some(Elimination { values, pivots }) =
+            eliminate(bench, m.clone(), f.clone(), &keep, true, choose_pivot)
+        else {
+            return self.solve_by_adjugate(bench, &m, &f);
+        };
         if n > WRITTEN_OUT {
             let factors: Vec<_> = pivots.iter().map(|pivot| (*pivot, 1)).collect();
             let determinant = bench.graph.product(&factors);
@@ -110,18 +86,7 @@ impl Solution {
         } else {
             pivots.into_iter().for_each(|pivot| self.require(bench, pivot));
         }
-        // L^T x = D^-1 f', backwards.
-        let mut x = vec![bench.graph.zero(); n];
-        for (k, multipliers) in steps.into_iter().rev() {
-            let mut terms = vec![bench.graph.div(f[k], m[k][k])];
-            for (r, factor) in multipliers {
-                let product = bench.graph.mul(factor, x[r]);
-                terms.push(bench.graph.neg(product));
-            }
-            let value = bench.graph.sum(terms);
-            x[k] = keep(bench, value);
-        }
-        Some(x)
+        Some(values)
     }
 
     fn solve_by_adjugate(
@@ -160,6 +125,71 @@ impl Solution {
             list.push(pivot);
         }
     }
+}
+
+/// What an elimination yields.
+pub(super) struct Elimination {
+    /// The solution.
+    pub(super) values: Vec<ExprId>,
+    /// The pivots, in their order.
+    pub(super) pivots: Vec<ExprId>,
+}
+
+/// Solves a symmetric system by `L D L^T`; `None` where nothing is chosen as a pivot. `keep` names intermediate results,
+/// `choose` picks the next pivot from the rows that are left; with `drop`, entries that vanish are looked for.
+pub(super) fn eliminate(
+    bench: &mut Workbench,
+    mut m: Vec<Vec<ExprId>>,
+    mut f: Vec<ExprId>,
+    keep: &dyn Fn(&mut Workbench, ExprId) -> ExprId,
+    drop: bool,
+    mut choose: impl FnMut(&mut Workbench, &[Vec<ExprId>], &[usize]) -> Option<usize>,
+) -> Option<Elimination> {
+    let n = m.len();
+    for e in m.iter_mut().flatten().chain(&mut f) {
+        *e = keep(bench, *e);
+    }
+    let mut left: Vec<usize> = (0..n).collect();
+    let mut pivots: Vec<ExprId> = Vec::new();
+    // Multipliers L_rk of each elimination step.
+    let mut steps: Vec<(usize, Vec<(usize, ExprId)>)> = Vec::new();
+    while !left.is_empty() {
+        let k = choose(bench, &m, &left)?;
+        left.retain(|r| *r != k);
+        pivots.push(m[k][k]);
+        let mut multipliers = Vec::new();
+        for r in left.iter().copied() {
+            if !bench.graph.is_zero(m[r][k]) {
+                let quotient = bench.graph.div(m[r][k], m[k][k]);
+                multipliers.push((r, keep(bench, quotient)));
+            }
+        }
+        for (i, (r, factor)) in multipliers.iter().enumerate() {
+            for (c, _) in &multipliers[..=i] {
+                let product = bench.graph.mul(*factor, m[*c][k]);
+                let difference = bench.graph.sub(m[*r][*c], product);
+                let entry = if drop { bench.dropped(difference) } else { difference };
+                let entry = keep(bench, entry);
+                (m[*r][*c], m[*c][*r]) = (entry, entry);
+            }
+            let product = bench.graph.mul(*factor, f[k]);
+            let rest = bench.graph.sub(f[*r], product);
+            f[*r] = keep(bench, rest);
+        }
+        steps.push((k, multipliers));
+    }
+    // L^T x = D^-1 f', backwards.
+    let mut values = vec![bench.graph.zero(); n];
+    for (k, multipliers) in steps.into_iter().rev() {
+        let mut terms = vec![bench.graph.div(f[k], m[k][k])];
+        for (r, factor) in multipliers {
+            let product = bench.graph.mul(factor, values[r]);
+            terms.push(bench.graph.neg(product));
+        }
+        let value = bench.graph.sum(terms);
+        values[k] = keep(bench, value);
+    }
+    Some(Elimination { values, pivots })
 }
 
 /// The diagonal entry to eliminate on: constants before functions, then the one with the fewest neighbours.
