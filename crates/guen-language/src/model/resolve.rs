@@ -234,8 +234,12 @@ impl<'a, 'f> Resolver<'a, 'f> {
                     }
                     let fault = Fault::new(at, "the full system provides everything already")
                         .note("`provide` chooses what a scene offers beside its state")
-                        .note("of a system two say something: `provide operators;`, that the brackets of all operators are derived, and `provide taylor;`, that it has a Taylor series");
-                    self.eval.faults.report(fault);
+                        .note("of a system only two say something: `provide operators;`, that the brackets of all operators are derived, and `provide taylor;`, that its motion has a Taylor series");
+                    let near = crate::names::nearest(&provide.name.text, ["operators", "taylor"]);
+                    self.eval.faults.report(match near {
+                        Some(near) => fault.help(format_args!("did you mean `{near}`?")),
+                        None => fault,
+                    });
                 }
             }
             Item::Scene(scene) => {
