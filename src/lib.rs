@@ -106,11 +106,11 @@ pub mod __private {
     };
     pub use guen_runtime::lanes::Lanes;
     pub use guen_runtime::{
-        BracketCoefficients, Catastatic, Class, Coefficient, Conservative, ConstantsError, Cost,
-        Differentiable, Dual, Holonomic, IncompleteLieGroup, Laned, Level, LevelInfo, Levels, LieGroup, Lift,
-        Liftable, Linearizable, Linearization, Monitored, Nonholonomic, Operator, Ordered,
-        Coefficients, Convolutions, HIGHEST_ORDER, TaylorSeries, OutputLinearization, Positions, PositionsError, Real, Report, ReportSection, Rheonomic, Scleronomic,
-        System, Vitals, nalgebra_conversions, seeded, zero_bracket,
+        BracketCoefficients, Catastatic, Class, Coefficient, Coefficients, Conservative, ConstantsError,
+        Convolutions, Cost, Differentiable, Dual, HIGHEST_ORDER, Holonomic, IncompleteLieGroup, Laned, Level,
+        LevelInfo, Levels, LieGroup, Lift, Liftable, Linearizable, Linearization, Monitored, Nonholonomic,
+        Operator, Ordered, OutputLinearization, Positions, PositionsError, Real, Report, ReportSection,
+        Rheonomic, Scleronomic, System, TaylorSeries, Vitals, nalgebra_conversions, seeded, zero_bracket,
     };
     pub use guen_runtime::{consistent, control, serde_record};
 }

@@ -97,9 +97,8 @@ fn the_energy_of_a_long_run_stays_at_rounding() {
     let (system, long) = (prepared::<f64>(), prepared::<Long>());
     let start = reference()[0].1;
     // In 71 digits: evaluated in doubles the energy itself would be off by more.
-    let energy = |t: f64, x: &[f64; 9]| {
-        long.energy(Long::from_f64(t), &hoop::State::from(x.map(Long::from_f64)))
-    };
+    let energy =
+        |t: f64, x: &[f64; 9]| long.energy(Long::from_f64(t), &hoop::State::from(x.map(Long::from_f64)));
     let first = energy(0.0, &start);
     let (mut worst, mut steps) = (0.0_f64, 0);
     Taylor::new(1e-16)
@@ -122,12 +121,15 @@ fn errors_fall_as_the_power_of_the_step() {
     let system = prepared::<Long>();
     let run = |tolerance: f64, order: u32| {
         let end = Long::from_ratio(1, 8);
-        Integration::new(&system, Long::zero(), &start).run(&Taylor::new(tolerance).order(order), end).unwrap()
+        Integration::new(&system, Long::zero(), &start)
+            .run(&Taylor::new(tolerance).order(order), end)
+            .unwrap()
     };
     let exact = run(1e-40, 32).state;
     for order in [4, 7, 12, 21] {
         let digits = 0.8 * f64::from(order);
-        let (coarse, fine) = (run(10f64.powf(-digits), order), run(10f64.powf(-digits - 0.5 * f64::from(order)), order));
+        let (coarse, fine) =
+            (run(10f64.powf(-digits), order), run(10f64.powf(-digits - 0.5 * f64::from(order)), order));
         let error = |done: &Done<Long, 9>| {
             done.state.iter().zip(&exact).map(|(a, b)| (*a - *b).abs().to_f64()).fold(0.0, f64::max)
         };
@@ -143,9 +145,8 @@ fn single_precision_and_duals() {
     let reference = reference();
     let single = Hoop::<f32> { a: 1.0, A: 0.5, C: 1.0, g: 9.81 }.prepare().unwrap();
     let start = reference[0].1.map(|x| x as f32);
-    let done = Taylor::new(1e-6)
-        .integrate(&single, 0.0, &start, 10.0, |_, _| ControlFlow::Continue(()))
-        .unwrap();
+    let done =
+        Taylor::new(1e-6).integrate(&single, 0.0, &start, 10.0, |_, _| ControlFlow::Continue(())).unwrap();
     let end = reference.iter().find(|(t, _)| *t == 10.0).unwrap().1;
     assert!(off(&done.state.map(f64::from), &end) < 1e-4, "{:e}", off(&done.state.map(f64::from), &end));
 
@@ -155,18 +156,24 @@ fn single_precision_and_duals() {
     let lifted: hoop::Prepared<D> = prepared::<f64>().lift();
     let mut begin = reference[0].1.map(<D as Lift<f64>>::lift);
     begin[8].tangent[0] = 1.0;
-    let done = method
-        .integrate(&lifted, D::zero(), &begin, D::one(), |_, _| ControlFlow::Continue(()))
-        .unwrap();
+    let done =
+        method.integrate(&lifted, D::zero(), &begin, D::one(), |_, _| ControlFlow::Continue(())).unwrap();
     let at = |spin: f64| {
         let mut begin = reference[0].1;
         begin[8] += spin;
-        Taylor::new(1e-14).integrate(&prepared(), 0.0, &begin, 1.0, |_, _| ControlFlow::Continue(())).unwrap().state
+        Taylor::new(1e-14)
+            .integrate(&prepared(), 0.0, &begin, 1.0, |_, _| ControlFlow::Continue(()))
+            .unwrap()
+            .state
     };
     let (ahead, behind) = (at(1e-5), at(-1e-5));
     for i in 0..9 {
         let difference = (ahead[i] - behind[i]) / 2e-5;
-        assert!((done.state[i].tangent[0] - difference).abs() < 1e-7, "{i}: {:?} {difference}", done.state[i]);
+        assert!(
+            (done.state[i].tangent[0] - difference).abs() < 1e-7,
+            "{i}: {:?} {difference}",
+            done.state[i]
+        );
     }
 }
 

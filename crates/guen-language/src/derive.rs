@@ -13,8 +13,8 @@ mod series;
 use std::rc::Rc;
 
 use guen_symbolic::{
-    Derivation, ExprId, FunctionProgram, Limits, ProgramBuilder, Programs, SeriesProgram, Workbench, normal_coefficients,
-    normal_form, weighted_cost,
+    Derivation, ExprId, FunctionProgram, Limits, ProgramBuilder, Programs, SeriesProgram, Workbench,
+    normal_coefficients, normal_form, weighted_cost,
 };
 
 use crate::diagnostics::Faults;

@@ -32,8 +32,8 @@ pub use normal::{Limits, normal_coefficients, normal_form};
 pub use print::{Notation, latex_name};
 pub use program::{
     Arithmetic, Formulation, FunctionProgram, Instruction, LARGEST_DIFFERENTIATED, LARGEST_JACOBIAN,
-    NotAnalytic, Operation, OperationCount, Pattern, ProgramBuilder, Programs, SeriesProgram, SeriesStep, Source,
-    Start, Value, evaluate_function, evaluate_prepare, weighted_cost,
+    NotAnalytic, Operation, OperationCount, Pattern, ProgramBuilder, Programs, SeriesProgram, SeriesStep,
+    Source, Start, Value, evaluate_function, evaluate_prepare, weighted_cost,
 };
 pub use workbench::{MAX_WORK, Workbench};
 pub use zero::{Real, Verdict, ZeroTest, evaluate, evaluate_f64};

@@ -154,8 +154,7 @@ fn level(
     let (mut programs, is_part) = cheapest(model, &selection, whole, lists, kept, &parts);
     let jacobians = Jacobians::add(&mut programs, model, &selection);
     let word = scene.scene.provides.iter().find(|provide| provide.name.text == "taylor");
-    let series =
-        word.and_then(|word| series::of(model, &selection, &programs, word.name.span(), faults));
+    let series = word.and_then(|word| series::of(model, &selection, &programs, word.name.span(), faults));
     let fixes = scene
         .fixes
         .iter()

@@ -33,7 +33,8 @@ pub(super) fn of(
         Err(refused) => {
             let function = refused.function.name();
             let variable = model.variable_name(selection.variables[refused.output]);
-            let text = format!("the motion has no Taylor series: the rate of `{variable}` needs `{function}`");
+            let text =
+                format!("the motion has no Taylor series: the rate of `{variable}` needs `{function}`");
             faults.report(
                 Fault::new(word, text)
                     .note(format!("at a kink of `{function}` a series goes on as if there were none, and nothing would tell"))
@@ -43,7 +44,10 @@ pub(super) fn of(
         }
     };
     if series.sums.len() > MAX_SERIES_SUMS {
-        let text = format!("the Taylor series needs {} sums of products, and {MAX_SERIES_SUMS} are allowed", series.sums.len());
+        let text = format!(
+            "the Taylor series needs {} sums of products, and {MAX_SERIES_SUMS} are allowed",
+            series.sums.len()
+        );
         faults.report(
             Fault::new(word, text)
                 .note("while a series is computed its coefficients are on the stack, about 450 bytes for each sum")

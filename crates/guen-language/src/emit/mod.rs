@@ -21,8 +21,8 @@ mod outline;
 mod physical;
 mod positions;
 mod records;
-mod series;
 mod serde;
+mod series;
 mod uses;
 
 use proc_macro2::{Ident, Span, TokenStream};

@@ -297,7 +297,11 @@ impl Writer<'_> {
             SeriesStep::Quotient(a, b, place) => {
                 let (quotient, reciprocal) = (self.zeroth(v), self.keep(Kept::Reciprocal(*b)));
                 let rest = format!("(w.sum({place}, m) + {quotient} * {})", at(b));
-                if still(a) { format!("-{rest} * {reciprocal}") } else { format!("({} - {rest}) * {reciprocal}", at(a)) }
+                if still(a) {
+                    format!("-{rest} * {reciprocal}")
+                } else {
+                    format!("({} - {rest}) * {reciprocal}", at(a))
+                }
             }
             SeriesStep::SquareRoot(a, place) => {
                 let reciprocal = self.keep(Kept::HalfReciprocal(v));

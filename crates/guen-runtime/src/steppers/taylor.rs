@@ -235,7 +235,9 @@ impl<R: Ordered, const N: usize> Run<'_, R, N> {
             self.reached.statistics.evaluations += order as u64;
             let [.., before, last] = &self.series.coefficients[..=order] else { break };
             // What is not finite once is not finite in what follows from it.
-            if all_finite(before) && all_finite(last) && self.series.coefficients[..order].iter().all(all_finite)
+            if all_finite(before)
+                && all_finite(last)
+                && self.series.coefficients[..order].iter().all(all_finite)
             {
                 return Ok(());
             }

@@ -156,8 +156,9 @@ impl Derivation {
             tensions => {
                 let solution = Solution::new(bench, &equations.mass, &equations.forces);
                 affordable(bench)?;
-                let solution = solution
-                    .map_err(|rows| DerivationError::SingularMass(weightless(bench, &equations.mass, &rows)))?;
+                let solution = solution.map_err(|rows| {
+                    DerivationError::SingularMass(weightless(bench, &equations.mass, &rows))
+                })?;
                 let others = candidates
                     .into_iter()
                     .filter_map(|other| Solution::new(bench, &other.mass, &other.forces).ok())
@@ -165,9 +166,7 @@ impl Derivation {
                     .chain(tensions.map(|tensions| tensions.accelerations));
                 alternatives.extend(others.map(|other| [&frame.velocities[..], &other].concat()));
                 let own = [&frame.velocities[..], &solution.accelerations].concat();
-                for rates in
-                    rephrased::rates(bench, &system, &mut frame, &equations, by_projection, words)
-                {
+                for rates in rephrased::rates(bench, &system, &mut frame, &equations, by_projection, words) {
                     if are_equal(bench, &own, &rates, system.forms.len())? {
                         alternatives.push(rates);
                     }

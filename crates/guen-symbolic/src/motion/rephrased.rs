@@ -265,7 +265,12 @@ impl Words {
         Some(Tensions { accelerations, ..tensions })
     }
 
-    fn rates(mut self, bench: &mut Workbench, declared: &Mechanics, symmetry: &mut Symmetry) -> Vec<Vec<ExprId>> {
+    fn rates(
+        mut self,
+        bench: &mut Workbench,
+        declared: &Mechanics,
+        symmetry: &mut Symmetry,
+    ) -> Vec<Vec<ExprId>> {
         let l = self.system.forms.degrees;
         let list = flattened(&self.projected.equations, l);
         let definition = (weighted_cost(&bench.graph, &list) <= SMALL)

@@ -23,5 +23,5 @@ pub use builder::{Formulation, ProgramBuilder};
 pub use cost::{OperationCount, weighted_cost};
 pub use evaluate::{Arithmetic, evaluate_function, evaluate_prepare};
 pub use instruction::{FunctionProgram, Instruction, Operation, Programs, Value};
-pub use taylor::{NotAnalytic, SeriesProgram, SeriesStep, Source, Start};
 pub use jacobian::{LARGEST_DIFFERENTIATED, LARGEST_JACOBIAN, Pattern};
+pub use taylor::{NotAnalytic, SeriesProgram, SeriesStep, Source, Start};

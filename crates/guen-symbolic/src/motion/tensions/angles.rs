@@ -96,8 +96,8 @@ fn angles_in(graph: &Graph, e: ExprId) -> Vec<ExprId> {
 
 /// The difference of two angles, or their sum if an expression is shorter in that: one may be measured the other way round.
 fn shorter(bench: &mut Workbench, e: ExprId, a: ExprId, b: ExprId) -> ExprId {
-    let [difference, sum] = [Rational::MINUS_ONE, Rational::ONE]
-        .map(|sign| bench.graph.linear(&[(a, Rational::ONE), (b, sign)]));
+    let [difference, sum] =
+        [Rational::MINUS_ONE, Rational::ONE].map(|sign| bench.graph.linear(&[(a, Rational::ONE), (b, sign)]));
     let [short, long] = [difference, sum].map(|angle| {
         let roots = [a, angle].map(|angle| bench.graph.sin(angle));
         let tidy = bench.in_base_angles(&roots, |bench| bench.tidy(e));

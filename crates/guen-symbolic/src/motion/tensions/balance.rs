@@ -123,7 +123,8 @@ impl Balancing<'_> {
         members.sort_by_key(|k| (self.rows[*k].len(), *k));
         let mut kept: Vec<usize> = Vec::new();
         for k in members {
-            let multiple = kept.iter().find_map(|other| Some((*other, self.ratio(bench, k, *other, unknown)?)));
+            let multiple =
+                kept.iter().find_map(|other| Some((*other, self.ratio(bench, k, *other, unknown)?)));
             match multiple {
                 Some((other, ratio)) => {
                     let mut y = Vector::unit(k, one);
@@ -337,9 +338,7 @@ fn is_certain(bench: &Workbench, e: ExprId) -> bool {
 pub(super) fn divides_safely(bench: &Workbench, e: ExprId) -> bool {
     let graph = &bench.graph;
     graph.reachable(&[e], |_| false).into_iter().all(|id| match graph.node(id) {
-        Node::Product(factors) => {
-            factors.iter().all(|(base, k)| *k > 0 || graph.manifestly_nonzero(*base))
-        }
+        Node::Product(factors) => factors.iter().all(|(base, k)| *k > 0 || graph.manifestly_nonzero(*base)),
         _ => true,
     })
 }
@@ -358,7 +357,11 @@ fn factor_in_common(bench: &mut Workbench, es: &[ExprId]) -> ExprId {
             None => factors.into_iter().filter(|(_, k)| *k > 0).collect(),
             Some(known) => {
                 let power = |base: ExprId| factors.iter().find(|(b, _)| *b == base).map_or(0, |(_, k)| *k);
-                known.into_iter().map(|(base, k)| (base, k.min(power(base)))).filter(|(_, k)| *k > 0).collect()
+                known
+                    .into_iter()
+                    .map(|(base, k)| (base, k.min(power(base))))
+                    .filter(|(_, k)| *k > 0)
+                    .collect()
             }
         });
     }

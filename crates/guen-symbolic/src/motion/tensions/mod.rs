@@ -432,11 +432,7 @@ fn most_common(bench: &mut Workbench, es: impl Iterator<Item = ExprId>) -> ExprI
 }
 
 /// Solves a positive definite system in the order of least fill; among equals that which waits least for others.
-fn by_least_fill(
-    bench: &mut Workbench,
-    matrix: Vec<Vec<ExprId>>,
-    right: Vec<ExprId>,
-) -> Option<Vec<ExprId>> {
+fn by_least_fill(bench: &mut Workbench, matrix: Vec<Vec<ExprId>>, right: Vec<ExprId>) -> Option<Vec<ExprId>> {
     let mut waiting = vec![0_usize; right.len()];
     let choose = |bench: &mut Workbench, m: &[Vec<ExprId>], left: &[usize]| {
         let neighbours = |k: usize| -> Vec<usize> {

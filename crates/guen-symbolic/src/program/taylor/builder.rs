@@ -101,8 +101,7 @@ pub(super) fn build(
         };
         moved[instruction.result.index()] = Some(value);
     }
-    let rates: Vec<Value> =
-        program.outputs.iter().map(|v| moved[v.index()].unwrap_or(Value(0))).collect();
+    let rates: Vec<Value> = program.outputs.iter().map(|v| moved[v.index()].unwrap_or(Value(0))).collect();
     Ok(builder.finish(rates))
 }
 
@@ -218,8 +217,7 @@ impl Builder {
         }
         let (a, b) = (self.scaled(a), self.scaled(b));
         let (first, second) = if b.base < a.base { (b.base, a.base) } else { (a.base, b.base) };
-        let product =
-            self.once((Kind::Product, first.0, second.0), SeriesStep::Product(first, second, 0));
+        let product = self.once((Kind::Product, first.0, second.0), SeriesStep::Product(first, second, 0));
         let factor = match (a.factor, b.factor) {
             (Some(a), Some(b)) => Some(self.mul(a, b)),
             (one, other) => one.or(other),
@@ -466,7 +464,10 @@ impl Builder {
         let at = |v: &Value| places[v.index()];
         let used: Vec<usize> = (0..carried.len())
             .filter(|place| {
-                steps.iter().enumerate().any(|(i, step)| live[i] && *step == SeriesStep::Variable(states + place))
+                steps
+                    .iter()
+                    .enumerate()
+                    .any(|(i, step)| live[i] && *step == SeriesStep::Variable(states + place))
             })
             .collect();
         let moved_start = |start: &Start| match start {
@@ -485,9 +486,7 @@ impl Builder {
                 SeriesStep::Time => SeriesStep::Time,
                 SeriesStep::Variable(i) => SeriesStep::Variable(match i.checked_sub(states) {
                     None => *i,
-                    Some(place) => {
-                        states + used.iter().position(|known| *known == place).unwrap_or_default()
-                    }
+                    Some(place) => states + used.iter().position(|known| *known == place).unwrap_or_default(),
                 }),
                 SeriesStep::Add(a, b) => SeriesStep::Add(at(a), at(b)),
                 SeriesStep::Sub(a, b) => SeriesStep::Sub(at(a), at(b)),

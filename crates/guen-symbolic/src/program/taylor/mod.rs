@@ -107,10 +107,7 @@ impl SeriesProgram {
     ///
     /// The absolute value and the sign of something that moves have no series: they would be continued beyond their
     /// kink by the wrong branch, and nothing would tell.
-    pub fn new(
-        program: &FunctionProgram,
-        source: impl Fn(SymbolId) -> Source,
-    ) -> Result<Self, NotAnalytic> {
+    pub fn new(program: &FunctionProgram, source: impl Fn(SymbolId) -> Source) -> Result<Self, NotAnalytic> {
         builder::build(program, &source)
     }
 
