@@ -3,6 +3,7 @@
 //! ```text
 //! cargo run --example cost_growth            # up to 20 links
 //! cargo run --example cost_growth -- 12      # up to 12
+//! cargo run --example cost_growth -- series  # what Taylor series cost, and nothing else
 //! ```
 //!
 //! For each number of links: the operations of the right-hand side, the time of the expansion, and the time that rustc
@@ -11,7 +12,8 @@
 //! which do not depend on what else the machine does; they are known on Linux only. Below each table stand the exponents
 //! `p` of fits `c links^p`.
 //!
-//! Then the hoop and Chaplygin's sled, each without scenes and with five that nobody uses.
+//! Then the hoop and Chaplygin's sled, each without scenes and with five that nobody uses; and systems without their Taylor
+//! series, with it declared and not used, and with an instance of it in `f64`.
 //!
 //! Without `--release`: cargo builds procedural macros without optimisation, so that is the time that a user waits.
 
@@ -41,7 +43,8 @@ fn main() -> ExitCode {
             "this is an optimised build, and the compiler's macro is none: see `cargo run --example cost_growth`\n"
         );
     }
-    let most = env::args().nth(1).and_then(|word| word.parse().ok()).unwrap_or(MOST);
+    let argument = env::args().nth(1).unwrap_or_default();
+    let most = argument.parse().unwrap_or(MOST);
     let compiler = match Compiler::new() {
         Ok(compiler) => compiler,
         Err(error) => {
@@ -49,6 +52,15 @@ fn main() -> ExitCode {
             return ExitCode::FAILURE;
         }
     };
+    if argument == "series" {
+        return match taylor_series(&compiler) {
+            Ok(()) => ExitCode::SUCCESS,
+            Err(error) => {
+                eprintln!("{error}");
+                ExitCode::FAILURE
+            }
+        };
+    }
     for (angles, name) in [(Angles::Absolute, "absolute"), (Angles::Relative, "relative")] {
         let mut rows: Vec<[f64; 6]> = Vec::new();
         let mut table = Table::new(&COLUMNS).digits(4);
@@ -69,8 +81,8 @@ fn main() -> ExitCode {
             (1..6).map(|column| format!("{} {:.2}", COLUMNS[column], exponent(&rows, column))).collect();
         println!("exponents from {ASYMPTOTIC} links on: {}\n", exponents.join(", "));
     }
-    if let Err(error) = unused_scenes(&compiler) {
-        eprintln!("systems with scenes: {error}");
+    if let Err(error) = unused_scenes(&compiler).and_then(|()| taylor_series(&compiler)) {
+        eprintln!("systems with scenes or series: {error}");
         return ExitCode::FAILURE;
     }
     ExitCode::SUCCESS
@@ -85,7 +97,7 @@ fn unused_scenes(compiler: &Compiler) -> Result<(), String> {
         // The first expansion of a process is slower than the others.
         expanded(&bare.to_string())?;
         for (count, tokens) in [(0.0, bare.clone()), (5.0, scenes::added(bare, five))] {
-            let costs = costs(compiler, &tokens.to_string(), module, variables)?;
+            let costs = costs(compiler, &tokens.to_string(), module, variables, "")?;
             table.row(&[&[count], &costs[..]].concat());
         }
         println!("{module}, without scenes and with five that are not used\n{table}\n");
@@ -93,20 +105,52 @@ fn unused_scenes(compiler: &Compiler) -> Result<(), String> {
     Ok(())
 }
 
+/// Prints the costs of systems without Taylor series, with one that is not used, and with one that is.
+fn taylor_series(compiler: &Compiler) -> Result<(), String> {
+    let chains = [5, 10, 20].map(|links| (links, declaration("Chain", links, Angles::Absolute)));
+    let mut systems =
+        vec![("hoop".to_owned(), "hoop", scenes::declaration(include_str!("hoop.rs")).to_string(), 9)];
+    for (links, text) in chains {
+        systems.push((format!("chain of {links}"), "chain", text, 2 * links));
+    }
+    for (name, module, text, variables) in systems {
+        let mut table = Table::new(&[&["provided", "used"], &COLUMNS[1..]].concat()).digits(4);
+        let end = text.rfind('}').ok_or("a declaration ends with a brace")?;
+        let provided = format!("{} provide taylor; }}", &text[..end]);
+        expanded(&text)?;
+        for (provides, uses) in [(false, false), (true, false), (true, true)] {
+            let text = if provides { &provided } else { &text };
+            let call = format!(
+                "pub fn series(it: &{module}::Prepared<f64>, state: &[f64; {variables}], to: &mut guen::Coefficients<f64, {variables}>) {{ guen::TaylorSeries::series(it, 0.0, state, 0.125, 20, to) }}",
+            );
+            let costs = costs(compiler, text, module, variables, if uses { &call } else { "" })?;
+            table.row(&[&[f64::from(u8::from(provides)), f64::from(u8::from(uses))], &costs[..]].concat());
+        }
+        println!("{name}, without its Taylor series and with it\n{table}\n");
+    }
+    Ok(())
+}
+
 /// One line of the table.
 fn row(compiler: &Compiler, links: usize, angles: Angles) -> Result<[f64; 6], String> {
     let text = declaration("Chain", links, angles);
-    let [operations, expansion, check, plain, optimised] = costs(compiler, &text, "chain", 2 * links)?;
+    let [operations, expansion, check, plain, optimised] = costs(compiler, &text, "chain", 2 * links, "")?;
     Ok([links as f64, operations, expansion, check, plain, optimised])
 }
 
-/// Operations, and the milliseconds of the expansion and of what rustc is asked for.
-fn costs(compiler: &Compiler, text: &str, module: &str, variables: usize) -> Result<[f64; 5], String> {
+/// Operations, and the milliseconds of the expansion and of what rustc is asked for; with more items beside it.
+fn costs(
+    compiler: &Compiler,
+    text: &str,
+    module: &str,
+    variables: usize,
+    more: &str,
+) -> Result<[f64; 5], String> {
     let start = processor_time();
     let (code, operations) = expanded(text)?;
     let expansion = (processor_time() - start) * 1e3;
     let source = format!(
-        "{code}\npub fn rates(it: &{module}::Prepared<f64>, state: &[f64; {variables}]) -> [f64; {variables}] {{ guen::System::rhs(it, 0.0, state) }}",
+        "{code}\npub fn rates(it: &{module}::Prepared<f64>, state: &[f64; {variables}]) -> [f64; {variables}] {{ guen::System::rhs(it, 0.0, state) }}\n{more}",
     );
     let mut times = [0.0; 3];
     for (time, mode) in times.iter_mut().zip(Mode::ALL) {
