@@ -1,5 +1,6 @@
 //! From the model to what is emitted: the derivation, its faults in the user's names, and the programs.
 
+mod carried;
 mod closure;
 mod faults;
 mod fixed;
@@ -51,6 +52,9 @@ pub struct Level {
     pub energy: ExprId,
     /// The straight-line code.
     pub programs: Programs,
+    /// Where the bodies of the system itself are, with a preparation of its own: nothing is prepared for programs that never
+    /// look.
+    pub placed: Option<Programs>,
     /// Functions that must not vanish, in words: the domain of the chart.
     pub domain_names: Vec<String>,
     /// Expressions of constants that must not vanish.
@@ -61,6 +65,8 @@ pub struct Level {
     pub jacobians: Jacobians,
     /// What there is to tell of a scene; none for the system itself.
     pub scene: Option<SceneFacts>,
+    /// The same level with its elementary functions as states, if it is provided.
+    pub carried: Option<Box<Level>>,
 }
 
 impl Level {
@@ -109,6 +115,8 @@ pub mod function {
     pub const POSITIONS: &str = "positions";
     /// The holonomic constraints and then their derivatives, row by row; only where there are some.
     pub const GRADIENTS: &str = "gradients";
+    /// Centers and orientations of the bodies, then the positions of the particles.
+    pub const BODIES: &str = "bodies";
     /// The functions that must not vanish.
     pub const DOMAIN: &str = "domain";
     /// The expressions of constants that must not vanish.
@@ -127,6 +135,12 @@ pub mod function {
     pub const OPERATORS: &str = "operators";
     /// The coefficients of the brackets that do not vanish, in their order.
     pub const BRACKETS: &str = "brackets";
+    /// The functions that are carried as states, at a state without them.
+    pub const CARRY: &str = "carry";
+    /// What vanishes where carried functions are what they stand for.
+    pub const INVARIANTS: &str = "invariants";
+    /// Carried functions, closer to their relations.
+    pub const REJOINED: &str = "rejoined";
 }
 
 /// Derives a checked model and its scenes; a system without equations of motion is reported.
@@ -147,7 +161,7 @@ pub fn derive<'a>(mut model: Model<'a>, faults: &mut Faults) -> Option<Derived<'
     }
     polish(&mut model.bench, &mut derivation);
     let brackets = commutators(&mut model, &mut derivation);
-    let mut system = whole(&mut model, Rc::new(derivation), Rc::new(brackets));
+    let mut system = whole(&mut model, Rc::new(derivation), Rc::new(brackets), faults);
     if let Some(word) = model.taylor {
         system.series = series::of(&model, &system.selection, &system.programs, word, faults);
     }
@@ -156,7 +170,12 @@ pub fn derive<'a>(mut model: Model<'a>, faults: &mut Faults) -> Option<Derived<'
 }
 
 /// The system itself, with everything that follows from its derivation.
-fn whole(model: &mut Model<'_>, derivation: Rc<Derivation>, brackets: Rc<Vec<Commutator>>) -> Level {
+fn whole(
+    model: &mut Model<'_>,
+    derivation: Rc<Derivation>,
+    brackets: Rc<Vec<Commutator>>,
+    faults: &mut Faults,
+) -> Level {
     let (n, size) = model.sizes();
     let forms = 0..model.forms.len();
     let selection = Selection {
@@ -173,6 +192,7 @@ fn whole(model: &mut Model<'_>, derivation: Rc<Derivation>, brackets: Rc<Vec<Com
         energy: true,
         linearization: true,
         operators: true,
+        carried: Vec::new(),
     };
     let (domain, domain_names) = domain(model, &derivation);
     let constant_pivots = constant_pivots(&derivation);
@@ -182,11 +202,13 @@ fn whole(model: &mut Model<'_>, derivation: Rc<Derivation>, brackets: Rc<Vec<Com
     let mut lists = formulas::rates(&derivation);
     let rates = lists[0].clone();
     extend(&mut model.bench, &mut lists);
+    let placed = formulas::placed(model);
+    let placed = (!placed.is_empty()).then(|| programs(&mut model.bench, &[], &[(function::BODIES, placed)]));
     let mut programs = programs(&mut model.bench, &lists, &quantities);
     let jacobians = Jacobians::add(&mut programs, model, &selection);
     let energy = derivation.energies.integral;
     let equations = equations(&mut model.bench, &derivation);
-    Level {
+    let mut level = Level {
         selection,
         derivation,
         brackets,
@@ -194,12 +216,18 @@ fn whole(model: &mut Model<'_>, derivation: Rc<Derivation>, brackets: Rc<Vec<Com
         equations,
         energy,
         programs,
+        placed,
         domain_names,
         constant_pivots,
         series: None,
         jacobians,
         scene: None,
+        carried: None,
+    };
+    if let Some(word) = model.provides_carried {
+        level.carried = carried::derive(model, &level, &formulas::rates(&level.derivation), word, faults);
     }
+    level
 }
 
 /// `sum_t M_st eta_t' - f_s`.
@@ -306,7 +334,9 @@ fn extend(bench: &mut Workbench, lists: &mut Vec<Vec<ExprId>>) {
 /// The code of the rates, given in several equal forms, and of everything else.
 fn programs(bench: &mut Workbench, rates: &[Vec<ExprId>], quantities: &[Quantity]) -> Programs {
     let mut builder = ProgramBuilder::new(&mut bench.graph);
-    builder.add_equal(function::RHS, rates);
+    if !rates.is_empty() {
+        builder.add_equal(function::RHS, rates);
+    }
     for (name, outputs) in quantities.iter().filter(|(_, outputs)| !outputs.is_empty()) {
         builder.add_cold(name, outputs);
     }
