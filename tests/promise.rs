@@ -64,8 +64,13 @@ fn what_is_chosen_holds_elsewhere_or_is_said_not_to() {
             let tried = trade.trial(choice.index, asked, states.iter().copied(), span.clone());
             assert_eq!(tried.len(), 20);
             let excused = tried.iter().filter(|one| !one.forecast.holds()).count();
-            let worst = tried.iter().filter(|one| one.forecast.holds()).map(|one| one.error).fold(0.0, f64::max);
-            println!("{asked:e} to {}: {}, {excused} excused, worst {worst:.1e}", span.end, choice.row.name());
+            let worst =
+                tried.iter().filter(|one| one.forecast.holds()).map(|one| one.error).fold(0.0, f64::max);
+            println!(
+                "{asked:e} to {}: {}, {excused} excused, worst {worst:.1e}",
+                span.end,
+                choice.row.name()
+            );
             assert!(tried.iter().all(|one| one.kept), "{asked:e}: {tried:?}");
             assert!(worst <= 10.0 * asked);
             if span == SPAN {

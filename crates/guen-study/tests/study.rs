@@ -59,14 +59,21 @@ fn reported_errors_are_the_true_ones() {
         };
         let expected = f64::max(off(0), off(1));
         let error = row.error.unwrap();
-        assert!((error - expected).abs() <= 1e-12 * expected + 1e-18, "{}: {error:e} {expected:e}", row.name());
+        assert!(
+            (error - expected).abs() <= 1e-12 * expected + 1e-18,
+            "{}: {error:e} {expected:e}",
+            row.name()
+        );
         compared += 1;
     }
     assert!(compared > 8, "{compared}");
     // Evaluations are what RK4 takes: four a step.
     let row = report.rows.iter().find(|row| row.method == "RK4").unwrap();
     assert_eq!(row.evaluations, 4.0 * (SPAN.end / row.setting).round());
-    assert_eq!(row.cost, Some(Cost { median: row.evaluations, low: row.evaluations, high: row.evaluations, repetitions: 1 }));
+    assert_eq!(
+        row.cost,
+        Some(Cost { median: row.evaluations, low: row.evaluations, high: row.evaluations, repetitions: 1 })
+    );
 }
 
 #[test]
@@ -133,14 +140,14 @@ fn energy_and_constraints_need_no_reference() {
             .count_evaluations()
             .keep(|method, real| method == "RK4" && real == "f64")
     };
-    for trade in [study().energy(5).run(), study().residual(5).run()] {
+    for trade in [study().energy(1).run(), study().residual(1).run()] {
         assert_eq!(trade.report.reference, None);
         for row in trade.report.rows.iter().filter(|row| row.failure.is_none()) {
             // |1 + z + z^2/2 + z^3/6 + z^4/24|^2 = 1 - h^6/72 + h^8/576 for z = i h: RK4's amplification.
             let n = (6.0 / row.setting).round();
             let change = (1.0 - row.setting.powi(6) / 72.0 + row.setting.powi(8) / 576.0).powf(n) - 1.0;
             let error = row.error.unwrap();
-            assert!((error - change.abs()).abs() < 1e-8 * change.abs() + 1e-14, "{error:e} {change:e}");
+            assert!((error - change.abs()).abs() < 1e-8 * change.abs() + 1e-13, "{error:e} {change:e}");
         }
         assert!(trade.report.fastest_within(1e-6).is_ok());
     }
@@ -152,7 +159,8 @@ fn a_wrong_reference_is_noticed() {
     // are marked and not taken for what they seem.
     let step = |n: i64| Digits71::from_ratio(3, n);
     let study = oscillator().keep(|method, real| method == "DOP853" && real == "f64").probes(0, 0.0);
-    let trade = study.reference_by(["RK4", "RK8"], Rk4 { step: step(100) }, Rk8::new(step(100))).unwrap().run();
+    let trade =
+        study.reference_by(["RK4", "RK8"], Rk4 { step: step(100) }, Rk8::new(step(100))).unwrap().run();
     let reference = trade.report.reference.as_ref().unwrap();
     let stated = reference.error.unwrap();
     assert!(stated > 1e-8, "{stated:e}");
@@ -209,15 +217,12 @@ fn two_settings(noise: f64) -> Trade<2> {
         .unwrap()
         .keep(|_, _| false)
         .probes(0, 0.0)
-        .with_method(
-            "RK8",
-            Settings::List(guen_study::Knob::Step, vec![0.02, 0.01]),
-            Rk8::new,
-            |step| format!("Rk8::new({step})"),
-        )
+        .with_method("RK8", Settings::List(guen_study::Knob::Step, vec![0.2, 0.1]), Rk8::new, |step| {
+            format!("Rk8::new({step})")
+        })
         .unwrap()
-        // The second setting takes 3 percent longer.
-        .stopwatch(Told64 { seconds: |row| [1.0, 1.03][row], noise, draws: 1 })
+        // The second setting takes 30 percent longer.
+        .stopwatch(Told64 { seconds: |row| [1.0, 1.3][row], noise, draws: 1 })
         .run()
 }
 
@@ -310,9 +315,12 @@ fn levers_of_ones_own() {
     let trade = oscillator()
         .keep(|_, _| false)
         .with_form("doubled", doubled, |&[x, v]| [x, v, x], |&[_, v, y]| [y, v])
-        .with_method("own", Settings::List(guen_study::Knob::Tolerance, vec![1e-6]), |t| Dop853::new(t, t), |_| {
-            "own".to_owned()
-        })
+        .with_method(
+            "own",
+            Settings::List(guen_study::Knob::Tolerance, vec![1e-6]),
+            |t| Dop853::new(t, t),
+            |_| "own".to_owned(),
+        )
         .unwrap()
         .run();
     assert!(trade.report.rows.iter().any(|row| row.name() == "DOP853, doubled, tol = 1e-6"));

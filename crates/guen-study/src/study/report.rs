@@ -333,8 +333,12 @@ impl fmt::Display for Choice<'_> {
             write!(f, "\n  quicker, but not as accurate from states nearby: {}", row.name())?;
         }
         if !self.ties.is_empty() {
-            let names: Vec<String> = self.ties.iter().map(|row| row.name()).collect();
+            const SHOWN: usize = 4;
+            let names: Vec<String> = self.ties.iter().take(SHOWN).map(|row| row.name()).collect();
             write!(f, "\n  a tie, the machine was too noisy to rank them: {}", names.join("; "))?;
+            if self.ties.len() > SHOWN {
+                write!(f, "; and {} more", self.ties.len() - SHOWN)?;
+            }
         }
         Ok(())
     }
