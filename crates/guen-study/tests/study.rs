@@ -289,7 +289,7 @@ fn choices_by_error_and_by_cost() {
         let cost = choice.row.cost.unwrap().median;
         for row in &report.rows {
             let Some((error, other)) = row.measured() else { continue };
-            let robust = row.nearby.is_some_and(|nearby| nearby.is_within(3.0 * asked));
+            let robust = row.nearby.is_some_and(|nearby| nearby.is_within(2.0 * asked));
             assert!(error > asked || !robust || other.median >= cost, "{}", row.name());
         }
         let within = report.most_accurate_within(cost).unwrap();

@@ -307,7 +307,7 @@ impl<S, const N: usize> Study<S, N> {
         Self { stopwatch: Box::new(stopwatch), ..self }
     }
 
-    /// The same with so many states nearby, 8 by default, on which settings that may be chosen have to prove themselves;
+    /// The same with so many states nearby, 20 by default, on which settings that may be chosen have to prove themselves;
     /// none chooses by the initial states alone. An entry differs by at most `spread max(|x|, 1/3)`, with a spread of 0.4 by
     /// default. States that violate the constraints on positions are replaced by others of the same motion.
     #[must_use]
@@ -455,7 +455,7 @@ impl<S, const N: usize> Study<S, N> {
             progress: false,
             stop: Box::new(|_| false),
             stopwatch: Box::new(timing::Wall),
-            probes: 8,
+            probes: 20,
             spread: 0.4,
         }
     }
