@@ -335,7 +335,7 @@ fn costs<S, const N: usize>(
             // Back and forth, so that what drifts favours nobody.
             let k = if round % 2 == 0 { place } else { tried.len() - 1 - place };
             let Some(run) = &tried[k].run else { continue };
-            if round >= FEW && !(distances[k] <= NEAR_FRONT) {
+            if round >= FEW && distances[k] > NEAR_FRONT {
                 continue;
             }
             let part = (round as f64 + place as f64 / tried.len() as f64) / MANY as f64;
