@@ -150,7 +150,7 @@ fn study<S, const N: usize>(
     start: [f64; N],
     span: Range<f64>,
 ) -> Result<bool, Box<dyn Error>> {
-    let seconds = if arguments.quick { 10 } else { 26 };
+    let seconds = if arguments.quick { 10 } else { 25 };
     let mut study = study
         .title(format!("{name}, {} s", span.end - span.start))
         .within(Duration::from_secs(seconds))

@@ -371,6 +371,9 @@ fn nearby<S, const N: usize>(
     }
     let along = along(study);
     let states = probes::states(&study.starts, &along, study.t0, &study.tells, (study.probes, study.spread));
+    // References take their time; half of the stage is for trying.
+    let now = Instant::now();
+    let halfway = now + budget.deadline(Stage::Nearby).saturating_duration_since(now) / 2;
     let mut computed = 0.0;
     let probes = probes::with_references(
         states,
@@ -379,11 +382,13 @@ fn nearby<S, const N: usize>(
         &study.elsewhere.source,
         &mut || {
             computed += 1e-4;
-            budget.goes_on(Stage::Nearby, f64::min(computed, 0.5))
+            budget.goes_on(Stage::Nearby, f64::min(computed, 0.5)) && Instant::now() < halfway
         },
     );
     let distances = distances(tried);
-    let near: Vec<usize> = (0..tried.len()).filter(|k| distances[*k] <= NEAR_FRONT).collect();
+    // Those on the front first: should the time not suffice for all, the best choices are known.
+    let mut near: Vec<usize> = (0..tried.len()).filter(|k| distances[*k] <= NEAR_FRONT).collect();
+    near.sort_by(|a, b| distances[*a].total_cmp(&distances[*b]));
     for (done, &k) in near.iter().enumerate() {
         if !budget.goes_on(Stage::Nearby, 0.5 + 0.5 * done as f64 / near.len() as f64) {
             break;
