@@ -8,8 +8,8 @@ use guen_pages::{Page, pages, root};
 use serde_json::Value;
 
 /// The packages that are published, from the innermost.
-const PUBLISHED: [&str; 6] =
-    ["guen-symbolic", "guen-language", "guen-macros", "guen-runtime", "guen-study", "guen"];
+const PUBLISHED: [&str; 7] =
+    ["guen-symbolic", "guen-language", "guen-macros", "guen-runtime", "guen-study", "guen-adapters", "guen"];
 
 fn metadata() -> Value {
     let cargo = std::env::var_os("CARGO").unwrap_or("cargo".into());

@@ -15,6 +15,7 @@
 //! | how is it controlled? | [`Linearizable`], [`control`] |
 //! | which level of detail? | [`Level`], [`LevelInfo`], [`Levels`] |
 //! | what holds of positions? | [`Positions`], [`consistent`], [`project`], [`projected`] |
+//! | where are its bodies? | [`Bodies`] |
 //! | what can go wrong? | [`ConstantsError`], [`IntegrationError`] with its [`Cause`], [`PositionsError`] |
 //!
 //! The crate knows nothing of the language or of the algebra, and can be used with systems written by hand.
@@ -32,6 +33,7 @@
 #[cfg(feature = "std")]
 extern crate std;
 
+mod bodies;
 mod bracket;
 mod carrying;
 pub mod checks;
@@ -61,6 +63,7 @@ mod system;
 mod tuned;
 mod vitals;
 
+pub use bodies::{Bodies, Body};
 pub use bracket::{BracketCoefficients, Coefficient};
 pub use carrying::{Carrying, Rejoined, rejoined};
 pub use classification::{
@@ -78,7 +81,7 @@ pub use operator::{Applied, Coordinate, Function, Operator};
 pub use positions::{Positions, PositionsError, Projected, consistent, project, projected};
 pub use real::{Ordered, Real};
 pub use recast::Recast;
-pub use report::{Report, ReportSection};
+pub use report::{LatexDocument, MarkdownDocument, Report, ReportSection};
 pub use series::{Coefficients, Convolutions, HIGHEST_ORDER, TaylorSeries};
 pub use system::{FromFn, Laned, Monitored, System, from_fn};
 pub use tuned::{

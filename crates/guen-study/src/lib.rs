@@ -9,6 +9,7 @@
 //! | how good is it? | [`Monitor`] and its [`Invariants`]; [`drift`] and [`residuals`] as curves |
 //! | what are the numbers? | [`Table`], aligned for a terminal; [`significant`] for one number |
 //! | what does it look like? | [`Plot`], an SVG picture |
+//! | how does it move? | `Viewer`, an HTML page that plays a recording; feature `viewer` |
 //! | what if it begins elsewhere? | [`Ensemble`]: many motions in lanes and on threads |
 //! | which method, which real, which step? | `Study`, with the feature `study`: the trade of speed for accuracy, measured |
 //! | what did a scene leave out? | [`recover`]: integrals along a recorded run of a scene, with their errors |
@@ -54,6 +55,8 @@ mod stored;
 #[cfg(feature = "study")]
 mod study;
 mod table;
+#[cfg(feature = "viewer")]
+mod viewer;
 
 pub use ensemble::{End, Ensemble, Sampled};
 pub use error::StudyError;
@@ -71,3 +74,5 @@ pub use study::{
     pareto_front,
 };
 pub use table::{Table, significant};
+#[cfg(feature = "viewer")]
+pub use viewer::{Pose, Shape, Viewer};

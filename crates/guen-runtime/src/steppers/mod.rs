@@ -20,6 +20,7 @@
 mod adaptive;
 mod bounded;
 mod collocation;
+mod compensated;
 mod control;
 mod course;
 mod dense;
@@ -43,6 +44,7 @@ mod tsit5;
 mod tsit5_coefficients;
 
 pub use bounded::{Bound, Bounded};
+pub use compensated::Compensated;
 pub use course::{Course, Done, Method, Outcome, Reached, Statistics};
 pub use dense::{Dense, Interpolant};
 pub use dop853::Dop853;
