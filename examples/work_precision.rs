@@ -17,7 +17,10 @@ use std::time::Instant;
 use guen::mechanical_system;
 use guen::prelude::*;
 use guen::steppers::Method;
-use guen_study::significant;
+use guen_study::{Progress, significant};
+
+#[path = "common/arguments.rs"]
+mod arguments;
 
 mechanical_system! {
     /// A hoop of radius `a` that rolls without slipping on a horizontal plane.
@@ -109,7 +112,9 @@ fn time(rows: &mut [Row]) {
     const LONG: f64 = 5e-3;
 
     let mut times: Vec<Vec<f64>> = rows.iter().map(|_| Vec::new()).collect();
+    let mut progress = Progress::new(0.0, ROUNDS as f64);
     for round in 0..ROUNDS {
+        progress.at(round as f64);
         for (row, times) in rows.iter().zip(&mut times) {
             if round >= 5 && times[0] > LONG {
                 continue;
@@ -119,6 +124,7 @@ fn time(rows: &mut [Row]) {
             times.push(start.elapsed().as_secs_f64());
         }
     }
+    progress.finish();
     for (row, mut times) in rows.iter_mut().zip(times) {
         times.sort_by(f64::total_cmp);
         row.microseconds = 1e6 * times[times.len() / 2];
@@ -136,6 +142,12 @@ const FASTEST: f64 = 0.4;
 const ACCURACIES: [f64; 4] = [1e-3, 1e-6, 1e-9, 1e-12];
 
 fn main() -> Result<ExitCode, Box<dyn Error>> {
+    let about = "What an accuracy costs with each method: the paper's hoop over ten seconds.";
+    let all = |word: &str| (word == "--all").then_some(true);
+    let every = match arguments::read(about, "--all", "print every setting that was tried", false, all) {
+        Ok(every) => every,
+        Err(status) => return Ok(status),
+    };
     let hoop = Hoop { a: 1.0, A: 0.5, C: 1.0, g: 9.81 }.prepare()?;
     let reference = reference()?;
     let (form, state) = (hoop.carried()?, hoop::State::from(reference.start));
@@ -175,7 +187,7 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
         "The hoop over {} s: step or tolerance, and what it costs. With an apostrophe: the carried form.\n",
         reference.span
     );
-    if std::env::args().any(|argument| argument == "--all") {
+    if every {
         println!("{:<8} {:>10} {:>11} {:>11} {:>9}", "method", "setting", "evaluations", "us", "error");
         for row in &all {
             let Row { method, setting, evaluations, microseconds, error, .. } = row;

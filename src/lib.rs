@@ -43,25 +43,53 @@
 //! | --- | --- | --- |
 //! | `nalgebra` | yes | conversions between states and `nalgebra::SVector` |
 //! | `std` | yes | `Std`, and lanes chosen at run time; recordings and pictures are in the crate `guen-study` |
-//! | `serde` | no | serde's traits for constants, states and inputs; for recordings the feature of `guen-study` |
+//! | `serde` | no | serde's traits for constants, states and inputs, and for reports of studies |
+//! | `study` | no | the module `study`: which method, real and step for which accuracy; recordings and pictures |
 #![no_std]
 #![cfg_attr(docsrs, feature(doc_cfg))]
 #![forbid(unsafe_code)]
 
 pub use guen_runtime::{
-    BodyFault, BracketCoefficients, Carrying, Catastatic, Cause, Choice, Class, Coefficient, Conservative,
-    ConstantsError, Coordinate, Cost, Differentiable, Digits7, Digits7Functions, Digits13, Digits13Functions,
-    Dual, Equations, Function, Functions, Fused, FusedOperations, Generic, Holonomic, IncompleteLieGroup,
-    IntegrationError, Laned, Level, LevelInfo, Levels, LieGroup, Lift, Linearization, Monitored,
-    Nonholonomic, Operator, Ordered, Positions, PositionsError, Projected, Real, Rejoined, Report,
-    ReportSection, Rheonomic, Scleronomic, Setting, System, Tuned, Vitals, from_fn, generic, lanes, prelude,
-    project, projected, rejoined, steppers,
+    Bodies, Body, BodyFault, BracketCoefficients, Carrying, Catastatic, Cause, Choice, Class, Coefficient,
+    Conservative, ConstantsError, Coordinate, Cost, Differentiable, Digits7, Digits7Functions, Digits13,
+    Digits13Functions, Dual, Equations, Function, Functions, Fused, FusedOperations, Generic, Holonomic,
+    IncompleteLieGroup, IntegrationError, Laned, LatexDocument, Level, LevelInfo, Levels, LieGroup, Lift,
+    Linearization, Monitored, Nonholonomic, Operator, Ordered, Positions, PositionsError, Projected, Real,
+    Recast, Rejoined, Report, ReportSection, Rheonomic, Scleronomic, Setting, System, Tuned, Vitals, from_fn,
+    generic, lanes, prelude, project, projected, rejoined, steppers,
 };
 pub use guen_runtime::{Coefficients, Convolutions, HIGHEST_ORDER, TaylorSeries};
 pub use guen_runtime::{Liftable, Linearizable, OutputLinearization, control, seeded};
 
 #[cfg(feature = "std")]
 pub use guen_runtime::{Std, StdFunctions};
+
+/// The trade of speed for accuracy of a system, measured; with recordings, ensembles and pictures: the crate
+/// `guen-study`.
+///
+/// ```
+/// use guen::study::Study;
+///
+/// guen::mechanical_system! {
+///     pub system Pendulum {
+///         constants   { l > 0, g = 9.81 }
+///         coordinates { q }
+///         parameters  { w = dot(q); }
+///         kinetic_energy   = l^2*w^2/2;
+///         potential_energy = -g*l*cos(q);
+///     }
+/// }
+///
+/// let trade = Study::new(Pendulum::new(1.0), [0.5, 0.0], 0.0..2.0)?
+///     .keep(|method, real| method == "RK8" && real == "f64")
+///     .count_evaluations()
+///     .run();
+/// assert!(trade.report.fastest_within(1e-9)?.row.error < Some(1e-9));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[cfg(feature = "study")]
+#[cfg_attr(docsrs, doc(cfg(feature = "study")))]
+pub use guen_study as study;
 
 /// Declares a mechanical system and derives its equations of motion at compile time.
 ///
@@ -108,12 +136,12 @@ pub mod __private {
     };
     pub use guen_runtime::lanes::Lanes;
     pub use guen_runtime::{
-        BracketCoefficients, Carrying, Catastatic, Class, Coefficient, Coefficients, Conservative,
-        ConstantsError, Convolutions, Cost, Differentiable, Dual, HIGHEST_ORDER, Holonomic,
+        Bodies, Body, BracketCoefficients, Carrying, Catastatic, Class, Coefficient, Coefficients,
+        Conservative, ConstantsError, Convolutions, Cost, Differentiable, Dual, HIGHEST_ORDER, Holonomic,
         IncompleteLieGroup, Laned, Level, LevelInfo, Levels, LieGroup, Lift, Liftable, Linearizable,
         Linearization, Monitored, Nonholonomic, Operator, Ordered, OutputLinearization, Positions,
-        PositionsError, Real, Report, ReportSection, Rheonomic, Scleronomic, System, TaylorSeries, Vitals,
-        nalgebra_conversions, seeded, zero_bracket,
+        PositionsError, Real, Recast, Report, ReportSection, Rheonomic, Scleronomic, System, TaylorSeries,
+        Vitals, nalgebra_conversions, seeded, zero_bracket,
     };
     pub use guen_runtime::{consistent, control, serde_record};
 }

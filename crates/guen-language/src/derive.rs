@@ -52,6 +52,9 @@ pub struct Level {
     pub energy: ExprId,
     /// The straight-line code.
     pub programs: Programs,
+    /// Where the bodies of the system itself are, with a preparation of its own: nothing is prepared for programs that never
+    /// look.
+    pub placed: Option<Programs>,
     /// Functions that must not vanish, in words: the domain of the chart.
     pub domain_names: Vec<String>,
     /// Expressions of constants that must not vanish.
@@ -112,6 +115,8 @@ pub mod function {
     pub const POSITIONS: &str = "positions";
     /// The holonomic constraints and then their derivatives, row by row; only where there are some.
     pub const GRADIENTS: &str = "gradients";
+    /// Centers and orientations of the bodies, then the positions of the particles.
+    pub const BODIES: &str = "bodies";
     /// The functions that must not vanish.
     pub const DOMAIN: &str = "domain";
     /// The expressions of constants that must not vanish.
@@ -197,6 +202,8 @@ fn whole(
     let mut lists = formulas::rates(&derivation);
     let rates = lists[0].clone();
     extend(&mut model.bench, &mut lists);
+    let placed = formulas::placed(model);
+    let placed = (!placed.is_empty()).then(|| programs(&mut model.bench, &[], &[(function::BODIES, placed)]));
     let mut programs = programs(&mut model.bench, &lists, &quantities);
     let jacobians = Jacobians::add(&mut programs, model, &selection);
     let energy = derivation.energies.integral;
@@ -209,6 +216,7 @@ fn whole(
         equations,
         energy,
         programs,
+        placed,
         domain_names,
         constant_pivots,
         series: None,
@@ -326,7 +334,9 @@ fn extend(bench: &mut Workbench, lists: &mut Vec<Vec<ExprId>>) {
 /// The code of the rates, given in several equal forms, and of everything else.
 fn programs(bench: &mut Workbench, rates: &[Vec<ExprId>], quantities: &[Quantity]) -> Programs {
     let mut builder = ProgramBuilder::new(&mut bench.graph);
-    builder.add_equal(function::RHS, rates);
+    if !rates.is_empty() {
+        builder.add_equal(function::RHS, rates);
+    }
     for (name, outputs) in quantities.iter().filter(|(_, outputs)| !outputs.is_empty()) {
         builder.add_cold(name, outputs);
     }

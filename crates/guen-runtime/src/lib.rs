@@ -7,6 +7,7 @@
 //! | what is a number? | [`Real`], [`Ordered`], [`Dual`]; [`Lift`] embeds a base real |
 //! | what is integrated? | [`System`], [`Monitored`], [`Differentiable`], [`TaylorSeries`], [`from_fn`], [`generic`] |
 //! | which functions does it have? | [`Tuned`]: [`Digits13`], [`Digits7`], [`Fused`], [`Functions`] of your own |
+//! | over which reals? | [`Recast`], what can be made anew over each |
 //! | how many at once? | [`lanes`]; [`Laned`] systems |
 //! | what acts on functions? | [`Operator`], [`Function`], [`Coordinate`], [`BracketCoefficients`] |
 //! | what is known at compile time? | [`Class`], the markers [`Holonomic`] to [`Conservative`], [`Cost`] |
@@ -14,6 +15,7 @@
 //! | how is it controlled? | [`Linearizable`], [`control`] |
 //! | which level of detail? | [`Level`], [`LevelInfo`], [`Levels`] |
 //! | what holds of positions? | [`Positions`], [`consistent`], [`project`], [`projected`] |
+//! | where are its bodies? | [`Bodies`] |
 //! | what can go wrong? | [`ConstantsError`], [`IntegrationError`] with its [`Cause`], [`PositionsError`] |
 //!
 //! The crate knows nothing of the language or of the algebra, and can be used with systems written by hand.
@@ -31,6 +33,7 @@
 #[cfg(feature = "std")]
 extern crate std;
 
+mod bodies;
 mod bracket;
 mod carrying;
 pub mod checks;
@@ -51,6 +54,7 @@ mod nalgebra_support;
 mod operator;
 mod positions;
 mod real;
+mod recast;
 mod report;
 mod serde_support;
 mod series;
@@ -59,6 +63,7 @@ mod system;
 mod tuned;
 mod vitals;
 
+pub use bodies::{Bodies, Body};
 pub use bracket::{BracketCoefficients, Coefficient};
 pub use carrying::{Carrying, Rejoined, rejoined};
 pub use classification::{
@@ -75,7 +80,8 @@ pub use linearization::{Liftable, Linearizable, Linearization, OutputLinearizati
 pub use operator::{Applied, Coordinate, Function, Operator};
 pub use positions::{Positions, PositionsError, Projected, consistent, project, projected};
 pub use real::{Ordered, Real};
-pub use report::{Report, ReportSection};
+pub use recast::Recast;
+pub use report::{LatexDocument, MarkdownDocument, Report, ReportSection};
 pub use series::{Coefficients, Convolutions, HIGHEST_ORDER, TaylorSeries};
 pub use system::{FromFn, Laned, Monitored, System, from_fn};
 pub use tuned::{

@@ -69,6 +69,7 @@ pub(super) fn derive(
         domain_names,
         constant_pivots: Vec::new(),
         jacobians: Jacobians::default(),
+        placed: None,
         series: None,
         scene: None,
         carried: None,

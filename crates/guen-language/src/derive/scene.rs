@@ -185,6 +185,7 @@ fn level(
         equations: Vec::new(),
         energy,
         programs,
+        placed: None,
         domain_names,
         constant_pivots,
         series,

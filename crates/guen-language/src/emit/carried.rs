@@ -98,7 +98,7 @@ fn module(subject: &Subject<'_, '_>, layout: &Layout, base: &Layout) -> TokenStr
     let serde = serde::state(layout);
     let prepared = prepared(subject, layout, base, invariants);
     let systems = systems(subject, layout, base, invariants, edges);
-    let code = functions::module(subject, layout);
+    let code = functions::modules(subject, layout);
     quote! {
         #state
         #serde

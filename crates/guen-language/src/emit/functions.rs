@@ -2,12 +2,12 @@
 
 use std::fmt::Write;
 
-use guen_symbolic::{ExprId, SymbolId};
+use guen_symbolic::{ExprId, Programs, SymbolId};
 use proc_macro2::TokenStream;
 
 use super::code::{Loads, body};
 use super::{Layout, Subject, tokens};
-use crate::derive::function;
+use crate::derive::{Level, function};
 
 /// Where the values of symbols are: in the arrays that a function takes.
 pub(super) struct Places(Vec<String>);
@@ -96,15 +96,27 @@ pub(super) fn signature(name: &str) -> Signature {
     }
 }
 
-/// The module: `prepare` and every function, generic over the real.
-pub(super) fn module(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
-    let programs = &subject.level.programs;
+/// The modules: `prepare` and every function, generic over the real.
+pub(super) fn modules(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
+    let Level { programs, placed, series, .. } = subject.level;
+    let places = Places::new(subject, false);
+    let series = series.as_ref().map(|series| super::series::function(series, &places, layout));
+    let mut text = module("program", programs, &series.unwrap_or_default(), subject, layout);
+    if let Some(placed) = placed {
+        text.push_str(&module("placed", placed, "", subject, layout));
+    }
+    tokens(&text)
+}
+
+/// One module, `more` at its end.
+fn module(name: &str, programs: &Programs, more: &str, subject: &Subject<'_, '_>, layout: &Layout) -> String {
     let (places, everywhere) = (Places::new(subject, false), Places::new(subject, true));
-    let Layout { n, l, size, all, constants, hoisted, inputs, .. } = layout;
-    let mut text = String::from(
+    let Layout { n, l, size, all, constants, inputs, .. } = layout;
+    let hoisted = programs.prepared.len();
+    let mut text = format!(
         "#[allow(unused_variables, reason = \"every function has the signature of its kind\")]
         #[allow(clippy::all, clippy::pedantic, clippy::nursery, clippy::restriction, reason = \"straight-line code for the compiler\")]
-        mod program { use super::__guen;",
+        mod {name} {{ use super::__guen;"
     );
     let _ = write!(
         text,
@@ -131,9 +143,7 @@ pub(super) fn module(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream 
             body(&program.instructions, &program.outputs, places),
         );
     }
-    if let Some(series) = &subject.level.series {
-        text.push_str(&super::series::function(series, &places, layout));
-    }
+    text.push_str(more);
     text.push('}');
-    tokens(&text)
+    text
 }

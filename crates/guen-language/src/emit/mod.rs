@@ -3,6 +3,7 @@
 //! Two piles: what users name (the constants, the state, the operators, ...) carries their spans, visibility and
 //! documentation; straight-line code sits in the private module `program`, where lint allowances are.
 
+mod bodies;
 pub(crate) mod carried;
 mod classification;
 mod code;
@@ -21,6 +22,7 @@ mod operators;
 mod outline;
 mod physical;
 mod positions;
+mod recast;
 mod records;
 mod serde;
 mod series;
@@ -199,12 +201,13 @@ fn module(
         serde::items(subject, &layout),
         positions::items(subject, &layout),
         physical::items(subject, &layout),
+        bodies::items(subject, &layout),
         operators::items(subject, &layout),
         classification::items(subject, &layout),
         levels::items(subject, &layout),
         missing::items(subject, &layout),
         documentation::constants(&report),
-        functions::module(subject, &layout),
+        functions::modules(subject, &layout),
         carried::items(subject, &layout),
     ];
     let docs = documentation::module(&report, system, layout.is_whole);

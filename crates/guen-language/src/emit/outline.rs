@@ -382,6 +382,12 @@ fn prepared(system: &Ident, names: &Names) -> TokenStream {
             fn jacobian(&self, _: R, _: &[R; #size]) -> [[R; #size]; #size] { ::core::unreachable!() }
             fn along(&self, _: R, _: &[R; #size], _: R, _: &[R; #size]) -> [R; #size] { ::core::unreachable!() }
         }
+        impl __guen::Recast<#size> for #owner<f64> {
+            type In<R: __guen::Real> = #owner<R>;
+            fn recast<R: __guen::Real>(&self) -> ::core::result::Result<#owner<R>, __guen::ConstantsError> {
+                ::core::unreachable!()
+            }
+        }
         #(impl<R> __guen::#kinds for #owner<R> {})*
         /// The class.
         pub const CLASS: __guen::Class = __guen::Class::Undecided;

@@ -39,6 +39,8 @@ pub struct Model<'a> {
     pub forms: Vec<FormEntry<'a>>,
     /// Bodies in order.
     pub bodies: Vec<BodyEntry>,
+    /// Masses and positions of particles in order.
+    pub particles: Vec<(ExprId, [ExprId; 3])>,
     /// Outputs in order.
     pub outputs: Vec<OutputEntry<'a>>,
     /// Unit quaternions among the coordinates, by the indices of `w, x, y, z`.
@@ -142,6 +144,10 @@ pub struct BodyEntry {
     pub mass: Option<ExprId>,
     /// The matrix entries `xx, yy, zz, xy, yz, zx` of its inertia, if it has one.
     pub inertia: Option<[ExprId; 6]>,
+    /// The mass centre, if it has one.
+    pub center: Option<[ExprId; 3]>,
+    /// The matrix of its orientation, row by row, if it has one.
+    pub orientation: Option<[[ExprId; 3]; 3]>,
 }
 
 /// A scene whose names are sound.

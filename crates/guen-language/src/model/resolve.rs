@@ -48,6 +48,7 @@ struct Resolver<'a, 'f> {
     force_function: Option<ExprId>,
     forces: Vec<Force>,
     bodies: Vec<BodyEntry>,
+    particles: Vec<Weight>,
     outputs: Vec<OutputEntry<'a>>,
     scenes: Vec<SceneEntry<'a>>,
     output_values: Vec<ExprId>,
@@ -91,6 +92,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
             force_function: None,
             forces: Vec::new(),
             bodies: Vec::new(),
+            particles: Vec::new(),
             outputs: Vec::new(),
             scenes: Vec::new(),
             output_values: Vec::new(),
@@ -194,6 +196,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
                     self.has_masses = true;
                     if let Ok((energy, weight)) = self.eval.particle(particle) {
                         self.kinetic.push(energy);
+                        self.particles.push(weight);
                         self.weights.push(weight);
                     }
                 }
@@ -204,8 +207,14 @@ impl<'a, 'f> Resolver<'a, 'f> {
                     let value = self.eval.body(body).ok().map(|(energy, weight, value)| {
                         self.kinetic.push(energy);
                         self.weights.extend(weight);
-                        let BodyValue { name, mass, inertia, .. } = &value;
-                        self.bodies.push(BodyEntry { name: name.clone(), mass: *mass, inertia: *inertia });
+                        let BodyValue { name, mass, inertia, center, orientation } = &value;
+                        self.bodies.push(BodyEntry {
+                            name: name.clone(),
+                            mass: *mass,
+                            inertia: *inertia,
+                            center: center.map(|(position, _)| position),
+                            orientation: orientation.as_ref().map(|rotation| rotation.matrix),
+                        });
                         Value::Body(Box::new(value))
                     });
                     self.eval.scope.declare(self.eval.faults, &body.name, Category::Body, value);
@@ -248,7 +257,11 @@ impl<'a, 'f> Resolver<'a, 'f> {
                              derived, `taylor`, that it has a Taylor series, and `carried`, that it has a form \
                              without elementary calls",
                         );
-                    self.eval.faults.report(fault);
+                    let near = crate::names::nearest(&provide.name.text, ["operators", "taylor", "carried"]);
+                    self.eval.faults.report(match near {
+                        Some(near) => fault.help(format_args!("did you mean `{near}`?")),
+                        None => fault,
+                    });
                 }
             }
             Item::Scene(scene) => {
@@ -499,6 +512,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
             coordinates: self.coordinates,
             forms: raw.into_iter().map(|form| form.entry).collect(),
             bodies: self.bodies,
+            particles: self.particles,
             outputs: self.outputs,
             quaternions,
             reactions,

@@ -25,8 +25,9 @@ use crate::series::{Coefficients, HIGHEST_ORDER, TaylorSeries};
 /// in every entry. The two highest orders are what Jorba and Zou ask of; two more are there for series in which every third
 /// or fourth coefficient alone is not zero.
 ///
-/// - The order is 2 to 32: by default `p = 1 - ln(tol) / 2` rounded up, with the larger of the tolerances for `tol`, which
-///   is where the work over a given time is least if that of a step grows as `p^2`. A higher one makes longer steps.
+/// - The order is 2 to 32. By default it is the larger of `1 + d ln(10) / 2` and `12 + 0.65 d` for a tolerance of `10^-d`,
+///   the larger of the two, rounded. The first is Jorba and Zou's, where the work over a given time is least if that of a
+///   step grows as `p^2`; the second was measured on the hoop, where it grows more slowly. Higher orders make longer steps.
 /// - No step is tried in vain: the length is known before it is made. Trials that [`Statistics`](super::Statistics) calls
 ///   rejected are expansions whose coefficients overflowed, which are repeated with another scale.
 /// - Dense output is the series itself, at no price but its evaluation.
@@ -118,8 +119,9 @@ impl<R: Ordered> Taylor<R> {
             Some(order @ 2..=32) => Ok(order as usize),
             Some(_) => Err(Cause::Setting(Setting::Order)),
             None => {
-                let order = libm::ceil(1.0 - 0.5 * libm::log(self.rtol.max(self.atol)));
-                Ok((order as usize).clamp(4, HIGHEST_ORDER))
+                let digits = -libm::log10(self.rtol.max(self.atol));
+                let order = f64::max(12.0 + 0.65 * digits, 1.0 + 0.5 * core::f64::consts::LN_10 * digits);
+                Ok((libm::round(order) as usize).clamp(LOWEST_DEFAULT, HIGHEST_ORDER))
             }
         }
     }
@@ -158,6 +160,9 @@ impl<R: Real, const N: usize> Interpolant<R, N> for Series<R, N> {
         core::array::from_fn(|i| self.coefficients[0][i] + change[i])
     }
 }
+
+/// The least order that a tolerance leads to.
+const LOWEST_DEFAULT: usize = 8;
 
 /// A run of Taylor's method.
 #[derive(Clone, Copy, Debug)]

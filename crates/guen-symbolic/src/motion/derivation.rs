@@ -79,6 +79,8 @@ pub struct Derivation {
     pub solution: Solution,
     /// The rates of the state in other forms, velocities first, accelerations equal to the solution's: what costs least is found when code is made.
     pub alternatives: Vec<Vec<ExprId>>,
+    /// Whether the accelerations were also, or only, found with the reactions between velocity forms as unknowns.
+    pub by_tensions: bool,
     /// The reactions `lambda_v` as functions of `t, x, eta`, inputs and `eta'` (as symbols); none for constraints
     /// without momentum in `T°`.
     pub reactions: Vec<Option<ExprId>>,
@@ -148,6 +150,7 @@ impl Derivation {
             Some(tensions) if solve_equations(bench, &equations, &tensions.accelerations)? => Some(tensions),
             _ => None,
         };
+        let by_tensions = tensions.is_some();
         let mut alternatives: Vec<Vec<ExprId>> = Vec::new();
         let solution = match tensions {
             Some(tensions) if tensions.is_clear => {
@@ -159,9 +162,13 @@ impl Derivation {
                 let solution = solution.map_err(|rows| {
                     DerivationError::SingularMass(weightless(bench, &equations.mass, &rows))
                 })?;
-                let others = candidates
+                let others: Vec<Solution> = candidates
                     .into_iter()
                     .filter_map(|other| Solution::new(bench, &other.mass, &other.forces).ok())
+                    .collect();
+                let others = others
+                    .into_iter()
+                    .chain(Solution::shared(bench, &equations.mass, &equations.forces))
                     .map(|other| other.accelerations)
                     .chain(tensions.map(|tensions| tensions.accelerations));
                 alternatives.extend(others.map(|other| [&frame.velocities[..], &other].concat()));
@@ -229,6 +236,7 @@ impl Derivation {
             generalised_forces,
             solution,
             alternatives,
+            by_tensions,
             reactions,
             without_momentum,
             known_momentum,

@@ -16,7 +16,7 @@
 
 use super::velocity_forms::VelocityPartials;
 use super::{Equations, Frame, KineticTerm, Mechanics, VelocityForm};
-use crate::algebra::{ExprId, FastMap, Rational};
+use crate::algebra::{ExprId, FastMap, Node, Rational};
 use crate::program::weighted_cost;
 use crate::workbench::Workbench;
 
@@ -126,14 +126,29 @@ pub(super) fn equations(
             }
         }
     }
-    let squares = masses(bench, terms).map(|masses| {
-        let forms: Vec<&Measured> = masses.iter().map(|(u, _)| &measured[known[u]]).collect();
-        Squares {
-            components: forms.iter().map(|form| form.components[..l].to_vec()).collect(),
-            drifts: forms.iter().map(|form| form.drift).collect(),
-            masses: masses.iter().map(|(_, mass)| *mass).collect(),
-            rest: rest[..l].iter().map(|terms| bench.graph.sum(terms.iter().copied())).collect(),
+    let squares = squares(bench, terms).map(|squares| {
+        let mut found =
+            Squares { masses: Vec::new(), components: Vec::new(), drifts: Vec::new(), rest: Vec::new() };
+        let mut rest = rest[..l].to_vec();
+        for Square { mass, factor, form } in squares {
+            let form = &measured[known[&form]];
+            // In place of 2 D(w) u u_s with w = m c^2/2 the form c u has m c D(c) u u_s in its acceleration.
+            let rate = frame.motion.of(&mut bench.graph, factor);
+            let mut components = Vec::new();
+            for (s, component) in form.components[..l].iter().enumerate() {
+                let own = bench.graph.mul(factor, *component);
+                components.push(bench.tidy(own));
+                if !bench.graph.is_zero(rate) && !bench.graph.is_zero(*component) {
+                    let all = [mass, factor, rate, form.value, *component].map(|e| (e, 1));
+                    rest[s].push(bench.graph.product(&all));
+                }
+            }
+            found.masses.push(mass);
+            found.components.push(components);
+            found.drifts.push(bench.graph.mul(factor, form.drift));
         }
+        found.rest = rest.into_iter().map(|terms| bench.graph.sum(terms)).collect();
+        found
     });
     let equations = Equations {
         mass: mass
@@ -145,20 +160,54 @@ pub(super) fn equations(
     Projected { equations, squares }
 }
 
-/// Forms and their masses, if all products of forms are squares with positive constants before them.
-fn masses(bench: &mut Workbench, terms: &[KineticTerm]) -> Option<Vec<(ExprId, ExprId)>> {
+/// `1/2 m (c u)^2` with a positive constant `m`.
+struct Square {
+    mass: ExprId,
+    /// `c(t, x)`.
+    factor: ExprId,
+    form: ExprId,
+}
+
+/// The quadratic part of the energy as squares, if it is seen to be a sum of such.
+fn squares(bench: &mut Workbench, terms: &[KineticTerm]) -> Option<Vec<Square>> {
+    let graph = &mut bench.graph;
     let mut found = Vec::new();
     for term in terms {
-        match term.forms[..] {
-            [u, v] if u == v && bench.graph.roles(term.weight).is_constant() => {
-                let mass = bench.graph.scale(term.weight, &Rational::integer(2));
-                if !bench.graph.manifestly_positive(mass) {
-                    return None;
-                }
-                found.push((u, mass));
+        let [form, other] = term.forms[..] else { continue };
+        if form != other {
+            return None;
+        }
+        let weights: Vec<ExprId> = match graph.node(term.weight).clone() {
+            Node::Sum { constant, terms } => {
+                let constant = graph.number(constant);
+                let others = terms.iter().map(|(e, c)| graph.scale(*e, c)).collect::<Vec<_>>();
+                others.into_iter().chain([constant]).filter(|e| !graph.is_zero(*e)).collect()
             }
-            [_, _] => return None,
-            _ => {}
+            _ => vec![term.weight],
+        };
+        // A constant sum is one mass.
+        let weights = if graph.roles(term.weight).is_constant() { vec![term.weight] } else { weights };
+        for weight in weights {
+            let (content, rest) = graph.split_coefficient(weight);
+            let factors: Vec<(ExprId, i32)> = match graph.node(rest) {
+                Node::Product(factors) => factors.to_vec(),
+                _ => vec![(rest, 1)],
+            };
+            // Squares belong to the form, as in the velocity that they come from; what is all constant is a mass.
+            let is_constant = graph.roles(rest).is_constant();
+            let (masses, squares): (Vec<_>, Vec<_>) =
+                factors.into_iter().partition(|(_, e)| is_constant || e % 2 != 0);
+            if masses.iter().any(|(base, _)| !graph.roles(*base).is_constant()) {
+                return None;
+            }
+            let mass = graph.product(&masses);
+            let mass = graph.scale(mass, &(&content * &Rational::integer(2)));
+            let squares: Vec<_> = squares.into_iter().map(|(base, e)| (base, e / 2)).collect();
+            let factor = graph.product(&squares);
+            if !graph.manifestly_positive(mass) {
+                return None;
+            }
+            found.push(Square { mass, factor, form });
         }
     }
     Some(found)

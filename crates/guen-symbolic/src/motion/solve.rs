@@ -27,6 +27,25 @@ pub struct Solution {
 impl Solution {
     /// Solves the equations, or names a combination of parameters without inertia: rows that are dependent.
     pub fn new(bench: &mut Workbench, mass: &[Vec<ExprId>], forces: &[ExprId]) -> Result<Self, Vec<usize>> {
+        Self::of_blocks(bench, mass, forces, false)
+    }
+
+    /// The same with what is solved first kept whole in small blocks too; `None` where there is nothing to share.
+    pub(super) fn shared(bench: &mut Workbench, mass: &[Vec<ExprId>], forces: &[ExprId]) -> Option<Self> {
+        let pairs = blocks(bench, mass).into_iter().filter(|block| block.len() == WRITTEN_OUT);
+        let is_coupled = |block: Vec<usize>| !bench.graph.roles(mass[block[0]][block[1]]).is_constant();
+        if !pairs.into_iter().any(is_coupled) {
+            return None;
+        }
+        Self::of_blocks(bench, mass, forces, true).ok()
+    }
+
+    fn of_blocks(
+        bench: &mut Workbench,
+        mass: &[Vec<ExprId>],
+        forces: &[ExprId],
+        share: bool,
+    ) -> Result<Self, Vec<usize>> {
         let l = mass.len();
         if let Some(rank) = bench.zero.rank(&mut bench.graph, mass, true)
             && rank < l
@@ -44,7 +63,8 @@ impl Solution {
             let matrix: Vec<Vec<ExprId>> =
                 block.iter().map(|s| block.iter().map(|t| mass[*s][*t]).collect()).collect();
             let right: Vec<ExprId> = block.iter().map(|s| forces[*s]).collect();
-            let values = solution.solve_block(bench, &block, matrix, right).ok_or_else(|| block.clone())?;
+            let values =
+                solution.solve_block(bench, &block, matrix, right, share).ok_or_else(|| block.clone())?;
             for (s, value) in block.into_iter().zip(values) {
                 solution.accelerations[s] = value;
             }
@@ -66,12 +86,16 @@ impl Solution {
         rows: &[usize],
         m: Vec<Vec<ExprId>>,
         f: Vec<ExprId>,
+        share: bool,
     ) -> Option<Vec<ExprId>> {
         let n = m.len();
-        // Small blocks are written out, and simplify; in larger ones every intermediate result has many users.
-        let keep = |bench: &mut Workbench, e: ExprId| if n > WRITTEN_OUT { bench.graph.keep(e) } else { e };
+        let naming = match n {
+            0..=WRITTEN_OUT if share => Naming::Values,
+            0..=WRITTEN_OUT => Naming::Nothing,
+            _ => Naming::Everything,
+        };
         let Some(Elimination { values, pivots }) =
-            eliminate(bench, m.clone(), f.clone(), &keep, true, choose_pivot)
+            eliminate(bench, m.clone(), f.clone(), naming, choose_pivot)
         else {
             return self.solve_by_adjugate(bench, &m, &f);
         };
@@ -135,17 +159,31 @@ pub(super) struct Elimination {
     pub(super) pivots: Vec<ExprId>,
 }
 
-/// Solves a symmetric system by `L D L^T`; `None` where nothing is chosen as a pivot. `keep` names intermediate results,
-/// `choose` picks the next pivot from the rows that are left; with `drop`, entries that vanish are looked for.
+/// Which results of an elimination are kept whole.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Naming {
+    /// None: small blocks are written out, and simplify.
+    Nothing,
+    /// What is solved first, which the others use.
+    Values,
+    /// All: in larger blocks every intermediate result has many users.
+    Everything,
+    /// All, of a matrix that is positive definite and sparse: entries that vanish are not looked for.
+    Definite,
+}
+
+/// Solves a symmetric system by `L D L^T`; `None` where nothing is chosen as a pivot. `choose` picks the next one from
+/// the rows that are left.
 pub(super) fn eliminate(
     bench: &mut Workbench,
     mut m: Vec<Vec<ExprId>>,
     mut f: Vec<ExprId>,
-    keep: &dyn Fn(&mut Workbench, ExprId) -> ExprId,
-    drop: bool,
+    naming: Naming,
     mut choose: impl FnMut(&mut Workbench, &[Vec<ExprId>], &[usize]) -> Option<usize>,
 ) -> Option<Elimination> {
     let n = m.len();
+    let names_all = matches!(naming, Naming::Everything | Naming::Definite);
+    let keep = |bench: &mut Workbench, e: ExprId| if names_all { bench.graph.keep(e) } else { e };
     for e in m.iter_mut().flatten().chain(&mut f) {
         *e = keep(bench, *e);
     }
@@ -168,7 +206,7 @@ pub(super) fn eliminate(
             for (c, _) in &multipliers[..=i] {
                 let product = bench.graph.mul(*factor, m[*c][k]);
                 let difference = bench.graph.sub(m[*r][*c], product);
-                let entry = if drop { bench.dropped(difference) } else { difference };
+                let entry = if naming == Naming::Definite { difference } else { bench.dropped(difference) };
                 let entry = keep(bench, entry);
                 (m[*r][*c], m[*c][*r]) = (entry, entry);
             }
@@ -180,6 +218,7 @@ pub(super) fn eliminate(
     }
     // L^T x = D^-1 f', backwards.
     let mut values = vec![bench.graph.zero(); n];
+    let mut last = true;
     for (k, multipliers) in steps.into_iter().rev() {
         let mut terms = vec![bench.graph.div(f[k], m[k][k])];
         for (r, factor) in multipliers {
@@ -187,7 +226,13 @@ pub(super) fn eliminate(
             terms.push(bench.graph.neg(product));
         }
         let value = bench.graph.sum(terms);
-        values[k] = keep(bench, value);
+        values[k] = if naming == Naming::Values && last {
+            last = false;
+            let tidy = bench.tidy(value);
+            bench.graph.keep(tidy)
+        } else {
+            keep(bench, value)
+        };
     }
     Some(Elimination { values, pivots })
 }

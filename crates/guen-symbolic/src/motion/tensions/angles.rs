@@ -35,7 +35,8 @@ impl Between {
         e: ExprId,
         work: impl FnOnce(&mut Workbench) -> T,
     ) -> Option<T> {
-        let own = angles_in(&bench.graph, e);
+        let mut own = angles_in(&bench.graph, e);
+        own.extend(self.middles(&own));
         let inside: Vec<_> =
             self.edges.iter().filter(|(a, b, _)| own.contains(a) && own.contains(b)).collect();
         if inside.is_empty() {
@@ -49,6 +50,29 @@ impl Between {
         let angles: Vec<ExprId> = roots.chain(inside.iter().map(|(_, _, angle)| *angle)).collect();
         let sines: Vec<ExprId> = angles.into_iter().map(|angle| bench.graph.sin(angle)).collect();
         Some(bench.in_base_angles(&sines, work))
+    }
+}
+
+impl Between {
+    /// Angles that join two of some angles that have no edge: two links that hang from a third one.
+    fn middles(&self, own: &[ExprId]) -> Vec<ExprId> {
+        let other = |edge: &(ExprId, ExprId, ExprId), end: ExprId| match edge {
+            (a, b, _) if *a == end => Some(*b),
+            (a, b, _) if *b == end => Some(*a),
+            _ => None,
+        };
+        let mut found: Vec<ExprId> = Vec::new();
+        for first in own {
+            for middle in self.edges.iter().filter_map(|edge| other(edge, *first)) {
+                let joins = |edge: &(ExprId, ExprId, ExprId)| {
+                    other(edge, middle).is_some_and(|end| end != *first && own.contains(&end))
+                };
+                if !own.contains(&middle) && !found.contains(&middle) && self.edges.iter().any(joins) {
+                    found.push(middle);
+                }
+            }
+        }
+        found
     }
 }
 

@@ -32,7 +32,7 @@ mod sparse;
 mod tree;
 
 use super::projection::Squares;
-use super::solve::{Elimination, eliminate};
+use super::solve::{Elimination, Naming, eliminate};
 use super::{Equations, Frame};
 use crate::algebra::{ExprId, FastMap, Node, Rational};
 use crate::normal::{Limits, normal_coefficients};
@@ -42,6 +42,7 @@ use angles::Between;
 use balance::{Balance, balance};
 use pattern::Pattern;
 use sparse::Vector;
+use tree::Edge;
 
 /// The accelerations by tensions.
 pub(super) struct Tensions {
@@ -55,7 +56,7 @@ pub(super) struct Tensions {
 
 /// The forms as differences.
 struct Stretched<'a> {
-    parents: &'a [Option<usize>],
+    edges: &'a [Option<Edge>],
     /// `1/m_k`.
     weights: &'a [ExprId],
 }
@@ -66,9 +67,9 @@ impl Stretched<'_> {
         let mut image = Vector::default();
         for (k, e) in y.entries() {
             image.add(bench, *k, *e);
-            if let Some(parent) = self.parents[*k] {
-                let negative = bench.graph.neg(*e);
-                image.add(bench, parent, negative);
+            if let Some(Edge { parent, multiple }) = &self.edges[*k] {
+                let part = bench.graph.scale(*e, &-multiple.clone());
+                image.add(bench, *parent, part);
             }
         }
         image
@@ -81,9 +82,13 @@ impl Stretched<'_> {
             let rate = bench.graph.mul(*e, self.weights[*k]);
             let rate = bench.tidy(rate);
             found.add(bench, *k, rate);
-            for child in (0..self.parents.len()).filter(|child| self.parents[*child] == Some(*k)) {
-                let negative = bench.graph.neg(rate);
-                found.add(bench, child, negative);
+            for (child, edge) in self.edges.iter().enumerate() {
+                if let Some(Edge { parent, multiple }) = edge
+                    && parent == k
+                {
+                    let part = bench.graph.scale(rate, &-multiple.clone());
+                    found.add(bench, child, part);
+                }
             }
         }
         found
@@ -111,23 +116,23 @@ pub(super) fn solve(
         return None;
     }
     let components: Vec<Vec<ExprId>> = moving.iter().map(|k| squares.components[*k].clone()).collect();
-    let parents = tree::spanning(&components, zero);
-    let mut coupling: Vec<usize> = parents.iter().map(|parent| usize::from(parent.is_some())).collect();
-    parents.iter().flatten().for_each(|parent| coupling[*parent] += 1);
-    let rows: Vec<Vector> = (0..moving.len())
-        .map(|k| tree::difference(bench, &components[k], parents[k].map(|parent| &components[parent][..])))
-        .collect();
+    let edges = tree::spanning(bench, &components);
+    let mut coupling: Vec<usize> = edges.iter().map(|edge| usize::from(edge.is_some())).collect();
+    edges.iter().flatten().for_each(|edge| coupling[edge.parent] += 1);
+    let rows: Vec<Vector> =
+        (0..moving.len()).map(|k| tree::difference(bench, &components, k, edges[k].as_ref())).collect();
     if rows.iter().map(Vector::len).sum::<usize>() > pattern::densest(l, moving.len()) {
         return None;
     }
     let Balance { inverse, null, divisors } = balance(bench, &rows, l, &coupling)?;
     let weights: Vec<ExprId> = moving.iter().map(|k| bench.graph.powi(squares.masses[*k], -1)).collect();
-    let stretched = Stretched { parents: &parents, weights: &weights };
+    let stretched = Stretched { edges: &edges, weights: &weights };
     let across: Vec<Vector> = null.iter().map(|y| stretched.of(bench, y)).collect();
     let along: Vec<Vector> = inverse.iter().map(|y| stretched.of(bench, y)).collect();
     let tensions = Pattern::of_products(&across, &along);
     let (ours, theirs) = (tensions.cost(), dense.cost());
-    if ours > theirs {
+    // An estimate: what is a little dearer by it may be cheaper.
+    if 4 * ours > 5 * theirs {
         return None;
     }
 
@@ -144,8 +149,13 @@ pub(super) fn solve(
     let accelerations: Vec<Vec<ExprId>> = (0..moving.len())
         .map(|k| {
             let drift = squares.drifts[moving[k]];
-            let parent = parents[k].map_or(zero, |parent| squares.drifts[moving[parent]]);
-            let drift = bench.graph.sub(drift, parent);
+            let drift = match &edges[k] {
+                Some(Edge { parent, multiple }) => {
+                    let part = bench.graph.scale(squares.drifts[moving[*parent]], multiple);
+                    bench.graph.sub(drift, part)
+                }
+                None => drift,
+            };
             let mut parts = vec![frame.motion.of(&mut bench.graph, drift)];
             for (s, e) in rows[k].entries() {
                 let rate = frame.motion.of(&mut bench.graph, *e);
@@ -444,6 +454,5 @@ fn by_least_fill(bench: &mut Workbench, matrix: Vec<Vec<ExprId>>, right: Vec<Exp
         }
         Some(k)
     };
-    eliminate(bench, matrix, right, &|bench, e| bench.graph.keep(e), false, choose)
-        .map(|Elimination { values, .. }| values)
+    eliminate(bench, matrix, right, Naming::Definite, choose).map(|Elimination { values, .. }| values)
 }
