@@ -133,6 +133,8 @@ mod pages {
     mod integrators {}
     #[doc = include_str!("../docs/control.md")]
     mod control {}
+    #[doc = include_str!("../docs/viewing.md")]
+    mod viewing {}
     #[doc = include_str!("../docs/theory.md")]
     mod theory {}
     #[doc = include_str!("../docs/internals.md")]
