@@ -16,6 +16,9 @@ use guen::mechanical_system;
 use guen::prelude::*;
 use guen_study::{Monitor, Plot, Pose, Progress, Recording, Shape, Table, Viewer, drift};
 
+#[path = "common/arguments.rs"]
+mod arguments;
+
 mechanical_system! {
     /// A hoop of radius `a` and mass one that rolls without slipping on a horizontal plane.
     ///
@@ -75,9 +78,17 @@ const ENERGY_ERROR: f64 = 1e-10;
 const HIDDEN_ERROR: f64 = 1e-10;
 
 fn main() -> Result<ExitCode, Box<dyn Error>> {
-    let until: f64 = match std::env::args().nth(1) {
-        Some(argument) => argument.parse().map_err(|_| format!("`{argument}` is no time in seconds"))?,
-        None => MINUTE,
+    let about = "A hoop that rolls on a horizontal plane: from the declaration to its motion.";
+    let seconds = |word: &str| word.parse().ok().filter(|time: &f64| time.is_finite());
+    let until = match arguments::read(
+        about,
+        "SECONDS",
+        "the time of the run; one minute by default",
+        MINUTE,
+        seconds,
+    ) {
+        Ok(until) => until,
+        Err(status) => return Ok(status),
     };
 
     // 1. What the macro found while this program was compiled.

@@ -7,8 +7,7 @@ use guen::prelude::*;
 use guen::steppers::Method;
 
 #[macro_use]
-#[path = "systems/mod.rs"]
-mod systems;
+extern crate guen_benchmarks;
 
 hoop!(guen::mechanical_system);
 
@@ -171,7 +170,7 @@ fn a_residual_limit_is_watched() {
     let system = Circle { m: 1.0, l: 1.0, g: 9.81 }.prepare().unwrap();
     let run = |residual: f64| {
         Integration::new(&system, 0.0, &[0.0, -1.0, 3.0])
-            .guard(Guard { residual, every: Some(1), energy: f64::INFINITY, edge: 0.0 })
+            .guard(Guard { residual, every: Some(1), energy: f64::INFINITY, edge: 0.0, ..Guard::default() })
             .run(&Rk4 { step: 0.1 }, 20.0)
     };
     assert!(run(1.0).is_ok());

@@ -5,8 +5,7 @@
 //! ```
 
 #[macro_use]
-#[path = "systems/mod.rs"]
-mod systems;
+extern crate guen_benchmarks;
 
 #[path = "../crates/guen-bare/src/plant.rs"]
 mod plant;

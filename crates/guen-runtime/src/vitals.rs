@@ -17,4 +17,6 @@ pub struct Vitals<R> {
     pub scale: R,
     /// The largest absolute value among the left sides of the constraints on positions; zero without any.
     pub residual: R,
+    /// How far carried functions are from what they stand for, relative to one and their size; zero without any.
+    pub carried: R,
 }

@@ -4,6 +4,7 @@
 //! documentation; straight-line code sits in the private module `program`, where lint allowances are.
 
 mod bodies;
+pub(crate) mod carried;
 mod classification;
 mod code;
 mod constants;
@@ -21,8 +22,10 @@ mod operators;
 mod outline;
 mod physical;
 mod positions;
+mod recast;
 mod records;
 mod serde;
+mod series;
 mod uses;
 
 use proc_macro2::{Ident, Span, TokenStream};
@@ -118,12 +121,15 @@ impl Layout {
             system: subject.name().ident.clone(),
             n: selection.coordinates.len(),
             l: selection.parameters.len(),
-            size: selection.variables.len(),
+            size: selection.variables.len() + selection.carried.len(),
             all: model.coordinates.len(),
             constants: selection.constants.len() + selection.held.len(),
             hoisted: level.programs.prepared.len(),
             inputs: selection.inputs.len(),
-            state: selection.variables.iter().map(|place| variable_ident(model, *place)).collect(),
+            state: {
+                let variables = selection.variables.iter().map(|place| variable_ident(model, *place));
+                variables.chain(selection.carried.iter().map(|f| carried::ident(model, f))).collect()
+            },
             is_whole: level.scene.is_none(),
         }
     }
@@ -188,6 +194,7 @@ fn module(
         records::items(subject, &layout),
         motion::items(subject, &layout),
         lanes::items(&layout),
+        series::items(subject, &layout),
         linearization::items(subject, &layout),
         control::items(subject, &layout),
         limits::items(subject, &layout),
@@ -201,6 +208,7 @@ fn module(
         missing::items(subject, &layout),
         documentation::constants(&report),
         functions::modules(subject, &layout),
+        carried::items(subject, &layout),
     ];
     let docs = documentation::module(&report, system, layout.is_whole);
     let alias = Ident::new("__guen", Span::call_site());

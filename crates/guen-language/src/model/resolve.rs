@@ -53,6 +53,8 @@ struct Resolver<'a, 'f> {
     scenes: Vec<SceneEntry<'a>>,
     output_values: Vec<ExprId>,
     provides_operators: bool,
+    taylor: Option<proc_macro2::Span>,
+    provides_carried: Option<&'a crate::syntax::Name>,
 }
 
 impl<'a, 'f> Resolver<'a, 'f> {
@@ -95,6 +97,8 @@ impl<'a, 'f> Resolver<'a, 'f> {
             scenes: Vec::new(),
             output_values: Vec::new(),
             provides_operators: false,
+            taylor: None,
+            provides_carried: None,
         }
     }
 
@@ -230,14 +234,29 @@ impl<'a, 'f> Resolver<'a, 'f> {
             Item::Outputs(section) => section.entries.iter().for_each(|output| self.output(output)),
             Item::Provide(section) => {
                 for provide in &section.entries {
-                    if provide.name.text == "operators" && provide.of.is_none() {
-                        self.provides_operators = true;
-                        continue;
+                    match provide.name.text.as_str() {
+                        "operators" if provide.of.is_none() => {
+                            self.provides_operators = true;
+                            continue;
+                        }
+                        "carried" if provide.of.is_none() => {
+                            self.provides_carried = Some(&provide.name);
+                            continue;
+                        }
+                        "taylor" if provide.of.is_none() => {
+                            self.taylor = Some(provide.name.span());
+                            continue;
+                        }
+                        _ => {}
                     }
                     let at = provide.name.span();
                     let fault = Fault::new(at, "the full system provides everything already")
                         .note("`provide` chooses what a scene offers beside its state")
-                        .note("of a system only `provide operators;` says something: that the brackets of all operators are derived");
+                        .note(
+                            "of a system three say something: `operators`, that the brackets of all operators are \
+                             derived, `taylor`, that it has a Taylor series, and `carried`, that it has a form \
+                             without elementary calls",
+                        );
                     self.eval.faults.report(fault);
                 }
             }
@@ -496,6 +515,8 @@ impl<'a, 'f> Resolver<'a, 'f> {
             scenes: self.scenes,
             left_out: self.eval.left_out,
             provides_operators,
+            taylor: self.taylor,
+            provides_carried: self.provides_carried,
             mechanics,
             has_masses: self.has_masses,
             kinetic_energy_span: self.energy.map(|energy| energy.keyword),
@@ -520,7 +541,7 @@ fn report_idle_gravity(declaration: &Declaration, faults: &mut Faults) {
 /// Items of the generated module, and what generated code calls by short names: no system can have such a name.
 fn check_system_name(declaration: &Declaration, faults: &mut Faults) {
     let name = &declaration.name;
-    if !crate::names::is_generated_item(&name.text) {
+    if !crate::names::is_generated_item(&name.text) && !super::scenes::is_carried_form(name, declaration) {
         return;
     }
     faults.report(

@@ -42,6 +42,9 @@ pub struct Guard {
     /// The largest left side of a constraint on positions, in its own unit. By default without limit, since units are
     /// the declaration's.
     pub residual: f64,
+    /// How far functions that are carried as states may be from what they stand for: the largest of `|w - f|/(1 + |f|)`
+    /// and of what is left of `sin^2 + cos^2 - 1` and the like. By default 0.01, as for the energy.
+    pub carried: f64,
     /// The distance to the edge of the chart at which to stop: each function that must not vanish, relative to its
     /// largest value at the start and at the looks before. By default `1e-8`, where a term with its square in the
     /// denominator has no digits left in `f64`. A change of its sign always ends the run.
@@ -52,17 +55,22 @@ pub struct Guard {
 
 impl Guard {
     /// Watches nothing but that every state is finite.
-    pub const FINITE: Self =
-        Self { energy: f64::INFINITY, residual: f64::INFINITY, edge: 0.0, every: Some(u32::MAX) };
+    pub const FINITE: Self = Self {
+        energy: f64::INFINITY,
+        residual: f64::INFINITY,
+        carried: f64::INFINITY,
+        edge: 0.0,
+        every: Some(u32::MAX),
+    };
 
     fn is_valid(&self) -> bool {
-        [self.energy, self.residual, self.edge].iter().all(|limit| *limit >= 0.0)
+        [self.energy, self.residual, self.carried, self.edge].iter().all(|limit| *limit >= 0.0)
     }
 }
 
 impl Default for Guard {
     fn default() -> Self {
-        Self { energy: 1e-2, residual: f64::INFINITY, edge: 1e-8, every: None }
+        Self { energy: 1e-2, residual: f64::INFINITY, carried: 1e-2, edge: 1e-8, every: None }
     }
 }
 
@@ -164,6 +172,10 @@ impl<R: Real, const N: usize> Watch<R, N> {
         let residual = vitals.residual.to_f64();
         if exceeds(residual, guard.residual) {
             return Err(Cause::Residual { found, residual, limit: guard.residual });
+        }
+        let drift = vitals.carried.to_f64();
+        if exceeds(drift, guard.carried) {
+            return Err(Cause::Carried { found, drift, limit: guard.carried });
         }
         start.edges(system, reached, guard.edge)?;
         *good = *reached;

@@ -161,7 +161,8 @@ impl<'a> ProgramBuilder<'a> {
             let brief = if is_short { effort } else { Effort::Brief };
             let mut net = Net::default();
             let roots = staged(self.graph, &mut net, formulation, brief);
-            let cost = cost(self.graph, &net, &roots);
+            // Nothing to compare with: the code is written once, below.
+            let cost = if formulations.len() == 1 { 0 } else { cost(self.graph, &net, &roots) };
             ranked.push((cost, index));
             if best.as_ref().is_none_or(|(least, ..)| cost < *least) {
                 best = Some((cost, index, net, roots));
@@ -278,6 +279,9 @@ fn cheapest(graph: &mut Graph, net: &mut Net, roots: Vec<NetId>, effort: Effort,
         Effort::Cold => affordable(nodes).min(1),
     };
     let tried = if effort == Effort::Brief { tried.min(1) } else { tried.min(most) };
+    if tried == 0 {
+        return roots;
+    }
     let mut best = (cost(graph, net, &roots), roots.clone());
     for passes in &CANDIDATES[..tried] {
         let mut candidate = roots.clone();

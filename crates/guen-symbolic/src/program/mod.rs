@@ -6,6 +6,7 @@
 //! -> `lower` (instructions), and `builder` runs them for several candidates and keeps the cheapest.
 
 mod builder;
+mod carried;
 mod cost;
 mod evaluate;
 mod instruction;
@@ -14,12 +15,15 @@ mod lower;
 mod net;
 mod part;
 mod passes;
+mod taylor;
 mod terms;
 #[cfg(test)]
 mod tests;
 
 pub use builder::{Formulation, ProgramBuilder};
+pub use carried::{Carried, CarriedFunction, NotCarried};
 pub use cost::{OperationCount, weighted_cost};
 pub use evaluate::{Arithmetic, evaluate_function, evaluate_prepare};
 pub use instruction::{FunctionProgram, Instruction, Operation, Programs, Value};
 pub use jacobian::{LARGEST_DIFFERENTIATED, LARGEST_JACOBIAN, Pattern};
+pub use taylor::{NotAnalytic, SeriesProgram, SeriesStep, Source, Start};

@@ -1,0 +1,6 @@
+//! Carried forms: the same motion without elementary calls.
+
+mod functions;
+mod hoop;
+#[path = "../control/long.rs"]
+mod long;

@@ -1,0 +1,8 @@
+//! Taylor series: every recurrence against the equation that it solves, in 71 digits; the method against references.
+
+#![allow(clippy::result_large_err, reason = "an error keeps the state that was reached")]
+
+#[path = "../control/long.rs"]
+mod long;
+
+mod recurrences;
