@@ -132,8 +132,10 @@ fn time(rows: &mut [Row]) {
 }
 
 /// What is compared, in the order of the tables.
-const METHODS: [&str; 11] =
-    ["Euler", "RK4", "RK4'", "RK8", "RK8'", "Gauss 4", "Gauss 6", "Tsit5", "DOP853", "DOP853'", "Radau 5"];
+const METHODS: [&str; 12] = [
+    "Euler", "RK4", "RK4'", "RK8", "RK8'", "Gauss 4", "Gauss 6", "Tsit5", "DOP853", "DOP853'", "Taylor",
+    "Radau 5",
+];
 
 /// The part of RK4's time that the fastest of all may take at the coarsest accuracy.
 const FASTEST: f64 = 0.4;

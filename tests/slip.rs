@@ -68,7 +68,7 @@ fn it_slips_where_friction_is_used_up() {
                     Event::new(&leaves).direction(Direction::Falling).within(tolerance).terminal(),
                 ],
                 &mut |event| {
-                    at.push(event);
+                    at.push(*event);
                     ControlFlow::Continue(())
                 },
             )

@@ -2,7 +2,11 @@
 
 #![allow(clippy::result_large_err, reason = "an error keeps the state that was reached")]
 
+#[macro_use]
+extern crate guen_benchmarks;
+
 #[path = "../control/long.rs"]
 mod long;
 
+mod method;
 mod recurrences;

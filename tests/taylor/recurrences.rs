@@ -124,3 +124,54 @@ fn a_driven_system_and_its_scene() {
     let residual_of_scene = residual(&driven, 0.5, &[0.2, 0.1, 0.6, -0.4], 0.5);
     assert!(residual_of_scene < 1e10, "{residual_of_scene:e}");
 }
+
+mod shared {
+    guen_benchmarks::hoop!(guen::mechanical_system; provide taylor;);
+    guen_benchmarks::turntable!(guen::mechanical_system; provide taylor;);
+    guen_benchmarks::euler_top!(guen::mechanical_system; provide taylor;);
+    guen_benchmarks::robot!(guen::mechanical_system; provide taylor;);
+    guen_benchmarks::train!(guen::mechanical_system; provide taylor;);
+}
+
+/// Several states of a system, drawn at random where its charts are far from their edges.
+fn at_random<S, const N: usize>(name: &str, system: &S)
+where
+    S: TaylorSeries<Long, N>,
+{
+    let mut random = guen_benchmarks::Random::new(7);
+    for _ in 0..4 {
+        let state = std::array::from_fn(|_| random.between(0.4, 1.1));
+        let residual = residual(system, random.between(-1.0, 1.0), &state, 0.25);
+        // The next coefficient is some power of the largest rate: of the top it reaches 1e14.
+        assert!(residual < 1e17, "{name}: {residual:e}");
+    }
+}
+
+#[test]
+fn systems_of_every_kind() {
+    let of = Long::from_ratio;
+    let one = of(1, 1);
+    at_random("hoop", &shared::Hoop { a: one, A: of(1, 2), C: one, g: of(981, 100) }.prepare().unwrap());
+    let table = shared::Turntable { m: one, a: of(1, 2), Omega: one, swing: of(1, 3), nu: of(3, 2) };
+    at_random("turntable", &table.prepare().unwrap());
+    at_random("top", &shared::EulerTop { I1: one, I2: of(3, 2), I3: of(2, 1) }.prepare().unwrap());
+    let (m, part) = (one, of(1, 10));
+    let robot = shared::Robot {
+        m,
+        mw: part,
+        h: part,
+        b: part,
+        r: part,
+        A: part,
+        B: part,
+        C: part,
+        I: part,
+        J: part,
+        g: of(981, 100),
+    };
+    let inputs = shared::robot::Inputs { left_torque: part, right_torque: -part };
+    at_random("robot", &robot.prepare().unwrap().driven(inputs));
+    let train = shared::Train { m, I: part, l: one, d: one, k: part };
+    let inputs = shared::train::Inputs { push: one, steering: part };
+    at_random("train", &train.prepare().unwrap().driven(inputs));
+}

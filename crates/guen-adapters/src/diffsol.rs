@@ -16,6 +16,7 @@ use guen_runtime::Linearizable;
 /// use guen_adapters::{ByDuals, diffsol::problem};
 /// use guen_runtime::{Equations, Real, generic};
 ///
+/// #[derive(Clone)]
 /// struct Spring;
 /// impl Equations<2> for Spring {
 ///     fn rates<R: Real>(&self, _t: R, &[x, v]: &[R; 2]) -> [R; 2] {

@@ -15,29 +15,10 @@ use std::{error, fmt::Write as _};
 
 use guen::prelude::*;
 use guen::steppers::Taylor;
-use guen::{HIGHEST_ORDER, TaylorSeries, mechanical_system};
+use guen::{HIGHEST_ORDER, TaylorSeries};
 use guen_benchmarks::timing::conditions;
 
-mechanical_system! {
-    /// The rolling hoop of section 3.1.
-    pub system Hoop {
-        constants { a > 0, A > 0, C > 0, g = 9.81 }
-        coordinates { theta, psi, phi, xi, eta, zeta }
-        parameters {
-            eta1 = dot(theta);
-            eta2 = dot(psi)*sin(theta);
-            eta3 = dot(psi)*cos(theta) + dot(phi);
-        }
-        constraints {
-            eta4: dot(xi) = a*sin(theta)*sin(psi)*dot(theta) - a*cos(theta)*cos(psi)*dot(psi) - a*cos(psi)*dot(phi);
-            eta5: dot(eta) + a*sin(theta)*cos(psi)*dot(theta) + a*cos(theta)*sin(psi)*dot(psi) + a*sin(psi)*dot(phi) = 0;
-            eta6: dot(zeta) - a*cos(theta)*dot(theta) = 0;
-        }
-        kinetic_energy = 1/2*(dot(xi)^2 + dot(eta)^2 + dot(zeta)^2) + 1/2*(A*eta1^2 + A*eta2^2 + C*eta3^2);
-        force_function = -a*g*sin(theta);
-        provide taylor;
-    }
-}
+guen_benchmarks::hoop!(guen::mechanical_system; provide taylor;);
 
 /// The reference: the state at the beginning and after ten seconds, from `tests/data`, where numbers are texts.
 fn reference() -> Option<[[f64; 9]; 2]> {
@@ -86,7 +67,10 @@ fn main() -> Result<(), Box<dyn error::Error>> {
                 let method = Taylor::new(tolerance.parse()?);
                 let method = if order == "default" { method } else { method.order(order.parse()?) };
                 let run = || Integration::new(&hoop, 0.0, &begin).run(&method, SPAN);
-                let done = run()?;
+                let Ok(done) = run() else {
+                    println!("inf 0 inf");
+                    continue;
+                };
                 let error = (0..9).map(|i| (done.state[i] - end[i]).abs()).fold(0.0, f64::max);
                 format!("{error:e} {} {}", done.statistics.accepted, 1e6 * seconds(run))
             }

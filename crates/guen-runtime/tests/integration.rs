@@ -298,16 +298,12 @@ fn compensated_steps_keep_what_rounding_takes() {
     assert!((eighth.state[0] - done.state[0]).abs() <= f64::EPSILON);
     assert_eq!(done.statistics, plain.statistics);
     // On a turning system: the radius drifts by roundings without, and stays with it. Backwards as forwards.
-    for end in [500.0, -500.0] {
+    for end in [100.0, -100.0] {
         let radius = |state: [f64; 2]| (state[0].hypot(state[1]) - 1.0).abs();
         let (coarse, start) = (Rk8::new(0.01), [0.0, 1.0]);
         let plain = Integration::new(&oscillator(), 0.0, &start).run(&coarse, end).unwrap();
         let done = Integration::new(&oscillator(), 0.0, &start).run(&coarse.compensated(), end).unwrap();
-        assert!(
-            radius(done.state) < 4e-16 && radius(plain.state) > 2.0 * radius(done.state),
-            "{:?}",
-            plain.state
-        );
+        assert!(radius(done.state) < 1e-15 && radius(plain.state) > 4e-15, "{:?}", plain.state);
         // Samples and events are those of the method.
         let mut between = 0.0;
         Integration::new(&oscillator(), 0.0, &start)

@@ -257,7 +257,11 @@ impl<'a, 'f> Resolver<'a, 'f> {
                              derived, `taylor`, that it has a Taylor series, and `carried`, that it has a form \
                              without elementary calls",
                         );
-                    self.eval.faults.report(fault);
+                    let near = crate::names::nearest(&provide.name.text, ["operators", "taylor", "carried"]);
+                    self.eval.faults.report(match near {
+                        Some(near) => fault.help(format_args!("did you mean `{near}`?")),
+                        None => fault,
+                    });
                 }
             }
             Item::Scene(scene) => {
