@@ -9,11 +9,13 @@ use crate::plot::Plot;
 
 /// As many timings make a point of a picture.
 const ENOUGH: u32 = 3;
+/// Points whose interval is wider than they are high are left out.
+const NOISY: f64 = 0.5;
 
 impl Report {
     /// Work against precision: cost over error, both axes logarithmic, a curve for each method over doubles, and the
     /// front of all levers as a grey band. Rows that failed, or were timed fewer than three
-    /// times, are not there.
+    /// times, or whose interval is wider than the cost itself, are not there.
     pub fn picture(&self) -> Plot {
         let front = self.front();
         self.draw(&front, |row| row.real == "f64", Row::lever)
@@ -33,8 +35,8 @@ impl Report {
         let mut curves: Vec<(String, Vec<(f64, f64)>)> = Vec::new();
         for row in self.rows.iter().filter(|row| wanted(row)) {
             let Some((error, cost)) = row.measured() else { continue };
-            // A single timing is no median.
-            if self.unit == Unit::Seconds && cost.repetitions < ENOUGH {
+            // A single timing is no median, and one as uncertain as it is large no point.
+            if self.unit == Unit::Seconds && (cost.repetitions < ENOUGH || cost.noise() > NOISY) {
                 continue;
             }
             let label = label(row);
