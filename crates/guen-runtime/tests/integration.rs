@@ -303,11 +303,7 @@ fn compensated_steps_keep_what_rounding_takes() {
         let (coarse, start) = (Rk8::new(0.01), [0.0, 1.0]);
         let plain = Integration::new(&oscillator(), 0.0, &start).run(&coarse, end).unwrap();
         let done = Integration::new(&oscillator(), 0.0, &start).run(&coarse.compensated(), end).unwrap();
-        assert!(
-            radius(done.state) < 1e-15 && radius(plain.state) > 4e-15,
-            "{:?}",
-            plain.state
-        );
+        assert!(radius(done.state) < 1e-15 && radius(plain.state) > 4e-15, "{:?}", plain.state);
         // Samples and events are those of the method.
         let mut between = 0.0;
         Integration::new(&oscillator(), 0.0, &start)
