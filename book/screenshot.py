@@ -41,7 +41,7 @@ def main():
         sys.exit("there is no book: cargo run --manifest-path book/Cargo.toml")
     if not folder:
         picture = ROOT / "docs/pictures/book.png"
-        photograph(BOOK / "index.html", picture, 1000, 640)
+        photograph(BOOK / "index.html", picture, 1120, 640)
         print(f"{picture}: {picture.stat().st_size} bytes")
         return
     folder.mkdir(parents=True, exist_ok=True)

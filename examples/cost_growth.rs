@@ -11,7 +11,8 @@
 //! which do not depend on what else the machine does; they are known on Linux only. Below each table stand the exponents
 //! `p` of fits `c links^p`.
 //!
-//! Then the hoop and Chaplygin's sled, each without scenes and with five that nobody uses.
+//! Then the hoop and Chaplygin's sled, each without scenes and with five that nobody uses; and systems without their Taylor
+//! series, with it declared and not used, and with an instance of it in `f64`.
 //!
 //! Without `--release`: cargo builds procedural macros without optimisation, so that is the time that a user waits.
 
@@ -85,8 +86,8 @@ fn main() -> ExitCode {
         println!("exponents from {ASYMPTOTIC} links on: {}\n", exponents.join(", "));
     }
     progress.finish();
-    if let Err(error) = unused_scenes(&compiler) {
-        eprintln!("systems with scenes: {error}");
+    if let Err(error) = unused_scenes(&compiler).and_then(|()| taylor_series(&compiler)) {
+        eprintln!("systems with scenes or series: {error}");
         return ExitCode::FAILURE;
     }
     if healthy { ExitCode::SUCCESS } else { ExitCode::FAILURE }
@@ -101,7 +102,7 @@ fn unused_scenes(compiler: &Compiler) -> Result<(), String> {
         // The first expansion of a process is slower than the others.
         expanded(&bare.to_string())?;
         for (count, tokens) in [(0.0, bare.clone()), (5.0, scenes::added(bare, five))] {
-            let costs = costs(compiler, &tokens.to_string(), module, variables)?;
+            let costs = costs(compiler, &tokens.to_string(), module, variables, "")?;
             table.row(&[&[count], &costs[..]].concat());
         }
         println!("{module}, without scenes and with five that are not used\n{table}\n");
@@ -109,20 +110,52 @@ fn unused_scenes(compiler: &Compiler) -> Result<(), String> {
     Ok(())
 }
 
+/// Prints the costs of systems without Taylor series, with one that is not used, and with one that is.
+fn taylor_series(compiler: &Compiler) -> Result<(), String> {
+    let chains = [5, 10, 20].map(|links| (links, declaration("Chain", links, Angles::Absolute)));
+    let mut systems =
+        vec![("hoop".to_owned(), "hoop", scenes::declaration(include_str!("hoop.rs")).to_string(), 9)];
+    for (links, text) in chains {
+        systems.push((format!("chain of {links}"), "chain", text, 2 * links));
+    }
+    for (name, module, text, variables) in systems {
+        let mut table = Table::new(&[&["provided", "used"], &COLUMNS[1..]].concat()).digits(4);
+        let end = text.rfind('}').ok_or("a declaration ends with a brace")?;
+        let provided = format!("{} provide taylor; }}", &text[..end]);
+        expanded(&text)?;
+        for (provides, uses) in [(false, false), (true, false), (true, true)] {
+            let text = if provides { &provided } else { &text };
+            let call = format!(
+                "pub fn series(it: &{module}::Prepared<f64>, state: &[f64; {variables}], to: &mut guen::Coefficients<f64, {variables}>) {{ guen::TaylorSeries::series(it, 0.0, state, 0.125, 20, to) }}",
+            );
+            let costs = costs(compiler, text, module, variables, if uses { &call } else { "" })?;
+            table.row(&[&[f64::from(u8::from(provides)), f64::from(u8::from(uses))], &costs[..]].concat());
+        }
+        println!("{name}, without its Taylor series and with it\n{table}\n");
+    }
+    Ok(())
+}
+
 /// One line of the table.
 fn row(compiler: &Compiler, links: usize, angles: Angles) -> Result<[f64; 6], String> {
     let text = declaration("Chain", links, angles);
-    let [operations, expansion, check, plain, optimised] = costs(compiler, &text, "chain", 2 * links)?;
+    let [operations, expansion, check, plain, optimised] = costs(compiler, &text, "chain", 2 * links, "")?;
     Ok([links as f64, operations, expansion, check, plain, optimised])
 }
 
-/// Operations, and the milliseconds of the expansion and of what rustc is asked for.
-fn costs(compiler: &Compiler, text: &str, module: &str, variables: usize) -> Result<[f64; 5], String> {
+/// Operations, and the milliseconds of the expansion and of what rustc is asked for; with more items beside it.
+fn costs(
+    compiler: &Compiler,
+    text: &str,
+    module: &str,
+    variables: usize,
+    more: &str,
+) -> Result<[f64; 5], String> {
     let start = processor_time();
     let (code, operations) = expanded(text)?;
     let expansion = (processor_time() - start) * 1e3;
     let source = format!(
-        "{code}\npub fn rates(it: &{module}::Prepared<f64>, state: &[f64; {variables}]) -> [f64; {variables}] {{ guen::System::rhs(it, 0.0, state) }}",
+        "{code}\npub fn rates(it: &{module}::Prepared<f64>, state: &[f64; {variables}]) -> [f64; {variables}] {{ guen::System::rhs(it, 0.0, state) }}\n{more}",
     );
     let mut times = [0.0; 3];
     for (time, mode) in times.iter_mut().zip(Mode::ALL) {

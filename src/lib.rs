@@ -45,6 +45,7 @@
 //! | `std` | yes | `Std`, and lanes chosen at run time; recordings and pictures are in the crate `guen-study` |
 //! | `serde` | no | serde's traits for constants, states and inputs, and for reports of studies |
 //! | `study` | no | the module `study`: which method, real and step for which accuracy; recordings and pictures |
+//! | `viewer` | no | `study`, and in it `Viewer`: recordings as pages that play |
 #![no_std]
 #![cfg_attr(docsrs, feature(doc_cfg))]
 #![forbid(unsafe_code)]

@@ -112,7 +112,8 @@ fn the_energy_of_a_long_run_stays_at_rounding() {
         })
         .unwrap();
     println!("{steps} steps, {worst:.1e}");
-    assert!(worst < 1e-15, "{worst:e}");
+    // Measured 8e-16 and 1.4e-15 with steps that differ by some parts in a thousand: a random walk of the rates' rounding.
+    assert!(worst < 3e-15, "{worst:e}");
 }
 
 #[test]
@@ -238,7 +239,8 @@ fn events_observers_and_motions_that_are_polynomials() {
         })
         .run(&Taylor::new(1e-12), 100.0)
         .unwrap();
-    assert_eq!((done.outcome, steps), (Outcome::Event(0), 1));
+    assert_eq!((done.outcome, done.statistics.rejected), (Outcome::Event(0), 0));
+    assert!(steps < 20, "{steps}");
     let landing = (10.0 + (100.0_f64 + 2.0 * 9.81).sqrt()) / 9.81;
     assert!((done.time - landing).abs() < 1e-13, "{} {landing}", done.time);
     // No span, no step.
@@ -282,6 +284,33 @@ fn what_cannot_be_done_is_said() {
     assert!(matches!(error.cause, Cause::StepUnderflow | Cause::NotFinite), "{error}");
     assert!((error.time - end).abs() < 1e-9, "{} {end}", error.time);
     assert!(error.state.iter().all(|x| x.is_finite()));
+}
+
+mechanical_system! {
+    /// Pushed by a force whose series at time zero has terms at every sixth power alone.
+    system Pushed {
+        coordinates { x }
+        parameters { v = dot(x); }
+        kinetic_energy = 1/2*v^2;
+        forces { sin(t^3) along v; }
+        provide taylor;
+    }
+}
+
+#[test]
+fn series_with_gaps_are_no_polynomials() {
+    let system = Pushed::default().prepare().unwrap();
+    for start in [0.0, 1e-8, 1e-4] {
+        // Of order 22 the last coefficients vanish at zero: 19 to 22, between 17 and 23.
+        let run =
+            |method: &Taylor| Integration::new(&system, start, &[0.0, 0.0]).run(method, 2.0).unwrap().state;
+        let exact =
+            Integration::new(&system, start, &[0.0, 0.0]).run(&Dop853::new(1e-14, 1e-14), 2.0).unwrap();
+        for order in [16, 18, 20, 22, 24, 28] {
+            let error = off(&run(&Taylor::new(1e-12).order(order)), &exact.state);
+            assert!(error < 1e-10, "from {start}, order {order}: {error:e}");
+        }
+    }
 }
 
 #[test]

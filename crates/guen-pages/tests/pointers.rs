@@ -106,6 +106,8 @@ fn the_gallery_shows_what_is_tested() {
     let pages = pages();
     let gallery = pages.iter().find(|page| page.path == "docs/start/gallery.md").expect("the gallery");
     let squeezed = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let shared = root().join("crates/guen-benchmarks/src/declarations.rs");
+    let shared = std::fs::read_to_string(shared).expect("the declarations that programs share");
     let mut lines = 0;
     for section in gallery.text.split("\n## ").skip(1) {
         let title = section.lines().next().unwrap_or_default();
@@ -114,7 +116,7 @@ fn the_gallery_shows_what_is_tested() {
         let named = named.unwrap_or_else(|| panic!("{title}: no test is named"));
         let test = std::fs::read_to_string(root().join("tests/spatial").join(named))
             .expect("a test of tests/spatial");
-        let test = squeezed(&test);
+        let test = squeezed(&(test + &shared));
         for line in section.split("```").skip(1).step_by(2).flat_map(|block| block.lines().skip(1)) {
             lines += 1;
             assert!(test.contains(&squeezed(line)), "{title}: this is not in {named}: {line}");

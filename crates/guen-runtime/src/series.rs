@@ -4,9 +4,15 @@ use crate::real::Real;
 use crate::system::System;
 
 /// The highest order of a Taylor series.
+///
+/// ```
+/// use guen_runtime::{Coefficients, HIGHEST_ORDER};
+/// assert_eq!(core::mem::size_of::<Coefficients<f64, 9>>(), 8 * 9 * (HIGHEST_ORDER + 1));
+/// ```
 pub const HIGHEST_ORDER: usize = 32;
 
-/// The coefficients of a series by their order.
+/// The coefficients of a series by their order, `coefficients[k][i]` of the variable `i`: see
+/// [`TaylorSeries::series`].
 pub type Coefficients<R, const N: usize> = [[R; N]; HIGHEST_ORDER + 1];
 
 /// A system that expands its motion into a Taylor series, exactly but for rounding: for
@@ -15,6 +21,36 @@ pub type Coefficients<R, const N: usize> = [[R; N]; HIGHEST_ORDER + 1];
 /// A declared system or scene is one that says `provide taylor;`. The recurrences are emitted from the program of its
 /// right-hand side, so that one coefficient of all variables costs about as much as one evaluation, and more the higher
 /// its order is: see [`PRODUCTS`](TaylorSeries::PRODUCTS).
+///
+/// ```
+/// use guen_runtime::{Coefficients, Convolutions, HIGHEST_ORDER, System, TaylorSeries};
+///
+/// /// `x' = x^2`, written by hand: `x(s) = 1/(1 - s)` from one.
+/// struct Growth;
+/// impl System<f64, 1> for Growth {
+///     fn rhs(&self, _t: f64, &[x]: &[f64; 1]) -> [f64; 1] {
+///         [x * x]
+///     }
+/// }
+/// impl TaylorSeries<f64, 1> for Growth {
+///     const PRODUCTS: usize = 1;
+///     fn series(&self, _t: f64, state: &[f64; 1], scale: f64, order: usize, to: &mut Coefficients<f64, 1>) {
+///         let mut sums = Convolutions::<f64, 1, 1>::new(order);
+///         let mut rate = state[0] * state[0];
+///         to[0] = *state;
+///         for k in 1..=order {
+///             to[k] = [scale * rate / k as f64];
+///             let x = to[k][0];
+///             rate = sums.sum(0, k) + 2.0 * state[0] * x;
+///             sums.push(&[[0, 0]], &[x], k);
+///         }
+///     }
+/// }
+///
+/// let mut coefficients = [[0.0]; HIGHEST_ORDER + 1];
+/// Growth.series(0.0, &[1.0], 1.0, 20, &mut coefficients);
+/// assert!(coefficients[..=20].iter().all(|[c]| (c - 1.0).abs() < 1e-14));
+/// ```
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no Taylor series",
     note = "a declared system or scene has one if it says `provide taylor;`"
@@ -59,7 +95,7 @@ const SUMS: usize = HIGHEST_ORDER + BLOCK;
 /// A coefficient, once known, is multiplied at once with all that are known before, and the products are added to the
 /// sums of all higher orders where they belong. So the work is the same as that of summing when a sum is needed, but it
 /// lies beside the path from one coefficient to the next, adjacent numbers are added to adjacent sums, whatever the width
-/// of the registers, and every sum is formed in one order, whatever that width.
+/// of the registers, and every sum is formed in one order, whatever that width. [`TaylorSeries`] has an example.
 #[derive(Clone, Copy, Debug)]
 pub struct Convolutions<R, const A: usize, const B: usize> {
     factors: [[R; KEPT]; A],
@@ -71,20 +107,24 @@ impl<R: Real, const A: usize, const B: usize> Convolutions<R, A, B> {
     /// For a series up to this order, at most [`HIGHEST_ORDER`].
     #[inline(always)]
     pub fn new(order: usize) -> Self {
-        Self { factors: [[R::zero(); KEPT]; A], sums: [[R::zero(); SUMS]; B], order }
+        Self {
+            factors: [[R::zero(); KEPT]; A],
+            sums: [[R::zero(); SUMS]; B],
+            order: order.min(HIGHEST_ORDER),
+        }
     }
 
-    /// The sum at this place, for the coefficient of order `k`.
+    /// The sum at this place, for the coefficient of order `k` below the highest.
     #[inline(always)]
     pub fn sum(&self, place: usize, k: usize) -> R {
         self.sums[place][k & 31]
     }
 
-    /// Takes in the coefficients of order `k` of all factors.
+    /// Takes in the coefficients of order `k` of all factors; `pairs` are the two factors of each sum, always the same.
     #[inline(always)]
     pub fn push(&mut self, pairs: &[[u16; 2]; B], now: &[R; A], k: usize) {
         // The coefficients of the highest order follow from sums for the order below.
-        let last = self.order - 1;
+        let last = self.order.saturating_sub(1);
         if k >= last {
             return;
         }

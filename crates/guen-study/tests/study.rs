@@ -140,14 +140,14 @@ fn energy_and_constraints_need_no_reference() {
             .count_evaluations()
             .keep(|method, real| method == "RK4" && real == "f64")
     };
-    for trade in [study().energy(5).run(), study().residual(5).run()] {
+    for trade in [study().energy(1).run(), study().residual(1).run()] {
         assert_eq!(trade.report.reference, None);
         for row in trade.report.rows.iter().filter(|row| row.failure.is_none()) {
             // |1 + z + z^2/2 + z^3/6 + z^4/24|^2 = 1 - h^6/72 + h^8/576 for z = i h: RK4's amplification.
             let n = (6.0 / row.setting).round();
             let change = (1.0 - row.setting.powi(6) / 72.0 + row.setting.powi(8) / 576.0).powf(n) - 1.0;
             let error = row.error.unwrap();
-            assert!((error - change.abs()).abs() < 1e-8 * change.abs() + 1e-14, "{error:e} {change:e}");
+            assert!((error - change.abs()).abs() < 1e-8 * change.abs() + 1e-13, "{error:e} {change:e}");
         }
         assert!(trade.report.fastest_within(1e-6).is_ok());
     }
@@ -217,12 +217,12 @@ fn two_settings(noise: f64) -> Trade<2> {
         .unwrap()
         .keep(|_, _| false)
         .probes(0, 0.0)
-        .with_method("RK8", Settings::List(guen_study::Knob::Step, vec![0.02, 0.01]), Rk8::new, |step| {
+        .with_method("RK8", Settings::List(guen_study::Knob::Step, vec![0.2, 0.1]), Rk8::new, |step| {
             format!("Rk8::new({step})")
         })
         .unwrap()
-        // The second setting takes 3 percent longer.
-        .stopwatch(Told64 { seconds: |row| [1.0, 1.03][row], noise, draws: 1 })
+        // The second setting takes 30 percent longer.
+        .stopwatch(Told64 { seconds: |row| [1.0, 1.3][row], noise, draws: 1 })
         .run()
 }
 
@@ -289,7 +289,7 @@ fn choices_by_error_and_by_cost() {
         let cost = choice.row.cost.unwrap().median;
         for row in &report.rows {
             let Some((error, other)) = row.measured() else { continue };
-            let robust = row.nearby.is_some_and(|nearby| nearby.is_within(3.0 * asked));
+            let robust = row.nearby.is_some_and(|nearby| nearby.is_within(2.0 * asked));
             assert!(error > asked || !robust || other.median >= cost, "{}", row.name());
         }
         let within = report.most_accurate_within(cost).unwrap();

@@ -177,7 +177,7 @@ fn main() -> ExitCode {
                 PEERS[who]
             );
         }
-        if (accuracy == 1e-6 || accuracy == 1e-9) && !(best >= 1.3) {
+        if (accuracy == 1e-6 || accuracy == 1e-9) && (best < 1.3 || best.is_infinite()) {
             enough = false;
         }
     }

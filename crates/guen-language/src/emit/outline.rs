@@ -75,6 +75,8 @@ struct Names {
     constraints: Vec<Ident>,
     inputs: Vec<Ident>,
     outputs: Vec<(Ident, bool)>,
+    /// The number of bodies and particles.
+    bodies: usize,
 }
 
 impl Names {
@@ -96,7 +98,11 @@ impl Names {
                 Item::Let(definition) => {
                     kinds.define(definition);
                 }
-                Item::Bodies(section) => section.entries.iter().for_each(|body| kinds.body(&body.name)),
+                Item::Bodies(section) => {
+                    section.entries.iter().for_each(|body| kinds.body(&body.name));
+                    names.bodies += section.entries.len();
+                }
+                Item::Particles(section) => names.bodies += section.entries.len(),
                 Item::Parameters(section) => {
                     for parameter in &section.entries {
                         let kind = kinds.define(parameter);
@@ -296,6 +302,14 @@ fn prepared(system: &Ident, names: &Names) -> TokenStream {
     let owner = if inputs > 0 { format_ident!("Driven") } else { format_ident!("Prepared") };
     let owners = ["Prepared", "Driven"].map(|owner| format_ident!("{owner}"));
     let owners = &owners[..1 + usize::from(inputs > 0)];
+    let count = names.bodies;
+    let bodies = (count > 0).then(|| {
+        quote! {
+            #(impl<R: __guen::Real> __guen::Bodies<R, #size, #count> for #owners<R> {
+                fn bodies(&self, _: R, _: &[R; #size]) -> [__guen::Body<R>; #count] { ::core::unreachable!() }
+            })*
+        }
+    });
     let positions = (bound > 0).then(|| {
         quote! {
             #(impl<R: __guen::Real> __guen::Positions<R, #n, #bound> for #owners<R> {
@@ -361,6 +375,7 @@ fn prepared(system: &Ident, names: &Names) -> TokenStream {
         }
         #control
         #positions
+        #bodies
         impl<R: __guen::Real> State<R> {
             /// The state at given velocities.
             pub fn from_velocities(

@@ -3,6 +3,15 @@
 use crate::real::Real;
 
 /// The motion over one step of a method, to be asked for any time within it.
+///
+/// ```
+/// use guen_runtime::steppers::{Dense, Interpolant};
+///
+/// fn middle(motion: impl Interpolant<f64, 1>) -> f64 {
+///     motion.at(0.5)[0]
+/// }
+/// assert_eq!(middle(Dense::hermite(0.0, 1.0, &[0.0], &[0.0], &[1.0], &[2.0])), 0.25);
+/// ```
 pub trait Interpolant<R, const N: usize>: Copy {
     /// The state at time `t`.
     fn at(&self, t: R) -> [R; N];

@@ -22,8 +22,8 @@ use crate::series::{Coefficients, HIGHEST_ORDER, TaylorSeries};
 /// |x_k| h^k <= (atol + rtol |x|) 4^(p-1-k),     k = p-3 .. p
 /// ```
 ///
-/// in every entry. The two highest orders are what Jorba and Zou ask of; two more are there for series in which every third
-/// or fourth coefficient alone is not zero.
+/// in every entry. The two highest orders are what Jorba and Zou ask of. Four more before these, with 6 in place of 4 beyond the
+/// fourth, are there for series with gaps, and all where the last eight vanish.
 ///
 /// - The order is 2 to 32. By default it is the larger of `1 + d ln(10) / 2` and `12 + 0.65 d` for a tolerance of `10^-d`,
 ///   the larger of the two, rounded. The first is Jorba and Zou's, where the work over a given time is least if that of a
@@ -131,7 +131,7 @@ impl<R: Ordered> Taylor<R> {
     }
 }
 
-/// The motion over one step of [`Taylor`]: its series about the beginning.
+/// The motion over one step of [`Taylor`]: its series about the beginning, an [`Interpolant`].
 #[derive(Clone, Copy, Debug)]
 pub struct Series<R, const N: usize> {
     start: R,
@@ -250,26 +250,41 @@ impl<R: Ordered, const N: usize> Run<'_, R, N> {
         Err(Cause::NotFinite)
     }
 
-    /// The length of the step that the last coefficients allow; infinite where they vanish.
+    /// The length of the step that the coefficients allow; infinite where all of them vanish.
     fn length(&self) -> f64 {
-        /// Coefficients that are looked at.
-        const LAST: usize = 4;
-        /// The binary logarithm of the ratio of two terms that follow each other.
+        /// Coefficients that are looked at: in series with gaps the last ones may vanish.
+        const LAST: usize = 8;
+
+        let order = self.series.order;
+        let shortest = self.shortest((order + 1).saturating_sub(LAST).max(1));
+        // Nothing there: of a polynomial every coefficient counts.
+        let shortest = if shortest == f64::INFINITY { self.shortest(1) } else { shortest };
+        if shortest == f64::INFINITY { shortest } else { exp2(shortest) * self.scale }
+    }
+
+    /// The binary logarithm of the length, in units of the scale, that the coefficients from one order on allow.
+    fn shortest(&self, first: usize) -> f64 {
+        /// The binary logarithm of the ratio of two terms that follow each other, for the last ones.
         const RATIO: f64 = 2.0;
+        /// What it is more for those before, which are not to decide unless there is a gap.
+        const FURTHER: f64 = 0.6;
+        /// How many are the last ones.
+        const DECIDING: f64 = 4.0;
 
         let Series { order, coefficients, .. } = &self.series;
         let weights = self.method.tolerance().weights(&coefficients[0], &coefficients[0]);
         let mut shortest = f64::INFINITY;
-        for k in (order + 1).saturating_sub(LAST).max(1)..=*order {
+        for k in first..=*order {
             let mut largest = 0.0_f64;
             for (c, weight) in coefficients[k].iter().zip(&weights) {
                 let size = c.to_f64().abs() * weight;
                 largest = if size > largest { size } else { largest };
             }
-            let allowed = RATIO * (*order as f64 - 1.0 - k as f64);
+            let below = *order as f64 - k as f64;
+            let allowed = RATIO * (below - 1.0) + FURTHER * f64::max(below + 1.0 - DECIDING, 0.0);
             shortest = f64::min(shortest, (allowed - log2(largest)) / k as f64);
         }
-        if shortest == f64::INFINITY { shortest } else { exp2(shortest) * self.scale }
+        shortest
     }
 }
 

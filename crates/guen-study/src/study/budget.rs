@@ -10,8 +10,8 @@ use crate::Progress;
 pub(super) enum Stage {
     Reference,
     Accuracy,
-    Timing,
     Nearby,
+    Timing,
 }
 
 impl Stage {
@@ -19,8 +19,8 @@ impl Stage {
         match self {
             Self::Reference => (0.0, 0.3),
             Self::Accuracy => (0.3, 0.5),
-            Self::Timing => (0.5, 0.85),
-            Self::Nearby => (0.85, 1.0),
+            Self::Nearby => (0.5, 0.65),
+            Self::Timing => (0.65, 1.0),
         }
     }
 }

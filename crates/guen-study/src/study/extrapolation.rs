@@ -95,10 +95,10 @@ where
     for j in 0..COLUMNS {
         let count = 2 * (j + 1) as i64;
         let mut above = midpoint(system, t, x, &slope, step, count);
-        for k in 0..row.len() {
+        for (k, entry) in row.iter_mut().enumerate() {
             let fewer = 2 * (j - k) as i64;
             let ratio = R::from_ratio(count * count - fewer * fewer, fewer * fewer);
-            let before = std::mem::replace(&mut row[k], above);
+            let before = std::mem::replace(entry, above);
             last = above;
             for i in 0..N {
                 above[i] += (above[i] - before[i]) / ratio;

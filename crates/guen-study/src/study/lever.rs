@@ -61,7 +61,12 @@ impl Settings {
             Self::Steps => {
                 half_powers(2.0, STEPS).map(|factor| span.abs() / (8.0 * factor).round()).collect()
             }
-            Self::Tolerances => half_powers(0.1, 27).map(|factor| 1e-2 * factor).collect(),
+            Self::Tolerances => {
+                // By their decimals: a power would be off by a rounding, and long to write.
+                let pair = |k: u32| [format!("1e-{k}"), format!("3e-{}", k + 1)];
+                let texts = (2..15).flat_map(pair).chain(["1e-15".to_owned()]);
+                texts.filter_map(|text| text.parse().ok()).collect()
+            }
             Self::Evaluations => half_powers(2.0, STEPS).map(|factor| (24.0 * factor).round()).collect(),
             Self::List(_, values) => values.clone(),
         }

@@ -99,6 +99,8 @@ pub struct Study<S, const N: usize> {
     levers: Vec<Lever<N>>,
     reference: Named<N>,
     check: Option<Named<N>>,
+    /// The reference of states nearby and of trials.
+    elsewhere: Named<N>,
     tells: Tells<N>,
     /// DOP853 in doubles at a tolerance, for forecasts.
     tight: Rc<dyn Fn(f64) -> Run<N>>,
@@ -280,7 +282,7 @@ impl<S, const N: usize> Study<S, N> {
     }
 
     /// The same with another limit on the time of the whole study; a minute by default. The stages share it: 30 parts of
-    /// a hundred for the reference, 20 to find errors, 35 for times, 15 for states nearby, and what a stage leaves is the
+    /// a hundred for the reference, 20 to find errors, 15 for states nearby, 35 for times, and what a stage leaves is the
     /// next one's.
     #[must_use]
     pub fn within(self, budget: Duration) -> Self {
@@ -305,7 +307,7 @@ impl<S, const N: usize> Study<S, N> {
         Self { stopwatch: Box::new(stopwatch), ..self }
     }
 
-    /// The same with so many states nearby, 8 by default, on which settings that may be chosen have to prove themselves;
+    /// The same with so many states nearby, 20 by default, on which settings that may be chosen have to prove themselves;
     /// none chooses by the initial states alone. An entry differs by at most `spread max(|x|, 1/3)`, with a spread of 0.4 by
     /// default. States that violate the constraints on positions are replaced by others of the same motion.
     #[must_use]
@@ -441,6 +443,7 @@ impl<S, const N: usize> Study<S, N> {
             scales: None,
             levers: Vec::new(),
             reference: reference::by_extrapolation(Rc::clone(long), reference::EXTRAPOLATION_TOLERANCE),
+            elsewhere: reference::by_extrapolation(Rc::clone(long), reference::ELSEWHERE_TOLERANCE),
             check: Some(reference::by_method(check_name, Rc::clone(long), check)),
             tells: tells_of(Rc::clone(long)),
             tight: Rc::new(move |tolerance| {
@@ -452,7 +455,7 @@ impl<S, const N: usize> Study<S, N> {
             progress: false,
             stop: Box::new(|_| false),
             stopwatch: Box::new(timing::Wall),
-            probes: 8,
+            probes: 20,
             spread: 0.4,
         }
     }

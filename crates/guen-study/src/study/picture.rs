@@ -7,9 +7,13 @@ use super::row::Row;
 use crate::error::StudyError;
 use crate::plot::Plot;
 
+/// As many timings make a point of a picture.
+const ENOUGH: u32 = 3;
+
 impl Report {
     /// Work against precision: cost over error, both axes logarithmic, a curve for each method over doubles, and the
-    /// front of all levers as a grey band. Rows that failed or were not measured are not there.
+    /// front of all levers as a grey band. Rows that failed, or were timed fewer than three
+    /// times, are not there.
     pub fn picture(&self) -> Plot {
         let front = self.front();
         self.draw(&front, |row| row.real == "f64", Row::lever)
@@ -18,7 +22,7 @@ impl Report {
     /// The same of one method: a curve for each real, and the front of all levers.
     pub fn picture_of_reals(&self, method: &str) -> Plot {
         let front = self.front();
-        self.draw(&front, |row| row.method == method, |row| row.real.clone())
+        self.draw(&front, |row| row.method == method && row.form == "declared", |row| row.real.clone())
     }
 
     fn draw(&self, front: &[&Row], wanted: impl Fn(&Row) -> bool, label: impl Fn(&Row) -> String) -> Plot {
@@ -29,6 +33,10 @@ impl Report {
         let mut curves: Vec<(String, Vec<(f64, f64)>)> = Vec::new();
         for row in self.rows.iter().filter(|row| wanted(row)) {
             let Some((error, cost)) = row.measured() else { continue };
+            // A single timing is no median.
+            if self.unit == Unit::Seconds && cost.repetitions < ENOUGH {
+                continue;
+            }
             let label = label(row);
             let point = (error, factor * cost.median);
             match curves.iter_mut().find(|(name, _)| *name == label) {

@@ -30,8 +30,10 @@ pub(super) struct Named<const N: usize> {
 
 const CANCELLED: &str = "it was cancelled, or took longer than the study had for it";
 
-/// The order of the reference is high, so that digits are cheap: 1e-24 is a third more work than 1e-18.
+/// The order of the reference is high, so that digits are cheap: 1e-24 is not twice the work of 1e-18.
 pub(super) const EXTRAPOLATION_TOLERANCE: f64 = 1e-24;
+/// Of states nearby: far below the rounding of doubles.
+pub(super) const ELSEWHERE_TOLERANCE: f64 = 1e-18;
 /// The check is of order eight, where ten times the digits is twelve times the work: as tight as it has to be for
 /// differences below the rounding of doubles.
 pub(super) const CHECK_TOLERANCE: f64 = 1e-17;

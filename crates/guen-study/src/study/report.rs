@@ -130,7 +130,7 @@ impl fmt::Display for NoChoice {
 impl std::error::Error for NoChoice {}
 
 /// A setting may err this many times what was asked for from states nearby; ten times is what is promised.
-const NEARBY: f64 = 3.0;
+const NEARBY: f64 = 2.0;
 
 impl Report {
     fn points(&self) -> Vec<(f64, f64)> {
@@ -149,7 +149,7 @@ impl Report {
     }
 
     /// The cheapest setting whose error was measured to be at most this, and whose error from states nearby was at most
-    /// three times this, where it was measured: so that the promise, ten times, has room.
+    /// twice this, where it was measured: so that the promise, ten times, has room.
     ///
     /// # Errors
     ///
@@ -333,8 +333,12 @@ impl fmt::Display for Choice<'_> {
             write!(f, "\n  quicker, but not as accurate from states nearby: {}", row.name())?;
         }
         if !self.ties.is_empty() {
-            let names: Vec<String> = self.ties.iter().map(|row| row.name()).collect();
+            const SHOWN: usize = 4;
+            let names: Vec<String> = self.ties.iter().take(SHOWN).map(|row| row.name()).collect();
             write!(f, "\n  a tie, the machine was too noisy to rank them: {}", names.join("; "))?;
+            if self.ties.len() > SHOWN {
+                write!(f, "; and {} more", self.ties.len() - SHOWN)?;
+            }
         }
         Ok(())
     }

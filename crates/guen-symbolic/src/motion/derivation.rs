@@ -2,7 +2,7 @@
 
 use super::velocity_forms::VelocityPartials;
 use super::{
-    Energies, Frame, Mechanics, MotionSymbol, NotQuadratic, Solution, decompose, poincare, projection,
+    Energies, Frame, Mechanics, MotionSymbol, NotQuadratic, Solution, decompose, poincare, projection, proof,
     rephrased, tensions,
 };
 use crate::algebra::{ExprId, FastMap, Flow, Role, Roles, Substitution};
@@ -117,7 +117,7 @@ impl Derivation {
         let by_definition = poincare::equations(bench, &system, &mut frame);
         let projected = projection::equations(bench, &system, &mut frame, &mut partials, &terms, n);
         let by_projection = &projected.equations;
-        let agree = routes_agree(bench, &by_definition, by_projection, l);
+        let agree = proof::routes_agree(bench, &by_definition, by_projection, l);
         for s in if agree { 0..0 } else { 0..l } {
             let same = |bench: &mut Workbench, a: ExprId, b: ExprId| {
                 let difference = bench.graph.sub(a, b);
@@ -147,7 +147,9 @@ impl Derivation {
         };
         affordable(bench)?;
         let tensions = match tensions {
-            Some(tensions) if solve_equations(bench, &equations, &tensions.accelerations)? => Some(tensions),
+            Some(tensions) if proof::solve_equations(bench, &equations, &tensions.accelerations)? => {
+                Some(tensions)
+            }
             _ => None,
         };
         let by_tensions = tensions.is_some();
@@ -174,7 +176,7 @@ impl Derivation {
                 alternatives.extend(others.map(|other| [&frame.velocities[..], &other].concat()));
                 let own = [&frame.velocities[..], &solution.accelerations].concat();
                 for rates in rephrased::rates(bench, &system, &mut frame, &equations, by_projection, words) {
-                    if are_equal(bench, &own, &rates, system.forms.len())? {
+                    if proof::are_equal(bench, &own, &rates, system.forms.len())? {
                         alternatives.push(rates);
                     }
                 }
@@ -322,76 +324,6 @@ fn weightless(bench: &mut Workbench, mass: &[Vec<ExprId>], rows: &[usize]) -> Ve
     let negative = coefficients.into_iter().map(|c| bench.graph.neg(c)).collect::<Vec<_>>();
     let one = bench.graph.one();
     support.iter().copied().chain([*last]).zip(negative.into_iter().chain([one]).map(Some)).collect()
-}
-
-/// Whether the two routes agree at points modulo p: if so they are equal but for roots of other sign; if not, the zero
-/// test looks closer at each equation.
-fn routes_agree(bench: &mut Workbench, a: &Equations, b: &Equations, l: usize) -> bool {
-    let differences: Vec<ExprId> = (0..l)
-        .flat_map(|s| {
-            let masses = (0..l).map(move |t| (a.mass[s][t], b.mass[s][t]));
-            masses.chain([(a.forces[s], b.forces[s])])
-        })
-        .map(|(a, b)| bench.graph.sub(a, b))
-        .collect();
-    vanish(bench, &differences)
-}
-
-/// Whether the rates in other words agree at points modulo p. Where only the sign of a root may differ they are not
-/// taken; a proved difference is a mistake of ours.
-fn are_equal(
-    bench: &mut Workbench,
-    own: &[ExprId],
-    other: &[ExprId],
-    velocities: usize,
-) -> Result<bool, DerivationError> {
-    let differences: Vec<ExprId> = own.iter().zip(other).map(|(a, b)| bench.graph.sub(*a, *b)).collect();
-    if vanish(bench, &differences) {
-        return Ok(true);
-    }
-    for (place, e) in differences.into_iter().enumerate() {
-        if bench.zero.verdict(&mut bench.graph, e) == Verdict::Nonzero {
-            // Velocities come first.
-            return Err(DerivationError::RoutesDisagree { equation: place.saturating_sub(velocities) });
-        }
-    }
-    Ok(false)
-}
-
-/// Whether accelerations solve the equations of both routes, at points modulo p; a proved difference is a mistake of ours.
-fn solve_equations(
-    bench: &mut Workbench,
-    equations: &Equations,
-    accelerations: &[ExprId],
-) -> Result<bool, DerivationError> {
-    let residuals: Vec<ExprId> = equations
-        .mass
-        .iter()
-        .zip(&equations.forces)
-        .map(|(row, force)| {
-            let inertia = bench.dot(row, accelerations);
-            bench.graph.sub(inertia, *force)
-        })
-        .collect();
-    if vanish(bench, &residuals) {
-        return Ok(true);
-    }
-    for (equation, e) in residuals.into_iter().enumerate() {
-        if bench.zero.verdict(&mut bench.graph, e) == Verdict::Nonzero {
-            return Err(DerivationError::RoutesDisagree { equation });
-        }
-    }
-    Ok(false)
-}
-
-/// Whether all of them vanish at a few points modulo p.
-fn vanish(bench: &mut Workbench, es: &[ExprId]) -> bool {
-    (0..3).all(|sample| {
-        bench
-            .zero
-            .residues(&mut bench.graph, sample, es, false)
-            .is_some_and(|residues| residues.iter().all(|residue| *residue == 0))
-    })
 }
 
 /// `Q_s = sum F beta_s`, with the force on the constraints.

@@ -8,6 +8,7 @@ mod frame;
 mod kinetic;
 mod poincare;
 mod projection;
+mod proof;
 mod rephrased;
 mod solve;
 mod symmetry;

@@ -28,7 +28,7 @@ pub(super) fn items(declaration: &Declaration, names: &Names) -> TokenStream {
 
 fn scene(scene: &Scene, system: &proc_macro2::Ident, names: &Names) -> TokenStream {
     let (name, module) = (&scene.name.ident, module_name(&scene.name.ident, "scene"));
-    let mut own = names.clone();
+    let mut own = Names { bodies: 0, ..names.clone() };
     for fix in &scene.fixes {
         own.constants.retain(|constant| *constant != fix.name.ident);
         own.required.retain(|constant| *constant != fix.name.ident);

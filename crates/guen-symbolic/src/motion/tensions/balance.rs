@@ -92,19 +92,14 @@ impl Balancing<'_> {
             }
             seen[start] = true;
             let (mut members, mut parameters) = (vec![start], unknown(start));
-            let mut next = 0;
-            while next < members.len() {
-                for k in 0..self.rows.len() {
-                    let own = if seen[k] { Vec::new() } else { unknown(k) };
-                    if own.iter().any(|s| parameters.contains(s)) {
-                        seen[k] = true;
-                        members.push(k);
-                        let new: Vec<usize> = own.into_iter().filter(|s| !parameters.contains(s)).collect();
-                        parameters.extend(new);
-                        next = 0;
-                    }
-                }
-                next += 1;
+            // Until no difference shares a parameter with the block.
+            loop {
+                let joins = |k: &usize| !seen[*k] && unknown(*k).iter().any(|s| parameters.contains(s));
+                let Some(k) = (0..self.rows.len()).find(joins) else { break };
+                seen[k] = true;
+                members.push(k);
+                let new: Vec<usize> = unknown(k).into_iter().filter(|s| !parameters.contains(s)).collect();
+                parameters.extend(new);
             }
             members.sort_unstable();
             blocks.push((members, parameters));

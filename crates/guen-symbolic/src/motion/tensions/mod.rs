@@ -29,19 +29,18 @@ mod angles;
 mod balance;
 mod pattern;
 mod sparse;
+mod system;
 mod tree;
 
 use super::projection::Squares;
-use super::solve::{Elimination, Naming, eliminate};
 use super::{Equations, Frame};
-use crate::algebra::{ExprId, FastMap, Node, Rational};
-use crate::normal::{Limits, normal_coefficients};
-use crate::program::weighted_cost;
+use crate::algebra::ExprId;
 use crate::workbench::Workbench;
 use angles::Between;
 use balance::{Balance, balance};
 use pattern::Pattern;
 use sparse::Vector;
+use system::{System, summands, terms};
 use tree::Edge;
 
 /// The accelerations by tensions.
@@ -214,91 +213,6 @@ pub(super) fn solve(
     Some(Tensions { accelerations, divisors, is_clear: 2 * ours <= theirs })
 }
 
-/// The equations of the tensions, and the accelerations by tensions.
-struct System {
-    matrix: Vec<Vec<ExprId>>,
-    /// Terms of the right sides.
-    right: Vec<Vec<ExprId>>,
-    /// The rows of `P K N`.
-    coupled: Vec<Vec<(usize, ExprId)>>,
-    /// Terms of the accelerations without tensions.
-    direct: Vec<Vec<ExprId>>,
-}
-
-impl System {
-    /// The coefficients of the tensions.
-    fn entries(&self) -> Vec<ExprId> {
-        let lower = self.matrix.iter().enumerate().flat_map(|(s, row)| &row[..=s]);
-        lower.copied().chain(self.coupled.iter().flatten().map(|(_, e)| *e)).collect()
-    }
-
-    fn cost(&self, bench: &Workbench, beside: &[ExprId]) -> u64 {
-        let terms = self.right.iter().chain(&self.direct).flatten();
-        let all: Vec<ExprId> = self.entries().iter().chain(terms).chain(beside).copied().collect();
-        weighted_cost(&bench.graph, &all)
-    }
-
-    /// The same in the angles between neighbours.
-    fn rewritten(&self, bench: &mut Workbench, between: &Between, etas: &[ExprId]) -> Self {
-        let lists = |bench: &mut Workbench, lists: &[Vec<ExprId>]| -> Vec<Vec<ExprId>> {
-            let sums = lists.iter().map(|list| {
-                let sum = bench.graph.sum(list.iter().copied());
-                between.within(bench, sum, |bench| terms(bench, sum, etas)).unwrap_or_else(|| list.clone())
-            });
-            sums.collect()
-        };
-        let tidy =
-            |bench: &mut Workbench, e: ExprId| between.within(bench, e, |bench| bench.tidy(e)).unwrap_or(e);
-        let mut matrix = self.matrix.clone();
-        for s in 0..matrix.len() {
-            for t in 0..=s {
-                let entry = tidy(bench, matrix[s][t]);
-                (matrix[s][t], matrix[t][s]) = (entry, entry);
-            }
-        }
-        let mut coupled = self.coupled.clone();
-        for (_, e) in coupled.iter_mut().flatten() {
-            *e = tidy(bench, *e);
-        }
-        System { matrix, right: lists(bench, &self.right), coupled, direct: lists(bench, &self.direct) }
-    }
-
-    /// The accelerations.
-    fn solved(mut self, bench: &mut Workbench) -> Option<Vec<ExprId>> {
-        // One scale for all tensions, and one for their equations: both leave ones where there were constants.
-        let scale = most_common(bench, self.matrix.iter().flatten().copied());
-        let size = most_common(bench, self.right.iter().flatten().copied());
-        for entry in self.matrix.iter_mut().flatten() {
-            if !bench.graph.is_zero(*entry) {
-                let quotient = bench.graph.div(*entry, scale);
-                *entry = bench.tidy(quotient);
-            }
-        }
-        let right: Vec<ExprId> = self
-            .right
-            .into_iter()
-            .map(|parts| {
-                let parts: Vec<ExprId> = parts.into_iter().map(|e| bench.graph.div(e, size)).collect();
-                bench.graph.sum(parts)
-            })
-            .collect();
-        let tensions = by_least_fill(bench, self.matrix, right)?;
-        let rows = self.coupled.into_iter().zip(self.direct);
-        let accelerations = rows.map(|(coupled, direct)| {
-            let mut parts = Vec::new();
-            for (t, e) in coupled {
-                let e = bench.graph.product(&[(e, 1), (size, 1), (scale, -1)]);
-                let e = bench.tidy(e);
-                let e = bench.graph.keep(e);
-                parts.push(bench.graph.mul(e, tensions[t]));
-            }
-            parts.extend(direct);
-            bench.graph.sum(parts)
-        });
-        Some(accelerations.collect())
-    }
-}
-
 /// `sum_k y_k (sum of parts_k)`.
 fn weighted(bench: &mut Workbench, y: &Vector, parts: &[Vec<ExprId>]) -> ExprId {
     let mut all = Vec::new();
@@ -326,39 +240,6 @@ fn push_products(
             let factor = if negative { bench.graph.neg(factor) } else { factor };
             parts.push(bench.graph.mul(factor, *g));
         }
-    }
-}
-
-/// The terms of a polynomial in the parameters with tidy coefficients, or of the sum as it is.
-fn terms(bench: &mut Workbench, e: ExprId, etas: &[ExprId]) -> Vec<ExprId> {
-    let limits = Limits { nodes: 400, steps: 6_000, ..Limits::default() };
-    let mut found = Vec::new();
-    match normal_coefficients(&mut bench.graph, e, etas, &limits) {
-        Some(coefficients) => {
-            for (exponents, c) in coefficients {
-                let factors = etas.iter().zip(exponents).map(|(eta, k)| (*eta, k as i32)).chain([(c, 1)]);
-                let factors: Vec<_> = factors.filter(|(_, k)| *k != 0).collect();
-                let product = bench.graph.product(&factors);
-                found.extend(summands(bench, product));
-            }
-        }
-        None => found = summands(bench, e),
-    }
-    found
-}
-
-/// The terms of a sum.
-fn summands(bench: &mut Workbench, e: ExprId) -> Vec<ExprId> {
-    match bench.graph.node(e).clone() {
-        Node::Sum { constant, terms } => {
-            let mut found: Vec<ExprId> = terms.iter().map(|(term, c)| bench.graph.scale(*term, c)).collect();
-            if !constant.is_zero() {
-                found.push(bench.graph.number(constant));
-            }
-            found
-        }
-        _ if bench.graph.is_zero(e) => Vec::new(),
-        _ => vec![e],
     }
 }
 
@@ -409,50 +290,4 @@ fn constant_reactions(
         }
     }
     found
-}
-
-/// The constant factor that most of the expressions have that are not constant, of positive sign; one if it might vanish.
-fn most_common(bench: &mut Workbench, es: impl Iterator<Item = ExprId>) -> ExprId {
-    let mut counts: FastMap<ExprId, usize> = FastMap::default();
-    for e in es {
-        if bench.graph.roles(e).is_constant() {
-            continue;
-        }
-        let graph = &mut bench.graph;
-        let (content, primitive) = graph.split_content(e);
-        let factors: Vec<(ExprId, i32)> = match graph.node(primitive) {
-            Node::Product(factors) => factors.to_vec(),
-            _ => Vec::new(),
-        };
-        let factors: Vec<_> =
-            factors.into_iter().filter(|(base, _)| graph.roles(*base).is_constant()).collect();
-        let size = if content.is_negative() { &content * &Rational::MINUS_ONE } else { content };
-        let number = graph.number(size);
-        let product = graph.product(&factors);
-        let constant = graph.mul(number, product);
-        *counts.or_default(constant) += 1;
-    }
-    let mut best = (0, bench.graph.one());
-    for (constant, count) in counts.iter() {
-        if *count > best.0 {
-            best = (*count, *constant);
-        }
-    }
-    if bench.graph.manifestly_nonzero(best.1) { best.1 } else { bench.graph.one() }
-}
-
-/// Solves a positive definite system in the order of least fill; among equals that which waits least for others.
-fn by_least_fill(bench: &mut Workbench, matrix: Vec<Vec<ExprId>>, right: Vec<ExprId>) -> Option<Vec<ExprId>> {
-    let mut waiting = vec![0_usize; right.len()];
-    let choose = |bench: &mut Workbench, m: &[Vec<ExprId>], left: &[usize]| {
-        let neighbours = |k: usize| -> Vec<usize> {
-            left.iter().copied().filter(|r| *r != k && !bench.graph.is_zero(m[*r][k])).collect()
-        };
-        let k = left.iter().copied().min_by_key(|k| (neighbours(*k).len(), waiting[*k], *k))?;
-        for r in neighbours(k) {
-            waiting[r] = waiting[r].max(waiting[k] + 1);
-        }
-        Some(k)
-    };
-    eliminate(bench, matrix, right, Naming::Definite, choose).map(|Elimination { values, .. }| values)
 }

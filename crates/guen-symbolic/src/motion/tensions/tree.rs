@@ -95,8 +95,8 @@ pub(super) fn difference(
     edge: Option<&Edge>,
 ) -> Vector {
     let mut found = Vector::default();
-    for s in 0..rows[k].len() {
-        let mut entry = rows[k][s];
+    for (s, e) in rows[k].iter().enumerate() {
+        let mut entry = *e;
         if let Some(Edge { parent, multiple }) = edge {
             let part = bench.graph.scale(rows[*parent][s], multiple);
             if part != entry && !bench.graph.is_zero(part) {

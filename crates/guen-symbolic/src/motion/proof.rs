@@ -1,0 +1,76 @@
+//! Proofs that what was found in different ways is equal: before anything is emitted, at points modulo p.
+
+use super::{DerivationError, Equations};
+use crate::algebra::ExprId;
+use crate::workbench::Workbench;
+use crate::zero::Verdict;
+
+/// Whether the two routes agree at points modulo p: if so they are equal but for roots of other sign; if not, the zero
+/// test looks closer at each equation.
+pub(super) fn routes_agree(bench: &mut Workbench, a: &Equations, b: &Equations, l: usize) -> bool {
+    let differences: Vec<ExprId> = (0..l)
+        .flat_map(|s| {
+            let masses = (0..l).map(move |t| (a.mass[s][t], b.mass[s][t]));
+            masses.chain([(a.forces[s], b.forces[s])])
+        })
+        .map(|(a, b)| bench.graph.sub(a, b))
+        .collect();
+    vanish(bench, &differences)
+}
+
+/// Whether the rates in other words agree at points modulo p. Where only the sign of a root may differ they are not
+/// taken; a proved difference is a mistake of ours.
+pub(super) fn are_equal(
+    bench: &mut Workbench,
+    own: &[ExprId],
+    other: &[ExprId],
+    velocities: usize,
+) -> Result<bool, DerivationError> {
+    let differences: Vec<ExprId> = own.iter().zip(other).map(|(a, b)| bench.graph.sub(*a, *b)).collect();
+    if vanish(bench, &differences) {
+        return Ok(true);
+    }
+    for (place, e) in differences.into_iter().enumerate() {
+        if bench.zero.verdict(&mut bench.graph, e) == Verdict::Nonzero {
+            // Velocities come first.
+            return Err(DerivationError::RoutesDisagree { equation: place.saturating_sub(velocities) });
+        }
+    }
+    Ok(false)
+}
+
+/// Whether accelerations solve the equations of both routes, at points modulo p; a proved difference is a mistake of ours.
+pub(super) fn solve_equations(
+    bench: &mut Workbench,
+    equations: &Equations,
+    accelerations: &[ExprId],
+) -> Result<bool, DerivationError> {
+    let residuals: Vec<ExprId> = equations
+        .mass
+        .iter()
+        .zip(&equations.forces)
+        .map(|(row, force)| {
+            let inertia = bench.dot(row, accelerations);
+            bench.graph.sub(inertia, *force)
+        })
+        .collect();
+    if vanish(bench, &residuals) {
+        return Ok(true);
+    }
+    for (equation, e) in residuals.into_iter().enumerate() {
+        if bench.zero.verdict(&mut bench.graph, e) == Verdict::Nonzero {
+            return Err(DerivationError::RoutesDisagree { equation });
+        }
+    }
+    Ok(false)
+}
+
+/// Whether all of them vanish at a few points modulo p.
+fn vanish(bench: &mut Workbench, es: &[ExprId]) -> bool {
+    (0..3).all(|sample| {
+        bench
+            .zero
+            .residues(&mut bench.graph, sample, es, false)
+            .is_some_and(|residues| residues.iter().all(|residue| *residue == 0))
+    })
+}
