@@ -44,7 +44,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, report: &Report)
     let names: Vec<&Ident> = fields.iter().map(|field| &field.ident).collect();
     let docs = fields.iter().map(|field| &field.docs);
     let written = subject.scene().map_or(&subject.model.declaration.docs, |(scene, _)| &scene.docs);
-    let head = documentation::system(report, written);
+    let head = documentation::system(report, written, layout.is_whole);
     let (count, hoisted) = (layout.constants, layout.hoisted);
     let checks = checks(subject, &fields);
     let constructors = constructors(subject, layout, &fields);

@@ -17,16 +17,22 @@ pub(super) fn entry(docs: &Docs, fallback: &str) -> TokenStream {
 }
 
 /// The documentation of the struct: the user's words, then everything that was derived.
-pub(super) fn system(report: &Report, docs: &Docs) -> TokenStream {
+pub(super) fn system(report: &Report, docs: &Docs, is_whole: bool) -> TokenStream {
     let values = &docs.values;
     let blank = (!values.is_empty()).then(|| quote!(#[doc = ""]));
-    let (blocks, page) = (report.to_blocks(), report.to_page());
-    // Editors show the documentation as text, and it would be stored in the compiled crate; rustdoc sets formulas.
+    let blocks = report.to_blocks();
+    // Editors show the documentation as text, and it would be stored in the compiled crate; rustdoc sets formulas. Those of
+    // the system itself: with five scenes they would be a tenth of the expansion, and say little that is new.
+    let text = if is_whole {
+        let page = report.to_page();
+        quote!(#[cfg_attr(not(doc), doc = #blocks)] #[cfg_attr(doc, doc = #page)])
+    } else {
+        quote!(#[doc = #blocks])
+    };
     quote! {
         #(#[doc = #values])*
         #blank
-        #[cfg_attr(not(doc), doc = #blocks)]
-        #[cfg_attr(doc, doc = #page)]
+        #text
     }
 }
 

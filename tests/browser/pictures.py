@@ -1,9 +1,7 @@
 #!/usr/bin/env python3
-"""Makes the screenshots of this folder anew, in a headless browser; see tests/browser.
+"""Makes the screenshots of docs/pictures anew that show the viewer and rustdoc, in a headless browser.
 
-    python3 docs/pictures/make.py
-
-The drawings (*.svg) are made by hand or by examples, as the pages that show them say.
+    python3 tests/browser/pictures.py
 """
 
 import pathlib
@@ -12,8 +10,8 @@ import subprocess
 import sys
 import tempfile
 
-HERE = pathlib.Path(__file__).resolve().parent
-SCRIPTS = HERE.parents[1] / "tests/browser"
+SCRIPTS = pathlib.Path(__file__).resolve().parent
+PICTURED = SCRIPTS.parents[1] / "docs/pictures"
 
 PICTURES = ["viewer-hoop-light.png", "viewer-robot-light.png", "viewer-car-dark.png", "rustdoc-hoop-light.png"]
 
@@ -33,7 +31,7 @@ def main():
             if size > LARGEST:
                 print(f"{name} has {size} bytes, more than {LARGEST}", file=sys.stderr)
                 return 1
-            shutil.copyfile(made, HERE / name)
+            shutil.copyfile(made, PICTURED / name)
             print(f"{name}: {size} bytes")
     return 0
 
