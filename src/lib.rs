@@ -53,8 +53,8 @@ pub use guen_runtime::{
     Dual, Equations, Function, Functions, Fused, FusedOperations, Generic, Holonomic, IncompleteLieGroup,
     IntegrationError, Laned, Level, LevelInfo, Levels, LieGroup, Lift, Linearization, Monitored,
     Nonholonomic, Operator, Ordered, Positions, PositionsError, Projected, Real, Report, ReportSection,
-    Rheonomic, Scleronomic, Setting, System, Tuned, Vitals, from_fn, generic, lanes, prelude, project,
-    projected, steppers,
+    Rheonomic, Rounded, Scleronomic, Setting, System, Tuned, Vitals, from_fn, generic, lanes, prelude,
+    project, projected, steppers,
 };
 pub use guen_runtime::{Liftable, Linearizable, OutputLinearization, control, seeded};
 
@@ -101,15 +101,16 @@ macro_rules! mechanical_system {
 pub mod __private {
     pub use guen_macros::mechanical_system;
     pub use guen_runtime::checks::{
-        check_fixed, check_hoisted, check_inertia, check_limits, check_mass, check_pivot, clamped, largest,
+        check_fixed, check_hoisted, check_inertia, check_limits, check_mass, check_pivot, clamped, condition,
+        furthest, largest,
     };
     pub use guen_runtime::lanes::Lanes;
     pub use guen_runtime::{
         BracketCoefficients, Catastatic, Class, Coefficient, Conservative, ConstantsError, Cost,
         Differentiable, Dual, Holonomic, IncompleteLieGroup, Laned, Level, LevelInfo, Levels, LieGroup, Lift,
         Liftable, Linearizable, Linearization, Monitored, Nonholonomic, Operator, Ordered,
-        OutputLinearization, Positions, PositionsError, Real, Report, ReportSection, Rheonomic, Scleronomic,
-        System, Vitals, nalgebra_conversions, seeded, zero_bracket,
+        OutputLinearization, Positions, PositionsError, Real, Report, ReportSection, Rheonomic, Rounded,
+        Scleronomic, System, Vitals, nalgebra_conversions, seeded, zero_bracket,
     };
     pub use guen_runtime::{consistent, control, serde_record};
 }

@@ -52,6 +52,9 @@ pub struct Level {
     pub programs: Programs,
     /// Functions that must not vanish, in words: the domain of the chart.
     pub domain_names: Vec<String>,
+    /// How many of them, from the first, guards measure one by one; the others are determinants, and measured together
+    /// as the condition of the mass matrix.
+    pub edges: usize,
     /// Expressions of constants that must not vanish.
     pub constant_pivots: Vec<ExprId>,
     /// Where the derivatives belong that have code of their own.
@@ -106,6 +109,8 @@ pub mod function {
     pub const POSITIONS: &str = "positions";
     /// The holonomic constraints and then their derivatives, row by row; only where there are some.
     pub const GRADIENTS: &str = "gradients";
+    /// The lower triangle of the mass matrix, where it is not diagonal.
+    pub const MASS: &str = "mass";
     /// The functions that must not vanish.
     pub const DOMAIN: &str = "domain";
     /// The expressions of constants that must not vanish.
@@ -177,6 +182,8 @@ fn whole(model: &mut Model<'_>, derivation: Rc<Derivation>, brackets: Rc<Vec<Com
     let rates = lists[0].clone();
     extend(&mut model.bench, &mut lists);
     let mut programs = programs(&mut model.bench, &lists, &quantities);
+    add_mass(&mut programs, model, &derivation);
+    let edges = domain_names.len() - derivation.solution.determinants.len();
     let jacobians = Jacobians::add(&mut programs, model, &selection);
     let energy = derivation.energies.integral;
     let equations = equations(&mut model.bench, &derivation);
@@ -189,9 +196,21 @@ fn whole(model: &mut Model<'_>, derivation: Rc<Derivation>, brackets: Rc<Vec<Com
         energy,
         programs,
         domain_names,
+        edges,
         constant_pivots,
         jacobians,
         scene: None,
+    }
+}
+
+/// The mass matrix by itself, out of the equations apart, unless it is diagonal: then it has no condition to measure.
+fn add_mass(programs: &mut Programs, model: &Model<'_>, derivation: &Derivation) {
+    let mass = &derivation.equations.mass;
+    let l = mass.len();
+    let graph = &model.bench.graph;
+    let coupled = (0..l).any(|s| (0..s).any(|k| !graph.is_zero(mass[s][k])));
+    if coupled {
+        programs.add_excerpt(function::MASS, function::MASS_FORM, 0..l * (l + 1) / 2);
     }
 }
 

@@ -4,7 +4,7 @@
 //!
 //! | question | answer |
 //! | --- | --- |
-//! | what is a number? | [`Real`], [`Ordered`], [`Dual`]; [`Lift`] embeds a base real |
+//! | what is a number? | [`Real`], [`Ordered`], [`Dual`], [`Rounded`]; [`Lift`] embeds a base real |
 //! | what is integrated? | [`System`], [`Monitored`], [`Differentiable`], [`from_fn`], [`generic`] |
 //! | which functions does it have? | [`Tuned`]: [`Digits13`], [`Digits7`], [`Fused`], [`Functions`] of your own |
 //! | how many at once? | [`lanes`]; [`Laned`] systems |
@@ -33,6 +33,7 @@ extern crate std;
 mod bracket;
 pub mod checks;
 mod classification;
+mod condition;
 pub mod control;
 mod cost;
 mod decimal;
@@ -50,6 +51,7 @@ mod operator;
 mod positions;
 mod real;
 mod report;
+mod rounded;
 mod serde_support;
 pub mod steppers;
 mod system;
@@ -72,6 +74,7 @@ pub use operator::{Applied, Coordinate, Function, Operator};
 pub use positions::{Positions, PositionsError, Projected, consistent, project, projected};
 pub use real::{Ordered, Real};
 pub use report::{Report, ReportSection};
+pub use rounded::Rounded;
 pub use system::{FromFn, Laned, Monitored, System, from_fn};
 pub use tuned::{
     Choice, Digits7, Digits7Functions, Digits13, Digits13Functions, Functions, Fused, FusedOperations, Own,

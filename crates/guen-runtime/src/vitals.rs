@@ -15,6 +15,7 @@ pub struct Vitals<R> {
     pub energy: Option<R>,
     /// A size for errors of the energy to be relative to, such as `|T| + |U|`: not negative, in units of energy.
     pub scale: R,
-    /// The largest absolute value among the left sides of the constraints on positions; zero without any.
+    /// The largest left side of the constraints on positions, each relative to the size of its terms: in units of
+    /// what a relative change of one in everything that enters would make of it. Zero without any.
     pub residual: R,
 }

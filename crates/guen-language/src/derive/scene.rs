@@ -177,6 +177,7 @@ fn level(
         equations: Vec::new(),
         energy,
         programs,
+        edges: domain_names.len(),
         domain_names,
         constant_pivots,
         jacobians,

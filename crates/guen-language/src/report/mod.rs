@@ -354,7 +354,13 @@ fn domain(subject: &Subject<'_, '_>) -> Section {
     let graph = &subject.model.bench.graph;
     let nonzero = |e: &ExprId| graph.text_limited(*e, LONGEST).map(|text| format!("{text} != 0"));
     let state = subject.level.domain_names.iter().map(|text| format!("{text} != 0"));
-    let text = state.chain(subject.level.constant_pivots.iter().filter_map(nonzero)).collect();
+    let mut text: Vec<String> =
+        state.chain(subject.level.constant_pivots.iter().filter_map(nonzero)).collect();
+    if subject.level.program(function::MASS).is_some() {
+        text.push(
+            "the mass matrix M is regular; `condition`, max_s M_ss (M^-1)_ss, says by how much".to_owned(),
+        );
+    }
     Section { title: "Domain of the chart", text, latex: Vec::new() }
 }
 
