@@ -132,6 +132,8 @@ mod pages {
     mod reals {}
     #[doc = include_str!("../docs/integrators.md")]
     mod integrators {}
+    #[doc = include_str!("../docs/extremes.md")]
+    mod extremes {}
     #[doc = include_str!("../docs/control.md")]
     mod control {}
     #[doc = include_str!("../docs/theory.md")]

@@ -4,15 +4,16 @@
 //! cargo run --release --example extremes                     # everything, a few minutes
 //! cargo run --release --example extremes -- --quick          # the shortened battery, which the tests run too
 //! cargo run --release --example extremes -- --system sled    # one system alone
-//! cargo run --release --example extremes -- --docs           # everything, and the table of docs/extremes.md anew
+//! cargo run --release --example extremes -- --bounds         # the errors of right-hand sides alone
+//! cargo run --release --example extremes -- --docs           # everything, and the tables of docs/extremes.md anew
 //! ```
 //!
 //! Ends with 0 if all is in order, 1 if a failure was silent or an answer that is due did not come, 2 for arguments that it
 //! does not know.
 
 mod battery;
+mod bounds;
 
-use std::io::IsTerminal;
 use std::process::ExitCode;
 
 use battery::{Task, run, table, tasks};
@@ -22,17 +23,19 @@ The battery of extremes.
 
     --quick          the shortened battery
     --system NAME    one system alone
-    --docs           all of it, and write the table into docs/extremes.md
+    --bounds         the errors of right-hand sides at 10,000 states of each system, and nothing else
+    --docs           all of it, and write the tables into docs/extremes.md
     --help           this text
 ";
 
-/// Between these lines of the page is the table.
-const MARKS: [&str; 2] = ["<!-- the table begins -->", "<!-- the table ends -->"];
+/// Random states of each system.
+const STATES: usize = 10_000;
 
 #[derive(Default)]
 struct Arguments {
     quick: bool,
     docs: bool,
+    bounds: bool,
     system: Option<String>,
 }
 
@@ -42,6 +45,7 @@ fn arguments(mut given: impl Iterator<Item = String>) -> Result<Option<Arguments
         match word.as_str() {
             "--quick" => arguments.quick = true,
             "--docs" => arguments.docs = true,
+            "--bounds" => arguments.bounds = true,
             "--system" => arguments.system = Some(given.next().ok_or("--system wants a name")?),
             "--help" | "-h" => return Ok(None),
             word => return Err(format!("unknown argument `{word}`")),
@@ -65,6 +69,9 @@ fn main() -> ExitCode {
             return ExitCode::from(2);
         }
     };
+    if arguments.bounds {
+        return errors(None);
+    }
     let all = tasks();
     let mut systems: Vec<&str> = all.iter().map(|task| task.system).collect();
     systems.dedup();
@@ -79,35 +86,50 @@ fn main() -> ExitCode {
     };
     let chosen: Vec<Task> = all.into_iter().filter(wanted).collect();
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
-    let shown = std::io::stderr().is_terminal();
-    let lines = run(chosen, threads, |done, of| {
-        if shown {
-            eprint!("\r{done} of {of}");
-        }
+    let lines = run(chosen, threads, |done, of, line, seconds| {
+        eprintln!("{done} of {of}, {seconds:.1} s: {}: {}", line.system, line.asked);
     });
-    if shown {
-        eprint!("\r               \r");
-    }
     for line in &lines {
         println!("{}", table::paragraph(line));
     }
     let (right, refused, failures) = table::count(&lines);
     println!("{right} answers right to what is printed, {refused} typed errors, {failures} failures");
-    if arguments.docs
-        && let Err(error) = write_docs(&table::markdown(&lines))
+    let battery = if failures == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE };
+    if !arguments.docs {
+        return battery;
+    }
+    let errors = errors(Some(&table::markdown(&lines)));
+    if failures == 0 { errors } else { battery }
+}
+
+/// The errors of right-hand sides; with the table of the battery, both go into the page.
+fn errors(battery: Option<&str>) -> ExitCode {
+    let found = bounds::all(STATES);
+    let table: String = found.iter().map(ToString::to_string).collect();
+    let table = format!("{}{table}", bounds::HEAD);
+    println!("{table}");
+    if let Some(battery) = battery
+        && let Err(error) = write_docs(&[("battery", battery), ("errors", &table)])
     {
         eprintln!("docs/extremes.md: {error}");
         return ExitCode::FAILURE;
     }
-    if failures == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+    for found in found.iter().filter(|found| !found.holds()) {
+        println!("{}: beyond the bound of {} u (cond + kappa)", found.system, bounds::FACTOR);
+    }
+    if found.iter().all(bounds::Found::holds) { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }
 
-/// Puts the table into the page.
-fn write_docs(table: &str) -> Result<(), Box<dyn std::error::Error>> {
+/// Puts tables into the page, each between its marks.
+fn write_docs(tables: &[(&str, &str)]) -> Result<(), Box<dyn std::error::Error>> {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/extremes.md");
-    let page = std::fs::read_to_string(path)?;
-    let (before, rest) = page.split_once(MARKS[0]).ok_or("the mark before the table is gone")?;
-    let (_, after) = rest.split_once(MARKS[1]).ok_or("the mark after the table is gone")?;
-    std::fs::write(path, format!("{before}{}\n\n{table}\n{}{after}", MARKS[0], MARKS[1]))?;
+    let mut page = std::fs::read_to_string(path)?;
+    for (name, table) in tables {
+        let marks = [format!("<!-- {name} begins -->"), format!("<!-- {name} ends -->")];
+        let (before, rest) = page.split_once(&marks[0]).ok_or("a mark is gone")?;
+        let (_, after) = rest.split_once(&marks[1]).ok_or("a mark is gone")?;
+        page = format!("{before}{}\n\n{table}\n{}{after}", marks[0], marks[1]);
+    }
+    std::fs::write(path, page)?;
     Ok(())
 }

@@ -179,6 +179,16 @@ pub enum Cause {
         /// The limit.
         limit: f64,
     },
+    /// The way back does not lead to the start: rounding errors would grow beyond the limit. The time and state beside
+    /// this cause are the last from which it does.
+    Irreversible {
+        /// The time at which it was found.
+        found: f64,
+        /// How much relative rounding errors grow on the way back.
+        growth: f64,
+        /// The limit, of roundings that have grown so, relative to the start.
+        limit: f64,
+    },
     /// A setting or an argument makes no sense: nothing was integrated with it.
     Setting(Setting),
 }
@@ -239,6 +249,13 @@ impl fmt::Display for Cause {
                     f,
                     "at t = {found} the mass matrix had a condition of {condition:e}, and {limit:e} is allowed"
                 )
+            }
+            Self::Irreversible { found, growth, limit } => {
+                write!(
+                    f,
+                    "from t = {found} the run cannot be undone: roundings grow {growth:e} times on the way back, "
+                )?;
+                write!(f, "beyond {limit:e} of the start")
             }
             Self::Step { found, entry, defect, limit } => {
                 write!(

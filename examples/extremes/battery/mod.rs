@@ -104,8 +104,13 @@ pub fn tasks() -> Vec<Task> {
     all
 }
 
-/// Asks everything on so many threads; the lines are in the order of the tasks. `progress` is told how many are done.
-pub fn run(tasks: Vec<Task>, threads: usize, progress: impl Fn(usize, usize) + Sync) -> Vec<Line> {
+/// Asks everything on so many threads; the lines are in the order of the tasks. `progress` is told how many of how many
+/// are done, the last of them, and how many seconds it took.
+pub fn run(
+    tasks: Vec<Task>,
+    threads: usize,
+    progress: impl Fn(usize, usize, &Line, f64) + Sync,
+) -> Vec<Line> {
     let count = tasks.len();
     let queue: Vec<Mutex<Option<Task>>> = tasks.into_iter().map(|task| Mutex::new(Some(task))).collect();
     let lines: Vec<Mutex<Option<Line>>> = queue.iter().map(|_| Mutex::new(None)).collect();
@@ -117,11 +122,13 @@ pub fn run(tasks: Vec<Task>, threads: usize, progress: impl Fn(usize, usize) + S
                     let index = next.fetch_add(1, Ordering::Relaxed);
                     let Some(task) = queue.get(index) else { break };
                     let Some(task) = task.lock().ok().and_then(|mut task| task.take()) else { break };
+                    let start = std::time::Instant::now();
                     let line = (task.ask)();
+                    let seconds = start.elapsed().as_secs_f64();
+                    progress(done.fetch_add(1, Ordering::Relaxed) + 1, count, &line, seconds);
                     if let Ok(mut place) = lines[index].lock() {
                         *place = Some(line);
                     }
-                    progress(done.fetch_add(1, Ordering::Relaxed) + 1, count);
                 }
             });
         }
