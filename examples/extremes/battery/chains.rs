@@ -31,10 +31,11 @@ pub fn tasks() -> Vec<Task> {
                         _ => bend,
                     };
                 }
-                let mut motion = Motion::new("chains", double, long, start, (0.0, 0.05));
-                motion.steps = if ratio > 1.0 { 5000 } else { 500 };
+                let mut motion =
+                    Motion::new("chains", double, long, start, (0.0, if ratio > 1.0 { 5e-3 } else { 0.05 }));
+                motion.steps = 500;
                 motion.tolerance = 1e-10;
-                motion.ask::<f64>(format!("20 links, {name}, the last mass {ratio:e} of the others"))
+                motion.ask_explicit::<f64>(format!("20 links, {name}, the last mass {ratio:e} of the others"))
             }),
         );
     }
@@ -43,10 +44,12 @@ pub fn tasks() -> Vec<Task> {
             quick,
             Box::new(move || {
                 let (double, long) = both!(Chain2 { m: 1.0, M: ratio, l: 1.0, g: 9.81 });
-                let motion = Motion::new("chains", double, long, [0.5, 0.5, 0.0, 0.0], (0.0, 0.3));
+                // The inner mass swings between the outer one and the hinge, at the root of their ratio.
+                let span = 10.0 / f64::sqrt(9.81 * ratio.max(1.0));
+                let motion = Motion::new("chains", double, long, [0.5, 0.5, 0.0, 0.0], (0.0, span));
                 let motion = if ratio < 1e12 { motion } else { motion.or_refused() };
                 motion.ask::<f64>(format!(
-                    "a double pendulum, the last mass {ratio:e} of the other, started straight"
+                    "a double pendulum, the last mass {ratio:e} of the other, started straight, for {span:.0e} s"
                 ))
             }),
         );

@@ -108,9 +108,11 @@ pub fn tasks() -> Vec<Task> {
         add(
             quick,
             Box::new(move || {
-                motion((ratio.min(1.0), (1.0 / ratio).min(1.0)), 9.81, start(1.2, 0.1, 0.5, 2.0), 0.5)
+                // A light hoop about its diameter nutates at C/A of its spin.
+                let span = if ratio < 1.0 { 10.0 * ratio } else { 0.5 };
+                motion((ratio.min(1.0), (1.0 / ratio).min(1.0)), 9.81, start(1.2, 0.1, 0.5, 2.0), span)
                     .or_refused()
-                    .ask::<f64>(format!("A/C = {ratio:e}"))
+                    .ask::<f64>(format!("A/C = {ratio:e}, for {span:e} s"))
             }),
         );
     }

@@ -31,11 +31,11 @@ pub struct Settings {
 /// The adaptive methods, which have to arrive wherever an answer exists and is not refused for a reason.
 pub const ADAPTIVE: &[&str] = &["Tsit5", "DOP853", "Radau 5"];
 
-/// Shows all methods, in the order of the columns of the table.
-pub fn all<R, S, V, const N: usize>(settings: Settings, visitor: &mut V)
+/// Shows all explicit methods.
+pub fn explicit<R, S, V, const N: usize>(settings: Settings, visitor: &mut V)
 where
     R: Ordered,
-    S: System<R, N> + Differentiable<R, N>,
+    S: System<R, N>,
     V: Visitor<R, S, N>,
 {
     let Settings { step, relative, absolute } = settings;
@@ -44,10 +44,23 @@ where
     visitor.visit("Euler", Promise::Fixed, &Euler { step: h * R::from_ratio(1, 8) });
     visitor.visit("RK4", Promise::Fixed, &Rk4 { step: h });
     visitor.visit("RK8", Promise::Fixed, &Rk8::new(h * R::from_ratio(4, 1)));
-    visitor.visit("Gauss 4", Promise::Fixed, &Gauss4::new(h));
-    visitor.visit("Gauss 6", Promise::Fixed, &Gauss6::new(h));
+
     visitor.visit("Tsit5", adaptive, &Tsit5::new(relative, absolute));
     visitor.visit("DOP853", adaptive, &Dop853::new(relative, absolute));
+}
+
+/// Shows all methods, in the order of the columns of the table.
+pub fn all<R, S, V, const N: usize>(settings: Settings, visitor: &mut V)
+where
+    R: Ordered,
+    S: System<R, N> + Differentiable<R, N>,
+    V: Visitor<R, S, N>,
+{
+    explicit(settings, visitor);
+    let Settings { step, relative, absolute } = settings;
+    let h = R::from_f64(step);
+    visitor.visit("Gauss 4", Promise::Fixed, &Gauss4::new(h));
+    visitor.visit("Gauss 6", Promise::Fixed, &Gauss6::new(h));
     // Of order five and implicit: a digit less keeps it affordable.
     visitor.visit(
         "Radau 5",

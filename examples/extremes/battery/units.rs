@@ -64,12 +64,12 @@ fn ends(units: Units) -> Ends {
 }
 
 /// The largest relative difference of the ends of a motion in two systems of units.
-fn compare(asked: &str, one: Units, other: Units, allowed: fn(Promise) -> f64) -> Line {
+fn compare(asked: &str, one: Units, other: Units, allowed: fn(&str, Promise) -> f64) -> Line {
     let answers = ends(one).ends.into_iter().zip(ends(other).ends).map(|((by, promise, a), (_, _, b))| {
         let verdict = match (a, b) {
             (Ok(a), Ok(b)) => {
                 let off = (0..5).map(|i| (a[i] - b[i]).abs() / a[i].abs()).fold(0.0, f64::max);
-                Verdict::of(off, allowed(promise))
+                Verdict::of(off, allowed(by, promise))
             }
             (Err(verdict), _) | (_, Err(verdict)) => verdict,
         };
@@ -89,7 +89,9 @@ pub fn tasks() -> Vec<Task> {
     let powers = Units { length: power(30), time: power(-17), mass: power(-41) };
     vec![
         Task::new("units", true, move || {
-            let allowed = |promise| match promise {
+            let allowed = |by: &str, promise| match promise {
+                // Implicit methods solve their equations to rounding, on a way that depends on units.
+                Promise::Fixed if by.starts_with("Gauss") => 1e-13,
                 Promise::Fixed => 0.0,
                 Promise::Adaptive(tolerance) => 1e4 * tolerance,
             };
@@ -103,7 +105,7 @@ pub fn tasks() -> Vec<Task> {
         Task::new("units", true, move || {
             let small = Units { length: 1e3, time: 1.0, mass: 1e6 };
             let large = Units { length: 1e-3, time: 1.0, mass: 1e-3 };
-            let allowed = |promise| match promise {
+            let allowed = |_: &str, promise| match promise {
                 Promise::Fixed => 1e-12,
                 Promise::Adaptive(tolerance) => 1e4 * tolerance,
             };

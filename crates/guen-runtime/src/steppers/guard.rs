@@ -17,7 +17,7 @@ const EVALUATIONS_BETWEEN_LOOKS: u32 = 160;
 /// of it.
 const EVALUATIONS_WORTH_A_LOOK: u32 = 100;
 /// As many functions that must not vanish are watched; further ones are not.
-const EDGES: usize = 16;
+pub(super) const EDGES: usize = 16;
 
 /// What a run must not violate. A stepper watches these by default, of whatever the system tells in
 /// [`System::vitals`], [`System::edges`] and [`System::condition`], and methods with a fixed step by evaluating the
@@ -29,7 +29,9 @@ const EDGES: usize = 16;
 /// steps since then. A run of less than about a hundred right-hand sides is tested for finite states only, unless
 /// `every` is set.
 ///
-/// With lanes, which have no order among them, the first lane alone is looked at, except that all must be finite.
+/// With lanes as the real, which have no order among them, the first lane alone is looked at, except that all must be
+/// finite; [`Rk4::integrate_in_lanes`](super::Rk4::integrate_in_lanes) looks at the energy, the residual and the edges of
+/// every lane.
 ///
 /// ```
 /// use guen_runtime::steppers::Guard;
@@ -310,11 +312,11 @@ fn in_order(guard: &Guard, found: f64, residual: f64, condition: f64) -> Result<
 }
 
 /// A change in units of a scale; what does not change at all is no change even of nothing.
-fn relative(change: f64, scale: f64) -> f64 {
+pub(super) fn relative(change: f64, scale: f64) -> f64 {
     if change == 0.0 { 0.0 } else { change / scale }
 }
 
 /// Whether a value is above its limit, or none at all.
-fn exceeds(value: f64, limit: f64) -> bool {
+pub(super) fn exceeds(value: f64, limit: f64) -> bool {
     value > limit || value.is_nan()
 }

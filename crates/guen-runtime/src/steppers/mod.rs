@@ -32,6 +32,7 @@ mod gauss;
 mod guard;
 mod integration;
 mod landing;
+mod lane_guard;
 mod lanes;
 mod lu;
 mod radau5;
