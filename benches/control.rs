@@ -13,6 +13,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use guen::{Cost, Dual, Lift, Liftable, Linearizable, seeded};
+use guen_benchmarks::systems::{BodyHoop, body_hoop};
 
 #[path = "../crates/guen-bare/src/controller.rs"]
 mod controller;
@@ -23,47 +24,7 @@ use controller::{Gain, OPERATIONS_PER_PERIOD, Reference};
 use plant::Robot;
 use plant::robot::{Prepared, State};
 
-guen::mechanical_system! {
-    /// The hoop of section 3.1.
-    pub system Hoop {
-        constants { a > 0, A > 0, C > 0, g = 9.81 }
-        coordinates { theta, psi, phi, xi, eta, zeta }
-        parameters { eta1 = dot(theta); eta2 = dot(psi)*sin(theta); eta3 = dot(psi)*cos(theta) + dot(phi); }
-        let frame = rot_z(psi)*rot_x(theta);
-        bodies { hoop { mass: 1, inertia: diag(A, A, C), center: vec(xi, eta, zeta), orientation: frame*rot_z(phi) } }
-        gravity = vec(0, 0, -g);
-        constraints { rolling: hoop.velocity_at(hoop.center - a*frame.y) = 0; }
-    }
-}
-
-guen::mechanical_system! {
-    /// A car with two trailers.
-    pub system Train {
-        constants { m > 0, I > 0, l > 0, d > 0, k > 0 }
-        inputs { push, steering }
-        coordinates { x, y, theta0, theta1, theta2, phi }
-        let R0 = rot_z(theta0); let R1 = rot_z(theta1); let R2 = rot_z(theta2);
-        let F = R0*rot_z(phi);
-        let rear = vec(x, y);
-        let front = rear + l*R0.x;
-        let axle1 = rear - k*R0.x - d*R1.x;
-        let axle2 = axle1 - k*R1.x - d*R2.x;
-        bodies {
-            car { mass: m, inertia: diag(0, 0, I), center: rear + l/3*R0.x, orientation: R0 }
-            wheel { mass: m/10, inertia: diag(0, 0, I/10), center: front, orientation: F }
-            trailer1 { mass: m/2, inertia: diag(0, 0, I/2), center: axle1 + d/4*R1.x, orientation: R1 }
-            trailer2 { mass: m/2, inertia: diag(0, 0, I/2), center: axle2 + d/4*R2.x, orientation: R2 }
-        }
-        parameters { speed = inner(R0.x, dot(rear)); steer = dot(phi); }
-        constraints {
-            rear_axle: inner(R0.y, car.velocity_at(rear)) = 0;
-            front_axle: inner(F.y, wheel.velocity_at(front)) = 0;
-            first: inner(R1.y, trailer1.velocity_at(axle1)) = 0;
-            second: inner(R2.y, trailer2.velocity_at(axle2)) = 0;
-        }
-        forces { push along speed; steering along steer; }
-    }
-}
+guen_benchmarks::train!(guen::mechanical_system);
 
 const ROUNDS: usize = 60;
 const CALLS: usize = 2_000;
@@ -183,11 +144,11 @@ fn main() {
     println!("             operations             ns, shortest of {ROUNDS}          ratio of times");
     println!("system    rates  A and B      rates  A and B    duals    to rates  to duals");
     let hoop =
-        Hoop { a: 0.5, A: 0.125, C: 0.25, g: 9.81 }.prepare().expect("they are inside of their bounds");
+        BodyHoop { a: 0.5, A: 0.125, C: 0.25, g: 9.81 }.prepare().expect("they are inside of their bounds");
     let train =
         Train { m: 3.0, I: 1.3, l: 1.1, d: 0.9, k: 0.3 }.prepare().expect("they are inside of their bounds");
     let held = [
-        linearisation::<_, 9, 0>("hoop", &hoop, hoop::COST, hoop::LINEARIZATION_COST),
+        linearisation::<_, 9, 0>("hoop", &hoop, body_hoop::COST, body_hoop::LINEARIZATION_COST),
         linearisation::<_, 9, 3>("robot", &robot, plant::robot::COST, plant::robot::LINEARIZATION_COST),
         linearisation::<_, 8, 2>("train", &train, train::COST, train::LINEARIZATION_COST),
     ];

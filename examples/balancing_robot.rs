@@ -14,7 +14,7 @@ use std::process::ExitCode;
 use guen::Linearization;
 use guen::control::{Component, Frozen, controllability};
 use guen::prelude::*;
-use guen_study::{Plot, Table};
+use guen_study::{Plot, Recording, Shape, Table, Viewer};
 use nalgebra::{Matrix2, SMatrix};
 
 #[path = "../crates/guen-bare/src/controller.rs"]
@@ -162,6 +162,7 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
     }
     println!("{table}\n");
     draw(&record)?;
+    play(&robot, &record)?;
 
     // 6. Did it work?
     let tilt = record.iter().map(|(_, s, _)| s.tilt.abs()).fold(0.0, f64::max);
@@ -222,5 +223,50 @@ fn draw(record: &[(f64, State, Inputs)]) -> Result<(), Box<dyn Error>> {
         .line("right", curve(|_, u| u.right_torque))
         .save(pictures.join("torques.svg"))?;
     println!("pictures: balance.svg, path.svg and torques.svg in {}", pictures.display());
+    Ok(())
+}
+
+/// The run as a page. The wheels draw themselves, by their mass and inertia; the chassis is told to have an axle.
+fn play(robot: &robot::Prepared, record: &[(f64, State, Inputs)]) -> Result<(), Box<dyn Error>> {
+    const METRES_PER_NEWTON: f64 = 0.004;
+    let mut recording = Recording::new(&State::NAMES);
+    for (t, state, _) in record {
+        recording.record(*t, &(*state).into());
+    }
+    let inputs = |t: f64| record[((t / PERIOD).round() as usize).min(record.len() - 1)].2;
+    let Robot { m, h, b, r, A, B, C, .. } = robot.constants();
+    let height = r + h;
+    // The box that has these moments of inertia, and below it an axle between two struts.
+    let edges = [B + C - A, A + C - B, A + B - C].map(|moments| (6.0 * moments / m).sqrt());
+    let strut = |y: f64| Shape::rod([0.0, y, -h], [0.0, y, -edges[2] / 2.0], 0.02).coloured(0x4a525b);
+    let chassis = [
+        Shape::cuboid(edges),
+        strut(edges[1] / 3.0),
+        strut(-edges[1] / 3.0),
+        Shape::rod([0.0, -b, -h], [0.0, b, -h], 0.018).coloured(0x4a525b),
+    ];
+    let page = Path::new("target/guen/balancing_robot/robot.html");
+    Viewer::new("A robot that balances on two wheels, drives, is pushed and turns", &recording)
+        .bodies(robot)
+        .drawn("chassis", chassis)
+        .arrow("push", 0.012, |t, state| {
+            let State { x, y, heading, .. } = (*state).into();
+            let length = METRES_PER_NEWTON * inputs(t).push;
+            let [c, s] = [heading.cos(), heading.sin()];
+            let behind = 0.15 + length;
+            [[x - behind * c, y - behind * s, height], [length * c, length * s, 0.0]]
+        })
+        .path("middle of the axle", |_, state| [state[0], state[1], 0.0])
+        .panel("lean in rad")
+        .curve("tilt", |_, state| State::from(*state).tilt)
+        .panel("speed in m/s, turn in rad/s")
+        .curve("speed", |_, state| State::from(*state).speed)
+        .curve("turn", |_, state| State::from(*state).turn)
+        .panel("torques in N m")
+        .curve("left", |t, _| inputs(t).left_torque)
+        .curve("right", |t, _| inputs(t).right_torque)
+        .follow("chassis")
+        .write(page)?;
+    println!("to play: {}", page.display());
     Ok(())
 }

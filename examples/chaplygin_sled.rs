@@ -13,7 +13,7 @@ use std::process::ExitCode;
 
 use guen::mechanical_system;
 use guen::prelude::*;
-use guen_study::{Monitor, Plot, Progress, Recording, Table};
+use guen_study::{Monitor, Plot, Pose, Progress, Recording, Shape, Table, Viewer};
 
 mechanical_system! {
     /// A sled on a plane inclined by `incline`, on a blade that does not slip sideways.
@@ -113,6 +113,7 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
         .line("", recording.iter().map(|(t, state)| (t, error_of(t, state))))
         .save(pictures.join("drift.svg"))?;
     println!("pictures: track.svg, velocities.svg and drift.svg in {}", pictures.display());
+    play(&sled, start, &pictures.join("sled.html"))?;
 
     let invariants = monitor.invariants();
     println!("largest errors: energy {:.1e} (of T(0)), constraint {residual:.1e}", invariants.energy_error);
@@ -122,4 +123,51 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
         eprintln!("an invariant of the motion is broken");
         Ok(ExitCode::FAILURE)
     }
+}
+
+/// The first seconds as a page: the sled on its slope, with the sideways force at its blade.
+fn play(sled: &sled::Prepared, start: sled::State, path: &Path) -> Result<(), Box<dyn Error>> {
+    const SHOWN: usize = 30;
+    const METRES_PER_NEWTON: f64 = 0.25;
+    let Sled { alpha, beta, incline, .. } = sled.constants();
+    let times: Vec<f64> = (0..=60 * SHOWN).map(|k| k as f64 / 60.0).collect();
+    let mut recording = Recording::new(&sled::State::NAMES);
+    Dop853::new(1e-12, 1e-12).sample(sled, 0.0, &start.into(), &times, recording.visit())?;
+    let (s, c) = incline.sin_cos();
+    // The plane's own axes, downhill and across, in space.
+    let blade_at = |state: &[f64; 5]| [state[1] * c, state[2], -state[1] * s];
+    let runner = |y: f64| Shape::cuboid([0.7, 0.025, 0.05]).at([alpha, beta + y, 0.04]);
+    Viewer::new("Chaplygin's sled on a slope", &recording)
+        .body(
+            "sled",
+            [
+                Shape::cuboid([0.8, 0.44, 0.04]).at([alpha, beta, 0.12]),
+                runner(0.2),
+                runner(-0.2),
+                Shape::cuboid([0.24, 0.012, 0.12]).at([0.0, 0.0, 0.06]).coloured(0xd55e00),
+                Shape::sphere(0.03).at([alpha, beta, 0.16]).coloured(0xe69f00),
+            ],
+            |_, state| {
+                Pose::at(blade_at(state)).turned([0.0, 1.0, 0.0], incline).turned([0.0, 0.0, 1.0], state[0])
+            },
+        )
+        .path("blade", |_, state| blade_at(state))
+        .arrow("force at the blade", 0.012, |t, state| {
+            let state_then = sled::State::from(*state);
+            // Along the form: sin(phi) downhill, -cos(phi) across.
+            let force = METRES_PER_NEWTON * sled.reactions(t, &state_then).eta3;
+            let (sin, cos) = state_then.phi.sin_cos();
+            [blade_at(state), [force * sin * c, -force * cos, -force * sin * s]]
+        })
+        .panel("along the blade in m/s, turning in rad/s")
+        .curve("eta2", |_, state| state[4])
+        .curve("eta1", |_, state| state[3])
+        .panel("force at the blade in N")
+        .curve("reaction", |t, state| sled.reactions(t, &(*state).into()).eta3)
+        .monitored(sled)
+        .plane([0.0; 3], [s, 0.0, c])
+        .follow("sled")
+        .write(path)?;
+    println!("to play: {}", path.display());
+    Ok(())
 }

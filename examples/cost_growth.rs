@@ -23,8 +23,10 @@ use guen_benchmarks::chains::{Angles, declaration};
 use guen_benchmarks::timing::{processor_time, processor_time_of_children};
 use guen_language::diagnostics::collect;
 use guen_language::{derive, emit, model, parse};
-use guen_study::Table;
+use guen_study::{Progress, Table};
 
+#[path = "common/arguments.rs"]
+mod arguments;
 #[path = "../tests/systems/scenes.rs"]
 mod scenes;
 
@@ -41,7 +43,13 @@ fn main() -> ExitCode {
             "this is an optimised build, and the compiler's macro is none: see `cargo run --example cost_growth`\n"
         );
     }
-    let most = env::args().nth(1).and_then(|word| word.parse().ok()).unwrap_or(MOST);
+    let about =
+        "How cost grows with the size of a system: planar chains, in absolute and in relative angles.";
+    let links = |word: &str| word.parse().ok().filter(|links| *links > 0);
+    let most = match arguments::read(about, "LINKS", "of the longest chain; 20 by default", MOST, links) {
+        Ok(most) => most,
+        Err(status) => return status,
+    };
     let compiler = match Compiler::new() {
         Ok(compiler) => compiler,
         Err(error) => {
@@ -49,31 +57,39 @@ fn main() -> ExitCode {
             return ExitCode::FAILURE;
         }
     };
+    let mut healthy = true;
+    // The whole takes minutes: the line says how far it is, counted in links.
+    let shown = || LINKS.into_iter().filter(|links| *links <= most);
+    let (mut done, all) = (0, 2 * shown().sum::<usize>());
+    let mut progress = Progress::new(0.0, all as f64);
     for (angles, name) in [(Angles::Absolute, "absolute"), (Angles::Relative, "relative")] {
         let mut rows: Vec<[f64; 6]> = Vec::new();
         let mut table = Table::new(&COLUMNS).digits(4);
-        for links in LINKS.into_iter().filter(|links| *links <= most) {
-            // The whole takes a minute or two: say how far it is.
-            eprint!("\r{name} angles, {links} links   ");
+        for links in shown() {
             match row(&compiler, links, angles) {
                 Ok(row) => {
                     table.row(&row);
                     rows.push(row);
                 }
-                Err(error) => eprintln!("\n{links} links: {error}"),
+                Err(error) => {
+                    eprintln!("{links} links in {name} angles: {error}");
+                    healthy = false;
+                }
             }
+            done += links;
+            progress.at(done as f64);
         }
-        eprintln!();
         println!("chains in {name} angles\n{table}");
         let exponents: Vec<String> =
             (1..6).map(|column| format!("{} {:.2}", COLUMNS[column], exponent(&rows, column))).collect();
         println!("exponents from {ASYMPTOTIC} links on: {}\n", exponents.join(", "));
     }
+    progress.finish();
     if let Err(error) = unused_scenes(&compiler) {
         eprintln!("systems with scenes: {error}");
         return ExitCode::FAILURE;
     }
-    ExitCode::SUCCESS
+    if healthy { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }
 
 /// Prints the costs of the hoop and of the sled without scenes and with five.

@@ -16,6 +16,9 @@ use std::time::Instant;
 use guen::prelude::*;
 use guen::{mechanical_system, projected};
 
+#[path = "common/arguments.rs"]
+mod arguments;
+
 mechanical_system! {
     /// A point on a circle, in Cartesian coordinates.
     pub system Pendulum {
@@ -102,9 +105,12 @@ fn show(name: &str, free: &Run, kept: &Run) -> bool {
 }
 
 fn main() -> Result<ExitCode, Box<dyn Error>> {
-    let steps = match std::env::args().nth(1) {
-        Some(argument) => argument.parse().map_err(|_| format!("`{argument}` is no number of steps"))?,
-        None => MILLION,
+    let about = "What restoring `f(t, x) = 0` after every step gains, and what it costs.";
+    let number = |word: &str| word.parse().ok().filter(|steps| *steps > 0);
+    let steps = match arguments::read(about, "STEPS", "of each system; a million by default", MILLION, number)
+    {
+        Ok(steps) => steps,
+        Err(status) => return Ok(status),
     };
     println!("| {steps} steps of {STEP} s | largest `f` | energy, relative | ns per step |");
     println!("| --- | --- | --- | --- |");

@@ -16,7 +16,10 @@ use std::time::Instant;
 use guen::lanes::Backend;
 use guen::mechanical_system;
 use guen::prelude::*;
-use guen_study::{Ensemble, Plot, Sampled, Table};
+use guen_study::{Ensemble, Plot, Progress, Sampled, Table};
+
+#[path = "common/arguments.rs"]
+mod arguments;
 
 mechanical_system! {
     /// A hoop of radius `a` and mass one that rolls without slipping on a horizontal plane.
@@ -48,9 +51,11 @@ const LOOKS: usize = 401;
 const ENERGY_ERROR: f64 = 1e-7;
 
 fn main() -> Result<ExitCode, Box<dyn Error>> {
-    let count = match std::env::args().nth(1) {
-        Some(argument) => argument.parse().map_err(|_| format!("`{argument}` is no number of hoops"))?,
-        None => HOOPS,
+    let about = "Thousands of hoops that are made almost alike: how a small uncertainty spreads.";
+    let hoops = |word: &str| word.parse().ok().filter(|count| *count > 0);
+    let count = match arguments::read(about, "HOOPS", "how many; 4096 by default", HOOPS, hoops) {
+        Ok(count) => count,
+        Err(status) => return Ok(status),
     };
 
     // 1. The hoops: their inertia, their tilt and their turn are known to one in a hundred. The first is in the middle.
@@ -72,7 +77,13 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
     let times: Vec<f64> = (0..LOOKS).map(|k| UNTIL * k as f64 / (LOOKS - 1) as f64).collect();
     let begin = Instant::now();
     let method = Rk4 { step: 2e-3 };
-    let motions = Ensemble::of_systems(hoops.iter().copied()).sample(&method, 0.0, &times);
+    let mut progress = Progress::new(0.0, count as f64);
+    let mut motions = Vec::with_capacity(count);
+    for part in hoops.chunks(HOOPS) {
+        motions.extend(Ensemble::of_systems(part.iter().copied()).sample(&method, 0.0, &times));
+        progress.at(motions.len() as f64);
+    }
+    progress.finish();
     let seconds = begin.elapsed().as_secs_f64();
 
     // 3. Each ended by itself: one that leaves the domain keeps its states until then, and does not touch the others.

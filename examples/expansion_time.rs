@@ -22,7 +22,7 @@ use guen_benchmarks::chains::{Angles, declaration as declaration_of_chain};
 use guen_benchmarks::timing::processor_time;
 use guen_language::diagnostics::collect;
 use guen_language::{derive, emit, expand, model, parse};
-use guen_study::Table;
+use guen_study::{Progress, Table};
 use proc_macro2::{TokenStream, TokenTree};
 
 #[path = "../tests/systems/large.rs"]
@@ -83,7 +83,9 @@ fn main() -> ExitCode {
         "on processor",
     ])
     .digits(3);
-    for (name, tokens) in &systems {
+    let mut progress = Progress::new(0.0, systems.len() as f64);
+    for (k, (name, tokens)) in systems.iter().enumerate() {
+        progress.at(k as f64);
         let (count, stages, processor) = measured(tokens);
         let [first, second] = [(); 2].map(|()| expand(tokens.clone()).to_string());
         if first != second {
@@ -98,6 +100,7 @@ fn main() -> ExitCode {
         table.row(&[&sizes[..], &milliseconds, &[sum], &shares, &[processor]].concat());
         names.push(name);
     }
+    progress.finish();
     // The names stand beside the table, whose cells are numbers.
     let text = table.to_string();
     let mut names = names.into_iter();

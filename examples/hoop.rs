@@ -5,8 +5,8 @@
 //! cargo run --release --example hoop -- 10000     # any other time, in seconds
 //! ```
 //!
-//! Prints what was derived and a table of the motion, writes pictures to `target/guen/hoop`, and ends with a nonzero
-//! status if the motion does not keep what it has to keep.
+//! Prints what was derived and a table of the motion, writes pictures and a page that plays the motion to
+//! `target/guen/hoop`, and ends with a nonzero status if the motion does not keep what it has to keep.
 
 use std::error::Error;
 use std::path::Path;
@@ -14,7 +14,10 @@ use std::process::ExitCode;
 
 use guen::mechanical_system;
 use guen::prelude::*;
-use guen_study::{Monitor, Plot, Progress, Recording, Table, drift};
+use guen_study::{Monitor, Plot, Pose, Progress, Recording, Shape, Table, Viewer, drift};
+
+#[path = "common/arguments.rs"]
+mod arguments;
 
 mechanical_system! {
     /// A hoop of radius `a` and mass one that rolls without slipping on a horizontal plane.
@@ -75,9 +78,17 @@ const ENERGY_ERROR: f64 = 1e-10;
 const HIDDEN_ERROR: f64 = 1e-10;
 
 fn main() -> Result<ExitCode, Box<dyn Error>> {
-    let until: f64 = match std::env::args().nth(1) {
-        Some(argument) => argument.parse().map_err(|_| format!("`{argument}` is no time in seconds"))?,
-        None => MINUTE,
+    let about = "A hoop that rolls on a horizontal plane: from the declaration to its motion.";
+    let seconds = |word: &str| word.parse().ok().filter(|time: &f64| time.is_finite());
+    let until = match arguments::read(
+        about,
+        "SECONDS",
+        "the time of the run; one minute by default",
+        MINUTE,
+        seconds,
+    ) {
+        Ok(until) => until,
+        Err(status) => return Ok(status),
     };
 
     // 1. What the macro found while this program was compiled.
@@ -170,6 +181,7 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
         .line("zeta - a sin(theta), in m", recording.iter().map(|(t, x)| (t, hidden(t, x) - hidden_start)))
         .save(pictures.join("drift.svg"))?;
     println!("pictures: track.svg, tilt.svg and drift.svg in {}", pictures.display());
+    play(&hoop, start, until, &pictures.join("hoop.html"))?;
 
     // 6. What has to hold.
     let invariants = monitor.invariants();
@@ -184,4 +196,33 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
         eprintln!("an invariant of the motion is broken");
         Ok(ExitCode::FAILURE)
     }
+}
+
+/// The first seconds as a page: the hoop on its plane, where it touches it, and what it has to keep.
+fn play(hoop: &hoop::Prepared, start: hoop::State, until: f64, path: &Path) -> Result<(), Box<dyn Error>> {
+    const PICTURES_PER_SECOND: f64 = 60.0;
+    const THICKNESS: f64 = 0.1;
+    let shown = until.clamp(-MINUTE / 2.0, MINUTE / 2.0);
+    let count = (shown.abs() * PICTURES_PER_SECOND).ceil().max(1.0);
+    let times: Vec<f64> = (0..=count as usize).map(|k| shown * k as f64 / count).collect();
+    let mut recording = Recording::new(&hoop::State::NAMES);
+    Dop853::new(1e-12, 1e-12).sample(hoop, 0.0, &start.into(), &times, recording.visit())?;
+    let radius = hoop.constants().a;
+    Viewer::new("A hoop rolls on a plane", &recording)
+        .body("hoop", [Shape::ring(radius - THICKNESS / 2.0, THICKNESS)], |_, state| {
+            let hoop::State { theta, psi, phi, xi, eta, zeta, .. } = (*state).into();
+            Pose::at([xi, eta, zeta])
+                .turned([0.0, 0.0, 1.0], psi)
+                .turned([1.0, 0.0, 0.0], theta)
+                .turned([0.0, 0.0, 1.0], phi)
+        })
+        .path("contact", |t, state| hoop.outputs(t, &(*state).into()).contact)
+        .panel("tilt in rad")
+        .curve("theta", |_, state| state[0])
+        .monitored(hoop)
+        .panel("zeta - a sin(theta), which no constraint says")
+        .curve("hidden", |t, state| hoop.outputs(t, &(*state).into()).hidden)
+        .write(path)?;
+    println!("to play: {}", path.display());
+    Ok(())
 }

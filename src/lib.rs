@@ -43,30 +43,60 @@
 //! | --- | --- | --- |
 //! | `nalgebra` | yes | conversions between states and `nalgebra::SVector` |
 //! | `std` | yes | `Std`, and lanes chosen at run time; recordings and pictures are in the crate `guen-study` |
-//! | `serde` | no | serde's traits for constants, states and inputs; for recordings the feature of `guen-study` |
+//! | `serde` | no | serde's traits for constants, states and inputs, and for reports of studies |
+//! | `study` | no | the module `study`: which method, real and step for which accuracy; recordings and pictures |
 #![no_std]
+#![cfg_attr(docsrs, feature(doc_cfg))]
 #![forbid(unsafe_code)]
 
 pub use guen_runtime::{
-    BodyFault, BracketCoefficients, Catastatic, Cause, Choice, Class, Coefficient, Conservative,
-    ConstantsError, Coordinate, Cost, Differentiable, Digits7, Digits7Functions, Digits13, Digits13Functions,
-    Dual, Equations, Function, Functions, Fused, FusedOperations, Generic, Holonomic, IncompleteLieGroup,
-    IntegrationError, Laned, Level, LevelInfo, Levels, LieGroup, Lift, Linearization, Monitored,
-    Nonholonomic, Operator, Ordered, Positions, PositionsError, Projected, Real, Report, ReportSection,
-    Rheonomic, Rounded, Scleronomic, Setting, System, Tuned, Vitals, from_fn, generic, lanes, prelude,
-    project, projected, steppers,
+    Bodies, Body, BodyFault, BracketCoefficients, Carrying, Catastatic, Cause, Choice, Class, Coefficient,
+    Conservative, ConstantsError, Coordinate, Cost, Differentiable, Digits7, Digits7Functions, Digits13,
+    Digits13Functions, Dual, Equations, Function, Functions, Fused, FusedOperations, Generic, Holonomic,
+    IncompleteLieGroup, IntegrationError, Laned, LatexDocument, Level, LevelInfo, Levels, LieGroup, Lift,
+    Linearization, Monitored, Nonholonomic, Operator, Ordered, Positions, PositionsError, Projected, Real,
+    Recast, Rejoined, Report, ReportSection, Rheonomic, Rounded, Scleronomic, Setting, System, Tuned, Vitals,
+    from_fn, generic, lanes, prelude, project, projected, rejoined, steppers,
 };
+pub use guen_runtime::{Coefficients, Convolutions, HIGHEST_ORDER, TaylorSeries};
 pub use guen_runtime::{Liftable, Linearizable, OutputLinearization, control, seeded};
 
 #[cfg(feature = "std")]
 pub use guen_runtime::{Std, StdFunctions};
+
+/// The trade of speed for accuracy of a system, measured; with recordings, ensembles and pictures: the crate
+/// `guen-study`.
+///
+/// ```
+/// use guen::study::Study;
+///
+/// guen::mechanical_system! {
+///     pub system Pendulum {
+///         constants   { l > 0, g = 9.81 }
+///         coordinates { q }
+///         parameters  { w = dot(q); }
+///         kinetic_energy   = l^2*w^2/2;
+///         potential_energy = -g*l*cos(q);
+///     }
+/// }
+///
+/// let trade = Study::new(Pendulum::new(1.0), [0.5, 0.0], 0.0..2.0)?
+///     .keep(|method, real| method == "RK8" && real == "f64")
+///     .count_evaluations()
+///     .run();
+/// assert!(trade.report.fastest_within(1e-9)?.row.error < Some(1e-9));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[cfg(feature = "study")]
+#[cfg_attr(docsrs, doc(cfg(feature = "study")))]
+pub use guen_study as study;
 
 /// Declares a mechanical system and derives its equations of motion at compile time.
 ///
 /// For `pub system Hoop { .. }` it generates the struct `Hoop` of physical constants and, beside it, the module
 /// `hoop` with everything else: `State`, `Prepared`, the operators `X0 ..`, their `Bracket`s, classification and
 /// costs as constants, and the text of what was derived. The sections of a declaration are described in the
-/// language reference, `docs/language.md` of the repository.
+/// book, chapter "The language" (`docs/language.md` of the repository).
 ///
 /// ```
 /// guen::mechanical_system! {
@@ -102,42 +132,16 @@ pub mod __private {
     pub use guen_macros::mechanical_system;
     pub use guen_runtime::checks::{
         check_fixed, check_hoisted, check_inertia, check_limits, check_mass, check_pivot, clamped, condition,
-        furthest, largest,
+        drift, furthest, largest,
     };
     pub use guen_runtime::lanes::Lanes;
     pub use guen_runtime::{
-        BracketCoefficients, Catastatic, Class, Coefficient, Conservative, ConstantsError, Cost,
-        Differentiable, Dual, Holonomic, IncompleteLieGroup, Laned, Level, LevelInfo, Levels, LieGroup, Lift,
-        Liftable, Linearizable, Linearization, Monitored, Nonholonomic, Operator, Ordered,
-        OutputLinearization, Positions, PositionsError, Real, Report, ReportSection, Rheonomic, Rounded,
-        Scleronomic, System, Vitals, nalgebra_conversions, seeded, zero_bracket,
+        Bodies, Body, BracketCoefficients, Carrying, Catastatic, Class, Coefficient, Coefficients,
+        Conservative, ConstantsError, Convolutions, Cost, Differentiable, Dual, HIGHEST_ORDER, Holonomic,
+        IncompleteLieGroup, Laned, Level, LevelInfo, Levels, LieGroup, Lift, Liftable, Linearizable,
+        Linearization, Monitored, Nonholonomic, Operator, Ordered, OutputLinearization, Positions,
+        PositionsError, Real, Recast, Report, ReportSection, Rheonomic, Rounded, Scleronomic, System,
+        TaylorSeries, Vitals, nalgebra_conversions, seeded, zero_bracket,
     };
     pub use guen_runtime::{consistent, control, serde_record};
-}
-
-/// The Rust blocks of the pages under `docs/` and of the README, compiled and run as doctests.
-#[cfg(doctest)]
-mod pages {
-    #[doc = include_str!("../README.md")]
-    mod readme {}
-    #[doc = include_str!("../docs/language.md")]
-    mod language {}
-    #[doc = include_str!("../docs/bodies.md")]
-    mod bodies {}
-    #[doc = include_str!("../docs/generated.md")]
-    mod generated {}
-    #[doc = include_str!("../docs/scenes.md")]
-    mod scenes {}
-    #[doc = include_str!("../docs/reals.md")]
-    mod reals {}
-    #[doc = include_str!("../docs/integrators.md")]
-    mod integrators {}
-    #[doc = include_str!("../docs/extremes.md")]
-    mod extremes {}
-    #[doc = include_str!("../docs/control.md")]
-    mod control {}
-    #[doc = include_str!("../docs/theory.md")]
-    mod theory {}
-    #[doc = include_str!("../docs/internals.md")]
-    mod internals {}
 }

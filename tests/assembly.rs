@@ -10,7 +10,7 @@ use std::process::Command;
 use std::{env, fs};
 
 #[macro_use]
-mod systems;
+extern crate guen_benchmarks;
 
 mod counted {
     hoop!(guen::mechanical_system);
@@ -39,7 +39,8 @@ fn assembly() -> String {
     let place = Path::new(env!("CARGO_TARGET_TMPDIR")).join("assembly");
     fs::create_dir_all(place.join("src")).unwrap();
     fs::copy(root.join("tests/assembly/src/lib.rs"), place.join("src/lib.rs")).unwrap();
-    fs::copy(root.join("tests/systems/mod.rs"), place.join("src/systems.rs")).unwrap();
+    fs::copy(root.join("crates/guen-benchmarks/src/declarations.rs"), place.join("src/declarations.rs"))
+        .unwrap();
     fs::copy(root.join("Cargo.lock"), place.join("Cargo.lock")).unwrap();
     let manifest = fs::read_to_string(root.join("tests/assembly/Cargo.toml")).unwrap();
     let local = manifest.replace("\"../..\"", &format!("{:?}", root.display().to_string()));

@@ -15,7 +15,7 @@ use guen_benchmarks::{Subject, Visitor, visit_all};
 const HEADER: &str = "\
 # Operations of the benchmark systems, written by `GUEN_BLESS=1 cargo test --test costs`.
 # One evaluation of the right-hand side, then the preparation of its constants: additions, negations,
-# multiplications, divisions, roots, calls.
+# multiplications, divisions, roots, calls. With an apostrophe: the carried form.
 ";
 
 /// One line for each system: its name, then two programs of six counts.
@@ -24,6 +24,36 @@ struct Lines(String);
 impl Visitor for Lines {
     fn visit<S: Subject<N>, const N: usize>(&mut self, _: S) {
         let _ = writeln!(self.0, "{:11} {}  |{}", S::NAME, counts(S::COST), counts(S::PREPARE_COST));
+    }
+}
+
+/// The same for the carried forms, whose programs are derived here: no call is left in any of them.
+struct CarriedLines(String);
+
+impl Visitor for CarriedLines {
+    fn visit<S: Subject<N>, const N: usize>(&mut self, _: S) {
+        let end = S::DECLARATION.rfind('}').unwrap();
+        let text = format!("{} provide carried; }}", &S::DECLARATION[..end]);
+        let (declaration, _) = guen_language::parse::parse(text.parse().unwrap());
+        let declaration = declaration.unwrap();
+        let (derived, report) = guen_language::diagnostics::collect(|faults| {
+            let model = guen_language::model::resolve(&declaration, faults)?;
+            guen_language::derive::derive(model, faults)
+        });
+        assert!(report.is_empty(), "{}: {:?}", S::NAME, report.to_compile_errors().to_string());
+        let level = derived.unwrap().system.carried.unwrap();
+        let rates = level.program(guen_language::derive::function::RHS).unwrap().cost;
+        assert_eq!((rates.sines, rates.calls), (0, 0), "{}", S::NAME);
+        let cost = |count: guen_symbolic::OperationCount| Cost {
+            additions: count.additions,
+            negations: count.negations,
+            multiplications: count.multiplications,
+            divisions: count.divisions,
+            roots: count.roots,
+            calls: count.sines + count.calls,
+        };
+        let (rates, prepare) = (counts(cost(rates)), counts(cost(level.programs.prepare_cost)));
+        let _ = writeln!(self.0, "{:11} {rates}  |{prepare}", format!("{}'", S::NAME));
     }
 }
 
@@ -51,6 +81,9 @@ fn totals(line: &str) -> (u32, u32) {
 fn costs_are_those_of_the_file() {
     let mut lines = Lines(HEADER.to_owned());
     visit_all(&mut lines);
+    let mut carried = CarriedLines(String::new());
+    visit_all(&mut carried);
+    lines.0.push_str(&carried.0);
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/costs.txt");
     if env::var_os("GUEN_BLESS").is_some() {
         fs::write(&file, &lines.0).unwrap();

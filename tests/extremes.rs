@@ -11,8 +11,10 @@ use guen::steppers::reversible;
 use guen_benchmarks::systems::{Hoop, Sled, hoop, sled};
 
 #[path = "../examples/extremes/battery/mod.rs"]
+#[allow(dead_code, reason = "the tables are for the program")]
 mod battery;
 #[path = "../examples/extremes/bounds.rs"]
+#[allow(dead_code, reason = "the head of the table is for the program")]
 mod bounds;
 
 /// Systems whose lines are quick without optimisation too.
@@ -34,12 +36,14 @@ fn no_failure_is_silent() {
 #[test]
 fn right_hand_sides_are_as_accurate_as_their_condition_allows() {
     let states = if cfg!(debug_assertions) { 100 } else { 10_000 };
+    let mut tightest = 0.0_f64;
     for found in bounds::all(states) {
         println!("{found}");
         assert!(found.holds(), "{}: beyond {} u (cond + kappa)", found.system, bounds::FACTOR);
-        // The bound is not idle: some errors are at least a hundredth of it.
-        assert!(found.whole[0][0].largest() > 0.01 * bounds::FACTOR);
+        tightest = tightest.max(found.whole[0][0].largest());
     }
+    // The bound is not idle: some errors come near it.
+    assert!(tightest > 0.02 * bounds::FACTOR, "{tightest}");
 }
 
 /// Rounding errors of the states, relative to the largest of the start.

@@ -7,8 +7,7 @@ use guen::prelude::*;
 use guen::steppers::Method;
 
 #[macro_use]
-#[path = "systems/mod.rs"]
-mod systems;
+extern crate guen_benchmarks;
 
 hoop!(guen::mechanical_system);
 

@@ -1,7 +1,7 @@
 //! Declared systems in lanes: every function of a state, and ensembles of systems whose constants and inputs differ.
 
 #[macro_use]
-mod systems;
+extern crate guen_benchmarks;
 
 use guen::Laned;
 use guen::lanes::{Backend, LaneTask, Lanes, Width, dispatch_on};

@@ -1,7 +1,7 @@
 //! What scenes leave out, recovered from runs of what they keep: against runs of the whole systems.
 
 #[macro_use]
-mod systems;
+extern crate guen_benchmarks;
 
 use guen::Level;
 use guen::prelude::*;

@@ -10,9 +10,9 @@ use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use guen_language::diagnostics::{Fault, Report, collect};
+use guen_language::diagnostics::{POINTER, Report, collect};
 use guen_language::{derive, emit, model, parse};
-use proc_macro2::{TokenStream, TokenTree};
+use proc_macro2::{Span, TokenStream, TokenTree};
 
 /// A file with a faulty declaration.
 struct Case {
@@ -130,16 +130,16 @@ fn reports(tokens: TokenStream) -> Vec<Report> {
     reports
 }
 
-/// A fault as the compiler draws it.
-fn draw(fault: &Fault, case: &Case) -> String {
-    let (start, end) = (fault.span().start(), fault.span().end());
+/// An error as the compiler draws it.
+fn draw(span: Span, message: &str, case: &Case) -> String {
+    let (start, end) = (span.start(), span.end());
     let source = case.text.lines().nth(start.line - 1).unwrap_or_default();
     let number = start.line.to_string();
     let margin = " ".repeat(number.len());
     // On one line; a place of several lines is drawn to the end of its first one.
     let last = if end.line == start.line { end.column } else { source.chars().count() };
     let mut text = String::new();
-    let mut lines = fault.to_string().lines().map(str::to_owned).collect::<Vec<_>>().into_iter();
+    let mut lines = message.lines();
     let _ = writeln!(text, "error: {}", lines.next().unwrap_or_default());
     for line in lines {
         let _ = writeln!(text, "       {line}");
@@ -153,13 +153,13 @@ fn draw(fault: &Fault, case: &Case) -> String {
 }
 
 fn shown(case: &Case) -> (usize, String) {
-    let faults: Vec<Fault> = invocations(&case.text)
+    let drawn: Vec<String> = invocations(&case.text)
         .into_iter()
         .flat_map(reports)
-        .flat_map(|report| report.faults().to_vec())
+        .flat_map(|report| report.errors().collect::<Vec<_>>())
+        .map(|(span, message)| draw(span, &message, case))
         .collect();
-    let drawn: Vec<String> = faults.iter().map(|fault| draw(fault, case)).collect();
-    (faults.len(), drawn.join("\n"))
+    (drawn.len(), drawn.join("\n"))
 }
 
 #[test]
@@ -209,54 +209,80 @@ fn every_expectation_has_a_case() {
     assert!(cases().len() >= 60);
 }
 
-/// `docs/errors.md`: a row for every case with one error, in the order of the themes.
+/// What each theme is about, as its page says. A new folder under `tests/ui` needs a line here.
+const THEMES: [(&str, &str); 10] = [
+    ("energies", "kinetic energy, force function, forces and gravity"),
+    ("forms", "parameters and constraints: linear, independent, as many as there are coordinates"),
+    ("kinds", "scalars, vectors and rotations; what may depend on what"),
+    ("limits", "bounds on the size of what is declared"),
+    ("names", "unknown, reserved, declared twice"),
+    ("scenes", "tracked, fixed and provided"),
+    ("several", "several faults at once"),
+    ("singular", "a direction without inertia"),
+    ("spatial", "bodies, rotations, constraints on positions"),
+    ("syntax", "punctuation, sections, habits from other languages"),
+];
+
+/// `docs/errors.md` and a page for every theme: all cases with one error.
 #[test]
-fn the_table_of_errors_is_current() {
+fn the_pages_of_errors_are_current() {
     let mut themes: BTreeMap<String, Vec<Case>> = BTreeMap::new();
     for case in cases().into_iter().filter(|case| case.errors == 1) {
         themes.entry(case.theme.clone()).or_default().push(case);
     }
-    let mut page = String::from(
-        "# Errors\n\nEvery mistake that the macro finds, with the line of a small example, the message and a repair. The page is\nwritten by `TRYBUILD=overwrite cargo test --test ui` from the cases under `tests/ui`, where each example is a whole\nfile, and the repairs are tried. `^` stands under the place that the compiler underlines.\n",
+    let mut index = String::from(
+        "# Errors\n\nEvery mistake that the macro finds, with the line of a small example, the message and a repair. The pages are\nwritten by `TRYBUILD=overwrite cargo test --test ui` from the cases under `tests/ui`, where each example is a whole\nfile, and the repairs are tried. `^` stands under the place that the compiler underlines.\n\nThe search of the book finds a message by any of its words.\n\n| page | about | errors |\n| --- | --- | --- |\n",
     );
+    let mut written = Vec::new();
     for (theme, cases) in themes {
-        let _ = writeln!(page, "\n## {}{}", theme[..1].to_uppercase(), &theme[1..]);
-        for case in cases {
-            let (_, drawn) = shown(&case);
-            let message: Vec<&str> =
-                drawn.lines().take_while(|line| !line.trim_start().starts_with("-->")).collect();
-            let place: Vec<&str> = drawn.lines().skip(message.len() + 2).take(2).collect();
-            let place: Vec<&str> =
-                place.iter().map(|line| line.split_once(" |").map_or(*line, |(_, code)| code)).collect();
-            let indent = |line: &str| line.len() - line.trim_start().len();
-            let least =
-                place.iter().filter(|line| !line.is_empty()).map(|line| indent(line)).min().unwrap_or(0);
-            let _ = writeln!(page, "\n### {}\n\n```text", case.law.trim_end_matches('.'));
-            for line in place {
-                let line = line.get(least..).unwrap_or_default();
-                let line: String = if line.chars().count() > 160 {
-                    line.chars().take(160).chain(['…']).collect()
-                } else {
-                    line.to_owned()
-                };
-                let _ = writeln!(page, "{}", line.trim_end());
-            }
-            let _ = writeln!(page, "```\n\n```text\n{}\n```", message.join("\n"));
-            for (from, to) in &case.repairs {
-                let repair = match (from.as_str(), to.as_str()) {
-                    (from, "") => format!("remove `{from}`"),
-                    (from, to) => format!("`{from}` becomes `{to}`"),
-                };
-                let _ = writeln!(page, "\nRepair: {repair}.");
-            }
+        let (_, about) =
+            THEMES.iter().find(|(name, _)| *name == theme).expect("a theme has a line in THEMES");
+        let _ = writeln!(index, "| [{theme}](errors/{theme}.md) | {about} | {} |", cases.len());
+        let mut page = format!("# Errors: {theme}\n\nAbout {about}. [What this page is](../errors.md).\n");
+        cases.iter().for_each(|case| page += &entry(case));
+        written.push((format!("docs/errors/{theme}.md"), page));
+    }
+    written.push(("docs/errors.md".to_owned(), index));
+    for (path, page) in written {
+        let file = root().join(&path);
+        if overwrite() {
+            fs::write(&file, &page).unwrap();
         }
+        let current = fs::read_to_string(&file).unwrap_or_default();
+        assert!(current == page, "{path} is stale: run `TRYBUILD=overwrite cargo test --test ui`");
     }
-    let path = root().join("docs/errors.md");
-    if overwrite() {
-        fs::write(&path, &page).unwrap();
+}
+
+/// The law of a case, its line, its message and its repairs.
+fn entry(case: &Case) -> String {
+    let (_, drawn) = shown(case);
+    let message: Vec<&str> = drawn.lines().take_while(|line| !line.trim_start().starts_with("-->")).collect();
+    let place: Vec<&str> = drawn.lines().skip(message.len() + 2).take(2).collect();
+    // The page need not point to itself.
+    let message: Vec<&str> = message.into_iter().filter(|line| line.trim() != POINTER).collect();
+    let place: Vec<&str> =
+        place.iter().map(|line| line.split_once(" |").map_or(*line, |(_, code)| code)).collect();
+    let indent = |line: &str| line.len() - line.trim_start().len();
+    let least = place.iter().filter(|line| !line.is_empty()).map(|line| indent(line)).min().unwrap_or(0);
+    let mut text = format!("\n## {}\n\n```text\n", case.law.trim_end_matches('.'));
+    for line in place {
+        let line = line.get(least..).unwrap_or_default();
+        let line: String = if line.chars().count() > 160 {
+            line.chars().take(160).chain(['…']).collect()
+        } else {
+            line.to_owned()
+        };
+        let _ = writeln!(text, "{}", line.trim_end());
     }
-    let current = fs::read_to_string(&path).unwrap_or_default();
-    assert!(current == page, "docs/errors.md is stale: run `TRYBUILD=overwrite cargo test --test ui`");
+    let _ = writeln!(text, "```\n\n```text\n{}\n```", message.join("\n"));
+    for (from, to) in &case.repairs {
+        let repair = match (from.as_str(), to.as_str()) {
+            (from, "") => format!("remove `{from}`"),
+            (from, to) => format!("`{from}` becomes `{to}`"),
+        };
+        let _ = writeln!(text, "\nRepair: {repair}.");
+    }
+    text
 }
 
 /// A case of every theme through the compiler, against the same files; all with `GUEN_UI=all`.
@@ -276,13 +302,13 @@ fn the_compiler_shows_the_same() {
         "singular/combination_without_inertia",
         "syntax/product_without_operator",
     ];
-    if overwrite() {
-        // The other tests write the files.
-        return;
-    }
     let compiler = trybuild::TestCases::new();
     // What the compiler's lints say of a sound declaration.
     compiler.compile_fail("tests/lints/*.rs");
+    if overwrite() {
+        // The other tests write the other files.
+        return;
+    }
     if std::env::var("GUEN_UI").is_ok_and(|value| value == "all") {
         compiler.compile_fail("tests/ui/*/*.rs");
     } else {

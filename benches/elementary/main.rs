@@ -17,6 +17,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use guen::{Digits7, Digits13, Functions, Fused, Real, Std, System, Tuned};
+use guen_benchmarks::systems::Hoop;
 
 /// The number of arguments and of states.
 const COUNT: usize = 1024;
@@ -92,7 +93,7 @@ const HOOP: [f64; 4] = [1.0, 0.5, 1.0, 9.81];
 /// The derived right-hand side over some real.
 fn derived<R: Real>(name: &'static str, states: &[[f64; 9]]) -> Candidate {
     let [a, inertia, axial, g] = HOOP.map(R::from_f64);
-    let hoop = hoop::Hoop { a, A: inertia, C: axial, g }.prepare().expect("constants are in order");
+    let hoop = Hoop { a, A: inertia, C: axial, g }.prepare().expect("constants are in order");
     hoops(name, states, move |state| System::rhs(&hoop, R::zero(), state))
 }
 
@@ -108,7 +109,7 @@ fn hoops<R: Real>(
     rhs: impl Fn(&[R; 9]) -> [R; 9] + Copy + 'static,
 ) -> Candidate {
     let [a, inertia, axial, g] = HOOP;
-    let exact = hoop::Hoop { a, A: inertia, C: axial, g }.prepare().expect("constants are in order");
+    let exact = Hoop { a, A: inertia, C: axial, g }.prepare().expect("constants are in order");
     let own: Vec<[R; 9]> = states.iter().map(|state| state.map(R::from_f64)).collect();
     let error = own.iter().zip(states).fold(0.0, |error, (own, state)| {
         let rates = rhs(own);

@@ -4,9 +4,9 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use guen::prelude::*;
+use guen_benchmarks::systems::hoop::{Prepared, State};
 use guen_study::Ensemble;
 
-use crate::hoop::hoop::{Prepared, State};
 use crate::median;
 
 /// Rounds in which the four candidates take turns.

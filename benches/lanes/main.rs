@@ -17,6 +17,7 @@ use std::time::Instant;
 
 use guen::System;
 use guen::lanes::{Backend, LaneTask, Lanes, Width, dispatch_on};
+use guen_benchmarks::systems::{Chain10, Hoop, chain10, hoop as declared_hoop};
 
 /// The number of states.
 const STATES: usize = 1024;
@@ -32,7 +33,7 @@ trait Subject<const N: usize>: Copy {
 }
 
 #[derive(Clone, Copy)]
-struct HoopSubject(hoop::hoop::Prepared);
+struct HoopSubject(declared_hoop::Prepared);
 
 impl Subject<9> for HoopSubject {
     fn state(&self, i: usize) -> [f64; 9] {
@@ -41,7 +42,7 @@ impl Subject<9> for HoopSubject {
     }
 
     fn derived<L: Lanes>(&self) -> impl Fn(&[L; 9]) -> [L; 9] + Copy {
-        let system: hoop::hoop::Prepared<L> = self.0.lift();
+        let system: declared_hoop::Prepared<L> = self.0.lift();
         #[inline(always)]
         move |state| System::rhs(&system, L::zero(), state)
     }
@@ -55,7 +56,7 @@ impl Subject<9> for HoopSubject {
 }
 
 #[derive(Clone, Copy)]
-struct ChainSubject(chain::chain::Prepared);
+struct ChainSubject(chain10::Prepared);
 
 impl Subject<20> for ChainSubject {
     fn state(&self, i: usize) -> [f64; 20] {
@@ -64,7 +65,7 @@ impl Subject<20> for ChainSubject {
     }
 
     fn derived<L: Lanes>(&self) -> impl Fn(&[L; 20]) -> [L; 20] + Copy {
-        let system: chain::chain::Prepared<L> = self.0.lift();
+        let system: chain10::Prepared<L> = self.0.lift();
         #[inline(always)]
         move |state| System::rhs(&system, L::zero(), state)
     }
@@ -169,8 +170,8 @@ fn table<S: Subject<N>, const N: usize>(name: &str, subject: S) {
 }
 
 fn main() {
-    let hoop = hoop::Hoop { a: 1.0, A: 0.5, C: 1.0, g: 9.81 }.prepare().expect("constants are in order");
-    let chain = chain::Chain { m: 0.7, l: 0.4, g: 9.81 }.prepare().expect("constants are in order");
+    let hoop = Hoop { a: 1.0, A: 0.5, C: 1.0, g: 9.81 }.prepare().expect("constants are in order");
+    let chain = Chain10 { m: 0.7, l: 0.4, g: 9.81 }.prepare().expect("constants are in order");
     println!("built for AVX2: {}, run with: {:?}", cfg!(target_feature = "avx2"), Backend::best());
     table("hoop", HoopSubject(hoop));
     table("chain of 10", ChainSubject(chain));

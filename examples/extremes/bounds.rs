@@ -249,7 +249,7 @@ pub fn all(states: usize) -> Vec<Found> {
         2 parameters, 5 + 6 = 11);
     let flat = bounded!("sled, gamma^2 - beta^2 = 3e-7", Sled in sled { m: 1.5, alpha: 0.000244140625, beta: 1.0, k: 0.00048828125, incline: 0.375, g: 9.8125 },
         2 parameters, 5 + 6 = 11);
-    let turntable = bounded!("turntable", Turntable in turntable { m: 1.5, a: 0.125, Omega: 0.75 }, 3 parameters, 8 + 3 = 11);
+    let turntable = bounded!("turntable", EvenTurntable in even_turntable { m: 1.5, a: 0.125, Omega: 0.75 }, 3 parameters, 8 + 3 = 11);
     let top = bounded!("top", EulerTop in euler_top { I1: 1.0, I2: 2.5, I3: 3.25 }, 3 parameters, 6 + 3 = 9);
     let chain =
         bounded!("chain of 5", Chain5 in chain5 { m: 0.75, l: 0.5, g: 9.8125 }, 5 parameters, 10 + 3 = 13);

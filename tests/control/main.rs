@@ -1,8 +1,7 @@
 //! What controllers take of a system: linearisations, leaves, discrete models, steady motions, reactions.
 
 #[macro_use]
-#[path = "../systems/mod.rs"]
-mod systems;
+extern crate guen_benchmarks;
 
 mod balance;
 #[macro_use]

@@ -1,8 +1,7 @@
 //! What `mechanical_system!` generates, row by row of the table in the language reference.
 
 #[macro_use]
-#[path = "../systems/mod.rs"]
-mod systems;
+extern crate guen_benchmarks;
 
 mod classification;
 mod constants;

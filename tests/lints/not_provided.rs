@@ -27,9 +27,11 @@ fn main() {
     turn.reactions(0.0, &state, &inputs);
     turn.outputs(0.0, &state, &inputs);
     turn.linearize(0.0, &state, &inputs);
+    turn.linearize_outputs(0.0, &state, &inputs);
     turn.momenta(0.0, &state);
     turn.velocities(0.0, &state);
     watch(&turn.driven(inputs));
     let way = sled::Way::from(system).prepare().unwrap();
     way.energy(0.0, &Default::default());
+    way.linearize_outputs(0.0, &Default::default(), &Default::default());
 }

@@ -1,8 +1,7 @@
 //! The paper's three systems: operators, brackets and equations as expressions, and the class of each.
 
 #[macro_use]
-#[path = "../systems/mod.rs"]
-mod systems;
+extern crate guen_benchmarks;
 
 mod classes;
 mod formulas;

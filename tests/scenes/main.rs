@@ -2,8 +2,7 @@
 //! levels of detail can be changed during a run.
 
 #[macro_use]
-#[path = "../systems/mod.rs"]
-mod systems;
+extern crate guen_benchmarks;
 
 mod closure;
 mod compare;

@@ -3,8 +3,7 @@
 
 #![allow(non_snake_case, reason = "constants are called as in the declarations")]
 #[macro_use]
-#[path = "../systems/mod.rs"]
-mod systems;
+extern crate guen_benchmarks;
 
 #[allow(dead_code, reason = "the examples use the rest")]
 #[path = "../systems/large.rs"]

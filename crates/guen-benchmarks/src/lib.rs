@@ -7,6 +7,8 @@
 
 pub mod by_hand;
 pub mod chains;
+#[macro_use]
+mod declarations;
 mod long;
 pub mod platform;
 mod random;

@@ -162,7 +162,7 @@ subjects! {
         by by_hand::appell, |c| [c.a, c.A, c.C, c.g];
         states { .. => (-2.0, 2.0), 0..1 => (0.3, 2.8) }
         near 0 at 0.0;
-    "turntable": Turntable, turntable Turntable TURNTABLE_TEXT [8] { m = 3/2, a = 1/4, Omega = 7/5 }
+    "turntable": Turntable, even_turntable EvenTurntable TURNTABLE_TEXT [8] { m = 3/2, a = 1/4, Omega = 7/5 }
         by by_hand::turntable, |c| [c.a, c.Omega];
         states { .. => (-2.0, 2.0), 3..4 => (0.3, 2.8) }
         near 3 at 0.0;

@@ -1,7 +1,12 @@
 //! The declared systems. Beside the items of each stands its declaration as text, for those who expand it themselves.
 
-/// A declared system, and its declaration as a constant of text.
+/// A declared system, and its declaration as a constant of text: one that is shared, by its name, or one of this file.
 macro_rules! declared {
+    ($text:ident, $declaration:ident) => {
+        $declaration! { guen::mechanical_system }
+        /// The declaration.
+        pub const $text: &str = $declaration! { stringify };
+    };
     ($text:ident, $($declaration:tt)*) => {
         ::guen::mechanical_system! { $($declaration)* }
         /// The declaration.
@@ -9,25 +14,7 @@ macro_rules! declared {
     };
 }
 
-declared! { HOOP_TEXT,
-    /// The rolling hoop of section 3.1 as the paper has it: three parameters, three constraints, energy in velocities.
-    pub system Hoop {
-        constants { a > 0, A > 0, C > 0, g = 9.81 }
-        coordinates { theta, psi, phi, xi, eta, zeta }
-        parameters {
-            eta1 = dot(theta);
-            eta2 = dot(psi)*sin(theta);
-            eta3 = dot(psi)*cos(theta) + dot(phi);
-        }
-        constraints {
-            eta4: dot(xi) = a*sin(theta)*sin(psi)*dot(theta) - a*cos(theta)*cos(psi)*dot(psi) - a*cos(psi)*dot(phi);
-            eta5: dot(eta) + a*sin(theta)*cos(psi)*dot(theta) + a*cos(theta)*sin(psi)*dot(psi) + a*sin(psi)*dot(phi) = 0;
-            eta6: dot(zeta) - a*cos(theta)*dot(theta) = 0;
-        }
-        kinetic_energy = 1/2*(dot(xi)^2 + dot(eta)^2 + dot(zeta)^2) + 1/2*(A*eta1^2 + A*eta2^2 + C*eta3^2);
-        force_function = -a*g*sin(theta);
-    }
-}
+declared! { HOOP_TEXT, hoop }
 
 declared! { BODYHOOP_TEXT,
     /// The same hoop as a body that rolls: what the paper writes out follows from the material point at the contact.
@@ -59,74 +46,13 @@ declared! { RATEHOOP_TEXT,
     }
 }
 
-declared! { SLED_TEXT,
-    /// Chaplygin's sled of section 3.3 on an incline.
-    pub system Sled {
-        constants { m > 0, alpha, beta, k > 0, incline, g = 9.81 }
-        coordinates { phi, xi, eta }
-        parameters {
-            eta1 = dot(phi);
-            eta2 = dot(xi)*cos(phi) + dot(eta)*sin(phi);
-        }
-        constraints { eta3: dot(xi)*sin(phi) - dot(eta)*cos(phi) = 0; }
-        let x = xi + alpha*cos(phi) - beta*sin(phi);
-        let y = eta + alpha*sin(phi) + beta*cos(phi);
-        kinetic_energy = m/2*(dot(x)^2 + dot(y)^2) + m/2*k^2*dot(phi)^2;
-        force_function = m*g*sin(incline)*x;
-    }
-}
+declared! { SLED_TEXT, sled }
 
-declared! { APPELL_TEXT,
-    /// Appell's system of section 3.2, with the axial inertia of its body.
-    pub system Appell {
-        constants { a > 0, A > 0, C > 0, g = 9.81 }
-        coordinates { theta, psi, phi, xi, eta, zeta }
-        parameters {
-            eta1 = dot(theta);
-            eta2 = dot(psi)*sin(theta);
-            eta3 = dot(psi)*cos(theta) + dot(phi);
-        }
-        constraints {
-            eta4: dot(xi) + a*sin(theta)*dot(theta) = 0;
-            eta5: dot(eta) = 0;
-            eta6: dot(zeta) - a*cos(theta)*dot(theta) = 0;
-        }
-        kinetic_energy = 1/2*(dot(xi)^2 + dot(eta)^2 + dot(zeta)^2) + 1/2*(A*eta1^2 + A*eta2^2 + (C + a^2)*eta3^2);
-        force_function = -a*g*sin(theta);
-    }
-}
+declared! { APPELL_TEXT, appell }
 
-declared! { TURNTABLE_TEXT,
-    /// A homogeneous ball on a table that turns evenly; the parameters are its angular velocity in space.
-    pub system Turntable {
-        constants { m > 0, a > 0, Omega }
-        coordinates { x, y, psi, theta, phi }
-        parameters {
-            eta1 = dot(theta)*cos(psi) + dot(phi)*sin(theta)*sin(psi);
-            eta2 = dot(theta)*sin(psi) - dot(phi)*sin(theta)*cos(psi);
-            eta3 = dot(psi) + dot(phi)*cos(theta);
-        }
-        constraints {
-            east: dot(x) - a*eta2 + Omega*y = 0;
-            north: dot(y) + a*eta1 - Omega*x = 0;
-        }
-        kinetic_energy = m/2*(dot(x)^2 + dot(y)^2) + m*a^2/5*(eta1^2 + eta2^2 + eta3^2);
-    }
-}
+declared! { TURNTABLE_TEXT, even_turntable }
 
-declared! { EULERTOP_TEXT,
-    /// A free rigid body in Euler's angles and its angular velocity in the body.
-    pub system EulerTop {
-        constants { I1 > 0, I2 > 0, I3 > 0 }
-        coordinates { psi, theta, phi }
-        parameters {
-            p = dot(psi)*sin(theta)*sin(phi) + dot(theta)*cos(phi);
-            q = dot(psi)*sin(theta)*cos(phi) - dot(theta)*sin(phi);
-            r = dot(psi)*cos(theta) + dot(phi);
-        }
-        kinetic_energy = 1/2*(I1*p^2 + I2*q^2 + I3*r^2);
-    }
-}
+declared! { EULERTOP_TEXT, euler_top }
 
 /// A car, its mass above the middle of the rear axle, and trailers, each hitched to the axle before it. Given for each
 /// trailer: its angle, its axle, the axle before, its constraint.

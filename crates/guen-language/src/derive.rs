@@ -1,5 +1,6 @@
 //! From the model to what is emitted: the derivation, its faults in the user's names, and the programs.
 
+mod carried;
 mod closure;
 mod faults;
 mod fixed;
@@ -8,12 +9,13 @@ mod manifold;
 mod parts;
 mod scene;
 mod selection;
+mod series;
 
 use std::rc::Rc;
 
 use guen_symbolic::{
-    Derivation, ExprId, FunctionProgram, Limits, ProgramBuilder, Programs, Workbench, normal_coefficients,
-    normal_form, weighted_cost,
+    Derivation, ExprId, FunctionProgram, Limits, ProgramBuilder, Programs, SeriesProgram, Workbench,
+    normal_coefficients, normal_form, weighted_cost,
 };
 
 use crate::diagnostics::Faults;
@@ -50,6 +52,9 @@ pub struct Level {
     pub energy: ExprId,
     /// The straight-line code.
     pub programs: Programs,
+    /// Where the bodies of the system itself are, with a preparation of its own: nothing is prepared for programs that never
+    /// look.
+    pub placed: Option<Programs>,
     /// Functions that must not vanish, in words: the domain of the chart.
     pub domain_names: Vec<String>,
     /// How many of them, from the first, guards measure one by one; the others are determinants, and measured together
@@ -57,10 +62,14 @@ pub struct Level {
     pub edges: usize,
     /// Expressions of constants that must not vanish.
     pub constant_pivots: Vec<ExprId>,
+    /// The recurrences of its Taylor series, if it provides one.
+    pub series: Option<SeriesProgram>,
     /// Where the derivatives belong that have code of their own.
     pub jacobians: Jacobians,
     /// What there is to tell of a scene; none for the system itself.
     pub scene: Option<SceneFacts>,
+    /// The same level with its elementary functions as states, if it is provided.
+    pub carried: Option<Box<Level>>,
 }
 
 impl Level {
@@ -111,6 +120,8 @@ pub mod function {
     pub const GRADIENTS: &str = "gradients";
     /// The lower triangle of the mass matrix, where it is not diagonal.
     pub const MASS: &str = "mass";
+    /// Centers and orientations of the bodies, then the positions of the particles.
+    pub const BODIES: &str = "bodies";
     /// The functions that must not vanish.
     pub const DOMAIN: &str = "domain";
     /// The expressions of constants that must not vanish.
@@ -129,6 +140,12 @@ pub mod function {
     pub const OPERATORS: &str = "operators";
     /// The coefficients of the brackets that do not vanish, in their order.
     pub const BRACKETS: &str = "brackets";
+    /// The functions that are carried as states, at a state without them.
+    pub const CARRY: &str = "carry";
+    /// What vanishes where carried functions are what they stand for.
+    pub const INVARIANTS: &str = "invariants";
+    /// Carried functions, closer to their relations.
+    pub const REJOINED: &str = "rejoined";
 }
 
 /// Derives a checked model and its scenes; a system without equations of motion is reported.
@@ -149,13 +166,21 @@ pub fn derive<'a>(mut model: Model<'a>, faults: &mut Faults) -> Option<Derived<'
     }
     polish(&mut model.bench, &mut derivation);
     let brackets = commutators(&mut model, &mut derivation);
-    let system = whole(&mut model, Rc::new(derivation), Rc::new(brackets));
+    let mut system = whole(&mut model, Rc::new(derivation), Rc::new(brackets), faults);
+    if let Some(word) = model.taylor {
+        system.series = series::of(&model, &system.selection, &system.programs, word, faults);
+    }
     let scenes = scene::derive(&mut model, &system, faults);
     (faults.count() == before).then_some(Derived { model, system, scenes })
 }
 
 /// The system itself, with everything that follows from its derivation.
-fn whole(model: &mut Model<'_>, derivation: Rc<Derivation>, brackets: Rc<Vec<Commutator>>) -> Level {
+fn whole(
+    model: &mut Model<'_>,
+    derivation: Rc<Derivation>,
+    brackets: Rc<Vec<Commutator>>,
+    faults: &mut Faults,
+) -> Level {
     let (n, size) = model.sizes();
     let forms = 0..model.forms.len();
     let selection = Selection {
@@ -172,6 +197,7 @@ fn whole(model: &mut Model<'_>, derivation: Rc<Derivation>, brackets: Rc<Vec<Com
         energy: true,
         linearization: true,
         operators: true,
+        carried: Vec::new(),
     };
     let (domain, domain_names) = domain(model, &derivation);
     let constant_pivots = constant_pivots(&derivation);
@@ -181,13 +207,15 @@ fn whole(model: &mut Model<'_>, derivation: Rc<Derivation>, brackets: Rc<Vec<Com
     let mut lists = formulas::rates(&derivation);
     let rates = lists[0].clone();
     extend(&mut model.bench, &mut lists);
+    let placed = formulas::placed(model);
+    let placed = (!placed.is_empty()).then(|| programs(&mut model.bench, &[], &[(function::BODIES, placed)]));
     let mut programs = programs(&mut model.bench, &lists, &quantities);
     add_mass(&mut programs, model, &derivation);
     let edges = domain_names.len() - derivation.solution.determinants.len();
     let jacobians = Jacobians::add(&mut programs, model, &selection);
     let energy = derivation.energies.integral;
     let equations = equations(&mut model.bench, &derivation);
-    Level {
+    let mut level = Level {
         selection,
         derivation,
         brackets,
@@ -195,12 +223,19 @@ fn whole(model: &mut Model<'_>, derivation: Rc<Derivation>, brackets: Rc<Vec<Com
         equations,
         energy,
         programs,
+        placed,
         domain_names,
         edges,
         constant_pivots,
+        series: None,
         jacobians,
         scene: None,
+        carried: None,
+    };
+    if let Some(word) = model.provides_carried {
+        level.carried = carried::derive(model, &level, &formulas::rates(&level.derivation), word, faults);
     }
+    level
 }
 
 /// The mass matrix by itself, out of the equations apart, unless it is diagonal: then it has no condition to measure.
@@ -318,7 +353,9 @@ fn extend(bench: &mut Workbench, lists: &mut Vec<Vec<ExprId>>) {
 /// The code of the rates, given in several equal forms, and of everything else.
 fn programs(bench: &mut Workbench, rates: &[Vec<ExprId>], quantities: &[Quantity]) -> Programs {
     let mut builder = ProgramBuilder::new(&mut bench.graph);
-    builder.add_equal(function::RHS, rates);
+    if !rates.is_empty() {
+        builder.add_equal(function::RHS, rates);
+    }
     for (name, outputs) in quantities.iter().filter(|(_, outputs)| !outputs.is_empty()) {
         builder.add_cold(name, outputs);
     }

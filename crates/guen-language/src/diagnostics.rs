@@ -12,6 +12,9 @@ use quote::quote_spanned;
 
 extern crate proc_macro;
 
+/// The line that ends the last error of a declaration: where all of them are explained. Once, however many there are.
+pub const POINTER: &str = "note: the book, under \"Errors\", has an example and a repair of every error";
+
 /// One mistake, at the smallest token that carries it.
 #[derive(Debug, Clone)]
 pub struct Fault {
@@ -143,15 +146,18 @@ impl Report {
         &self.faults
     }
 
+    /// What the compiler is to show for each fault, and where; the last one ends with [`POINTER`].
+    pub fn errors(&self) -> impl Iterator<Item = (Span, String)> {
+        let last = self.faults.len().saturating_sub(1);
+        self.faults.iter().enumerate().map(move |(k, fault)| {
+            let text = if k == last { format!("{fault}\n{POINTER}") } else { fault.to_string() };
+            (fault.span, text)
+        })
+    }
+
     /// One `compile_error!` item for each fault, at its place.
     pub fn to_compile_errors(&self) -> TokenStream {
-        self.faults
-            .iter()
-            .map(|fault| {
-                let text = fault.to_string();
-                quote_spanned!(fault.span=> ::core::compile_error! { #text })
-            })
-            .collect()
+        self.errors().map(|(span, text)| quote_spanned!(span=> ::core::compile_error! { #text })).collect()
     }
 }
 
@@ -209,6 +215,9 @@ mod tests {
         assert_eq!(texts, ["first place\nnote: a fact\nhelp: a repair", "x", "second place"]);
         let errors = report.to_compile_errors().to_string();
         assert_eq!(errors.matches("compile_error").count(), 3);
-        assert!(errors.contains(":: core :: compile_error ! { \"second place\" }"), "{errors}");
+        assert!(errors.contains(":: core :: compile_error ! { \"x\" }"), "{errors}");
+        // The book is named once, by the last.
+        assert_eq!(errors.matches("the book").count(), 1);
+        assert!(errors.contains("{ \"second place\\nnote: the book"), "{errors}");
     }
 }

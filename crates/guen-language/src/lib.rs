@@ -6,6 +6,7 @@
 //! tokens -[`parse`]-> [`syntax`] -[`model`]-> checked model -[`mod@derive`]-> derivation and programs -[`emit`]-> Rust items
 //!
 //! Every stage reports what is wrong through [`diagnostics`]; [`report`] writes down what was derived.
+#![cfg_attr(docsrs, feature(doc_cfg))]
 
 mod control;
 pub mod derive;

@@ -12,6 +12,9 @@ pub const MAX_COORDINATES: usize = 200;
 /// Most entries of any other section, and most `let` definitions.
 pub const MAX_ENTRIES: usize = 1000;
 
+/// Most sums of products of a Taylor series: while one is computed they are on the stack.
+pub const MAX_SERIES_SUMS: usize = 1_500;
+
 /// Most scenes: each is derived anew.
 pub const MAX_SCENES: usize = 64;
 

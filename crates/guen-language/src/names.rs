@@ -27,7 +27,7 @@ pub const SPATIAL_FUNCTIONS: &[&str] = &[
 
 /// Reserved words that are not functions.
 pub const RESERVED_WORDS: &[&str] =
-    &["t", "pi", "at", "along", "diag", "sym", "energy", "reactions", "operators", "linearization"];
+    &["t", "pi", "at", "along", "diag", "sym", "energy", "reactions", "operators", "linearization", "taylor"];
 
 /// Names that begin with this belong to the expansion.
 pub const RESERVED_PREFIX: &str = "__guen";

@@ -1,6 +1,7 @@
 //! The procedural macro of guen, a shim over `guen-language`: a proc-macro crate can export nothing else.
 //!
 //! Use it through the facade `guen`, whose macro `mechanical_system!` tells this one where the facade is.
+#![cfg_attr(docsrs, feature(doc_cfg))]
 
 use proc_macro::TokenStream;
 

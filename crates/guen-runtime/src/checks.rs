@@ -166,6 +166,19 @@ pub fn furthest<R: Real, const N: usize>(differences: &[Rounded<R>; N]) -> R {
     ))
 }
 
+/// How far carried functions are from their values: the largest `|w - f|/(1 + |f|)`.
+///
+/// ```
+/// assert_eq!(guen_runtime::checks::drift(&[1.0, 3.0], &[1.0, 5.0]), 0.5);
+/// ```
+pub fn drift<R: Real, const K: usize>(values: &[R; K], carried: &[R]) -> R {
+    let mut apart = [R::zero(); K];
+    for ((apart, f), w) in apart.iter_mut().zip(values).zip(carried) {
+        *apart = (*w - *f) / (R::one() + f.abs());
+    }
+    largest(&apart)
+}
+
 /// The largest absolute value, as a real without an order can have it: through `f64` for the comparison. Zero for
 /// no values; a value that is not finite is returned as it is.
 ///

@@ -143,6 +143,16 @@ pub enum Cause {
         /// The limit.
         limit: f64,
     },
+    /// Functions that are carried as states are further from what they stand for than the guard allows. The time and state
+    /// beside this cause are the last at which they were not.
+    Carried {
+        /// The time at which it was found.
+        found: f64,
+        /// The largest distance, relative to one and the function's size.
+        drift: f64,
+        /// The limit.
+        limit: f64,
+    },
     /// The motion came to the edge of the chart, where the equations divide by zero. The time and state beside this
     /// cause are the last on this side of the limit.
     Edge {
@@ -211,6 +221,8 @@ pub enum Setting {
     Guard,
     /// The number of evaluations allowed is not enough for one step.
     Budget,
+    /// The order of the method is none that it has.
+    Order,
 }
 
 impl fmt::Display for Cause {
@@ -236,6 +248,9 @@ impl fmt::Display for Cause {
                     f,
                     "by t = {found} a constraint was off by {residual:e} of its terms, and {limit:e} is allowed"
                 )
+            }
+            Self::Carried { found, drift, limit } => {
+                write!(f, "by t = {found} a carried function was off by {drift:e}, and {limit:e} is allowed")
             }
             Self::Edge { found, function, distance, limit } => {
                 write!(
@@ -272,6 +287,7 @@ impl fmt::Display for Cause {
                 f.write_str("the tolerance of an event is not a nonnegative number")
             }
             Self::Setting(Setting::Guard) => f.write_str("a limit of the guard is not a nonnegative number"),
+            Self::Setting(Setting::Order) => f.write_str("the order is not between 2 and 32"),
             Self::Setting(Setting::Budget) => {
                 f.write_str("the number of evaluations is not enough for one step")
             }

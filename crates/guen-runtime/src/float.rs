@@ -127,6 +127,11 @@ macro_rules! real_for_float {
         fn is_finite(self) -> bool {
             $float::is_finite(self)
         }
+
+        #[inline(always)]
+        fn wide<T>(function: impl FnOnce() -> T) -> T {
+            crate::lanes::wide(function)
+        }
     };
 }
 

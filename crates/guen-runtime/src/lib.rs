@@ -5,15 +5,17 @@
 //! | question | answer |
 //! | --- | --- |
 //! | what is a number? | [`Real`], [`Ordered`], [`Dual`], [`Rounded`]; [`Lift`] embeds a base real |
-//! | what is integrated? | [`System`], [`Monitored`], [`Differentiable`], [`from_fn`], [`generic`] |
+//! | what is integrated? | [`System`], [`Monitored`], [`Differentiable`], [`TaylorSeries`], [`from_fn`], [`generic`] |
 //! | which functions does it have? | [`Tuned`]: [`Digits13`], [`Digits7`], [`Fused`], [`Functions`] of your own |
+//! | over which reals? | [`Recast`], what can be made anew over each |
 //! | how many at once? | [`lanes`]; [`Laned`] systems |
 //! | what acts on functions? | [`Operator`], [`Function`], [`Coordinate`], [`BracketCoefficients`] |
 //! | what is known at compile time? | [`Class`], the markers [`Holonomic`] to [`Conservative`], [`Cost`] |
-//! | how is it integrated? | [`steppers`]: an [`Integration`](steppers::Integration) run by one of nine methods |
+//! | how is it integrated? | [`steppers`]: an [`Integration`](steppers::Integration) run by one of ten methods |
 //! | how is it controlled? | [`Linearizable`], [`control`] |
 //! | which level of detail? | [`Level`], [`LevelInfo`], [`Levels`] |
 //! | what holds of positions? | [`Positions`], [`consistent`], [`project`], [`projected`] |
+//! | where are its bodies? | [`Bodies`] |
 //! | what can go wrong? | [`ConstantsError`], [`IntegrationError`] with its [`Cause`], [`PositionsError`] |
 //!
 //! The crate knows nothing of the language or of the algebra, and can be used with systems written by hand.
@@ -24,13 +26,16 @@
 //! - `serde`: re-exports that crate, and [`serde_record!`] has an effect.
 //! - `std`: [`Std`], the platform's elementary functions; [`lanes`] chosen at run time, and not by the target of the
 //!   build. Without it everything else gives the same bits.
+#![cfg_attr(docsrs, feature(doc_cfg))]
 #![no_std]
 #![deny(unsafe_code)]
 
 #[cfg(feature = "std")]
 extern crate std;
 
+mod bodies;
 mod bracket;
+mod carrying;
 pub mod checks;
 mod classification;
 mod condition;
@@ -50,15 +55,19 @@ mod nalgebra_support;
 mod operator;
 mod positions;
 mod real;
+mod recast;
 mod report;
 mod rounded;
 mod serde_support;
+mod series;
 pub mod steppers;
 mod system;
 mod tuned;
 mod vitals;
 
+pub use bodies::{Bodies, Body};
 pub use bracket::{BracketCoefficients, Coefficient};
+pub use carrying::{Carrying, Rejoined, rejoined};
 pub use classification::{
     Catastatic, Class, Conservative, Holonomic, IncompleteLieGroup, LieGroup, Nonholonomic, Rheonomic,
     Scleronomic,
@@ -73,8 +82,10 @@ pub use linearization::{Liftable, Linearizable, Linearization, OutputLinearizati
 pub use operator::{Applied, Coordinate, Function, Operator};
 pub use positions::{Positions, PositionsError, Projected, consistent, project, projected};
 pub use real::{Ordered, Real};
-pub use report::{Report, ReportSection};
+pub use recast::Recast;
+pub use report::{LatexDocument, MarkdownDocument, Report, ReportSection};
 pub use rounded::Rounded;
+pub use series::{Coefficients, Convolutions, HIGHEST_ORDER, TaylorSeries};
 pub use system::{FromFn, Laned, Monitored, System, from_fn};
 pub use tuned::{
     Choice, Digits7, Digits7Functions, Digits13, Digits13Functions, Functions, Fused, FusedOperations, Own,
@@ -96,7 +107,7 @@ pub use serde_support::{deserialize_record, serialize_record};
 pub mod prelude {
     pub use crate::steppers::{
         Bounded, Direction, Done, Dop853, Euler, Event, Gauss4, Gauss6, Guard, Integration, Outcome, Radau5,
-        Rk4, Rk8, Statistics, Tsit5,
+        Rk4, Rk8, Statistics, Taylor, Tsit5,
     };
     pub use crate::{
         Cause, Coordinate, Dual, Function, IntegrationError, Level, Lift, Monitored, Operator, Ordered, Real,

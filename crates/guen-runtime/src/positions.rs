@@ -10,6 +10,7 @@ use core::fmt;
 use crate::differentiable::Differentiable;
 use crate::real::{Ordered, Real};
 use crate::rounded::Rounded;
+use crate::series::{Coefficients, TaylorSeries};
 use crate::system::{Monitored, System};
 use crate::vitals::Vitals;
 
@@ -365,6 +366,18 @@ where
 
     fn along(&self, t: R, state: &[R; M], dt: R, dx: &[R; M]) -> [R; M] {
         self.0.along(t, state, dt, dx)
+    }
+}
+
+impl<R, S, const N: usize, const H: usize, const M: usize> TaylorSeries<R, M> for Projected<S, N, H>
+where
+    R: Ordered,
+    S: TaylorSeries<R, M> + Positions<R, N, H>,
+{
+    const PRODUCTS: usize = S::PRODUCTS;
+
+    fn series(&self, t: R, state: &[R; M], scale: R, order: usize, coefficients: &mut Coefficients<R, M>) {
+        self.0.series(t, state, scale, order, coefficients);
     }
 }
 

@@ -269,6 +269,26 @@ pub trait Real:
         function()
     }
 
+    /// Calls a function where the longest registers of the processor may be used for arrays of the real: for loops over
+    /// adjacent numbers. As of [`vectorize`](Real::vectorize), the argument should be a closure marked
+    /// `#[inline(always)]`. The bits do not depend on the registers. For `f32` and `f64` the processor is asked when the
+    /// program runs (with the feature `std`); every other real calls and nothing else.
+    ///
+    /// ```
+    /// use guen_runtime::Real;
+    ///
+    /// fn double<R: Real>(numbers: &mut [R; 16]) {
+    ///     R::wide(#[inline(always)] || numbers.iter_mut().for_each(|x| *x += *x));
+    /// }
+    /// let mut numbers = [1.5; 16];
+    /// double(&mut numbers);
+    /// assert_eq!(numbers, [3.0; 16]);
+    /// ```
+    #[inline(always)]
+    fn wide<T>(function: impl FnOnce() -> T) -> T {
+        function()
+    }
+
     /// Whether the number is neither infinite nor NaN; of a composed number, whether all its parts are finite.
     fn is_finite(self) -> bool;
 }

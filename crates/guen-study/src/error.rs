@@ -17,7 +17,7 @@ pub enum StudyError {
         /// What the operating system said.
         source: io::Error,
     },
-    /// A picture has no curve with a finite point.
+    /// A picture has no curve with a finite point, or a page no motion of two samples.
     NothingToDraw {
         /// The picture's title.
         title: String,
@@ -30,6 +30,29 @@ pub enum StudyError {
         width: u32,
         /// The height asked for, in pixels.
         height: u32,
+    },
+    /// A value that a page should show is not finite, or beyond `1e18`, or no orientation.
+    NotDrawable {
+        /// The page's title.
+        title: String,
+        /// The body, path or curve.
+        what: String,
+        /// The first time at which it is so.
+        time: f64,
+    },
+    /// A page mentions a body that was not put on it.
+    UnknownBody {
+        /// The page's title.
+        title: String,
+        /// The name.
+        name: String,
+    },
+    /// The times of a recording neither rise nor fall throughout.
+    Times {
+        /// The page's title.
+        title: String,
+        /// The first time that is not finite, or not on the same side of the one before.
+        time: f64,
     },
     /// The drawing library refused an element of a picture.
     Drawing {
@@ -48,6 +71,13 @@ impl fmt::Display for StudyError {
             Self::Size { title, width, height } => {
                 write!(f, "picture `{title}` cannot be drawn with {width} by {height} pixels")
             }
+            Self::NotDrawable { title, what, time } => {
+                write!(f, "page `{title}`: `{what}` cannot be drawn at t = {time}")
+            }
+            Self::UnknownBody { title, name } => write!(f, "page `{title}` has no body `{name}`"),
+            Self::Times { title, time } => {
+                write!(f, "page `{title}`: the times neither rise nor fall throughout, first at t = {time}")
+            }
             Self::Drawing { title, source } => write!(f, "cannot draw picture `{title}`: {source}"),
         }
     }
@@ -58,7 +88,11 @@ impl Error for StudyError {
         match self {
             Self::Io { source, .. } => Some(source),
             Self::Drawing { source, .. } => Some(&**source),
-            Self::NothingToDraw { .. } | Self::Size { .. } => None,
+            Self::NothingToDraw { .. }
+            | Self::Size { .. }
+            | Self::NotDrawable { .. }
+            | Self::UnknownBody { .. }
+            | Self::Times { .. } => None,
         }
     }
 }

@@ -9,7 +9,9 @@
 //! | how good is it? | [`Monitor`] and its [`Invariants`]; [`drift`] and [`residuals`] as curves |
 //! | what are the numbers? | [`Table`], aligned for a terminal; [`significant`] for one number |
 //! | what does it look like? | [`Plot`], an SVG picture |
+//! | how does it move? | `Viewer`, an HTML page that plays a recording; feature `viewer` |
 //! | what if it begins elsewhere? | [`Ensemble`]: many motions in lanes and on threads |
+//! | which method, which real, which step? | `Study`, with the feature `study`: the trade of speed for accuracy, measured |
 //! | what did a scene leave out? | [`recover`]: integrals along a recorded run of a scene, with their errors |
 //! | what went wrong? | [`StudyError`], [`RecoveryError`] |
 //!
@@ -37,6 +39,7 @@
 //! assert!(picture.starts_with("<svg"));
 //! # Ok::<(), guen_study::StudyError>(())
 //! ```
+#![cfg_attr(docsrs, feature(doc_cfg))]
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
@@ -49,7 +52,11 @@ mod recording;
 mod recovery;
 #[cfg(feature = "serde")]
 mod stored;
+#[cfg(feature = "study")]
+mod study;
 mod table;
+#[cfg(feature = "viewer")]
+mod viewer;
 
 pub use ensemble::{End, Ensemble, Sampled};
 pub use error::StudyError;
@@ -60,4 +67,12 @@ pub use recording::Recording;
 pub use recovery::{Nodes, Recovered, RecoveryError, recover};
 #[cfg(feature = "serde")]
 pub use stored::StoredRecording;
+#[cfg(feature = "study")]
+pub use study::{
+    Choice, Closures, Cost, Digits71, Ending, Failure, FailureKind, Forecast, Knob, Nearby, NoChoice,
+    ReferenceReport, Report, Row, Settings, Stopwatch, Study, Trade, Tried, Unit, median_with_interval,
+    pareto_front,
+};
 pub use table::{Table, significant};
+#[cfg(feature = "viewer")]
+pub use viewer::{Pose, Shape, Viewer};

@@ -6,7 +6,7 @@
 //!
 //! `algebra` (expressions) -> `zero` (does it vanish?) -> `normal` (polynomial normal forms) -> `print`
 //! -> `geometry` (forms, operators, brackets, class) -> `motion` (equations) -> `program` (straight-line code).
-
+#![cfg_attr(docsrs, feature(doc_cfg))]
 #![forbid(unsafe_code)]
 
 mod algebra;
@@ -29,11 +29,11 @@ pub use motion::{
     equations_by_definition,
 };
 pub use normal::{Limits, normal_coefficients, normal_form};
-pub use print::{Notation, latex_name};
+pub use print::{Notation, greek_letter, latex_name};
 pub use program::{
-    Arithmetic, Formulation, FunctionProgram, Instruction, LARGEST_DIFFERENTIATED, LARGEST_JACOBIAN,
-    Operation, OperationCount, Pattern, ProgramBuilder, Programs, Value, evaluate_function, evaluate_prepare,
-    weighted_cost,
+    Arithmetic, Carried, CarriedFunction, Formulation, FunctionProgram, Instruction, LARGEST_DIFFERENTIATED,
+    LARGEST_JACOBIAN, NotAnalytic, NotCarried, Operation, OperationCount, Pattern, ProgramBuilder, Programs,
+    SeriesProgram, SeriesStep, Source, Start, Value, evaluate_function, evaluate_prepare, weighted_cost,
 };
 pub use workbench::{MAX_WORK, Workbench};
 pub use zero::{Real, Verdict, ZeroTest, evaluate, evaluate_f64};

@@ -1,7 +1,6 @@
 //! What every stage of the derivation works with: the graph, the zero test, and tidying with a memory.
 
-use crate::algebra::FastMap;
-use crate::algebra::{ExprId, Flow, Graph, Node};
+use crate::algebra::{BaseAngles, ExprId, FastMap, Flow, Graph, Node};
 use crate::normal::{Limits, normal_form};
 use crate::program::weighted_cost;
 use crate::zero::{Verdict, ZeroTest};
@@ -124,6 +123,18 @@ impl Workbench {
     pub fn choose_base_angles(&mut self, given: &[ExprId], roots: &[ExprId]) {
         self.graph.choose_base_angles(given, roots);
         self.tidied = FastMap::default();
+    }
+
+    /// Does something with base angles for some expressions, and returns to those of today with all that is remembered.
+    pub(crate) fn in_base_angles<T>(&mut self, roots: &[ExprId], work: impl FnOnce(&mut Self) -> T) -> T {
+        let mut angles = BaseAngles::default();
+        self.graph.exchange_base_angles(&mut angles);
+        let tidied = core::mem::take(&mut self.tidied);
+        self.choose_base_angles(&[], roots);
+        let result = work(self);
+        self.graph.exchange_base_angles(&mut angles);
+        self.tidied = tidied;
+        result
     }
 
     /// Zero if it is proved to vanish, else the expression as it is: cheaper than [`Workbench::tidy`].

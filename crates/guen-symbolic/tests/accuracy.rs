@@ -12,8 +12,8 @@ const LINKS: usize = 5;
 const FACTOR: f64 = 3.0;
 const FLOOR: f64 = 8.0;
 
-/// A chain of point masses in relative angles, with the rates of its joints for parameters.
-fn chain(graph: &mut Graph) -> (Mechanics, [ExprId; 3]) {
+/// A chain of point masses in relative angles, with the rates of its joints for parameters, and rotors in the joints or not.
+fn chain(graph: &mut Graph, rotors: bool) -> (Mechanics, [ExprId; 3]) {
     let symbols = |graph: &mut Graph, letter: &str, role: Role| -> Vec<ExprId> {
         (1..=LINKS).map(|i| graph.symbol(&format!("{letter}{i}"), role)).collect()
     };
@@ -41,7 +41,7 @@ fn chain(graph: &mut Graph) -> (Mechanics, [ExprId; 3]) {
         force.push(graph.neg(weight));
     }
     // Rotors in the joints: the energy speaks of the parameters too, and one joint drags the next.
-    for eta in &etas {
+    for eta in etas.iter().filter(|_| rotors) {
         let tenth = graph.ratio(1, 20);
         kinetic.push(graph.product(&[(tenth, 1), (m, 1), (l, 2), (*eta, 2)]));
     }
@@ -86,8 +86,21 @@ fn state(round: usize) -> Vec<f64> {
 
 #[test]
 fn other_words_are_as_accurate() {
+    let derivation = compared(true);
+    assert!(!derivation.by_tensions, "rotors join each joint to the next");
+}
+
+#[test]
+fn tensions_are_as_accurate_as_the_mass_matrix() {
+    let derivation = compared(false);
+    assert!(derivation.by_tensions);
+    assert!(!derivation.solution.determinants.is_empty(), "the first list is by the mass matrix");
+}
+
+/// Compares all rates of a chain with those in the parameters declared.
+fn compared(rotors: bool) -> Derivation {
     let mut graph = Graph::new();
-    let (mechanics, constants) = chain(&mut graph);
+    let (mechanics, constants) = chain(&mut graph, rotors);
     let mut bench = Workbench::new(graph);
     let derivation = Derivation::new(&mut bench, mechanics).expect("a chain has equations");
     let own = [&derivation.frame.velocities[..], &derivation.solution.accelerations].concat();
@@ -127,4 +140,5 @@ fn other_words_are_as_accurate() {
         println!("round {round}: as declared, taken, others in units of 2^-52: {errors:?}");
         assert!(errors[1] <= FACTOR * errors[0] + FLOOR, "round {round}: {errors:?}");
     }
+    derivation
 }

@@ -1,7 +1,7 @@
 //! Right-hand sides as functions that can be found in the assembly by their names.
 
 #[macro_use]
-mod systems;
+mod declarations;
 
 hoop!(guen::mechanical_system);
 sled!(guen::mechanical_system);

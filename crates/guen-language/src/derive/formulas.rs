@@ -57,3 +57,12 @@ pub(super) fn whole(
     quantities.push((function::BRACKETS, coefficients.copied().collect()));
     quantities
 }
+
+/// Centers and orientations of the bodies, then the positions of the particles.
+pub(super) fn placed(model: &Model<'_>) -> Vec<ExprId> {
+    let bodies = model.bodies.iter().flat_map(|body| {
+        let center = body.center.iter().flatten();
+        center.chain(body.orientation.iter().flatten().flatten())
+    });
+    bodies.chain(model.particles.iter().flat_map(|(_, position)| position)).copied().collect()
+}

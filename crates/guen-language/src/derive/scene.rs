@@ -9,10 +9,11 @@ use super::fixed::{self, Holding};
 use super::manifold::{Replacement, quaternions};
 use super::parts::{View, cheapest, parts, replaced};
 use super::selection::{Held, Place, Selection};
-use super::{Commutator, Level, commutators, formulas, polish};
+use super::{Commutator, Level, carried, commutators, formulas, polish, series};
 use crate::diagnostics::{Fault, Faults};
 use crate::jacobians::Jacobians;
 use crate::model::{Model, SceneEntry};
+use crate::syntax::Name;
 
 /// What there is to tell of a scene beside its formulas.
 pub struct SceneFacts {
@@ -150,8 +151,15 @@ fn level(
     let energy = view.of(model, derivation.energies.integral);
     let shares = Rc::ptr_eq(&derivation, &system.derivation) && selection.held.is_empty();
     let whole = shares.then_some(&system.programs);
+    let provided = |word: &str| {
+        let names = scene.scene.provides.iter().map(|provide| &provide.name);
+        names.into_iter().find(|name| name.text == word && !is_output(model, name))
+    };
+    let (carries, expands) = (provided("carried"), provided("taylor"));
+    let forms = carries.map(|_| kept.clone()).unwrap_or_default();
     let (mut programs, is_part) = cheapest(model, &selection, whole, lists, kept, &parts);
     let jacobians = Jacobians::add(&mut programs, model, &selection);
+    let series = expands.and_then(|word| series::of(model, &selection, &programs, word.span(), faults));
     let fixes = scene
         .fixes
         .iter()
@@ -169,7 +177,7 @@ fn level(
         fixes: fixes.collect(),
         is_part,
     };
-    Some(Level {
+    let mut level = Level {
         selection,
         derivation,
         brackets,
@@ -178,11 +186,22 @@ fn level(
         energy,
         programs,
         edges: domain_names.len(),
+        placed: None,
         domain_names,
         constant_pivots,
+        series,
         jacobians,
         scene: Some(facts),
-    })
+        carried: None,
+    };
+    if let Some(word) = carries {
+        level.carried = Some(carried::derive(model, &level, &forms, word, faults)?);
+    }
+    Some(level)
+}
+
+fn is_output(model: &Model<'_>, name: &Name) -> bool {
+    model.outputs.iter().any(|output| output.name.text == name.text)
 }
 
 /// What the scene says it provides; what the system does not have is reported.
@@ -202,6 +221,8 @@ fn provided(
             "energy" => selection.energy = true,
             "linearization" => selection.linearization = true,
             "operators" => selection.operators = true,
+            // Of the programs, once they are there.
+            "taylor" => {}
             "reactions" => match &provide.of {
                 None => {
                     let all = (l..model.forms.len()).filter(known);
@@ -225,6 +246,8 @@ fn provided(
                     }
                 }
             },
+            // A form of its own, derived when this one is.
+            "carried" if !is_output(model, name) => {}
             output => {
                 selection.outputs.extend(model.outputs.iter().position(|known| known.name.text == output));
             }
@@ -237,7 +260,7 @@ fn provided(
     (faults.count() == before).then_some(selection)
 }
 
-fn no_reaction(name: &crate::syntax::Name, is_free: bool) -> Fault {
+fn no_reaction(name: &Name, is_free: bool) -> Fault {
     if is_free {
         return Fault::new(name.span(), "this system has no constraints, and so no reactions");
     }

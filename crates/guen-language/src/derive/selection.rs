@@ -1,6 +1,6 @@
 //! What a level of detail has of the declared system: all of it, or what a scene keeps.
 
-use guen_symbolic::ExprId;
+use guen_symbolic::{CarriedFunction, ExprId};
 
 use crate::model::{FormKind, Model};
 
@@ -45,6 +45,8 @@ pub struct Selection {
     pub linearization: bool,
     /// Whether operators and brackets are offered.
     pub operators: bool,
+    /// The elementary functions that are states after the variables.
+    pub carried: Vec<CarriedFunction>,
 }
 
 impl Model<'_> {

@@ -247,7 +247,7 @@ impl Writer {
     }
 }
 
-fn call(function: Function, argument: &str) -> String {
+pub(super) fn call(function: Function, argument: &str) -> String {
     let name = match function {
         Function::Root(2) => "sqrt",
         Function::Root(q) => return format!("<R as __guen::Real>::root({argument}, {q}u32)"),

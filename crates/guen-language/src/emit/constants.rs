@@ -5,7 +5,7 @@ use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
 use super::code::number;
-use super::{Layout, Subject, documentation, tokens, variable_ident};
+use super::{Layout, Subject, documentation, recast, tokens, variable_ident};
 use crate::report::Report;
 use crate::syntax::BoundKind;
 
@@ -57,6 +57,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, report: &Report)
     });
     let marker_value = (count == 0).then(|| quote!(__guen_real: ::core::marker::PhantomData,));
     let indices = 0..count;
+    let recast = recast::items(layout, &names, marker_value.as_ref());
     let what = if layout.is_whole { "system" } else { "scene" };
     let prepared_docs = format!(
         "The {what} [`{system}`] with its constants checked and everything that depends on them alone computed once. Immutable; it alone runs."
@@ -114,6 +115,8 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, report: &Report)
                 }
             }
         }
+
+        #recast
     }
 }
 

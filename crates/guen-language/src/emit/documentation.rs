@@ -3,7 +3,7 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
-use crate::report::Report;
+use crate::report::{Report, Section};
 use crate::syntax::Docs;
 
 /// The user's documentation of an entry, or a sentence in its place.
@@ -20,14 +20,13 @@ pub(super) fn entry(docs: &Docs, fallback: &str) -> TokenStream {
 pub(super) fn system(report: &Report, docs: &Docs) -> TokenStream {
     let values = &docs.values;
     let blank = (!values.is_empty()).then(|| quote!(#[doc = ""]));
-    let mut text = format!("{}\n", report.summary);
-    for section in &report.sections {
-        text.push_str(&format!("\n# {}\n\n```text\n{}\n```\n", section.title, section.text.join("\n")));
-    }
+    let (blocks, page) = (report.to_blocks(), report.to_page());
+    // Editors show the documentation as text, and it would be stored in the compiled crate; rustdoc sets formulas.
     quote! {
         #(#[doc = #values])*
         #blank
-        #[doc = #text]
+        #[cfg_attr(not(doc), doc = #blocks)]
+        #[cfg_attr(doc, doc = #page)]
     }
 }
 
@@ -45,15 +44,13 @@ pub(super) fn module(report: &Report, system: &Ident, is_whole: bool) -> TokenSt
 /// `REPORT` and `LATEX`.
 pub(super) fn constants(report: &Report) -> TokenStream {
     let (name, summary) = (&report.name, &report.summary);
-    let sections = |latex: bool| {
-        let sections = report.sections.iter().filter(|s| !latex || !s.latex.is_empty()).map(|section| {
-            let title = section.title;
-            let lines = if latex { &section.latex } else { &section.text };
-            quote!(__guen::ReportSection { title: #title, lines: &[#(#lines),*] })
-        });
-        quote!(&[#(#sections),*])
-    };
-    let (text, latex) = (sections(false), sections(true));
+    let text = report.sections.iter().map(|Section { title, text, latex }| {
+        quote!(__guen::ReportSection { title: #title, lines: &[#(#text),*], formulas: &[#(#latex),*] })
+    });
+    // The formulas are written once.
+    let latex = report.sections.iter().enumerate().filter(|(_, section)| !section.latex.is_empty());
+    let latex = latex.map(|(i, _)| quote!(REPORT.sections[#i].of_formulas()));
+    let (text, latex) = (quote!(&[#(#text),*]), quote!(&[#(#latex),*]));
     quote! {
         /// What was derived, as text: forms, operators, brackets, classification, equations of motion.
         pub const REPORT: __guen::Report = __guen::Report { name: #name, summary: #summary, sections: #text };

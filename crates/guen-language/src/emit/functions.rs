@@ -2,15 +2,15 @@
 
 use std::fmt::Write;
 
-use guen_symbolic::{ExprId, SymbolId};
+use guen_symbolic::{ExprId, Programs, SymbolId};
 use proc_macro2::TokenStream;
 
 use super::code::{Loads, body};
 use super::{Layout, Subject, tokens};
-use crate::derive::function;
+use crate::derive::{Level, function};
 
 /// Where the values of symbols are: in the arrays that a function takes.
-struct Places(Vec<String>);
+pub(super) struct Places(Vec<String>);
 
 impl Loads for Places {
     fn symbol(&self, symbol: SymbolId) -> String {
@@ -40,6 +40,9 @@ impl Places {
         } else {
             let variables = selection.variables.iter().enumerate();
             variables.for_each(|(i, place)| put(model.variable(*place), format!("s[{i}]")));
+            let carried = selection.carried.iter().map(|function| function.symbol);
+            let first = selection.variables.len();
+            carried.enumerate().for_each(|(i, symbol)| put(symbol, format!("s[{}]", first + i)));
         }
         mechanics.velocities.iter().enumerate().for_each(|(i, w)| put(*w, format!("w[{i}]")));
         let accelerations = selection.parameters.iter().enumerate();
@@ -87,21 +90,33 @@ pub(super) fn signature(name: &str) -> Signature {
         function::VELOCITIES | function::ENERGY | function::KINETIC_ENERGY | function::MOMENTA => {
             Signature::State
         }
-        function::DOMAIN => Signature::State,
+        function::DOMAIN | function::CARRY | function::INVARIANTS | function::REJOINED => Signature::State,
         function::OPERATORS | function::BRACKETS => Signature::Everywhere,
         _ => Signature::Position,
     }
 }
 
-/// The module: `prepare` and every function, generic over the real.
-pub(super) fn module(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
-    let programs = &subject.level.programs;
+/// The modules: `prepare` and every function, generic over the real.
+pub(super) fn modules(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
+    let Level { programs, placed, series, .. } = subject.level;
+    let places = Places::new(subject, false);
+    let series = series.as_ref().map(|series| super::series::function(series, &places, layout));
+    let mut text = module("program", programs, &series.unwrap_or_default(), subject, layout);
+    if let Some(placed) = placed {
+        text.push_str(&module("placed", placed, "", subject, layout));
+    }
+    tokens(&text)
+}
+
+/// One module, `more` at its end.
+fn module(name: &str, programs: &Programs, more: &str, subject: &Subject<'_, '_>, layout: &Layout) -> String {
     let (places, everywhere) = (Places::new(subject, false), Places::new(subject, true));
-    let Layout { n, l, size, all, constants, hoisted, inputs, .. } = layout;
-    let mut text = String::from(
+    let Layout { n, l, size, all, constants, inputs, .. } = layout;
+    let hoisted = programs.prepared.len();
+    let mut text = format!(
         "#[allow(unused_variables, reason = \"every function has the signature of its kind\")]
         #[allow(clippy::all, clippy::pedantic, clippy::nursery, clippy::restriction, reason = \"straight-line code for the compiler\")]
-        mod program { use super::__guen;",
+        mod {name} {{ use super::__guen;"
     );
     let _ = write!(
         text,
@@ -128,6 +143,7 @@ pub(super) fn module(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream 
             body(&program.instructions, &program.outputs, places),
         );
     }
+    text.push_str(more);
     text.push('}');
-    tokens(&text)
+    text
 }

@@ -71,7 +71,9 @@ pub(super) fn guarded(subject: &Subject<'_, '_>, layout: &Layout, prepared: &Tok
             let x: [R; #n] = [#(state[#positions]),*];
             let _ = (t, &x);
             #measured
-            __guen::Vitals { energy: #energy, scale: #scale, residual: #residual }
+            __guen::Vitals {
+                energy: #energy, scale: #scale, residual: #residual, carried: <R as __guen::Real>::zero(),
+            }
         }
 
         #edges

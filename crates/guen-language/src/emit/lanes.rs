@@ -5,14 +5,35 @@ use quote::quote;
 
 use super::Layout;
 
+/// How a prepared system is put together from those of the lanes.
+fn gathered(path: &TokenStream, of: &TokenStream) -> TokenStream {
+    quote! {
+        #path {
+            constants: ::core::array::from_fn(|k| <L as __guen::Lanes>::from_fn(|lane| member(lane)#of.constants[k])),
+            hoisted: ::core::array::from_fn(|k| <L as __guen::Lanes>::from_fn(|lane| member(lane)#of.hoisted[k])),
+        }
+    }
+}
+
 pub(super) fn items(layout: &Layout) -> TokenStream {
-    let size = layout.size;
+    laned(layout, &gathered(&quote!(Prepared), &quote!()))
+}
+
+/// The same for a carried form, which has the system inside.
+pub(super) fn carried(layout: &Layout) -> TokenStream {
+    let system = gathered(&quote!(super::Prepared), &quote!(.system));
     let prepared = quote! {
         Prepared {
+            system: #system,
             constants: ::core::array::from_fn(|k| <L as __guen::Lanes>::from_fn(|lane| member(lane).constants[k])),
             hoisted: ::core::array::from_fn(|k| <L as __guen::Lanes>::from_fn(|lane| member(lane).hoisted[k])),
         }
     };
+    laned(layout, &prepared)
+}
+
+fn laned(layout: &Layout, prepared: &TokenStream) -> TokenStream {
+    let size = layout.size;
     if layout.inputs == 0 {
         return quote! {
             impl __guen::Laned<#size> for Prepared<f64> {

@@ -90,7 +90,13 @@ fn quantities(subject: &Subject<'_, '_>, layout: &Layout) -> Vec<Quantity> {
     let no_outputs = outputs.is_empty() || !selection.outputs.is_empty();
     add(no_outputs, "outputs", line(&outputs.join(", ")), true, quote!(super::Outputs<R>));
     let linearization = quote!(__guen::Linearization<R, #size, #inputs>);
-    add(selection.linearization, "linearize", line("linearization"), true, linearization);
+    add(selection.linearization, "linearize", line("linearization"), true, linearization.clone());
+    let mut wanted = if selection.outputs.is_empty() { outputs.clone() } else { Vec::new() };
+    if !selection.linearization {
+        wanted.push("linearization");
+    }
+    let is_there = outputs.is_empty() || wanted.is_empty();
+    add(is_there, "linearize_outputs", line(&wanted.join(", ")), true, linearization);
     let is_position = |form: &crate::model::FormEntry<'_>| form.kind == FormKind::Holonomic;
     if selection.holonomic.is_empty() && model.forms.iter().any(is_position) {
         let note =

@@ -3,6 +3,8 @@
 //! Two piles: what users name (the constants, the state, the operators, ...) carries their spans, visibility and
 //! documentation; straight-line code sits in the private module `program`, where lint allowances are.
 
+mod bodies;
+pub(crate) mod carried;
 mod classification;
 mod code;
 mod constants;
@@ -20,8 +22,10 @@ mod operators;
 mod outline;
 mod physical;
 mod positions;
+mod recast;
 mod records;
 mod serde;
+mod series;
 mod uses;
 
 use proc_macro2::{Ident, Span, TokenStream};
@@ -117,12 +121,15 @@ impl Layout {
             system: subject.name().ident.clone(),
             n: selection.coordinates.len(),
             l: selection.parameters.len(),
-            size: selection.variables.len(),
+            size: selection.variables.len() + selection.carried.len(),
             all: model.coordinates.len(),
             constants: selection.constants.len() + selection.held.len(),
             hoisted: level.programs.prepared.len(),
             inputs: selection.inputs.len(),
-            state: selection.variables.iter().map(|place| variable_ident(model, *place)).collect(),
+            state: {
+                let variables = selection.variables.iter().map(|place| variable_ident(model, *place));
+                variables.chain(selection.carried.iter().map(|f| carried::ident(model, f))).collect()
+            },
             is_whole: level.scene.is_none(),
         }
     }
@@ -187,18 +194,21 @@ fn module(
         records::items(subject, &layout),
         motion::items(subject, &layout),
         lanes::items(&layout),
+        series::items(subject, &layout),
         linearization::items(subject, &layout),
         control::items(subject, &layout),
         limits::items(subject, &layout),
         serde::items(subject, &layout),
         positions::items(subject, &layout),
         physical::items(subject, &layout),
+        bodies::items(subject, &layout),
         operators::items(subject, &layout),
         classification::items(subject, &layout),
         levels::items(subject, &layout),
         missing::items(subject, &layout),
         documentation::constants(&report),
-        functions::module(subject, &layout),
+        functions::modules(subject, &layout),
+        carried::items(subject, &layout),
     ];
     let docs = documentation::module(&report, system, layout.is_whole);
     let alias = Ident::new("__guen", Span::call_site());

@@ -3,6 +3,7 @@
 //! The rest of the user's crate then reports its own mistakes only, and completion keeps working. Bodies are
 //! never reached, since the crate does not compile. What is a vector is guessed from how it is written.
 
+mod carried;
 mod control;
 mod kinds;
 mod scenes;
@@ -30,6 +31,11 @@ pub fn outline(declaration: &Declaration) -> TokenStream {
     let prepared = prepared(system, &names);
     let operators = operators(&names);
     let scenes = scenes::items(declaration, &names);
+    let provides = declaration.items.iter().filter_map(|item| match item {
+        Item::Provide(section) => Some(&section.entries),
+        _ => None,
+    });
+    let carried = carried::items(&names, &provides.flatten().collect::<Vec<_>>());
     let levels = levels(&names);
     quote! {
         /// The module of a system whose declaration has faults.
@@ -49,6 +55,7 @@ pub fn outline(declaration: &Declaration) -> TokenStream {
             pub const LEVELS: [__guen::LevelInfo; 0] = [];
             /// The system and its scenes as a table.
             pub const fn levels() -> __guen::Levels { __guen::Levels(&LEVELS) }
+            #carried
             #scenes
         }
         #[allow(unused_imports, reason = "stands in for a faulty declaration")]
@@ -378,6 +385,12 @@ fn prepared(system: &Ident, names: &Names) -> TokenStream {
         impl<R: __guen::Real> __guen::Differentiable<R, #size> for #owner<R> {
             fn jacobian(&self, _: R, _: &[R; #size]) -> [[R; #size]; #size] { ::core::unreachable!() }
             fn along(&self, _: R, _: &[R; #size], _: R, _: &[R; #size]) -> [R; #size] { ::core::unreachable!() }
+        }
+        impl __guen::Recast<#size> for #owner<f64> {
+            type In<R: __guen::Real> = #owner<R>;
+            fn recast<R: __guen::Real>(&self) -> ::core::result::Result<#owner<R>, __guen::ConstantsError> {
+                ::core::unreachable!()
+            }
         }
         #(impl<R> __guen::#kinds for #owner<R> {})*
         /// The class.

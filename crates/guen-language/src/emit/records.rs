@@ -80,6 +80,30 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     quote!(#(#items)*)
 }
 
+/// The state of a carried form: the variables, then the functions.
+pub(super) fn carried(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
+    let Subject { model, level } = subject;
+    let places = level.selection.variables.iter().map(|place| format!("`{}`.", model.variable_name(*place)));
+    let functions = level.selection.carried.iter();
+    let functions = functions.map(|f| {
+        let value =
+            model.bench.graph.text_limited(f.value, 400).unwrap_or_else(|| "a long expression".to_owned());
+        format!("`{value}`, carried.")
+    });
+    let fields: Vec<Field> = places
+        .chain(functions)
+        .zip(&layout.state)
+        .map(|(docs, ident)| Field {
+            ident: ident.clone(),
+            docs: quote!(#[doc = #docs]),
+            name: ident.to_string().trim_start_matches("r#").to_owned(),
+        })
+        .collect();
+    let size = layout.size;
+    let state = record("State", "A state of the carried form: the variables, then the functions.", &fields);
+    quote!(#state __guen::nalgebra_conversions!(State, #size);)
+}
+
 /// A record of reals with conversions from and to an array.
 fn record(name: &str, docs: &str, fields: &[Field]) -> TokenStream {
     let record = format_ident!("{name}");

@@ -22,6 +22,11 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     quote!(#constants #state #coordinates #inputs)
 }
 
+/// The state alone.
+pub(super) fn state(layout: &Layout) -> TokenStream {
+    record(&format_ident!("State"), &layout.state, &None)
+}
+
 fn record(name: &Ident, fields: &[Ident], marker: &Option<TokenStream>) -> TokenStream {
     let text = name.to_string();
     let count = proc_macro2::Literal::usize_unsuffixed(fields.len());

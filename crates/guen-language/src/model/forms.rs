@@ -1,4 +1,4 @@
-//! Parameters and constraints as linear forms: declared, taken apart, and checked one by one.
+//! Parameters (1.3), (1.6) and constraints (1.1) as linear forms: declared, taken apart, and checked one by one.
 
 use std::collections::BTreeMap;
 

@@ -39,6 +39,8 @@ pub struct Model<'a> {
     pub forms: Vec<FormEntry<'a>>,
     /// Bodies in order.
     pub bodies: Vec<BodyEntry>,
+    /// Masses and positions of particles in order.
+    pub particles: Vec<(ExprId, [ExprId; 3])>,
     /// Outputs in order.
     pub outputs: Vec<OutputEntry<'a>>,
     /// Unit quaternions among the coordinates, by the indices of `w, x, y, z`.
@@ -49,6 +51,10 @@ pub struct Model<'a> {
     pub scenes: Vec<SceneEntry<'a>>,
     /// Whether the system or a scene provides operators: then all brackets are derived.
     pub provides_operators: bool,
+    /// The word `taylor`, where the system provides its Taylor series.
+    pub taylor: Option<Span>,
+    /// The word by which the system provides its carried form.
+    pub provides_carried: Option<&'a Name>,
     /// Components of vector equations that are identically `0 = 0`, by name.
     pub left_out: Vec<String>,
     /// Names as the user wrote them.
@@ -138,6 +144,10 @@ pub struct BodyEntry {
     pub mass: Option<ExprId>,
     /// The matrix entries `xx, yy, zz, xy, yz, zx` of its inertia, if it has one.
     pub inertia: Option<[ExprId; 6]>,
+    /// The mass centre, if it has one.
+    pub center: Option<[ExprId; 3]>,
+    /// The matrix of its orientation, row by row, if it has one.
+    pub orientation: Option<[[ExprId; 3]; 3]>,
 }
 
 /// A scene whose names are sound.

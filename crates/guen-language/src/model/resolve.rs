@@ -48,10 +48,13 @@ struct Resolver<'a, 'f> {
     force_function: Option<ExprId>,
     forces: Vec<Force>,
     bodies: Vec<BodyEntry>,
+    particles: Vec<Weight>,
     outputs: Vec<OutputEntry<'a>>,
     scenes: Vec<SceneEntry<'a>>,
     output_values: Vec<ExprId>,
     provides_operators: bool,
+    taylor: Option<proc_macro2::Span>,
+    provides_carried: Option<&'a crate::syntax::Name>,
 }
 
 impl<'a, 'f> Resolver<'a, 'f> {
@@ -89,10 +92,13 @@ impl<'a, 'f> Resolver<'a, 'f> {
             force_function: None,
             forces: Vec::new(),
             bodies: Vec::new(),
+            particles: Vec::new(),
             outputs: Vec::new(),
             scenes: Vec::new(),
             output_values: Vec::new(),
             provides_operators: false,
+            taylor: None,
+            provides_carried: None,
         }
     }
 
@@ -190,6 +196,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
                     self.has_masses = true;
                     if let Ok((energy, weight)) = self.eval.particle(particle) {
                         self.kinetic.push(energy);
+                        self.particles.push(weight);
                         self.weights.push(weight);
                     }
                 }
@@ -200,8 +207,14 @@ impl<'a, 'f> Resolver<'a, 'f> {
                     let value = self.eval.body(body).ok().map(|(energy, weight, value)| {
                         self.kinetic.push(energy);
                         self.weights.extend(weight);
-                        let BodyValue { name, mass, inertia, .. } = &value;
-                        self.bodies.push(BodyEntry { name: name.clone(), mass: *mass, inertia: *inertia });
+                        let BodyValue { name, mass, inertia, center, orientation } = &value;
+                        self.bodies.push(BodyEntry {
+                            name: name.clone(),
+                            mass: *mass,
+                            inertia: *inertia,
+                            center: center.map(|(position, _)| position),
+                            orientation: orientation.as_ref().map(|rotation| rotation.matrix),
+                        });
                         Value::Body(Box::new(value))
                     });
                     self.eval.scope.declare(self.eval.faults, &body.name, Category::Body, value);
@@ -221,15 +234,34 @@ impl<'a, 'f> Resolver<'a, 'f> {
             Item::Outputs(section) => section.entries.iter().for_each(|output| self.output(output)),
             Item::Provide(section) => {
                 for provide in &section.entries {
-                    if provide.name.text == "operators" && provide.of.is_none() {
-                        self.provides_operators = true;
-                        continue;
+                    match provide.name.text.as_str() {
+                        "operators" if provide.of.is_none() => {
+                            self.provides_operators = true;
+                            continue;
+                        }
+                        "carried" if provide.of.is_none() => {
+                            self.provides_carried = Some(&provide.name);
+                            continue;
+                        }
+                        "taylor" if provide.of.is_none() => {
+                            self.taylor = Some(provide.name.span());
+                            continue;
+                        }
+                        _ => {}
                     }
                     let at = provide.name.span();
                     let fault = Fault::new(at, "the full system provides everything already")
                         .note("`provide` chooses what a scene offers beside its state")
-                        .note("of a system only `provide operators;` says something: that the brackets of all operators are derived");
-                    self.eval.faults.report(fault);
+                        .note(
+                            "of a system three say something: `operators`, that the brackets of all operators are \
+                             derived, `taylor`, that it has a Taylor series, and `carried`, that it has a form \
+                             without elementary calls",
+                        );
+                    let near = crate::names::nearest(&provide.name.text, ["operators", "taylor", "carried"]);
+                    self.eval.faults.report(match near {
+                        Some(near) => fault.help(format_args!("did you mean `{near}`?")),
+                        None => fault,
+                    });
                 }
             }
             Item::Scene(scene) => {
@@ -480,12 +512,15 @@ impl<'a, 'f> Resolver<'a, 'f> {
             coordinates: self.coordinates,
             forms: raw.into_iter().map(|form| form.entry).collect(),
             bodies: self.bodies,
+            particles: self.particles,
             outputs: self.outputs,
             quaternions,
             reactions,
             scenes: self.scenes,
             left_out: self.eval.left_out,
             provides_operators,
+            taylor: self.taylor,
+            provides_carried: self.provides_carried,
             mechanics,
             has_masses: self.has_masses,
             kinetic_energy_span: self.energy.map(|energy| energy.keyword),
@@ -510,7 +545,7 @@ fn report_idle_gravity(declaration: &Declaration, faults: &mut Faults) {
 /// Items of the generated module, and what generated code calls by short names: no system can have such a name.
 fn check_system_name(declaration: &Declaration, faults: &mut Faults) {
     let name = &declaration.name;
-    if !crate::names::is_generated_item(&name.text) {
+    if !crate::names::is_generated_item(&name.text) && !super::scenes::is_carried_form(name, declaration) {
         return;
     }
     faults.report(

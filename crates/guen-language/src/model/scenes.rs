@@ -12,10 +12,21 @@ use super::{FixedConstant, SceneEntry};
 use crate::diagnostics::Fault;
 use crate::emit::module_name;
 use crate::names;
-use crate::syntax::{Declaration, Fix, Name, Provide, Scene};
+use crate::syntax::{Declaration, Fix, Item, Name, Provide, Scene};
 
 /// What a scene may provide beside outputs.
-const QUANTITIES: [&str; 4] = ["energy", "reactions", "linearization", "operators"];
+const QUANTITIES: [&str; 6] = ["energy", "reactions", "linearization", "operators", "carried", "taylor"];
+
+/// Whether a name is that of a carried form, and the declaration asks for one.
+pub(super) fn is_carried_form(name: &Name, declaration: &Declaration) -> bool {
+    let asks = |provides: &[Provide]| provides.iter().any(|provide| provide.name.text == "carried");
+    crate::emit::carried::NAMES.contains(&name.text.as_str())
+        && declaration.items.iter().any(|item| match item {
+            Item::Provide(section) => asks(&section.entries),
+            Item::Scene(scene) => asks(&scene.provides),
+            _ => false,
+        })
+}
 
 impl Evaluator<'_> {
     /// Checks a scene's statements at their words; `None` after a fault.
@@ -55,6 +66,8 @@ impl Evaluator<'_> {
             Some(format!("the module of `{}` has an item of this name", declaration.name))
         } else if name.text == declaration.name.text {
             Some("this is the name of the system".to_owned())
+        } else if is_carried_form(name, declaration) {
+            Some("a carried form has this name".to_owned())
         } else {
             earlier
                 .iter()

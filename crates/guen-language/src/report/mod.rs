@@ -1,5 +1,8 @@
 //! What was derived, in readable notation: the same lines as text and as LaTeX.
 
+mod mathml;
+mod pages;
+mod reasons;
 mod scene;
 
 use guen_symbolic::{Class, ExprId, Notation};
@@ -8,14 +11,21 @@ use crate::derive::function;
 use crate::emit::Subject;
 use crate::model::FormKind;
 
-/// A heading with its lines.
+/// A heading with its lines: formulas, then words.
 pub struct Section {
     /// What the lines are.
     pub title: &'static str,
     /// The lines as text.
     pub text: Vec<String>,
-    /// The same lines as LaTeX formulas, where they are formulas.
+    /// The formulas as LaTeX: the first of these lines.
     pub latex: Vec<String>,
+}
+
+impl Section {
+    /// Lines that are no formulas.
+    fn words(title: &'static str, text: Vec<String>) -> Self {
+        Section { title, text, latex: Vec::new() }
+    }
 }
 
 /// Everything that is told about a system.
@@ -61,6 +71,7 @@ impl Report {
                 sections.push(scene::energy(subject, writer));
             }
         } else {
+            sections.extend(pages::declared(subject));
             sections.push(forms(subject, writer));
             operators(&mut sections, writer);
             sections.push(classification(subject, writer));
@@ -69,7 +80,7 @@ impl Report {
             sections.push(momenta(subject, writer));
             sections.push(energies(subject, writer));
         }
-        sections.push(domain(subject));
+        sections.push(domain(subject, writer));
         sections.push(cost(subject));
         let summary = if subject.level.scene.is_some() { scene::summary(subject) } else { summary(subject) };
         let name = subject.name().text.clone();
@@ -166,13 +177,17 @@ fn forms(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
             latex = format!("{latex} + {offset}").replace("+ -", "- ");
         }
         let zero = if j < system.forms.degrees { "" } else { " = 0" };
-        let position = (entry.kind == FormKind::Holonomic)
-            .then(|| system.holonomic.iter().find(|h| h.form == j))
-            .flatten()
-            .map(|h| format!("   (the rate of {} = 0)", graph.text(h.equation)))
-            .unwrap_or_default();
-        lines.section.text.push(format!("{} = {text}{zero}{position}", entry.name));
-        lines.section.latex.push(format!("{} = {latex}{zero}", latex_of(&entry.name)));
+        text = format!("{} = {text}{zero}", entry.name);
+        latex = format!("{} = {latex}{zero}", latex_of(&entry.name));
+        let holonomic = system.holonomic.iter().find(|h| h.form == j);
+        if let Some(position) = holonomic.filter(|_| entry.kind == FormKind::Holonomic) {
+            text.push_str(&format!("   (the rate of {} = 0)", graph.text(position.equation)));
+            let equation =
+                lines.writer.latex.expression(position.equation).unwrap_or_else(|| r"\ldots".to_owned());
+            latex.push_str(&format!(r"\quad\text{{(the rate of }}{equation} = 0\text{{)}}"));
+        }
+        lines.section.text.push(text);
+        lines.section.latex.push(latex);
     }
     for name in &subject.model.left_out {
         lines.section.text.push(format!("{name} is left out: it says 0 = 0"));
@@ -289,7 +304,8 @@ fn classification(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section
         ]
         .join(", "),
     );
-    Section { title: "Classification", text, latex: Vec::new() }
+    text.extend(reasons::of(subject));
+    Section::words("Classification", text)
 }
 
 fn velocities(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
@@ -310,7 +326,10 @@ fn equations(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
                 section.text.push(format!("{text} = 0"));
                 section.latex.push(format!("{latex} = 0"));
             }
-            _ => section.text.push(TOO_LONG.to_owned()),
+            _ => {
+                section.text.push(format!("{TOO_LONG} = 0"));
+                section.latex.push(r"\ldots = 0".to_owned());
+            }
         }
     }
     section
@@ -319,10 +338,11 @@ fn equations(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
 fn momenta(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
     let mut lines = Lines::new(writer, "Momenta (2.8)");
     let l = subject.level.derivation.system.forms.degrees;
+    let mut unknown = Vec::new();
     for (j, momentum) in subject.level.derivation.energies.momenta.iter().enumerate() {
         let name = &subject.model.forms[j].name;
         if !subject.level.derivation.known_momentum[j] {
-            lines.section.text.push(format!("(dT°/d{name}) is unknown: T is given on the constraints"));
+            unknown.push(format!("(dT°/d{name}) is unknown: T is given on the constraints"));
             continue;
         }
         let (left, latex) = if j < l {
@@ -335,6 +355,7 @@ fn momenta(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
         };
         lines.equation(&left, &latex, *momentum);
     }
+    lines.section.text.extend(unknown);
     lines.section
 }
 
@@ -350,18 +371,32 @@ fn energies(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
     lines.section
 }
 
-fn domain(subject: &Subject<'_, '_>) -> Section {
-    let graph = &subject.model.bench.graph;
-    let nonzero = |e: &ExprId| graph.text_limited(*e, LONGEST).map(|text| format!("{text} != 0"));
-    let state = subject.level.domain_names.iter().map(|text| format!("{text} != 0"));
-    let mut text: Vec<String> =
-        state.chain(subject.level.constant_pivots.iter().filter_map(nonzero)).collect();
+/// What must not vanish: formulas, then what is told in words.
+fn domain(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
+    let d = &subject.level.derivation;
+    let known: Vec<ExprId> = d.frame.operators.chart.iter().chain(&d.solution.pivots).copied().collect();
+    let written: Vec<_> = known.iter().map(|e| writer.text.expression(*e)).collect();
+    let (mut formulas, mut words) = (Vec::new(), Vec::new());
+    for name in &subject.level.domain_names {
+        match written.iter().position(|text| text.as_ref() == Some(name)) {
+            Some(place) => formulas.push(known[place]),
+            None => words.push(format!("{name} != 0")),
+        }
+    }
+    let mut section = Section::words("Domain of the chart", Vec::new());
+    for e in formulas.iter().chain(&subject.level.constant_pivots) {
+        if let (Some(text), Some(latex)) = (writer.text.expression(*e), writer.latex.expression(*e)) {
+            section.text.push(format!("{text} != 0"));
+            section.latex.push(format!(r"{latex} \neq 0"));
+        }
+    }
+    section.text.extend(words);
     if subject.level.program(function::MASS).is_some() {
-        text.push(
+        section.text.push(
             "the mass matrix M is regular; `condition`, max_s M_ss (M^-1)_ss, says by how much".to_owned(),
         );
     }
-    Section { title: "Domain of the chart", text, latex: Vec::new() }
+    section
 }
 
 fn cost(subject: &Subject<'_, '_>) -> Section {
@@ -370,7 +405,7 @@ fn cost(subject: &Subject<'_, '_>) -> Section {
         text.push(format!("right-hand side: {}", operations(&rhs.cost)));
     }
     text.push(format!("prepared once: {}", operations(&subject.level.programs.prepare_cost)));
-    Section { title: "Cost", text, latex: Vec::new() }
+    Section::words("Cost", text)
 }
 
 fn operations(count: &guen_symbolic::OperationCount) -> String {

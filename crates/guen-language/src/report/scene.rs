@@ -57,11 +57,10 @@ pub(super) fn sections(subject: &Subject<'_, '_>) -> Vec<Section> {
     let graph = &model.bench.graph;
     let fixed =
         facts.fixes.iter().map(|(c, value)| format!("{} = {}", model.constants[*c].name, graph.text(*value)));
-    let section = |title, text: Vec<String>| Section { title, text, latex: Vec::new() };
     vec![
-        section("Variables that are kept", kept.collect()),
-        section("Variables that left", left.collect()),
-        section("Constants that are fixed", fixed.collect()),
+        Section::words("Variables that are kept", kept.collect()),
+        Section::words("Variables that left", left.collect()),
+        Section::words("Constants that are fixed", fixed.collect()),
     ]
 }
 

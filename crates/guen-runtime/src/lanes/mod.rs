@@ -254,6 +254,20 @@ pub fn dispatch_on<T: LaneTask>(backend: Backend, width: Width, task: T) -> T::O
     })
 }
 
+/// Calls a function that may use the longest registers of this processor: its loops over adjacent numbers are compiled
+/// for each kind.
+#[inline(always)]
+pub(crate) fn wide<T>(function: impl FnOnce() -> T) -> T {
+    #[cfg(target_arch = "x86_64")]
+    {
+        x86::wide(function)
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    {
+        function()
+    }
+}
+
 fn run<V: Register, T: LaneTask>(task: T) -> T::Output {
     V::vectorize(
         #[inline(always)]

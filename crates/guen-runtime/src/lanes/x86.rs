@@ -87,6 +87,20 @@ pub(super) fn fused<T>(function: impl FnOnce() -> T) -> T {
     }
 }
 
+/// Calls a function with the longest registers that the processor has.
+#[inline(always)]
+pub(super) fn wide<T>(function: impl FnOnce() -> T) -> T {
+    if has_avx512() {
+        // SAFETY: the processor has been asked.
+        unsafe { with_avx512(function) }
+    } else if has_avx2() {
+        // SAFETY: the processor has been asked.
+        unsafe { with_avx2(function) }
+    } else {
+        function()
+    }
+}
+
 /// Two lanes, on every processor of x86-64.
 #[derive(Clone, Copy)]
 pub(crate) struct Sse2(__m128d);

@@ -128,6 +128,8 @@ where
 {
     const EVALUATIONS: u32 = P::TRIAL as u32;
 
+    type Polynomial = Dense<R, N>;
+
     fn reached(&self) -> &Reached<R, N> {
         &self.reached
     }

@@ -2,7 +2,7 @@
 
 use core::ops::AddAssign;
 
-use super::dense::Dense;
+use super::dense::Interpolant;
 use crate::error::{Cause, IntegrationError};
 use crate::real::Real;
 
@@ -10,7 +10,7 @@ use crate::real::Real;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Statistics {
     /// Evaluations of the right-hand side, those for dense output included. A derivative along one direction counts as
-    /// one.
+    /// one, a Taylor series of order `p` as `p`.
     pub evaluations: u64,
     /// Evaluations of the Jacobian; none with explicit methods.
     pub jacobians: u64,
@@ -106,6 +106,8 @@ pub trait Course<R: Real, S: ?Sized, const N: usize> {
     /// The order of a method whose step is fixed, which a guard therefore watches; zero for one that estimates its own
     /// errors.
     const FIXED_ORDER: u32 = 0;
+    /// The motion over one step, as [`dense`](Course::dense) returns it: for most methods a [`Dense`](super::Dense).
+    type Polynomial: Interpolant<R, N>;
 
     /// Where the run stands.
     fn reached(&self) -> &Reached<R, N>;
@@ -126,5 +128,5 @@ pub trait Course<R: Real, S: ?Sized, const N: usize> {
 
     /// The motion over the step made last, as a polynomial. To be asked for only after a step that was made with
     /// `dense`. May evaluate the right-hand side, which is counted.
-    fn dense(&mut self, system: &S) -> Dense<R, N>;
+    fn dense(&mut self, system: &S) -> Self::Polynomial;
 }

@@ -2,6 +2,18 @@
 
 use crate::real::Real;
 
+/// The motion over one step of a method, to be asked for any time within it.
+pub trait Interpolant<R, const N: usize>: Copy {
+    /// The state at time `t`.
+    fn at(&self, t: R) -> [R; N];
+}
+
+impl<R: Real, const N: usize> Interpolant<R, N> for Dense<R, N> {
+    fn at(&self, t: R) -> [R; N] {
+        Dense::at(self, t)
+    }
+}
+
 /// The largest number of terms: a polynomial of degree seven.
 const TERMS: usize = 8;
 

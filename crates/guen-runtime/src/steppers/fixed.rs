@@ -38,6 +38,23 @@ pub trait Formula<R: Real, S: ?Sized, const N: usize> {
     ) -> Dense<R, N>;
 }
 
+/// A formula whose step is a change that is added to the state.
+pub trait Changes<R: Real, S: ?Sized, const N: usize>: Formula<R, S, N> {
+    /// The step size, and the memory at the beginning of a run.
+    fn begin(&self) -> (R, Self::Memory);
+
+    /// What [`Formula::step`] adds to the state.
+    fn change(
+        &self,
+        system: &S,
+        memory: &mut Self::Memory,
+        from: &Reached<R, N>,
+        h: R,
+        dense: bool,
+        statistics: &mut Statistics,
+    ) -> [R; N];
+}
+
 /// A run with a fixed step, in legs between the times that it has to land on.
 #[derive(Clone, Copy, Debug)]
 pub struct Fixed<'a, F, M, R, const N: usize> {
@@ -64,6 +81,8 @@ where
 {
     const EVALUATIONS: u32 = F::EVALUATIONS;
     const FIXED_ORDER: u32 = F::ORDER;
+
+    type Polynomial = Dense<R, N>;
 
     fn reached(&self) -> &Reached<R, N> {
         &self.reached

@@ -48,6 +48,9 @@ pub struct Guard {
     /// The largest left side of a constraint on positions, relative to the size of its terms. By default 0.001: what
     /// is typed in with four digits passes.
     pub residual: f64,
+    /// How far functions that are carried as states may be from what they stand for: the largest of `|w - f|/(1 + |f|)`
+    /// and of what is left of `sin^2 + cos^2 - 1` and the like. By default 0.01, as for the energy.
+    pub carried: f64,
     /// The distance to the edge of the chart at which to stop: what is [`left`](Rounded::left) of each function that
     /// must not vanish, given that every entry of the state is uncertain by a rounding of the largest value that it has
     /// had. By default `1e-8`, where a term with its square in the denominator has no digits left in `f64`; in another
@@ -70,6 +73,7 @@ impl Guard {
     pub const FINITE: Self = Self {
         energy: f64::INFINITY,
         residual: f64::INFINITY,
+        carried: f64::INFINITY,
         edge: 0.0,
         condition: f64::INFINITY,
         step: f64::INFINITY,
@@ -77,7 +81,9 @@ impl Guard {
     };
 
     fn is_valid(&self) -> bool {
-        [self.energy, self.residual, self.edge, self.condition, self.step].iter().all(|limit| *limit >= 0.0)
+        [self.energy, self.residual, self.carried, self.edge, self.condition, self.step]
+            .iter()
+            .all(|limit| *limit >= 0.0)
     }
 
     /// The limits for a real: those given are meant for `f64`.
@@ -91,7 +97,15 @@ impl Guard {
 
 impl Default for Guard {
     fn default() -> Self {
-        Self { energy: 1e-2, residual: 1e-3, edge: 1e-8, condition: 1e12, step: 0.05, every: None }
+        Self {
+            energy: 1e-2,
+            residual: 1e-3,
+            carried: 1e-2,
+            edge: 1e-8,
+            condition: 1e12,
+            step: 0.05,
+            every: None,
+        }
     }
 }
 
@@ -236,6 +250,10 @@ impl<R: Real, const N: usize> Watch<R, N> {
             if exceeds(worst.defect, limit) {
                 return Err(Cause::Step { found, entry: worst.entry, defect: worst.defect, limit });
             }
+        }
+        let drift = vitals.carried.to_f64();
+        if exceeds(drift, guard.carried) {
+            return Err(Cause::Carried { found, drift, limit: guard.carried });
         }
         *good = *reached;
         Ok(())

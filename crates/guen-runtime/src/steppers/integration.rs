@@ -3,7 +3,7 @@
 use core::ops::ControlFlow;
 
 use super::course::{Course, Done, Method, Outcome, Reached};
-use super::dense::Dense;
+use super::dense::Interpolant;
 use super::events::{Crossing, Event, Occurrence, Tracker};
 use super::guard::{Guard, Watch};
 use crate::error::{Cause, IntegrationError, Setting};
@@ -33,6 +33,7 @@ type Receiver<'a, R, const N: usize> = &'a mut dyn FnMut(&Occurrence<R, N>) -> C
 /// | [`Tsit5`](super::Tsit5) | `O(h^5)` | none |
 /// | [`Gauss4`](super::Gauss4), [`Gauss6`](super::Gauss6) | `O(h^4)` and `O(h^6)`, Hermite | 2 and 4 |
 /// | [`Radau5`](super::Radau5) | `O(h^4)`, collocation | none |
+/// | [`Taylor`](super::Taylor) | that of the step, its own series | none |
 ///
 /// No allocation; every callback is called through a reference, once in a step.
 ///
@@ -239,7 +240,7 @@ impl<'a, R: Real, S: System<R, N> + ?Sized, const N: usize, const E: usize> Inte
         let backwards = (after.time - before.time).to_f64() < 0.0;
         // Whether `a` comes before `b` in the order in which the run goes.
         let earlier = |a: R, b: R| a != b && ((b - a).to_f64() < 0.0) == backwards;
-        let mut polynomial: Option<Dense<R, N>> = None;
+        let mut polynomial: Option<C::Polynomial> = None;
         let mut crossings = [None; E];
         let mut from = [before.time; E];
         let values: [f64; E] = core::array::from_fn(|i| self.events[i].value(after.time, &after.state));
@@ -306,7 +307,7 @@ impl<'a, R: Real, S: System<R, N> + ?Sized, const N: usize, const E: usize> Inte
     fn state<C>(
         &self,
         course: &mut C,
-        polynomial: &mut Option<Dense<R, N>>,
+        polynomial: &mut Option<C::Polynomial>,
         after: &Reached<R, N>,
         time: R,
     ) -> Result<[R; N], Cause>

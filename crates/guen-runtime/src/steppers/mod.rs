@@ -9,6 +9,7 @@
 //! | [`Tsit5`] | 5, dense output 4 | adaptive | low accuracy | [`Ordered`](crate::Ordered) |
 //! | [`Dop853`] | 8, dense output 7 | adaptive | the usual choice | [`Ordered`](crate::Ordered) |
 //! | [`Radau5`] | 5, dense output 3 | adaptive, implicit | stiff systems | [`Ordered`](crate::Ordered), [`Differentiable`](crate::Differentiable) |
+//! | [`Taylor`] | up to 32, dense output the same | adaptive | high accuracy, long runs | [`Ordered`](crate::Ordered), [`TaylorSeries`](crate::TaylorSeries) |
 //! | [`Bounded`] | 8 or 5 | fixed number of evaluations | control periods | [`Ordered`](crate::Ordered) |
 //!
 //! All but the last are driven alike, by an [`Integration`]: an observer sees every accepted step and may stop the run,
@@ -19,6 +20,7 @@
 mod adaptive;
 mod bounded;
 mod collocation;
+mod compensated;
 mod control;
 mod course;
 mod defect;
@@ -40,12 +42,14 @@ mod reversal;
 pub mod rk4;
 mod rk8;
 mod tableau;
+mod taylor;
 mod tsit5;
 mod tsit5_coefficients;
 
 pub use bounded::{Bound, Bounded};
+pub use compensated::Compensated;
 pub use course::{Course, Done, Method, Outcome, Reached, Statistics};
-pub use dense::Dense;
+pub use dense::{Dense, Interpolant};
 pub use dop853::Dop853;
 pub use euler::Euler;
 pub use events::{Direction, Event, Occurrence};
@@ -58,6 +62,7 @@ pub use radau5::Radau5;
 pub use reversal::{Reversible, Varied, reversible};
 pub use rk4::Rk4;
 pub use rk8::Rk8;
+pub use taylor::{Series, Taylor};
 pub use tsit5::Tsit5;
 
 use crate::real::Real;

@@ -258,6 +258,8 @@ where
 {
     const EVALUATIONS: u32 = 10;
 
+    type Polynomial = Dense<R, N>;
+
     fn reached(&self) -> &Reached<R, N> {
         &self.reached
     }

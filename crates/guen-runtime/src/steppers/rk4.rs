@@ -1,8 +1,9 @@
 //! The classical method of order four, with a fixed step.
 
+use super::compensated::Compensated;
 use super::course::{Method, Reached, Statistics};
 use super::dense::Dense;
-use super::fixed::{Fixed, Formula, Slopes};
+use super::fixed::{Changes, Fixed, Formula, Slopes};
 use super::landing::short_ways;
 use super::shifted;
 use crate::cost::Cost;
@@ -48,17 +49,32 @@ where
     R: Real,
     S: System<R, N> + ?Sized,
 {
+    let change = change_from(system, t, x, k1, h);
+    let mut next = *x;
+    for i in 0..N {
+        next[i] += change[i];
+    }
+    next
+}
+
+/// What the step adds to the state.
+#[inline(always)]
+fn change_from<R, S, const N: usize>(system: &S, t: R, x: &[R; N], k1: &[R; N], h: R) -> [R; N]
+where
+    R: Real,
+    S: System<R, N> + ?Sized,
+{
     let half = h * R::from_ratio(1, 2);
     let k2 = system.rhs(t + half, &shifted(x, half, k1));
     let k3 = system.rhs(t + half, &shifted(x, half, &k2));
     let k4 = system.rhs(t + h, &shifted(x, h, &k3));
     let two = R::from_ratio(2, 1);
     let sixth = h * R::from_ratio(1, 6);
-    let mut next = *x;
+    let mut change = k4;
     for i in 0..N {
-        next[i] += sixth * (k1[i] + two * (k2[i] + k3[i]) + k4[i]);
+        change[i] = sixth * (k1[i] + two * (k2[i] + k3[i]) + k4[i]);
     }
-    next
+    change
 }
 
 /// The operations of one [`step`] of a system of `n` equations whose right-hand side costs `rhs`.
@@ -135,6 +151,34 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Formula<R, S, N> for Rk4
         statistics: &mut Statistics,
     ) -> Dense<R, N> {
         slopes.hermite(system, from, to, h, statistics)
+    }
+}
+
+impl<R: Real> Rk4<R> {
+    /// The method with a sum of its steps that loses no digits: for long runs.
+    pub fn compensated(self) -> Compensated<Self> {
+        Compensated { method: self }
+    }
+}
+
+impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Changes<R, S, N> for Rk4<R> {
+    fn begin(&self) -> (R, Self::Memory) {
+        (self.step, Slopes::new())
+    }
+
+    #[inline]
+    fn change(
+        &self,
+        system: &S,
+        slopes: &mut Self::Memory,
+        from: &Reached<R, N>,
+        h: R,
+        _dense: bool,
+        statistics: &mut Statistics,
+    ) -> [R; N] {
+        let slope = slopes.begin(system, from, statistics);
+        statistics.evaluations += 3;
+        change_from(system, from.time, &from.state, &slope, h)
     }
 }
 

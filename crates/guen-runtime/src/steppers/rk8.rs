@@ -1,8 +1,9 @@
 //! The formula of order eight of DOP853, with a fixed step.
 
+use super::compensated::Compensated;
 use super::course::{Method, Reached, Statistics};
 use super::dense::Dense;
-use super::fixed::{Fixed, Formula, Slopes};
+use super::fixed::{Changes, Fixed, Formula, Slopes};
 use super::landing::short_ways;
 use super::shifted;
 use super::tableau::{Stages, Tableau};
@@ -42,6 +43,11 @@ impl<R: Real> Rk8<R> {
     pub fn new(step: R) -> Self {
         Self { step, tableau: Tableau::new() }
     }
+
+    /// The method with a sum of its steps that loses no digits: for long runs.
+    pub fn compensated(self) -> Compensated<Self> {
+        Compensated { method: self }
+    }
 }
 
 /// The slopes at the ends of a step, and those of its stages where dense output wants them.
@@ -66,13 +72,7 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Formula<R, S, N> for Rk8
         dense: bool,
         statistics: &mut Statistics,
     ) -> Result<[R; N], Cause> {
-        let k1 = memory.slopes.begin(system, from, statistics);
-        let stages = self.tableau.stages(system, from.time, &from.state, &k1, h);
-        statistics.evaluations += 11;
-        if dense {
-            memory.stages = stages;
-        }
-        Ok(shifted(&from.state, h, &self.tableau.slope(&stages)))
+        Ok(shifted(&from.state, h, &self.slope(system, memory, from, h, dense, statistics)))
     }
 
     fn dense(
@@ -90,12 +90,53 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Formula<R, S, N> for Rk8
     }
 }
 
+impl<R: Real> Rk8<R> {
+    /// The mean slope of a step.
+    #[inline]
+    fn slope<S: System<R, N> + ?Sized, const N: usize>(
+        &self,
+        system: &S,
+        memory: &mut Memory<R, N>,
+        from: &Reached<R, N>,
+        h: R,
+        dense: bool,
+        statistics: &mut Statistics,
+    ) -> [R; N] {
+        let k1 = memory.slopes.begin(system, from, statistics);
+        let stages = self.tableau.stages(system, from.time, &from.state, &k1, h);
+        statistics.evaluations += 11;
+        if dense {
+            memory.stages = stages;
+        }
+        self.tableau.slope(&stages)
+    }
+}
+
+impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Changes<R, S, N> for Rk8<R> {
+    fn begin(&self) -> (R, Self::Memory) {
+        (self.step, Memory { slopes: Slopes::new(), stages: [[R::zero(); N]; 8] })
+    }
+
+    #[inline]
+    fn change(
+        &self,
+        system: &S,
+        memory: &mut Self::Memory,
+        from: &Reached<R, N>,
+        h: R,
+        dense: bool,
+        statistics: &mut Statistics,
+    ) -> [R; N] {
+        self.slope(system, memory, from, h, dense, statistics).map(|slope| h * slope)
+    }
+}
+
 impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Method<R, S, N> for Rk8<R> {
     type Course<'a> = Fixed<'a, Self, Memory<R, N>, R, N>;
 
     fn start(&self, t0: R, x0: &[R; N]) -> Self::Course<'_> {
-        let memory = Memory { slopes: Slopes::new(), stages: [[R::zero(); N]; 8] };
-        Fixed::new(self, memory, self.step, t0, x0)
+        let (step, memory) = Changes::<R, S, N>::begin(self);
+        Fixed::new(self, memory, step, t0, x0)
     }
 }
 

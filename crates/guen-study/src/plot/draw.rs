@@ -13,7 +13,7 @@ use super::frame::{
     ENDS, Entry, Frame, MARGIN, SAMPLE, SAMPLE_GAP, TEXT_SIZE, TICK_GAP, TICK_SIZE, TITLE_SIZE, text_width,
 };
 use super::thin::thin;
-use super::{Curve, Plot, is_drawable};
+use super::{Curve, Plot};
 use crate::error::StudyError;
 
 /// Drawn units to a pixel.
@@ -40,11 +40,14 @@ const INK: RGBColor = RGBColor(0x22, 0x22, 0x22);
 const AXIS: RGBColor = RGBColor(0x66, 0x66, 0x66);
 const GRID: RGBColor = RGBColor(0xe6, 0xe6, 0xe6);
 const ZERO: RGBColor = RGBColor(0xb8, 0xb8, 0xb8);
+const BAND: RGBColor = RGBColor(0xd2, 0xd2, 0xd2);
 
 /// Widths of strokes, the radius of a mark at an end, and the dash with its gap, in pixels.
 const CURVE_STROKE: f64 = 1.6;
 const LINE_STROKE: f64 = 1.0;
 const END_RADIUS: f64 = 4.0;
+const POINT_RADIUS: f64 = 2.2;
+const BAND_STROKE: f64 = 9.0;
 const DASH: (f64, f64) = (7.0, 4.0);
 
 type Canvas<'a> = DrawingArea<SVGBackend<'a>, plotters::coord::Shift>;
@@ -98,15 +101,25 @@ impl Painter<'_> {
     fn picture(self, plot: &Plot, frame: &Frame) -> Drawn {
         self.canvas.fill(&WHITE)?;
         self.grid(frame)?;
+        if let Some(band) = &plot.band {
+            for piece in pieces(plot, band, frame) {
+                self.canvas.draw(&PathElement::new(piece, stroke(BAND, BAND_STROKE)))?;
+            }
+        }
         for (index, curve) in plot.curves.iter().enumerate() {
-            for piece in pieces(curve, frame) {
+            for piece in pieces(plot, curve, frame) {
                 self.curve(index, piece)?;
+            }
+            if plot.mark_points {
+                for point in curve.points.iter().filter(|point| plot.can_draw(point)) {
+                    self.point((frame.x.at(point.0), frame.y.at(point.1)), color_of(index))?;
+                }
             }
         }
         if plot.mark_ends {
             for (index, curve) in plot.curves.iter().enumerate() {
                 let place = |point: &(f64, f64)| (frame.x.at(point.0), frame.y.at(point.1));
-                let mut drawable = curve.points.iter().filter(|point| is_drawable(point)).map(place);
+                let mut drawable = curve.points.iter().filter(|point| plot.can_draw(point)).map(place);
                 if let Some(start) = drawable.next() {
                     self.ring(start, color_of(index))?;
                     self.dot(drawable.next_back().unwrap_or(start), color_of(index))?;
@@ -168,6 +181,13 @@ impl Painter<'_> {
             let at = (left + SAMPLE + SAMPLE_GAP, middle);
             self.text(&plot.curves[curve].label, at, TEXT_SIZE, beside, FontTransform::None)?;
         }
+        if let (Some(entry), Some(band)) = (&frame.band, &plot.band) {
+            let sample = [(entry.left, entry.middle), (entry.left + SAMPLE, entry.middle)];
+            let sample = sample.map(fine).to_vec();
+            self.canvas.draw(&PathElement::new(sample, stroke(BAND, BAND_STROKE)))?;
+            let at = (entry.left + SAMPLE + SAMPLE_GAP, entry.middle);
+            self.text(&band.label, at, TEXT_SIZE, beside, FontTransform::None)?;
+        }
         if let Some(Entry { left, middle, .. }) = frame.ends {
             let [start, end] = ENDS;
             let second = left + SAMPLE + SAMPLE_GAP + text_width(start, TEXT_SIZE);
@@ -215,6 +235,10 @@ impl Painter<'_> {
         self.canvas.draw(&Circle::new(fine(at), (END_RADIUS * FINE) as i32, color.filled()))
     }
 
+    fn point(&self, at: (f64, f64), color: RGBColor) -> Drawn {
+        self.canvas.draw(&Circle::new(fine(at), (POINT_RADIUS * FINE) as i32, color.filled()))
+    }
+
     fn line(&self, points: &[(f64, f64)], color: RGBColor) -> Drawn {
         let points: Vec<_> = points.iter().copied().map(fine).collect();
         self.canvas.draw(&PathElement::new(points, stroke(color, LINE_STROKE)))
@@ -232,8 +256,8 @@ impl Painter<'_> {
 }
 
 /// The parts of a curve between its gaps, thinned out if it is long.
-fn pieces(curve: &Curve, frame: &Frame) -> Vec<Vec<(i32, i32)>> {
-    let parts = curve.points.split(|point| !is_drawable(point)).filter(|part| !part.is_empty());
+fn pieces(plot: &Plot, curve: &Curve, frame: &Frame) -> Vec<Vec<(i32, i32)>> {
+    let parts = curve.points.split(|point| !plot.can_draw(point)).filter(|part| !part.is_empty());
     parts
         .map(|part| {
             let mut places: Vec<_> = part.iter().map(|&(x, y)| (frame.x.at(x), frame.y.at(y))).collect();

@@ -1,8 +1,8 @@
 //! Where things are in a picture: the ranges of the axes, their marks, the margins around them, and the map from
 //! values to the picture. Lengths are in pixels; nothing is drawn here.
 
-use super::ticks::{Tick, ticks};
-use super::{Plot, is_drawable};
+use super::Plot;
+use super::ticks::{Tick, decades, ticks};
 
 /// Sizes of letters.
 pub(super) const TITLE_SIZE: f64 = 16.0;
@@ -31,8 +31,10 @@ pub(super) fn text_width(text: &str, size: f64) -> f64 {
 /// One axis: the values at its ends, the pixels at its ends, and its marks.
 #[derive(Clone, Debug)]
 pub(super) struct Axis {
+    /// The values at the ends; of a logarithmic axis their decimal logarithms.
     low: f64,
     high: f64,
+    logarithmic: bool,
     pub from: f64,
     pub to: f64,
     pub ticks: Vec<Tick>,
@@ -41,11 +43,17 @@ pub(super) struct Axis {
 impl Axis {
     /// The pixel of a value.
     pub fn at(&self, value: f64) -> f64 {
+        let value = if self.logarithmic { value.log10() } else { value };
         self.from + (value - self.low) / (self.high - self.low) * (self.to - self.from)
     }
 
     fn length(&self) -> f64 {
         (self.to - self.from).abs()
+    }
+
+    /// At most so many marks.
+    fn marks(&self, most: usize) -> Vec<Tick> {
+        if self.logarithmic { decades(self.low, self.high, most) } else { ticks(self.low, self.high, most) }
     }
 }
 
@@ -63,6 +71,8 @@ pub(super) struct Frame {
     pub x: Axis,
     pub y: Axis,
     pub legend: Vec<Entry>,
+    /// The position of the entry for the band, if there is one.
+    pub band: Option<Entry>,
     /// The position of the entry for the marks at the ends, if there are any.
     pub ends: Option<Entry>,
 }
@@ -85,7 +95,8 @@ impl Frame {
 
         // The legend is laid out first, for it needs no axis: its left end is moved to the axis at the end.
         let title = if plot.title.is_empty() { 0.0 } else { TITLE_SIZE + 10.0 };
-        let (mut legend, mut ends, lines) = legend(plot, MARGIN + title, width - 2.0 * MARGIN);
+        let Legend { mut entries, mut band, mut ends, lines } =
+            legend(plot, MARGIN + title, width - 2.0 * MARGIN);
         let top = MARGIN + title + lines as f64 * LEGEND_LINE + 4.0;
         let x_text = if plot.x_label.is_empty() { 0.0 } else { TEXT_SIZE + 8.0 };
         let bottom = height - (MARGIN + x_text + TICK_SIZE + TICK_GAP);
@@ -97,13 +108,21 @@ impl Frame {
         let mut left = MARGIN + y_text + 4.0 * TICK_SIZE;
         let mut axes = None;
         for round in 0..ROUNDS {
-            let mut x = Axis { low: x_range.0, high: x_range.1, from: left, to: right, ticks: Vec::new() };
-            let mut y = Axis { low: y_range.0, high: y_range.1, from: bottom, to: top, ticks: Vec::new() };
+            let axis = |range: (f64, f64), from, to| Axis {
+                low: range.0,
+                high: range.1,
+                logarithmic: plot.logarithmic,
+                from,
+                to,
+                ticks: Vec::new(),
+            };
+            let mut x = axis(x_range, left, right);
+            let mut y = axis(y_range, bottom, top);
             if plot.equal_scale {
                 equalise(&mut x, &mut y);
             }
             x.ticks = x_ticks(&x);
-            y.ticks = ticks(y.low, y.high, (y.length() / 45.0) as usize);
+            y.ticks = y.marks((y.length() / 45.0) as usize);
             let widest = y.ticks.iter().map(|tick| text_width(&tick.label, TICK_SIZE)).fold(0.0, f64::max);
             let (before, after) = overhang(&x);
             let needed = f64::max(MARGIN + y_text + widest + TICK_GAP, EDGE + before);
@@ -112,10 +131,10 @@ impl Frame {
             axes = Some((x, y));
         }
         let (x, y) = axes?;
-        for entry in legend.iter_mut().chain(&mut ends) {
+        for entry in entries.iter_mut().chain(&mut band).chain(&mut ends) {
             entry.left += x.from;
         }
-        Some(Self { x, y, legend, ends })
+        Some(Self { x, y, legend: entries, band, ends })
     }
 }
 
@@ -134,7 +153,7 @@ fn x_ticks(axis: &Axis) -> Vec<Tick> {
     const GAP: f64 = 14.0;
     let mut most = (axis.length() / DISTANCE).max(2.0) as usize;
     loop {
-        let found = ticks(axis.low, axis.high, most);
+        let found = axis.marks(most);
         let fits = found.windows(2).all(|pair| {
             let room = (axis.at(pair[1].value) - axis.at(pair[0].value)).abs();
             let text = text_width(&pair[0].label, TICK_SIZE) + text_width(&pair[1].label, TICK_SIZE);
@@ -160,8 +179,10 @@ fn equalise(x: &mut Axis, y: &mut Axis) {
 fn ranges(plot: &Plot) -> Option<((f64, f64), (f64, f64))> {
     // A curve over time begins at the axis; a track keeps off it.
     let (x_room, y_room) = if plot.equal_scale { (0.05, 0.05) } else { (0.0, 0.05) };
-    let points = || plot.curves.iter().flat_map(|curve| &curve.points).filter(|point| is_drawable(point));
-    Some((range(points().map(|p| p.0), x_room)?, range(points().map(|p| p.1), y_room)?))
+    let place = |value: f64| if plot.logarithmic { value.log10() } else { value };
+    let points = || plot.drawn().flat_map(|curve| &curve.points).filter(|point| plot.can_draw(point));
+    let x_room = if plot.logarithmic { 0.03 } else { x_room };
+    Some((range(points().map(|p| place(p.0)), x_room)?, range(points().map(|p| place(p.1)), y_room)?))
 }
 
 /// The range of values, not narrower than can be labelled, with room at both ends.
@@ -183,9 +204,16 @@ fn range(values: impl Iterator<Item = f64>, room: f64) -> Option<(f64, f64)> {
     Some((middle - half, middle + half))
 }
 
-/// The entries of the legend in lines below `top`, with the entry of the ends, and the count of lines. Their left
-/// ends are still relative to that of the axis.
-fn legend(plot: &Plot, top: f64, width: f64) -> (Vec<Entry>, Option<Entry>, usize) {
+/// The entries of the legend, and the count of their lines. Their left ends are still relative to that of the axis.
+struct Legend {
+    entries: Vec<Entry>,
+    band: Option<Entry>,
+    ends: Option<Entry>,
+    lines: usize,
+}
+
+/// The legend in lines below `top`.
+fn legend(plot: &Plot, top: f64, width: f64) -> Legend {
     /// About what the marks and the text of the vertical axis take from the width.
     const LEFT: f64 = 80.0;
     let mut lines = 0;
@@ -206,9 +234,11 @@ fn legend(plot: &Plot, top: f64, width: f64) -> (Vec<Entry>, Option<Entry>, usiz
             entries.push(place(index, text_width(&curve.label, TEXT_SIZE)));
         }
     }
+    let named = plot.band.as_ref().filter(|band| !band.label.is_empty());
+    let band = named.map(|band| place(0, text_width(&band.label, TEXT_SIZE)));
     let ends_width = ENDS.iter().map(|text| text_width(text, TEXT_SIZE)).sum::<f64>() + SAMPLE;
     let ends = plot.mark_ends.then(|| place(0, ends_width));
-    (entries, ends, lines)
+    Legend { entries, band, ends, lines }
 }
 
 #[cfg(test)]

@@ -51,7 +51,10 @@ pub struct Plot {
     y_label: String,
     equal_scale: bool,
     mark_ends: bool,
+    mark_points: bool,
+    logarithmic: bool,
     curves: Vec<Curve>,
+    band: Option<Curve>,
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -71,7 +74,10 @@ impl Plot {
             y_label: String::new(),
             equal_scale: false,
             mark_ends: false,
+            mark_points: false,
+            logarithmic: false,
             curves: Vec::new(),
+            band: None,
         }
     }
 
@@ -98,6 +104,45 @@ impl Plot {
     pub fn mark_ends(mut self, mark: bool) -> Self {
         self.mark_ends = mark;
         self
+    }
+
+    /// The same with a dot at every point of every curve, or without: for measurements.
+    pub fn mark_points(mut self, mark: bool) -> Self {
+        self.mark_points = mark;
+        self
+    }
+
+    /// The same with both axes logarithmic, or not. Points that are not positive are gaps then, and `equal_scale` means a
+    /// decade as long on one axis as on the other.
+    ///
+    /// ```
+    /// use guen_study::Plot;
+    ///
+    /// let errors = (1..=8).map(|k| 0.5_f64.powi(k)).map(|h| (h, h.powi(4)));
+    /// let text = Plot::new("order four").axes("step", "error").logarithmic(true).line("RK4", errors).to_svg()?;
+    /// assert!(text.contains("10⁻²"));
+    /// # Ok::<(), guen_study::StudyError>(())
+    /// ```
+    pub fn logarithmic(mut self, logarithmic: bool) -> Self {
+        self.logarithmic = logarithmic;
+        self
+    }
+
+    /// The same with a broad grey line behind all curves, and its label.
+    pub fn band(mut self, label: impl Into<String>, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
+        self.band = Some(Curve { label: label.into(), points: points.into_iter().collect() });
+        self
+    }
+
+    /// The curves, the band first.
+    fn drawn(&self) -> impl Iterator<Item = &Curve> {
+        self.band.iter().chain(&self.curves)
+    }
+
+    /// Whether a point can be drawn. The bound keeps differences of coordinates finite.
+    fn can_draw(&self, &(x, y): &(f64, f64)) -> bool {
+        const FAR: f64 = 1e300;
+        x.abs() <= FAR && y.abs() <= FAR && (!self.logarithmic || x > 0.0 && y > 0.0)
     }
 
     /// The same with a further curve.
@@ -135,12 +180,6 @@ impl Plot {
         create_parents(path)?;
         fs::write(path, text).map_err(at_path(path))
     }
-}
-
-/// Whether a point can be drawn. The bound keeps differences of coordinates finite.
-fn is_drawable(&(x, y): &(f64, f64)) -> bool {
-    const FAR: f64 = 1e300;
-    x.abs() <= FAR && y.abs() <= FAR
 }
 
 #[cfg(test)]

@@ -37,6 +37,27 @@ pub(super) fn ticks(low: f64, high: f64, most: usize) -> Vec<Tick> {
     }
 }
 
+/// At most `most` marks at powers of ten between `10^low` and `10^high`: every one of them, every second, third and so on;
+/// where there are fewer than two, numbers in between as well.
+pub(super) fn decades(low: f64, high: f64, most: usize) -> Vec<Tick> {
+    /// Roundings within which an end of the range is a power of ten.
+    const SLACK: f64 = 1e-9;
+    let (first, last) = ((low - SLACK).ceil() as i32, (high + SLACK).floor() as i32);
+    if last - first < 1 {
+        // A mark of the values themselves, where it is positive and within the range.
+        let (from, to) = (10_f64.powf(low), 10_f64.powf(high));
+        return ticks(from, to, most).into_iter().filter(|tick| tick.value > 0.0).collect();
+    }
+    let every = (1..).find(|every| ((last - first) / every + 1) as usize <= most.max(1)).unwrap_or(1);
+    let marked = (first..=last).filter(|power| power.rem_euclid(every) == 0);
+    let label = |power: i32| match power {
+        0 => "1".to_owned(),
+        1 => "10".to_owned(),
+        _ => format!("10{}", superscript(power)),
+    };
+    marked.map(|power| Tick { value: 10_f64.powi(power), label: label(power) }).collect()
+}
+
 /// The multiples of `digit * 10^power` in the range; `None` if they are far too many.
 fn multiples(low: f64, high: f64, digit: u8, power: i32) -> Option<Vec<f64>> {
     const FAR_TOO_MANY: f64 = 1000.0;
@@ -102,6 +123,16 @@ mod tests {
         assert_eq!(labels(-3e-13, 1.2e-12, 4), ["0", "0.5×10⁻¹²", "1.0×10⁻¹²"]);
         assert_eq!(labels(-4e6, 4e6, 5), ["−4×10⁶", "−2×10⁶", "0", "2×10⁶", "4×10⁶"]);
         assert_eq!(labels(-2e-320, 2e-320, 3), ["−2×10⁻³²⁰", "0", "2×10⁻³²⁰"]);
+    }
+
+    #[test]
+    fn powers_of_ten_are_marked() {
+        let labels = |low, high, most| -> Vec<String> {
+            decades(low, high, most).into_iter().map(|tick| tick.label).collect()
+        };
+        assert_eq!(labels(-2.3, 2.0, 9), ["10⁻²", "10⁻¹", "1", "10", "10²"]);
+        assert_eq!(labels(-13.0, -1.0, 5), ["10⁻¹²", "10⁻⁹", "10⁻⁶", "10⁻³"]);
+        assert_eq!(labels(0.1, 0.5, 4), ["1.5", "2.0", "2.5", "3.0"]);
     }
 
     #[test]

@@ -17,7 +17,7 @@ const LONGEST: usize = 64;
 
 /// What arguments of sines and cosines are taken apart into.
 #[derive(Debug, Default)]
-pub(super) struct BaseAngles {
+pub(crate) struct BaseAngles {
     /// While a declaration is read: sums are not taken apart at all.
     are_whole: bool,
     /// The base angles, once they are chosen.
@@ -37,6 +37,11 @@ impl Graph {
     /// The base angles that were chosen.
     pub fn base_angles(&self) -> &[ExprId] {
         &self.base_angles.base
+    }
+
+    /// Puts base angles that were taken out before back, and takes those out that are there now.
+    pub(crate) fn exchange_base_angles(&mut self, other: &mut BaseAngles) {
+        core::mem::swap(&mut self.base_angles, other);
     }
 
     /// Chooses base angles for the sines and cosines among some expressions; given ones come first.

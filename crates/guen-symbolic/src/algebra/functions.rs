@@ -7,7 +7,7 @@ use super::symbol::Bound;
 /// An elementary function of one argument.
 ///
 /// Tangent and cotangent are quotients of sine and cosine, the square root is the root of order two.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub enum Function {
     /// Sine.
     Sin,

@@ -15,7 +15,7 @@ mod search;
 mod substitute;
 mod symbol;
 
-pub(crate) use angles::AngleParts;
+pub(crate) use angles::{AngleParts, BaseAngles};
 pub use derivative::Flow;
 pub use functions::Function;
 pub(crate) use graph::mix;

@@ -1,4 +1,4 @@
-//! The Lie closure of `X_0, X_1..X_l`: holonomic or not, the growth vector, and what is integrable.
+//! The Lie closure of `X_0, X_1..X_l`, (1.12) to (1.14) made exact: holonomic or not, the growth vector, and what is integrable.
 //!
 //! Brackets are kept modulo `D_1 = span(X_0..X_l)`, as combinations `sum_v y^v X_v` of the operators of the
 //! constraints alone. A bracket with `X_r` is then `[X_r, Y]^w = X_r(y^w) + sum_v y^v C_rvw` modulo `D_1`,

@@ -3,7 +3,7 @@
 use super::velocity_forms::VelocityPartials;
 use super::{
     Energies, Frame, Mechanics, MotionSymbol, NotQuadratic, Solution, decompose, poincare, projection,
-    rephrased,
+    rephrased, tensions,
 };
 use crate::algebra::{ExprId, FastMap, Flow, Role, Roles, Substitution};
 use crate::geometry::{Closure, Operators, SingularForms, dependence};
@@ -21,7 +21,7 @@ pub struct Equations {
     pub forces: Vec<ExprId>,
 }
 
-/// The classification of the forms as declared.
+/// The classification of the forms as declared, after (1.13) and (1.14).
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Class {
     /// Holonomic, all coefficients constant: Poincaré's case.
@@ -79,6 +79,8 @@ pub struct Derivation {
     pub solution: Solution,
     /// The rates of the state in other forms, velocities first, accelerations equal to the solution's: what costs least is found when code is made.
     pub alternatives: Vec<Vec<ExprId>>,
+    /// Whether the accelerations were also, or only, found with the reactions between velocity forms as unknowns.
+    pub by_tensions: bool,
     /// The reactions `lambda_v` as functions of `t, x, eta`, inputs and `eta'` (as symbols); none for constraints
     /// without momentum in `T°`.
     pub reactions: Vec<Option<ExprId>>,
@@ -113,8 +115,9 @@ impl Derivation {
 
         affordable(bench)?;
         let by_definition = poincare::equations(bench, &system, &mut frame);
-        let by_projection = projection::equations(bench, &system, &mut frame, &mut partials, &terms, n);
-        let agree = routes_agree(bench, &by_definition, &by_projection, l);
+        let projected = projection::equations(bench, &system, &mut frame, &mut partials, &terms, n);
+        let by_projection = &projected.equations;
+        let agree = routes_agree(bench, &by_definition, by_projection, l);
         for s in if agree { 0..0 } else { 0..l } {
             let same = |bench: &mut Workbench, a: ExprId, b: ExprId| {
                 let difference = bench.graph.sub(a, b);
@@ -126,7 +129,7 @@ impl Derivation {
                 return Err(DerivationError::RoutesDisagree { equation: s });
             }
         }
-        let mut candidates = candidates(bench, &system, &by_definition, &by_projection);
+        let mut candidates = candidates(bench, &system, &by_definition, by_projection);
         for equations in &mut candidates {
             for (force, q) in equations.forces.iter_mut().zip(&generalised_forces) {
                 *force = bench.graph.add(*force, *q);
@@ -134,22 +137,50 @@ impl Derivation {
         }
         let equations = candidates.remove(0);
         affordable(bench)?;
-        let solution = Solution::new(bench, &equations.mass, &equations.forces);
+        let mut words = rephrased::Words::changed(bench, &system, &mut frame);
+        let tensions = match &mut words {
+            Some(words) => words.by_tensions(bench, &system),
+            None => projected.squares.as_ref().and_then(|squares| {
+                let etas = &system.etas[..l];
+                tensions::solve(bench, &mut frame, squares, &equations, etas, &generalised_forces)
+            }),
+        };
         affordable(bench)?;
-        let solution = solution
-            .map_err(|rows| DerivationError::SingularMass(weightless(bench, &equations.mass, &rows)))?;
-
-        let mut alternatives: Vec<Vec<ExprId>> = candidates
-            .into_iter()
-            .filter_map(|other| Solution::new(bench, &other.mass, &other.forces).ok())
-            .map(|other| [&frame.velocities[..], &other.accelerations].concat())
-            .collect();
-        let own = [&frame.velocities[..], &solution.accelerations].concat();
-        for rates in rephrased::rates(bench, &system, &mut frame, &equations, &by_projection) {
-            if are_equal(bench, &own, &rates, system.forms.len())? {
-                alternatives.push(rates);
+        let tensions = match tensions {
+            Some(tensions) if solve_equations(bench, &equations, &tensions.accelerations)? => Some(tensions),
+            _ => None,
+        };
+        let by_tensions = tensions.is_some();
+        let mut alternatives: Vec<Vec<ExprId>> = Vec::new();
+        let solution = match tensions {
+            Some(tensions) if tensions.is_clear => {
+                Solution::known(bench, tensions.accelerations, &tensions.divisors)
             }
-        }
+            tensions => {
+                let solution = Solution::new(bench, &equations.mass, &equations.forces);
+                affordable(bench)?;
+                let solution = solution.map_err(|rows| {
+                    DerivationError::SingularMass(weightless(bench, &equations.mass, &rows))
+                })?;
+                let others: Vec<Solution> = candidates
+                    .into_iter()
+                    .filter_map(|other| Solution::new(bench, &other.mass, &other.forces).ok())
+                    .collect();
+                let others = others
+                    .into_iter()
+                    .chain(Solution::shared(bench, &equations.mass, &equations.forces))
+                    .map(|other| other.accelerations)
+                    .chain(tensions.map(|tensions| tensions.accelerations));
+                alternatives.extend(others.map(|other| [&frame.velocities[..], &other].concat()));
+                let own = [&frame.velocities[..], &solution.accelerations].concat();
+                for rates in rephrased::rates(bench, &system, &mut frame, &equations, by_projection, words) {
+                    if are_equal(bench, &own, &rates, system.forms.len())? {
+                        alternatives.push(rates);
+                    }
+                }
+                solution
+            }
+        };
         affordable(bench)?;
 
         let closure = {
@@ -205,6 +236,7 @@ impl Derivation {
             generalised_forces,
             solution,
             alternatives,
+            by_tensions,
             reactions,
             without_momentum,
             known_momentum,
@@ -321,6 +353,32 @@ fn are_equal(
         if bench.zero.verdict(&mut bench.graph, e) == Verdict::Nonzero {
             // Velocities come first.
             return Err(DerivationError::RoutesDisagree { equation: place.saturating_sub(velocities) });
+        }
+    }
+    Ok(false)
+}
+
+/// Whether accelerations solve the equations of both routes, at points modulo p; a proved difference is a mistake of ours.
+fn solve_equations(
+    bench: &mut Workbench,
+    equations: &Equations,
+    accelerations: &[ExprId],
+) -> Result<bool, DerivationError> {
+    let residuals: Vec<ExprId> = equations
+        .mass
+        .iter()
+        .zip(&equations.forces)
+        .map(|(row, force)| {
+            let inertia = bench.dot(row, accelerations);
+            bench.graph.sub(inertia, *force)
+        })
+        .collect();
+    if vanish(bench, &residuals) {
+        return Ok(true);
+    }
+    for (equation, e) in residuals.into_iter().enumerate() {
+        if bench.zero.verdict(&mut bench.graph, e) == Verdict::Nonzero {
+            return Err(DerivationError::RoutesDisagree { equation });
         }
     }
     Ok(false)

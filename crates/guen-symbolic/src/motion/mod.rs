@@ -11,6 +11,7 @@ mod projection;
 mod rephrased;
 mod solve;
 mod symmetry;
+mod tensions;
 mod velocity_forms;
 
 pub use declaration::{Force, Holonomic, Mechanics, MotionSymbol};

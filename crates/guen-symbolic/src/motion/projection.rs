@@ -10,10 +10,13 @@
 //! derivative of the form `u` on (motion, `X_s`). A true velocity is a closed form, so that `E_s` is zero and costs
 //! nothing; quasi-velocities give their gyroscopic terms through the structure coefficients of their own form alone.
 //! Rows `s > l` are the equations of the reactions.
+//!
+//! Where `T°` is a sum of squares with constant masses, the forms are handed on as they are, before they are
+//! multiplied out: see `tensions`.
 
 use super::velocity_forms::VelocityPartials;
 use super::{Equations, Frame, KineticTerm, Mechanics, VelocityForm};
-use crate::algebra::{ExprId, FastMap};
+use crate::algebra::{ExprId, FastMap, Node, Rational};
 use crate::program::weighted_cost;
 use crate::workbench::Workbench;
 
@@ -24,8 +27,31 @@ struct Measured {
     value: ExprId,
     /// `u_s` for `s = 1..n`.
     components: Vec<ExprId>,
+    /// The component along `X_0`.
+    drift: ExprId,
     /// `D(u)`: the acceleration at `eta' = 0`.
     acceleration: ExprId,
+}
+
+/// The quadratic part of `T°` as `1/2 sum_k m_k u_k^2` with positive constants `m_k`:
+/// `sum_k m_k u_ks (D(u_k) + sum_t u_kt eta_t') = g_s`.
+pub(super) struct Squares {
+    /// `m_k`.
+    pub(super) masses: Vec<ExprId>,
+    /// `u_ks`, a row for each form, `s = 1..l`.
+    pub(super) components: Vec<Vec<ExprId>>,
+    /// The components along `X_0`.
+    pub(super) drifts: Vec<ExprId>,
+    /// `g_s`, everything but the inertia and the accelerations of the forms, without the generalised forces.
+    pub(super) rest: Vec<ExprId>,
+}
+
+/// The equations of a route, and what they were multiplied out from.
+pub(super) struct Projected {
+    /// `sum_t M_st eta_t' = f_s` for `s = 1..rows`, without the generalised forces.
+    pub(super) equations: Equations,
+    /// `None` where the energy is no sum of squares with constant masses.
+    pub(super) squares: Option<Squares>,
 }
 
 /// `sum_t M_st eta_t' = f_s` for `s = 1..rows`, without the generalised forces.
@@ -36,7 +62,7 @@ pub(super) fn equations(
     partials: &mut VelocityPartials,
     terms: &[KineticTerm],
     rows: usize,
-) -> Equations {
+) -> Projected {
     let l = system.forms.degrees;
     let resting = resting_accelerations(bench, system, frame);
     let mut known: FastMap<ExprId, usize> = FastMap::default();
@@ -49,7 +75,9 @@ pub(super) fn equations(
     }
     let mut mass: Vec<Vec<Vec<ExprId>>> = vec![vec![Vec::new(); l]; rows];
     let mut forces: Vec<Vec<ExprId>> = vec![Vec::new(); rows];
-    for (displacement, force) in frame.displacements.iter_mut().zip(&mut forces) {
+    // The part of the forces that the accelerations of the forms do not have.
+    let mut rest: Vec<Vec<ExprId>> = vec![Vec::new(); rows];
+    for (displacement, force) in frame.displacements.iter_mut().zip(&mut rest) {
         force.push(displacement.of(&mut bench.graph, system.force_function));
     }
     for term in terms {
@@ -62,7 +90,7 @@ pub(super) fn equations(
             let w_slope = frame.displacements[s].of(&mut bench.graph, w);
             if !bench.graph.is_zero(w_slope) {
                 let all: Vec<_> = values.iter().copied().chain([w_slope]).map(|e| (e, 1)).collect();
-                forces[s].push(bench.graph.product(&all));
+                rest[s].push(bench.graph.product(&all));
             }
             for (place, k) in factors.iter().enumerate() {
                 let partner =
@@ -74,7 +102,7 @@ pub(super) fn equations(
                     // D(w) v u_s + w v' u_s
                     if !bench.graph.is_zero(w_rate) {
                         let part = bench.graph.product(&[(w_rate, 1), (partner_value, 1), (component, 1)]);
-                        forces[s].push(bench.graph.neg(part));
+                        rest[s].push(bench.graph.neg(part));
                     }
                     if let Some(other) = partner {
                         let part =
@@ -93,18 +121,96 @@ pub(super) fn equations(
                 let turning = exterior(bench, system, frame, &measured[*k].form, s);
                 if !bench.graph.is_zero(turning) {
                     let part = bench.graph.product(&[(w, 1), (partner_value, 1), (turning, 1)]);
-                    forces[s].push(bench.graph.neg(part));
+                    rest[s].push(bench.graph.neg(part));
                 }
             }
         }
     }
-    Equations {
+    let squares = squares(bench, terms).map(|squares| {
+        let mut found =
+            Squares { masses: Vec::new(), components: Vec::new(), drifts: Vec::new(), rest: Vec::new() };
+        let mut rest = rest[..l].to_vec();
+        for Square { mass, factor, form } in squares {
+            let form = &measured[known[&form]];
+            // In place of 2 D(w) u u_s with w = m c^2/2 the form c u has m c D(c) u u_s in its acceleration.
+            let rate = frame.motion.of(&mut bench.graph, factor);
+            let mut components = Vec::new();
+            for (s, component) in form.components[..l].iter().enumerate() {
+                let own = bench.graph.mul(factor, *component);
+                components.push(bench.tidy(own));
+                if !bench.graph.is_zero(rate) && !bench.graph.is_zero(*component) {
+                    let all = [mass, factor, rate, form.value, *component].map(|e| (e, 1));
+                    rest[s].push(bench.graph.product(&all));
+                }
+            }
+            found.masses.push(mass);
+            found.components.push(components);
+            found.drifts.push(bench.graph.mul(factor, form.drift));
+        }
+        found.rest = rest.into_iter().map(|terms| bench.graph.sum(terms)).collect();
+        found
+    });
+    let equations = Equations {
         mass: mass
             .into_iter()
             .map(|row| row.into_iter().map(|terms| bench.graph.sum(terms)).collect())
             .collect(),
-        forces: forces.into_iter().map(|terms| bench.graph.sum(terms)).collect(),
+        forces: forces.into_iter().zip(rest).map(|(a, b)| bench.graph.sum(b.into_iter().chain(a))).collect(),
+    };
+    Projected { equations, squares }
+}
+
+/// `1/2 m (c u)^2` with a positive constant `m`.
+struct Square {
+    mass: ExprId,
+    /// `c(t, x)`.
+    factor: ExprId,
+    form: ExprId,
+}
+
+/// The quadratic part of the energy as squares, if it is seen to be a sum of such.
+fn squares(bench: &mut Workbench, terms: &[KineticTerm]) -> Option<Vec<Square>> {
+    let graph = &mut bench.graph;
+    let mut found = Vec::new();
+    for term in terms {
+        let [form, other] = term.forms[..] else { continue };
+        if form != other {
+            return None;
+        }
+        let weights: Vec<ExprId> = match graph.node(term.weight).clone() {
+            Node::Sum { constant, terms } => {
+                let constant = graph.number(constant);
+                let others = terms.iter().map(|(e, c)| graph.scale(*e, c)).collect::<Vec<_>>();
+                others.into_iter().chain([constant]).filter(|e| !graph.is_zero(*e)).collect()
+            }
+            _ => vec![term.weight],
+        };
+        // A constant sum is one mass.
+        let weights = if graph.roles(term.weight).is_constant() { vec![term.weight] } else { weights };
+        for weight in weights {
+            let (content, rest) = graph.split_coefficient(weight);
+            let factors: Vec<(ExprId, i32)> = match graph.node(rest) {
+                Node::Product(factors) => factors.to_vec(),
+                _ => vec![(rest, 1)],
+            };
+            // Squares belong to the form, as in the velocity that they come from; what is all constant is a mass.
+            let is_constant = graph.roles(rest).is_constant();
+            let (masses, squares): (Vec<_>, Vec<_>) =
+                factors.into_iter().partition(|(_, e)| is_constant || e % 2 != 0);
+            if masses.iter().any(|(base, _)| !graph.roles(*base).is_constant()) {
+                return None;
+            }
+            let mass = graph.product(&masses);
+            let mass = graph.scale(mass, &(&content * &Rational::integer(2)));
+            let squares: Vec<_> = squares.into_iter().map(|(base, e)| (base, e / 2)).collect();
+            let factor = graph.product(&squares);
+            if !graph.manifestly_positive(mass) {
+                return None;
+            }
+            found.push(Square { mass, factor, form });
+        }
     }
+    Some(found)
 }
 
 /// `x''` at `eta' = 0`: `A x'' = -(A' x' + a_0')` along the motion, so that the operators are never differentiated.
@@ -185,6 +291,7 @@ fn measure(
         form,
         value: bench.keep_large(value),
         components,
+        drift,
         acceleration: bench.keep_large(acceleration),
     }
 }

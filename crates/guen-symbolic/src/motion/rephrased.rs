@@ -6,7 +6,9 @@
 //! equations are those of absolute angles. So the accelerations are found there, `zeta = J eta` with numbers for `J`,
 //! and turned back. For symmetries see `symmetry`.
 
+use super::projection::Projected;
 use super::symmetry::Symmetry;
+use super::tensions::{self, Tensions};
 use super::velocity_forms::VelocityPartials;
 use super::{Equations, Frame, Mechanics, Solution, decompose, derivation, poincare, projection};
 use crate::algebra::{ExprId, Rational, Role, Substitution};
@@ -121,31 +123,37 @@ pub(super) fn rates(
     frame: &mut Frame,
     shown: &Equations,
     raw: &Equations,
+    mut words: Option<Words>,
 ) -> Vec<Vec<ExprId>> {
-    let change = Change::new(bench, system, frame);
+    let is_changed = words.is_some();
     let sums = bench.graph.base_angles().iter().any(|angle| !bench.graph.is_monomial(*angle));
     let (mut symmetry, reduced) = symmetry(bench, system, shown, raw);
     let mut found = Vec::new();
     if !symmetry.is_empty() {
         let l = system.forms.degrees;
         bench.choose_base_angles(&symmetry.heads, &reduced);
-        if change.is_none() {
+        if is_changed {
+            // The base angles are others now.
+            words = Words::changed(bench, system, frame);
+        } else {
             let mut partials = VelocityPartials::of_system(bench, system);
             let forces = derivation::generalised_forces(bench, system, frame, &mut partials);
             let velocities = symmetry.reduced_each(bench, &frame.velocities);
             let reduced = unflattened(reduced, l);
             let equations = derivation::candidates(bench, system, &reduced, &reduced);
             found.extend(solutions(bench, equations, &forces, &velocities));
+            words = Words::unchanged(bench, system);
         }
     }
-    if !symmetry.is_empty() || change.is_some() {
-        found.extend(in_other_words(bench, system, frame, &mut symmetry, change).unwrap_or_default());
+    if let Some(words) = words {
+        found.extend(words.rates(bench, system, &mut symmetry));
     }
     if sums && found.iter().all(|rates| weighted_cost(&bench.graph, rates) <= SMALL) {
         // In single coordinates too: `cos(q_2)` is more than it looks beside `q_1` and `q_1 + q_2`.
         bench.choose_base_angles(&[], &[]);
-        let mut none = Symmetry::default();
-        found.extend(in_other_words(bench, system, frame, &mut none, None).unwrap_or_default());
+        if let Some(words) = Words::unchanged(bench, system) {
+            found.extend(words.rates(bench, system, &mut Symmetry::default()));
+        }
         bench.choose_base_angles(&[], &system.expressions());
     }
     found
@@ -204,53 +212,100 @@ fn flattened(equations: &Equations, l: usize) -> Vec<ExprId> {
     equations.mass[..l].iter().flatten().chain(&equations.forces[..l]).copied().collect()
 }
 
-fn in_other_words(
-    bench: &mut Workbench,
-    system: &Mechanics,
-    frame: &Frame,
-    symmetry: &mut Symmetry,
+/// A system derived once more, perhaps in other parameters.
+pub(super) struct Words {
     change: Option<Change>,
-) -> Option<Vec<Vec<ExprId>>> {
-    let l = system.forms.degrees;
-    let mut operators =
-        if change.is_some() { frame.operators.clone() } else { Operators::new(bench, &system.forms).ok()? };
-    let mut other = system.clone();
-    if let Some(change) = &change {
-        let zetas: Vec<ExprId> =
-            (0..l).map(|s| bench.graph.symbol(&format!("zeta{}", s + 1), Role::QuasiVelocity)).collect();
-        other = change.system(bench, system, &zetas);
-        operators = change.operators(bench, &operators);
+    system: Mechanics,
+    frame: Frame,
+    forces: Vec<ExprId>,
+    projected: Projected,
+}
+
+impl Words {
+    /// In the rates of the base angles; `None` where these are the parameters.
+    pub(super) fn changed(bench: &mut Workbench, system: &Mechanics, frame: &mut Frame) -> Option<Self> {
+        let change = Change::new(bench, system, frame)?;
+        let zetas: Vec<ExprId> = (0..system.forms.degrees)
+            .map(|s| bench.graph.symbol(&format!("zeta{}", s + 1), Role::QuasiVelocity))
+            .collect();
+        let other = change.system(bench, system, &zetas);
+        let operators = change.operators(bench, &frame.operators);
+        Self::new(bench, other, operators, Some(change))
     }
-    let mut frame = Frame::new(bench, &other, operators);
-    let mut partials = VelocityPartials::of_system(bench, &other);
-    let symbols: Vec<ExprId> = other.velocities.iter().chain(&other.etas).copied().collect();
-    let terms = decompose(bench, &mut partials, &symbols, other.kinetic_energy).ok()?;
-    let forces = derivation::generalised_forces(bench, &other, &mut frame, &mut partials);
-    let raw = projection::equations(bench, &other, &mut frame, &mut partials, &terms, l);
-    let list = flattened(&raw, l);
-    let definition = (weighted_cost(&bench.graph, &list) <= SMALL)
-        .then(|| flattened(&poincare::equations(bench, &other, &mut frame), l));
-    let reduced = unflattened(symmetry.reduced(bench, &list), l);
-    let definition = definition.map(|list| unflattened(symmetry.reduced(bench, &list), l));
-    let velocities = symmetry.reduced_each(bench, &frame.velocities);
-    let equations = derivation::candidates(bench, &other, definition.as_ref().unwrap_or(&reduced), &reduced);
-    let found = solutions(bench, equations, &forces, &velocities);
-    let Some(change) = change else { return Some(found) };
-    // Back to the parameters as declared; each sum of them once.
-    let sums = applied(bench, &change.to, &system.etas[..l]);
-    let sums: Vec<ExprId> = sums.into_iter().map(|e| bench.graph.keep(e)).collect();
-    let mut out = Substitution::new(other.etas[..l].iter().copied().zip(sums));
-    let n = system.forms.len();
-    Some(
+
+    /// In the same parameters, for base angles that have changed.
+    fn unchanged(bench: &mut Workbench, system: &Mechanics) -> Option<Self> {
+        let operators = Operators::new(bench, &system.forms).ok()?;
+        Self::new(bench, system.clone(), operators, None)
+    }
+
+    fn new(
+        bench: &mut Workbench,
+        system: Mechanics,
+        operators: Operators,
+        change: Option<Change>,
+    ) -> Option<Self> {
+        let mut frame = Frame::new(bench, &system, operators);
+        let mut partials = VelocityPartials::of_system(bench, &system);
+        let symbols: Vec<ExprId> = system.velocities.iter().chain(&system.etas).copied().collect();
+        let terms = decompose(bench, &mut partials, &symbols, system.kinetic_energy).ok()?;
+        let forces = derivation::generalised_forces(bench, &system, &mut frame, &mut partials);
+        let l = system.forms.degrees;
+        let projected = projection::equations(bench, &system, &mut frame, &mut partials, &terms, l);
+        Some(Words { change, system, frame, forces, projected })
+    }
+
+    /// By tensions, in the parameters as declared.
+    pub(super) fn by_tensions(&mut self, bench: &mut Workbench, declared: &Mechanics) -> Option<Tensions> {
+        let etas = &self.system.etas[..self.system.forms.degrees];
+        let squares = self.projected.squares.as_ref()?;
+        let equations = &self.projected.equations;
+        let tensions = tensions::solve(bench, &mut self.frame, squares, equations, etas, &self.forces)?;
+        let accelerations = self.turned_back(bench, declared, &[], tensions.accelerations);
+        Some(Tensions { accelerations, ..tensions })
+    }
+
+    fn rates(
+        mut self,
+        bench: &mut Workbench,
+        declared: &Mechanics,
+        symmetry: &mut Symmetry,
+    ) -> Vec<Vec<ExprId>> {
+        let l = self.system.forms.degrees;
+        let list = flattened(&self.projected.equations, l);
+        let definition = (weighted_cost(&bench.graph, &list) <= SMALL)
+            .then(|| flattened(&poincare::equations(bench, &self.system, &mut self.frame), l));
+        let reduced = unflattened(symmetry.reduced(bench, &list), l);
+        let definition = definition.map(|list| unflattened(symmetry.reduced(bench, &list), l));
+        let velocities = symmetry.reduced_each(bench, &self.frame.velocities);
+        let definition = definition.as_ref().unwrap_or(&reduced);
+        let equations = derivation::candidates(bench, &self.system, definition, &reduced);
+        let found = solutions(bench, equations, &self.forces, &velocities);
         found
             .into_iter()
             .map(|mut rates| {
-                let accelerations = applied(bench, &change.back, &rates.split_off(n));
-                let rates = rates.iter().chain(&accelerations);
-                rates.map(|e| out.of(&mut bench.graph, *e)).collect()
+                let accelerations = rates.split_off(velocities.len());
+                self.turned_back(bench, declared, &rates, accelerations)
             })
-            .collect(),
-    )
+            .collect()
+    }
+
+    /// Back to the parameters as declared; each sum of them once.
+    fn turned_back(
+        &self,
+        bench: &mut Workbench,
+        declared: &Mechanics,
+        velocities: &[ExprId],
+        accelerations: Vec<ExprId>,
+    ) -> Vec<ExprId> {
+        let Some(change) = &self.change else { return [velocities, &accelerations].concat() };
+        let l = accelerations.len();
+        let sums = applied(bench, &change.to, &declared.etas[..l]);
+        let sums: Vec<ExprId> = sums.into_iter().map(|e| bench.graph.keep(e)).collect();
+        let mut out = Substitution::new(self.system.etas[..l].iter().copied().zip(sums));
+        let accelerations = applied(bench, &change.back, &accelerations);
+        velocities.iter().chain(&accelerations).map(|e| out.of(&mut bench.graph, *e)).collect()
+    }
 }
 
 fn applied(bench: &mut Workbench, matrix: &Matrix, vector: &[ExprId]) -> Vec<ExprId> {

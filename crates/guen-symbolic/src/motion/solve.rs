@@ -27,6 +27,25 @@ pub struct Solution {
 impl Solution {
     /// Solves the equations, or names a combination of parameters without inertia: rows that are dependent.
     pub fn new(bench: &mut Workbench, mass: &[Vec<ExprId>], forces: &[ExprId]) -> Result<Self, Vec<usize>> {
+        Self::of_blocks(bench, mass, forces, false)
+    }
+
+    /// The same with what is solved first kept whole in small blocks too; `None` where there is nothing to share.
+    pub(super) fn shared(bench: &mut Workbench, mass: &[Vec<ExprId>], forces: &[ExprId]) -> Option<Self> {
+        let pairs = blocks(bench, mass).into_iter().filter(|block| block.len() == WRITTEN_OUT);
+        let is_coupled = |block: Vec<usize>| !bench.graph.roles(mass[block[0]][block[1]]).is_constant();
+        if !pairs.into_iter().any(is_coupled) {
+            return None;
+        }
+        Self::of_blocks(bench, mass, forces, true).ok()
+    }
+
+    fn of_blocks(
+        bench: &mut Workbench,
+        mass: &[Vec<ExprId>],
+        forces: &[ExprId],
+        share: bool,
+    ) -> Result<Self, Vec<usize>> {
         let l = mass.len();
         if let Some(rank) = bench.zero.rank(&mut bench.graph, mass, true)
             && rank < l
@@ -44,7 +63,8 @@ impl Solution {
             let matrix: Vec<Vec<ExprId>> =
                 block.iter().map(|s| block.iter().map(|t| mass[*s][*t]).collect()).collect();
             let right: Vec<ExprId> = block.iter().map(|s| forces[*s]).collect();
-            let values = solution.solve_block(bench, &block, matrix, right).ok_or_else(|| block.clone())?;
+            let values =
+                solution.solve_block(bench, &block, matrix, right, share).ok_or_else(|| block.clone())?;
             for (s, value) in block.into_iter().zip(values) {
                 solution.accelerations[s] = value;
             }
@@ -52,53 +72,33 @@ impl Solution {
         Ok(solution)
     }
 
+    /// Accelerations that were found in another way; what was divided by must not vanish.
+    pub(super) fn known(bench: &Workbench, accelerations: Vec<ExprId>, divisors: &[ExprId]) -> Self {
+        let (pivots, determinants, constant_pivots) = Default::default();
+        let mut solution = Solution { accelerations, pivots, determinants, constant_pivots };
+        divisors.iter().for_each(|divisor| solution.require(bench, *divisor));
+        solution
+    }
+
     fn solve_block(
         &mut self,
         bench: &mut Workbench,
         rows: &[usize],
-        mut m: Vec<Vec<ExprId>>,
-        mut f: Vec<ExprId>,
+        m: Vec<Vec<ExprId>>,
+        f: Vec<ExprId>,
+        share: bool,
     ) -> Option<Vec<ExprId>> {
         let n = m.len();
-        let original = (m.clone(), f.clone());
-        // Small blocks are written out, and simplify; in larger ones every intermediate result has many users.
-        let keep = |bench: &mut Workbench, e: ExprId| if n > WRITTEN_OUT { bench.graph.keep(e) } else { e };
-        for e in m.iter_mut().flatten().chain(&mut f) {
-            *e = keep(bench, *e);
-        }
-        let mut order: Vec<usize> = Vec::new();
-        let mut left: Vec<usize> = (0..n).collect();
-        let mut pivots: Vec<ExprId> = Vec::new();
-        // Multipliers L_rk of each elimination step.
-        let mut steps: Vec<(usize, Vec<(usize, ExprId)>)> = Vec::new();
-        while !left.is_empty() {
-            let Some(k) = choose_pivot(bench, &m, &left) else {
-                return self.solve_by_adjugate(bench, &original.0, &original.1);
-            };
-            left.retain(|r| *r != k);
-            pivots.push(m[k][k]);
-            let mut multipliers = Vec::new();
-            for r in left.clone() {
-                if !bench.graph.is_zero(m[r][k]) {
-                    let quotient = bench.graph.div(m[r][k], m[k][k]);
-                    multipliers.push((r, keep(bench, quotient)));
-                }
-            }
-            for (i, (r, factor)) in multipliers.iter().enumerate() {
-                for (c, _) in &multipliers[..=i] {
-                    let product = bench.graph.mul(*factor, m[*c][k]);
-                    let difference = bench.graph.sub(m[*r][*c], product);
-                    let entry = bench.dropped(difference);
-                    let entry = keep(bench, entry);
-                    (m[*r][*c], m[*c][*r]) = (entry, entry);
-                }
-                let product = bench.graph.mul(*factor, f[k]);
-                let rest = bench.graph.sub(f[*r], product);
-                f[*r] = keep(bench, rest);
-            }
-            order.push(k);
-            steps.push((k, multipliers));
-        }
+        let naming = match n {
+            0..=WRITTEN_OUT if share => Naming::Values,
+            0..=WRITTEN_OUT => Naming::Nothing,
+            _ => Naming::Everything,
+        };
+        let Some(Elimination { values, pivots }) =
+            eliminate(bench, m.clone(), f.clone(), naming, choose_pivot)
+        else {
+            return self.solve_by_adjugate(bench, &m, &f);
+        };
         if n > WRITTEN_OUT {
             let factors: Vec<_> = pivots.iter().map(|pivot| (*pivot, 1)).collect();
             let determinant = bench.graph.product(&factors);
@@ -110,18 +110,7 @@ impl Solution {
         } else {
             pivots.into_iter().for_each(|pivot| self.require(bench, pivot));
         }
-        // L^T x = D^-1 f', backwards.
-        let mut x = vec![bench.graph.zero(); n];
-        for (k, multipliers) in steps.into_iter().rev() {
-            let mut terms = vec![bench.graph.div(f[k], m[k][k])];
-            for (r, factor) in multipliers {
-                let product = bench.graph.mul(factor, x[r]);
-                terms.push(bench.graph.neg(product));
-            }
-            let value = bench.graph.sum(terms);
-            x[k] = keep(bench, value);
-        }
-        Some(x)
+        Some(values)
     }
 
     fn solve_by_adjugate(
@@ -160,6 +149,92 @@ impl Solution {
             list.push(pivot);
         }
     }
+}
+
+/// What an elimination yields.
+pub(super) struct Elimination {
+    /// The solution.
+    pub(super) values: Vec<ExprId>,
+    /// The pivots, in their order.
+    pub(super) pivots: Vec<ExprId>,
+}
+
+/// Which results of an elimination are kept whole.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Naming {
+    /// None: small blocks are written out, and simplify.
+    Nothing,
+    /// What is solved first, which the others use.
+    Values,
+    /// All: in larger blocks every intermediate result has many users.
+    Everything,
+    /// All, of a matrix that is positive definite and sparse: entries that vanish are not looked for.
+    Definite,
+}
+
+/// Solves a symmetric system by `L D L^T`; `None` where nothing is chosen as a pivot. `choose` picks the next one from
+/// the rows that are left.
+pub(super) fn eliminate(
+    bench: &mut Workbench,
+    mut m: Vec<Vec<ExprId>>,
+    mut f: Vec<ExprId>,
+    naming: Naming,
+    mut choose: impl FnMut(&mut Workbench, &[Vec<ExprId>], &[usize]) -> Option<usize>,
+) -> Option<Elimination> {
+    let n = m.len();
+    let names_all = matches!(naming, Naming::Everything | Naming::Definite);
+    let keep = |bench: &mut Workbench, e: ExprId| if names_all { bench.graph.keep(e) } else { e };
+    for e in m.iter_mut().flatten().chain(&mut f) {
+        *e = keep(bench, *e);
+    }
+    let mut left: Vec<usize> = (0..n).collect();
+    let mut pivots: Vec<ExprId> = Vec::new();
+    // Multipliers L_rk of each elimination step.
+    let mut steps: Vec<(usize, Vec<(usize, ExprId)>)> = Vec::new();
+    while !left.is_empty() {
+        let k = choose(bench, &m, &left)?;
+        left.retain(|r| *r != k);
+        pivots.push(m[k][k]);
+        let mut multipliers = Vec::new();
+        for r in left.iter().copied() {
+            if !bench.graph.is_zero(m[r][k]) {
+                let quotient = bench.graph.div(m[r][k], m[k][k]);
+                multipliers.push((r, keep(bench, quotient)));
+            }
+        }
+        for (i, (r, factor)) in multipliers.iter().enumerate() {
+            for (c, _) in &multipliers[..=i] {
+                let product = bench.graph.mul(*factor, m[*c][k]);
+                let difference = bench.graph.sub(m[*r][*c], product);
+                let entry = if naming == Naming::Definite { difference } else { bench.dropped(difference) };
+                let entry = keep(bench, entry);
+                (m[*r][*c], m[*c][*r]) = (entry, entry);
+            }
+            let product = bench.graph.mul(*factor, f[k]);
+            let rest = bench.graph.sub(f[*r], product);
+            f[*r] = keep(bench, rest);
+        }
+        steps.push((k, multipliers));
+    }
+    // L^T x = D^-1 f', backwards.
+    let mut values = vec![bench.graph.zero(); n];
+    let mut last = true;
+    for (k, multipliers) in steps.into_iter().rev() {
+        let mut terms = vec![bench.graph.div(f[k], m[k][k])];
+        for (r, factor) in multipliers {
+            let product = bench.graph.mul(factor, values[r]);
+            terms.push(bench.graph.neg(product));
+        }
+        let value = bench.graph.sum(terms);
+        values[k] = if naming == Naming::Values && last {
+            last = false;
+            let tidy = bench.tidy(value);
+            bench.graph.keep(tidy)
+        } else {
+            keep(bench, value)
+        };
+    }
+    Some(Elimination { values, pivots })
 }
 
 /// The diagonal entry to eliminate on: constants before functions, then the one with the fewest neighbours.

@@ -108,18 +108,22 @@ fn coefficients(
     let mut result = Vec::new();
     for (exponents, terms) in rows.into_iter().rev() {
         let part = ring.cancel(Fraction { num: Poly::collect(terms), den: f.den.clone() })?;
-        result.push((exponents, finish(g, &ring, &part, limits)?));
+        result.push((exponents, finish(g, &ring, &part, limits, DOUBLINGS)?));
     }
     Ok(result)
 }
 
+/// Fractions of an angle with denominators up to 12 are doubled three times at most. With base angles of several terms one
+/// doubled angle can bring back half of another for ever: after so many rounds the expression stays as it is.
+const DOUBLINGS: u32 = 4;
+
 fn normalized(g: &mut Graph, e: ExprId, limits: &Limits, flat: bool) -> Result<ExprId> {
     let (ring, f) = convert::convert(g, e, limits)?;
-    if flat { rebuild::expanded(g, &ring, &f) } else { finish(g, &ring, &f, limits) }
+    if flat { rebuild::expanded(g, &ring, &f) } else { finish(g, &ring, &f, limits, DOUBLINGS) }
 }
 
-/// The expression of a fraction; half angles that occur in pairs become whole ones first.
-fn finish(g: &mut Graph, ring: &Ring, f: &Fraction, limits: &Limits) -> Result<ExprId> {
+/// The expression of a fraction; half angles that occur in pairs become whole ones first, at most so many times.
+fn finish(g: &mut Graph, ring: &Ring, f: &Fraction, limits: &Limits, doublings: u32) -> Result<ExprId> {
     let mut doubled = false;
     let mut replaced: Vec<Option<(ExprId, ExprId, ExprId)>> = vec![None; ring.angles.len()];
     for (i, angle) in ring.angles.iter().enumerate() {
@@ -140,7 +144,7 @@ fn finish(g: &mut Graph, ring: &Ring, f: &Fraction, limits: &Limits) -> Result<E
             doubled = true;
         }
     }
-    if !doubled {
+    if !doubled || doublings == 0 {
         return rebuild::rebuild(g, ring, f);
     }
     let term = |g: &mut Graph, mono: &Mono| {
@@ -174,8 +178,8 @@ fn finish(g: &mut Graph, ring: &Ring, f: &Fraction, limits: &Limits) -> Result<E
         factors.push((sum(g, poly), -(*k as i32)));
     }
     let e = g.product(&factors);
-    // Fractions of an angle with denominators up to 12 halve three times at most.
-    normalized(g, e, limits, false)
+    let (ring, f) = convert::convert(g, e, limits)?;
+    finish(g, &ring, &f, limits, doublings - 1)
 }
 
 /// Arguments of functions in normal form, innermost first.

@@ -11,7 +11,7 @@ mod render;
 use crate::algebra::{ExprId, Graph};
 use render::Printer;
 
-pub use names::latex_name;
+pub use names::{greek_letter, latex_name};
 
 /// Longer texts help no reader; [`Graph::text`] replaces them by a note.
 const LONGEST_TEXT: usize = 20_000;

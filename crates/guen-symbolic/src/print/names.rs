@@ -39,11 +39,22 @@ const GREEK: &[(&str, char, &str)] = &[
     ("Omega", 'Ω', "\\Omega"),
 ];
 
+/// The letter behind a command of LaTeX, `eta` for `\\eta`.
+///
+/// ```
+/// assert_eq!(guen_symbolic::greek_letter("eta"), Some('η'));
+/// assert_eq!(guen_symbolic::greek_letter("sin"), None);
+/// ```
+pub fn greek_letter(command: &str) -> Option<char> {
+    GREEK.iter().find(|(name, ..)| *name == command).map(|(_, letter, _)| *letter)
+}
+
 /// A name of a declaration as LaTeX: `eta1` is `\eta_{1}`, `dot(x)` and `x'` are rates, `d/dx` is an operator.
 ///
 /// ```
 /// assert_eq!(guen_symbolic::latex_name("dot(theta)"), "\\dot{\\theta}");
 /// assert_eq!(guen_symbolic::latex_name("eta1'"), "\\dot{\\eta}_{1}");
+/// assert_eq!(guen_symbolic::latex_name("αβ"), "\\mathrm{{\\alpha}{\\beta}}");
 /// assert_eq!(guen_symbolic::latex_name("mass_body"), "\\mathrm{mass}_{\\mathrm{body}}");
 /// ```
 pub fn latex_name(name: &str) -> String {
@@ -100,5 +111,9 @@ fn word(text: &str) -> String {
     if !digits.is_empty() && digits.chars().all(|c| c.is_ascii_digit()) && !stem.is_empty() {
         return format!("{}{digits}", word(stem));
     }
-    format!("\\mathrm{{{text}}}")
+    let upright = text.chars().map(|c| match GREEK.iter().find(|(_, letter, _)| *letter == c) {
+        Some((_, _, command)) => format!("{{{command}}}"),
+        None => c.to_string(),
+    });
+    format!("\\mathrm{{{}}}", upright.collect::<String>())
 }

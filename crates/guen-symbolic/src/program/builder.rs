@@ -272,6 +272,9 @@ fn cheapest(graph: &mut Graph, net: &mut Net, roots: Vec<NetId>, effort: Effort,
         Effort::Cold => affordable(nodes).min(1),
     };
     let tried = if effort == Effort::Brief { tried.min(1) } else { tried.min(most) };
+    if tried == 0 {
+        return roots;
+    }
     let mut rewritten = vec![roots];
     for passes in &CANDIDATES[..tried] {
         let mut candidate = rewritten[0].clone();

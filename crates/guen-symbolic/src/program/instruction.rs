@@ -8,6 +8,11 @@ use crate::algebra::{Function, Key, Rational, SymbolId, mix, spread};
 pub struct Value(pub(crate) u32);
 
 impl Value {
+    /// The value of a number.
+    pub fn new(index: usize) -> Self {
+        Self(index as u32)
+    }
+
     /// The number of the value.
     pub fn index(self) -> usize {
         self.0 as usize

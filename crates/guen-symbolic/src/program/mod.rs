@@ -7,6 +7,7 @@
 
 mod accuracy;
 mod builder;
+mod carried;
 mod cost;
 mod evaluate;
 mod instruction;
@@ -15,12 +16,15 @@ mod lower;
 mod net;
 mod part;
 mod passes;
+mod taylor;
 mod terms;
 #[cfg(test)]
 mod tests;
 
 pub use builder::{Formulation, ProgramBuilder};
+pub use carried::{Carried, CarriedFunction, NotCarried};
 pub use cost::{OperationCount, weighted_cost};
 pub use evaluate::{Arithmetic, evaluate_function, evaluate_prepare};
 pub use instruction::{FunctionProgram, Instruction, Operation, Programs, Value};
 pub use jacobian::{LARGEST_DIFFERENTIATED, LARGEST_JACOBIAN, Pattern};
+pub use taylor::{NotAnalytic, SeriesProgram, SeriesStep, Source, Start};

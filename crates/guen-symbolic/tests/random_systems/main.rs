@@ -16,6 +16,7 @@ mod scalar;
 mod sweep;
 mod system;
 mod tape;
+mod trees;
 mod words;
 
 use closure::Shapes;

@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
-use super::{Names, constants, levels, operators, prepared, push, records};
+use super::{Names, carried, constants, levels, operators, prepared, push, records};
 use crate::emit::module_name;
 use crate::syntax::{Declaration, Item, Scene};
 
@@ -39,7 +39,9 @@ fn scene(scene: &Scene, system: &proc_macro2::Ident, names: &Names) -> TokenStre
             push(&mut own.required, &fix.name.ident);
         }
     }
-    let parts = [constants(name, &own), records(&own), prepared(name, &own), operators(&own), levels(&own)];
+    let carried = carried::items(&own, &scene.provides.iter().collect::<Vec<_>>());
+    let parts =
+        [constants(name, &own), records(&own), prepared(name, &own), operators(&own), levels(&own), carried];
     let conversion = if scene.fixes.is_empty() { format_ident!("From") } else { format_ident!("TryFrom") };
     let (error, method, returns) = if scene.fixes.is_empty() {
         (quote!(), format_ident!("from"), quote!(Self))

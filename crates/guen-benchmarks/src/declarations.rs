@@ -1,11 +1,12 @@
-//! Declarations that several tests share. Each is a macro that hands its tokens to another one: to
+//! Declarations that tests, benchmarks and tables share. Each is a macro that hands its tokens to another one: to
 //! `guen::mechanical_system` for items, to `stringify` for the text that the libraries below the macro take. What
 //! follows the name and a `;` is added to the declaration: scenes.
-#![allow(unused_macros, reason = "every test takes the systems that it is about")]
 
 /// The hoop of section 3.1, with free kinetic energy in the velocities.
+#[macro_export]
 macro_rules! hoop {
     ($($consumer:ident)::+ $(; $($more:tt)*)?) => { $($consumer)::+! {
+        /// The rolling hoop of section 3.1 as the paper has it: three parameters, three constraints, energy in velocities.
         pub system Hoop {
             constants { a > 0, A > 0, C > 0, g = 9.81 }
             coordinates { theta, psi, phi, xi, eta, zeta }
@@ -27,8 +28,10 @@ macro_rules! hoop {
 }
 
 /// Appell's system of section 3.2, with the axial inertia of its body.
+#[macro_export]
 macro_rules! appell {
     ($($consumer:ident)::+ $(; $($more:tt)*)?) => { $($consumer)::+! {
+        /// Appell's system of section 3.2, with the axial inertia of its body.
         pub system Appell {
             constants { a > 0, A > 0, C > 0, g = 9.81 }
             coordinates { theta, psi, phi, xi, eta, zeta }
@@ -51,8 +54,10 @@ macro_rules! appell {
 }
 
 /// Chaplygin's sled of section 3.3.
+#[macro_export]
 macro_rules! sled {
     ($($consumer:ident)::+ $(; $($more:tt)*)?) => { $($consumer)::+! {
+        /// Chaplygin's sled of section 3.3 on an incline.
         pub system Sled {
             constants { m > 0, alpha, beta, k > 0, incline, g = 9.81 }
             coordinates { phi, xi, eta }
@@ -71,6 +76,7 @@ macro_rules! sled {
 }
 
 /// The sled in the parameters of the paper's closing remark.
+#[macro_export]
 macro_rules! sled_in_xi {
     ($($consumer:ident)::+ $(; $($more:tt)*)?) => { $($consumer)::+! {
         pub system SledInXi {
@@ -91,6 +97,7 @@ macro_rules! sled_in_xi {
 }
 
 /// A unicycle with a trailer of length `d`, hitched to the unicycle's axle.
+#[macro_export]
 macro_rules! trailer {
     ($($consumer:ident)::+ $(; $($more:tt)*)?) => { $($consumer)::+! {
         pub system Trailer {
@@ -113,6 +120,7 @@ macro_rules! trailer {
 }
 
 /// A ball on a table that turns at a varying speed; `eta1..eta3` are its angular velocity in space.
+#[macro_export]
 macro_rules! turntable {
     ($($consumer:ident)::+ $(; $($more:tt)*)?) => { $($consumer)::+! {
         pub system Turntable {
@@ -135,8 +143,10 @@ macro_rules! turntable {
 }
 
 /// The same ball on a table that turns evenly.
+#[macro_export]
 macro_rules! even_turntable {
     ($($consumer:ident)::+ $(; $($more:tt)*)?) => { $($consumer)::+! {
+        /// A homogeneous ball on a table that turns evenly; the parameters are its angular velocity in space.
         pub system EvenTurntable {
             constants { m > 0, a > 0, Omega }
             coordinates { x, y, psi, theta, phi }
@@ -156,8 +166,10 @@ macro_rules! even_turntable {
 }
 
 /// A free rigid body in Euler's angles and its angular velocity in the body.
+#[macro_export]
 macro_rules! euler_top {
     ($($consumer:ident)::+ $(; $($more:tt)*)?) => { $($consumer)::+! {
+        /// A free rigid body in Euler's angles and its angular velocity in the body.
         pub system EulerTop {
             constants { I1 > 0, I2 > 0, I3 > 0 }
             coordinates { psi, theta, phi }
@@ -174,6 +186,7 @@ macro_rules! euler_top {
 
 /// A pendulum on a cart that is pushed, with friction in the joint and wind: inputs, outputs, a default of earlier
 /// constants.
+#[macro_export]
 macro_rules! cart {
     ($($consumer:ident)::+ $(; $($more:tt)*)?) => { $($consumer)::+! {
         pub system Cart {
@@ -200,6 +213,7 @@ macro_rules! cart {
 }
 
 /// A pendulum as a particle on a circle: a constraint on positions, and its reaction.
+#[macro_export]
 macro_rules! particle_pendulum {
     ($($consumer:ident)::+ $(; $($more:tt)*)?) => { $($consumer)::+! {
         pub system ParticlePendulum {
@@ -209,6 +223,72 @@ macro_rules! particle_pendulum {
             holonomic { rod: x^2 + y^2 = l^2; }
             kinetic_energy = m/2*(dot(x)^2 + dot(y)^2);
             potential_energy = m*g*y;
+            $($($more)*)?
+        }
+    } };
+}
+
+/// A robot on two wheels, driven by motors between its chassis and the wheels.
+#[macro_export]
+macro_rules! robot {
+    ($($consumer:ident)::+ $(; $($more:tt)*)?) => { $($consumer)::+! {
+        /// A robot on two wheels, driven by motors between its chassis and the wheels.
+        pub system Robot {
+            constants { m > 0, mw > 0, h > 0, b > 0, r > 0, A > 0, B > 0, C > 0, I > 0, J > 0, g = 9.81 }
+            inputs { left_torque, right_torque }
+            coordinates { x, y, heading, tilt, left, right }
+            let H = rot_z(heading);
+            let axle = vec(x, y, r);
+            let R = H*rot_y(tilt);
+            bodies {
+                chassis { mass: m, inertia: diag(A, B, C), center: axle + h*R.z, orientation: R }
+                one { mass: mw, inertia: diag(I, J, I), center: axle + b*H.y, orientation: H*rot_y(left) }
+                other { mass: mw, inertia: diag(I, J, I), center: axle - b*H.y, orientation: H*rot_y(right) }
+            }
+            gravity = vec(0, 0, -g);
+            parameters { speed = inner(H.x, dot(axle)); turn = dot(heading); fall = dot(tilt); }
+            constraints {
+                rolling: one.velocity_at(one.center - vec(0, 0, r)) = 0;
+                other_rolling: inner(H.x, other.velocity_at(other.center - vec(0, 0, r))) = 0;
+            }
+            forces {
+                left_torque*H.y along one.angular_velocity - chassis.angular_velocity;
+                right_torque*H.y along other.angular_velocity - chassis.angular_velocity;
+            }
+            $($($more)*)?
+        }
+    } };
+}
+
+/// A car with two trailers, each hitched behind the axle of the one before it.
+#[macro_export]
+macro_rules! train {
+    ($($consumer:ident)::+ $(; $($more:tt)*)?) => { $($consumer)::+! {
+        /// A car with two trailers, each hitched behind the axle of the one before it.
+        pub system Train {
+            constants { m > 0, I > 0, l > 0, d > 0, k > 0 }
+            inputs { push, steering }
+            coordinates { x, y, theta0, theta1, theta2, phi }
+            let R0 = rot_z(theta0); let R1 = rot_z(theta1); let R2 = rot_z(theta2);
+            let F = R0*rot_z(phi);
+            let rear = vec(x, y);
+            let front = rear + l*R0.x;
+            let axle1 = rear - k*R0.x - d*R1.x;
+            let axle2 = axle1 - k*R1.x - d*R2.x;
+            bodies {
+                car { mass: m, inertia: diag(0, 0, I), center: rear + l/3*R0.x, orientation: R0 }
+                wheel { mass: m/10, inertia: diag(0, 0, I/10), center: front, orientation: F }
+                trailer1 { mass: m/2, inertia: diag(0, 0, I/2), center: axle1 + d/4*R1.x, orientation: R1 }
+                trailer2 { mass: m/2, inertia: diag(0, 0, I/2), center: axle2 + d/4*R2.x, orientation: R2 }
+            }
+            parameters { speed = inner(R0.x, dot(rear)); steer = dot(phi); }
+            constraints {
+                rear_axle: inner(R0.y, car.velocity_at(rear)) = 0;
+                front_axle: inner(F.y, wheel.velocity_at(front)) = 0;
+                first: inner(R1.y, trailer1.velocity_at(axle1)) = 0;
+                second: inner(R2.y, trailer2.velocity_at(axle2)) = 0;
+            }
+            forces { push along speed; steering along steer; }
             $($($more)*)?
         }
     } };

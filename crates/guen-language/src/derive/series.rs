@@ -1,0 +1,59 @@
+//! The Taylor series of a level: its recurrences, and what has none.
+
+use guen_symbolic::{Programs, SeriesProgram, Source, SymbolId};
+use proc_macro2::Span;
+
+use super::function;
+use super::selection::Selection;
+use crate::diagnostics::{Fault, Faults};
+use crate::limits::MAX_SERIES_SUMS;
+use crate::model::Model;
+
+/// The recurrences of the rates of what a level keeps. What has no series is reported at the word `taylor`.
+pub(super) fn of(
+    model: &Model<'_>,
+    selection: &Selection,
+    programs: &Programs,
+    word: Span,
+    faults: &mut Faults,
+) -> Option<SeriesProgram> {
+    let rates = programs.functions.iter().find(|known| known.name == function::RHS)?;
+    let graph = &model.bench.graph;
+    let time = graph.as_symbol(model.mechanics.forms.time);
+    let variables: Vec<Option<SymbolId>> =
+        selection.variables.iter().map(|place| graph.as_symbol(model.variable(*place))).collect();
+    let source = |symbol: SymbolId| {
+        if Some(symbol) == time {
+            return Source::Time;
+        }
+        variables.iter().position(|known| *known == Some(symbol)).map_or(Source::Still, Source::State)
+    };
+    let series = match SeriesProgram::new(rates, source) {
+        Ok(series) => series,
+        Err(refused) => {
+            let function = refused.function.name();
+            let variable = model.variable_name(selection.variables[refused.output]);
+            let text =
+                format!("the motion has no Taylor series: the rate of `{variable}` needs `{function}`");
+            faults.report(
+                Fault::new(word, text)
+                    .note(format!("at a kink of `{function}` a series goes on as if there were none, and nothing would tell"))
+                    .help("leave `taylor` out and integrate with another method, up to the kink by an event"),
+            );
+            return None;
+        }
+    };
+    if series.sums.len() > MAX_SERIES_SUMS {
+        let text = format!(
+            "the Taylor series needs {} sums of products, and {MAX_SERIES_SUMS} are allowed",
+            series.sums.len()
+        );
+        faults.report(
+            Fault::new(word, text)
+                .note("while a series is computed its coefficients are on the stack, about 450 bytes for each sum")
+                .help("leave `taylor` out, or provide it in a scene that keeps fewer variables"),
+        );
+        return None;
+    }
+    Some(series)
+}

@@ -1,0 +1,338 @@
+//! The carried form of a level: a module with a state, a system and a program of its own.
+
+use guen_symbolic::{CarriedFunction, ExprId};
+use proc_macro2::{Ident, Span, TokenStream};
+use quote::{format_ident, quote};
+
+use super::classification::cost;
+use super::motion::inputs;
+use super::{Layout, Subject, functions, integrated, lanes, records, serde};
+use crate::derive::function;
+use crate::model::Model;
+
+/// The names of the struct and of the module; nothing else in the module of a level may have them.
+pub(crate) const NAMES: [&str; 2] = ["Carried", "carried"];
+
+/// The field of a function that is carried.
+pub(super) fn ident(model: &Model<'_>, function: &CarriedFunction) -> Ident {
+    format_ident!("{}", name(model, function), span = Span::call_site())
+}
+
+fn name(model: &Model<'_>, function: &CarriedFunction) -> String {
+    model.bench.graph.text(function.symbol)
+}
+
+/// The module, and the methods of the level that lead there; nothing where it is not provided.
+pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
+    let Some(level) = &subject.level.carried else { return TokenStream::new() };
+    let carried = Subject { model: subject.model, level };
+    let own = Layout { is_whole: false, ..Layout::new(&carried) };
+    let module = module(&carried, &own, layout);
+    let (size, fields) = (layout.size, &layout.state);
+    quote! {
+        #[doc = " What belongs to the carried form, [`Carried`]: its state, and which functions it carries."]
+        pub mod carried {
+            #[allow(unused_imports, reason = "small systems use few of its items")]
+            use super::__guen;
+            #module
+        }
+        #[doc(inline)]
+        pub use carried::Prepared as Carried;
+
+        impl<R: __guen::Real> Prepared<R> {
+            /// The same system with the elementary functions of its rates as states: no calls in its right-hand side.
+            ///
+            /// # Errors
+            ///
+            /// Constants that make something infinite which it prepares.
+            pub fn carried(&self) -> ::core::result::Result<Carried<R>, __guen::ConstantsError> {
+                let carried = carried::of(*self);
+                carried.check()?;
+                ::core::result::Result::Ok(carried)
+            }
+        }
+
+        impl<R: __guen::Real> State<R> {
+            /// This state with the functions that a carried form has as states, at time `t`.
+            pub fn carried(&self, system: &Carried<R>, t: R) -> carried::State<R> {
+                system.carry(t, self)
+            }
+        }
+
+        impl<R> ::core::convert::From<carried::State<R>> for State<R> {
+            /// The state without the functions that are carried.
+            #[inline]
+            fn from(state: carried::State<R>) -> Self {
+                State { #(#fields: state.#fields),* }
+            }
+        }
+
+        const _: () = ::core::assert!(#size == State::<f64>::NAMES.len());
+    }
+}
+
+fn module(subject: &Subject<'_, '_>, layout: &Layout, base: &Layout) -> TokenStream {
+    let Subject { model, level } = subject;
+    let text = |e: ExprId| model.bench.graph.text_limited(e, 400).unwrap_or_else(|| "(long)".to_owned());
+    let lines = |texts: Vec<String>| {
+        let count = texts.len();
+        (count, quote!([#(#texts),*]))
+    };
+    let carried = &level.selection.carried;
+    let named = |e: fn(&CarriedFunction) -> ExprId, mark: &str| {
+        carried.iter().map(|f| format!("{}{mark} = {}", name(model, f), text(e(f)))).collect::<Vec<_>>()
+    };
+    let (values, rates) = (named(|f| f.value, ""), named(|f| f.rate, "'"));
+    let table = format!(
+        "The functions that are carried, and their rates.\n\n```text\n{}\n{}\n```",
+        values.join("\n"),
+        rates.join("\n")
+    );
+    let (count, values) = lines(values);
+    let (edges, edge_texts) = lines(level.domain_names.clone());
+    let program = |name: &str| level.program(name).map(|program| program.outputs.len());
+    let invariants = program(function::INVARIANTS).unwrap_or(0);
+    let rhs = level.program(function::RHS).map(|program| program.cost).unwrap_or_default();
+    let (cost, prepare_cost) = (cost(&rhs), cost(&level.programs.prepare_cost));
+    let state = records::carried(subject, layout);
+    let serde = serde::state(layout);
+    let prepared = prepared(subject, layout, base, invariants);
+    let systems = systems(subject, layout, base, invariants, edges);
+    let code = functions::modules(subject, layout);
+    quote! {
+        #state
+        #serde
+        #[doc = #table]
+        pub const FUNCTIONS: [&str; #count] = #values;
+        /// The operations of one right-hand side; `abs` and `sign` count as calls.
+        pub const COST: __guen::Cost = #cost;
+        /// The operations that are done once.
+        pub const PREPARE_COST: __guen::Cost = #prepare_cost;
+        /// What must not vanish beside the functions of `DOMAIN` of the system.
+        pub const EDGES: [&str; #edges] = #edge_texts;
+        #prepared
+        #systems
+        #code
+    }
+}
+
+/// The struct and its own methods.
+fn prepared(subject: &Subject<'_, '_>, layout: &Layout, base: &Layout, invariants: usize) -> TokenStream {
+    let (size, hoisted, constants, variables) = (layout.size, layout.hoisted, layout.constants, base.size);
+    let (parameter, argument) = inputs(layout);
+    let parts: Vec<Ident> = subject.level.selection.carried.iter().map(|f| ident(subject.model, f)).collect();
+    let (fields, indices) = (&base.state, 0..parts.len());
+    let places = 0..variables;
+    let given = (layout.inputs > 0).then(|| {
+        quote!(
+            use super::Inputs;
+        )
+    });
+    let invariants = (invariants > 0).then(|| {
+        quote! {
+            /// What vanishes where the functions are what they stand for: `sin^2 + cos^2 - 1`, `1 - (sinh^2 + 1)/cosh^2`,
+            /// `1 - u/root^q`. No calls, no units.
+            pub fn invariants(&self, t: R, state: &State<R>) -> [R; #invariants] {
+                program::invariants(&self.constants, &self.hoisted, t, &::core::convert::From::from(*state))
+            }
+        }
+    });
+    quote! {
+        #given
+        /// A prepared system with the elementary functions of its rates as states, listed in [`FUNCTIONS`]: its
+        /// right-hand side calls none. Immutable; made by `carried` of the prepared system.
+        #[::core::prelude::v1::derive(
+            ::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq
+        )]
+        pub struct Prepared<R = f64> {
+            system: super::Prepared<R>,
+            constants: [R; #constants],
+            hoisted: [R; #hoisted],
+        }
+
+        #[inline]
+        pub(super) fn of<R: __guen::Real>(system: super::Prepared<R>) -> Prepared<R> {
+            Prepared { system, constants: system.constants, hoisted: program::prepare(&system.constants) }
+        }
+
+        impl<R: __guen::Real> Prepared<R> {
+            /// The system that this is a form of.
+            pub fn system(&self) -> &super::Prepared<R> {
+                &self.system
+            }
+
+            pub(super) fn check(&self) -> ::core::result::Result<(), __guen::ConstantsError> {
+                for value in &self.hoisted {
+                    __guen::check_hoisted(*value)?;
+                }
+                ::core::result::Result::Ok(())
+            }
+
+            /// The rates of the state: those of the system's variables, then those of the functions. No elementary
+            /// calls, no allocation, no branch.
+            #[inline]
+            pub fn rhs(&self, t: R, state: &State<R> #parameter) -> State<R> {
+                ::core::convert::From::from(program::rhs(
+                    &self.constants, &self.hoisted, t, &::core::convert::From::from(*state), #argument,
+                ))
+            }
+
+            /// A state of the system with the functions as they are there: one elementary call for each.
+            pub fn carry(&self, t: R, state: &super::State<R>) -> State<R> {
+                let mut all = [<R as __guen::Real>::zero(); #size];
+                let variables: [R; #variables] = ::core::convert::From::from(*state);
+                all[..#variables].copy_from_slice(&variables);
+                let values = program::carry(&self.constants, &self.hoisted, t, &all);
+                State { #(#fields: state.#fields,)* #(#parts: values[#indices]),* }
+            }
+
+            /// How far the carried functions are from what they stand for, at the coordinates and parameters of the
+            /// state: the largest `|w - f|/(1 + |f|)`. One elementary call for each.
+            pub fn drift(&self, t: R, state: &State<R>) -> R {
+                let all: [R; #size] = ::core::convert::From::from(*state);
+                __guen::drift(&program::carry(&self.constants, &self.hoisted, t, &all), &all[#variables..])
+            }
+
+            #invariants
+
+            /// The same as over the real that contains `R`.
+            pub fn lift<S: __guen::Lift<R>>(&self) -> Prepared<S> {
+                Prepared {
+                    system: self.system.lift(),
+                    constants: self.constants.map(<S as __guen::Lift<R>>::lift),
+                    hoisted: self.hoisted.map(<S as __guen::Lift<R>>::lift),
+                }
+            }
+
+            fn variables(state: &[R; #size]) -> [R; #variables] {
+                [#(state[#places]),*]
+            }
+        }
+    }
+}
+
+/// What steppers ask for.
+fn systems(
+    subject: &Subject<'_, '_>,
+    layout: &Layout,
+    base: &Layout,
+    invariants: usize,
+    edges: usize,
+) -> TokenStream {
+    let (size, count, variables) = (layout.size, layout.inputs, base.size);
+    let rejoined = subject.level.program(function::REJOINED).map_or(0, |program| program.outputs.len());
+    let kept = (invariants > 0).then(|| {
+        quote! {
+            let broken = __guen::largest(&program::invariants(&prepared.constants, &prepared.hoisted, t, state));
+            let drift = __guen::largest(&[drift, broken]);
+        }
+    });
+    let further = (edges > 0).then(|| {
+        let domain = integrated::rounded(&quote!(domain), &quote!(prepared), &quote!(t), &quote!(state));
+        quote! {
+            let own = #domain;
+            for (place, value) in ::core::iter::Iterator::zip(values.iter_mut().skip(written), own) {
+                *place = value;
+                written += 1;
+            }
+        }
+    });
+    // The system that this is a form of, with inputs held where it has some.
+    let (owner, prepared, below, held) = if count == 0 {
+        (quote!(Prepared<R>), quote!(self), quote!(self.system), quote!(&[]))
+    } else {
+        (
+            quote!(Driven<R>),
+            quote!(self.system),
+            quote!(self.system.system.driven(self.inputs)),
+            quote!(&::core::convert::From::from(self.inputs)),
+        )
+    };
+    let driven = (count > 0).then(|| {
+        quote! {
+            /// A carried form with inputs that are held: what steppers integrate during a step.
+            #[::core::prelude::v1::derive(
+                ::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq
+            )]
+            pub struct Driven<R = f64> {
+                /// The carried form.
+                pub system: Prepared<R>,
+                /// The inputs that are held.
+                pub inputs: Inputs<R>,
+            }
+
+            impl<R: __guen::Real> Prepared<R> {
+                /// The system with these inputs held.
+                #[inline]
+                pub fn driven(&self, inputs: Inputs<R>) -> Driven<R> {
+                    Driven { system: *self, inputs }
+                }
+            }
+        }
+    });
+    let monitored = subject.level.selection.energy.then(|| {
+        quote! {
+            impl<R: __guen::Real> __guen::Monitored<R, #size> for #owner {
+                fn energy(&self, t: R, state: &[R; #size]) -> R {
+                    __guen::Monitored::energy(&#below, t, &Prepared::variables(state))
+                }
+
+                fn residual(&self, t: R, state: &[R; #size]) -> R {
+                    __guen::Monitored::residual(&#below, t, &Prepared::variables(state))
+                }
+            }
+        }
+    });
+    let rejoin = (rejoined > 0).then(|| {
+        quote! {
+            impl<R: __guen::Real> __guen::Carrying<R, #size> for #owner {
+                fn rejoin(&self, t: R, state: &mut [R; #size]) {
+                    let prepared = &#prepared;
+                    let values = program::rejoined(&prepared.constants, &prepared.hoisted, t, state);
+                    state[#variables..].copy_from_slice(&values);
+                }
+            }
+        }
+    });
+    let differentiable = integrated::differentiable(layout, &owner, &prepared);
+    let lanes = lanes::carried(layout);
+    quote! {
+        #driven
+
+        impl<R: __guen::Real> __guen::System<R, #size> for #owner {
+            #[inline]
+            fn rhs(&self, t: R, state: &[R; #size]) -> [R; #size] {
+                program::rhs(&#prepared.constants, &#prepared.hoisted, t, state, #held)
+            }
+
+            fn vitals(&self, t: R, state: &[R; #size]) -> __guen::Vitals<R> {
+                let prepared = &#prepared;
+                let values = program::carry(&prepared.constants, &prepared.hoisted, t, state);
+                let drift = __guen::drift(&values, &state[#variables..]);
+                #kept
+                let below = __guen::System::vitals(&#below, t, &Prepared::variables(state));
+                __guen::Vitals { carried: drift, ..below }
+            }
+
+            fn edges(
+                &self, t: __guen::Rounded<R>, state: &[__guen::Rounded<R>; #size], values: &mut [__guen::Rounded<R>],
+            ) -> usize {
+                let prepared = &#prepared;
+                let _ = &prepared;
+                let variables = Prepared::<__guen::Rounded<R>>::variables(state);
+                #[allow(unused_mut, reason = "there may be no further edges")]
+                let mut written = __guen::System::edges(&#below, t, &variables, values);
+                #further
+                written
+            }
+
+            fn condition(&self, t: R, state: &[R; #size]) -> f64 {
+                __guen::System::condition(&#below, t, &Prepared::variables(state))
+            }
+        }
+        #differentiable
+        #monitored
+        #rejoin
+        #lanes
+    }
+}

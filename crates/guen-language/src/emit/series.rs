@@ -1,0 +1,319 @@
+//! Taylor series: the recurrences as Rust, and the trait that steppers ask for.
+//!
+//! One function: statements for order zero, then a loop over the orders with one statement for each operation. What the
+//! loop needs of order zero is handed over in an array.
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+use guen_symbolic::{Function, Operation, SeriesProgram, SeriesStep, Start, Value};
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use super::code::{Loads, call, number};
+use super::{Layout, Subject};
+
+/// The trait `TaylorSeries` for what steppers integrate.
+pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
+    let Some(series) = &subject.level.series else { return TokenStream::new() };
+    let (size, products) = (layout.size, series.sums.len());
+    let (owner, prepared, inputs) = if layout.inputs == 0 {
+        (quote!(Prepared<R>), quote!(self), quote!(&[]))
+    } else {
+        (quote!(Driven<R>), quote!(self.system), quote!(&::core::convert::From::from(self.inputs)))
+    };
+    quote! {
+        impl<R: __guen::Real> __guen::TaylorSeries<R, #size> for #owner {
+            const PRODUCTS: usize = #products;
+
+            fn series(
+                &self, t: R, state: &[R; #size], scale: R, order: usize, coefficients: &mut __guen::Coefficients<R, #size>,
+            ) {
+                program::series(&#prepared.constants, &#prepared.hoisted, t, state, #inputs, scale, order, coefficients)
+            }
+        }
+    }
+}
+
+/// One or more values defined by a statement.
+struct Statement {
+    defines: Vec<String>,
+    uses: Vec<String>,
+    text: String,
+}
+
+/// Statements in blocks that hand on what later ones need: see `code::body`.
+fn blocks(statements: &[Statement], needed: &[String]) -> String {
+    const BLOCK: usize = 100;
+    if statements.len() <= BLOCK {
+        return statements.iter().map(|statement| statement.text.as_str()).collect();
+    }
+    let mut last_use: BTreeMap<&str, usize> = BTreeMap::new();
+    for (place, statement) in statements.iter().enumerate() {
+        statement.uses.iter().for_each(|name| {
+            last_use.insert(name, place);
+        });
+    }
+    needed.iter().for_each(|name| {
+        last_use.insert(name, usize::MAX);
+    });
+    let mut text = String::new();
+    for (index, block) in statements.chunks(BLOCK).enumerate() {
+        let end = index * BLOCK + block.len();
+        let handed: String = block
+            .iter()
+            .flat_map(|statement| &statement.defines)
+            .filter(|name| last_use.get(name.as_str()).is_some_and(|last| *last >= end))
+            .map(|name| format!("{name},"))
+            .collect();
+        let _ = write!(text, "let ({handed}) = {{");
+        block.iter().for_each(|statement| text.push_str(&statement.text));
+        let _ = write!(text, "({handed}) }};");
+    }
+    text
+}
+
+/// What the loop needs of order zero.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Kept {
+    Value(Value),
+    /// `1 / a_0`
+    Reciprocal(Value),
+    /// `1 / (2 a_0)`
+    HalfReciprocal(Value),
+}
+
+struct Writer<'a> {
+    series: &'a SeriesProgram,
+    loads: &'a dyn Loads,
+    /// The number of variables of the state.
+    states: usize,
+    kept: BTreeMap<Kept, usize>,
+}
+
+/// The function `series`, whose parameters are those of a right-hand side and the request.
+pub(super) fn function(series: &SeriesProgram, loads: &dyn Loads, layout: &Layout) -> String {
+    let Layout { size, constants, hoisted, inputs, .. } = layout;
+    let mut writer = Writer { series, loads, states: *size, kept: BTreeMap::new() };
+    let values = || (0..series.steps.len()).map(value);
+    let next: Vec<Statement> = values().filter_map(|v| writer.next(v)).collect();
+    let mut begin: Vec<Statement> = values().filter_map(|v| writer.begin(v)).collect();
+
+    let factors = series.factors();
+    let row = |v: Value| factors.binary_search(&v).unwrap_or_default();
+    let pairs: String = series.sums.iter().map(|[a, b]| format!("[{}, {}],", row(*a), row(*b))).collect();
+    let now: Vec<String> = factors.iter().map(|v| format!("d{}", v.index())).collect();
+    let rates: Vec<String> = series.rates.iter().map(|v| format!("v{}", v.index())).collect();
+    let zero = "<R as __guen::Real>::zero()";
+    let moving = |v: &Value| (!series.is_still(*v)).then(|| format!("d{}", v.index()));
+    let next_rates: Vec<String> = series.rates.iter().map(|v| moving(v).unwrap_or(zero.to_owned())).collect();
+
+    let mut kept: Vec<String> = vec![String::new(); writer.kept.len()];
+    for (what, place) in &writer.kept {
+        let (v, text) = match what {
+            Kept::Value(v) => (v, format!("v{}", v.index())),
+            Kept::Reciprocal(v) => (v, format!("r{}", v.index())),
+            Kept::HalfReciprocal(v) => (v, format!("h{}", v.index())),
+        };
+        let name = format!("v{}", v.index());
+        match what {
+            Kept::Value(_) => {}
+            Kept::Reciprocal(_) => begin.push(Statement {
+                text: format!("let {text} = <R as __guen::Real>::recip({name});"),
+                uses: vec![name],
+                defines: vec![text.clone()],
+            }),
+            Kept::HalfReciprocal(_) => begin.push(Statement {
+                text: format!("let {text} = <R as __guen::Real>::recip({name} + {name});"),
+                uses: vec![name],
+                defines: vec![text.clone()],
+            }),
+        }
+        kept[*place] = text;
+    }
+    let begun: Vec<String> = rates.iter().chain(&kept).cloned().collect();
+    let used: Vec<String> = next_rates.iter().chain(&now).cloned().collect();
+    let variables = rates.len();
+    let (list, sums, count) = (factors.len(), series.sums.len(), kept.len());
+    let (rates, kept, now) = (rates.join(","), kept.join(","), now.join(","));
+    let (begin, next, next_rates) = (blocks(&begin, &begun), blocks(&next, &used), next_rates.join(","));
+    format!(
+        "#[inline] pub(super) fn series<R: __guen::Real>(
+            c: &[R; {constants}], k: &[R; {hoisted}], t: R, s: &[R; {size}], u: &[R; {inputs}],
+            scale: R, order: usize, out: &mut __guen::Coefficients<R, {size}>,
+        ) {{
+            const PAIRS: [[u16; 2]; {sums}] = [{pairs}];
+            let order = if order > __guen::HIGHEST_ORDER {{ __guen::HIGHEST_ORDER }} else {{ order }};
+            {begin}
+            let mut f: [R; {variables}] = [{rates}];
+            let z: [R; {count}] = [{kept}];
+            out[0] = *s;
+            let mut w = __guen::Convolutions::<R, {list}, {sums}>::new(order);
+            let mut m = 1_usize;
+            while m <= order {{
+                let count = <R as __guen::Real>::from_f64(m as f64);
+                let part = <R as __guen::Real>::recip(count);
+                let step = scale * part;
+                let mut x = f;
+                let mut i = 0_usize;
+                while i < {variables} {{ x[i] = x[i] * step; i += 1; }}
+                i = 0;
+                while i < {size} {{ out[m][i] = x[i]; i += 1; }}
+                if m == order {{ break; }}
+                {next}
+                f = [{next_rates}];
+                w.push(&PAIRS, &[{now}], m);
+                m += 1;
+            }}
+        }}"
+    )
+}
+
+fn value(index: usize) -> Value {
+    Value::new(index)
+}
+
+impl Writer<'_> {
+    fn keep(&mut self, what: Kept) -> String {
+        let next = self.kept.len();
+        format!("z[{}]", self.kept.entry(what).or_insert(next))
+    }
+
+    fn zeroth(&mut self, v: Value) -> String {
+        self.keep(Kept::Value(v))
+    }
+
+    /// The statement for order zero.
+    fn begin(&self, v: Value) -> Option<Statement> {
+        let step = &self.series.steps[v.index()];
+        let name = format!("v{}", v.index());
+        let at = |v: &Value| format!("v{}", v.index());
+        let start = |start: &Start| self.start(v, start);
+        let text = match step {
+            SeriesStep::Still(operation) => match operation {
+                Operation::Number(value) => number(value),
+                Operation::Pi => "<R as __guen::Real>::pi()".to_owned(),
+                Operation::Symbol(symbol) => self.loads.symbol(*symbol),
+                Operation::Prepared(k) => format!("k[{k}]"),
+                Operation::Add(a, b) => format!("{} + {}", at(a), at(b)),
+                Operation::Sub(a, b) => format!("{} - {}", at(a), at(b)),
+                Operation::Neg(a) => format!("-{}", at(a)),
+                Operation::Mul(a, b) => format!("{} * {}", at(a), at(b)),
+                Operation::Div(a, b) => format!("{} / {}", at(a), at(b)),
+                Operation::Call(function, a) => call(*function, &at(a)),
+                Operation::Atan2(y, x) => format!("<R as __guen::Real>::atan2({}, {})", at(y), at(x)),
+                // Series programs have none.
+                Operation::SinCos { .. } => return None,
+            },
+            SeriesStep::Time => "t".to_owned(),
+            SeriesStep::Variable(i) => match i.checked_sub(self.states) {
+                None => format!("s[{i}]"),
+                Some(place) => return Some(start(&self.series.carried[place])),
+            },
+            SeriesStep::Add(a, b) => format!("{} + {}", at(a), at(b)),
+            SeriesStep::Sub(a, b) => format!("{} - {}", at(a), at(b)),
+            SeriesStep::Neg(a) => format!("-{}", at(a)),
+            SeriesStep::Scale(a, b) | SeriesStep::Product(a, b, _) => format!("{} * {}", at(a), at(b)),
+            SeriesStep::Quotient(a, b, _) => format!("{} / {}", at(a), at(b)),
+            SeriesStep::SquareRoot(a, _) => format!("<R as __guen::Real>::sqrt({})", at(a)),
+            SeriesStep::Along(..) | SeriesStep::Derivative(_) => "<R as __guen::Real>::zero()".to_owned(),
+            SeriesStep::Integral(function, _) => return Some(start(function)),
+        };
+        let uses = match step {
+            SeriesStep::Along(..) | SeriesStep::Derivative(_) => Vec::new(),
+            _ => step.operands().iter().map(at).collect(),
+        };
+        Some(Statement { text: format!("let {name} = {text};"), uses, defines: vec![name] })
+    }
+
+    /// How a function begins; sine and cosine of one angle together where both are there.
+    fn start(&self, v: Value, start: &Start) -> Statement {
+        let name = format!("v{}", v.index());
+        let uses: Vec<String> = start.operands().iter().map(|v| format!("v{}", v.index())).collect();
+        if let Start::Call(Function::Sin, angle) = start
+            && let Some(cosine) = self.beginning_with(Start::Call(Function::Cos, *angle))
+        {
+            let cosine = format!("v{}", cosine.index());
+            let text = format!("let ({name}, {cosine}) = <R as __guen::Real>::sin_cos({});", uses[0]);
+            return Statement { text, uses, defines: vec![name, cosine] };
+        }
+        let text = match start {
+            Start::Call(Function::Cos, angle)
+                if self.beginning_with(Start::Call(Function::Sin, *angle)).is_some() =>
+            {
+                return Statement { text: String::new(), uses: Vec::new(), defines: Vec::new() };
+            }
+            Start::Call(function, _) => call(*function, &uses[0]),
+            Start::Atan2(..) => format!("<R as __guen::Real>::atan2({}, {})", uses[0], uses[1]),
+        };
+        Statement { text: format!("let {name} = {text};"), uses, defines: vec![name] }
+    }
+
+    /// The value that begins in a way.
+    fn beginning_with(&self, wanted: Start) -> Option<Value> {
+        let series = self.series;
+        let begins = |step: &SeriesStep| match step {
+            SeriesStep::Variable(i) => {
+                i.checked_sub(self.states).is_some_and(|place| series.carried[place] == wanted)
+            }
+            SeriesStep::Integral(start, _) => *start == wanted,
+            _ => false,
+        };
+        series.steps.iter().position(begins).map(value)
+    }
+
+    /// The statement for order `m`.
+    fn next(&mut self, v: Value) -> Option<Statement> {
+        let series = self.series;
+        let step = &series.steps[v.index()];
+        let name = format!("d{}", v.index());
+        let still = |v: &Value| series.is_still(*v);
+        let at = |v: &Value| format!("d{}", v.index());
+        let mut uses: Vec<String> = step.operands().iter().filter(|v| !still(v)).map(at).collect();
+        let text = match step {
+            SeriesStep::Still(_) => return None,
+            SeriesStep::Time => "if m == 1 { scale } else { <R as __guen::Real>::zero() }".to_owned(),
+            SeriesStep::Variable(i) => format!("x[{i}]"),
+            SeriesStep::Add(a, b) if still(a) => at(b),
+            SeriesStep::Add(a, b) if still(b) => at(a),
+            SeriesStep::Add(a, b) => format!("{} + {}", at(a), at(b)),
+            SeriesStep::Sub(a, b) if still(a) => format!("-{}", at(b)),
+            SeriesStep::Sub(a, b) if still(b) => at(a),
+            SeriesStep::Sub(a, b) => format!("{} - {}", at(a), at(b)),
+            SeriesStep::Neg(a) => format!("-{}", at(a)),
+            SeriesStep::Scale(k, a) => format!("{} * {}", self.zeroth(*k), at(a)),
+            SeriesStep::Product(a, b, place) if a == b => {
+                let product = format!("{} * {}", self.zeroth(*a), at(a));
+                format!("{{ let p = {product}; w.sum({place}, m) + (p + p) }}")
+            }
+            SeriesStep::Product(a, b, place) => {
+                let (za, zb) = (self.zeroth(*a), self.zeroth(*b));
+                format!("w.sum({place}, m) + ({za} * {} + {} * {zb})", at(b), at(a))
+            }
+            SeriesStep::Along(a, b, place) => {
+                uses.truncate(1);
+                format!("w.sum({place}, m) + {} * {}", at(a), self.zeroth(*b))
+            }
+            SeriesStep::Quotient(a, b, place) => {
+                let (quotient, reciprocal) = (self.zeroth(v), self.keep(Kept::Reciprocal(*b)));
+                let rest = format!("(w.sum({place}, m) + {quotient} * {})", at(b));
+                if still(a) {
+                    format!("-{rest} * {reciprocal}")
+                } else {
+                    format!("({} - {rest}) * {reciprocal}", at(a))
+                }
+            }
+            SeriesStep::SquareRoot(a, place) => {
+                let reciprocal = self.keep(Kept::HalfReciprocal(v));
+                format!("({} - w.sum({place}, m)) * {reciprocal}", at(a))
+            }
+            SeriesStep::Derivative(a) => format!("count * {}", at(a)),
+            SeriesStep::Integral(_, rate) if still(rate) => "<R as __guen::Real>::zero()".to_owned(),
+            SeriesStep::Integral(_, rate) => {
+                uses = vec![at(rate)];
+                format!("{} * part", at(rate))
+            }
+        };
+        Some(Statement { text: format!("let {name} = {text};"), uses, defines: vec![name] })
+    }
+}

@@ -1,0 +1,69 @@
+//! What was declared, in words, and how rustdoc shows the whole.
+
+use super::mathml::paragraph;
+use super::{Report, Section};
+use crate::emit::Subject;
+use crate::model::SymbolEntry;
+use crate::syntax::Docs;
+
+/// Coordinates and inputs, each with the first line of its documentation.
+pub(super) fn declared(subject: &Subject<'_, '_>) -> Vec<Section> {
+    let line = |name: &str, docs: &Docs| {
+        // Documentation that a macro writes is not known here.
+        let texts = docs.values.iter().filter_map(|value| syn::parse2::<syn::LitStr>(value.clone()).ok());
+        let first = texts.map(|text| text.value().trim().to_owned()).find(|text| !text.is_empty());
+        first.map_or_else(|| name.to_owned(), |first| format!("{name}: {first}"))
+    };
+    let symbols = |entries: &[SymbolEntry<'_>]| -> Vec<String> {
+        entries.iter().map(|entry| line(&entry.name.text, entry.docs)).collect()
+    };
+    let model = subject.model;
+    vec![
+        Section::words("Coordinates", symbols(&model.coordinates)),
+        Section::words("Inputs", symbols(&model.inputs)),
+    ]
+}
+
+impl Report {
+    /// The whole as Markdown for editors, which show text as it is.
+    pub fn to_blocks(&self) -> String {
+        let mut text = format!("{}\n", self.summary);
+        for section in &self.sections {
+            text.push_str(&format!("\n# {}\n\n```text\n{}\n```\n", section.title, section.text.join("\n")));
+        }
+        text
+    }
+
+    /// The whole as Markdown for rustdoc: formulas as a book sets them, and what is longer than a few lines as text.
+    pub fn to_page(&self) -> String {
+        let mut text = format!("{}\n", self.summary);
+        for section in &self.sections {
+            text.push_str(&format!("\n# {}\n\n", section.title));
+            for (formula, plain) in section.latex.iter().zip(&section.text) {
+                match paragraph(formula) {
+                    Some(set) => text.push_str(&format!("{set}\n\n")),
+                    None => text.push_str(&format!("```text\n{plain}\n```\n\n")),
+                }
+            }
+            for line in &section.text[section.latex.len()..] {
+                // What has operators of the language in it would be taken for Markdown.
+                text.push_str(&format!("- {}\n", escaped(line)));
+            }
+        }
+        text
+    }
+}
+
+/// Words of a report as Markdown; what is between backticks stays code.
+fn escaped(line: &str) -> String {
+    let mut escaped = String::new();
+    let mut in_code = false;
+    for c in line.chars() {
+        in_code ^= c == '`';
+        if !in_code && "\\*_[]<>#|~".contains(c) {
+            escaped.push('\\');
+        }
+        escaped.push(c);
+    }
+    escaped
+}

@@ -1,0 +1,80 @@
+//! How long a study may take, and how far it has come.
+
+use std::time::{Duration, Instant};
+
+use super::Stop;
+use crate::Progress;
+
+/// The parts of a study, with the part of the whole that each begins and ends at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Stage {
+    Reference,
+    Accuracy,
+    Timing,
+    Nearby,
+}
+
+impl Stage {
+    fn part(self) -> (f64, f64) {
+        match self {
+            Self::Reference => (0.0, 0.3),
+            Self::Accuracy => (0.3, 0.5),
+            Self::Timing => (0.5, 0.85),
+            Self::Nearby => (0.85, 1.0),
+        }
+    }
+}
+
+/// The time of a study, its progress, and whether it was cancelled.
+pub(super) struct Budget {
+    started: Instant,
+    whole: Duration,
+    progress: Option<Progress>,
+    stop: Stop,
+    cancelled: bool,
+    late: bool,
+}
+
+impl Budget {
+    pub fn new(whole: Duration, show: bool, stop: Stop) -> Self {
+        let progress = show.then(|| Progress::new(0.0, 1.0));
+        Self { started: Instant::now(), whole, progress, stop, cancelled: false, late: false }
+    }
+
+    /// Shows how far a stage has come, and says whether to go on. A stage may use the time up to its own end and what
+    /// the stages before left.
+    pub fn goes_on(&mut self, stage: Stage, part: f64) -> bool {
+        let (from, to) = stage.part();
+        let done = from + (to - from) * part.clamp(0.0, 1.0);
+        if let Some(progress) = &mut self.progress {
+            progress.at(done);
+        }
+        self.cancelled |= (self.stop)(done);
+        let over = Instant::now() >= self.deadline(stage);
+        self.late |= over;
+        !over && !self.cancelled
+    }
+
+    /// When a stage has to be over.
+    pub fn deadline(&self, stage: Stage) -> Instant {
+        self.started + self.whole.mul_f64(stage.part().1)
+    }
+
+    pub fn share(&self, stage: Stage) -> Duration {
+        let (from, to) = stage.part();
+        self.whole.mul_f64(to - from)
+    }
+
+    pub fn seconds(&self) -> f64 {
+        self.started.elapsed().as_secs_f64()
+    }
+
+    pub fn is_cancelled(&self) -> bool {
+        self.cancelled
+    }
+
+    /// Whether a stage had to end early.
+    pub fn is_late(&self) -> bool {
+        self.late
+    }
+}

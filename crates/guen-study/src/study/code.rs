@@ -1,0 +1,60 @@
+//! The Rust code to write for a setting.
+
+use super::lever::Argument;
+
+/// The code that runs a method of guen's over a real. It expects the constants (or whatever the study was made of) as
+/// `system` and the initial state as `start`, an array of doubles, and makes the end state of it.
+pub(super) fn run(real: &str, method: &str, argument: Argument, setting: f64, span: (f64, f64)) -> String {
+    let (t0, t1) = span;
+    // `f64` and `f32` are there without being named.
+    let own = if real.starts_with('f') { String::new() } else { format!("use guen::{real};\n") };
+    let step = if real == "f64" { format!("{setting:?}") } else { format!("R::from_f64({setting:?})") };
+    let made = match argument {
+        Argument::Field => format!("{method} {{ step: {step} }}"),
+        Argument::Step => format!("{method}::new({step})"),
+        Argument::Tolerances => format!("{method}::new({setting:?}, {setting:?})"),
+        Argument::Tolerance => format!("{method}::new({setting:?})"),
+    };
+    if real == "f64" {
+        return format!(
+            "use guen::{{Recast, prelude::*}};\n\
+             let system = system.recast::<f64>()?;\n\
+             let method = {made};\n\
+             let go_on = |_, _: &_| ControlFlow::Continue(());\n\
+             let end = method.integrate(&system, {t0:?}, &start, {t1:?}, go_on)?.state;\n"
+        );
+    }
+    format!(
+        "use guen::{{Recast, prelude::*}};\n\
+         {own}\
+         type R = {real};\n\
+         let system = system.recast::<R>()?;\n\
+         let method = {made};\n\
+         let go_on = |_, _: &_| ControlFlow::Continue(());\n\
+         let (t0, t1) = (R::from_f64({t0:?}), R::from_f64({t1:?}));\n\
+         let end = method.integrate(&system, t0, &start.map(R::from_f64), t1, go_on)?.state.map(R::to_f64);\n"
+    )
+}
+
+/// The code for a number of evaluations.
+pub(super) fn bounded(constructor: &str, evaluations: f64, span: (f64, f64)) -> String {
+    let (t0, t1) = span;
+    format!(
+        "use guen::{{Recast, prelude::*}};\n\
+         let system = system.recast::<f64>()?;\n\
+         let end = Bounded::<f64>::{constructor}({evaluations}).advance(&system, {t0:?}, &start, {t1:?})?.state;\n"
+    )
+}
+
+/// The code for lanes.
+pub(super) fn lanes(choice: &str, step: f64, span: (f64, f64)) -> String {
+    let (t0, t1) = span;
+    let choice =
+        if choice == "f64" { String::new() } else { format!(".with_choice::<guen::{choice}Functions>()") };
+    format!(
+        "use guen::{{Recast, prelude::*, study::Ensemble}};\n\
+         let system = system.recast::<f64>()?;\n\
+         let ensemble = Ensemble::of_states(system, starts){choice};\n\
+         let ends = ensemble.integrate(&Rk4 {{ step: {step:?} }}, {t0:?}, {t1:?});\n"
+    )
+}

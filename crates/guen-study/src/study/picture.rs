@@ -1,0 +1,60 @@
+//! Work against precision as a picture.
+
+use std::path::Path;
+
+use super::report::{Report, Unit};
+use super::row::Row;
+use crate::error::StudyError;
+use crate::plot::Plot;
+
+impl Report {
+    /// Work against precision: cost over error, both axes logarithmic, a curve for each method over doubles, and the
+    /// front of all levers as a grey band. Rows that failed or were not measured are not there.
+    pub fn picture(&self) -> Plot {
+        let front = self.front();
+        self.draw(&front, |row| row.real == "f64", Row::lever)
+    }
+
+    /// The same of one method: a curve for each real, and the front of all levers.
+    pub fn picture_of_reals(&self, method: &str) -> Plot {
+        let front = self.front();
+        self.draw(&front, |row| row.method == method, |row| row.real.clone())
+    }
+
+    fn draw(&self, front: &[&Row], wanted: impl Fn(&Row) -> bool, label: impl Fn(&Row) -> String) -> Plot {
+        let (factor, unit) = match self.unit {
+            Unit::Seconds => (1e6, "microseconds for one initial state"),
+            Unit::Evaluations => (1.0, "evaluations for one initial state"),
+        };
+        let mut curves: Vec<(String, Vec<(f64, f64)>)> = Vec::new();
+        for row in self.rows.iter().filter(|row| wanted(row)) {
+            let Some((error, cost)) = row.measured() else { continue };
+            let label = label(row);
+            let point = (error, factor * cost.median);
+            match curves.iter_mut().find(|(name, _)| *name == label) {
+                Some((_, points)) => points.push(point),
+                None => curves.push((label, vec![point])),
+            }
+        }
+        let front = front.iter().filter_map(|row| row.measured());
+        let front: Vec<(f64, f64)> = front.map(|(error, cost)| (error, factor * cost.median)).collect();
+        let mut plot = Plot::new(self.title.clone())
+            .size(900, 620)
+            .axes(format!("error of {}", self.measure), unit)
+            .logarithmic(true)
+            .band("not beaten by any lever", front);
+        for (label, points) in curves {
+            plot = plot.line(label, points);
+        }
+        plot.mark_points(true)
+    }
+
+    /// Writes [`picture`](Report::picture) to a file whose parent folders are created.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Plot::save`].
+    pub fn save_picture(&self, path: impl AsRef<Path>) -> Result<(), StudyError> {
+        self.picture().save(path)
+    }
+}

@@ -1,0 +1,101 @@
+//! The reference: states in 71 digits by one method, and by another one, so that their difference is known.
+
+use std::ops::ControlFlow;
+use std::rc::Rc;
+
+use guen_runtime::steppers::{Integration, Method, Outcome};
+use guen_runtime::{Real, System};
+
+use super::digits71::Digits71;
+use super::extrapolation::{Stop, extrapolate};
+
+type Long = Digits71;
+
+/// Where a reference is computed, and by what. `watch` is told the time reached, and says whether to go on.
+pub(super) type Source<const N: usize> =
+    Box<dyn Fn(&Problem<'_, N>, &mut dyn FnMut(f64) -> bool) -> Result<Vec<[Long; N]>, String>>;
+
+/// One initial state and where the states are wanted.
+pub(super) struct Problem<'a, const N: usize> {
+    pub start: &'a [f64; N],
+    pub t0: f64,
+    pub times: &'a [f64],
+}
+
+/// A source with what is to be said of it.
+pub(super) struct Named<const N: usize> {
+    pub name: String,
+    pub source: Source<N>,
+}
+
+const CANCELLED: &str = "it was cancelled, or took longer than the study had for it";
+
+/// The order of the reference is high, so that digits are cheap: 1e-24 is a third more work than 1e-18.
+pub(super) const EXTRAPOLATION_TOLERANCE: f64 = 1e-24;
+/// The check is of order eight, where ten times the digits is twelve times the work: as tight as it has to be for
+/// differences below the rounding of doubles.
+pub(super) const CHECK_TOLERANCE: f64 = 1e-17;
+
+pub(super) fn by_extrapolation<S, const N: usize>(system: Rc<S>, tolerance: f64) -> Named<N>
+where
+    S: System<Long, N> + 'static,
+{
+    let source = Box::new(move |problem: &Problem<'_, N>, watch: &mut dyn FnMut(f64) -> bool| {
+        let (start, t0) = (problem.start.map(Long::from_f64), Long::from_f64(problem.t0));
+        let times: Vec<Long> = problem.times.iter().map(|t| Long::from_f64(*t)).collect();
+        extrapolate(&*system, t0, &start, &times, tolerance, |t| watch(t.to_f64()))
+            .map(|(states, _)| states)
+            .map_err(|stop| match stop {
+                Stop::Underflow => "the step became too short: the motion has a singularity".to_owned(),
+                Stop::Cancelled => CANCELLED.to_owned(),
+            })
+    });
+    Named { name: format!("extrapolated midpoint rule of order 24, tolerance {tolerance:e}"), source }
+}
+
+/// A method of guen's, or of the user's, that lands on every time.
+pub(super) fn by_method<S, M, const N: usize>(name: String, system: Rc<S>, method: M) -> Named<N>
+where
+    S: System<Long, N> + 'static,
+    M: Method<Long, S, N> + 'static,
+{
+    let source = Box::new(move |problem: &Problem<'_, N>, watch: &mut dyn FnMut(f64) -> bool| {
+        let mut states = Vec::with_capacity(problem.times.len());
+        let (mut t, mut x) = (Long::from_f64(problem.t0), problem.start.map(Long::from_f64));
+        for &next in problem.times {
+            let next = Long::from_f64(next);
+            let mut look = |t: Long, _: &[Long; N]| {
+                if watch(t.to_f64()) { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+            };
+            let done = Integration::new(&*system, t, &x)
+                .observe(&mut look)
+                .run(&method, next)
+                .map_err(|error| error.to_string())?;
+            if done.outcome != Outcome::Arrived {
+                return Err(CANCELLED.to_owned());
+            }
+            (t, x) = (next, done.state);
+            states.push(x);
+        }
+        Ok(states)
+    });
+    Named { name, source }
+}
+
+/// What is said of the reference in a report.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+pub struct ReferenceReport {
+    /// How it was computed.
+    pub method: String,
+    /// How it was checked.
+    pub check: String,
+    /// The largest difference between the two over all initial states, in the measure of the study: the stated error.
+    /// None if one of them failed.
+    pub error: Option<f64>,
+    /// Why there is no reference, or no check of it.
+    pub failure: Option<String>,
+    /// The seconds that both took.
+    pub seconds: f64,
+}

@@ -1,0 +1,341 @@
+//! What a study found: the rows, which of them are worth choosing, and what may be said of them.
+
+use std::fmt;
+
+use super::front::pareto_front;
+use super::reference::ReferenceReport;
+use super::row::{Nearby, Row};
+use crate::significant;
+
+/// What costs are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum Unit {
+    /// Seconds for one initial state.
+    Seconds,
+    /// Evaluations of the right-hand side for one initial state; a Jacobian counts as many as the system has variables.
+    Evaluations,
+}
+
+impl Unit {
+    /// A cost for people, with its unit.
+    pub(super) fn show(self, cost: f64) -> String {
+        match self {
+            Self::Seconds if cost < 1e-3 => format!("{} us", significant(1e6 * cost, 3)),
+            Self::Seconds if cost < 1.0 => format!("{} ms", significant(1e3 * cost, 3)),
+            Self::Seconds => format!("{} s", significant(cost, 3)),
+            Self::Evaluations => format!("{} ev", significant(cost, 6)),
+        }
+    }
+}
+
+/// How a study ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum Ending {
+    /// Everything was measured.
+    Complete,
+    /// The time for the study was over: what was measured is there.
+    OutOfTime,
+    /// It was cancelled: what was measured is there.
+    Cancelled,
+}
+
+/// What a study found. Displays as a table of what is worth choosing, with everything that qualifies it;
+/// [`table`](Report::table) has every row.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+pub struct Report {
+    /// What was studied.
+    pub title: String,
+    /// What counts as error.
+    pub measure: String,
+    /// Beginning and end of the span.
+    pub span: (f64, f64),
+    /// The number of initial states.
+    pub starts: usize,
+    /// What costs are.
+    pub unit: Unit,
+    /// The reference; none where the measure needs none.
+    pub reference: Option<ReferenceReport>,
+    /// Every setting that was tried and is worth showing, in the order of the levers, from coarse to fine.
+    pub rows: Vec<Row>,
+    /// How the study ended.
+    pub ending: Ending,
+    /// The number of states nearby that settings were tried from.
+    pub probes: usize,
+    /// The median over the rows of half the interval of the median cost, relative.
+    pub noise: f64,
+    /// How long the study took.
+    pub seconds: f64,
+    /// Machine and build, as far as they are known.
+    pub conditions: String,
+}
+
+/// A chosen setting.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Choice<'a> {
+    /// Its position among the rows.
+    pub index: usize,
+    /// The setting, with the code to write.
+    pub row: &'a Row,
+    /// The error that was asked for; that of the setting where a time was given.
+    pub asked: f64,
+    /// Settings that fulfil the same and whose costs cannot be told from that of the choice.
+    pub ties: Vec<&'a Row>,
+    /// A setting that is quicker and was passed over, because it errs too much from states nearby.
+    pub passed_over: Option<&'a Row>,
+    unit: Unit,
+}
+
+/// Why there is no choice.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum NoChoice {
+    /// Nothing was measured: the study was cancelled, or its reference failed.
+    NothingMeasured,
+    /// No setting is that accurate; the most accurate one errs this much.
+    NotThatAccurate {
+        /// The least error measured.
+        least: f64,
+    },
+    /// Settings are that accurate from the initial states, and none of them from all states nearby.
+    NotNearby,
+    /// No setting is that cheap; the cheapest one costs this much.
+    NotThatCheap {
+        /// The least cost measured.
+        least: f64,
+    },
+}
+
+impl fmt::Display for NoChoice {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NothingMeasured => f.write_str("no setting has a measured error and a measured cost"),
+            Self::NotThatAccurate { least } => {
+                write!(f, "no setting is that accurate; the least error measured is {least:.1e}")
+            }
+            Self::NotNearby => f.write_str(
+                "settings are that accurate from the initial states, but none from all states nearby",
+            ),
+            Self::NotThatCheap { least } => {
+                write!(f, "no setting is that cheap; the least cost measured is {least:.2e}")
+            }
+        }
+    }
+}
+
+impl std::error::Error for NoChoice {}
+
+/// A setting may err this many times what was asked for from states nearby; ten times is what is promised.
+const NEARBY: f64 = 3.0;
+
+impl Report {
+    fn points(&self) -> Vec<(f64, f64)> {
+        let point = |row: &Row| row.measured().map_or((f64::NAN, f64::NAN), |(e, cost)| (e, cost.median));
+        self.rows.iter().map(point).collect()
+    }
+
+    /// The rows that no other one beats in both error and median cost, from coarse to fine. Neighbours whose costs tie
+    /// are both there.
+    pub fn front(&self) -> Vec<&Row> {
+        pareto_front(&self.points()).into_iter().map(|i| &self.rows[i]).collect()
+    }
+
+    pub(super) fn front_indices(&self) -> Vec<usize> {
+        pareto_front(&self.points())
+    }
+
+    /// The cheapest setting whose error was measured to be at most this, and whose error from states nearby was at most
+    /// three times this, where it was measured: so that the promise, ten times, has room.
+    ///
+    /// # Errors
+    ///
+    /// There is none.
+    pub fn fastest_within(&self, error: f64) -> Result<Choice<'_>, NoChoice> {
+        let accurate = |(_, row): &(usize, &Row)| row.measured().is_some_and(|(found, _)| found <= error);
+        let robust =
+            |(_, row): &(usize, &Row)| row.nearby.is_none_or(|nearby| nearby.is_within(NEARBY * error));
+        let cost = |row: &Row| row.cost.map_or(f64::INFINITY, |cost| cost.median);
+        let cheapest = |found: &mut dyn Iterator<Item = (usize, &Row)>| -> Option<(usize, usize)> {
+            found.min_by(|a, b| cost(a.1).total_cmp(&cost(b.1))).map(|(index, _)| (index, index))
+        };
+        let plain = cheapest(&mut self.rows.iter().enumerate().filter(accurate));
+        let Some((plain, _)) = plain else {
+            let least = self.rows.iter().filter_map(|row| Some(row.measured()?.0)).min_by(f64::total_cmp);
+            return Err(least.map_or(NoChoice::NothingMeasured, |least| NoChoice::NotThatAccurate { least }));
+        };
+        // Where nearby errors were measured at all, a row without one was not worth measuring, and is not chosen.
+        let probed = self.rows.iter().any(|row| row.nearby.is_some());
+        let known = |(_, row): &(usize, &Row)| !probed || row.nearby.is_some();
+        let chosen =
+            cheapest(&mut self.rows.iter().enumerate().filter(accurate).filter(robust).filter(known));
+        let Some((index, _)) = chosen else { return Err(NoChoice::NotNearby) };
+        let candidates = self.rows.iter().enumerate().filter(accurate).filter(robust).filter(known);
+        let ties = self.ties(index, candidates);
+        let passed_over = (plain != index).then(|| &self.rows[plain]);
+        Ok(Choice { index, row: &self.rows[index], asked: error, ties, passed_over, unit: self.unit })
+    }
+
+    /// The setting with the least measured error among those whose cost is at most this: the upper end of its interval,
+    /// so that noise does not choose. In seconds, or in evaluations where the study counts them.
+    ///
+    /// # Errors
+    ///
+    /// There is none.
+    pub fn most_accurate_within(&self, cost: f64) -> Result<Choice<'_>, NoChoice> {
+        let measured = || self.rows.iter().enumerate().filter_map(|(i, row)| Some((i, row.measured()?)));
+        let best = measured()
+            .filter(|(_, (_, found))| found.high <= cost)
+            .min_by(|a, b| a.1.0.total_cmp(&b.1.0).then(a.1.1.median.total_cmp(&b.1.1.median)));
+        let Some((index, (asked, _))) = best else {
+            let least = measured().map(|(_, (_, found))| found.high).min_by(f64::total_cmp);
+            return Err(least.map_or(NoChoice::NothingMeasured, |least| NoChoice::NotThatCheap { least }));
+        };
+        Ok(Choice {
+            index,
+            row: &self.rows[index],
+            asked,
+            ties: Vec::new(),
+            passed_over: None,
+            unit: self.unit,
+        })
+    }
+
+    fn ties<'a>(&'a self, index: usize, candidates: impl Iterator<Item = (usize, &'a Row)>) -> Vec<&'a Row> {
+        let Some(cost) = self.rows[index].cost else { return Vec::new() };
+        candidates
+            .filter(|(i, row)| *i != index && row.cost.is_some_and(|other| other.ties_with(&cost)))
+            .map(|(_, row)| row)
+            .collect()
+    }
+
+    /// The neighbours on the front whose costs cannot be told apart, and the number of neighbours.
+    pub fn ties_on_front(&self) -> (usize, usize) {
+        let front = self.front();
+        let tied = |pair: &&[&Row]| match (&pair[0].cost, &pair[1].cost) {
+            (Some(a), Some(b)) => a.ties_with(b),
+            _ => false,
+        };
+        (front.windows(2).filter(tied).count(), front.len().saturating_sub(1))
+    }
+
+    /// Every row as a text table.
+    pub fn table(&self) -> String {
+        self.show(self.rows.iter())
+    }
+
+    fn show<'a>(&self, rows: impl Iterator<Item = &'a Row>) -> String {
+        let mut lines = vec![["error", "nearby", "cost", "+-", "evaluations", "setting"].map(str::to_owned)];
+        for row in rows {
+            let error = match (&row.failure, row.error) {
+                (Some(_), _) => "failed".to_owned(),
+                (None, Some(error)) if row.limited => format!("~{error:.1e}"),
+                (None, Some(error)) => format!("{error:.1e}"),
+                (None, None) => "-".to_owned(),
+            };
+            let nearby = match row.nearby {
+                Some(Nearby::Error(error)) => format!("{error:.1e}"),
+                Some(Nearby::Failed) => "failed".to_owned(),
+                None => "-".to_owned(),
+            };
+            let cost = row.cost.map_or("-".to_owned(), |cost| self.unit.show(cost.median));
+            let noise = row.cost.map_or("-".to_owned(), |cost| format!("{:.1}%", 100.0 * cost.noise()));
+            let reason = row.failure.as_ref().map_or(String::new(), |failure| match failure.time {
+                Some(time) => format!(": at t = {} {}", significant(time, 4), failure.message),
+                None => format!(": {}", failure.message),
+            });
+            let evaluations =
+                if row.evaluations > 0.0 { format!("{:.0}", row.evaluations) } else { "-".into() };
+            lines.push([error, nearby, cost, noise, evaluations, row.name() + &reason]);
+        }
+        aligned(&lines)
+    }
+}
+
+/// Columns under each other: the last one to the left, all others to the right.
+fn aligned(lines: &[[String; 6]]) -> String {
+    let width = |k: usize| lines.iter().map(|line| line[k].chars().count()).max().unwrap_or(0);
+    let widths: Vec<usize> = (0..5).map(width).collect();
+    let mut text = String::new();
+    for line in lines {
+        for (cell, width) in line.iter().zip(&widths) {
+            text.push_str(&format!("{cell:>width$}  "));
+        }
+        text.push_str(&line[5]);
+        text.push('\n');
+    }
+    text
+}
+
+impl fmt::Display for Report {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (t0, t1) = self.span;
+        let states = if self.starts == 1 { "1 state".to_owned() } else { format!("{} states", self.starts) };
+        writeln!(f, "{}, t = {t0} .. {t1}, from {states}", self.title)?;
+        writeln!(f, "error: {}", self.measure)?;
+        if let Some(reference) = &self.reference {
+            writeln!(f, "reference: {}", reference.method)?;
+            match (reference.error, &reference.failure) {
+                (Some(error), _) => {
+                    writeln!(f, "           differs by {error:.1e} from {}", reference.check)?
+                }
+                (None, Some(failure)) => writeln!(f, "           none: {failure}")?,
+                (None, None) => writeln!(f, "           not checked")?,
+            }
+        }
+        writeln!(f, "{} settings; those that no other one beats:\n", self.rows.len())?;
+        f.write_str(&self.show(self.front().into_iter()))?;
+        let limited = self.rows.iter().filter(|row| row.limited).count();
+        if limited > 0 {
+            writeln!(f, "~ of the size of the reference's own error, or near it: {limited} settings")?;
+        }
+        let failed = self.rows.iter().filter(|row| row.failure.is_some()).count();
+        if failed > 0 {
+            writeln!(f, "{failed} settings failed, see the table of all")?;
+        }
+        if self.unit == Unit::Seconds {
+            let (tied, neighbours) = self.ties_on_front();
+            writeln!(
+                f,
+                "medians are uncertain by {:.1} percent in the median over all rows",
+                100.0 * self.noise
+            )?;
+            if tied > 0 {
+                writeln!(
+                    f,
+                    "too noisy to rank {tied} of {neighbours} pairs of neighbours: their intervals overlap"
+                )?;
+            }
+        }
+        match self.ending {
+            Ending::Complete => {}
+            Ending::OutOfTime => {
+                writeln!(f, "the time for the study was over before everything was measured")?
+            }
+            Ending::Cancelled => writeln!(f, "cancelled before everything was measured")?,
+        }
+        write!(f, "{}", self.conditions)
+    }
+}
+
+impl fmt::Display for Choice<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let cost = self.row.cost.map_or_else(String::new, |cost| self.unit.show(cost.median));
+        let error = self.row.error.unwrap_or(f64::NAN);
+        write!(f, "{}: error {error:.1e}, {cost}", self.row.name())?;
+        if let Some(Nearby::Error(nearby)) = self.row.nearby {
+            write!(f, ", from states nearby at most {nearby:.1e}")?;
+        }
+        if let Some(row) = self.passed_over {
+            write!(f, "\n  quicker, but not as accurate from states nearby: {}", row.name())?;
+        }
+        if !self.ties.is_empty() {
+            let names: Vec<String> = self.ties.iter().map(|row| row.name()).collect();
+            write!(f, "\n  a tie, the machine was too noisy to rank them: {}", names.join("; "))?;
+        }
+        Ok(())
+    }
+}

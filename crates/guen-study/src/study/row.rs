@@ -1,0 +1,171 @@
+//! What is known of one setting of one lever.
+
+use guen_runtime::{Cause, ConstantsError};
+
+use super::timing::Cost;
+
+/// What the setting of a lever is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum Knob {
+    /// The length of a step, in units of time.
+    Step,
+    /// The relative and absolute tolerance.
+    Tolerance,
+    /// The number of evaluations allowed.
+    Evaluations,
+}
+
+impl Knob {
+    /// The letter that stands for it in tables.
+    pub fn symbol(self) -> &'static str {
+        match self {
+            Self::Step => "h",
+            Self::Tolerance => "tol",
+            Self::Evaluations => "n",
+        }
+    }
+}
+
+/// Why a setting has no result.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Failure {
+    /// What kind of failure.
+    pub kind: FailureKind,
+    /// The time that the run had reached, if it had begun.
+    pub time: Option<f64>,
+    /// The whole message.
+    pub message: String,
+}
+
+/// The kinds of failures, as far as a choice depends on them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+pub enum FailureKind {
+    /// The state was no longer finite.
+    NotFinite,
+    /// The step became too short, or there were too many of them.
+    Steps,
+    /// The equations of an implicit step were not solved.
+    NoConvergence,
+    /// A guard found that energy, constraints or chart were violated: the setting is too coarse.
+    Guard,
+    /// The setting makes no sense for this method.
+    Setting,
+    /// The constants cannot be prepared in this real.
+    Constants,
+    /// It took longer than the study had for it.
+    OutOfTime,
+}
+
+impl Failure {
+    pub(super) fn of_run(time: f64, cause: &Cause) -> Self {
+        let kind = match cause {
+            Cause::NotFinite => FailureKind::NotFinite,
+            Cause::NoConvergence => FailureKind::NoConvergence,
+            Cause::Energy { .. }
+            | Cause::Residual { .. }
+            | Cause::Edge { .. }
+            | Cause::Carried { .. }
+            | Cause::Positions => FailureKind::Guard,
+            Cause::Setting(_) => FailureKind::Setting,
+            _ => FailureKind::Steps,
+        };
+        Self { kind, time: Some(time), message: cause.to_string() }
+    }
+
+    pub(super) fn of_constants(error: &ConstantsError) -> Self {
+        Self { kind: FailureKind::Constants, time: None, message: error.to_string() }
+    }
+
+    pub(super) fn out_of_time(time: Option<f64>) -> Self {
+        let message = "it took longer than the study had for it".to_owned();
+        Self { kind: FailureKind::OutOfTime, time, message }
+    }
+}
+
+/// What a setting errs from states in the neighbourhood of those that the study was made for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum Nearby {
+    /// The largest error.
+    Error(f64),
+    /// A run failed.
+    Failed,
+}
+
+impl Nearby {
+    /// The larger of the two; a failure is the largest.
+    #[must_use]
+    pub fn worse(self, other: Self) -> Self {
+        match (self, other) {
+            (Self::Error(a), Self::Error(b)) => Self::Error(a.max(b)),
+            _ => Self::Failed,
+        }
+    }
+
+    /// Whether it is an error of at most this size.
+    pub fn is_within(self, error: f64) -> bool {
+        matches!(self, Self::Error(found) if found <= error)
+    }
+}
+
+/// One setting of one lever: what it is, what it errs, what it costs. A row of the table.
+///
+/// Fields that were not measured are `None`: a cancelled study, or one whose reference failed, has such rows.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+pub struct Row {
+    /// The method, such as `DOP853`.
+    pub method: String,
+    /// The real that it computes with, such as `f64` or `Digits7`.
+    pub real: String,
+    /// The form of the right-hand side: `declared` unless the lever brings another one.
+    pub form: String,
+    /// What the setting is.
+    pub knob: Knob,
+    /// The setting.
+    pub setting: f64,
+    /// The largest error over the initial states, in the study's measure.
+    pub error: Option<f64>,
+    /// Whether the error is so small that the reference's own error may be a tenth of it, or more.
+    pub limited: bool,
+    /// What it errs from states nearby, for rows that may be chosen.
+    pub nearby: Option<Nearby>,
+    /// Evaluations of the right-hand side, for one initial state in the mean.
+    pub evaluations: f64,
+    /// Evaluations of the Jacobian, likewise.
+    pub jacobians: f64,
+    /// What it costs, for one initial state.
+    pub cost: Option<Cost>,
+    /// Why there is no result.
+    pub failure: Option<Failure>,
+    /// The Rust code for this setting.
+    pub code: String,
+}
+
+impl Row {
+    /// Method, real and form, as far as they are not the usual ones.
+    ///
+    /// `DOP853`, `RK8 in Digits7`, `DOP853, carried`.
+    pub fn lever(&self) -> String {
+        let real = if self.real == "f64" { String::new() } else { format!(" in {}", self.real) };
+        let form = if self.form == "declared" { String::new() } else { format!(", {}", self.form) };
+        format!("{}{real}{form}", self.method)
+    }
+
+    /// The lever with its setting: `RK8 in Digits7, h = 0.05`.
+    pub fn name(&self) -> String {
+        format!("{}, {} = {}", self.lever(), self.knob.symbol(), crate::significant(self.setting, 3))
+    }
+
+    /// Error and cost, if both were measured and the setting did not fail.
+    pub fn measured(&self) -> Option<(f64, &Cost)> {
+        let error = self.error.filter(|error| error.is_finite())?;
+        self.failure.is_none().then_some(())?;
+        Some((error, self.cost.as_ref()?))
+    }
+}

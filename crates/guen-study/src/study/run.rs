@@ -1,0 +1,418 @@
+//! What a study does, stage by stage: reference, errors, times, states nearby. A stage that ends early leaves what it
+//! has, and the next ones work with that.
+
+use std::rc::Rc;
+use std::time::{Duration, Instant};
+
+use guen_runtime::steppers::Statistics;
+
+use super::budget::{Budget, Stage};
+use super::digits71::Digits71;
+use super::lever::{Lever, Run, Task};
+use super::measure::{against, kept};
+use super::probes::{self, Probe};
+use super::reference::{Named, Problem, ReferenceReport};
+use super::report::{Ending, Report, Unit};
+use super::row::{FailureKind, Nearby, Row};
+use super::timing::Cost;
+use super::trade::{Means, Trade};
+use super::{Stop, Study, lengthened};
+
+/// Settings that err more are not worth a row.
+const USELESS: f64 = 0.5;
+/// A lever is given up when so many settings in a row gain less than a factor of two on the best so far ..
+const STAGNATION: u32 = 4;
+/// .. once it is this accurate, or when it is so many times as dear as another one that errs no more.
+const SETTLED: f64 = 1e-2;
+const HOPELESS: f64 = 30.0;
+/// A study that counts evaluations has no clock to tell it when a setting takes too long.
+const MOST_EVALUATIONS: f64 = 3e6;
+/// Settings are marked whose error is below so many times that of the reference.
+const LIMITED: f64 = 10.0;
+/// The repetitions of a timing: of all rows, and of those near the front.
+const FEW: usize = 5;
+const MANY: usize = 41;
+/// Rows within this factor of the front in cost are timed often, and tried from states nearby.
+const NEAR_FRONT: f64 = 2.5;
+
+/// A row on its way.
+struct Tried<const N: usize> {
+    row: Row,
+    run: Option<Rc<Run<N>>>,
+    /// Seconds of one run from all starts, roughly; evaluations in a study that counts them.
+    rough: f64,
+}
+
+pub(super) fn run<S, const N: usize>(mut study: Study<S, N>) -> Trade<N> {
+    let stop = std::mem::replace(&mut study.stop, Box::new(|_| false) as Stop);
+    let mut budget = Budget::new(study.budget, study.progress, stop);
+    let times = study.times();
+
+    let (references, reference) = references(&study, &times, &mut budget);
+    let mut tried = errors(&mut study, &times, &references, reference.as_ref(), &mut budget);
+    costs(&mut study, &times, &mut tried, &mut budget);
+
+    let mut report = Report {
+        title: study.title.clone(),
+        measure: study.measure.text(),
+        span: (study.t0, study.t1),
+        starts: study.starts.len(),
+        unit: study.unit,
+        reference,
+        rows: Vec::new(),
+        ending: Ending::Complete,
+        probes: 0,
+        noise: 0.0,
+        seconds: 0.0,
+        conditions: conditions(),
+    };
+    report.probes = nearby(&study, &times, &references, &mut tried, &mut budget);
+
+    let mut runs = Vec::new();
+    for Tried { row, run, .. } in tried {
+        report.rows.push(row);
+        runs.push(run);
+    }
+    let mut noises: Vec<f64> = report.rows.iter().filter_map(|row| Some(row.cost?.noise())).collect();
+    noises.sort_by(f64::total_cmp);
+    report.noise = noises.get(noises.len() / 2).copied().unwrap_or(0.0);
+    report.ending = match (budget.is_cancelled(), budget.is_late()) {
+        (true, _) => Ending::Cancelled,
+        (false, true) => Ending::OutOfTime,
+        (false, false) => Ending::Complete,
+    };
+    report.seconds = budget.seconds();
+    let means = Means {
+        runs,
+        samples: study.samples,
+        measure: study.measure,
+        scales: study.scales,
+        tells: study.tells,
+        tight: study.tight,
+        reference: study.reference,
+    };
+    Trade { report, means }
+}
+
+/// The reference of every start, and what is to be said of it. Nothing where the measure needs none, and nothing where
+/// one of them failed.
+fn references<S, const N: usize>(
+    study: &Study<S, N>,
+    times: &[f64],
+    budget: &mut Budget,
+) -> (Vec<Vec<[Digits71; N]>>, Option<ReferenceReport>) {
+    if !study.measure.needs_reference() {
+        return (Vec::new(), None);
+    }
+    let begun = budget.seconds();
+    let span = (study.t1 - study.t0).abs().max(f64::MIN_POSITIVE);
+    let runs = 2.0 * study.starts.len() as f64;
+    let compute = |named: &Named<N>, start: &[f64; N], before: f64, budget: &mut Budget| {
+        let problem = Problem { start, t0: study.t0, times };
+        (named.source)(&problem, &mut |t| {
+            let part = (before + (t - study.t0).abs() / span) / runs;
+            budget.goes_on(Stage::Reference, part)
+        })
+    };
+    let mut said = ReferenceReport {
+        method: study.reference.name.clone(),
+        check: study.check.as_ref().map_or_else(String::new, |check| check.name.clone()),
+        error: None,
+        failure: None,
+        seconds: 0.0,
+    };
+    let mut found = Vec::new();
+    for (k, start) in study.starts.iter().enumerate() {
+        match compute(&study.reference, start, k as f64, budget) {
+            Ok(states) => found.push(states),
+            Err(failure) => {
+                said.failure = Some(failure);
+                said.seconds = budget.seconds() - begun;
+                return (Vec::new(), Some(said));
+            }
+        }
+    }
+    if let Some(check) = &study.check {
+        let mut largest = 0.0_f64;
+        for (k, (start, reference)) in study.starts.iter().zip(&found).enumerate() {
+            match compute(check, start, (study.starts.len() + k) as f64, budget) {
+                Ok(states) => {
+                    let states = states.into_iter();
+                    largest = largest.max(against(&study.measure, &study.scales, times, states, reference));
+                }
+                Err(failure) => {
+                    said.failure = Some(format!("the check of the reference: {failure}"));
+                    said.seconds = budget.seconds() - begun;
+                    return (found, Some(said));
+                }
+            }
+        }
+        said.error = Some(largest);
+    }
+    said.seconds = budget.seconds() - begun;
+    (found, Some(said))
+}
+
+/// Runs every lever at its settings, from coarse to fine, until nothing is gained.
+fn errors<S, const N: usize>(
+    study: &mut Study<S, N>,
+    times: &[f64],
+    references: &[Vec<[Digits71; N]>],
+    reference: Option<&ReferenceReport>,
+    budget: &mut Budget,
+) -> Vec<Tried<N>> {
+    let levers = std::mem::take(&mut study.levers);
+    // Without a reference errors cannot be had. Unchecked, they are shown as limited.
+    let measurable = !study.measure.needs_reference() || !references.is_empty();
+    let floor = match reference {
+        None => 0.0,
+        Some(reference) => reference.error.map_or(f64::INFINITY, |error| LIMITED * error),
+    };
+    let share = budget.share(Stage::Accuracy);
+    let patience = share.div_f64(4.0 * levers.len().max(1) as f64).max(Duration::from_millis(10));
+    let count = levers.len() as f64;
+    let mut all: Vec<Tried<N>> = Vec::new();
+    for (k, lever) in levers.iter().enumerate() {
+        if !budget.goes_on(Stage::Accuracy, k as f64 / count) {
+            break;
+        }
+        let make = match &lever.make {
+            Ok(make) => make,
+            Err(failure) => {
+                let row = Row { failure: Some(failure.clone()), ..blank(lever, f64::NAN) };
+                all.push(Tried { row, run: None, rough: f64::NAN });
+                continue;
+            }
+        };
+        let mut best = f64::INFINITY;
+        let (mut idle, mut hopeless) = (0, 0);
+        let mut failed: Option<Tried<N>> = None;
+        let mut shown = false;
+        for setting in lever.settings.values(study.t1 - study.t0) {
+            let run = make(setting);
+            let begun = Instant::now();
+            let deadline =
+                if study.unit == Unit::Seconds { begun + patience } else { budget.deadline(Stage::Accuracy) };
+            let task = Task { starts: &study.starts, t0: study.t0, times, deadline: Some(deadline) };
+            let mut states = Vec::new();
+            let outcome = run(&task, &mut states);
+            let seconds = begun.elapsed().as_secs_f64();
+            let mut row = blank(lever, setting);
+            let statistics = match outcome {
+                Ok(statistics) => statistics,
+                Err(failure) => {
+                    let over = failure.kind == FailureKind::OutOfTime;
+                    row.failure = Some(failure);
+                    failed = Some(Tried { row, run: None, rough: f64::NAN });
+                    // Coarse settings fail; what takes too long takes longer when it is finer.
+                    if over || shown {
+                        break;
+                    }
+                    continue;
+                }
+            };
+            let starts = study.starts.len() as f64;
+            row.evaluations = statistics.evaluations as f64 / starts;
+            row.jacobians = statistics.jacobians as f64 / starts;
+            let work = evaluations(&statistics, N);
+            let rough = if study.unit == Unit::Seconds { seconds } else { work };
+            if !measurable {
+                all.push(Tried { row, run: Some(Rc::new(run)), rough });
+                shown = true;
+                continue;
+            }
+            let error = error_of(study, times, references, &states);
+            if error.is_finite() {
+                row.error = Some(error);
+                row.limited = error < floor;
+                if error <= USELESS {
+                    // The finest setting that failed is a row as well.
+                    all.extend(failed.take());
+                    all.push(Tried { row, run: Some(Rc::new(run)), rough });
+                    shown = true;
+                } else {
+                    failed = None;
+                }
+            }
+            idle = if best < SETTLED && error > 0.5 * best { idle + 1 } else { 0 };
+            best = best.min(error);
+            let beaten = all
+                .iter()
+                .any(|other| other.row.error.is_some_and(|e| e <= error) && HOPELESS * other.rough < rough);
+            hopeless = if beaten { hopeless + 1 } else { 0 };
+            let too_many = work > MOST_EVALUATIONS * starts;
+            if idle >= STAGNATION || hopeless >= 2 || too_many {
+                break;
+            }
+        }
+        all.extend(failed);
+    }
+    budget.goes_on(Stage::Accuracy, 1.0);
+    all
+}
+
+fn blank<const N: usize>(lever: &Lever<N>, setting: f64) -> Row {
+    Row {
+        method: lever.method.clone(),
+        real: lever.real.clone(),
+        form: lever.form.clone(),
+        knob: lever.settings.knob(),
+        setting,
+        error: None,
+        limited: false,
+        nearby: None,
+        evaluations: 0.0,
+        jacobians: 0.0,
+        cost: None,
+        failure: None,
+        code: (lever.code)(setting),
+    }
+}
+
+/// The work in right-hand sides.
+fn evaluations(statistics: &Statistics, variables: usize) -> f64 {
+    statistics.evaluations as f64 + variables as f64 * statistics.jacobians as f64
+}
+
+fn error_of<S, const N: usize>(
+    study: &Study<S, N>,
+    times: &[f64],
+    references: &[Vec<[Digits71; N]>],
+    states: &[[f64; N]],
+) -> f64 {
+    let mut largest = 0.0_f64;
+    for (k, start) in study.starts.iter().enumerate() {
+        let own = &states[k * times.len()..(k + 1) * times.len()];
+        largest = largest.max(match references.get(k) {
+            Some(reference) => {
+                against(&study.measure, &study.scales, times, own.iter().map(lengthened), reference)
+            }
+            None => kept(&study.measure, &study.tells, (study.t0, start), times, own),
+        });
+    }
+    largest
+}
+
+/// How far each row is from the front in rough cost: the factor to the cheapest row that errs no more.
+fn distances<const N: usize>(tried: &[Tried<N>]) -> Vec<f64> {
+    let distance = |one: &Tried<N>| {
+        let Some(error) = one.row.error else { return f64::INFINITY };
+        let cheaper = tried.iter().filter(|other| other.row.error.is_some_and(|e| e <= error));
+        one.rough / cheaper.map(|other| other.rough).fold(one.rough, f64::min)
+    };
+    tried.iter().map(distance).collect()
+}
+
+/// Times all rows in turn, those near the front more often; or takes the evaluations.
+fn costs<S, const N: usize>(
+    study: &mut Study<S, N>,
+    times: &[f64],
+    tried: &mut [Tried<N>],
+    budget: &mut Budget,
+) {
+    let starts = study.starts.len() as f64;
+    if study.unit == Unit::Evaluations {
+        for one in tried.iter_mut().filter(|one| one.run.is_some()) {
+            one.row.cost = Some(Cost::exact(one.rough / starts));
+        }
+        budget.goes_on(Stage::Timing, 1.0);
+        return;
+    }
+    let distances = distances(tried);
+    let mut seconds: Vec<Vec<f64>> = tried.iter().map(|_| Vec::new()).collect();
+    let task = Task { starts: &study.starts, t0: study.t0, times, deadline: None };
+    let mut states = Vec::new();
+    'rounds: for round in 0..MANY {
+        for place in 0..tried.len() {
+            // Back and forth, so that what drifts favours nobody.
+            let k = if round % 2 == 0 { place } else { tried.len() - 1 - place };
+            let Some(run) = &tried[k].run else { continue };
+            if round >= FEW && !(distances[k] <= NEAR_FRONT) {
+                continue;
+            }
+            let part = (round as f64 + place as f64 / tried.len() as f64) / MANY as f64;
+            if !budget.goes_on(Stage::Timing, part) {
+                break 'rounds;
+            }
+            let taken = study.stopwatch.seconds(k, &mut || {
+                states.clear();
+                let _ = std::hint::black_box(run(&task, &mut states));
+            });
+            seconds[k].push(taken / starts);
+        }
+    }
+    for (one, mut seconds) in tried.iter_mut().zip(seconds) {
+        one.row.cost = Cost::of(&mut seconds);
+        if let Some(cost) = one.row.cost {
+            one.rough = cost.median;
+        }
+    }
+}
+
+/// Tries the rows near the front from states nearby, and returns the number of those.
+fn nearby<S, const N: usize>(
+    study: &Study<S, N>,
+    times: &[f64],
+    references: &[Vec<[Digits71; N]>],
+    tried: &mut [Tried<N>],
+    budget: &mut Budget,
+) -> usize {
+    let known = !study.measure.needs_reference() || !references.is_empty();
+    if study.probes == 0 || !known || study.starts.is_empty() {
+        return 0;
+    }
+    let along = along(study);
+    let states = probes::states(&study.starts, &along, study.t0, &study.tells, (study.probes, study.spread));
+    let mut computed = 0.0;
+    let probes = probes::with_references(
+        states,
+        &study.measure,
+        (study.t0, times),
+        &study.reference.source,
+        &mut || {
+            computed += 1e-4;
+            budget.goes_on(Stage::Nearby, f64::min(computed, 0.5))
+        },
+    );
+    let distances = distances(tried);
+    let near: Vec<usize> = (0..tried.len()).filter(|k| distances[*k] <= NEAR_FRONT).collect();
+    for (done, &k) in near.iter().enumerate() {
+        if !budget.goes_on(Stage::Nearby, 0.5 + 0.5 * done as f64 / near.len() as f64) {
+            break;
+        }
+        let Some(run) = &tried[k].run else { continue };
+        let worst = probes.iter().map(|probe| try_at(study, run, probe, times)).reduce(Nearby::worse);
+        tried[k].row.nearby = worst;
+    }
+    probes.len()
+}
+
+fn try_at<S, const N: usize>(study: &Study<S, N>, run: &Run<N>, probe: &Probe<N>, times: &[f64]) -> Nearby {
+    let task = Task { starts: &[probe.start], t0: study.t0, times, deadline: None };
+    let mut states = Vec::new();
+    if run(&task, &mut states).is_err() {
+        return Nearby::Failed;
+    }
+    let at = (study.t0, times);
+    let error = probes::error_of(probe, &states, &study.measure, &study.scales, &study.tells, at);
+    if error.is_finite() { Nearby::Error(error) } else { Nearby::Failed }
+}
+
+/// States of the motions themselves, by the tight method in doubles.
+fn along<S, const N: usize>(study: &Study<S, N>) -> Vec<[f64; N]> {
+    const COUNT: usize = 16;
+    let times = super::sample_times(study.t0, study.t1, COUNT);
+    let task = Task { starts: &study.starts, t0: study.t0, times: &times, deadline: None };
+    let mut states = Vec::new();
+    // Of a run that fails, what it reached serves as well.
+    let _ = (study.tight)(1e-12)(&task, &mut states);
+    states
+}
+
+/// What the figures depend on.
+fn conditions() -> String {
+    let threads = std::thread::available_parallelism().map_or(0, usize::from);
+    let build = if cfg!(debug_assertions) { "a build with debug assertions" } else { "a release build" };
+    let target = std::env::consts::ARCH;
+    format!("on {target} with {threads} threads, {build}")
+}

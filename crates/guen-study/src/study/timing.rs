@@ -1,0 +1,135 @@
+//! Times on a machine that has other work to do: medians, their intervals, and when two of them are a tie.
+
+use std::time::{Duration, Instant};
+
+/// What measures how long a run takes. The default is the machine's clock; another one makes a study repeatable, or
+/// tells it times that were recorded elsewhere.
+pub trait Stopwatch {
+    /// Does the work, as often as it takes to tell how long it takes, and returns the seconds of doing it once. `row` is the
+    /// position of the setting in the report.
+    fn seconds(&mut self, row: usize, work: &mut dyn FnMut()) -> f64;
+}
+
+/// A timing lasts at least this long: some hundred times what reading the clock takes.
+const SHORTEST: Duration = Duration::from_micros(20);
+
+/// The machine's clock.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Wall;
+
+impl Stopwatch for Wall {
+    fn seconds(&mut self, _row: usize, work: &mut dyn FnMut()) -> f64 {
+        let start = Instant::now();
+        let mut done = 0_u32;
+        loop {
+            // As often as before, so that the clock is read seldom.
+            let further = done.max(1);
+            for _ in 0..further {
+                work();
+            }
+            done += further;
+            let elapsed = start.elapsed();
+            if elapsed >= SHORTEST {
+                return elapsed.as_secs_f64() / f64::from(done);
+            }
+        }
+    }
+}
+
+/// What a setting costs: the median over repetitions with its interval.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Cost {
+    /// The median: seconds for one initial state, or evaluations in a study that counts them.
+    pub median: f64,
+    /// The lower end of the interval in which the median lies with 95 percent.
+    pub low: f64,
+    /// The upper end.
+    pub high: f64,
+    /// How often it was measured.
+    pub repetitions: u32,
+}
+
+impl Cost {
+    /// A cost that is no measurement but a count.
+    pub(super) fn exact(value: f64) -> Self {
+        Self { median: value, low: value, high: value, repetitions: 1 }
+    }
+
+    /// The median of these; none if there are none.
+    pub(super) fn of(values: &mut [f64]) -> Option<Self> {
+        if values.is_empty() {
+            return None;
+        }
+        let repetitions = u32::try_from(values.len()).unwrap_or(u32::MAX);
+        let (median, (low, high)) = median_with_interval(values);
+        Some(Self { median, low, high, repetitions })
+    }
+
+    /// Whether the order of two costs is not certain: their intervals overlap. The counts of a study that counts
+    /// evaluations never do, unless they are equal.
+    pub fn ties_with(&self, other: &Self) -> bool {
+        self.low <= other.high && other.low <= self.high
+    }
+
+    /// Half the interval over the median: how noisy it was.
+    pub fn noise(&self) -> f64 {
+        if self.median == 0.0 { 0.0 } else { (self.high - self.low) / (2.0 * self.median) }
+    }
+}
+
+/// The median, and the interval between order statistics that it lies in with 95 percent: of `n` values as many as the
+/// binomial distribution with `p = 1/2` has beyond 2.5 percent are left out on either side. With five values or fewer
+/// the interval is all of them, and covers less.
+///
+/// ```
+/// use guen_study::median_with_interval;
+/// let mut values = [5.0, 1.0, 4.0, 2.0, 3.0, 6.0, 7.0, 9.0, 8.0];
+/// assert_eq!(median_with_interval(&mut values), (5.0, (2.0, 8.0)));
+/// ```
+///
+/// # Panics
+///
+/// If there are no values.
+pub fn median_with_interval(values: &mut [f64]) -> (f64, (f64, f64)) {
+    values.sort_by(f64::total_cmp);
+    let n = values.len();
+    let mut probability = 0.5_f64.powi(n as i32);
+    let (mut below, mut out) = (probability, 0);
+    while out + 1 < n / 2 {
+        probability *= (n - out) as f64 / (out + 1) as f64;
+        if below + probability > 0.025 {
+            break;
+        }
+        below += probability;
+        out += 1;
+    }
+    let median = if n % 2 == 1 { values[n / 2] } else { 0.5 * (values[n / 2 - 1] + values[n / 2]) };
+    (median, (values[out], values[n - 1 - out]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_interval_of_31_values_leaves_nine_out_on_either_side() {
+        // Tables of the sign test: 9 of 31 is the critical value at 5 percent, two-sided.
+        let mut values: Vec<f64> = (0..31).rev().map(f64::from).collect();
+        assert_eq!(median_with_interval(&mut values), (15.0, (9.0, 21.0)));
+    }
+
+    #[test]
+    fn overlapping_intervals_are_ties_both_ways() {
+        let cost = |low, high| Cost { median: (low + high) / 2.0, low, high, repetitions: 9 };
+        for (a, b, tie) in [
+            (cost(1.0, 2.0), cost(1.9, 3.0), true),
+            (cost(1.0, 2.0), cost(2.1, 3.0), false),
+            (cost(1.0, 9.0), cost(2.0, 3.0), true),
+            (Cost::exact(2.0), Cost::exact(2.0), true),
+            (Cost::exact(2.0), Cost::exact(3.0), false),
+        ] {
+            assert_eq!((a.ties_with(&b), b.ties_with(&a)), (tie, tie));
+        }
+    }
+}

@@ -1,0 +1,166 @@
+//! A finished study: its report, and whether a choice holds elsewhere.
+
+use std::ops::Range;
+use std::rc::Rc;
+
+use super::lever::{Run, Task};
+use super::measure::{Measure, Scales, Tells, against, kept};
+use super::probes::{Probe, error_of, times_for, with_references};
+use super::reference::Named;
+use super::report::Report;
+use super::row::Failure;
+use super::{lengthened, probes};
+
+/// What is promised of a choice elsewhere: at most so many times the error that was asked for.
+const PROMISE: f64 = 10.0;
+
+/// A finished study.
+pub struct Trade<const N: usize> {
+    /// What was found.
+    pub report: Report,
+    pub(super) means: Means<N>,
+}
+
+impl<const N: usize> std::fmt::Debug for Trade<N> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Trade").field("report", &self.report).finish_non_exhaustive()
+    }
+}
+
+/// What it takes to run settings again.
+pub(super) struct Means<const N: usize> {
+    pub runs: Vec<Option<Rc<Run<N>>>>,
+    pub samples: usize,
+    pub measure: Measure<N>,
+    pub scales: Scales<N>,
+    pub tells: Tells<N>,
+    pub tight: Rc<dyn Fn(f64) -> Run<N>>,
+    pub reference: Named<N>,
+}
+
+/// What is expected of a setting from another state or over another span.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Forecast {
+    /// The error is estimated to stay within ten times what was asked for.
+    Holds {
+        /// The estimate.
+        estimate: f64,
+    },
+    /// It is not: the estimate, or the uncertainty of the estimate, is too large.
+    WillNot {
+        /// The estimate.
+        estimate: f64,
+        /// How far the run that the estimate was made with differs from one at a tenth of its tolerance.
+        uncertainty: f64,
+    },
+    /// The setting fails there, or nothing can be estimated, because the tighter run fails.
+    Fails(Failure),
+}
+
+impl Forecast {
+    /// Whether the promise is made.
+    pub fn holds(&self) -> bool {
+        matches!(self, Self::Holds { .. })
+    }
+}
+
+/// A setting tried from another state, with the truth from there.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Tried<const N: usize> {
+    /// The state.
+    pub start: [f64; N],
+    /// What was said before.
+    pub forecast: Forecast,
+    /// The error against a reference of its own; infinite if the run failed.
+    pub error: f64,
+    /// Whether what was said came true: the error is at most ten times what was asked for, or it was not promised.
+    pub kept: bool,
+}
+
+impl<const N: usize> Trade<N> {
+    /// What is to be expected of a row from another state or over another span, before it is relied upon: runs the
+    /// setting and compares with DOP853 in doubles at a tolerance a thousand times below the error asked for, 1e-14 at least.
+    /// That run is compared with one at ten times its tolerance, so that a motion is noticed whose errors grow beyond what
+    /// doubles can tell. The promise is made if estimate and uncertainty together are at most half of ten times what was
+    /// asked for.
+    ///
+    /// Costs some times a run of the setting, and no extended precision. Errors of energy and constraints are measured
+    /// and not estimated.
+    pub fn forecast(&self, row: usize, asked: f64, start: &[f64; N], span: Range<f64>) -> Forecast {
+        let Means { samples, measure, scales, tells, tight, .. } = &self.means;
+        let times = times_for(&span, *samples);
+        let starts = [*start];
+        let task = Task { starts: &starts, t0: span.start, times: &times, deadline: None };
+        let states = match self.states(row, &task) {
+            Ok(states) => states,
+            Err(failure) => return Forecast::Fails(failure),
+        };
+        let (estimate, uncertainty) = if measure.needs_reference() {
+            let tolerance = (1e-3 * asked).clamp(1e-14, 1e-4);
+            let run = |tolerance: f64| {
+                let mut states = Vec::new();
+                tight(tolerance)(&task, &mut states).map(|_| states)
+            };
+            let (fine, coarse) = match (run(tolerance), run(10.0 * tolerance)) {
+                (Ok(fine), Ok(coarse)) => (fine, coarse),
+                (Err(failure), _) | (_, Err(failure)) => return Forecast::Fails(failure),
+            };
+            let truth: Vec<_> = fine.iter().map(lengthened).collect();
+            let off =
+                |states: &[[f64; N]]| against(measure, scales, &times, states.iter().map(lengthened), &truth);
+            (off(&states), off(&coarse))
+        } else {
+            (kept(measure, tells, (span.start, start), &times, &states), 0.0)
+        };
+        if estimate + uncertainty <= 0.5 * PROMISE * asked {
+            Forecast::Holds { estimate }
+        } else {
+            Forecast::WillNot { estimate, uncertainty }
+        }
+    }
+
+    /// Makes the forecast of a row from each of these states, then measures its error there, against a reference in 71
+    /// digits for each. States from which there is no reference are left out.
+    pub fn trial(
+        &self,
+        row: usize,
+        asked: f64,
+        starts: impl IntoIterator<Item = [f64; N]>,
+        span: Range<f64>,
+    ) -> Vec<Tried<N>> {
+        let Means { samples, measure, scales, tells, reference, .. } = &self.means;
+        let times = times_for(&span, *samples);
+        let at = (span.start, &times[..]);
+        let probes = with_references(starts, measure, at, &reference.source, &mut || true);
+        let tried = |probe: &Probe<N>| {
+            let forecast = self.forecast(row, asked, &probe.start, span.clone());
+            let starts = [probe.start];
+            let task = Task { starts: &starts, t0: span.start, times: &times, deadline: None };
+            let error = self
+                .states(row, &task)
+                .map_or(f64::INFINITY, |states| error_of(probe, &states, measure, scales, tells, at));
+            let kept = !forecast.holds() || error <= PROMISE * asked;
+            Tried { start: probe.start, forecast, error, kept }
+        };
+        probes.iter().map(tried).collect()
+    }
+
+    /// States around one, each entry moved by at most `spread max(|x|, 1/3)`: the same for the same seed. For trials; they
+    /// may violate constraints on positions.
+    pub fn around(state: &[f64; N], count: usize, spread: f64, seed: u64) -> Vec<[f64; N]> {
+        let mut draw = probes::Draw::new(seed);
+        (0..count).map(|_| probes::moved(state, spread, &mut draw)).collect()
+    }
+
+    fn states(&self, row: usize, task: &Task<'_, N>) -> Result<Vec<[f64; N]>, Failure> {
+        let Some(run) = self.means.runs.get(row).and_then(Option::as_ref) else {
+            let failed = self.report.rows.get(row).and_then(|row| row.failure.clone());
+            return Err(failed.unwrap_or_else(|| Failure::out_of_time(None)));
+        };
+        let mut states = Vec::new();
+        run(task, &mut states)?;
+        Ok(states)
+    }
+}

@@ -1,0 +1,4 @@
+//! Carried forms: the same motion without elementary calls.
+
+mod functions;
+mod hoop;

@@ -1,0 +1,91 @@
+//! `fastest_within` keeps its promise: chosen on one initial state and span, tried on twenty others, the error stays within
+//! ten times what was asked for, or it was said before that it would not, which it may be at most twice.
+//!
+//! Costs are evaluations, so that nothing here depends on time. The truth is in 71 digits.
+
+use std::ops::Range;
+
+use guen::mechanical_system;
+use guen_study::{Study, Trade};
+
+mechanical_system! {
+    /// A hoop of radius `a` that rolls without slipping on a horizontal plane.
+    pub system Hoop {
+        constants   { a > 0, A > 0, C > 0, g = 9.81 }
+        coordinates { theta, psi, phi, xi, eta, zeta }
+        parameters {
+            eta1 = dot(theta);
+            eta2 = dot(psi)*sin(theta);
+            eta3 = dot(psi)*cos(theta) + dot(phi);
+        }
+        constraints {
+            eta4: dot(xi)   = a*sin(theta)*sin(psi)*dot(theta) - a*cos(theta)*cos(psi)*dot(psi) - a*cos(psi)*dot(phi);
+            eta5: dot(eta)  + a*sin(theta)*cos(psi)*dot(theta) + a*cos(theta)*sin(psi)*dot(psi) + a*sin(psi)*dot(phi) = 0;
+            eta6: dot(zeta) - a*cos(theta)*dot(theta) = 0;
+        }
+        kinetic_energy = 1/2*(dot(xi)^2 + dot(eta)^2 + dot(zeta)^2) + 1/2*(A*eta1^2 + A*eta2^2 + C*eta3^2);
+        force_function = -a*g*sin(theta);
+    }
+}
+
+const START: hoop::State = hoop::State {
+    theta: 1.1,
+    psi: 0.3,
+    phi: -0.2,
+    xi: 0.0,
+    eta: 0.0,
+    zeta: 0.891_207_360_061_435_3,
+    eta1: 0.4,
+    eta2: 0.9,
+    eta3: 2.5,
+};
+const SPAN: Range<f64> = 0.0..3.0;
+
+fn trade(probes: usize) -> Trade<9> {
+    let hoop = Hoop { a: 1.0, A: 0.5, C: 1.0, g: 9.81 };
+    Study::new(hoop, START, SPAN)
+        .expect("positive constants")
+        .title("hoop")
+        .count_evaluations()
+        .keep(|method, real| real == "f64" && ["RK4", "RK8", "Tsit5", "DOP853"].contains(&method))
+        .probes(probes, 0.4)
+        .run()
+}
+
+#[test]
+fn what_is_chosen_holds_elsewhere_or_is_said_not_to() {
+    let trade = trade(8);
+    assert!(trade.report.reference.as_ref().unwrap().error.unwrap() < 1e-14);
+    for asked in [1e-3, 1e-6, 1e-9] {
+        let choice = trade.report.fastest_within(asked).unwrap();
+        // Other states and another span.
+        let states = Trade::around(&START.into(), 20, 0.4, 31);
+        for span in [SPAN, 0.0..4.0] {
+            let tried = trade.trial(choice.index, asked, states.iter().copied(), span.clone());
+            assert_eq!(tried.len(), 20);
+            let excused = tried.iter().filter(|one| !one.forecast.holds()).count();
+            let worst =
+                tried.iter().filter(|one| one.forecast.holds()).map(|one| one.error).fold(0.0, f64::max);
+            println!(
+                "{asked:e} to {}: {}, {excused} excused, worst {worst:.1e}",
+                span.end,
+                choice.row.name()
+            );
+            assert!(tried.iter().all(|one| one.kept), "{asked:e}: {tried:?}");
+            assert!(worst <= 10.0 * asked);
+            if span == SPAN {
+                assert!(excused <= 2, "{asked:e}: {excused}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_choice_that_will_not_hold_is_said_not_to() {
+    let trade = trade(0);
+    let row = trade.report.rows.iter().position(|row| row.method == "RK8" && row.error < Some(1e-4)).unwrap();
+    // Turned up to where the hoop spins several times as fast, a step of this length is far too long.
+    let fast = hoop::State { theta: 0.4, eta2: 6.0, eta3: 9.0, ..START };
+    let tried = trade.trial(row, 1e-4, [fast.into()], SPAN);
+    assert!(!tried[0].forecast.holds() && tried[0].error > 1e-3 && tried[0].kept, "{:?}", tried[0]);
+}
