@@ -25,9 +25,7 @@ use guen::prelude::*;
 use guen::steppers::Method;
 use guen_study::{Plot, Progress};
 
-#[path = "../tests/control/long.rs"]
-mod long;
-use long::Long;
+use guen_benchmarks::Long;
 
 mechanical_system! {
     /// A hoop of radius `a` that rolls without slipping on a horizontal plane.

@@ -15,9 +15,7 @@ use std::time::Instant;
 
 use guen::prelude::*;
 
-#[path = "../tests/control/long.rs"]
-mod long;
-use long::Long;
+use guen_benchmarks::Long;
 
 guen_benchmarks::hoop!(guen::mechanical_system; provide taylor;);
 

@@ -56,8 +56,8 @@ pub use guen_runtime::{
     Digits13Functions, Dual, Equations, Function, Functions, Fused, FusedOperations, Generic, Holonomic,
     IncompleteLieGroup, IntegrationError, Laned, LatexDocument, Level, LevelInfo, Levels, LieGroup, Lift,
     Linearization, Monitored, Nonholonomic, Operator, Ordered, Positions, PositionsError, Projected, Real,
-    Recast, Rejoined, Report, ReportSection, Rheonomic, Scleronomic, Setting, System, Tuned, Vitals, from_fn,
-    generic, lanes, prelude, project, projected, rejoined, steppers,
+    Recast, Rejoined, Report, ReportSection, Rheonomic, Rounded, Scleronomic, Setting, System, Tuned, Vitals,
+    from_fn, generic, lanes, prelude, project, projected, rejoined, steppers,
 };
 pub use guen_runtime::{Coefficients, Convolutions, HIGHEST_ORDER, TaylorSeries};
 pub use guen_runtime::{Liftable, Linearizable, OutputLinearization, control, seeded};
@@ -132,8 +132,8 @@ macro_rules! mechanical_system {
 pub mod __private {
     pub use guen_macros::mechanical_system;
     pub use guen_runtime::checks::{
-        check_fixed, check_hoisted, check_inertia, check_limits, check_mass, check_pivot, clamped, drift,
-        largest,
+        check_fixed, check_hoisted, check_inertia, check_limits, check_mass, check_pivot, clamped, condition,
+        drift, furthest, largest,
     };
     pub use guen_runtime::lanes::Lanes;
     pub use guen_runtime::{
@@ -141,8 +141,8 @@ pub mod __private {
         Conservative, ConstantsError, Convolutions, Cost, Differentiable, Dual, HIGHEST_ORDER, Holonomic,
         IncompleteLieGroup, Laned, Level, LevelInfo, Levels, LieGroup, Lift, Liftable, Linearizable,
         Linearization, Monitored, Nonholonomic, Operator, Ordered, OutputLinearization, Positions,
-        PositionsError, Real, Recast, Report, ReportSection, Rheonomic, Scleronomic, System, TaylorSeries,
-        Vitals, nalgebra_conversions, seeded, zero_bracket,
+        PositionsError, Real, Recast, Report, ReportSection, Rheonomic, Rounded, Scleronomic, System,
+        TaylorSeries, Vitals, nalgebra_conversions, seeded, zero_bracket,
     };
     pub use guen_runtime::{consistent, control, serde_record};
 }

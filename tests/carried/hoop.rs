@@ -3,7 +3,7 @@
 use guen::prelude::*;
 use guen::{Carrying, Cost, mechanical_system, rejoined};
 
-use crate::long::Long;
+use guen_benchmarks::Long;
 
 mechanical_system! {
     /// A hoop of radius `a` that rolls without slipping on a horizontal plane.

@@ -2,5 +2,3 @@
 
 mod functions;
 mod hoop;
-#[path = "../control/long.rs"]
-mod long;

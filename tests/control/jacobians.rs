@@ -3,8 +3,8 @@
 use guen::prelude::*;
 use guen::{Liftable, Linearizable};
 
-use crate::long::Long;
 use crate::vehicles::{Robot, Train, train};
+use guen_benchmarks::Long;
 
 hoop!(guen::mechanical_system);
 appell!(guen::mechanical_system);

@@ -8,7 +8,6 @@ mod balance;
 mod jacobians;
 mod examples;
 mod leaves;
-mod long;
 mod models;
 mod motion;
 mod vehicles;

@@ -5,8 +5,5 @@
 #[macro_use]
 extern crate guen_benchmarks;
 
-#[path = "../control/long.rs"]
-mod long;
-
 mod method;
 mod recurrences;

@@ -6,7 +6,7 @@ use guen::prelude::*;
 use guen::steppers::Outcome;
 use guen::{Dual, Lift, Setting, mechanical_system, projected};
 
-use crate::long::Long;
+use guen_benchmarks::Long;
 
 hoop!(guen::mechanical_system; provide taylor;);
 

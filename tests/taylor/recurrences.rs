@@ -5,7 +5,7 @@
 use guen::prelude::*;
 use guen::{HIGHEST_ORDER, TaylorSeries, mechanical_system};
 
-use crate::long::Long;
+use guen_benchmarks::Long;
 
 /// The order up to which coefficients are tested: at `2^-16` the next term is of the order of `1e-63`.
 const ORDER: usize = 13;

@@ -57,6 +57,9 @@ pub struct Level {
     pub placed: Option<Programs>,
     /// Functions that must not vanish, in words: the domain of the chart.
     pub domain_names: Vec<String>,
+    /// How many of them, from the first, guards measure one by one; the others are determinants, and measured together
+    /// as the condition of the mass matrix.
+    pub edges: usize,
     /// Expressions of constants that must not vanish.
     pub constant_pivots: Vec<ExprId>,
     /// The recurrences of its Taylor series, if it provides one.
@@ -115,6 +118,8 @@ pub mod function {
     pub const POSITIONS: &str = "positions";
     /// The holonomic constraints and then their derivatives, row by row; only where there are some.
     pub const GRADIENTS: &str = "gradients";
+    /// The lower triangle of the mass matrix, where it is not diagonal.
+    pub const MASS: &str = "mass";
     /// Centers and orientations of the bodies, then the positions of the particles.
     pub const BODIES: &str = "bodies";
     /// The functions that must not vanish.
@@ -205,6 +210,8 @@ fn whole(
     let placed = formulas::placed(model);
     let placed = (!placed.is_empty()).then(|| programs(&mut model.bench, &[], &[(function::BODIES, placed)]));
     let mut programs = programs(&mut model.bench, &lists, &quantities);
+    add_mass(&mut programs, model, &derivation);
+    let edges = domain_names.len() - derivation.solution.determinants.len();
     let jacobians = Jacobians::add(&mut programs, model, &selection);
     let energy = derivation.energies.integral;
     let equations = equations(&mut model.bench, &derivation);
@@ -218,6 +225,7 @@ fn whole(
         programs,
         placed,
         domain_names,
+        edges,
         constant_pivots,
         series: None,
         jacobians,
@@ -228,6 +236,17 @@ fn whole(
         level.carried = carried::derive(model, &level, &formulas::rates(&level.derivation), word, faults);
     }
     level
+}
+
+/// The mass matrix by itself, out of the equations apart, unless it is diagonal: then it has no condition to measure.
+fn add_mass(programs: &mut Programs, model: &Model<'_>, derivation: &Derivation) {
+    let mass = &derivation.equations.mass;
+    let l = mass.len();
+    let graph = &model.bench.graph;
+    let coupled = (0..l).any(|s| (0..s).any(|k| !graph.is_zero(mass[s][k])));
+    if coupled {
+        programs.add_excerpt(function::MASS, function::MASS_FORM, 0..l * (l + 1) / 2);
+    }
 }
 
 /// `sum_t M_st eta_t' - f_s`.

@@ -3,6 +3,7 @@
 use crate::differentiable::Differentiable;
 use crate::positions::PositionsError;
 use crate::real::Real;
+use crate::rounded::Rounded;
 use crate::system::{Monitored, System};
 use crate::vitals::Vitals;
 
@@ -80,8 +81,12 @@ impl<R: Real, S: Carrying<R, N>, const N: usize> System<R, N> for Rejoined<S> {
         self.0.vitals(t, state)
     }
 
-    fn edges(&self, t: R, state: &[R; N], values: &mut [R]) -> usize {
+    fn edges(&self, t: Rounded<R>, state: &[Rounded<R>; N], values: &mut [Rounded<R>]) -> usize {
         self.0.edges(t, state, values)
+    }
+
+    fn condition(&self, t: R, state: &[R; N]) -> f64 {
+        self.0.condition(t, state)
     }
 }
 

@@ -1,7 +1,8 @@
 //! Checks that generated code calls, out of line.
 
+pub use crate::condition::condition;
 use crate::error::BodyFault;
-use crate::{ConstantsError, Ordered, Real};
+use crate::{ConstantsError, Ordered, Real, Rounded};
 
 /// Refuses a pivot of constants that is zero or not finite.
 ///
@@ -147,6 +148,22 @@ pub fn clamped<R: Ordered>(value: R, lower: R, upper: R) -> R {
     } else {
         value
     }
+}
+
+/// The largest of some differences that should vanish, each relative to the size of its terms.
+///
+/// ```
+/// use guen_runtime::{Rounded, checks::furthest};
+/// // x^2 + y^2 - 1 at (3/5, 0.81)
+/// let [x, y] = [0.6, 0.81].map(Rounded::once);
+/// assert!((0.002..0.02).contains(&furthest(&[x * x + y * y - Rounded::exact(1.0)])));
+/// ```
+pub fn furthest<R: Real, const N: usize>(differences: &[Rounded<R>; N]) -> R {
+    largest(&differences.map(
+        |difference| {
+            if difference.value == R::zero() { R::zero() } else { difference.left() }
+        },
+    ))
 }
 
 /// How far carried functions are from their values: the largest `|w - f|/(1 + |f|)`.

@@ -138,7 +138,7 @@ pub enum Cause {
     Residual {
         /// The time at which the violation was found.
         found: f64,
-        /// The largest left side of the constraints, in its own unit.
+        /// The largest left side of the constraints, relative to the size of its terms.
         residual: f64,
         /// The limit.
         limit: f64,
@@ -160,9 +160,43 @@ pub enum Cause {
         found: f64,
         /// Which of the functions that must not vanish; a generated system has their formulas in `DOMAIN`.
         function: usize,
-        /// Its value there relative to its largest one since the start; negative if it has changed its sign.
+        /// What is left of it there: its value relative to what a relative change of one in everything that enters
+        /// would make of it, with every entry of the state at the largest value it has had. Negative if the function
+        /// has changed its sign.
         distance: f64,
         /// The limit.
+        limit: f64,
+    },
+    /// The mass matrix is so ill conditioned that rounding leaves the accelerations too few digits. The time and state
+    /// beside this cause are the last at which it was not, or the start.
+    Condition {
+        /// The time at which it was found.
+        found: f64,
+        /// The condition there, as [`System::condition`](crate::System::condition) defines it.
+        condition: f64,
+        /// The limit.
+        limit: f64,
+    },
+    /// A fixed step is too long for the motion. The time and state beside this cause are the last at which it was not
+    /// found to be.
+    Step {
+        /// The time at which it was found.
+        found: f64,
+        /// The entry of the state that is off by most.
+        entry: usize,
+        /// The estimate of its error, relative to its largest value.
+        defect: f64,
+        /// The limit.
+        limit: f64,
+    },
+    /// The way back does not lead to the start: rounding errors would grow beyond the limit. The time and state beside
+    /// this cause are the last from which it does.
+    Irreversible {
+        /// The time at which it was found.
+        found: f64,
+        /// How much relative rounding errors grow on the way back.
+        growth: f64,
+        /// The limit, of roundings that have grown so, relative to the start.
         limit: f64,
     },
     /// A setting or an argument makes no sense: nothing was integrated with it.
@@ -210,7 +244,10 @@ impl fmt::Display for Cause {
                 )
             }
             Self::Residual { found, residual, limit } => {
-                write!(f, "by t = {found} a constraint was off by {residual:e}, and {limit:e} is allowed")
+                write!(
+                    f,
+                    "by t = {found} a constraint was off by {residual:e} of its terms, and {limit:e} is allowed"
+                )
             }
             Self::Carried { found, drift, limit } => {
                 write!(f, "by t = {found} a carried function was off by {drift:e}, and {limit:e} is allowed")
@@ -218,9 +255,29 @@ impl fmt::Display for Cause {
             Self::Edge { found, function, distance, limit } => {
                 write!(
                     f,
-                    "by t = {found} the motion had come to the edge of the chart: function {function} that must "
+                    "by t = {found} the motion had come to the edge of the chart: of function {function} that must "
                 )?;
-                write!(f, "not vanish was at {distance:e} of its largest value, and {limit:e} is the limit")
+                write!(f, "not vanish {distance:e} was left, and {limit:e} is the limit")
+            }
+            Self::Condition { found, condition, limit } => {
+                write!(
+                    f,
+                    "at t = {found} the mass matrix had a condition of {condition:e}, and {limit:e} is allowed"
+                )
+            }
+            Self::Irreversible { found, growth, limit } => {
+                write!(
+                    f,
+                    "from t = {found} the run cannot be undone: roundings grow {growth:e} times on the way back, "
+                )?;
+                write!(f, "beyond {limit:e} of the start")
+            }
+            Self::Step { found, entry, defect, limit } => {
+                write!(
+                    f,
+                    "by t = {found} the fixed step was too long: entry {entry} of the state is off by about "
+                )?;
+                write!(f, "{defect:e} of its size, and {limit:e} is allowed")
             }
             Self::Setting(Setting::Time) => f.write_str("the final time is not finite"),
             Self::Setting(Setting::Samples) => {

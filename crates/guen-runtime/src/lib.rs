@@ -4,7 +4,7 @@
 //!
 //! | question | answer |
 //! | --- | --- |
-//! | what is a number? | [`Real`], [`Ordered`], [`Dual`]; [`Lift`] embeds a base real |
+//! | what is a number? | [`Real`], [`Ordered`], [`Dual`], [`Rounded`]; [`Lift`] embeds a base real |
 //! | what is integrated? | [`System`], [`Monitored`], [`Differentiable`], [`TaylorSeries`], [`from_fn`], [`generic`] |
 //! | which functions does it have? | [`Tuned`]: [`Digits13`], [`Digits7`], [`Fused`], [`Functions`] of your own |
 //! | over which reals? | [`Recast`], what can be made anew over each |
@@ -38,6 +38,7 @@ mod bracket;
 mod carrying;
 pub mod checks;
 mod classification;
+mod condition;
 pub mod control;
 mod cost;
 mod decimal;
@@ -56,6 +57,7 @@ mod positions;
 mod real;
 mod recast;
 mod report;
+mod rounded;
 mod serde_support;
 mod series;
 pub mod steppers;
@@ -82,6 +84,7 @@ pub use positions::{Positions, PositionsError, Projected, consistent, project, p
 pub use real::{Ordered, Real};
 pub use recast::Recast;
 pub use report::{LatexDocument, MarkdownDocument, Report, ReportSection};
+pub use rounded::Rounded;
 pub use series::{Coefficients, Convolutions, HIGHEST_ORDER, TaylorSeries};
 pub use system::{FromFn, Laned, Monitored, System, from_fn};
 pub use tuned::{

@@ -9,6 +9,7 @@ use core::fmt;
 
 use crate::differentiable::Differentiable;
 use crate::real::{Ordered, Real};
+use crate::rounded::Rounded;
 use crate::series::{Coefficients, TaylorSeries};
 use crate::system::{Monitored, System};
 use crate::vitals::Vitals;
@@ -345,8 +346,12 @@ where
         self.0.vitals(t, state)
     }
 
-    fn edges(&self, t: R, state: &[R; M], values: &mut [R]) -> usize {
+    fn edges(&self, t: Rounded<R>, state: &[Rounded<R>; M], values: &mut [Rounded<R>]) -> usize {
         self.0.edges(t, state, values)
+    }
+
+    fn condition(&self, t: R, state: &[R; M]) -> f64 {
+        self.0.condition(t, state)
     }
 }
 

@@ -3,6 +3,7 @@
 use crate::lanes::Lanes;
 use crate::positions::PositionsError;
 use crate::real::Real;
+use crate::rounded::Rounded;
 use crate::vitals::Vitals;
 
 /// A system of `N` ordinary differential equations of first order over the real `R`.
@@ -45,11 +46,27 @@ pub trait System<R: Real, const N: usize> {
     }
 
     /// Writes functions that must not vanish, since the system's chart or its equations end there, to the head of
-    /// `values`, and returns how many: none, unless a system says more. What does not fit is left out. A guard refuses
-    /// to go on where one of them changes its sign or becomes small.
+    /// `values`, and returns how many: none, unless a system says more. What does not fit is left out. Their distance
+    /// from vanishing is what is [`left`](Rounded::left) of them, given how uncertain time and state are. A guard
+    /// refuses to go on where one of them changes its sign or is closer than its limit.
     #[inline]
-    fn edges(&self, _t: R, _state: &[R; N], _values: &mut [R]) -> usize {
+    fn edges(&self, _t: Rounded<R>, _state: &[Rounded<R>; N], _values: &mut [Rounded<R>]) -> usize {
         0
+    }
+
+    /// How ill conditioned the equations for the accelerations are: one where they are not coupled, infinite where they
+    /// cannot be solved, whatever the units. Rounding errors of the accelerations are up to so many roundings.
+    ///
+    /// ```text
+    /// max_s M_ss (M^-1)_ss
+    /// ```
+    ///
+    /// with the mass matrix `M`: how much less inertia a parameter has while the others are free to move than while
+    /// they are held. The condition of `M`, scaled to a diagonal of ones, is at least this and at most `l^2` times
+    /// this, with `l` parameters. One, unless a system says more; generated systems do.
+    #[inline]
+    fn condition(&self, _t: R, _state: &[R; N]) -> f64 {
+        1.0
     }
 }
 
@@ -70,8 +87,13 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize> System<R, N> for &S {
     }
 
     #[inline]
-    fn edges(&self, t: R, state: &[R; N], values: &mut [R]) -> usize {
+    fn edges(&self, t: Rounded<R>, state: &[Rounded<R>; N], values: &mut [Rounded<R>]) -> usize {
         (**self).edges(t, state, values)
+    }
+
+    #[inline]
+    fn condition(&self, t: R, state: &[R; N]) -> f64 {
+        (**self).condition(t, state)
     }
 }
 

@@ -15,7 +15,8 @@ pub struct Vitals<R> {
     pub energy: Option<R>,
     /// A size for errors of the energy to be relative to, such as `|T| + |U|`: not negative, in units of energy.
     pub scale: R,
-    /// The largest absolute value among the left sides of the constraints on positions; zero without any.
+    /// The largest left side of the constraints on positions, each relative to the size of its terms: in units of
+    /// what a relative change of one in everything that enters would make of it. Zero without any.
     pub residual: R,
     /// How far carried functions are from what they stand for, relative to one and their size; zero without any.
     pub carried: R,

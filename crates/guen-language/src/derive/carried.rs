@@ -46,7 +46,7 @@ pub(super) fn derive(
     let (_, carried, forms) = best?;
     let programs = programs(model, &forms, Some(&carried));
     let domain_names = carried.edges.iter().map(|e| written(model, *e, "what a carried function divides by"));
-    let domain_names = domain_names.collect();
+    let domain_names: Vec<String> = domain_names.collect();
     let selection = Selection {
         variables: places.clone(),
         coordinates: level.selection.coordinates.clone(),
@@ -66,6 +66,7 @@ pub(super) fn derive(
         equations: Vec::new(),
         energy: level.energy,
         programs,
+        edges: domain_names.len(),
         domain_names,
         constant_pivots: Vec::new(),
         jacobians: Jacobians::default(),

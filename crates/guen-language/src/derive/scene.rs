@@ -185,6 +185,7 @@ fn level(
         equations: Vec::new(),
         energy,
         programs,
+        edges: domain_names.len(),
         placed: None,
         domain_names,
         constant_pivots,

@@ -228,8 +228,9 @@ fn systems(
         }
     });
     let further = (edges > 0).then(|| {
+        let domain = integrated::rounded(&quote!(domain), &quote!(prepared), &quote!(t), &quote!(state));
         quote! {
-            let own = program::domain(&prepared.constants, &prepared.hoisted, t, state);
+            let own = #domain;
             for (place, value) in ::core::iter::Iterator::zip(values.iter_mut().skip(written), own) {
                 *place = value;
                 written += 1;
@@ -313,13 +314,20 @@ fn systems(
                 __guen::Vitals { carried: drift, ..below }
             }
 
-            fn edges(&self, t: R, state: &[R; #size], values: &mut [R]) -> usize {
+            fn edges(
+                &self, t: __guen::Rounded<R>, state: &[__guen::Rounded<R>; #size], values: &mut [__guen::Rounded<R>],
+            ) -> usize {
                 let prepared = &#prepared;
                 let _ = &prepared;
+                let variables = Prepared::<__guen::Rounded<R>>::variables(state);
                 #[allow(unused_mut, reason = "there may be no further edges")]
-                let mut written = __guen::System::edges(&#below, t, &Prepared::variables(state), values);
+                let mut written = __guen::System::edges(&#below, t, &variables, values);
                 #further
                 written
+            }
+
+            fn condition(&self, t: R, state: &[R; #size]) -> f64 {
+                __guen::System::condition(&#below, t, &Prepared::variables(state))
             }
         }
         #differentiable

@@ -6,7 +6,7 @@ use quote::quote;
 use super::{Layout, Subject};
 use crate::derive::function;
 
-/// The methods `vitals` and `edges` of the trait `System`, as far as the level has what they look at. `prepared` is the
+/// The methods `vitals`, `edges` and `condition` of the trait `System`, as far as the level has what they look at. `prepared` is the
 /// prepared system.
 pub(super) fn guarded(subject: &Subject<'_, '_>, layout: &Layout, prepared: &TokenStream) -> TokenStream {
     let level = subject.level;
@@ -16,8 +16,6 @@ pub(super) fn guarded(subject: &Subject<'_, '_>, layout: &Layout, prepared: &Tok
     let (energy, kinetic) =
         (program(quote!(energy), quote!(state)), program(quote!(kinetic_energy), quote!(state)));
     let potential = program(quote!(force_function), quote!(&x));
-    let residual = program(quote!(positions), quote!(&x));
-    let domain = program(quote!(domain), quote!(state));
     // Only an energy that is kept is worth its price.
     let (measured, energy, scale) = if layout.is_whole && level.derivation.conservative {
         (
@@ -33,17 +31,38 @@ pub(super) fn guarded(subject: &Subject<'_, '_>, layout: &Layout, prepared: &Tok
     let residual = if level.selection.holonomic.is_empty() {
         quote!(<R as __guen::Real>::zero())
     } else {
-        quote!(__guen::largest(&#residual))
+        let positions = rounded(
+            &quote!(positions),
+            prepared,
+            &quote!(__guen::Rounded::once(t)),
+            &quote!(&x.map(__guen::Rounded::once)),
+        );
+        quote!(__guen::furthest(&#positions))
     };
-    let edges = level.program(function::DOMAIN).map(|_| {
+    let edges = (level.edges > 0).then(|| {
+        let count = level.edges;
+        let domain = rounded(&quote!(domain), prepared, &quote!(t), &quote!(state));
         quote! {
-            fn edges(&self, t: R, state: &[R; #size], values: &mut [R]) -> usize {
+            fn edges(
+                &self, t: __guen::Rounded<R>, state: &[__guen::Rounded<R>; #size], values: &mut [__guen::Rounded<R>],
+            ) -> usize {
+                let found = ::core::iter::Iterator::take(::core::iter::IntoIterator::into_iter(#domain), #count);
                 let mut written = 0;
-                for (place, value) in ::core::iter::Iterator::zip(values.iter_mut(), #domain) {
+                for (place, value) in ::core::iter::Iterator::zip(values.iter_mut(), found) {
                     *place = value;
                     written += 1;
                 }
                 written
+            }
+        }
+    });
+    let condition = level.program(function::MASS).map(|_| {
+        let l = layout.l;
+        let mass = program(quote!(mass), quote!(&x));
+        quote! {
+            fn condition(&self, t: R, state: &[R; #size]) -> f64 {
+                let x: [R; #n] = [#(state[#positions]),*];
+                __guen::condition::<R, #l>(&#mass)
             }
         }
     });
@@ -58,6 +77,22 @@ pub(super) fn guarded(subject: &Subject<'_, '_>, layout: &Layout, prepared: &Tok
         }
 
         #edges
+
+        #condition
+    }
+}
+
+/// A function of the program with the roundings counted: prepared values were rounded once.
+pub(super) fn rounded(
+    function: &TokenStream,
+    prepared: &TokenStream,
+    t: &TokenStream,
+    state: &TokenStream,
+) -> TokenStream {
+    quote! {
+        program::#function(
+            &#prepared.constants.map(__guen::Rounded::once), &#prepared.hoisted.map(__guen::Rounded::once), #t, #state,
+        )
     }
 }
 

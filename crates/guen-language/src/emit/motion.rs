@@ -155,6 +155,35 @@ fn chosen(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
 /// The functions that must not vanish.
 fn domain(subject: &Subject<'_, '_>) -> TokenStream {
     let count = subject.level.domain_names.len();
+    let size = subject.level.selection.variables.len();
+    // Masses do not depend on inputs.
+    let system = if subject.level.selection.inputs.is_empty() {
+        quote!(self)
+    } else {
+        quote!(&self.driven(::core::default::Default::default()))
+    };
+    let condition = subject.level.scene.is_none().then(|| {
+        quote! {
+            /// How ill conditioned the equations for the accelerations are, whatever the units: one where parameters are
+            /// not coupled. See [`System::condition`](__guen::System::condition).
+            pub fn condition(&self, t: R, state: &State<R>) -> f64 {
+                __guen::System::<R, #size>::condition(#system, t, &::core::convert::From::from(*state))
+            }
+        }
+    });
+    let distances = match subject.level.program(function::DOMAIN) {
+        Some(_) => {
+            let state = quote!(&<[R; #size]>::from(*state).map(__guen::Rounded::once));
+            let domain = integrated::rounded(
+                &quote!(domain),
+                &quote!(self),
+                &quote!(__guen::Rounded::once(t)),
+                &state,
+            );
+            quote!(#domain.map(__guen::Rounded::left))
+        }
+        None => quote!([]),
+    };
     let (inputs, values) = match subject.level.program(function::DOMAIN) {
         Some(_) => (
             quote!(t: R, state: &State<R>),
@@ -169,6 +198,15 @@ fn domain(subject: &Subject<'_, '_>) -> TokenStream {
         pub fn domain(&self, #inputs) -> [R; #count] {
             #values
         }
+
+        /// How far the state is from the edge of the chart: of each function of [`DOMAIN`] what is left of it, from one
+        /// where it is as certain as what it is made of to zero where it vanishes. Times and states count as rounded
+        /// once; so do the constants. See [`Rounded`](__guen::Rounded).
+        pub fn distances(&self, #inputs) -> [R; #count] {
+            #distances
+        }
+
+        #condition
     }
 }
 

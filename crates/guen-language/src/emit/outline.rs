@@ -363,6 +363,10 @@ fn prepared(system: &Ident, names: &Names) -> TokenStream {
             pub fn power(&self, t: R, state: &State<R> #driven) -> R { ::core::unreachable!() }
             /// The domain of the chart.
             pub fn domain(&self, t: R, state: &State<R>) -> [R; 0] { ::core::unreachable!() }
+            /// The distances to the edge.
+            pub fn distances(&self, t: R, state: &State<R>) -> [R; 0] { ::core::unreachable!() }
+            /// The condition of the mass matrix.
+            pub fn condition(&self, t: R, state: &State<R>) -> f64 { ::core::unreachable!() }
             /// The linearisation.
             pub fn linearize(
                 &self, t: R, state: &State<R> #driven

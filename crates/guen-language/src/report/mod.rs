@@ -391,6 +391,11 @@ fn domain(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
         }
     }
     section.text.extend(words);
+    if subject.level.program(function::MASS).is_some() {
+        section.text.push(
+            "the mass matrix M is regular; `condition`, max_s M_ss (M^-1)_ss, says by how much".to_owned(),
+        );
+    }
     section
 }
 

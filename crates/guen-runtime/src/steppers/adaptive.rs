@@ -111,7 +111,7 @@ where
         self.reached.statistics.evaluations += 1;
         let change: [R; N] = core::array::from_fn(|i| ahead[i] - slope[i]);
         let step = if all_finite(&change) {
-            let change = libm::sqrt(control::squares(&change, &tolerance.weights(&state, &state)));
+            let change = control::size(&change, &tolerance.weights(&state, &state));
             P::CONTROL.first_step(guess, slope_size, change, span.abs())
         } else {
             guess

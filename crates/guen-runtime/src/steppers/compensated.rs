@@ -47,6 +47,7 @@ where
     /// What the formula remembers, and what was lost.
     type Memory = (F::Memory, [R; N]);
     const EVALUATIONS: u32 = F::EVALUATIONS;
+    const ORDER: u32 = F::ORDER;
 
     #[inline]
     fn step(

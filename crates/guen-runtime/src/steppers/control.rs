@@ -138,10 +138,12 @@ impl Tolerance {
         let state_squares = squares(x, &weights);
         let guess = if slope_squares <= NEGLIGIBLE || state_squares <= NEGLIGIBLE {
             TINY
-        } else {
+        } else if slope_squares.is_finite() && state_squares.is_finite() {
             0.01 * libm::sqrt(state_squares / slope_squares)
+        } else {
+            0.01 * (size(x, &weights) / size(slope, &weights))
         };
-        (guess.min(longest), libm::sqrt(slope_squares))
+        (guess.min(longest), size(slope, &weights))
     }
 }
 
@@ -157,6 +159,18 @@ pub(super) fn squares<R: Real, const N: usize>(values: &[R; N], weights: &[f64; 
         sums[i % 4] += part;
     }
     (sums[0] + sums[1]) + (sums[2] + sums[3])
+}
+
+/// The root of the sum of squares; where that is beyond the range of doubles the largest entry.
+pub(super) fn size<R: Real, const N: usize>(values: &[R; N], weights: &[f64; N]) -> f64 {
+    let sum = squares(values, weights);
+    if sum.is_finite() {
+        return libm::sqrt(sum);
+    }
+    values
+        .iter()
+        .zip(weights)
+        .fold(0.0, |most, (value, weight)| f64::max(most, value.to_f64().abs() * weight))
 }
 
 /// How far a step is from being rejected, for the mean of the squares of its weighted error: the reciprocal of that

@@ -103,6 +103,9 @@ pub trait Course<R: Real, S: ?Sized, const N: usize> {
     /// Evaluations of the right-hand side in a usual step, by which a guard chooses how often to look.
     const EVALUATIONS: u32;
 
+    /// The order of a method whose step is fixed, which a guard therefore watches; zero for one that estimates its own
+    /// errors.
+    const FIXED_ORDER: u32 = 0;
     /// The motion over one step, as [`dense`](Course::dense) returns it: for most methods a [`Dense`](super::Dense).
     type Polynomial: Interpolant<R, N>;
 
@@ -116,6 +119,12 @@ pub trait Course<R: Real, S: ?Sized, const N: usize> {
     ///
     /// What made the step impossible; the run stands where it stood.
     fn advance(&mut self, system: &S, target: R, dense: bool) -> Result<(), Cause>;
+
+    /// Whether the next step towards `target` is known to be the last; only methods with a fixed step know.
+    #[inline]
+    fn is_last(&self, _target: R) -> bool {
+        false
+    }
 
     /// The motion over the step made last, as a polynomial. To be asked for only after a step that was made with
     /// `dense`. May evaluate the right-hand side, which is counted.

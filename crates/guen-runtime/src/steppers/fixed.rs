@@ -13,6 +13,7 @@ pub trait Formula<R: Real, S: ?Sized, const N: usize> {
     type Memory: Copy;
 
     const EVALUATIONS: u32;
+    const ORDER: u32;
 
     /// The state one step of size `h` further, `h` of either sign. Counts its work.
     fn step(
@@ -79,11 +80,17 @@ where
     S: System<R, N> + ?Sized,
 {
     const EVALUATIONS: u32 = F::EVALUATIONS;
+    const FIXED_ORDER: u32 = F::ORDER;
 
     type Polynomial = Dense<R, N>;
 
     fn reached(&self) -> &Reached<R, N> {
         &self.reached
+    }
+
+    #[inline]
+    fn is_last(&self, target: R) -> bool {
+        self.leg.is_some_and(|leg| leg.index + 1 == leg.count && leg.target == target)
     }
 
     fn advance(&mut self, system: &S, target: R, dense: bool) -> Result<(), Cause> {

@@ -150,8 +150,9 @@ impl<'a, R: Real, S: System<R, N> + ?Sized, const N: usize, const E: usize> Inte
         self.check(t1).map_err(|cause| self.start.failed(cause))?;
         let mut course = method.start(self.start.time, &self.start.state);
         let evaluations = <M::Course<'_> as Course<R, S, N>>::EVALUATIONS;
-        let mut watch =
-            Watch::new(self.guard, evaluations, &self.start).map_err(|cause| self.start.failed(cause))?;
+        let order = <M::Course<'_> as Course<R, S, N>>::FIXED_ORDER;
+        let mut watch = Watch::new(self.guard, evaluations, order, &self.start)
+            .map_err(|cause| self.start.failed(cause))?;
         let mut trackers: [Tracker; E] =
             core::array::from_fn(|i| Tracker::new(self.events[i].value(self.start.time, &self.start.state)));
         let mut visited = 0;
@@ -160,29 +161,41 @@ impl<'a, R: Real, S: System<R, N> + ?Sized, const N: usize, const E: usize> Inte
             self.visit(visited, start.time, &start.state);
             visited += 1;
         }
+        let (mut before, mut kept) = (start, false);
         while course.reached().time != t1 {
             let dense = E > 0 || visited < self.samples.len();
-            let before = if dense { *course.reached() } else { start };
+            kept = dense || watch.wants_before(course.is_last(t1));
+            if kept {
+                before = *course.reached();
+            }
             if let Err(cause) = course.advance(self.system, t1, dense) {
                 return Err(watch.stopped(self.system, course.reached(), cause));
             }
-            if let Err(cause) = watch.step(self.system, course.reached()) {
+            if let Err(cause) = watch.step(self.system, kept.then_some(&before), course.reached()) {
                 return Err(watch.good(course.reached()).failed(cause));
             }
             if dense {
                 let ended = self.within_step(&mut course, &before, &mut trackers, &mut visited);
                 if let Some(done) = ended.map_err(|cause| before.failed(cause))? {
-                    return finished(&mut watch, self.system, course.reached(), done);
+                    return finished(
+                        &mut watch,
+                        self.system,
+                        kept.then_some(&before),
+                        course.reached(),
+                        done,
+                    );
                 }
             }
             if let Some(observer) = &mut self.observer {
                 let reached = course.reached();
                 if observer(reached.time, &reached.state).is_break() {
-                    return finished(&mut watch, self.system, reached, reached.done(Outcome::Stopped));
+                    let done = reached.done(Outcome::Stopped);
+                    return finished(&mut watch, self.system, kept.then_some(&before), reached, done);
                 }
             }
         }
-        finished(&mut watch, self.system, course.reached(), course.reached().done(Outcome::Arrived))
+        let reached = course.reached();
+        finished(&mut watch, self.system, kept.then_some(&before), reached, reached.done(Outcome::Arrived))
     }
 
     /// Refuses settings that make no sense.
@@ -315,10 +328,11 @@ impl<'a, R: Real, S: System<R, N> + ?Sized, const N: usize, const E: usize> Inte
 pub(super) fn finished<R: Real, S: System<R, N> + ?Sized, const N: usize>(
     watch: &mut Watch<R, N>,
     system: &S,
+    before: Option<&Reached<R, N>>,
     reached: &Reached<R, N>,
     done: Done<R, N>,
 ) -> Result<Done<R, N>, IntegrationError<R, N>> {
-    match watch.finish(system, reached) {
+    match watch.finish(system, before, reached) {
         Ok(()) => Ok(done),
         Err(cause) => Err(watch.good(reached).failed(cause)),
     }

@@ -25,23 +25,31 @@ where
     let start = Reached::new(t0, x0);
     let mut course = method.start(t0, x0);
     let evaluations = <M::Course<'_> as Course<R, S, N>>::EVALUATIONS;
-    let mut watch = Watch::new(Guard::default(), evaluations, &start).map_err(|cause| start.failed(cause))?;
+    let order = <M::Course<'_> as Course<R, S, N>>::FIXED_ORDER;
+    let mut watch =
+        Watch::new(Guard::default(), evaluations, order, &start).map_err(|cause| start.failed(cause))?;
+    let (mut before, mut kept) = (start, false);
     for (index, &time) in times.iter().enumerate() {
         if !time.is_finite() {
             return Err(course.reached().failed(Cause::Setting(Setting::Time)));
         }
         while course.reached().time != time {
+            kept = watch.wants_before(index + 1 == times.len() && course.is_last(time));
+            if kept {
+                before = *course.reached();
+            }
             if let Err(cause) = course.advance(system, time, false) {
                 return Err(watch.stopped(system, course.reached(), cause));
             }
             let reached = course.reached();
-            if let Err(cause) = watch.step(system, reached) {
+            if let Err(cause) = watch.step(system, kept.then_some(&before), reached) {
                 return Err(watch.good(reached).failed(cause));
             }
         }
         visit(index, time, &course.reached().state);
     }
-    finished(&mut watch, system, course.reached(), course.reached().done(Outcome::Arrived))
+    let reached = course.reached();
+    finished(&mut watch, system, kept.then_some(&before), reached, reached.done(Outcome::Arrived))
 }
 
 /// The methods `integrate` and `sample` of a method over the real `R`, for systems with the given bounds.

@@ -5,13 +5,16 @@
 
 use super::course::{Done, Outcome, Statistics};
 use super::fixed::Leg;
+use super::lane_guard::{Faults, LaneGuard, MOST};
 use super::rk4::{Rk4, step};
 use crate::error::{Cause, IntegrationError, Setting};
 use crate::lanes::{Lanes, Mask};
 use crate::system::System;
 
-/// The most lanes that there are.
-const MOST: usize = 8;
+/// A look at the energy, residuals and edges of all lanes is taken after so many steps, as with a run alone.
+const EVERY: u32 = 40;
+/// A run of fewer steps is not looked at.
+const WORTH_A_LOOK: u32 = 25;
 
 /// How the trajectories in lanes ended.
 #[derive(Clone, Debug, PartialEq)]
@@ -68,6 +71,9 @@ impl Rk4<f64> {
             statistics: Statistics::default(),
             going: Mask::all(L::COUNT),
             ends: InLanes { ends: [const { None }; MOST] },
+            guard: None,
+            good: (t0, *x0),
+            since: 0,
         };
         for (index, &time) in times.iter().enumerate() {
             let outcome = L::vectorize(
@@ -81,6 +87,9 @@ impl Rk4<f64> {
                 break;
             }
             visit(index, time, &run.state, run.going);
+        }
+        if run.since > 0 && (run.guard.is_some() || run.since >= WORTH_A_LOOK) {
+            run.look(system);
         }
         for lane in run.going.lanes() {
             let done = Done {
@@ -146,6 +155,10 @@ struct Run<L, const N: usize> {
     statistics: Statistics,
     going: Mask,
     ends: InLanes<N>,
+    guard: Option<LaneGuard<L, N>>,
+    /// Time and states of the last look, and the steps since then.
+    good: (f64, [L; N]),
+    since: u32,
 }
 
 impl<L: Lanes, const N: usize> Run<L, N> {
@@ -180,8 +193,41 @@ impl<L: Lanes, const N: usize> Run<L, N> {
             self.statistics.accepted += 1;
             self.time = next;
             self.state = state;
+            self.since += 1;
+            if self.since == EVERY {
+                self.look(system);
+            }
         }
         Ok(())
+    }
+
+    /// Sets lanes aside that are found out of order, with the state of the last look that found them in order.
+    #[cold]
+    #[inline(never)]
+    fn look<S: System<L, N> + ?Sized>(&mut self, system: &S) {
+        let (time, state) = self.good;
+        if self.guard.is_none() {
+            let (guard, faults) = LaneGuard::new(system, time, &state);
+            self.guard = Some(guard);
+            self.drop_faulty(&faults);
+        }
+        if let Some(guard) = &mut self.guard {
+            let faults = guard.look(system, self.time, &self.state, self.going);
+            self.drop_faulty(&faults);
+        }
+        self.good = (self.time, self.state);
+        self.since = 0;
+    }
+
+    fn drop_faulty(&mut self, faults: &Faults) {
+        let (time, state) = self.good;
+        for lane in (faults.lanes & self.going).lanes() {
+            let Some(cause) = faults.causes[lane] else { continue };
+            let error =
+                IntegrationError { time, state: alone(&state, lane), cause, statistics: self.statistics };
+            self.ends.ends[lane] = Some(Err(error));
+            self.going = self.going - Mask::from_bits(1 << lane);
+        }
     }
 
     /// Sets lanes aside, with the last state that they accepted.

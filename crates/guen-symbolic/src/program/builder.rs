@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::accuracy::{self, Candidate};
 use super::cost::{OperationCount, weighted_cost};
 use super::instruction::{FunctionProgram, Programs};
 use super::lower::{Code, PreparedTable, lower};
@@ -150,34 +151,31 @@ impl<'a> ProgramBuilder<'a> {
 
     fn add(&mut self, name: &str, formulations: &[Formulation], effort: Effort) -> usize {
         // Each formulation is looked at briefly; all effort goes into the best ones.
-        const LOOKED_AT_CLOSELY: usize = 1;
-        let mut ranked: Vec<(u64, usize)> = Vec::new();
-        let mut best: Option<(u64, usize, Net, Vec<NetId>)> = None;
         let is_short = effort == Effort::Cold || formulations.len() == 1;
+        let mut tried: Vec<(usize, Net, Vec<NetId>)> = Vec::new();
+        let mut programs: Vec<Candidate> = Vec::new();
+        let attempt = |graph: &mut Graph, programs: &mut Vec<Candidate>, index: usize, effort: Effort| {
+            let mut net = Net::default();
+            let roots = staged(graph, &mut net, &formulations[index], effort);
+            programs.push(Candidate::new(graph, &net, &roots));
+            (index, net, roots)
+        };
+        let brief = if is_short { effort } else { Effort::Brief };
+        let mut best = 0;
         for (index, formulation) in formulations.iter().enumerate() {
-            if formulations[..index].contains(formulation) {
-                continue;
-            }
-            let brief = if is_short { effort } else { Effort::Brief };
-            let mut net = Net::default();
-            let roots = staged(self.graph, &mut net, formulation, brief);
-            // Nothing to compare with: the code is written once, below.
-            let cost = if formulations.len() == 1 { 0 } else { cost(self.graph, &net, &roots) };
-            ranked.push((cost, index));
-            if best.as_ref().is_none_or(|(least, ..)| cost < *least) {
-                best = Some((cost, index, net, roots));
+            if !formulations[..index].contains(formulation) {
+                tried.push(attempt(self.graph, &mut programs, index, brief));
             }
         }
-        ranked.sort_unstable();
-        for (_, index) in if is_short { &[] } else { &ranked[..ranked.len().min(LOOKED_AT_CLOSELY)] } {
-            let mut net = Net::default();
-            let roots = staged(self.graph, &mut net, &formulations[*index], effort);
-            let cost = cost(self.graph, &net, &roots);
-            if best.as_ref().is_none_or(|(least, ..)| cost < *least) {
-                best = Some((cost, *index, net, roots));
-            }
+        if tried.len() > 1 {
+            best = accuracy::promising(self.graph, &programs);
         }
-        let (_, index, net, roots) = best.unwrap_or_default();
+        if !is_short {
+            let index = tried[best].0;
+            tried.push(attempt(self.graph, &mut programs, index, effort));
+            best = accuracy::best(self.graph, &programs);
+        }
+        let (index, net, roots) = if tried.is_empty() { Default::default() } else { tried.swap_remove(best) };
         let Code { instructions, outputs, values } = lower(self.graph, &net, &roots, &mut self.prepared);
         let cost = OperationCount::of(&instructions);
         self.functions.push(FunctionProgram { name: name.to_owned(), instructions, outputs, values, cost });
@@ -200,11 +198,6 @@ impl<'a> ProgramBuilder<'a> {
             functions: self.functions,
         }
     }
-}
-
-fn cost(graph: &mut Graph, net: &Net, roots: &[NetId]) -> u64 {
-    let code = lower(graph, net, roots, &mut PreparedTable::default());
-    OperationCount::of(&code.instructions).weighted()
 }
 
 /// The outputs, optimised depth by depth, with the definitions in place of their symbols.
@@ -282,16 +275,14 @@ fn cheapest(graph: &mut Graph, net: &mut Net, roots: Vec<NetId>, effort: Effort,
     if tried == 0 {
         return roots;
     }
-    let mut best = (cost(graph, net, &roots), roots.clone());
+    let mut rewritten = vec![roots];
     for passes in &CANDIDATES[..tried] {
-        let mut candidate = roots.clone();
+        let mut candidate = rewritten[0].clone();
         for pass in *passes {
             candidate = apply(*pass, graph, net, &candidate);
         }
-        let cost = cost(graph, net, &candidate);
-        if cost < best.0 {
-            best = (cost, candidate);
-        }
+        rewritten.push(candidate);
     }
-    best.1
+    let programs: Vec<Candidate> = rewritten.iter().map(|roots| Candidate::new(graph, net, roots)).collect();
+    rewritten.swap_remove(accuracy::best(graph, &programs))
 }

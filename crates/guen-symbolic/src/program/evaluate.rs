@@ -89,7 +89,7 @@ pub fn evaluate_function<R: Arithmetic>(
     run(&function.instructions, function.values, &function.outputs, prepared, symbols)
 }
 
-fn run<R: Arithmetic>(
+pub(super) fn run<R: Arithmetic>(
     instructions: &[Instruction],
     count: usize,
     outputs: &[Value],

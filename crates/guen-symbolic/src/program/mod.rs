@@ -5,6 +5,7 @@
 //! `net` (expressions whose coefficients are constants) -> `passes` (equal functions with fewer operations)
 //! -> `lower` (instructions), and `builder` runs them for several candidates and keeps the cheapest.
 
+mod accuracy;
 mod builder;
 mod carried;
 mod cost;

@@ -1,5 +1,7 @@
 //! A part of programs: some outputs of some functions, and only what they need.
 
+use std::ops::Range;
+
 use super::{FunctionProgram, Instruction, Operation, OperationCount, Programs, Value};
 use crate::algebra::SymbolId;
 
@@ -56,6 +58,31 @@ impl Programs {
         let prepare = needed(&self.prepare, self.prepare_values, &prepared);
         let prepare_cost = OperationCount::of(&prepare);
         Programs { prepare, prepared, prepare_values: self.prepare_values, prepare_cost, functions }
+    }
+}
+
+impl Programs {
+    /// Adds a function that computes some outputs of another one, as that does, and nothing else.
+    ///
+    /// ```
+    /// use guen_symbolic::{Graph, ProgramBuilder, Role};
+    /// let mut g = Graph::new();
+    /// let x = g.symbol("x", Role::Coordinate);
+    /// let (sine, square) = (g.sin(x), g.powi(x, 2));
+    /// let mut builder = ProgramBuilder::new(&mut g);
+    /// builder.add_function("both", &[sine, square]);
+    /// let mut programs = builder.finish();
+    /// programs.add_excerpt("square", "both", 1..2);
+    /// assert_eq!((programs.functions[1].cost.operations(), programs.functions[1].cost.sines), (1, 0));
+    /// ```
+    pub fn add_excerpt(&mut self, name: &str, of: &str, outputs: Range<usize>) {
+        let Some(whole) = self.functions.iter().find(|function| function.name == of) else { return };
+        let outputs = whole.outputs[outputs].to_vec();
+        let instructions = needed(&whole.instructions, whole.values, &outputs);
+        let cost = OperationCount::of(&instructions);
+        let excerpt =
+            FunctionProgram { name: name.to_owned(), instructions, outputs, values: whole.values, cost };
+        self.functions.push(excerpt);
     }
 }
 

@@ -5,7 +5,7 @@ use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssi
 use f256::f256;
 use guen::{Lift, Ordered, Real};
 
-/// 237 bits of fraction.
+/// A number of 237 bits: a real to take references in. No ordinary run needs it.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 pub struct Long(pub f256);
 
@@ -45,6 +45,12 @@ impl Neg for Long {
     }
 }
 
+impl Long {
+    fn sign_bit(self) -> f64 {
+        if self.0.is_sign_negative() { -1.0 } else { 1.0 }
+    }
+}
+
 impl Lift<Long> for Long {
     fn lift(base: Long) -> Long {
         base
@@ -61,9 +67,24 @@ impl Real for Long {
         Long(f256::from(value))
     }
     fn to_f64(self) -> f64 {
-        // The leading parts, each exactly: there is no conversion to `f64`.
-        let text = format!("{:e}", self.0);
-        text.parse().unwrap_or(f64::NAN)
+        // There is no conversion to `f64`: the parts of the format, of which the leading 53 bits are rounded.
+        const BIAS: i32 = 262_143;
+        if !self.0.is_finite() {
+            return if self.0.is_nan() { f64::NAN } else { f64::INFINITY.copysign(self.sign_bit()) };
+        }
+        let high = self.0.to_bits().0;
+        let exponent = ((high >> 108) & 0x7_ffff) as i32 - BIAS;
+        let fraction = ((high & ((1 << 108) - 1)) >> 45) as u64;
+        // Of 63 bits the conversion to `f64` rounds once.
+        let mantissa = ((1_u64 << 63) | fraction) as f64;
+        let scale = |e: i32| 2.0_f64.powi(e.clamp(-1020, 1020));
+        let exponent = exponent - 63;
+        let value = if exponent < -3000 {
+            0.0
+        } else {
+            mantissa * scale(exponent / 2) * scale(exponent - exponent / 2)
+        };
+        value.copysign(self.sign_bit())
     }
     fn pi() -> Self {
         Long(::f256::consts::PI)

@@ -1,0 +1,339 @@
+//! How many roundings equal programs lose: a running error analysis at random points and next to poles.
+//!
+//! Every operation adds its own rounding to what it carries over of those before it (Wilkinson), in units of the unit
+//! roundoff; symbols are exact, so that what is left is what the program alone does. Points are drawn with a fixed seed.
+//! Next to a pole, a divisor of some candidate is a hundred-thousandth of what it was at random: there terms cancel that
+//! other programs do not have.
+
+use super::cost::OperationCount;
+use super::evaluate::{Arithmetic, run};
+use super::instruction::{Instruction, Operation, Value};
+use super::lower::{Code, PreparedTable, lower};
+use super::net::{Net, NetId};
+use crate::algebra::{Bound, Function, Graph, Rational, Role, SymbolId, mix};
+use crate::zero::evaluate;
+
+/// Random points.
+const POINTS: u64 = 4;
+/// Divisors that are made small, the first of each program.
+const POLES: usize = 4;
+/// What is left of such a divisor.
+const NEAR: f64 = 1e-5;
+/// Programs with more instructions are not analysed: expansion must stay quick.
+const LONGEST: usize = 3000;
+/// A program that loses so many times more than another is no candidate, however cheap: six bits,
+const INTOLERABLE: f64 = 64.0;
+/// if it loses more than this at all: six of sixteen digits.
+const SERIOUS: f64 = 1e6;
+
+/// A value and a first-order bound of its error in units of the unit roundoff.
+#[derive(Clone, Copy, Debug)]
+struct Running {
+    value: f64,
+    error: f64,
+}
+
+impl Running {
+    fn exact(value: f64) -> Self {
+        Running { value, error: 0.0 }
+    }
+
+    fn rounded(value: f64, carried: f64) -> Self {
+        Running { value, error: carried + value.abs() }
+    }
+}
+
+impl Arithmetic for Running {
+    fn from_rational(value: &Rational) -> Self {
+        Running::exact(value.to_f64())
+    }
+    fn pi() -> Self {
+        Running::exact(std::f64::consts::PI)
+    }
+    fn add(&self, other: &Self) -> Self {
+        Running::rounded(self.value + other.value, self.error + other.error)
+    }
+    fn sub(&self, other: &Self) -> Self {
+        Running::rounded(self.value - other.value, self.error + other.error)
+    }
+    fn neg(&self) -> Self {
+        Running { value: -self.value, error: self.error }
+    }
+    fn mul(&self, other: &Self) -> Self {
+        let carried = self.value.abs() * other.error + other.value.abs() * self.error;
+        Running::rounded(self.value * other.value, carried)
+    }
+    fn div(&self, other: &Self) -> Self {
+        let value = self.value / other.value;
+        Running::rounded(value, (self.error + value.abs() * other.error) / other.value.abs())
+    }
+    fn call(function: Function, x: &Self) -> Self {
+        let value = f64::call(function, &x.value);
+        let u = x.value;
+        let slope = match function {
+            Function::Sin => u.cos(),
+            Function::Cos => u.sin(),
+            Function::Asin | Function::Acos => ((1.0 - u) * (1.0 + u)).sqrt().recip(),
+            Function::Atan => (1.0 + u * u).recip(),
+            Function::Exp => value,
+            Function::Ln => u.recip(),
+            Function::Sinh => u.cosh(),
+            Function::Cosh => u.sinh(),
+            Function::Tanh => u.cosh().powi(-2),
+            Function::Abs => 1.0,
+            Function::Sign => 0.0,
+            Function::Root(q) => value / u / f64::from(q),
+        };
+        // An exact argument stays exact at the end of a function's domain too.
+        let carried = if x.error == 0.0 { 0.0 } else { slope.abs() * x.error };
+        match function {
+            Function::Abs | Function::Sign => Running { value, error: carried },
+            _ => Running::rounded(value, carried),
+        }
+    }
+    fn atan2(y: &Self, x: &Self) -> Self {
+        let square = x.value * x.value + y.value * y.value;
+        let carried = (x.value.abs() * y.error + y.value.abs() * x.error) / square;
+        Running::rounded(y.value.atan2(x.value), carried)
+    }
+}
+
+/// A point: a number for every symbol.
+#[derive(Clone)]
+struct Point {
+    seed: u64,
+    /// A symbol that is moved from its draw.
+    moved: Option<(SymbolId, f64)>,
+}
+
+impl Point {
+    fn value(&self, graph: &Graph, symbol: SymbolId) -> f64 {
+        if let Some((moved, value)) = self.moved
+            && moved == symbol
+        {
+            return value;
+        }
+        // 53 bits, in [0, 1).
+        let draw = mix(mix(self.seed) ^ symbol.index() as u64) >> 11;
+        let part = draw as f64 / (1_u64 << 53) as f64;
+        match graph.symbol_info(symbol).bound {
+            Bound::Positive | Bound::NonNegative => 0.3 + 1.5 * part,
+            Bound::Negative | Bound::NonPositive => -0.3 - 1.5 * part,
+            Bound::Free | Bound::NonZero => 3.0 * part - 1.5,
+        }
+    }
+}
+
+/// A candidate with the constants that it loads.
+pub(super) struct Candidate {
+    code: Code,
+    prepared: PreparedTable,
+}
+
+impl Candidate {
+    /// The program of some roots.
+    pub(super) fn new(graph: &mut Graph, net: &Net, roots: &[NetId]) -> Self {
+        let mut prepared = PreparedTable::default();
+        let code = lower(graph, net, roots, &mut prepared);
+        Candidate { code, prepared }
+    }
+
+    /// What it costs.
+    pub(super) fn cost(&self) -> u64 {
+        OperationCount::of(&self.code.instructions).weighted()
+    }
+
+    fn prepared(&self, graph: &Graph, point: &Point) -> Vec<f64> {
+        evaluate(graph, &self.prepared.expressions, &|symbol| point.value(graph, symbol))
+    }
+
+    /// The values at a point of chosen values of the program.
+    fn values<R: Arithmetic>(
+        &self,
+        graph: &Graph,
+        point: &Point,
+        outputs: &[Value],
+        constant: impl Fn(f64) -> R,
+        exact: impl Fn(f64) -> R,
+    ) -> Vec<R> {
+        let prepared: Vec<R> = self.prepared(graph, point).into_iter().map(constant).collect();
+        let Code { instructions, values, .. } = &self.code;
+        run(instructions, *values, outputs, &prepared, |symbol| exact(point.value(graph, symbol)))
+    }
+
+    /// The largest relative error of an output at a point; none where nothing is finite.
+    fn loss(&self, graph: &Graph, point: &Point) -> Option<f64> {
+        let constant = |value: f64| Running::rounded(value, 0.0);
+        let outputs = self.values(graph, point, &self.code.outputs, constant, Running::exact);
+        let mut worst = 0.0_f64;
+        for Running { value, error } in outputs {
+            if !value.is_finite() {
+                return None;
+            }
+            if value != 0.0 {
+                worst = worst.max(error / value.abs());
+            }
+        }
+        worst.is_finite().then_some(worst)
+    }
+
+    /// Divisors that depend on the state, in their order.
+    fn divisors(&self) -> Vec<Value> {
+        let mut found = Vec::new();
+        for Instruction { operation, .. } in &self.code.instructions {
+            if let Operation::Div(_, divisor) = operation
+                && !found.contains(divisor)
+            {
+                found.push(*divisor);
+            }
+        }
+        found
+    }
+
+    /// A point next to a zero of a divisor, from a point where it is not small: one symbol of the state moves, by the
+    /// secant method.
+    fn near_pole(&self, graph: &Graph, point: &Point, divisor: Value) -> Option<Point> {
+        const STEPS: usize = 40;
+        let at = |symbol: SymbolId, x: f64| {
+            let moved = Point { moved: Some((symbol, x)), ..point.clone() };
+            self.values::<f64>(graph, &moved, &[divisor], |value| value, |value| value)[0]
+        };
+        let symbols = self.code.instructions.iter().filter_map(|instruction| match instruction.operation {
+            Operation::Symbol(symbol) if graph.symbol_info(symbol).role != Role::Constant => Some(symbol),
+            _ => None,
+        });
+        for symbol in symbols {
+            let start = point.value(graph, symbol);
+            let (mut a, mut b) = (start, start + 0.1);
+            let (mut at_a, mut at_b) = (at(symbol, a), at(symbol, b));
+            let first = at_a.abs();
+            if at_a == at_b {
+                continue;
+            }
+            for _ in 0..STEPS {
+                let next = b - at_b * (b - a) / (at_b - at_a);
+                if !next.is_finite() || (next - start).abs() > 4.0 {
+                    break;
+                }
+                (a, at_a, b, at_b) = (b, at_b, next, at(symbol, next));
+                if at_b.abs() <= 1e-14 * first || a == b {
+                    // A divisor that is a square comes down as the square of the distance.
+                    let near = b + NEAR * if start == b { 1.0 } else { start - b };
+                    return Some(Point { moved: Some((symbol, near)), ..point.clone() });
+                }
+            }
+        }
+        None
+    }
+}
+
+/// The best of some programs: those that lose six digits or more where another does not are left out, then the cheapest are
+/// taken, of these the most accurate, of these the first. Programs that are too long for the analysis differ by their cost
+/// alone.
+pub(super) fn best(graph: &Graph, candidates: &[Candidate]) -> usize {
+    chosen(graph, candidates, true).unwrap_or_else(|| cheapest(candidates))
+}
+
+/// The same, but of equally cheap ones the first: for programs that are not finished yet.
+pub(super) fn promising(graph: &Graph, candidates: &[Candidate]) -> usize {
+    chosen(graph, candidates, false).unwrap_or_else(|| cheapest(candidates))
+}
+
+fn cheapest(candidates: &[Candidate]) -> usize {
+    (0..candidates.len()).min_by_key(|i| candidates[*i].cost()).unwrap_or(0)
+}
+
+fn chosen(graph: &Graph, codes: &[Candidate], accurate: bool) -> Option<usize> {
+    let same = |candidate: &Candidate| candidate.code.instructions == codes[0].code.instructions;
+    let long = |candidate: &Candidate| candidate.code.instructions.len() > LONGEST;
+    if codes.iter().all(same) || codes.iter().any(long) {
+        return None;
+    }
+    let costs: Vec<u64> = codes.iter().map(Candidate::cost).collect();
+    let losses = losses(graph, codes);
+    let least = losses.iter().copied().fold(f64::INFINITY, f64::min);
+    // Where every program loses as much it is the function that is ill conditioned there.
+    let limit = if least > SERIOUS { f64::INFINITY } else { SERIOUS.max(INTOLERABLE * least) };
+    let tolerable = |i: &usize| losses[*i] <= limit;
+    let cost = (0..codes.len()).filter(tolerable).map(|i| costs[i]).min()?;
+    let mut cheapest = (0..codes.len()).filter(tolerable).filter(|i| costs[*i] == cost);
+    if accurate { cheapest.min_by(|i, j| losses[*i].total_cmp(&losses[*j])) } else { cheapest.next() }
+}
+
+/// The largest loss of each program over all points at which some program is defined.
+fn losses(graph: &Graph, codes: &[Candidate]) -> Vec<f64> {
+    let random: Vec<Point> = (0..POINTS).map(|seed| Point { seed, moved: None }).collect();
+    let mut points = random.clone();
+    for candidate in codes {
+        for divisor in candidate.divisors().into_iter().take(POLES) {
+            points.extend(candidate.near_pole(graph, &random[0], divisor));
+        }
+    }
+    let mut worst = vec![0.0_f64; codes.len()];
+    for point in &points {
+        let found: Vec<Option<f64>> = codes.iter().map(|candidate| candidate.loss(graph, point)).collect();
+        if found.iter().all(Option::is_none) {
+            continue;
+        }
+        for (worst, found) in worst.iter_mut().zip(found) {
+            *worst = worst.max(found.unwrap_or(f64::INFINITY));
+        }
+    }
+    worst
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::algebra::{ExprId, Graph, Role};
+    use crate::program::{ProgramBuilder, Programs, evaluate_function, evaluate_prepare};
+
+    /// The program taken of equal lists, and its values where all symbols are at `at`.
+    fn taken(graph: &mut Graph, lists: &[Vec<ExprId>], at: &[f64]) -> (Programs, usize, Vec<f64>) {
+        let mut builder = ProgramBuilder::new(graph);
+        let index = builder.add_equal("f", lists);
+        let programs = builder.finish();
+        let value = |symbol: crate::algebra::SymbolId| at[symbol.index()];
+        let prepared = evaluate_prepare(&programs, value);
+        let found = evaluate_function(&programs, 0, &prepared, value);
+        (programs, index, found)
+    }
+
+    #[test]
+    fn the_dearer_program_is_taken_where_the_cheaper_one_cancels_next_to_a_pole() {
+        // (1 - cos x)/x^2 against 1/2 (sin(x/2)/(x/2))^2: next to zero the first has no digits.
+        let mut g = Graph::new();
+        let x = g.symbol("x", Role::Coordinate);
+        let (one, half) = (g.one(), g.ratio(1, 2));
+        let (_, c) = g.sin_cos(x);
+        let difference = g.sub(one, c);
+        let cancels = g.product(&[(difference, 1), (x, -2)]);
+        let middle = g.mul(half, x);
+        let s = g.sin(middle);
+        let keeps = g.product(&[(half, 1), (s, 2), (middle, -2)]);
+        for lists in [[vec![cancels], vec![keeps]], [vec![keeps], vec![cancels]]] {
+            let (_, _, found) = taken(&mut g, &lists, &[1e-7]);
+            assert!((found[0] - 0.5).abs() < 1e-14, "{}", found[0]);
+        }
+    }
+
+    #[test]
+    fn accuracy_breaks_ties() {
+        // 1/sin^2 - cot^2 = 1, written with terms that cancel, and 1/(1 + x) - 1/(1 - x) likewise: of two that cost the same.
+        let mut g = Graph::new();
+        let (x, y) = (g.symbol("x", Role::Coordinate), g.symbol("y", Role::Coordinate));
+        let (xx, yy) = (g.mul(x, x), g.mul(y, y));
+        let squares = g.sub(xx, yy);
+        let (sum, difference) = (g.add(x, y), g.sub(x, y));
+        let product = g.mul(sum, difference);
+        // Divided by x - y, so that next to the pole the numerator cancels.
+        let cubes = [(squares, 1), (difference, -2)];
+        let cancels = g.product(&cubes);
+        let keeps = g.product(&[(product, 1), (difference, -2)]);
+        for lists in [[vec![cancels], vec![keeps]], [vec![keeps], vec![cancels]]] {
+            let (_, _, found) = taken(&mut g, &lists, &[1.0 + 1e-9, 1.0]);
+            let (x, y) = (1.0 + 1e-9_f64, 1.0_f64);
+            let exact = (x + y) / (x - y);
+            assert!((found[0] / exact - 1.0).abs() < 1e-14, "{:e}", found[0] / exact - 1.0);
+        }
+    }
+}

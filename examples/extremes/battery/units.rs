@@ -1,0 +1,120 @@
+//! Units: powers of two change nothing, not a bit; other units nothing beyond the errors of the methods.
+
+use guen::prelude::*;
+use guen::steppers::Method;
+use guen_benchmarks::systems::{Sled, sled};
+
+use super::methods::{self, Promise, Settings, Visitor};
+use super::motion::refusal;
+use super::{Answer, Line, Task, Verdict};
+
+const SPAN: f64 = 2.0;
+const STEP: f64 = 1.0 / 1024.0;
+/// The state in metres and seconds: heading, place, turning, speed.
+const START: [f64; 5] = [0.3, 0.0, 0.0, 0.7, 0.5];
+
+/// How long a metre, a second, a kilogram are in some units.
+#[derive(Clone, Copy)]
+struct Units {
+    length: f64,
+    time: f64,
+    mass: f64,
+}
+
+impl Units {
+    fn system(self) -> sled::Prepared {
+        let Units { length, time, mass } = self;
+        let g = 9.81 * length / (time * time);
+        Sled { m: 2.0 * mass, alpha: 0.2 * length, beta: 0.3 * length, k: 0.4 * length, incline: 0.3, g }
+            .prepare()
+            .expect("positive constants")
+    }
+
+    /// What the entries of the state are multiplied by.
+    fn factors(self) -> [f64; 5] {
+        let Units { length, time, .. } = self;
+        [1.0, length, length, 1.0 / time, length / time]
+    }
+}
+
+/// The ends of all methods, in metres and seconds.
+struct Ends {
+    units: Units,
+    ends: Vec<(&'static str, Promise, Result<[f64; 5], Verdict>)>,
+}
+
+impl Visitor<f64, sled::Prepared, 5> for Ends {
+    fn visit<M: Method<f64, sled::Prepared, 5>>(&mut self, by: &'static str, promise: Promise, method: &M) {
+        let factors = self.units.factors();
+        let start = std::array::from_fn(|i| START[i] * factors[i]);
+        let run = Integration::new(&self.units.system(), 0.0, &start).run(method, SPAN * self.units.time);
+        let end = match run {
+            Ok(done) => Ok(std::array::from_fn(|i| done.state[i] / factors[i])),
+            Err(error) => Err(refusal(&error, true)),
+        };
+        self.ends.push((by, promise, end));
+    }
+}
+
+fn ends(units: Units) -> Ends {
+    let settings = Settings { step: STEP * units.time, relative: 1e-11, absolute: 1e-20 };
+    let mut ends = Ends { units, ends: Vec::new() };
+    methods::all::<f64, _, _, 5>(settings, &mut ends);
+    ends
+}
+
+/// The largest relative difference of the ends of a motion in two systems of units.
+fn compare(asked: &str, one: Units, other: Units, allowed: fn(&str, Promise) -> f64) -> Line {
+    let answers = ends(one).ends.into_iter().zip(ends(other).ends).map(|((by, promise, a), (_, _, b))| {
+        let verdict = match (a, b) {
+            (Ok(a), Ok(b)) => {
+                let off = (0..5).map(|i| (a[i] - b[i]).abs() / a[i].abs()).fold(0.0, f64::max);
+                Verdict::of(off, allowed(by, promise))
+            }
+            (Err(verdict), _) | (_, Err(verdict)) => verdict,
+        };
+        Answer { by, verdict }
+    });
+    Line {
+        system: "units",
+        asked: asked.to_owned(),
+        against: "each other".to_owned(),
+        answers: answers.collect(),
+    }
+}
+
+pub fn tasks() -> Vec<Task> {
+    const USUAL: Units = Units { length: 1.0, time: 1.0, mass: 1.0 };
+    let power = |n: i32| 2.0_f64.powi(n);
+    let powers = Units { length: power(30), time: power(-17), mass: power(-41) };
+    vec![
+        Task::new("units", true, move || {
+            let allowed = |by: &str, promise| match promise {
+                // Implicit methods solve their equations to rounding, on a way that depends on units.
+                Promise::Fixed if by.starts_with("Gauss") => 1e-13,
+                Promise::Fixed => 0.0,
+                Promise::Adaptive(tolerance) => 1e4 * tolerance,
+            };
+            compare(
+                "the sled in units that are 2^30, 2^-17 and 2^-41 of metre, second and kilogram",
+                USUAL,
+                powers,
+                allowed,
+            )
+        }),
+        Task::new("units", true, move || {
+            let small = Units { length: 1e3, time: 1.0, mass: 1e6 };
+            let large = Units { length: 1e-3, time: 1.0, mass: 1e-3 };
+            let allowed = |_: &str, promise| match promise {
+                Promise::Fixed => 1e-12,
+                Promise::Adaptive(tolerance) => 1e4 * tolerance,
+            };
+            compare(
+                "the sled in millimetres and milligrams, and in kilometres and tonnes",
+                small,
+                large,
+                allowed,
+            )
+        }),
+    ]
+}
