@@ -35,7 +35,7 @@ where
     let expected = system.rhs(t + s, &value);
     let mut unit = Long::one();
     for _ in 0..ORDER {
-        unit = unit * s;
+        unit *= s;
     }
     (0..N).map(|i| ((rate[i] - expected[i]) / unit).abs().to_f64()).fold(0.0, f64::max)
 }

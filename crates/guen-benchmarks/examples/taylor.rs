@@ -7,6 +7,7 @@
 //! run TOLERANCE ORDER     error of the end state, steps, microseconds of a run; `default` for the order that suits
 //! expand ORDER            nanoseconds of an expansion into a series
 //! ```
+#![allow(clippy::result_large_err, reason = "an error keeps the state that was reached")]
 
 use std::hint::black_box;
 use std::io::{self, BufRead, Write};

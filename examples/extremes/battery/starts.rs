@@ -39,8 +39,10 @@ struct Return {
 impl Visitor<f64, hoop::Prepared, 9> for Return {
     fn visit<M: Method<f64, hoop::Prepared, 9>>(&mut self, by: &'static str, promise: Promise, method: &M) {
         let there = Integration::new(&self.system, 0.0, &self.start).run(method, self.to);
-        let back =
-            there.and_then(|there| Integration::new(&self.system, self.to, &there.state).run(method, 0.0));
+        let back = match there {
+            Ok(there) => Integration::new(&self.system, self.to, &there.state).run(method, 0.0),
+            Err(error) => Err(error),
+        };
         let verdict = match back {
             Ok(back) => {
                 let off = (0..9).map(|i| (back.state[i] - self.start[i]).abs()).fold(0.0, f64::max);

@@ -37,10 +37,13 @@ impl Units {
     }
 }
 
-/// The ends of all methods, in metres and seconds.
+/// Where a method arrived, in metres and seconds.
+type End = (&'static str, Promise, Result<[f64; 5], Verdict>);
+
+/// The ends of all methods.
 struct Ends {
     units: Units,
-    ends: Vec<(&'static str, Promise, Result<[f64; 5], Verdict>)>,
+    ends: Vec<End>,
 }
 
 impl Visitor<f64, sled::Prepared, 5> for Ends {

@@ -114,7 +114,8 @@ where
         }
         until_look = EVERY;
         let growth = back.growth(state);
-        if !(unit * growth <= limit) {
+        // What is no number exceeds every limit.
+        if (unit * growth).partial_cmp(&limit).is_none_or(core::cmp::Ordering::is_gt) {
             fault = Some(Cause::Irreversible { found: time.to_f64(), growth, limit });
             return ControlFlow::Break(());
         }

@@ -274,9 +274,9 @@ impl<R: Ordered, const N: usize> Run<'_, R, N> {
         let Series { order, coefficients, .. } = &self.series;
         let weights = self.method.tolerance().weights(&coefficients[0], &coefficients[0]);
         let mut shortest = f64::INFINITY;
-        for k in first..=*order {
+        for (k, coefficients) in coefficients.iter().enumerate().take(*order + 1).skip(first) {
             let mut largest = 0.0_f64;
-            for (c, weight) in coefficients[k].iter().zip(&weights) {
+            for (c, weight) in coefficients.iter().zip(&weights) {
                 let size = c.to_f64().abs() * weight;
                 largest = if size > largest { size } else { largest };
             }
