@@ -94,7 +94,8 @@ fn equilibria_of_a_cart() {
     // Upright, wherever the cart is, without a push; the wind is fixed to a breeze.
     let breeze = cart::Inputs { push: 0.0, wind: 0.5 };
     let (state, inputs) = system.equilibrium(0.0, &guess, &breeze, &["x", "wind"]).unwrap();
-    assert_eq!((state.x, state.v, state.omega, inputs.wind), (0.3, 0.0, 0.0, 0.5));
+    assert_eq!((state.x, state.v, inputs.wind), (0.3, 0.0, 0.5));
+    assert!(state.omega.abs() < 1e-15, "{}", state.omega);
     // The wind pushes cart and pole alike: the push holds against both, and the pole leans.
     assert!((inputs.push + 0.5).abs() < 1e-12, "{inputs:?}");
     let rates: [f64; 4] = system.rhs(0.0, &state, &inputs).into();

@@ -108,9 +108,9 @@ Nodding             4     32          13      1             11";
 level   variables  bytes  operations  calls  prepared once
 Convoy         13    104         197      5            149
 Course          8     64         187      5             58
-Dash            6     48         186      5             58
+Dash            6     48         182      5             58
 Alone           8     64         103      4             28
-Hitch           6     48         186      5             58
+Hitch           6     48         182      5             58
 Aim             2     16           1      0              1";
     assert_eq!(convoy::levels().to_string(), expected);
     for (info, level) in hoop::LEVELS.iter().zip(["Hoop", "Tilt", "Unit", "Contact", "Told", "Numbers"]) {

@@ -121,7 +121,7 @@ fn errors_fall_as_the_power_of_the_step() {
     let start = reference()[0].1.map(Long::from_f64);
     let system = prepared::<Long>();
     let run = |tolerance: f64, order: u32| {
-        let end = Long::from_ratio(1, 8);
+        let end = Long::from_ratio(3, 4);
         Integration::new(&system, Long::zero(), &start)
             .run(&Taylor::new(tolerance).order(order), end)
             .unwrap()

@@ -47,7 +47,7 @@ where
     /// What the formula remembers, and what was lost.
     type Memory = (F::Memory, [R; N]);
     const EVALUATIONS: u32 = F::EVALUATIONS;
-    const ORDER: u32 = F::ORDER;
+    const JUDGED_ORDER: u32 = F::JUDGED_ORDER;
 
     #[inline]
     fn step(

@@ -103,9 +103,9 @@ pub trait Course<R: Real, S: ?Sized, const N: usize> {
     /// Evaluations of the right-hand side in a usual step, by which a guard chooses how often to look.
     const EVALUATIONS: u32;
 
-    /// The order of a method whose step is fixed, which a guard therefore watches; zero for one that estimates its own
-    /// errors.
-    const FIXED_ORDER: u32 = 0;
+    /// The order of an explicit method with a fixed step of which a guard judges single steps; zero for one that estimates
+    /// its own errors, that is implicit, or that is more accurate than the guard's estimate.
+    const JUDGED_ORDER: u32 = 0;
     /// The motion over one step, as [`dense`](Course::dense) returns it: for most methods a [`Dense`](super::Dense).
     type Polynomial: Interpolant<R, N>;
 

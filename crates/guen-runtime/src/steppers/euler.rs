@@ -37,7 +37,7 @@ pub struct Euler<R = f64> {
 impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Formula<R, S, N> for Euler<R> {
     type Memory = Slopes<R, N>;
     const EVALUATIONS: u32 = 1;
-    const ORDER: u32 = 1;
+    const JUDGED_ORDER: u32 = 1;
 
     #[inline]
     fn step(

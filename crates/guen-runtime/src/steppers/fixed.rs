@@ -13,7 +13,8 @@ pub trait Formula<R: Real, S: ?Sized, const N: usize> {
     type Memory: Copy;
 
     const EVALUATIONS: u32;
-    const ORDER: u32;
+    /// The order of an explicit method of low order, whose steps a guard can judge: see `Defects`. Zero for others.
+    const JUDGED_ORDER: u32 = 0;
 
     /// The state one step of size `h` further, `h` of either sign. Counts its work.
     fn step(
@@ -80,7 +81,7 @@ where
     S: System<R, N> + ?Sized,
 {
     const EVALUATIONS: u32 = F::EVALUATIONS;
-    const FIXED_ORDER: u32 = F::ORDER;
+    const JUDGED_ORDER: u32 = F::JUDGED_ORDER;
 
     type Polynomial = Dense<R, N>;
 

@@ -25,7 +25,6 @@ macro_rules! gauss {
         impl<R: Ordered, S: Differentiable<R, N> + ?Sized, const N: usize> Formula<R, S, N> for $Gauss<R> {
             type Memory = Memory<R, N, $stages>;
             const EVALUATIONS: u32 = 4 * $stages;
-            const ORDER: u32 = $order;
 
             fn step(
                 &self,

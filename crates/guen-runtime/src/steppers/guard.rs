@@ -20,8 +20,8 @@ const EVALUATIONS_WORTH_A_LOOK: u32 = 100;
 pub(super) const EDGES: usize = 16;
 
 /// What a run must not violate. A stepper watches these by default, of whatever the system tells in
-/// [`System::vitals`], [`System::edges`] and [`System::condition`], and methods with a fixed step by evaluating the
-/// right-hand side again.
+/// [`System::vitals`], [`System::edges`] and [`System::condition`], and explicit methods of low order with a fixed step by
+/// evaluating the right-hand side again.
 ///
 /// Every accepted state is tested to be finite. Every [`every`](Guard::every) steps, at the end of the run and before an
 /// error is returned, the guard looks at the rest; the first look looks at the start too. Where it finds a fault, the run
@@ -59,10 +59,10 @@ pub struct Guard {
     /// The largest [`condition`](System::condition) of the mass matrix. By default `1e12`, where accelerations have
     /// four digits left in `f64`; in another real the limit is divided by the ratio of the roundings.
     pub condition: f64,
-    /// The largest error of methods with a fixed step, estimated at every look from one step: what it differs from a
-    /// quadrature of the rates over it, relative to the largest value that an entry has had. With methods up to order
-    /// four the estimates are summed up as if they stood for all steps; with those of higher order, which are better than
-    /// the estimate, only a step that is off by as much by itself ends the run. By default 0.05.
+    /// The largest error of [`Euler`](super::Euler) and [`Rk4`](super::Rk4), estimated at every look from one step: what it
+    /// differs from a quadrature of the rates over it, relative to the largest value that an entry has had, summed up as
+    /// if it stood for all steps since the last look. By default 0.05. Methods of higher order are better than the
+    /// estimate, and implicit ones right where it is not, at rates beyond their step; those are not judged by it.
     pub step: f64,
     /// Look every so many steps, at least every one; chosen by the method's cost if absent.
     pub every: Option<u32>,
@@ -116,7 +116,7 @@ pub(super) struct Watch<R, const N: usize> {
     until_look: u32,
     /// Whether a run that ends before its first look is long enough for one.
     worth: u32,
-    /// The order of a method with a fixed step, else zero.
+    /// The order of a method whose steps are judged, else zero.
     order: u32,
     /// Where the last look found everything in order.
     good: Reached<R, N>,
@@ -246,7 +246,7 @@ impl<R: Real, const N: usize> Watch<R, N> {
             && *order > 0
         {
             let limit = guard.step;
-            let worst = known.defects.add(system, *order, steps, before, reached, &known.largest);
+            let worst = known.defects.add(system, steps, before, reached, &known.largest);
             if exceeds(worst.defect, limit) {
                 return Err(Cause::Step { found, entry: worst.entry, defect: worst.defect, limit });
             }

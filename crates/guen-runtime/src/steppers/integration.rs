@@ -150,7 +150,7 @@ impl<'a, R: Real, S: System<R, N> + ?Sized, const N: usize, const E: usize> Inte
         self.check(t1).map_err(|cause| self.start.failed(cause))?;
         let mut course = method.start(self.start.time, &self.start.state);
         let evaluations = <M::Course<'_> as Course<R, S, N>>::EVALUATIONS;
-        let order = <M::Course<'_> as Course<R, S, N>>::FIXED_ORDER;
+        let order = <M::Course<'_> as Course<R, S, N>>::JUDGED_ORDER;
         let mut watch = Watch::new(self.guard, evaluations, order, &self.start)
             .map_err(|cause| self.start.failed(cause))?;
         let mut trackers: [Tracker; E] =

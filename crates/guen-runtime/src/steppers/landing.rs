@@ -25,7 +25,7 @@ where
     let start = Reached::new(t0, x0);
     let mut course = method.start(t0, x0);
     let evaluations = <M::Course<'_> as Course<R, S, N>>::EVALUATIONS;
-    let order = <M::Course<'_> as Course<R, S, N>>::FIXED_ORDER;
+    let order = <M::Course<'_> as Course<R, S, N>>::JUDGED_ORDER;
     let mut watch =
         Watch::new(Guard::default(), evaluations, order, &start).map_err(|cause| start.failed(cause))?;
     let (mut before, mut kept) = (start, false);

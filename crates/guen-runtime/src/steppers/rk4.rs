@@ -124,7 +124,7 @@ pub struct Rk4<R = f64> {
 impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Formula<R, S, N> for Rk4<R> {
     type Memory = Slopes<R, N>;
     const EVALUATIONS: u32 = 4;
-    const ORDER: u32 = 4;
+    const JUDGED_ORDER: u32 = 4;
 
     #[inline]
     fn step(

@@ -60,7 +60,6 @@ pub struct Memory<R, const N: usize> {
 impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Formula<R, S, N> for Rk8<R> {
     type Memory = Memory<R, N>;
     const EVALUATIONS: u32 = 12;
-    const ORDER: u32 = 8;
 
     #[inline]
     fn step(

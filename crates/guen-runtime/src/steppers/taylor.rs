@@ -252,11 +252,11 @@ impl<R: Ordered, const N: usize> Run<'_, R, N> {
 
     /// The length of the step that the coefficients allow; infinite where all of them vanish.
     fn length(&self) -> f64 {
-        /// Coefficients that are looked at: in series with gaps the last ones may vanish.
+        /// Coefficients that are looked at, and at most half of them: in series with gaps the last ones may vanish.
         const LAST: usize = 8;
 
         let order = self.series.order;
-        let shortest = self.shortest((order + 1).saturating_sub(LAST).max(1));
+        let shortest = self.shortest(order + 1 - LAST.min(order.div_ceil(2)));
         // Nothing there: of a polynomial every coefficient counts.
         let shortest = if shortest == f64::INFINITY { self.shortest(1) } else { shortest };
         if shortest == f64::INFINITY { shortest } else { exp2(shortest) * self.scale }
@@ -264,15 +264,20 @@ impl<R: Ordered, const N: usize> Run<'_, R, N> {
 
     /// The binary logarithm of the length, in units of the scale, that the coefficients from one order on allow.
     fn shortest(&self, first: usize) -> f64 {
-        /// The binary logarithm of the ratio of two terms that follow each other, for the last ones.
+        /// The binary logarithm of the ratio of two terms that follow each other, for the last ones, and at least this part
+        /// of what it is in a geometric series that falls to the tolerance: with few terms each has to fall further.
         const RATIO: f64 = 2.0;
+        const PART: f64 = 0.7;
         /// What it is more for those before, which are not to decide unless there is a gap.
         const FURTHER: f64 = 0.6;
         /// How many are the last ones.
         const DECIDING: f64 = 4.0;
 
         let Series { order, coefficients, .. } = &self.series;
-        let weights = self.method.tolerance().weights(&coefficients[0], &coefficients[0]);
+        let tolerance = self.method.tolerance();
+        let weights = tolerance.weights(&coefficients[0], &coefficients[0]);
+        let tightest = f64::max(tolerance.relative, tolerance.absolute);
+        let ratio = f64::max(RATIO, -PART * log2(tightest) / *order as f64);
         let mut shortest = f64::INFINITY;
         for (k, coefficients) in coefficients.iter().enumerate().take(*order + 1).skip(first) {
             let mut largest = 0.0_f64;
@@ -281,7 +286,7 @@ impl<R: Ordered, const N: usize> Run<'_, R, N> {
                 largest = if size > largest { size } else { largest };
             }
             let below = *order as f64 - k as f64;
-            let allowed = RATIO * (below - 1.0) + FURTHER * f64::max(below + 1.0 - DECIDING, 0.0);
+            let allowed = ratio * (below - 1.0) + FURTHER * f64::max(below + 1.0 - DECIDING, 0.0);
             shortest = f64::min(shortest, (allowed - log2(largest)) / k as f64);
         }
         shortest
