@@ -179,7 +179,7 @@ fn prepared(subject: &Subject<'_, '_>, layout: &Layout, base: &Layout, invariant
 
             /// A state of the system with the functions as they are there: one elementary call for each.
             pub fn carry(&self, t: R, state: &super::State<R>) -> State<R> {
-                let mut all = [<R as __guen::Real>::zero(); #size];
+                let mut all = [R::zero(); #size];
                 let variables: [R; #variables] = ::core::convert::From::from(*state);
                 all[..#variables].copy_from_slice(&variables);
                 let values = program::carry(&self.constants, &self.hoisted, t, &all);

@@ -201,7 +201,7 @@ impl Writer {
         }
         let _ = write!(
             self.text,
-            "let ((v{}, v{}), (v{}, v{})) = <R as __guen::Real>::sin_cos_pair({}, {});",
+            "let ((v{}, v{}), (v{}, v{})) = R::sin_cos_pair({}, {});",
             first.result.index(),
             cosine.index(),
             second.result.index(),
@@ -217,11 +217,11 @@ impl Writer {
         let v = |value: &Value| self.names[value.index()].as_str();
         let product = |value: &Value| self.absorbed[value.index()];
         let fused = |method: &str, [a, b, c]: [&Value; 3]| {
-            format!("let v{r} = <R as __guen::Real>::{method}({}, {}, {});", v(a), v(b), v(c))
+            format!("let v{r} = R::{method}({}, {}, {});", v(a), v(b), v(c))
         };
         let statement = match operation {
             Operation::Number(value) => format!("let v{r} = {};", number(value)),
-            Operation::Pi => format!("let v{r} = <R as __guen::Real>::pi();"),
+            Operation::Pi => format!("let v{r} = R::pi();"),
             // Loads have no statement.
             Operation::Symbol(_) | Operation::Prepared(_) => String::new(),
             Operation::Add(a, b) => match (product(a), product(b)) {
@@ -238,10 +238,10 @@ impl Writer {
             Operation::Mul(a, b) => format!("let v{r} = {} * {};", v(a), v(b)),
             Operation::Div(a, b) => format!("let v{r} = {} / {};", v(a), v(b)),
             Operation::SinCos { angle, cosine } => {
-                format!("let (v{r}, v{}) = <R as __guen::Real>::sin_cos({});", cosine.index(), v(angle))
+                format!("let (v{r}, v{}) = R::sin_cos({});", cosine.index(), v(angle))
             }
             Operation::Call(function, a) => format!("let v{r} = {};", call(*function, v(a))),
-            Operation::Atan2(y, x) => format!("let v{r} = <R as __guen::Real>::atan2({}, {});", v(y), v(x)),
+            Operation::Atan2(y, x) => format!("let v{r} = R::atan2({}, {});", v(y), v(x)),
         };
         self.text.push_str(&statement);
     }
@@ -250,10 +250,10 @@ impl Writer {
 pub(super) fn call(function: Function, argument: &str) -> String {
     let name = match function {
         Function::Root(2) => "sqrt",
-        Function::Root(q) => return format!("<R as __guen::Real>::root({argument}, {q}u32)"),
+        Function::Root(q) => return format!("R::root({argument}, {q}u32)"),
         other => other.name(),
     };
-    format!("<R as __guen::Real>::{name}({argument})")
+    format!("R::{name}({argument})")
 }
 
 /// An exact number: a ratio of machine integers, or binary parts that reach beyond every real in use.
@@ -261,14 +261,14 @@ pub(super) fn number(value: &Rational) -> String {
     // Ratios of integers below 2^53 are rounded once by every real.
     if let Some((n, d)) = value.to_i64_pair() {
         return match (n, d) {
-            (0, _) => "<R as __guen::Real>::zero()".to_owned(),
-            (1, 1) => "<R as __guen::Real>::one()".to_owned(),
-            _ => format!("<R as __guen::Real>::from_ratio({n}i64, {d}i64)"),
+            (0, _) => "R::zero()".to_owned(),
+            (1, 1) => "R::one()".to_owned(),
+            _ => format!("R::from_ratio({n}i64, {d}i64)"),
         };
     }
     let parts: Vec<String> =
         binary_parts(value).into_iter().map(|(m, e)| format!("({m}i64, {e}i32)")).collect();
-    format!("<R as __guen::Real>::from_parts(&[{}])", parts.join(", "))
+    format!("R::from_parts(&[{}])", parts.join(", "))
 }
 
 /// `value = sum m 2^e` in descending magnitude: first rounded to 53 bits, then remainders, 330 bits in all.
@@ -337,13 +337,13 @@ mod tests {
         }
     }
 
-    /// The text of a right-hand side, without blanks and without the path of the trait.
+    /// The text of a right-hand side, without blanks and without the type of the functions.
     fn rates(declaration: &str) -> String {
         let text = crate::expand(declaration.parse().unwrap()).to_string();
         let text: String = text.split_whitespace().collect();
         let from = text.find("fnrhs<R:__guen::Real>").unwrap();
         let to = from + text[from..].find("#[inline]").unwrap();
-        text[from..to].replace("<Ras__guen::Real>::", "")
+        text[from..to].replace("R::", "")
     }
 
     #[test]

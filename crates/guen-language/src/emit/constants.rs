@@ -125,10 +125,10 @@ fn checks(subject: &Subject<'_, '_>, fields: &[Field]) -> TokenStream {
     let given = fields.iter().enumerate().map(|(i, field)| {
         let name = &field.name;
         let finite = quote! {
-            if !<R as __guen::Real>::is_finite(constants[#i]) {
+            if !R::is_finite(constants[#i]) {
                 return ::core::result::Result::Err(__guen::ConstantsError::NotFinite {
                     name: #name,
-                    value: <R as __guen::Real>::to_f64(constants[#i]),
+                    value: R::to_f64(constants[#i]),
                 });
             }
         };
@@ -165,7 +165,7 @@ fn check_bound(name: &str, bound: BoundKind, value: &TokenStream) -> TokenStream
     };
     let text = format!("{name} {relation}");
     quote! {
-        let value = <R as __guen::Real>::to_f64(#value);
+        let value = R::to_f64(#value);
         if !(#holds) {
             return ::core::result::Result::Err(__guen::ConstantsError::OutOfBound {
                 name: #name,
@@ -240,7 +240,7 @@ pub(super) fn default_text(subject: &Subject<'_, '_>, e: ExprId) -> String {
     let constants = &subject.model.constants;
     match graph.node(e) {
         Node::Number(value) => number(value),
-        Node::Pi => "<R as __guen::Real>::pi()".to_owned(),
+        Node::Pi => "R::pi()".to_owned(),
         Node::Symbol(symbol) => {
             let is_it = |c: &usize| graph.as_symbol(constants[*c].symbol) == Some(*symbol);
             let fixes = subject.scene().map_or(&[][..], |(_, facts)| &facts.fixes);
@@ -270,18 +270,18 @@ pub(super) fn default_text(subject: &Subject<'_, '_>, e: ExprId) -> String {
                 .iter()
                 .map(|(base, e)| match e {
                     1 => of(*base),
-                    e => format!("<R as __guen::Real>::powi({}, {e}i32)", of(*base)),
+                    e => format!("R::powi({}, {e}i32)", of(*base)),
                 })
                 .collect();
             format!("({})", parts.join(" * "))
         }
         Node::Function(guen_symbolic::Function::Root(q), x) => {
-            format!("<R as __guen::Real>::root({}, {q}u32)", of(*x))
+            format!("R::root({}, {q}u32)", of(*x))
         }
-        Node::Function(function, x) => format!("<R as __guen::Real>::{}({})", function.name(), of(*x)),
-        Node::Atan2(y, x) => format!("<R as __guen::Real>::atan2({}, {})", of(*y), of(*x)),
+        Node::Function(function, x) => format!("R::{}({})", function.name(), of(*x)),
+        Node::Atan2(y, x) => format!("R::atan2({}, {})", of(*y), of(*x)),
         Node::Kept(x) => of(*x),
         // Divisions by zero are refused before.
-        Node::Undefined => "<R as __guen::Real>::zero()".to_owned(),
+        Node::Undefined => "R::zero()".to_owned(),
     }
 }

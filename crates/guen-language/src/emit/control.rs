@@ -216,7 +216,7 @@ fn reactions(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
         );
         let parts = fields.iter().map(|field| match field {
             Some(field) => quote!(self.#field),
-            None => quote!(<R as __guen::Real>::zero()),
+            None => quote!(R::zero()),
         });
         quote! {
             #[doc = #docs]

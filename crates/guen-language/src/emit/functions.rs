@@ -55,7 +55,7 @@ impl Places {
 
 /// The start of a call that has the closure after it compiled with the instructions of the real: see
 /// `Real::vectorize`.
-const VECTORIZED: &str = "<R as __guen::Real>::vectorize(#[inline(always)] ||";
+const VECTORIZED: &str = "R::vectorize(#[inline(always)] ||";
 
 /// What a function of the state is given.
 #[derive(Clone, Copy, PartialEq, Eq)]

@@ -26,10 +26,10 @@ pub(super) fn guarded(subject: &Subject<'_, '_>, layout: &Layout, prepared: &Tok
             quote!(__guen::Real::abs(kinetic) + __guen::Real::abs(potential)),
         )
     } else {
-        (quote!(), quote!(::core::option::Option::None), quote!(<R as __guen::Real>::zero()))
+        (quote!(), quote!(::core::option::Option::None), quote!(R::zero()))
     };
     let residual = if level.selection.holonomic.is_empty() {
-        quote!(<R as __guen::Real>::zero())
+        quote!(R::zero())
     } else {
         let positions = rounded(
             &quote!(positions),
@@ -72,7 +72,7 @@ pub(super) fn guarded(subject: &Subject<'_, '_>, layout: &Layout, prepared: &Tok
             let _ = (t, &x);
             #measured
             __guen::Vitals {
-                energy: #energy, scale: #scale, residual: #residual, carried: <R as __guen::Real>::zero(),
+                energy: #energy, scale: #scale, residual: #residual, carried: R::zero(),
             }
         }
 

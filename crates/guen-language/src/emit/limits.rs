@@ -28,7 +28,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
             .iter()
             .map(|input| match input.limits {
                 Some(limits) => tokens(&default_text(subject, limits[which])),
-                None => quote!(<R as __guen::Real>::from_f64(::core::primitive::f64::#unlimited)),
+                None => quote!(R::from_f64(::core::primitive::f64::#unlimited)),
             })
             .collect()
     };

@@ -133,7 +133,7 @@ fn cells(pattern: &Pattern, rows: usize, size: usize, count: usize) -> TokenStre
     let declared = |name: &str, columns: usize, none: bool| {
         let name = ident(name);
         let mutable = (!none).then(|| quote!(mut));
-        quote!(let #mutable #name = [[<R as __guen::Real>::zero(); #columns]; #rows];)
+        quote!(let #mutable #name = [[R::zero(); #columns]; #rows];)
     };
     let state = declared("by_state", size, by_state.is_empty());
     let input = declared("by_input", count, by_input.is_empty());

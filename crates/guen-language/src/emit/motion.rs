@@ -332,7 +332,7 @@ fn systems(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
         if selection.holonomic.is_empty() {
             return quote! {
                 fn residual(&self, _t: R, _state: &[R; #size]) -> R {
-                    <R as __guen::Real>::zero()
+                    R::zero()
                 }
             };
         }

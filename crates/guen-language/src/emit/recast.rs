@@ -10,7 +10,7 @@ use super::Layout;
 pub(super) fn items(layout: &Layout, names: &[&Ident], marker: Option<&TokenStream>) -> TokenStream {
     let (system, size) = (&layout.system, layout.size);
     let constants = |of: TokenStream| {
-        quote! { #system { #(#names: <R as __guen::Real>::from_f64(#of.#names),)* #marker } }
+        quote! { #system { #(#names: R::from_f64(#of.#names),)* #marker } }
     };
     let recast = |owner: TokenStream, made: TokenStream, before: TokenStream, value: TokenStream| {
         quote! {
@@ -52,7 +52,7 @@ pub(super) fn items(layout: &Layout, names: &[&Ident], marker: Option<&TokenStre
         quote! {
             ::core::result::Result::Ok(Driven {
                 system,
-                inputs: ::core::convert::From::from(inputs.map(<R as __guen::Real>::from_f64)),
+                inputs: ::core::convert::From::from(inputs.map(R::from_f64)),
             })
         },
     )

@@ -104,7 +104,7 @@ pub(super) fn function(series: &SeriesProgram, loads: &dyn Loads, layout: &Layou
     let pairs: String = series.sums.iter().map(|[a, b]| format!("[{}, {}],", row(*a), row(*b))).collect();
     let now: Vec<String> = factors.iter().map(|v| format!("d{}", v.index())).collect();
     let rates: Vec<String> = series.rates.iter().map(|v| format!("v{}", v.index())).collect();
-    let zero = "<R as __guen::Real>::zero()";
+    let zero = "R::zero()";
     let moving = |v: &Value| (!series.is_still(*v)).then(|| format!("d{}", v.index()));
     let next_rates: Vec<String> = series.rates.iter().map(|v| moving(v).unwrap_or(zero.to_owned())).collect();
 
@@ -119,12 +119,12 @@ pub(super) fn function(series: &SeriesProgram, loads: &dyn Loads, layout: &Layou
         match what {
             Kept::Value(_) => {}
             Kept::Reciprocal(_) => begin.push(Statement {
-                text: format!("let {text} = <R as __guen::Real>::recip({name});"),
+                text: format!("let {text} = R::recip({name});"),
                 uses: vec![name],
                 defines: vec![text.clone()],
             }),
             Kept::HalfReciprocal(_) => begin.push(Statement {
-                text: format!("let {text} = <R as __guen::Real>::recip({name} + {name});"),
+                text: format!("let {text} = R::recip({name} + {name});"),
                 uses: vec![name],
                 defines: vec![text.clone()],
             }),
@@ -151,8 +151,8 @@ pub(super) fn function(series: &SeriesProgram, loads: &dyn Loads, layout: &Layou
             let mut w = __guen::Convolutions::<R, {list}, {sums}>::new(order);
             let mut m = 1_usize;
             while m <= order {{
-                let count = <R as __guen::Real>::from_f64(m as f64);
-                let part = <R as __guen::Real>::recip(count);
+                let count = R::from_f64(m as f64);
+                let part = R::recip(count);
                 let step = scale * part;
                 let mut x = f;
                 let mut i = 0_usize;
@@ -192,7 +192,7 @@ impl Writer<'_> {
         let text = match step {
             SeriesStep::Still(operation) => match operation {
                 Operation::Number(value) => number(value),
-                Operation::Pi => "<R as __guen::Real>::pi()".to_owned(),
+                Operation::Pi => "R::pi()".to_owned(),
                 Operation::Symbol(symbol) => self.loads.symbol(*symbol),
                 Operation::Prepared(k) => format!("k[{k}]"),
                 Operation::Add(a, b) => format!("{} + {}", at(a), at(b)),
@@ -201,7 +201,7 @@ impl Writer<'_> {
                 Operation::Mul(a, b) => format!("{} * {}", at(a), at(b)),
                 Operation::Div(a, b) => format!("{} / {}", at(a), at(b)),
                 Operation::Call(function, a) => call(*function, &at(a)),
-                Operation::Atan2(y, x) => format!("<R as __guen::Real>::atan2({}, {})", at(y), at(x)),
+                Operation::Atan2(y, x) => format!("R::atan2({}, {})", at(y), at(x)),
                 // Series programs have none.
                 Operation::SinCos { .. } => return None,
             },
@@ -215,8 +215,8 @@ impl Writer<'_> {
             SeriesStep::Neg(a) => format!("-{}", at(a)),
             SeriesStep::Scale(a, b) | SeriesStep::Product(a, b, _) => format!("{} * {}", at(a), at(b)),
             SeriesStep::Quotient(a, b, _) => format!("{} / {}", at(a), at(b)),
-            SeriesStep::SquareRoot(a, _) => format!("<R as __guen::Real>::sqrt({})", at(a)),
-            SeriesStep::Along(..) | SeriesStep::Derivative(_) => "<R as __guen::Real>::zero()".to_owned(),
+            SeriesStep::SquareRoot(a, _) => format!("R::sqrt({})", at(a)),
+            SeriesStep::Along(..) | SeriesStep::Derivative(_) => "R::zero()".to_owned(),
             SeriesStep::Integral(function, _) => return Some(start(function)),
         };
         let uses = match step {
@@ -234,7 +234,7 @@ impl Writer<'_> {
             && let Some(cosine) = self.beginning_with(Start::Call(Function::Cos, *angle))
         {
             let cosine = format!("v{}", cosine.index());
-            let text = format!("let ({name}, {cosine}) = <R as __guen::Real>::sin_cos({});", uses[0]);
+            let text = format!("let ({name}, {cosine}) = R::sin_cos({});", uses[0]);
             return Statement { text, uses, defines: vec![name, cosine] };
         }
         let text = match start {
@@ -244,7 +244,7 @@ impl Writer<'_> {
                 return Statement { text: String::new(), uses: Vec::new(), defines: Vec::new() };
             }
             Start::Call(function, _) => call(*function, &uses[0]),
-            Start::Atan2(..) => format!("<R as __guen::Real>::atan2({}, {})", uses[0], uses[1]),
+            Start::Atan2(..) => format!("R::atan2({}, {})", uses[0], uses[1]),
         };
         Statement { text: format!("let {name} = {text};"), uses, defines: vec![name] }
     }
@@ -272,7 +272,7 @@ impl Writer<'_> {
         let mut uses: Vec<String> = step.operands().iter().filter(|v| !still(v)).map(at).collect();
         let text = match step {
             SeriesStep::Still(_) => return None,
-            SeriesStep::Time => "if m == 1 { scale } else { <R as __guen::Real>::zero() }".to_owned(),
+            SeriesStep::Time => "if m == 1 { scale } else { R::zero() }".to_owned(),
             SeriesStep::Variable(i) => format!("x[{i}]"),
             SeriesStep::Add(a, b) if still(a) => at(b),
             SeriesStep::Add(a, b) if still(b) => at(a),
@@ -308,7 +308,7 @@ impl Writer<'_> {
                 format!("({} - w.sum({place}, m)) * {reciprocal}", at(a))
             }
             SeriesStep::Derivative(a) => format!("count * {}", at(a)),
-            SeriesStep::Integral(_, rate) if still(rate) => "<R as __guen::Real>::zero()".to_owned(),
+            SeriesStep::Integral(_, rate) if still(rate) => "R::zero()".to_owned(),
             SeriesStep::Integral(_, rate) => {
                 uses = vec![at(rate)];
                 format!("{} * part", at(rate))

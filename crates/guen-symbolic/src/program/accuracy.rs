@@ -10,6 +10,7 @@ use super::evaluate::{Arithmetic, run};
 use super::instruction::{Instruction, Operation, Value};
 use super::lower::{Code, PreparedTable, lower};
 use super::net::{Net, NetId};
+use super::part::needed;
 use crate::algebra::{Bound, Function, Graph, Rational, Role, SymbolId, mix};
 use crate::zero::evaluate;
 
@@ -143,28 +144,24 @@ impl Candidate {
         OperationCount::of(&self.code.instructions).weighted()
     }
 
+    /// What the program loads at a random point; symbols that move are none of its constants.
     fn prepared(&self, graph: &Graph, point: &Point) -> Vec<f64> {
         evaluate(graph, &self.prepared.expressions, &|symbol| point.value(graph, symbol))
     }
 
-    /// The values at a point of chosen values of the program.
-    fn values<R: Arithmetic>(
-        &self,
-        graph: &Graph,
-        point: &Point,
-        outputs: &[Value],
-        constant: impl Fn(f64) -> R,
-        exact: impl Fn(f64) -> R,
-    ) -> Vec<R> {
-        let prepared: Vec<R> = self.prepared(graph, point).into_iter().map(constant).collect();
-        let Code { instructions, values, .. } = &self.code;
-        run(instructions, *values, outputs, &prepared, |symbol| exact(point.value(graph, symbol)))
+    /// Whether it is the same program.
+    fn equals(&self, other: &Candidate) -> bool {
+        self.code.instructions == other.code.instructions
+            && self.code.outputs == other.code.outputs
+            && self.prepared.expressions == other.prepared.expressions
     }
 
-    /// The largest relative error of an output at a point; none where nothing is finite.
-    fn loss(&self, graph: &Graph, point: &Point) -> Option<f64> {
-        let constant = |value: f64| Running::rounded(value, 0.0);
-        let outputs = self.values(graph, point, &self.code.outputs, constant, Running::exact);
+    /// The largest relative error of an output at a point, given what is prepared there; none where nothing is finite.
+    fn loss(&self, graph: &Graph, point: &Point, prepared: &[f64]) -> Option<f64> {
+        let prepared: Vec<Running> = prepared.iter().map(|value| Running::rounded(*value, 0.0)).collect();
+        let Code { instructions, values, outputs } = &self.code;
+        let symbols = |symbol| Running::exact(point.value(graph, symbol));
+        let outputs = run(instructions, *values, outputs, &prepared, symbols);
         let mut worst = 0.0_f64;
         for Running { value, error } in outputs {
             if !value.is_finite() {
@@ -192,11 +189,12 @@ impl Candidate {
 
     /// A point next to a zero of a divisor, from a point where it is not small: one symbol of the state moves, by the
     /// secant method.
-    fn near_pole(&self, graph: &Graph, point: &Point, divisor: Value) -> Option<Point> {
+    fn near_pole(&self, graph: &Graph, point: &Point, prepared: &[f64], divisor: Value) -> Option<Point> {
         const STEPS: usize = 40;
+        let steps = needed(&self.code.instructions, self.code.values, &[divisor]);
         let at = |symbol: SymbolId, x: f64| {
             let moved = Point { moved: Some((symbol, x)), ..point.clone() };
-            self.values::<f64>(graph, &moved, &[divisor], |value| value, |value| value)[0]
+            run(&steps, self.code.values, &[divisor], prepared, |symbol| moved.value(graph, symbol))[0]
         };
         let symbols = self.code.instructions.iter().filter_map(|instruction| match instruction.operation {
             Operation::Symbol(symbol) if graph.symbol_info(symbol).role != Role::Constant => Some(symbol),
@@ -262,16 +260,34 @@ fn chosen(graph: &Graph, codes: &[Candidate], accurate: bool) -> Option<usize> {
 
 /// The largest loss of each program over all points at which some program is defined.
 fn losses(graph: &Graph, codes: &[Candidate]) -> Vec<f64> {
-    let random: Vec<Point> = (0..POINTS).map(|seed| Point { seed, moved: None }).collect();
-    let mut points = random.clone();
+    let mut points: Vec<Point> = (0..POINTS).map(|seed| Point { seed, moved: None }).collect();
+    // Equal programs lose as much, and no constant moves: each is looked at once.
+    let mut different: Vec<&Candidate> = Vec::new();
+    let mut kinds = Vec::new();
     for candidate in codes {
-        for divisor in candidate.divisors().into_iter().take(POLES) {
-            points.extend(candidate.near_pole(graph, &random[0], divisor));
+        let kind = different.iter().position(|other| other.equals(candidate));
+        kinds.push(kind.unwrap_or(different.len()));
+        if kind.is_none() {
+            different.push(candidate);
         }
     }
-    let mut worst = vec![0.0_f64; codes.len()];
+    let random = points.clone();
+    let prepared: Vec<Vec<Vec<f64>>> = different
+        .iter()
+        .map(|candidate| random.iter().map(|point| candidate.prepared(graph, point)).collect())
+        .collect();
+    for (candidate, prepared) in different.iter().zip(&prepared) {
+        for divisor in candidate.divisors().into_iter().take(POLES) {
+            points.extend(candidate.near_pole(graph, &random[0], &prepared[0], divisor));
+        }
+    }
+    let mut worst = vec![0.0_f64; different.len()];
     for point in &points {
-        let found: Vec<Option<f64>> = codes.iter().map(|candidate| candidate.loss(graph, point)).collect();
+        let found: Vec<Option<f64>> = different
+            .iter()
+            .zip(&prepared)
+            .map(|(candidate, prepared)| candidate.loss(graph, point, &prepared[point.seed as usize]))
+            .collect();
         if found.iter().all(Option::is_none) {
             continue;
         }
@@ -279,7 +295,7 @@ fn losses(graph: &Graph, codes: &[Candidate]) -> Vec<f64> {
             *worst = worst.max(found.unwrap_or(f64::INFINITY));
         }
     }
-    worst
+    kinds.into_iter().map(|kind| worst[kind]).collect()
 }
 
 #[cfg(test)]

@@ -97,7 +97,7 @@ impl FunctionProgram {
 }
 
 /// The instructions that some values need, in their order.
-fn needed(instructions: &[Instruction], count: usize, values: &[Value]) -> Vec<Instruction> {
+pub(super) fn needed(instructions: &[Instruction], count: usize, values: &[Value]) -> Vec<Instruction> {
     let mut live = vec![false; count];
     for value in values {
         live[value.index()] = true;
