@@ -80,11 +80,11 @@ fn steps_are_those_of_the_original_program() {
         })
         .unwrap();
     assert_eq!(done.statistics, Statistics { evaluations: 626, jacobians: 0, accepted: 52, rejected: 0 });
-    // The error of a short step is all rounding, hence so are the last digits of the steps that follow from it.
+    // The control takes its roots to almost four digits.
     for (time, original) in
         times.into_iter().zip([0.01778279410038923, 0.1244795587027246, 0.32690535550916894])
     {
-        assert!((time - original).abs() < 1e-12, "{time} instead of {original}");
+        assert!((time / original - 1.0).abs() < 2e-4, "{time} instead of {original}");
     }
 }
 

@@ -33,8 +33,8 @@ use crate::system::System;
 ///   for.
 /// - Source: E. Hairer and G. Wanner's program `dop853.f`, described in Hairer, Norsett and Wanner, *Solving
 ///   Ordinary Differential Equations I*, second edition, Springer 1993, as the program's own header says.
-///   Differs from it in three points: trials that are not finite are caught, the step before a landing is
-///   remembered after it, and there is no test for stiffness.
+///   Differs from it in four points: trials that are not finite are caught, the step before a landing is
+///   remembered after it, the root that gives the next step has almost four digits, and there is no test for stiffness.
 ///
 /// ```
 /// use core::ops::ControlFlow;
@@ -96,7 +96,7 @@ impl<R: Real, const N: usize> Pair<R, N> for Tableau<R> {
     where
         S: System<R, N> + ?Sized,
     {
-        let stages = self.stages(system, t, x, k1, h);
+        let stages = self.stages::<true, S, N>(system, t, x, k1, h);
         let slope = self.slope(&stages);
         Attempt { state: shifted(x, h, &slope), stages, end: None }
     }

@@ -4,7 +4,7 @@
 use super::course::Reached;
 use super::dense::Dense;
 use super::dop853_coefficients as published;
-use super::{shifted, weighted};
+use super::{leading, shifted, weighted};
 use crate::decimal::reals;
 use crate::real::Real;
 use crate::system::System;
@@ -100,7 +100,7 @@ impl<R: Real> Tableau<R> {
     where
         S: System<R, N> + ?Sized,
     {
-        let stages = self.stages(system, t, x, k1, h);
+        let stages = self.stages::<false, S, N>(system, t, x, k1, h);
         let slope = self.slope(&stages);
         Trial {
             state: shifted(x, h, &slope),
@@ -110,8 +110,14 @@ impl<R: Real> Tableau<R> {
     }
 
     /// The slopes of the stages, by eleven evaluations.
+    ///
+    /// Everything but the term of the slope computed last is summed up before that slope is asked for: the processor does it
+    /// while it waits, and no slope is read in registers longer than those it was just written from, which stalls it.
+    /// With `EARLY` the state and the step are in that sum too, so that a stage waits for one product and one sum in place of
+    /// two of each: `(x + h sum_j a_j k_j) + (h a) k` and not `x + h (sum_j a_j k_j + a k)`. The product `h a` is rounded,
+    /// with a fixed step always to the same side, which compensated sums would show.
     #[inline]
-    pub(super) fn stages<S, const N: usize>(
+    pub(super) fn stages<const EARLY: bool, S, const N: usize>(
         &self,
         system: &S,
         t: R,
@@ -123,19 +129,38 @@ impl<R: Real> Tableau<R> {
         S: System<R, N> + ?Sized,
     {
         let c = &self.c;
-        // The slope at node `c_(i+2)`, with `slope` the mean slope until there.
-        let at = |i: usize, slope: [R; N]| system.rhs(t + c[i] * h, &shifted(x, h, &slope));
-        let k2 = at(0, weighted(&self.a2, [k1]));
-        let k3 = at(1, weighted(&self.a3, [k1, &k2]));
-        let k4 = at(2, weighted(&self.a4, [k1, &k3]));
-        let k5 = at(3, weighted(&self.a5, [k1, &k3, &k4]));
-        let k6 = at(4, weighted(&self.a6, [k1, &k4, &k5]));
-        let k7 = at(5, weighted(&self.a7, [k1, &k4, &k5, &k6]));
-        let k8 = at(6, weighted(&self.a8, [k1, &k4, &k5, &k6, &k7]));
-        let k9 = at(7, weighted(&self.a9, [k1, &k4, &k5, &k6, &k7, &k8]));
-        let k10 = at(8, weighted(&self.a10, [k1, &k4, &k5, &k6, &k7, &k8, &k9]));
-        let k11 = at(9, weighted(&self.a11, [k1, &k4, &k5, &k6, &k7, &k8, &k9, &k10]));
-        let k12 = at(10, weighted(&self.a12, [k1, &k4, &k5, &k6, &k7, &k8, &k9, &k10, &k11]));
+        let at2 = shifted(x, h, &weighted(&self.a2, [k1]));
+        let near3 = ahead::<EARLY, _, _, _>(x, h, &self.a3, [k1]);
+        let k2 = system.rhs(t + c[0] * h, &at2);
+        let at3 = arrived::<EARLY, _, _>(x, h, &near3, self.a3[1], &k2);
+        let near4 = ahead::<EARLY, _, _, _>(x, h, &self.a4, [k1]);
+        let k3 = system.rhs(t + c[1] * h, &at3);
+        let at4 = arrived::<EARLY, _, _>(x, h, &near4, self.a4[1], &k3);
+        let near5 = ahead::<EARLY, _, _, _>(x, h, &self.a5, [k1, &k3]);
+        let k4 = system.rhs(t + c[2] * h, &at4);
+        let at5 = arrived::<EARLY, _, _>(x, h, &near5, self.a5[2], &k4);
+        let near6 = ahead::<EARLY, _, _, _>(x, h, &self.a6, [k1, &k4]);
+        let k5 = system.rhs(t + c[3] * h, &at5);
+        let at6 = arrived::<EARLY, _, _>(x, h, &near6, self.a6[2], &k5);
+        let near7 = ahead::<EARLY, _, _, _>(x, h, &self.a7, [k1, &k4, &k5]);
+        let k6 = system.rhs(t + c[4] * h, &at6);
+        let at7 = arrived::<EARLY, _, _>(x, h, &near7, self.a7[3], &k6);
+        let near8 = ahead::<EARLY, _, _, _>(x, h, &self.a8, [k1, &k4, &k5, &k6]);
+        let k7 = system.rhs(t + c[5] * h, &at7);
+        let at8 = arrived::<EARLY, _, _>(x, h, &near8, self.a8[4], &k7);
+        let near9 = ahead::<EARLY, _, _, _>(x, h, &self.a9, [k1, &k4, &k5, &k6, &k7]);
+        let k8 = system.rhs(t + c[6] * h, &at8);
+        let at9 = arrived::<EARLY, _, _>(x, h, &near9, self.a9[5], &k8);
+        let near10 = ahead::<EARLY, _, _, _>(x, h, &self.a10, [k1, &k4, &k5, &k6, &k7, &k8]);
+        let k9 = system.rhs(t + c[7] * h, &at9);
+        let at10 = arrived::<EARLY, _, _>(x, h, &near10, self.a10[6], &k9);
+        let near11 = ahead::<EARLY, _, _, _>(x, h, &self.a11, [k1, &k4, &k5, &k6, &k7, &k8, &k9]);
+        let k10 = system.rhs(t + c[8] * h, &at10);
+        let at11 = arrived::<EARLY, _, _>(x, h, &near11, self.a11[7], &k10);
+        let near12 = ahead::<EARLY, _, _, _>(x, h, &self.a12, [k1, &k4, &k5, &k6, &k7, &k8, &k9, &k10]);
+        let k11 = system.rhs(t + c[9] * h, &at11);
+        let at12 = arrived::<EARLY, _, _>(x, h, &near12, self.a12[8], &k11);
+        let k12 = system.rhs(t + c[10] * h, &at12);
         [*k1, k6, k7, k8, k9, k10, k11, k12]
     }
 
@@ -195,4 +220,28 @@ impl<R: Real> Default for Tableau<R> {
     fn default() -> Self {
         Self::new()
     }
+}
+
+/// The part of a stage's argument that is known before its last slope.
+#[inline(always)]
+fn ahead<const EARLY: bool, R: Real, const N: usize, const M: usize>(
+    x: &[R; N],
+    h: R,
+    weights: &[R],
+    slopes: [&[R; N]; M],
+) -> [R; N] {
+    let sum = leading(weights, slopes);
+    if EARLY { shifted(x, h, &sum) } else { sum }
+}
+
+/// A stage's argument, from what [`ahead`] knew and the last slope with its weight.
+#[inline(always)]
+fn arrived<const EARLY: bool, R: Real, const N: usize>(
+    x: &[R; N],
+    h: R,
+    near: &[R; N],
+    weight: R,
+    slope: &[R; N],
+) -> [R; N] {
+    if EARLY { shifted(near, h * weight, slope) } else { shifted(x, h, &shifted(near, weight, slope)) }
 }
