@@ -167,8 +167,8 @@ pub fn derive<'a>(mut model: Model<'a>, faults: &mut Faults) -> Option<Derived<'
     polish(&mut model.bench, &mut derivation);
     let brackets = commutators(&mut model, &mut derivation);
     let mut system = whole(&mut model, Rc::new(derivation), Rc::new(brackets), faults);
-    if let Some(word) = model.taylor {
-        system.series = series::of(&model, &system.selection, &system.programs, word, faults);
+    if let Some(word) = model.provides_taylor {
+        system.series = series::of(&model, &system.selection, &system.programs, word.span(), faults);
     }
     let scenes = scene::derive(&mut model, &system, faults);
     (faults.count() == before).then_some(Derived { model, system, scenes })

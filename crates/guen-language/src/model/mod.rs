@@ -51,8 +51,8 @@ pub struct Model<'a> {
     pub scenes: Vec<SceneEntry<'a>>,
     /// Whether the system or a scene provides operators: then all brackets are derived.
     pub provides_operators: bool,
-    /// The word `taylor`, where the system provides its Taylor series.
-    pub taylor: Option<Span>,
+    /// The word by which the system provides its Taylor series.
+    pub provides_taylor: Option<&'a Name>,
     /// The word by which the system provides its carried form.
     pub provides_carried: Option<&'a Name>,
     /// Components of vector equations that are identically `0 = 0`, by name.

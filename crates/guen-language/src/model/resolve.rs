@@ -1,5 +1,8 @@
 //! A declaration becomes a model: one pass over the items in the order in which they were written.
 
+mod count;
+mod provide;
+
 use std::collections::{BTreeMap, BTreeSet};
 
 use guen_symbolic::{Bound, ExprId, Flow, Force, Forms, Graph, Holonomic, Mechanics, Role, Roles, Workbench};
@@ -11,9 +14,8 @@ use super::place::Place;
 use super::scope::{Category, Scope};
 use super::spatial::inner;
 use super::value::{BodyValue, Value};
-use super::{BodyEntry, ConstantEntry, FormKind, Model, OutputEntry, SceneEntry, SymbolEntry};
+use super::{BodyEntry, ConstantEntry, Model, OutputEntry, SceneEntry, SymbolEntry};
 use crate::diagnostics::{Fault, Faults};
-use crate::names::quoted;
 use crate::syntax::{
     BoundKind, Constant, Declaration, Definition, Expression, ExpressionKind, Force as WrittenForce, Item,
     Plain, Quantity, Scene, SectionKind,
@@ -53,7 +55,7 @@ struct Resolver<'a, 'f> {
     scenes: Vec<SceneEntry<'a>>,
     output_values: Vec<ExprId>,
     provides_operators: bool,
-    taylor: Option<proc_macro2::Span>,
+    provides_taylor: Option<&'a crate::syntax::Name>,
     provides_carried: Option<&'a crate::syntax::Name>,
 }
 
@@ -97,7 +99,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
             scenes: Vec::new(),
             output_values: Vec::new(),
             provides_operators: false,
-            taylor: None,
+            provides_taylor: None,
             provides_carried: None,
         }
     }
@@ -232,38 +234,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
             }
             Item::Forces(section) => section.entries.iter().for_each(|force| self.force(force)),
             Item::Outputs(section) => section.entries.iter().for_each(|output| self.output(output)),
-            Item::Provide(section) => {
-                for provide in &section.entries {
-                    match provide.name.text.as_str() {
-                        "operators" if provide.of.is_none() => {
-                            self.provides_operators = true;
-                            continue;
-                        }
-                        "carried" if provide.of.is_none() => {
-                            self.provides_carried = Some(&provide.name);
-                            continue;
-                        }
-                        "taylor" if provide.of.is_none() => {
-                            self.taylor = Some(provide.name.span());
-                            continue;
-                        }
-                        _ => {}
-                    }
-                    let at = provide.name.span();
-                    let fault = Fault::new(at, "the full system provides everything already")
-                        .note("`provide` chooses what a scene offers beside its state")
-                        .note(
-                            "of a system three say something: `operators`, that the brackets of all operators are \
-                             derived, `taylor`, that it has a Taylor series, and `carried`, that it has a form \
-                             without elementary calls",
-                        );
-                    let near = crate::names::nearest(&provide.name.text, ["operators", "taylor", "carried"]);
-                    self.eval.faults.report(match near {
-                        Some(near) => fault.help(format_args!("did you mean `{near}`?")),
-                        None => fault,
-                    });
-                }
-            }
+            Item::Provide(section) => section.entries.iter().for_each(|provide| self.provide(provide)),
             Item::Scene(scene) => {
                 let earlier: Vec<&Scene> = self.scenes.iter().map(|entry| entry.scene).collect();
                 let entry = self.eval.scene(scene, self.declaration, &earlier);
@@ -431,7 +402,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
             let place = keyword(SectionKind::Parameters)
                 .or(keyword(SectionKind::Coordinates))
                 .unwrap_or(self.declaration.name.span());
-            check_count(&mut self.eval, &raw, degrees, &velocities, idle, place);
+            count::check(&mut self.eval, &raw, degrees, &velocities, idle, place);
             self.eval.scope.report_unused(self.eval.faults);
             if self.gravity.is_some() && self.weights.is_empty() {
                 report_idle_gravity(self.declaration, self.eval.faults);
@@ -519,7 +490,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
             scenes: self.scenes,
             left_out: self.eval.left_out,
             provides_operators,
-            taylor: self.taylor,
+            provides_taylor: self.provides_taylor,
             provides_carried: self.provides_carried,
             mechanics,
             has_masses: self.has_masses,
@@ -553,70 +524,6 @@ fn check_system_name(declaration: &Declaration, faults: &mut Faults) {
             .note(format!("its module has an item `{name}` of its own"))
             .help("choose another name"),
     );
-}
-
-/// Parameters, constraints and holonomic constraints together number `n`.
-fn check_count(
-    eval: &mut Evaluator<'_>,
-    raw: &[RawForm<'_>],
-    degrees: usize,
-    velocities: &[ExprId],
-    idle: usize,
-    place: proc_macro2::Span,
-) {
-    let n = velocities.len();
-    // Parameters without a velocity were reported already: without them the count may be right.
-    if raw.len() == n || raw.len() == n + idle {
-        return;
-    }
-    let count = |kind| raw.iter().filter(|form| form.entry.kind == kind).count();
-    let plural = |count: usize, noun: &str| format!("{count} {noun}{}", if count == 1 { "" } else { "s" });
-    let (constraints, holonomic) = (count(FormKind::Constraint), count(FormKind::Holonomic));
-    let mut found = vec![plural(degrees, "parameter"), plural(constraints, "constraint")];
-    if holonomic > 0 {
-        found.push(plural(holonomic, "holonomic constraint"));
-    }
-    let need = if n == 1 { "needs" } else { "need" };
-    let are = if raw.len() == 1 { "is" } else { "are" };
-    let mut fault = Fault::new(
-        place,
-        format!("{} {need} {}, and {} {are} declared", plural(n, "coordinate"), plural(n, "form"), raw.len()),
-    )
-    .note(format!("found: {}", found.join(", ")));
-    if raw.len() > n {
-        let surplus = raw.len() - n;
-        eval.faults.report(fault.help(format!(
-            "remove {}, or declare {} more",
-            plural(surplus, "form"),
-            plural(surplus, "coordinate")
-        )));
-        return;
-    }
-    // A coordinate whose velocity is in no form is surely undetermined; where all occur, nobody can say which.
-    let definitions: Vec<ExprId> = raw.iter().map(|form| eval.expanded(form.definition)).collect();
-    let graph = &eval.bench.graph;
-    let occurring = graph.symbols_in(&definitions);
-    let missing: Vec<&str> = velocities
-        .iter()
-        .filter_map(|v| graph.as_symbol(*v))
-        .filter(|symbol| !occurring.contains(symbol))
-        .map(|symbol| graph.symbol_info(symbol).name.as_str())
-        .collect();
-    let lacking = n - raw.len();
-    if !missing.is_empty() {
-        let occur = if missing.len() == 1 { "occurs" } else { "occur" };
-        fault = fault.note(format!("{} {occur} in no form", quoted(missing.iter().copied())));
-    }
-    fault = match missing.first() {
-        Some(velocity) if lacking == 1 => {
-            let name = velocity.trim_start_matches("dot(").trim_end_matches(')');
-            fault.help(format!(
-                "add a parameter such as `rate_of_{name} = {velocity};`, or a constraint such as `{name}_fixed: {velocity} = 0;`"
-            ))
-        }
-        _ => fault.help(format!("add {} under `parameters` or `constraints`", plural(lacking, "form"))),
-    };
-    eval.faults.report(fault);
 }
 
 /// Every name that occurs in an expression.

@@ -1,0 +1,73 @@
+//! As many forms as coordinates.
+
+use guen_symbolic::ExprId;
+
+use crate::diagnostics::Fault;
+use crate::model::FormKind;
+use crate::model::evaluate::Evaluator;
+use crate::model::forms::RawForm;
+use crate::names::quoted;
+
+/// Parameters, constraints and holonomic constraints together number `n`.
+pub(super) fn check(
+    eval: &mut Evaluator<'_>,
+    raw: &[RawForm<'_>],
+    degrees: usize,
+    velocities: &[ExprId],
+    idle: usize,
+    place: proc_macro2::Span,
+) {
+    let n = velocities.len();
+    // Parameters without a velocity were reported already: without them the count may be right.
+    if raw.len() == n || raw.len() == n + idle {
+        return;
+    }
+    let count = |kind| raw.iter().filter(|form| form.entry.kind == kind).count();
+    let plural = |count: usize, noun: &str| format!("{count} {noun}{}", if count == 1 { "" } else { "s" });
+    let (constraints, holonomic) = (count(FormKind::Constraint), count(FormKind::Holonomic));
+    let mut found = vec![plural(degrees, "parameter"), plural(constraints, "constraint")];
+    if holonomic > 0 {
+        found.push(plural(holonomic, "holonomic constraint"));
+    }
+    let need = if n == 1 { "needs" } else { "need" };
+    let are = if raw.len() == 1 { "is" } else { "are" };
+    let mut fault = Fault::new(
+        place,
+        format!("{} {need} {}, and {} {are} declared", plural(n, "coordinate"), plural(n, "form"), raw.len()),
+    )
+    .note(format!("found: {}", found.join(", ")));
+    if raw.len() > n {
+        let surplus = raw.len() - n;
+        eval.faults.report(fault.help(format!(
+            "remove {}, or declare {} more",
+            plural(surplus, "form"),
+            plural(surplus, "coordinate")
+        )));
+        return;
+    }
+    // A coordinate whose velocity is in no form is surely undetermined; where all occur, nobody can say which.
+    let definitions: Vec<ExprId> = raw.iter().map(|form| eval.expanded(form.definition)).collect();
+    let graph = &eval.bench.graph;
+    let occurring = graph.symbols_in(&definitions);
+    let missing: Vec<&str> = velocities
+        .iter()
+        .filter_map(|v| graph.as_symbol(*v))
+        .filter(|symbol| !occurring.contains(symbol))
+        .map(|symbol| graph.symbol_info(symbol).name.as_str())
+        .collect();
+    let lacking = n - raw.len();
+    if !missing.is_empty() {
+        let occur = if missing.len() == 1 { "occurs" } else { "occur" };
+        fault = fault.note(format!("{} {occur} in no form", quoted(missing.iter().copied())));
+    }
+    fault = match missing.first() {
+        Some(velocity) if lacking == 1 => {
+            let name = velocity.trim_start_matches("dot(").trim_end_matches(')');
+            fault.help(format!(
+                "add a parameter such as `rate_of_{name} = {velocity};`, or a constraint such as `{name}_fixed: {velocity} = 0;`"
+            ))
+        }
+        _ => fault.help(format!("add {} under `parameters` or `constraints`", plural(lacking, "form"))),
+    };
+    eval.faults.report(fault);
+}
