@@ -1,4 +1,4 @@
-//! Long runs: how the error of the energy grows with the number of steps, against the square-root law of rounding.
+//! Digits71 runs: how the error of the energy grows with the number of steps, against the square-root law of rounding.
 //!
 //! ```text
 //! cargo run --release --example long_run                # 10^6 steps of 32 motions, 10^7 of four of them
@@ -25,7 +25,7 @@ use guen::prelude::*;
 use guen::steppers::Method;
 use guen_study::{Plot, Progress};
 
-use guen_benchmarks::Long;
+use guen_study::Digits71;
 
 mechanical_system! {
     /// A hoop of radius `a` that rolls without slipping on a horizontal plane.
@@ -54,13 +54,13 @@ fn prepared<R: Real>() -> Result<hoop::Prepared<R>, guen::ConstantsError> {
 }
 
 /// The energy of a state with 71 digits.
-fn energy(exact: &hoop::Prepared<Long>, state: &[f64]) -> Long {
-    let state: [Long; 9] = std::array::from_fn(|i| Long::from_f64(state[i]));
-    exact.energy(Long::zero(), &state.into())
+fn energy(exact: &hoop::Prepared<Digits71>, state: &[f64]) -> Digits71 {
+    let state: [Digits71; 9] = std::array::from_fn(|i| Digits71::from_f64(state[i]));
+    exact.energy(Digits71::zero(), &state.into())
 }
 
 /// `|h - h_0|/|h_0|`
-fn error(exact: &hoop::Prepared<Long>, before: Long, state: &[f64]) -> f64 {
+fn error(exact: &hoop::Prepared<Digits71>, before: Digits71, state: &[f64]) -> f64 {
     ((energy(exact, state) - before).abs() / before.abs()).to_f64()
 }
 
@@ -122,7 +122,7 @@ where
     /// Steps between two reports to whoever shows progress.
     const REPORT: u64 = 1 << 12;
 
-    let exact = prepared::<Long>()?;
+    let exact = prepared::<Digits71>()?;
     let run = move |motion: usize, steps: u64, done: &AtomicU64| {
         let begin = lifted(start(motion));
         let before = energy(&exact, &begin);
@@ -235,7 +235,7 @@ fn exponent(marks: &[u64], statistics: &[(f64, f64, usize)], motions: usize) -> 
 
 /// The largest relative error of the energy at any step until `t = span`, by Taylor series.
 fn ten_thousand_seconds(span: f64) -> Result<f64, Box<dyn Error>> {
-    let (system, exact) = (prepared::<f64>()?, prepared::<Long>()?);
+    let (system, exact) = (prepared::<f64>()?, prepared::<Digits71>()?);
     let begin: [f64; 9] = start(0).into();
     let before = energy(&exact, &begin);
     let mut worst = 0.0_f64;

@@ -15,7 +15,7 @@ use std::time::Instant;
 
 use guen::prelude::*;
 
-use guen_benchmarks::Long;
+use guen_study::Digits71;
 
 guen_benchmarks::hoop!(guen::mechanical_system; provide taylor;);
 
@@ -30,14 +30,15 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
         None => 1e4,
     };
     let hoop = Hoop { a: 1.0, A: 0.5, C: 1.0, g: 9.81 }.prepare()?;
-    let long: hoop::Prepared<Long> = {
-        let of = Long::from_ratio;
+    let long: hoop::Prepared<Digits71> = {
+        let of = Digits71::from_ratio;
         Hoop { a: of(1, 1), A: of(1, 2), C: of(1, 1), g: of(981, 100) }.prepare()?
     };
     let start = hoop::State { theta: 1.2, psi: 0.3, eta1: 0.1, eta2: 0.4, eta3: 5.0, ..Default::default() };
     let start: [f64; 9] = hoop::State { zeta: start.theta.sin(), ..start }.into();
-    let energy =
-        |t: f64, x: &[f64; 9]| long.energy(Long::from_f64(t), &hoop::State::from(x.map(Long::from_f64)));
+    let energy = |t: f64, x: &[f64; 9]| {
+        long.energy(Digits71::from_f64(t), &hoop::State::from(x.map(Digits71::from_f64)))
+    };
     let first = energy(0.0, &start);
     let off = |t: f64, x: &[f64; 9]| ((energy(t, x) - first) / first).abs().to_f64();
 

@@ -11,7 +11,8 @@
 use std::fmt;
 
 use guen::{Dual, Real, System};
-use guen_benchmarks::{Long, Random};
+use guen_benchmarks::Random;
+use guen_study::Digits71;
 
 /// The factor of the bound.
 pub const FACTOR: f64 = 8.0;
@@ -21,7 +22,7 @@ pub const FACTOR: f64 = 8.0;
 pub struct Ratios(Vec<f64>);
 
 impl Ratios {
-    fn push(&mut self, error: Long, allowed: f64) {
+    fn push(&mut self, error: Digits71, allowed: f64) {
         let error = error.abs().to_f64();
         // No error is none, whatever is allowed.
         self.0.push(if error == 0.0 { 0.0 } else { error / allowed });
@@ -110,7 +111,7 @@ where
         path: impl Fn(&mut Random, f64) -> [f64; N],
     ) -> Found
     where
-        V: System<Dual<Long, M>, N>,
+        V: System<Dual<Digits71, M>, N>,
     {
         assert_eq!(M, N + C, "a direction for each entry of the state and each constant");
         let mut found = Found {
@@ -126,8 +127,8 @@ where
                 let short = x.map(|x| x as f32);
                 let of_short = short.map(f64::from);
                 let rates = self.double.rhs(0.0, &x);
-                self.compare(&mut found, 0, place, &x, f64::EPSILON / 2.0, rates.map(Long::from_f64));
-                let rates = self.single.rhs(0.0, &short).map(|rate| Long::from_f64(f64::from(rate)));
+                self.compare(&mut found, 0, place, &x, f64::EPSILON / 2.0, rates.map(Digits71::from_f64));
+                let rates = self.single.rhs(0.0, &short).map(|rate| Digits71::from_f64(f64::from(rate)));
                 self.compare(&mut found, 1, place, &of_short, f64::from(f32::EPSILON) / 2.0, rates);
             }
         }
@@ -141,12 +142,13 @@ where
         place: usize,
         x: &[f64; N],
         unit: f64,
-        rates: [Long; N],
+        rates: [Digits71; N],
     ) where
-        V: System<Dual<Long, M>, N>,
+        V: System<Dual<Digits71, M>, N>,
     {
-        let seeds: [Dual<Long, M>; N] = std::array::from_fn(|i| Dual::variable(Long::from_f64(x[i]), i));
-        let exact = self.varied.rhs(Dual::constant(Long::zero()), &seeds);
+        let seeds: [Dual<Digits71, M>; N] =
+            std::array::from_fn(|i| Dual::variable(Digits71::from_f64(x[i]), i));
+        let exact = self.varied.rhs(Dual::constant(Digits71::zero()), &seeds);
         let arguments: Vec<f64> = x.iter().chain(&self.constants).map(|z| z.abs()).collect();
         let kappa = (self.kappa)(x);
         let sensitivity = exact.map(|rate| {
@@ -155,7 +157,7 @@ where
         });
         let sizes = exact.map(|rate| rate.value.abs().to_f64());
         let most = |values: &[f64; N]| values.iter().fold(0.0_f64, |most, value| most.max(*value));
-        let mut worst = Long::zero();
+        let mut worst = Digits71::zero();
         for i in 0..N {
             let error = rates[i] - exact[i].value;
             // What is no number is worst.
@@ -170,14 +172,14 @@ where
 }
 
 /// The condition of a matrix in the largest row sum, by elimination in 71 digits.
-pub fn kappa<const L: usize>(matrix: [[Long; L]; L]) -> f64 {
-    let norm = |m: &[[Long; L]; L]| {
+pub fn kappa<const L: usize>(matrix: [[Digits71; L]; L]) -> f64 {
+    let norm = |m: &[[Digits71; L]; L]| {
         m.iter().map(|row| row.iter().map(|e| e.abs().to_f64()).sum::<f64>()).fold(0.0, f64::max)
     };
     let size = norm(&matrix);
     let mut m = matrix;
-    let mut inverse: [[Long; L]; L] =
-        std::array::from_fn(|i| std::array::from_fn(|j| Long::from_ratio(i64::from(i == j), 1)));
+    let mut inverse: [[Digits71; L]; L] =
+        std::array::from_fn(|i| std::array::from_fn(|j| Digits71::from_ratio(i64::from(i == j), 1)));
     for k in 0..L {
         // Positive definite: no exchanges.
         let pivot = m[k][k];
@@ -201,12 +203,12 @@ pub fn kappa<const L: usize>(matrix: [[Long; L]; L]) -> f64 {
 macro_rules! bounded {
     ($name:literal, $System:ident in $module:ident { $($constant:ident: $value:expr),* }, $parameters:literal parameters,
         $n:literal + $c:literal = $m:literal) => {{
-        let long = guen_benchmarks::systems::$System { $($constant: Long::from_f64($value)),* }.prepare();
+        let long = guen_benchmarks::systems::$System { $($constant: Digits71::from_f64($value)),* }.prepare();
         let long = long.expect("constants in their bounds");
         let mut direction = $n;
         let mut variable = |value: f64| {
             direction += 1;
-            Dual::<Long, $m>::variable(Long::from_f64(value), direction - 1)
+            Dual::<Digits71, $m>::variable(Digits71::from_f64(value), direction - 1)
         };
         let varied = guen_benchmarks::systems::$System { $($constant: variable($value)),* }.prepare();
         Bounded::<_, _, _, _, $n, $c> {
@@ -218,8 +220,8 @@ macro_rules! bounded {
                 .expect("in their bounds"),
             varied: varied.expect("constants in their bounds"),
             kappa: move |x: &[f64; $n]| {
-                let state = guen_benchmarks::systems::$module::State::from(x.map(Long::from_f64));
-                kappa(long.mass_form(Long::zero(), &state).mass)
+                let state = guen_benchmarks::systems::$module::State::from(x.map(Digits71::from_f64));
+                kappa(long.mass_form(Digits71::zero(), &state).mass)
             },
             constants: [$($value),*],
         }

@@ -3,7 +3,7 @@
 use guen::prelude::*;
 use guen::{Carrying, Cost, mechanical_system, rejoined};
 
-use guen_benchmarks::Long;
+use guen_study::Digits71;
 
 mechanical_system! {
     /// A hoop of radius `a` that rolls without slipping on a horizontal plane.
@@ -142,12 +142,14 @@ fn in_lanes_as_alone_and_in_single_precision() {
 /// With 71 digits the rates of both forms agree to the last ones, so that no number in the program is rounded.
 #[test]
 fn in_extended_precision() {
-    let system = prepared::<Long>();
+    let system = prepared::<Digits71>();
     let carried = system.carried().unwrap();
-    let state = hoop::State::from(reference()[3].1.map(Long::from_f64));
-    let (full, own) =
-        (system.rhs(Long::zero(), &state), carried.rhs(Long::zero(), &state.carried(&carried, Long::zero())));
-    let (full, own): ([Long; 9], [Long; 13]) = (full.into(), own.into());
+    let state = hoop::State::from(reference()[3].1.map(Digits71::from_f64));
+    let (full, own) = (
+        system.rhs(Digits71::zero(), &state),
+        carried.rhs(Digits71::zero(), &state.carried(&carried, Digits71::zero())),
+    );
+    let (full, own): ([Digits71; 9], [Digits71; 13]) = (full.into(), own.into());
     for (x, y) in full.iter().zip(&own) {
         assert!((*x - *y).abs().to_f64() < 1e-66);
     }

@@ -4,7 +4,7 @@ use guen::prelude::*;
 
 use crate::balance::balance;
 use crate::jacobians::{check, numbers};
-use guen_benchmarks::Long;
+use guen_study::Digits71;
 
 /// The plant of `balancing_robot` and of the bare library.
 #[path = "../../crates/guen-bare/src/plant.rs"]

@@ -4,7 +4,7 @@ use guen::prelude::*;
 use guen::{Liftable, Linearizable};
 
 use crate::vehicles::{Robot, Train, train};
-use guen_benchmarks::Long;
+use guen_study::Digits71;
 
 hoop!(guen::mechanical_system);
 appell!(guen::mechanical_system);
@@ -39,7 +39,7 @@ pub fn numbers<const N: usize>(seed: u64) -> [f64; N] {
 pub fn check<const N: usize, const M: usize>(
     name: &str,
     system: &(impl Linearizable<f64, N, M> + Liftable<f64, N, M>),
-    long: &impl Linearizable<Long, N, M>,
+    long: &impl Linearizable<Digits71, N, M>,
     state: [f64; N],
     inputs: [f64; M],
 ) {
@@ -54,18 +54,18 @@ pub fn check<const N: usize, const M: usize>(
         system.lifted_rates(constant(t), &s, &u).map(|rate| rate.tangent[0])
     };
     // Differences, of second order in 1e-22.
-    let h = Long::from_ratio(1, 10_i64.pow(11)) * Long::from_ratio(1, 10_i64.pow(11));
-    let exact = state.map(Long::from_f64);
-    let held = inputs.map(Long::from_f64);
+    let h = Digits71::from_ratio(1, 10_i64.pow(11)) * Digits71::from_ratio(1, 10_i64.pow(11));
+    let exact = state.map(Digits71::from_f64);
+    let held = inputs.map(Digits71::from_f64);
     let difference = |place: usize| {
-        let at = |h: Long| {
+        let at = |h: Digits71| {
             let (mut s, mut u) = (exact, held);
             if place < N {
                 s[place] += h
             } else {
                 u[place - N] += h
             }
-            long.rates(Long::from_f64(t), &s, &u)
+            long.rates(Digits71::from_f64(t), &s, &u)
         };
         let (above, below) = (at(h), at(-h));
         let values: [f64; N] = std::array::from_fn(|i| ((above[i] - below[i]) / (h + h)).to_f64());
@@ -87,7 +87,7 @@ macro_rules! both {
     ($System:ident { $($constant:ident: $value:expr),* $(,)? }) => {
         (
             $System::<f64> { $($constant: $value),* }.prepare().unwrap(),
-            $System::<Long> { $($constant: Long::from_f64($value)),* }.prepare().unwrap(),
+            $System::<Digits71> { $($constant: Digits71::from_f64($value)),* }.prepare().unwrap(),
         )
     };
 }

@@ -6,7 +6,7 @@ use guen::prelude::*;
 use guen::steppers::Outcome;
 use guen::{Dual, Lift, Setting, mechanical_system, projected};
 
-use guen_benchmarks::Long;
+use guen_study::Digits71;
 
 hoop!(guen::mechanical_system; provide taylor;);
 
@@ -94,11 +94,12 @@ fn the_hoop_that_falls_nearly_flat() {
 
 #[test]
 fn the_energy_of_a_long_run_stays_at_rounding() {
-    let (system, long) = (prepared::<f64>(), prepared::<Long>());
+    let (system, long) = (prepared::<f64>(), prepared::<Digits71>());
     let start = reference()[0].1;
     // In 71 digits: evaluated in doubles the energy itself would be off by more.
-    let energy =
-        |t: f64, x: &[f64; 9]| long.energy(Long::from_f64(t), &hoop::State::from(x.map(Long::from_f64)));
+    let energy = |t: f64, x: &[f64; 9]| {
+        long.energy(Digits71::from_f64(t), &hoop::State::from(x.map(Digits71::from_f64)))
+    };
     let first = energy(0.0, &start);
     let (mut worst, mut steps) = (0.0_f64, 0);
     Taylor::new(1e-16)
@@ -118,11 +119,11 @@ fn the_energy_of_a_long_run_stays_at_rounding() {
 
 #[test]
 fn errors_fall_as_the_power_of_the_step() {
-    let start = reference()[0].1.map(Long::from_f64);
-    let system = prepared::<Long>();
+    let start = reference()[0].1.map(Digits71::from_f64);
+    let system = prepared::<Digits71>();
     let run = |tolerance: f64, order: u32| {
-        let end = Long::from_ratio(3, 4);
-        Integration::new(&system, Long::zero(), &start)
+        let end = Digits71::from_ratio(3, 4);
+        Integration::new(&system, Digits71::zero(), &start)
             .run(&Taylor::new(tolerance).order(order), end)
             .unwrap()
     };
@@ -131,7 +132,7 @@ fn errors_fall_as_the_power_of_the_step() {
         let digits = 0.8 * f64::from(order);
         let (coarse, fine) =
             (run(10f64.powf(-digits), order), run(10f64.powf(-digits - 0.5 * f64::from(order)), order));
-        let error = |done: &Done<Long, 9>| {
+        let error = |done: &Done<Digits71, 9>| {
             done.state.iter().zip(&exact).map(|(a, b)| (*a - *b).abs().to_f64()).fold(0.0, f64::max)
         };
         let steps = fine.statistics.accepted as f64 / coarse.statistics.accepted as f64;

@@ -5,7 +5,7 @@
 use guen::prelude::*;
 use guen::{HIGHEST_ORDER, TaylorSeries, mechanical_system};
 
-use guen_benchmarks::Long;
+use guen_study::Digits71;
 
 /// The order up to which coefficients are tested: at `2^-16` the next term is of the order of `1e-63`.
 const ORDER: usize = 13;
@@ -14,26 +14,26 @@ const FINE: i64 = 1 << 16;
 /// The largest of `|p'(s) - f(t + s, p(s))|` over the variables, in units of `s^n`.
 fn residual<S, const N: usize>(system: &S, t: f64, state: &[f64; N], scale: f64) -> f64
 where
-    S: TaylorSeries<Long, N>,
+    S: TaylorSeries<Digits71, N>,
 {
-    let (t, scale) = (Long::from_f64(t), Long::from_f64(scale));
-    let mut coefficients = [[Long::zero(); N]; HIGHEST_ORDER + 1];
-    system.series(t, &state.map(Long::from_f64), scale, ORDER, &mut coefficients);
-    assert!(coefficients[ORDER + 1].iter().all(|c| *c == Long::zero()), "written beyond the order");
-    let s = Long::from_ratio(1, FINE);
+    let (t, scale) = (Digits71::from_f64(t), Digits71::from_f64(scale));
+    let mut coefficients = [[Digits71::zero(); N]; HIGHEST_ORDER + 1];
+    system.series(t, &state.map(Digits71::from_f64), scale, ORDER, &mut coefficients);
+    assert!(coefficients[ORDER + 1].iter().all(|c| *c == Digits71::zero()), "written beyond the order");
+    let s = Digits71::from_ratio(1, FINE);
     let r = s / scale;
-    let (mut value, mut rate) = ([Long::zero(); N], [Long::zero(); N]);
+    let (mut value, mut rate) = ([Digits71::zero(); N], [Digits71::zero(); N]);
     for k in (0..=ORDER).rev() {
         for i in 0..N {
             value[i] = value[i] * r + coefficients[k][i];
             if k > 0 {
-                let order = Long::from_ratio(k as i64, 1);
+                let order = Digits71::from_ratio(k as i64, 1);
                 rate[i] = rate[i] * r + order * coefficients[k][i] / scale;
             }
         }
     }
     let expected = system.rhs(t + s, &value);
-    let mut unit = Long::one();
+    let mut unit = Digits71::one();
     for _ in 0..ORDER {
         unit *= s;
     }
@@ -55,7 +55,7 @@ macro_rules! of {
                     provide taylor;
                 }
             }
-            let system = $name { a: Long::from_ratio(3, 2) }.prepare().unwrap();
+            let system = $name { a: Digits71::from_ratio(3, 2) }.prepare().unwrap();
             for (scale, state) in [
                 (1.0, [0.4, 0.7, 0.5, 0.3]),
                 (0.125, [0.2, 0.9, -0.6, 0.8]),
@@ -113,7 +113,7 @@ mechanical_system! {
 
 #[test]
 fn a_driven_system_and_its_scene() {
-    let long = |n: i64, d: i64| Long::from_ratio(n, d);
+    let long = |n: i64, d: i64| Digits71::from_ratio(n, d);
     let constants = Cart { m: long(1, 5), M: long(1, 1), l: long(1, 2), g: long(981, 100), k: long(1, 3) };
     let inputs = cart::Inputs { force: long(7, 10) };
     let residual_of_whole =
@@ -136,7 +136,7 @@ mod shared {
 /// Several states of a system, drawn at random where its charts are far from their edges.
 fn at_random<S, const N: usize>(name: &str, system: &S)
 where
-    S: TaylorSeries<Long, N>,
+    S: TaylorSeries<Digits71, N>,
 {
     let mut random = guen_benchmarks::Random::new(7);
     for _ in 0..4 {
@@ -149,7 +149,7 @@ where
 
 #[test]
 fn systems_of_every_kind() {
-    let of = Long::from_ratio;
+    let of = Digits71::from_ratio;
     let one = of(1, 1);
     at_random("hoop", &shared::Hoop { a: one, A: of(1, 2), C: one, g: of(981, 100) }.prepare().unwrap());
     let table = shared::Turntable { m: one, a: of(1, 2), Omega: one, swing: of(1, 3), nu: of(3, 2) };

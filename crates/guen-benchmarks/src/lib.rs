@@ -9,14 +9,12 @@ pub mod by_hand;
 pub mod chains;
 #[macro_use]
 mod declarations;
-mod long;
 pub mod platform;
 mod random;
 mod subjects;
 pub mod systems;
 pub mod timing;
 
-pub use long::Long;
 pub use random::Random;
 pub use subjects::*;
 

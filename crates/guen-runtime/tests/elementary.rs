@@ -112,7 +112,7 @@ fn sine_and_cosine_to_four_fifths_of_an_ulp() {
 }
 
 #[test]
-#[ignore = "a minute in a release build"]
+#[ignore = "ten seconds in a release build, in which `.ci/run` runs it"]
 fn sine_and_cosine_of_many_more() {
     check_all(500_000, 1);
 }

@@ -20,7 +20,7 @@ fn start(theta: f64, tilting: f64, turning: f64, spin: f64) -> [f64; 9] {
     .into()
 }
 
-type Rolling = Motion<hoop::Prepared, hoop::Prepared<guen_benchmarks::Long>, 9>;
+type Rolling = Motion<hoop::Prepared, hoop::Prepared<guen_study::Digits71>, 9>;
 
 /// The hoop with these inertias and gravity.
 fn motion(inertia: (f64, f64), g: f64, start: [f64; 9], span: f64) -> Rolling {

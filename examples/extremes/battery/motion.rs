@@ -7,7 +7,7 @@
 use guen::Differentiable;
 use guen::prelude::*;
 use guen::steppers::Method;
-use guen_benchmarks::Long;
+use guen_study::Digits71;
 
 use super::methods::{self, Promise, Settings, Visitor};
 use super::{Answer, Line, Verdict};
@@ -76,7 +76,7 @@ impl<S, G, const N: usize> Motion<S, G, N> {
     where
         R: Exact,
         S: System<R, N> + Differentiable<R, N>,
-        G: System<Long, N>,
+        G: System<Digits71, N>,
     {
         self.asked::<R>(asked.into(), |settings, asker| methods::all::<R, S, _, N>(settings, asker))
     }
@@ -86,7 +86,7 @@ impl<S, G, const N: usize> Motion<S, G, N> {
     where
         R: Exact,
         S: System<R, N>,
-        G: System<Long, N>,
+        G: System<Digits71, N>,
     {
         self.asked::<R>(asked.into(), |settings, asker| methods::explicit::<R, S, _, N>(settings, asker))
     }
@@ -95,7 +95,7 @@ impl<S, G, const N: usize> Motion<S, G, N> {
     where
         R: Exact,
         S: System<R, N>,
-        G: System<Long, N>,
+        G: System<Digits71, N>,
     {
         let reference = Reference::new(&self.long, &self.start, self.span);
         let growth = growth::<R, _, N>(&self.system, &self.start, self.span, &reference);
@@ -123,7 +123,7 @@ impl<S, G, const N: usize> Motion<S, G, N> {
 
 /// The end of a motion, and the size of each entry on the way.
 pub struct Reference<const N: usize> {
-    pub end: [Long; N],
+    pub end: [Digits71; N],
     pub sizes: [f64; N],
     /// What two settings differ by.
     pub doubt: f64,
@@ -131,22 +131,29 @@ pub struct Reference<const N: usize> {
 
 impl<const N: usize> Reference<N> {
     /// Runs it; the text of the error if there is no motion over the whole span.
-    pub fn new<G: System<Long, N>>(long: &G, start: &[f64; N], (t0, t1): (f64, f64)) -> Result<Self, String> {
-        let start: [Long; N] = start.map(Long::from_f64);
-        let times: [Long; SAMPLES + 1] = std::array::from_fn(|k| {
-            let part = Long::from_ratio(k as i64, SAMPLES as i64);
-            Long::from_f64(t0) + part * (Long::from_f64(t1) - Long::from_f64(t0))
+    pub fn new<G: System<Digits71, N>>(
+        long: &G,
+        start: &[f64; N],
+        (t0, t1): (f64, f64),
+    ) -> Result<Self, String> {
+        let start: [Digits71; N] = start.map(Digits71::from_f64);
+        let times: [Digits71; SAMPLES + 1] = std::array::from_fn(|k| {
+            let part = Digits71::from_ratio(k as i64, SAMPLES as i64);
+            Digits71::from_f64(t0) + part * (Digits71::from_f64(t1) - Digits71::from_f64(t0))
         });
         let mut sizes = [0.0_f64; N];
         let mut run = |tolerance: f64, sampled: bool| {
-            let mut visit = |_: usize, _: Long, x: &[Long; N]| {
+            let mut visit = |_: usize, _: Digits71, x: &[Digits71; N]| {
                 for (size, x) in sizes.iter_mut().zip(x) {
                     *size = size.max(x.to_f64().abs());
                 }
             };
-            let run = Integration::new(long, Long::from_f64(t0), &start);
+            let run = Integration::new(long, Digits71::from_f64(t0), &start);
             let run = if sampled { run.sample(&times, &mut visit) } else { run };
-            run.run(&Dop853::new(tolerance, 1e-12 * tolerance).with_max_steps(3_000_000), Long::from_f64(t1))
+            run.run(
+                &Dop853::new(tolerance, 1e-12 * tolerance).with_max_steps(3_000_000),
+                Digits71::from_f64(t1),
+            )
         };
         let end = run(1e-18, true).map_err(|error| format!("{error}"))?.state;
         let rough = run(1e-16, false).map_err(|error| format!("{error}"))?.state;
@@ -198,24 +205,24 @@ fn growth<R: Exact, S: System<R, N>, const N: usize>(
 /// Reals that long ones contain.
 pub trait Exact: Ordered {
     /// The same number.
-    fn long(self) -> Long;
+    fn long(self) -> Digits71;
 }
 
-impl Exact for Long {
-    fn long(self) -> Long {
+impl Exact for Digits71 {
+    fn long(self) -> Digits71 {
         self
     }
 }
 
 impl Exact for f64 {
-    fn long(self) -> Long {
-        Long::from_f64(self)
+    fn long(self) -> Digits71 {
+        Digits71::from_f64(self)
     }
 }
 
 impl Exact for f32 {
-    fn long(self) -> Long {
-        Long::from_f64(f64::from(self))
+    fn long(self) -> Digits71 {
+        Digits71::from_f64(f64::from(self))
     }
 }
 

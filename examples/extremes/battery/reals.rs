@@ -4,8 +4,8 @@ use guen::Laned;
 use guen::lanes::{LaneTask, Lanes, Width, dispatch};
 use guen::prelude::*;
 use guen::steppers::InLanes;
-use guen_benchmarks::Long;
 use guen_benchmarks::systems::{Hoop, Sled, hoop};
+use guen_study::Digits71;
 
 use super::motion::Motion;
 use super::{Answer, Line, Task, Verdict};
@@ -19,7 +19,7 @@ fn short<const N: usize>(state: [f64; N]) -> [f64; N] {
 macro_rules! single {
     ($System:ident { $($constant:ident: $value:expr),* }, $start:expr, $span:expr) => {{
         let single = $System::<f32> { $($constant: $value),* }.prepare().expect("constants in their bounds");
-        let long = $System { $($constant: Long::from_f64(f64::from($value as f32))),* }.prepare();
+        let long = $System { $($constant: Digits71::from_f64(f64::from($value as f32))),* }.prepare();
         let long = long.expect("constants in their bounds");
         let mut motion = Motion::new("single", single, long, short($start), (0.0, $span));
         motion.tolerance = 1e-5;

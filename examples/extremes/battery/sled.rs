@@ -1,13 +1,13 @@
 //! Chaplygin's sled on an incline: a mass matrix that is nearly singular, headings at quarter turns, stiff runs.
 
-use guen_benchmarks::Long;
 use guen_benchmarks::systems::{Sled, sled};
+use guen_study::Digits71;
 
 use super::motion::Motion;
 use super::{Line, Task};
 use crate::both;
 
-type Sliding = Motion<sled::Prepared, sled::Prepared<Long>, 5>;
+type Sliding = Motion<sled::Prepared, sled::Prepared<Digits71>, 5>;
 
 fn motion((alpha, beta, k): (f64, f64, f64), incline: f64, start: [f64; 5], span: f64) -> Sliding {
     let (double, long) = both!(Sled { m: 1.0, alpha: alpha, beta: beta, k: k, incline: incline, g: 9.81 });

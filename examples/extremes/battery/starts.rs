@@ -2,8 +2,8 @@
 
 use guen::prelude::*;
 use guen::steppers::Method;
-use guen_benchmarks::Long;
 use guen_benchmarks::systems::{Hoop, hoop};
+use guen_study::Digits71;
 
 use super::methods::{self, Promise, Settings, Visitor};
 use super::motion::{Motion, Reference, refusal};
@@ -23,7 +23,7 @@ const ROLLING: hoop::State = hoop::State {
     eta3: 2.0,
 };
 
-fn rolling(start: hoop::State, span: f64) -> Motion<hoop::Prepared, hoop::Prepared<Long>, 9> {
+fn rolling(start: hoop::State, span: f64) -> Motion<hoop::Prepared, hoop::Prepared<Digits71>, 9> {
     let (double, long) = both!(Hoop { a: 1.0, A: 0.5, C: 1.0, g: 9.81 });
     Motion::new("starts", double, long, start.into(), (0.0, span))
 }

@@ -6,7 +6,7 @@ macro_rules! both {
     ($System:ident { $($constant:ident: $value:expr),* $(,)? }) => {{
         use guen::Real as _;
         let double = $System { $($constant: $value),* }.prepare();
-        let long = $System { $($constant: guen_benchmarks::Long::from_f64($value)),* }.prepare();
+        let long = $System { $($constant: guen_study::Digits71::from_f64($value)),* }.prepare();
         (double.expect("constants in their bounds"), long.expect("constants in their bounds"))
     }};
 }
