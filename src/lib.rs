@@ -130,7 +130,7 @@ macro_rules! mechanical_system {
 /// What expansions refer to; no part of the public interface.
 #[doc(hidden)]
 pub mod __private {
-    pub use guen_macros::mechanical_system;
+    pub use guen_macros::{mechanical_system, page};
     pub use guen_runtime::checks::{
         check_fixed, check_hoisted, check_inertia, check_limits, check_mass, check_pivot, clamped, condition,
         drift, furthest, largest,
