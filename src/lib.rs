@@ -144,5 +144,6 @@ pub mod __private {
         PositionsError, Real, Recast, Report, ReportSection, Rheonomic, Rounded, Scleronomic, System,
         TaylorSeries, Vitals, nalgebra_conversions, seeded, zero_bracket,
     };
+    pub use guen_runtime::{bracket, operator, program_functions, record};
     pub use guen_runtime::{consistent, control, serde_record};
 }

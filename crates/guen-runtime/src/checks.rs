@@ -4,6 +4,19 @@ pub use crate::condition::condition;
 use crate::error::BodyFault;
 use crate::{ConstantsError, Ordered, Real, Rounded};
 
+/// The name of a field without the `r#` of one that is a keyword.
+///
+/// ```
+/// assert_eq!(guen_runtime::checks::plain("r#type"), "type");
+/// assert_eq!(guen_runtime::checks::plain("theta"), "theta");
+/// ```
+pub const fn plain(field: &'static str) -> &'static str {
+    match field.as_bytes() {
+        [b'r', b'#', ..] => field.split_at(2).1,
+        _ => field,
+    }
+}
+
 /// Refuses a pivot of constants that is zero or not finite.
 ///
 /// ```

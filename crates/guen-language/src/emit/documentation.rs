@@ -57,7 +57,10 @@ pub(super) fn constants(report: &Report) -> TokenStream {
     let Report { name, summary, sections } = report;
     let (mut all, mut formulas) = (String::new(), String::new());
     for (i, Section { title, text, latex }) in sections.iter().enumerate() {
-        let _ = write!(all, "__guen::ReportSection {{ title: {title:?}, lines: &{text:?}, formulas: &{latex:?} }},");
+        let _ = write!(
+            all,
+            "__guen::ReportSection {{ title: {title:?}, lines: &{text:?}, formulas: &{latex:?} }},"
+        );
         // The formulas are written once.
         if !latex.is_empty() {
             let _ = write!(formulas, "REPORT.sections[{i}].of_formulas(),");
