@@ -4,6 +4,8 @@
 //! They expand inside the module of a system, which defines `Prepared`, `Bracket` and the module `program`, and work
 //! without a prelude and from any crate name.
 
+mod methods;
+
 /// Straight-line functions of a module, each as `name(prepared; time; given) -> results { .. }`: names and lengths of the
 /// arrays of prepared values, the name of the time if the function depends on it, and the arrays of the state and what
 /// comes with it. The real is `R` in their bodies.
