@@ -186,7 +186,6 @@ fn finish(g: &mut Graph, ring: &Ring, f: &Fraction, limits: &Limits, doublings: 
 fn prepare(g: &mut Graph, e: ExprId, limits: &Limits) -> ExprId {
     // What is kept whole is a generator: nothing inside it is looked at.
     let kept = |g: &Graph, id: ExprId| matches!(g.node(id), Node::Kept(_));
-    let inside: Vec<ExprId> = g.reachable(&[e], |_| false).into_iter().filter(|id| kept(g, *id)).collect();
     let pending = g.reachable(&[e], |id| kept(g, id));
     let simple = pending.iter().all(|id| match g.node(*id) {
         Node::Function(_, x) => g.is_sum_of_monomials(*x),
@@ -196,6 +195,7 @@ fn prepare(g: &mut Graph, e: ExprId, limits: &Limits) -> ExprId {
     if simple || pending.len() > limits.nodes {
         return e;
     }
+    let inside: Vec<ExprId> = g.reachable(&[e], |_| false).into_iter().filter(|id| kept(g, *id)).collect();
     let mut images: BTreeMap<ExprId, ExprId> = inside.iter().map(|id| (*id, *id)).collect();
     for id in pending {
         let argument = |g: &mut Graph, x: ExprId, flat: bool| {
