@@ -10,6 +10,8 @@ use std::time::{Duration, Instant};
 
 use guen::System;
 
+pub use crate::processor::processor_time;
+
 /// The states that throughput is measured over: more than a branch predictor remembers, and in the cache.
 pub const STATES: usize = 1024;
 /// How long a batch lasts, at least.
@@ -175,13 +177,6 @@ pub fn median_with_interval(values: &mut [f64]) -> (f64, (f64, f64)) {
     }
     let median = if n % 2 == 1 { values[n / 2] } else { 0.5 * (values[n / 2 - 1] + values[n / 2]) };
     (median, (values[out], values[n - 1 - out]))
-}
-
-/// Seconds that this thread has spent on a processor, whatever else the machine did; NaN where the system does not tell.
-pub fn processor_time() -> f64 {
-    let text = std::fs::read_to_string("/proc/thread-self/schedstat").unwrap_or_default();
-    let nanoseconds = text.split(' ').next().and_then(|first| first.parse::<f64>().ok());
-    nanoseconds.map_or(f64::NAN, |nanoseconds| nanoseconds * 1e-9)
 }
 
 /// Seconds that processes started and waited for by this one have spent on processors, in steps of a hundredth; NaN
