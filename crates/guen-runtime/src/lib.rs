@@ -45,6 +45,7 @@ mod decimal;
 mod differentiable;
 mod dual;
 mod elementary;
+mod emitted;
 mod error;
 mod float;
 pub mod lanes;
