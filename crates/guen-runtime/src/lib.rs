@@ -59,6 +59,7 @@ mod real;
 mod recast;
 mod report;
 mod rounded;
+mod rules;
 mod serde_support;
 mod series;
 pub mod steppers;

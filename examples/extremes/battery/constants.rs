@@ -1,10 +1,8 @@
 //! Constants at construction: zero, negative, infinite, subnormal.
 
-use guen::ConstantsError;
-use guen_benchmarks::systems::{EulerTop, Hoop, Sled};
-
-use super::systems::{Chain20, Damped, Turntable};
+use super::systems::{Chain20, Damped, EulerTop, Hoop, Sled, Turntable};
 use super::{Answer, Line, Task, Verdict};
+use guen::ConstantsError;
 
 fn answer<T>(by: &'static str, prepared: Result<T, ConstantsError>) -> Answer {
     let verdict = match prepared {

@@ -4,10 +4,10 @@ use guen::Laned;
 use guen::lanes::{LaneTask, Lanes, Width, dispatch};
 use guen::prelude::*;
 use guen::steppers::InLanes;
-use guen_benchmarks::systems::{Hoop, Sled, hoop};
 use guen_study::Digits71;
 
 use super::motion::Motion;
+use super::systems::{Hoop, Sled, hoop};
 use super::{Answer, Line, Task, Verdict};
 
 /// Numbers of single precision.

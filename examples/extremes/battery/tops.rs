@@ -1,8 +1,7 @@
 //! Euler's top next to its separatrix, and at any ratio of its moments.
 
-use guen_benchmarks::systems::EulerTop;
-
 use super::motion::Motion;
+use super::systems::EulerTop;
 use super::{Line, Task};
 use crate::both;
 

@@ -1,6 +1,7 @@
 //! The explicit method of Euler, with a fixed step.
 
 use super::course::{Method, Reached, Statistics};
+use super::defect::quadrature;
 use super::dense::Dense;
 use super::fixed::{Fixed, Formula, Slopes};
 use super::landing::short_ways;
@@ -37,7 +38,6 @@ pub struct Euler<R = f64> {
 impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Formula<R, S, N> for Euler<R> {
     type Memory = Slopes<R, N>;
     const EVALUATIONS: u32 = 1;
-    const JUDGED_ORDER: u32 = 1;
 
     #[inline]
     fn step(
@@ -63,6 +63,16 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Formula<R, S, N> for Eul
         statistics: &mut Statistics,
     ) -> Dense<R, N> {
         slopes.hermite(system, from, to, h, statistics)
+    }
+
+    fn defect(
+        &self,
+        system: &S,
+        slopes: &Self::Memory,
+        from: &Reached<R, N>,
+        to: &Reached<R, N>,
+    ) -> [f64; N] {
+        quadrature(system, &slopes.first, from, to)
     }
 }
 
