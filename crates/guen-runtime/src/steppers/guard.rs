@@ -154,18 +154,26 @@ impl<R: Real, const N: usize> Watch<R, N> {
         self.order > 0 && (last || self.until_look == 1)
     }
 
-    /// Counts a step, and looks if it is time to.
+    /// As many steps can be made before anything has to be told.
+    #[inline]
+    pub fn patience(&self) -> u32 {
+        if self.order > 0 { (self.until_look - 1).max(1) } else { self.until_look }
+    }
+
+    /// Counts the steps since `from`, no more than [`patience`](Watch::patience) allowed, and looks if it is time to.
     #[inline]
     pub fn step<S>(
         &mut self,
         system: &S,
+        from: u64,
         before: Option<&Reached<R, N>>,
         reached: &Reached<R, N>,
     ) -> Result<(), Cause>
     where
         S: System<R, N> + ?Sized,
     {
-        self.until_look -= 1;
+        let made = reached.statistics.accepted.saturating_sub(from);
+        self.until_look = self.until_look.saturating_sub(u32::try_from(made).unwrap_or(u32::MAX));
         if self.until_look > 0 {
             return Ok(());
         }

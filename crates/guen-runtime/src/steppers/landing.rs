@@ -38,11 +38,17 @@ where
             if kept {
                 before = *course.reached();
             }
-            if let Err(cause) = course.advance(system, time, false) {
+            let from = course.reached().statistics.accepted;
+            let made = if kept {
+                course.advance(system, time, false)
+            } else {
+                course.go_on(system, time, watch.patience())
+            };
+            if let Err(cause) = made {
                 return Err(watch.stopped(system, course.reached(), cause));
             }
             let reached = course.reached();
-            if let Err(cause) = watch.step(system, kept.then_some(&before), reached) {
+            if let Err(cause) = watch.step(system, from, kept.then_some(&before), reached) {
                 return Err(watch.good(reached).failed(cause));
             }
         }
