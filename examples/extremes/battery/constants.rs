@@ -12,12 +12,34 @@ fn answer<T>(by: &'static str, prepared: Result<T, ConstantsError>) -> Answer {
                 ConstantsError::NotFinite { .. } => "not finite",
                 ConstantsError::OutOfBound { .. } => "out of bound",
                 ConstantsError::SingularPivot { .. } => "singular",
+                ConstantsError::NotPhysical { .. } => "no body",
                 _ => "other",
             };
             Verdict::Refused { short: short.to_owned(), text: error.to_string() }
         }
     };
     Answer { by, verdict }
+}
+
+guen::mechanical_system! {
+    /// A body that turns and falls, whose constants have no declared bounds.
+    system Brick {
+        constants { m, A, B, C, g = 9.81 }
+        coordinates { z, psi, theta, phi }
+        parameters {
+            v = dot(z);
+            p = dot(psi)*sin(theta)*sin(phi) + dot(theta)*cos(phi);
+            q = dot(psi)*sin(theta)*cos(phi) - dot(theta)*sin(phi);
+            r = dot(psi)*cos(theta) + dot(phi);
+        }
+        bodies {
+            brick {
+                mass: m, inertia: diag(A, B, C), center: vec(0, 0, z),
+                orientation: rot_z(psi)*rot_x(theta)*rot_z(phi),
+            }
+        }
+        gravity = vec(0, 0, -g);
+    }
 }
 
 /// A system with one constant after the other at each of the values that it must not have.
@@ -50,6 +72,10 @@ fn ask() -> Line {
     refused!(line, Chain20 { m: 1.0, M: 1.0, l: 0.1, g: 9.81 };
         m = 0.0, M = 0.0, M = -1.0, l = 0.0, M = f64::INFINITY, g = f64::NAN);
     refused!(line, Damped { m: 1.0, k: 1.0, c: 0.0 }; m = 0.0, c = -1.0, k = f64::INFINITY, m = 1e-320);
+    // No bound is declared: what a body is says it.
+    refused!(line, Brick { m: 1.0, A: 2.0, B: 3.0, C: 4.0, g: 9.81 };
+        m = 0.0, m = -1.0, m = f64::INFINITY, A = 0.0, A = -2.0, B = 6.5, C = 5.5, C = f64::INFINITY, C = f64::NAN,
+        m = 1e-320);
     line
 }
 
