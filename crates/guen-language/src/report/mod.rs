@@ -5,6 +5,8 @@ mod pages;
 mod reasons;
 mod scene;
 
+pub use pages::set;
+
 use guen_symbolic::{Class, ExprId, Notation};
 
 use crate::derive::function;

@@ -240,11 +240,15 @@ fn node_value(
             ring.sum(&parts)
         }
         Node::Product(factors) => {
-            let mut product = Fraction::whole(Poly::one());
+            let mut product: Option<Fraction> = None;
             for (base, e) in &factors {
-                product = ring.product(&product, &ring.power(&values[base], *e)?)?;
+                let power = ring.power(&values[base], *e)?;
+                product = Some(match product {
+                    None => power,
+                    Some(product) => ring.product(&product, &power)?,
+                });
             }
-            Ok(product)
+            Ok(product.unwrap_or_else(|| Fraction::whole(Poly::one())))
         }
         Node::Function(f @ (Function::Root(_) | Function::Abs), x) => {
             let (order, value) = match f {
@@ -264,6 +268,12 @@ fn node_value(
                     let (s, c) = (graph.sin(*base), graph.cos(*base));
                     let (s, c) = (generator(ring, s)?.num, generator(ring, c)?.num);
                     let s = if *k < 0 { s.scaled(&Rational::MINUS_ONE) } else { s };
+                    if sin.is_zero() && k.abs() == 1 {
+                        // The two sums of the first turn.
+                        ring.budget.spend(2)?;
+                        (sin, cos) = (s, c);
+                        continue;
+                    }
                     for _ in 0..k.abs() {
                         let next = ring.times(&sin, &c)?.plus(&ring.times(&cos, &s)?, &ring.budget)?;
                         let minus = ring.times(&sin, &s)?.scaled(&Rational::MINUS_ONE);

@@ -304,10 +304,11 @@ impl Ring {
     }
 
     pub(super) fn power(&self, f: &Fraction, n: i32) -> Result<Fraction> {
-        let base = if n < 0 { self.invert(f)? } else { f.clone() };
+        let inverse = if n < 0 { Some(self.invert(f)?) } else { None };
+        let base = inverse.as_ref().unwrap_or(f);
         let mut result = base.clone();
         for _ in 1..n.unsigned_abs() {
-            result = self.product(&result, &base)?;
+            result = self.product(&result, base)?;
         }
         Ok(result)
     }

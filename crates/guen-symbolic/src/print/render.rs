@@ -79,10 +79,12 @@ impl<'g> Printer<'g> {
                     _ => (false, self.parentheses(&piece.text)),
                 }
             }
-            _ => {
-                let (negative, text) = self.term(&Rational::ONE, e);
-                (negative, text)
-            }
+            // Written already, with its sign.
+            Node::Product(_) => match self.pieces[&e].text.strip_prefix('-') {
+                Some(text) => (true, text.to_owned()),
+                None => (false, self.pieces[&e].text.clone()),
+            },
+            _ => self.term(&Rational::ONE, e),
         })
     }
 
@@ -320,8 +322,13 @@ impl<'g> Printer<'g> {
     }
 
     fn quotient_text(&self, coefficient: &Rational, above: &[&Shown], below: &[&Shown]) -> String {
-        let (n, d) = coefficient.to_big_pair();
-        let (n, d) = (n.to_string(), d.to_string());
+        let (n, d) = match coefficient.to_i64_pair() {
+            Some((n, d)) => (n.to_string(), d.to_string()),
+            None => {
+                let (n, d) = coefficient.to_big_pair();
+                (n.to_string(), d.to_string())
+            }
+        };
         let above: Vec<String> = above
             .iter()
             .map(|item| self.factor(item, above.len() + below.len() == 1 && coefficient.is_one()))
