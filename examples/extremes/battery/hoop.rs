@@ -110,10 +110,9 @@ pub fn tasks() -> Vec<Task> {
         add(
             quick,
             Box::new(move || {
-                // A light hoop about its diameter nutates at C/A of its spin.
-                let span = if ratio < 1.0 { 10.0 * ratio } else { 0.5 };
+                // Light about its diameter it nutates at sqrt(C/A) of its spin, or as fast as a few radians per second.
+                let span = if ratio < 1.0 { 10.0 * ratio.sqrt() } else { 0.5 };
                 motion((ratio.min(1.0), (1.0 / ratio).min(1.0)), 9.81, start(1.2, 0.1, 0.5, 2.0), span)
-                    .or_refused()
                     .ask::<f64>(format!("A/C = {ratio:e}, for {span:e} s"))
             }),
         );

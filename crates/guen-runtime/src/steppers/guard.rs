@@ -174,14 +174,28 @@ impl<R: Real, const N: usize> Watch<R, N> {
         self.fixed && (last || self.until_look == 1)
     }
 
-    /// Counts a step, and looks if it is time to; `before` is where the step began, if that was wanted.
+    /// As many steps can be made before anything has to be told.
     #[inline]
-    pub fn step<C, S>(&mut self, system: &S, before: Option<&Reached<R, N>>, course: &C) -> Result<(), Cause>
+    pub fn patience(&self) -> u32 {
+        if self.fixed { (self.until_look - 1).max(1) } else { self.until_look }
+    }
+
+    /// Counts the steps since `from`, no more than [`patience`](Watch::patience) allowed, and looks if it is time to;
+    /// `before` is where the last one began, if that was wanted.
+    #[inline]
+    pub fn step<C, S>(
+        &mut self,
+        system: &S,
+        from: u64,
+        before: Option<&Reached<R, N>>,
+        course: &C,
+    ) -> Result<(), Cause>
     where
         C: Course<R, S, N>,
         S: System<R, N> + ?Sized,
     {
-        self.until_look -= 1;
+        let made = course.reached().statistics.accepted.saturating_sub(from);
+        self.until_look = self.until_look.saturating_sub(u32::try_from(made).unwrap_or(u32::MAX));
         if self.until_look > 0 {
             return Ok(());
         }
