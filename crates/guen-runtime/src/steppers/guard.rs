@@ -50,7 +50,7 @@ pub struct Guard {
     /// How far functions that are carried as states may be from what they stand for: the largest of `|w - f|/(1 + |f|)`
     /// and of what is left of `sin^2 + cos^2 - 1` and the like. By default 0.01, as for the energy.
     pub carried: f64,
-    /// The distance to the edge of the chart at which to stop: what is [`left`](Rounded::left) of each function that
+    /// The distance to the edge of the chart at which to stop: what is [`left`](crate::Rounded::left) of each function that
     /// must not vanish, given that every entry of the state is uncertain by a rounding of the largest value that it has
     /// had. By default `1e-8`, where a term with its square in the denominator has no digits left in `f64`; in another
     /// real the limit is multiplied by the root of the ratio of the roundings. A change of sign always ends the run.
