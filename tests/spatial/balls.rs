@@ -25,18 +25,7 @@ guen::mechanical_system! {
     }
 }
 
-guen::mechanical_system! {
-    /// A ball with three moments of inertia on a belt that goes to and fro along the first axis.
-    pub system BeltBall {
-        constants { m > 0, a > 0, A > 0, B > 0, C > 0, u, nu }
-        coordinates { w, i, j, k, x, y }
-        let R = quaternion(w, i, j, k);
-        bodies { ball { mass: m, inertia: diag(A, B, C), center: vec(x, y, a), orientation: R } }
-        parameters { spin = angular_velocity_body(R); }
-        constraints { rolling: ball.velocity_at(vec(x, y, 0)) = vec(u*cos(nu*t), 0, 0); }
-        holonomic { length: w^2 + i^2 + j^2 + k^2 = 1; }
-    }
-}
+belt_ball!(guen::mechanical_system);
 
 guen::mechanical_system! {
     /// The ball on a belt in the angles of Euler.

@@ -45,22 +45,7 @@ guen::mechanical_system! {
     }
 }
 
-guen::mechanical_system! {
-    /// A rattleback: an ellipsoid on the plane whose axes of inertia are turned against its own.
-    pub system Rattleback {
-        constants { m > 0, a > 0, b > 0, c > 0, h, A > 0, B > 0, C > 0, D, g = 9.81 }
-        coordinates { yaw, roll, pitch, x, y, z }
-        let R = rot_z(yaw)*rot_x(roll)*rot_y(pitch);
-        let n = transpose(R)*vec(0, 0, 1);
-        let size = sqrt((a*n.x)^2 + (b*n.y)^2 + (c*n.z)^2);
-        let lowest = vec(a^2*n.x, b^2*n.y, c^2*n.z)/-size;
-        let p = vec(x, y, z);
-        bodies { stone { mass: m, inertia: sym(A, B, C, D, 0, 0), center: p, orientation: R } }
-        gravity = vec(0, 0, -g);
-        parameters { spin = angular_velocity_body(R); }
-        constraints { rolling: stone.velocity_at(p + R*(lowest + vec(0, 0, h))) = 0; }
-    }
-}
+rattleback!(guen::mechanical_system);
 
 const RR: f64 = 0.35;
 const RF: f64 = 0.3;

@@ -29,22 +29,7 @@ mod paper {
     hoop!(guen::mechanical_system);
 }
 
-guen::mechanical_system! {
-    /// The contact is found from the axle: the lowest point of the rim. Quaternions in place of angles.
-    pub system QuaternionHoop {
-        constants { a > 0, A > 0, C > 0, g = 9.81 }
-        coordinates { w, i, j, k, xi, eta, zeta }
-        let R = quaternion(w, i, j, k);
-        bodies { hoop { mass: 1, inertia: diag(A, A, C), center: vec(xi, eta, zeta), orientation: R } }
-        let up = vec(0, 0, 1);
-        let contact = hoop.center - a*unit(up - inner(up, R.z)*R.z);
-        gravity = -g*up;
-        parameters { spin = angular_velocity_body(R); }
-        constraints { rolling: hoop.velocity_at(contact) = 0; }
-        holonomic { length: w^2 + i^2 + j^2 + k^2 = 1; }
-        outputs { axle = R.z; touch = contact; }
-    }
-}
+quaternion_hoop!(guen::mechanical_system);
 
 const A_RADIUS: f64 = 0.7;
 const DIAMETER: f64 = 0.4;

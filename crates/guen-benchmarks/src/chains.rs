@@ -15,7 +15,7 @@ pub enum Angles {
 }
 
 /// The chains that are declared: links, angles, module.
-pub const DECLARED: [(usize, Angles, &str); 7] = [
+pub const DECLARED: [(usize, Angles, &str); 8] = [
     (2, Angles::Absolute, "chain2"),
     (5, Angles::Absolute, "chain5"),
     (10, Angles::Absolute, "chain10"),
@@ -23,6 +23,7 @@ pub const DECLARED: [(usize, Angles, &str); 7] = [
     (2, Angles::Relative, "joints2"),
     (5, Angles::Relative, "joints5"),
     (10, Angles::Relative, "joints10"),
+    (20, Angles::Relative, "joints20"),
 ];
 
 /// The declaration of a chain, without the macro around it.

@@ -12,6 +12,8 @@ mod declarations;
 pub mod platform;
 mod processor;
 mod random;
+#[macro_use]
+mod rolling;
 mod subjects;
 pub mod systems;
 pub mod timing;

@@ -1,0 +1,63 @@
+//! Declarations of bodies that roll, shared like those of `declarations.rs`.
+
+/// A ball with three moments of inertia on a belt, in quaternions.
+#[macro_export]
+macro_rules! belt_ball {
+    ($($consumer:ident)::+ $(; $($more:tt)*)?) => { $($consumer)::+! {
+        /// A ball with three moments of inertia on a belt that goes to and fro along the first axis.
+        pub system BeltBall {
+            constants { m > 0, a > 0, A > 0, B > 0, C > 0, u, nu }
+            coordinates { w, i, j, k, x, y }
+            let R = quaternion(w, i, j, k);
+            bodies { ball { mass: m, inertia: diag(A, B, C), center: vec(x, y, a), orientation: R } }
+            parameters { spin = angular_velocity_body(R); }
+            constraints { rolling: ball.velocity_at(vec(x, y, 0)) = vec(u*cos(nu*t), 0, 0); }
+            holonomic { length: w^2 + i^2 + j^2 + k^2 = 1; }
+            $($($more)*)?
+        }
+    } };
+}
+
+/// The hoop in quaternions, its contact found from the axle.
+#[macro_export]
+macro_rules! quaternion_hoop {
+    ($($consumer:ident)::+ $(; $($more:tt)*)?) => { $($consumer)::+! {
+        /// The contact is found from the axle: the lowest point of the rim. Quaternions in place of angles.
+        pub system QuaternionHoop {
+            constants { a > 0, A > 0, C > 0, g = 9.81 }
+            coordinates { w, i, j, k, xi, eta, zeta }
+            let R = quaternion(w, i, j, k);
+            bodies { hoop { mass: 1, inertia: diag(A, A, C), center: vec(xi, eta, zeta), orientation: R } }
+            let up = vec(0, 0, 1);
+            let contact = hoop.center - a*unit(up - inner(up, R.z)*R.z);
+            gravity = -g*up;
+            parameters { spin = angular_velocity_body(R); }
+            constraints { rolling: hoop.velocity_at(contact) = 0; }
+            holonomic { length: w^2 + i^2 + j^2 + k^2 = 1; }
+            outputs { axle = R.z; touch = contact; }
+            $($($more)*)?
+        }
+    } };
+}
+
+/// A rattleback.
+#[macro_export]
+macro_rules! rattleback {
+    ($($consumer:ident)::+ $(; $($more:tt)*)?) => { $($consumer)::+! {
+        /// A rattleback: an ellipsoid on the plane whose axes of inertia are turned against its own.
+        pub system Rattleback {
+            constants { m > 0, a > 0, b > 0, c > 0, h, A > 0, B > 0, C > 0, D, g = 9.81 }
+            coordinates { yaw, roll, pitch, x, y, z }
+            let R = rot_z(yaw)*rot_x(roll)*rot_y(pitch);
+            let n = transpose(R)*vec(0, 0, 1);
+            let size = sqrt((a*n.x)^2 + (b*n.y)^2 + (c*n.z)^2);
+            let lowest = vec(a^2*n.x, b^2*n.y, c^2*n.z)/-size;
+            let p = vec(x, y, z);
+            bodies { stone { mass: m, inertia: sym(A, B, C, D, 0, 0), center: p, orientation: R } }
+            gravity = vec(0, 0, -g);
+            parameters { spin = angular_velocity_body(R); }
+            constraints { rolling: stone.velocity_at(p + R*(lowest + vec(0, 0, h))) = 0; }
+            $($($more)*)?
+        }
+    } };
+}
