@@ -88,6 +88,10 @@ impl<R: Real, S: Carrying<R, N>, const N: usize> System<R, N> for Rejoined<S> {
     fn condition(&self, t: R, state: &[R; N]) -> f64 {
         self.0.condition(t, state)
     }
+
+    fn cost_of_look(&self) -> u32 {
+        self.0.cost_of_look()
+    }
 }
 
 impl<R: Real, S: Carrying<R, N> + Differentiable<R, N>, const N: usize> Differentiable<R, N> for Rejoined<S> {

@@ -353,6 +353,10 @@ where
     fn condition(&self, t: R, state: &[R; M]) -> f64 {
         self.0.condition(t, state)
     }
+
+    fn cost_of_look(&self) -> u32 {
+        self.0.cost_of_look()
+    }
 }
 
 impl<R, S, const N: usize, const H: usize, const M: usize> Differentiable<R, M> for Projected<S, N, H>

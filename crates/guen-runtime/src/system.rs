@@ -68,6 +68,14 @@ pub trait System<R: Real, const N: usize> {
     fn condition(&self, _t: R, _state: &[R; N]) -> f64 {
         1.0
     }
+
+    /// What [`vitals`](System::vitals), [`edges`](System::edges) and [`condition`](System::condition) of one state cost
+    /// together, in evaluations of the right-hand side: the dearer they are, the seldomer a guard asks for them. Two, unless
+    /// a system says more; generated systems count their operations.
+    #[inline]
+    fn cost_of_look(&self) -> u32 {
+        2
+    }
 }
 
 impl<R: Real, S: System<R, N> + ?Sized, const N: usize> System<R, N> for &S {
@@ -94,6 +102,11 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize> System<R, N> for &S {
     #[inline]
     fn condition(&self, t: R, state: &[R; N]) -> f64 {
         (**self).condition(t, state)
+    }
+
+    #[inline]
+    fn cost_of_look(&self) -> u32 {
+        (**self).cost_of_look()
     }
 }
 

@@ -294,6 +294,7 @@ fn systems(
             }
         }
     });
+    let cost_of_look = integrated::cost_of_look(subject, layout);
     let differentiable = integrated::differentiable(layout, &owner, &prepared);
     let lanes = lanes::carried(layout);
     quote! {
@@ -328,6 +329,10 @@ fn systems(
 
             fn condition(&self, t: R, state: &[R; #size]) -> f64 {
                 __guen::System::condition(&#below, t, &Prepared::variables(state))
+            }
+
+            fn cost_of_look(&self) -> u32 {
+                #cost_of_look
             }
         }
         #differentiable

@@ -66,6 +66,7 @@ pub(super) fn guarded(subject: &Subject<'_, '_>, layout: &Layout, prepared: &Tok
             }
         }
     });
+    let cost = cost_of_look(subject, layout);
     quote! {
         fn vitals(&self, t: R, state: &[R; #size]) -> __guen::Vitals<R> {
             let x: [R; #n] = [#(state[#positions]),*];
@@ -79,7 +80,38 @@ pub(super) fn guarded(subject: &Subject<'_, '_>, layout: &Layout, prepared: &Tok
         #edges
 
         #condition
+
+        fn cost_of_look(&self) -> u32 {
+            #cost
+        }
     }
+}
+
+/// What the methods above cost together, in right-hand sides with what a stepper does for each: an estimate from the counts of
+/// operations.
+pub(super) fn cost_of_look(subject: &Subject<'_, '_>, layout: &Layout) -> u32 {
+    /// Of an operation whose rounding is counted.
+    const ROUNDED: u64 = 4;
+    /// Of a sum over stages, for each entry of the state.
+    const STAGE: u64 = 4;
+    let level = subject.level;
+    let cost = |names: &[&str]| -> u64 {
+        let programs = names.iter().filter_map(|name| level.program(name));
+        programs.map(|program| program.cost.weighted()).sum()
+    };
+    let energies = if layout.is_whole && level.derivation.conservative {
+        cost(&[function::ENERGY, function::KINETIC_ENERGY, function::FORCE_FUNCTION])
+    } else {
+        0
+    };
+    let rounded = ROUNDED * cost(&[function::DOMAIN, function::POSITIONS]);
+    // Factors of the matrix and the diagonal of its inverse, roots and divisions for scaling: in loops over short rows, which
+    // take more than their operations.
+    let l = layout.l as u64;
+    let condition = level.program(function::MASS).map_or(0, |_| l * l * (l + 20));
+    let look = energies + rounded + condition + cost(&[function::MASS]);
+    let one = cost(&[function::RHS]) + STAGE * layout.size as u64;
+    u32::try_from(look.div_ceil(one.max(1))).unwrap_or(u32::MAX).max(1)
 }
 
 /// A function of the program with the roundings counted: prepared values were rounded once.

@@ -27,6 +27,11 @@ impl Edges {
         Self { count, negative: values.map(|value| value.value.to_f64() < 0.0) }
     }
 
+    /// Whether there are any.
+    pub fn are_there(&self) -> bool {
+        self.count > 0
+    }
+
     /// Whether a state is on the same side as the start, and further than the limit from the edge.
     pub fn look<R: Real, S, const N: usize>(
         &self,

@@ -1,8 +1,8 @@
 //! Guards: what is watched while a run goes on, besides that every state is finite.
 //!
-//! A look costs about as much as two to six right-hand sides. It is taken after the first step, then every `k` steps, with
-//! `k` such that about [`EVALUATIONS_BETWEEN_LOOKS`] right-hand sides lie between two of them, and at the end; where a look
-//! finds a fault, the run goes back to the last look that did not, so that what it returns was seen to be in order.
+//! A look is taken after the first step, then every `k` steps, with `k` such that [`EVALUATIONS_BETWEEN_LOOKS`] right-hand
+//! sides lie between two of them, and [`COSTS_BETWEEN_LOOKS`] times what a look costs, and at the end; where a look finds a
+//! fault, the run goes back to the last look that did not, so that what it returns was seen to be in order.
 //!
 //! Steps whose length is given do not become shorter next to an edge of the chart, and may pass it between two looks. So
 //! while such a run approaches an edge, the functions that must not vanish are looked at in between: after half of the
@@ -15,8 +15,13 @@ use crate::error::{Cause, IntegrationError, Setting};
 use crate::real::Real;
 use crate::system::System;
 
-/// With a look at two to four right-hand sides, guards cost about two percent.
+/// A look is taken after at least so many right-hand sides,
 const EVALUATIONS_BETWEEN_LOOKS: u32 = 160;
+/// and after so many times its own cost: at 2.5 percent, the rest up to three is for what a step does for the guard.
+const COSTS_BETWEEN_LOOKS: u32 = 40;
+/// What is done further at a look at a fixed step, in right-hand sides: an estimate of its error, which takes three and sums
+/// over the state, and edges on the way.
+const COST_OF_A_DEFECT: u32 = 10;
 
 /// What a run must not violate. A stepper watches these by default, of whatever the system tells in
 /// [`System::vitals`], [`System::edges`] and [`System::condition`], and methods with a fixed step by estimates of the errors of
@@ -126,6 +131,8 @@ pub(super) struct Watch<R, const N: usize> {
     young: u32,
     /// Whether the method has a fixed step.
     fixed: bool,
+    /// With a fixed step, steps until the edges are looked at, at least: they are cheaper than the rest.
+    until_edges: u32,
     /// Where the last look found everything in order.
     good: Reached<R, N>,
     /// What the looks have learned so far.
@@ -143,17 +150,19 @@ struct Known<R, const N: usize> {
 }
 
 impl<R: Real, const N: usize> Watch<R, N> {
-    pub fn new<C, S>(guard: Guard, start: &Reached<R, N>) -> Result<Self, Cause>
+    pub fn new<C, S>(guard: Guard, system: &S, start: &Reached<R, N>) -> Result<Self, Cause>
     where
         C: Course<R, S, N>,
-        S: ?Sized,
+        S: System<R, N> + ?Sized,
     {
         if !guard.is_valid() {
             return Err(Cause::Setting(Setting::Guard));
         }
         let guard = guard.for_real::<R>();
         let young = (EVALUATIONS_BETWEEN_LOOKS / C::EVALUATIONS.max(1)).max(1);
-        let every = guard.every.unwrap_or(young).max(1);
+        let cost = system.cost_of_look().saturating_add(if C::JUDGED { COST_OF_A_DEFECT } else { 0 });
+        let paid = cost.saturating_mul(COSTS_BETWEEN_LOOKS) / C::EVALUATIONS.max(1);
+        let every = guard.every.unwrap_or(young.max(paid)).max(1);
         let first = if every == u32::MAX { every } else { 1 };
         Ok(Self {
             guard,
@@ -163,6 +172,7 @@ impl<R: Real, const N: usize> Watch<R, N> {
             between: first,
             young,
             fixed: C::JUDGED,
+            until_edges: if C::JUDGED && guard.every.is_none() { young } else { u32::MAX },
             good: *start,
             known: None,
         })
@@ -215,7 +225,9 @@ impl<R: Real, const N: usize> Watch<R, N> {
         } else if let Some(known) = &self.known {
             known.edges.look(system, course.reached(), &known.largest, self.guard.edge)?;
         }
-        self.until_look = rest.min(self.approach(system, before, course.reached())?);
+        let watched = self.known.as_ref().is_some_and(|known| known.edges.are_there());
+        let edges = if watched { self.until_edges } else { u32::MAX };
+        self.until_look = rest.min(edges).min(self.approach(system, before, course.reached())?);
         self.until_next = rest - self.until_look;
         Ok(())
     }
