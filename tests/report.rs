@@ -308,3 +308,18 @@ fn properties_have_their_reasons() {
     assert_eq!(plant::robot::REPORT.lines("Coordinates")[0], "x: The middle of the axle.");
     assert_eq!(plant::robot::REPORT.lines("Inputs").len(), 3);
 }
+
+/// Where a declaration degenerates is told by formulas, in the page that rustdoc shows too.
+#[test]
+fn edges_are_told() {
+    let domain = |report: &'static Report| report.lines("Domain of the chart");
+    let regular = "the mass matrix M is regular; `condition`, max_s M_ss (M^-1)_ss, says by how much";
+    assert_eq!(domain(&hoop::REPORT), ["sin(theta) != 0"]);
+    assert_eq!(domain(&turntable::REPORT), ["sin(theta) != 0"]);
+    // What of the constants is left where rate and speed are not independent, and the matrix of both.
+    assert_eq!(domain(&sled::REPORT), ["m - m*beta^2/(alpha^2 + beta^2 + k^2) != 0", regular]);
+    assert_eq!(domain(&cart::REPORT).last(), Some(&regular));
+    assert_eq!(domain(&plant::robot::REPORT).last(), Some(&regular));
+    let chain = guen_benchmarks::systems::chain5::REPORT.lines("Domain of the chart");
+    assert_eq!(chain.last(), Some(&regular), "{chain:?}");
+}

@@ -142,11 +142,12 @@ mod tests {
 
     #[test]
     fn the_table_is_aligned() {
-        let cost = Cost { additions: 5, multiplications: 8, calls: 1, ..Cost::ZERO };
-        let whole = LevelInfo { name: "RollingHoop", variables: &["a"; 9], cost, prepare_cost: Cost::ZERO };
-        let tilt = LevelInfo { name: "Tilt", variables: &["a"; 4], ..whole };
-        let levels: &'static [LevelInfo] = std::boxed::Box::leak(std::boxed::Box::new([whole, tilt]));
-        let text = Levels(levels).to_string();
+        const COST: Cost = Cost { additions: 5, multiplications: 8, calls: 1, ..Cost::ZERO };
+        const LEVELS: [LevelInfo; 2] = [
+            LevelInfo { name: "RollingHoop", variables: &["a"; 9], cost: COST, prepare_cost: Cost::ZERO },
+            LevelInfo { name: "Tilt", variables: &["a"; 4], cost: COST, prepare_cost: Cost::ZERO },
+        ];
+        let text = Levels(&LEVELS).to_string();
         let expected = "\
 level        variables  bytes  operations  calls  prepared once
 RollingHoop          9     72          13      1              0

@@ -27,7 +27,7 @@ pub struct Collocation<R, const S: usize> {
     inverse: [[R; S]; S],
     /// `b^T A^-1`: the end of the step is `x + sum_i d_i Z_i`.
     pub d: [R; S],
-    /// The real eigenvalue of `A^-1`, which two stages do not have.
+    /// The real eigenvalue of `A^-1`, which three stages have and two have not.
     pub real: Option<R>,
     /// The complex one with a positive imaginary part.
     pair: Complex<R>,
@@ -42,14 +42,12 @@ impl<R: Real, const S: usize> Collocation<R, S> {
         let inverse = inverse(a)?;
         let d = core::array::from_fn(|j| (0..S).fold(R::zero(), |sum, i| sum + b[i] * inverse[i][j]));
         let mut columns = [[R::zero(); S]; S];
-        let mut next = 0;
         if let Some(real) = real {
             columns[0] = eigenvector(&inverse, Complex { re: real, im: R::zero() }).map(|entry| entry.re);
-            next = 1;
         }
         let vector = eigenvector(&inverse, pair);
-        columns[next] = vector.map(|entry| entry.re);
-        columns[next + 1] = vector.map(|entry| entry.im);
+        columns[S - 2] = vector.map(|entry| entry.re);
+        columns[S - 1] = vector.map(|entry| entry.im);
         let basis: [[R; S]; S] = core::array::from_fn(|i| core::array::from_fn(|j| columns[j][i]));
         Some(Self { c, inverse, d, real, pair, basis, to_basis: self::inverse(basis)? })
     }
@@ -91,17 +89,15 @@ impl<R: Real, const S: usize> Collocation<R, S> {
             *residual = core::array::from_fn(|k| slope[k] - recip * mean[k]);
         }
         let mut parts = self.to_basis.map(|row| combined(&row, &residual));
-        let mut next = 0;
         if let Some(real) = &factors.real {
             parts[0] = real.solve(parts[0]);
-            next = 1;
         }
         // With the columns p, q of the pair, A^-1 (p, q) = (p, q) [[re, im], [-im, re]], so w = w_p - i w_q solves the
         // complex system with re + i im.
-        let right = core::array::from_fn(|k| Complex { re: parts[next][k], im: -parts[next + 1][k] });
+        let right = core::array::from_fn(|k| Complex { re: parts[S - 2][k], im: -parts[S - 1][k] });
         let solution = factors.pair.solve(right);
-        parts[next] = solution.map(|entry| entry.re);
-        parts[next + 1] = solution.map(|entry| -entry.im);
+        parts[S - 2] = solution.map(|entry| entry.re);
+        parts[S - 1] = solution.map(|entry| -entry.im);
         self.basis.map(|row| combined(&row, &parts))
     }
 

@@ -107,10 +107,11 @@ impl<R: Real, const N: usize> Dense<R, N> {
     pub fn at(&self, t: R) -> [R; N] {
         let s = (t - self.start) / self.step;
         let rest = R::one() - s;
-        let mut x = self.terms[self.used - 1];
-        for k in (0..self.used - 1).rev() {
+        let mut terms = self.terms.iter().enumerate().take(self.used).rev();
+        let mut x = terms.next().map_or([R::zero(); N], |(_, highest)| *highest);
+        for (k, term) in terms {
             let factor = if k % 2 == 0 { s } else { rest };
-            x = core::array::from_fn(|i| self.terms[k][i] + factor * x[i]);
+            x = core::array::from_fn(|i| term[i] + factor * x[i]);
         }
         x
     }

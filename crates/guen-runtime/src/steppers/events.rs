@@ -241,7 +241,7 @@ fn root<R: Real, const N: usize>(
         }
         // A probe nearer to an end than the resolution could not close the bracket from the other side.
         let margin = (0.5 * resolution / present).min(0.5);
-        part = if part.is_nan() { 0.5 } else { part.clamp(margin, 1.0 - margin) };
+        part = if part.is_nan() { 0.5 } else { part.max(margin).min(1.0 - margin) };
         since += 1;
         let middle = a + (b - a) * R::from_f64(part);
         if middle == a || middle == b {

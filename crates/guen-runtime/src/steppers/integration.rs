@@ -149,13 +149,13 @@ impl<'a, R: Real, S: System<R, N> + ?Sized, const N: usize, const E: usize> Inte
     {
         self.check(t1).map_err(|cause| self.start.failed(cause))?;
         let mut course = method.start(self.start.time, &self.start.state);
-        let mut watch = Watch::new::<M::Course<'_>, S>(self.guard, &self.start)
+        let mut watch = Watch::new::<M::Course<'_>, S>(self.guard, self.system, &self.start)
             .map_err(|cause| self.start.failed(cause))?;
         let mut trackers: [Tracker; E] =
             core::array::from_fn(|i| Tracker::new(self.events[i].value(self.start.time, &self.start.state)));
         let mut visited = 0;
         let start = self.start;
-        while visited < self.samples.len() && self.samples[visited] == start.time {
+        while self.samples.get(visited) == Some(&start.time) {
             self.visit(visited, start.time, &start.state);
             visited += 1;
         }
@@ -246,7 +246,7 @@ impl<'a, R: Real, S: System<R, N> + ?Sized, const N: usize, const E: usize> Inte
         loop {
             // Looks for the next crossing of each event that has none waiting: all of them at first, later the one
             // that was reported last.
-            for i in next.clone() {
+            for i in (0..E).filter(|i| next.contains(i)) {
                 let event = &self.events[i];
                 let side = trackers[i];
                 if event.needs_dense() || !side.stays(values[i]) {
@@ -258,25 +258,25 @@ impl<'a, R: Real, S: System<R, N> + ?Sized, const N: usize, const E: usize> Inte
                     trackers[i] = Tracker::new(values[i]);
                 }
             }
-            let mut first: Option<usize> = None;
-            for i in 0..E {
-                if let Some(crossing) = crossings[i] {
-                    let sooner =
-                        first.and_then(|f| crossings[f]).is_none_or(|c| earlier(crossing.time, c.time));
-                    if sooner {
-                        first = Some(i);
-                    }
+            let mut first: Option<(usize, Crossing<R>)> = None;
+            for (i, crossing) in crossings.iter().enumerate() {
+                if let Some(crossing) = crossing
+                    && first.is_none_or(|(_, sooner)| earlier(crossing.time, sooner.time))
+                {
+                    first = Some((i, *crossing));
                 }
             }
-            let until = first.and_then(|i| crossings[i]).map_or(after.time, |crossing| crossing.time);
-            while *visited < self.samples.len() && !earlier(until, self.samples[*visited]) {
-                let time = self.samples[*visited];
+            let until = first.map_or(after.time, |(_, crossing)| crossing.time);
+            while let Some(&time) = self.samples.get(*visited)
+                && !earlier(until, time)
+            {
                 let state = self.state(course, &mut polynomial, &after, time)?;
                 self.visit(*visited, time, &state);
                 *visited += 1;
             }
-            let Some(i) = first else { return Ok(None) };
-            let Some(crossing) = crossings[i].take() else { return Ok(None) };
+            // Below `E` it is; said again, the compiler knows it too and leaves no panic.
+            let Some((i, crossing)) = first.filter(|(i, _)| *i < E) else { return Ok(None) };
+            crossings[i] = None;
             from[i] = crossing.time;
             next = i..i + 1;
             let since_start = (crossing.time - self.start.time).to_f64().abs();

@@ -24,8 +24,8 @@ where
 {
     let start = Reached::new(t0, x0);
     let mut course = method.start(t0, x0);
-    let mut watch =
-        Watch::new::<M::Course<'_>, S>(Guard::default(), &start).map_err(|cause| start.failed(cause))?;
+    let mut watch = Watch::new::<M::Course<'_>, S>(Guard::default(), system, &start)
+        .map_err(|cause| start.failed(cause))?;
     let (mut before, mut kept) = (start, false);
     for (index, &time) in times.iter().enumerate() {
         if !time.is_finite() {

@@ -98,17 +98,17 @@ impl<F: Field, const N: usize> Lu<F, N> {
     pub fn new(mut a: [[F; N]; N]) -> Option<Self> {
         let mut exchanged = [0; N];
         for k in 0..N {
-            let mut pivot = k;
-            for row in k + 1..N {
-                if a[row][k].size() > a[pivot][k].size() {
-                    pivot = row;
+            let (mut pivot, mut size) = (k, a[k][k].size());
+            for (row, entries) in a.iter().enumerate().skip(k + 1) {
+                let found = entries[k].size();
+                if found > size {
+                    (pivot, size) = (row, found);
                 }
             }
-            let size = a[pivot][k].size();
             if !(size > 0.0 && size.is_finite()) {
                 return None;
             }
-            a.swap(k, pivot);
+            a.swap(k, Self::row(pivot));
             exchanged[k] = pivot;
             let above = a[k];
             for row in &mut a[k + 1..] {
@@ -122,11 +122,17 @@ impl<F: Field, const N: usize> Lu<F, N> {
         Some(Self { entries: a, exchanged })
     }
 
+    /// The number of a row, in a form of which the compiler sees that it is one: so that nothing here can panic.
+    #[inline(always)]
+    fn row(row: usize) -> usize {
+        row.min(N.saturating_sub(1))
+    }
+
     /// The solution of `A x = b`.
     pub fn solve(&self, mut b: [F; N]) -> [F; N] {
         // Rows were exchanged as a whole, with what stood left of the pivot: all exchanges come first.
         for (k, row) in self.exchanged.into_iter().enumerate() {
-            b.swap(k, row);
+            b.swap(k, Self::row(row));
         }
         for k in 0..N {
             for row in k + 1..N {

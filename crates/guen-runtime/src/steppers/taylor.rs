@@ -144,8 +144,10 @@ impl<R: Real, const N: usize> Series<R, N> {
     /// `sum_{k>=1} x_k s^k`, by Horner's rule.
     #[inline]
     fn change(&self, s: R) -> [R; N] {
-        let mut sum = self.coefficients[self.order];
-        for below in self.coefficients[1..self.order].iter().rev() {
+        // Within the bounds it is; said again, the compiler knows it too and leaves no panic.
+        let order = self.order.clamp(1, HIGHEST_ORDER);
+        let mut sum = self.coefficients[order];
+        for below in self.coefficients[1..order].iter().rev() {
             for (entry, coefficient) in sum.iter_mut().zip(below) {
                 *entry = *entry * s + *coefficient;
             }
@@ -214,6 +216,7 @@ impl<R: Ordered, const N: usize> Run<'_, R, N> {
         /// And how often.
         const ATTEMPTS: u32 = 6;
 
+        let order = order.clamp(1, HIGHEST_ORDER);
         let Reached { time, state, .. } = self.reached;
         if self.scale == 0.0 {
             if !time.is_finite() || !all_finite(&state) {
