@@ -1,5 +1,6 @@
 //! How long the expansion of a declaration takes inside of a compiler: a procedural macro, because there its tokens are the
 //! compiler's own, and `proc_macro2` works otherwise than outside. The example `expansion_time` calls it.
+#![forbid(unsafe_code)]
 
 use std::time::{Duration, Instant};
 

@@ -7,6 +7,7 @@
 //!
 //! Every stage reports what is wrong through [`diagnostics`]; [`report`] writes down what was derived.
 #![cfg_attr(docsrs, feature(doc_cfg))]
+#![forbid(unsafe_code)]
 
 extern crate proc_macro;
 

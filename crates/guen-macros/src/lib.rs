@@ -2,6 +2,7 @@
 //!
 //! Use it through the facade `guen`, whose macro `mechanical_system!` tells this one where the facade is.
 #![cfg_attr(docsrs, feature(doc_cfg))]
+#![forbid(unsafe_code)]
 
 use proc_macro::TokenStream;
 

@@ -3,6 +3,7 @@
 //!
 //! The list of the pages is made by `build.rs`. A block is Rust if it says so or says nothing; there is no way around the
 //! tests (`ignore`, `no_run`) that `tests/blocks.rs` would let pass.
+#![forbid(unsafe_code)]
 
 /// A page or another text of the repository.
 pub struct Page {

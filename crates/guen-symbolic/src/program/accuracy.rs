@@ -303,6 +303,16 @@ mod tests {
     use crate::algebra::{ExprId, Graph, Role};
     use crate::program::{ProgramBuilder, Programs, evaluate_function, evaluate_prepare};
 
+    use super::super::net::{Conversion, Field, Net};
+    use super::{Candidate, best, promising};
+
+    /// The program of an expression as it is written.
+    fn candidate(graph: &mut Graph, e: ExprId) -> Candidate {
+        let mut net = Net::default();
+        let roots = Conversion::roots(graph, &mut net, Field::Constants, &[e]);
+        Candidate::new(graph, &net, &roots)
+    }
+
     /// The program taken of equal lists, and its values where all symbols are at `at`.
     fn taken(graph: &mut Graph, lists: &[Vec<ExprId>], at: &[f64]) -> (Programs, usize, Vec<f64>) {
         let mut builder = ProgramBuilder::new(graph);
@@ -334,7 +344,31 @@ mod tests {
 
     #[test]
     fn accuracy_breaks_ties() {
-        // 1/sin^2 - cot^2 = 1, written with terms that cancel, and 1/(1 + x) - 1/(1 - x) likewise: of two that cost the same.
+        // x^2 - y^2 and (x + y)(x - y): three operations each, but the squares bring their roundings into the difference. Of
+        // some of them, so that at some point two numbers are near each other.
+        let mut g = Graph::new();
+        let (mut squares, mut product) = (g.one(), g.one());
+        for k in 0..6 {
+            let [x, y] = ["x", "y"].map(|name| g.symbol(&format!("{name}{k}"), Role::Coordinate));
+            let (xx, yy) = (g.mul(x, x), g.mul(y, y));
+            let (sum, difference) = (g.add(x, y), g.sub(x, y));
+            let (plain, factored) = (g.sub(xx, yy), g.mul(sum, difference));
+            (squares, product) = (g.mul(squares, plain), g.mul(product, factored));
+        }
+        let candidates = [candidate(&mut g, squares), candidate(&mut g, product)];
+        assert_eq!(candidates[0].cost(), candidates[1].cost());
+        assert_eq!(best(&g, &candidates), 1);
+        let [squares, product] = candidates;
+        let turned = [product, squares];
+        assert_eq!(best(&g, &turned), 0);
+        // Before programs are finished the order decides.
+        assert_eq!(promising(&g, &turned), 0);
+        let [product, squares] = turned;
+        assert_eq!(promising(&g, &[squares, product]), 0);
+    }
+
+    #[test]
+    fn the_factored_form_is_taken_next_to_a_pole() {
         let mut g = Graph::new();
         let (x, y) = (g.symbol("x", Role::Coordinate), g.symbol("y", Role::Coordinate));
         let (xx, yy) = (g.mul(x, x), g.mul(y, y));
