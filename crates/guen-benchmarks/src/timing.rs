@@ -11,6 +11,8 @@ use std::time::{Duration, Instant};
 use guen::System;
 use guen_study::median_with_interval;
 
+pub use crate::processor::processor_time;
+
 /// The states that throughput is measured over: more than a branch predictor remembers, and in the cache.
 pub const STATES: usize = 1024;
 /// How long a batch lasts, at least.
@@ -157,13 +159,6 @@ pub fn compare(first: &mut dyn Timed, second: &mut dyn Timed, pairs: usize) -> C
         .collect();
     let (ratio, interval) = median_with_interval(&mut ratios).expect("a pair at least");
     Comparison { nanoseconds: shortest, ratio, interval }
-}
-
-/// Seconds that this thread has spent on a processor, whatever else the machine did; NaN where the system does not tell.
-pub fn processor_time() -> f64 {
-    let text = std::fs::read_to_string("/proc/thread-self/schedstat").unwrap_or_default();
-    let nanoseconds = text.split(' ').next().and_then(|first| first.parse::<f64>().ok());
-    nanoseconds.map_or(f64::NAN, |nanoseconds| nanoseconds * 1e-9)
 }
 
 /// Seconds that processes started and waited for by this one have spent on processors, in steps of a hundredth; NaN

@@ -188,7 +188,9 @@ fn bounded_work_never_exceeds_its_bound_and_says_what_it_left() {
         assert!(found.statistics.evaluations <= u64::from(evaluations));
         for ((x, expected), error) in found.state.iter().zip(reference).zip(found.error) {
             let off = (x - expected).abs();
-            assert!(off <= error + 4e-16, "{evaluations}: {off:e} {error:e}");
+            // The estimate is of truncation: of states of about one each step leaves a rounding, here and in the reference.
+            let rounding = f64::EPSILON * (steps + 1) as f64;
+            assert!(off <= error + rounding, "{evaluations}: {off:e} {error:e}");
         }
         assert!(found.error[0] <= last);
         last = found.error[0];

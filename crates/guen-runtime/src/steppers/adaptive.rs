@@ -1,6 +1,6 @@
 //! The loop around an explicit formula with an error estimate: trial steps until one is good enough.
 
-use super::control::{self, Control, Tolerance};
+use super::control::{self, Control, Margin, Tolerance};
 use super::course::{Course, Reached};
 use super::dense::Dense;
 use super::{all_finite, shifted};
@@ -20,19 +20,20 @@ pub struct Settings {
 pub trait Pair<R: Real, const N: usize> {
     /// The slopes of a step, as far as dense output needs them.
     type Stages: Copy;
+    /// What the error of a step is measured by.
+    type Errors;
 
     /// Evaluations of a trial step, the slope at its beginning not counted.
     const TRIAL: u64;
     const CONTROL: Control;
 
     /// A step on trial from `x` with the slope `k1`. The slope at the end is `Some` if the formula computes it.
-    fn attempt<S>(&self, system: &S, t: R, x: &[R; N], k1: &[R; N], h: R) -> Attempt<R, Self::Stages, N>
+    fn attempt<S>(&self, system: &S, t: R, x: &[R; N], k1: &[R; N], h: R) -> Attempt<R, Self, N>
     where
         S: System<R, N> + ?Sized;
 
-    /// How far a step of size `h` is from being rejected: `err^-2`, with the error in units of the tolerance. A step is
-    /// good from one on. The reciprocal square is what takes the shortest to compute while the next step waits for it.
-    fn margin(&self, attempt: &Attempt<R, Self::Stages, N>, h: f64, weights: &[f64; N]) -> f64;
+    /// The error of a step of size `h` in units of the tolerance.
+    fn margin(&self, errors: &Self::Errors, h: f64, weights: &[f64; N]) -> Margin;
 
     /// The polynomial over a step, with the slope at its end, and the evaluations that it took.
     fn dense<S>(&self, system: &S, step: &Step<'_, R, Self::Stages, N>) -> (Dense<R, N>, u64)
@@ -40,9 +41,13 @@ pub trait Pair<R: Real, const N: usize> {
         S: System<R, N> + ?Sized;
 }
 
-pub struct Attempt<R, K, const N: usize> {
+/// A step on trial.
+pub struct Attempt<R: Real, P: Pair<R, N> + ?Sized, const N: usize> {
     pub state: [R; N],
-    pub stages: K,
+    /// About that state, for the sizes of its entries: what is known of it early.
+    pub guess: [R; N],
+    pub stages: P::Stages,
+    pub errors: P::Errors,
     pub end: Option<[R; N]>,
 }
 
@@ -72,6 +77,8 @@ pub struct Adaptive<'a, P, K, R, const N: usize> {
 struct Ready<R, const N: usize> {
     slope: [R; N],
     step: f64,
+    /// How the step before did, independently of its size.
+    level: Option<f64>,
 }
 
 impl<'a, P, R, const N: usize> Adaptive<'a, P, P::Stages, R, N>
@@ -102,7 +109,11 @@ where
         }
         if let Some(step) = self.settings.first_step {
             let valid = step > 0.0 && step.is_finite();
-            return if valid { Ok(Ready { slope, step }) } else { Err(Cause::Setting(Setting::Step)) };
+            return if valid {
+                Ok(Ready { slope, step, level: None })
+            } else {
+                Err(Cause::Setting(Setting::Step))
+            };
         }
         let span = (target - time).to_f64();
         let (guess, slope_size) = tolerance.first_guess(&state, &slope, span.abs());
@@ -116,7 +127,121 @@ where
         } else {
             guess
         };
-        Ok(Ready { slope, step })
+        Ok(Ready { slope, step, level: None })
+    }
+    /// Makes so many accepted steps, or fewer if it arrives.
+    fn steps<S>(&mut self, system: &S, target: R, dense: bool, steps: u32) -> Result<(), Cause>
+    where
+        S: System<R, N> + ?Sized,
+    {
+        let mut ready = match self.ready {
+            Some(ready) => ready,
+            None => self.start(system, target)?,
+        };
+        // Copies that nobody else knows of stay in registers from step to step. In memory, slopes are written one by one
+        // and read together, for which a processor waits until all that was written before is in its cache.
+        let mut reached = self.reached;
+        let mut made = Ok(());
+        for _ in 0..steps {
+            let from = reached;
+            made = step(self.pair, self.settings, system, target, &mut reached, &mut ready).map(|stages| {
+                if dense {
+                    self.before = from;
+                    self.stages = Some(stages);
+                }
+            });
+            if made.is_err() || reached.time == target {
+                break;
+            }
+        }
+        self.reached = reached;
+        self.ready = Some(ready);
+        made
+    }
+}
+
+/// Makes one accepted step.
+#[inline(always)]
+fn step<P, R, S, const N: usize>(
+    pair: &P,
+    Settings { tolerance, max_steps, .. }: Settings,
+    system: &S,
+    target: R,
+    reached: &mut Reached<R, N>,
+    ready: &mut Ready<R, N>,
+) -> Result<P::Stages, Cause>
+where
+    P: Pair<R, N>,
+    R: Ordered,
+    S: System<R, N> + ?Sized,
+{
+    let Ready { slope, mut step, level } = *ready;
+    let Reached { time, state, .. } = *reached;
+    let statistics = &mut reached.statistics;
+    let rest = target - time;
+    let span = rest.to_f64();
+    let shortest = control::shortest(time);
+    let mut rejected = false;
+    let mut finite = true;
+    loop {
+        if statistics.accepted + statistics.rejected >= max_steps {
+            return Err(Cause::TooManySteps { limit: max_steps });
+        }
+        if step <= shortest {
+            return Err(if finite { Cause::StepUnderflow } else { Cause::NotFinite });
+        }
+        let landing = control::STRETCH * step > span.abs();
+        let (next, h) = if landing {
+            (target, rest)
+        } else {
+            let h = R::from_f64(step.copysign(span));
+            (time + h, h)
+        };
+        let size = if landing { span.abs() } else { step };
+        // Known before the step is made, so that nothing waits for it afterwards.
+        let trend = P::CONTROL.trend(level, size);
+        let attempt = pair.attempt(system, time, &state, &slope, h);
+        statistics.evaluations += P::TRIAL;
+        let margin = pair.margin(&attempt.errors, size, &tolerance.weights(&state, &attempt.guess));
+        finite = all_finite(&attempt.state) && margin.is_finite();
+        if finite && margin.is_enough() {
+            let mut accepted = attempt.state;
+            system.restore(next, &mut accepted).map_err(|_| Cause::Positions)?;
+            let next_slope = match attempt.end {
+                // Of the very state that goes on: nothing was put back.
+                Some(end) if accepted == attempt.state => end,
+                _ => {
+                    statistics.evaluations += 1;
+                    system.rhs(next, &accepted)
+                }
+            };
+            finite = all_finite(&next_slope);
+            if finite {
+                let margin = margin.log2();
+                let mut next_step = size * P::CONTROL.factor_after_success(margin, trend);
+                if rejected {
+                    next_step = next_step.min(size);
+                }
+                // What was asked for beyond the landing has not become wrong by the landing.
+                if landing {
+                    next_step = next_step.max(step);
+                }
+                let level = Some(P::CONTROL.level(margin, size));
+                *ready = Ready { slope: next_slope, step: next_step, level };
+                statistics.accepted += 1;
+                reached.time = next;
+                reached.state = accepted;
+                return Ok(attempt.stages);
+            }
+        }
+        statistics.rejected += 1;
+        rejected = true;
+        let factor = if finite {
+            P::CONTROL.factor_after_failure(margin.log2())
+        } else {
+            P::CONTROL.factor_out_of_domain()
+        };
+        step = size * factor;
     }
 }
 
@@ -135,78 +260,11 @@ where
     }
 
     fn advance(&mut self, system: &S, target: R, dense: bool) -> Result<(), Cause> {
-        let Ready { slope, mut step } = match self.ready {
-            Some(ready) => ready,
-            None => self.start(system, target)?,
-        };
-        let Settings { tolerance, max_steps, .. } = self.settings;
-        let Reached { time, state, .. } = self.reached;
-        let rest = target - time;
-        let span = rest.to_f64();
-        let shortest = control::shortest(time);
-        let mut rejected = false;
-        let mut finite = true;
-        loop {
-            let statistics = &mut self.reached.statistics;
-            if statistics.accepted + statistics.rejected >= max_steps {
-                return Err(Cause::TooManySteps { limit: max_steps });
-            }
-            if step <= shortest {
-                return Err(if finite { Cause::StepUnderflow } else { Cause::NotFinite });
-            }
-            let landing = control::STRETCH * step > span.abs();
-            let (next, h) = if landing {
-                (target, rest)
-            } else {
-                let h = R::from_f64(step.copysign(span));
-                (time + h, h)
-            };
-            let size = if landing { span.abs() } else { step };
-            let attempt = self.pair.attempt(system, time, &state, &slope, h);
-            statistics.evaluations += P::TRIAL;
-            let margin = self.pair.margin(&attempt, size, &tolerance.weights(&state, &attempt.state));
-            finite = all_finite(&attempt.state) && !margin.is_nan();
-            if finite && margin >= 1.0 {
-                let mut accepted = attempt.state;
-                system.restore(next, &mut accepted).map_err(|_| Cause::Positions)?;
-                let next_slope = match attempt.end {
-                    // Of the very state that goes on: nothing was put back.
-                    Some(end) if accepted == attempt.state => end,
-                    _ => {
-                        statistics.evaluations += 1;
-                        system.rhs(next, &accepted)
-                    }
-                };
-                finite = all_finite(&next_slope);
-                if finite {
-                    let mut next_step = size * P::CONTROL.factor_after_success(margin);
-                    if rejected {
-                        next_step = next_step.min(size);
-                    }
-                    // What was asked for beyond the landing has not become wrong by the landing.
-                    if landing {
-                        next_step = next_step.max(step);
-                    }
-                    self.ready = Some(Ready { slope: next_slope, step: next_step });
-                    if dense {
-                        self.before = self.reached;
-                        self.stages = Some(attempt.stages);
-                    }
-                    self.reached.statistics.accepted += 1;
-                    self.reached.time = next;
-                    self.reached.state = accepted;
-                    return Ok(());
-                }
-            }
-            statistics.rejected += 1;
-            rejected = true;
-            let factor = if finite {
-                P::CONTROL.factor_after_failure(margin)
-            } else {
-                P::CONTROL.factor_out_of_domain()
-            };
-            step = size * factor;
-        }
+        self.steps(system, target, dense, 1)
+    }
+
+    fn go_on(&mut self, system: &S, target: R, steps: u32) -> Result<(), Cause> {
+        self.steps(system, target, false, steps)
     }
 
     fn dense(&mut self, system: &S) -> Dense<R, N> {

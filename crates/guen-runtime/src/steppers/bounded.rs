@@ -3,7 +3,7 @@
 use super::adaptive::Pair;
 use super::all_finite;
 use super::course::{Reached, Statistics};
-use super::tableau::Tableau;
+use super::tableau::{Tableau, Trial};
 use super::tsit5::Formula;
 use crate::error::{Cause, IntegrationError, Setting};
 use crate::real::{Ordered, Real};
@@ -98,26 +98,18 @@ impl<R: Ordered> Bounded<R> {
             return Err(start.failed(Cause::Setting(Setting::Time)));
         }
         match &self.formula {
-            Kind::Dop853(tableau) => {
-                advance(tableau, system, start, t1, steps, |stages, h| dop853_error(tableau, stages, h))
-            }
-            Kind::Tsit5(formula) => {
-                advance(formula, system, start, t1, steps, |stages, h| formula.estimate(stages, h))
-            }
+            Kind::Dop853(tableau) => advance(tableau, system, start, t1, steps, dop853_error),
+            Kind::Tsit5(formula) => advance(formula, system, start, t1, steps, |errors: &[R; N], h| {
+                errors.map(|error| (h * error.to_f64()).abs())
+            }),
         }
     }
 }
 
 /// DOP853's two estimates as one, for each entry.
-fn dop853_error<R: Real, const N: usize>(
-    tableau: &Tableau<R>,
-    stages: &super::tableau::Stages<R, N>,
-    h: f64,
-) -> [f64; N] {
-    let slope = tableau.slope(stages);
-    let (five, three) = (tableau.error5(stages), tableau.error3(stages, &slope));
+fn dop853_error<R: Real, const N: usize>(errors: &Trial<R, N>, h: f64) -> [f64; N] {
     core::array::from_fn(|i| {
-        let (five, three) = (five[i].to_f64(), three[i].to_f64());
+        let (five, three) = (errors.error5[i].to_f64(), errors.error3[i].to_f64());
         let size = libm::sqrt(five * five + 0.01 * three * three);
         if five == 0.0 { 0.0 } else { h * five * (five / size).abs() }.abs()
     })
@@ -129,7 +121,7 @@ fn advance<P, S, R, const N: usize>(
     mut reached: Reached<R, N>,
     t1: R,
     steps: u32,
-    estimate: impl Fn(&P::Stages, f64) -> [f64; N],
+    estimate: impl Fn(&P::Errors, f64) -> [f64; N],
 ) -> Result<Bound<R, N>, IntegrationError<R, N>>
 where
     P: Pair<R, N>,
@@ -155,7 +147,7 @@ where
             return Err(reached.failed(Cause::NotFinite));
         }
         system.restore(next, &mut state).map_err(|_| reached.failed(Cause::Positions))?;
-        for (sum, part) in error.iter_mut().zip(estimate(&attempt.stages, h.to_f64().abs())) {
+        for (sum, part) in error.iter_mut().zip(estimate(&attempt.errors, h.to_f64().abs())) {
             *sum += part;
         }
         // Where the state was put back, the slope at the end is that of the state before, by a difference of the size

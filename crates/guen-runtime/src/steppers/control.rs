@@ -4,7 +4,9 @@
 //! step stays a constant when the state is a dual, whose tangents must not be led through the control.
 //!
 //! Source: the program `dop853.f` named in the coefficients' module, with its default settings and without the
-//! stabilised control (`beta = 0`); the other methods differ in the constants that they give.
+//! stabilised control (`beta = 0`), from which two things differ. The explicit methods predict the error of the next step from
+//! that of two steps, and aim at a smaller part of the tolerance: `docs/integrators.md` has what that is worth. The other
+//! methods differ in the constants that they give.
 
 use crate::error::{Cause, Setting};
 use crate::real::Real;
@@ -20,19 +22,54 @@ pub struct Control {
     pub shorten: f64,
     /// A step never grows beyond this multiple of the one before.
     pub grow: f64,
+    /// Whether a growing error is expected to go on to grow: see [`Control::factor_after_success`].
+    pub predict: bool,
 }
 
 impl Control {
-    /// The factor on the step that is predicted to meet the tolerance, for a step with an error of `margin^(-1/2)`.
+    /// The factor on the step that is predicted to meet the tolerance, for a step with an error of `2^(-margin/2)`.
     #[inline]
     fn factor(&self, margin: f64) -> f64 {
-        self.safety * rough_root(margin, 2 * self.power)
+        self.safety * rough_exp2(margin * (0.5 / f64::from(self.power)))
     }
 
-    /// The factor to the next step after an accepted step.
+    /// The factor to the next step after an accepted step, with the [`trend`](Control::trend) that it is part of: the
+    /// smaller of two predictions, that the error stays what it is for steps of the same size, and that it goes on to grow as
+    /// it did from the step before.
+    ///
+    /// ```text
+    /// safety min(err_n^(-1/p), (h_n / h_(n-1)) (err_(n-1) / err_n^2)^(1/p))
+    /// ```
+    ///
+    /// Source: K. Gustafsson, *Control-theoretic techniques for stepsize selection in implicit Runge-Kutta methods*, ACM
+    /// Transactions on Mathematical Software 20 (1994) 496-517, whose prediction it is; the smaller of both is taken by the
+    /// program `radau5.f` of E. Hairer and G. Wanner.
     #[inline]
-    pub fn factor_after_success(&self, margin: f64) -> f64 {
-        self.factor(margin).clamp(self.shorten, self.grow)
+    pub fn factor_after_success(&self, margin: f64, trend: f64) -> f64 {
+        self.factor(margin + (margin + trend).min(0.0)).clamp(self.shorten, self.grow)
+    }
+
+    /// What has to be added to the margin of a step of this size to have its change since the step before, of which the
+    /// [`level`](Control::level) is given, had that been of the same size. Zero if there was none: no change for the worse.
+    #[inline]
+    pub fn trend(&self, before: Option<f64>, size: f64) -> f64 {
+        match before {
+            Some(level) if self.predict => self.scale(size) - level,
+            _ => 0.0,
+        }
+    }
+
+    /// The margin that a step of size one would have had in the place of one of this size and with this margin.
+    #[inline]
+    pub fn level(&self, margin: f64, size: f64) -> f64 {
+        /// The margin of an error of `1e-4`: a smaller error says nothing about the next.
+        const LARGEST: f64 = 26.6;
+        margin.min(LARGEST) + self.scale(size)
+    }
+
+    #[inline]
+    fn scale(&self, size: f64) -> f64 {
+        f64::from(2 * self.power) * rough_log2(size)
     }
 
     /// The factor to the repeated step after a rejected step.
@@ -59,35 +96,82 @@ impl Control {
     }
 }
 
-/// `x^(1/power)` of a positive number to almost four digits, as `2^(log2(x)/power)`: enough for a step, and without a
-/// division or a root, which the next step would wait for.
-///
-/// ```text
-/// log2(1 + m) = m + m (1 - m) (L_0 + L_1 m + L_2 m^2)     0 <= m < 1          off by at most 1.2e-4
-/// 2^f = 1 + f (E_0 + E_1 f + E_2 f^2)                     -1/2 <= f <= 1/2    off by at most 1.1e-4, relative
-/// ```
-///
-/// Both are minimax with their ends held, by Lawson's weights on 401 points.
+/// The error of a step in units of the tolerance, as the ratio of two numbers: `err^2 = found / allowed`. Nothing is
+/// divided, and no root taken, while the next step waits for it.
+#[derive(Clone, Copy, Debug)]
+pub struct Margin {
+    pub allowed: f64,
+    pub found: f64,
+}
+
+impl Margin {
+    /// Of a mean of the squares of `N` weighted errors, the sum of which is given.
+    #[inline]
+    pub fn of_mean<const N: usize>(squares: f64) -> Self {
+        Self { allowed: N as f64, found: squares }
+    }
+
+    #[inline]
+    pub fn is_finite(self) -> bool {
+        self.found < f64::INFINITY && self.allowed < f64::INFINITY
+    }
+
+    /// Whether the error is within the tolerance.
+    #[inline]
+    pub fn is_enough(self) -> bool {
+        self.found <= self.allowed
+    }
+
+    /// `-2 log2(err)` to almost four digits after the point; large without any error.
+    #[inline]
+    pub fn log2(self) -> f64 {
+        rough_log2(self.allowed) - rough_log2(self.found)
+    }
+}
+
+/// `x^(1/power)` of a positive number to almost four digits, as `2^(log2(x)/power)`.
 #[inline]
 fn rough_root(x: f64, power: u32) -> f64 {
-    const ONE: u64 = 1.0_f64.to_bits();
-    const FRACTION: u64 = (1 << 52) - 1;
-    const L: [f64; 3] = [0.438726, -0.239058, 0.0821306];
-    const E: [f64; 3] = [0.693283, 0.242211, 0.0550089];
-    /// `2^52 + 2^51`: added to a number, it rounds that to an integer, whose low bits are then those of the sum.
-    const ROUND: f64 = 6_755_399_441_055_744.0;
-
     if !(x > 0.0 && x < f64::INFINITY) {
         return x;
     }
+    rough_exp2(rough_log2(x) * (1.0 / f64::from(power)))
+}
+
+/// The logarithm to the base two of a positive finite number: enough for a step, and without a division, which the next
+/// step would wait for. Of zero it is -1023.
+///
+/// ```text
+/// log2(1 + m) = m + m (1 - m) (L_0 + L_1 m + L_2 m^2)     0 <= m < 1          off by at most 1.2e-4
+/// ```
+///
+/// Minimax with the ends held, by Lawson's weights on 401 points, as that of [`rough_exp2`].
+#[inline]
+fn rough_log2(x: f64) -> f64 {
+    const ONE: u64 = 1.0_f64.to_bits();
+    const FRACTION: u64 = (1 << 52) - 1;
+    const L: [f64; 3] = [0.438726, -0.239058, 0.0821306];
+
     let bits = x.to_bits();
     let m = f64::from_bits(bits & FRACTION | ONE) - 1.0;
     // The exponent and `m`, which the bits are with a point after the twelfth.
     let linear = (bits as i64 - ONE as i64) as f64 * f64::EPSILON;
-    let log = linear + (m * (1.0 - m)) * ((L[0] + L[1] * m) + L[2] * (m * m));
-    let log = log * (1.0 / f64::from(power));
-    let shifted = log + ROUND;
-    let f = log - (shifted - ROUND);
+    linear + (m * (1.0 - m)) * ((L[0] + L[1] * m) + L[2] * (m * m))
+}
+
+/// `2^x` for `abs(x) <= 1000`.
+///
+/// ```text
+/// 2^f = 1 + f (E_0 + E_1 f + E_2 f^2)                     -1/2 <= f <= 1/2    off by at most 1.1e-4, relative
+/// ```
+#[inline]
+fn rough_exp2(x: f64) -> f64 {
+    const E: [f64; 3] = [0.693283, 0.242211, 0.0550089];
+    /// `2^52 + 2^51`: added to a number, it rounds that to an integer, whose low bits are then those of the sum.
+    const ROUND: f64 = 6_755_399_441_055_744.0;
+
+    let shifted = x + ROUND;
+    let f = x - (shifted - ROUND);
     let mantissa = 1.0 + f * ((E[0] + E[1] * f) + E[2] * (f * f));
     f64::from_bits(mantissa.to_bits().wrapping_add(shifted.to_bits() << 52))
 }
@@ -176,13 +260,6 @@ pub(super) fn size<R: Real, const N: usize>(values: &[R; N], weights: &[f64; N])
         .iter()
         .zip(weights)
         .fold(0.0, |most, (value, weight)| f64::max(most, value.to_f64().abs() * weight))
-}
-
-/// How far a step is from being rejected, for the mean of the squares of its weighted error: the reciprocal of that
-/// mean. One at the limit, infinite without any error.
-#[inline]
-pub(super) fn margin<const N: usize>(squares: f64) -> f64 {
-    N as f64 / squares
 }
 
 #[cfg(test)]

@@ -121,6 +121,23 @@ pub trait Course<R: Real, S: ?Sized, const N: usize> {
     /// What made the step impossible; the run stands where it stood.
     fn advance(&mut self, system: &S, target: R, dense: bool) -> Result<(), Cause>;
 
+    /// Makes as many accepted steps towards `target` as are given, at least one: fewer if it arrives, and none that is known
+    /// to be the last but the first. The same as [`advance`](Course::advance) as often, where nobody looks in between; a
+    /// method can keep in registers then what it would leave in memory.
+    ///
+    /// # Errors
+    ///
+    /// What made a step impossible; the run stands where it stood before that step.
+    fn go_on(&mut self, system: &S, target: R, steps: u32) -> Result<(), Cause> {
+        for made in 0..steps.max(1) {
+            if made > 0 && (self.reached().time == target || self.is_last(target)) {
+                break;
+            }
+            self.advance(system, target, false)?;
+        }
+        Ok(())
+    }
+
     /// Whether the next step towards `target` is known to be the last; only methods with a fixed step know.
     #[inline]
     fn is_last(&self, _target: R) -> bool {

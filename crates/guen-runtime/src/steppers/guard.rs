@@ -50,7 +50,7 @@ pub struct Guard {
     /// How far functions that are carried as states may be from what they stand for: the largest of `|w - f|/(1 + |f|)`
     /// and of what is left of `sin^2 + cos^2 - 1` and the like. By default 0.01, as for the energy.
     pub carried: f64,
-    /// The distance to the edge of the chart at which to stop: what is [`left`](Rounded::left) of each function that
+    /// The distance to the edge of the chart at which to stop: what is [`left`](crate::Rounded::left) of each function that
     /// must not vanish, given that every entry of the state is uncertain by a rounding of the largest value that it has
     /// had. By default `1e-8`, where a term with its square in the denominator has no digits left in `f64`; in another
     /// real the limit is multiplied by the root of the ratio of the roundings. A change of sign always ends the run.
@@ -174,14 +174,28 @@ impl<R: Real, const N: usize> Watch<R, N> {
         self.fixed && (last || self.until_look == 1)
     }
 
-    /// Counts a step, and looks if it is time to; `before` is where the step began, if that was wanted.
+    /// As many steps can be made before anything has to be told.
     #[inline]
-    pub fn step<C, S>(&mut self, system: &S, before: Option<&Reached<R, N>>, course: &C) -> Result<(), Cause>
+    pub fn patience(&self) -> u32 {
+        if self.fixed { (self.until_look - 1).max(1) } else { self.until_look }
+    }
+
+    /// Counts the steps since `from`, no more than [`patience`](Watch::patience) allowed, and looks if it is time to;
+    /// `before` is where the last one began, if that was wanted.
+    #[inline]
+    pub fn step<C, S>(
+        &mut self,
+        system: &S,
+        from: u64,
+        before: Option<&Reached<R, N>>,
+        course: &C,
+    ) -> Result<(), Cause>
     where
         C: Course<R, S, N>,
         S: System<R, N> + ?Sized,
     {
-        self.until_look -= 1;
+        let made = course.reached().statistics.accepted.saturating_sub(from);
+        self.until_look = self.until_look.saturating_sub(u32::try_from(made).unwrap_or(u32::MAX));
         if self.until_look > 0 {
             return Ok(());
         }

@@ -166,10 +166,16 @@ impl<'a, R: Real, S: System<R, N> + ?Sized, const N: usize, const E: usize> Inte
             if kept {
                 before = *course.reached();
             }
-            if let Err(cause) = course.advance(self.system, t1, kept) {
+            let from = course.reached().statistics.accepted;
+            let made = if kept || self.observer.is_some() {
+                course.advance(self.system, t1, kept)
+            } else {
+                course.go_on(self.system, t1, watch.patience())
+            };
+            if let Err(cause) = made {
                 return Err(watch.stopped(self.system, &course, cause));
             }
-            if let Err(cause) = watch.step(self.system, kept.then_some(&before), &course) {
+            if let Err(cause) = watch.step(self.system, from, kept.then_some(&before), &course) {
                 return Err(watch.good(course.reached()).failed(cause));
             }
             if dense {

@@ -36,10 +36,16 @@ where
             if kept {
                 before = *course.reached();
             }
-            if let Err(cause) = course.advance(system, time, kept) {
+            let from = course.reached().statistics.accepted;
+            let made = if kept {
+                course.advance(system, time, kept)
+            } else {
+                course.go_on(system, time, watch.patience())
+            };
+            if let Err(cause) = made {
                 return Err(watch.stopped(system, &course, cause));
             }
-            if let Err(cause) = watch.step(system, kept.then_some(&before), &course) {
+            if let Err(cause) = watch.step(system, from, kept.then_some(&before), &course) {
                 return Err(watch.good(course.reached()).failed(cause));
             }
         }

@@ -102,6 +102,30 @@ fn leading<R: Real, const N: usize, const M: usize>(weights: &[R], slopes: [&[R;
     sum
 }
 
+/// The part of a stage's argument that is known before its last slope.
+#[inline(always)]
+fn ahead<const EARLY: bool, R: Real, const N: usize, const M: usize>(
+    x: &[R; N],
+    h: R,
+    weights: &[R],
+    slopes: [&[R; N]; M],
+) -> [R; N] {
+    let sum = leading(weights, slopes);
+    if EARLY { shifted(x, h, &sum) } else { sum }
+}
+
+/// A stage's argument, from what [`ahead`] knew and the last slope with its weight.
+#[inline(always)]
+fn arrived<const EARLY: bool, R: Real, const N: usize>(
+    x: &[R; N],
+    h: R,
+    near: &[R; N],
+    weight: R,
+    slope: &[R; N],
+) -> [R; N] {
+    if EARLY { shifted(near, h * weight, slope) } else { shifted(x, h, &shifted(near, weight, slope)) }
+}
+
 /// Whether every entry is finite.
 #[inline]
 fn all_finite<R: Real, const N: usize>(x: &[R; N]) -> bool {

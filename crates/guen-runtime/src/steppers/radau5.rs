@@ -2,7 +2,7 @@
 
 use super::all_finite;
 use super::collocation::{Collocation, Factors, combined};
-use super::control::{self, Control, Tolerance};
+use super::control::{self, Control, Margin, Tolerance};
 use super::course::{Course, Method, Reached};
 use super::dense::Dense;
 use super::landing::short_ways;
@@ -76,7 +76,7 @@ const REAL: Parts = decimal("3.637834252744495732208418513577776");
 const RE: Parts = decimal("2.681082873627752133895790743211112");
 const IM: Parts = decimal("3.050430199247410569426377624787568");
 
-const CONTROL: Control = Control { power: 4, safety: 0.9, shorten: 0.125, grow: 5.0 };
+const CONTROL: Control = Control { power: 4, safety: 0.9, shorten: 0.125, grow: 5.0, predict: false };
 
 impl<R: Ordered> Radau5<R> {
     /// The number of trial steps allowed unless another one is set.
@@ -326,17 +326,17 @@ where
                     let sum = combined(&self.method.error, &z);
                     let defect: [R; N] = core::array::from_fn(|k| slope[k] + recip * sum[k]);
                     let mut off = lu.solve(defect);
-                    let mut margin = control::margin::<N>(control::squares(&off, &weights));
-                    if margin < 1.0 && (rejected || self.last.is_none()) {
+                    let mut margin = Margin::of_mean::<N>(control::squares(&off, &weights));
+                    if margin.is_finite() && !margin.is_enough() && (rejected || self.last.is_none()) {
                         let moved = core::array::from_fn(|k| state[k] + off[k]);
                         let again = system.rhs(time, &moved);
                         self.reached.statistics.evaluations += 1;
                         off = lu.solve(core::array::from_fn(|k| again[k] + recip * sum[k]));
-                        margin = control::margin::<N>(control::squares(&off, &weights));
+                        margin = Margin::of_mean::<N>(control::squares(&off, &weights));
                     }
                     let mut reached: [R; N] = core::array::from_fn(|k| state[k] + z[2][k]);
-                    let finite = all_finite(&reached) && !margin.is_nan();
-                    if finite && margin >= 1.0 {
+                    let finite = all_finite(&reached) && margin.is_finite();
+                    if finite && margin.is_enough() {
                         system.restore(next, &mut reached).map_err(|_| Cause::Positions)?;
                         let next_slope = system.rhs(next, &reached);
                         self.reached.statistics.evaluations += 1;
@@ -344,7 +344,7 @@ where
                             // Many iterations are a sign that the step is long for Newton's method.
                             let effort =
                                 f64::from(ITERATIONS_CHEAP) / f64::from(ITERATIONS_CHEAP + iterations);
-                            let mut growth = effort * CONTROL.factor_after_success(margin);
+                            let mut growth = effort * CONTROL.factor_after_success(margin.log2(), 0.0);
                             if rejected {
                                 growth = growth.min(1.0);
                             }
@@ -369,7 +369,7 @@ where
                         CONTROL.factor_out_of_domain()
                     } else if finite {
                         trouble = Cause::StepUnderflow;
-                        CONTROL.factor_after_failure(margin)
+                        CONTROL.factor_after_failure(margin.log2())
                     } else {
                         trouble = Cause::NotFinite;
                         CONTROL.factor_out_of_domain()

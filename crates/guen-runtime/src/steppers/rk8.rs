@@ -97,9 +97,7 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Formula<R, S, N> for Rk8
         to: &Reached<R, N>,
     ) -> [f64; N] {
         let h = (to.time - from.time).to_f64().abs();
-        let slope = self.tableau.slope(&memory.stages);
-        let five = self.tableau.error5(&memory.stages).map(|error| error.to_f64().abs());
-        let three = self.tableau.error3(&memory.stages, &slope).map(|error| error.to_f64().abs());
+        let [five, three] = self.tableau.errors(&memory.stages).map(|e| e.map(|e| e.to_f64().abs()));
         core::array::from_fn(|i| {
             let part = five[i] / libm::hypot(five[i], 0.1 * three[i]);
             if five[i] == 0.0 { 0.0 } else { h * five[i] * part }
@@ -120,7 +118,7 @@ impl<R: Real> Rk8<R> {
         statistics: &mut Statistics,
     ) -> [R; N] {
         let k1 = memory.slopes.begin(system, from, statistics);
-        let stages = self.tableau.stages::<false, S, N>(system, from.time, &from.state, &k1, h);
+        let stages = self.tableau.step::<false, S, N>(system, from.time, &from.state, &k1, h).stages;
         statistics.evaluations += 11;
         if dense {
             memory.stages = stages;

@@ -4,7 +4,7 @@
 use super::course::Reached;
 use super::dense::Dense;
 use super::dop853_coefficients as published;
-use super::{leading, shifted, weighted};
+use super::{ahead, arrived, leading, shifted, weighted};
 use crate::decimal::reals;
 use crate::real::Real;
 use crate::system::System;
@@ -28,7 +28,7 @@ pub struct Tableau<R = f64> {
     a12: [R; 9],
     b: [R; 8],
     e5: [R; 8],
-    b3: [R; 3],
+    e3: [R; 8],
     c_dense: [R; 3],
     a14: [R; 8],
     a15: [R; 8],
@@ -50,9 +50,20 @@ pub struct Trial<R, const N: usize> {
 /// The slopes of stages 1 and 6 to 12, which weights and interpolant are made of.
 pub type Stages<R, const N: usize> = [[R; N]; 8];
 
+/// A step with what it was made of.
+pub(super) struct Made<R, const N: usize> {
+    pub trial: Trial<R, N>,
+    /// The argument of the last stage, which is at the end of the step too and known one slope earlier.
+    pub guess: [R; N],
+    pub stages: Stages<R, N>,
+}
+
 impl<R: Real> Tableau<R> {
     /// Converts the published decimals.
     pub fn new() -> Self {
+        let b: [R; 8] = reals(&published::B);
+        let [first, ninth, last]: [R; 3] = reals(&published::B3);
+        let e3 = [b[0] - first, b[1], b[2], b[3], b[4] - ninth, b[5], b[6], b[7] - last];
         Self {
             c: reals(&published::C),
             a2: reals(&published::A2),
@@ -66,9 +77,9 @@ impl<R: Real> Tableau<R> {
             a10: reals(&published::A10),
             a11: reals(&published::A11),
             a12: reals(&published::A12),
-            b: reals(&published::B),
+            b,
             e5: reals(&published::E5),
-            b3: reals(&published::B3),
+            e3,
             c_dense: reals(&published::C_DENSE),
             a14: reals(&published::A14),
             a15: reals(&published::A15),
@@ -100,31 +111,26 @@ impl<R: Real> Tableau<R> {
     where
         S: System<R, N> + ?Sized,
     {
-        let stages = self.stages::<false, S, N>(system, t, x, k1, h);
-        let slope = self.slope(&stages);
-        Trial {
-            state: shifted(x, h, &slope),
-            error5: self.error5(&stages),
-            error3: self.error3(&stages, &slope),
-        }
+        self.step::<false, S, N>(system, t, x, k1, h).trial
     }
 
-    /// The slopes of the stages, by eleven evaluations.
+    /// A step with its stages, by eleven evaluations.
     ///
     /// Everything but the term of the slope computed last is summed up before that slope is asked for: the processor does it
-    /// while it waits, and no slope is read in registers longer than those it was just written from, which stalls it.
+    /// while it waits, and no slope is read in registers longer than those it was just written from, which stalls it. The
+    /// same holds for the new state and for both errors.
     /// With `EARLY` the state and the step are in that sum too, so that a stage waits for one product and one sum in place of
     /// two of each: `(x + h sum_j a_j k_j) + (h a) k` and not `x + h (sum_j a_j k_j + a k)`. The product `h a` is rounded,
     /// with a fixed step always to the same side, which compensated sums would show.
     #[inline]
-    pub(super) fn stages<const EARLY: bool, S, const N: usize>(
+    pub(super) fn step<const EARLY: bool, S, const N: usize>(
         &self,
         system: &S,
         t: R,
         x: &[R; N],
         k1: &[R; N],
         h: R,
-    ) -> Stages<R, N>
+    ) -> Made<R, N>
     where
         S: System<R, N> + ?Sized,
     {
@@ -143,25 +149,61 @@ impl<R: Real> Tableau<R> {
         let k5 = system.rhs(t + c[3] * h, &at5);
         let at6 = arrived::<EARLY, _, _>(x, h, &near6, self.a6[2], &k5);
         let near7 = ahead::<EARLY, _, _, _>(x, h, &self.a7, [k1, &k4, &k5]);
+        let head8 = head::<EARLY, _, _, _>(x, h, &self.a8, [k1, &k4, &k5]);
         let k6 = system.rhs(t + c[4] * h, &at6);
         let at7 = arrived::<EARLY, _, _>(x, h, &near7, self.a7[3], &k6);
-        let near8 = ahead::<EARLY, _, _, _>(x, h, &self.a8, [k1, &k4, &k5, &k6]);
+        let near8 = further::<EARLY, _, _>(h, &head8, self.a8[3], &k6);
+        let head9 = head::<EARLY, _, _, _>(x, h, &self.a9, [k1, &k4, &k5, &k6]);
         let k7 = system.rhs(t + c[5] * h, &at7);
         let at8 = arrived::<EARLY, _, _>(x, h, &near8, self.a8[4], &k7);
-        let near9 = ahead::<EARLY, _, _, _>(x, h, &self.a9, [k1, &k4, &k5, &k6, &k7]);
+        let near9 = further::<EARLY, _, _>(h, &head9, self.a9[4], &k7);
+        let head10 = head::<EARLY, _, _, _>(x, h, &self.a10, [k1, &k4, &k5, &k6, &k7]);
         let k8 = system.rhs(t + c[6] * h, &at8);
         let at9 = arrived::<EARLY, _, _>(x, h, &near9, self.a9[5], &k8);
-        let near10 = ahead::<EARLY, _, _, _>(x, h, &self.a10, [k1, &k4, &k5, &k6, &k7, &k8]);
+        let near10 = further::<EARLY, _, _>(h, &head10, self.a10[5], &k8);
+        let head11 = head::<EARLY, _, _, _>(x, h, &self.a11, [k1, &k4, &k5, &k6, &k7, &k8]);
         let k9 = system.rhs(t + c[7] * h, &at9);
         let at10 = arrived::<EARLY, _, _>(x, h, &near10, self.a10[6], &k9);
-        let near11 = ahead::<EARLY, _, _, _>(x, h, &self.a11, [k1, &k4, &k5, &k6, &k7, &k8, &k9]);
+        let near11 = further::<EARLY, _, _>(h, &head11, self.a11[6], &k9);
+        let head12 = head::<EARLY, _, _, _>(x, h, &self.a12, [k1, &k4, &k5, &k6, &k7, &k8, &k9]);
         let k10 = system.rhs(t + c[8] * h, &at10);
         let at11 = arrived::<EARLY, _, _>(x, h, &near11, self.a11[7], &k10);
-        let near12 = ahead::<EARLY, _, _, _>(x, h, &self.a12, [k1, &k4, &k5, &k6, &k7, &k8, &k9, &k10]);
+        let near12 = further::<EARLY, _, _>(h, &head12, self.a12[7], &k10);
+        let heads = self.heads::<EARLY, _>(x, h, [k1, &k6, &k7, &k8, &k9, &k10]);
         let k11 = system.rhs(t + c[9] * h, &at11);
         let at12 = arrived::<EARLY, _, _>(x, h, &near12, self.a12[8], &k11);
+        let near = further::<EARLY, _, _>(h, &heads[0], self.b[6], &k11);
+        let five = shifted(&heads[1], self.e5[6], &k11);
+        let three = shifted(&heads[2], self.e3[6], &k11);
         let k12 = system.rhs(t + c[10] * h, &at12);
-        [*k1, k6, k7, k8, k9, k10, k11, k12]
+        let trial = Trial {
+            state: arrived::<EARLY, _, _>(x, h, &near, self.b[7], &k12),
+            error5: shifted(&five, self.e5[7], &k12),
+            error3: shifted(&three, self.e3[7], &k12),
+        };
+        Made { trial, guess: at12, stages: [*k1, k6, k7, k8, k9, k10, k11, k12] }
+    }
+
+    /// What of the new state and of both errors is known two slopes before the end.
+    #[inline(always)]
+    fn heads<const EARLY: bool, const N: usize>(
+        &self,
+        x: &[R; N],
+        h: R,
+        slopes: [&[R; N]; 6],
+    ) -> [[R; N]; 3] {
+        if EARLY { self.heads_apart(x, h, slopes) } else { self.three_sums(slopes) }
+    }
+
+    #[inline(never)]
+    fn heads_apart<const N: usize>(&self, x: &[R; N], h: R, slopes: [&[R; N]; 6]) -> [[R; N]; 3] {
+        let [state, five, three] = self.three_sums(slopes);
+        [shifted(x, h, &state), five, three]
+    }
+
+    #[inline(always)]
+    fn three_sums<const N: usize>(&self, slopes: [&[R; N]; 6]) -> [[R; N]; 3] {
+        [leading(&self.b, slopes), leading(&self.e5, slopes), leading(&self.e3, slopes)]
     }
 
     /// The mean slope of order eight.
@@ -170,17 +212,9 @@ impl<R: Real> Tableau<R> {
         weighted(&self.b, stages.each_ref())
     }
 
-    /// The mean slope less that of the formula of order five.
-    #[inline]
-    pub(super) fn error5<const N: usize>(&self, stages: &Stages<R, N>) -> [R; N] {
-        weighted(&self.e5, stages.each_ref())
-    }
-
-    /// The mean slope less that of the formula of order three.
-    #[inline]
-    pub(super) fn error3<const N: usize>(&self, stages: &Stages<R, N>, slope: &[R; N]) -> [R; N] {
-        let slope3 = weighted(&self.b3, [&stages[0], &stages[4], &stages[7]]);
-        core::array::from_fn(|i| slope[i] - slope3[i])
+    /// The mean slope less those of the formulas of order five and three.
+    pub(super) fn errors<const N: usize>(&self, stages: &Stages<R, N>) -> [[R; N]; 2] {
+        [weighted(&self.e5, stages.each_ref()), weighted(&self.e3, stages.each_ref())]
     }
 
     /// The interpolant of order seven over the step from `from` to `to` with these stages, and the slope `end` at its
@@ -222,26 +256,36 @@ impl<R: Real> Default for Tableau<R> {
     }
 }
 
-/// The part of a stage's argument that is known before its last slope.
+/// The part of a stage's argument that is known two slopes before it, with `EARLY` from a function of its own: there the
+/// compiler takes the longest registers, and what it computes is done before the processor begins with the slope that comes
+/// next, in whose middle the compiler would put it otherwise.
 #[inline(always)]
-fn ahead<const EARLY: bool, R: Real, const N: usize, const M: usize>(
+fn head<const EARLY: bool, R: Real, const N: usize, const M: usize>(
     x: &[R; N],
     h: R,
     weights: &[R],
     slopes: [&[R; N]; M],
 ) -> [R; N] {
-    let sum = leading(weights, slopes);
-    if EARLY { shifted(x, h, &sum) } else { sum }
+    if EARLY { head_apart(x, h, weights, slopes) } else { leading(weights, slopes) }
 }
 
-/// A stage's argument, from what [`ahead`] knew and the last slope with its weight.
-#[inline(always)]
-fn arrived<const EARLY: bool, R: Real, const N: usize>(
+#[inline(never)]
+fn head_apart<R: Real, const N: usize, const M: usize>(
     x: &[R; N],
     h: R,
-    near: &[R; N],
+    weights: &[R],
+    slopes: [&[R; N]; M],
+) -> [R; N] {
+    shifted(x, h, &leading(weights, slopes))
+}
+
+/// The same with one slope more.
+#[inline(always)]
+fn further<const EARLY: bool, R: Real, const N: usize>(
+    h: R,
+    head: &[R; N],
     weight: R,
     slope: &[R; N],
 ) -> [R; N] {
-    if EARLY { shifted(near, h * weight, slope) } else { shifted(x, h, &shifted(near, weight, slope)) }
+    shifted(head, if EARLY { h * weight } else { weight }, slope)
 }

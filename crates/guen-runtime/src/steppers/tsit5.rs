@@ -1,12 +1,12 @@
 //! Tsitouras's pair of orders five and four, with a step that adapts to a tolerance.
 
 use super::adaptive::{Adaptive, Attempt, Pair, Settings, Step};
-use super::control::{self, Control, Tolerance};
+use super::control::{self, Control, Margin, Tolerance};
 use super::course::Method;
 use super::dense::Dense;
 use super::landing::short_ways;
 use super::tsit5_coefficients as published;
-use super::{shifted, weighted};
+use super::{ahead, arrived, leading, shifted, weighted};
 use crate::decimal::reals;
 use crate::real::{Ordered, Real};
 use crate::system::System;
@@ -19,8 +19,9 @@ use crate::system::System;
 /// err = |h| sqrt(sum_i (error_i / (atol + rtol max |x_i|))^2 / N) <= 1
 /// ```
 ///
-/// with the difference to the formula of order four. The next step is the present one times `0.9 err^(-1/5)`, between
-/// a fifth and five times, and no longer than the present one after a rejection.
+/// with the difference to the formula of order four. The next step is the present one times
+/// `0.8 min(err_n^(-1/5), (h_n / h_(n-1)) (err_(n-1) / err_n^2)^(1/5))`, between a fifth and five times, and no longer than
+/// the present one after a rejection.
 ///
 /// - For low accuracy, and for short steps between samples and inputs; from about 1e-4 on
 ///   [`Dop853`](super::Dop853) needs fewer evaluations. Not for stiff systems; not symplectic.
@@ -109,39 +110,48 @@ impl<R: Real> Formula<R> {
             d: reals(&published::D),
         }
     }
-
-    /// The estimated error of each entry after a step of size `h`.
-    pub(super) fn estimate<const N: usize>(&self, stages: &Stages<R, N>, h: f64) -> [f64; N] {
-        weighted(&self.e, stages.each_ref()).map(|error| (h * error.to_f64()).abs())
-    }
 }
 
 impl<R: Real, const N: usize> Pair<R, N> for Formula<R> {
     type Stages = Stages<R, N>;
 
+    type Errors = [R; N];
+
     const TRIAL: u64 = 6;
-    const CONTROL: Control = Control { power: 5, safety: 0.9, shorten: 0.2, grow: 5.0 };
+    const CONTROL: Control = Control { power: 5, safety: 0.8, shorten: 0.2, grow: 5.0, predict: true };
 
     #[inline]
-    fn attempt<S>(&self, system: &S, t: R, x: &[R; N], k1: &[R; N], h: R) -> Attempt<R, Stages<R, N>, N>
+    fn attempt<S>(&self, system: &S, t: R, x: &[R; N], k1: &[R; N], h: R) -> Attempt<R, Self, N>
     where
         S: System<R, N> + ?Sized,
     {
-        let at = |i: usize, slope: [R; N]| system.rhs(t + self.c[i] * h, &shifted(x, h, &slope));
-        let k2 = at(0, weighted(&self.a2, [k1]));
-        let k3 = at(1, weighted(&self.a3, [k1, &k2]));
-        let k4 = at(2, weighted(&self.a4, [k1, &k2, &k3]));
-        let k5 = at(3, weighted(&self.a5, [k1, &k2, &k3, &k4]));
-        let k6 = at(4, weighted(&self.a6, [k1, &k2, &k3, &k4, &k5]));
-        let state = shifted(x, h, &weighted(&self.b, [k1, &k2, &k3, &k4, &k5, &k6]));
+        // As in DOP853: all but the last slope's part is summed up before that slope is asked for.
+        let c = &self.c;
+        let at2 = shifted(x, h, &weighted(&self.a2, [k1]));
+        let near3 = ahead::<true, _, _, _>(x, h, &self.a3, [k1]);
+        let k2 = system.rhs(t + c[0] * h, &at2);
+        let at3 = arrived::<true, _, _>(x, h, &near3, self.a3[1], &k2);
+        let near4 = ahead::<true, _, _, _>(x, h, &self.a4, [k1, &k2]);
+        let k3 = system.rhs(t + c[1] * h, &at3);
+        let at4 = arrived::<true, _, _>(x, h, &near4, self.a4[2], &k3);
+        let near5 = ahead::<true, _, _, _>(x, h, &self.a5, [k1, &k2, &k3]);
+        let k4 = system.rhs(t + c[2] * h, &at4);
+        let at5 = arrived::<true, _, _>(x, h, &near5, self.a5[3], &k4);
+        let near6 = ahead::<true, _, _, _>(x, h, &self.a6, [k1, &k2, &k3, &k4]);
+        let k5 = system.rhs(t + c[3] * h, &at5);
+        let at6 = arrived::<true, _, _>(x, h, &near6, self.a6[4], &k5);
+        let near = ahead::<true, _, _, _>(x, h, &self.b, [k1, &k2, &k3, &k4, &k5]);
+        let k6 = system.rhs(t + c[4] * h, &at6);
+        let state = arrived::<true, _, _>(x, h, &near, self.b[5], &k6);
+        let error = leading(&self.e, [k1, &k2, &k3, &k4, &k5, &k6]);
         let k7 = system.rhs(t + h, &state);
-        Attempt { state, stages: [*k1, k2, k3, k4, k5, k6, k7], end: Some(k7) }
+        let errors = shifted(&error, self.e[6], &k7);
+        Attempt { state, guess: state, stages: [*k1, k2, k3, k4, k5, k6, k7], errors, end: Some(k7) }
     }
 
     #[inline]
-    fn margin(&self, attempt: &Attempt<R, Stages<R, N>, N>, h: f64, weights: &[f64; N]) -> f64 {
-        let squares = control::squares(&weighted(&self.e, attempt.stages.each_ref()), weights);
-        control::margin::<N>(h * h * squares)
+    fn margin(&self, errors: &[R; N], h: f64, weights: &[f64; N]) -> Margin {
+        Margin::of_mean::<N>(h * h * control::squares(errors, weights))
     }
 
     fn dense<S>(&self, _system: &S, step: &Step<'_, R, Stages<R, N>, N>) -> (Dense<R, N>, u64)

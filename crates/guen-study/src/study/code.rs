@@ -2,9 +2,35 @@
 
 use super::lever::Argument;
 
+/// What `system` is in the code.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Origin {
+    /// The constants, or whatever else can be made anew over a real.
+    Recast,
+    /// A system in doubles: a form, or closures.
+    Given,
+}
+
+impl Origin {
+    /// The lines before the method.
+    fn system(self) -> &'static str {
+        match self {
+            Self::Recast => "use guen::{Recast, prelude::*};\nlet system = system.recast::<f64>()?;\n",
+            Self::Given => "use guen::prelude::*;\n",
+        }
+    }
+}
+
 /// The code that runs a method of guen's over a real. It expects the constants (or whatever the study was made of) as
 /// `system` and the initial state as `start`, an array of doubles, and makes the end state of it.
-pub(super) fn run(real: &str, method: &str, argument: Argument, setting: f64, span: (f64, f64)) -> String {
+pub(super) fn run(
+    origin: Origin,
+    real: &str,
+    method: &str,
+    argument: Argument,
+    setting: f64,
+    span: (f64, f64),
+) -> String {
     let (t0, t1) = span;
     // `f64` and `f32` are there without being named.
     let own = if real.starts_with('f') { String::new() } else { format!("use guen::{real};\n") };
@@ -16,10 +42,9 @@ pub(super) fn run(real: &str, method: &str, argument: Argument, setting: f64, sp
         Argument::Tolerance => format!("{method}::new({setting:?})"),
     };
     if real == "f64" {
+        let system = origin.system();
         return format!(
-            "use guen::{{Recast, prelude::*}};\n\
-             let system = system.recast::<f64>()?;\n\
-             let method = {made};\n\
+            "{system}let method = {made};\n\
              let go_on = |_, _: &_| ControlFlow::Continue(());\n\
              let end = method.integrate(&system, {t0:?}, &start, {t1:?}, go_on)?.state;\n"
         );
@@ -37,12 +62,10 @@ pub(super) fn run(real: &str, method: &str, argument: Argument, setting: f64, sp
 }
 
 /// The code for a number of evaluations.
-pub(super) fn bounded(constructor: &str, evaluations: f64, span: (f64, f64)) -> String {
-    let (t0, t1) = span;
+pub(super) fn bounded(origin: Origin, constructor: &str, evaluations: f64, span: (f64, f64)) -> String {
+    let ((t0, t1), system) = (span, origin.system());
     format!(
-        "use guen::{{Recast, prelude::*}};\n\
-         let system = system.recast::<f64>()?;\n\
-         let end = Bounded::<f64>::{constructor}({evaluations}).advance(&system, {t0:?}, &start, {t1:?})?.state;\n"
+        "{system}let end = Bounded::<f64>::{constructor}({evaluations}).advance(&system, {t0:?}, &start, {t1:?})?.state;\n"
     )
 }
 

@@ -7,6 +7,7 @@ use std::time::Instant;
 use guen_runtime::steppers::{Bounded, Integration, Method, Outcome, Statistics};
 use guen_runtime::{Ordered, Real, System};
 
+use super::code::Origin;
 use super::row::{Failure, Knob};
 
 /// What is integrated: all initial states, over the same span, and where to look at them.
@@ -226,6 +227,7 @@ pub(super) fn explicit_levers<R, S, const N: usize>(
     real: &'static str,
     system: &Rc<S>,
     span: (f64, f64),
+    origin: Origin,
 ) -> Vec<Lever<N>>
 where
     R: Ordered,
@@ -233,7 +235,7 @@ where
 {
     use guen_runtime::steppers::{Dop853, Rk4, Rk8, Tsit5};
     let code = move |constructor: &'static str, argument: Argument| {
-        move |setting| super::code::run(real, constructor, argument, setting, span)
+        move |setting| super::code::run(origin, real, constructor, argument, setting, span)
     };
     let step = |setting: f64| R::from_f64(setting);
     let names = |method| [method, real, "declared"];

@@ -268,7 +268,8 @@ impl<S, const N: usize> Study<S, N> {
     where
         T: System<f64, M> + 'static,
     {
-        let levers = lever::explicit_levers::<f64, T, M>("f64", &Rc::new(system), self.span());
+        let levers =
+            lever::explicit_levers::<f64, T, M>("f64", &Rc::new(system), self.span(), code::Origin::Given);
         let way = Rc::new((to, back));
         self.levers.extend(levers.into_iter().map(|lever| lever.of_form(name, Rc::clone(&way))));
         self
@@ -384,7 +385,7 @@ impl<S: Recast<N>, const N: usize> Study<S, N> {
     {
         let span = self.span();
         self.with_method("Taylor", Settings::Tolerances, Taylor::<f64>::new, move |tolerance| {
-            code::run("f64", "Taylor", lever::Argument::Tolerance, tolerance, span)
+            code::run(code::Origin::Recast, "f64", "Taylor", lever::Argument::Tolerance, tolerance, span)
         })
     }
 
@@ -493,7 +494,7 @@ impl<const N: usize> Study<Closures, N> {
         let doubles = Rc::new(guen_runtime::from_fn(doubles));
         let long = Rc::new(guen_runtime::from_fn(long));
         let mut study = Self::bare(Closures, &doubles, &long, start, span);
-        study.levers = standard::of_doubles("f64", &doubles, study.span());
+        study.levers = standard::of_doubles("f64", &doubles, study.span(), code::Origin::Given);
         study
     }
 }

@@ -9,7 +9,7 @@ use guen_runtime::{
     Recast, Std, System,
 };
 
-use super::code;
+use super::code::{self, Origin};
 use super::lever::{Argument, Lever, Settings, Task, explicit_levers, lever, run_bounded};
 use super::row::Failure;
 use super::{Digits71, Study};
@@ -22,7 +22,7 @@ where
     S: Recast<N>,
 {
     match system.recast::<R>() {
-        Ok(system) => explicit_levers::<R, S::In<R>, N>(real, &Rc::new(system), span),
+        Ok(system) => explicit_levers::<R, S::In<R>, N>(real, &Rc::new(system), span, Origin::Recast),
         Err(error) => vec![Lever {
             method: "all".to_owned(),
             real: real.to_owned(),
@@ -39,17 +39,18 @@ pub(super) fn of_doubles<D, const N: usize>(
     real: &'static str,
     system: &Rc<D>,
     span: (f64, f64),
+    origin: Origin,
 ) -> Vec<Lever<N>>
 where
     D: System<f64, N> + 'static,
 {
-    let mut levers = explicit_levers::<f64, D, N>(real, system, span);
+    let mut levers = explicit_levers::<f64, D, N>(real, system, span, origin);
     levers.push(lever::<f64, D, _, N>(
         ["Euler", real, "declared"],
         system,
         Settings::Steps,
         |step| Euler { step },
-        move |h| code::run("f64", "Euler", Argument::Field, h, span),
+        move |h| code::run(origin, "f64", "Euler", Argument::Field, h, span),
     ));
     let bounded = |name: &str, constructor: &'static str, formula: fn(u32) -> Bounded| {
         let system = Rc::clone(system);
@@ -59,7 +60,7 @@ where
             form: "declared".to_owned(),
             settings: Settings::Evaluations,
             make: Ok(Box::new(move |n| run_bounded(Rc::clone(&system), formula, n))),
-            code: Box::new(move |n| code::bounded(constructor, n, span)),
+            code: Box::new(move |n| code::bounded(origin, constructor, n, span)),
         }
     };
     levers.push(bounded("Bounded DOP853", "dop853", Bounded::dop853));
@@ -74,7 +75,7 @@ where
 {
     let names = |method| [method, "f64", "declared"];
     let code = move |constructor: &'static str, argument| {
-        move |setting| code::run("f64", constructor, argument, setting, span)
+        move |setting| code::run(Origin::Recast, "f64", constructor, argument, setting, span)
     };
     vec![
         lever::<f64, D, _, N>(
@@ -118,7 +119,7 @@ where
         let doubles = Rc::new(system.recast::<f64>()?);
         let long = Rc::new(system.recast::<Digits71>()?);
         let ends = (span.start, span.end);
-        let mut levers = of_doubles("f64", &doubles, ends);
+        let mut levers = of_doubles("f64", &doubles, ends, Origin::Recast);
         levers.extend(over::<Digits13, S, N>("Digits13", &system, ends));
         levers.extend(over::<Digits7, S, N>("Digits7", &system, ends));
         levers.extend(over::<Fused, S, N>("Fused", &system, ends));

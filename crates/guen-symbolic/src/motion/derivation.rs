@@ -370,18 +370,15 @@ pub(super) fn candidates(
     /// The estimate above which a further form is not worth the time to optimise it.
     const WORTH: u64 = 1000;
     let l = system.forms.degrees;
-    let mass: Vec<Vec<ExprId>> = (0..l)
-        .map(|s| {
-            (0..l)
-                .map(|t| {
-                    // Both routes give the same function; the matrix is symmetric.
-                    let (s, t) = (s.max(t), s.min(t));
-                    let (a, b) = (bench.tidy(by_definition.mass[s][t]), bench.tidy(by_projection.mass[s][t]));
-                    if weighted_cost(&bench.graph, &[a]) < weighted_cost(&bench.graph, &[b]) { a } else { b }
-                })
-                .collect()
-        })
-        .collect();
+    let mut entry = |s: usize, t: usize| {
+        // Both routes give the same function.
+        let (a, b) = (bench.tidy(by_definition.mass[s][t]), bench.tidy(by_projection.mass[s][t]));
+        let cost = |e: ExprId| weighted_cost(&bench.graph, &[e]);
+        if a != b && cost(a) < cost(b) { a } else { b }
+    };
+    let lower: Vec<Vec<ExprId>> = (0..l).map(|s| (0..=s).map(|t| entry(s, t)).collect()).collect();
+    let mass: Vec<Vec<ExprId>> =
+        (0..l).map(|s| (0..l).map(|t| lower[s.max(t)][s.min(t)]).collect()).collect();
     let sources = [&by_projection.forces[..l], &by_definition.forces[..l]];
     let mut lists: Vec<Vec<ExprId>> = Vec::new();
     lists.extend(sources.iter().find_map(|forces| normal_forces(bench, system, forces)));

@@ -13,9 +13,10 @@ use super::poly::{Budget, Exceeded, Mono, Poly, Result};
 /// Conjugation multiplies sizes; larger products of numerator and divisor are not tried.
 const CONJUGATION_TERMS: usize = 400;
 
-/// A base angle: the generators of its sine and cosine.
+/// A base angle with the generators of its sine and cosine.
 #[derive(Clone, Debug)]
 pub(super) struct Angle {
+    pub(super) base: ExprId,
     pub(super) sin: usize,
     pub(super) cos: usize,
     /// Twice the angle, if the base is a fraction with an even denominator.
