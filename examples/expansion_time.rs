@@ -1,27 +1,27 @@
-//! How long the macro takes: the expansion of every example system, stage by stage.
+//! How long the macro takes: the expansion of every example system, stage by stage, inside of a compiler.
 //!
 //! ```text
 //! cargo run --example expansion_time
 //! ```
 //!
 //! Without `--release`: cargo builds procedural macros without optimisation, in a user's dev profile and in the release
-//! profile too, so these are the times that a user waits. (Only the tokens come from this program and not from the
-//! compiler.) The declarations of the examples are cut out of their files; beside them stand the chains of the benchmarks,
-//! with absolute angles, and the largest systems of the tests: vehicles, snakes, contacts with a square root, moving
-//! belts, prescribed motions. Systems with five scenes stand below themselves without: what scenes cost while the macro
-//! runs. In the program a scene that is not used costs nothing, for what is emitted is generic.
+//! profile too, so these are the times that a user waits. They are taken by a macro inside of rustc (`crates/guen-clock`),
+//! whose lexer and tokens are others than those that a program without a compiler has. The declarations of the examples
+//! are cut out of their files; beside them stand the chains of the benchmarks, with absolute angles and with relative ones,
+//! and the largest systems of the tests: vehicles, snakes, contacts with a square root, moving belts, prescribed motions.
+//! Systems with five scenes stand below themselves without: what scenes cost while the macro runs. In the program a scene
+//! that is not used costs nothing, for what is emitted is generic.
 //!
 //! The times of the stages and their sum are medians of several expansions, followed by the shares of deriving and
-//! emitting in percent. The last column is the mean time on a processor, which depends less on what else the machine
-//! does; it is known on Linux only.
+//! emitting in percent, the least sum, and the mean time on a processor, known on Linux only: both depend less on what
+//! else the machine does.
 
-use std::process::ExitCode;
-use std::time::{Duration, Instant};
+use std::path::{Path, PathBuf};
+use std::process::{Command, ExitCode};
+use std::{env, fs, io};
 
 use guen_benchmarks::chains::{Angles, declaration as declaration_of_chain};
-use guen_benchmarks::timing::processor_time;
-use guen_language::diagnostics::collect;
-use guen_language::{derive, emit, expand, model, parse};
+use guen_language::expand;
 use guen_study::{Progress, Table};
 use proc_macro2::{TokenStream, TokenTree};
 
@@ -39,13 +39,6 @@ const FILES: [(&str, &str); 4] = [
 ];
 const CHAINS: [usize; 4] = [2, 5, 10, 20];
 const SNAKES: [usize; 3] = [5, 7, 10];
-/// A system is expanded this often, but not again once it took this long.
-const REPEATS: usize = 15;
-const LONG: Duration = Duration::from_secs(5);
-
-/// The times of the stages: parse, resolve, derive, emit.
-type Stages = [Duration; 4];
-
 fn main() -> ExitCode {
     if !cfg!(debug_assertions) {
         println!(
@@ -61,16 +54,25 @@ fn main() -> ExitCode {
         }
     }
     let mut add = |name: String, text: &str| systems.push((name, text.parse().expect("these are tokens")));
-    CHAINS.iter().for_each(|&links| {
-        add(format!("chain of {links}"), &declaration_of_chain("Chain", links, Angles::Absolute));
-    });
+    for (angles, name) in [(Angles::Absolute, "chain"), (Angles::Relative, "joints")] {
+        for links in CHAINS {
+            add(format!("{name} of {links}"), &declaration_of_chain("Chain", links, angles));
+        }
+    }
     SNAKES.iter().for_each(|&links| add(format!("snake of {links}"), &large::snake(links)));
     add("tricycle".to_owned(), large::TRICYCLE);
     add("ellipsoid".to_owned(), large::LADEN_ELLIPSOID);
 
+    let compiler = match Compiler::new() {
+        Ok(compiler) => compiler,
+        Err(error) => {
+            eprintln!("times inside of a compiler need a build of guen-clock: {error}");
+            return ExitCode::FAILURE;
+        }
+    };
     let mut healthy = true;
     let mut names = vec!["system"];
-    let mut table = Table::new(&[
+    let columns = [
         "tokens",
         "emitted",
         "parse",
@@ -80,25 +82,32 @@ fn main() -> ExitCode {
         "sum in ms",
         "derive %",
         "emit %",
+        "least",
         "on processor",
-    ])
-    .digits(3);
+    ];
+    let mut table = Table::new(&columns).digits(3);
     let mut progress = Progress::new(0.0, systems.len() as f64);
     for (k, (name, tokens)) in systems.iter().enumerate() {
         progress.at(k as f64);
-        let (count, stages, processor) = measured(tokens);
-        let [first, second] = [(); 2].map(|()| expand(tokens.clone()).to_string());
-        if first != second {
+        let items = expand(tokens.clone());
+        if items.to_string() != expand(tokens.clone()).to_string() {
             eprintln!("{name}: two expansions differ");
             healthy = false;
         }
-        let milliseconds = stages.map(|stage| stage.as_secs_f64() * 1e3);
-        let [_, _, derive, emit] = milliseconds;
-        let sum: f64 = milliseconds.into_iter().sum();
-        let shares = [derive, emit].map(|time| 100.0 * time / sum);
-        let sizes = [size(tokens.clone()) as f64, count as f64];
-        table.row(&[&sizes[..], &milliseconds, &[sum], &shares, &[processor]].concat());
-        names.push(name);
+        let sizes = [size(tokens.clone()) as f64, size(items) as f64];
+        match compiler.stages(tokens) {
+            Ok([parse, resolve, derive, emit, least, processor]) => {
+                let sum = parse + resolve + derive + emit;
+                let shares = [derive, emit].map(|time| 100.0 * time / sum);
+                let times = [parse, resolve, derive, emit, sum];
+                table.row(&[&sizes[..], &times, &shares, &[least, processor]].concat());
+                names.push(name);
+            }
+            Err(error) => {
+                eprintln!("{name}: {error}");
+                healthy = false;
+            }
+        }
     }
     progress.finish();
     // The names stand beside the table, whose cells are numbers.
@@ -111,44 +120,53 @@ fn main() -> ExitCode {
     if healthy { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }
 
-/// The number of tokens emitted, the medians of the stages, and the mean time on a processor in
-/// milliseconds.
-fn measured(tokens: &TokenStream) -> (usize, Stages, f64) {
-    let mut runs: Vec<Stages> = Vec::new();
-    let mut emitted = 0;
-    let begin = Instant::now();
-    let processor = processor_time();
-    while runs.len() < REPEATS && (runs.is_empty() || begin.elapsed() < LONG) {
-        let (tokens, stages) = staged(tokens.clone());
-        emitted = size(tokens);
-        runs.push(stages);
-    }
-    let median = |stage: usize| {
-        let mut times: Vec<Duration> = runs.iter().map(|run| run[stage]).collect();
-        times.sort();
-        times[times.len() / 2]
-    };
-    let processor = (processor_time() - processor) * 1e3 / runs.len() as f64;
-    (emitted, std::array::from_fn(median), processor)
+/// rustc with the macro that measures.
+struct Compiler {
+    folder: PathBuf,
+    clock: PathBuf,
 }
 
-/// What `expand` does, with a clock between the stages.
-fn staged(tokens: TokenStream) -> (TokenStream, Stages) {
-    let start = Instant::now();
-    let (declaration, report) = parse::parse(tokens);
-    assert!(report.is_empty(), "{report}");
-    let declaration = declaration.expect("there is a declaration where there is no fault");
-    let parsed = Instant::now();
-    let (model, report) = collect(|faults| model::resolve(&declaration, faults));
-    assert!(report.is_empty(), "{report}");
-    let model = model.expect("there is a model where there is no fault");
-    let resolved = Instant::now();
-    let (derived, report) = collect(|faults| derive::derive(model, faults));
-    assert!(report.is_empty(), "{report}");
-    let derived = derived.expect("there is a derivation where there is no fault");
-    let done = Instant::now();
-    let items = emit::emit(derived);
-    (items, [parsed - start, resolved - parsed, done - resolved, done.elapsed()])
+impl Compiler {
+    /// Builds `guen-clock`, or finds it built, in this program's own target folder.
+    fn new() -> io::Result<Self> {
+        let program = env::current_exe()?;
+        // .../debug/examples/expansion_time
+        let target = program.ancestors().nth(3).ok_or_else(|| io::Error::other("no target folder"))?;
+        let output = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
+            .args(["build", "--offline", "-p", "guen-clock", "--message-format=json", "--target-dir"])
+            .arg(target)
+            .current_dir(env!("CARGO_MANIFEST_DIR"))
+            .output()?;
+        let text = String::from_utf8_lossy(&output.stdout);
+        let is_clock = |word: &&str| {
+            let name = Path::new(word).file_name().and_then(|name| name.to_str()).unwrap_or_default();
+            word.ends_with(env::consts::DLL_SUFFIX) && name.contains("guen_clock")
+        };
+        let clock = text.split('"').find(is_clock);
+        let clock =
+            clock.ok_or_else(|| io::Error::other(String::from_utf8_lossy(&output.stderr).into_owned()))?;
+        let folder = target.join("guen/expansion_time");
+        fs::create_dir_all(&folder)?;
+        Ok(Compiler { folder, clock: PathBuf::from(clock) })
+    }
+
+    /// The milliseconds of the stages parse, resolve, derive and emit, the least sum, and the mean on a processor.
+    fn stages(&self, declaration: &TokenStream) -> io::Result<[f64; 6]> {
+        let file = self.folder.join("stages.rs");
+        fs::write(&file, format!("guen_clock::stages! {{ {declaration} }}"))?;
+        let mut clock = std::ffi::OsString::from("guen_clock=");
+        clock.push(&self.clock);
+        let output = Command::new("rustc")
+            .args(["--edition=2024", "--crate-type=lib", "--emit=metadata", "--out-dir"])
+            .arg(&self.folder)
+            .arg("--extern")
+            .arg(clock)
+            .arg(&file)
+            .output()?;
+        let text = String::from_utf8_lossy(&output.stdout);
+        let times: Vec<f64> = text.split_whitespace().filter_map(|word| word.parse().ok()).collect();
+        times.try_into().map_err(|_| io::Error::other(String::from_utf8_lossy(&output.stderr).into_owned()))
+    }
 }
 
 /// The number of tokens, those in groups included.

@@ -130,10 +130,10 @@ macro_rules! mechanical_system {
 /// What expansions refer to; no part of the public interface.
 #[doc(hidden)]
 pub mod __private {
-    pub use guen_macros::mechanical_system;
+    pub use guen_macros::{mechanical_system, page};
     pub use guen_runtime::checks::{
-        check_fixed, check_hoisted, check_inertia, check_limits, check_mass, check_pivot, clamped, condition,
-        drift, furthest, largest,
+        check_finite, check_fixed, check_hoisted, check_inertia, check_limits, check_mass, check_nonnegative,
+        check_nonzero, check_pivot, check_positive, clamped, condition, drift, furthest, largest,
     };
     pub use guen_runtime::lanes::Lanes;
     pub use guen_runtime::{
@@ -143,6 +143,9 @@ pub mod __private {
         Linearization, Monitored, Nonholonomic, Operator, Ordered, OutputLinearization, Positions,
         PositionsError, Real, Recast, Report, ReportSection, Rheonomic, Rounded, Scleronomic, System,
         TaylorSeries, Vitals, nalgebra_conversions, seeded, zero_bracket,
+    };
+    pub use guen_runtime::{
+        bracket, cells, linearizable, mass_form, operator, program_functions, record, reduce, steady_motions,
     };
     pub use guen_runtime::{consistent, control, serde_record};
 }

@@ -86,7 +86,12 @@ fn fixed_steps_say_so_before_the_energy_is_lost() {
                 assert!(
                     matches!(
                         error.cause,
-                        Cause::Energy { .. } | Cause::Edge { .. } | Cause::NotFinite | Cause::NoConvergence
+                        Cause::Energy { .. }
+                            | Cause::Edge { .. }
+                            | Cause::Approach { .. }
+                            | Cause::Step { .. }
+                            | Cause::NotFinite
+                            | Cause::NoConvergence
                     ),
                     "{:?}",
                     error.cause
@@ -128,13 +133,22 @@ fn stepping_over_the_edge_of_the_chart_is_refused() {
     // Without a turn about the vertical the hoop falls flat, through the edge of the chart, and every rate stays finite.
     let system = prepared();
     let start = hoop::State { theta: 0.5, zeta: 0.5_f64.sin(), ..Default::default() };
-    let error = Rk4 { step: 1e-3 }
+    let error = Dop853::new(1e-9, 1e-9)
         .integrate(&system, 0.0, &start.into(), 1.0, |_, _| ControlFlow::Continue(()))
         .unwrap_err();
     let Cause::Edge { found, function, distance, limit } = error.cause else { panic!("{:?}", error.cause) };
     assert_eq!(hoop::DOMAIN[function], "sin(theta)");
     assert!(distance < 0.0 && limit == 1e-8 && found > error.time);
     assert!(error.state[0] > 0.0, "the state returned is on this side");
+    // With a fixed step the next step is seen to lead there, or beyond.
+    let error = Rk4 { step: 1e-3 }
+        .integrate(&system, 0.0, &start.into(), 1.0, |_, _| ControlFlow::Continue(()))
+        .unwrap_err();
+    let Cause::Approach { found, function: 0, ratio, limit } = error.cause else {
+        panic!("{:?}", error.cause)
+    };
+    assert!(ratio > limit && limit == 2.0 && found > error.time && found < error.time + 0.04);
+    assert!(error.state[0] > 0.0 && error.state[0].sin() < 0.1, "{}", error.state[0]);
     // A limit of one's own stops earlier.
     let error = Integration::new(&system, 0.0, &start.into())
         .guard(Guard { edge: 0.1, every: Some(1), ..Guard::default() })

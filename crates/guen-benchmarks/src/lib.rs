@@ -10,6 +10,7 @@ pub mod chains;
 #[macro_use]
 mod declarations;
 pub mod platform;
+mod processor;
 mod random;
 mod subjects;
 pub mod systems;

@@ -9,6 +9,9 @@ use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use guen::System;
+use guen_study::median_with_interval;
+
+pub use crate::processor::processor_time;
 
 /// The states that throughput is measured over: more than a branch predictor remembers, and in the cache.
 pub const STATES: usize = 1024;
@@ -154,34 +157,8 @@ pub fn compare(first: &mut dyn Timed, second: &mut dyn Timed, pairs: usize) -> C
             times[0] / times[1]
         })
         .collect();
-    let (ratio, interval) = median_with_interval(&mut ratios);
+    let (ratio, interval) = median_with_interval(&mut ratios).expect("a pair at least");
     Comparison { nanoseconds: shortest, ratio, interval }
-}
-
-/// The median, and the interval between order statistics that a median lies in with 95 percent: of `n` values as many
-/// as the binomial distribution with `p = 1/2` has beyond 2.5 percent are left out on either side.
-pub fn median_with_interval(values: &mut [f64]) -> (f64, (f64, f64)) {
-    values.sort_by(f64::total_cmp);
-    let n = values.len();
-    let mut probability = 0.5_f64.powi(n as i32);
-    let (mut below, mut out) = (probability, 0);
-    while out + 1 < n / 2 {
-        probability *= (n - out) as f64 / (out + 1) as f64;
-        if below + probability > 0.025 {
-            break;
-        }
-        below += probability;
-        out += 1;
-    }
-    let median = if n % 2 == 1 { values[n / 2] } else { 0.5 * (values[n / 2 - 1] + values[n / 2]) };
-    (median, (values[out], values[n - 1 - out]))
-}
-
-/// Seconds that this thread has spent on a processor, whatever else the machine did; NaN where the system does not tell.
-pub fn processor_time() -> f64 {
-    let text = std::fs::read_to_string("/proc/thread-self/schedstat").unwrap_or_default();
-    let nanoseconds = text.split(' ').next().and_then(|first| first.parse::<f64>().ok());
-    nanoseconds.map_or(f64::NAN, |nanoseconds| nanoseconds * 1e-9)
 }
 
 /// Seconds that processes started and waited for by this one have spent on processors, in steps of a hundredth; NaN
@@ -223,16 +200,4 @@ pub fn conditions() -> String {
         if cfg!(debug_assertions) { "on" } else { "off" },
         env!("GUEN_RUSTFLAGS"),
     )
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_interval_of_31_values_leaves_nine_out_on_either_side() {
-        // Tables of the sign test: 9 of 31 is the critical value at 5 percent, two-sided.
-        let mut values: Vec<f64> = (0..31).rev().map(f64::from).collect();
-        assert_eq!(median_with_interval(&mut values), (15.0, (9.0, 21.0)));
-    }
 }

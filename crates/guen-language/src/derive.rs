@@ -14,8 +14,8 @@ mod series;
 use std::rc::Rc;
 
 use guen_symbolic::{
-    Derivation, ExprId, FunctionProgram, Limits, ProgramBuilder, Programs, SeriesProgram, Workbench,
-    normal_coefficients, normal_form, weighted_cost,
+    Contracted, Derivation, ExprId, FunctionProgram, Limits, ProgramBuilder, Programs, SeriesProgram,
+    Workbench, normal_coefficients, normal_form, weighted_cost,
 };
 
 use crate::diagnostics::Faults;
@@ -66,6 +66,8 @@ pub struct Level {
     pub series: Option<SeriesProgram>,
     /// Where the derivatives belong that have code of their own.
     pub jacobians: Jacobians,
+    /// How expressions are written in the report.
+    pub shown: Contracted,
     /// What there is to tell of a scene; none for the system itself.
     pub scene: Option<SceneFacts>,
     /// The same level with its elementary functions as states, if it is provided.
@@ -199,7 +201,9 @@ fn whole(
         operators: true,
         carried: Vec::new(),
     };
-    let (domain, domain_names) = domain(model, &derivation);
+    let equations = equations(&mut model.bench, &derivation);
+    let shown = shown(model, &derivation, &brackets, &equations);
+    let (domain, domain_names) = domain(model, &derivation, &shown);
     let constant_pivots = constant_pivots(&derivation);
     let quantities = formulas::whole(model, &derivation, &brackets, domain, constant_pivots.clone());
     let control = crate::control::quantities(&mut model.bench, &derivation);
@@ -214,7 +218,6 @@ fn whole(
     let edges = domain_names.len() - derivation.solution.determinants.len();
     let jacobians = Jacobians::add(&mut programs, model, &selection);
     let energy = derivation.energies.integral;
-    let equations = equations(&mut model.bench, &derivation);
     let mut level = Level {
         selection,
         derivation,
@@ -229,6 +232,7 @@ fn whole(
         constant_pivots,
         series: None,
         jacobians,
+        shown,
         scene: None,
         carried: None,
     };
@@ -257,6 +261,32 @@ fn equations(bench: &mut Workbench, derivation: &Derivation) -> Vec<ExprId> {
         bench.graph.sub(inertia, *force)
     });
     rows.collect()
+}
+
+/// How a derivation is written: what is shown of it, with sines and cosines of sums.
+fn shown(
+    model: &mut Model<'_>,
+    derivation: &Derivation,
+    brackets: &[Commutator],
+    others: &[ExprId],
+) -> Contracted {
+    let (operators, energies) = (&derivation.frame.operators, &derivation.energies);
+    let forms = &derivation.system.forms.forms;
+    let lists = operators
+        .xi
+        .iter()
+        .chain(brackets.iter().map(|bracket| &bracket.coefficients))
+        .chain(forms.iter().map(|form| &form.row))
+        .chain([
+            &derivation.frame.velocities,
+            &operators.chart,
+            &derivation.solution.pivots,
+            &energies.momenta,
+        ]);
+    let single = [energies.kinetic, energies.integral, derivation.system.force_function, derivation.power];
+    let offsets = forms.iter().map(|form| form.offset);
+    let roots: Vec<ExprId> = lists.flatten().chain(others).copied().chain(single).chain(offsets).collect();
+    Contracted::of(&mut model.bench.graph, &roots)
 }
 
 /// Expressions of constants that must not vanish.
@@ -298,8 +328,8 @@ fn polish(bench: &mut Workbench, derivation: &mut Derivation) {
 }
 
 /// The functions that must not vanish, and how they are written: large determinants by their rows.
-fn domain(model: &Model<'_>, derivation: &Derivation) -> (Vec<ExprId>, Vec<String>) {
-    let named = |e: &ExprId, otherwise: &str| (*e, written(model, *e, otherwise));
+fn domain(model: &Model<'_>, derivation: &Derivation, shown: &Contracted) -> (Vec<ExprId>, Vec<String>) {
+    let named = |e: &ExprId, otherwise: &str| (*e, written(model, shown.image(*e), otherwise));
     let chart = derivation.frame.operators.chart.iter().map(|e| named(e, "a factor of det A"));
     let pivots = derivation.solution.pivots.iter().map(|e| named(e, "a pivot of the mass matrix"));
     let determinants = derivation.solution.determinants.iter().map(|(rows, e)| {

@@ -8,6 +8,8 @@
 //! Every stage reports what is wrong through [`diagnostics`]; [`report`] writes down what was derived.
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
+extern crate proc_macro;
+
 mod control;
 pub mod derive;
 pub mod diagnostics;
@@ -20,7 +22,8 @@ pub mod parse;
 pub mod report;
 pub mod syntax;
 
-use proc_macro2::TokenStream;
+use proc_macro2::{Literal, TokenStream};
+use quote::ToTokens;
 
 use diagnostics::collect;
 
@@ -55,6 +58,15 @@ pub fn expand(tokens: TokenStream) -> TokenStream {
     match derived {
         Some(derived) if report.is_empty() => emit::emit(derived),
         _ => with_outline(&declaration, &report),
+    }
+}
+
+/// Expands one invocation of `page!`, which expansions of [`expand`] have in their documentation for rustdoc: a literal with
+/// formulas in LaTeX becomes one with MathML.
+pub fn expand_page(tokens: TokenStream) -> TokenStream {
+    match syn::parse2::<syn::LitStr>(tokens) {
+        Ok(page) => Literal::string(&report::set(&page.value())).into_token_stream(),
+        Err(error) => error.to_compile_error(),
     }
 }
 

@@ -10,3 +10,10 @@ use proc_macro::TokenStream;
 pub fn mechanical_system(tokens: TokenStream) -> TokenStream {
     guen_language::expand(tokens.into()).into()
 }
+
+/// Sets the formulas in the documentation of an expansion; no part of the public interface.
+#[doc(hidden)]
+#[proc_macro]
+pub fn page(tokens: TokenStream) -> TokenStream {
+    guen_language::expand_page(tokens.into()).into()
+}

@@ -4,6 +4,97 @@ pub use crate::condition::condition;
 use crate::error::BodyFault;
 use crate::{ConstantsError, Ordered, Real, Rounded};
 
+/// The name of a field without the `r#` of one that is a keyword.
+///
+/// ```
+/// assert_eq!(guen_runtime::checks::plain("r#type"), "type");
+/// assert_eq!(guen_runtime::checks::plain("theta"), "theta");
+/// ```
+pub const fn plain(field: &'static str) -> &'static str {
+    match field.as_bytes() {
+        [b'r', b'#', ..] => field.split_at(2).1,
+        _ => field,
+    }
+}
+
+/// Refuses a constant that is not finite.
+///
+/// ```
+/// assert!(guen_runtime::checks::check_finite(1.0_f64, "a").is_ok());
+/// assert!(guen_runtime::checks::check_finite(f64::NAN, "a").is_err());
+/// ```
+///
+/// # Errors
+///
+/// [`ConstantsError::NotFinite`] with its name and value.
+pub fn check_finite<R: Real>(value: R, name: &'static str) -> Result<(), ConstantsError> {
+    if value.is_finite() { Ok(()) } else { Err(ConstantsError::NotFinite { name, value: value.to_f64() }) }
+}
+
+/// Refuses a constant that has to be positive and is not; `bound` says so in words.
+///
+/// ```
+/// assert!(guen_runtime::checks::check_positive(1.0_f64, "a", "a > 0").is_ok());
+/// assert!(guen_runtime::checks::check_positive(0.0_f64, "a", "a > 0").is_err());
+/// ```
+///
+/// # Errors
+///
+/// [`ConstantsError::OutOfBound`] with its name, bound and value.
+pub fn check_positive<R: Real>(
+    value: R,
+    name: &'static str,
+    bound: &'static str,
+) -> Result<(), ConstantsError> {
+    bounded(value, name, bound, |value| value > 0.0)
+}
+
+/// Refuses a constant that is negative and must not be.
+///
+/// ```
+/// assert!(guen_runtime::checks::check_nonnegative(0.0_f64, "a", "a >= 0").is_ok());
+/// assert!(guen_runtime::checks::check_nonnegative(-1.0_f64, "a", "a >= 0").is_err());
+/// ```
+///
+/// # Errors
+///
+/// [`ConstantsError::OutOfBound`] with its name, bound and value.
+pub fn check_nonnegative<R: Real>(
+    value: R,
+    name: &'static str,
+    bound: &'static str,
+) -> Result<(), ConstantsError> {
+    bounded(value, name, bound, |value| value >= 0.0)
+}
+
+/// Refuses a constant that is zero and must not be.
+///
+/// ```
+/// assert!(guen_runtime::checks::check_nonzero(-1.0_f64, "a", "a != 0").is_ok());
+/// assert!(guen_runtime::checks::check_nonzero(0.0_f64, "a", "a != 0").is_err());
+/// ```
+///
+/// # Errors
+///
+/// [`ConstantsError::OutOfBound`] with its name, bound and value.
+pub fn check_nonzero<R: Real>(
+    value: R,
+    name: &'static str,
+    bound: &'static str,
+) -> Result<(), ConstantsError> {
+    bounded(value, name, bound, |value| value != 0.0)
+}
+
+fn bounded<R: Real>(
+    value: R,
+    name: &'static str,
+    bound: &'static str,
+    holds: impl Fn(f64) -> bool,
+) -> Result<(), ConstantsError> {
+    let value = value.to_f64();
+    if holds(value) { Ok(()) } else { Err(ConstantsError::OutOfBound { name, bound, value }) }
+}
+
 /// Refuses a pivot of constants that is zero or not finite.
 ///
 /// ```

@@ -5,9 +5,10 @@
 //! quotient. Duals are generic over the real beneath, hence nest: a dual of duals holds second derivatives.
 
 use core::cmp::Ordering;
-use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
+use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use crate::real::{Ordered, Real};
+use crate::rules::{assign_operators, by_slopes};
 
 /// A value and its derivatives along `N` directions.
 ///
@@ -137,23 +138,7 @@ impl<R: Real, const N: usize> Neg for Dual<R, N> {
     }
 }
 
-macro_rules! assign {
-    ($($trait:ident, $method:ident, $operator:tt;)*) => {
-        $(impl<R: Real, const N: usize> $trait for Dual<R, N> {
-            #[inline]
-            fn $method(&mut self, other: Self) {
-                *self = *self $operator other;
-            }
-        })*
-    };
-}
-
-assign! {
-    AddAssign, add_assign, +;
-    SubAssign, sub_assign, -;
-    MulAssign, mul_assign, *;
-    DivAssign, div_assign, /;
-}
+assign_operators!(Dual<R, N>, R: Real, const N: usize);
 
 impl<R: Ordered, const N: usize> PartialOrd for Dual<R, N> {
     /// By value; equal only if the tangents are, too.
@@ -229,12 +214,7 @@ impl<R: Real, const N: usize> Real for Dual<R, N> {
         R::vectorize(function)
     }
 
-    // sin' = cos, cos' = -sin
-    #[inline]
-    fn sin_cos(self) -> (Self, Self) {
-        let (sin, cos) = self.value.sin_cos();
-        (self.chain(sin, cos), self.chain(cos, -sin))
-    }
+    by_slopes!();
 
     #[inline]
     fn sin_cos_pair(first: Self, second: Self) -> ((Self, Self), (Self, Self)) {
@@ -271,80 +251,12 @@ impl<R: Real, const N: usize> Real for Dual<R, N> {
         self.chain(cot, -(R::one() + cot * cot))
     }
 
-    // asin' = 1 / sqrt(1 - u^2), the radicand as a product: it keeps its digits near the ends
-    #[inline]
-    fn asin(self) -> Self {
-        let u = self.value;
-        self.chain(u.asin(), ((R::one() - u) * (R::one() + u)).sqrt().recip())
-    }
-
-    // acos' = -1 / sqrt(1 - u^2)
-    #[inline]
-    fn acos(self) -> Self {
-        let u = self.value;
-        self.chain(u.acos(), -((R::one() - u) * (R::one() + u)).sqrt().recip())
-    }
-
-    // atan' = 1 / (1 + u^2)
-    #[inline]
-    fn atan(self) -> Self {
-        let u = self.value;
-        self.chain(u.atan(), (R::one() + u * u).recip())
-    }
-
     // d atan2(y, x) = (x dy - y dx) / (x^2 + y^2)
     #[inline]
     fn atan2(self, x: Self) -> Self {
         let square = x.value * x.value + self.value * self.value;
         let (along_y, along_x) = (x.value / square, self.value / square);
         Self { value: self.value.atan2(x.value), tangent: self.zip(x, |dy, dx| along_y * dy - along_x * dx) }
-    }
-
-    // sinh' = cosh
-    #[inline]
-    fn sinh(self) -> Self {
-        self.chain(self.value.sinh(), self.value.cosh())
-    }
-
-    // cosh' = sinh
-    #[inline]
-    fn cosh(self) -> Self {
-        self.chain(self.value.cosh(), self.value.sinh())
-    }
-
-    // tanh' = 1 / cosh^2, not 1 - tanh^2, which cancels for large arguments
-    #[inline]
-    fn tanh(self) -> Self {
-        let sech = self.value.cosh().recip();
-        self.chain(self.value.tanh(), sech * sech)
-    }
-
-    // exp' = exp
-    #[inline]
-    fn exp(self) -> Self {
-        let exp = self.value.exp();
-        self.chain(exp, exp)
-    }
-
-    // ln' = 1 / u
-    #[inline]
-    fn ln(self) -> Self {
-        self.chain(self.value.ln(), self.value.recip())
-    }
-
-    // sqrt' = 1 / (2 sqrt)
-    #[inline]
-    fn sqrt(self) -> Self {
-        let root = self.value.sqrt();
-        self.chain(root, (root + root).recip())
-    }
-
-    // root_q' = 1 / (q root_q^(q - 1))
-    #[inline]
-    fn root(self, q: u32) -> Self {
-        let root = self.value.root(q);
-        let power = root.powi(i32::try_from(i64::from(q) - 1).unwrap_or(i32::MAX));
-        self.chain(root, (R::from_ratio(i64::from(q), 1) * power).recip())
     }
 
     // |u|' = sign u

@@ -167,6 +167,19 @@ pub enum Cause {
         /// The limit.
         limit: f64,
     },
+    /// A fixed step is too long next to the edge of the chart: over one step a function that must not vanish changed so much
+    /// that the pole of what divides by it is not resolved. The time and state beside this cause are the last look that
+    /// found no such step.
+    Approach {
+        /// The time at which it was found.
+        found: f64,
+        /// Which of the functions that must not vanish; a generated system has their formulas in `DOMAIN`.
+        function: usize,
+        /// The factor by which it changed, above one.
+        ratio: f64,
+        /// The limit.
+        limit: f64,
+    },
     /// The mass matrix is so ill conditioned that rounding leaves the accelerations too few digits. The time and state
     /// beside this cause are the last at which it was not, or the start.
     Condition {
@@ -258,6 +271,16 @@ impl fmt::Display for Cause {
                     "by t = {found} the motion had come to the edge of the chart: of function {function} that must "
                 )?;
                 write!(f, "not vanish {distance:e} was left, and {limit:e} is the limit")
+            }
+            Self::Approach { found, function, ratio, limit } => {
+                write!(
+                    f,
+                    "by t = {found} a fixed step was too long for the edge of the chart that is near: it changed "
+                )?;
+                write!(
+                    f,
+                    "function {function} that must not vanish {ratio:e} times, and {limit:e} is allowed"
+                )
             }
             Self::Condition { found, condition, limit } => {
                 write!(

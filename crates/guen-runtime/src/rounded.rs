@@ -1,8 +1,9 @@
 //! A real that counts roundings: how much of a value is left where terms cancel.
 
-use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
+use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use crate::real::Real;
+use crate::rules::{assign_operators, by_slopes};
 
 /// A value beside a first-order bound of its error, in units of the unit roundoff.
 ///
@@ -114,23 +115,7 @@ impl<R: Real> Neg for Rounded<R> {
     }
 }
 
-macro_rules! assign {
-    ($($trait:ident, $method:ident, $operator:tt;)*) => {
-        $(impl<R: Real> $trait for Rounded<R> {
-            #[inline]
-            fn $method(&mut self, other: Self) {
-                *self = *self $operator other;
-            }
-        })*
-    };
-}
-
-assign! {
-    AddAssign, add_assign, +;
-    SubAssign, sub_assign, -;
-    MulAssign, mul_assign, *;
-    DivAssign, div_assign, /;
-}
+assign_operators!(Rounded<R>, R: Real);
 
 impl<R: Real> Real for Rounded<R> {
     #[inline]
@@ -168,30 +153,7 @@ impl<R: Real> Real for Rounded<R> {
         R::vectorize(function)
     }
 
-    #[inline]
-    fn sin_cos(self) -> (Self, Self) {
-        let (sin, cos) = self.value.sin_cos();
-        (self.chain(sin, cos), self.chain(cos, sin))
-    }
-
-    // 1 / sqrt(1 - u^2), the radicand as a product: it keeps its digits near the ends
-    #[inline]
-    fn asin(self) -> Self {
-        let u = self.value;
-        self.chain(u.asin(), ((R::one() - u) * (R::one() + u)).sqrt().recip())
-    }
-
-    #[inline]
-    fn acos(self) -> Self {
-        let u = self.value;
-        self.chain(u.acos(), ((R::one() - u) * (R::one() + u)).sqrt().recip())
-    }
-
-    #[inline]
-    fn atan(self) -> Self {
-        let u = self.value;
-        self.chain(u.atan(), (R::one() + u * u).recip())
-    }
+    by_slopes!();
 
     // d atan2(y, x) = (x dy - y dx) / (x^2 + y^2)
     #[inline]
@@ -200,46 +162,6 @@ impl<R: Real> Real for Rounded<R> {
         let square = x.value * x.value + self.value * self.value;
         let moved = (x.value.abs() * self.error + self.value.abs() * x.error) / square;
         Self { value, error: moved + value.abs() }
-    }
-
-    #[inline]
-    fn sinh(self) -> Self {
-        self.chain(self.value.sinh(), self.value.cosh())
-    }
-
-    #[inline]
-    fn cosh(self) -> Self {
-        self.chain(self.value.cosh(), self.value.sinh())
-    }
-
-    #[inline]
-    fn tanh(self) -> Self {
-        let sech = self.value.cosh().recip();
-        self.chain(self.value.tanh(), sech * sech)
-    }
-
-    #[inline]
-    fn exp(self) -> Self {
-        let exp = self.value.exp();
-        self.chain(exp, exp)
-    }
-
-    #[inline]
-    fn ln(self) -> Self {
-        self.chain(self.value.ln(), self.value.recip())
-    }
-
-    #[inline]
-    fn sqrt(self) -> Self {
-        let root = self.value.sqrt();
-        self.chain(root, (root + root).recip())
-    }
-
-    #[inline]
-    fn root(self, q: u32) -> Self {
-        let root = self.value.root(q);
-        let power = root.powi(i32::try_from(i64::from(q) - 1).unwrap_or(i32::MAX));
-        self.chain(root, (R::from_ratio(i64::from(q), 1) * power).recip())
     }
 
     #[inline]

@@ -5,7 +5,8 @@
 ///
 /// `serde_record!(Type, "Type", count, [names], to_array, from_array)`: the names in order, and the way from and to an
 /// array. Every field has to be there when it is read, each once, and no other. Without the feature `serde` it expands to
-/// nothing. Works without a prelude and from any crate name.
+/// nothing. Works without a prelude and from any crate name. A record that has its names as `NAMES` and converts from and to
+/// an array is `serde_record!(Type, "Type", count)`.
 ///
 /// ```
 /// #[derive(Debug, PartialEq, Clone, Copy)]
@@ -15,6 +16,16 @@
 #[cfg(feature = "serde")]
 #[macro_export]
 macro_rules! serde_record {
+    ($Type:ident, $name:literal, $n:literal) => {
+        $crate::serde_record!(
+            $Type,
+            $name,
+            $n,
+            $Type::<f64>::NAMES,
+            |record| ::core::convert::From::from(*record),
+            ::core::convert::From::from
+        );
+    };
     ($Type:ident, $name:literal, $n:literal, $names:expr, $to:expr, $from:expr) => {
         impl<R: $crate::serde::Serialize + ::core::marker::Copy> $crate::serde::Serialize for $Type<R> {
             fn serialize<S: $crate::serde::Serializer>(
@@ -43,7 +54,7 @@ macro_rules! serde_record {
 #[cfg(not(feature = "serde"))]
 #[macro_export]
 macro_rules! serde_record {
-    ($Type:ident, $name:literal, $n:literal, $names:expr, $to:expr, $from:expr) => {};
+    ($Type:ident, $name:literal, $n:literal $(, $names:expr, $to:expr, $from:expr)?) => {};
 }
 
 #[cfg(feature = "serde")]

@@ -72,8 +72,12 @@ fn damping_of_a_million_is_stable_with_gauss() {
 fn explicit_methods_report_that_the_system_is_stiff() {
     let system = generic(Damped);
     let error = Rk4 { step: 1e-3 }.integrate(&system, 0.0, &[0.0, 2.0], 10.0, go_on).unwrap_err();
+    assert!(matches!(error.cause, Cause::Step { .. }), "{error}");
+    assert_eq!((error.time, error.state), (0.0, [0.0, 2.0]));
+    let unguarded = Integration::new(&system, 0.0, &[0.0, 2.0]).guard(Guard::FINITE);
+    let error = unguarded.run(&Rk4 { step: 1e-3 }, 10.0).unwrap_err();
     assert_eq!(error.cause, Cause::NotFinite);
-    assert!(error.state.iter().all(|x| x.is_finite()));
+    assert!(error.time > 0.0 && error.state.iter().all(|x| x.is_finite()));
     let error = Dop853::new(1e-8, 1e-8).integrate(&system, 0.0, &[0.0, 2.0], 10.0, go_on).unwrap_err();
     assert_eq!(error.cause, Cause::TooManySteps { limit: Dop853::<f64>::MAX_STEPS });
     // What it did until then is right.

@@ -45,6 +45,7 @@
 
 mod ensemble;
 mod error;
+mod median;
 mod monitor;
 mod plot;
 mod progress;
@@ -60,6 +61,7 @@ mod viewer;
 
 pub use ensemble::{End, Ensemble, Sampled};
 pub use error::StudyError;
+pub use median::median_with_interval;
 pub use monitor::{Invariants, Monitor, drift, residuals};
 pub use plot::Plot;
 pub use progress::Progress;
@@ -70,8 +72,7 @@ pub use stored::StoredRecording;
 #[cfg(feature = "study")]
 pub use study::{
     Choice, Closures, Cost, Digits71, Ending, Failure, FailureKind, Forecast, Knob, Nearby, NoChoice,
-    ReferenceReport, Report, Row, Settings, Stopwatch, Study, Trade, Tried, Unit, median_with_interval,
-    pareto_front,
+    ReferenceReport, Report, Row, Settings, Stopwatch, Study, Trade, Tried, Unit, pareto_front,
 };
 pub use table::{Table, significant};
 #[cfg(feature = "viewer")]

@@ -29,7 +29,7 @@ pub use motion::{
     equations_by_definition,
 };
 pub use normal::{Limits, normal_coefficients, normal_form};
-pub use print::{Notation, greek_letter, latex_name};
+pub use print::{Contracted, Notation, greek_letter, latex_name};
 pub use program::{
     Arithmetic, Carried, CarriedFunction, Formulation, FunctionProgram, Instruction, LARGEST_DIFFERENTIATED,
     LARGEST_JACOBIAN, NotAnalytic, NotCarried, Operation, OperationCount, Pattern, ProgramBuilder, Programs,

@@ -52,8 +52,10 @@ fn chain(graph: &mut Graph, rotors: bool) -> (Mechanics, [ExprId; 3]) {
             Form { row, offset: graph.zero() }
         })
         .collect();
+    let forms = Forms { time, coordinates: x, forms, degrees: LINKS };
     let mechanics = Mechanics {
-        forms: Forms { time, coordinates: x, forms, degrees: LINKS },
+        written: forms.over(graph, &velocities),
+        forms,
         velocities,
         etas,
         accelerations,

@@ -15,7 +15,10 @@ pub fn tasks() -> Vec<Task> {
         ("hanging", 1e-6),
         ("hanging", 1e6),
         ("upright", 1.0),
+        ("upright", 1e-6),
+        ("upright", 1e6),
         ("folded", 1.0),
+        ("folded", 1e-6),
         ("folded", 1e6),
     ] {
         add(

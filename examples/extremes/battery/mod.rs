@@ -6,10 +6,12 @@
 
 pub mod chains;
 pub mod constants;
+pub mod growth;
 pub mod hoop;
 pub mod methods;
 pub mod motion;
 pub mod reals;
+pub mod reference;
 pub mod sled;
 pub mod starts;
 pub mod stiff;

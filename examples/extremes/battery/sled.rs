@@ -1,9 +1,9 @@
 //! Chaplygin's sled on an incline: a mass matrix that is nearly singular, headings at quarter turns, stiff runs.
 
-use guen_benchmarks::systems::{Sled, sled};
 use guen_study::Digits71;
 
 use super::motion::Motion;
+use super::systems::{Sled, sled};
 use super::{Line, Task};
 use crate::both;
 
@@ -64,7 +64,6 @@ pub fn tasks() -> Vec<Task> {
             let mut motion = motion((1e-3, 0.0, 1e-3), 0.0, [0.0, 0.0, 0.0, 0.1, 6.0], 0.1);
             motion.due = &["DOP853", "Radau 5"];
             motion.steps = 100;
-            motion.absolute = 1e-3;
             motion.ask::<f64>("turning that dies at 3000/s, in steps of 1 ms")
         }),
     );
@@ -73,7 +72,6 @@ pub fn tasks() -> Vec<Task> {
         Box::new(|| {
             let mut motion = motion((1e-3, 0.0, 1e-3), 0.3, [0.0, 0.0, 0.0, 0.1, 6.0], 0.1);
             motion.steps = 20_000;
-            motion.absolute = 1e-3;
             motion.ask::<f64>("the same on an incline, in steps of 5 us")
         }),
     );

@@ -1,4 +1,4 @@
-//! The systems that have no declaration elsewhere, and every system in doubles and in 71 digits.
+//! The systems, with Taylor series where Taylor's method is asked, and every one in doubles and in 71 digits.
 
 /// A system with the same constants in doubles, in 71 digits, prepared.
 #[macro_export]
@@ -11,6 +11,10 @@ macro_rules! both {
     }};
 }
 
+guen_benchmarks::hoop!(guen::mechanical_system; provide taylor;);
+guen_benchmarks::sled!(guen::mechanical_system; provide taylor;);
+guen_benchmarks::euler_top!(guen::mechanical_system; provide taylor;);
+
 guen::mechanical_system! {
     /// A mass on a spring, damped: `m v' = -k q - c v`.
     pub system Damped {
@@ -20,6 +24,7 @@ guen::mechanical_system! {
         kinetic_energy   = m/2*v^2;
         potential_energy = k/2*q^2;
         forces { -c*v along v; }
+        provide taylor;
     }
 }
 
@@ -31,6 +36,7 @@ guen::mechanical_system! {
         parameters { u = dot(r); w = dot(q); }
         kinetic_energy   = m/2*(u^2 + r^2*w^2);
         potential_energy = k/2*(r - l)^2 - m*g*r*cos(q);
+        provide taylor;
     }
 }
 
@@ -50,6 +56,7 @@ guen::mechanical_system! {
             north: dot(y) + a*eta1 - speed*x = 0;
         }
         kinetic_energy = m/2*(dot(x)^2 + dot(y)^2) + m*a^2/5*(eta1^2 + eta2^2 + eta3^2);
+        provide taylor;
     }
 }
 
@@ -62,12 +69,13 @@ guen::mechanical_system! {
         holonomic { rod: x^2 + y^2 = l^2; }
         kinetic_energy = m/2*(dot(x)^2 + dot(y)^2);
         potential_energy = m*g*y;
+        provide taylor;
     }
 }
 
 /// A chain of point masses on massless links, the last mass of its own.
 macro_rules! chain {
-    ($docs:literal, $Name:ident: $($q:ident $w:ident $here:ident $before:ident,)* ; $last:ident) => {
+    ($docs:literal, $Name:ident: $($q:ident $w:ident $here:ident $before:ident,)* ; $last:ident $($more:tt)*) => {
         guen::mechanical_system! {
             #[doc = $docs]
             pub system $Name {
@@ -78,12 +86,13 @@ macro_rules! chain {
                 parameters { $($w = dot($q);)* }
                 particles { $(m at $here;)* M at $last; }
                 gravity = vec(0, -g);
+                $($more)*
             }
         }
     };
 }
 
-chain!("A double pendulum.", Chain2: q1 w1 p1 origin, q2 w2 p2 p1, ; p2);
+chain!("A double pendulum.", Chain2: q1 w1 p1 origin, q2 w2 p2 p1, ; p2 provide taylor;);
 chain!("A chain of twenty links.", Chain20:
     q1 w1 p1 origin, q2 w2 p2 p1, q3 w3 p3 p2, q4 w4 p4 p3, q5 w5 p5 p4,
     q6 w6 p6 p5, q7 w7 p7 p6, q8 w8 p8 p7, q9 w9 p9 p8, q10 w10 p10 p9,

@@ -1,8 +1,7 @@
 //! Euler's top next to its separatrix, and at any ratio of its moments.
 
-use guen_benchmarks::systems::EulerTop;
-
 use super::motion::Motion;
+use super::systems::EulerTop;
 use super::{Line, Task};
 use crate::both;
 
@@ -25,7 +24,6 @@ pub fn tasks() -> Vec<Task> {
             Box::new(move || {
                 let (double, long) = both!(EulerTop { I1: 1.0, I2: 2.0, I3: 3.0 * ratio });
                 Motion::new("top", double, long, [0.1, 1.2, 0.3, 0.2, 0.3, 1e-3], (0.0, span))
-                    .or_refused()
                     .ask::<f64>(format!("a third moment of {ratio:e} of the others, for {span:e} s"))
             }),
         );
@@ -35,7 +33,6 @@ pub fn tasks() -> Vec<Task> {
         Box::new(|| {
             let (double, long) = both!(EulerTop { I1: 1.0, I2: 2.0, I3: 3.0 });
             Motion::new("top", double, long, [0.0, 1e-9, 0.0, 0.2, 0.3, 1.0], (0.0, 1.0))
-                .or_refused()
                 .ask::<f64>("at the edge of Euler's angles, theta = 1e-9")
         }),
     );

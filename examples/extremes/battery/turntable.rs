@@ -15,12 +15,14 @@ pub fn tasks() -> Vec<Task> {
             quick,
             Box::new(move || {
                 let (double, long) = both!(Turntable { m: 1.0, a: 0.1, Omega: speed, swing: 0.0, nu: 0.0 });
-                let span = 30.0 / f64::abs(speed);
+                let span = 10.0 / f64::abs(speed);
                 // The ball itself has to turn as fast to roll there.
                 let mut start = start;
                 start[5] = -speed * start[0] / 0.1;
-                let motion = Motion::new("turntable", double, long, start, (0.0, span));
-                motion.or_refused().ask::<f64>(format!("Omega = {speed:e} rad/s, for {span:.0e} s"))
+                let mut motion = Motion::new("turntable", double, long, start, (0.0, span));
+                // It comes near the edge again and again, where a method of order five takes too many steps.
+                motion.due = &["Tsit5", "DOP853", "Taylor"];
+                motion.ask::<f64>(format!("Omega = {speed:e} rad/s, for {span:.0e} s"))
             }),
         );
     }

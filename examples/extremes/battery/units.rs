@@ -1,12 +1,14 @@
 //! Units: powers of two change nothing, not a bit; other units nothing beyond the errors of the methods.
 
-use guen::prelude::*;
-use guen::steppers::Method;
-use guen_benchmarks::systems::{Sled, sled};
-
+use super::growth::{allowed, growth};
 use super::methods::{self, Promise, Settings, Visitor};
 use super::motion::refusal;
+use super::reference::Reference;
+use super::systems::{Sled, sled};
 use super::{Answer, Line, Task, Verdict};
+use crate::both;
+use guen::prelude::*;
+use guen::steppers::Method;
 
 const SPAN: f64 = 2.0;
 const STEP: f64 = 1.0 / 1024.0;
@@ -37,8 +39,8 @@ impl Units {
     }
 }
 
-/// Where a method arrived, in metres and seconds.
-type End = (&'static str, Promise, Result<[f64; 5], Verdict>);
+/// Where a method arrived, in metres and seconds, and after how many steps.
+type End = (&'static str, Promise, Result<([f64; 5], u64), Verdict>);
 
 /// The ends of all methods.
 struct Ends {
@@ -52,7 +54,7 @@ impl Visitor<f64, sled::Prepared, 5> for Ends {
         let start = std::array::from_fn(|i| START[i] * factors[i]);
         let run = Integration::new(&self.units.system(), 0.0, &start).run(method, SPAN * self.units.time);
         let end = match run {
-            Ok(done) => Ok(std::array::from_fn(|i| done.state[i] / factors[i])),
+            Ok(done) => Ok((std::array::from_fn(|i| done.state[i] / factors[i]), done.statistics.accepted)),
             Err(error) => Err(refusal(&error, true)),
         };
         self.ends.push((by, promise, end));
@@ -67,12 +69,22 @@ fn ends(units: Units) -> Ends {
 }
 
 /// The largest relative difference of the ends of a motion in two systems of units.
-fn compare(asked: &str, one: Units, other: Units, allowed: fn(&str, Promise) -> f64) -> Line {
+///
+/// Adaptive methods are off by what both runs may be off by; those with a fixed step by `fixed` roundings of every step.
+fn compare(asked: &str, one: Units, other: Units, fixed: fn(&str) -> f64) -> Line {
+    let (double, long) = both!(Sled { m: 2.0, alpha: 0.2, beta: 0.3, k: 0.4, incline: 0.3, g: 9.81 });
+    let growth = Reference::new(&long, &START, (0.0, SPAN), 1e-3)
+        .and_then(|reference| growth::<f64, _, 5>(&double, &reference))
+        .unwrap_or(f64::NAN);
     let answers = ends(one).ends.into_iter().zip(ends(other).ends).map(|((by, promise, a), (_, _, b))| {
         let verdict = match (a, b) {
-            (Ok(a), Ok(b)) => {
+            (Ok((a, steps)), Ok((b, further))) => {
                 let off = (0..5).map(|i| (a[i] - b[i]).abs() / a[i].abs()).fold(0.0, f64::max);
-                Verdict::of(off, allowed(by, promise))
+                let allowed = match promise {
+                    Promise::Fixed => fixed(by) * steps as f64 * growth * 0.5 * f64::EPSILON,
+                    Promise::Adaptive(tolerance) => allowed::<5>(steps + further, growth, tolerance),
+                };
+                Verdict::of(off, allowed)
             }
             (Err(verdict), _) | (_, Err(verdict)) => verdict,
         };
@@ -92,31 +104,23 @@ pub fn tasks() -> Vec<Task> {
     let powers = Units { length: power(30), time: power(-17), mass: power(-41) };
     vec![
         Task::new("units", true, move || {
-            let allowed = |by: &str, promise| match promise {
-                // Implicit methods solve their equations to rounding, on a way that depends on units.
-                Promise::Fixed if by.starts_with("Gauss") => 1e-13,
-                Promise::Fixed => 0.0,
-                Promise::Adaptive(tolerance) => 1e4 * tolerance,
-            };
+            // Implicit methods solve their equations to rounding, on a way that depends on units.
+            let fixed = |by: &str| if by.starts_with("Gauss") { 1.0 } else { 0.0 };
             compare(
                 "the sled in units that are 2^30, 2^-17 and 2^-41 of metre, second and kilogram",
                 USUAL,
                 powers,
-                allowed,
+                fixed,
             )
         }),
         Task::new("units", true, move || {
             let small = Units { length: 1e3, time: 1.0, mass: 1e6 };
             let large = Units { length: 1e-3, time: 1.0, mass: 1e-3 };
-            let allowed = |_: &str, promise| match promise {
-                Promise::Fixed => 1e-12,
-                Promise::Adaptive(tolerance) => 1e4 * tolerance,
-            };
             compare(
                 "the sled in millimetres and milligrams, and in kilometres and tonnes",
                 small,
                 large,
-                allowed,
+                |_| 1.0,
             )
         }),
     ]

@@ -1,6 +1,6 @@
 //! The carried form of a level: its elementary functions as states, its rates without calls.
 
-use guen_symbolic::{Carried, CarriedFunction, ExprId, NotCarried, ProgramBuilder, Programs};
+use guen_symbolic::{Carried, CarriedFunction, Contracted, ExprId, NotCarried, ProgramBuilder, Programs};
 
 use super::selection::Selection;
 use super::{Level, extend, function, written};
@@ -70,6 +70,7 @@ pub(super) fn derive(
         domain_names,
         constant_pivots: Vec::new(),
         jacobians: Jacobians::default(),
+        shown: Contracted::default(),
         placed: None,
         series: None,
         scene: None,

@@ -1,6 +1,6 @@
 //! The functions of a scene, and the cheapest programs for them.
 
-use guen_symbolic::{Dependence, Derivation, ExprId, Programs, Role, Substitution, Workbench};
+use guen_symbolic::{Contracted, Dependence, Derivation, ExprId, Programs, Role, Substitution, Workbench};
 
 use super::fixed::Holding;
 use super::manifold::Replacement;
@@ -62,11 +62,12 @@ pub(super) fn parts(
     derivation: &Derivation,
     brackets: &[Commutator],
     selection: &Selection,
+    shown: &Contracted,
     view: &mut View,
 ) -> (Vec<Part>, Vec<String>, Vec<ExprId>) {
     let l = derivation.system.forms.degrees;
     let n = model.coordinates.len();
-    let (chart, names) = domain(model, derivation);
+    let (chart, names) = domain(model, derivation, shown);
     let pivots = constant_pivots(derivation);
     let whole = formulas::whole(model, derivation, brackets, chart.clone(), pivots.clone());
     let mut parts = Vec::new();

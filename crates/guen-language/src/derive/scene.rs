@@ -9,7 +9,7 @@ use super::fixed::{self, Holding};
 use super::manifold::{Replacement, quaternions};
 use super::parts::{View, cheapest, parts, replaced};
 use super::selection::{Held, Place, Selection};
-use super::{Commutator, Level, carried, commutators, formulas, polish, series};
+use super::{Commutator, Level, carried, commutators, formulas, polish, series, shown};
 use crate::diagnostics::{Fault, Faults};
 use crate::jacobians::Jacobians;
 use crate::model::{Model, SceneEntry};
@@ -147,8 +147,11 @@ fn level(
         .filter(|c| scene.fixes.iter().all(|fix| fix.symbol != model.constants[*c].symbol))
         .collect();
 
-    let (parts, domain_names, constant_pivots) = parts(model, &derivation, &brackets, &selection, &mut view);
     let energy = view.of(model, derivation.energies.integral);
+    let written: Vec<ExprId> = rates.iter().copied().chain([energy]).collect();
+    let shown = shown(model, &derivation, &brackets, &written);
+    let (parts, domain_names, constant_pivots) =
+        parts(model, &derivation, &brackets, &selection, &shown, &mut view);
     let shares = Rc::ptr_eq(&derivation, &system.derivation) && selection.held.is_empty();
     let whole = shares.then_some(&system.programs);
     let provided = |word: &str| {
@@ -191,6 +194,7 @@ fn level(
         constant_pivots,
         series,
         jacobians,
+        shown,
         scene: Some(facts),
         carried: None,
     };

@@ -13,8 +13,8 @@ pub(super) trait Loads {
     fn symbol(&self, symbol: SymbolId) -> String;
 }
 
-/// The body of a function: its statements, then its results as an array. Values are called `v0`, `v1`, ..; loads
-/// stand where they are used.
+/// The body of a function: its statements, then its results as an array. Values are called `v0`, `v1`, ..; loads, and
+/// what one operation alone uses, stand where they are used.
 ///
 /// Long programs are cut into blocks that hand on what later ones need. Every `let` opens a lexical scope inside the
 /// one before, and the compiler's code for debug information recurses over them: five thousand in a row overflow its
@@ -22,8 +22,14 @@ pub(super) trait Loads {
 pub(super) fn body(instructions: &[Instruction], outputs: &[Value], loads: &dyn Loads) -> String {
     const BLOCK: usize = 100;
     let values = instructions.iter().flat_map(defined).map(|v| v.index() + 1).max().unwrap_or(0);
-    let absorbed = absorbed(instructions, outputs, values);
-    let mut writer = Writer { names: vec![String::new(); values], text: String::new(), absorbed };
+    let uses = uses(instructions, outputs, values);
+    let mut writer = Writer {
+        names: vec![String::new(); values],
+        is_operation: vec![false; values],
+        in_place: vec![false; values],
+        absorbed: absorbed(instructions, &uses),
+        text: String::new(),
+    };
     // Where each value is used last; results count as used behind the end.
     let mut last_use = vec![0; values];
     let mut steps: Vec<&Instruction> = instructions.iter().filter(|i| !writer.load(i, loads)).collect();
@@ -38,10 +44,18 @@ pub(super) fn body(instructions: &[Instruction], outputs: &[Value], loads: &dyn 
             }
         }
     }
+    // Results stand inside of the only block, or behind all of several.
+    let is_short = steps.len() <= BLOCK;
     for output in outputs {
-        last_use[output.index()] = usize::MAX;
+        last_use[output.index()] = if is_short { steps.len() } else { usize::MAX };
     }
-    if steps.len() <= BLOCK {
+    // Blocks hand on names only.
+    let block = if is_short { steps.len() + 1 } else { BLOCK };
+    for (place, step) in steps.iter().enumerate() {
+        let r = step.result.index();
+        writer.in_place[r] = uses[r] == 1 && last_use[r] / block == place / block;
+    }
+    if is_short {
         writer.statements(&steps);
     } else {
         for (number, block) in steps.chunks(BLOCK).enumerate() {
@@ -66,15 +80,20 @@ pub(super) fn body(instructions: &[Instruction], outputs: &[Value], loads: &dyn 
     writer.text
 }
 
-/// The factors of products that have no statement of their own, by value: those that one sum uses and nothing else.
-/// The sum is written as a call that lets the real fuse both; of two products the first.
-fn absorbed(instructions: &[Instruction], outputs: &[Value], values: usize) -> Vec<Option<(Value, Value)>> {
-    let mut uses = vec![0_usize; values];
-    let mut factors = vec![None; values];
+/// How often each value is used.
+fn uses(instructions: &[Instruction], outputs: &[Value], values: usize) -> Vec<usize> {
+    let mut uses = vec![0; values];
     for value in instructions.iter().flat_map(|i| i.operation.operands()).chain(outputs.iter().copied()) {
         uses[value.index()] += 1;
     }
-    let mut absorbed = vec![None; values];
+    uses
+}
+
+/// The factors of products that have no statement of their own, by value: those that one sum uses and nothing else.
+/// The sum is written as a call that lets the real fuse both; of two products the first.
+fn absorbed(instructions: &[Instruction], uses: &[usize]) -> Vec<Option<(Value, Value)>> {
+    let mut factors = vec![None; uses.len()];
+    let mut absorbed = vec![None; uses.len()];
     for Instruction { result, operation } in instructions {
         match *operation {
             Operation::Mul(a, b) => factors[result.index()] = Some((a, b)),
@@ -157,10 +176,17 @@ fn defined(instruction: &Instruction) -> impl Iterator<Item = Value> {
 struct Writer {
     /// How each value is written where it is used.
     names: Vec<String>,
-    text: String,
+    /// Whether that is an operation, which stands in parentheses beside an operator.
+    is_operation: Vec<bool>,
+    /// Whether it may be an expression: one place uses the value.
+    in_place: Vec<bool>,
     /// The factors of products that are written inside of a sum.
     absorbed: Vec<Option<(Value, Value)>>,
+    text: String,
 }
+
+/// Longer expressions have a statement of their own, so that they nest a few levels deep.
+const LONGEST_IN_PLACE: usize = 48;
 
 impl Writer {
     /// Takes in a load, which needs no statement; tells whether it was one.
@@ -214,36 +240,55 @@ impl Writer {
 
     fn statement(&mut self, Instruction { result, operation }: &Instruction) {
         let r = result.index();
-        let v = |value: &Value| self.names[value.index()].as_str();
+        if let Operation::SinCos { angle, cosine } = operation {
+            let angle = &self.names[angle.index()];
+            let _ = write!(self.text, "let (v{r}, v{}) = R::sin_cos({angle});", cosine.index());
+            return;
+        }
+        let (expression, is_operation) = self.expression(operation);
+        if self.in_place[r] && expression.len() <= LONGEST_IN_PLACE {
+            self.names[r] = expression;
+            self.is_operation[r] = is_operation;
+        } else {
+            let _ = write!(self.text, "let v{r} = {expression};");
+        }
+    }
+
+    /// The right-hand side of a statement with one result, and whether it is an operation and not a call.
+    fn expression(&self, operation: &Operation) -> (String, bool) {
+        let name = |value: &Value| self.names[value.index()].as_str();
+        let operand = |value: &Value| match self.is_operation[value.index()] {
+            true => format!("({})", name(value)),
+            false => name(value).to_owned(),
+        };
         let product = |value: &Value| self.absorbed[value.index()];
         let fused = |method: &str, [a, b, c]: [&Value; 3]| {
-            format!("let v{r} = R::{method}({}, {}, {});", v(a), v(b), v(c))
+            (format!("R::{method}({}, {}, {})", name(a), name(b), name(c)), false)
         };
-        let statement = match operation {
-            Operation::Number(value) => format!("let v{r} = {};", number(value)),
-            Operation::Pi => format!("let v{r} = R::pi();"),
-            // Loads have no statement.
-            Operation::Symbol(_) | Operation::Prepared(_) => String::new(),
+        let (sign, a, b) = match operation {
             Operation::Add(a, b) => match (product(a), product(b)) {
-                (Some((x, y)), _) => fused("times_plus", [&x, &y, b]),
-                (_, Some((x, y))) => fused("times_plus", [&x, &y, a]),
-                _ => format!("let v{r} = {} + {};", v(a), v(b)),
+                (Some((x, y)), _) => return fused("times_plus", [&x, &y, b]),
+                (_, Some((x, y))) => return fused("times_plus", [&x, &y, a]),
+                _ => ('+', a, b),
             },
             Operation::Sub(a, b) => match (product(a), product(b)) {
-                (Some((x, y)), _) => fused("times_minus", [&x, &y, b]),
-                (_, Some((x, y))) => fused("minus_times", [a, &x, &y]),
-                _ => format!("let v{r} = {} - {};", v(a), v(b)),
+                (Some((x, y)), _) => return fused("times_minus", [&x, &y, b]),
+                (_, Some((x, y))) => return fused("minus_times", [a, &x, &y]),
+                _ => ('-', a, b),
             },
-            Operation::Neg(a) => format!("let v{r} = -{};", v(a)),
-            Operation::Mul(a, b) => format!("let v{r} = {} * {};", v(a), v(b)),
-            Operation::Div(a, b) => format!("let v{r} = {} / {};", v(a), v(b)),
-            Operation::SinCos { angle, cosine } => {
-                format!("let (v{r}, v{}) = R::sin_cos({});", cosine.index(), v(angle))
+            Operation::Mul(a, b) => ('*', a, b),
+            Operation::Div(a, b) => ('/', a, b),
+            Operation::Neg(a) => return (format!("-{}", operand(a)), true),
+            Operation::Number(value) => return (number(value), false),
+            Operation::Pi => return ("R::pi()".to_owned(), false),
+            Operation::Call(function, a) => return (call(*function, name(a)), false),
+            Operation::Atan2(y, x) => return (format!("R::atan2({}, {})", name(y), name(x)), false),
+            // Loads have no statement, and a pair is no expression.
+            Operation::Symbol(_) | Operation::Prepared(_) | Operation::SinCos { .. } => {
+                return (String::new(), false);
             }
-            Operation::Call(function, a) => format!("let v{r} = {};", call(*function, v(a))),
-            Operation::Atan2(y, x) => format!("let v{r} = R::atan2({}, {});", v(y), v(x)),
         };
-        self.text.push_str(&statement);
+        (format!("{} {sign} {}", operand(a), operand(b)), true)
     }
 }
 
@@ -263,11 +308,10 @@ pub(super) fn number(value: &Rational) -> String {
         return match (n, d) {
             (0, _) => "R::zero()".to_owned(),
             (1, 1) => "R::one()".to_owned(),
-            _ => format!("R::from_ratio({n}i64, {d}i64)"),
+            _ => format!("R::from_ratio({n}, {d})"),
         };
     }
-    let parts: Vec<String> =
-        binary_parts(value).into_iter().map(|(m, e)| format!("({m}i64, {e}i32)")).collect();
+    let parts: Vec<String> = binary_parts(value).into_iter().map(|(m, e)| format!("({m}, {e})")).collect();
     format!("R::from_parts(&[{}])", parts.join(", "))
 }
 
@@ -341,8 +385,8 @@ mod tests {
     fn rates(declaration: &str) -> String {
         let text = crate::expand(declaration.parse().unwrap()).to_string();
         let text: String = text.split_whitespace().collect();
-        let from = text.find("fnrhs<R:__guen::Real>").unwrap();
-        let to = from + text[from..].find("#[inline]").unwrap();
+        let from = text.find("rhs(c").unwrap();
+        let to = from + text[from..].find("velocities(c").unwrap();
         text[from..to].replace("R::", "")
     }
 
@@ -374,7 +418,7 @@ mod tests {
             "pub system S { coordinates { x, y } parameters { u = dot(x); v = dot(y); }
              kinetic_energy = (u^2 + v^2)/2; forces { 3*x*y + u along u; u - x*x along v; } }",
         );
-        assert!(rates.contains("=times_plus(") && rates.contains("=minus_times("), "{rates}");
+        assert!(rates.contains("times_plus(") && rates.contains("minus_times("), "{rates}");
         assert!(!rates.contains('+') && !rates.contains("u-"), "{rates}");
     }
 }

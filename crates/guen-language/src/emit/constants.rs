@@ -124,14 +124,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, report: &Report)
 fn checks(subject: &Subject<'_, '_>, fields: &[Field]) -> TokenStream {
     let given = fields.iter().enumerate().map(|(i, field)| {
         let name = &field.name;
-        let finite = quote! {
-            if !R::is_finite(constants[#i]) {
-                return ::core::result::Result::Err(__guen::ConstantsError::NotFinite {
-                    name: #name,
-                    value: R::to_f64(constants[#i]),
-                });
-            }
-        };
+        let finite = quote!(__guen::check_finite(constants[#i], #name)?;);
         let bound = field.bound.map(|bound| check_bound(name, bound, &quote!(constants[#i])));
         quote!(#finite #bound)
     });
@@ -158,22 +151,13 @@ fn checks(subject: &Subject<'_, '_>, fields: &[Field]) -> TokenStream {
 }
 
 fn check_bound(name: &str, bound: BoundKind, value: &TokenStream) -> TokenStream {
-    let (relation, holds) = match bound {
-        BoundKind::Positive => ("> 0", quote!(value > 0.0)),
-        BoundKind::Nonnegative => (">= 0", quote!(value >= 0.0)),
-        BoundKind::Nonzero => ("!= 0", quote!(value != 0.0)),
+    let (relation, check) = match bound {
+        BoundKind::Positive => ("> 0", quote!(check_positive)),
+        BoundKind::Nonnegative => (">= 0", quote!(check_nonnegative)),
+        BoundKind::Nonzero => ("!= 0", quote!(check_nonzero)),
     };
     let text = format!("{name} {relation}");
-    quote! {
-        let value = R::to_f64(#value);
-        if !(#holds) {
-            return ::core::result::Result::Err(__guen::ConstantsError::OutOfBound {
-                name: #name,
-                bound: #text,
-                value,
-            });
-        }
-    }
+    quote!(__guen::#check(#value, #name, #text)?;)
 }
 
 /// `new` with the constants that have no default, and `Default` if all have one.

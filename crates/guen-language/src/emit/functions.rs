@@ -53,10 +53,6 @@ impl Places {
     }
 }
 
-/// The start of a call that has the closure after it compiled with the instructions of the real: see
-/// `Real::vectorize`.
-const VECTORIZED: &str = "R::vectorize(#[inline(always)] ||";
-
 /// What a function of the state is given.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Signature {
@@ -123,26 +119,28 @@ fn module(name: &str, programs: &Programs, more: &str, subject: &Subject<'_, '_>
         "#[inline] pub(super) fn prepare<R: __guen::Real>(c: &[R; {constants}]) -> [R; {hoisted}] {{ {} }}",
         body(&programs.prepare, &programs.prepared, &places),
     );
+    text.push_str("__guen::program_functions! {");
     for program in &programs.functions {
         let signature = signature(&program.name);
         let places = if signature == Signature::Everywhere { &everywhere } else { &places };
         let given = match signature {
-            Signature::Constants => String::new(),
-            Signature::Position => format!(", t: R, s: &[R; {n}]"),
-            Signature::Everywhere => format!(", t: R, s: &[R; {all}]"),
-            Signature::Velocities => format!(", t: R, s: &[R; {n}], w: &[R; {n}]"),
-            Signature::State => format!(", t: R, s: &[R; {size}]"),
-            Signature::Driven => format!(", t: R, s: &[R; {size}], u: &[R; {inputs}]"),
-            Signature::Accelerated => format!(", t: R, s: &[R; {size}], u: &[R; {inputs}], a: &[R; {l}]"),
+            Signature::Constants => ";".to_owned(),
+            Signature::Position => format!("t; s {n}"),
+            Signature::Everywhere => format!("t; s {all}"),
+            Signature::Velocities => format!("t; s {n}, w {n}"),
+            Signature::State => format!("t; s {size}"),
+            Signature::Driven => format!("t; s {size}, u {inputs}"),
+            Signature::Accelerated => format!("t; s {size}, u {inputs}, a {l}"),
         };
         let _ = write!(
             text,
-            "#[inline] pub(super) fn {}<R: __guen::Real>(c: &[R; {constants}], k: &[R; {hoisted}]{given}) -> [R; {}] {{ {VECTORIZED} {{ {} }}) }}",
+            "{}(c {constants}, k {hoisted}; {given}) -> {} {{ {} }}",
             program.name,
             program.outputs.len(),
             body(&program.instructions, &program.outputs, places),
         );
     }
+    text.push('}');
     text.push_str(more);
     text.push('}');
     text

@@ -39,7 +39,8 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
         record: "OutputLinearization",
     });
     let methods = [Some(rates), outputs].into_iter().flatten().map(|target| target.method(layout));
-    let linearizable = linearizable(layout);
+    let (size, count) = (layout.size, layout.inputs);
+    let given = if count == 0 { quote!() } else { quote!(, inputs) };
     let cost = match level.program(function::LINEARIZATION) {
         Some(program) => {
             let cost = cost(&program.cost);
@@ -54,7 +55,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
         impl<R: __guen::Real> Prepared<R> {
             #(#methods)*
         }
-        #linearizable
+        __guen::linearizable!(#size, #count #given);
     }
 }
 
@@ -124,10 +125,10 @@ fn cells(pattern: &Pattern, rows: usize, size: usize, count: usize) -> TokenStre
     let (mut by_state, mut by_input) = (Vec::new(), Vec::new());
     for (k, (row, column)) in pattern.iter().enumerate() {
         if *column < size {
-            by_state.push(quote!(by_state[#row][#column] = entries[#k];));
+            by_state.push(quote!(#row #column #k));
         } else {
             let column = column - size;
-            by_input.push(quote!(by_input[#row][#column] = entries[#k];));
+            by_input.push(quote!(#row #column #k));
         }
     }
     let declared = |name: &str, columns: usize, none: bool| {
@@ -137,7 +138,11 @@ fn cells(pattern: &Pattern, rows: usize, size: usize, count: usize) -> TokenStre
     };
     let state = declared("by_state", size, by_state.is_empty());
     let input = declared("by_input", count, by_input.is_empty());
-    quote!(#state #input #(#by_state)* #(#by_input)*)
+    quote! {
+        #state #input
+        __guen::cells!(by_state, entries: #(#by_state),*);
+        __guen::cells!(by_input, entries: #(#by_input),*);
+    }
 }
 
 /// The matrices by two evaluations in duals.
@@ -169,39 +174,4 @@ fn by_duals(layout: &Layout, of: &Ident) -> (TokenStream, TokenStream) {
         #by_input
     };
     (quote!(where __guen::Dual<R, #size>: __guen::Lift<R>, #input_bound), body)
-}
-
-/// What analyses of the runtime take: rates and linearisation over arrays, with the inputs beside the state.
-fn linearizable(layout: &Layout) -> TokenStream {
-    let (size, count) = (layout.size, layout.inputs);
-    let typed = if count == 0 { quote!() } else { quote!(, &::core::convert::From::from(*inputs)) };
-    quote! {
-        impl<R: __guen::Real> __guen::Liftable<R, #size, #count> for Prepared<R> {
-            #[inline]
-            fn lifted_rates<S: __guen::Real + __guen::Lift<R>>(
-                &self, t: S, state: &[S; #size], inputs: &[S; #count],
-            ) -> [S; #size] {
-                let lifted: Prepared<S> = self.lift();
-                program::rhs(&lifted.constants, &lifted.hoisted, t, state, inputs)
-            }
-        }
-
-        impl<R> __guen::Linearizable<R, #size, #count> for Prepared<R>
-        where
-            R: __guen::Lift<R>,
-        {
-            #[inline]
-            fn rates(&self, t: R, state: &[R; #size], inputs: &[R; #count]) -> [R; #size] {
-                program::rhs(&self.constants, &self.hoisted, t, state, inputs)
-            }
-
-            #[inline]
-            fn linearization(
-                &self, t: R, state: &[R; #size], inputs: &[R; #count],
-            ) -> __guen::Linearization<R, #size, #count> {
-                let _ = inputs;
-                self.linearize(t, &::core::convert::From::from(*state) #typed)
-            }
-        }
-    }
 }

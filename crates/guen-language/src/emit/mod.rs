@@ -153,8 +153,16 @@ fn form_ident(form: &crate::model::FormEntry<'_>) -> Ident {
 }
 
 /// Text of Rust as tokens; what is written here is ours, so that a failure is a bug of ours.
+///
+/// In a compiler it is read by the compiler's lexer alone, which is optimised. `proc_macro2` would read it twice there,
+/// first with its own lexer to see whether it is Rust: a sixth of the hoop's expansion.
 fn tokens(text: &str) -> TokenStream {
-    text.parse().unwrap_or_else(|_| {
+    let read = if proc_macro::is_available() {
+        text.parse().ok().map(|tokens: proc_macro::TokenStream| tokens.into())
+    } else {
+        text.parse().ok()
+    };
+    read.unwrap_or_else(|| {
         let message = "guen emitted text that is not Rust: this is a bug of guen";
         quote!(::core::compile_error!(#message))
     })

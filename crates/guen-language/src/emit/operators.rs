@@ -1,56 +1,30 @@
 //! The operators of displacement and their brackets.
 
+use std::fmt::Write;
+
 use guen_symbolic::{ExprId, Graph, Role, Roles};
 use proc_macro2::TokenStream;
-use quote::{format_ident, quote};
 
-use super::{Layout, Subject};
+use super::{Layout, Subject, tokens};
 
 pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     if !subject.level.selection.operators {
         return TokenStream::new();
     }
     let n = layout.all;
-    let operators = (0..=n).map(|j| {
-        let name = format_ident!("X{j}");
-        let places = (j * n)..((j + 1) * n);
+    let mut text = String::new();
+    for j in 0..=n {
         let docs = match j {
             0 => "The operator `X_0 = d/dt + sum_i xi_0^i d/dx_i`: what happens by itself, (1.7).".to_owned(),
             _ => format!("The operator `X_{j}` of the form `{}`, (1.4).", subject.model.forms[j - 1].name),
         };
-        let is_time = j == 0;
-        quote! {
-            #[doc = #docs]
-            #[::core::prelude::v1::derive(
-                ::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::default::Default,
-                ::core::cmp::PartialEq, ::core::cmp::Eq
-            )]
-            pub struct #name;
-
-            impl<B: __guen::Real> __guen::Operator<B, #n> for #name {
-                type Prepared = Prepared<B>;
-                const TIME: bool = #is_time;
-                fn coefficients<R: __guen::Real + __guen::Lift<B>>(
-                    prepared: &Prepared<B>,
-                    t: R,
-                    x: &[R; #n],
-                ) -> [R; #n] {
-                    let lifted: Prepared<R> = prepared.lift();
-                    let all = program::operators(&lifted.constants, &lifted.hoisted, t, x);
-                    [#(all[#places]),*]
-                }
-            }
-        }
-    });
-    let operators: Vec<_> = operators.collect();
-    let brackets = brackets(subject, layout);
+        let (is_time, first) = (j == 0, j * n);
+        let _ = write!(text, "__guen::operator! {{ {docs:?} X{j} {n} {is_time} {first} }}");
+    }
     let last = subject.model.last_operator();
-    let docs =
-        format!("The commutator `(X_I, X_J) = sum_t C_IJt X_t`, (1.14), for `I` and `J` from 0 to {last}.");
-    quote! {
-        #(#operators)*
-
-        #[doc = #docs]
+    let _ = write!(
+        text,
+        "/// The commutator `(X_I, X_J) = sum_t C_IJt X_t`, (1.14), for `I` and `J` from 0 to {last}.
         ///
         /// What the derivation knows of each coefficient is in `COEFFICIENTS`, their values come from
         /// `coefficients`.
@@ -58,65 +32,44 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
             ::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::default::Default,
             ::core::cmp::PartialEq, ::core::cmp::Eq
         )]
-        pub struct Bracket<const I: usize, const J: usize>;
-        #(#brackets)*
-    }
+        pub struct Bracket<const I: usize, const J: usize>;"
+    );
+    brackets(&mut text, subject, layout);
+    tokens(&text)
 }
 
-fn brackets(subject: &Subject<'_, '_>, layout: &Layout) -> Vec<TokenStream> {
+fn brackets(text: &mut String, subject: &Subject<'_, '_>, layout: &Layout) {
     let n = layout.all;
     let last = subject.model.last_operator();
     let graph = &subject.model.bench.graph;
-    let mut items = Vec::new();
     for s in 0..=last {
         for r in 0..=last {
-            let found = subject.level.brackets.iter().enumerate();
             let pair = (r.min(s), r.max(s));
-            let Some((place, bracket)) = found.into_iter().find(|(_, known)| (known.r, known.s) == pair)
-            else {
-                items.push(quote!(__guen::zero_bracket!(#r, #s, #n);));
+            let found = subject.level.brackets.iter().position(|known| (known.r, known.s) == pair);
+            let Some(place) = found else {
+                let _ = write!(text, "__guen::zero_bracket!({r}, {s}, {n});");
                 continue;
             };
-            let known = bracket.coefficients.iter().map(|c| knowledge(graph, *c, r > s));
-            let places = (place * n)..((place + 1) * n);
-            let sign = (r > s).then(|| quote!(-));
-            items.push(quote! {
-                impl<B: __guen::Real> __guen::BracketCoefficients<B, #n> for Bracket<#r, #s> {
-                    type Prepared = Prepared<B>;
-                    const I: usize = #r;
-                    const J: usize = #s;
-                    const COEFFICIENTS: [__guen::Coefficient; #n] = [#(#known),*];
-                    fn coefficients<R: __guen::Real + __guen::Lift<B>>(
-                        prepared: &Prepared<B>,
-                        t: R,
-                        x: &[R; #n],
-                    ) -> [R; #n] {
-                        let lifted: Prepared<R> = prepared.lift();
-                        let all = program::brackets(&lifted.constants, &lifted.hoisted, t, x);
-                        [#(#sign all[#places]),*]
-                    }
-                }
-            });
+            let coefficients = &subject.level.brackets[place].coefficients;
+            let known: Vec<String> = coefficients.iter().map(|c| knowledge(graph, *c, r > s)).collect();
+            let (first, known) = (place * n, known.join(", "));
+            let sign = if r > s { "-" } else { "" };
+            let _ = write!(text, "__guen::bracket! {{ {r} {s} {n} {first} [{known}] {sign} }}");
         }
     }
-    items
 }
 
 /// What is known of a coefficient, or of its negative, at compile time.
-fn knowledge(graph: &Graph, c: ExprId, negative: bool) -> TokenStream {
+fn knowledge(graph: &Graph, c: ExprId, negative: bool) -> String {
     if let Some(value) = graph.as_number(c) {
         if value.is_zero() {
-            return quote!(__guen::Coefficient::Zero);
+            return "Zero".to_owned();
         }
         let value = if negative { -value.clone() } else { value.clone() };
         if let Some((numerator, denominator)) = value.to_i64_pair() {
-            return quote!(__guen::Coefficient::Number { numerator: #numerator, denominator: #denominator });
+            return format!("Number {{ numerator: {numerator}, denominator: {denominator} }}");
         }
     }
     let moving = Roles::of(Role::Coordinate).or(Roles::of(Role::Time));
-    if graph.roles(c).meets(moving) {
-        quote!(__guen::Coefficient::Variable)
-    } else {
-        quote!(__guen::Coefficient::Constant)
-    }
+    if graph.roles(c).meets(moving) { "Variable".to_owned() } else { "Constant".to_owned() }
 }

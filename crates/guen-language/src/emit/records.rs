@@ -11,7 +11,6 @@ use crate::syntax::Docs;
 struct Field {
     ident: Ident,
     docs: TokenStream,
-    name: String,
 }
 
 pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
@@ -20,7 +19,6 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let field = |ident: &Ident, docs: &Docs, fallback: String| Field {
         ident: ident.clone(),
         docs: documentation::entry(docs, &fallback),
-        name: ident.to_string().trim_start_matches("r#").to_owned(),
     };
     let coordinates = selection.coordinates.iter().map(|i| &model.coordinates[*i]);
     let coordinates: Vec<Field> =
@@ -93,11 +91,7 @@ pub(super) fn carried(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream
     let fields: Vec<Field> = places
         .chain(functions)
         .zip(&layout.state)
-        .map(|(docs, ident)| Field {
-            ident: ident.clone(),
-            docs: quote!(#[doc = #docs]),
-            name: ident.to_string().trim_start_matches("r#").to_owned(),
-        })
+        .map(|(docs, ident)| Field { ident: ident.clone(), docs: quote!(#[doc = #docs]) })
         .collect();
     let size = layout.size;
     let state = record("State", "A state of the carried form: the variables, then the functions.", &fields);
@@ -107,44 +101,13 @@ pub(super) fn carried(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream
 /// A record of reals with conversions from and to an array.
 fn record(name: &str, docs: &str, fields: &[Field]) -> TokenStream {
     let record = format_ident!("{name}");
-    let (mut idents, mut doc, mut names) = (Vec::new(), Vec::new(), Vec::new());
-    for field in fields {
-        idents.push(&field.ident);
-        doc.push(&field.docs);
-        names.push(&field.name);
-    }
-    let count = idents.len();
+    let count = fields.len();
     // A name in a pattern would mean a constant or an operator of that name, if there is one.
-    let locals: Vec<Ident> = (0..count).map(|i| format_ident!("__guen_{i}")).collect();
-    quote! {
-        #[doc = #docs]
-        #[::core::prelude::v1::derive(
-            ::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq,
-            ::core::default::Default
-        )]
-        pub struct #record<R = f64> {
-            #(#doc pub #idents: R,)*
-        }
-
-        impl #record<f64> {
-            /// The names of the fields, in order.
-            pub const NAMES: [&'static str; #count] = [#(#names),*];
-        }
-
-        impl<R> ::core::convert::From<[R; #count]> for #record<R> {
-            #[inline]
-            fn from([#(#locals),*]: [R; #count]) -> Self {
-                #record { #(#idents: #locals),* }
-            }
-        }
-
-        impl<R> ::core::convert::From<#record<R>> for [R; #count] {
-            #[inline]
-            fn from(record: #record<R>) -> Self {
-                [#(record.#idents),*]
-            }
-        }
-    }
+    let fields = fields.iter().enumerate().map(|(i, Field { ident, docs })| {
+        let local = format_ident!("__guen_{i}");
+        quote!(#docs #ident #local,)
+    });
+    quote!(__guen::record! { #[doc = #docs] #record #count #(#fields)* })
 }
 
 /// Outputs: scalars are reals, vectors arrays of three.

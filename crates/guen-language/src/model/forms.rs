@@ -198,13 +198,13 @@ impl Evaluator<'_> {
         e
     }
 
-    /// Takes every form apart; what is not an affine form of the velocities is reported. Beside the forms the number
-    /// of those that should not be there at all.
+    /// Takes every form apart, and has it as it is written in velocities; what is not an affine form of these is
+    /// reported. Beside the forms the number of those that should not be there at all.
     pub(super) fn linear_forms(
         &mut self,
         raw: &[RawForm<'_>],
         velocities: &[ExprId],
-    ) -> (Option<Vec<Form>>, usize) {
+    ) -> (Option<Vec<(Form, ExprId)>>, usize) {
         let mut partials = VelocityPartials::new(&self.bench, velocities, &[]);
         let mut forms = Vec::new();
         let mut healthy = true;
@@ -233,7 +233,7 @@ impl Evaluator<'_> {
             for (i, a) in parts.on_velocities {
                 row[i] = a;
             }
-            forms.push(Form { row, offset: parts.offset });
+            forms.push((Form { row, offset: parts.offset }, expanded));
         }
         (healthy.then_some(forms), idle)
     }

@@ -408,7 +408,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
                 report_idle_gravity(self.declaration, self.eval.faults);
             }
         }
-        let forms = forms?;
+        let (forms, written): (Vec<_>, Vec<_>) = forms?.into_iter().unzip();
         if forms.len() != self.coordinates.len() || !has_energy {
             return None;
         }
@@ -459,6 +459,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
                 forms,
                 degrees,
             },
+            written,
             velocities,
             etas,
             accelerations,

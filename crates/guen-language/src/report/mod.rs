@@ -5,6 +5,8 @@ mod pages;
 mod reasons;
 mod scene;
 
+pub use pages::set;
+
 use guen_symbolic::{Class, ExprId, Notation};
 
 use crate::derive::function;
@@ -53,8 +55,11 @@ impl Report {
         let selection = &subject.level.selection;
         // One memory for all sections: the parts of an expression are written once.
         let graph = &subject.model.bench.graph;
-        let writer =
-            &mut Writer { text: Notation::text(graph, LONGEST), latex: Notation::latex(graph, LONGEST) };
+        let shown = &subject.level.shown;
+        let writer = &mut Writer {
+            text: Notation::text(graph, LONGEST).of_images(shown),
+            latex: Notation::latex(graph, LONGEST).of_images(shown),
+        };
         let operators = |lines: &mut Vec<Section>, writer: &mut Writer<'_>| {
             lines.push(self::operators(subject, writer));
             lines.push(self::brackets(subject, writer));

@@ -24,6 +24,22 @@ pub(super) fn declared(subject: &Subject<'_, '_>) -> Vec<Section> {
     ]
 }
 
+/// What stands before and behind a formula that is a line of a page.
+const FORMULA: &str = "$$";
+
+/// A page with its formulas as MathML. That is made where rustdoc reads the page, and not where a system is expanded.
+pub fn set(page: &str) -> String {
+    let mut text = String::new();
+    for line in page.lines() {
+        match line.strip_prefix(FORMULA).and_then(|rest| rest.strip_suffix(FORMULA)) {
+            Some(formula) => text.push_str(&paragraph(formula)),
+            None => text.push_str(line),
+        }
+        text.push('\n');
+    }
+    text
+}
+
 impl Report {
     /// The whole as Markdown for editors, which show text as it is.
     pub fn to_blocks(&self) -> String {
@@ -34,15 +50,19 @@ impl Report {
         text
     }
 
-    /// The whole as Markdown for rustdoc: formulas as a book sets them, and what is longer than a few lines as text.
+    /// The whole as Markdown for rustdoc: formulas as LaTeX between `$$`, for [`set`] to set, and what is longer than a few
+    /// lines as text.
     pub fn to_page(&self) -> String {
+        /// Formulas that are longer are left to the text: a page of one formula helps no reader.
+        const LONGEST: usize = 1500;
         let mut text = format!("{}\n", self.summary);
         for section in &self.sections {
             text.push_str(&format!("\n# {}\n\n", section.title));
             for (formula, plain) in section.latex.iter().zip(&section.text) {
-                match paragraph(formula) {
-                    Some(set) => text.push_str(&format!("{set}\n\n")),
-                    None => text.push_str(&format!("```text\n{plain}\n```\n\n")),
+                if formula.len() <= LONGEST {
+                    text.push_str(&format!("{FORMULA}{formula}{FORMULA}\n\n"));
+                } else {
+                    text.push_str(&format!("```text\n{plain}\n```\n\n"));
                 }
             }
             for line in &section.text[section.latex.len()..] {

@@ -1,12 +1,11 @@
 //! [`Real`] for registers of lanes: every lane computes what an `f64` would.
 
-use core::ops::{AddAssign, DivAssign, MulAssign, SubAssign};
-
 use super::register::{Register, Vector};
 use super::{Lanes, Mask};
 use crate::elementary;
 use crate::lift::Lift;
 use crate::real::Real;
+use crate::rules::assign_operators;
 
 impl<V: Register> Vector<V> {
     /// A function lane by lane, where there is none for all at once.
@@ -16,23 +15,7 @@ impl<V: Register> Vector<V> {
     }
 }
 
-macro_rules! assign {
-    ($($trait:ident, $method:ident, $operator:tt;)*) => {
-        $(impl<V: Register> $trait for Vector<V> {
-            #[inline(always)]
-            fn $method(&mut self, other: Self) {
-                *self = *self $operator other;
-            }
-        })*
-    };
-}
-
-assign! {
-    AddAssign, add_assign, +;
-    SubAssign, sub_assign, -;
-    MulAssign, mul_assign, *;
-    DivAssign, div_assign, /;
-}
+assign_operators!(Vector<V>, V: Register);
 
 impl<V: Register> Default for Vector<V> {
     #[inline(always)]

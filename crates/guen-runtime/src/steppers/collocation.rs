@@ -128,6 +128,18 @@ impl<R: Real, const S: usize> Collocation<R, S> {
         })
     }
 
+    /// The slope with which the polynomial of a step begins.
+    pub fn first_slope<const N: usize>(&self, z: &[[R; N]; S], h: R) -> [R; N] {
+        // Of the polynomial through the slopes h^-1 (A^-1 Z)_j at c_j, at zero.
+        let weights: [R; S] = core::array::from_fn(|j| {
+            (0..S)
+                .filter(|m| *m != j)
+                .fold(R::one(), |weight, m| weight * self.c[m] / (self.c[m] - self.c[j]))
+        });
+        let slopes = self.inverse.map(|row| combined(&row, z));
+        combined(&weights, &slopes).map(|slope| slope / h)
+    }
+
     /// The end of the step less its beginning.
     pub fn change<const N: usize>(&self, z: &[[R; N]; S]) -> [R; N] {
         combined(&self.d, z)
@@ -147,7 +159,7 @@ pub fn combined<R: Real, const N: usize, const S: usize>(weights: &[R; S], z: &[
 }
 
 /// `lambda - J`
-fn shifted<R: Real, const N: usize>(jacobian: &[[R; N]; N], lambda: R) -> [[R; N]; N] {
+pub fn shifted<R: Real, const N: usize>(jacobian: &[[R; N]; N], lambda: R) -> [[R; N]; N] {
     core::array::from_fn(|i| {
         core::array::from_fn(|j| if i == j { lambda - jacobian[i][j] } else { -jacobian[i][j] })
     })

@@ -47,7 +47,6 @@ where
     /// What the formula remembers, and what was lost.
     type Memory = (F::Memory, [R; N]);
     const EVALUATIONS: u32 = F::EVALUATIONS;
-    const JUDGED_ORDER: u32 = F::JUDGED_ORDER;
 
     #[inline]
     fn step(
@@ -81,6 +80,16 @@ where
         statistics: &mut Statistics,
     ) -> Dense<R, N> {
         self.method.dense(system, memory, from, to, h, statistics)
+    }
+
+    fn defect(
+        &self,
+        system: &S,
+        (memory, _): &Self::Memory,
+        from: &Reached<R, N>,
+        to: &Reached<R, N>,
+    ) -> [f64; N] {
+        self.method.defect(system, memory, from, to)
     }
 }
 

@@ -103,9 +103,10 @@ pub trait Course<R: Real, S: ?Sized, const N: usize> {
     /// Evaluations of the right-hand side in a usual step, by which a guard chooses how often to look.
     const EVALUATIONS: u32;
 
-    /// The order of an explicit method with a fixed step of which a guard judges single steps; zero for one that estimates
-    /// its own errors, that is implicit, or that is more accurate than the guard's estimate.
-    const JUDGED_ORDER: u32 = 0;
+    /// Whether a guard judges single steps by [`defect`](Course::defect): so with a fixed step, while a method that chooses
+    /// its steps estimates their errors itself.
+    const JUDGED: bool = false;
+
     /// The motion over one step, as [`dense`](Course::dense) returns it: for most methods a [`Dense`](super::Dense).
     type Polynomial: Interpolant<R, N>;
 
@@ -141,6 +142,13 @@ pub trait Course<R: Real, S: ?Sized, const N: usize> {
     #[inline]
     fn is_last(&self, _target: R) -> bool {
         false
+    }
+
+    /// The estimated error of the step made last, which began at `before` and was made with `dense`: absolute, for every
+    /// entry of the state. None for methods that are not [`JUDGED`](Course::JUDGED). What it evaluates is the guard's and
+    /// is not counted.
+    fn defect(&self, _system: &S, _before: &Reached<R, N>) -> [f64; N] {
+        [0.0; N]
     }
 
     /// The motion over the step made last, as a polynomial. To be asked for only after a step that was made with

@@ -13,8 +13,6 @@ pub trait Formula<R: Real, S: ?Sized, const N: usize> {
     type Memory: Copy;
 
     const EVALUATIONS: u32;
-    /// The order of an explicit method of low order, whose steps a guard can judge: see `Defects`. Zero for others.
-    const JUDGED_ORDER: u32 = 0;
 
     /// The state one step of size `h` further, `h` of either sign. Counts its work.
     fn step(
@@ -37,6 +35,11 @@ pub trait Formula<R: Real, S: ?Sized, const N: usize> {
         h: R,
         statistics: &mut Statistics,
     ) -> Dense<R, N>;
+
+    /// The estimated error of the step from `from` to `to`, the one made last and with `dense`: see `Defects`. What it
+    /// evaluates is not counted.
+    fn defect(&self, system: &S, memory: &Self::Memory, from: &Reached<R, N>, to: &Reached<R, N>)
+    -> [f64; N];
 }
 
 /// A formula whose step is a change that is added to the state.
@@ -81,7 +84,7 @@ where
     S: System<R, N> + ?Sized,
 {
     const EVALUATIONS: u32 = F::EVALUATIONS;
-    const JUDGED_ORDER: u32 = F::JUDGED_ORDER;
+    const JUDGED: bool = true;
 
     type Polynomial = Dense<R, N>;
 
@@ -117,6 +120,10 @@ where
         self.reached.state = state;
         self.leg = Some(leg);
         Ok(())
+    }
+
+    fn defect(&self, system: &S, before: &Reached<R, N>) -> [f64; N] {
+        self.formula.defect(system, &self.memory, before, &self.reached)
     }
 
     fn dense(&mut self, system: &S) -> Dense<R, N> {

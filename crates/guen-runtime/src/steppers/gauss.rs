@@ -1,11 +1,12 @@
 //! The methods of Gauss and Legendre with two and three stages, with a fixed step.
 
-use super::collocation::{Collocation, Factors};
+use super::collocation::{Collocation, Factors, shifted};
 use super::course::{Method, Reached, Statistics};
+use super::defect::quadrature;
 use super::dense::Dense;
 use super::fixed::{Fixed, Formula, Slopes};
 use super::landing::short_ways;
-use super::lu::Complex;
+use super::lu::{Complex, Lu};
 use crate::decimal::{Parts, decimal};
 use crate::differentiable::Differentiable;
 use crate::error::Cause;
@@ -61,6 +62,19 @@ macro_rules! gauss {
                     &system.along(from.time, &from.state, R::one(), &slopes.first),
                     &system.along(to.time, &to.state, R::one(), &end),
                 )
+            }
+
+            fn defect(
+                &self,
+                system: &S,
+                memory: &Self::Memory,
+                from: &Reached<R, N>,
+                to: &Reached<R, N>,
+            ) -> [f64; N] {
+                match &self.collocation {
+                    Some(collocation) => defect(collocation, $order, system, memory, from, to),
+                    None => [f64::NAN; N],
+                }
             }
         }
 
@@ -254,6 +268,82 @@ where
             None => memory.jacobian = None,
         }
     }
+}
+
+/// The error of the step made last, from two estimates: what the change over it differs from a quadrature, of order four or,
+/// for the method of order four, six, where the step resolves the motion, and useless where damping is fast; and what the
+/// slope at the beginning differs from that of the polynomial,
+///
+/// ```text
+/// (4/h - J)^-1 (f(t, x) - u'(t))
+/// ```
+///
+/// which is of the order of the number of stages, and for rates beyond the inverse of the step tells by how much the state is
+/// off the slow motion: a transient that the method does not damp stays as large as it is. The smaller one counts, and for
+/// order six it is taken to that order by the ratio of both.
+fn defect<R, S, const N: usize, const M: usize>(
+    collocation: &Collocation<R, M>,
+    order: u32,
+    system: &S,
+    memory: &Memory<R, N, M>,
+    from: &Reached<R, N>,
+    to: &Reached<R, N>,
+) -> [f64; N]
+where
+    R: Ordered,
+    S: Differentiable<R, N> + ?Sized,
+{
+    let first = system.rhs(from.time, &from.state);
+    let smooth =
+        if order == 4 { curved(system, &first, from, to) } else { quadrature(system, &first, from, to) };
+    let Some((h, z)) = &memory.last else { return smooth };
+    let jacobian = memory.jacobian.unwrap_or_else(|| system.jacobian(from.time, &from.state));
+    let Some(factors) = Lu::new(shifted(&jacobian, R::from_ratio(4, 1) / *h)) else { return smooth };
+    let begun = collocation.first_slope(z, *h);
+    let stiff = factors.solve(core::array::from_fn(|i| first[i] - begun[i]));
+    core::array::from_fn(|i| {
+        let (smooth, stiff) = (smooth[i], stiff[i].to_f64().abs());
+        if order == 4 || smooth >= stiff {
+            return smooth.min(stiff);
+        }
+        let ratio = smooth / stiff;
+        smooth * ratio * ratio
+    })
+}
+
+/// What the change over a step differs from the rule of order six with slopes and curvatures at its ends and the slope in the
+/// middle of the quintic through them. [`quadrature`] would be no estimate for order four: where the equations are linear its
+/// rule has the same rational function as the method.
+///
+/// ```text
+/// d = x1 - x0 - h/30 (7 f0 + 16 f(t0 + h/2, m) + 7 f1) - h^2/60 (f0' - f1')
+/// m = (x0 + x1)/2 + 5h/32 (f0 - f1) + h^2/64 (f0' + f1')
+/// ```
+fn curved<R, S, const N: usize>(
+    system: &S,
+    first: &[R; N],
+    from: &Reached<R, N>,
+    to: &Reached<R, N>,
+) -> [f64; N]
+where
+    R: Ordered,
+    S: Differentiable<R, N> + ?Sized,
+{
+    let ratio = R::from_ratio;
+    let h = to.time - from.time;
+    let last = system.rhs(to.time, &to.state);
+    let begins = system.along(from.time, &from.state, R::one(), first);
+    let ends = system.along(to.time, &to.state, R::one(), &last);
+    let middle = core::array::from_fn(|i| {
+        ratio(1, 2) * (from.state[i] + to.state[i])
+            + h * (ratio(5, 32) * (first[i] - last[i]) + h * ratio(1, 64) * (begins[i] + ends[i]))
+    });
+    let middle = system.rhs(from.time + h * ratio(1, 2), &middle);
+    core::array::from_fn(|i| {
+        let slopes = ratio(7, 30) * (first[i] + last[i]) + ratio(16, 30) * middle[i];
+        let mean = slopes + h * ratio(1, 60) * (begins[i] - ends[i]);
+        (to.state[i] - from.state[i] - h * mean).to_f64().abs()
+    })
 }
 
 /// Newton's iteration until its steps are rounding, and how many it took; `None` if they do not become small.

@@ -1,33 +1,32 @@
 //! Guards: what is watched while a run goes on, besides that every state is finite.
 //!
-//! A look costs about as much as two to four right-hand sides. It is taken every `k` steps, with `k` such that about
-//! [`EVALUATIONS_BETWEEN_LOOKS`] right-hand sides lie between two of them; where a look finds a fault, the run goes
-//! back to the last look that did not, so that what it returns was seen to be in order.
+//! A look costs about as much as two to six right-hand sides. It is taken after the first step, then every `k` steps, with
+//! `k` such that about [`EVALUATIONS_BETWEEN_LOOKS`] right-hand sides lie between two of them, and at the end; where a look
+//! finds a fault, the run goes back to the last look that did not, so that what it returns was seen to be in order.
+//!
+//! Steps whose length is given do not become shorter next to an edge of the chart, and may pass it between two looks. So
+//! while such a run approaches an edge, the functions that must not vanish are looked at in between: after half of the
+//! steps that would lead there, then after half of the rest.
 
-use super::course::Reached;
+use super::course::{Course, Reached};
 use super::defect::Defects;
+use super::edges::Edges;
 use crate::error::{Cause, IntegrationError, Setting};
 use crate::real::Real;
-use crate::rounded::Rounded;
 use crate::system::System;
 
 /// With a look at two to four right-hand sides, guards cost about two percent.
 const EVALUATIONS_BETWEEN_LOOKS: u32 = 160;
-/// A run that ends before its first look is looked at if it has made so many, so that guards cost at most a few percent
-/// of it.
-const EVALUATIONS_WORTH_A_LOOK: u32 = 100;
-/// As many functions that must not vanish are watched; further ones are not.
-pub(super) const EDGES: usize = 16;
 
 /// What a run must not violate. A stepper watches these by default, of whatever the system tells in
-/// [`System::vitals`], [`System::edges`] and [`System::condition`], and explicit methods of low order with a fixed step by
-/// evaluating the right-hand side again.
+/// [`System::vitals`], [`System::edges`] and [`System::condition`], and methods with a fixed step by estimates of the errors of
+/// single steps.
 ///
-/// Every accepted state is tested to be finite. Every [`every`](Guard::every) steps, at the end of the run and before an
-/// error is returned, the guard looks at the rest; the first look looks at the start too. Where it finds a fault, the run
-/// ends with the cause, and with the time and state of the last look that found none; an observer has been shown the
-/// steps since then. A run of less than about a hundred right-hand sides is tested for finite states only, unless
-/// `every` is set.
+/// Every accepted state is tested to be finite. After the first step, then every [`every`](Guard::every) steps, at the end
+/// of the run and before an error is returned, the guard looks at the rest; the first look looks at the start too. Where it
+/// finds a fault, the run ends with the cause, and with the time and state of the last look that found none; an observer
+/// has been shown the steps since then. So a run of one step is looked at twice, which can cost as much as the step: a loop
+/// of such runs may take [`Guard::FINITE`], and guards of its own.
 ///
 /// With lanes as the real, which have no order among them, the first lane alone is looked at, except that all must be
 /// finite; [`Rk4::integrate_in_lanes`](super::Rk4::integrate_in_lanes) looks at the energy, the residual and the edges of
@@ -59,11 +58,14 @@ pub struct Guard {
     /// The largest [`condition`](System::condition) of the mass matrix. By default `1e12`, where accelerations have
     /// four digits left in `f64`; in another real the limit is divided by the ratio of the roundings.
     pub condition: f64,
-    /// The largest error of [`Euler`](super::Euler) and [`Rk4`](super::Rk4), estimated at every look from one step: what it
-    /// differs from a quadrature of the rates over it, relative to the largest value that an entry has had, summed up as
-    /// if it stood for all steps since the last look. By default 0.05. Methods of higher order are better than the
-    /// estimate, and implicit ones right where it is not, at rates beyond their step; those are not judged by it.
+    /// The largest error of methods with a fixed step, estimated at every look from one step, relative to the largest value
+    /// that an entry has had, and summed up as if it stood for all steps since the last look. By default 0.05.
+    /// `docs/integrators.md` has the estimate of each method. Within about 160 right-hand sides of the start what is
+    /// below this part of the largest entry counts as nothing, since an entry that begins at zero has no size yet.
     pub step: f64,
+    /// The largest factor by which a fixed step may change a function that must not vanish. Where it is divided by, there
+    /// is a pole, and the step is too long for the motion next to it. By default 2.
+    pub approach: f64,
     /// Look every so many steps, at least every one; chosen by the method's cost if absent.
     pub every: Option<u32>,
 }
@@ -77,13 +79,13 @@ impl Guard {
         edge: 0.0,
         condition: f64::INFINITY,
         step: f64::INFINITY,
+        approach: f64::INFINITY,
         every: Some(u32::MAX),
     };
 
     fn is_valid(&self) -> bool {
-        [self.energy, self.residual, self.carried, self.edge, self.condition, self.step]
-            .iter()
-            .all(|limit| *limit >= 0.0)
+        let Self { energy, residual, carried, edge, condition, step, approach, .. } = *self;
+        [energy, residual, carried, edge, condition, step, approach].iter().all(|limit| *limit >= 0.0)
     }
 
     /// The limits for a real: those given are meant for `f64`.
@@ -104,6 +106,7 @@ impl Default for Guard {
             edge: 1e-8,
             condition: 1e12,
             step: 0.05,
+            approach: 2.0,
             every: None,
         }
     }
@@ -113,11 +116,16 @@ impl Default for Guard {
 pub(super) struct Watch<R, const N: usize> {
     guard: Guard,
     every: u32,
+    /// Steps until the guard does something.
     until_look: u32,
-    /// Whether a run that ends before its first look is long enough for one.
-    worth: u32,
-    /// The order of a method whose steps are judged, else zero.
-    order: u32,
+    /// Steps from then until a look; zero if it is one, while otherwise only the edges are looked at.
+    until_next: u32,
+    /// Steps from the last look to the next one.
+    between: u32,
+    /// Steps after which the sizes of entries are known: about [`EVALUATIONS_BETWEEN_LOOKS`] evaluations.
+    young: u32,
+    /// Whether the method has a fixed step.
+    fixed: bool,
     /// Where the last look found everything in order.
     good: Reached<R, N>,
     /// What the looks have learned so far.
@@ -128,84 +136,121 @@ pub(super) struct Watch<R, const N: usize> {
 struct Known<R, const N: usize> {
     energy: Option<R>,
     scale: f64,
-    /// The number of functions that must not vanish, and whether each was negative at the start.
-    edges: usize,
-    negative: [bool; EDGES],
+    edges: Edges,
     /// The largest absolute value of each entry of the state.
     largest: [f64; N],
     defects: Defects<N>,
 }
 
 impl<R: Real, const N: usize> Watch<R, N> {
-    pub fn new(guard: Guard, evaluations: u32, order: u32, start: &Reached<R, N>) -> Result<Self, Cause> {
+    pub fn new<C, S>(guard: Guard, start: &Reached<R, N>) -> Result<Self, Cause>
+    where
+        C: Course<R, S, N>,
+        S: ?Sized,
+    {
         if !guard.is_valid() {
             return Err(Cause::Setting(Setting::Guard));
         }
         let guard = guard.for_real::<R>();
-        let every = guard.every.unwrap_or(EVALUATIONS_BETWEEN_LOOKS / evaluations.max(1)).max(1);
-        let worth = if guard.every.is_some() { 1 } else { EVALUATIONS_WORTH_A_LOOK / evaluations.max(1) };
-        let order = if guard.step == f64::INFINITY { 0 } else { order };
-        Ok(Self { guard, every, until_look: every, worth, order, good: *start, known: None })
+        let young = (EVALUATIONS_BETWEEN_LOOKS / C::EVALUATIONS.max(1)).max(1);
+        let every = guard.every.unwrap_or(young).max(1);
+        let first = if every == u32::MAX { every } else { 1 };
+        Ok(Self {
+            guard,
+            every,
+            until_look: first,
+            until_next: 0,
+            between: first,
+            young,
+            fixed: C::JUDGED,
+            good: *start,
+            known: None,
+        })
     }
 
-    /// Whether the look after the next step will want to know where that step began; `last` if it is the last one.
+    /// Whether the guard will want to know where the next step began; `last` if it is the last one.
     #[inline]
     pub fn wants_before(&self, last: bool) -> bool {
-        self.order > 0 && (last || self.until_look == 1)
+        self.fixed && (last || self.until_look == 1)
     }
 
     /// As many steps can be made before anything has to be told.
     #[inline]
     pub fn patience(&self) -> u32 {
-        if self.order > 0 { (self.until_look - 1).max(1) } else { self.until_look }
+        if self.fixed { (self.until_look - 1).max(1) } else { self.until_look }
     }
 
-    /// Counts the steps since `from`, no more than [`patience`](Watch::patience) allowed, and looks if it is time to.
+    /// Counts the steps since `from`, no more than [`patience`](Watch::patience) allowed, and looks if it is time to;
+    /// `before` is where the last one began, if that was wanted.
     #[inline]
-    pub fn step<S>(
+    pub fn step<C, S>(
         &mut self,
         system: &S,
         from: u64,
         before: Option<&Reached<R, N>>,
-        reached: &Reached<R, N>,
+        course: &C,
     ) -> Result<(), Cause>
     where
+        C: Course<R, S, N>,
         S: System<R, N> + ?Sized,
     {
-        let made = reached.statistics.accepted.saturating_sub(from);
+        let made = course.reached().statistics.accepted.saturating_sub(from);
         self.until_look = self.until_look.saturating_sub(u32::try_from(made).unwrap_or(u32::MAX));
         if self.until_look > 0 {
             return Ok(());
         }
-        self.until_look = self.every;
-        self.look(system, self.every, before, reached)
+        self.due(system, before, course)
     }
 
-    /// Looks at the end of a run, unless it was just looked at or the run was short.
-    pub fn finish<S>(
+    #[inline(never)]
+    fn due<C, S>(&mut self, system: &S, before: Option<&Reached<R, N>>, course: &C) -> Result<(), Cause>
+    where
+        C: Course<R, S, N>,
+        S: System<R, N> + ?Sized,
+    {
+        let mut rest = self.until_next;
+        if rest == 0 {
+            self.look(system, self.between, before, course)?;
+            (self.between, rest) = (self.every, self.every);
+        } else if let Some(known) = &self.known {
+            known.edges.look(system, course.reached(), &known.largest, self.guard.edge)?;
+        }
+        self.until_look = rest.min(self.approach(system, before, course.reached())?);
+        self.until_next = rest - self.until_look;
+        Ok(())
+    }
+
+    /// Looks at the end of a run, unless it was just looked at.
+    pub fn finish<C, S>(
         &mut self,
         system: &S,
         before: Option<&Reached<R, N>>,
-        reached: &Reached<R, N>,
+        course: &C,
     ) -> Result<(), Cause>
     where
+        C: Course<R, S, N>,
         S: System<R, N> + ?Sized,
     {
-        let steps = self.every - self.until_look;
-        let due = if self.known.is_some() { steps > 0 } else { steps >= self.worth.max(1) };
-        if due && self.every != u32::MAX { self.look(system, steps, before, reached) } else { Ok(()) }
+        let steps = self.between - self.until_look - self.until_next;
+        if steps == 0 || self.every == u32::MAX {
+            return Ok(());
+        }
+        self.look(system, steps, before, course)?;
+        self.approach(system, before, course.reached()).map(|_| ())
     }
 
     /// The error of a run that cannot go on from where it stands: for the cause given, unless the steps since the last
     /// look went wrong before.
-    pub fn stopped<S>(&mut self, system: &S, reached: &Reached<R, N>, cause: Cause) -> IntegrationError<R, N>
+    pub fn stopped<C, S>(&mut self, system: &S, course: &C, cause: Cause) -> IntegrationError<R, N>
     where
+        C: Course<R, S, N>,
         S: System<R, N> + ?Sized,
     {
+        let reached = course.reached();
         if reached.time == self.good.time || self.every == u32::MAX {
             return reached.failed(cause);
         }
-        match self.look(system, 0, None, reached) {
+        match self.look(system, 0, None, course) {
             Ok(()) => reached.failed(cause),
             Err(earlier) => self.good(reached).failed(earlier),
         }
@@ -216,19 +261,37 @@ impl<R: Real, const N: usize> Watch<R, N> {
         Reached { statistics: reached.statistics, ..self.good }
     }
 
-    /// Looks at a state, which stands for so many steps; `before` is where the last of them began.
+    /// In how many steps of a fixed length to look at the edges again.
+    fn approach<S>(
+        &self,
+        system: &S,
+        before: Option<&Reached<R, N>>,
+        reached: &Reached<R, N>,
+    ) -> Result<u32, Cause>
+    where
+        S: System<R, N> + ?Sized,
+    {
+        let (Some(known), Some(before), true) = (&self.known, before, self.fixed) else {
+            return Ok(u32::MAX);
+        };
+        known.edges.approach(system, before, reached, &known.largest, self.guard.approach)
+    }
+
+    /// Looks at the state where the course stands, for so many steps; `before` is where the last of them began.
     #[inline(never)]
-    fn look<S>(
+    fn look<C, S>(
         &mut self,
         system: &S,
         steps: u32,
         before: Option<&Reached<R, N>>,
-        reached: &Reached<R, N>,
+        course: &C,
     ) -> Result<(), Cause>
     where
+        C: Course<R, S, N>,
         S: System<R, N> + ?Sized,
     {
-        let Self { guard, good, known, order, .. } = self;
+        let Self { guard, good, known, young, .. } = self;
+        let reached = course.reached();
         let known = match known {
             Some(known) => known,
             None => known.insert(Known::new(system, guard, good)?),
@@ -249,12 +312,17 @@ impl<R: Real, const N: usize> Watch<R, N> {
         for (largest, entry) in known.largest.iter_mut().zip(&reached.state) {
             *largest = largest.max(entry.to_f64().abs());
         }
-        known.edges(system, reached, guard.edge)?;
+        known.edges.look(system, reached, &known.largest, guard.edge)?;
+        *young = young.saturating_sub(steps);
+        let limit = guard.step;
         if let Some(before) = before
-            && *order > 0
+            && C::JUDGED
+            && limit < f64::INFINITY
         {
-            let limit = guard.step;
-            let worst = known.defects.add(system, steps, before, reached, &known.largest);
+            let defects = course.defect(system, before);
+            // In the first steps an entry that was zero has no size yet.
+            let negligible = if *young > 0 { limit } else { libm::sqrt(R::epsilon().to_f64()) };
+            let worst = known.defects.add(&defects, steps, &known.largest, negligible);
             if exceeds(worst.defect, limit) {
                 return Err(Cause::Step { found, entry: worst.entry, defect: worst.defect, limit });
             }
@@ -278,52 +346,11 @@ impl<R: Real, const N: usize> Known<R, N> {
         let found = start.time.to_f64();
         in_order(guard, found, vitals.residual.to_f64(), system.condition(start.time, &start.state))?;
         let largest = core::array::from_fn(|i| start.state[i].to_f64().abs());
-        let (edges, values) = values(system, start, &largest);
-        let mut known = Self {
-            energy: vitals.energy,
-            scale: vitals.scale.to_f64(),
-            edges,
-            negative: values.map(|value| value.value.to_f64() < 0.0),
-            largest,
-            defects: Defects::new(),
-        };
-        known.edges(system, start, guard.edge)?;
-        Ok(known)
+        let edges = Edges::new(system, start, &largest);
+        edges.look(system, start, &largest, guard.edge)?;
+        let scale = vitals.scale.to_f64();
+        Ok(Self { energy: vitals.energy, scale, edges, largest, defects: Defects::new() })
     }
-
-    fn edges<S>(&mut self, system: &S, reached: &Reached<R, N>, limit: f64) -> Result<(), Cause>
-    where
-        S: System<R, N> + ?Sized,
-    {
-        if self.edges == 0 {
-            return Ok(());
-        }
-        let (_, values) = values(system, reached, &self.largest);
-        for (function, (value, negative)) in values.iter().zip(self.negative).take(self.edges).enumerate() {
-            let left = value.left().to_f64();
-            let distance = if (value.value.to_f64() < 0.0) == negative { left } else { -left };
-            if distance <= limit || distance.is_nan() {
-                let found = reached.time.to_f64();
-                return Err(Cause::Edge { found, function, distance, limit });
-            }
-        }
-        Ok(())
-    }
-}
-
-/// The functions that must not vanish, where every entry is uncertain by a rounding of the largest value it has had.
-fn values<R: Real, S, const N: usize>(
-    system: &S,
-    reached: &Reached<R, N>,
-    largest: &[f64; N],
-) -> (usize, [Rounded<R>; EDGES])
-where
-    S: System<R, N> + ?Sized,
-{
-    let mut values = [Rounded::exact(R::zero()); EDGES];
-    let state = core::array::from_fn(|i| Rounded { value: reached.state[i], error: R::from_f64(largest[i]) });
-    let edges = system.edges(Rounded::once(reached.time), &state, &mut values);
-    (edges.min(EDGES), values)
 }
 
 /// Tests of one state that need nothing of the states before.

@@ -149,9 +149,7 @@ impl<'a, R: Real, S: System<R, N> + ?Sized, const N: usize, const E: usize> Inte
     {
         self.check(t1).map_err(|cause| self.start.failed(cause))?;
         let mut course = method.start(self.start.time, &self.start.state);
-        let evaluations = <M::Course<'_> as Course<R, S, N>>::EVALUATIONS;
-        let order = <M::Course<'_> as Course<R, S, N>>::JUDGED_ORDER;
-        let mut watch = Watch::new(self.guard, evaluations, order, &self.start)
+        let mut watch = Watch::new::<M::Course<'_>, S>(self.guard, &self.start)
             .map_err(|cause| self.start.failed(cause))?;
         let mut trackers: [Tracker; E] =
             core::array::from_fn(|i| Tracker::new(self.events[i].value(self.start.time, &self.start.state)));
@@ -170,38 +168,32 @@ impl<'a, R: Real, S: System<R, N> + ?Sized, const N: usize, const E: usize> Inte
             }
             let from = course.reached().statistics.accepted;
             let made = if kept || self.observer.is_some() {
-                course.advance(self.system, t1, dense)
+                course.advance(self.system, t1, kept)
             } else {
                 course.go_on(self.system, t1, watch.patience())
             };
             if let Err(cause) = made {
-                return Err(watch.stopped(self.system, course.reached(), cause));
+                return Err(watch.stopped(self.system, &course, cause));
             }
-            if let Err(cause) = watch.step(self.system, from, kept.then_some(&before), course.reached()) {
+            if let Err(cause) = watch.step(self.system, from, kept.then_some(&before), &course) {
                 return Err(watch.good(course.reached()).failed(cause));
             }
             if dense {
                 let ended = self.within_step(&mut course, &before, &mut trackers, &mut visited);
                 if let Some(done) = ended.map_err(|cause| before.failed(cause))? {
-                    return finished(
-                        &mut watch,
-                        self.system,
-                        kept.then_some(&before),
-                        course.reached(),
-                        done,
-                    );
+                    return finished(&mut watch, self.system, kept.then_some(&before), &course, done);
                 }
             }
             if let Some(observer) = &mut self.observer {
                 let reached = course.reached();
                 if observer(reached.time, &reached.state).is_break() {
                     let done = reached.done(Outcome::Stopped);
-                    return finished(&mut watch, self.system, kept.then_some(&before), reached, done);
+                    return finished(&mut watch, self.system, kept.then_some(&before), &course, done);
                 }
             }
         }
-        let reached = course.reached();
-        finished(&mut watch, self.system, kept.then_some(&before), reached, reached.done(Outcome::Arrived))
+        let done = course.reached().done(Outcome::Arrived);
+        finished(&mut watch, self.system, kept.then_some(&before), &course, done)
     }
 
     /// Refuses settings that make no sense.
@@ -331,16 +323,20 @@ impl<'a, R: Real, S: System<R, N> + ?Sized, const N: usize, const E: usize> Inte
 }
 
 /// The result of a run, if the last look finds it in order.
-pub(super) fn finished<R: Real, S: System<R, N> + ?Sized, const N: usize>(
+pub(super) fn finished<C, R: Real, S, const N: usize>(
     watch: &mut Watch<R, N>,
     system: &S,
     before: Option<&Reached<R, N>>,
-    reached: &Reached<R, N>,
+    course: &C,
     done: Done<R, N>,
-) -> Result<Done<R, N>, IntegrationError<R, N>> {
-    match watch.finish(system, before, reached) {
+) -> Result<Done<R, N>, IntegrationError<R, N>>
+where
+    C: Course<R, S, N>,
+    S: System<R, N> + ?Sized,
+{
+    match watch.finish(system, before, course) {
         Ok(()) => Ok(done),
-        Err(cause) => Err(watch.good(reached).failed(cause)),
+        Err(cause) => Err(watch.good(course.reached()).failed(cause)),
     }
 }
 

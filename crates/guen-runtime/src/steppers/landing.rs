@@ -24,10 +24,8 @@ where
 {
     let start = Reached::new(t0, x0);
     let mut course = method.start(t0, x0);
-    let evaluations = <M::Course<'_> as Course<R, S, N>>::EVALUATIONS;
-    let order = <M::Course<'_> as Course<R, S, N>>::JUDGED_ORDER;
     let mut watch =
-        Watch::new(Guard::default(), evaluations, order, &start).map_err(|cause| start.failed(cause))?;
+        Watch::new::<M::Course<'_>, S>(Guard::default(), &start).map_err(|cause| start.failed(cause))?;
     let (mut before, mut kept) = (start, false);
     for (index, &time) in times.iter().enumerate() {
         if !time.is_finite() {
@@ -40,22 +38,21 @@ where
             }
             let from = course.reached().statistics.accepted;
             let made = if kept {
-                course.advance(system, time, false)
+                course.advance(system, time, kept)
             } else {
                 course.go_on(system, time, watch.patience())
             };
             if let Err(cause) = made {
-                return Err(watch.stopped(system, course.reached(), cause));
+                return Err(watch.stopped(system, &course, cause));
             }
-            let reached = course.reached();
-            if let Err(cause) = watch.step(system, from, kept.then_some(&before), reached) {
-                return Err(watch.good(reached).failed(cause));
+            if let Err(cause) = watch.step(system, from, kept.then_some(&before), &course) {
+                return Err(watch.good(course.reached()).failed(cause));
             }
         }
         visit(index, time, &course.reached().state);
     }
-    let reached = course.reached();
-    finished(&mut watch, system, kept.then_some(&before), reached, reached.done(Outcome::Arrived))
+    let done = course.reached().done(Outcome::Arrived);
+    finished(&mut watch, system, kept.then_some(&before), &course, done)
 }
 
 /// The methods `integrate` and `sample` of a method over the real `R`, for systems with the given bounds.

@@ -1,6 +1,7 @@
 //! The guard of runs in lanes: energy, residuals and edges of every lane, with the limits that a run alone has.
 
-use super::guard::{EDGES, Guard, exceeds, relative};
+use super::edges::EDGES;
+use super::guard::{Guard, exceeds, relative};
 use crate::error::Cause;
 use crate::lanes::{Lanes, Mask};
 use crate::rounded::Rounded;

@@ -13,8 +13,6 @@ use crate::system::System;
 
 /// A look at the energy, residuals and edges of all lanes is taken after so many steps, as with a run alone.
 const EVERY: u32 = 40;
-/// A run of fewer steps is not looked at.
-const WORTH_A_LOOK: u32 = 25;
 
 /// How the trajectories in lanes ended.
 #[derive(Clone, Debug, PartialEq)]
@@ -88,7 +86,7 @@ impl Rk4<f64> {
             }
             visit(index, time, &run.state, run.going);
         }
-        if run.since > 0 && (run.guard.is_some() || run.since >= WORTH_A_LOOK) {
+        if run.since > 0 {
             run.look(system);
         }
         for lane in run.going.lanes() {

@@ -27,6 +27,7 @@ mod defect;
 mod dense;
 pub mod dop853;
 mod dop853_coefficients;
+mod edges;
 mod euler;
 mod events;
 mod fixed;

@@ -2,6 +2,7 @@
 
 use super::compensated::Compensated;
 use super::course::{Method, Reached, Statistics};
+use super::defect::quadrature;
 use super::dense::Dense;
 use super::fixed::{Changes, Fixed, Formula, Slopes};
 use super::landing::short_ways;
@@ -124,7 +125,6 @@ pub struct Rk4<R = f64> {
 impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Formula<R, S, N> for Rk4<R> {
     type Memory = Slopes<R, N>;
     const EVALUATIONS: u32 = 4;
-    const JUDGED_ORDER: u32 = 4;
 
     #[inline]
     fn step(
@@ -151,6 +151,16 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Formula<R, S, N> for Rk4
         statistics: &mut Statistics,
     ) -> Dense<R, N> {
         slopes.hermite(system, from, to, h, statistics)
+    }
+
+    fn defect(
+        &self,
+        system: &S,
+        slopes: &Self::Memory,
+        from: &Reached<R, N>,
+        to: &Reached<R, N>,
+    ) -> [f64; N] {
+        quadrature(system, &slopes.first, from, to)
     }
 }
 

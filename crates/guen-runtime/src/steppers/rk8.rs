@@ -87,6 +87,22 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Formula<R, S, N> for Rk8
         statistics.evaluations += 3;
         self.tableau.dense(system, &memory.stages, from, to, &end, h)
     }
+
+    // DOP853's own estimate, of each entry by itself: s5 / sqrt(s5 + s3 / 100), of order eight
+    fn defect(
+        &self,
+        _system: &S,
+        memory: &Self::Memory,
+        from: &Reached<R, N>,
+        to: &Reached<R, N>,
+    ) -> [f64; N] {
+        let h = (to.time - from.time).to_f64().abs();
+        let [five, three] = self.tableau.errors(&memory.stages).map(|e| e.map(|e| e.to_f64().abs()));
+        core::array::from_fn(|i| {
+            let part = five[i] / libm::hypot(five[i], 0.1 * three[i]);
+            if five[i] == 0.0 { 0.0 } else { h * five[i] * part }
+        })
+    }
 }
 
 impl<R: Real> Rk8<R> {

@@ -212,6 +212,11 @@ impl<R: Real> Tableau<R> {
         weighted(&self.b, stages.each_ref())
     }
 
+    /// The mean slope less those of the formulas of order five and three.
+    pub(super) fn errors<const N: usize>(&self, stages: &Stages<R, N>) -> [[R; N]; 2] {
+        [weighted(&self.e5, stages.each_ref()), weighted(&self.e3, stages.each_ref())]
+    }
+
     /// The interpolant of order seven over the step from `from` to `to` with these stages, and the slope `end` at its
     /// end: three evaluations.
     ///

@@ -36,7 +36,7 @@ pub use lever::Settings;
 pub use reference::ReferenceReport;
 pub use report::{Choice, Ending, NoChoice, Report, Unit};
 pub use row::{Failure, FailureKind, Knob, Nearby, Row};
-pub use timing::{Cost, Stopwatch, median_with_interval};
+pub use timing::{Cost, Stopwatch};
 pub use trade::{Forecast, Trade, Tried};
 
 use lever::{Lever, Run};

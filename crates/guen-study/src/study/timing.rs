@@ -2,6 +2,8 @@
 
 use std::time::{Duration, Instant};
 
+use crate::median::median_with_interval;
+
 /// What measures how long a run takes. The default is the machine's clock; another one makes a study repeatable, or
 /// tells it times that were recorded elsewhere.
 pub trait Stopwatch {
@@ -68,11 +70,8 @@ impl Cost {
 
     /// The median of these; none if there are none.
     pub(super) fn of(values: &mut [f64]) -> Option<Self> {
-        if values.is_empty() {
-            return None;
-        }
         let repetitions = u32::try_from(values.len()).unwrap_or(u32::MAX);
-        let (median, (low, high)) = median_with_interval(values);
+        let (median, (low, high)) = median_with_interval(values)?;
         Some(Self { median, low, high, repetitions })
     }
 
@@ -88,46 +87,9 @@ impl Cost {
     }
 }
 
-/// The median, and the interval between order statistics that it lies in with 95 percent: of `n` values as many as the
-/// binomial distribution with `p = 1/2` has beyond 2.5 percent are left out on either side. With five values or fewer
-/// the interval is all of them, and covers less.
-///
-/// ```
-/// use guen_study::median_with_interval;
-/// let mut values = [5.0, 1.0, 4.0, 2.0, 3.0, 6.0, 7.0, 9.0, 8.0];
-/// assert_eq!(median_with_interval(&mut values), (5.0, (2.0, 8.0)));
-/// ```
-///
-/// # Panics
-///
-/// If there are no values.
-pub fn median_with_interval(values: &mut [f64]) -> (f64, (f64, f64)) {
-    values.sort_by(f64::total_cmp);
-    let n = values.len();
-    let mut probability = 0.5_f64.powi(n as i32);
-    let (mut below, mut out) = (probability, 0);
-    while out + 1 < n / 2 {
-        probability *= (n - out) as f64 / (out + 1) as f64;
-        if below + probability > 0.025 {
-            break;
-        }
-        below += probability;
-        out += 1;
-    }
-    let median = if n % 2 == 1 { values[n / 2] } else { 0.5 * (values[n / 2 - 1] + values[n / 2]) };
-    (median, (values[out], values[n - 1 - out]))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn the_interval_of_31_values_leaves_nine_out_on_either_side() {
-        // Tables of the sign test: 9 of 31 is the critical value at 5 percent, two-sided.
-        let mut values: Vec<f64> = (0..31).rev().map(f64::from).collect();
-        assert_eq!(median_with_interval(&mut values), (15.0, (9.0, 21.0)));
-    }
 
     #[test]
     fn overlapping_intervals_are_ties_both_ways() {

@@ -5,6 +5,7 @@
 //! declaration uses: those with the fewest terms first, each that is no rational combination of the earlier ones. With
 //! `a`, `b` and `a - b` it is `{a, b}`; with `q_1/2` and `q_1` it is `{q_1/2}`.
 
+use std::cell::RefCell;
 use std::collections::BTreeMap;
 
 use super::{ExprId, FastMap, Function, Graph, Node, Rational};
@@ -24,8 +25,8 @@ pub(crate) struct BaseAngles {
     base: Vec<ExprId>,
     /// Monomials that a base angle of several terms stands for: each by base angles and other monomials.
     images: BTreeMap<ExprId, AngleParts>,
-    /// The arguments that the base was chosen for: they are asked for again and again.
-    known: FastMap<ExprId, AngleParts>,
+    /// Arguments that were taken apart: they are asked for again and again.
+    known: RefCell<FastMap<ExprId, AngleParts>>,
 }
 
 impl Graph {
@@ -91,9 +92,7 @@ impl Graph {
             images.insert(lead, image);
             base.push(x);
         }
-        let known =
-            arguments.iter().map(|x| (*x, self.with_images(&images, &self.linear_parts(*x)))).collect();
-        self.base_angles = BaseAngles { are_whole: false, base, images, known };
+        self.base_angles = BaseAngles { are_whole: false, base, images, known: RefCell::default() };
     }
 
     /// A sum of several terms as an angle: of the two signs the one that sines and cosines are written with.
@@ -107,15 +106,18 @@ impl Graph {
 
     /// An argument by base angles, and by monomials that none stands for.
     pub(crate) fn angle_parts(&self, x: ExprId) -> AngleParts {
-        if let Some(known) = self.base_angles.known.get(&x) {
+        let BaseAngles { are_whole, images, known, .. } = &self.base_angles;
+        if let Some(known) = known.borrow().get(&x) {
             return known.clone();
         }
         let parts = self.linear_parts(x);
-        if self.base_angles.are_whole && parts.len() > 1 {
-            return vec![(x, Rational::ONE)];
-        }
-        let images = &self.base_angles.images;
-        if images.is_empty() { parts } else { self.with_images(images, &parts) }
+        let parts = match parts.len() {
+            2.. if *are_whole => vec![(x, Rational::ONE)],
+            _ if images.is_empty() => parts,
+            _ => self.with_images(images, &parts),
+        };
+        known.borrow_mut().insert(x, parts.clone());
+        parts
     }
 
     fn with_images(&self, images: &BTreeMap<ExprId, AngleParts>, parts: &[(ExprId, Rational)]) -> AngleParts {
@@ -156,6 +158,27 @@ impl Graph {
             }
         }
         collected(sum)
+    }
+
+    /// Whether an expression is a sum of monomials, sums of sums opened.
+    pub(crate) fn is_sum_of_monomials(&self, sum: ExprId) -> bool {
+        let mut stack = vec![sum];
+        while let Some(e) = stack.pop() {
+            match self.node(e) {
+                Node::Sum { terms, .. } => {
+                    let terms: &[(ExprId, Rational)] = terms;
+                    let mut index = 0;
+                    while index < terms.len() {
+                        stack.push(terms[index].0);
+                        index += 1;
+                    }
+                }
+                _ if self.is_monomial(e) => {}
+                // Unless it cancels.
+                _ => return self.linear_parts(sum).iter().all(|(term, _)| self.is_monomial(*term)),
+            }
+        }
+        true
     }
 
     /// Whether an expression is a number, a symbol, pi, or a product of such.

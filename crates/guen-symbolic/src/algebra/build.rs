@@ -126,12 +126,23 @@ impl Graph {
 
     /// The sum of many expressions.
     pub fn sum(&mut self, terms: impl IntoIterator<Item = ExprId>) -> ExprId {
-        let terms: Vec<_> = terms.into_iter().map(|term| (term, Rational::ONE)).collect();
-        self.linear(&terms)
+        let mut list: Vec<(ExprId, Rational)> = Vec::new();
+        for term in terms {
+            // Entries of matrices are zeros more often than not.
+            if !self.is_zero(term) {
+                list.push((term, Rational::ONE));
+            }
+        }
+        self.linear(&list)
     }
 
     /// `sum coefficient * term`, in normal form.
     pub fn linear(&mut self, terms: &[(ExprId, Rational)]) -> ExprId {
+        match terms {
+            [] => return self.zero(),
+            [(id, c)] if c.is_one() => return *id,
+            _ => {}
+        }
         let mut constant = Rational::ZERO;
         let mut collected: Vec<(ExprId, Rational)> = Vec::with_capacity(terms.len() + FLATTEN_TERMS);
         let mut next = 0;
@@ -276,11 +287,18 @@ impl Graph {
         if b == self.one() {
             return a;
         }
+        let is_undefined = |id| matches!(self.node(id), Node::Undefined);
+        if self.is_zero(a) && !is_undefined(b) || self.is_zero(b) && !is_undefined(a) {
+            return self.zero();
+        }
         self.product(&[(a, 1), (b, 1)])
     }
 
     /// `a / b`; the caller knows that `b` is not zero.
     pub fn div(&mut self, a: ExprId, b: ExprId) -> ExprId {
+        if b == self.one() {
+            return a;
+        }
         self.product(&[(a, 1), (b, -1)])
     }
 

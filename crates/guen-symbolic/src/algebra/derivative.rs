@@ -22,12 +22,14 @@ pub struct Flow {
     images: FastMap<SymbolId, ExprId>,
     roles: Roles,
     memo: FastMap<ExprId, ExprId>,
+    keeps: bool,
 }
 
 impl Flow {
     /// The direction that moves each symbol at the given rate and leaves all others fixed.
     pub fn new(graph: &Graph, rates: impl IntoIterator<Item = (ExprId, ExprId)>) -> Self {
-        let mut flow = Flow { images: FastMap::default(), roles: Roles::NONE, memo: FastMap::default() };
+        let mut flow =
+            Flow { images: FastMap::default(), roles: Roles::NONE, memo: FastMap::default(), keeps: false };
         for (symbol, rate) in rates {
             if let Some(symbol) = graph.as_symbol(symbol)
                 && !graph.is_zero(rate)
@@ -37,6 +39,11 @@ impl Flow {
             }
         }
         flow
+    }
+
+    /// The same, and the derivative of what is kept whole is kept whole too: for results that others are built on.
+    pub(crate) fn keeping(self) -> Self {
+        Flow { keeps: true, ..self }
     }
 
     /// The partial derivative by one symbol.
@@ -71,7 +78,10 @@ impl Flow {
             Node::Number(_) | Node::Pi => graph.zero(),
             Node::Undefined => id,
             // Equal to what is inside, so is its derivative.
-            Node::Kept(x) => self.known(graph, x),
+            Node::Kept(x) => {
+                let derivative = self.known(graph, x);
+                if self.keeps { graph.keep(derivative) } else { derivative }
+            }
             Node::Symbol(symbol) => self.images.get(&symbol).copied().unwrap_or(graph.zero()),
             Node::Sum { terms, .. } => {
                 let terms: Vec<_> =

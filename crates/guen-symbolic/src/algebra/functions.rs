@@ -77,7 +77,7 @@ impl Function {
         }
     }
 
-    fn is_odd(self) -> bool {
+    pub(crate) fn is_odd(self) -> bool {
         use Function::{Asin, Atan, Root, Sign, Sin, Sinh, Tanh};
         match self {
             Sin | Asin | Atan | Sinh | Tanh | Sign => true,
@@ -86,7 +86,7 @@ impl Function {
         }
     }
 
-    fn is_even(self) -> bool {
+    pub(crate) fn is_even(self) -> bool {
         matches!(self, Function::Cos | Function::Cosh | Function::Abs)
     }
 }

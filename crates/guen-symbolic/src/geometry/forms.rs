@@ -30,6 +30,16 @@ impl Forms {
         self.coordinates.len()
     }
 
+    /// Each form over the symbols of the velocities, with nothing in common.
+    pub fn over(&self, graph: &mut Graph, velocities: &[ExprId]) -> Vec<ExprId> {
+        let over = |form: &Form| {
+            let mut terms = vec![form.offset];
+            terms.extend(form.row.iter().zip(velocities).map(|(a, v)| graph.mul(*a, *v)));
+            graph.sum(terms)
+        };
+        self.forms.iter().map(over).collect()
+    }
+
     /// Whether there are no coordinates.
     pub fn is_empty(&self) -> bool {
         self.coordinates.is_empty()

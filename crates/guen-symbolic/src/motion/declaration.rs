@@ -39,6 +39,8 @@ pub enum MotionSymbol {
 pub struct Mechanics {
     /// The forms over time and coordinates.
     pub forms: Forms,
+    /// Each form as it was written, over velocities: with the sums that several have in common.
+    pub written: Vec<ExprId>,
     /// The symbols `x_1'..x_n'`.
     pub velocities: Vec<ExprId>,
     /// The symbols `eta_1..eta_n`, parameters first.
@@ -80,7 +82,8 @@ impl Mechanics {
             .into_iter()
             .chain(system.holonomic.iter_mut().map(|h| &mut h.equation))
             .chain(system.forces.iter_mut().flat_map(|force| [&mut force.magnitude, &mut force.along]))
-            .chain(&mut system.outputs);
+            .chain(&mut system.outputs)
+            .chain(&mut system.written);
         for expression in expressions {
             *expression = values.of(&mut bench.graph, *expression);
         }

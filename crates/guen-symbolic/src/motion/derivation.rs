@@ -2,8 +2,8 @@
 
 use super::velocity_forms::VelocityPartials;
 use super::{
-    Energies, Frame, Mechanics, MotionSymbol, NotQuadratic, Solution, decompose, poincare, projection, proof,
-    rephrased, tensions,
+    Energies, Frame, Mechanics, MotionSymbol, NotQuadratic, Solution, decompose, nested, poincare,
+    projection, proof, rephrased, tensions,
 };
 use crate::algebra::{ExprId, FastMap, Flow, Role, Roles, Substitution};
 use crate::geometry::{Closure, Operators, SingularForms, dependence};
@@ -81,6 +81,8 @@ pub struct Derivation {
     pub alternatives: Vec<Vec<ExprId>>,
     /// Whether the accelerations were also, or only, found with the reactions between velocity forms as unknowns.
     pub by_tensions: bool,
+    /// Whether rates are among the alternatives in which velocities are computed one from another.
+    pub by_nesting: bool,
     /// The reactions `lambda_v` as functions of `t, x, eta`, inputs and `eta'` (as symbols); none for constraints
     /// without momentum in `T°`.
     pub reactions: Vec<Option<ExprId>>,
@@ -154,6 +156,7 @@ impl Derivation {
         };
         let by_tensions = tensions.is_some();
         let mut alternatives: Vec<Vec<ExprId>> = Vec::new();
+        let mut by_nesting = false;
         let solution = match tensions {
             Some(tensions) if tensions.is_clear => {
                 Solution::known(bench, tensions.accelerations, &tensions.divisors)
@@ -175,7 +178,14 @@ impl Derivation {
                     .chain(tensions.map(|tensions| tensions.accelerations));
                 alternatives.extend(others.map(|other| [&frame.velocities[..], &other].concat()));
                 let own = [&frame.velocities[..], &solution.accelerations].concat();
-                for rates in rephrased::rates(bench, &system, &mut frame, &equations, by_projection, words) {
+                let mut others =
+                    nested::rates(bench, &system, &frame, &terms, &projected.forms, &generalised_forces);
+                // What multiplies out to little is better multiplied out.
+                let least = weighted_cost(&bench.graph, &own);
+                others.retain(|rates| weighted_cost(&bench.graph, rates) < least);
+                by_nesting = !others.is_empty();
+                others.extend(rephrased::rates(bench, &system, &mut frame, &equations, by_projection, words));
+                for rates in others {
                     if proof::are_equal(bench, &own, &rates, system.forms.len())? {
                         alternatives.push(rates);
                     }
@@ -239,6 +249,7 @@ impl Derivation {
             solution,
             alternatives,
             by_tensions,
+            by_nesting,
             reactions,
             without_momentum,
             known_momentum,
@@ -359,18 +370,17 @@ pub(super) fn candidates(
     /// The estimate above which a further form is not worth the time to optimise it.
     const WORTH: u64 = 1000;
     let l = system.forms.degrees;
-    let mass: Vec<Vec<ExprId>> = (0..l)
-        .map(|s| {
-            (0..l)
-                .map(|t| {
-                    // Both routes give the same function; the matrix is symmetric.
-                    let (s, t) = (s.max(t), s.min(t));
-                    let (a, b) = (bench.tidy(by_definition.mass[s][t]), bench.tidy(by_projection.mass[s][t]));
-                    if weighted_cost(&bench.graph, &[a]) < weighted_cost(&bench.graph, &[b]) { a } else { b }
-                })
-                .collect()
-        })
-        .collect();
+    let mut mass = vec![vec![bench.graph.zero(); l]; l];
+    for s in 0..l {
+        for t in 0..=s {
+            // Both routes give the same function.
+            let (a, b) = (bench.tidy(by_definition.mass[s][t]), bench.tidy(by_projection.mass[s][t]));
+            let cost = |e: ExprId| weighted_cost(&bench.graph, &[e]);
+            let entry = if a != b && cost(a) < cost(b) { a } else { b };
+            mass[s][t] = entry;
+            mass[t][s] = entry;
+        }
+    }
     let sources = [&by_projection.forces[..l], &by_definition.forces[..l]];
     let mut lists: Vec<Vec<ExprId>> = Vec::new();
     lists.extend(sources.iter().find_map(|forces| normal_forces(bench, system, forces)));

@@ -6,6 +6,7 @@ mod derivation;
 mod energy;
 mod frame;
 mod kinetic;
+mod nested;
 mod poincare;
 mod projection;
 mod proof;

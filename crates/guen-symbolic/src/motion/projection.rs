@@ -16,22 +16,27 @@
 
 use super::velocity_forms::VelocityPartials;
 use super::{Equations, Frame, KineticTerm, Mechanics, VelocityForm};
-use crate::algebra::{ExprId, FastMap, Node, Rational};
+use crate::algebra::{ExprId, FastMap, Flow, Node, Rational};
 use crate::program::weighted_cost;
 use crate::workbench::Workbench;
 
 /// What is needed of one velocity form, each computed once.
-struct Measured {
-    form: VelocityForm,
+#[derive(Clone)]
+pub(super) struct Measured {
     /// `u` on the constraints.
-    value: ExprId,
+    pub(super) value: ExprId,
     /// `u_s` for `s = 1..n`.
-    components: Vec<ExprId>,
+    pub(super) components: Vec<ExprId>,
     /// The component along `X_0`.
-    drift: ExprId,
+    pub(super) drift: ExprId,
     /// `D(u)`: the acceleration at `eta' = 0`.
-    acceleration: ExprId,
+    pub(super) acceleration: ExprId,
+    /// `E_s(u)` for each row.
+    pub(super) turning: Vec<ExprId>,
 }
+
+/// The forms of the kinetic energy, in the order in which its terms have them.
+pub(super) type MeasuredForms = FastMap<ExprId, Measured>;
 
 /// The quadratic part of `T°` as `1/2 sum_k m_k u_k^2` with positive constants `m_k`:
 /// `sum_k m_k u_ks (D(u_k) + sum_t u_kt eta_t') = g_s`.
@@ -52,6 +57,8 @@ pub(super) struct Projected {
     pub(super) equations: Equations,
     /// `None` where the energy is no sum of squares with constant masses.
     pub(super) squares: Option<Squares>,
+    /// The forms of the energy.
+    pub(super) forms: MeasuredForms,
 }
 
 /// `sum_t M_st eta_t' = f_s` for `s = 1..rows`, without the generalised forces.
@@ -63,41 +70,55 @@ pub(super) fn equations(
     terms: &[KineticTerm],
     rows: usize,
 ) -> Projected {
-    let l = system.forms.degrees;
     let resting = resting_accelerations(bench, system, frame);
-    let mut known: FastMap<ExprId, usize> = FastMap::default();
-    let mut measured: Vec<Measured> = Vec::new();
+    let mut forms = MeasuredForms::default();
     for u in terms.iter().flat_map(|term| &term.forms) {
-        if !known.contains_key(u) {
-            known.insert(*u, measured.len());
-            measured.push(measure(bench, system, frame, partials, &resting, *u));
+        if !forms.contains_key(u) {
+            let measured = measure(bench, system, frame, partials, &resting, *u, rows);
+            forms.insert(*u, measured);
         }
     }
+    let (equations, rest) =
+        assemble(bench, system, &mut frame.displacements[..rows], &mut frame.motion, terms, &forms);
+    let squares = squares(bench, terms).map(|list| with_factors(bench, system, frame, &forms, list, rest));
+    Projected { equations, squares, forms }
+}
+
+/// The sums over the terms of the energy; a row for each displacement. Beside the equations the part of the forces
+/// that the accelerations of the forms do not have, term by term.
+pub(super) fn assemble(
+    bench: &mut Workbench,
+    system: &Mechanics,
+    displacements: &mut [Flow],
+    motion: &mut Flow,
+    terms: &[KineticTerm],
+    forms: &MeasuredForms,
+) -> (Equations, Vec<Vec<ExprId>>) {
+    let (l, rows) = (system.forms.degrees, displacements.len());
     let mut mass: Vec<Vec<Vec<ExprId>>> = vec![vec![Vec::new(); l]; rows];
     let mut forces: Vec<Vec<ExprId>> = vec![Vec::new(); rows];
-    // The part of the forces that the accelerations of the forms do not have.
     let mut rest: Vec<Vec<ExprId>> = vec![Vec::new(); rows];
-    for (displacement, force) in frame.displacements.iter_mut().zip(&mut rest) {
+    for (displacement, force) in displacements.iter_mut().zip(&mut rest) {
         force.push(displacement.of(&mut bench.graph, system.force_function));
     }
     for term in terms {
         let w = term.weight;
-        let w_rate = frame.motion.of(&mut bench.graph, w);
-        let factors: Vec<usize> = term.forms.iter().map(|u| known[u]).collect();
-        let values: Vec<ExprId> = factors.iter().map(|k| measured[*k].value).collect();
+        let w_rate = motion.of(&mut bench.graph, w);
+        let factors: Vec<&Measured> = term.forms.iter().map(|u| &forms[u]).collect();
         for s in 0..rows {
             // - X_s(w) u v
-            let w_slope = frame.displacements[s].of(&mut bench.graph, w);
+            let w_slope = displacements[s].of(&mut bench.graph, w);
             if !bench.graph.is_zero(w_slope) {
-                let all: Vec<_> = values.iter().copied().chain([w_slope]).map(|e| (e, 1)).collect();
+                let values = factors.iter().map(|u| u.value);
+                let all: Vec<_> = values.chain([w_slope]).map(|e| (e, 1)).collect();
                 rest[s].push(bench.graph.product(&all));
             }
-            for (place, k) in factors.iter().enumerate() {
+            for (place, u) in factors.iter().enumerate() {
                 let partner =
                     factors.iter().enumerate().find(|(other, _)| *other != place).map(|(_, other)| *other);
                 let one = bench.graph.one();
-                let partner_value = partner.map_or(one, |other| measured[other].value);
-                let component = measured[*k].components[s];
+                let partner_value = partner.map_or(one, |other| other.value);
+                let component = u.components[s];
                 if !bench.graph.is_zero(component) {
                     // D(w) v u_s + w v' u_s
                     if !bench.graph.is_zero(w_rate) {
@@ -105,59 +126,71 @@ pub(super) fn equations(
                         rest[s].push(bench.graph.neg(part));
                     }
                     if let Some(other) = partner {
-                        let part =
-                            bench.graph.product(&[(w, 1), (measured[other].acceleration, 1), (component, 1)]);
+                        let part = bench.graph.product(&[(w, 1), (other.acceleration, 1), (component, 1)]);
                         forces[s].push(bench.graph.neg(part));
                         for (t, row) in mass[s].iter_mut().enumerate() {
                             row.push(bench.graph.product(&[
                                 (w, 1),
-                                (measured[other].components[t], 1),
+                                (other.components[t], 1),
                                 (component, 1),
                             ]));
                         }
                     }
                 }
                 // w v E_s(u)
-                let turning = exterior(bench, system, frame, &measured[*k].form, s);
-                if !bench.graph.is_zero(turning) {
-                    let part = bench.graph.product(&[(w, 1), (partner_value, 1), (turning, 1)]);
+                if !bench.graph.is_zero(u.turning[s]) {
+                    let part = bench.graph.product(&[(w, 1), (partner_value, 1), (u.turning[s], 1)]);
                     rest[s].push(bench.graph.neg(part));
                 }
             }
         }
     }
-    let squares = squares(bench, terms).map(|squares| {
-        let mut found =
-            Squares { masses: Vec::new(), components: Vec::new(), drifts: Vec::new(), rest: Vec::new() };
-        let mut rest = rest[..l].to_vec();
-        for Square { mass, factor, form } in squares {
-            let form = &measured[known[&form]];
-            // In place of 2 D(w) u u_s with w = m c^2/2 the form c u has m c D(c) u u_s in its acceleration.
-            let rate = frame.motion.of(&mut bench.graph, factor);
-            let mut components = Vec::new();
-            for (s, component) in form.components[..l].iter().enumerate() {
-                let own = bench.graph.mul(factor, *component);
-                components.push(bench.tidy(own));
-                if !bench.graph.is_zero(rate) && !bench.graph.is_zero(*component) {
-                    let all = [mass, factor, rate, form.value, *component].map(|e| (e, 1));
-                    rest[s].push(bench.graph.product(&all));
-                }
-            }
-            found.masses.push(mass);
-            found.components.push(components);
-            found.drifts.push(bench.graph.mul(factor, form.drift));
-        }
-        found.rest = rest.into_iter().map(|terms| bench.graph.sum(terms)).collect();
-        found
-    });
     let equations = Equations {
         mass: mass
             .into_iter()
             .map(|row| row.into_iter().map(|terms| bench.graph.sum(terms)).collect())
             .collect(),
-        forces: forces.into_iter().zip(rest).map(|(a, b)| bench.graph.sum(b.into_iter().chain(a))).collect(),
+        forces: forces
+            .into_iter()
+            .zip(&rest)
+            .map(|(a, b)| bench.graph.sum(b.iter().copied().chain(a)))
+            .collect(),
     };
-    Projected { equations, squares }
+    (equations, rest)
+}
+
+/// The squares with the factors of their forms multiplied into them.
+fn with_factors(
+    bench: &mut Workbench,
+    system: &Mechanics,
+    frame: &mut Frame,
+    forms: &MeasuredForms,
+    list: Vec<Square>,
+    rest: Vec<Vec<ExprId>>,
+) -> Squares {
+    let l = system.forms.degrees;
+    let mut found =
+        Squares { masses: Vec::new(), components: Vec::new(), drifts: Vec::new(), rest: Vec::new() };
+    let mut rest = rest[..l].to_vec();
+    for Square { mass, factor, form } in list {
+        let form = &forms[&form];
+        // In place of 2 D(w) u u_s with w = m c^2/2 the form c u has m c D(c) u u_s in its acceleration.
+        let rate = frame.motion.of(&mut bench.graph, factor);
+        let mut components = Vec::new();
+        for (s, component) in form.components[..l].iter().enumerate() {
+            let own = bench.graph.mul(factor, *component);
+            components.push(bench.tidy(own));
+            if !bench.graph.is_zero(rate) && !bench.graph.is_zero(*component) {
+                let all = [mass, factor, rate, form.value, *component].map(|e| (e, 1));
+                rest[s].push(bench.graph.product(&all));
+            }
+        }
+        found.masses.push(mass);
+        found.components.push(components);
+        found.drifts.push(bench.graph.mul(factor, form.drift));
+    }
+    found.rest = rest.into_iter().map(|terms| bench.graph.sum(terms)).collect();
+    found
 }
 
 /// `1/2 m (c u)^2` with a positive constant `m`.
@@ -247,6 +280,7 @@ fn measure(
     partials: &mut VelocityPartials,
     resting: &[ExprId],
     u: ExprId,
+    rows: usize,
 ) -> Measured {
     let (n, l) = (system.forms.len(), system.forms.degrees);
     let form = partials.affine(bench, u).expect("the decomposition yields affine forms");
@@ -288,11 +322,11 @@ fn measure(
         }
     }
     Measured {
-        form,
         value: bench.keep_large(value),
         components,
         drift,
         acceleration: bench.keep_large(acceleration),
+        turning: (0..rows).map(|s| exterior(bench, system, frame, &form, s)).collect(),
     }
 }
 

@@ -52,16 +52,17 @@ impl Collector<'_> {
     }
 
     fn angle(&mut self, base: ExprId, double: Option<ExprId>) -> bool {
+        if self.angles.iter().any(|angle| angle.0 == base) {
+            return true;
+        }
         let (sin, cos) = (self.graph.sin(base), self.graph.cos(base));
         let is = |f, id| matches!(*self.graph.node(id), Node::Function(g, x) if g == f && x == base);
         if !is(Function::Sin, sin) || !is(Function::Cos, cos) {
             return false;
         }
-        if !self.angles.iter().any(|angle| angle.0 == base) {
-            self.angles.push((base, sin, cos, double));
-            self.generator(sin);
-            self.generator(cos);
-        }
+        self.angles.push((base, sin, cos, double));
+        self.generator(sin);
+        self.generator(cos);
         true
     }
 
@@ -180,7 +181,9 @@ pub(super) fn convert(graph: &mut Graph, e: ExprId, limits: &Limits) -> Result<(
     let index = |id: ExprId| generators.iter().position(|g| *g == id).ok_or(Exceeded);
     let angles = angles
         .iter()
-        .map(|(_, sin, cos, double)| Ok(Angle { sin: index(*sin)?, cos: index(*cos)?, double: *double }))
+        .map(|(base, sin, cos, double)| {
+            Ok(Angle { base: *base, sin: index(*sin)?, cos: index(*cos)?, double: *double })
+        })
         .collect::<Result<Vec<_>>>()?;
     let of_class = |wanted: fn(Roles) -> bool| {
         Mono::mask((0..generators.len()).filter(|i| wanted(graph.roles(generators[*i]))))
@@ -240,11 +243,15 @@ fn node_value(
             ring.sum(&parts)
         }
         Node::Product(factors) => {
-            let mut product = Fraction::whole(Poly::one());
+            let mut product: Option<Fraction> = None;
             for (base, e) in &factors {
-                product = ring.product(&product, &ring.power(&values[base], *e)?)?;
+                let power = ring.power(&values[base], *e)?;
+                product = Some(match product {
+                    None => power,
+                    Some(product) => ring.product(&product, &power)?,
+                });
             }
-            Ok(product)
+            Ok(product.unwrap_or_else(|| Fraction::whole(Poly::one())))
         }
         Node::Function(f @ (Function::Root(_) | Function::Abs), x) => {
             let (order, value) = match f {
@@ -261,9 +268,16 @@ fn node_value(
             Some(Image::Angle(multiples)) => {
                 let (mut sin, mut cos) = (Poly::zero(), Poly::one());
                 for (base, k) in multiples {
-                    let (s, c) = (graph.sin(*base), graph.cos(*base));
-                    let (s, c) = (generator(ring, s)?.num, generator(ring, c)?.num);
+                    let angle = ring.angles.iter().find(|angle| angle.base == *base).ok_or(Exceeded)?;
+                    let power = |generator| Ok(Poly::term(Mono::power(generator, 1)?, Rational::ONE));
+                    let (s, c) = (power(angle.sin)?, power(angle.cos)?);
                     let s = if *k < 0 { s.scaled(&Rational::MINUS_ONE) } else { s };
+                    if sin.is_zero() && k.abs() == 1 {
+                        // The two sums of the first turn.
+                        ring.budget.spend(2)?;
+                        (sin, cos) = (s, c);
+                        continue;
+                    }
                     for _ in 0..k.abs() {
                         let next = ring.times(&sin, &c)?.plus(&ring.times(&cos, &s)?, &ring.budget)?;
                         let minus = ring.times(&sin, &s)?.scaled(&Rational::MINUS_ONE);

@@ -186,21 +186,21 @@ fn finish(g: &mut Graph, ring: &Ring, f: &Fraction, limits: &Limits, doublings: 
 fn prepare(g: &mut Graph, e: ExprId, limits: &Limits) -> ExprId {
     // What is kept whole is a generator: nothing inside it is looked at.
     let kept = |g: &Graph, id: ExprId| matches!(g.node(id), Node::Kept(_));
-    let inside: Vec<ExprId> = g.reachable(&[e], |_| false).into_iter().filter(|id| kept(g, *id)).collect();
     let pending = g.reachable(&[e], |id| kept(g, id));
     let simple = pending.iter().all(|id| match g.node(*id) {
-        Node::Function(_, x) => simple_argument(g, *x),
-        Node::Atan2(y, x) => simple_argument(g, *y) && simple_argument(g, *x),
+        Node::Function(_, x) => g.is_sum_of_monomials(*x),
+        Node::Atan2(y, x) => g.is_sum_of_monomials(*y) && g.is_sum_of_monomials(*x),
         _ => true,
     });
     if simple || pending.len() > limits.nodes {
         return e;
     }
+    let inside: Vec<ExprId> = g.reachable(&[e], |_| false).into_iter().filter(|id| kept(g, *id)).collect();
     let mut images: BTreeMap<ExprId, ExprId> = inside.iter().map(|id| (*id, *id)).collect();
     for id in pending {
         let argument = |g: &mut Graph, x: ExprId, flat: bool| {
             let x = images[&x];
-            if simple_argument(g, x) { x } else { normalized(g, x, limits, flat).unwrap_or(x) }
+            if g.is_sum_of_monomials(x) { x } else { normalized(g, x, limits, flat).unwrap_or(x) }
         };
         let image = match g.node(id).clone() {
             Node::Number(_) | Node::Pi | Node::Symbol(_) | Node::Undefined => id,
@@ -227,15 +227,4 @@ fn prepare(g: &mut Graph, e: ExprId, limits: &Limits) -> ExprId {
         images.insert(id, image);
     }
     images[&e]
-}
-
-/// Whether an argument is a sum of monomials in symbols already, or a sum of such sums.
-fn simple_argument(g: &Graph, x: ExprId) -> bool {
-    match g.node(x) {
-        Node::Sum { terms, .. } => {
-            terms.iter().all(|(term, _)| g.is_monomial(*term))
-                || g.linear_parts(x).iter().all(|(term, _)| g.is_monomial(*term))
-        }
-        _ => g.is_monomial(x),
-    }
 }

@@ -13,9 +13,10 @@ use super::poly::{Budget, Exceeded, Mono, Poly, Result};
 /// Conjugation multiplies sizes; larger products of numerator and divisor are not tried.
 const CONJUGATION_TERMS: usize = 400;
 
-/// A base angle: the generators of its sine and cosine.
+/// A base angle with the generators of its sine and cosine.
 #[derive(Clone, Debug)]
 pub(super) struct Angle {
+    pub(super) base: ExprId,
     pub(super) sin: usize,
     pub(super) cos: usize,
     /// Twice the angle, if the base is a fraction with an even denominator.
@@ -304,10 +305,11 @@ impl Ring {
     }
 
     pub(super) fn power(&self, f: &Fraction, n: i32) -> Result<Fraction> {
-        let base = if n < 0 { self.invert(f)? } else { f.clone() };
+        let inverse = if n < 0 { Some(self.invert(f)?) } else { None };
+        let base = inverse.as_ref().unwrap_or(f);
         let mut result = base.clone();
         for _ in 1..n.unsigned_abs() {
-            result = self.product(&result, &base)?;
+            result = self.product(&result, base)?;
         }
         Ok(result)
     }

@@ -4,6 +4,7 @@
 //! reader's order: numbers and constants before functions before velocities, accelerations first in a
 //! sum. The order depends on the declaration only, never on how the graph stores things.
 
+mod contracted;
 mod names;
 mod order;
 mod render;
@@ -11,6 +12,7 @@ mod render;
 use crate::algebra::{ExprId, Graph};
 use render::Printer;
 
+pub use contracted::Contracted;
 pub use names::{greek_letter, latex_name};
 
 /// Longer texts help no reader; [`Graph::text`] replaces them by a note.
@@ -75,7 +77,7 @@ impl Graph {
             let note = self.note(e);
             if style == Style::Latex { format!("\\text{{{note}}}") } else { note }
         };
-        let mut notation = Notation { printer: Printer::new(self, style, LONGEST_TEXT), style };
+        let mut notation = Notation { printer: Printer::new(self, style, LONGEST_TEXT), style, images: None };
         notation.combination(terms, |e| Some(note(e))).unwrap_or_default()
     }
 
@@ -98,22 +100,32 @@ impl Graph {
 pub struct Notation<'g> {
     printer: Printer<'g>,
     style: Style,
+    images: Option<&'g Contracted>,
 }
 
 impl<'g> Notation<'g> {
     /// The grammar of the language; expressions with more than `longest` bytes are not written.
     pub fn text(graph: &'g Graph, longest: usize) -> Self {
-        Notation { printer: Printer::new(graph, Style::Text, longest), style: Style::Text }
+        Notation { printer: Printer::new(graph, Style::Text, longest), style: Style::Text, images: None }
     }
 
     /// LaTeX mathematics without delimiters.
     pub fn latex(graph: &'g Graph, longest: usize) -> Self {
-        Notation { printer: Printer::new(graph, Style::Latex, longest), style: Style::Latex }
+        Notation { printer: Printer::new(graph, Style::Latex, longest), style: Style::Latex, images: None }
+    }
+
+    /// Writes the images of expressions in their place.
+    pub fn of_images(self, images: &'g Contracted) -> Self {
+        Notation { images: Some(images), ..self }
+    }
+
+    fn image(&self, e: ExprId) -> ExprId {
+        self.images.map_or(e, |images| images.image(e))
     }
 
     /// An expression, or `None` if it is too long.
     pub fn expression(&mut self, e: ExprId) -> Option<String> {
-        self.printer.expression(e)
+        self.printer.expression(self.image(e))
     }
 
     /// A linear combination of named things, or `None` if a coefficient is too long; zero coefficients are left out.
@@ -131,7 +143,7 @@ impl<'g> Notation<'g> {
             if self.printer.graph().is_zero(*coefficient) {
                 continue;
             }
-            let (negative, text) = match self.printer.coefficient(*coefficient) {
+            let (negative, text) = match self.printer.coefficient(self.image(*coefficient)) {
                 Some(written) => written,
                 None => (false, otherwise(*coefficient)?),
             };

@@ -79,10 +79,12 @@ impl<'g> Printer<'g> {
                     _ => (false, self.parentheses(&piece.text)),
                 }
             }
-            _ => {
-                let (negative, text) = self.term(&Rational::ONE, e);
-                (negative, text)
-            }
+            // Written already, with its sign.
+            Node::Product(_) => match self.pieces[&e].text.strip_prefix('-') {
+                Some(text) => (true, text.to_owned()),
+                None => (false, self.pieces[&e].text.clone()),
+            },
+            _ => self.term(&Rational::ONE, e),
         })
     }
 
@@ -147,7 +149,18 @@ impl<'g> Printer<'g> {
             Node::Function(Function::Abs, x) if self.style == Style::Latex => {
                 simple(format!("\\left|{}\\right|", self.pieces[x].text), Level::Atom)
             }
-            Node::Function(function, x) => simple(self.call(function.name(), *x), Level::Atom),
+            Node::Function(function, x) => match self.argument(*x) {
+                // sin(-x + y) = -sin(x - y)
+                (true, argument) if function.is_odd() => {
+                    let positive = self.call(function.name(), argument);
+                    let negative = simple(format!("-{positive}"), Level::Sum);
+                    Piece { negated: Some(positive), leads_negative: true, ..negative }
+                }
+                (true, argument) if function.is_even() => {
+                    simple(self.call(function.name(), argument), Level::Atom)
+                }
+                _ => simple(self.call(function.name(), &self.pieces[x].text), Level::Atom),
+            },
             Node::Atan2(y, x) => {
                 let (y, x) = (&self.pieces[y].text, &self.pieces[x].text);
                 simple(
@@ -248,7 +261,11 @@ impl<'g> Printer<'g> {
             && self.pieces.contains_key(base)
             && !matches!(self.graph.node(*base), Node::Sum { .. })
         {
-            return (false, self.pieces[base].text.clone());
+            let piece = &self.pieces[base];
+            return match &piece.negated {
+                Some(negated) if piece.leads_negative => (true, negated.clone()),
+                _ => (false, piece.text.clone()),
+            };
         }
         for (base, e) in &factors {
             for (name, exponent) in self.quotient(&factors, *base, *e) {
@@ -266,13 +283,18 @@ impl<'g> Printer<'g> {
                         item.text = self.wrapped(&self.pieces[x], Level::Atom);
                         (item.order, item.level) = (*q, Level::Atom);
                     }
-                    Node::Function(_, x) if name.is_some() => {
-                        let name = name.unwrap_or_default();
-                        item.text = self.call(name, *x);
-                        item.function = Some((name, self.pieces[x].text.clone()));
-                    }
                     Node::Function(function @ (Function::Sin | Function::Cos), x) => {
-                        item.function = Some((function.name(), self.pieces[x].text.clone()));
+                        let (flipped, argument) = self.argument(*x);
+                        // Tangents and cotangents are odd.
+                        let is_odd = name.is_some() || *function == Function::Sin;
+                        negative ^= flipped && is_odd && exponent % 2 != 0;
+                        let name = name.unwrap_or(function.name());
+                        (item.text, item.level) = (self.call(name, argument), Level::Atom);
+                        item.function = Some((name, argument.to_owned()));
+                    }
+                    Node::Function(..) if piece.leads_negative => {
+                        negative ^= exponent % 2 != 0;
+                        (item.text, item.level) = (piece.negated.clone().unwrap_or_default(), Level::Atom);
                     }
                     Node::Sum { .. } if piece.leads_negative && exponent % 2 != 0 => {
                         negative = !negative;
@@ -320,8 +342,13 @@ impl<'g> Printer<'g> {
     }
 
     fn quotient_text(&self, coefficient: &Rational, above: &[&Shown], below: &[&Shown]) -> String {
-        let (n, d) = coefficient.to_big_pair();
-        let (n, d) = (n.to_string(), d.to_string());
+        let (n, d) = match coefficient.to_i64_pair() {
+            Some((n, d)) => (n.to_string(), d.to_string()),
+            None => {
+                let (n, d) = coefficient.to_big_pair();
+                (n.to_string(), d.to_string())
+            }
+        };
         let above: Vec<String> = above
             .iter()
             .map(|item| self.factor(item, above.len() + below.len() == 1 && coefficient.is_one()))
@@ -392,8 +419,16 @@ impl<'g> Printer<'g> {
         }
     }
 
-    fn call(&self, name: &str, x: ExprId) -> String {
-        let argument = &self.pieces[&x].text;
+    /// An argument that leads with a plus, and whether it is the negative of what is asked for.
+    fn argument(&self, x: ExprId) -> (bool, &str) {
+        let piece = &self.pieces[&x];
+        match &piece.negated {
+            Some(negated) if piece.leads_negative => (true, negated),
+            _ => (false, &piece.text),
+        }
+    }
+
+    fn call(&self, name: &str, argument: &str) -> String {
         match (self.style, name) {
             (Style::Text, _) => format!("{name}({argument})"),
             (Style::Latex, "asin" | "acos" | "atan") => {

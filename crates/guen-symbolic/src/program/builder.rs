@@ -150,8 +150,14 @@ impl<'a> ProgramBuilder<'a> {
     }
 
     fn add(&mut self, name: &str, formulations: &[Formulation], effort: Effort) -> usize {
+        if let [only] = formulations {
+            let mut net = Net::default();
+            let roots = staged(self.graph, &mut net, only, effort);
+            self.push(name, &net, &roots);
+            return 0;
+        }
         // Each formulation is looked at briefly; all effort goes into the best ones.
-        let is_short = effort == Effort::Cold || formulations.len() == 1;
+        let is_short = effort == Effort::Cold;
         let mut tried: Vec<(usize, Net, Vec<NetId>)> = Vec::new();
         let mut programs: Vec<Candidate> = Vec::new();
         let attempt = |graph: &mut Graph, programs: &mut Vec<Candidate>, index: usize, effort: Effort| {
@@ -176,10 +182,15 @@ impl<'a> ProgramBuilder<'a> {
             best = accuracy::best(self.graph, &programs);
         }
         let (index, net, roots) = if tried.is_empty() { Default::default() } else { tried.swap_remove(best) };
-        let Code { instructions, outputs, values } = lower(self.graph, &net, &roots, &mut self.prepared);
+        self.push(name, &net, &roots);
+        index
+    }
+
+    /// Adds the code of some roots.
+    fn push(&mut self, name: &str, net: &Net, roots: &[NetId]) {
+        let Code { instructions, outputs, values } = lower(self.graph, net, roots, &mut self.prepared);
         let cost = OperationCount::of(&instructions);
         self.functions.push(FunctionProgram { name: name.to_owned(), instructions, outputs, values, cost });
-        index
     }
 
     /// The functions, and the code that prepares their constants.

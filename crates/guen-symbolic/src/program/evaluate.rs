@@ -96,32 +96,34 @@ pub(super) fn run<R: Arithmetic>(
     prepared: &[R],
     symbols: impl Fn(SymbolId) -> R,
 ) -> Vec<R> {
-    let mut values: Vec<Option<R>> = vec![None; count];
+    // Values are defined before their use.
+    let mut all = vec![R::from_rational(&Rational::ZERO); count];
+    let values: &mut [R] = &mut all;
     for instruction in instructions {
-        let at = |v: &Value| values[v.index()].clone().expect("values are defined before their use");
+        let at = |v: &Value| &values[v.0 as usize];
         let mut second = None;
         let result = match &instruction.operation {
             Operation::Number(value) => R::from_rational(value),
             Operation::Pi => R::pi(),
             Operation::Symbol(symbol) => symbols(*symbol),
             Operation::Prepared(k) => prepared[*k].clone(),
-            Operation::Add(a, b) => at(a).add(&at(b)),
-            Operation::Sub(a, b) => at(a).sub(&at(b)),
+            Operation::Add(a, b) => at(a).add(at(b)),
+            Operation::Sub(a, b) => at(a).sub(at(b)),
             Operation::Neg(a) => at(a).neg(),
-            Operation::Mul(a, b) => at(a).mul(&at(b)),
-            Operation::Div(a, b) => at(a).div(&at(b)),
+            Operation::Mul(a, b) => at(a).mul(at(b)),
+            Operation::Div(a, b) => at(a).div(at(b)),
             Operation::SinCos { angle, cosine } => {
                 let angle = at(angle);
-                second = Some((cosine, R::call(Function::Cos, &angle)));
-                R::call(Function::Sin, &angle)
+                second = Some((cosine, R::call(Function::Cos, angle)));
+                R::call(Function::Sin, angle)
             }
-            Operation::Call(function, x) => R::call(*function, &at(x)),
-            Operation::Atan2(y, x) => R::atan2(&at(y), &at(x)),
+            Operation::Call(function, x) => R::call(*function, at(x)),
+            Operation::Atan2(y, x) => R::atan2(at(y), at(x)),
         };
-        values[instruction.result.index()] = Some(result);
+        values[instruction.result.0 as usize] = result;
         if let Some((value, result)) = second {
-            values[value.index()] = Some(result);
+            values[value.0 as usize] = result;
         }
     }
-    outputs.iter().map(|v| values[v.index()].clone().expect("outputs are defined")).collect()
+    outputs.iter().map(|v| values[v.0 as usize].clone()).collect()
 }

@@ -131,7 +131,9 @@ impl Lowering<'_> {
             stack.push((id, true));
             let start = stack.len();
             self.net.children(id, |child| stack.push((child, false)));
-            stack[start..].reverse();
+            if stack.len() > start + 1 {
+                stack[start..].reverse();
+            }
         }
         self.get(root)
     }

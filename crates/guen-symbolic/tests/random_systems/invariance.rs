@@ -42,6 +42,7 @@ fn motion_stays(change: impl Fn(&mut Words, &mut Mechanics)) {
         let Some(reference) = multipliers::solve(&declared, &point) else { continue };
         let (mut words, mut mechanics) = drawn(seed);
         change(&mut words, &mut mechanics);
+        mechanics.written = mechanics.forms.over(&mut words.graph, &mechanics.velocities);
         let changed = Declared::new(&words.graph, &mechanics);
         changed.set_etas(&mut point);
         let derived = derive(words.graph, mechanics, seed).expect("a regular system stays regular");
@@ -152,6 +153,7 @@ fn time_as_a_coordinate_leaves_the_equations() {
         plain.accelerate(&declared, &mut point);
         let (mut words, mut mechanics) = drawn(seed);
         time_as_coordinate(&mut words, &mut mechanics);
+        mechanics.written = mechanics.forms.over(&mut words.graph, &mechanics.velocities);
         let extended = derive(words.graph, mechanics, seed).expect("a regular system stays regular");
         // The new symbols stand last: tau = t, tau' = 1, eta_tau = 1, eta_tau' = 0; t itself occurs no more.
         let mut longer = point.clone();

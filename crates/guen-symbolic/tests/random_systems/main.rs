@@ -16,6 +16,7 @@ mod scalar;
 mod sweep;
 mod system;
 mod tape;
+mod trains;
 mod trees;
 mod words;
 

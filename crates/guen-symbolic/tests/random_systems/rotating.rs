@@ -74,11 +74,13 @@ impl Scene {
         kinetic: ExprId,
         force: ExprId,
     ) -> (Declared, Derived) {
-        let words = self.words;
+        let mut words = self.words;
         let stated = vec![true; words.etas.len()];
+        let forms = Forms { time: words.time, coordinates: words.x, forms, degrees };
         let mechanics = Mechanics {
             stated,
-            forms: Forms { time: words.time, coordinates: words.x, forms, degrees },
+            written: forms.over(&mut words.graph, &words.velocities),
+            forms,
             velocities: words.velocities,
             etas: words.etas,
             accelerations: words.accelerations[..degrees].to_vec(),

@@ -45,6 +45,7 @@ pub fn drawn(seed: u64) -> (Words, Mechanics) {
         .collect();
     let mechanics = Mechanics {
         stated: vec![false; words.etas.len()],
+        written: rows.forms.over(&mut words.graph, &words.velocities),
         forms: rows.forms,
         velocities: words.velocities.clone(),
         etas: words.etas.clone(),

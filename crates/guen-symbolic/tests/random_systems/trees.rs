@@ -147,8 +147,10 @@ fn drawn(seed: u64) -> (Words, Mechanics, Features) {
             offset: zero,
         })
         .collect();
+    let forms = Forms { time: words.time, coordinates: words.x.clone(), forms, degrees: n };
     let mechanics = Mechanics {
-        forms: Forms { time: words.time, coordinates: words.x.clone(), forms, degrees: n },
+        written: forms.over(&mut words.graph, &words.velocities),
+        forms,
         velocities: words.velocities.clone(),
         etas: words.etas.clone(),
         accelerations: words.accelerations.clone(),

@@ -1,0 +1,230 @@
+//! The equations with what the velocities have in common computed once, from the sums as they were written.
+//!
+//! The axle of the last of ten trailers moves like the one before it, plus the turn of one link. Multiplied out into
+//! coefficients its velocity has eleven terms, on the constraints each of these is a long product, and a row of the
+//! operators grows with all rows before it. Here velocities stay what they are, one a few terms from another, and the
+//! constraints are solved from one velocity to the next: the work of a train grows as a person's does, with its length.
+//!
+//! What comes out is one more list of rates for the optimiser. The operators that are shown, and all that is derived
+//! from them, are not touched.
+
+mod component;
+mod sums;
+mod unknowns;
+
+use self::component::Component;
+use self::sums::{Relative, relatives};
+use self::unknowns::Unknowns;
+use super::projection::{self, Measured, MeasuredForms};
+use super::{Frame, KineticTerm, Mechanics, Solution};
+use crate::algebra::{ExprId, FastMap, Flow};
+use crate::program::weighted_cost;
+use crate::workbench::Workbench;
+
+/// Velocities on the constraints up to this weight stay as the operators have them.
+const LIGHT: u64 = 4;
+
+/// The rates of the state, velocities first; none where nothing is in common, or nothing is seen to be.
+pub(super) fn rates(
+    bench: &mut Workbench,
+    system: &Mechanics,
+    frame: &Frame,
+    terms: &[KineticTerm],
+    forms: &MeasuredForms,
+    generalised_forces: &[ExprId],
+) -> Vec<Vec<ExprId>> {
+    found(bench, system, frame, terms, forms, generalised_forces).unwrap_or_default()
+}
+
+fn found(
+    bench: &mut Workbench,
+    system: &Mechanics,
+    frame: &Frame,
+    terms: &[KineticTerm],
+    forms: &MeasuredForms,
+    generalised_forces: &[ExprId],
+) -> Option<Vec<Vec<ExprId>>> {
+    let l = system.forms.degrees;
+    let energy: Vec<ExprId> = terms.iter().flat_map(|term| term.forms.iter().copied()).collect();
+    let mut unknowns = Unknowns::new(bench, system);
+    let written: Vec<ExprId> = system.written.iter().map(|e| unknowns.form(bench, *e)).collect();
+    let in_unknowns: Vec<ExprId> = energy.iter().map(|e| unknowns.form(bench, *e)).collect();
+    let roots: Vec<ExprId> = written[l..].iter().chain(&in_unknowns).copied().collect();
+    let sums = relatives(bench, &roots)?;
+    let mut on_constraints = Velocities::new(bench, system, frame, &unknowns, &written, &sums)?;
+    let mut motion = on_constraints.motion(bench, system);
+    let mut displacements = on_constraints.displacements(bench, system);
+    let mut nested = MeasuredForms::default();
+    for (u, in_unknowns) in energy.into_iter().zip(in_unknowns) {
+        if !nested.contains_key(&u) {
+            let measured = on_constraints.measure(bench, system, &mut motion, in_unknowns, &forms[&u])?;
+            nested.insert(u, measured);
+        }
+    }
+    let (equations, _) = projection::assemble(bench, system, &mut displacements, &mut motion, terms, &nested);
+    let forces: Vec<ExprId> = equations
+        .forces
+        .iter()
+        .zip(generalised_forces)
+        .map(|(force, q)| bench.graph.add(*force, *q))
+        .collect();
+    let velocities = on_constraints.velocities;
+    let solutions = [
+        Solution::new(bench, &equations.mass, &forces).ok(),
+        Solution::shared(bench, &equations.mass, &forces),
+    ];
+    let lists = solutions.into_iter().flatten();
+    Some(lists.map(|solution| [&velocities[..], &solution.accelerations].concat()).collect())
+}
+
+/// The velocities on the constraints, and forms made of them.
+struct Velocities<'a> {
+    /// `x_i'`.
+    velocities: Vec<ExprId>,
+    /// `xi_s^i`, a row for each of `X_1..X_l`.
+    operators: Vec<Vec<ExprId>>,
+    /// By `s`, the components along `X_s`; 0 is the drift.
+    along: Vec<Component<'a>>,
+    /// The values, in the `eta`.
+    whole: Component<'a>,
+}
+
+impl<'a> Velocities<'a> {
+    fn new(
+        bench: &mut Workbench,
+        system: &Mechanics,
+        frame: &Frame,
+        unknowns: &Unknowns,
+        written: &[ExprId],
+        sums: &'a FastMap<ExprId, Relative>,
+    ) -> Option<Self> {
+        let (n, l) = (system.forms.len(), system.forms.degrees);
+        let (zero, one) = (bench.graph.zero(), bench.graph.one());
+        let mut along: Vec<Component<'a>> = Vec::new();
+        for s in 0..=l {
+            let mut component = Component::new(sums, s == 0);
+            for (t, eta) in system.etas.iter().enumerate() {
+                component.set(*eta, if t + 1 == s { one } else { zero });
+            }
+            along.push(component);
+        }
+        let mut heavy: Vec<usize> = Vec::new();
+        for (i, symbol) in system.velocities.iter().enumerate() {
+            let known: Vec<ExprId> =
+                (0..=l).map(|s| unknowns.unknown(bench, i, &frame.operators.xi[s])).collect();
+            if weighted_cost(&bench.graph, &known) > LIGHT {
+                heavy.push(i);
+            } else {
+                along.iter_mut().zip(known).for_each(|(component, value)| component.set(*symbol, value));
+            }
+        }
+        // Nothing was solved for that could grow.
+        if heavy.is_empty() {
+            return None;
+        }
+        let rows: Vec<Vec<ExprId>> =
+            system.forms.forms.iter().map(|form| unknowns.row(bench, &form.row)).collect();
+        while !heavy.is_empty() {
+            let (place, form) = solvable(bench, &rows, &heavy).unwrap_or((0, None));
+            let i = heavy.remove(place);
+            for (s, component) in along.iter_mut().enumerate() {
+                let value = match form {
+                    Some(v) => {
+                        // a_vi w_i = eta_v - (the form without it)
+                        let others = component.without(bench, system.velocities[i], written[v])?;
+                        let own = component.of(bench, system.etas[v])?;
+                        let right = bench.graph.sub(own, others);
+                        let right = bench.graph.keep(right);
+                        bench.graph.div(right, rows[v][i])
+                    }
+                    None => unknowns.unknown(bench, i, &frame.operators.xi[s]),
+                };
+                component.set(system.velocities[i], value);
+            }
+        }
+        let mut whole = Component::new(sums, true);
+        for (t, eta) in system.etas.iter().enumerate() {
+            whole.set(*eta, if t < l { *eta } else { zero });
+        }
+        let mut values: Vec<Vec<ExprId>> = Vec::new();
+        for component in &mut along {
+            let own: Option<Vec<ExprId>> =
+                system.velocities.iter().map(|symbol| component.of(bench, *symbol)).collect();
+            values.push(own?);
+        }
+        let mut moving = Vec::new();
+        for (i, symbol) in system.velocities.iter().enumerate() {
+            let mut terms = vec![values[0][i]];
+            for (row, eta) in values[1..].iter().zip(&system.etas) {
+                terms.push(bench.graph.mul(row[i], *eta));
+            }
+            let value = bench.graph.sum(terms);
+            let value = bench.keep_large(value);
+            whole.set(*symbol, value);
+            moving.push(value);
+        }
+        let velocities = (0..n).map(|i| unknowns.velocity(bench, i, &moving)).collect();
+        let operators = values[1..]
+            .iter()
+            .map(|row| (0..n).map(|i| unknowns.velocity(bench, i, row)).collect())
+            .collect();
+        Some(Velocities { velocities, operators, along, whole })
+    }
+
+    /// The rate along the motion.
+    fn motion(&self, bench: &Workbench, system: &Mechanics) -> Flow {
+        let rates = system.forms.coordinates.iter().copied().zip(self.velocities.iter().copied());
+        Flow::new(&bench.graph, rates.chain([(system.forms.time, bench.graph.one())])).keeping()
+    }
+
+    /// `X_1..X_l`.
+    fn displacements(&self, bench: &Workbench, system: &Mechanics) -> Vec<Flow> {
+        let coordinates = || system.forms.coordinates.iter().copied();
+        let along =
+            |row: &Vec<ExprId>| Flow::new(&bench.graph, coordinates().zip(row.iter().copied())).keeping();
+        self.operators.iter().map(along).collect()
+    }
+
+    /// A form of the energy; what belongs to the form and not to its place is known already.
+    fn measure(
+        &mut self,
+        bench: &mut Workbench,
+        system: &Mechanics,
+        motion: &mut Flow,
+        u: ExprId,
+        known: &Measured,
+    ) -> Option<Measured> {
+        let l = system.forms.degrees;
+        let mut parts = Vec::with_capacity(l + 1);
+        for component in &mut self.along {
+            parts.push(component.of(bench, u)?);
+        }
+        let moving: Vec<usize> = (1..=l).filter(|s| !bench.graph.is_zero(parts[*s])).collect();
+        // One parameter alone is a factor of all that follows from it.
+        let value = match moving[..] {
+            [s] if bench.graph.is_zero(parts[0]) => bench.graph.mul(parts[s], system.etas[s - 1]),
+            _ => self.whole.of(bench, u)?,
+        };
+        let acceleration = motion.of(&mut bench.graph, value);
+        Some(Measured {
+            value: bench.keep_large(value),
+            drift: parts[0],
+            components: parts.split_off(1),
+            acceleration: bench.keep_large(acceleration),
+            turning: known.turning.clone(),
+        })
+    }
+}
+
+/// The place of the first unknown of a list that a form gives with a constant pivot, others of the list not in it, and
+/// this form.
+fn solvable(bench: &Workbench, rows: &[Vec<ExprId>], open: &[usize]) -> Option<(usize, Option<usize>)> {
+    open.iter().enumerate().find_map(|(place, i)| {
+        let form = rows.iter().position(|row| {
+            bench.graph.roles(row[*i]).is_constant()
+                && bench.graph.manifestly_nonzero(row[*i])
+                && open.iter().all(|j| j == i || bench.graph.is_zero(row[*j]))
+        })?;
+        Some((place, Some(form)))
+    })
+}

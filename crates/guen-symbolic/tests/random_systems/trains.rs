@@ -1,0 +1,162 @@
+//! Random trains on wheels: velocities that are solved for one from another, against multipliers.
+//!
+//! Each trailer hangs on the one before it, at the axle or beside it, drawn or pushed; headings are absolute, or angles at
+//! the hitches; the ground may be a belt that moves as prescribed. Trailers have masses, some of them an inertia.
+
+use std::collections::BTreeMap;
+
+use guen_symbolic::{ExprId, Flow, Force, Form, Forms, Mechanics, Rational, Substitution};
+
+use crate::declared::Declared;
+use crate::derived::derive;
+use crate::draw::Draw;
+use crate::multipliers;
+use crate::sweep::ROUNDING;
+use crate::words::Words;
+
+/// Trains drawn.
+const DRAWN: u64 = 100;
+/// Trains whose velocities must be nested, and in how many of these each feature must occur.
+const NESTED: usize = 40;
+const SHOWN: usize = 10;
+
+/// A point of the plane.
+type Place = [ExprId; 2];
+
+fn drawn(seed: u64) -> (Words, Mechanics, Vec<&'static str>) {
+    let mut draw = Draw::new(seed);
+    let trailers = draw.between(2, 5);
+    let (relative, belt, damped) = (draw.once_in(2), draw.once_in(3), draw.once_in(2));
+    let n = 3 + trailers;
+    let mut words = Words::new(draw, n);
+    let mut features = Vec::new();
+    for (present, name) in [(relative, "relative angles"), (belt, "belt"), (damped, "friction")] {
+        if present {
+            features.push(name);
+        }
+    }
+    let (zero, one, mass) = (words.graph.zero(), words.graph.one(), words.constants[0]);
+    let motion = words.velocities.iter().copied().chain([one]);
+    let mut rate =
+        Flow::new(&words.graph, words.x.iter().copied().chain([words.time]).zip(motion).collect::<Vec<_>>());
+    let ground: Place = if belt {
+        let s = words.graph.sin(words.time);
+        [words.graph.scale(s, &Rational::new(1, 3)), words.time]
+    } else {
+        [zero; 2]
+    };
+    let mut written: Vec<ExprId> = Vec::new();
+    let mut kinetic: Vec<(ExprId, ExprId)> = Vec::new();
+    let mut potential = Vec::new();
+    let (mut place, mut heading): (Place, ExprId) = ([words.x[0], words.x[1]], words.x[2]);
+    for k in 0..=trailers {
+        if k > 0 {
+            if words.draw.once_in(3) {
+                features.push("hitch off the axle");
+                let behind = words.number();
+                place = moved(&mut words, place, heading, &behind);
+            }
+            let own = words.x[2 + k];
+            heading = if relative { words.graph.add(heading, own) } else { own };
+            let length = words.number();
+            place = moved(&mut words, place, heading, &length);
+        }
+        let moving = place.map(|x| rate.of(&mut words.graph, x));
+        let sliding = [0, 1].map(|i| words.graph.sub(moving[i], ground[i]));
+        let (s, c) = words.graph.sin_cos(heading);
+        let [along, across] =
+            [[c, s], [s, c]].map(|factors| [0, 1].map(|i| words.graph.mul(factors[i], sliding[i])));
+        if k == 0 {
+            written.push(words.graph.add(along[0], along[1]));
+            written.push(words.velocities[2]);
+        }
+        written.push(words.graph.sub(across[1], across[0]));
+        moving.into_iter().for_each(|v| kinetic.push((mass, v)));
+        if words.draw.once_in(2) {
+            features.push("inertia");
+            let turning = rate.of(&mut words.graph, heading);
+            kinetic.push((words.graph.ratio(1, 5), turning));
+        }
+        if words.draw.once_in(3) {
+            features.push("slope");
+            potential.push(words.graph.scale(place[1], &Rational::new(-3, 2)));
+        }
+    }
+    features.sort_unstable();
+    features.dedup();
+    let half = words.graph.ratio(1, 2);
+    let squares: Vec<ExprId> =
+        kinetic.iter().map(|(w, v)| words.graph.product(&[(half, 1), (*w, 1), (*v, 2)])).collect();
+    let forces = damped.then(|| {
+        let along = words.draw.pick(&words.velocities);
+        Force { magnitude: words.graph.scale(words.etas[0], &Rational::new(-1, 2)), along }
+    });
+    let forms = written.iter().map(|e| form(&mut words, *e)).collect();
+    let mechanics = Mechanics {
+        forms: Forms { time: words.time, coordinates: words.x.clone(), forms, degrees: 2 },
+        written,
+        velocities: words.velocities.clone(),
+        etas: words.etas.clone(),
+        accelerations: words.accelerations[..2].to_vec(),
+        inputs: words.inputs.clone(),
+        holonomic: Vec::new(),
+        kinetic_energy: words.graph.sum(squares),
+        stated: vec![true; n],
+        force_function: words.graph.sum(potential),
+        forces: forces.into_iter().collect(),
+        outputs: Vec::new(),
+        motion_symbols: Vec::new(),
+    };
+    (words, mechanics, features)
+}
+
+/// A point at a distance behind another.
+fn moved(words: &mut Words, from: Place, heading: ExprId, distance: &Rational) -> Place {
+    let (s, c) = words.graph.sin_cos(heading);
+    let mut found = from;
+    for (x, direction) in found.iter_mut().zip([c, s]) {
+        let part = words.graph.scale(direction, distance);
+        *x = words.graph.sub(*x, part);
+    }
+    found
+}
+
+/// The coefficients of what is affine in the velocities.
+fn form(words: &mut Words, e: ExprId) -> Form {
+    let graph = &mut words.graph;
+    let row = words.velocities.iter().map(|v| Flow::partial(graph, *v).of(graph, e)).collect();
+    let zero = graph.zero();
+    let offset = Substitution::new(words.velocities.iter().map(|v| (*v, zero))).of(graph, e);
+    Form { row, offset }
+}
+
+#[test]
+fn trains_move_as_with_multipliers() {
+    let mut shown: BTreeMap<&str, usize> = BTreeMap::new();
+    let (mut nested, mut worst) = (0, 0.0_f64);
+    for seed in 0..DRAWN {
+        let (words, mechanics, features) = drawn(seed);
+        let declared = Declared::new(&words.graph, &mechanics);
+        let mut draw = Draw::new(!seed);
+        let mut point = declared.state(&mut draw);
+        let Some(reference) = multipliers::solve(&declared, &point) else { continue };
+        let derived = derive(words.graph, mechanics, seed)
+            .unwrap_or_else(|| panic!("seed {seed}: called singular, and is not"));
+        let differences = derived.compare(&declared, &mut point, &reference);
+        for (name, ratio) in
+            [("eta'", differences.accelerations), ("rates in other words", differences.alternatives)]
+        {
+            assert!(ratio <= ROUNDING, "seed {seed}: {name} differ by {ratio:e} of what they are");
+            worst = worst.max(ratio);
+        }
+        if derived.derivation.by_nesting {
+            nested += 1;
+            features.into_iter().for_each(|name| *shown.entry(name).or_default() += 1);
+        }
+    }
+    println!("nested {nested} of {DRAWN}, largest difference {worst:e}, with {shown:?}");
+    assert!(nested >= NESTED);
+    for name in ["relative angles", "belt", "friction", "hitch off the axle", "inertia", "slope"] {
+        assert!(shown.get(name).is_some_and(|count| *count >= SHOWN), "{name}: too few are nested");
+    }
+}
