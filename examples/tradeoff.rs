@@ -81,12 +81,13 @@ mechanical_system! {
 const HELP: &str = "\
 Speed for accuracy on the systems of the paper, measured on this machine.
 
-usage: tradeoff [--system hoop|appell|sled] [--quick] [--all] [--evaluations] [--out FOLDER]
+usage: tradeoff [--system hoop|appell|sled] [--quick] [--all] [--evaluations] [--states NUMBER] [--out FOLDER]
 
   --system NAME   one system only
   --quick         ten seconds for a system, for a first look
   --all           print every setting, not only those that no other one beats
   --evaluations   count evaluations in place of taking times: the same on every machine
+  --states NUMBER from so many initial states at once, for which there are lanes
   --out FOLDER    where pictures, CSV and JSON go, in place of target/guen/tradeoff
 
 Ends with 0; with 1 if a reference or a choice is missing, or a promise was broken; with 2 if it was called wrongly.";
@@ -97,6 +98,7 @@ struct Arguments {
     quick: bool,
     all: bool,
     evaluations: bool,
+    states: usize,
     out: PathBuf,
 }
 
@@ -107,6 +109,7 @@ fn arguments() -> Result<Option<Arguments>, String> {
         quick: false,
         all: false,
         evaluations: false,
+        states: 1,
         out: Path::new("target/guen/tradeoff").to_owned(),
     };
     let mut words = std::env::args().skip(1);
@@ -123,6 +126,10 @@ fn arguments() -> Result<Option<Arguments>, String> {
                 Some(name) => return Err(format!("no system `{name}`: there are hoop, appell and sled")),
                 None => return Err("`--system` needs a name".to_owned()),
             },
+            "--states" => {
+                let number = words.next().and_then(|word| word.parse().ok()).filter(|number| *number > 0);
+                found.states = number.ok_or("`--states` needs a number, one at least")?;
+            }
             "--out" => found.out = words.next().ok_or("`--out` needs a folder")?.into(),
             other => return Err(format!("no argument `{other}`")),
         }
@@ -139,6 +146,8 @@ const SPAN: Range<f64> = 0.0..10.0;
 /// not hold.
 const TRIED: f64 = 1e-6;
 const STATES: usize = 20;
+/// How far the other initial states are from the first, where several are asked for.
+const NEIGHBOURS: f64 = 0.1;
 const AWAY: f64 = 0.4;
 const EXCUSES: usize = 2;
 
@@ -154,6 +163,7 @@ fn study<S, const N: usize>(
     let mut study = study
         .title(format!("{name}, {} s", span.end - span.start))
         .within(Duration::from_secs(seconds))
+        .starts(Trade::around(&start, arguments.states - 1, NEIGHBOURS, 1618))
         .show_progress();
     if arguments.evaluations {
         study = study.count_evaluations();
@@ -265,6 +275,7 @@ fn run(arguments: &Arguments) -> Result<bool, Box<dyn Error>> {
             move |x| hoop::State::from(*x).carried(&form, 0.0).into(),
             |y| hoop::State::from(hoop::carried::State::from(*y)).into(),
         );
+        let trade = if arguments.states > 1 { trade.with_lanes()? } else { trade };
         fine &= study(arguments, "hoop", trade, start.into(), SPAN)?;
     }
     if wanted("appell") {
@@ -284,6 +295,7 @@ fn run(arguments: &Arguments) -> Result<bool, Box<dyn Error>> {
             move |x| appell::State::from(*x).carried(&form, 0.0).into(),
             |y| appell::State::from(appell::carried::State::from(*y)).into(),
         );
+        let trade = if arguments.states > 1 { trade.with_lanes()? } else { trade };
         fine &= study(arguments, "appell", trade, start.into(), SPAN)?;
     }
     if wanted("sled") {
@@ -296,6 +308,7 @@ fn run(arguments: &Arguments) -> Result<bool, Box<dyn Error>> {
             move |x| sled::State::from(*x).carried(&form, 0.0).into(),
             |y| sled::State::from(sled::carried::State::from(*y)).into(),
         );
+        let trade = if arguments.states > 1 { trade.with_lanes()? } else { trade };
         fine &= study(arguments, "sled", trade, start.into(), SPAN)?;
     }
     Ok(fine)

@@ -43,12 +43,13 @@ struct Return {
 impl Visitor<f64, hoop::Prepared, 9> for Return {
     fn visit<M: Method<f64, hoop::Prepared, 9>>(&mut self, by: &'static str, promise: Promise, method: &M) {
         let there = Integration::new(&self.system, 0.0, &self.start).run(method, self.to);
-        let back = there.and_then(|there| {
-            let back = Integration::new(&self.system, self.to, &there.state).run(method, 0.0)?;
-            Ok((back, there.statistics.accepted + back.statistics.accepted))
-        });
-        let verdict = match back {
-            Ok((back, steps)) => {
+        let back = match &there {
+            Ok(there) => Integration::new(&self.system, self.to, &there.state).run(method, 0.0),
+            Err(error) => Err(*error),
+        };
+        let verdict = match (there, back) {
+            (Ok(there), Ok(back)) => {
+                let steps = there.statistics.accepted + back.statistics.accepted;
                 let off = (0..9).map(|i| (back.state[i] - self.start[i]).abs()).fold(0.0, f64::max);
                 let size = self.start.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
                 let allowed = match promise {
@@ -57,7 +58,7 @@ impl Visitor<f64, hoop::Prepared, 9> for Return {
                 };
                 Verdict::of(off / size, allowed)
             }
-            Err(error) => refusal(&error, matches!(promise, Promise::Adaptive(_))),
+            (Err(error), _) | (_, Err(error)) => refusal(&error, matches!(promise, Promise::Adaptive(_))),
         };
         self.answers.push(Answer { by, verdict });
     }
