@@ -51,7 +51,7 @@ pub fn dop853(system: &Pendulum, start: [f64; 2]) -> End<2> {
 pub fn euler(system: &Pendulum, start: [f64; 2]) -> End<2> {
     use guen::{Recast, prelude::*};
     let system = system.recast::<f64>()?;
-    let method = Euler { step: 0.01098901098901099 };
+    let method = Euler { step: 0.0013812154696132596 };
     let go_on = |_, _: &_| ControlFlow::Continue(());
     let end = method.integrate(&system, 0.0, &start, 1.0, go_on)?.state;
     Ok(end)
