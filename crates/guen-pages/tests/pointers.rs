@@ -106,8 +106,10 @@ fn the_gallery_shows_what_is_tested() {
     let pages = pages();
     let gallery = pages.iter().find(|page| page.path == "docs/start/gallery.md").expect("the gallery");
     let squeezed = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
-    let shared = root().join("crates/guen-benchmarks/src/declarations.rs");
-    let shared = std::fs::read_to_string(shared).expect("the declarations that programs share");
+    let shared: String = ["declarations.rs", "rolling.rs"]
+        .map(|file| root().join("crates/guen-benchmarks/src").join(file))
+        .map(|file| std::fs::read_to_string(file).expect("the declarations that programs share"))
+        .concat();
     let mut lines = 0;
     for section in gallery.text.split("\n## ").skip(1) {
         let title = section.lines().next().unwrap_or_default();
