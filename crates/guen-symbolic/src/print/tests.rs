@@ -1,4 +1,4 @@
-use crate::{ExprId, Graph, Rational, Role};
+use crate::{ExprId, Function, Graph, Rational, Role};
 
 struct World {
     g: Graph,
@@ -150,4 +150,31 @@ fn limits_and_depth() {
         e = g.mul(s, c);
     }
     assert!(g.text(e).contains("too long to show"));
+}
+
+#[test]
+fn arguments_lead_with_a_plus() {
+    let mut g = Graph::new();
+    let [a, b, m] = ["a", "b", "m"].map(|name| g.symbol(name, Role::Coordinate));
+    // One of the two is stored with its signs turned, whichever it is.
+    for (from, to) in [(a, b), (b, a)] {
+        let difference = g.sub(from, to);
+        let (sin, cos) = g.sin_cos(difference);
+        let tanh = g.function(Function::Tanh, difference);
+        let sign = if from == a { "" } else { "-" };
+        for (e, k, text, is_odd) in [
+            (sin, 1, "sin(a - b)*m", true),
+            (sin, 2, "sin(a - b)^2*m", false),
+            (sin, 3, "sin(a - b)^3*m", true),
+            (cos, 1, "cos(a - b)*m", false),
+            (tanh, 1, "tanh(a - b)*m", true),
+            (tanh, 2, "tanh(a - b)^2*m", false),
+        ] {
+            let product = g.product(&[(e, k), (m, 1)]);
+            let sign = if is_odd { sign } else { "" };
+            assert_eq!(g.text(product), format!("{sign}{text}"));
+        }
+        assert_eq!(g.text(sin), format!("{sign}sin(a - b)"));
+        assert_eq!(g.text(cos), "cos(a - b)");
+    }
 }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use guen_symbolic::Class;
+use guen_symbolic::{Class, Mechanics};
 
 use crate::brackets::{self, Coefficients};
 use crate::closure::{Closure, Shapes};
@@ -10,6 +10,7 @@ use crate::declared::Declared;
 use crate::derived::{Derived, derive};
 use crate::draw::Draw;
 use crate::system::drawn;
+use crate::words::Words;
 use crate::{energies, multipliers, poincare};
 
 /// What rounding may make of a comparison, in units of condition times size.
@@ -207,4 +208,20 @@ impl Tally {
         self.count("constant part of T°", constant);
         self.count("linear part of T°", linear);
     }
+}
+
+/// A drawn system that is regular, derived and compared with the multipliers at one state: it, and the largest difference.
+pub fn compared(words: Words, mechanics: Mechanics, seed: u64) -> Option<(Derived, f64)> {
+    let declared = Declared::new(&words.graph, &mechanics);
+    let mut point = declared.state(&mut Draw::new(!seed));
+    let reference = multipliers::solve(&declared, &point)?;
+    let derived = derive(words.graph, mechanics, seed)
+        .unwrap_or_else(|| panic!("seed {seed}: called singular, and is not"));
+    let differences = derived.compare(&declared, &mut point, &reference);
+    for (name, ratio) in
+        [("eta'", differences.accelerations), ("rates in other words", differences.alternatives)]
+    {
+        assert!(ratio <= ROUNDING, "seed {seed}: {name} differ by {ratio:e} of what they are");
+    }
+    Some((derived, differences.accelerations.max(differences.alternatives)))
 }
