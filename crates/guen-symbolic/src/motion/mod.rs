@@ -1,5 +1,6 @@
 //! From operators and energies to the equations of motion, (2.1)-(2.10), by two independent routes.
 
+mod between;
 mod declaration;
 mod dependence;
 mod derivation;
@@ -7,6 +8,7 @@ mod energy;
 mod frame;
 mod kinetic;
 mod nested;
+mod numerator;
 mod poincare;
 mod projection;
 mod proof;

@@ -1,5 +1,6 @@
 //! `M eta' = f` by a straight-line `L D L^T` factorisation of each block of the mass matrix.
 
+use super::numerator;
 use crate::algebra::ExprId;
 use crate::geometry::adjugate;
 use crate::workbench::Workbench;
@@ -94,11 +95,16 @@ impl Solution {
             0..=WRITTEN_OUT => Naming::Nothing,
             _ => Naming::Everything,
         };
-        let Some(Elimination { values, pivots }) =
+        let Some(Elimination { mut values, pivots }) =
             eliminate(bench, m.clone(), f.clone(), naming, choose_pivot)
         else {
             return self.solve_by_adjugate(bench, &m, &f);
         };
+        if n == 2 && !bench.graph.roles(pivots[1]).is_constant() {
+            let first = usize::from(pivots[0] != m[0][0]);
+            let uncancelled = put_back(bench, &m, &f, first, pivots[1]);
+            values[first] = uncancelled.unwrap_or(values[first]);
+        }
         if n > WRITTEN_OUT {
             let factors: Vec<_> = pivots.iter().map(|pivot| (*pivot, 1)).collect();
             let determinant = bench.graph.product(&factors);
@@ -235,6 +241,23 @@ pub(super) fn eliminate(
         };
     }
     Some(Elimination { values, pivots })
+}
+
+/// The entry of a pair that was eliminated first, without what cancels in it, if anything does; `d` is the last pivot.
+fn put_back(
+    bench: &mut Workbench,
+    m: &[Vec<ExprId>],
+    f: &[ExprId],
+    first: usize,
+    d: ExprId,
+) -> Option<ExprId> {
+    let other = 1 - first;
+    let (p, coupling) = (m[first][first], m[other][first]);
+    let factor = bench.graph.div(coupling, p);
+    let product = bench.graph.mul(factor, f[first]);
+    let g = bench.graph.sub(f[other], product);
+    let numerator = numerator::difference(&mut bench.graph, [f[first], d], [coupling, g])?;
+    Some(bench.graph.product(&[(numerator, 1), (p, -1), (d, -1)]))
 }
 
 /// The diagonal entry to eliminate on: constants before functions, then the one with the fewest neighbours.

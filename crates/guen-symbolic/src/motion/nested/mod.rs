@@ -15,9 +15,10 @@ mod unknowns;
 use self::component::Component;
 use self::sums::{Relative, relatives};
 use self::unknowns::Unknowns;
+use super::between::Between;
 use super::projection::{self, Measured, MeasuredForms};
 use super::{Frame, KineticTerm, Mechanics, Solution};
-use crate::algebra::{ExprId, FastMap, Flow};
+use crate::algebra::{ExprId, FastMap, Flow, Graph, Node, Substitution};
 use crate::program::weighted_cost;
 use crate::workbench::Workbench;
 
@@ -127,19 +128,22 @@ impl<'a> Velocities<'a> {
         while !heavy.is_empty() {
             let (place, form) = solvable(bench, &rows, &heavy).unwrap_or((0, None));
             let i = heavy.remove(place);
-            for (s, component) in along.iter_mut().enumerate() {
-                let value = match form {
-                    Some(v) => {
-                        // a_vi w_i = eta_v - (the form without it)
-                        let others = component.without(bench, system.velocities[i], written[v])?;
-                        let own = component.of(bench, system.etas[v])?;
-                        let right = bench.graph.sub(own, others);
-                        let right = bench.graph.keep(right);
-                        bench.graph.div(right, rows[v][i])
-                    }
-                    None => unknowns.unknown(bench, i, &frame.operators.xi[s]),
-                };
-                component.set(system.velocities[i], value);
+            let Some(v) = form else {
+                let known: Vec<ExprId> =
+                    (0..=l).map(|s| unknowns.unknown(bench, i, &frame.operators.xi[s])).collect();
+                let known = in_short_angles(bench, known);
+                along.iter_mut().zip(known).for_each(|(component, value)| {
+                    component.set(system.velocities[i], value);
+                });
+                continue;
+            };
+            for component in &mut along {
+                // a_vi w_i = eta_v - (the form without it)
+                let others = component.without(bench, system.velocities[i], written[v])?;
+                let own = component.of(bench, system.etas[v])?;
+                let right = bench.graph.sub(own, others);
+                let right = bench.graph.keep(right);
+                component.set(system.velocities[i], bench.graph.div(right, rows[v][i]));
             }
         }
         let mut whole = Component::new(sums, true);
@@ -214,6 +218,33 @@ impl<'a> Velocities<'a> {
             turning: known.turning.clone(),
         })
     }
+}
+
+/// Entries in angles that are shorter than the base angles that they are between, kept whole: in the steering angle, and not
+/// in those of the front wheel and of the car. Next to zero the sine of a difference of angles has lost its digits.
+fn in_short_angles(bench: &mut Workbench, entries: Vec<ExprId>) -> Vec<ExprId> {
+    let between = Between::new(bench, &entries).shorter(&bench.graph);
+    let short = entries.into_iter().map(|e| {
+        let written = between.within(bench, e, |bench| {
+            let open = opened(&mut bench.graph, e);
+            let tidy = bench.tidy(open);
+            (tidy != open).then(|| bench.graph.keep(tidy))
+        });
+        written.flatten().unwrap_or(e)
+    });
+    short.collect()
+}
+
+/// An expression with nothing in it kept whole.
+fn opened(graph: &mut Graph, e: ExprId) -> ExprId {
+    let mut open = Substitution::default();
+    for id in graph.reachable(&[e], |_| false) {
+        if let Node::Kept(inside) = *graph.node(id) {
+            let image = open.of(graph, inside);
+            open.add(id, image);
+        }
+    }
+    open.of(graph, e)
 }
 
 /// The place of the first unknown of a list that a form gives with a constant pivot, others of the list not in it, and

@@ -25,18 +25,18 @@
 //! pivot and may go in the order of least fill; for a chain it is tridiagonal. `lambda_c` is constant and takes forces
 //! like weight out of `g` where they are constant along a difference: at rest the tensions are known.
 
-mod angles;
 mod balance;
 mod pattern;
 mod sparse;
 mod system;
 mod tree;
 
+use super::between::Between;
 use super::projection::Squares;
 use super::{Equations, Frame};
 use crate::algebra::ExprId;
 use crate::workbench::Workbench;
-use angles::Between;
+
 use balance::{Balance, balance};
 use pattern::Pattern;
 use sparse::Vector;

@@ -1,7 +1,7 @@
 //! The equations of the tensions: rewritten in the angles between neighbours, scaled, and solved.
 
-use super::angles::Between;
 use crate::algebra::{ExprId, FastMap, Node, Rational};
+use crate::motion::between::Between;
 use crate::motion::solve::{Elimination, Naming, eliminate};
 use crate::normal::{Limits, normal_coefficients};
 use crate::program::weighted_cost;

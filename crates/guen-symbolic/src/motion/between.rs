@@ -1,4 +1,4 @@
-//! The angles between neighbours: what the entries of sparse equations are short in.
+//! The angles between base angles: what entries of sparse equations are short in, and what velocities keep their digits in.
 
 use crate::algebra::{ExprId, Function, Graph, Node, Rational};
 use crate::workbench::Workbench;
@@ -21,6 +21,13 @@ impl Between {
             }
         }
         Between { edges }
+    }
+
+    /// The same with those angles only that are shorter than what they are between.
+    pub(super) fn shorter(mut self, graph: &Graph) -> Self {
+        let length = |angle: ExprId| graph.linear_parts(angle).len();
+        self.edges.retain(|(a, b, angle)| length(*angle) < length(*a).max(length(*b)));
+        self
     }
 
     pub(super) fn is_empty(&self) -> bool {

@@ -1,0 +1,98 @@
+//! Cars keep their digits: the rate of the heading where they are nearly steered straight, and the acceleration of the steering
+//! where they nearly turn on the spot.
+
+use guen_language::derive::{derive, function};
+use guen_language::diagnostics::collect;
+use guen_language::model::resolve;
+use guen_language::parse::parse;
+use guen_symbolic::{SymbolId, evaluate_function, evaluate_prepare};
+
+/// A car, its mass above the middle of the rear axle, and so many trailers.
+fn car(trailers: usize) -> String {
+    let mut parts: [String; 4] = Default::default();
+    for i in 1..=trailers {
+        let before = if i == 1 { "rear".to_owned() } else { format!("axle{}", i - 1) };
+        parts[0] += &format!(", q{i}");
+        parts[1] += &format!("let axle{i} = {before} - d*vec(cos(q{i}), sin(q{i}));\n");
+        parts[2] += &format!("hitch{i}: inner(vec(-sin(q{i}), cos(q{i})), dot(axle{i})) = 0;\n");
+        parts[3] += &format!(" + M/2*inner(dot(axle{i}), dot(axle{i}))");
+    }
+    let [angles, axles, hitches, energy] = parts;
+    format!(
+        "system Car {{
+            constants {{ m > 0, J > 0, I > 0, l > 0, M > 0, d > 0 }}
+            coordinates {{ x, y, heading, steering{angles} }}
+            parameters {{ speed = dot(x)*cos(heading) + dot(y)*sin(heading); turning = dot(steering); }}
+            let rear = vec(x, y);
+            let front = rear + l*vec(cos(heading), sin(heading));
+            {axles}
+            constraints {{
+                rear_axle: dot(x)*sin(heading) - dot(y)*cos(heading) = 0;
+                front_axle: inner(vec(-sin(heading + steering), cos(heading + steering)), dot(front)) = 0;
+                {hitches}
+            }}
+            kinetic_energy = m/2*(dot(x)^2 + dot(y)^2) + J/2*dot(heading)^2
+                           + I/2*(dot(heading) + dot(steering))^2{energy};
+        }}"
+    )
+}
+
+const M: f64 = 3.0;
+const J: f64 = 2.0;
+const L: f64 = 2.0;
+const HEADING: f64 = 1.75;
+const SPEED: f64 = 0.7;
+const TURNING: f64 = -0.3;
+
+/// The rates of a car that is steered like this.
+fn rates(trailers: usize, steering: f64) -> Vec<f64> {
+    let (declaration, _) = parse(car(trailers).parse().unwrap());
+    let declaration = declaration.unwrap();
+    let (derived, report) = collect(|faults| derive(resolve(&declaration, faults)?, faults));
+    assert!(report.is_empty(), "{}", report.to_compile_errors());
+    let derived = derived.unwrap();
+    let graph = &derived.model.bench.graph;
+    let value = |symbol: SymbolId| match &*graph.symbol_info(symbol).name {
+        "heading" => HEADING,
+        "steering" => steering,
+        "speed" => SPEED,
+        "turning" => TURNING,
+        "m" => M,
+        "J" => J,
+        "l" => L,
+        "I" => 0.125,
+        "M" => 1.25,
+        "d" => 1.5,
+        "q1" => -0.4,
+        "q2" => 0.9,
+        _ => 2.1,
+    };
+    let programs = &derived.system.programs;
+    let rates = programs.functions.iter().position(|own| own.name == function::RHS).unwrap();
+    evaluate_function(programs, rates, &evaluate_prepare(programs, value), value)
+}
+
+#[test]
+fn the_heading_turns_by_the_steering_angle_alone() {
+    for trailers in [0, 1, 3] {
+        for steering in [1e-9_f64, -1e-5, 0.4, 1.5707] {
+            let (found, expected) = (rates(trailers, steering)[2], SPEED * steering.tan() / L);
+            let error = (found / expected - 1.0).abs();
+            assert!(error < 1e-15, "{trailers} trailers at {steering}: {error:e}");
+        }
+    }
+}
+
+#[test]
+fn the_steering_of_a_car_that_turns_on_the_spot_keeps_its_digits() {
+    for distance in [1e-1_f64, 1e-4, 1e-8] {
+        let steering = std::f64::consts::FRAC_PI_2 - distance;
+        let (sine, cosine) = steering.sin_cos();
+        // m v' + J k (k v)' = 0 and (k v + turning)' = 0 with k = tan(steering)/l, multiplied by cos^2.
+        let inertia = M * cosine * cosine + J * (sine / L).powi(2);
+        let expected = -SPEED * TURNING / L * M / inertia;
+        let found = *rates(0, steering).last().unwrap();
+        let error = (found / expected - 1.0).abs();
+        assert!(error < 1e-14, "{distance:e} from the edge: {error:e}");
+    }
+}
