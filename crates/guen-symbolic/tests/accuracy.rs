@@ -62,6 +62,7 @@ fn chain(graph: &mut Graph, rotors: bool) -> (Mechanics, [ExprId; 3]) {
         inputs: Vec::new(),
         holonomic: Vec::new(),
         kinetic_energy: graph.sum(kinetic),
+        bodies: Vec::new(),
         stated: vec![true; LINKS],
         force_function: graph.sum(force),
         forces: vec![pull],

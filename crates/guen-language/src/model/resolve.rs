@@ -5,7 +5,9 @@ mod provide;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use guen_symbolic::{Bound, ExprId, Flow, Force, Forms, Graph, Holonomic, Mechanics, Role, Roles, Workbench};
+use guen_symbolic::{
+    Bound, ExprId, Flow, Force, Forms, Graph, Holonomic, Mechanics, RigidBody, Role, Roles, Workbench,
+};
 
 use super::bodies::Weight;
 use super::evaluate::{Evaluator, children};
@@ -43,6 +45,7 @@ struct Resolver<'a, 'f> {
     parameters: Vec<RawForm<'a>>,
     constraints: Vec<RawForm<'a>>,
     kinetic: Vec<ExprId>,
+    rigid: Vec<RigidBody>,
     energy: Option<&'a Quantity>,
     has_masses: bool,
     weights: Vec<Weight>,
@@ -87,6 +90,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
             parameters: Vec::new(),
             constraints: Vec::new(),
             kinetic: Vec::new(),
+            rigid: Vec::new(),
             energy: None,
             has_masses: false,
             weights: Vec::new(),
@@ -209,6 +213,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
                     let value = self.eval.body(body).ok().map(|(energy, weight, value)| {
                         self.kinetic.push(energy);
                         self.weights.extend(weight);
+                        self.rigid.extend(value.rigid());
                         let BodyValue { name, mass, inertia, center, orientation } = &value;
                         self.bodies.push(BodyEntry {
                             name: name.clone(),
@@ -466,6 +471,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
             inputs: self.inputs.iter().map(|input| input.symbol).collect(),
             holonomic,
             kinetic_energy,
+            bodies: self.rigid,
             stated,
             force_function,
             forces: self.forces,

@@ -34,6 +34,19 @@ pub enum MotionSymbol {
     Reaction(usize),
 }
 
+/// A rigid body whose `1/2 mass |velocity|^2` is a part of `T°`.
+#[derive(Clone, Debug)]
+pub struct RigidBody {
+    /// Its mass.
+    pub mass: ExprId,
+    /// The velocity of its mass centre in the world's axes, the rate of a position.
+    pub velocity: [ExprId; 3],
+    /// The matrix from its axes to the world's, row by row.
+    pub orientation: [[ExprId; 3]; 3],
+    /// Its angular velocity in its own axes.
+    pub spin: [ExprId; 3],
+}
+
 /// A mechanical system.
 #[derive(Clone, Debug)]
 pub struct Mechanics {
@@ -53,6 +66,8 @@ pub struct Mechanics {
     pub holonomic: Vec<Holonomic>,
     /// `T°(t, x, x', eta)`, with constraints dropped.
     pub kinetic_energy: ExprId,
+    /// Rigid bodies in it: their velocities may be short in their own axes.
+    pub bodies: Vec<RigidBody>,
     /// For each form whether `T°` speaks of its momentum, so that one that vanishes is truly zero and not left out
     /// because `T` was given on the constraints only.
     pub stated: Vec<bool>,
@@ -64,6 +79,13 @@ pub struct Mechanics {
     pub outputs: Vec<ExprId>,
     /// Symbols in the outputs for what follows from the motion.
     pub motion_symbols: Vec<(ExprId, MotionSymbol)>,
+}
+
+impl RigidBody {
+    fn expressions(&mut self) -> impl Iterator<Item = &mut ExprId> {
+        let orientation = self.orientation.iter_mut().flatten();
+        self.velocity.iter_mut().chain(orientation).chain(&mut self.spin).chain([&mut self.mass])
+    }
 }
 
 impl Mechanics {
@@ -83,7 +105,8 @@ impl Mechanics {
             .chain(system.holonomic.iter_mut().map(|h| &mut h.equation))
             .chain(system.forces.iter_mut().flat_map(|force| [&mut force.magnitude, &mut force.along]))
             .chain(&mut system.outputs)
-            .chain(&mut system.written);
+            .chain(&mut system.written)
+            .chain(system.bodies.iter_mut().flat_map(RigidBody::expressions));
         for expression in expressions {
             *expression = values.of(&mut bench.graph, *expression);
         }

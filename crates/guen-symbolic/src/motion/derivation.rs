@@ -3,7 +3,7 @@
 use super::velocity_forms::VelocityPartials;
 use super::{
     Energies, Frame, Mechanics, MotionSymbol, NotQuadratic, Solution, decompose, nested, poincare,
-    projection, proof, rephrased, tensions,
+    projection, proof, rephrased, tensions, turned,
 };
 use crate::algebra::{ExprId, FastMap, Flow, Role, Roles, Substitution};
 use crate::geometry::{Closure, Operators, SingularForms, dependence};
@@ -184,6 +184,14 @@ impl Derivation {
                 let least = weighted_cost(&bench.graph, &own);
                 others.retain(|rates| weighted_cost(&bench.graph, rates) < least);
                 by_nesting = !others.is_empty();
+                others.extend(turned::rates(
+                    bench,
+                    &system,
+                    &mut frame,
+                    &terms,
+                    &projected.forms,
+                    &generalised_forces,
+                ));
                 others.extend(rephrased::rates(bench, &system, &mut frame, &equations, by_projection, words));
                 for rates in others {
                     if proof::are_equal(bench, &own, &rates, system.forms.len())? {

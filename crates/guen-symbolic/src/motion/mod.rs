@@ -14,9 +14,10 @@ mod rephrased;
 mod solve;
 mod symmetry;
 mod tensions;
+mod turned;
 mod velocity_forms;
 
-pub use declaration::{Force, Holonomic, Mechanics, MotionSymbol};
+pub use declaration::{Force, Holonomic, Mechanics, MotionSymbol, RigidBody};
 pub use dependence::Dependence;
 pub use derivation::{Class, Derivation, DerivationError, Equations};
 pub use energy::Energies;

@@ -87,6 +87,7 @@ impl Scene {
             inputs: words.inputs,
             holonomic: Vec::new(),
             kinetic_energy: kinetic,
+            bodies: Vec::new(),
             force_function: force,
             forces: Vec::new(),
             outputs: Vec::new(),

@@ -53,6 +53,7 @@ pub fn drawn(seed: u64) -> (Words, Mechanics) {
         inputs: words.inputs.clone(),
         holonomic,
         kinetic_energy,
+        bodies: Vec::new(),
         force_function,
         forces,
         outputs: Vec::new(),

@@ -100,6 +100,7 @@ fn drawn(seed: u64) -> (Words, Mechanics, Vec<&'static str>) {
         inputs: words.inputs.clone(),
         holonomic: Vec::new(),
         kinetic_energy: words.graph.sum(squares),
+        bodies: Vec::new(),
         stated: vec![true; n],
         force_function: words.graph.sum(potential),
         forces: forces.into_iter().collect(),

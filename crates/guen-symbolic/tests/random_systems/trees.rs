@@ -154,6 +154,7 @@ fn drawn(seed: u64) -> (Words, Mechanics, Features) {
         inputs: words.inputs.clone(),
         holonomic: Vec::new(),
         kinetic_energy: words.graph.sum(kinetic),
+        bodies: Vec::new(),
         stated: vec![true; n],
         force_function: words.graph.sum(potential),
         forces: forces.into_iter().collect(),
