@@ -6,7 +6,8 @@ mod provide;
 use std::collections::{BTreeMap, BTreeSet};
 
 use guen_symbolic::{
-    Bound, ExprId, Flow, Force, Forms, Graph, Holonomic, Mechanics, RigidBody, Role, Roles, Workbench,
+    Bound, ExprId, Flow, Force, Forms, Graph, Holonomic, Mechanics, Multibody, RigidBody, Role, Roles,
+    Workbench,
 };
 
 use super::bodies::Weight;
@@ -45,9 +46,10 @@ struct Resolver<'a, 'f> {
     parameters: Vec<RawForm<'a>>,
     constraints: Vec<RawForm<'a>>,
     kinetic: Vec<ExprId>,
-    rigid: Vec<RigidBody>,
     energy: Option<&'a Quantity>,
     has_masses: bool,
+    rigid_bodies: Vec<RigidBody>,
+    written_energy: Option<ExprId>,
     weights: Vec<Weight>,
     gravity: Option<super::value::Vector>,
     force_function: Option<ExprId>,
@@ -90,9 +92,10 @@ impl<'a, 'f> Resolver<'a, 'f> {
             parameters: Vec::new(),
             constraints: Vec::new(),
             kinetic: Vec::new(),
-            rigid: Vec::new(),
             energy: None,
             has_masses: false,
+            rigid_bodies: Vec::new(),
+            written_energy: None,
             weights: Vec::new(),
             gravity: None,
             force_function: None,
@@ -188,6 +191,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
                     let etas: Vec<ExprId> = etas.collect();
                     self.eval.check_quadratic(&quantity.value, energy, &self.velocities, &etas);
                     self.kinetic.push(energy);
+                    self.written_energy = Some(energy);
                 }
                 let mut mentioned = BTreeSet::new();
                 names_in(&quantity.value, &mut mentioned);
@@ -204,6 +208,10 @@ impl<'a, 'f> Resolver<'a, 'f> {
                         self.kinetic.push(energy);
                         self.particles.push(weight);
                         self.weights.push(weight);
+                        let (mass, position) = weight;
+                        let inertia = [self.eval.bench.graph.zero(); 6];
+                        let center = Some(position);
+                        self.rigid_bodies.push(RigidBody { mass, center, orientation: None, inertia });
                     }
                 }
             }
@@ -213,8 +221,15 @@ impl<'a, 'f> Resolver<'a, 'f> {
                     let value = self.eval.body(body).ok().map(|(energy, weight, value)| {
                         self.kinetic.push(energy);
                         self.weights.extend(weight);
-                        self.rigid.extend(value.rigid());
                         let BodyValue { name, mass, inertia, center, orientation } = &value;
+                        // Without a mass a centre moves nothing, and without inertia an orientation.
+                        let zero = self.eval.bench.graph.zero();
+                        self.rigid_bodies.push(RigidBody {
+                            mass: mass.unwrap_or(zero),
+                            center: mass.and(*center).map(|(position, _)| position),
+                            orientation: inertia.and(orientation.as_ref()).map(|rotation| rotation.matrix),
+                            inertia: inertia.unwrap_or([zero; 6]),
+                        });
                         self.bodies.push(BodyEntry {
                             name: name.clone(),
                             mass: *mass,
@@ -427,6 +442,13 @@ impl<'a, 'f> Resolver<'a, 'f> {
         }
         let force_function = bench.graph.sum(force_function);
         let kinetic_energy = bench.graph.sum(self.kinetic);
+        let zero = bench.graph.zero();
+        let multibody = self.has_masses.then(|| Multibody {
+            bodies: self.rigid_bodies,
+            gravity: self.gravity.unwrap_or([zero; 3]),
+            other_energy: self.written_energy.unwrap_or(zero),
+            other_force_function: self.force_function.unwrap_or(zero),
+        });
         let accelerations = raw[..degrees]
             .iter()
             .map(|form| {
@@ -471,9 +493,9 @@ impl<'a, 'f> Resolver<'a, 'f> {
             inputs: self.inputs.iter().map(|input| input.symbol).collect(),
             holonomic,
             kinetic_energy,
-            bodies: self.rigid,
             stated,
             force_function,
+            multibody,
             forces: self.forces,
             outputs: self.output_values,
             motion_symbols,

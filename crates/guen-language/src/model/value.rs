@@ -1,6 +1,6 @@
 //! The kinds of value: scalars, vectors in space, rotations, and the names of bodies.
 
-use guen_symbolic::{ExprId, RigidBody};
+use guen_symbolic::ExprId;
 
 /// A vector in space, by its components in the world's axes.
 pub(super) type Vector = [ExprId; 3];
@@ -40,15 +40,6 @@ pub(super) struct BodyValue {
     pub(super) mass: Option<ExprId>,
     /// The matrix entries `xx, yy, zz, xy, yz, zx` of its inertia, if it has one.
     pub(super) inertia: Option<[ExprId; 6]>,
-}
-
-impl BodyValue {
-    /// What its mass centre adds to the kinetic energy, if it is turned too.
-    pub(super) fn rigid(&self) -> Option<RigidBody> {
-        let (mass, (_, velocity)) = (self.mass?, self.center?);
-        let rotation = self.orientation.as_ref()?;
-        Some(RigidBody { mass, velocity, orientation: rotation.matrix, spin: rotation.body_rate })
-    }
 }
 
 /// A value of the language.

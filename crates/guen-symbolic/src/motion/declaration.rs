@@ -34,17 +34,30 @@ pub enum MotionSymbol {
     Reaction(usize),
 }
 
-/// A rigid body whose `1/2 mass |velocity|^2` is a part of `T°`.
+/// A rigid body or a particle of the kinetic energy.
 #[derive(Clone, Debug)]
 pub struct RigidBody {
-    /// Its mass.
+    /// The mass; of no matter without a centre.
     pub mass: ExprId,
-    /// The velocity of its mass centre in the world's axes, the rate of a position.
-    pub velocity: [ExprId; 3],
-    /// The matrix from its axes to the world's, row by row.
-    pub orientation: [[ExprId; 3]; 3],
-    /// Its angular velocity in its own axes.
-    pub spin: [ExprId; 3],
+    /// The centre of mass, in the world's axes.
+    pub center: Option<[ExprId; 3]>,
+    /// The rotation from body axes to the world's, row by row.
+    pub orientation: Option<[[ExprId; 3]; 3]>,
+    /// The entries `xx, yy, zz, xy, yz, zx` of the inertia about the centre, in body axes; of no matter without an orientation.
+    pub inertia: [ExprId; 6],
+}
+
+/// What `T°` and `U` are made of, where bodies were declared.
+#[derive(Clone, Debug)]
+pub struct Multibody {
+    /// Bodies and particles.
+    pub bodies: Vec<RigidBody>,
+    /// The acceleration of gravity, in the world's axes.
+    pub gravity: [ExprId; 3],
+    /// What `T°` has beside the energies of the bodies.
+    pub other_energy: ExprId,
+    /// What `U` has beside the weight of the bodies.
+    pub other_force_function: ExprId,
 }
 
 /// A mechanical system.
@@ -66,13 +79,13 @@ pub struct Mechanics {
     pub holonomic: Vec<Holonomic>,
     /// `T°(t, x, x', eta)`, with constraints dropped.
     pub kinetic_energy: ExprId,
-    /// Rigid bodies in it: their velocities may be short in their own axes.
-    pub bodies: Vec<RigidBody>,
     /// For each form whether `T°` speaks of its momentum, so that one that vanishes is truly zero and not left out
     /// because `T` was given on the constraints only.
     pub stated: Vec<bool>,
     /// `U(t, x)`.
     pub force_function: ExprId,
+    /// The bodies that both are made of, where the declaration has any.
+    pub multibody: Option<Multibody>,
     /// The other generalised forces.
     pub forces: Vec<Force>,
     /// Quantities computed on request.
@@ -81,10 +94,16 @@ pub struct Mechanics {
     pub motion_symbols: Vec<(ExprId, MotionSymbol)>,
 }
 
-impl RigidBody {
+impl Multibody {
     fn expressions(&mut self) -> impl Iterator<Item = &mut ExprId> {
-        let orientation = self.orientation.iter_mut().flatten();
-        self.velocity.iter_mut().chain(orientation).chain(&mut self.spin).chain([&mut self.mass])
+        let Multibody { bodies, gravity, other_energy, other_force_function } = self;
+        let of_bodies = bodies.iter_mut().flat_map(|body| {
+            let RigidBody { mass, center, orientation, inertia } = body;
+            let (center, orientation) =
+                (center.iter_mut().flatten(), orientation.iter_mut().flatten().flatten());
+            center.chain(orientation).chain(inertia).chain([mass])
+        });
+        of_bodies.chain(gravity).chain([other_energy, other_force_function])
     }
 }
 
@@ -106,7 +125,7 @@ impl Mechanics {
             .chain(system.forces.iter_mut().flat_map(|force| [&mut force.magnitude, &mut force.along]))
             .chain(&mut system.outputs)
             .chain(&mut system.written)
-            .chain(system.bodies.iter_mut().flat_map(RigidBody::expressions));
+            .chain(system.multibody.iter_mut().flat_map(Multibody::expressions));
         for expression in expressions {
             *expression = values.of(&mut bench.graph, *expression);
         }

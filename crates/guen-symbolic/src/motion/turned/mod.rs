@@ -15,10 +15,10 @@
 
 mod spin;
 
-use self::spin::{Flows, Spin, Triple, column, in_parameters};
+use self::spin::{Flows, Spin, column, in_parameters};
 use super::projection::{self, MeasuredForms};
 use super::{Frame, KineticTerm, Mechanics, RigidBody, Solution};
-use crate::algebra::{ExprId, Rational};
+use crate::algebra::{ExprId, Flow, Rational};
 use crate::workbench::Workbench;
 
 /// The rates of the state, velocities first; none where no chart has an edge, or no body is turned.
@@ -26,27 +26,50 @@ pub(super) fn rates(
     bench: &mut Workbench,
     system: &Mechanics,
     frame: &mut Frame,
-    terms: &[KineticTerm],
     forms: &MeasuredForms,
     generalised_forces: &[ExprId],
 ) -> Vec<Vec<ExprId>> {
-    if frame.operators.chart.is_empty() {
-        return Vec::new();
+    found(bench, system, frame, forms, generalised_forces).unwrap_or_default()
+}
+
+fn found(
+    bench: &mut Workbench,
+    system: &Mechanics,
+    frame: &mut Frame,
+    forms: &MeasuredForms,
+    generalised_forces: &[ExprId],
+) -> Option<Vec<Vec<ExprId>>> {
+    let multibody = system.multibody.as_ref()?;
+    if frame.operators.chart.is_empty() || !bench.graph.is_zero(multibody.other_energy) {
+        return None;
     }
     let l = system.forms.degrees;
-    let mut turned =
-        Turned { terms: terms.to_vec(), forms: forms.clone(), velocities: frame.velocities.clone() };
-    let mut found = false;
-    for body in &system.bodies {
-        found |= turned.turn(bench, system, frame, body).is_some();
+    let mut turned = Turned { terms: Vec::new(), forms: forms.clone(), velocities: frame.velocities.clone() };
+    let is_constant = |bench: &Workbench, rows: &[[ExprId; 3]; 3]| {
+        rows.iter().flatten().all(|e| bench.graph.roles(*e).is_constant())
+    };
+    let mut is_turned = false;
+    for body in &multibody.bodies {
+        match &body.orientation {
+            Some(rows) if !is_constant(bench, rows) => {
+                turned.turn(bench, system, frame, body, rows)?;
+                is_turned = true;
+            }
+            _ => turned.carry(bench, system, body)?,
+        }
     }
-    if !found {
-        return Vec::new();
+    if !is_turned {
+        return None;
     }
-    turned.terms.retain(|term| !bench.graph.is_zero(term.weight));
     let Turned { terms, forms, velocities } = turned;
-    let (equations, _) =
-        projection::assemble(bench, system, &mut frame.displacements[..l], &mut frame.motion, &terms, &forms);
+    let (equations, _) = projection::assemble(
+        bench,
+        system,
+        (0, &mut frame.displacements[..l]),
+        &mut frame.motion,
+        &terms,
+        &forms,
+    );
     let forces: Vec<ExprId> =
         equations.forces.iter().zip(generalised_forces).map(|(f, q)| bench.graph.add(*f, *q)).collect();
     let solutions = [
@@ -54,10 +77,10 @@ pub(super) fn rates(
         Solution::shared(bench, &equations.mass, &forces),
     ];
     let lists = solutions.into_iter().flatten();
-    lists.map(|solution| [&velocities[..], &solution.accelerations].concat()).collect()
+    Some(lists.map(|solution| [&velocities[..], &solution.accelerations].concat()).collect())
 }
 
-/// The kinetic energy with some bodies' velocities in their own axes.
+/// The kinetic energy with the velocities of bodies in their own axes.
 struct Turned {
     terms: Vec<KineticTerm>,
     forms: MeasuredForms,
@@ -65,79 +88,97 @@ struct Turned {
 }
 
 impl Turned {
-    /// Takes the velocity of one body apart along its axes; `None` where that is not possible, or promises nothing.
+    /// A body that does not turn, in the forms that are known; `None` where they are others.
+    fn carry(&mut self, bench: &mut Workbench, system: &Mechanics, body: &RigidBody) -> Option<()> {
+        let Some(center) = body.center else { return Some(()) };
+        for v in velocity(bench, system, center) {
+            let (factor, form) = bench.graph.split_content(v);
+            if bench.graph.is_zero(v) {
+                continue;
+            }
+            if !self.forms.contains_key(&form) {
+                return None;
+            }
+            let half = &(&factor * &factor) * &Rational::new(1, 2);
+            let weight = bench.graph.scale(body.mass, &half);
+            self.terms.push(KineticTerm { weight, forms: vec![form, form] });
+        }
+        Some(())
+    }
+
+    /// A body in its own axes; `None` where that is not possible.
     fn turn(
         &mut self,
         bench: &mut Workbench,
         system: &Mechanics,
         frame: &mut Frame,
         body: &RigidBody,
+        rows: &[[ExprId; 3]; 3],
     ) -> Option<()> {
-        let l = system.forms.degrees;
-        let rows = &body.orientation;
-        if rows.iter().flatten().all(|e| bench.graph.roles(*e).is_constant()) || !is_orthogonal(bench, rows) {
-            return None;
-        }
-        // The places of the velocity's squares, each with its factor.
-        let mut squares: Vec<(usize, usize, Rational, ExprId)> = Vec::new();
-        for (i, v) in body.velocity.iter().enumerate() {
-            if bench.graph.is_zero(*v) {
-                continue;
-            }
-            let (factor, form) = bench.graph.split_content(*v);
-            let place = self.terms.iter().position(|term| term.forms[..] == [form, form])?;
-            // A true velocity is a closed form.
-            if !self.forms[&form].turning.iter().all(|e| bench.graph.is_zero(*e)) {
-                return None;
-            }
-            squares.push((i, place, factor, form));
-        }
-        if squares.is_empty() {
+        if !is_orthogonal(bench, rows) {
             return None;
         }
         let mut flows = Flows::new(bench, system, frame);
         let spin = Spin::new(bench, system, &mut flows, rows);
-        let mut world = vec![[bench.graph.zero(); 3]; l + 1];
-        for (i, _, factor, form) in &squares {
-            let form = &self.forms[form];
-            for (s, world) in world.iter_mut().enumerate() {
-                let component = if s == 0 { form.drift } else { form.components[s - 1] };
-                world[*i] = bench.graph.scale(component, factor);
+        if let Some(center) = body.center {
+            let world: Vec<[ExprId; 3]> = (0..=system.forms.degrees)
+                .map(|s| {
+                    center.map(|x| {
+                        let component = flows.along(bench, s, x);
+                        bench.tidy(component)
+                    })
+                })
+                .collect();
+            let own = match spin.by_spin(bench, system, &mut flows, rows, &world) {
+                Some(own) => own,
+                None => in_parameters(bench, system, &mut flows, rows, &world)?,
+            };
+            let velocity = velocity(bench, system, center);
+            let half = bench.graph.scale(body.mass, &Rational::new(1, 2));
+            for a in 0..3 {
+                // The exterior derivative of R^T v on (motion, X_s): omega_s x u - omega x u_s.
+                let turning = spin.crossed(bench, a, &own);
+                let form = bench.dot(&column(rows, a), &velocity);
+                self.forms.insert(form, own.measured(a, turning));
+                self.terms.push(KineticTerm { weight: half, forms: vec![form, form] });
+            }
+            // What is a coordinate's rate is known from them.
+            for (row, v) in rows.iter().zip(velocity) {
+                if let Some(k) = system.velocities.iter().position(|x| *x == v) {
+                    self.velocities[k] = bench.dot(row, &own.values);
+                }
             }
         }
-        let moving = match spin.by_spin(bench, system, &mut flows, rows, &world) {
-            Some(own) => own,
-            None => in_parameters(bench, system, &mut flows, rows, &world)?,
-        };
-        let rates = spin.rates(bench, system, &mut flows);
-        let own = Triple { along: spin.along.clone(), values: spin.values, rates };
-        let half = bench.graph.scale(body.mass, &Rational::new(1, 2));
-        for (_, place, factor, _) in &squares {
-            let share = bench.graph.scale(half, &(factor * factor));
-            self.terms[*place].weight = bench.graph.sub(self.terms[*place].weight, share);
-        }
-        for a in 0..3 {
-            let form = bench.dot(&column(rows, a), &body.velocity);
-            // The exterior derivative of R^T v on (motion, X_s): omega_s x u - omega x u_s.
-            let turning = spin.crossed(bench, a, &moving);
-            self.forms.insert(form, moving.measured(a, turning));
-            self.terms.push(KineticTerm { weight: half, forms: vec![form, form] });
-            // That of the angular velocity itself is omega_s x omega.
-            let (factor, form) = bench.graph.split_content(body.spin[a]);
-            if let (Some(inverse), true) = (factor.recip(), self.forms.contains_key(&form)) {
-                let turning = spin.crossed_with_itself(bench, a);
-                let measured = own.measured(a, turning).scaled(bench, &inverse);
-                self.forms.insert(form, measured);
-            }
-        }
-        // What is a coordinate's rate is known from them.
-        for (i, _, _, form) in squares {
-            if let Some(k) = system.velocities.iter().position(|x| *x == form && *x == body.velocity[i]) {
-                self.velocities[k] = bench.dot(&rows[i], &moving.values);
+        // The form of the angular velocity: [omega]x = R^T R'.
+        let rates: Vec<[ExprId; 3]> = rows.iter().map(|row| velocity(bench, system, *row)).collect();
+        let own = spin.triple(bench, system, &mut flows);
+        let forms: [ExprId; 3] = std::array::from_fn(|a| {
+            let (j, k) = ((a + 1) % 3, (a + 2) % 3);
+            let form = bench.dot(&column(rows, k), &[rates[0][j], rates[1][j], rates[2][j]]);
+            // That of the angular velocity is omega_s x omega.
+            let turning = spin.crossed_with_itself(bench, a);
+            self.forms.insert(form, own.measured(a, turning));
+            form
+        });
+        let [x, y, z] = forms;
+        let pairs = [(x, x), (y, y), (z, z), (x, y), (y, z), (z, x)];
+        for (place, (moment, (u, v))) in body.inertia.iter().zip(pairs).enumerate() {
+            if !bench.graph.is_zero(*moment) {
+                // Products of inertia are in the energy twice.
+                let weight =
+                    if place < 3 { bench.graph.scale(*moment, &Rational::new(1, 2)) } else { *moment };
+                self.terms.push(KineticTerm { weight, forms: vec![u, v] });
             }
         }
         Some(())
     }
+}
+
+/// The rates of functions of the coordinates, over velocities.
+fn velocity(bench: &mut Workbench, system: &Mechanics, position: [ExprId; 3]) -> [ExprId; 3] {
+    let coordinates = system.forms.coordinates.iter().copied().zip(system.velocities.iter().copied());
+    let mut rate = Flow::new(&bench.graph, coordinates.chain([(system.forms.time, bench.graph.one())]));
+    position.map(|x| rate.of(&mut bench.graph, x))
 }
 
 /// Whether `R^T R = 1` as a function of everything.

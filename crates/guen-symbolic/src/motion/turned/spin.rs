@@ -32,17 +32,6 @@ impl Triple {
     }
 }
 
-impl Measured {
-    /// The same of a multiple of the form.
-    pub(super) fn scaled(mut self, bench: &mut Workbench, factor: &Rational) -> Self {
-        let parts = [&mut self.value, &mut self.drift, &mut self.acceleration];
-        for e in parts.into_iter().chain(&mut self.components).chain(&mut self.turning) {
-            *e = bench.graph.scale(*e, factor);
-        }
-        self
-    }
-}
-
 /// The velocities of a centre as they depend on the parameters.
 pub(super) fn in_parameters(
     bench: &mut Workbench,
@@ -85,7 +74,7 @@ impl<'a> Flows<'a> {
         Flows { frame, drift }
     }
 
-    fn along(&mut self, bench: &mut Workbench, s: usize, e: ExprId) -> ExprId {
+    pub(super) fn along(&mut self, bench: &mut Workbench, s: usize, e: ExprId) -> ExprId {
         let flow = if s == 0 { &mut self.drift } else { &mut self.frame.displacements[s - 1] };
         flow.of(&mut bench.graph, e)
     }
@@ -147,6 +136,12 @@ impl Spin {
             let rate = in_motion(bench, system, |s| rates[s]);
             bench.keep_large(rate)
         })
+    }
+
+    /// With its rates.
+    pub(super) fn triple(&self, bench: &mut Workbench, system: &Mechanics, flows: &mut Flows<'_>) -> Triple {
+        let rates = self.rates(bench, system, flows);
+        Triple { along: self.along.clone(), values: self.values, rates }
     }
 
     /// The velocities of a centre as linear functions of the angular velocity, `u = rho omega`: where the parameters are spins
