@@ -52,7 +52,7 @@ pub(super) fn equations(
     let tree = linkage::tree(bench, system, frame);
     if let Some(tree) = &tree
         && l.min(tree.joints()) >= MANY
-        && let Some(equations) = of_links(bench, system, frame, tree)?
+        && let Some(equations) = of_links(bench, system, frame, partials, tree)?
     {
         let equations = equations.driven(bench, generalised_forces);
         let constrained = if l == n {
@@ -76,11 +76,15 @@ pub(super) fn equations(
     affordable(bench)?;
     let whole = weighted_cost(&bench.graph, &by_definition.entries());
     let linked = match tree {
-        Some(tree) if whole > LARGE => {
-            let linked = linkage::equations(bench, system, frame, &tree);
-            let is_shorter = weighted_cost(&bench.graph, &linked.entries()) < whole;
-            let is_taken = is_shorter && proof::are_same(bench, &by_definition, &linked)?;
-            is_taken.then(|| linked.driven(bench, generalised_forces))
+        Some(tree) if whole > LARGE => linkage::equations(bench, system, frame, partials, &tree),
+        _ => None,
+    };
+    let linked = match linked {
+        Some(linked)
+            if weighted_cost(&bench.graph, &linked.entries()) < whole
+                && proof::are_same(bench, &by_definition, &linked)? =>
+        {
+            Some(linked.driven(bench, generalised_forces))
         }
         _ => None,
     };
@@ -170,9 +174,10 @@ fn of_links(
     bench: &mut Workbench,
     system: &Mechanics,
     frame: &mut Frame,
+    partials: &mut VelocityPartials,
     tree: &Tree<'_>,
 ) -> Result<Option<Equations>, DerivationError> {
-    let equations = linkage::equations(bench, system, frame, tree);
+    let Some(equations) = linkage::equations(bench, system, frame, partials, tree) else { return Ok(None) };
     // Numbers without a pattern that entries could share.
     for (factor, modulus) in [(37, 101), (59, 103)] {
         let weights: Vec<i64> =

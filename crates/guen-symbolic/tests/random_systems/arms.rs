@@ -1,7 +1,7 @@
 //! Random trees of bodies in space: what is derived link by link, in the axes of each, against multipliers.
 //!
 //! Bodies turn about axes of their parents, slide along them or do both, hang on earlier bodies, on a cart, or on axes that
-//! move as prescribed; some have a second body or a particle fixed to them. Parameters are rates of coordinates or sums of
+//! move as prescribed; some have a second body or a particle fixed to them. Energies of other things stand beside theirs. Parameters are rates of coordinates or sums of
 //! such, and some trees are held by a nonholonomic constraint.
 
 use std::collections::BTreeMap;
@@ -88,7 +88,7 @@ fn drawn(seed: u64) -> (Words, Mechanics, Vec<&'static str>) {
     let (root, held, mixed) = (draw.below(4), draw.once_in(4), draw.once_in(3));
     let cart = if root == 3 { 2 } else { 0 };
     // With so many that equations are not multiplied out.
-    let large = draw.once_in(10);
+    let (large, rotors) = (draw.once_in(10), draw.once_in(4));
     let n = cart + if large { 8 } else { draw.between(4, 5) };
     let mut words = Words::new(draw, n);
     let mut features = Vec::new();
@@ -187,7 +187,8 @@ fn drawn(seed: u64) -> (Words, Mechanics, Vec<&'static str>) {
     let motion = words.velocities.iter().copied().chain([one]);
     let mut rate =
         Flow::new(&words.graph, words.x.iter().copied().chain([words.time]).zip(motion).collect::<Vec<_>>());
-    let energies: Vec<ExprId> = bodies.iter().map(|body| energy(&mut words.graph, &mut rate, body)).collect();
+    let mut energies: Vec<ExprId> =
+        bodies.iter().map(|body| energy(&mut words.graph, &mut rate, body)).collect();
     let gravity = [zero, words.graph.ratio(-1, 3), words.graph.ratio(-7, 2)];
     let mut potential = Vec::new();
     for RigidBody { mass, center, .. } in &bodies {
@@ -200,6 +201,18 @@ fn drawn(seed: u64) -> (Words, Mechanics, Vec<&'static str>) {
         words.graph.neg(square)
     };
     potential.push(spring);
+    let mut other_energy = zero;
+    if rotors {
+        features.push("rotors beside");
+        let speed = words
+            .graph
+            .linear(&[(words.velocities[n - 1], Rational::integer(3)), (words.velocities[0], Rational::ONE)]);
+        let square = words.graph.powi(speed, 2);
+        let cosine = words.graph.cos(words.x[n - 1]);
+        let weight = words.graph.linear(&[(cosine, Rational::new(1, 4)), (one, Rational::new(1, 2))]);
+        other_energy = words.graph.mul(weight, square);
+        energies.push(other_energy);
+    }
     let mut forms: Vec<Form> = (0..n)
         .map(|i| Form { row: (0..n).map(|k| if i == k { one } else { zero }).collect(), offset: zero })
         .collect();
@@ -216,7 +229,7 @@ fn drawn(seed: u64) -> (Words, Mechanics, Vec<&'static str>) {
         forms[n - 1].row[0] = words.graph.scale(cosine, &Rational::new(2, 3));
     }
     let forms = Forms { time: words.time, coordinates: words.x.clone(), forms, degrees };
-    let multibody = Multibody { bodies, gravity, other_energy: zero, other_force_function: spring };
+    let multibody = Multibody { bodies, gravity, other_energy, other_force_function: spring };
     let mechanics = Mechanics {
         written: forms.over(&mut words.graph, &words.velocities),
         forms,
@@ -264,6 +277,7 @@ fn bodies_on_bodies_move_as_with_multipliers() {
         "products of inertia",
         "a particle fixed to a body",
         "a spring beside",
+        "rotors beside",
         "sums of rates",
         "a constraint",
     ] {

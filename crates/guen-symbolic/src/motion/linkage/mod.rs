@@ -24,41 +24,67 @@ mod vector;
 pub(super) use self::tree::Tree;
 use self::tree::{Link, about};
 use self::vector::{Matrix, Vector};
-use super::{Equations, Frame, Mechanics};
+use super::velocity_forms::VelocityPartials;
+use super::{Equations, Frame, Mechanics, decompose, projection};
 use crate::algebra::{ExprId, Graph};
 use crate::workbench::Workbench;
 
-/// The tree of a system's bodies; none where no body hangs on another, where energies are not those of bodies alone, or
-/// where masses, inertias or gravity are not constant.
+/// The tree of a system's bodies; none where no body hangs on another, or masses, inertias or gravity are not constant.
 pub(super) fn tree<'a>(bench: &mut Workbench, system: &'a Mechanics, frame: &Frame) -> Option<Tree<'a>> {
     let multibody = system.multibody.as_ref()?;
     let graph = &bench.graph;
     let weights = multibody.bodies.iter().flat_map(|body| body.inertia.iter().chain([&body.mass]));
     let mut weights = weights.chain(&multibody.gravity);
-    if !graph.is_zero(multibody.other_energy) || !weights.all(|e| graph.roles(*e).is_constant()) {
+    if !weights.all(|e| graph.roles(*e).is_constant()) {
         return None;
     }
     Tree::new(bench, system, frame)
 }
 
-/// The equations of a tree, `s = 1..l`, without the generalised forces.
+/// The equations of a tree, `s = 1..l`, without the generalised forces; none where the energies beside the bodies' are not
+/// quadratic by themselves.
 pub(super) fn equations(
     bench: &mut Workbench,
     system: &Mechanics,
     frame: &mut Frame,
+    partials: &mut VelocityPartials,
     tree: &Tree<'_>,
-) -> Equations {
+) -> Option<Equations> {
+    let mut equations = beside(bench, system, frame, partials)?;
     let states = outwards(bench, system, frame, &tree.links);
-    let l = system.forms.degrees;
-    let (mass, work) = inwards(&mut bench.graph, &tree.links, &states, l);
-    let other = system.multibody.as_ref().map(|multibody| multibody.other_force_function);
-    let forces = (0..l)
-        .map(|s| {
-            let other = other.map_or(bench.graph.zero(), |e| frame.displacements[s].of(&mut bench.graph, e));
-            bench.graph.sub(other, work[s])
-        })
-        .collect();
-    Equations { mass, forces }
+    let (mass, work) = inwards(&mut bench.graph, &tree.links, &states, system.forms.degrees);
+    let graph = &mut bench.graph;
+    for (own, row) in equations.mass.iter_mut().zip(mass) {
+        own.iter_mut().zip(row).for_each(|(own, entry)| *own = graph.add(*own, entry));
+    }
+    for (force, work) in equations.forces.iter_mut().zip(work) {
+        *force = graph.sub(*force, work);
+    }
+    Some(equations)
+}
+
+/// The equations of the energies beside those of the bodies: of rotors and springs.
+fn beside(
+    bench: &mut Workbench,
+    system: &Mechanics,
+    frame: &mut Frame,
+    partials: &mut VelocityPartials,
+) -> Option<Equations> {
+    let multibody = system.multibody.as_ref()?;
+    let (l, zero) = (system.forms.degrees, bench.graph.zero());
+    if bench.graph.is_zero(multibody.other_energy) {
+        let forces = frame.displacements[..l].iter_mut();
+        let forces = forces.map(|along| along.of(&mut bench.graph, multibody.other_force_function)).collect();
+        return Some(Equations { mass: vec![vec![zero; l]; l], forces });
+    }
+    let other = Mechanics {
+        kinetic_energy: multibody.other_energy,
+        force_function: multibody.other_force_function,
+        ..system.clone()
+    };
+    let symbols: Vec<ExprId> = system.velocities.iter().chain(&system.etas).copied().collect();
+    let terms = decompose(bench, partials, &symbols, other.kinetic_energy).ok()?;
+    Some(projection::equations(bench, &other, frame, partials, &terms, 0..l).equations)
 }
 
 /// The motion of a link at `eta' = 0`, in its axes.
