@@ -18,6 +18,7 @@ mod routes;
 mod solve;
 mod symmetry;
 mod tensions;
+mod turned;
 mod velocity_forms;
 
 pub use declaration::{Force, Holonomic, Mechanics, MotionSymbol, Multibody, RigidBody};

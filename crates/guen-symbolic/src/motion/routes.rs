@@ -6,7 +6,7 @@ use super::projection::Projected;
 use super::velocity_forms::VelocityPartials;
 use super::{
     DerivationError, Equations, Frame, KineticTerm, Mechanics, Solution, linkage, nested, poincare,
-    projection, proof, rephrased, tensions,
+    projection, proof, rephrased, tensions, turned,
 };
 use crate::algebra::ExprId;
 use crate::geometry::dependence;
@@ -155,6 +155,7 @@ pub(super) fn equations(
             let least = weighted_cost(&bench.graph, &own);
             others.retain(|rates| weighted_cost(&bench.graph, rates) < least);
             by_nesting = !others.is_empty();
+            others.extend(turned::rates(bench, system, frame, forms, generalised_forces));
             others.extend(rephrased::rates(bench, system, frame, &equations, by_projection, words));
             for rates in others {
                 if proof::are_equal(bench, &own, &rates, n)? {
