@@ -250,11 +250,10 @@ pub fn clamped<R: Ordered>(value: R, lower: R, upper: R) -> R {
 /// assert!((0.002..0.02).contains(&furthest(&[x * x + y * y - Rounded::exact(1.0)])));
 /// ```
 pub fn furthest<R: Real, const N: usize>(differences: &[Rounded<R>; N]) -> R {
-    largest(&differences.map(
-        |difference| {
-            if difference.value == R::zero() { R::zero() } else { difference.left() }
-        },
-    ))
+    largest(
+        &differences
+            .map(|difference| difference.value.abs().where_above(R::zero(), difference.left(), R::zero())),
+    )
 }
 
 /// How far carried functions are from their values: the largest `|w - f|/(1 + |f|)`.
@@ -270,22 +269,19 @@ pub fn drift<R: Real, const K: usize>(values: &[R; K], carried: &[R]) -> R {
     largest(&apart)
 }
 
-/// The largest absolute value, as a real without an order can have it: through `f64` for the comparison. Zero for
-/// no values; a value that is not finite is returned as it is.
+/// The largest absolute value, as a real without an order can have it: through `f64` for the comparison, of lanes in every
+/// lane by itself. Zero for no values, not finite if one of them is not.
 ///
 /// ```
 /// assert_eq!(guen_runtime::checks::largest(&[1.0, -3.0, 2.0]), 3.0);
 /// ```
 pub fn largest<R: Real>(values: &[R]) -> R {
-    let mut most = R::zero();
+    let (mut most, mut rest) = (R::zero(), R::zero());
     for value in values {
         let size = value.abs();
-        if !size.is_finite() {
-            return size;
-        }
-        if size.to_f64() > most.to_f64() {
-            most = size;
-        }
+        most = size.where_above(most, size, most);
+        // Zero, unless it is not finite: what is compared with NaN would be taken for larger.
+        rest += size - size;
     }
-    most
+    most + rest
 }

@@ -60,7 +60,7 @@ pub(super) fn guarded(subject: &Subject<'_, '_>, layout: &Layout, prepared: &Tok
         let l = layout.l;
         let mass = program(quote!(mass), quote!(&x));
         quote! {
-            fn condition(&self, t: R, state: &[R; #size]) -> f64 {
+            fn condition(&self, t: R, state: &[R; #size]) -> R {
                 let x: [R; #n] = [#(state[#positions]),*];
                 __guen::condition::<R, #l>(&#mass)
             }

@@ -129,6 +129,13 @@ impl Mask {
         lane < 32 && self.0 >> lane & 1 == 1
     }
 
+    /// The same set with one lane more, below 32.
+    #[inline(always)]
+    #[must_use]
+    pub fn with(self, lane: usize) -> Self {
+        Self(self.0 | 1_u32.checked_shl(lane as u32).unwrap_or(0))
+    }
+
     /// The indices of its lanes.
     pub fn lanes(self) -> impl Iterator<Item = usize> {
         (0..32).filter(move |lane| self.contains(*lane))

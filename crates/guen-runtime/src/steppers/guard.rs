@@ -9,7 +9,7 @@
 //! steps that would lead there, then after half of the rest.
 
 use super::course::{Course, Reached};
-use super::defect::Defects;
+use super::defect::{Defects, worst};
 use super::edges::Edges;
 use crate::error::{Cause, IntegrationError, Setting};
 use crate::real::Real;
@@ -34,8 +34,7 @@ const COST_OF_A_DEFECT: u32 = 10;
 /// of such runs may take [`Guard::FINITE`], and guards of its own.
 ///
 /// With lanes as the real, which have no order among them, the first lane alone is looked at, except that all must be
-/// finite; [`Rk4::integrate_in_lanes`](super::Rk4::integrate_in_lanes) looks at the energy, the residual and the edges of
-/// every lane.
+/// finite; [`Rk4::integrate_in_lanes`](super::Rk4::integrate_in_lanes) looks at every lane as at a run alone.
 ///
 /// ```
 /// use guen_runtime::steppers::Guard;
@@ -146,7 +145,7 @@ struct Known<R, const N: usize> {
     edges: Edges,
     /// The largest absolute value of each entry of the state.
     largest: [f64; N],
-    defects: Defects<N>,
+    defects: Defects<f64, N>,
 }
 
 impl<R: Real, const N: usize> Watch<R, N> {
@@ -159,10 +158,8 @@ impl<R: Real, const N: usize> Watch<R, N> {
             return Err(Cause::Setting(Setting::Guard));
         }
         let guard = guard.for_real::<R>();
-        let young = (EVALUATIONS_BETWEEN_LOOKS / C::EVALUATIONS.max(1)).max(1);
-        let cost = system.cost_of_look().saturating_add(if C::JUDGED { COST_OF_A_DEFECT } else { 0 });
-        let paid = cost.saturating_mul(COSTS_BETWEEN_LOOKS) / C::EVALUATIONS.max(1);
-        let every = guard.every.unwrap_or(young.max(paid)).max(1);
+        let (young, usual) = steps_between_looks(C::EVALUATIONS, system.cost_of_look(), C::JUDGED);
+        let every = guard.every.unwrap_or(usual).max(1);
         let first = if every == u32::MAX { every } else { 1 };
         Ok(Self {
             guard,
@@ -320,7 +317,8 @@ impl<R: Real, const N: usize> Watch<R, N> {
             }
             known.scale = scale;
         }
-        in_order(guard, found, vitals.residual.to_f64(), system.condition(reached.time, &reached.state))?;
+        let condition = system.condition(reached.time, &reached.state).to_f64();
+        in_order(guard, found, vitals.residual.to_f64(), condition)?;
         for (largest, entry) in known.largest.iter_mut().zip(&reached.state) {
             *largest = largest.max(entry.to_f64().abs());
         }
@@ -334,7 +332,7 @@ impl<R: Real, const N: usize> Watch<R, N> {
             let defects = course.defect(system, before);
             // In the first steps an entry that was zero has no size yet.
             let negligible = if *young > 0 { limit } else { libm::sqrt(R::epsilon().to_f64()) };
-            let worst = known.defects.add(&defects, steps, &known.largest, negligible);
+            let worst = worst(&known.defects.add(&defects, steps, &known.largest, negligible));
             if exceeds(worst.defect, limit) {
                 return Err(Cause::Step { found, entry: worst.entry, defect: worst.defect, limit });
             }
@@ -356,17 +354,26 @@ impl<R: Real, const N: usize> Known<R, N> {
     {
         let vitals = system.vitals(start.time, &start.state);
         let found = start.time.to_f64();
-        in_order(guard, found, vitals.residual.to_f64(), system.condition(start.time, &start.state))?;
+        let condition = system.condition(start.time, &start.state).to_f64();
+        in_order(guard, found, vitals.residual.to_f64(), condition)?;
         let largest = core::array::from_fn(|i| start.state[i].to_f64().abs());
-        let edges = Edges::new(system, start, &largest);
+        let edges = Edges::of(system, start, &largest);
         edges.look(system, start, &largest, guard.edge)?;
         let scale = vitals.scale.to_f64();
         Ok(Self { energy: vitals.energy, scale, edges, largest, defects: Defects::new() })
     }
 }
 
+/// Steps of so many evaluations after which sizes of entries are known, and between two looks.
+pub(super) fn steps_between_looks(evaluations: u32, cost_of_look: u32, judged: bool) -> (u32, u32) {
+    let young = (EVALUATIONS_BETWEEN_LOOKS / evaluations.max(1)).max(1);
+    let cost = cost_of_look.saturating_add(if judged { COST_OF_A_DEFECT } else { 0 });
+    let paid = cost.saturating_mul(COSTS_BETWEEN_LOOKS) / evaluations.max(1);
+    (young, young.max(paid))
+}
+
 /// Tests of one state that need nothing of the states before.
-fn in_order(guard: &Guard, found: f64, residual: f64, condition: f64) -> Result<(), Cause> {
+pub(super) fn in_order(guard: &Guard, found: f64, residual: f64, condition: f64) -> Result<(), Cause> {
     if exceeds(residual, guard.residual) {
         return Err(Cause::Residual { found, residual, limit: guard.residual });
     }
