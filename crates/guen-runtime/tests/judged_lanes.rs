@@ -1,6 +1,6 @@
 //! Guards of runs in lanes: every lane ends as it would alone, with the same cause, time and state, whatever its neighbours do.
 
-use guen_runtime::lanes::{Backend, LaneTask, Lanes, Width, dispatch_on};
+use guen_runtime::lanes::{Backend, LaneTask, Lanes, Mask, Width, dispatch_on};
 use guen_runtime::prelude::*;
 use guen_runtime::steppers::InLanes;
 use guen_runtime::{Rounded, Setting, Vitals, checks};
@@ -135,6 +135,9 @@ struct InEach<'a, const N: usize, F> {
     starts: &'a [[f64; N]],
     step: f64,
     times: &'a [f64],
+    /// By RK8 in place of RK4.
+    eight: bool,
+    guard: Guard,
 }
 
 impl<F: Faulty<N>, const N: usize> LaneTask for InEach<'_, N, F> {
@@ -147,24 +150,26 @@ impl<F: Faulty<N>, const N: usize> LaneTask for InEach<'_, N, F> {
             .map(|group| {
                 let start = core::array::from_fn(|i| L::from_fn(|lane| group[lane][i]));
                 let mut visits = 0;
-                let method = Rk4 { step: self.step };
-                let ends =
-                    method.sample_in_lanes(&self.system, 0.0, &start, self.times, |_, _, state, going| {
-                        visits += going.lanes().count();
-                        for lane in 0..L::COUNT {
-                            assert_eq!(
-                                going.contains(lane),
-                                state.iter().all(|entry| entry.lane(lane).is_finite())
-                            );
-                        }
-                    });
+                let visit = |_: usize, _: f64, state: &[L; N], going: Mask| {
+                    visits += going.lanes().count();
+                    for lane in 0..L::COUNT {
+                        let finite = state.iter().all(|entry| entry.lane(lane).is_finite());
+                        assert_eq!(going.contains(lane), finite);
+                    }
+                };
+                let Self { system, step, times, guard, .. } = &self;
+                let ends = if self.eight {
+                    Rk8::new(*step).guarded_in_lanes(system, (0.0, &start), times, *guard, visit)
+                } else {
+                    Rk4 { step: *step }.guarded_in_lanes(system, (0.0, &start), times, *guard, visit)
+                };
                 (ends, visits)
             })
             .collect()
     }
 }
 
-/// Compares the ends in lanes with those alone; returns how many arrived, and the causes of the others.
+/// Compares the ends in lanes with those alone, of both methods; returns how many arrived, and the causes of the others.
 fn compare<F: Faulty<N>, const N: usize>(
     of: F,
     starts: &[[f64; N]],
@@ -172,22 +177,33 @@ fn compare<F: Faulty<N>, const N: usize>(
     times: &[f64],
 ) -> (usize, Vec<Cause>) {
     let system = Of(of);
-    let mut visits = 0;
-    let alone: Vec<_> = starts
-        .iter()
-        .map(|start| Rk4 { step }.sample(&system, 0.0, start, times, |_, _, _| visits += 1))
-        .collect();
-    for backend in Backend::ALL {
-        for width in [Width::One, Width::Four, Width::Eight] {
-            let ends = dispatch_on(backend, width, InEach { system, starts, step, times });
-            assert_eq!(ends.iter().map(|(_, visits)| visits).sum::<usize>(), visits, "{backend:?} {width:?}");
-            let ends: Vec<_> = ends.into_iter().flat_map(|(ends, _)| ends).collect();
-            // As texts, for NaN is equal to nothing; they have all digits.
-            assert_eq!(format!("{ends:?}"), format!("{alone:?}"), "{backend:?} {width:?}");
+    let mut causes = Vec::new();
+    for eight in [false, true] {
+        let mut visits = 0;
+        let alone: Vec<_> = starts
+            .iter()
+            .map(|start| {
+                let visit = |_: usize, _: f64, _: &[f64; N]| visits += 1;
+                if eight {
+                    Rk8::new(step).sample(&system, 0.0, start, times, visit)
+                } else {
+                    Rk4 { step }.sample(&system, 0.0, start, times, visit)
+                }
+            })
+            .collect();
+        for backend in Backend::ALL {
+            for width in [Width::One, Width::Four, Width::Eight] {
+                let task = InEach { system, starts, step, times, eight, guard: Guard::default() };
+                let ends = dispatch_on(backend, width, task);
+                assert_eq!(ends.iter().map(|(_, visits)| visits).sum::<usize>(), visits);
+                let ends: Vec<_> = ends.into_iter().flat_map(|(ends, _)| ends).collect();
+                // As texts, for NaN is equal to nothing; they have all digits.
+                assert_eq!(format!("{ends:?}"), format!("{alone:?}"), "{backend:?} {width:?} {eight}");
+            }
         }
+        causes.extend(alone.iter().filter_map(|end| Some(end.as_ref().err()?.cause)));
     }
-    let causes: Vec<_> = alone.iter().filter_map(|end| Some(end.as_ref().err()?.cause)).collect();
-    (alone.len() - causes.len(), causes)
+    (2 * starts.len() - causes.len(), causes)
 }
 
 #[test]
@@ -221,7 +237,7 @@ fn an_edge_that_some_come_to() {
 fn steps_that_are_too_long_for_some() {
     let starts: Vec<[f64; 3]> = (0..32).map(|k| [1.3_f64.powi(k % 17), 1.0, 0.2 * f64::from(k)]).collect();
     let mut steps = 0;
-    for (step, span) in [(0.02, 20.0), (0.02, 0.02), (0.1, 0.3), (0.05, 3.01)] {
+    for (step, span) in [(0.02, 6.0), (0.02, 0.02), (0.1, 0.3), (0.05, 3.01)] {
         let (_, causes) = compare(Oscillator, &starts, step, &[span]);
         assert!(causes.iter().any(|cause| matches!(cause, Cause::Energy { .. } | Cause::Step { .. })));
         let (_, causes) = compare(Untold, &starts, step, &[span / 3.0, span]);
@@ -255,7 +271,39 @@ fn residuals_carried_functions_and_conditions_of_every_lane() {
 fn times_that_are_none() {
     let starts = [[1.0, 1.0, 0.0]; 8];
     let (_, causes) = compare(Untold, &starts, 0.02, &[1.0, f64::NAN]);
-    assert!(causes.iter().all(|cause| matches!(cause, Cause::Setting(Setting::Time))) && causes.len() == 8);
+    assert!(causes.iter().all(|cause| matches!(cause, Cause::Setting(Setting::Time))) && causes.len() == 16);
     let (_, causes) = compare(Untold, &starts, 0.0, &[1.0]);
-    assert!(causes.iter().all(|cause| matches!(cause, Cause::Setting(Setting::Step))) && causes.len() == 8);
+    assert!(causes.iter().all(|cause| matches!(cause, Cause::Setting(Setting::Step))) && causes.len() == 16);
+}
+
+#[test]
+fn limits_are_those_of_the_guard() {
+    let starts: Vec<[f64; 3]> = (0..16).map(|k| [1.0 + 0.3 * f64::from(k), 1.0, 0.0]).collect();
+    let strict = Guard { energy: 1e-12, step: 1e-12, every: Some(3), ..Guard::default() };
+    let wrong = Guard { edge: f64::NAN, ..Guard::default() };
+    let system = Of(Oscillator);
+    let times = [2.0];
+    let mut failed = Vec::new();
+    for guard in [strict, Guard::FINITE, wrong] {
+        for eight in [false, true] {
+            let alone: Vec<_> = starts
+                .iter()
+                .map(|start| {
+                    let run = Integration::new(&system, 0.0, start).guard(guard);
+                    if eight { run.run(&Rk8::new(0.05), 2.0) } else { run.run(&Rk4 { step: 0.05 }, 2.0) }
+                })
+                .collect();
+            for width in [Width::Four, Width::Eight] {
+                let task = InEach { system, starts: &starts, step: 0.05, times: &times, eight, guard };
+                let ends: Vec<_> = dispatch_on(Backend::best(), width, task)
+                    .into_iter()
+                    .flat_map(|(ends, _)| ends)
+                    .collect();
+                assert_eq!(ends, alone);
+            }
+            failed.push(alone.iter().filter(|end| end.is_err()).count());
+        }
+    }
+    assert!(failed[0] > 8 && failed[1] > 0 && failed[1] < failed[0], "{failed:?}");
+    assert_eq!(failed[2..], [0, 0, 16, 16]);
 }

@@ -87,13 +87,13 @@ impl Guard {
         every: Some(u32::MAX),
     };
 
-    fn is_valid(&self) -> bool {
+    pub(super) fn is_valid(&self) -> bool {
         let Self { energy, residual, carried, edge, condition, step, approach, .. } = *self;
         [energy, residual, carried, edge, condition, step, approach].iter().all(|limit| *limit >= 0.0)
     }
 
     /// The limits for a real: those given are meant for `f64`.
-    fn for_real<R: Real>(self) -> Self {
+    pub(super) fn for_real<R: Real>(self) -> Self {
         let ratio = R::epsilon().to_f64() / f64::EPSILON;
         // Of a real too long for a ratio of its rounding to be one.
         let ratio = if ratio > 0.0 { ratio } else { f64::MIN_POSITIVE };

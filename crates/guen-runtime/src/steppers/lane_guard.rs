@@ -101,18 +101,20 @@ struct Known<L, const N: usize> {
 }
 
 impl<L: Lanes, const N: usize> LaneWatch<L, N> {
-    pub fn new(evaluations: u32, cost_of_look: u32, start: &Moment<L, N>) -> Self {
-        let (young, every) = steps_between_looks(evaluations, cost_of_look, true);
+    pub fn new(guard: Guard, evaluations: u32, cost_of_look: u32, start: &Moment<L, N>) -> Self {
+        let (young, usual) = steps_between_looks(evaluations, cost_of_look, true);
+        let every = guard.every.unwrap_or(usual).max(1);
+        let first = if every == u32::MAX { every } else { 1 };
         Self {
-            guard: Guard::default(),
+            guard: guard.for_real::<L>(),
             every,
             young,
-            until_edges: young,
+            until_edges: if guard.every.is_none() { young } else { u32::MAX },
             made: 0,
-            due: 1,
-            until: [1; MOST],
-            rest: 1,
-            between: 1,
+            due: first,
+            until: [first; MOST],
+            rest: first,
+            between: first,
             good: *start,
             known: None,
         }
@@ -149,7 +151,8 @@ impl<L: Lanes, const N: usize> LaneWatch<L, N> {
         let mut faults = Faults::none();
         let is_whole = self.rest == 0;
         let seen = if is_whole {
-            let seen = self.whole(system, self.between, Some(defects()), now, going, &mut faults);
+            let defects = (self.guard.step < f64::INFINITY).then(defects);
+            let seen = self.whole(system, self.between, defects, now, going, &mut faults);
             (self.between, self.rest) = (self.every, self.every);
             seen
         } else {
@@ -190,11 +193,12 @@ impl<L: Lanes, const N: usize> LaneWatch<L, N> {
         going: Mask,
     ) -> Faults<N> {
         let mut faults = Faults::none();
-        let steps = self.between + self.made - self.rest;
-        if steps == 0 {
+        let steps = (self.between - self.rest).saturating_add(self.made);
+        if steps == 0 || self.every == u32::MAX {
             return faults;
         }
-        let seen = self.whole(system, steps, before.map(|_| defects()), now, going, &mut faults);
+        let judged = before.is_some() && self.guard.step < f64::INFINITY;
+        let seen = self.whole(system, steps, judged.then(defects), now, going, &mut faults);
         if let (Some(known), Some(to), Some(before)) = (&self.known, &seen, before) {
             let from = known.functions(system, before);
             for lane in (going - faults.lanes).lanes() {
@@ -219,7 +223,7 @@ impl<L: Lanes, const N: usize> LaneWatch<L, N> {
         cause: Cause,
     ) -> Faults<N> {
         let mut faults = Faults::none();
-        if now.time != self.good.time {
+        if now.time != self.good.time && self.every != u32::MAX {
             let before = (self.known, self.good, self.young);
             self.whole(system, 0, None, now, stopped, &mut faults);
             (self.known, self.good, self.young) = before;

@@ -5,8 +5,10 @@
 
 use super::course::{Done, Outcome, Statistics};
 use super::fixed::Leg;
+use super::guard::Guard;
 use super::lane_guard::{Fault, Faults, LaneWatch, MOST, Moment};
 use super::rk4::Rk4;
+use super::rk8::Rk8;
 use crate::error::{Cause, IntegrationError, Setting};
 use crate::lanes::{Lanes, Mask};
 use crate::system::System;
@@ -76,7 +78,7 @@ impl<const N: usize> IntoIterator for InLanes<N> {
 
 /// The two ways to run a method in lanes.
 macro_rules! ways_in_lanes {
-    ($Method:ident) => {
+    ($(#[$example:meta])* $Method:ident) => {
         impl $Method<f64> {
             /// Integrates the states in the lanes of `x0`, all from `t0` through the given times, and calls `visit` with the
             /// index, the time, the states and the lanes still going at each of them. In each lane the result is that of
@@ -97,38 +99,30 @@ macro_rules! ways_in_lanes {
                 S: System<L, N> + ?Sized,
                 V: FnMut(usize, f64, &[L; N], Mask),
             {
-                sample(self, system, t0, x0, times, visit)
+                sample(self, system, t0, x0, times, Guard::default(), visit)
+            }
+
+            /// The same with limits in place of the default ones; in each lane the result is that of an
+            /// [`Integration`](super::Integration) with this guard for that lane alone that lands on the same times.
+            pub fn guarded_in_lanes<L, S, V, const N: usize>(
+                &self,
+                system: &S,
+                (t0, x0): (f64, &[L; N]),
+                times: &[f64],
+                guard: Guard,
+                visit: V,
+            ) -> InLanes<N>
+            where
+                L: Lanes,
+                S: System<L, N> + ?Sized,
+                V: FnMut(usize, f64, &[L; N], Mask),
+            {
+                sample(self, system, t0, x0, times, guard, visit)
             }
 
             /// Integrates the states in the lanes of `x0` from `t0` to `t1`; in each lane as [`integrate`](Rk4::integrate).
             ///
-            /// ```
-            /// use guen_runtime::lanes::{LaneTask, Lanes, Width, dispatch};
-            /// use guen_runtime::steppers::{InLanes, Rk4};
-            /// use guen_runtime::{Real, System};
-            ///
-            /// /// `x' = 1 / x`: it fails where it starts at zero.
-            /// struct Root;
-            /// impl<R: Real> System<R, 1> for Root {
-            ///     fn rhs(&self, _t: R, &[x]: &[R; 1]) -> [R; 1] {
-            ///         [x.recip()]
-            ///     }
-            /// }
-            ///
-            /// struct Roots;
-            /// impl LaneTask for Roots {
-            ///     type Output = InLanes<1>;
-            ///     fn run<L: Lanes>(self) -> InLanes<1> {
-            ///         Rk4 { step: 0.01 }.integrate_in_lanes(&Root, 0.0, &[L::from_fn(|i| i as f64)], 1.5)
-            ///     }
-            /// }
-            ///
-            /// let ends = dispatch(Width::Four, Roots);
-            /// assert_eq!(ends.failed().lanes().collect::<Vec<_>>(), [0]);
-            /// // x^2 = x0^2 + 2 t
-            /// let one = ends.lane(1).unwrap().unwrap();
-            /// assert!((one.state[0] - 2.0).abs() < 1e-8);
-            /// ```
+            $(#[$example])*
             pub fn integrate_in_lanes<L, S, const N: usize>(
                 &self,
                 system: &S,
@@ -140,13 +134,72 @@ macro_rules! ways_in_lanes {
                 L: Lanes,
                 S: System<L, N> + ?Sized,
             {
-                sample(self, system, t0, x0, &[t1], |_, _, _, _| ())
+                sample(self, system, t0, x0, &[t1], Guard::default(), |_, _, _, _| ())
             }
         }
     };
 }
 
-ways_in_lanes!(Rk4);
+ways_in_lanes! {
+    /// ```
+    /// use guen_runtime::lanes::{LaneTask, Lanes, Width, dispatch};
+    /// use guen_runtime::steppers::{InLanes, Rk4};
+    /// use guen_runtime::{Real, System};
+    ///
+    /// /// `x' = 1 / x`: it fails where it starts at zero.
+    /// struct Root;
+    /// impl<R: Real> System<R, 1> for Root {
+    ///     fn rhs(&self, _t: R, &[x]: &[R; 1]) -> [R; 1] {
+    ///         [x.recip()]
+    ///     }
+    /// }
+    ///
+    /// struct Roots;
+    /// impl LaneTask for Roots {
+    ///     type Output = InLanes<1>;
+    ///     fn run<L: Lanes>(self) -> InLanes<1> {
+    ///         Rk4 { step: 0.01 }.integrate_in_lanes(&Root, 0.0, &[L::from_fn(|i| i as f64)], 1.5)
+    ///     }
+    /// }
+    ///
+    /// let ends = dispatch(Width::Four, Roots);
+    /// assert_eq!(ends.failed().lanes().collect::<Vec<_>>(), [0]);
+    /// // x^2 = x0^2 + 2 t
+    /// let one = ends.lane(1).unwrap().unwrap();
+    /// assert!((one.state[0] - 2.0).abs() < 1e-8);
+    /// ```
+    Rk4
+}
+ways_in_lanes! {
+    /// ```
+    /// use guen_runtime::lanes::{LaneTask, Lanes, Width, dispatch};
+    /// use guen_runtime::steppers::{InLanes, Rk8};
+    /// use guen_runtime::{Real, System};
+    ///
+    /// /// `x' = 1 / x`: it fails where it starts at zero.
+    /// struct Root;
+    /// impl<R: Real> System<R, 1> for Root {
+    ///     fn rhs(&self, _t: R, &[x]: &[R; 1]) -> [R; 1] {
+    ///         [x.recip()]
+    ///     }
+    /// }
+    ///
+    /// struct Roots;
+    /// impl LaneTask for Roots {
+    ///     type Output = InLanes<1>;
+    ///     fn run<L: Lanes>(self) -> InLanes<1> {
+    ///         Rk8::new(0.01).integrate_in_lanes(&Root, 0.0, &[L::from_fn(|i| i as f64)], 1.5)
+    ///     }
+    /// }
+    ///
+    /// let ends = dispatch(Width::Four, Roots);
+    /// assert_eq!(ends.failed().lanes().collect::<Vec<_>>(), [0]);
+    /// // x^2 = x0^2 + 2 t
+    /// let one = ends.lane(1).unwrap().unwrap();
+    /// assert!((one.state[0] - 2.0).abs() < 1e-12);
+    /// ```
+    Rk8
+}
 
 fn sample<M, L, S, V, const N: usize>(
     method: &M,
@@ -154,6 +207,7 @@ fn sample<M, L, S, V, const N: usize>(
     t0: f64,
     x0: &[L; N],
     times: &[f64],
+    guard: Guard,
     mut visit: V,
 ) -> InLanes<N>
 where
@@ -164,6 +218,7 @@ where
 {
     const { assert!(L::COUNT <= MOST, "there is no room for the ends of so many lanes") };
     let start = Moment { time: t0, state: *x0 };
+    let invalid = (!guard.is_valid()).then_some(Cause::Setting(Setting::Guard));
     let (formula, step, memory) = method.ready();
     let mut run: Run<'_, M, L, S, N> = Run {
         system,
@@ -175,12 +230,13 @@ where
         statistics: Statistics::default(),
         going: Mask::all(L::COUNT),
         ends: InLanes { ends: [const { None }; MOST] },
-        watch: LaneWatch::new(M::EVALUATIONS, system.cost_of_look(), &start),
+        watch: LaneWatch::new(guard, M::EVALUATIONS, system.cost_of_look(), &start),
     };
     for (index, &time) in times.iter().enumerate() {
-        if !time.is_finite() {
+        let none = (!time.is_finite()).then_some(Cause::Setting(Setting::Time));
+        if let Some(cause) = invalid.or(none) {
             for lane in run.going.lanes() {
-                run.fail(lane, Fault::new(lane, Cause::Setting(Setting::Time), &run.now));
+                run.fail(lane, Fault::new(lane, cause, &run.now));
             }
         }
         let outcome = L::vectorize(
