@@ -281,7 +281,7 @@ pub fn largest<R: Real>(values: &[R]) -> R {
         let size = value.abs();
         most = size.where_above(most, size, most);
         // Zero, unless it is not finite: what is compared with NaN would be taken for larger.
-        rest += size - size;
+        rest += size * R::zero();
     }
     most + rest
 }

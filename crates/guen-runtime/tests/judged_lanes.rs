@@ -251,7 +251,7 @@ fn steps_that_are_too_long_for_some() {
     let mut starts = starts;
     starts[5][1] = f64::NAN;
     let (_, causes) = compare(Untold, &starts, 3e9, &[1.5e11]);
-    assert!(causes.iter().any(|cause| *cause == Cause::NotFinite));
+    assert!(causes.contains(&Cause::NotFinite));
 }
 
 #[test]

@@ -78,6 +78,8 @@ fn everything<R: Real>(a: R, b: R, c: R) -> Vec<R> {
         a.times_plus(b, c),
         a.times_minus(b, c),
         a.minus_times(b, c),
+        a.where_above(b, c, a),
+        R::each_alone(|alone| alone(b) - alone(c)),
         R::from_ratio(1, 3),
         R::from_parts(&[(3, -1)]),
         R::from_f64(0.1),

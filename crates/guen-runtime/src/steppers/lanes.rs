@@ -76,7 +76,38 @@ impl<const N: usize> IntoIterator for InLanes<N> {
     }
 }
 
-/// The two ways to run a method in lanes.
+/// A method that integrates in lanes: [`Rk4`] and [`Rk8`], for code that is generic in the method. Each has these functions by
+/// itself too.
+///
+/// ```
+/// use guen_runtime::steppers::{LaneMethod, Rk4, Rk8};
+///
+/// fn steps(method: &impl LaneMethod, span: f64) -> f64 {
+///     span / method.step()
+/// }
+/// assert_eq!((steps(&Rk4 { step: 0.25 }, 1.0), steps(&Rk8::new(0.5), 1.0)), (4.0, 2.0));
+/// ```
+pub trait LaneMethod {
+    /// The step, in units of time.
+    fn step(&self) -> f64;
+
+    /// Integrates the states in the lanes of `x0` from `t0` through the given times: see
+    /// [`Rk4::sample_in_lanes`].
+    fn sample_in_lanes<L, S, V, const N: usize>(
+        &self,
+        system: &S,
+        t0: f64,
+        x0: &[L; N],
+        times: &[f64],
+        visit: V,
+    ) -> InLanes<N>
+    where
+        L: Lanes,
+        S: System<L, N> + ?Sized,
+        V: FnMut(usize, f64, &[L; N], Mask);
+}
+
+/// The ways to run a method in lanes.
 macro_rules! ways_in_lanes {
     ($(#[$example:meta])* $Method:ident) => {
         impl $Method<f64> {
@@ -135,6 +166,28 @@ macro_rules! ways_in_lanes {
                 S: System<L, N> + ?Sized,
             {
                 sample(self, system, t0, x0, &[t1], Guard::default(), |_, _, _, _| ())
+            }
+        }
+
+        impl LaneMethod for $Method<f64> {
+            fn step(&self) -> f64 {
+                self.step
+            }
+
+            fn sample_in_lanes<L, S, V, const N: usize>(
+                &self,
+                system: &S,
+                t0: f64,
+                x0: &[L; N],
+                times: &[f64],
+                visit: V,
+            ) -> InLanes<N>
+            where
+                L: Lanes,
+                S: System<L, N> + ?Sized,
+                V: FnMut(usize, f64, &[L; N], Mask),
+            {
+                sample(self, system, t0, x0, times, Guard::default(), visit)
             }
         }
     };

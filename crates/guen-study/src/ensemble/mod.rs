@@ -8,7 +8,7 @@ mod threads;
 use std::marker::PhantomData;
 
 use guen_runtime::lanes::{Backend, LaneTask, Lanes, Width, dispatch_on};
-use guen_runtime::steppers::{Done, Rk4};
+use guen_runtime::steppers::{Done, LaneMethod};
 use guen_runtime::{Choice, IntegrationError, Laned, Own};
 
 use threads::{in_turn, processors};
@@ -163,8 +163,8 @@ impl<S, const N: usize, C> Ensemble<S, N, C> {
 impl<S: Laned<N> + Sync, const N: usize, C: Choice> Ensemble<S, N, C> {
     /// Integrates every member from `t0` to `t1`.
     ///
-    /// The end of each is that of [`Rk4::integrate`] for it alone, to the bit.
-    pub fn integrate(&self, method: &Rk4, t0: f64, t1: f64) -> Vec<End<N>> {
+    /// The end of each is that of the method's `integrate` for it alone, to the bit.
+    pub fn integrate<M: LaneMethod + Sync>(&self, method: &M, t0: f64, t1: f64) -> Vec<End<N>> {
         self.run(
             &Task { ensemble: self, method, t0, times: &[t1], visit: |_: &mut (), _| () },
             |((), end)| end,
@@ -173,15 +173,15 @@ impl<S: Laned<N> + Sync, const N: usize, C: Choice> Ensemble<S, N, C> {
 
     /// Integrates every member from `t0` through the given times, which may turn back, and keeps the states at them.
     ///
-    /// The states and the end of each are those of [`Rk4::sample`] for it alone, to the bit.
-    pub fn sample(&self, method: &Rk4, t0: f64, times: &[f64]) -> Vec<Sampled<N>> {
+    /// The states and the end of each are those of the method's `sample` for it alone, to the bit.
+    pub fn sample<M: LaneMethod + Sync>(&self, method: &M, t0: f64, times: &[f64]) -> Vec<Sampled<N>> {
         let visit = |states: &mut Vec<[f64; N]>, state| states.push(state);
         self.run(&Task { ensemble: self, method, t0, times, visit }, |(states, end)| Sampled { states, end })
     }
 
-    fn run<K: Default + Send, V, T: Send>(
+    fn run<K: Default + Send, M: LaneMethod + Sync, V, T: Send>(
         &self,
-        task: &Task<'_, S, V, N, C>,
+        task: &Task<'_, S, M, V, N, C>,
         result: impl Fn((K, End<N>)) -> T + Sync,
     ) -> Vec<T>
     where
@@ -197,37 +197,38 @@ impl<S: Laned<N> + Sync, const N: usize, C: Choice> Ensemble<S, N, C> {
     }
 
     /// As many threads as were asked for, or as there are processors, unless the work is done before a second one begins.
-    fn threads_for<V>(&self, task: &Task<'_, S, V, N, C>) -> usize {
+    fn threads_for<M: LaneMethod, V>(&self, task: &Task<'_, S, M, V, N, C>) -> usize {
         /// Entries of the state times steps of a group of lanes: some 17 ns each, so that they take as long as it takes to
         /// start a thread.
         const LITTLE: f64 = 2500.0;
         let ends = std::iter::once(&task.t0).chain(task.times);
         let span: f64 = ends.zip(task.times).map(|(from, to)| (to - from).abs()).sum();
         let groups = self.len().div_ceil(self.width.lanes());
-        let work = span / task.method.step * groups as f64 * N as f64;
+        let work = span / task.method.step() * groups as f64 * N as f64;
         if work < LITTLE { 1 } else { self.threads.unwrap_or_else(processors) }
     }
 }
 
 /// What is done with all members: `visit` is shown the states at the times.
-struct Task<'a, S, V, const N: usize, C> {
+struct Task<'a, S, M, V, const N: usize, C> {
     ensemble: &'a Ensemble<S, N, C>,
-    method: &'a Rk4,
+    method: &'a M,
     t0: f64,
     times: &'a [f64],
     visit: V,
 }
 
 /// The task for as many members as there are lanes, from `first` on.
-struct Group<'a, S, K, V, const N: usize, C> {
-    task: &'a Task<'a, S, V, N, C>,
+struct Group<'a, S, M, K, V, const N: usize, C> {
+    task: &'a Task<'a, S, M, V, N, C>,
     first: usize,
     kept: PhantomData<K>,
 }
 
-impl<S, K, V, const N: usize, C> LaneTask for Group<'_, S, K, V, N, C>
+impl<S, M, K, V, const N: usize, C> LaneTask for Group<'_, S, M, K, V, N, C>
 where
     S: Laned<N>,
+    M: LaneMethod,
     K: Default,
     V: Fn(&mut K, [f64; N]),
     C: Choice,
