@@ -129,6 +129,13 @@ impl Mask {
         lane < 32 && self.0 >> lane & 1 == 1
     }
 
+    /// The lanes in either.
+    #[inline(always)]
+    #[must_use]
+    pub fn or(self, other: Self) -> Self {
+        Self(self.0 | other.0)
+    }
+
     /// The same set with one lane more, below 32.
     #[inline(always)]
     #[must_use]
@@ -138,7 +145,12 @@ impl Mask {
 
     /// The indices of its lanes.
     pub fn lanes(self) -> impl Iterator<Item = usize> {
-        (0..32).filter(move |lane| self.contains(*lane))
+        let mut rest = self.0;
+        core::iter::from_fn(move || {
+            let lane = (rest != 0).then(|| rest.trailing_zeros() as usize);
+            rest &= rest.wrapping_sub(1);
+            lane
+        })
     }
 }
 

@@ -36,18 +36,29 @@ impl<R: Real, const N: usize> Defects<R, N> {
         Self { sum: [R::zero(); N], last: None }
     }
 
-    /// Takes the estimated errors of a step for those of `steps` of them, and returns what to judge every entry by;
-    /// `negligible` is the part of the largest entry that counts as zero.
+    /// Takes the estimated errors of a step for those of `steps` of them, and returns the largest of what every entry is
+    /// [`judged`](Defects::judged) by; `negligible` is the part of the largest entry that counts as zero.
     #[inline(always)]
-    pub fn add(&mut self, found: &[R; N], steps: u32, largest: &[R; N], negligible: f64) -> [R; N] {
+    pub fn add(&mut self, found: &[R; N], steps: u32, largest: &[R; N], negligible: f64) -> R {
         let defects = relative(found, largest, negligible);
         let last = self.last.replace(defects).unwrap_or(defects);
-        let mut judged = defects;
+        let mut most = R::zero();
         for i in 0..N {
             // The smaller of two: a jump of the rates, which one step in many passes, stands for itself alone.
             let smaller = defects[i].where_above(last[i], last[i], defects[i]);
             self.sum[i] += R::from_f64(f64::from(steps)) * smaller;
-            judged[i] = self.sum[i].where_above(defects[i], self.sum[i], defects[i]);
+            let judged = self.sum[i].where_above(defects[i], self.sum[i], defects[i]);
+            most = judged.where_above(most, judged, most);
+        }
+        most
+    }
+
+    /// What every entry was judged by last, in one lane.
+    pub fn judged(&self, alone: impl Fn(R) -> f64) -> [f64; N] {
+        let mut judged = [0.0; N];
+        for i in 0..N {
+            let (sum, last) = (alone(self.sum[i]), self.last.map_or(0.0, |last| alone(last[i])));
+            judged[i] = if sum <= last { last } else { sum };
         }
         judged
     }

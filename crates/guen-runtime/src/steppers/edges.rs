@@ -1,7 +1,6 @@
 //! The functions that must not vanish, as a guard watches them: how near the edge of the chart is, and whether the steps
 //! are short enough for it.
 
-use super::course::Reached;
 use crate::error::Cause;
 use crate::real::Real;
 use crate::rounded::Rounded;
@@ -28,43 +27,12 @@ impl Edges {
         Self { count, negative }
     }
 
-    /// Of the start, with the largest value that each entry of the state has had.
-    pub fn of<R: Real, S, const N: usize>(system: &S, start: &Reached<R, N>, largest: &[f64; N]) -> Self
-    where
-        S: System<R, N> + ?Sized,
-    {
-        let (count, values) = of_reached(system, start, largest);
-        Self::new(count, |function| values.get(function).map_or(0.0, |value| value.value.to_f64()))
-    }
-
     /// Whether there are any.
     pub fn are_there(&self) -> bool {
         self.count > 0
     }
 
-    /// Whether a state is on the same side as the start, and further than the limit from the edge.
-    pub fn look<R: Real, S, const N: usize>(
-        &self,
-        system: &S,
-        reached: &Reached<R, N>,
-        largest: &[f64; N],
-        limit: f64,
-    ) -> Result<(), Cause>
-    where
-        S: System<R, N> + ?Sized,
-    {
-        if self.count == 0 {
-            return Ok(());
-        }
-        let (_, values) = of_reached(system, reached, largest);
-        self.distances(
-            values.iter().map(|value| (value.value.to_f64(), value.left().to_f64())),
-            reached.time.to_f64(),
-            limit,
-        )
-    }
-
-    /// The same for values and what is left of them.
+    /// Whether values, and what is left of them, are on the same side as at the start and further than the limit from the edge.
     pub fn distances(
         &self,
         values: impl Iterator<Item = (f64, f64)>,
@@ -80,30 +48,9 @@ impl Edges {
         Ok(())
     }
 
-    /// In how many steps to look again, judged by the step from `before` to `reached`: in half of those after which the
+    /// In how many steps to look again, judged by the values before and after a step: in half of those after which the
     /// nearest edge would be reached at this pace. An error where one step changed a function by more than the factor
     /// `limit`: what divides by it is a pole that such steps do not resolve.
-    pub fn approach<R: Real, S, const N: usize>(
-        &self,
-        system: &S,
-        before: &Reached<R, N>,
-        reached: &Reached<R, N>,
-        largest: &[f64; N],
-        limit: f64,
-    ) -> Result<u32, Cause>
-    where
-        S: System<R, N> + ?Sized,
-    {
-        if self.count == 0 {
-            return Ok(u32::MAX);
-        }
-        let (_, from) = of_reached(system, before, largest);
-        let (_, to) = of_reached(system, reached, largest);
-        let values = from.iter().zip(&to).map(|(from, to)| (from.value.to_f64(), to.value.to_f64()));
-        self.paces(values, reached.time.to_f64(), limit)
-    }
-
-    /// The same for values before and after a step.
     pub fn paces(
         &self,
         values: impl Iterator<Item = (f64, f64)>,
@@ -127,29 +74,21 @@ impl Edges {
     }
 }
 
-fn of_reached<R: Real, S, const N: usize>(
+/// Writes the functions that must not vanish, where every entry is uncertain by a rounding of the largest value it has had, and
+/// returns how many they are.
+pub(super) fn functions<R: Real, S, const N: usize>(
     system: &S,
-    reached: &Reached<R, N>,
-    largest: &[f64; N],
-) -> (usize, [Rounded<R>; EDGES])
-where
-    S: System<R, N> + ?Sized,
-{
-    values(system, reached, &largest.map(R::from_f64))
-}
-
-/// The functions that must not vanish and how many they are, where every entry is uncertain by a rounding of the largest
-/// value it has had.
-pub(super) fn values<R: Real, S, const N: usize>(
-    system: &S,
-    reached: &Reached<R, N>,
+    time: R,
+    state: &[R; N],
     largest: &[R; N],
-) -> (usize, [Rounded<R>; EDGES])
+    into: &mut [Rounded<R>; EDGES],
+) -> usize
 where
     S: System<R, N> + ?Sized,
 {
-    let mut values = [Rounded::exact(R::zero()); EDGES];
-    let state = core::array::from_fn(|i| Rounded { value: reached.state[i], error: largest[i] });
-    let edges = system.edges(Rounded::once(reached.time), &state, &mut values);
-    (edges.min(EDGES), values)
+    let mut rounded = [Rounded::exact(time); N];
+    for ((entry, value), error) in rounded.iter_mut().zip(state).zip(largest) {
+        *entry = Rounded { value: *value, error: *error };
+    }
+    system.edges(Rounded::once(time), &rounded, into).min(EDGES)
 }

@@ -10,9 +10,10 @@
 
 use super::course::{Course, Reached};
 use super::defect::{Defects, worst};
-use super::edges::Edges;
+use super::edges::{EDGES, Edges, functions};
 use crate::error::{Cause, IntegrationError, Setting};
 use crate::real::Real;
+use crate::rounded::Rounded;
 use crate::system::System;
 
 /// A look is taken after at least so many right-hand sides,
@@ -143,6 +144,8 @@ struct Known<R, const N: usize> {
     energy: Option<R>,
     scale: f64,
     edges: Edges,
+    /// The functions that must not vanish, as the look before had them.
+    functions: [Rounded<R>; EDGES],
     /// The largest absolute value of each entry of the state.
     largest: [f64; N],
     defects: Defects<f64, N>,
@@ -219,8 +222,8 @@ impl<R: Real, const N: usize> Watch<R, N> {
         if rest == 0 {
             self.look(system, self.between, before, course)?;
             (self.between, rest) = (self.every, self.every);
-        } else if let Some(known) = &self.known {
-            known.edges.look(system, course.reached(), &known.largest, self.guard.edge)?;
+        } else if let Some(known) = &mut self.known {
+            known.look_at_edges(system, course.reached(), self.guard.edge)?;
         }
         let watched = self.known.as_ref().is_some_and(|known| known.edges.are_there());
         let edges = if watched { self.until_edges } else { u32::MAX };
@@ -270,7 +273,7 @@ impl<R: Real, const N: usize> Watch<R, N> {
         Reached { statistics: reached.statistics, ..self.good }
     }
 
-    /// In how many steps of a fixed length to look at the edges again.
+    /// In how many steps of a fixed length to look at the edges again, after they were looked at where the run stands.
     fn approach<S>(
         &self,
         system: &S,
@@ -283,7 +286,7 @@ impl<R: Real, const N: usize> Watch<R, N> {
         let (Some(known), Some(before), true) = (&self.known, before, self.fixed) else {
             return Ok(u32::MAX);
         };
-        known.edges.approach(system, before, reached, &known.largest, self.guard.approach)
+        known.approach(system, before, reached.time.to_f64(), self.guard.approach)
     }
 
     /// Looks at the state where the course stands, for so many steps; `before` is where the last of them began.
@@ -322,7 +325,7 @@ impl<R: Real, const N: usize> Watch<R, N> {
         for (largest, entry) in known.largest.iter_mut().zip(&reached.state) {
             *largest = largest.max(entry.to_f64().abs());
         }
-        known.edges.look(system, reached, &known.largest, guard.edge)?;
+        known.look_at_edges(system, reached, guard.edge)?;
         *young = young.saturating_sub(steps);
         let limit = guard.step;
         if let Some(before) = before
@@ -332,8 +335,8 @@ impl<R: Real, const N: usize> Watch<R, N> {
             let defects = course.defect(system, before);
             // In the first steps an entry that was zero has no size yet.
             let negligible = if *young > 0 { limit } else { libm::sqrt(R::epsilon().to_f64()) };
-            let worst = worst(&known.defects.add(&defects, steps, &known.largest, negligible));
-            if exceeds(worst.defect, limit) {
+            if exceeds(known.defects.add(&defects, steps, &known.largest, negligible), limit) {
+                let worst = worst(&known.defects.judged(|entry| entry));
                 return Err(Cause::Step { found, entry: worst.entry, defect: worst.defect, limit });
             }
         }
@@ -357,10 +360,56 @@ impl<R: Real, const N: usize> Known<R, N> {
         let condition = system.condition(start.time, &start.state).to_f64();
         in_order(guard, found, vitals.residual.to_f64(), condition)?;
         let largest = core::array::from_fn(|i| start.state[i].to_f64().abs());
-        let edges = Edges::of(system, start, &largest);
-        edges.look(system, start, &largest, guard.edge)?;
+        let mut functions = [Rounded::exact(R::zero()); EDGES];
+        let count = Self::write(system, start, &largest, &mut functions);
+        let edges = Edges::new(count, |i| functions.get(i).map_or(0.0, |value| value.value.to_f64()));
         let scale = vitals.scale.to_f64();
-        Ok(Self { energy: vitals.energy, scale, edges, largest, defects: Defects::new() })
+        let known = Self { energy: vitals.energy, scale, edges, functions, largest, defects: Defects::new() };
+        known.distances(found, guard.edge)?;
+        Ok(known)
+    }
+
+    fn write<S>(system: &S, at: &Reached<R, N>, largest: &[f64; N], into: &mut [Rounded<R>; EDGES]) -> usize
+    where
+        S: System<R, N> + ?Sized,
+    {
+        let mut sizes = at.state;
+        for (size, largest) in sizes.iter_mut().zip(largest) {
+            *size = R::from_f64(*largest);
+        }
+        functions(system, at.time, &at.state, &sizes, into)
+    }
+
+    fn distances(&self, found: f64, limit: f64) -> Result<(), Cause> {
+        let values = self.functions.iter().map(|value| (value.value.to_f64(), value.left().to_f64()));
+        self.edges.distances(values, found, limit)
+    }
+
+    /// Whether a state is on the same side of the edges as the start, and further than the limit from them.
+    fn look_at_edges<S>(&mut self, system: &S, reached: &Reached<R, N>, limit: f64) -> Result<(), Cause>
+    where
+        S: System<R, N> + ?Sized,
+    {
+        if !self.edges.are_there() {
+            return Ok(());
+        }
+        Self::write(system, reached, &self.largest, &mut self.functions);
+        self.distances(reached.time.to_f64(), limit)
+    }
+
+    /// In how many steps to look at the edges again, judged by the step that began at `before` and led to where they were
+    /// looked at last.
+    fn approach<S>(&self, system: &S, before: &Reached<R, N>, found: f64, limit: f64) -> Result<u32, Cause>
+    where
+        S: System<R, N> + ?Sized,
+    {
+        if !self.edges.are_there() {
+            return Ok(u32::MAX);
+        }
+        let mut from = [Rounded::exact(R::zero()); EDGES];
+        Self::write(system, before, &self.largest, &mut from);
+        let values = from.iter().zip(&self.functions);
+        self.edges.paces(values.map(|(from, to)| (from.value.to_f64(), to.value.to_f64())), found, limit)
     }
 }
 

@@ -1,12 +1,12 @@
 //! The guard of runs in lanes: it judges every lane as [`Watch`](super::guard::Watch) judges a run alone, with the same limits,
 //! after the same steps and in the same order, so that a lane ends with the error that it would have had alone.
 //!
-//! What is looked at is computed in all lanes at once, and the sizes of it too; what is left for each lane is a handful of
-//! comparisons.
+//! What is looked at is computed and compared with the limits in all lanes at once; where a lane could be beyond one of them, that
+//! lane is judged alone.
 
 use super::course::Reached;
 use super::defect::{Defects, Worst, worst};
-use super::edges::{EDGES, Edges, values};
+use super::edges::{EDGES, Edges, functions};
 use super::guard::{Guard, exceeds, in_order, steps_between_looks};
 use crate::error::Cause;
 use crate::lanes::{Lanes, Mask};
@@ -60,6 +60,11 @@ impl<const N: usize> Faults<N> {
         Self { lanes: Mask::all(0), of: [None; MOST] }
     }
 
+    /// They are no longer of interest.
+    fn forget(&mut self) {
+        self.lanes = Mask::all(0);
+    }
+
     fn add<L: Lanes>(&mut self, lane: usize, cause: Cause, good: &Moment<L, N>) {
         self.lanes = self.lanes.with(lane);
         self.of[lane] = Some(Fault::new(lane, cause, good));
@@ -85,6 +90,8 @@ pub(super) struct LaneWatch<L, const N: usize> {
     /// Where the last look found everything in order, in lanes that are going.
     good: Moment<L, N>,
     known: Option<Known<L, N>>,
+    /// What the last call has found.
+    pub faults: Faults<N>,
 }
 
 /// What looks learn, the first one from the initial state.
@@ -95,6 +102,10 @@ struct Known<L, const N: usize> {
     /// How many functions there are that must not vanish.
     count: usize,
     edges: [Edges; MOST],
+    /// What they were at the start, are where they were looked at last, and were a step before that.
+    start: [L; EDGES],
+    functions: [Rounded<L>; EDGES],
+    before: [Rounded<L>; EDGES],
     /// The largest absolute value of each entry of the state.
     largest: [L; N],
     defects: Defects<L, N>,
@@ -117,6 +128,7 @@ impl<L: Lanes, const N: usize> LaneWatch<L, N> {
             between: first,
             good: *start,
             known: None,
+            faults: Faults::none(),
         }
     }
 
@@ -142,43 +154,45 @@ impl<L: Lanes, const N: usize> LaneWatch<L, N> {
         now: &Moment<L, N>,
         defects: impl FnOnce() -> [L; N],
         going: Mask,
-    ) -> Faults<N> {
+    ) {
+        self.faults.forget();
         for until in &mut self.until {
             *until -= (*until).min(self.made);
         }
         self.rest -= self.rest.min(self.made);
         self.made = 0;
-        let mut faults = Faults::none();
         let is_whole = self.rest == 0;
-        let seen = if is_whole {
+        if is_whole {
             let defects = (self.guard.step < f64::INFINITY).then(defects);
-            let seen = self.whole(system, self.between, defects, now, going, &mut faults);
+            self.whole(system, self.between, defects, now, going);
             (self.between, self.rest) = (self.every, self.every);
-            seen
-        } else {
-            self.known.as_ref().and_then(|known| known.edges_at(system, now))
-        };
-        let limits = self.guard;
-        match (&self.known, &seen) {
-            (Some(known), Some(to)) => {
-                let from = known.functions(system, before);
+        }
+        let Self { guard, known, faults, until, rest, until_edges, good, .. } = self;
+        match known {
+            Some(known) if known.count > 0 => {
+                if !is_whole {
+                    known.look_at_edges(system, now);
+                }
+                let suspects = if is_whole { Mask::all(0) } else { known.suspects(guard.edge) };
+                let soonest = known.paces(system, before, guard.approach);
                 for lane in (going - faults.lanes).lanes() {
-                    if self.until[lane] > 0 {
+                    if until[lane] > 0 {
                         continue;
                     }
-                    let edges = &known.edges[lane];
-                    let distances = || edges.distances(to.distances(lane), now.time, limits.edge);
-                    let apart = if is_whole { Ok(()) } else { distances() };
-                    match apart.and_then(|()| edges.paces(to.paces(&from, lane), now.time, limits.approach)) {
-                        Ok(soonest) => self.until[lane] = self.rest.min(self.until_edges).min(soonest),
-                        Err(cause) => faults.add(lane, cause, &self.good),
+                    let distances = if suspects.contains(lane) {
+                        known.distances(lane, now.time, guard.edge)
+                    } else {
+                        Ok(())
+                    };
+                    match distances.and_then(|()| known.pace(lane, soonest, now.time, guard.approach)) {
+                        Ok(soonest) => until[lane] = (*rest).min(*until_edges).min(soonest),
+                        Err(cause) => faults.add(lane, cause, good),
                     }
                 }
             }
-            _ => self.until = [self.rest; MOST],
+            _ => *until = [*rest; MOST],
         }
         self.due = self.until.into_iter().filter(|until| *until > 0).fold(self.rest, u32::min);
-        faults
     }
 
     /// Looks at the end of a run, unless it was just looked at. The last step began at `before`, with these estimated errors,
@@ -191,24 +205,25 @@ impl<L: Lanes, const N: usize> LaneWatch<L, N> {
         now: &Moment<L, N>,
         defects: impl FnOnce() -> [L; N],
         going: Mask,
-    ) -> Faults<N> {
-        let mut faults = Faults::none();
+    ) {
+        self.faults.forget();
         let steps = (self.between - self.rest).saturating_add(self.made);
         if steps == 0 || self.every == u32::MAX {
-            return faults;
+            return;
         }
         let judged = before.is_some() && self.guard.step < f64::INFINITY;
-        let seen = self.whole(system, steps, judged.then(defects), now, going, &mut faults);
-        if let (Some(known), Some(to), Some(before)) = (&self.known, &seen, before) {
-            let from = known.functions(system, before);
+        self.whole(system, steps, judged.then(defects), now, going);
+        let Self { guard, known, faults, good, .. } = self;
+        if let (Some(known), Some(before)) = (known, before)
+            && known.count > 0
+        {
+            let soonest = known.paces(system, before, guard.approach);
             for lane in (going - faults.lanes).lanes() {
-                let paces = to.paces(&from, lane);
-                if let Err(cause) = known.edges[lane].paces(paces, now.time, self.guard.approach) {
-                    faults.add(lane, cause, &self.good);
+                if let Err(cause) = known.pace(lane, soonest, now.time, guard.approach) {
+                    faults.add(lane, cause, good);
                 }
             }
         }
-        faults
     }
 
     /// The faults of lanes that cannot go on from where they stand: for the cause given, unless the steps since the last look
@@ -221,20 +236,19 @@ impl<L: Lanes, const N: usize> LaneWatch<L, N> {
         now: &Moment<L, N>,
         stopped: Mask,
         cause: Cause,
-    ) -> Faults<N> {
-        let mut faults = Faults::none();
+    ) {
+        self.faults.forget();
         if now.time != self.good.time && self.every != u32::MAX {
             let before = (self.known, self.good, self.young);
-            self.whole(system, 0, None, now, stopped, &mut faults);
+            self.whole(system, 0, None, now, stopped);
             (self.known, self.good, self.young) = before;
         }
-        for lane in (stopped - faults.lanes).lanes() {
-            faults.add(lane, cause, now);
+        for lane in (stopped - self.faults.lanes).lanes() {
+            self.faults.add(lane, cause, now);
         }
-        faults
     }
 
-    /// Looks at everything, for so many steps, and returns the functions that must not vanish.
+    /// Looks at everything, for so many steps.
     fn whole<S: System<L, N> + ?Sized>(
         &mut self,
         system: &S,
@@ -242,9 +256,8 @@ impl<L: Lanes, const N: usize> LaneWatch<L, N> {
         defects: Option<[L; N]>,
         now: &Moment<L, N>,
         lanes: Mask,
-        faults: &mut Faults<N>,
-    ) -> Option<EdgesAt<L>> {
-        let Self { guard, good, known, young, .. } = self;
+    ) {
+        let Self { guard, good, known, young, faults, .. } = self;
         let known = match known {
             Some(known) => known,
             None => known.insert(Known::new(system, guard, good, lanes, faults)),
@@ -255,7 +268,7 @@ impl<L: Lanes, const N: usize> LaneWatch<L, N> {
         let time = L::from_f64(now.time);
         let vitals = system.vitals(time, &now.state);
         let condition = system.condition(time, &now.state);
-        let (change, judged, most) = L::vectorize(
+        let (change, most, mut suspects) = L::vectorize(
             #[inline(always)]
             || {
                 known.scale = vitals.scale.where_above(known.scale, vitals.scale, known.scale);
@@ -268,32 +281,34 @@ impl<L: Lanes, const N: usize> LaneWatch<L, N> {
                     let (before, size) = (known.largest[i], now.state[i].abs());
                     known.largest[i] = size.where_above(before, size, before);
                 }
-                let judged = match &defects {
+                let most = match &defects {
                     Some(found) => known.defects.add(found, steps, &known.largest, negligible),
-                    None => [L::zero(); N],
+                    None => L::zero(),
                 };
-                let mut most = L::zero();
-                for entry in &judged {
-                    most = entry.where_above(most, *entry, most);
-                }
-                (change, judged, most)
+                let suspects = above(change, guard.energy)
+                    + above(vitals.residual, guard.residual)
+                    + above(condition, guard.condition)
+                    + above(most, guard.step)
+                    + above(vitals.carried, guard.carried);
+                (change, most, Mask::all(L::COUNT) - suspects.finite())
             },
         );
-        let edges = known.edges_at(system, now);
+        if known.count > 0 {
+            known.look_at_edges(system, now);
+            suspects = suspects.or(known.suspects(guard.edge));
+        }
         let found = now.time;
-        for lane in (lanes - faults.lanes).lanes() {
+        for lane in ((lanes - faults.lanes) & suspects).lanes() {
             let judge = || {
                 let change = change.lane(lane);
                 if exceeds(change, guard.energy) {
                     return Err(Cause::Energy { found, change, limit: guard.energy });
                 }
                 in_order(guard, found, vitals.residual.lane(lane), condition.lane(lane))?;
-                if let Some(edges) = &edges {
-                    known.edges[lane].distances(edges.distances(lane), found, guard.edge)?;
-                }
+                known.distances(lane, found, guard.edge)?;
                 let limit = guard.step;
                 if exceeds(most.lane(lane), limit) {
-                    let Worst { entry, defect } = worst(&judged.map(|entry| entry.lane(lane)));
+                    let Worst { entry, defect } = worst(&known.defects.judged(|entry| entry.lane(lane)));
                     return Err(Cause::Step { found, entry, defect, limit });
                 }
                 let (drift, limit) = (vitals.carried.lane(lane), guard.carried);
@@ -304,39 +319,13 @@ impl<L: Lanes, const N: usize> LaneWatch<L, N> {
             }
         }
         *good = *now;
-        edges
     }
 }
 
-/// The functions that must not vanish, and what is left of them.
-struct EdgesAt<L> {
-    values: [Rounded<L>; EDGES],
-    left: [L; EDGES],
-}
-
-impl<L: Lanes> EdgesAt<L> {
-    fn new(count: usize, values: [Rounded<L>; EDGES]) -> Self {
-        let mut left = [L::zero(); EDGES];
-        L::vectorize(
-            #[inline(always)]
-            || {
-                for (left, value) in left.iter_mut().zip(&values).take(count) {
-                    *left = value.value.abs() / value.error;
-                }
-            },
-        );
-        Self { values, left }
-    }
-
-    fn distances(&self, lane: usize) -> impl Iterator<Item = (f64, f64)> {
-        let values = self.values.iter().zip(&self.left);
-        values.map(move |(value, left)| (value.value.lane(lane), left.lane(lane)))
-    }
-
-    fn paces(&self, from: &[Rounded<L>; EDGES], lane: usize) -> impl Iterator<Item = (f64, f64)> {
-        let values = from.iter().zip(&self.values);
-        values.map(move |(from, to)| (from.value.lane(lane), to.value.lane(lane)))
-    }
+/// NaN in the lanes that are above the limit or no number, zero elsewhere.
+#[inline(always)]
+fn above<L: Lanes>(value: L, limit: f64) -> L {
+    value.where_above(L::from_f64(limit), L::from_f64(f64::NAN), L::zero())
 }
 
 impl<L: Lanes, const N: usize> Known<L, N> {
@@ -352,37 +341,94 @@ impl<L: Lanes, const N: usize> Known<L, N> {
         let vitals = system.vitals(time, &start.state);
         let condition = system.condition(time, &start.state);
         let largest = start.state.map(Real::abs);
-        let (count, found) = values(system, &start.reached(), &largest);
-        let edges: [Edges; MOST] = core::array::from_fn(|lane| {
-            // Of lanes that there are not, those of the first.
-            let lane = if lane < L::COUNT { lane } else { 0 };
-            Edges::new(count, |function| found.get(function).map_or(0.0, |value| value.value.lane(lane)))
-        });
+        let mut functions_there = [Rounded::exact(L::zero()); EDGES];
+        let count = functions(system, time, &start.state, &largest, &mut functions_there);
+        let value = |i: usize, lane: usize| functions_there.get(i).map_or(0.0, |f| f.value.lane(lane));
+        // Of lanes that there are not, those of the first.
+        let edges =
+            core::array::from_fn(|k| Edges::new(count, |i| value(i, if k < L::COUNT { k } else { 0 })));
         let known = Self {
             energy: vitals.energy,
             scale: vitals.scale,
             count,
             edges,
+            start: functions_there.map(|function| function.value),
+            functions: functions_there,
+            before: functions_there,
             largest,
             defects: Defects::new(),
         };
-        let found = EdgesAt::new(count, found);
         for lane in lanes.lanes() {
             let order = in_order(guard, start.time, vitals.residual.lane(lane), condition.lane(lane));
-            let edges = || known.edges[lane].distances(found.distances(lane), start.time, guard.edge);
-            if let Err(cause) = order.and_then(|()| edges()) {
+            if let Err(cause) = order.and_then(|()| known.distances(lane, start.time, guard.edge)) {
                 faults.add(lane, cause, start);
             }
         }
         known
     }
 
-    /// The functions that must not vanish, as far as there are any.
-    fn edges_at<S: System<L, N> + ?Sized>(&self, system: &S, at: &Moment<L, N>) -> Option<EdgesAt<L>> {
-        (self.count > 0).then(|| EdgesAt::new(self.count, self.functions(system, at)))
+    /// Evaluates the functions that must not vanish.
+    fn look_at_edges<S: System<L, N> + ?Sized>(&mut self, system: &S, now: &Moment<L, N>) {
+        functions(system, L::from_f64(now.time), &now.state, &self.largest, &mut self.functions);
     }
 
-    fn functions<S: System<L, N> + ?Sized>(&self, system: &S, at: &Moment<L, N>) -> [Rounded<L>; EDGES] {
-        values(system, &at.reached(), &self.largest).1
+    /// The lanes that may have come to an edge.
+    fn suspects(&self, limit: f64) -> Mask {
+        L::vectorize(
+            #[inline(always)]
+            || {
+                let (zero, nan) = (L::zero(), L::from_f64(f64::NAN));
+                let mut suspects = zero;
+                for (now, start) in self.functions.iter().zip(&self.start).take(self.count) {
+                    let left = now.value.abs() / now.error;
+                    suspects += left * zero
+                        + left.where_above(L::from_f64(limit), zero, nan)
+                        + (now.value * *start).where_above(zero, zero, nan);
+                }
+                Mask::all(L::COUNT) - suspects.finite()
+            },
+        )
+    }
+
+    fn distances(&self, lane: usize, found: f64, limit: f64) -> Result<(), Cause> {
+        let alone = |f: &Rounded<L>| Rounded { value: f.value.lane(lane), error: f.error.lane(lane) };
+        let values = self.functions.iter().map(|f| (f.value.lane(lane), alone(f).left()));
+        self.edges[lane].distances(values, found, limit)
+    }
+
+    /// In how many steps to look at the edges again, judged by the step that began at `before`; no number where that has to be
+    /// found out for a lane alone.
+    fn paces<S>(&mut self, system: &S, before: &Moment<L, N>, limit: f64) -> L
+    where
+        S: System<L, N> + ?Sized,
+    {
+        functions(system, L::from_f64(before.time), &before.state, &self.largest, &mut self.before);
+        L::vectorize(
+            #[inline(always)]
+            || {
+                let (zero, half) = (L::zero(), L::from_f64(0.5));
+                let mut soonest = L::from_f64(f64::from(u32::MAX));
+                let mut rest = zero;
+                for (from, to) in self.before.iter().zip(&self.functions).take(self.count) {
+                    let (from, to) = (from.value.abs(), to.value.abs());
+                    rest += above(from / to, limit) + above(to / from, limit);
+                    let steps = half * to / (from - to);
+                    let steps = from.where_above(to, steps, soonest);
+                    rest += steps * zero;
+                    soonest = soonest.where_above(steps, steps, soonest);
+                }
+                soonest + rest
+            },
+        )
+    }
+
+    fn pace(&self, lane: usize, soonest: L, found: f64, limit: f64) -> Result<u32, Cause> {
+        let steps = soonest.lane(lane);
+        if !steps.is_nan() {
+            return Ok(if steps < f64::from(u32::MAX) { (steps as u32).max(1) } else { u32::MAX });
+        }
+        let values = self.before.iter().zip(&self.functions);
+        let alone = values.map(|(from, to)| (from.value.lane(lane), to.value.lane(lane)));
+        self.edges[lane].paces(alone, found, limit)
     }
 }

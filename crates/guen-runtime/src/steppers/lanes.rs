@@ -6,7 +6,7 @@
 use super::course::{Done, Outcome, Statistics};
 use super::fixed::Leg;
 use super::guard::Guard;
-use super::lane_guard::{Fault, Faults, LaneWatch, MOST, Moment};
+use super::lane_guard::{Fault, LaneWatch, MOST, Moment};
 use super::rk4::Rk4;
 use super::rk8::Rk8;
 use crate::error::{Cause, IntegrationError, Setting};
@@ -369,9 +369,9 @@ where
     fn look(&mut self) {
         let Self { system, formula, memory, now, before, going, watch, .. } = self;
         let defects = || M::defect(formula, *system, memory, before, now);
-        let faults = watch.look(*system, before, now, defects, *going);
-        if !faults.lanes.is_empty() {
-            self.set_aside(faults);
+        watch.look(*system, before, now, defects, *going);
+        if !watch.faults.lanes.is_empty() {
+            self.set_aside();
             bury(&mut self.now.state, self.going);
         }
     }
@@ -381,8 +381,8 @@ where
         if !self.going.is_empty() {
             let Self { system, formula, memory, now, before, kept, going, watch, .. } = &mut self;
             let defects = || M::defect(formula, *system, memory, before, now);
-            let faults = watch.finish(*system, kept.then_some(&*before), now, defects, *going);
-            self.set_aside(faults);
+            watch.finish(*system, kept.then_some(&*before), now, defects, *going);
+            self.set_aside();
         }
         for lane in self.going.lanes() {
             let done = Done {
@@ -400,13 +400,15 @@ where
     #[cold]
     #[inline(never)]
     fn stop(&mut self, stopped: Mask, cause: Cause) {
-        let faults = self.watch.stopped(self.system, &self.now, stopped, cause);
-        self.set_aside(faults);
+        self.watch.stopped(self.system, &self.now, stopped, cause);
+        self.set_aside();
     }
 
-    fn set_aside(&mut self, faults: Faults<N>) {
-        for lane in faults.lanes.lanes() {
-            if let Some(fault) = faults.of[lane] {
+    /// Ends the lanes in which the guard has found a fault.
+    #[cold]
+    fn set_aside(&mut self) {
+        for lane in self.watch.faults.lanes.lanes() {
+            if let Some(fault) = self.watch.faults.of[lane] {
                 self.fail(lane, fault);
             }
         }
