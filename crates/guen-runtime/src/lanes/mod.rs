@@ -130,6 +130,11 @@ impl Mask {
     }
 
     /// The lanes in either.
+    ///
+    /// ```
+    /// use guen_runtime::lanes::Mask;
+    /// assert_eq!(Mask::from_bits(0b10).or(Mask::from_bits(0b100)), Mask::from_bits(0b110));
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn or(self, other: Self) -> Self {
@@ -137,6 +142,11 @@ impl Mask {
     }
 
     /// The same set with one lane more, below 32.
+    ///
+    /// ```
+    /// use guen_runtime::lanes::Mask;
+    /// assert_eq!(Mask::from_bits(0b10).with(0), Mask::from_bits(0b11));
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn with(self, lane: usize) -> Self {

@@ -135,6 +135,33 @@ macro_rules! ways_in_lanes {
 
             /// The same with limits in place of the default ones; in each lane the result is that of an
             /// [`Integration`](super::Integration) with this guard for that lane alone that lands on the same times.
+            ///
+            /// ```
+            /// use guen_runtime::lanes::{LaneTask, Lanes, Width, dispatch};
+            /// use guen_runtime::steppers::{Guard, InLanes, Rk4};
+            /// use guen_runtime::{Real, System};
+            ///
+            /// /// `x' = -50 x`
+            /// struct Decay;
+            /// impl<R: Real> System<R, 1> for Decay {
+            ///     fn rhs(&self, _t: R, &[x]: &[R; 1]) -> [R; 1] {
+            ///         [R::from_ratio(-50, 1) * x]
+            ///     }
+            /// }
+            ///
+            /// struct Run(Guard);
+            /// impl LaneTask for Run {
+            ///     type Output = InLanes<1>;
+            ///     fn run<L: Lanes>(self) -> InLanes<1> {
+            ///         let start = [L::from_fn(|i| 1.0 + i as f64)];
+            ///         Rk4 { step: 0.01 }.guarded_in_lanes(&Decay, (0.0, &start), &[1.0], self.0, |_, _, _, _| ())
+            ///     }
+            /// }
+            ///
+            /// assert!(dispatch(Width::Four, Run(Guard::default())).failed().is_empty());
+            /// let strict = Guard { step: 1e-6, ..Guard::default() };
+            /// assert_eq!(dispatch(Width::Four, Run(strict)).failed().lanes().count(), 4);
+            /// ```
             pub fn guarded_in_lanes<L, S, V, const N: usize>(
                 &self,
                 system: &S,
