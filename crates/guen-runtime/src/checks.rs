@@ -256,6 +256,26 @@ pub fn furthest<R: Real, const N: usize>(differences: &[Rounded<R>; N]) -> R {
     )
 }
 
+/// Values that were rounded once.
+///
+/// ```
+/// use guen_runtime::{Rounded, checks::rounded};
+/// assert_eq!(rounded(&[1.5, -2.0])[1], Rounded { value: -2.0, error: 2.0 });
+/// ```
+pub fn rounded<R: Real, const N: usize>(values: &[R; N]) -> [Rounded<R>; N] {
+    let mut rounded = [Rounded::exact(R::zero()); N];
+    // A loop where the instructions of lanes are at hand: `map` is a call for each entry.
+    R::vectorize(
+        #[inline(always)]
+        || {
+            for (rounded, value) in rounded.iter_mut().zip(values) {
+                *rounded = Rounded { value: *value, error: value.abs() };
+            }
+        },
+    );
+    rounded
+}
+
 /// How far carried functions are from their values: the largest `|w - f|/(1 + |f|)`.
 ///
 /// ```

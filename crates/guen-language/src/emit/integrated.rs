@@ -125,7 +125,7 @@ pub(super) fn rounded(
 ) -> TokenStream {
     quote! {
         program::#function(
-            &#prepared.constants.map(__guen::Rounded::once), &#prepared.hoisted.map(__guen::Rounded::once), #t, #state,
+            &__guen::rounded(&#prepared.constants), &__guen::rounded(&#prepared.hoisted), #t, #state,
         )
     }
 }
