@@ -13,9 +13,10 @@
 use std::hint::black_box;
 use std::time::Instant;
 
+use guen::lanes::{LaneTask, Lanes, Width, dispatch};
 use guen::prelude::*;
 use guen::steppers::Method;
-use guen::{Differentiable, TaylorSeries};
+use guen::{Differentiable, Laned, TaylorSeries};
 use guen_benchmarks::systems::{Chain10, chain10};
 use guen_benchmarks::{hoop, sled};
 
@@ -71,16 +72,56 @@ where
     Pair { name: format!("{system}:{method}"), run }
 }
 
+/// Four motions that begin next to each other, in as many lanes.
+struct InLanes<'a, S, const N: usize> {
+    of: &'a S,
+    start: &'a [f64; N],
+    span: f64,
+    guard: Guard,
+    /// By RK8 in place of RK4.
+    eight: bool,
+}
+
+impl<S: Laned<N>, const N: usize> LaneTask for InLanes<'_, S, N> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn run<L: Lanes>(self) -> bool {
+        let Self { of, start, span, guard, eight } = self;
+        let system = S::gather::<L>(|_| of);
+        let start: [L; N] = std::array::from_fn(|i| L::from_fn(|k| start[i] * (1.0 + 0.01 * k as f64)));
+        let ends = if eight {
+            Rk8::new(1e-2).guarded_in_lanes(&system, (0.0, &start), &[span], guard, |_, _, _, _| ())
+        } else {
+            Rk4 { step: 1e-3 }.guarded_in_lanes(&system, (0.0, &start), &[span], guard, |_, _, _, _| ())
+        };
+        ends.failed().is_empty()
+    }
+}
+
+fn in_lanes<S, const N: usize>(system: &'static str, of: S, start: [f64; N], span: f64, eight: bool) -> Pair
+where
+    S: Laned<N> + 'static,
+{
+    let run = Box::new(move |guard: Guard| {
+        let task = InLanes { of: &of, start: black_box(&start), span, guard, eight };
+        assert!(black_box(dispatch(Width::Four, task)), "nothing is wrong with it");
+    });
+    Pair { name: format!("{system}:{}", if eight { "rk8-lanes" } else { "rk4-lanes" }), run }
+}
+
 /// Every method over a span. Steps are such that none is refused; those of a particle without forces grow without limit,
 /// so that an observer's course is not what is measured there: adaptive methods are left out of it.
 fn pairs_of<S, const N: usize>(name: &'static str, system: S, start: [f64; N], span: f64) -> Vec<Pair>
 where
-    S: System<f64, N> + Differentiable<f64, N> + Copy + 'static,
+    S: Laned<N> + Differentiable<f64, N> + Copy + 'static,
 {
     let mut pairs = vec![
         pair(name, "euler", system, start, span / 4.0, Euler { step: 1e-5 }),
         pair(name, "rk4", system, start, 4.0 * span, Rk4 { step: 1e-3 }),
         pair(name, "rk8", system, start, 20.0 * span, Rk8::new(1e-2)),
+        in_lanes(name, system, start, 2.0 * span, false),
+        in_lanes(name, system, start, 10.0 * span, true),
         pair(name, "gauss4", system, start, span, Gauss4::new(1e-3)),
         pair(name, "gauss6", system, start, span, Gauss6::new(1e-3)),
     ];
@@ -97,7 +138,7 @@ where
 /// The same with Taylor's method, for systems that provide their series.
 fn with_taylor<S, const N: usize>(name: &'static str, system: S, start: [f64; N], span: f64) -> Vec<Pair>
 where
-    S: System<f64, N> + Differentiable<f64, N> + TaylorSeries<f64, N> + Copy + 'static,
+    S: Laned<N> + Differentiable<f64, N> + TaylorSeries<f64, N> + Copy + 'static,
 {
     let mut pairs = pairs_of(name, system, start, span);
     pairs.push(pair(name, "taylor", system, start, 20.0 * span, Taylor::new(1e-12)));

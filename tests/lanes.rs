@@ -85,3 +85,60 @@ fn inputs_are_gathered_with_their_systems() {
         assert!(alone.is_ok());
     }
 }
+
+/// Hoops in lanes, each to its end.
+struct Rolling<'a> {
+    hoop: &'a hoop::Prepared,
+    starts: &'a [[f64; 9]; 8],
+    step: f64,
+}
+
+impl LaneTask for Rolling<'_> {
+    type Output = Vec<Result<Done<f64, 9>, IntegrationError<f64, 9>>>;
+
+    #[inline(always)]
+    fn run<L: Lanes>(self) -> Self::Output {
+        let hoop = <hoop::Prepared as Laned<9>>::gather::<L>(|_| self.hoop);
+        let ends = self.starts.chunks_exact(L::COUNT).flat_map(|starts| {
+            let start = std::array::from_fn(|i| L::from_fn(|lane| starts[lane][i]));
+            Rk4 { step: self.step }.integrate_in_lanes(&hoop, 0.0, &start, 1.0)
+        });
+        ends.collect()
+    }
+}
+
+/// A hoop that falls flat, and one that turns too fast for the step, among others that roll.
+#[test]
+fn a_falling_hoop_ends_as_it_would_alone() {
+    let hoop = Hoop { a: 1.0, A: 0.5, C: 1.0, g: 9.81 }.prepare().unwrap();
+    let mut starts: [[f64; 9]; 8] = std::array::from_fn(|k| {
+        let theta = 1.0 + 0.05 * k as f64;
+        hoop::State { theta, zeta: theta.sin(), eta1: 0.1, eta2: 0.5, eta3: 2.0, ..Default::default() }.into()
+    });
+    let still = |theta: f64| hoop::State { theta, zeta: theta.sin(), ..Default::default() };
+    starts[2] = still(0.5).into();
+    starts[7] = hoop::State { eta2: 300.0, eta3: -900.0, ..still(0.3) }.into();
+    let mut causes = Vec::new();
+    for step in [1e-3, 7e-3, 2e-2] {
+        let alone = starts
+            .map(|start| Rk4 { step }.integrate(&hoop, 0.0, &start, 1.0, |_, _| ControlFlow::Continue(())));
+        for backend in Backend::ALL {
+            for width in [Width::One, Width::Four, Width::Eight] {
+                let ends = dispatch_on(backend, width, Rolling { hoop: &hoop, starts: &starts, step });
+                assert_eq!(ends, alone, "{backend:?} {width:?}");
+            }
+        }
+        let failed: Vec<usize> = (0..8).filter(|k| alone[*k].is_err()).collect();
+        assert_eq!(failed, [2, 7]);
+        causes.extend(alone.iter().filter_map(|end| Some(end.as_ref().err()?.cause)));
+    }
+    for (cause, name) in causes.iter().zip(["approach", "energy", "approach", "energy", "edge", "energy"]) {
+        let found = match cause {
+            Cause::Approach { .. } => "approach",
+            Cause::Edge { .. } => "edge",
+            Cause::Energy { .. } => "energy",
+            _ => "something else",
+        };
+        assert_eq!(found, name);
+    }
+}

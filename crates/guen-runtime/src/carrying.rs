@@ -85,7 +85,7 @@ impl<R: Real, S: Carrying<R, N>, const N: usize> System<R, N> for Rejoined<S> {
         self.0.edges(t, state, values)
     }
 
-    fn condition(&self, t: R, state: &[R; N]) -> f64 {
+    fn condition(&self, t: R, state: &[R; N]) -> R {
         self.0.condition(t, state)
     }
 

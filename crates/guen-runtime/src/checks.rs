@@ -250,11 +250,30 @@ pub fn clamped<R: Ordered>(value: R, lower: R, upper: R) -> R {
 /// assert!((0.002..0.02).contains(&furthest(&[x * x + y * y - Rounded::exact(1.0)])));
 /// ```
 pub fn furthest<R: Real, const N: usize>(differences: &[Rounded<R>; N]) -> R {
-    largest(&differences.map(
-        |difference| {
-            if difference.value == R::zero() { R::zero() } else { difference.left() }
+    largest(
+        &differences
+            .map(|difference| difference.value.abs().where_above(R::zero(), difference.left(), R::zero())),
+    )
+}
+
+/// Values that were rounded once.
+///
+/// ```
+/// use guen_runtime::{Rounded, checks::rounded};
+/// assert_eq!(rounded(&[1.5, -2.0])[1], Rounded { value: -2.0, error: 2.0 });
+/// ```
+pub fn rounded<R: Real, const N: usize>(values: &[R; N]) -> [Rounded<R>; N] {
+    let mut rounded = [Rounded::exact(R::zero()); N];
+    // A loop where the instructions of lanes are at hand: `map` is a call for each entry.
+    R::vectorize(
+        #[inline(always)]
+        || {
+            for (rounded, value) in rounded.iter_mut().zip(values) {
+                *rounded = Rounded { value: *value, error: value.abs() };
+            }
         },
-    ))
+    );
+    rounded
 }
 
 /// How far carried functions are from their values: the largest `|w - f|/(1 + |f|)`.
@@ -270,22 +289,19 @@ pub fn drift<R: Real, const K: usize>(values: &[R; K], carried: &[R]) -> R {
     largest(&apart)
 }
 
-/// The largest absolute value, as a real without an order can have it: through `f64` for the comparison. Zero for
-/// no values; a value that is not finite is returned as it is.
+/// The largest absolute value, as a real without an order can have it: through `f64` for the comparison, of lanes in every
+/// lane by itself. Zero for no values, not finite if one of them is not.
 ///
 /// ```
 /// assert_eq!(guen_runtime::checks::largest(&[1.0, -3.0, 2.0]), 3.0);
 /// ```
 pub fn largest<R: Real>(values: &[R]) -> R {
-    let mut most = R::zero();
+    let (mut most, mut rest) = (R::zero(), R::zero());
     for value in values {
         let size = value.abs();
-        if !size.is_finite() {
-            return size;
-        }
-        if size.to_f64() > most.to_f64() {
-            most = size;
-        }
+        most = size.where_above(most, size, most);
+        // Zero, unless it is not finite: what is compared with NaN would be taken for larger.
+        rest += size * R::zero();
     }
-    most
+    most + rest
 }

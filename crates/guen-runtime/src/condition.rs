@@ -7,7 +7,8 @@ use crate::steppers::Lu;
 /// `max_s M_ss (M^-1)_ss`, by `M = D^{1/2} L P L^T D^{1/2}` with the diagonal `D` of `M`. For one that is not, the
 /// condition in the largest row sum of the matrix with its rows and columns scaled to a largest entry of about one.
 ///
-/// In `f64` for every real, since an order of magnitude is all that is asked for; `l^3/3` multiplications. Infinite for
+/// In `f64` for longer reals, since an order of magnitude is all that is asked for, and in every lane by itself for lanes;
+/// `l^3/3` multiplications. Infinite for
 /// a matrix that is singular or not finite. `N` is the number of parameters, and `triangle` the lower triangle, row by
 /// row, at the head of a list that may go on.
 ///
@@ -21,20 +22,49 @@ use crate::steppers::Lu;
 /// assert_eq!(condition::<f64, 2>(&[1e-3, 0.0, 1e9]), 1.0);
 /// assert_eq!(condition::<f64, 2>(&[1.0, 1.0, 1.0]), f64::INFINITY);
 /// ```
-pub fn condition<R: Real, const N: usize>(triangle: &[R]) -> f64 {
-    let entry = |s: usize, k: usize| {
-        let (row, column) = if s < k { (k, s) } else { (s, k) };
-        triangle.get(row * (row + 1) / 2 + column).map_or(f64::NAN, |e| e.to_f64())
+pub fn condition<R: Real, const N: usize>(triangle: &[R]) -> R {
+    let short = R::epsilon().to_f64() >= f64::EPSILON;
+    let all = if short {
+        R::vectorize(
+            #[inline(always)]
+            || definite(&matrix::<R, R, N>(triangle, |entry| entry)),
+        )
+    } else {
+        None
     };
-    let mass: [[f64; N]; N] = core::array::from_fn(|s| core::array::from_fn(|k| entry(s, k)));
-    definite(&mass).unwrap_or_else(|| indefinite(&mass))
+    all.unwrap_or_else(|| {
+        R::each_alone(|alone| {
+            let mass = matrix::<R, f64, N>(triangle, alone);
+            definite(&mass).unwrap_or_else(|| indefinite(&mass))
+        })
+    })
 }
 
-/// By the factors of the matrix with a diagonal of ones; none if a pivot is not positive.
-fn definite<const N: usize>(mass: &[[f64; N]; N]) -> Option<f64> {
-    let root: [f64; N] = core::array::from_fn(|s| libm::sqrt(mass[s][s]));
+/// The whole matrix, with NaN for what is not there.
+#[inline(always)]
+fn matrix<R: Real, T: Real, const N: usize>(triangle: &[R], entry: impl Fn(R) -> T) -> [[T; N]; N] {
+    let mut matrix = [[T::zero(); N]; N];
+    for (s, row) in matrix.iter_mut().enumerate() {
+        for (k, place) in row.iter_mut().enumerate() {
+            let (row, column) = if s < k { (k, s) } else { (s, k) };
+            *place = match triangle.get(row * (row + 1) / 2 + column) {
+                Some(value) => entry(*value),
+                None => T::from_f64(f64::NAN),
+            };
+        }
+    }
+    matrix
+}
+
+/// By the factors of the matrix with a diagonal of ones; none if a pivot is not positive, of lanes in one of them.
+#[inline(always)]
+fn definite<R: Real, const N: usize>(mass: &[[R; N]; N]) -> Option<R> {
+    let mut root = [R::zero(); N];
+    for (s, root) in root.iter_mut().enumerate() {
+        *root = mass[s][s].sqrt();
+    }
     let mut factor = *mass;
-    let mut pivots = [0.0; N];
+    let mut pivots = [R::zero(); N];
     for s in 0..N {
         for k in 0..=s {
             let mut rest = mass[s][k] / root[s] / root[k];
@@ -43,7 +73,7 @@ fn definite<const N: usize>(mass: &[[f64; N]; N]) -> Option<f64> {
             }
             if k < s {
                 factor[s][k] = rest / pivots[k];
-            } else if rest > 0.0 && rest.is_finite() {
+            } else if rest.is_finite() && rest.where_above(R::zero(), R::one(), R::zero()) == R::one() {
                 pivots[s] = rest;
             } else {
                 return None;
@@ -51,20 +81,20 @@ fn definite<const N: usize>(mass: &[[f64; N]; N]) -> Option<f64> {
         }
     }
     // (M^-1)_ss by the columns of the inverse of the unit triangle.
-    let mut worst = 1.0_f64;
+    let mut worst = R::one();
     for s in 0..N {
-        let mut column = [0.0; N];
-        column[s] = 1.0;
-        let mut sum = 1.0 / pivots[s];
+        let mut column = [R::zero(); N];
+        column[s] = R::one();
+        let mut sum = pivots[s].recip();
         for row in s + 1..N {
-            let mut value = 0.0;
+            let mut value = R::zero();
             for k in s..row {
                 value -= factor[row][k] * column[k];
             }
             column[row] = value;
             sum += value * value / pivots[row];
         }
-        worst = worst.max(sum);
+        worst = sum.where_above(worst, sum, worst);
     }
     Some(worst)
 }

@@ -288,6 +288,16 @@ impl<R: Real, const N: usize> Real for Dual<R, N> {
         self.chain(recip, -(recip * recip))
     }
 
+    #[inline]
+    fn where_above(self, limit: Self, above: Self, below: Self) -> Self {
+        let choose = |above: R, below: R| self.value.where_above(limit.value, above, below);
+        Self { value: choose(above.value, below.value), tangent: above.zip(below, choose) }
+    }
+
+    fn each_alone(function: impl Fn(&dyn Fn(Self) -> f64) -> f64) -> Self {
+        Self::constant(R::each_alone(|alone| function(&|x| alone(x.value))))
+    }
+
     /// Whether the value and every tangent is finite.
     #[inline]
     fn is_finite(self) -> bool {

@@ -350,7 +350,7 @@ where
         self.0.edges(t, state, values)
     }
 
-    fn condition(&self, t: R, state: &[R; M]) -> f64 {
+    fn condition(&self, t: R, state: &[R; M]) -> R {
         self.0.condition(t, state)
     }
 

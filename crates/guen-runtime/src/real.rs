@@ -289,6 +289,32 @@ pub trait Real:
         function()
     }
 
+    /// `above` where this is above the limit or cannot be compared with it, `below` elsewhere: in every lane by itself, where
+    /// the real consists of [`Lanes`](crate::lanes::Lanes).
+    ///
+    /// ```
+    /// use guen_runtime::Real;
+    /// assert_eq!(2.0_f64.where_above(1.0, 10.0, 20.0), 10.0);
+    /// assert_eq!(1.0_f64.where_above(1.0, 10.0, 20.0), 20.0);
+    /// assert_eq!(f64::NAN.where_above(1.0, 10.0, 20.0), 10.0);
+    /// ```
+    #[inline(always)]
+    fn where_above(self, limit: Self, above: Self, below: Self) -> Self {
+        if self.to_f64() <= limit.to_f64() { below } else { above }
+    }
+
+    /// What a function makes of numbers in doubles, in every lane by itself, where the real consists of
+    /// [`Lanes`](crate::lanes::Lanes): it is given what takes the number of its lane out of a real.
+    ///
+    /// ```
+    /// use guen_runtime::Real;
+    /// let (x, y) = (3.0_f64, 4.0);
+    /// assert_eq!(f64::each_alone(|alone| alone(x).hypot(alone(y))), 5.0);
+    /// ```
+    fn each_alone(function: impl Fn(&dyn Fn(Self) -> f64) -> f64) -> Self {
+        Self::from_f64(function(&Self::to_f64))
+    }
+
     /// Whether the number is neither infinite nor NaN; of a composed number, whether all its parts are finite.
     fn is_finite(self) -> bool;
 }

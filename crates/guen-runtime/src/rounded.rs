@@ -174,6 +174,16 @@ impl<R: Real> Real for Rounded<R> {
         Self::exact(self.value.sign())
     }
 
+    #[inline]
+    fn where_above(self, limit: Self, above: Self, below: Self) -> Self {
+        let choose = |above: R, below: R| self.value.where_above(limit.value, above, below);
+        Self { value: choose(above.value, below.value), error: choose(above.error, below.error) }
+    }
+
+    fn each_alone(function: impl Fn(&dyn Fn(Self) -> f64) -> f64) -> Self {
+        Self::exact(R::each_alone(|alone| function(&|x| alone(x.value))))
+    }
+
     /// Whether the value is finite; its error may be too large for the real.
     #[inline]
     fn is_finite(self) -> bool {

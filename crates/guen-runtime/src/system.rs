@@ -63,10 +63,10 @@ pub trait System<R: Real, const N: usize> {
     ///
     /// with the mass matrix `M`: how much less inertia a parameter has while the others are free to move than while
     /// they are held. The condition of `M`, scaled to a diagonal of ones, is at least this and at most `l^2` times
-    /// this, with `l` parameters. One, unless a system says more; generated systems do.
+    /// this, with `l` parameters. Of lanes that of each. One, unless a system says more; generated systems do.
     #[inline]
-    fn condition(&self, _t: R, _state: &[R; N]) -> f64 {
-        1.0
+    fn condition(&self, _t: R, _state: &[R; N]) -> R {
+        R::one()
     }
 
     /// What [`vitals`](System::vitals), [`edges`](System::edges) and [`condition`](System::condition) of one state cost
@@ -100,7 +100,7 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize> System<R, N> for &S {
     }
 
     #[inline]
-    fn condition(&self, t: R, state: &[R; N]) -> f64 {
+    fn condition(&self, t: R, state: &[R; N]) -> R {
         (**self).condition(t, state)
     }
 

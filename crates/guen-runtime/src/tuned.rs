@@ -264,6 +264,15 @@ macro_rules! functions {
             }
 
             #[inline(always)]
+            fn where_above(self, limit: Self, above: Self, below: Self) -> Self {
+                Self::new(self.value.where_above(limit.value, above.value, below.value))
+            }
+
+            fn each_alone(function: impl Fn(&dyn Fn(Self) -> f64) -> f64) -> Self {
+                Self::new(R::each_alone(|alone| function(&|x| alone(x.value))))
+            }
+
+            #[inline(always)]
             fn is_finite(self) -> bool {
                 self.value.is_finite()
             }

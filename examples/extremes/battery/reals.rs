@@ -28,7 +28,7 @@ macro_rules! single {
     }};
 }
 
-/// Eight hoops, one of which does not exist, in as many lanes as the machine has.
+/// Eight hoops, one of which is faulty, in as many lanes as are asked for.
 struct Hoops<'a> {
     system: &'a hoop::Prepared,
     starts: &'a [[f64; 9]; 8],
@@ -59,15 +59,19 @@ fn lanes(asked: &str, width: Width, faulty: [f64; 9]) -> Line {
     starts[FAULTY] = faulty;
     let ends: Vec<_> =
         dispatch(width, Hoops { system: &system, starts: &starts }).into_iter().flatten().collect();
+    let alone = |k: usize| {
+        Rk4 { step: 1e-3 }.integrate(&system, 0.0, &starts[k], 1.0, |_, _| ControlFlow::Continue(()))
+    };
     let mut others = 0.0_f64;
     for (k, end) in ends.iter().enumerate().filter(|(k, _)| *k != FAULTY) {
-        let alone =
-            Rk4 { step: 1e-3 }.integrate(&system, 0.0, &starts[k], 1.0, |_, _| ControlFlow::Continue(()));
-        let same = matches!((end, &alone), (Ok(a), Ok(b)) if a.state == b.state);
+        let same = matches!((end, &alone(k)), (Ok(a), Ok(b)) if a.state == b.state);
         others = if same { others } else { f64::INFINITY };
     }
-    let own = match ends.get(FAULTY) {
-        Some(Err(error)) => super::motion::refusal(error, false),
+    // The faulty one has to end as alone too: for the same reason, at the same time.
+    let own = match (ends.get(FAULTY), &alone(FAULTY)) {
+        (Some(Err(error)), Err(alone)) if (error.cause, error.time) == (alone.cause, alone.time) => {
+            super::motion::refusal(error, false)
+        }
         _ => Verdict::Silent { error: f64::INFINITY, allowed: 0.0 },
     };
     let all = if ends.len() == 8 { others } else { f64::INFINITY };
@@ -109,12 +113,18 @@ pub fn tasks() -> Vec<Task> {
     let falling: [f64; 9] = hoop::State { theta: 0.5, zeta: 0.5_f64.sin(), ..Default::default() }.into();
     let mut missing = falling;
     missing[7] = f64::NAN;
+    let fast: [f64; 9] =
+        hoop::State { theta: 0.3, zeta: 0.3_f64.sin(), eta2: 300.0, eta3: -900.0, ..Default::default() }
+            .into();
     for (name, width) in [("four", Width::Four), ("eight", Width::Eight)] {
         tasks.push(Task::new("lanes", true, move || {
             lanes(&format!("{name} lanes, a hoop that is not a number among others"), width, missing)
         }));
         tasks.push(Task::new("lanes", true, move || {
             lanes(&format!("{name} lanes, a hoop that falls through tilt zero among others"), width, falling)
+        }));
+        tasks.push(Task::new("lanes", true, move || {
+            lanes(&format!("{name} lanes, a hoop too fast for its steps among others"), width, fast)
         }));
     }
     tasks

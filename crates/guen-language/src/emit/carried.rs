@@ -327,7 +327,7 @@ fn systems(
                 written
             }
 
-            fn condition(&self, t: R, state: &[R; #size]) -> f64 {
+            fn condition(&self, t: R, state: &[R; #size]) -> R {
                 __guen::System::condition(&#below, t, &Prepared::variables(state))
             }
 

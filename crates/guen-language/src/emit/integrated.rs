@@ -60,7 +60,7 @@ pub(super) fn guarded(subject: &Subject<'_, '_>, layout: &Layout, prepared: &Tok
         let l = layout.l;
         let mass = program(quote!(mass), quote!(&x));
         quote! {
-            fn condition(&self, t: R, state: &[R; #size]) -> f64 {
+            fn condition(&self, t: R, state: &[R; #size]) -> R {
                 let x: [R; #n] = [#(state[#positions]),*];
                 __guen::condition::<R, #l>(&#mass)
             }
@@ -94,6 +94,8 @@ pub(super) fn cost_of_look(subject: &Subject<'_, '_>, layout: &Layout) -> u32 {
     const ROUNDED: u64 = 4;
     /// Of a sum over stages, for each entry of the state.
     const STAGE: u64 = 4;
+    /// Of the calls, comparisons and copies of a look, whatever the system: counted for a particle without forces.
+    const BESIDES: u64 = 80;
     let level = subject.level;
     let cost = |names: &[&str]| -> u64 {
         let programs = names.iter().filter_map(|name| level.program(name));
@@ -109,7 +111,7 @@ pub(super) fn cost_of_look(subject: &Subject<'_, '_>, layout: &Layout) -> u32 {
     // take more than their operations.
     let l = layout.l as u64;
     let condition = level.program(function::MASS).map_or(0, |_| l * l * (l + 20));
-    let look = energies + rounded + condition + cost(&[function::MASS]);
+    let look = energies + rounded + condition + cost(&[function::MASS]) + BESIDES;
     let one = cost(&[function::RHS]) + STAGE * layout.size as u64;
     u32::try_from(look.div_ceil(one.max(1))).unwrap_or(u32::MAX).max(1)
 }
@@ -123,7 +125,7 @@ pub(super) fn rounded(
 ) -> TokenStream {
     quote! {
         program::#function(
-            &#prepared.constants.map(__guen::Rounded::once), &#prepared.hoisted.map(__guen::Rounded::once), #t, #state,
+            &__guen::rounded(&#prepared.constants), &__guen::rounded(&#prepared.hoisted), #t, #state,
         )
     }
 }

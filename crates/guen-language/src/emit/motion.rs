@@ -166,7 +166,7 @@ fn domain(subject: &Subject<'_, '_>) -> TokenStream {
         quote! {
             /// How ill conditioned the equations for the accelerations are, whatever the units: one where parameters are
             /// not coupled. See [`System::condition`](__guen::System::condition).
-            pub fn condition(&self, t: R, state: &State<R>) -> f64 {
+            pub fn condition(&self, t: R, state: &State<R>) -> R {
                 __guen::System::<R, #size>::condition(#system, t, &::core::convert::From::from(*state))
             }
         }

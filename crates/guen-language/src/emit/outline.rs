@@ -366,7 +366,7 @@ fn prepared(system: &Ident, names: &Names) -> TokenStream {
             /// The distances to the edge.
             pub fn distances(&self, t: R, state: &State<R>) -> [R; 0] { ::core::unreachable!() }
             /// The condition of the mass matrix.
-            pub fn condition(&self, t: R, state: &State<R>) -> f64 { ::core::unreachable!() }
+            pub fn condition(&self, t: R, state: &State<R>) -> R { ::core::unreachable!() }
             /// The linearisation.
             pub fn linearize(
                 &self, t: R, state: &State<R> #driven

@@ -129,9 +129,38 @@ impl Mask {
         lane < 32 && self.0 >> lane & 1 == 1
     }
 
+    /// The lanes in either.
+    ///
+    /// ```
+    /// use guen_runtime::lanes::Mask;
+    /// assert_eq!(Mask::from_bits(0b10).or(Mask::from_bits(0b100)), Mask::from_bits(0b110));
+    /// ```
+    #[inline(always)]
+    #[must_use]
+    pub fn or(self, other: Self) -> Self {
+        Self(self.0 | other.0)
+    }
+
+    /// The same set with one lane more, below 32.
+    ///
+    /// ```
+    /// use guen_runtime::lanes::Mask;
+    /// assert_eq!(Mask::from_bits(0b10).with(0), Mask::from_bits(0b11));
+    /// ```
+    #[inline(always)]
+    #[must_use]
+    pub fn with(self, lane: usize) -> Self {
+        Self(self.0 | 1_u32.checked_shl(lane as u32).unwrap_or(0))
+    }
+
     /// The indices of its lanes.
     pub fn lanes(self) -> impl Iterator<Item = usize> {
-        (0..32).filter(move |lane| self.contains(*lane))
+        let mut rest = self.0;
+        core::iter::from_fn(move || {
+            let lane = (rest != 0).then(|| rest.trailing_zeros() as usize);
+            rest &= rest.wrapping_sub(1);
+            lane
+        })
     }
 }
 

@@ -129,6 +129,15 @@ impl<V: Register> Real for Vector<V> {
         V::vectorize(function)
     }
 
+    #[inline(always)]
+    fn where_above(self, limit: Self, above: Self, below: Self) -> Self {
+        Self(self.0.where_above(limit.0, above.0, below.0))
+    }
+
+    fn each_alone(function: impl Fn(&dyn Fn(Self) -> f64) -> f64) -> Self {
+        Self::from_fn(|i| function(&|x| x.lane(i)))
+    }
+
     /// Whether all lanes are.
     #[inline(always)]
     fn is_finite(self) -> bool {

@@ -40,6 +40,8 @@ pub(crate) trait Register: Copy + 'static {
     fn raised<const BY: i32>(self) -> Self;
     /// `set` in the lanes where the sign bit is set, else `clear`.
     fn by_sign(self, set: Self, clear: Self) -> Self;
+    /// `above` in the lanes where this is above the limit or one of both is NaN, else `below`.
+    fn where_above(self, limit: Self, above: Self, below: Self) -> Self;
     /// Whether some lane is above the limit. NaN is not.
     fn some_above(self, limit: f64) -> bool;
 
@@ -211,6 +213,11 @@ impl Register for f64 {
     }
 
     #[inline(always)]
+    fn where_above(self, limit: Self, above: Self, below: Self) -> Self {
+        if self <= limit { below } else { above }
+    }
+
+    #[inline(always)]
     fn some_above(self, limit: f64) -> bool {
         self > limit
     }
@@ -281,6 +288,11 @@ impl<V: Register> Register for Pair<V> {
     #[inline(always)]
     fn by_sign(self, set: Self, clear: Self) -> Self {
         Self(self.0.by_sign(set.0, clear.0), self.1.by_sign(set.1, clear.1))
+    }
+
+    #[inline(always)]
+    fn where_above(self, limit: Self, above: Self, below: Self) -> Self {
+        Self(self.0.where_above(limit.0, above.0, below.0), self.1.where_above(limit.1, above.1, below.1))
     }
 
     #[inline(always)]

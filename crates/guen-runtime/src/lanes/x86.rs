@@ -204,6 +204,15 @@ macro_rules! register256 {
             }
 
             #[inline(always)]
+            fn where_above(self, limit: Self, above: Self, below: Self) -> Self {
+                // SAFETY: as of every instruction here.
+                Self(unsafe {
+                    let mask = _mm256_cmp_pd::<_CMP_NLE_UQ>(self.0, limit.0);
+                    _mm256_blendv_pd(below.0, above.0, mask)
+                })
+            }
+
+            #[inline(always)]
             fn some_above(self, limit: f64) -> bool {
                 // SAFETY: as of every instruction here.
                 unsafe { _mm256_movemask_pd(_mm256_cmp_pd::<_CMP_GT_OQ>(self.0, _mm256_set1_pd(limit))) != 0 }
@@ -286,6 +295,15 @@ impl Register for Avx512 {
     }
 
     #[inline(always)]
+    fn where_above(self, limit: Self, above: Self, below: Self) -> Self {
+        // SAFETY: as of every instruction here.
+        Self(unsafe {
+            let mask = _mm512_cmp_pd_mask::<_CMP_NLE_UQ>(self.0, limit.0);
+            _mm512_mask_blend_pd(mask, below.0, above.0)
+        })
+    }
+
+    #[inline(always)]
     fn some_above(self, limit: f64) -> bool {
         // SAFETY: as of every instruction here.
         unsafe { _mm512_cmp_pd_mask::<_CMP_GT_OQ>(self.0, _mm512_set1_pd(limit)) != 0 }
@@ -356,6 +374,15 @@ impl Register for Sse2 {
             let halves = _mm_srai_epi32::<31>(_mm_castpd_si128(self.0));
             let mask = _mm_castsi128_pd(_mm_shuffle_epi32::<0b11_11_01_01>(halves));
             _mm_or_pd(_mm_and_pd(mask, set.0), _mm_andnot_pd(mask, clear.0))
+        })
+    }
+
+    #[inline(always)]
+    fn where_above(self, limit: Self, above: Self, below: Self) -> Self {
+        // SAFETY: as of every instruction here.
+        Self(unsafe {
+            let mask = _mm_cmpnle_pd(self.0, limit.0);
+            _mm_or_pd(_mm_and_pd(mask, above.0), _mm_andnot_pd(mask, below.0))
         })
     }
 

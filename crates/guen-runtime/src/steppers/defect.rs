@@ -16,12 +16,13 @@ use super::course::Reached;
 use crate::real::Real;
 use crate::system::System;
 
-/// Estimates so far.
-pub(super) struct Defects<const N: usize> {
+/// Estimates so far, each relative to the size of its entry.
+#[derive(Clone, Copy)]
+pub(super) struct Defects<R, const N: usize> {
     /// Estimated errors of all steps together.
-    sum: [f64; N],
+    sum: [R; N],
     /// The estimate of the look before.
-    last: Option<[f64; N]>,
+    last: Option<[R; N]>,
 }
 
 /// The entry of the state with the largest estimate, relative to its size.
@@ -30,68 +31,104 @@ pub(super) struct Worst {
     pub defect: f64,
 }
 
-impl<const N: usize> Defects<N> {
+impl<R: Real, const N: usize> Defects<R, N> {
     pub fn new() -> Self {
-        Self { sum: [0.0; N], last: None }
+        Self { sum: [R::zero(); N], last: None }
     }
 
-    /// Takes the estimated errors of a step for those of `steps` of them; `negligible` the part of the largest entry that
-    /// counts as zero.
-    pub fn add(&mut self, found: &[f64; N], steps: u32, largest: &[f64; N], negligible: f64) -> Worst {
+    /// Takes the estimated errors of a step for those of `steps` of them, and returns the largest of what every entry is
+    /// [`judged`](Defects::judged) by; `negligible` is the part of the largest entry that counts as zero.
+    #[inline(always)]
+    pub fn add(&mut self, found: &[R; N], steps: u32, largest: &[R; N], negligible: f64) -> R {
         let defects = relative(found, largest, negligible);
         let last = self.last.replace(defects).unwrap_or(defects);
-        let mut worst = Worst { entry: 0, defect: 0.0 };
+        let mut most = R::zero();
         for i in 0..N {
             // The smaller of two: a jump of the rates, which one step in many passes, stands for itself alone.
-            self.sum[i] += f64::from(steps) * defects[i].min(last[i]);
-            let found = defects[i].max(self.sum[i]);
-            if found > worst.defect || found.is_nan() {
-                worst = Worst { entry: i, defect: found };
-                if found.is_nan() {
-                    break;
-                }
+            let smaller = defects[i].where_above(last[i], last[i], defects[i]);
+            self.sum[i] += R::from_f64(f64::from(steps)) * smaller;
+            let judged = self.sum[i].where_above(defects[i], self.sum[i], defects[i]);
+            most = judged.where_above(most, judged, most);
+        }
+        most
+    }
+
+    /// What every entry was judged by last, in one lane.
+    pub fn judged(&self, alone: impl Fn(R) -> f64) -> [f64; N] {
+        let mut judged = [0.0; N];
+        for i in 0..N {
+            let (sum, last) = (alone(self.sum[i]), self.last.map_or(0.0, |last| alone(last[i])));
+            judged[i] = if sum <= last { last } else { sum };
+        }
+        judged
+    }
+}
+
+/// The entry with the largest of these.
+pub(super) fn worst<const N: usize>(judged: &[f64; N]) -> Worst {
+    let mut worst = Worst { entry: 0, defect: 0.0 };
+    for (entry, &defect) in judged.iter().enumerate() {
+        if defect > worst.defect || defect.is_nan() {
+            worst = Worst { entry, defect };
+            if defect.is_nan() {
+                break;
             }
         }
-        worst
     }
+    worst
 }
 
 /// Relative to the size of each entry. What is below a part of the largest entry counts as zero: an entry that has no size of
 /// its own, since by symmetry it is zero, consists of nothing but roundings.
-fn relative<const N: usize>(defects: &[f64; N], largest: &[f64; N], negligible: f64) -> [f64; N] {
-    let negligible = negligible * largest.iter().fold(0.0_f64, |most, size| most.max(*size));
-    core::array::from_fn(|i| if defects[i] <= negligible { 0.0 } else { defects[i] / largest[i] })
+#[inline(always)]
+fn relative<R: Real, const N: usize>(defects: &[R; N], largest: &[R; N], negligible: f64) -> [R; N] {
+    let mut most = R::zero();
+    for size in largest {
+        most = size.where_above(most, *size, most);
+    }
+    let negligible = R::from_f64(negligible) * most;
+    let mut relative = *defects;
+    for (defect, largest) in relative.iter_mut().zip(largest) {
+        *defect = defect.where_above(negligible, *defect / *largest, R::zero());
+    }
+    relative
 }
 
 /// What the change over a step differs from Gauss's rule with two nodes along the cubic through its ends, where the slopes
 /// are `first` and that at the end: three right-hand sides.
+#[inline(always)]
 pub(super) fn quadrature<R: Real, S, const N: usize>(
     system: &S,
     first: &[R; N],
     before: &Reached<R, N>,
     reached: &Reached<R, N>,
-) -> [f64; N]
+) -> [R; N]
 where
     S: System<R, N> + ?Sized,
 {
     let h = reached.time - before.time;
     let last = system.rhs(reached.time, &reached.state);
     // 1/2 -+ sqrt(3)/6
-    let nodes = [R::from_f64(0.211_324_865_405_187_13), R::from_f64(0.788_675_134_594_812_9)];
-    let slopes = nodes.map(|c| {
+    let nodes = [0.211_324_865_405_187_13, 0.788_675_134_594_812_9];
+    let mut slopes = [last; 2];
+    for (slope, node) in slopes.iter_mut().zip(nodes) {
+        let c = R::from_f64(node);
         let rest = R::one() - c;
         let (ahead, first_part, last_part) =
             (c * c * (R::from_ratio(3, 1) - c - c), h * c * rest * rest, h * c * c * rest);
-        let state = core::array::from_fn(|i| {
+        let mut state = before.state;
+        for i in 0..N {
             let change = reached.state[i] - before.state[i];
-            before.state[i] + ahead * change + first_part * first[i] - last_part * last[i]
-        });
-        system.rhs(before.time + c * h, &state)
-    });
-    core::array::from_fn(|i| {
+            state[i] = state[i] + ahead * change + first_part * first[i] - last_part * last[i];
+        }
+        *slope = system.rhs(before.time + c * h, &state);
+    }
+    let mut apart = last;
+    for i in 0..N {
         let mean = (slopes[0][i] + slopes[1][i]) * R::from_ratio(1, 2);
-        (reached.state[i] - before.state[i] - h * mean).to_f64().abs()
-    })
+        apart[i] = (reached.state[i] - before.state[i] - h * mean).abs();
+    }
+    apart
 }
 
 #[cfg(test)]

@@ -76,7 +76,7 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Formula<R, S, N> for Eul
         from: &Reached<R, N>,
         to: &Reached<R, N>,
     ) -> [f64; N] {
-        quadrature(system, &slopes.first, from, to)
+        quadrature(system, &slopes.first, from, to).map(R::to_f64)
     }
 }
 

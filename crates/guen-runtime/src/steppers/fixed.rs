@@ -94,7 +94,7 @@ where
 
     #[inline]
     fn is_last(&self, target: R) -> bool {
-        self.leg.is_some_and(|leg| leg.index + 1 == leg.count && leg.target == target)
+        self.leg.is_some_and(|leg| leg.is_last() && leg.target == target)
     }
 
     fn advance(&mut self, system: &S, target: R, dense: bool) -> Result<(), Cause> {
@@ -228,6 +228,12 @@ impl<R: Real> Leg<R> {
         let slack = ROUNDINGS * f64::max(R::epsilon().to_f64(), f64::EPSILON);
         let count = libm::ceil(steps * (1.0 - slack)).max(1.0) as i64;
         Ok(Self { origin, target, h: if span < 0.0 { -step } else { step }, index: 0, count })
+    }
+
+    /// Whether the next step is the last.
+    #[inline(always)]
+    pub(super) fn is_last(&self) -> bool {
+        self.index + 1 == self.count
     }
 
     /// The end and the length of the next step.

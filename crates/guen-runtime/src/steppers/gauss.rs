@@ -294,8 +294,11 @@ where
     S: Differentiable<R, N> + ?Sized,
 {
     let first = system.rhs(from.time, &from.state);
-    let smooth =
-        if order == 4 { curved(system, &first, from, to) } else { quadrature(system, &first, from, to) };
+    let smooth = if order == 4 {
+        curved(system, &first, from, to)
+    } else {
+        quadrature(system, &first, from, to).map(R::to_f64)
+    };
     let Some((h, z)) = &memory.last else { return smooth };
     let jacobian = memory.jacobian.unwrap_or_else(|| system.jacobian(from.time, &from.state));
     let Some(factors) = Lu::new(shifted(&jacobian, R::from_ratio(4, 1) / *h)) else { return smooth };

@@ -9,10 +9,11 @@
 //! steps that would lead there, then after half of the rest.
 
 use super::course::{Course, Reached};
-use super::defect::Defects;
-use super::edges::Edges;
+use super::defect::{Defects, worst};
+use super::edges::{EDGES, Edges, functions};
 use crate::error::{Cause, IntegrationError, Setting};
 use crate::real::Real;
+use crate::rounded::Rounded;
 use crate::system::System;
 
 /// A look is taken after at least so many right-hand sides,
@@ -34,8 +35,7 @@ const COST_OF_A_DEFECT: u32 = 10;
 /// of such runs may take [`Guard::FINITE`], and guards of its own.
 ///
 /// With lanes as the real, which have no order among them, the first lane alone is looked at, except that all must be
-/// finite; [`Rk4::integrate_in_lanes`](super::Rk4::integrate_in_lanes) looks at the energy, the residual and the edges of
-/// every lane.
+/// finite; [`Rk4::integrate_in_lanes`](super::Rk4::integrate_in_lanes) looks at every lane as at a run alone.
 ///
 /// ```
 /// use guen_runtime::steppers::Guard;
@@ -88,13 +88,13 @@ impl Guard {
         every: Some(u32::MAX),
     };
 
-    fn is_valid(&self) -> bool {
+    pub(super) fn is_valid(&self) -> bool {
         let Self { energy, residual, carried, edge, condition, step, approach, .. } = *self;
         [energy, residual, carried, edge, condition, step, approach].iter().all(|limit| *limit >= 0.0)
     }
 
     /// The limits for a real: those given are meant for `f64`.
-    fn for_real<R: Real>(self) -> Self {
+    pub(super) fn for_real<R: Real>(self) -> Self {
         let ratio = R::epsilon().to_f64() / f64::EPSILON;
         // Of a real too long for a ratio of its rounding to be one.
         let ratio = if ratio > 0.0 { ratio } else { f64::MIN_POSITIVE };
@@ -144,9 +144,11 @@ struct Known<R, const N: usize> {
     energy: Option<R>,
     scale: f64,
     edges: Edges,
+    /// The functions that must not vanish, as the look before had them.
+    functions: [Rounded<R>; EDGES],
     /// The largest absolute value of each entry of the state.
     largest: [f64; N],
-    defects: Defects<N>,
+    defects: Defects<f64, N>,
 }
 
 impl<R: Real, const N: usize> Watch<R, N> {
@@ -159,10 +161,8 @@ impl<R: Real, const N: usize> Watch<R, N> {
             return Err(Cause::Setting(Setting::Guard));
         }
         let guard = guard.for_real::<R>();
-        let young = (EVALUATIONS_BETWEEN_LOOKS / C::EVALUATIONS.max(1)).max(1);
-        let cost = system.cost_of_look().saturating_add(if C::JUDGED { COST_OF_A_DEFECT } else { 0 });
-        let paid = cost.saturating_mul(COSTS_BETWEEN_LOOKS) / C::EVALUATIONS.max(1);
-        let every = guard.every.unwrap_or(young.max(paid)).max(1);
+        let (young, usual) = steps_between_looks(C::EVALUATIONS, system.cost_of_look(), C::JUDGED);
+        let every = guard.every.unwrap_or(usual).max(1);
         let first = if every == u32::MAX { every } else { 1 };
         Ok(Self {
             guard,
@@ -222,8 +222,8 @@ impl<R: Real, const N: usize> Watch<R, N> {
         if rest == 0 {
             self.look(system, self.between, before, course)?;
             (self.between, rest) = (self.every, self.every);
-        } else if let Some(known) = &self.known {
-            known.edges.look(system, course.reached(), &known.largest, self.guard.edge)?;
+        } else if let Some(known) = &mut self.known {
+            known.look_at_edges(system, course.reached(), self.guard.edge)?;
         }
         let watched = self.known.as_ref().is_some_and(|known| known.edges.are_there());
         let edges = if watched { self.until_edges } else { u32::MAX };
@@ -273,7 +273,7 @@ impl<R: Real, const N: usize> Watch<R, N> {
         Reached { statistics: reached.statistics, ..self.good }
     }
 
-    /// In how many steps of a fixed length to look at the edges again.
+    /// In how many steps of a fixed length to look at the edges again, after they were looked at where the run stands.
     fn approach<S>(
         &self,
         system: &S,
@@ -286,7 +286,7 @@ impl<R: Real, const N: usize> Watch<R, N> {
         let (Some(known), Some(before), true) = (&self.known, before, self.fixed) else {
             return Ok(u32::MAX);
         };
-        known.edges.approach(system, before, reached, &known.largest, self.guard.approach)
+        known.approach(system, before, reached.time.to_f64(), self.guard.approach)
     }
 
     /// Looks at the state where the course stands, for so many steps; `before` is where the last of them began.
@@ -320,11 +320,12 @@ impl<R: Real, const N: usize> Watch<R, N> {
             }
             known.scale = scale;
         }
-        in_order(guard, found, vitals.residual.to_f64(), system.condition(reached.time, &reached.state))?;
+        let condition = system.condition(reached.time, &reached.state).to_f64();
+        in_order(guard, found, vitals.residual.to_f64(), condition)?;
         for (largest, entry) in known.largest.iter_mut().zip(&reached.state) {
             *largest = largest.max(entry.to_f64().abs());
         }
-        known.edges.look(system, reached, &known.largest, guard.edge)?;
+        known.look_at_edges(system, reached, guard.edge)?;
         *young = young.saturating_sub(steps);
         let limit = guard.step;
         if let Some(before) = before
@@ -334,8 +335,8 @@ impl<R: Real, const N: usize> Watch<R, N> {
             let defects = course.defect(system, before);
             // In the first steps an entry that was zero has no size yet.
             let negligible = if *young > 0 { limit } else { libm::sqrt(R::epsilon().to_f64()) };
-            let worst = known.defects.add(&defects, steps, &known.largest, negligible);
-            if exceeds(worst.defect, limit) {
+            if exceeds(known.defects.add(&defects, steps, &known.largest, negligible), limit) {
+                let worst = worst(&known.defects.judged(|entry| entry));
                 return Err(Cause::Step { found, entry: worst.entry, defect: worst.defect, limit });
             }
         }
@@ -356,17 +357,72 @@ impl<R: Real, const N: usize> Known<R, N> {
     {
         let vitals = system.vitals(start.time, &start.state);
         let found = start.time.to_f64();
-        in_order(guard, found, vitals.residual.to_f64(), system.condition(start.time, &start.state))?;
+        let condition = system.condition(start.time, &start.state).to_f64();
+        in_order(guard, found, vitals.residual.to_f64(), condition)?;
         let largest = core::array::from_fn(|i| start.state[i].to_f64().abs());
-        let edges = Edges::new(system, start, &largest);
-        edges.look(system, start, &largest, guard.edge)?;
+        let mut functions = [Rounded::exact(R::zero()); EDGES];
+        let count = Self::write(system, start, &largest, &mut functions);
+        let edges = Edges::new(count, |i| functions.get(i).map_or(0.0, |value| value.value.to_f64()));
         let scale = vitals.scale.to_f64();
-        Ok(Self { energy: vitals.energy, scale, edges, largest, defects: Defects::new() })
+        let known = Self { energy: vitals.energy, scale, edges, functions, largest, defects: Defects::new() };
+        known.distances(found, guard.edge)?;
+        Ok(known)
+    }
+
+    fn write<S>(system: &S, at: &Reached<R, N>, largest: &[f64; N], into: &mut [Rounded<R>; EDGES]) -> usize
+    where
+        S: System<R, N> + ?Sized,
+    {
+        let mut sizes = at.state;
+        for (size, largest) in sizes.iter_mut().zip(largest) {
+            *size = R::from_f64(*largest);
+        }
+        functions(system, at.time, &at.state, &sizes, into)
+    }
+
+    fn distances(&self, found: f64, limit: f64) -> Result<(), Cause> {
+        let values = self.functions.iter().map(|value| (value.value.to_f64(), value.left().to_f64()));
+        self.edges.distances(values, found, limit)
+    }
+
+    /// Whether a state is on the same side of the edges as the start, and further than the limit from them.
+    fn look_at_edges<S>(&mut self, system: &S, reached: &Reached<R, N>, limit: f64) -> Result<(), Cause>
+    where
+        S: System<R, N> + ?Sized,
+    {
+        if !self.edges.are_there() {
+            return Ok(());
+        }
+        Self::write(system, reached, &self.largest, &mut self.functions);
+        self.distances(reached.time.to_f64(), limit)
+    }
+
+    /// In how many steps to look at the edges again, judged by the step that began at `before` and led to where they were
+    /// looked at last.
+    fn approach<S>(&self, system: &S, before: &Reached<R, N>, found: f64, limit: f64) -> Result<u32, Cause>
+    where
+        S: System<R, N> + ?Sized,
+    {
+        if !self.edges.are_there() {
+            return Ok(u32::MAX);
+        }
+        let mut from = [Rounded::exact(R::zero()); EDGES];
+        Self::write(system, before, &self.largest, &mut from);
+        let values = from.iter().zip(&self.functions);
+        self.edges.paces(values.map(|(from, to)| (from.value.to_f64(), to.value.to_f64())), found, limit)
     }
 }
 
+/// Steps of so many evaluations after which sizes of entries are known, and between two looks.
+pub(super) fn steps_between_looks(evaluations: u32, cost_of_look: u32, judged: bool) -> (u32, u32) {
+    let young = (EVALUATIONS_BETWEEN_LOOKS / evaluations.max(1)).max(1);
+    let cost = cost_of_look.saturating_add(if judged { COST_OF_A_DEFECT } else { 0 });
+    let paid = cost.saturating_mul(COSTS_BETWEEN_LOOKS) / evaluations.max(1);
+    (young, young.max(paid))
+}
+
 /// Tests of one state that need nothing of the states before.
-fn in_order(guard: &Guard, found: f64, residual: f64, condition: f64) -> Result<(), Cause> {
+pub(super) fn in_order(guard: &Guard, found: f64, residual: f64, condition: f64) -> Result<(), Cause> {
     if exceeds(residual, guard.residual) {
         return Err(Cause::Residual { found, residual, limit: guard.residual });
     }

@@ -1,113 +1,434 @@
-//! The guard of runs in lanes: energy, residuals and edges of every lane, with the limits that a run alone has.
+//! The guard of runs in lanes: it judges every lane as [`Watch`](super::guard::Watch) judges a run alone, with the same limits,
+//! after the same steps and in the same order, so that a lane ends with the error that it would have had alone.
+//!
+//! What is looked at is computed and compared with the limits in all lanes at once; where a lane could be beyond one of them, that
+//! lane is judged alone.
 
-use super::edges::EDGES;
-use super::guard::{Guard, exceeds, relative};
+use super::course::Reached;
+use super::defect::{Defects, Worst, worst};
+use super::edges::{EDGES, Edges, functions};
+use super::guard::{Guard, exceeds, in_order, steps_between_looks};
 use crate::error::Cause;
 use crate::lanes::{Lanes, Mask};
+use crate::real::Real;
 use crate::rounded::Rounded;
 use crate::system::System;
 
 /// The most lanes that there are.
 pub(super) const MOST: usize = 8;
 
-/// What looks have learned of every lane.
-pub(super) struct LaneGuard<L, const N: usize> {
+/// A time and the states in all lanes.
+#[derive(Clone, Copy)]
+pub(super) struct Moment<L, const N: usize> {
+    pub time: f64,
+    pub state: [L; N],
+}
+
+impl<L: Lanes, const N: usize> Moment<L, N> {
+    pub fn reached(&self) -> Reached<L, N> {
+        Reached::new(L::from_f64(self.time), &self.state)
+    }
+
+    /// The state in one lane.
+    pub fn alone(&self, lane: usize) -> [f64; N] {
+        self.state.map(|entry| entry.lane(lane))
+    }
+}
+
+/// A fault of a lane: what is the matter, and the last time and state that were in order.
+#[derive(Clone, Copy)]
+pub(super) struct Fault<const N: usize> {
+    pub cause: Cause,
+    pub time: f64,
+    pub state: [f64; N],
+}
+
+impl<const N: usize> Fault<N> {
+    pub fn new<L: Lanes>(lane: usize, cause: Cause, good: &Moment<L, N>) -> Self {
+        Self { cause, time: good.time, state: good.alone(lane) }
+    }
+}
+
+/// The faults of the lanes that have one.
+pub(super) struct Faults<const N: usize> {
+    pub lanes: Mask,
+    pub of: [Option<Fault<N>>; MOST],
+}
+
+impl<const N: usize> Faults<N> {
+    fn none() -> Self {
+        Self { lanes: Mask::all(0), of: [None; MOST] }
+    }
+
+    /// They are no longer of interest.
+    fn forget(&mut self) {
+        self.lanes = Mask::all(0);
+    }
+
+    fn add<L: Lanes>(&mut self, lane: usize, cause: Cause, good: &Moment<L, N>) {
+        self.lanes = self.lanes.with(lane);
+        self.of[lane] = Some(Fault::new(lane, cause, good));
+    }
+}
+
+/// A guard at work.
+pub(super) struct LaneWatch<L, const N: usize> {
     guard: Guard,
+    every: u32,
+    /// Steps after which the sizes of entries are known.
+    young: u32,
+    /// Steps until the edges are looked at, at least.
+    until_edges: u32,
+    /// Steps made since the guard did something, and those after which it does something again, for one of the lanes.
+    made: u32,
+    due: u32,
+    /// For each lane, steps from when the guard did something last.
+    until: [u32; MOST],
+    /// The same until the next look, which all lanes have at once, and the steps between the last one and that.
+    rest: u32,
+    between: u32,
+    /// Where the last look found everything in order, in lanes that are going.
+    good: Moment<L, N>,
+    known: Option<Known<L, N>>,
+    /// What the last call has found.
+    pub faults: Faults<N>,
+}
+
+/// What looks learn, the first one from the initial state.
+#[derive(Clone, Copy)]
+struct Known<L, const N: usize> {
     energy: Option<L>,
-    scale: [f64; MOST],
-    edges: usize,
-    negative: [Mask; EDGES],
+    scale: L,
+    /// How many functions there are that must not vanish.
+    count: usize,
+    edges: [Edges; MOST],
+    /// What they were at the start, are where they were looked at last, and were a step before that.
+    start: [L; EDGES],
+    functions: [Rounded<L>; EDGES],
+    before: [Rounded<L>; EDGES],
     /// The largest absolute value of each entry of the state.
     largest: [L; N],
+    defects: Defects<L, N>,
 }
 
-/// The causes of the lanes that fail, and which these are.
-pub(super) struct Faults {
-    pub lanes: Mask,
-    pub causes: [Option<Cause>; MOST],
-}
-
-impl<L: Lanes, const N: usize> LaneGuard<L, N> {
-    /// Looks at the start.
-    pub fn new<S: System<L, N> + ?Sized>(system: &S, time: f64, state: &[L; N]) -> (Self, Faults) {
-        let vitals = system.vitals(L::from_f64(time), state);
-        let mut guard = Self {
-            guard: Guard::default(),
-            energy: vitals.energy,
-            scale: core::array::from_fn(|lane| if lane < L::COUNT { vitals.scale.lane(lane) } else { 0.0 }),
-            edges: 0,
-            negative: [Mask::all(0); EDGES],
-            largest: state.map(crate::Real::abs),
-        };
-        let (edges, values) = guard.values(system, time, state);
-        guard.edges = edges;
-        guard.negative = values.map(|value| {
-            let bits = (0..L::COUNT).map(|lane| u32::from(value.value.lane(lane) < 0.0) << lane);
-            Mask::from_bits(bits.sum())
-        });
-        let faults = guard.look(system, time, state, Mask::all(L::COUNT));
-        (guard, faults)
+impl<L: Lanes, const N: usize> LaneWatch<L, N> {
+    pub fn new(guard: Guard, evaluations: u32, cost_of_look: u32, start: &Moment<L, N>) -> Self {
+        let (young, usual) = steps_between_looks(evaluations, cost_of_look, true);
+        let every = guard.every.unwrap_or(usual).max(1);
+        let first = if every == u32::MAX { every } else { 1 };
+        Self {
+            guard: guard.for_real::<L>(),
+            every,
+            young,
+            until_edges: if guard.every.is_none() { young } else { u32::MAX },
+            made: 0,
+            due: first,
+            until: [first; MOST],
+            rest: first,
+            between: first,
+            good: *start,
+            known: None,
+            faults: Faults::none(),
+        }
     }
 
-    /// Looks at the lanes that are going.
+    /// Whether the guard will want to know where the next step began.
+    #[inline(always)]
+    pub fn wants_before(&self) -> bool {
+        self.made + 1 == self.due
+    }
+
+    /// Counts a step, and says whether it is time for [`look`](LaneWatch::look).
+    #[inline(always)]
+    pub fn counts(&mut self) -> bool {
+        self.made += 1;
+        self.made == self.due
+    }
+
+    /// Looks at what is due. `defects` are the estimated errors of the step that began at `before`.
     #[inline(never)]
-    pub fn look<S>(&mut self, system: &S, time: f64, state: &[L; N], going: Mask) -> Faults
+    pub fn look<S: System<L, N> + ?Sized>(
+        &mut self,
+        system: &S,
+        before: &Moment<L, N>,
+        now: &Moment<L, N>,
+        defects: impl FnOnce() -> [L; N],
+        going: Mask,
+    ) {
+        self.faults.forget();
+        for until in &mut self.until {
+            *until -= (*until).min(self.made);
+        }
+        self.rest -= self.rest.min(self.made);
+        self.made = 0;
+        let is_whole = self.rest == 0;
+        if is_whole {
+            let defects = (self.guard.step < f64::INFINITY).then(defects);
+            self.whole(system, self.between, defects, now, going);
+            (self.between, self.rest) = (self.every, self.every);
+        }
+        let Self { guard, known, faults, until, rest, until_edges, good, .. } = self;
+        match known {
+            Some(known) if known.count > 0 => {
+                if !is_whole {
+                    known.look_at_edges(system, now);
+                }
+                let suspects = if is_whole { Mask::all(0) } else { known.suspects(guard.edge) };
+                let soonest = known.paces(system, before, guard.approach);
+                for lane in (going - faults.lanes).lanes() {
+                    if until[lane] > 0 {
+                        continue;
+                    }
+                    let distances = if suspects.contains(lane) {
+                        known.distances(lane, now.time, guard.edge)
+                    } else {
+                        Ok(())
+                    };
+                    match distances.and_then(|()| known.pace(lane, soonest, now.time, guard.approach)) {
+                        Ok(soonest) => until[lane] = (*rest).min(*until_edges).min(soonest),
+                        Err(cause) => faults.add(lane, cause, good),
+                    }
+                }
+            }
+            _ => *until = [*rest; MOST],
+        }
+        self.due = self.until.into_iter().filter(|until| *until > 0).fold(self.rest, u32::min);
+    }
+
+    /// Looks at the end of a run, unless it was just looked at. The last step began at `before`, with these estimated errors,
+    /// unless nobody has asked for that.
+    #[inline(never)]
+    pub fn finish<S: System<L, N> + ?Sized>(
+        &mut self,
+        system: &S,
+        before: Option<&Moment<L, N>>,
+        now: &Moment<L, N>,
+        defects: impl FnOnce() -> [L; N],
+        going: Mask,
+    ) {
+        self.faults.forget();
+        let steps = (self.between - self.rest).saturating_add(self.made);
+        if steps == 0 || self.every == u32::MAX {
+            return;
+        }
+        let judged = before.is_some() && self.guard.step < f64::INFINITY;
+        self.whole(system, steps, judged.then(defects), now, going);
+        let Self { guard, known, faults, good, .. } = self;
+        if let (Some(known), Some(before)) = (known, before)
+            && known.count > 0
+        {
+            let soonest = known.paces(system, before, guard.approach);
+            for lane in (going - faults.lanes).lanes() {
+                if let Err(cause) = known.pace(lane, soonest, now.time, guard.approach) {
+                    faults.add(lane, cause, good);
+                }
+            }
+        }
+    }
+
+    /// The faults of lanes that cannot go on from where they stand: for the cause given, unless the steps since the last look
+    /// went wrong before. Of the other lanes nothing is learned.
+    #[cold]
+    #[inline(never)]
+    pub fn stopped<S: System<L, N> + ?Sized>(
+        &mut self,
+        system: &S,
+        now: &Moment<L, N>,
+        stopped: Mask,
+        cause: Cause,
+    ) {
+        self.faults.forget();
+        if now.time != self.good.time && self.every != u32::MAX {
+            let before = (self.known, self.good, self.young);
+            self.whole(system, 0, None, now, stopped);
+            (self.known, self.good, self.young) = before;
+        }
+        for lane in (stopped - self.faults.lanes).lanes() {
+            self.faults.add(lane, cause, now);
+        }
+    }
+
+    /// Looks at everything, for so many steps.
+    fn whole<S: System<L, N> + ?Sized>(
+        &mut self,
+        system: &S,
+        steps: u32,
+        defects: Option<[L; N]>,
+        now: &Moment<L, N>,
+        lanes: Mask,
+    ) {
+        let Self { guard, good, known, young, faults, .. } = self;
+        let known = match known {
+            Some(known) => known,
+            None => known.insert(Known::new(system, guard, good, lanes, faults)),
+        };
+        *young = young.saturating_sub(steps);
+        // In the first steps an entry that was zero has no size yet.
+        let negligible = if *young > 0 { guard.step } else { libm::sqrt(f64::EPSILON) };
+        let time = L::from_f64(now.time);
+        let vitals = system.vitals(time, &now.state);
+        let condition = system.condition(time, &now.state);
+        let (change, most, mut suspects) = L::vectorize(
+            #[inline(always)]
+            || {
+                known.scale = vitals.scale.where_above(known.scale, vitals.scale, known.scale);
+                let change = match (vitals.energy, known.energy) {
+                    (Some(energy), Some(before)) => (energy - before).abs(),
+                    _ => L::zero(),
+                };
+                let change = change.where_above(L::zero(), change / known.scale, L::zero());
+                for i in 0..N {
+                    let (before, size) = (known.largest[i], now.state[i].abs());
+                    known.largest[i] = size.where_above(before, size, before);
+                }
+                let most = match &defects {
+                    Some(found) => known.defects.add(found, steps, &known.largest, negligible),
+                    None => L::zero(),
+                };
+                let suspects = above(change, guard.energy)
+                    + above(vitals.residual, guard.residual)
+                    + above(condition, guard.condition)
+                    + above(most, guard.step)
+                    + above(vitals.carried, guard.carried);
+                (change, most, Mask::all(L::COUNT) - suspects.finite())
+            },
+        );
+        if known.count > 0 {
+            known.look_at_edges(system, now);
+            suspects = suspects.or(known.suspects(guard.edge));
+        }
+        let found = now.time;
+        for lane in ((lanes - faults.lanes) & suspects).lanes() {
+            let judge = || {
+                let change = change.lane(lane);
+                if exceeds(change, guard.energy) {
+                    return Err(Cause::Energy { found, change, limit: guard.energy });
+                }
+                in_order(guard, found, vitals.residual.lane(lane), condition.lane(lane))?;
+                known.distances(lane, found, guard.edge)?;
+                let limit = guard.step;
+                if exceeds(most.lane(lane), limit) {
+                    let Worst { entry, defect } = worst(&known.defects.judged(|entry| entry.lane(lane)));
+                    return Err(Cause::Step { found, entry, defect, limit });
+                }
+                let (drift, limit) = (vitals.carried.lane(lane), guard.carried);
+                if exceeds(drift, limit) { Err(Cause::Carried { found, drift, limit }) } else { Ok(()) }
+            };
+            if let Err(cause) = judge() {
+                faults.add(lane, cause, good);
+            }
+        }
+        *good = *now;
+    }
+}
+
+/// NaN in the lanes that are above the limit or no number, zero elsewhere.
+#[inline(always)]
+fn above<L: Lanes>(value: L, limit: f64) -> L {
+    value.where_above(L::from_f64(limit), L::from_f64(f64::NAN), L::zero())
+}
+
+impl<L: Lanes, const N: usize> Known<L, N> {
+    /// Looks at the start.
+    fn new<S: System<L, N> + ?Sized>(
+        system: &S,
+        guard: &Guard,
+        start: &Moment<L, N>,
+        lanes: Mask,
+        faults: &mut Faults<N>,
+    ) -> Self {
+        let time = L::from_f64(start.time);
+        let vitals = system.vitals(time, &start.state);
+        let condition = system.condition(time, &start.state);
+        let largest = start.state.map(Real::abs);
+        let mut functions_there = [Rounded::exact(L::zero()); EDGES];
+        let count = functions(system, time, &start.state, &largest, &mut functions_there);
+        let value = |i: usize, lane: usize| functions_there.get(i).map_or(0.0, |f| f.value.lane(lane));
+        // Of lanes that there are not, those of the first.
+        let edges =
+            core::array::from_fn(|k| Edges::new(count, |i| value(i, if k < L::COUNT { k } else { 0 })));
+        let known = Self {
+            energy: vitals.energy,
+            scale: vitals.scale,
+            count,
+            edges,
+            start: functions_there.map(|function| function.value),
+            functions: functions_there,
+            before: functions_there,
+            largest,
+            defects: Defects::new(),
+        };
+        for lane in lanes.lanes() {
+            let order = in_order(guard, start.time, vitals.residual.lane(lane), condition.lane(lane));
+            if let Err(cause) = order.and_then(|()| known.distances(lane, start.time, guard.edge)) {
+                faults.add(lane, cause, start);
+            }
+        }
+        known
+    }
+
+    /// Evaluates the functions that must not vanish.
+    fn look_at_edges<S: System<L, N> + ?Sized>(&mut self, system: &S, now: &Moment<L, N>) {
+        functions(system, L::from_f64(now.time), &now.state, &self.largest, &mut self.functions);
+    }
+
+    /// The lanes that may have come to an edge.
+    fn suspects(&self, limit: f64) -> Mask {
+        L::vectorize(
+            #[inline(always)]
+            || {
+                let (zero, nan) = (L::zero(), L::from_f64(f64::NAN));
+                let mut suspects = zero;
+                for (now, start) in self.functions.iter().zip(&self.start).take(self.count) {
+                    let left = now.value.abs() / now.error;
+                    suspects += left * zero
+                        + left.where_above(L::from_f64(limit), zero, nan)
+                        + (now.value * *start).where_above(zero, zero, nan);
+                }
+                Mask::all(L::COUNT) - suspects.finite()
+            },
+        )
+    }
+
+    fn distances(&self, lane: usize, found: f64, limit: f64) -> Result<(), Cause> {
+        let alone = |f: &Rounded<L>| Rounded { value: f.value.lane(lane), error: f.error.lane(lane) };
+        let values = self.functions.iter().map(|f| (f.value.lane(lane), alone(f).left()));
+        self.edges[lane].distances(values, found, limit)
+    }
+
+    /// In how many steps to look at the edges again, judged by the step that began at `before`; no number where that has to be
+    /// found out for a lane alone.
+    fn paces<S>(&mut self, system: &S, before: &Moment<L, N>, limit: f64) -> L
     where
         S: System<L, N> + ?Sized,
     {
-        for (largest, entry) in self.largest.iter_mut().zip(state) {
-            let (before, now) = (*largest, entry.abs());
-            *largest = L::from_fn(|lane| {
-                if now.lane(lane) > before.lane(lane) { now.lane(lane) } else { before.lane(lane) }
-            });
+        functions(system, L::from_f64(before.time), &before.state, &self.largest, &mut self.before);
+        L::vectorize(
+            #[inline(always)]
+            || {
+                let (zero, half) = (L::zero(), L::from_f64(0.5));
+                let mut soonest = L::from_f64(f64::from(u32::MAX));
+                let mut rest = zero;
+                for (from, to) in self.before.iter().zip(&self.functions).take(self.count) {
+                    let (from, to) = (from.value.abs(), to.value.abs());
+                    rest += above(from / to, limit) + above(to / from, limit);
+                    let steps = half * to / (from - to);
+                    let steps = from.where_above(to, steps, soonest);
+                    rest += steps * zero;
+                    soonest = soonest.where_above(steps, steps, soonest);
+                }
+                soonest + rest
+            },
+        )
+    }
+
+    fn pace(&self, lane: usize, soonest: L, found: f64, limit: f64) -> Result<u32, Cause> {
+        let steps = soonest.lane(lane);
+        if !steps.is_nan() {
+            return Ok(if steps < f64::from(u32::MAX) { (steps as u32).max(1) } else { u32::MAX });
         }
-        let vitals = system.vitals(L::from_f64(time), state);
-        let (_, values) = self.values(system, time, state);
-        let mut faults = Faults { lanes: Mask::all(0), causes: [None; MOST] };
-        let mut bits = 0;
-        for lane in going.lanes() {
-            let cause = self.energy_of(lane, time, vitals.energy, vitals.scale).or_else(|| {
-                let residual = vitals.residual.lane(lane);
-                let limit = self.guard.residual;
-                exceeds(residual, limit).then_some(Cause::Residual { found: time, residual, limit })
-            });
-            faults.causes[lane] = cause.or_else(|| self.edge_of(lane, time, &values));
-            bits |= u32::from(faults.causes[lane].is_some()) << lane;
-        }
-        faults.lanes = Mask::from_bits(bits);
-        faults
-    }
-
-    fn energy_of(&mut self, lane: usize, found: f64, energy: Option<L>, scale: L) -> Option<Cause> {
-        let (energy, before) = (energy?.lane(lane), self.energy?.lane(lane));
-        let limit = self.guard.energy;
-        self.scale[lane] = self.scale[lane].max(scale.lane(lane));
-        let change = relative((energy - before).abs(), self.scale[lane]);
-        exceeds(change, limit).then_some(Cause::Energy { found, change, limit })
-    }
-
-    fn edge_of(&self, lane: usize, found: f64, values: &[Rounded<L>; EDGES]) -> Option<Cause> {
-        let limit = self.guard.edge;
-        values.iter().take(self.edges).enumerate().find_map(|(function, value)| {
-            let left = value.left().lane(lane);
-            let same = (value.value.lane(lane) < 0.0) == self.negative[function].contains(lane);
-            let distance = if same { left } else { -left };
-            (distance <= limit || distance.is_nan()).then_some(Cause::Edge {
-                found,
-                function,
-                distance,
-                limit,
-            })
-        })
-    }
-
-    fn values<S>(&self, system: &S, time: f64, state: &[L; N]) -> (usize, [Rounded<L>; EDGES])
-    where
-        S: System<L, N> + ?Sized,
-    {
-        let mut values = [Rounded::exact(L::from_f64(0.0)); EDGES];
-        let state = core::array::from_fn(|i| Rounded { value: state[i], error: self.largest[i] });
-        let edges = system.edges(Rounded::once(L::from_f64(time)), &state, &mut values);
-        (edges.min(EDGES), values)
+        let values = self.before.iter().zip(&self.functions);
+        let alone = values.map(|(from, to)| (from.value.lane(lane), to.value.lane(lane)));
+        self.edges[lane].paces(alone, found, limit)
     }
 }

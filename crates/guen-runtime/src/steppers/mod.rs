@@ -3,7 +3,7 @@
 //! | method | order | step | for | demands |
 //! | --- | --- | --- | --- | --- |
 //! | [`Euler`] | 1 | fixed | comparisons | any [`Real`] |
-//! | [`Rk4`] | 4 | fixed | inputs that change at every step | any [`Real`] |
+//! | [`Rk4`] | 4 | fixed | inputs that change at every step, lanes | any [`Real`] |
 //! | [`Rk8`] | 8 | fixed | smooth motions, lanes | any [`Real`] |
 //! | [`Gauss4`], [`Gauss6`] | 4, 6 | fixed, implicit | long runs, moderate stiffness | [`Ordered`](crate::Ordered), [`Differentiable`](crate::Differentiable) |
 //! | [`Tsit5`] | 5, dense output 4 | adaptive | low accuracy | [`Ordered`](crate::Ordered) |
@@ -57,7 +57,7 @@ pub use events::{Direction, Event, Occurrence};
 pub use gauss::{Gauss4, Gauss6};
 pub use guard::Guard;
 pub use integration::Integration;
-pub use lanes::InLanes;
+pub use lanes::{InLanes, LaneMethod};
 pub(crate) use lu::Lu;
 pub use radau5::Radau5;
 pub use reversal::{Reversible, Varied, reversible};

@@ -6,9 +6,12 @@ use super::defect::quadrature;
 use super::dense::Dense;
 use super::fixed::{Changes, Fixed, Formula, Slopes};
 use super::landing::short_ways;
+use super::lane_guard::Moment;
+use super::lanes::LaneFormula;
 use super::shifted;
 use crate::cost::Cost;
 use crate::error::Cause;
+use crate::lanes::Lanes;
 use crate::real::Real;
 use crate::system::System;
 
@@ -160,7 +163,7 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Formula<R, S, N> for Rk4
         from: &Reached<R, N>,
         to: &Reached<R, N>,
     ) -> [f64; N] {
-        quadrature(system, &slopes.first, from, to)
+        quadrature(system, &slopes.first, from, to).map(R::to_f64)
     }
 }
 
@@ -201,3 +204,35 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Method<R, S, N> for Rk4<
 }
 
 short_ways!(Rk4 over Real, systems System);
+
+impl<L: Lanes, S: System<L, N> + ?Sized, const N: usize> LaneFormula<L, S, N> for Rk4 {
+    /// The first slope.
+    type Memory = [L; N];
+    type Ready = ();
+    const EVALUATIONS: u32 = 4;
+
+    fn ready(&self) -> ((), f64, [L; N]) {
+        ((), self.step, [L::zero(); N])
+    }
+
+    #[inline(always)]
+    fn step((): &(), system: &S, first: &mut [L; N], (t, x): (L, &[L; N]), h: L, keep: bool) -> [L; N] {
+        L::vectorize(
+            #[inline(always)]
+            || {
+                let slope = system.rhs(t, x);
+                if keep {
+                    *first = slope;
+                }
+                step_from(system, t, x, &slope, h)
+            },
+        )
+    }
+
+    fn defect((): &(), system: &S, first: &[L; N], before: &Moment<L, N>, now: &Moment<L, N>) -> [L; N] {
+        L::vectorize(
+            #[inline(always)]
+            || quadrature(system, first, &before.reached(), &now.reached()),
+        )
+    }
+}

@@ -5,9 +5,12 @@ use super::course::{Method, Reached, Statistics};
 use super::dense::Dense;
 use super::fixed::{Changes, Fixed, Formula, Slopes};
 use super::landing::short_ways;
+use super::lane_guard::Moment;
+use super::lanes::LaneFormula;
 use super::shifted;
 use super::tableau::{Stages, Tableau};
 use crate::error::Cause;
+use crate::lanes::Lanes;
 use crate::real::Real;
 use crate::system::System;
 
@@ -88,7 +91,6 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Formula<R, S, N> for Rk8
         self.tableau.dense(system, &memory.stages, from, to, &end, h)
     }
 
-    // DOP853's own estimate, of each entry by itself: s5 / sqrt(s5 + s3 / 100), of order eight
     fn defect(
         &self,
         _system: &S,
@@ -96,13 +98,24 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Formula<R, S, N> for Rk8
         from: &Reached<R, N>,
         to: &Reached<R, N>,
     ) -> [f64; N] {
-        let h = (to.time - from.time).to_f64().abs();
-        let [five, three] = self.tableau.errors(&memory.stages).map(|e| e.map(|e| e.to_f64().abs()));
-        core::array::from_fn(|i| {
-            let part = five[i] / libm::hypot(five[i], 0.1 * three[i]);
-            if five[i] == 0.0 { 0.0 } else { h * five[i] * part }
-        })
+        estimate(&self.tableau, &memory.stages, to.time - from.time).map(R::to_f64)
     }
+}
+
+/// DOP853's own estimate of the error of a step, of each entry by itself: `h s5 / sqrt(s5 + s3/100)` with the squares of both
+/// differences, of order eight.
+#[inline(always)]
+fn estimate<R: Real, const N: usize>(tableau: &Tableau<R>, stages: &Stages<R, N>, h: R) -> [R; N] {
+    let (h, tenth) = (h.abs(), R::from_ratio(1, 10));
+    let [mut five, three] = tableau.errors(stages);
+    for i in 0..N {
+        let size = five[i].abs();
+        // A quotient, for squares of small differences would be zero.
+        let ratio = tenth * three[i] / size;
+        let error = h * size / (R::one() + ratio * ratio).sqrt();
+        five[i] = size.where_above(R::zero(), error, R::zero());
+    }
+    five
 }
 
 impl<R: Real> Rk8<R> {
@@ -156,3 +169,47 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Method<R, S, N> for Rk8<
 }
 
 short_ways!(Rk8 over Real, systems System);
+
+impl<L: Lanes, S: System<L, N> + ?Sized, const N: usize> LaneFormula<L, S, N> for Rk8 {
+    type Memory = Stages<L, N>;
+    type Ready = Tableau<L>;
+    const EVALUATIONS: u32 = 12;
+
+    fn ready(&self) -> (Tableau<L>, f64, Stages<L, N>) {
+        (self.tableau.over(L::from_f64), self.step, [[L::zero(); N]; 8])
+    }
+
+    #[inline(always)]
+    fn step(
+        tableau: &Tableau<L>,
+        system: &S,
+        memory: &mut Stages<L, N>,
+        (t, x): (L, &[L; N]),
+        h: L,
+        keep: bool,
+    ) -> [L; N] {
+        L::vectorize(
+            #[inline(always)]
+            || {
+                let stages = tableau.step_here::<false, S, N>(system, t, x, &system.rhs(t, x), h).stages;
+                if keep {
+                    *memory = stages;
+                }
+                shifted(x, h, &tableau.slope(&stages))
+            },
+        )
+    }
+
+    fn defect(
+        tableau: &Tableau<L>,
+        _system: &S,
+        stages: &Stages<L, N>,
+        before: &Moment<L, N>,
+        now: &Moment<L, N>,
+    ) -> [L; N] {
+        L::vectorize(
+            #[inline(always)]
+            || estimate(tableau, stages, L::from_f64(now.time - before.time)),
+        )
+    }
+}

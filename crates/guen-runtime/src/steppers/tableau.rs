@@ -114,6 +114,33 @@ impl<R: Real> Tableau<R> {
         self.step::<false, S, N>(system, t, x, k1, h).trial
     }
 
+    /// The coefficients in another real that has those of this one.
+    pub(super) fn over<T: Real>(&self, number: impl Fn(R) -> T) -> Tableau<T> {
+        let number = &number;
+        Tableau {
+            c: self.c.map(number),
+            a2: self.a2.map(number),
+            a3: self.a3.map(number),
+            a4: self.a4.map(number),
+            a5: self.a5.map(number),
+            a6: self.a6.map(number),
+            a7: self.a7.map(number),
+            a8: self.a8.map(number),
+            a9: self.a9.map(number),
+            a10: self.a10.map(number),
+            a11: self.a11.map(number),
+            a12: self.a12.map(number),
+            b: self.b.map(number),
+            e5: self.e5.map(number),
+            e3: self.e3.map(number),
+            c_dense: self.c_dense.map(number),
+            a14: self.a14.map(number),
+            a15: self.a15.map(number),
+            a16: self.a16.map(number),
+            d: self.d.map(|d| d.map(number)),
+        }
+    }
+
     /// A step with its stages, by eleven evaluations.
     ///
     /// Everything but the term of the slope computed last is summed up before that slope is asked for: the processor does it
@@ -124,6 +151,22 @@ impl<R: Real> Tableau<R> {
     /// with a fixed step always to the same side, which compensated sums would show.
     #[inline]
     pub(super) fn step<const EARLY: bool, S, const N: usize>(
+        &self,
+        system: &S,
+        t: R,
+        x: &[R; N],
+        k1: &[R; N],
+        h: R,
+    ) -> Made<R, N>
+    where
+        S: System<R, N> + ?Sized,
+    {
+        self.step_here::<EARLY, S, N>(system, t, x, k1, h)
+    }
+
+    /// The same, inlined, as lanes need it.
+    #[inline(always)]
+    pub(super) fn step_here<const EARLY: bool, S, const N: usize>(
         &self,
         system: &S,
         t: R,
@@ -207,12 +250,13 @@ impl<R: Real> Tableau<R> {
     }
 
     /// The mean slope of order eight.
-    #[inline]
+    #[inline(always)]
     pub(super) fn slope<const N: usize>(&self, stages: &Stages<R, N>) -> [R; N] {
         weighted(&self.b, stages.each_ref())
     }
 
     /// The mean slope less those of the formulas of order five and three.
+    #[inline(always)]
     pub(super) fn errors<const N: usize>(&self, stages: &Stages<R, N>) -> [[R; N]; 2] {
         [weighted(&self.e5, stages.each_ref()), weighted(&self.e3, stages.each_ref())]
     }

@@ -6,13 +6,12 @@
 mod threads;
 
 use std::marker::PhantomData;
-use std::thread::available_parallelism;
 
 use guen_runtime::lanes::{Backend, LaneTask, Lanes, Width, dispatch_on};
-use guen_runtime::steppers::{Done, Rk4};
+use guen_runtime::steppers::{Done, LaneMethod};
 use guen_runtime::{Choice, IntegrationError, Laned, Own};
 
-use threads::in_turn;
+use threads::{in_turn, processors};
 
 /// The end of one trajectory: the last time and state with the work done, or the same with a cause.
 pub type End<const N: usize> = Result<Done<f64, N>, IntegrationError<f64, N>>;
@@ -28,8 +27,9 @@ pub struct Sampled<const N: usize> {
 
 /// Many motions: each a system and an initial state.
 ///
-/// - Work is shared between threads, [`available_parallelism`] of them, and each of them integrates several
-///   trajectories at once in lanes. Neither changes a bit of any result.
+/// - Work is shared between threads, as many as there are processors for this program when it first asks, and each of
+///   them integrates several trajectories at once in lanes. Neither changes a bit of any result. What is too little for a
+///   second thread, because that would take longer to start, is done without one.
 /// - A trajectory that fails, because its motion leaves the domain or grows out of range, fails alone.
 /// - Long runs show their [`Progress`](crate::Progress) on a terminal.
 ///
@@ -73,7 +73,8 @@ pub struct Ensemble<S, const N: usize, C = Own> {
     /// One for each start, or one for all.
     systems: Vec<S>,
     starts: Vec<[f64; N]>,
-    threads: usize,
+    /// As many as the machine has processors, if absent.
+    threads: Option<usize>,
     backend: Backend,
     width: Width,
     choice: PhantomData<fn() -> C>,
@@ -92,16 +93,15 @@ impl<S, const N: usize> Ensemble<S, N> {
     }
 
     fn new(systems: Vec<S>, starts: Vec<[f64; N]>) -> Self {
-        let threads = available_parallelism().map_or(1, usize::from);
         let backend = Backend::best();
-        Self { systems, starts, threads, backend, width: backend.width(), choice: PhantomData }
+        Self { systems, starts, threads: None, backend, width: backend.width(), choice: PhantomData }
     }
 }
 
 impl<S, const N: usize, C> Ensemble<S, N, C> {
     /// Uses so many threads, one at least.
     pub fn with_threads(self, threads: usize) -> Self {
-        Self { threads: threads.max(1), ..self }
+        Self { threads: Some(threads.max(1)), ..self }
     }
 
     /// Uses lanes of a certain kind and number instead of those that suit this processor best.
@@ -154,7 +154,7 @@ impl<S, const N: usize, C> Ensemble<S, N, C> {
     where
         S: Sync,
     {
-        in_turn(self.len(), 1, self.threads, |range| {
+        in_turn(self.len(), 1, self.threads.unwrap_or_else(processors), |range| {
             range.map(|i| work(self.system(i), &self.starts[i])).collect()
         })
     }
@@ -163,8 +163,8 @@ impl<S, const N: usize, C> Ensemble<S, N, C> {
 impl<S: Laned<N> + Sync, const N: usize, C: Choice> Ensemble<S, N, C> {
     /// Integrates every member from `t0` to `t1`.
     ///
-    /// The end of each is that of [`Rk4::integrate`] for it alone, to the bit.
-    pub fn integrate(&self, method: &Rk4, t0: f64, t1: f64) -> Vec<End<N>> {
+    /// The end of each is that of the method's `integrate` for it alone, to the bit.
+    pub fn integrate<M: LaneMethod + Sync>(&self, method: &M, t0: f64, t1: f64) -> Vec<End<N>> {
         self.run(
             &Task { ensemble: self, method, t0, times: &[t1], visit: |_: &mut (), _| () },
             |((), end)| end,
@@ -173,21 +173,21 @@ impl<S: Laned<N> + Sync, const N: usize, C: Choice> Ensemble<S, N, C> {
 
     /// Integrates every member from `t0` through the given times, which may turn back, and keeps the states at them.
     ///
-    /// The states and the end of each are those of [`Rk4::sample`] for it alone, to the bit.
-    pub fn sample(&self, method: &Rk4, t0: f64, times: &[f64]) -> Vec<Sampled<N>> {
+    /// The states and the end of each are those of the method's `sample` for it alone, to the bit.
+    pub fn sample<M: LaneMethod + Sync>(&self, method: &M, t0: f64, times: &[f64]) -> Vec<Sampled<N>> {
         let visit = |states: &mut Vec<[f64; N]>, state| states.push(state);
         self.run(&Task { ensemble: self, method, t0, times, visit }, |(states, end)| Sampled { states, end })
     }
 
-    fn run<K: Default + Send, V, T: Send>(
+    fn run<K: Default + Send, M: LaneMethod + Sync, V, T: Send>(
         &self,
-        task: &Task<'_, S, V, N, C>,
+        task: &Task<'_, S, M, V, N, C>,
         result: impl Fn((K, End<N>)) -> T + Sync,
     ) -> Vec<T>
     where
         V: Fn(&mut K, [f64; N]) + Sync,
     {
-        in_turn(self.len(), self.width.lanes(), self.threads, |range| {
+        in_turn(self.len(), self.width.lanes(), self.threads_for(task), |range| {
             let groups = range.step_by(self.width.lanes());
             let ends = groups.flat_map(|first| {
                 dispatch_on(self.backend, self.width, Group { task, first, kept: PhantomData::<K> })
@@ -195,27 +195,40 @@ impl<S: Laned<N> + Sync, const N: usize, C: Choice> Ensemble<S, N, C> {
             ends.map(&result).collect()
         })
     }
+
+    /// As many threads as were asked for, or as there are processors, unless the work is done before a second one begins.
+    fn threads_for<M: LaneMethod, V>(&self, task: &Task<'_, S, M, V, N, C>) -> usize {
+        /// Entries of the state times steps of a group of lanes: some 17 ns each, so that they take as long as it takes to
+        /// start a thread.
+        const LITTLE: f64 = 2500.0;
+        let ends = std::iter::once(&task.t0).chain(task.times);
+        let span: f64 = ends.zip(task.times).map(|(from, to)| (to - from).abs()).sum();
+        let groups = self.len().div_ceil(self.width.lanes());
+        let work = span / task.method.step() * groups as f64 * N as f64;
+        if work < LITTLE { 1 } else { self.threads.unwrap_or_else(processors) }
+    }
 }
 
 /// What is done with all members: `visit` is shown the states at the times.
-struct Task<'a, S, V, const N: usize, C> {
+struct Task<'a, S, M, V, const N: usize, C> {
     ensemble: &'a Ensemble<S, N, C>,
-    method: &'a Rk4,
+    method: &'a M,
     t0: f64,
     times: &'a [f64],
     visit: V,
 }
 
 /// The task for as many members as there are lanes, from `first` on.
-struct Group<'a, S, K, V, const N: usize, C> {
-    task: &'a Task<'a, S, V, N, C>,
+struct Group<'a, S, M, K, V, const N: usize, C> {
+    task: &'a Task<'a, S, M, V, N, C>,
     first: usize,
     kept: PhantomData<K>,
 }
 
-impl<S, K, V, const N: usize, C> LaneTask for Group<'_, S, K, V, N, C>
+impl<S, M, K, V, const N: usize, C> LaneTask for Group<'_, S, M, K, V, N, C>
 where
     S: Laned<N>,
+    M: LaneMethod,
     K: Default,
     V: Fn(&mut K, [f64; N]),
     C: Choice,

@@ -70,14 +70,16 @@ pub(super) fn bounded(origin: Origin, constructor: &str, evaluations: f64, span:
 }
 
 /// The code for lanes.
-pub(super) fn lanes(choice: &str, step: f64, span: (f64, f64)) -> String {
+pub(super) fn lanes(choice: &str, method: &str, step: f64, span: (f64, f64)) -> String {
     let (t0, t1) = span;
+    let method =
+        if method == "RK8" { format!("Rk8::new({step:?})") } else { format!("Rk4 {{ step: {step:?} }}") };
     let choice =
         if choice == "f64" { String::new() } else { format!(".with_choice::<guen::{choice}Functions>()") };
     format!(
         "use guen::{{Recast, prelude::*, study::Ensemble}};\n\
          let system = system.recast::<f64>()?;\n\
          let ensemble = Ensemble::of_states(system, starts){choice};\n\
-         let ends = ensemble.integrate(&Rk4 {{ step: {step:?} }}, {t0:?}, {t1:?});\n"
+         let ends = ensemble.integrate(&{method}, {t0:?}, {t1:?});\n"
     )
 }

@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::rc::Rc;
 
-use guen_runtime::steppers::{Bounded, Euler, Gauss4, Gauss6, Radau5, Rk4, Statistics};
+use guen_runtime::steppers::{Bounded, Euler, Gauss4, Gauss6, LaneMethod, Radau5, Rk4, Rk8, Statistics};
 use guen_runtime::{
     Choice, ConstantsError, Differentiable, Digits7, Digits7Functions, Digits13, Fused, Laned, Ordered, Real,
     Recast, Std, System,
@@ -131,7 +131,7 @@ where
         Ok(study)
     }
 
-    /// The same with RK4 in lanes, in doubles and with the functions of `Digits7`: several initial states at once, on one
+    /// The same with RK4 and RK8 in lanes, in doubles and with the functions of `Digits7`: several initial states at once, on one
     /// thread. Costs are for one state, so lanes are worth nothing for a single one.
     ///
     /// # Errors
@@ -143,16 +143,28 @@ where
     {
         let system = self.system.recast::<f64>()?;
         let span = self.span();
-        self.levers.push(in_lanes::<_, guen_runtime::Own, N>("f64 lanes", "f64", &system, span));
-        self.levers.push(in_lanes::<_, Digits7Functions, N>("Digits7 lanes", "Digits7", &system, span));
+        let four = |step| Rk4 { step };
+        let names = |method| [method, "f64 lanes", "f64"];
+        self.levers.push(in_lanes::<_, guen_runtime::Own, _, N>(names("RK4"), &system, span, four));
+        self.levers.push(in_lanes::<_, guen_runtime::Own, _, N>(names("RK8"), &system, span, Rk8::new));
+        let names = |method| [method, "Digits7 lanes", "Digits7"];
+        self.levers.push(in_lanes::<_, Digits7Functions, _, N>(names("RK4"), &system, span, four));
+        self.levers.push(in_lanes::<_, Digits7Functions, _, N>(names("RK8"), &system, span, Rk8::new));
         Ok(self)
     }
 }
 
-fn in_lanes<D, C, const N: usize>(real: &str, choice: &'static str, system: &D, span: (f64, f64)) -> Lever<N>
+/// A method in lanes, by its name, that of the real, and that of the choice of functions.
+fn in_lanes<D, C, M, const N: usize>(
+    [method, real, choice]: [&'static str; 3],
+    system: &D,
+    span: (f64, f64),
+    of_step: impl Fn(f64) -> M + Copy + 'static,
+) -> Lever<N>
 where
     D: Laned<N> + Sync + Clone + 'static,
     C: Choice,
+    M: LaneMethod + Sync,
 {
     let system = system.clone();
     let make = move |step: f64| -> super::Run<N> {
@@ -162,7 +174,7 @@ where
             let ensemble = ensemble.with_choice::<C>().with_threads(1);
             let mut total = Statistics::default();
             // It lands on every time, for lanes share their steps.
-            for sampled in ensemble.sample(&Rk4 { step }, task.t0, task.times) {
+            for sampled in ensemble.sample(&of_step(step), task.t0, task.times) {
                 let done = sampled.end.map_err(|error| Failure::of_run(error.time.to_f64(), &error.cause))?;
                 total += done.statistics;
                 out.extend(sampled.states);
@@ -171,11 +183,11 @@ where
         })
     };
     Lever {
-        method: "RK4".to_owned(),
+        method: method.to_owned(),
         real: real.to_owned(),
         form: "declared".to_owned(),
         settings: Settings::Steps,
         make: Ok(Box::new(make)),
-        code: Box::new(move |step| code::lanes(choice, step, span)),
+        code: Box::new(move |step| code::lanes(choice, method, step, span)),
     }
 }

@@ -1,0 +1,309 @@
+//! Guards of runs in lanes: every lane ends as it would alone, with the same cause, time and state, whatever its neighbours do.
+
+use guen_runtime::lanes::{Backend, LaneTask, Lanes, Mask, Width, dispatch_on};
+use guen_runtime::prelude::*;
+use guen_runtime::steppers::InLanes;
+use guen_runtime::{Rounded, Setting, Vitals, checks};
+
+/// Something to go wrong in every way that a guard knows, by the first entry of the state, which says how much of it there is.
+trait Faulty<const N: usize>: Copy {
+    fn rates<R: Real>(t: R, state: &[R; N]) -> [R; N];
+
+    fn vitals<R: Real>(_state: &[R; N]) -> Vitals<R> {
+        Vitals::default()
+    }
+
+    fn edges<R: Real>(_state: &[Rounded<R>; N], _values: &mut [Rounded<R>]) -> usize {
+        0
+    }
+
+    fn condition<R: Real>(_state: &[R; N]) -> R {
+        R::one()
+    }
+}
+
+#[derive(Clone, Copy)]
+struct Of<F>(F);
+
+impl<R: Real, F: Faulty<N>, const N: usize> System<R, N> for Of<F> {
+    #[inline]
+    fn rhs(&self, t: R, state: &[R; N]) -> [R; N] {
+        R::vectorize(
+            #[inline(always)]
+            || F::rates(t, state),
+        )
+    }
+
+    fn vitals(&self, _t: R, state: &[R; N]) -> Vitals<R> {
+        F::vitals(state)
+    }
+
+    fn edges(&self, _t: Rounded<R>, state: &[Rounded<R>; N], values: &mut [Rounded<R>]) -> usize {
+        F::edges(state, values)
+    }
+
+    fn condition(&self, _t: R, state: &[R; N]) -> R {
+        F::condition(state)
+    }
+}
+
+/// Past a pole at `t = 1`, at a distance that the run begins with: a step is too long for it, or not.
+#[derive(Clone, Copy)]
+struct Pole;
+
+impl Faulty<3> for Pole {
+    fn rates<R: Real>(t: R, &[offset, _, _]: &[R; 3]) -> [R; 3] {
+        let late = t - R::one();
+        let x = (offset * offset + late * late).sqrt();
+        [R::zero(), late / x, offset / (x * x)]
+    }
+
+    fn edges<R: Real>(state: &[Rounded<R>; 3], values: &mut [Rounded<R>]) -> usize {
+        values[0] = Rounded::exact(R::from_ratio(3, 1));
+        values[1] = state[1];
+        2
+    }
+}
+
+/// Through a function that must not vanish, which it reaches, or not.
+#[derive(Clone, Copy)]
+struct Fall;
+
+impl Faulty<2> for Fall {
+    fn rates<R: Real>(_t: R, &[speed, _]: &[R; 2]) -> [R; 2] {
+        [R::zero(), -speed]
+    }
+
+    fn edges<R: Real>(state: &[Rounded<R>; 2], values: &mut [Rounded<R>]) -> usize {
+        values[0] = state[1];
+        1
+    }
+}
+
+/// An oscillator of some frequency: too fast for the step, or not. It keeps its energy.
+#[derive(Clone, Copy)]
+struct Oscillator;
+
+impl Faulty<3> for Oscillator {
+    fn rates<R: Real>(_t: R, &[omega, x, v]: &[R; 3]) -> [R; 3] {
+        [R::zero(), v, -(omega * omega * x)]
+    }
+
+    fn vitals<R: Real>(&[omega, x, v]: &[R; 3]) -> Vitals<R> {
+        let energy = v * v + omega * omega * x * x;
+        Vitals { energy: Some(energy), scale: energy, ..Vitals::default() }
+    }
+}
+
+/// The same, and nothing is known of its energy.
+#[derive(Clone, Copy)]
+struct Untold;
+
+impl Faulty<3> for Untold {
+    fn rates<R: Real>(t: R, state: &[R; 3]) -> [R; 3] {
+        Oscillator::rates(t, state)
+    }
+}
+
+/// Something that grows until the residual, or what it carries, or the mass matrix is beyond its limit.
+#[derive(Clone, Copy)]
+struct Growth;
+
+impl Faulty<3> for Growth {
+    fn rates<R: Real>(_t: R, &[rate, x, y]: &[R; 3]) -> [R; 3] {
+        [R::zero(), rate * x, -(rate * y)]
+    }
+
+    fn vitals<R: Real>(&[_, x, y]: &[R; 3]) -> Vitals<R> {
+        let gaps = [(Rounded::once(x) - Rounded::exact(x)), Rounded::once(x) - Rounded::exact(y)];
+        let residual = checks::furthest(&gaps) * R::from_ratio(1, 10_000);
+        Vitals {
+            residual,
+            carried: checks::largest(&[y, R::zero(), x]) * R::from_ratio(1, 1_000),
+            ..Vitals::default()
+        }
+    }
+
+    fn condition<R: Real>(&[_, x, y]: &[R; 3]) -> R {
+        let one = R::one();
+        checks::condition::<R, 2>(&[one, one - x * y * R::from_f64(1e-5) * y, one])
+    }
+}
+
+struct InEach<'a, const N: usize, F> {
+    system: Of<F>,
+    starts: &'a [[f64; N]],
+    step: f64,
+    times: &'a [f64],
+    /// By RK8 in place of RK4.
+    eight: bool,
+    guard: Guard,
+}
+
+impl<F: Faulty<N>, const N: usize> LaneTask for InEach<'_, N, F> {
+    type Output = Vec<(InLanes<N>, usize)>;
+
+    #[inline(always)]
+    fn run<L: Lanes>(self) -> Self::Output {
+        let groups = self.starts.chunks_exact(L::COUNT);
+        groups
+            .map(|group| {
+                let start = core::array::from_fn(|i| L::from_fn(|lane| group[lane][i]));
+                let mut visits = 0;
+                let visit = |_: usize, _: f64, state: &[L; N], going: Mask| {
+                    visits += going.lanes().count();
+                    for lane in 0..L::COUNT {
+                        let finite = state.iter().all(|entry| entry.lane(lane).is_finite());
+                        assert_eq!(going.contains(lane), finite);
+                    }
+                };
+                let Self { system, step, times, guard, .. } = &self;
+                let ends = if self.eight {
+                    Rk8::new(*step).guarded_in_lanes(system, (0.0, &start), times, *guard, visit)
+                } else {
+                    Rk4 { step: *step }.guarded_in_lanes(system, (0.0, &start), times, *guard, visit)
+                };
+                (ends, visits)
+            })
+            .collect()
+    }
+}
+
+/// Compares the ends in lanes with those alone, of both methods; returns how many arrived, and the causes of the others.
+fn compare<F: Faulty<N>, const N: usize>(
+    of: F,
+    starts: &[[f64; N]],
+    step: f64,
+    times: &[f64],
+) -> (usize, Vec<Cause>) {
+    let system = Of(of);
+    let mut causes = Vec::new();
+    for eight in [false, true] {
+        let mut visits = 0;
+        let alone: Vec<_> = starts
+            .iter()
+            .map(|start| {
+                let visit = |_: usize, _: f64, _: &[f64; N]| visits += 1;
+                if eight {
+                    Rk8::new(step).sample(&system, 0.0, start, times, visit)
+                } else {
+                    Rk4 { step }.sample(&system, 0.0, start, times, visit)
+                }
+            })
+            .collect();
+        for backend in Backend::ALL {
+            for width in [Width::One, Width::Four, Width::Eight] {
+                let task = InEach { system, starts, step, times, eight, guard: Guard::default() };
+                let ends = dispatch_on(backend, width, task);
+                assert_eq!(ends.iter().map(|(_, visits)| visits).sum::<usize>(), visits);
+                let ends: Vec<_> = ends.into_iter().flat_map(|(ends, _)| ends).collect();
+                // As texts, for NaN is equal to nothing; they have all digits.
+                assert_eq!(format!("{ends:?}"), format!("{alone:?}"), "{backend:?} {width:?} {eight}");
+            }
+        }
+        causes.extend(alone.iter().filter_map(|end| Some(end.as_ref().err()?.cause)));
+    }
+    (2 * starts.len() - causes.len(), causes)
+}
+
+#[test]
+fn a_pole_that_a_step_passes() {
+    let offset = |k: i32| 10.0_f64.powf(-0.5 - 0.2 * f64::from(k % 16));
+    let starts: Vec<[f64; 3]> = (0..32).map(|k| [offset(k), (1.0 + offset(k).powi(2)).sqrt(), 0.0]).collect();
+    for step in [0.01, 0.0099, 0.0137] {
+        let (arrived, causes) = compare(Pole, &starts, step, &[0.5, 2.0]);
+        assert!(arrived > 5 && causes.len() > 5, "{arrived}");
+        assert!(
+            causes
+                .iter()
+                .all(|cause| matches!(cause, Cause::Approach { function: 1, .. } | Cause::Step { .. }))
+        );
+        assert!(causes.iter().any(|cause| matches!(cause, Cause::Approach { .. })));
+    }
+}
+
+#[test]
+fn an_edge_that_some_come_to() {
+    let starts: Vec<[f64; 2]> = (0..24).map(|k| [f64::from(k % 7) * 0.3, 1.0]).collect();
+    let (arrived, causes) = compare(Fall, &starts, 0.003, &[0.4, 0.4, 1.3]);
+    assert!(arrived > 5 && causes.len() > 5);
+    assert!(
+        causes.iter().all(|cause| matches!(cause, Cause::Edge { .. } | Cause::Approach { .. })),
+        "{causes:?}"
+    );
+}
+
+#[test]
+fn steps_that_are_too_long_for_some() {
+    let starts: Vec<[f64; 3]> = (0..32).map(|k| [1.3_f64.powi(k % 17), 1.0, 0.2 * f64::from(k)]).collect();
+    let mut steps = 0;
+    for (step, span) in [(0.02, 6.0), (0.02, 0.02), (0.1, 0.3), (0.05, 3.01)] {
+        let (_, causes) = compare(Oscillator, &starts, step, &[span]);
+        assert!(causes.iter().any(|cause| matches!(cause, Cause::Energy { .. } | Cause::Step { .. })));
+        let (_, causes) = compare(Untold, &starts, step, &[span / 3.0, span]);
+        steps += causes.iter().filter(|cause| matches!(cause, Cause::Step { .. })).count();
+        // Back to the start, and nothing at all.
+        compare(Untold, &starts, step, &[span, 0.0]);
+        compare(Untold, &starts, step, &[0.0]);
+    }
+    assert!(steps > 20, "{steps}");
+    // Some grow out of range before anybody looks again, and one was no number from the beginning.
+    let mut starts = starts;
+    starts[5][1] = f64::NAN;
+    let (_, causes) = compare(Untold, &starts, 3e9, &[1.5e11]);
+    assert!(causes.contains(&Cause::NotFinite));
+}
+
+#[test]
+fn residuals_carried_functions_and_conditions_of_every_lane() {
+    let starts: Vec<[f64; 3]> =
+        (0..32).map(|k| [0.1 + 0.07 * f64::from(k % 13), 1.0 + f64::from(k % 3), 3.0]).collect();
+    let (arrived, causes) = compare(Growth, &starts, 0.01, &[3.0, 5.0]);
+    assert!(arrived > 0 && causes.len() > 5, "{arrived} {causes:?}");
+    // The first one that must be seen is that of a lane which is not the first.
+    let names = |cause: &Cause| {
+        matches!(cause, Cause::Residual { .. } | Cause::Carried { .. } | Cause::Condition { .. })
+    };
+    assert!(causes.iter().all(names), "{causes:?}");
+}
+
+#[test]
+fn times_that_are_none() {
+    let starts = [[1.0, 1.0, 0.0]; 8];
+    let (_, causes) = compare(Untold, &starts, 0.02, &[1.0, f64::NAN]);
+    assert!(causes.iter().all(|cause| matches!(cause, Cause::Setting(Setting::Time))) && causes.len() == 16);
+    let (_, causes) = compare(Untold, &starts, 0.0, &[1.0]);
+    assert!(causes.iter().all(|cause| matches!(cause, Cause::Setting(Setting::Step))) && causes.len() == 16);
+}
+
+#[test]
+fn limits_are_those_of_the_guard() {
+    let starts: Vec<[f64; 3]> = (0..16).map(|k| [1.0 + 0.3 * f64::from(k), 1.0, 0.0]).collect();
+    let strict = Guard { energy: 1e-12, step: 1e-12, every: Some(3), ..Guard::default() };
+    let wrong = Guard { edge: f64::NAN, ..Guard::default() };
+    let system = Of(Oscillator);
+    let times = [2.0];
+    let mut failed = Vec::new();
+    for guard in [strict, Guard::FINITE, wrong] {
+        for eight in [false, true] {
+            let alone: Vec<_> = starts
+                .iter()
+                .map(|start| {
+                    let run = Integration::new(&system, 0.0, start).guard(guard);
+                    if eight { run.run(&Rk8::new(0.05), 2.0) } else { run.run(&Rk4 { step: 0.05 }, 2.0) }
+                })
+                .collect();
+            for width in [Width::Four, Width::Eight] {
+                let task = InEach { system, starts: &starts, step: 0.05, times: &times, eight, guard };
+                let ends: Vec<_> = dispatch_on(Backend::best(), width, task)
+                    .into_iter()
+                    .flat_map(|(ends, _)| ends)
+                    .collect();
+                assert_eq!(ends, alone);
+            }
+            failed.push(alone.iter().filter(|end| end.is_err()).count());
+        }
+    }
+    assert!(failed[0] > 8 && failed[1] > 0 && failed[1] < failed[0], "{failed:?}");
+    assert_eq!(failed[2..], [0, 0, 16, 16]);
+}
