@@ -3,8 +3,8 @@
 use std::error::Error;
 use std::rc::Rc;
 
-use guen::TaylorSeries;
 use guen::prelude::*;
+use guen::{Fused, TaylorSeries};
 
 use super::methods::{Candidate, Form, candidates};
 use super::references::{Case, read};
@@ -66,6 +66,8 @@ macro_rules! problems {
                 let system = $System { $($constant: case.constant($key)?),* }.prepare()?;
                 let carried = system.carried()?;
                 let state = $module::State::from(case.start).carried(&carried, 0.0);
+                let fused = $System { $($constant: Fused::new(case.constant($key)?)),* }.prepare()?.carried()?;
+                let fused_state = $module::carried::State::from(<[f64; _]>::from(state).map(Fused::new));
                 problems.push(Problem {
                     system: $title,
                     case: case.label.clone(),
@@ -74,6 +76,7 @@ macro_rules! problems {
                     candidates: candidates(
                         Form { system, start: case.start, case: case.clone() },
                         Form { system: carried, start: state.into(), case: case.clone() },
+                        Form { system: fused, start: fused_state.into(), case: case.clone() },
                     ),
                 });
             }

@@ -44,7 +44,7 @@ impl Findings {
     /// For each accuracy all methods, and what their times are of DOP853's and of RK4's.
     pub fn print(&self, accuracies: &[f64]) {
         println!(
-            "{}, {}, over {} s; with an apostrophe: the carried form\n",
+            "{}, {}, over {} s; with an apostrophe: the carried form; with two: that in `Fused`\n",
             self.problem, self.case, self.span
         );
         for (accuracy, limit) in accuracies.iter().enumerate() {
