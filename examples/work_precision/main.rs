@@ -102,7 +102,7 @@ fn measure(problem: &Problem, arguments: &Arguments, missed: &mut Vec<String>) -
             };
             let value = lever.value(setting, problem.span);
             choices.push(Choice { method, accuracy, value, evaluations: run.evaluations, error: run.error });
-            runs.push(move || (candidate.run)(setting));
+            runs.push((candidate.made)(setting));
         }
         if arguments.settings {
             let tried = search
@@ -111,7 +111,7 @@ fn measure(problem: &Problem, arguments: &Arguments, missed: &mut Vec<String>) -
             tables::print_tried(problem, method, tried);
         }
     }
-    let runs: Vec<&dyn Fn()> = runs.iter().map(|run| run as &dyn Fn()).collect();
+    let runs: Vec<&dyn Fn()> = runs.iter().map(|run| &**run).collect();
     let rounds = if arguments.quick { ROUNDS_IF_QUICK } else { ROUNDS };
     let times = Times::take(&runs, rounds);
     Findings { problem: problem.system, case: problem.case.clone(), span: problem.span, choices, times }

@@ -37,8 +37,8 @@ pub struct Candidate {
     pub most: u64,
     /// A run with a setting, and what came of it; none if it failed.
     pub judge: Box<dyn Fn(u32) -> Option<Run>>,
-    /// The same run, of which nothing is asked.
-    pub run: Box<dyn Fn(u32)>,
+    /// The same run with a method that was made before, of which nothing is asked.
+    pub made: Box<dyn Fn(u32) -> Box<dyn Fn()>>,
 }
 
 /// A form of a system over a real, with its state at the beginning and what is to come of it.
@@ -63,21 +63,23 @@ where
         K: Method<R, S, M> + 'static,
     {
         let (system, start, case) = (self.system.clone(), self.start, self.case.clone());
-        let go = move |setting, case: &Case<N>| {
-            run(&system, &start, case.span, &make(lever.value(setting, case.span)))
-        };
-        let (again, same) = (go.clone(), case.clone());
+        let span = case.span;
+        let method_of = move |setting| make(lever.value(setting, span));
+        let (same_system, same_start) = (system.clone(), start);
         Candidate {
             method,
             lever,
             most,
             judge: Box::new(move |setting| {
-                let done = go(setting, &case)?;
+                let done = run(&system, &start, span, &method_of(setting))?;
                 let state = done.state.map(R::to_f64);
                 Some(Run { evaluations: done.statistics.evaluations, error: case.error(&state) })
             }),
-            run: Box::new(move |setting| {
-                black_box(again(setting, &same));
+            made: Box::new(move |setting| {
+                let (system, start, method) = (same_system.clone(), same_start, method_of(setting));
+                Box::new(move || {
+                    black_box(run(&system, &start, span, &method));
+                })
             }),
         }
     }
