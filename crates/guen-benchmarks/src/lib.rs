@@ -5,6 +5,7 @@
 //! from here, so that a figure in one of them is about the same code as in the others. Not published.
 #![forbid(unsafe_code)]
 
+pub mod arms;
 pub mod by_hand;
 pub mod chains;
 #[macro_use]

@@ -214,4 +214,14 @@ subjects! {
         by by_hand::joints::<R, 10, 20>, |c| [c.l, c.g];
         states { .. => (-2.0, 2.0) }
         near 1 at 0.0, 2 at 0.0, 3 at 0.0, 4 at 0.0, 5 at 0.0, 6 at 0.0, 7 at 0.0, 8 at 0.0, 9 at 0.0;
+    "arm3": Arm3, arm3 Arm3 ARM3_TEXT [6]
+        { m = 3/2, l = 1/2, A = 1/10, B = 1/5, C = 1/4, D = 1/40, g = 981/100 }
+        by |c| by_hand::arm([2, 1, 0], c), |c| [c.m, c.l, c.A, c.B, c.C, c.D, c.g];
+        states { .. => (-2.0, 2.0) }
+        near 1 at 0.0;
+    "arm6": Arm6, arm6 Arm6 ARM6_TEXT [12]
+        { m = 3/2, l = 1/2, A = 1/10, B = 1/5, C = 1/4, D = 1/40, g = 981/100 }
+        by |c| by_hand::arm([2, 1, 1, 0, 1, 0], c), |c| [c.m, c.l, c.A, c.B, c.C, c.D, c.g];
+        states { .. => (-2.0, 2.0) }
+        near 1 at 0.0, 4 at 0.0;
 }

@@ -88,3 +88,4 @@ car!(CAR3_TEXT, "A car with three trailers, coasting.", Car3:
     first axle1 rear hitch1, second axle2 axle1 hitch2, third axle3 axle2 hitch3,);
 
 include!(concat!(env!("OUT_DIR"), "/chains.rs"));
+include!(concat!(env!("OUT_DIR"), "/arms.rs"));

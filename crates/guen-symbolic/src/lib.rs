@@ -25,8 +25,8 @@ pub use algebra::{
 pub use geometry::{Brackets, Closure, Combination, Form, Forms, Operators, SingularForms};
 pub use motion::{
     Class, Dependence, Derivation, DerivationError, Energies, Equations, Force, Frame, Holonomic,
-    KineticTerm, Mechanics, MotionSymbol, NotQuadratic, Solution, VelocityForm, VelocityPartials, decompose,
-    equations_by_definition,
+    KineticTerm, Mechanics, MotionSymbol, Multibody, NotQuadratic, RigidBody, Solution, VelocityForm,
+    VelocityPartials, decompose, equations_by_definition,
 };
 pub use normal::{Limits, normal_coefficients, normal_form};
 pub use print::{Contracted, Notation, greek_letter, latex_name};

@@ -64,6 +64,7 @@ fn chain(graph: &mut Graph, rotors: bool) -> (Mechanics, [ExprId; 3]) {
         kinetic_energy: graph.sum(kinetic),
         stated: vec![true; LINKS],
         force_function: graph.sum(force),
+        multibody: None,
         forces: vec![pull],
         outputs: Vec::new(),
         motion_symbols: Vec::new(),

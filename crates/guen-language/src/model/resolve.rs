@@ -5,7 +5,10 @@ mod provide;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use guen_symbolic::{Bound, ExprId, Flow, Force, Forms, Graph, Holonomic, Mechanics, Role, Roles, Workbench};
+use guen_symbolic::{
+    Bound, ExprId, Flow, Force, Forms, Graph, Holonomic, Mechanics, Multibody, RigidBody, Role, Roles,
+    Workbench,
+};
 
 use super::bodies::Weight;
 use super::evaluate::{Evaluator, children};
@@ -45,6 +48,8 @@ struct Resolver<'a, 'f> {
     kinetic: Vec<ExprId>,
     energy: Option<&'a Quantity>,
     has_masses: bool,
+    rigid_bodies: Vec<RigidBody>,
+    written_energy: Option<ExprId>,
     weights: Vec<Weight>,
     gravity: Option<super::value::Vector>,
     force_function: Option<ExprId>,
@@ -89,6 +94,8 @@ impl<'a, 'f> Resolver<'a, 'f> {
             kinetic: Vec::new(),
             energy: None,
             has_masses: false,
+            rigid_bodies: Vec::new(),
+            written_energy: None,
             weights: Vec::new(),
             gravity: None,
             force_function: None,
@@ -184,6 +191,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
                     let etas: Vec<ExprId> = etas.collect();
                     self.eval.check_quadratic(&quantity.value, energy, &self.velocities, &etas);
                     self.kinetic.push(energy);
+                    self.written_energy = Some(energy);
                 }
                 let mut mentioned = BTreeSet::new();
                 names_in(&quantity.value, &mut mentioned);
@@ -200,6 +208,10 @@ impl<'a, 'f> Resolver<'a, 'f> {
                         self.kinetic.push(energy);
                         self.particles.push(weight);
                         self.weights.push(weight);
+                        let (mass, position) = weight;
+                        let inertia = [self.eval.bench.graph.zero(); 6];
+                        let center = Some(position);
+                        self.rigid_bodies.push(RigidBody { mass, center, orientation: None, inertia });
                     }
                 }
             }
@@ -210,6 +222,14 @@ impl<'a, 'f> Resolver<'a, 'f> {
                         self.kinetic.push(energy);
                         self.weights.extend(weight);
                         let BodyValue { name, mass, inertia, center, orientation } = &value;
+                        // Without a mass a centre moves nothing, and without inertia an orientation.
+                        let zero = self.eval.bench.graph.zero();
+                        self.rigid_bodies.push(RigidBody {
+                            mass: mass.unwrap_or(zero),
+                            center: mass.and(*center).map(|(position, _)| position),
+                            orientation: inertia.and(orientation.as_ref()).map(|rotation| rotation.matrix),
+                            inertia: inertia.unwrap_or([zero; 6]),
+                        });
                         self.bodies.push(BodyEntry {
                             name: name.clone(),
                             mass: *mass,
@@ -422,6 +442,13 @@ impl<'a, 'f> Resolver<'a, 'f> {
         }
         let force_function = bench.graph.sum(force_function);
         let kinetic_energy = bench.graph.sum(self.kinetic);
+        let zero = bench.graph.zero();
+        let multibody = self.has_masses.then(|| Multibody {
+            bodies: self.rigid_bodies,
+            gravity: self.gravity.unwrap_or([zero; 3]),
+            other_energy: self.written_energy.unwrap_or(zero),
+            other_force_function: self.force_function.unwrap_or(zero),
+        });
         let accelerations = raw[..degrees]
             .iter()
             .map(|form| {
@@ -468,6 +495,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
             kinetic_energy,
             stated,
             force_function,
+            multibody,
             forces: self.forces,
             outputs: self.output_values,
             motion_symbols,

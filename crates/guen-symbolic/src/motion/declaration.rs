@@ -34,6 +34,32 @@ pub enum MotionSymbol {
     Reaction(usize),
 }
 
+/// A rigid body or a particle of the kinetic energy.
+#[derive(Clone, Debug)]
+pub struct RigidBody {
+    /// The mass; of no matter without a centre.
+    pub mass: ExprId,
+    /// The centre of mass, in the world's axes.
+    pub center: Option<[ExprId; 3]>,
+    /// The rotation from body axes to the world's, row by row.
+    pub orientation: Option<[[ExprId; 3]; 3]>,
+    /// The entries `xx, yy, zz, xy, yz, zx` of the inertia about the centre, in body axes; of no matter without an orientation.
+    pub inertia: [ExprId; 6],
+}
+
+/// What `T°` and `U` are made of, where bodies were declared.
+#[derive(Clone, Debug)]
+pub struct Multibody {
+    /// Bodies and particles.
+    pub bodies: Vec<RigidBody>,
+    /// The acceleration of gravity, in the world's axes.
+    pub gravity: [ExprId; 3],
+    /// What `T°` has beside the energies of the bodies.
+    pub other_energy: ExprId,
+    /// What `U` has beside the weight of the bodies.
+    pub other_force_function: ExprId,
+}
+
 /// A mechanical system.
 #[derive(Clone, Debug)]
 pub struct Mechanics {
@@ -58,12 +84,27 @@ pub struct Mechanics {
     pub stated: Vec<bool>,
     /// `U(t, x)`.
     pub force_function: ExprId,
+    /// The bodies that both are made of, where the declaration has any.
+    pub multibody: Option<Multibody>,
     /// The other generalised forces.
     pub forces: Vec<Force>,
     /// Quantities computed on request.
     pub outputs: Vec<ExprId>,
     /// Symbols in the outputs for what follows from the motion.
     pub motion_symbols: Vec<(ExprId, MotionSymbol)>,
+}
+
+impl Multibody {
+    fn expressions(&mut self) -> impl Iterator<Item = &mut ExprId> {
+        let Multibody { bodies, gravity, other_energy, other_force_function } = self;
+        let of_bodies = bodies.iter_mut().flat_map(|body| {
+            let RigidBody { mass, center, orientation, inertia } = body;
+            let (center, orientation) =
+                (center.iter_mut().flatten(), orientation.iter_mut().flatten().flatten());
+            center.chain(orientation).chain(inertia).chain([mass])
+        });
+        of_bodies.chain(gravity).chain([other_energy, other_force_function])
+    }
 }
 
 impl Mechanics {
@@ -83,7 +124,8 @@ impl Mechanics {
             .chain(system.holonomic.iter_mut().map(|h| &mut h.equation))
             .chain(system.forces.iter_mut().flat_map(|force| [&mut force.magnitude, &mut force.along]))
             .chain(&mut system.outputs)
-            .chain(&mut system.written);
+            .chain(&mut system.written)
+            .chain(system.multibody.iter_mut().flat_map(Multibody::expressions));
         for expression in expressions {
             *expression = values.of(&mut bench.graph, *expression);
         }

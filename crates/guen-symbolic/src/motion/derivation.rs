@@ -1,14 +1,10 @@
 //! The derivation as a whole: from a declared system to everything that is emitted.
 
+use super::routes::{self, Found};
 use super::velocity_forms::VelocityPartials;
-use super::{
-    Energies, Frame, Mechanics, MotionSymbol, NotQuadratic, Solution, decompose, nested, poincare,
-    projection, proof, rephrased, tensions,
-};
+use super::{Energies, Frame, Mechanics, MotionSymbol, NotQuadratic, Solution, decompose};
 use crate::algebra::{ExprId, FastMap, Flow, Role, Roles, Substitution};
-use crate::geometry::{Closure, Operators, SingularForms, dependence};
-use crate::normal::{Limits, normal_coefficients};
-use crate::program::weighted_cost;
+use crate::geometry::{Closure, Operators, SingularForms};
 use crate::workbench::Workbench;
 use crate::zero::Verdict;
 
@@ -83,6 +79,9 @@ pub struct Derivation {
     pub by_tensions: bool,
     /// Whether rates are among the alternatives in which velocities are computed one from another.
     pub by_nesting: bool,
+    /// Whether there are, or there are only, accelerations from the equations of bodies that hang on each other, in the axes
+    /// of each.
+    pub by_links: bool,
     /// The reactions `lambda_v` as functions of `t, x, eta`, inputs and `eta'` (as symbols); none for constraints
     /// without momentum in `T°`.
     pub reactions: Vec<Option<ExprId>>,
@@ -115,84 +114,8 @@ impl Derivation {
             .map_err(DerivationError::NotQuadratic)?;
         let generalised_forces = generalised_forces(bench, &system, &mut frame, &mut partials);
 
-        affordable(bench)?;
-        let by_definition = poincare::equations(bench, &system, &mut frame);
-        let projected = projection::equations(bench, &system, &mut frame, &mut partials, &terms, n);
-        let by_projection = &projected.equations;
-        let agree = proof::routes_agree(bench, &by_definition, by_projection, l);
-        for s in if agree { 0..0 } else { 0..l } {
-            let same = |bench: &mut Workbench, a: ExprId, b: ExprId| {
-                let difference = bench.graph.sub(a, b);
-                bench.zero.verdict(&mut bench.graph, difference) != Verdict::Nonzero
-            };
-            let agree = same(bench, by_definition.forces[s], by_projection.forces[s])
-                && (0..l).all(|t| same(bench, by_definition.mass[s][t], by_projection.mass[s][t]));
-            if !agree {
-                return Err(DerivationError::RoutesDisagree { equation: s });
-            }
-        }
-        let mut candidates = candidates(bench, &system, &by_definition, by_projection);
-        for equations in &mut candidates {
-            for (force, q) in equations.forces.iter_mut().zip(&generalised_forces) {
-                *force = bench.graph.add(*force, *q);
-            }
-        }
-        let equations = candidates.remove(0);
-        affordable(bench)?;
-        let mut words = rephrased::Words::changed(bench, &system, &mut frame);
-        let tensions = match &mut words {
-            Some(words) => words.by_tensions(bench, &system),
-            None => projected.squares.as_ref().and_then(|squares| {
-                let etas = &system.etas[..l];
-                tensions::solve(bench, &mut frame, squares, &equations, etas, &generalised_forces)
-            }),
-        };
-        affordable(bench)?;
-        let tensions = match tensions {
-            Some(tensions) if proof::solve_equations(bench, &equations, &tensions.accelerations)? => {
-                Some(tensions)
-            }
-            _ => None,
-        };
-        let by_tensions = tensions.is_some();
-        let mut alternatives: Vec<Vec<ExprId>> = Vec::new();
-        let mut by_nesting = false;
-        let solution = match tensions {
-            Some(tensions) if tensions.is_clear => {
-                Solution::known(bench, tensions.accelerations, &tensions.divisors)
-            }
-            tensions => {
-                let solution = Solution::new(bench, &equations.mass, &equations.forces);
-                affordable(bench)?;
-                let solution = solution.map_err(|rows| {
-                    DerivationError::SingularMass(weightless(bench, &equations.mass, &rows))
-                })?;
-                let others: Vec<Solution> = candidates
-                    .into_iter()
-                    .filter_map(|other| Solution::new(bench, &other.mass, &other.forces).ok())
-                    .collect();
-                let others = others
-                    .into_iter()
-                    .chain(Solution::shared(bench, &equations.mass, &equations.forces))
-                    .map(|other| other.accelerations)
-                    .chain(tensions.map(|tensions| tensions.accelerations));
-                alternatives.extend(others.map(|other| [&frame.velocities[..], &other].concat()));
-                let own = [&frame.velocities[..], &solution.accelerations].concat();
-                let mut others =
-                    nested::rates(bench, &system, &frame, &terms, &projected.forms, &generalised_forces);
-                // What multiplies out to little is better multiplied out.
-                let least = weighted_cost(&bench.graph, &own);
-                others.retain(|rates| weighted_cost(&bench.graph, rates) < least);
-                by_nesting = !others.is_empty();
-                others.extend(rephrased::rates(bench, &system, &mut frame, &equations, by_projection, words));
-                for rates in others {
-                    if proof::are_equal(bench, &own, &rates, system.forms.len())? {
-                        alternatives.push(rates);
-                    }
-                }
-                solution
-            }
-        };
+        let Found { equations, constrained, solution, alternatives, by_tensions, by_nesting, by_links } =
+            routes::equations(bench, &system, &mut frame, &mut partials, &terms, &generalised_forces)?;
         affordable(bench)?;
 
         let closure = {
@@ -212,9 +135,9 @@ impl Derivation {
             .map(|v| {
                 // lambda_v = sum_t M_vt eta_t' - f_v - Q_v
                 known_momentum[v].then(|| {
-                    let mut parts = vec![bench.graph.neg(by_projection.forces[v])];
+                    let mut parts = vec![bench.graph.neg(constrained.forces[v - l])];
                     parts.push(bench.graph.neg(generalised_forces[v]));
-                    for (mass, acceleration) in by_projection.mass[v].iter().zip(&system.accelerations) {
+                    for (mass, acceleration) in constrained.mass[v - l].iter().zip(&system.accelerations) {
                         let mass = bench.tidy(*mass);
                         parts.push(bench.graph.mul(mass, *acceleration));
                     }
@@ -250,6 +173,7 @@ impl Derivation {
             alternatives,
             by_tensions,
             by_nesting,
+            by_links,
             reactions,
             without_momentum,
             known_momentum,
@@ -320,21 +244,8 @@ fn outputs(
 }
 
 /// Gives a derivation up that has become more work than a compiler should do.
-fn affordable(bench: &Workbench) -> Result<(), DerivationError> {
+pub(super) fn affordable(bench: &Workbench) -> Result<(), DerivationError> {
     if bench.is_exhausted() { Err(DerivationError::TooLarge) } else { Ok(()) }
-}
-
-/// The motion without inertia of a singular mass matrix, from a smallest set of rows that is dependent: by symmetry
-/// the coefficients of the rows are the motion.
-fn weightless(bench: &mut Workbench, mass: &[Vec<ExprId>], rows: &[usize]) -> Vec<(usize, Option<ExprId>)> {
-    let Some((last, support)) = rows.split_last() else { return Vec::new() };
-    let others: Vec<&[ExprId]> = support.iter().map(|s| &mass[*s][..]).collect();
-    let Some(coefficients) = dependence(bench, &others, &mass[*last]) else {
-        return rows.iter().map(|s| (*s, None)).collect();
-    };
-    let negative = coefficients.into_iter().map(|c| bench.graph.neg(c)).collect::<Vec<_>>();
-    let one = bench.graph.one();
-    support.iter().copied().chain([*last]).zip(negative.into_iter().chain([one]).map(Some)).collect()
 }
 
 /// `Q_s = sum F beta_s`, with the force on the constraints.
@@ -357,60 +268,6 @@ pub(super) fn generalised_forces(
         }
     }
     found.into_iter().map(|terms| bench.graph.sum(terms)).collect()
-}
-
-/// The equations in several forms, the one to show first: normal forms where they are small, then the projection as it
-/// came out, if it is worth a program of its own.
-pub(super) fn candidates(
-    bench: &mut Workbench,
-    system: &Mechanics,
-    by_definition: &Equations,
-    by_projection: &Equations,
-) -> Vec<Equations> {
-    /// The estimate above which a further form is not worth the time to optimise it.
-    const WORTH: u64 = 1000;
-    let l = system.forms.degrees;
-    let mut entry = |s: usize, t: usize| {
-        // Both routes give the same function.
-        let (a, b) = (bench.tidy(by_definition.mass[s][t]), bench.tidy(by_projection.mass[s][t]));
-        let cost = |e: ExprId| weighted_cost(&bench.graph, &[e]);
-        if a != b && cost(a) < cost(b) { a } else { b }
-    };
-    let lower: Vec<Vec<ExprId>> = (0..l).map(|s| (0..=s).map(|t| entry(s, t)).collect()).collect();
-    let mass: Vec<Vec<ExprId>> =
-        (0..l).map(|s| (0..l).map(|t| lower[s.max(t)][s.min(t)]).collect()).collect();
-    let sources = [&by_projection.forces[..l], &by_definition.forces[..l]];
-    let mut lists: Vec<Vec<ExprId>> = Vec::new();
-    lists.extend(sources.iter().find_map(|forces| normal_forces(bench, system, forces)));
-    if lists.is_empty() || weighted_cost(&bench.graph, sources[0]) <= WORTH {
-        lists.push(sources[0].to_vec());
-    }
-    lists.into_iter().map(|forces| Equations { mass: mass.clone(), forces }).collect()
-}
-
-/// Every force as a polynomial in the `eta` with coefficients in normal form, where all are small.
-fn normal_forces(bench: &mut Workbench, system: &Mechanics, forces: &[ExprId]) -> Option<Vec<ExprId>> {
-    let limits = Limits { nodes: 800, steps: 12_000, ..Limits::default() };
-    let variables = &system.etas[..system.forms.degrees];
-    forces
-        .iter()
-        .map(|force| {
-            let coefficients = normal_coefficients(&mut bench.graph, *force, variables, &limits)?;
-            let terms: Vec<ExprId> = coefficients
-                .into_iter()
-                .map(|(exponents, c)| {
-                    let factors: Vec<_> = variables
-                        .iter()
-                        .zip(exponents)
-                        .map(|(eta, e)| (*eta, e as i32))
-                        .chain([(c, 1)])
-                        .collect();
-                    bench.graph.product(&factors)
-                })
-                .collect();
-            Some(bench.graph.sum(terms))
-        })
-        .collect()
 }
 
 fn classify(bench: &mut Workbench, system: &Mechanics, frame: &mut Frame, closure: &Closure) -> Class {

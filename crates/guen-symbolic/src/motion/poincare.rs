@@ -1,7 +1,7 @@
 //! The equations of motion (2.7), literally: the definition, and the oracle for the other route.
 
 use super::{Equations, Frame, Mechanics};
-use crate::algebra::{ExprId, Flow, Substitution};
+use crate::algebra::{ExprId, Flow, Rational, Substitution};
 use crate::workbench::Workbench;
 
 /// `sum_t M_st eta_t' = f_s` for `s = 1..l` without the generalised forces `Q_s`, before any simplification, from
@@ -11,31 +11,8 @@ use crate::workbench::Workbench;
 ///                              - sum_{v>l}  (C_0sv + sum_r eta_r C_rsv) (dT°/d eta_v) = Q_s.       (2.7)
 /// ```
 pub fn equations(bench: &mut Workbench, system: &Mechanics, frame: &mut Frame) -> Equations {
-    let (n, l) = (system.forms.len(), system.forms.degrees);
-    let zero = bench.graph.zero();
-    // T° with every parameter free: x' = xi_0 + sum_{j<=n} eta_j xi_j.
-    let free: Vec<ExprId> = (0..n)
-        .map(|i| {
-            let mut terms = vec![frame.velocities[i]];
-            for j in l + 1..=n {
-                terms.push(bench.graph.mul(system.etas[j - 1], frame.operators.xi[j][i]));
-            }
-            bench.graph.sum(terms)
-        })
-        .collect();
-    let mut release = Substitution::new(system.velocities.iter().copied().zip(free));
-    let dropped = release.of(&mut bench.graph, system.kinetic_energy);
-    let mut constrain = Substitution::new(system.etas[l..].iter().map(|eta| (*eta, zero)));
-    let kinetic = constrain.of(&mut bench.graph, dropped);
-    let momenta: Vec<ExprId> = system
-        .etas
-        .iter()
-        .map(|eta| {
-            // The momenta (dT°/d eta_v) are taken first and put on the constraints afterwards, (2.8).
-            let momentum = Flow::partial(&bench.graph, *eta).of(&mut bench.graph, dropped);
-            constrain.of(&mut bench.graph, momentum)
-        })
-        .collect();
+    let l = system.forms.degrees;
+    let Energy { kinetic, momenta } = Energy::new(bench, system, frame);
     let lagrangian = bench.graph.add(kinetic, system.force_function);
     let mut mass = Vec::with_capacity(l);
     let mut forces = Vec::with_capacity(l);
@@ -48,11 +25,87 @@ pub fn equations(bench: &mut Workbench, system: &Mechanics, frame: &mut Frame) -
         let rate = frame.motion.of(&mut bench.graph, momenta[s - 1]);
         let mut terms =
             vec![bench.graph.neg(rate), frame.displacements[s - 1].of(&mut bench.graph, lagrangian)];
-        for t in 1..=n {
-            let turning = frame.brackets.along_motion(bench, &system.etas, s, t);
-            terms.push(bench.graph.mul(turning, momenta[t - 1]));
+        for (t, momentum) in momenta.iter().enumerate() {
+            let turning = frame.brackets.along_motion(bench, &system.etas, s, t + 1);
+            terms.push(bench.graph.mul(turning, *momentum));
         }
         forces.push(bench.graph.sum(terms));
     }
     Equations { mass, forces }
+}
+
+/// `sum_s w_s (2.7)_s` for numbers `w_s`, as the coefficients of the `eta_t'` and the force: one equation along the
+/// displacement `sum_s w_s X_s`, which is `l` times less work than all of them.
+pub(super) fn along(
+    bench: &mut Workbench,
+    system: &Mechanics,
+    frame: &mut Frame,
+    weights: &[i64],
+) -> (Vec<ExprId>, ExprId) {
+    let l = system.forms.degrees;
+    let Energy { kinetic, momenta } = Energy::new(bench, system, frame);
+    let weights: Vec<Rational> = weights.iter().map(|w| Rational::integer(*w)).collect();
+    let parts: Vec<(ExprId, Rational)> = momenta[..l].iter().copied().zip(weights.iter().cloned()).collect();
+    let momentum = bench.graph.linear(&parts);
+    let mass = system.etas[..l]
+        .iter()
+        .map(|eta| Flow::partial(&bench.graph, *eta).of(&mut bench.graph, momentum))
+        .collect();
+    let rates: Vec<ExprId> = (0..system.forms.len())
+        .map(|i| {
+            let parts: Vec<(ExprId, Rational)> =
+                weights.iter().enumerate().map(|(s, w)| (frame.operators.xi[s + 1][i], w.clone())).collect();
+            bench.graph.linear(&parts)
+        })
+        .collect();
+    let lagrangian = bench.graph.add(kinetic, system.force_function);
+    let mut displacement = Flow::new(&bench.graph, system.forms.coordinates.iter().copied().zip(rates));
+    let rate = frame.motion.of(&mut bench.graph, momentum);
+    let mut terms = vec![bench.graph.neg(rate), displacement.of(&mut bench.graph, lagrangian)];
+    for (t, momentum) in momenta.iter().enumerate() {
+        let mut turning = Vec::new();
+        for (s, w) in weights.iter().enumerate() {
+            turning.push((frame.brackets.along_motion(bench, &system.etas, s + 1, t + 1), w.clone()));
+        }
+        let turning = bench.graph.linear(&turning);
+        terms.push(bench.graph.mul(turning, *momentum));
+    }
+    (mass, bench.graph.sum(terms))
+}
+
+/// `T` on the constraints, and the momenta `(dT°/d eta_j)` there.
+struct Energy {
+    kinetic: ExprId,
+    momenta: Vec<ExprId>,
+}
+
+impl Energy {
+    fn new(bench: &mut Workbench, system: &Mechanics, frame: &Frame) -> Self {
+        let (n, l) = (system.forms.len(), system.forms.degrees);
+        let zero = bench.graph.zero();
+        // T° with every parameter free: x' = xi_0 + sum_{j<=n} eta_j xi_j.
+        let free: Vec<ExprId> = (0..n)
+            .map(|i| {
+                let mut terms = vec![frame.velocities[i]];
+                for j in l + 1..=n {
+                    terms.push(bench.graph.mul(system.etas[j - 1], frame.operators.xi[j][i]));
+                }
+                bench.graph.sum(terms)
+            })
+            .collect();
+        let mut release = Substitution::new(system.velocities.iter().copied().zip(free));
+        let dropped = release.of(&mut bench.graph, system.kinetic_energy);
+        let mut constrain = Substitution::new(system.etas[l..].iter().map(|eta| (*eta, zero)));
+        let kinetic = constrain.of(&mut bench.graph, dropped);
+        let momenta: Vec<ExprId> = system
+            .etas
+            .iter()
+            .map(|eta| {
+                // The momenta (dT°/d eta_v) are taken first and put on the constraints afterwards, (2.8).
+                let momentum = Flow::partial(&bench.graph, *eta).of(&mut bench.graph, dropped);
+                constrain.of(&mut bench.graph, momentum)
+            })
+            .collect();
+        Energy { kinetic, momenta }
+    }
 }

@@ -14,6 +14,8 @@
 //! Where `T°` is a sum of squares with constant masses, the forms are handed on as they are, before they are
 //! multiplied out: see `tensions`.
 
+use core::ops::Range;
+
 use super::velocity_forms::VelocityPartials;
 use super::{Equations, Frame, KineticTerm, Mechanics, VelocityForm};
 use crate::algebra::{ExprId, FastMap, Flow, Node, Rational};
@@ -53,7 +55,7 @@ pub(super) struct Squares {
 
 /// The equations of a route, and what they were multiplied out from.
 pub(super) struct Projected {
-    /// `sum_t M_st eta_t' = f_s` for `s = 1..rows`, without the generalised forces.
+    /// `sum_t M_st eta_t' = f_s` for the rows asked for, without the generalised forces.
     pub(super) equations: Equations,
     /// `None` where the energy is no sum of squares with constant masses.
     pub(super) squares: Option<Squares>,
@@ -61,35 +63,38 @@ pub(super) struct Projected {
     pub(super) forms: MeasuredForms,
 }
 
-/// `sum_t M_st eta_t' = f_s` for `s = 1..rows`, without the generalised forces.
+/// `sum_t M_st eta_t' = f_s` for some rows, counted from 0, without the generalised forces.
 pub(super) fn equations(
     bench: &mut Workbench,
     system: &Mechanics,
     frame: &mut Frame,
     partials: &mut VelocityPartials,
     terms: &[KineticTerm],
-    rows: usize,
+    rows: Range<usize>,
 ) -> Projected {
     let resting = resting_accelerations(bench, system, frame);
     let mut forms = MeasuredForms::default();
     for u in terms.iter().flat_map(|term| &term.forms) {
         if !forms.contains_key(u) {
-            let measured = measure(bench, system, frame, partials, &resting, *u, rows);
+            let measured = measure(bench, system, frame, partials, &resting, *u, rows.clone());
             forms.insert(*u, measured);
         }
     }
+    let displacements = &mut frame.displacements[rows.clone()];
     let (equations, rest) =
-        assemble(bench, system, &mut frame.displacements[..rows], &mut frame.motion, terms, &forms);
-    let squares = squares(bench, terms).map(|list| with_factors(bench, system, frame, &forms, list, rest));
+        assemble(bench, system, (rows.start, displacements), &mut frame.motion, terms, &forms);
+    let l = system.forms.degrees;
+    let squares = if rows.start == 0 && rows.end >= l { squares(bench, terms) } else { None };
+    let squares = squares.map(|list| with_factors(bench, system, frame, &forms, list, rest));
     Projected { equations, squares, forms }
 }
 
-/// The sums over the terms of the energy; a row for each displacement. Beside the equations the part of the forces
+/// The sums over the terms of the energy; a row for each displacement, the first of them at its place. Beside the equations the part of the forces
 /// that the accelerations of the forms do not have, term by term.
 pub(super) fn assemble(
     bench: &mut Workbench,
     system: &Mechanics,
-    displacements: &mut [Flow],
+    (first, displacements): (usize, &mut [Flow]),
     motion: &mut Flow,
     terms: &[KineticTerm],
     forms: &MeasuredForms,
@@ -118,7 +123,7 @@ pub(super) fn assemble(
                     factors.iter().enumerate().find(|(other, _)| *other != place).map(|(_, other)| *other);
                 let one = bench.graph.one();
                 let partner_value = partner.map_or(one, |other| other.value);
-                let component = u.components[s];
+                let component = u.components[first + s];
                 if !bench.graph.is_zero(component) {
                     // D(w) v u_s + w v' u_s
                     if !bench.graph.is_zero(w_rate) {
@@ -280,7 +285,7 @@ fn measure(
     partials: &mut VelocityPartials,
     resting: &[ExprId],
     u: ExprId,
-    rows: usize,
+    rows: Range<usize>,
 ) -> Measured {
     let (n, l) = (system.forms.len(), system.forms.degrees);
     let form = partials.affine(bench, u).expect("the decomposition yields affine forms");
@@ -326,7 +331,7 @@ fn measure(
         components,
         drift,
         acceleration: bench.keep_large(acceleration),
-        turning: (0..rows).map(|s| exterior(bench, system, frame, &form, s)).collect(),
+        turning: rows.map(|s| exterior(bench, system, frame, &form, s)).collect(),
     }
 }
 

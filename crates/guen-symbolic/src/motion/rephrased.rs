@@ -10,7 +10,7 @@ use super::projection::Projected;
 use super::symmetry::Symmetry;
 use super::tensions::{self, Tensions};
 use super::velocity_forms::VelocityPartials;
-use super::{Equations, Frame, Mechanics, Solution, decompose, derivation, poincare, projection};
+use super::{Equations, Frame, Mechanics, Solution, decompose, derivation, poincare, projection, routes};
 use crate::algebra::{ExprId, Rational, Role, Substitution};
 use crate::geometry::{Form, Operators};
 use crate::program::weighted_cost;
@@ -140,7 +140,7 @@ pub(super) fn rates(
             let forces = derivation::generalised_forces(bench, system, frame, &mut partials);
             let velocities = symmetry.reduced_each(bench, &frame.velocities);
             let reduced = unflattened(reduced, l);
-            let equations = derivation::candidates(bench, system, &reduced, &reduced);
+            let equations = routes::candidates(bench, system, &reduced, &reduced);
             found.extend(solutions(bench, equations, &forces, &velocities));
             words = Words::unchanged(bench, system);
         }
@@ -251,7 +251,7 @@ impl Words {
         let terms = decompose(bench, &mut partials, &symbols, system.kinetic_energy).ok()?;
         let forces = derivation::generalised_forces(bench, &system, &mut frame, &mut partials);
         let l = system.forms.degrees;
-        let projected = projection::equations(bench, &system, &mut frame, &mut partials, &terms, l);
+        let projected = projection::equations(bench, &system, &mut frame, &mut partials, &terms, 0..l);
         Some(Words { change, system, frame, forces, projected })
     }
 
@@ -279,7 +279,7 @@ impl Words {
         let definition = definition.map(|list| unflattened(symmetry.reduced(bench, &list), l));
         let velocities = symmetry.reduced_each(bench, &self.frame.velocities);
         let definition = definition.as_ref().unwrap_or(&reduced);
-        let equations = derivation::candidates(bench, &self.system, definition, &reduced);
+        let equations = routes::candidates(bench, &self.system, definition, &reduced);
         let found = solutions(bench, equations, &self.forces, &velocities);
         found
             .into_iter()

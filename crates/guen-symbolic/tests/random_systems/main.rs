@@ -1,5 +1,6 @@
 //! Random mechanical systems: what is derived against Lagrange's equations with multipliers and duals.
 
+mod arms;
 mod brackets;
 mod closure;
 mod declared;

@@ -88,6 +88,7 @@ impl Scene {
             holonomic: Vec::new(),
             kinetic_energy: kinetic,
             force_function: force,
+            multibody: None,
             forces: Vec::new(),
             outputs: Vec::new(),
             motion_symbols: Vec::new(),

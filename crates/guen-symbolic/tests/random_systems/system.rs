@@ -54,6 +54,7 @@ pub fn drawn(seed: u64) -> (Words, Mechanics) {
         holonomic,
         kinetic_energy,
         force_function,
+        multibody: None,
         forces,
         outputs: Vec::new(),
         motion_symbols: Vec::new(),

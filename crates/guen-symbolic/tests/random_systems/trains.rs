@@ -102,6 +102,7 @@ fn drawn(seed: u64) -> (Words, Mechanics, Vec<&'static str>) {
         kinetic_energy: words.graph.sum(squares),
         stated: vec![true; n],
         force_function: words.graph.sum(potential),
+        multibody: None,
         forces: forces.into_iter().collect(),
         outputs: Vec::new(),
         motion_symbols: Vec::new(),

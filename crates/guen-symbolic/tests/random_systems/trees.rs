@@ -156,6 +156,7 @@ fn drawn(seed: u64) -> (Words, Mechanics, Features) {
         kinetic_energy: words.graph.sum(kinetic),
         stated: vec![true; n],
         force_function: words.graph.sum(potential),
+        multibody: None,
         forces: forces.into_iter().collect(),
         outputs: Vec::new(),
         motion_symbols: Vec::new(),

@@ -61,7 +61,8 @@ fn found(
             nested.insert(u, measured);
         }
     }
-    let (equations, _) = projection::assemble(bench, system, &mut displacements, &mut motion, terms, &nested);
+    let (equations, _) =
+        projection::assemble(bench, system, (0, &mut displacements), &mut motion, terms, &nested);
     let forces: Vec<ExprId> = equations
         .forces
         .iter()

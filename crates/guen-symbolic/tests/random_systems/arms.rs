@@ -1,0 +1,286 @@
+//! Random trees of bodies in space: what is derived link by link, in the axes of each, against multipliers.
+//!
+//! Bodies turn about axes of their parents, slide along them or do both, hang on earlier bodies, on a cart, or on axes that
+//! move as prescribed; some have a second body or a particle fixed to them. Energies of other things stand beside theirs. Parameters are rates of coordinates or sums of
+//! such, and some trees are held by a nonholonomic constraint.
+
+use std::collections::BTreeMap;
+
+use guen_symbolic::{ExprId, Flow, Form, Forms, Graph, Mechanics, Multibody, Rational, RigidBody};
+
+use crate::draw::Draw;
+use crate::sweep::compared;
+use crate::words::Words;
+
+/// Trees drawn.
+const DRAWN: u64 = 100;
+/// Trees that must be derived link by link, and in how many of these each feature must occur.
+const LINKED: usize = 60;
+const SHOWN: usize = 8;
+
+type Vector = [ExprId; 3];
+type Matrix = [Vector; 3];
+
+fn dot(g: &mut Graph, a: Vector, b: Vector) -> ExprId {
+    let products = [0, 1, 2].map(|i| g.mul(a[i], b[i]));
+    g.sum(products)
+}
+
+fn applied(g: &mut Graph, m: Matrix, v: Vector) -> Vector {
+    m.map(|row| dot(g, row, v))
+}
+
+fn transposed(m: Matrix) -> Matrix {
+    [0, 1, 2].map(|i| [0, 1, 2].map(|k| m[k][i]))
+}
+
+fn product(g: &mut Graph, a: Matrix, b: Matrix) -> Matrix {
+    let columns = transposed(b);
+    a.map(|row| columns.map(|column| dot(g, row, column)))
+}
+
+fn plus(g: &mut Graph, a: Vector, b: Vector) -> Vector {
+    [0, 1, 2].map(|i| g.add(a[i], b[i]))
+}
+
+/// A turn about one of the three axes.
+fn turn(g: &mut Graph, axis: usize, angle: ExprId) -> Matrix {
+    let (s, c) = g.sin_cos(angle);
+    let (zero, one) = (g.zero(), g.one());
+    let (j, k) = ((axis + 1) % 3, (axis + 2) % 3);
+    let mut m = [[zero; 3]; 3];
+    m[axis][axis] = one;
+    (m[j][j], m[k][k]) = (c, c);
+    (m[k][j], m[j][k]) = (s, g.neg(s));
+    m
+}
+
+fn numbers(words: &mut Words) -> Vector {
+    [0; 3].map(|_| {
+        let n = words.number();
+        if words.draw.once_in(3) { words.graph.zero() } else { words.graph.number(n) }
+    })
+}
+
+/// The kinetic energy of a body, from the rates of its centre and of its matrix.
+fn energy(g: &mut Graph, rate: &mut Flow, body: &RigidBody) -> ExprId {
+    let mut terms = Vec::new();
+    if let Some(center) = body.center {
+        let velocity = center.map(|e| rate.of(g, e));
+        let square = dot(g, velocity, velocity);
+        terms.push(g.mul(body.mass, square));
+    }
+    if let Some(turned) = body.orientation {
+        let rates = turned.map(|row| row.map(|e| rate.of(g, e)));
+        let spin = product(g, transposed(turned), rates);
+        let spin = [spin[2][1], spin[0][2], spin[1][0]];
+        let [xx, yy, zz, xy, yz, zx] = body.inertia;
+        let momentum = applied(g, [[xx, xy, zx], [xy, yy, yz], [zx, yz, zz]], spin);
+        terms.push(dot(g, spin, momentum));
+    }
+    let sum = g.sum(terms);
+    g.scale(sum, &Rational::new(1, 2))
+}
+
+/// The tree of a seed, and what it has.
+fn drawn(seed: u64) -> (Words, Mechanics, Vec<&'static str>) {
+    let mut draw = Draw::new(seed);
+    let (root, held, mixed) = (draw.below(4), draw.once_in(4), draw.once_in(3));
+    let cart = if root == 3 { 2 } else { 0 };
+    // With so many that equations are not multiplied out.
+    let (large, rotors) = (draw.once_in(10), draw.once_in(4));
+    let n = cart + if large { 8 } else { draw.between(4, 5) };
+    let mut words = Words::new(draw, n);
+    let mut features = Vec::new();
+    if large {
+        features.push("many links");
+    }
+    let (zero, one) = (words.graph.zero(), words.graph.one());
+    let unit = [[one, zero, zero], [zero, one, zero], [zero, zero, one]];
+    let (mut turned, mut place) = (unit, [zero; 3]);
+    match root {
+        2 => {
+            features.push("prescribed");
+            let angle = words.graph.scale(words.time, &Rational::new(1, 2));
+            turned = turn(&mut words.graph, 0, angle);
+            place[1] = words.graph.sin(words.time);
+        }
+        3 => {
+            features.push("cart");
+            place = [words.x[0], words.x[1], zero];
+        }
+        _ => {}
+    }
+    let mut bodies: Vec<RigidBody> = Vec::new();
+    let mut tips: Vec<(Matrix, Vector, usize)> = vec![(turned, place, 3)];
+    let mut next = cart;
+    while next < n {
+        let branches = tips.len() > 2 && words.draw.once_in(4);
+        let parent = if branches { words.draw.between(1, tips.len() - 2) } else { tips.len() - 1 };
+        let (mut axes, mut place, last) = tips[parent];
+        let joint = words.draw.below(6);
+        // Turns about parallel axes would be one.
+        let axis = (last + words.draw.between(1, 2)) % 3;
+        let own = if joint == 0 && next + 1 < n { 2 } else { 1 };
+        match joint {
+            0 if own == 2 => {
+                features.push("turns and slides");
+                let slide = words.graph.mul(words.constants[0], words.x[next + 1]);
+                let along = axes.map(|row| row[(axis + 1) % 3]);
+                place = [0, 1, 2].map(|i| {
+                    let part = words.graph.mul(along[i], slide);
+                    words.graph.add(place[i], part)
+                });
+                let own = turn(&mut words.graph, axis, words.x[next]);
+                axes = product(&mut words.graph, axes, own);
+            }
+            1 if next > cart => {
+                features.push("slides");
+                let along = axes.map(|row| row[axis]);
+                place = [0, 1, 2].map(|i| {
+                    let part = words.graph.mul(along[i], words.x[next]);
+                    words.graph.add(place[i], part)
+                });
+            }
+            2 => {
+                features.push("tilted axis");
+                let tilt = words.graph.number(Rational::new(1, 3));
+                let (tilted, own) =
+                    (turn(&mut words.graph, last % 3, tilt), turn(&mut words.graph, axis, words.x[next]));
+                axes = product(&mut words.graph, axes, tilted);
+                axes = product(&mut words.graph, axes, own);
+            }
+            _ => {
+                let own = turn(&mut words.graph, axis, words.x[next]);
+                axes = product(&mut words.graph, axes, own);
+            }
+        }
+        next += own;
+        if branches {
+            features.push("branches");
+        }
+        let local = numbers(&mut words);
+        let away = applied(&mut words.graph, axes, local);
+        let center = plus(&mut words.graph, place, away);
+        let mass = words.constants[0];
+        let [xx, yy, zz] = [2, 3, 4].map(|k| words.graph.ratio(k, 5));
+        let (xy, yz) = (words.graph.ratio(1, 9), words.graph.ratio(-1, 8));
+        let skew = words.draw.once_in(2);
+        let inertia = if skew { [xx, yy, zz, xy, yz, zero] } else { [xx, yy, zz, zero, zero, zero] };
+        if skew {
+            features.push("products of inertia");
+        }
+        bodies.push(RigidBody { mass, center: Some(center), orientation: Some(axes), inertia });
+        if words.draw.once_in(3) {
+            features.push("a particle fixed to a body");
+            let local = numbers(&mut words);
+            let away = applied(&mut words.graph, axes, local);
+            let center = plus(&mut words.graph, place, away);
+            let mass = words.graph.ratio(3, 4);
+            bodies.push(RigidBody { mass, center: Some(center), orientation: None, inertia: [zero; 6] });
+        }
+        let local = numbers(&mut words);
+        let away = applied(&mut words.graph, axes, local);
+        let tip = plus(&mut words.graph, place, away);
+        tips.push((axes, tip, axis));
+    }
+    let motion = words.velocities.iter().copied().chain([one]);
+    let mut rate =
+        Flow::new(&words.graph, words.x.iter().copied().chain([words.time]).zip(motion).collect::<Vec<_>>());
+    let mut energies: Vec<ExprId> =
+        bodies.iter().map(|body| energy(&mut words.graph, &mut rate, body)).collect();
+    let gravity = [zero, words.graph.ratio(-1, 3), words.graph.ratio(-7, 2)];
+    let mut potential = Vec::new();
+    for RigidBody { mass, center, .. } in &bodies {
+        let height = dot(&mut words.graph, center.unwrap_or([zero; 3]), gravity);
+        potential.push(words.graph.mul(*mass, height));
+    }
+    let spring = {
+        features.push("a spring beside");
+        let square = words.graph.powi(words.x[n - 1], 2);
+        words.graph.neg(square)
+    };
+    potential.push(spring);
+    let mut other_energy = zero;
+    if rotors {
+        features.push("rotors beside");
+        let speed = words
+            .graph
+            .linear(&[(words.velocities[n - 1], Rational::integer(3)), (words.velocities[0], Rational::ONE)]);
+        let square = words.graph.powi(speed, 2);
+        let cosine = words.graph.cos(words.x[n - 1]);
+        let weight = words.graph.linear(&[(cosine, Rational::new(1, 4)), (one, Rational::new(1, 2))]);
+        other_energy = words.graph.mul(weight, square);
+        energies.push(other_energy);
+    }
+    let mut forms: Vec<Form> = (0..n)
+        .map(|i| Form { row: (0..n).map(|k| if i == k { one } else { zero }).collect(), offset: zero })
+        .collect();
+    if mixed {
+        features.push("sums of rates");
+        for (i, form) in forms.iter_mut().enumerate().skip(1) {
+            form.row[i - 1] = words.graph.ratio(1, 2);
+        }
+    }
+    let degrees = if held { n - 1 } else { n };
+    if held {
+        features.push("a constraint");
+        let cosine = words.graph.cos(words.x[1]);
+        forms[n - 1].row[0] = words.graph.scale(cosine, &Rational::new(2, 3));
+    }
+    let forms = Forms { time: words.time, coordinates: words.x.clone(), forms, degrees };
+    let multibody = Multibody { bodies, gravity, other_energy, other_force_function: spring };
+    let mechanics = Mechanics {
+        written: forms.over(&mut words.graph, &words.velocities),
+        forms,
+        velocities: words.velocities.clone(),
+        etas: words.etas.clone(),
+        accelerations: words.accelerations.clone(),
+        inputs: words.inputs.clone(),
+        holonomic: Vec::new(),
+        kinetic_energy: words.graph.sum(energies),
+        stated: vec![true; n],
+        force_function: words.graph.sum(potential),
+        multibody: Some(multibody),
+        forces: Vec::new(),
+        outputs: Vec::new(),
+        motion_symbols: Vec::new(),
+    };
+    features.sort_unstable();
+    features.dedup();
+    (words, mechanics, features)
+}
+
+#[test]
+fn bodies_on_bodies_move_as_with_multipliers() {
+    let mut shown: BTreeMap<&str, usize> = BTreeMap::new();
+    let (mut linked, mut worst) = (0, 0.0_f64);
+    for seed in 0..DRAWN {
+        let (words, mechanics, features) = drawn(seed);
+        let Some((derived, difference)) = compared(words, mechanics, seed) else { continue };
+        worst = worst.max(difference);
+        if derived.derivation.by_links {
+            linked += 1;
+            features.into_iter().for_each(|name| *shown.entry(name).or_default() += 1);
+        }
+    }
+    println!("by links {linked} of {DRAWN}, largest difference {worst:e}, with {shown:?}");
+    assert!(linked >= LINKED);
+    for name in [
+        "many links",
+        "prescribed",
+        "cart",
+        "turns and slides",
+        "slides",
+        "tilted axis",
+        "branches",
+        "products of inertia",
+        "a particle fixed to a body",
+        "a spring beside",
+        "rotors beside",
+        "sums of rates",
+        "a constraint",
+    ] {
+        assert!(shown.get(name).is_some_and(|count| *count >= SHOWN), "{name}: too few link by link");
+    }
+}
