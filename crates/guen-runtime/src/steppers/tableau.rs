@@ -111,10 +111,7 @@ impl<R: Real> Tableau<R> {
     where
         S: System<R, N> + ?Sized,
     {
-        R::vectorize(
-            #[inline(always)]
-            || self.stepped::<false, S, N>(system, t, x, k1, h).trial,
-        )
+        self.late(system, t, x, k1, h).trial
     }
 
     /// A step of [`Dop853`](super::Dop853): [`stepped`](Self::stepped) as a function of its own, with `EARLY`.
@@ -131,6 +128,25 @@ impl<R: Real> Tableau<R> {
         S: System<R, N> + ?Sized,
     {
         self.stepped::<true, S, N>(system, t, x, k1, h)
+    }
+
+    /// [`stepped`](Self::stepped) as a function of its own, without `EARLY`.
+    #[inline]
+    pub(super) fn late<S, const N: usize>(
+        &self,
+        system: &S,
+        t: R,
+        x: &[R; N],
+        k1: &[R; N],
+        h: R,
+    ) -> Made<R, N>
+    where
+        S: System<R, N> + ?Sized,
+    {
+        R::vectorize(
+            #[inline(always)]
+            || self.stepped::<false, S, N>(system, t, x, k1, h),
+        )
     }
 
     /// A step with its stages, by eleven evaluations.
