@@ -9,7 +9,8 @@
 //! taken in turn. The right-hand side alone is timed twice: `chain` evaluates each at the state that the one before
 //! moved by a tiny step of Euler's method, so that one waits for the other as in a stepper; `apart` evaluates at 1024
 //! states that do not depend on each other, of which the processor works on several at once. `beyond` is what a
-//! stepper takes for an evaluation beyond the latter, so it counts the waiting as the stepper's.
+//! stepper takes for an evaluation beyond the latter, so it counts the waiting as the stepper's. An evaluation of `Taylor` is
+//! one order of a series, which is no right-hand side: only its last columns compare with those of the others.
 
 use std::hint::black_box;
 use std::ops::ControlFlow;
@@ -17,7 +18,8 @@ use std::time::Instant;
 
 use guen::prelude::*;
 use guen::steppers::Method;
-use guen_benchmarks::systems::{Hoop, hoop};
+
+guen_benchmarks::hoop! { guen::mechanical_system; provide taylor; }
 
 type State = [f64; 9];
 
@@ -119,6 +121,8 @@ fn main() {
     measure("Tsit5 1e-6", &hoop, &start, &Tsit5::new(1e-6, 1e-6));
     measure("RK4 h = 0.01", &hoop, &start, &Rk4 { step: 0.01 });
     measure("RK8 h = 0.1", &hoop, &start, &Rk8::new(0.1));
+    measure("Taylor 1e-6", &hoop, &start, &Taylor::new(1e-6));
+    measure("Taylor 1e-12", &hoop, &start, &Taylor::new(1e-12));
     measure("Euler h = 0.0001", &hoop, &start, &Euler { step: 0.0001 });
 
     // The observer's price: a closure that does next to nothing, called once in a step.

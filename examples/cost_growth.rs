@@ -8,8 +8,8 @@
 //! For each number of links: the operations of the right-hand side, the time of the expansion, and the time that rustc
 //! then spends on what was emitted, with one instance of the right-hand side in `f64`: for checking alone, without
 //! optimisation, and with it. What rustc takes for an empty crate is not in these figures. All times are those on processors,
-//! which do not depend on what else the machine does; they are known on Linux only. Below each table stand the exponents
-//! `p` of fits `c links^p`.
+//! the mean of several expansions and the least of several compilations, which depend little on what else the machine does; they are
+//! known on Linux only. Below each table stand the exponents `p` of fits `c links^p`.
 //!
 //! Then the hoop and Chaplygin's sled, each without scenes and with five that nobody uses; and systems without their Taylor
 //! series, with it declared and not used, and with an instance of it in `f64`.
@@ -34,6 +34,10 @@ mod scenes;
 const MOST: usize = 20;
 /// Below this, costs that do not grow are most of the whole: the fits leave it out.
 const ASYMPTOTIC: usize = 5;
+/// An expansion is repeated so often, for the mean: the clock is read in steps of milliseconds. A compilation, for the least
+/// time: what else the machine does empties the caches of a processor too.
+const EXPANSIONS: usize = 7;
+const COMPILATIONS: usize = 3;
 /// The numbers of links that are shown.
 const LINKS: [usize; 8] = [1, 2, 3, 5, 7, 10, 14, 20];
 const COLUMNS: [&str; 6] = ["links", "operations", "expand/ms", "check/ms", "opt 0/ms", "opt 3/ms"];
@@ -151,17 +155,25 @@ fn costs(
     variables: usize,
     more: &str,
 ) -> Result<[f64; 5], String> {
+    let (mut code, mut operations) = (String::new(), 0);
     let start = processor_time();
-    let (code, operations) = expanded(text)?;
-    let expansion = (processor_time() - start) * 1e3;
+    for _ in 0..EXPANSIONS {
+        (code, operations) = expanded(text)?;
+    }
+    let expansion = (processor_time() - start) * 1e3 / EXPANSIONS as f64;
     let source = format!(
         "{code}\npub fn rates(it: &{module}::Prepared<f64>, state: &[f64; {variables}]) -> [f64; {variables}] {{ guen::System::rhs(it, 0.0, state) }}\n{more}",
     );
     let mut times = [0.0; 3];
     for (time, mode) in times.iter_mut().zip(Mode::ALL) {
-        let spent = compiler.time(&source, mode).map_err(|error| error.to_string())?;
-        let empty = compiler.time("", mode).map_err(|error| error.to_string())?;
-        *time = (spent - empty).max(0.0);
+        let least = |source: &str| -> Result<f64, String> {
+            let mut least = f64::INFINITY;
+            for _ in 0..COMPILATIONS {
+                least = least.min(compiler.time(source, mode).map_err(|error| error.to_string())?);
+            }
+            Ok(least)
+        };
+        *time = (least(&source)? - least("")?).max(0.0);
     }
     let [check, plain, optimised] = times;
     Ok([f64::from(operations), expansion, check, plain, optimised])

@@ -107,7 +107,7 @@ impl<R: Real, const N: usize> Pair<R, N> for Tableau<R> {
     where
         S: System<R, N> + ?Sized,
     {
-        let Made { trial, guess, stages } = self.step::<true, S, N>(system, t, x, k1, h);
+        let Made { trial, guess, stages } = self.step(system, t, x, k1, h);
         Attempt { state: trial.state, guess, stages, errors: trial, end: None }
     }
 

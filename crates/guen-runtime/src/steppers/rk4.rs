@@ -8,7 +8,7 @@ use super::fixed::{Changes, Fixed, Formula, Slopes};
 use super::landing::short_ways;
 use super::lane_guard::Moment;
 use super::lanes::LaneFormula;
-use super::shifted;
+use super::moved;
 use crate::cost::Cost;
 use crate::error::Cause;
 use crate::lanes::Lanes;
@@ -53,12 +53,7 @@ where
     R: Real,
     S: System<R, N> + ?Sized,
 {
-    let change = change_from(system, t, x, k1, h);
-    let mut next = *x;
-    for i in 0..N {
-        next[i] += change[i];
-    }
-    next
+    moved(x, h * R::from_ratio(1, 6), &sum_from(system, t, x, k1, h))
 }
 
 /// What the step adds to the state.
@@ -68,17 +63,31 @@ where
     R: Real,
     S: System<R, N> + ?Sized,
 {
-    let half = h * R::from_ratio(1, 2);
-    let k2 = system.rhs(t + half, &shifted(x, half, k1));
-    let k3 = system.rhs(t + half, &shifted(x, half, &k2));
-    let k4 = system.rhs(t + h, &shifted(x, h, &k3));
-    let two = R::from_ratio(2, 1);
     let sixth = h * R::from_ratio(1, 6);
-    let mut change = k4;
-    for i in 0..N {
-        change[i] = sixth * (k1[i] + two * (k2[i] + k3[i]) + k4[i]);
+    let mut change = sum_from(system, t, x, k1, h);
+    for entry in &mut change {
+        *entry *= sixth;
     }
     change
+}
+
+/// `k1 + 2 k2 + 2 k3 + k4`
+#[inline(always)]
+fn sum_from<R, S, const N: usize>(system: &S, t: R, x: &[R; N], k1: &[R; N], h: R) -> [R; N]
+where
+    R: Real,
+    S: System<R, N> + ?Sized,
+{
+    let half = h * R::from_ratio(1, 2);
+    let k2 = system.rhs(t + half, &moved(x, half, k1));
+    let k3 = system.rhs(t + half, &moved(x, half, &k2));
+    let k4 = system.rhs(t + h, &moved(x, h, &k3));
+    let two = R::from_ratio(2, 1);
+    let mut sum = k4;
+    for i in 0..N {
+        sum[i] += two.times_plus(k2[i] + k3[i], k1[i]);
+    }
+    sum
 }
 
 /// The operations of one [`step`] of a system of `n` equations whose right-hand side costs `rhs`.
@@ -141,7 +150,10 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Formula<R, S, N> for Rk4
     ) -> Result<[R; N], Cause> {
         let slope = slopes.begin(system, from, statistics);
         statistics.evaluations += 3;
-        Ok(step_from(system, from.time, &from.state, &slope, h))
+        Ok(R::vectorize(
+            #[inline(always)]
+            || step_from(system, from.time, &from.state, &slope, h),
+        ))
     }
 
     fn dense(
@@ -191,7 +203,10 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Changes<R, S, N> for Rk4
     ) -> [R; N] {
         let slope = slopes.begin(system, from, statistics);
         statistics.evaluations += 3;
-        change_from(system, from.time, &from.state, &slope, h)
+        R::vectorize(
+            #[inline(always)]
+            || change_from(system, from.time, &from.state, &slope, h),
+        )
     }
 }
 
@@ -234,5 +249,30 @@ impl<L: Lanes, S: System<L, N> + ?Sized, const N: usize> LaneFormula<L, S, N> fo
             #[inline(always)]
             || quadrature(system, first, &before.reached(), &now.reached()),
         )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::step;
+    use crate::{Fused, from_fn};
+
+    #[test]
+    fn stages_of_fused_reals_are_rounded_once() {
+        let growth = from_fn(|_t: Fused, &[x]: &[Fused; 1]| [x]);
+        let plain = from_fn(|_t: f64, &[x]: &[f64; 1]| [x]);
+        let mut different = 0;
+        for k in 1..100 {
+            let (x, h) = (1.0 / f64::from(k), 0.01 * f64::from(k));
+            let [found] = step(&growth, Fused::new(0.0), &[Fused::new(x)], Fused::new(h));
+            let k2 = libm::fma(0.5 * h, x, x);
+            let k3 = libm::fma(0.5 * h, k2, x);
+            let k4 = libm::fma(h, k3, x);
+            let sum = libm::fma(2.0, k2 + k3, x) + k4;
+            assert_eq!(found.value, libm::fma(h * (1.0 / 6.0), sum, x));
+            let [twice] = step(&plain, 0.0, &[x], h);
+            different += u32::from(twice != found.value);
+        }
+        assert!(different > 20, "{different}");
     }
 }

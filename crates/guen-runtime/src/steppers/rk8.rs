@@ -131,7 +131,7 @@ impl<R: Real> Rk8<R> {
         statistics: &mut Statistics,
     ) -> [R; N] {
         let k1 = memory.slopes.begin(system, from, statistics);
-        let stages = self.tableau.step::<false, S, N>(system, from.time, &from.state, &k1, h).stages;
+        let stages = self.tableau.late(system, from.time, &from.state, &k1, h).stages;
         statistics.evaluations += 11;
         if dense {
             memory.stages = stages;
