@@ -1,4 +1,5 @@
 //! Declared systems in lanes: every function of a state, and ensembles of systems whose constants and inputs differ.
+#![allow(clippy::result_large_err, reason = "an error keeps the state that was reached")]
 
 #[macro_use]
 extern crate guen_benchmarks;
