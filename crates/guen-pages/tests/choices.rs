@@ -183,7 +183,7 @@ fn the_code_ends_where_the_motion_does() {
         }
     };
     let expected = STARTS.map(|start| end(&start, SPAN.end));
-    assert!(written::DECLARED.len() > 30 && written::GIVEN.len() > 6 && written::LANES.len() == 2);
+    assert!(written::DECLARED.len() > 30 && written::GIVEN.len() > 6 && written::LANES.len() == 4);
     for (name, run) in written::DECLARED {
         near(name, &run(&PENDULUM, STARTS[0]).unwrap(), &expected[0]);
     }

@@ -351,11 +351,27 @@ pub fn rk4_in_f64_lanes(system: &Pendulum, starts: Vec<[f64; 2]>) -> Ends {
     ends.into_iter().map(|end| Ok(end?.state)).collect()
 }
 
+pub fn rk8_in_f64_lanes(system: &Pendulum, starts: Vec<[f64; 2]>) -> Ends {
+    use guen::{Recast, prelude::*, study::Ensemble};
+    let system = system.recast::<f64>()?;
+    let ensemble = Ensemble::of_states(system, starts);
+    let ends = ensemble.integrate(&Rk8::new(0.125), 0.0, 1.0);
+    ends.into_iter().map(|end| Ok(end?.state)).collect()
+}
+
 pub fn rk4_in_digits7_lanes(system: &Pendulum, starts: Vec<[f64; 2]>) -> Ends {
     use guen::{Recast, prelude::*, study::Ensemble};
     let system = system.recast::<f64>()?;
     let ensemble = Ensemble::of_states(system, starts).with_choice::<guen::Digits7Functions>();
     let ends = ensemble.integrate(&Rk4 { step: 0.125 }, 0.0, 1.0);
+    ends.into_iter().map(|end| Ok(end?.state)).collect()
+}
+
+pub fn rk8_in_digits7_lanes(system: &Pendulum, starts: Vec<[f64; 2]>) -> Ends {
+    use guen::{Recast, prelude::*, study::Ensemble};
+    let system = system.recast::<f64>()?;
+    let ensemble = Ensemble::of_states(system, starts).with_choice::<guen::Digits7Functions>();
+    let ends = ensemble.integrate(&Rk8::new(0.125), 0.0, 1.0);
     ends.into_iter().map(|end| Ok(end?.state)).collect()
 }
 
@@ -463,5 +479,7 @@ pub const GIVEN: &[(&str, fn(&pendulum::Carried<f64>, [f64; 4]) -> End<4>)] = &[
 
 pub const LANES: &[(&str, fn(&Pendulum, Vec<[f64; 2]>) -> Ends)] = &[
     ("rk4_in_f64_lanes", rk4_in_f64_lanes),
+    ("rk8_in_f64_lanes", rk8_in_f64_lanes),
     ("rk4_in_digits7_lanes", rk4_in_digits7_lanes),
+    ("rk8_in_digits7_lanes", rk8_in_digits7_lanes),
 ];
