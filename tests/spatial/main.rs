@@ -17,6 +17,7 @@ mod balls;
 mod bicycle;
 mod by_hand;
 mod expansion;
+mod floating;
 mod hoop;
 mod linkages;
 mod manifold;

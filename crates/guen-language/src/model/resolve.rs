@@ -211,7 +211,8 @@ impl<'a, 'f> Resolver<'a, 'f> {
                         let (mass, position) = weight;
                         let inertia = [self.eval.bench.graph.zero(); 6];
                         let center = Some(position);
-                        self.rigid_bodies.push(RigidBody { mass, center, orientation: None, inertia });
+                        let (orientation, spin) = (None, None);
+                        self.rigid_bodies.push(RigidBody { mass, center, orientation, spin, inertia });
                     }
                 }
             }
@@ -224,10 +225,12 @@ impl<'a, 'f> Resolver<'a, 'f> {
                         let BodyValue { name, mass, inertia, center, orientation } = &value;
                         // Without a mass a centre moves nothing, and without inertia an orientation.
                         let zero = self.eval.bench.graph.zero();
+                        let turned = inertia.and(orientation.as_ref());
                         self.rigid_bodies.push(RigidBody {
                             mass: mass.unwrap_or(zero),
                             center: mass.and(*center).map(|(position, _)| position),
-                            orientation: inertia.and(orientation.as_ref()).map(|rotation| rotation.matrix),
+                            orientation: turned.map(|rotation| rotation.matrix),
+                            spin: turned.map(|rotation| rotation.body_rate),
                             inertia: inertia.unwrap_or([zero; 6]),
                         });
                         self.bodies.push(BodyEntry {

@@ -43,6 +43,9 @@ pub struct RigidBody {
     pub center: Option<[ExprId; 3]>,
     /// The rotation from body axes to the world's, row by row.
     pub orientation: Option<[[ExprId; 3]; 3]>,
+    /// The angular velocity in body axes, linear in the velocities, where the declaration has it: that of a quaternion is
+    /// shorter than what follows from its matrix.
+    pub spin: Option<[ExprId; 3]>,
     /// The entries `xx, yy, zz, xy, yz, zx` of the inertia about the centre, in body axes; of no matter without an orientation.
     pub inertia: [ExprId; 6],
 }
@@ -98,10 +101,10 @@ impl Multibody {
     fn expressions(&mut self) -> impl Iterator<Item = &mut ExprId> {
         let Multibody { bodies, gravity, other_energy, other_force_function } = self;
         let of_bodies = bodies.iter_mut().flat_map(|body| {
-            let RigidBody { mass, center, orientation, inertia } = body;
+            let RigidBody { mass, center, orientation, spin, inertia } = body;
             let (center, orientation) =
                 (center.iter_mut().flatten(), orientation.iter_mut().flatten().flatten());
-            center.chain(orientation).chain(inertia).chain([mass])
+            center.chain(orientation).chain(spin.iter_mut().flatten()).chain(inertia).chain([mass])
         });
         of_bodies.chain(gravity).chain([other_energy, other_force_function])
     }

@@ -49,7 +49,7 @@ pub(super) fn equations(
 ) -> Result<Found, DerivationError> {
     let (n, l) = (system.forms.len(), system.forms.degrees);
     affordable(bench)?;
-    let tree = linkage::tree(bench, system, frame);
+    let tree = linkage::tree(bench, system, frame, partials);
     if let Some(tree) = &tree
         && l.min(tree.joints()) >= MANY
         && let Some(equations) = of_links(bench, system, frame, partials, tree)?

@@ -170,14 +170,15 @@ fn drawn(seed: u64) -> (Words, Mechanics, Vec<&'static str>) {
         if skew {
             features.push("products of inertia");
         }
-        bodies.push(RigidBody { mass, center: Some(center), orientation: Some(axes), inertia });
+        bodies.push(RigidBody { mass, center: Some(center), orientation: Some(axes), spin: None, inertia });
         if words.draw.once_in(3) {
             features.push("a particle fixed to a body");
             let local = numbers(&mut words);
             let away = applied(&mut words.graph, axes, local);
             let center = plus(&mut words.graph, place, away);
             let mass = words.graph.ratio(3, 4);
-            bodies.push(RigidBody { mass, center: Some(center), orientation: None, inertia: [zero; 6] });
+            let inertia = [zero; 6];
+            bodies.push(RigidBody { mass, center: Some(center), orientation: None, spin: None, inertia });
         }
         let local = numbers(&mut words);
         let away = applied(&mut words.graph, axes, local);

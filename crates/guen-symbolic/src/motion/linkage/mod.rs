@@ -30,7 +30,12 @@ use crate::algebra::{ExprId, Graph};
 use crate::workbench::Workbench;
 
 /// The tree of a system's bodies; none where no body hangs on another, or masses, inertias or gravity are not constant.
-pub(super) fn tree<'a>(bench: &mut Workbench, system: &'a Mechanics, frame: &Frame) -> Option<Tree<'a>> {
+pub(super) fn tree<'a>(
+    bench: &mut Workbench,
+    system: &'a Mechanics,
+    frame: &Frame,
+    partials: &mut VelocityPartials,
+) -> Option<Tree<'a>> {
     let multibody = system.multibody.as_ref()?;
     let graph = &bench.graph;
     let weights = multibody.bodies.iter().flat_map(|body| body.inertia.iter().chain([&body.mass]));
@@ -38,7 +43,7 @@ pub(super) fn tree<'a>(bench: &mut Workbench, system: &'a Mechanics, frame: &Fra
     if !weights.all(|e| graph.roles(*e).is_constant()) {
         return None;
     }
-    Tree::new(bench, system, frame)
+    Tree::new(bench, system, frame, partials)
 }
 
 /// The equations of a tree, `s = 1..l`, without the generalised forces; none where the energies beside the bodies' are not

@@ -6,6 +6,7 @@
 
 use super::vector::{self, Matrix, Vector};
 use crate::algebra::{ExprId, Flow, Substitution};
+use crate::motion::velocity_forms::VelocityPartials;
 use crate::motion::{Frame, Mechanics, RigidBody};
 use crate::workbench::Workbench;
 
@@ -44,7 +45,12 @@ pub(in crate::motion) struct Tree<'a> {
 impl<'a> Tree<'a> {
     /// The tree of the bodies; `None` where they turn about one axis or not at all, where poses were not found in each
     /// other, or where no link hangs on a link.
-    pub(super) fn new(bench: &mut Workbench, system: &'a Mechanics, frame: &Frame) -> Option<Self> {
+    pub(super) fn new(
+        bench: &mut Workbench,
+        system: &'a Mechanics,
+        frame: &Frame,
+        partials: &mut VelocityPartials,
+    ) -> Option<Self> {
         let bodies = &system.multibody.as_ref()?.bodies;
         let unit = vector::identity(&bench.graph);
         let mut axes = 0..3;
@@ -67,7 +73,7 @@ impl<'a> Tree<'a> {
         let variables = system.forms.coordinates.iter().copied().chain([system.forms.time]).collect();
         let mut tree = Tree { links: vec![world], poses: vec![pose], system, variables };
         for body in bodies {
-            tree.hang(bench, frame, body)?;
+            tree.hang(bench, frame, partials, body)?;
         }
         tree.links.iter().any(|link| link.parent > 0).then_some(tree)
     }
@@ -85,7 +91,13 @@ impl<'a> Tree<'a> {
         symbols.filter(|symbol| self.variables.contains(symbol)).collect()
     }
 
-    fn hang(&mut self, bench: &mut Workbench, frame: &Frame, body: &RigidBody) -> Option<()> {
+    fn hang(
+        &mut self,
+        bench: &mut Workbench,
+        frame: &Frame,
+        partials: &mut VelocityPartials,
+        body: &RigidBody,
+    ) -> Option<()> {
         let rotation = body.orientation;
         let entries = rotation.iter().flatten().flatten().chain(body.center.iter().flatten()).copied();
         let own = self.occurring(bench, entries);
@@ -98,13 +110,14 @@ impl<'a> Tree<'a> {
             }
         }
         parents.sort_by_key(|(left, _)| *left);
-        parents.into_iter().find_map(|(_, parent)| self.hang_on(bench, frame, body, parent))
+        parents.into_iter().find_map(|(_, parent)| self.hang_on(bench, frame, partials, body, parent))
     }
 
     fn hang_on(
         &mut self,
         bench: &mut Workbench,
         frame: &Frame,
+        partials: &mut VelocityPartials,
         body: &RigidBody,
         parent: usize,
     ) -> Option<()> {
@@ -113,7 +126,7 @@ impl<'a> Tree<'a> {
         let center = body.center.unwrap_or(pose.origin);
         let has = |e: &ExprId| pose.variables.contains(e);
         let fixed: Vec<ExprId> = self.variables.iter().copied().filter(has).collect();
-        let mut resting = self.resting(bench, &fixed)?;
+        let mut resting = self.resting(bench, &fixed);
         // R_p^T R_b and R_p^T (c_b - o_p), of the variables that are left.
         let rotation_there = pose.rotation.map(|row| row.map(|e| resting.of(&mut bench.graph, e)));
         let turned_there = turned.map(|row| row.map(|e| resting.of(&mut bench.graph, e)));
@@ -147,7 +160,15 @@ impl<'a> Tree<'a> {
         let link = if moving.is_empty() && self.occurring(bench, origin).is_empty() {
             None
         } else {
-            Some(self.link(bench, frame, parent, (&turned, &origin_in_world), relative, origin))
+            let link = self.link(bench, frame, parent, (&turned, &origin_in_world), relative, origin);
+            // Seen from axes that do not turn the angular velocity is the declared one.
+            let around = self.poses[self.links[link].parent].rotation;
+            if let Some(spin) = body.spin
+                && self.occurring(bench, around.into_iter().flatten()).is_empty()
+            {
+                self.spin_as_declared(bench, frame, partials, link, spin);
+            }
+            Some(link)
         };
         match link {
             Some(link) => {
@@ -160,8 +181,8 @@ impl<'a> Tree<'a> {
         Some(())
     }
 
-    /// Puts variables at numbers for which the constraints on positions hold.
-    fn resting(&self, bench: &mut Workbench, fixed: &[ExprId]) -> Option<Substitution> {
+    /// Puts variables at numbers: zero, or where constraints on positions hold that are seen to for zeros and ones.
+    fn resting(&self, bench: &mut Workbench, fixed: &[ExprId]) -> Substitution {
         let (zero, one) = (bench.graph.zero(), bench.graph.one());
         let mut values: Vec<(ExprId, ExprId)> = Vec::new();
         for constraint in &self.system.holonomic {
@@ -176,14 +197,14 @@ impl<'a> Tree<'a> {
                 let value =
                     Substitution::new(values.iter().copied()).of(&mut bench.graph, constraint.equation);
                 bench.graph.is_zero(value).then_some(values)
-            })?;
-            values.extend(chosen);
+            });
+            values.extend(chosen.into_iter().flatten());
         }
         let others: Vec<_> =
             fixed.iter().filter(|x| values.iter().all(|(known, _)| known != *x)).copied().collect();
         values.extend(others.into_iter().map(|x| (x, zero)));
         values.retain(|(x, _)| fixed.contains(x));
-        Some(Substitution::new(values))
+        Substitution::new(values)
     }
 
     /// Whether a relative pose is one, of axes at right angles: at points modulo p, where the constraints on positions hold.
@@ -297,6 +318,33 @@ impl<'a> Tree<'a> {
         self.links.push(Link { parent, rotation, offset, along, mass, moment: zero, inertia: [zero; 3] });
         self.poses.push(Pose { rotation: *turned, origin: *origin, variables });
         self.links.len() - 1
+    }
+
+    /// Angular velocities along the operators from the form that the declaration has.
+    fn spin_as_declared(
+        &mut self,
+        bench: &mut Workbench,
+        frame: &Frame,
+        partials: &mut VelocityPartials,
+        link: usize,
+        declared: Vector,
+    ) {
+        let forms = declared.map(|e| partials.affine(bench, e));
+        let [Some(x), Some(y), Some(z)] = forms else { return };
+        let zero = vector::zero(&bench.graph);
+        let mut along: Vec<(usize, Vector, Vector)> = Vec::new();
+        for s in 0..=self.system.forms.degrees {
+            let spin = [&x, &y, &z].map(|form| {
+                let component = frame.component(bench, form, s);
+                bench.tidy(component)
+            });
+            let known = self.links[link].along.iter().find(|(known, ..)| *known == s);
+            let velocity = known.map_or(zero, |(_, _, velocity)| *velocity);
+            if !vector::vanishes(&bench.graph, &spin) || !vector::vanishes(&bench.graph, &velocity) {
+                along.push((s, spin, velocity));
+            }
+        }
+        self.links[link].along = along;
     }
 
     /// Loads a link with a body whose axes and centre are at rest in it.
