@@ -8,7 +8,9 @@
 //! What comes out is one more list of rates for the optimiser. The operators that are shown, and all that is derived
 //! from them, are not touched.
 
+mod axles;
 mod component;
+mod planar;
 mod sums;
 mod unknowns;
 
@@ -45,20 +47,68 @@ fn found(
     forms: &MeasuredForms,
     generalised_forces: &[ExprId],
 ) -> Option<Vec<Vec<ExprId>>> {
-    let l = system.forms.degrees;
-    let energy: Vec<ExprId> = terms.iter().flat_map(|term| term.forms.iter().copied()).collect();
     let mut unknowns = Unknowns::new(bench, system);
     let written: Vec<ExprId> = system.written.iter().map(|e| unknowns.form(bench, *e)).collect();
+    let in_world = Written { forms: written, terms: terms.to_vec(), ..Written::default() };
+    let on_axles = axles::written(bench, system, &mut unknowns, &in_world, forms);
+    let mut lists = Vec::new();
+    for written in [Some(in_world), on_axles].into_iter().flatten() {
+        let found = solved(bench, system, frame, &mut unknowns, &written, forms, generalised_forces);
+        lists.extend(found.into_iter().flatten());
+    }
+    Some(lists)
+}
+
+/// The forms of a system over velocities, or over symbols for other ones.
+#[derive(Default)]
+struct Written {
+    /// What these symbols stand for.
+    definitions: FastMap<ExprId, ExprId>,
+    /// The forms of the declaration.
+    forms: Vec<ExprId>,
+    /// The kinetic energy.
+    terms: Vec<KineticTerm>,
+    /// The vectors in it that are taken apart in axes that turn.
+    points: Vec<Point>,
+}
+
+/// A vector in axes at an angle.
+struct Point {
+    angle: ExprId,
+    velocities: [ExprId; 2],
+}
+
+fn solved(
+    bench: &mut Workbench,
+    system: &Mechanics,
+    frame: &Frame,
+    unknowns: &mut Unknowns,
+    written: &Written,
+    forms: &MeasuredForms,
+    generalised_forces: &[ExprId],
+) -> Option<Vec<Vec<ExprId>>> {
+    let l = system.forms.degrees;
+    let Written { definitions, forms: written, terms, points } = written;
+    let energy: Vec<ExprId> = terms.iter().flat_map(|term| term.forms.iter().copied()).collect();
     let in_unknowns: Vec<ExprId> = energy.iter().map(|e| unknowns.form(bench, *e)).collect();
-    let roots: Vec<ExprId> = written[l..].iter().chain(&in_unknowns).copied().collect();
-    let sums = relatives(bench, &roots)?;
-    let mut on_constraints = Velocities::new(bench, system, frame, &unknowns, &written, &sums)?;
+    let values = definitions.iter().map(|(_, value)| *value);
+    let roots: Vec<ExprId> = written[l..].iter().chain(&in_unknowns).copied().chain(values).collect();
+    let sums = match relatives(bench, &roots) {
+        Some(sums) => sums,
+        None if points.is_empty() => return None,
+        None => FastMap::default(),
+    };
+    let mut on_constraints = Velocities::new(bench, system, frame, unknowns, written, &sums, definitions)?;
     let mut motion = on_constraints.motion(bench, system);
     let mut displacements = on_constraints.displacements(bench, system);
     let mut nested = MeasuredForms::default();
+    for point in points {
+        on_constraints.measure_point(bench, system, &mut motion, point, &mut nested)?;
+    }
     for (u, in_unknowns) in energy.into_iter().zip(in_unknowns) {
         if !nested.contains_key(&u) {
-            let measured = on_constraints.measure(bench, system, &mut motion, in_unknowns, &forms[&u])?;
+            let mut measured = on_constraints.measure(bench, system, &mut motion, in_unknowns)?;
+            measured.turning.clone_from(&forms[&u].turning);
             nested.insert(u, measured);
         }
     }
@@ -99,12 +149,13 @@ impl<'a> Velocities<'a> {
         unknowns: &Unknowns,
         written: &[ExprId],
         sums: &'a FastMap<ExprId, Relative>,
+        definitions: &'a FastMap<ExprId, ExprId>,
     ) -> Option<Self> {
         let (n, l) = (system.forms.len(), system.forms.degrees);
         let (zero, one) = (bench.graph.zero(), bench.graph.one());
         let mut along: Vec<Component<'a>> = Vec::new();
         for s in 0..=l {
-            let mut component = Component::new(sums, s == 0);
+            let mut component = Component::new(sums, definitions, s == 0);
             for (t, eta) in system.etas.iter().enumerate() {
                 component.set(*eta, if t + 1 == s { one } else { zero });
             }
@@ -147,7 +198,7 @@ impl<'a> Velocities<'a> {
                 component.set(system.velocities[i], bench.graph.div(right, rows[v][i]));
             }
         }
-        let mut whole = Component::new(sums, true);
+        let mut whole = Component::new(sums, definitions, true);
         for (t, eta) in system.etas.iter().enumerate() {
             whole.set(*eta, if t < l { *eta } else { zero });
         }
@@ -190,14 +241,13 @@ impl<'a> Velocities<'a> {
         self.operators.iter().map(along).collect()
     }
 
-    /// A form of the energy; what belongs to the form and not to its place is known already.
+    /// A form of the energy but for its exterior derivative, which belongs to the form and not to its place.
     fn measure(
         &mut self,
         bench: &mut Workbench,
         system: &Mechanics,
         motion: &mut Flow,
         u: ExprId,
-        known: &Measured,
     ) -> Option<Measured> {
         let l = system.forms.degrees;
         let mut parts = Vec::with_capacity(l + 1);
@@ -216,8 +266,32 @@ impl<'a> Velocities<'a> {
             drift: parts[0],
             components: parts.split_off(1),
             acceleration: bench.keep_large(acceleration),
-            turning: known.turning.clone(),
+            turning: vec![bench.graph.zero(); l],
         })
+    }
+
+    /// The velocities of a point in axes that turn. With its acceleration along these axes, `u' - phi' w` and `w' + phi' u`, its
+    /// equations are those of closed forms.
+    fn measure_point(
+        &mut self,
+        bench: &mut Workbench,
+        system: &Mechanics,
+        motion: &mut Flow,
+        point: &Point,
+        nested: &mut MeasuredForms,
+    ) -> Option<()> {
+        let turning = motion.of(&mut bench.graph, point.angle);
+        let [u, w] = point.velocities;
+        let [mut along, mut across] =
+            [self.measure(bench, system, motion, u)?, self.measure(bench, system, motion, w)?];
+        let [by_across, by_along] = [&across, &along].map(|own| bench.graph.mul(turning, own.value));
+        let own = bench.graph.sub(along.acceleration, by_across);
+        along.acceleration = bench.keep_large(own);
+        let own = bench.graph.add(across.acceleration, by_along);
+        across.acceleration = bench.keep_large(own);
+        nested.insert(u, along);
+        nested.insert(w, across);
+        Some(())
     }
 }
 
