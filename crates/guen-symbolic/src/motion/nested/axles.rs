@@ -216,7 +216,12 @@ fn contact(bench: &mut Workbench, form: usize, e: ExprId) -> Option<Contact> {
             return None;
         }
         let (x, y) = (Scalar::new(bench, x)?, Scalar::new(bench, y)?);
-        let (factor, along, vector) = Planar::new(bench, &x, &y, false)?.normalised(bench)?;
+        let vector = Planar::new(bench, &x, &y, false)?;
+        let (vector, rest) = match Scalar::new(bench, rest) {
+            Some(own) => vector.with_component(bench, own, angle),
+            None => (vector, rest),
+        };
+        let (factor, along, vector) = vector.normalised(bench)?;
         Some(Contact { form, vector, angle, factor, along, rest })
     })
 }

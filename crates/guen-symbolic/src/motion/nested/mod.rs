@@ -27,6 +27,10 @@ use crate::workbench::Workbench;
 /// Velocities on the constraints up to this weight stay as the operators have them.
 const LIGHT: u64 = 4;
 
+/// Lists of rates that promise no more than so many times the cost of the shortest are left to the optimiser, as a fraction: a
+/// program for each is most of the work.
+const CLOSE: (u64, u64) = (5, 4);
+
 /// The rates of the state, velocities first; none where nothing is in common, or nothing is seen to be.
 pub(super) fn rates(
     bench: &mut Workbench,
@@ -51,12 +55,17 @@ fn found(
     let written: Vec<ExprId> = system.written.iter().map(|e| unknowns.form(bench, *e)).collect();
     let in_world = Written { forms: written, terms: terms.to_vec(), ..Written::default() };
     let on_axles = axles::written(bench, system, &mut unknowns, &in_world, forms);
-    let mut lists = Vec::new();
-    for written in [Some(in_world), on_axles].into_iter().flatten() {
-        let found = solved(bench, system, frame, &mut unknowns, &written, forms, generalised_forces);
-        lists.extend(found.into_iter().flatten());
+    let mut found: Vec<(u64, Vec<Vec<ExprId>>)> = Vec::new();
+    for written in on_axles.into_iter().chain([in_world]) {
+        let lists = solved(bench, system, frame, &mut unknowns, &written, forms, generalised_forces);
+        let costs = lists.iter().flatten().map(|rates| weighted_cost(&bench.graph, rates));
+        if let (Some(cost), Some(lists)) = (costs.min(), lists) {
+            found.push((cost, lists));
+        }
     }
-    Some(lists)
+    let least = found.iter().map(|(cost, _)| *cost).min()?;
+    found.retain(|(cost, _)| CLOSE.1 * cost <= CLOSE.0 * least);
+    Some(found.into_iter().flat_map(|(_, lists)| lists).collect())
 }
 
 /// The forms of a system over velocities, or over symbols for other ones.

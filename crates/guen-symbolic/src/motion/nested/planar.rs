@@ -173,6 +173,38 @@ impl Planar {
         Some(Planar(parts))
     }
 
+    /// The vector whose imaginary part in axes at an angle is more by a form, but for what there is of the form at rest: `c w` is that of
+    /// `i c w e^{i phi}`, and `c w cos(psi)` of `i c w e^{i (phi + psi)}`.
+    pub(super) fn with_component(self, bench: &mut Workbench, form: Scalar, angle: ExprId) -> (Self, ExprId) {
+        let graph = &mut bench.graph;
+        let mut resting = graph.zero();
+        let mut parts = self.0;
+        for ((velocity, between), [cosine, sine]) in form.0 {
+            if velocity.is_none() {
+                resting = cosine;
+                continue;
+            }
+            let (own, along) = match between {
+                None => (angle, graph.zero()),
+                Some(between) => {
+                    let ends = [graph.add(angle, between), graph.sub(angle, between)];
+                    let [ahead, behind] = ends.map(|end| graph.linear_parts(end).len());
+                    if behind < ahead { (ends[1], graph.neg(sine)) } else { (ends[0], sine) }
+                }
+            };
+            match parts.iter_mut().find(|part| part.velocity == velocity && part.angle == Some(own)) {
+                Some(part) => {
+                    part.along = graph.add(part.along, along);
+                    part.across = graph.add(part.across, cosine);
+                }
+                None => parts.push(Part { velocity, angle: Some(own), along, across: cosine }),
+            }
+        }
+        parts.retain(|part| !graph.is_zero(part.along) || !graph.is_zero(part.across));
+        parts.sort_by_key(|part| (part.velocity, part.angle));
+        (Planar(parts), resting)
+    }
+
     /// The vector by one that begins with a velocity `1 w` where that is possible: `Z = factor i^quarter Z~`. Equal velocities that
     /// were written in different multiples, and turned, are equal then.
     pub(super) fn normalised(self, bench: &mut Workbench) -> Option<(ExprId, bool, Self)> {
