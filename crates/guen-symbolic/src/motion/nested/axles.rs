@@ -20,6 +20,9 @@ use crate::motion::velocity_forms::VELOCITIES;
 use crate::motion::{KineticTerm, Mechanics};
 use crate::workbench::Workbench;
 
+/// Forms that have so many products for every one of their angles are not looked at.
+const MANY: usize = 400;
+
 /// A vector that a form takes apart.
 struct Axle {
     vector: Planar,
@@ -64,8 +67,10 @@ pub(super) fn written(
         let place = match known {
             Some(place) => place,
             None => {
-                let (before, values) = relative(bench, &found, &vector, Some(angle));
-                is_nested |= before.is_some();
+                let near = nearest(bench, &found, &vector);
+                is_nested |= near.is_some();
+                let (axle, rest) = near.map_or((None, vector.0.clone()), |(axle, rest)| (Some(axle), rest));
+                let values = taken_apart(bench, axle, &rest, angle);
                 let symbols = [0; 2].map(|_| bench.graph.symbol("", Role::QuasiVelocity));
                 own.definitions.insert(symbols[0], values[0]);
                 own.definitions.insert(symbols[1], values[1]);
@@ -94,7 +99,7 @@ pub(super) fn written(
 fn energy(
     bench: &mut Workbench,
     unknowns: &mut Unknowns,
-    found: &[Axle],
+    axles: &[Axle],
     terms: &[KineticTerm],
     forms: &MeasuredForms,
     written: &mut Written,
@@ -113,20 +118,20 @@ fn energy(
         .collect();
     let mut taken = vec![false; terms.len()];
     for i in 0..terms.len() {
-        let pair = scalars[i].as_ref().filter(|_| !taken[i]).and_then(|x| {
-            (i + 1..terms.len()).filter(|j| !taken[*j] && terms[*j].weight == terms[i].weight).find_map(|j| {
-                let y = scalars[j].as_ref()?;
-                [false, true].into_iter().find_map(|mirrored| {
-                    let vector = Planar::new(bench, x, y, mirrored)?;
-                    let (factor, _, vector) = vector.normalised(bench)?;
-                    let (before, _) = relative(bench, found, &vector, None);
-                    Some((j, factor, vector, before?))
-                })
+        let Some(x) = scalars[i].as_ref().filter(|_| !taken[i]) else { continue };
+        let pair = (i + 1..terms.len()).find_map(|j| {
+            let y = scalars[j].as_ref().filter(|_| !taken[j] && terms[j].weight == terms[i].weight)?;
+            [false, true].into_iter().find_map(|mirrored| {
+                let (factor, _, vector) = Planar::new(bench, x, y, mirrored)?.normalised(bench)?;
+                let (axle, rest) = nearest(bench, axles, &vector)?;
+                Some((j, factor, axle, rest))
             })
         });
-        let Some((j, factor, vector, angle)) = pair else { continue };
+        let Some((j, factor, axle, rest)) = pair else { continue };
         (taken[i], taken[j]) = (true, true);
-        let (_, velocities) = relative(bench, found, &vector, Some(angle));
+        // In the axes of what turns last.
+        let angle = rest.iter().filter_map(|part| part.angle).next_back().unwrap_or(axle.angle);
+        let velocities = taken_apart(bench, Some(axle), &rest, angle);
         let weight = bench.graph.product(&[(terms[i].weight, 1), (factor, 2)]);
         written.terms.extend(velocities.map(|u| KineticTerm { weight, forms: vec![u, u] }));
         written.points.push(Point { angle, velocities });
@@ -135,14 +140,8 @@ fn energy(
     written.terms.extend(others);
 }
 
-/// A vector in axes at an angle, or in those that suit it; by the axle that it differs least from, if it does, whose angle is
-/// the suitable one if there is nothing that turns with another.
-fn relative(
-    bench: &mut Workbench,
-    axles: &[Axle],
-    vector: &Planar,
-    angle: Option<ExprId>,
-) -> (Option<ExprId>, [ExprId; 2]) {
+/// The axle that a vector differs least from, if one is near, and what there is beyond it.
+fn nearest<'a>(bench: &mut Workbench, axles: &'a [Axle], vector: &Planar) -> Option<(&'a Axle, Vec<Part>)> {
     let mut best: Option<(&Axle, Vec<Part>)> = None;
     for axle in axles {
         let Some(rest) = vector.beyond(bench, &axle.vector) else { continue };
@@ -150,15 +149,11 @@ fn relative(
             best = Some((axle, rest));
         }
     }
-    let suitable = best.as_ref().map(|(axle, rest)| {
-        let own = rest.iter().filter_map(|part| part.angle).next_back();
-        own.unwrap_or(axle.angle)
-    });
-    let Some(angle) = angle.or(suitable) else { return (None, [bench.graph.zero(); 2]) };
-    let (axle, rest) = match best {
-        Some((axle, rest)) => (Some(axle), rest),
-        None => (None, vector.0.clone()),
-    };
+    best
+}
+
+/// A vector by an axle and what there is beyond it, in axes at an angle.
+fn taken_apart(bench: &mut Workbench, axle: Option<&Axle>, rest: &[Part], angle: ExprId) -> [ExprId; 2] {
     // What turns together is added before it is turned.
     let mut by_angles: Vec<(Option<ExprId>, [Vec<ExprId>; 2])> = Vec::new();
     if let Some(axle) = axle {
@@ -178,10 +173,10 @@ fn relative(
         .into_iter()
         .map(|(own, [along, across])| (own, bench.graph.sum(along), bench.graph.sum(across)))
         .collect();
-    (suitable, turned(bench, &by_angles, angle))
+    turned(bench, &by_angles, angle)
 }
 
-/// A form as what it takes of a vector, by the first angle by which it is that.
+/// A form as what it takes of a vector, by the angle in which the vector is the shortest.
 fn contact(bench: &mut Workbench, form: usize, e: ExprId) -> Option<Contact> {
     let terms = products(&mut bench.graph, e);
     let mut angles: Vec<ExprId> = Vec::new();
@@ -192,38 +187,51 @@ fn contact(bench: &mut Workbench, form: usize, e: ExprId) -> Option<Contact> {
             }
         }
     }
-    angles.into_iter().find_map(|angle| {
-        // -X sin(phi) + Y cos(phi) + rest
-        let [mut x, mut y, mut rest]: [Vec<(ExprId, Rational)>; 3] = Default::default();
-        for (monomial, c) in &terms {
-            let own: Vec<_> =
-                turning(&bench.graph, *monomial).into_iter().filter(|(_, own)| *own == angle).collect();
-            match own[..] {
-                [] => rest.push((*monomial, c.clone())),
-                [(function, _)] => {
-                    let call = bench.graph.function(function, angle);
-                    let other = bench.graph.div(*monomial, call);
-                    match function {
-                        Function::Sin => x.push((other, -c.clone())),
-                        _ => y.push((other, c.clone())),
-                    }
-                }
-                _ => return None,
+    if angles.len() * terms.len() > MANY {
+        return None;
+    }
+    let contacts: Vec<Contact> =
+        angles.into_iter().filter_map(|angle| contact_at(bench, form, &terms, angle)).collect();
+    let length = |part: &Part| part.angle.map_or(0, |angle| bench.graph.linear_parts(angle).len());
+    contacts.into_iter().min_by_key(|contact| contact.vector.0.iter().map(length).sum::<usize>())
+}
+
+/// `-X sin(phi) + Y cos(phi)`, and what else there is, by one angle.
+fn contact_at(
+    bench: &mut Workbench,
+    form: usize,
+    terms: &[(ExprId, Rational)],
+    angle: ExprId,
+) -> Option<Contact> {
+    let [mut x, mut y, mut rest]: [Vec<(ExprId, Rational)>; 3] = Default::default();
+    for (monomial, c) in terms {
+        let mut own = turning(&bench.graph, *monomial);
+        own.retain(|(_, own)| *own == angle);
+        let list = match own[..] {
+            [] => {
+                rest.push((*monomial, c.clone()));
+                continue;
             }
-        }
-        let [x, y, rest] = [x, y, rest].map(|terms| bench.graph.linear(&terms));
-        if bench.graph.is_zero(x) || bench.graph.is_zero(y) {
-            return None;
-        }
-        let (x, y) = (Scalar::new(bench, x)?, Scalar::new(bench, y)?);
-        let vector = Planar::new(bench, &x, &y, false)?;
-        let (vector, rest) = match Scalar::new(bench, rest) {
-            Some(own) => vector.with_component(bench, own, angle),
-            None => (vector, rest),
+            [(Function::Sin, _)] => &mut x,
+            [_] => &mut y,
+            _ => return None,
         };
-        let (factor, along, vector) = vector.normalised(bench)?;
-        Some(Contact { form, vector, angle, factor, along, rest })
-    })
+        let call = bench.graph.function(own[0].0, angle);
+        let other = bench.graph.div(*monomial, call);
+        list.push((other, if own[0].0 == Function::Sin { -c.clone() } else { c.clone() }));
+    }
+    if x.is_empty() || y.is_empty() {
+        return None;
+    }
+    let [x, y, rest] = [x, y, rest].map(|terms| bench.graph.linear(&terms));
+    let (x, y) = (Scalar::new(bench, x)?, Scalar::new(bench, y)?);
+    let vector = Planar::new(bench, &x, &y, false)?;
+    let (vector, rest) = match Scalar::new(bench, rest) {
+        Some(own) => vector.with_component(bench, own, angle),
+        None => (vector, rest),
+    };
+    let (factor, along, vector) = vector.normalised(bench)?;
+    Some(Contact { form, vector, angle, factor, along, rest })
 }
 
 /// A sum as products with their coefficients; factors that are constant sums stay.

@@ -145,6 +145,10 @@ fn entry(graph: &mut Graph, velocity: ExprId, coefficient: ExprId) -> Option<(Ke
 impl Planar {
     /// `X + i Y`, or `X - i Y`, if that is one vector.
     pub(super) fn new(bench: &mut Workbench, x: &Scalar, y: &Scalar, mirrored: bool) -> Option<Self> {
+        let turning = |own: &Scalar| own.0.iter().filter(|((_, angle), _)| angle.is_some()).count();
+        if turning(x) != turning(y) {
+            return None;
+        }
         let zero = bench.graph.zero();
         let mut parts = Vec::new();
         let (mut xs, mut ys) = (x.0.iter().peekable(), y.0.iter().peekable());
@@ -158,17 +162,11 @@ impl Planar {
             let other = ys.next_if(|(known, _)| *known == key).map_or([zero; 2], |(_, own)| *own);
             let other = if mirrored { other.map(|e| bench.graph.neg(e)) } else { other };
             let (velocity, angle) = key;
-            let across = if angle.is_some() {
-                // a cos - b sin, and a sin + b cos
-                let [cosine, sine] = own;
-                if [cosine, bench.graph.neg(sine)] != [other[1], other[0]] {
-                    return None;
-                }
-                other[0]
-            } else {
-                other[0]
-            };
-            parts.push(Part { velocity, angle, along: own[0], across });
+            // a cos - b sin, and a sin + b cos
+            if angle.is_some() && [own[0], bench.graph.neg(own[1])] != [other[1], other[0]] {
+                return None;
+            }
+            parts.push(Part { velocity, angle, along: own[0], across: other[0] });
         }
         Some(Planar(parts))
     }
