@@ -150,9 +150,9 @@ pub(super) fn equations(
             alternatives.extend(others.map(|other| [&frame.velocities[..], &other].concat()));
             let own = [&frame.velocities[..], &solution.accelerations].concat();
             let Projected { equations: by_projection, forms, .. } = &projected;
-            let mut others = nested::rates(bench, system, frame, terms, forms, generalised_forces);
             // What multiplies out to little is better multiplied out.
             let least = weighted_cost(&bench.graph, &own);
+            let mut others = nested::rates(bench, system, frame, terms, forms, generalised_forces, least);
             others.retain(|rates| weighted_cost(&bench.graph, rates) < least);
             by_nesting = !others.is_empty();
             others.extend(turned::rates(bench, system, frame, forms, generalised_forces));
@@ -198,7 +198,7 @@ impl Equations {
     }
 
     /// The equations with the generalised forces.
-    fn driven(mut self, bench: &mut Workbench, generalised_forces: &[ExprId]) -> Self {
+    pub(super) fn driven(mut self, bench: &mut Workbench, generalised_forces: &[ExprId]) -> Self {
         for (force, q) in self.forces.iter_mut().zip(generalised_forces) {
             *force = bench.graph.add(*force, *q);
         }

@@ -203,27 +203,27 @@ fn contact_at(
     terms: &[(ExprId, Rational)],
     angle: ExprId,
 ) -> Option<Contact> {
-    let [mut x, mut y, mut rest]: [Vec<(ExprId, Rational)>; 3] = Default::default();
+    let [mut sines, mut cosines, mut rest]: [Vec<(ExprId, Rational)>; 3] = Default::default();
     for (monomial, c) in terms {
         let mut own = turning(&bench.graph, *monomial);
         own.retain(|(_, own)| *own == angle);
         let list = match own[..] {
-            [] => {
-                rest.push((*monomial, c.clone()));
-                continue;
-            }
-            [(Function::Sin, _)] => &mut x,
-            [_] => &mut y,
+            [] => &mut rest,
+            [(Function::Sin, _)] => &mut sines,
+            [_] => &mut cosines,
             _ => return None,
         };
-        let call = bench.graph.function(own[0].0, angle);
-        let other = bench.graph.div(*monomial, call);
-        list.push((other, if own[0].0 == Function::Sin { -c.clone() } else { c.clone() }));
+        list.push((*monomial, c.clone()));
     }
-    if x.is_empty() || y.is_empty() {
+    if sines.is_empty() || cosines.is_empty() {
         return None;
     }
-    let [x, y, rest] = [x, y, rest].map(|terms| bench.graph.linear(&terms));
+    let (sine, cosine) = bench.graph.sin_cos(angle);
+    let [x, y] = [(sines, sine), (cosines, cosine)].map(|(terms, call)| {
+        let terms: Vec<_> = terms.into_iter().map(|(e, c)| (bench.graph.div(e, call), c)).collect();
+        bench.graph.linear(&terms)
+    });
+    let (x, rest) = (bench.graph.neg(x), bench.graph.linear(&rest));
     let (x, y) = (Scalar::new(bench, x)?, Scalar::new(bench, y)?);
     let vector = Planar::new(bench, &x, &y, false)?;
     let (vector, rest) = match Scalar::new(bench, rest) {

@@ -19,7 +19,7 @@ use self::sums::{Relative, relatives};
 use self::unknowns::Unknowns;
 use super::between::Between;
 use super::projection::{self, Measured, MeasuredForms};
-use super::{Frame, KineticTerm, Mechanics, Solution};
+use super::{Equations, Frame, KineticTerm, Mechanics, Solution};
 use crate::algebra::{ExprId, FastMap, Flow, Graph, Node, Substitution};
 use crate::program::weighted_cost;
 use crate::workbench::Workbench;
@@ -27,11 +27,12 @@ use crate::workbench::Workbench;
 /// Velocities on the constraints up to this weight stay as the operators have them.
 const LIGHT: u64 = 4;
 
-/// Lists of rates that promise no more than so many times the cost of the shortest are left to the optimiser, as a fraction: a
-/// program for each is most of the work.
+/// Equations that promise no more than so many times the cost of the shortest are left to the optimiser, as a fraction: a program
+/// for each is most of the work.
 const CLOSE: (u64, u64) = (5, 4);
 
-/// The rates of the state, velocities first; none where nothing is in common, or nothing is seen to be.
+/// The rates of the state, velocities first; none where nothing is in common, or nothing is seen to be, or where equations
+/// promise no less than `most`.
 pub(super) fn rates(
     bench: &mut Workbench,
     system: &Mechanics,
@@ -39,8 +40,9 @@ pub(super) fn rates(
     terms: &[KineticTerm],
     forms: &MeasuredForms,
     generalised_forces: &[ExprId],
+    most: u64,
 ) -> Vec<Vec<ExprId>> {
-    found(bench, system, frame, terms, forms, generalised_forces).unwrap_or_default()
+    found(bench, system, frame, terms, forms, generalised_forces, most).unwrap_or_default()
 }
 
 fn found(
@@ -50,22 +52,35 @@ fn found(
     terms: &[KineticTerm],
     forms: &MeasuredForms,
     generalised_forces: &[ExprId],
+    most: u64,
 ) -> Option<Vec<Vec<ExprId>>> {
     let mut unknowns = Unknowns::new(bench, system);
     let written: Vec<ExprId> = system.written.iter().map(|e| unknowns.form(bench, *e)).collect();
     let in_world = Written { forms: written, terms: terms.to_vec(), ..Written::default() };
     let on_axles = axles::written(bench, system, &mut unknowns, &in_world, forms);
-    let mut found: Vec<(u64, Vec<Vec<ExprId>>)> = Vec::new();
-    for written in on_axles.into_iter().chain([in_world]) {
-        let lists = solved(bench, system, frame, &mut unknowns, &written, forms, generalised_forces);
-        let costs = lists.iter().flatten().map(|rates| weighted_cost(&bench.graph, rates));
-        if let (Some(cost), Some(lists)) = (costs.min(), lists) {
-            found.push((cost, lists));
+    let mut found: Vec<(u64, Assembled)> = Vec::new();
+    for written in core::iter::once(in_world).chain(on_axles) {
+        let assembled = assembled(bench, system, frame, &mut unknowns, &written, forms, generalised_forces);
+        if let Some(Assembled { velocities, equations }) = assembled {
+            let all = [&velocities[..], &equations.entries()].concat();
+            found.push((weighted_cost(&bench.graph, &all), Assembled { velocities, equations }));
         }
     }
     let least = found.iter().map(|(cost, _)| *cost).min()?;
-    found.retain(|(cost, _)| CLOSE.1 * cost <= CLOSE.0 * least);
-    Some(found.into_iter().flat_map(|(_, lists)| lists).collect())
+    found.retain(|(cost, _)| *cost < most && CLOSE.1 * cost <= CLOSE.0 * least);
+    let mut lists = Vec::new();
+    for (_, Assembled { velocities, equations: Equations { mass, forces } }) in found {
+        let solutions = [Solution::new(bench, &mass, &forces).ok(), Solution::shared(bench, &mass, &forces)];
+        let solutions = solutions.into_iter().flatten();
+        lists.extend(solutions.map(|solution| [&velocities[..], &solution.accelerations].concat()));
+    }
+    Some(lists)
+}
+
+/// The rates of the coordinates, and the equations with the generalised forces.
+struct Assembled {
+    velocities: Vec<ExprId>,
+    equations: Equations,
 }
 
 /// The forms of a system over velocities, or over symbols for other ones.
@@ -87,7 +102,7 @@ struct Point {
     velocities: [ExprId; 2],
 }
 
-fn solved(
+fn assembled(
     bench: &mut Workbench,
     system: &Mechanics,
     frame: &Frame,
@@ -95,7 +110,7 @@ fn solved(
     written: &Written,
     forms: &MeasuredForms,
     generalised_forces: &[ExprId],
-) -> Option<Vec<Vec<ExprId>>> {
+) -> Option<Assembled> {
     let l = system.forms.degrees;
     let Written { definitions, forms: written, terms, points } = written;
     let energy: Vec<ExprId> = terms.iter().flat_map(|term| term.forms.iter().copied()).collect();
@@ -123,19 +138,8 @@ fn solved(
     }
     let (equations, _) =
         projection::assemble(bench, system, (0, &mut displacements), &mut motion, terms, &nested);
-    let forces: Vec<ExprId> = equations
-        .forces
-        .iter()
-        .zip(generalised_forces)
-        .map(|(force, q)| bench.graph.add(*force, *q))
-        .collect();
-    let velocities = on_constraints.velocities;
-    let solutions = [
-        Solution::new(bench, &equations.mass, &forces).ok(),
-        Solution::shared(bench, &equations.mass, &forces),
-    ];
-    let lists = solutions.into_iter().flatten();
-    Some(lists.map(|solution| [&velocities[..], &solution.accelerations].concat()).collect())
+    let equations = equations.driven(bench, generalised_forces);
+    Some(Assembled { velocities: on_constraints.velocities, equations })
 }
 
 /// The velocities on the constraints, and forms made of them.
