@@ -133,8 +133,9 @@ fn energy(
         let angle = rest.iter().filter_map(|part| part.angle).next_back().unwrap_or(axle.angle);
         let velocities = taken_apart(bench, Some(axle), &rest, angle);
         let weight = bench.graph.product(&[(terms[i].weight, 1), (factor, 2)]);
-        written.terms.extend(velocities.map(|u| KineticTerm { weight, forms: vec![u, u] }));
-        written.points.push(Point { angle, velocities });
+        let forms = [0; 2].map(|_| bench.graph.symbol("", Role::QuasiVelocity));
+        written.terms.extend(forms.map(|u| KineticTerm { weight, forms: vec![u, u] }));
+        written.points.push(Point { angle, forms, velocities });
     }
     let others = terms.iter().zip(&taken).filter(|(_, taken)| !**taken).map(|(term, _)| term.clone());
     written.terms.extend(others);

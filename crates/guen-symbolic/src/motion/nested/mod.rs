@@ -99,6 +99,9 @@ struct Written {
 /// A vector in axes at an angle.
 struct Point {
     angle: ExprId,
+    /// What the energy has for the velocities along the axes: the acceleration of a form belongs to its point, and two points
+    /// may have one of them in common.
+    forms: [ExprId; 2],
     velocities: [ExprId; 2],
 }
 
@@ -116,6 +119,7 @@ fn assembled(
     let energy: Vec<ExprId> = terms.iter().flat_map(|term| term.forms.iter().copied()).collect();
     let in_unknowns: Vec<ExprId> = energy.iter().map(|e| unknowns.form(bench, *e)).collect();
     let values = definitions.iter().map(|(_, value)| *value);
+    let values = values.chain(points.iter().flat_map(|point| point.velocities));
     let roots: Vec<ExprId> = written[l..].iter().chain(&in_unknowns).copied().chain(values).collect();
     let sums = match relatives(bench, &roots) {
         Some(sums) => sums,
@@ -302,8 +306,8 @@ impl<'a> Velocities<'a> {
         along.acceleration = bench.keep_large(own);
         let own = bench.graph.add(across.acceleration, by_along);
         across.acceleration = bench.keep_large(own);
-        nested.insert(u, along);
-        nested.insert(w, across);
+        nested.insert(point.forms[0], along);
+        nested.insert(point.forms[1], across);
         Some(())
     }
 }

@@ -274,3 +274,163 @@ pub(super) fn turned(
     }
     sums.map(|terms| graph.linear(&terms))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Part, Planar, Scalar, turned};
+    use crate::algebra::{ExprId, Flow, Graph, Rational, Role};
+    use crate::workbench::Workbench;
+
+    /// The angles of links, and the velocities of the points that they join, the first of which moves.
+    struct Chain {
+        bench: Workbench,
+        angles: Vec<ExprId>,
+        velocities: Vec<[ExprId; 2]>,
+    }
+
+    impl Chain {
+        fn last(&self) -> [ExprId; 2] {
+            self.velocities[self.velocities.len() - 1]
+        }
+    }
+
+    fn chain(links: usize) -> Chain {
+        let mut g = Graph::new();
+        let names = ["x", "y", "p", "q", "r"];
+        let coordinates = names.map(|name| g.symbol(name, Role::Coordinate));
+        let rates = names.map(|name| g.symbol(name, Role::Velocity));
+        let [x, y, angles @ ..] = coordinates;
+        let mut place = [x, y];
+        let mut places = vec![place];
+        for angle in &angles[..links] {
+            let length = g.symbol("l", Role::Constant);
+            let (s, c) = g.sin_cos(*angle);
+            for (e, direction) in place.iter_mut().zip([c, s]) {
+                let part = g.mul(length, direction);
+                *e = g.sub(*e, part);
+            }
+            places.push(place);
+        }
+        let mut rate = Flow::new(&g, coordinates.into_iter().zip(rates));
+        let velocities = places.into_iter().map(|place| place.map(|e| rate.of(&mut g, e))).collect();
+        Chain { bench: Workbench::new(g), angles: angles.to_vec(), velocities }
+    }
+
+    fn planar(bench: &mut Workbench, [x, y]: [ExprId; 2], mirrored: bool) -> Option<Planar> {
+        let (x, y) = (Scalar::new(bench, x)?, Scalar::new(bench, y)?);
+        Planar::new(bench, &x, &y, mirrored)
+    }
+
+    /// The vector in axes at an angle.
+    fn at(bench: &mut Workbench, parts: &[Part], angle: ExprId) -> [ExprId; 2] {
+        let one = bench.graph.one();
+        let by_angles: Vec<_> = parts
+            .iter()
+            .map(|part| {
+                let [along, across] =
+                    [part.along, part.across].map(|e| bench.graph.mul(e, part.velocity.unwrap_or(one)));
+                (part.angle, along, across)
+            })
+            .collect();
+        turned(bench, &by_angles, angle)
+    }
+
+    fn assert_equal(bench: &mut Workbench, a: ExprId, b: ExprId) {
+        let difference = bench.graph.sub(a, b);
+        assert!(bench.vanishes(difference), "{}", bench.graph.text(difference));
+    }
+
+    /// `X cos(phi) + Y sin(phi)` and `-X sin(phi) + Y cos(phi)`.
+    fn expected(bench: &mut Workbench, [x, y]: [ExprId; 2], angle: ExprId) -> [ExprId; 2] {
+        let (s, c) = bench.graph.sin_cos(angle);
+        let minus = bench.graph.neg(s);
+        [bench.dot(&[x, y], &[c, s]), bench.dot(&[x, y], &[minus, c])]
+    }
+
+    #[test]
+    fn a_vector_in_axes_at_an_angle_is_what_it_was() {
+        let chain = chain(3);
+        let velocity = chain.last();
+        let Chain { mut bench, angles, .. } = chain;
+        let vector = planar(&mut bench, velocity, false).unwrap();
+        for angle in angles {
+            let found = at(&mut bench, &vector.0, angle);
+            let expected = expected(&mut bench, velocity, angle);
+            (0..2).for_each(|k| assert_equal(&mut bench, found[k], expected[k]));
+        }
+    }
+
+    #[test]
+    fn turned_and_longer_vectors_are_recognised() {
+        let chain = chain(2);
+        let velocity = chain.last();
+        let mut bench = chain.bench;
+        let plain = planar(&mut bench, velocity, false).unwrap().normalised(&mut bench).unwrap();
+        assert!(plain.0 == bench.graph.one() && !plain.1);
+        // 3 i (X + i Y)
+        let [x, y] = velocity.map(|e| bench.graph.scale(e, &Rational::integer(3)));
+        let other = [bench.graph.neg(y), x];
+        let (factor, turned, vector) =
+            planar(&mut bench, other, false).unwrap().normalised(&mut bench).unwrap();
+        assert!(vector == plain.2 && turned && factor == bench.graph.number(3));
+        // The sign of a component.
+        let [x, y] = velocity;
+        let mirrored = [x, bench.graph.neg(y)];
+        assert!(planar(&mut bench, mirrored, false).is_none());
+        assert!(planar(&mut bench, mirrored, true).unwrap() == plain.2);
+    }
+
+    #[test]
+    fn components_of_different_points_are_no_vector() {
+        let Chain { mut bench, velocities, .. } = chain(2);
+        let ([x1, y1], [x, y]) = (velocities[1], velocities[2]);
+        for pair in [[x, y1], [x1, y], [x, x], [y, y]] {
+            assert!(planar(&mut bench, pair, false).is_none());
+        }
+    }
+
+    #[test]
+    fn what_a_form_has_besides_becomes_part_of_its_vector() {
+        // -X sin(q) + Y cos(q) + a p' cos(p - q) + b r' sin(q - r) + c q' + x, with X = x', Y = y'.
+        let Chain { mut bench, angles, velocities } = chain(0);
+        let [vx, vy] = velocities[0];
+        let g = &mut bench.graph;
+        let [p, q, r] = angles[..] else { unreachable!() };
+        let [a, b, c, x] = ["a", "b", "c", "t"].map(|name| g.symbol(name, Role::Constant));
+        let rates = ["p'", "q'", "r'"].map(|name| g.symbol(name, Role::Velocity));
+        let (pq, qr) = (g.sub(p, q), g.sub(q, r));
+        let (cosine, sine) = (g.cos(pq), g.sin(qr));
+        let terms = [
+            g.product(&[(a, 1), (rates[0], 1), (cosine, 1)]),
+            g.product(&[(b, 1), (rates[2], 1), (sine, 1)]),
+            g.mul(c, rates[1]),
+        ];
+        let moving = g.sum(terms);
+        let rest = g.add(moving, x);
+        let vector = planar(&mut bench, [vx, vy], false).unwrap();
+        let rest = Scalar::new(&mut bench, rest).unwrap();
+        let (vector, resting) = vector.with_component(&mut bench, rest, q);
+        assert_eq!(resting, x);
+        // Each part at the shorter of two angles.
+        let own: Vec<_> = vector.0.iter().filter_map(|part| part.angle).collect();
+        assert!(own.len() == 3 && [p, q, r].iter().all(|angle| own.contains(angle)));
+        let [_, found] = at(&mut bench, &vector.0, q);
+        let [_, expected] = expected(&mut bench, [vx, vy], q);
+        let expected = bench.graph.add(expected, moving);
+        assert_equal(&mut bench, found, expected);
+    }
+
+    #[test]
+    fn what_an_axle_has_beyond_another_is_a_link() {
+        let chain = chain(3);
+        let velocity = chain.last();
+        let Chain { mut bench, angles, .. } = chain;
+        let vector = planar(&mut bench, velocity, false).unwrap();
+        let before = Planar(vector.0.iter().copied().filter(|part| part.angle != Some(angles[2])).collect());
+        let rest = vector.beyond(&mut bench, &before).unwrap();
+        assert!(rest.len() == 1 && rest[0].angle == Some(angles[2]));
+        // Not the other way round: the longer one has a velocity that the shorter has not.
+        assert!(before.beyond(&mut bench, &vector).is_none());
+        assert!(vector.beyond(&mut bench, &vector).unwrap().is_empty());
+    }
+}
