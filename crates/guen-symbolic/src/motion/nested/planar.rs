@@ -171,8 +171,8 @@ impl Planar {
         Some(Planar(parts))
     }
 
-    /// The vector whose imaginary part in axes at an angle is more by a form, but for what there is of the form at rest: `c w` is that of
-    /// `i c w e^{i phi}`, and `c w cos(psi)` of `i c w e^{i (phi + psi)}`.
+    /// The vector whose imaginary part in axes at `phi` is more by a form, and what there is of the form at rest: `c w` is that of
+    /// `i c w e^{i phi}`, `c w cos(psi)` of `i c w e^{i (phi + psi)}`, and `c w sin(psi)` of `c w e^{i (phi + psi)}`.
     pub(super) fn with_component(self, bench: &mut Workbench, form: Scalar, angle: ExprId) -> (Self, ExprId) {
         let graph = &mut bench.graph;
         let mut resting = graph.zero();
@@ -391,33 +391,35 @@ mod tests {
 
     #[test]
     fn what_a_form_has_besides_becomes_part_of_its_vector() {
-        // -X sin(q) + Y cos(q) + a p' cos(p - q) + b r' sin(q - r) + c q' + x, with X = x', Y = y'.
         let Chain { mut bench, angles, velocities } = chain(0);
-        let [vx, vy] = velocities[0];
         let g = &mut bench.graph;
-        let [p, q, r] = angles[..] else { unreachable!() };
-        let [a, b, c, x] = ["a", "b", "c", "t"].map(|name| g.symbol(name, Role::Constant));
+        let [a, b, c, resting] = ["a", "b", "c", "t"].map(|name| g.symbol(name, Role::Constant));
         let rates = ["p'", "q'", "r'"].map(|name| g.symbol(name, Role::Velocity));
-        let (pq, qr) = (g.sub(p, q), g.sub(q, r));
-        let (cosine, sine) = (g.cos(pq), g.sin(qr));
-        let terms = [
-            g.product(&[(a, 1), (rates[0], 1), (cosine, 1)]),
-            g.product(&[(b, 1), (rates[2], 1), (sine, 1)]),
-            g.mul(c, rates[1]),
-        ];
-        let moving = g.sum(terms);
-        let rest = g.add(moving, x);
-        let vector = planar(&mut bench, [vx, vy], false).unwrap();
-        let rest = Scalar::new(&mut bench, rest).unwrap();
-        let (vector, resting) = vector.with_component(&mut bench, rest, q);
-        assert_eq!(resting, x);
-        // Each part at the shorter of two angles.
-        let own: Vec<_> = vector.0.iter().filter_map(|part| part.angle).collect();
-        assert!(own.len() == 3 && [p, q, r].iter().all(|angle| own.contains(angle)));
-        let [_, found] = at(&mut bench, &vector.0, q);
-        let [_, expected] = expected(&mut bench, [vx, vy], q);
-        let expected = bench.graph.add(expected, moving);
-        assert_equal(&mut bench, found, expected);
+        // Whichever way round the graph writes a difference: one angle is between the others.
+        for (own, angle) in angles.iter().copied().enumerate() {
+            // a w cos(alpha - phi) + b w sin(alpha - phi) of the others, c phi' and what is there at rest.
+            let g = &mut bench.graph;
+            let mut terms = vec![g.mul(c, rates[own])];
+            for other in (0..3).filter(|other| *other != own) {
+                let between = g.sub(angles[other], angle);
+                let (s, c) = g.sin_cos(between);
+                terms.push(g.product(&[(a, 1), (c, 1), (rates[other], 1)]));
+                terms.push(g.product(&[(b, 1), (s, 1), (rates[other], 1)]));
+            }
+            let moving = g.sum(terms);
+            let rest = g.add(moving, resting);
+            let vector = planar(&mut bench, velocities[0], false).unwrap();
+            let rest = Scalar::new(&mut bench, rest).unwrap();
+            let (vector, still) = vector.with_component(&mut bench, rest, angle);
+            assert_eq!(still, resting);
+            // Each part at the shorter of two angles.
+            let found: Vec<_> = vector.0.iter().filter_map(|part| part.angle).collect();
+            assert!(found.len() == 3 && angles.iter().all(|angle| found.contains(angle)));
+            let [_, found] = at(&mut bench, &vector.0, angle);
+            let [_, expected] = expected(&mut bench, velocities[0], angle);
+            let expected = bench.graph.add(expected, moving);
+            assert_equal(&mut bench, found, expected);
+        }
     }
 
     #[test]
