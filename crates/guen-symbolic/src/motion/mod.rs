@@ -10,6 +10,7 @@ mod kinetic;
 mod linkage;
 mod nested;
 mod numerator;
+mod onto;
 mod poincare;
 mod projection;
 mod proof;

@@ -5,7 +5,7 @@ use super::linkage::Tree;
 use super::projection::Projected;
 use super::velocity_forms::VelocityPartials;
 use super::{
-    DerivationError, Equations, Frame, KineticTerm, Mechanics, Solution, linkage, nested, poincare,
+    DerivationError, Equations, Frame, KineticTerm, Mechanics, Solution, linkage, nested, onto, poincare,
     projection, proof, rephrased, tensions, turned,
 };
 use crate::algebra::ExprId;
@@ -95,9 +95,25 @@ pub(super) fn equations(
         mass: projected.equations.mass[l..].to_vec(),
         forces: projected.equations.forces[l..].to_vec(),
     };
-    let mut candidates: Vec<Equations> = candidates(bench, system, &by_definition, &projected.equations)
+    let mut candidates = candidates(bench, system, &by_definition, &projected.equations);
+    // On a manifold the axes of the bodies leave less than the axes of the world.
+    let in_own_axes = match system.holonomic.is_empty() {
+        true => None,
+        false => turned::equations(bench, system, frame, &projected.forms),
+    };
+    if let Some(own) = &in_own_axes
+        && weighted_cost(&bench.graph, &own.equations.entries())
+            < weighted_cost(&bench.graph, &candidates[0].entries())
+        && proof::are_same(bench, &by_definition, &own.equations)?
+    {
+        candidates.insert(0, own.equations.clone());
+    }
+    let mut candidates: Vec<Equations> = candidates
         .into_iter()
-        .map(|equations| equations.driven(bench, generalised_forces))
+        .map(|equations| {
+            let equations = equations.driven(bench, generalised_forces);
+            onto::reduced(bench, system, equations)
+        })
         .collect();
     let equations = candidates.remove(0);
     affordable(bench)?;
@@ -155,7 +171,11 @@ pub(super) fn equations(
             let least = weighted_cost(&bench.graph, &own);
             others.retain(|rates| weighted_cost(&bench.graph, rates) < least);
             by_nesting = !others.is_empty();
-            others.extend(turned::rates(bench, system, frame, forms, generalised_forces));
+            let in_own_axes =
+                in_own_axes.or_else(|| turned::equations(bench, system, frame, forms));
+            others.extend(
+                in_own_axes.into_iter().flat_map(|own| own.rates(bench, system, generalised_forces)),
+            );
             others.extend(rephrased::rates(bench, system, frame, &equations, by_projection, words));
             for rates in others {
                 if proof::are_equal(bench, &own, &rates, n)? {
@@ -198,7 +218,7 @@ impl Equations {
     }
 
     /// The equations with the generalised forces.
-    fn driven(mut self, bench: &mut Workbench, generalised_forces: &[ExprId]) -> Self {
+    pub(super) fn driven(mut self, bench: &mut Workbench, generalised_forces: &[ExprId]) -> Self {
         for (force, q) in self.forces.iter_mut().zip(generalised_forces) {
             *force = bench.graph.add(*force, *q);
         }

@@ -2,13 +2,18 @@
 
 use super::is_orthogonal;
 use crate::algebra::{ExprId, Flow, Node, Rational, Substitution};
+use crate::motion::onto::Onto;
 use crate::motion::projection::Measured;
 use crate::motion::{Frame, Mechanics};
 use crate::normal::{Limits, normal_form};
+use crate::program::weighted_cost;
 use crate::workbench::Workbench;
 
 /// What a component in a body's axes may cost: the operators are multiplied out for it.
-const COMPONENT: Limits = Limits { terms: 200, generators: 32, degree: 48, nodes: 800, steps: 20_000 };
+const COMPONENT: Limits = Limits { terms: 3000, generators: 32, degree: 48, nodes: 4000, steps: 800_000 };
+
+/// Components up to this size are written out; others are computed once, and their squares are not multiplied out.
+const SMALL: usize = 5;
 
 /// Three velocities along the axes of a body.
 pub(super) struct Triple {
@@ -36,6 +41,7 @@ impl Triple {
 pub(super) fn in_parameters(
     bench: &mut Workbench,
     system: &Mechanics,
+    onto: &Onto,
     flows: &mut Flows<'_>,
     rows: &[[ExprId; 3]; 3],
     world: &[[ExprId; 3]],
@@ -45,7 +51,7 @@ pub(super) fn in_parameters(
         let mut own = [bench.graph.zero(); 3];
         for (a, own) in own.iter_mut().enumerate() {
             let sum = bench.dot(&column(rows, a), world);
-            *own = normal(bench, sum)?;
+            *own = normal(bench, onto, sum)?;
         }
         along.push(own);
     }
@@ -53,11 +59,97 @@ pub(super) fn in_parameters(
         let value = in_motion(bench, system, |s| along[s][a]);
         bench.keep_large(value)
     });
-    let rates = values.map(|value| {
-        let rate = flows.frame.motion.of(&mut bench.graph, value);
-        bench.keep_large(rate)
+    let rates = by_slopes(bench, system, onto, flows, &along).unwrap_or_else(|| {
+        values.map(|value| {
+            let rate = flows.frame.motion.of(&mut bench.graph, value);
+            bench.keep_large(rate)
+        })
     });
     Some(Triple { along, values, rates })
+}
+
+/// The rates at fixed `eta` of what is linear in these, from those of its components.
+fn by_slopes(
+    bench: &mut Workbench,
+    system: &Mechanics,
+    onto: &Onto,
+    flows: &mut Flows<'_>,
+    along: &[[ExprId; 3]],
+) -> Option<[ExprId; 3]> {
+    let weights = &system.etas[..system.forms.degrees];
+    let entries: Vec<ExprId> = along.iter().flatten().copied().collect();
+    let rates = rates_of(bench, onto, &entries, weights, |bench, e| {
+        (0..along.len()).map(|s| flows.along(bench, s, e)).collect()
+    })?;
+    Some(std::array::from_fn(|a| {
+        let rate = in_motion(bench, system, |s| rates[3 * s + a]);
+        bench.keep_large(rate)
+    }))
+}
+
+/// `D(p)` of some components: their derivatives along `X_0` and along other directions, in normal form, times the weights of
+/// the latter in the motion. Where all derivatives of one have a component as a factor, as those of a unit vector in a plane
+/// have, it is taken out, and no digits are lost where it is small.
+fn rates_of(
+    bench: &mut Workbench,
+    onto: &Onto,
+    entries: &[ExprId],
+    weights: &[ExprId],
+    mut slopes: impl FnMut(&mut Workbench, ExprId) -> Vec<ExprId>,
+) -> Option<Vec<ExprId>> {
+    let mut components: Vec<ExprId> = Vec::new();
+    for e in entries {
+        let (_, component) = bench.graph.split_coefficient(*e);
+        if !bench.graph.roles(component).is_constant() && !components.contains(&component) {
+            components.push(component);
+        }
+    }
+    let mut rates: Vec<ExprId> = Vec::new();
+    for component in &components {
+        let open = written_out(bench, *component);
+        let slopes = slopes(bench, open);
+        let (factor, quotients) = shortest(bench, onto, &slopes, &components)?;
+        let terms = quotients[1..].iter().zip(weights).map(|(e, weight)| bench.graph.mul(*e, *weight));
+        let terms: Vec<ExprId> = terms.collect();
+        let rate = bench.graph.sum(terms.into_iter().chain([quotients[0]]));
+        let (content, rate) = bench.graph.split_content(rate);
+        let rate = bench.keep_above(rate, SMALL);
+        let rate = bench.graph.scale(rate, &content);
+        rates.push(bench.graph.mul(rate, factor));
+    }
+    let rate_of = |bench: &mut Workbench, e: ExprId| {
+        let (coefficient, component) = bench.graph.split_coefficient(e);
+        match components.iter().position(|other| *other == component) {
+            Some(k) => bench.graph.scale(rates[k], &coefficient),
+            None => bench.graph.zero(),
+        }
+    };
+    Some(entries.iter().map(|e| rate_of(bench, *e)).collect())
+}
+
+/// Expressions as multiples of one of these components, or of one: what leaves the shortest.
+fn shortest(
+    bench: &mut Workbench,
+    onto: &Onto,
+    expressions: &[ExprId],
+    components: &[ExprId],
+) -> Option<(ExprId, Vec<ExprId>)> {
+    let mut best: Option<(u64, (ExprId, Vec<ExprId>))> = None;
+    for factor in [bench.graph.one()].into_iter().chain(components.iter().copied()) {
+        let quotients: Option<Vec<ExprId>> = expressions
+            .iter()
+            .map(|e| {
+                let quotient = bench.graph.div(*e, factor);
+                normal_written_out(bench, onto, quotient)
+            })
+            .collect();
+        let Some(quotients) = quotients else { continue };
+        let cost = weighted_cost(&bench.graph, &quotients);
+        if best.as_ref().is_none_or(|(least, _)| cost < *least) {
+            best = Some((cost, (factor, quotients)));
+        }
+    }
+    best.map(|(_, best)| best)
 }
 
 /// Derivatives along each of `X_0..X_l`.
@@ -93,6 +185,7 @@ impl Spin {
     pub(super) fn new(
         bench: &mut Workbench,
         system: &Mechanics,
+        onto: &Onto,
         flows: &mut Flows<'_>,
         rows: &[[ExprId; 3]; 3],
     ) -> Self {
@@ -103,7 +196,7 @@ impl Spin {
                     let (j, k) = ((a + 1) % 3, (a + 2) % 3);
                     let rates = rows.map(|row| flows.along(bench, s, row[j]));
                     let sum = bench.dot(&column(rows, k), &rates);
-                    bench.tidy(sum)
+                    onto.tidy(bench, sum)
                 })
             })
             .collect();
@@ -119,6 +212,7 @@ impl Spin {
         &self,
         bench: &mut Workbench,
         system: &Mechanics,
+        onto: &Onto,
         flows: &mut Flows<'_>,
     ) -> [ExprId; 3] {
         let l = system.forms.degrees;
@@ -128,7 +222,7 @@ impl Spin {
                 let slopes: Vec<ExprId> = (0..=l)
                     .map(|r| {
                         let slope = flows.along(bench, r, along[a]);
-                        bench.tidy(slope)
+                        onto.tidy(bench, slope)
                     })
                     .collect();
                 rates.push(in_motion(bench, system, |r| slopes[r]));
@@ -139,8 +233,14 @@ impl Spin {
     }
 
     /// With its rates.
-    pub(super) fn triple(&self, bench: &mut Workbench, system: &Mechanics, flows: &mut Flows<'_>) -> Triple {
-        let rates = self.rates(bench, system, flows);
+    pub(super) fn triple(
+        &self,
+        bench: &mut Workbench,
+        system: &Mechanics,
+        onto: &Onto,
+        flows: &mut Flows<'_>,
+    ) -> Triple {
+        let rates = self.rates(bench, system, onto, flows);
         Triple { along: self.along.clone(), values: self.values, rates }
     }
 
@@ -150,6 +250,7 @@ impl Spin {
         &self,
         bench: &mut Workbench,
         system: &Mechanics,
+        onto: &Onto,
         flows: &mut Flows<'_>,
         rows: &[[ExprId; 3]; 3],
         world: &[[ExprId; 3]],
@@ -167,10 +268,18 @@ impl Spin {
                 world[1..].iter().map(|world| bench.dot(&column(rows, a), world)).collect();
             for (b, entry) in row.iter_mut().enumerate() {
                 let sum = bench.dot(&own, &column(by_parameter, b));
-                *entry = normal(bench, sum)?;
+                *entry = normal(bench, onto, sum)?;
             }
         }
-        let rates = self.rates(bench, system, flows);
+        let rates = self.rates(bench, system, onto, flows);
+        // Along the body's own axes, of which the components know.
+        let entries: Vec<ExprId> = rho.iter().flatten().copied().collect();
+        let slopes = rates_of(bench, onto, &entries, values, |bench, e| {
+            let slopes: Vec<ExprId> = (0..along.len()).map(|s| flows.along(bench, s, e)).collect();
+            let own = (0..3).map(|b| bench.dot(&column(by_parameter, b), &slopes[1..]));
+            let own: Vec<ExprId> = own.collect();
+            [vec![slopes[0]], own].concat()
+        });
         let mut of_row = |bench: &mut Workbench, a: usize| {
             let along = along.iter().map(|spin| {
                 let component = bench.dot(&rho[a], spin);
@@ -178,7 +287,10 @@ impl Spin {
             });
             let along: Vec<ExprId> = along.collect();
             let value = bench.dot(&rho[a], values);
-            let slopes = rho[a].map(|e| flows.frame.motion.of(&mut bench.graph, e));
+            let slopes = match &slopes {
+                Some(slopes) => [0, 1, 2].map(|b| slopes[3 * a + b]),
+                None => rho[a].map(|e| flows.frame.motion.of(&mut bench.graph, e)),
+            };
             let (first, second) = (bench.dot(&slopes, values), bench.dot(&rho[a], &rates));
             let rate = bench.graph.add(first, second);
             (along, bench.keep_large(value), bench.keep_large(rate))
@@ -239,10 +351,17 @@ fn in_motion(bench: &mut Workbench, system: &Mechanics, e: impl Fn(usize) -> Exp
 }
 
 /// A component in normal form, nothing in it kept whole; `None` beyond the limits.
-fn normal(bench: &mut Workbench, e: ExprId) -> Option<ExprId> {
+fn normal(bench: &mut Workbench, onto: &Onto, e: ExprId) -> Option<ExprId> {
+    let normal = normal_written_out(bench, onto, e)?;
+    // The sign stays outside, so that a component and its negative are computed once.
+    let (coefficient, component) = bench.graph.split_coefficient(normal);
+    let kept = bench.keep_above(component, SMALL);
+    Some(bench.graph.scale(kept, &coefficient))
+}
+
+fn normal_written_out(bench: &mut Workbench, onto: &Onto, e: ExprId) -> Option<ExprId> {
     let open = written_out(bench, e);
-    let normal = normal_form(&mut bench.graph, open, &COMPONENT)?;
-    Some(bench.keep_large(normal))
+    onto.taken_out(bench, open, &mut |bench, e| normal_form(&mut bench.graph, e, &COMPONENT))
 }
 
 /// The expression with nothing kept whole.

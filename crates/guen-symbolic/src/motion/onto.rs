@@ -1,0 +1,192 @@
+//! What constraints on positions take out of the equations.
+//!
+//! Two equations are the same wherever the constraints hold if what they differ by vanishes there. So an entry of the mass
+//! matrix that vanishes there is left out, and a parameter on which a force does not depend there is set to zero in it. Where
+//! such terms are computed, they are large, cancel, and leave their roundings: with a quaternion for its attitude the rate of
+//! a hoop's third spin had all three spins in it, and depends on two of them alone.
+//!
+//! The operators are not touched. Velocities stay tangential everywhere: off a constraint `h` too, it is an integral.
+
+use super::{Equations, Mechanics};
+use crate::algebra::{ExprId, Flow, Function, Node, Rational, Role, Roles, Substitution};
+use crate::normal::{Limits, normal_coefficients, normal_form};
+use crate::program::weighted_cost;
+use crate::workbench::Workbench;
+use crate::zero::Verdict;
+
+/// Powers of what is constant that are taken out of one expression.
+const POWERS: usize = 4;
+
+/// Functions of the coordinates that the constraints make constant: `|q|^2` where `|q|^2 = 1`.
+pub(super) struct Onto {
+    /// Each with its value, which vanishes nowhere.
+    constants: Vec<(ExprId, ExprId)>,
+}
+
+impl Onto {
+    pub(super) fn new(bench: &mut Workbench, system: &Mechanics) -> Self {
+        let equations: Vec<ExprId> = system.holonomic.iter().map(|holonomic| holonomic.equation).collect();
+        let constants = equations.into_iter().filter_map(|e| split(bench, e)).collect();
+        Onto { constants }
+    }
+
+    /// The expression tidied as it is on the constraints: powers of what is constant there are taken out of it.
+    pub(super) fn tidy(&self, bench: &mut Workbench, e: ExprId) -> ExprId {
+        self.taken_out(bench, e, &mut |bench, e| Some(bench.tidy(e))).unwrap_or(e)
+    }
+
+    /// The same by another way to a normal form; `None` where there is none.
+    pub(super) fn taken_out(
+        &self,
+        bench: &mut Workbench,
+        e: ExprId,
+        normal: &mut dyn FnMut(&mut Workbench, ExprId) -> Option<ExprId>,
+    ) -> Option<ExprId> {
+        if self.constants.is_empty() {
+            return normal(bench, e);
+        }
+        if bench.verdict_on_manifold(e) == Verdict::Zero {
+            return Some(bench.graph.zero());
+        }
+        let e = self.with_even_roots(bench, e);
+        let mut found = normal(bench, e)?;
+        for (function, value) in &self.constants {
+            for _ in 0..POWERS {
+                let quotient = bench.graph.product(&[(found, 1), (*function, -1), (*value, 1)]);
+                let Some(quotient) = normal(bench, quotient) else { break };
+                let cost = |e: ExprId| weighted_cost(&bench.graph, &[e]);
+                if cost(quotient) >= cost(found) {
+                    break;
+                }
+                found = quotient;
+            }
+        }
+        let mut by_value = Substitution::new(self.constants.iter().copied());
+        Some(by_value.of(&mut bench.graph, found))
+    }
+}
+
+impl Onto {
+    /// The expression with radicands that are homogeneous polynomials, where they are such on the constraints.
+    pub(super) fn with_even_roots(&self, bench: &mut Workbench, e: ExprId) -> ExprId {
+        let mut images = Substitution::default();
+        for id in bench.graph.reachable(&[e], |_| false) {
+            if let Node::Function(function @ Function::Root(_), radicand) = *bench.graph.node(id) {
+                let radicand = images.of(&mut bench.graph, radicand);
+                if let Some(even) = self.constants.iter().find_map(|c| evened(bench, radicand, *c)) {
+                    let root = bench.graph.function(function, even);
+                    images.add(id, root);
+                }
+            }
+        }
+        images.of(&mut bench.graph, e)
+    }
+}
+
+/// What a polynomial is where `f = c`, with all its terms of one degree: each times a power of `f/c`, and no power of it in all.
+/// `None` where it is no such polynomial, or dearer so.
+fn evened(bench: &mut Workbench, e: ExprId, (function, value): (ExprId, ExprId)) -> Option<ExprId> {
+    let limits = Limits::default();
+    let symbols = bench.graph.symbols_in(&[function]);
+    let variables: Vec<ExprId> = symbols.into_iter().map(|s| bench.graph.symbol_expr(s)).collect();
+    let own = homogeneous(bench, function, &variables)?;
+    let rows = normal_coefficients(&mut bench.graph, e, &variables, &limits)?;
+    let degree = |exponents: &[u32]| exponents.iter().sum::<u32>();
+    let most = rows.iter().map(|(exponents, _)| degree(exponents)).max()?;
+    if rows.iter().any(|(exponents, _)| (most - degree(exponents)) % own != 0) {
+        return None;
+    }
+    let mut terms = Vec::new();
+    for (exponents, coefficient) in rows {
+        let power = ((most - degree(&exponents)) / own) as i32;
+        let mut factors = vec![(coefficient, 1), (function, power), (value, -power)];
+        factors.extend(variables.iter().zip(exponents).map(|(x, k)| (*x, k as i32)));
+        terms.push(bench.graph.product(&factors));
+    }
+    let mut even = bench.graph.sum(terms);
+    for power in (0..=most / own).rev() {
+        let power = power as i32;
+        let quotient = bench.graph.product(&[(even, 1), (function, -power), (value, power)]);
+        let Some(normal) = normal_form(&mut bench.graph, quotient, &limits) else { continue };
+        if power == 0 || homogeneous(bench, normal, &variables).is_some() {
+            even = normal;
+            break;
+        }
+    }
+    let cost = |e: ExprId| weighted_cost(&bench.graph, &[e]);
+    (cost(even) < cost(e)).then_some(even)
+}
+
+/// The degree of a homogeneous polynomial.
+fn homogeneous(bench: &mut Workbench, e: ExprId, variables: &[ExprId]) -> Option<u32> {
+    let rows = normal_coefficients(&mut bench.graph, e, variables, &Limits::default())?;
+    let mut degrees = rows.iter().map(|(exponents, _)| exponents.iter().sum::<u32>());
+    let first = degrees.next()?;
+    degrees.all(|degree| degree == first).then_some(first).filter(|degree| *degree > 0)
+}
+
+/// An equation `f(x) = c` as the pair of both, if `c` is constant and vanishes nowhere.
+fn split(bench: &mut Workbench, equation: ExprId) -> Option<(ExprId, ExprId)> {
+    let graph = &mut bench.graph;
+    let Node::Sum { constant, terms } = graph.node(equation).clone() else { return None };
+    let moving = Roles::of(Role::Coordinate).or(Roles::of(Role::Time));
+    let (moving, constants): (Vec<_>, Vec<_>) =
+        terms.to_vec().into_iter().partition(|(term, _)| graph.roles(*term).meets(moving));
+    let rest = graph.linear(&constants);
+    let constant = graph.number(constant);
+    let value = graph.add(rest, constant);
+    let function = graph.linear(&moving);
+    let (content, function) = graph.split_content(function);
+    let value = graph.scale(value, &-(&Rational::ONE / &content));
+    (graph.manifestly_nonzero(value) && graph.roles(value).is_constant()).then_some((function, value))
+}
+
+/// Whether constraints on positions are integrals of these velocities, as they are of those by the operators: everywhere, so
+/// that nothing drifts faster off them.
+pub(super) fn stay(bench: &mut Workbench, system: &Mechanics, velocities: &[ExprId]) -> bool {
+    let rates = system.forms.coordinates.iter().copied().zip(velocities.iter().copied());
+    let mut motion = Flow::new(&bench.graph, rates.chain([(system.forms.time, bench.graph.one())]));
+    system.holonomic.iter().all(|holonomic| {
+        let rate = motion.of(&mut bench.graph, holonomic.equation);
+        bench.vanishes(rate)
+    })
+}
+
+/// The equations without what vanishes wherever all constraints on positions hold.
+pub(super) fn reduced(bench: &mut Workbench, system: &Mechanics, mut equations: Equations) -> Equations {
+    if system.holonomic.is_empty() {
+        return equations;
+    }
+    let l = system.forms.degrees;
+    let zero = bench.graph.zero();
+    for s in 0..l {
+        for t in 0..s {
+            if bench.verdict_on_manifold(equations.mass[s][t]) == Verdict::Zero {
+                (equations.mass[s][t], equations.mass[t][s]) = (zero, zero);
+            }
+        }
+    }
+    for eta in &system.etas[..l] {
+        let mut at_rest = Substitution::new([(*eta, zero)]);
+        for force in &mut equations.forces {
+            let without = at_rest.of(&mut bench.graph, *force);
+            if without != *force && depends_not(bench, *force, without) {
+                *force = without;
+            }
+        }
+    }
+    let mut at_rest = Substitution::new(system.etas[..l].iter().map(|eta| (*eta, zero)));
+    for force in &mut equations.forces {
+        let weight = at_rest.of(&mut bench.graph, *force);
+        if bench.verdict_on_manifold(weight) == Verdict::Zero {
+            *force = bench.graph.sub(*force, weight);
+        }
+    }
+    equations
+}
+
+/// Whether both are the same on the constraints.
+fn depends_not(bench: &mut Workbench, a: ExprId, b: ExprId) -> bool {
+    let difference = bench.graph.sub(a, b);
+    bench.verdict_on_manifold(difference) == Verdict::Zero
+}
