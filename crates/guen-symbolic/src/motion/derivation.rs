@@ -155,7 +155,7 @@ impl Derivation {
                 system.accelerations.iter().copied().zip(solution.accelerations.iter().copied()),
             );
             let power = solved.of(&mut bench.graph, power);
-            bench.vanishes(power)
+            bench.verdict_on_manifold(power) == Verdict::Zero
         });
         let power = power.unwrap_or(bench.graph.zero());
         let outputs = outputs(bench, &system, &mut frame, &solution.accelerations, &reactions);

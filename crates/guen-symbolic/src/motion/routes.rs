@@ -5,8 +5,8 @@ use super::linkage::Tree;
 use super::projection::Projected;
 use super::velocity_forms::VelocityPartials;
 use super::{
-    DerivationError, Equations, Frame, KineticTerm, Mechanics, Solution, linkage, nested, onto, poincare,
-    projection, proof, rephrased, tensions, turned,
+    DerivationError, Equations, Frame, KineticTerm, Mechanics, Solution, linkage, nested, poincare,
+    projection, proof, rephrased, restriction, tensions, turned,
 };
 use crate::algebra::ExprId;
 use crate::geometry::dependence;
@@ -96,8 +96,9 @@ pub(super) fn equations(
         forces: projected.equations.forces[l..].to_vec(),
     };
     let mut candidates = candidates(bench, system, &by_definition, &projected.equations);
-    // On a manifold the axes of the bodies leave less than the axes of the world.
-    let in_own_axes = match system.holonomic.is_empty() {
+    // On constraints on positions the axes of the bodies leave less than those of the world.
+    let linked_only = linked.as_ref().is_some_and(|linked| is_much_shorter(bench, linked, whole));
+    let in_own_axes = match system.holonomic.is_empty() || linked_only {
         true => None,
         false => turned::equations(bench, system, frame, &projected.forms),
     };
@@ -112,7 +113,7 @@ pub(super) fn equations(
         .into_iter()
         .map(|equations| {
             let equations = equations.driven(bench, generalised_forces);
-            onto::reduced(bench, system, equations)
+            restriction::restricted(bench, system, equations)
         })
         .collect();
     let equations = candidates.remove(0);
@@ -145,7 +146,7 @@ pub(super) fn equations(
             alternatives.extend(others.map(|other| [&frame.velocities[..], &other.accelerations].concat()));
             (equations, Solution::known(bench, tensions.accelerations, &tensions.divisors))
         }
-        (tensions, Some(linked)) if MUCH * weighted_cost(&bench.graph, &linked.entries()) < whole => {
+        (tensions, Some(linked)) if linked_only => {
             let solution = solved(bench, &linked)?;
             let others = tensions.map(|tensions| [&frame.velocities[..], &tensions.accelerations].concat());
             alternatives.extend(others);
@@ -171,11 +172,9 @@ pub(super) fn equations(
             let least = weighted_cost(&bench.graph, &own);
             others.retain(|rates| weighted_cost(&bench.graph, rates) < least);
             by_nesting = !others.is_empty();
-            let in_own_axes =
-                in_own_axes.or_else(|| turned::equations(bench, system, frame, forms));
-            others.extend(
-                in_own_axes.into_iter().flat_map(|own| own.rates(bench, system, generalised_forces)),
-            );
+            let in_own_axes = in_own_axes.or_else(|| turned::equations(bench, system, frame, forms));
+            others
+                .extend(in_own_axes.into_iter().flat_map(|own| own.rates(bench, system, generalised_forces)));
             others.extend(rephrased::rates(bench, system, frame, &equations, by_projection, words));
             for rates in others {
                 if proof::are_equal(bench, &own, &rates, n)? {
@@ -209,6 +208,11 @@ fn of_links(
         }
     }
     Ok(Some(equations))
+}
+
+/// Whether nothing else is to be solved beside these equations.
+fn is_much_shorter(bench: &Workbench, linked: &Equations, whole: u64) -> bool {
+    MUCH * weighted_cost(&bench.graph, &linked.entries()) < whole
 }
 
 impl Equations {

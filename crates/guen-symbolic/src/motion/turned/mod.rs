@@ -16,8 +16,8 @@
 mod spin;
 
 use self::spin::{Flows, Spin, column, in_parameters};
-use super::onto::{self, Onto};
 use super::projection::{self, MeasuredForms};
+use super::restriction::{self, Restriction};
 use super::{Equations, Frame, KineticTerm, Mechanics, RigidBody, Solution};
 use crate::algebra::{ExprId, Flow, Rational};
 use crate::workbench::Workbench;
@@ -39,7 +39,7 @@ impl InOwnAxes {
         generalised_forces: &[ExprId],
     ) -> Vec<Vec<ExprId>> {
         let equations = self.equations.driven(bench, generalised_forces);
-        let Equations { mass, forces } = onto::reduced(bench, system, equations);
+        let Equations { mass, forces } = restriction::restricted(bench, system, equations);
         let solutions = [Solution::new(bench, &mass, &forces).ok(), Solution::shared(bench, &mass, &forces)];
         let lists = solutions.into_iter().flatten();
         lists.map(|solution| [&self.velocities[..], &solution.accelerations].concat()).collect()
@@ -57,7 +57,7 @@ pub(super) fn equations(
     if frame.operators.chart.is_empty() || !bench.graph.is_zero(multibody.other_energy) {
         return None;
     }
-    let onto = Onto::new(bench, system);
+    let mut restriction = Restriction::new(bench, system);
     let l = system.forms.degrees;
     let mut turned = Turned {
         terms: Vec::new(),
@@ -72,7 +72,7 @@ pub(super) fn equations(
     for body in &multibody.bodies {
         match &body.orientation {
             Some(rows) if !is_constant(bench, rows) => {
-                turned.turn(bench, system, frame, &onto, body, rows)?;
+                turned.turn(bench, system, frame, &mut restriction, body, rows)?;
                 is_turned = true;
             }
             _ => turned.carry(bench, system, body)?,
@@ -89,7 +89,7 @@ pub(super) fn equations(
     let (equations, _) =
         projection::assemble(bench, system, (0, &mut displacements), &mut frame.motion, &terms, &forms);
     let velocities =
-        if onto::stay(bench, system, &velocities) { velocities } else { frame.velocities.clone() };
+        if restriction::stay(bench, system, &velocities) { velocities } else { frame.velocities.clone() };
     Some(InOwnAxes { equations, velocities })
 }
 
@@ -127,7 +127,7 @@ impl Turned {
         bench: &mut Workbench,
         system: &Mechanics,
         frame: &mut Frame,
-        onto: &Onto,
+        restriction: &mut Restriction,
         body: &RigidBody,
         rows: &[[ExprId; 3]; 3],
     ) -> Option<()> {
@@ -135,19 +135,19 @@ impl Turned {
             return None;
         }
         let mut flows = Flows::new(bench, system, frame);
-        let spin = Spin::new(bench, system, onto, &mut flows, rows);
+        let spin = Spin::new(bench, system, restriction, &mut flows, rows);
         if let Some(center) = body.center {
             let world: Vec<[ExprId; 3]> = (0..=system.forms.degrees)
                 .map(|s| {
                     center.map(|x| {
                         let component = flows.along(bench, s, x);
-                        onto.tidy(bench, component)
+                        restriction.tidy(bench, component)
                     })
                 })
                 .collect();
-            let own = match spin.by_spin(bench, system, onto, &mut flows, rows, &world) {
+            let own = match spin.by_spin(bench, system, restriction, &mut flows, rows, &world) {
                 Some(own) => own,
-                None => in_parameters(bench, system, onto, &mut flows, rows, &world)?,
+                None => in_parameters(bench, system, restriction, &mut flows, rows, &world)?,
             };
             let velocity = velocity(bench, system, center);
             let half = bench.graph.scale(body.mass, &Rational::new(1, 2));
@@ -170,7 +170,7 @@ impl Turned {
         }
         // The form of the angular velocity: [omega]x = R^T R'.
         let rates: Vec<[ExprId; 3]> = rows.iter().map(|row| velocity(bench, system, *row)).collect();
-        let own = spin.triple(bench, system, onto, &mut flows);
+        let own = spin.triple(bench, system, restriction, &mut flows);
         let forms: [ExprId; 3] = std::array::from_fn(|a| {
             let (j, k) = ((a + 1) % 3, (a + 2) % 3);
             let form = bench.dot(&column(rows, k), &[rates[0][j], rates[1][j], rates[2][j]]);

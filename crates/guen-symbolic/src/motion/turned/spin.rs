@@ -1,19 +1,22 @@
 //! Velocities along the axes of a body: its angular velocity, and those of its mass centre.
 
 use super::is_orthogonal;
-use crate::algebra::{ExprId, Flow, Node, Rational, Substitution};
-use crate::motion::onto::Onto;
+use crate::algebra::{ExprId, Flow, Rational};
 use crate::motion::projection::Measured;
+use crate::motion::restriction::{Restriction, written_out};
 use crate::motion::{Frame, Mechanics};
 use crate::normal::{Limits, normal_form};
 use crate::program::weighted_cost;
 use crate::workbench::Workbench;
 
 /// What a component in a body's axes may cost: the operators are multiplied out for it.
-const COMPONENT: Limits = Limits { terms: 3000, generators: 32, degree: 48, nodes: 4000, steps: 800_000 };
+const COMPONENT: Limits = Limits { terms: 400, generators: 32, degree: 48, nodes: 800, steps: 60_000 };
 
 /// Components up to this size are written out; others are computed once, and their squares are not multiplied out.
 const SMALL: usize = 5;
+
+/// The estimate of all components beyond which their derivatives are not multiplied out: that only costs time.
+const LARGE: u64 = 300;
 
 /// Three velocities along the axes of a body.
 pub(super) struct Triple {
@@ -41,7 +44,7 @@ impl Triple {
 pub(super) fn in_parameters(
     bench: &mut Workbench,
     system: &Mechanics,
-    onto: &Onto,
+    restriction: &mut Restriction,
     flows: &mut Flows<'_>,
     rows: &[[ExprId; 3]; 3],
     world: &[[ExprId; 3]],
@@ -51,7 +54,7 @@ pub(super) fn in_parameters(
         let mut own = [bench.graph.zero(); 3];
         for (a, own) in own.iter_mut().enumerate() {
             let sum = bench.dot(&column(rows, a), world);
-            *own = normal(bench, onto, sum)?;
+            *own = normal(bench, restriction, sum)?;
         }
         along.push(own);
     }
@@ -59,7 +62,7 @@ pub(super) fn in_parameters(
         let value = in_motion(bench, system, |s| along[s][a]);
         bench.keep_large(value)
     });
-    let rates = by_slopes(bench, system, onto, flows, &along).unwrap_or_else(|| {
+    let rates = by_slopes(bench, system, restriction, flows, &along).unwrap_or_else(|| {
         values.map(|value| {
             let rate = flows.frame.motion.of(&mut bench.graph, value);
             bench.keep_large(rate)
@@ -72,13 +75,13 @@ pub(super) fn in_parameters(
 fn by_slopes(
     bench: &mut Workbench,
     system: &Mechanics,
-    onto: &Onto,
+    restriction: &mut Restriction,
     flows: &mut Flows<'_>,
     along: &[[ExprId; 3]],
 ) -> Option<[ExprId; 3]> {
     let weights = &system.etas[..system.forms.degrees];
     let entries: Vec<ExprId> = along.iter().flatten().copied().collect();
-    let rates = rates_of(bench, onto, &entries, weights, |bench, e| {
+    let rates = rates_of(bench, restriction, &entries, weights, |bench, e| {
         (0..along.len()).map(|s| flows.along(bench, s, e)).collect()
     })?;
     Some(std::array::from_fn(|a| {
@@ -92,11 +95,14 @@ fn by_slopes(
 /// have, it is taken out, and no digits are lost where it is small.
 fn rates_of(
     bench: &mut Workbench,
-    onto: &Onto,
+    restriction: &mut Restriction,
     entries: &[ExprId],
     weights: &[ExprId],
     mut slopes: impl FnMut(&mut Workbench, ExprId) -> Vec<ExprId>,
 ) -> Option<Vec<ExprId>> {
+    if weighted_cost(&bench.graph, entries) > LARGE {
+        return None;
+    }
     let mut components: Vec<ExprId> = Vec::new();
     for e in entries {
         let (_, component) = bench.graph.split_coefficient(*e);
@@ -108,7 +114,7 @@ fn rates_of(
     for component in &components {
         let open = written_out(bench, *component);
         let slopes = slopes(bench, open);
-        let (factor, quotients) = shortest(bench, onto, &slopes, &components)?;
+        let (factor, quotients) = shortest(bench, restriction, &slopes, &components)?;
         let terms = quotients[1..].iter().zip(weights).map(|(e, weight)| bench.graph.mul(*e, *weight));
         let terms: Vec<ExprId> = terms.collect();
         let rate = bench.graph.sum(terms.into_iter().chain([quotients[0]]));
@@ -127,29 +133,35 @@ fn rates_of(
     Some(entries.iter().map(|e| rate_of(bench, *e)).collect())
 }
 
-/// Expressions as multiples of one of these components, or of one: what leaves the shortest.
+/// Expressions in normal form as multiples of one of these components, or of one: what leaves the shortest.
 fn shortest(
     bench: &mut Workbench,
-    onto: &Onto,
+    restriction: &mut Restriction,
     expressions: &[ExprId],
     components: &[ExprId],
 ) -> Option<(ExprId, Vec<ExprId>)> {
-    let mut best: Option<(u64, (ExprId, Vec<ExprId>))> = None;
-    for factor in [bench.graph.one()].into_iter().chain(components.iter().copied()) {
-        let quotients: Option<Vec<ExprId>> = expressions
-            .iter()
-            .map(|e| {
-                let quotient = bench.graph.div(*e, factor);
-                normal_written_out(bench, onto, quotient)
-            })
-            .collect();
-        let Some(quotients) = quotients else { continue };
-        let cost = weighted_cost(&bench.graph, &quotients);
-        if best.as_ref().is_none_or(|(least, _)| cost < *least) {
-            best = Some((cost, (factor, quotients)));
+    let mut best: Vec<ExprId> = Vec::new();
+    for e in expressions {
+        best.push(normal_written_out(bench, restriction, *e)?);
+    }
+    let (own, mut factor) = (best.clone(), bench.graph.one());
+    let mut least = weighted_cost(&bench.graph, &best);
+    for component in components {
+        let (mut quotients, mut cost) = (Vec::new(), 0);
+        for e in &own {
+            let quotient = bench.graph.div(*e, *component);
+            let Some(quotient) = normal_written_out(bench, restriction, quotient) else { break };
+            quotients.push(quotient);
+            cost = weighted_cost(&bench.graph, &quotients);
+            if cost >= least {
+                break;
+            }
+        }
+        if quotients.len() == own.len() && cost < least {
+            (best, factor, least) = (quotients, *component, cost);
         }
     }
-    best.map(|(_, best)| best)
+    Some((factor, best))
 }
 
 /// Derivatives along each of `X_0..X_l`.
@@ -185,7 +197,7 @@ impl Spin {
     pub(super) fn new(
         bench: &mut Workbench,
         system: &Mechanics,
-        onto: &Onto,
+        restriction: &mut Restriction,
         flows: &mut Flows<'_>,
         rows: &[[ExprId; 3]; 3],
     ) -> Self {
@@ -196,7 +208,7 @@ impl Spin {
                     let (j, k) = ((a + 1) % 3, (a + 2) % 3);
                     let rates = rows.map(|row| flows.along(bench, s, row[j]));
                     let sum = bench.dot(&column(rows, k), &rates);
-                    onto.tidy(bench, sum)
+                    restriction.tidy(bench, sum)
                 })
             })
             .collect();
@@ -212,7 +224,7 @@ impl Spin {
         &self,
         bench: &mut Workbench,
         system: &Mechanics,
-        onto: &Onto,
+        restriction: &mut Restriction,
         flows: &mut Flows<'_>,
     ) -> [ExprId; 3] {
         let l = system.forms.degrees;
@@ -222,7 +234,7 @@ impl Spin {
                 let slopes: Vec<ExprId> = (0..=l)
                     .map(|r| {
                         let slope = flows.along(bench, r, along[a]);
-                        onto.tidy(bench, slope)
+                        restriction.tidy(bench, slope)
                     })
                     .collect();
                 rates.push(in_motion(bench, system, |r| slopes[r]));
@@ -237,10 +249,10 @@ impl Spin {
         &self,
         bench: &mut Workbench,
         system: &Mechanics,
-        onto: &Onto,
+        restriction: &mut Restriction,
         flows: &mut Flows<'_>,
     ) -> Triple {
-        let rates = self.rates(bench, system, onto, flows);
+        let rates = self.rates(bench, system, restriction, flows);
         Triple { along: self.along.clone(), values: self.values, rates }
     }
 
@@ -250,7 +262,7 @@ impl Spin {
         &self,
         bench: &mut Workbench,
         system: &Mechanics,
-        onto: &Onto,
+        restriction: &mut Restriction,
         flows: &mut Flows<'_>,
         rows: &[[ExprId; 3]; 3],
         world: &[[ExprId; 3]],
@@ -268,13 +280,13 @@ impl Spin {
                 world[1..].iter().map(|world| bench.dot(&column(rows, a), world)).collect();
             for (b, entry) in row.iter_mut().enumerate() {
                 let sum = bench.dot(&own, &column(by_parameter, b));
-                *entry = normal(bench, onto, sum)?;
+                *entry = normal(bench, restriction, sum)?;
             }
         }
-        let rates = self.rates(bench, system, onto, flows);
+        let rates = self.rates(bench, system, restriction, flows);
         // Along the body's own axes, of which the components know.
         let entries: Vec<ExprId> = rho.iter().flatten().copied().collect();
-        let slopes = rates_of(bench, onto, &entries, values, |bench, e| {
+        let slopes = rates_of(bench, restriction, &entries, values, |bench, e| {
             let slopes: Vec<ExprId> = (0..along.len()).map(|s| flows.along(bench, s, e)).collect();
             let own = (0..3).map(|b| bench.dot(&column(by_parameter, b), &slopes[1..]));
             let own: Vec<ExprId> = own.collect();
@@ -351,29 +363,15 @@ fn in_motion(bench: &mut Workbench, system: &Mechanics, e: impl Fn(usize) -> Exp
 }
 
 /// A component in normal form, nothing in it kept whole; `None` beyond the limits.
-fn normal(bench: &mut Workbench, onto: &Onto, e: ExprId) -> Option<ExprId> {
-    let normal = normal_written_out(bench, onto, e)?;
+fn normal(bench: &mut Workbench, restriction: &mut Restriction, e: ExprId) -> Option<ExprId> {
+    let normal = normal_written_out(bench, restriction, e)?;
     // The sign stays outside, so that a component and its negative are computed once.
     let (coefficient, component) = bench.graph.split_coefficient(normal);
     let kept = bench.keep_above(component, SMALL);
     Some(bench.graph.scale(kept, &coefficient))
 }
 
-fn normal_written_out(bench: &mut Workbench, onto: &Onto, e: ExprId) -> Option<ExprId> {
+fn normal_written_out(bench: &mut Workbench, restriction: &mut Restriction, e: ExprId) -> Option<ExprId> {
     let open = written_out(bench, e);
-    onto.taken_out(bench, open, &mut |bench, e| normal_form(&mut bench.graph, e, &COMPONENT))
-}
-
-/// The expression with nothing kept whole.
-fn written_out(bench: &mut Workbench, e: ExprId) -> ExprId {
-    let graph = &mut bench.graph;
-    let kept = graph.reachable(&[e], |_| false);
-    let mut open = Substitution::default();
-    for id in kept {
-        if let Node::Kept(inside) = *graph.node(id) {
-            let image = open.of(graph, inside);
-            open.add(id, image);
-        }
-    }
-    open.of(graph, e)
+    restriction.normal(bench, open, &mut |bench, e| normal_form(&mut bench.graph, e, &COMPONENT))
 }

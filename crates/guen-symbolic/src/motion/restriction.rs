@@ -1,14 +1,19 @@
-//! What constraints on positions take out of the equations.
+//! Functions restricted to the constraints on positions, and the equations there.
 //!
-//! Two equations are the same wherever the constraints hold if what they differ by vanishes there. So an entry of the mass
-//! matrix that vanishes there is left out, and a parameter on which a force does not depend there is set to zero in it. Where
-//! such terms are computed, they are large, cancel, and leave their roundings: with a quaternion for its attitude the rate of
-//! a hoop's third spin had all three spins in it, and depends on two of them alone.
+//! Two equations are the same wherever the constraints hold if what they differ by vanishes there; and derivatives along
+//! `X_0..X_l` and along the motion, which are tangential, are those of the functions there. So equations may be made of
+//! functions that are equal on the constraints only. `|q|^2` is a number there, what vanishes there is left out, and with it
+//! terms that would be large and cancel: in the rate of a hoop's third spin all three spins would occur, and it depends on
+//! two of them.
 //!
-//! The operators are not touched. Velocities stay tangential everywhere: off a constraint `h` too, it is an integral.
+//! A function is never written with fewer coordinates, as `w^2 = 1 - i^2 - j^2 - k^2` would allow: where `w` is small nothing
+//! would be left of its digits. It is made homogeneous instead, by powers of `|q|^2`.
+//!
+//! The operators are not touched, and velocities only so that the constraints are integrals of them everywhere: what is off a
+//! constraint stays as far off it.
 
 use super::{Equations, Mechanics};
-use crate::algebra::{ExprId, Flow, Function, Node, Rational, Role, Roles, Substitution};
+use crate::algebra::{ExprId, FastMap, Flow, Function, Node, Rational, Role, Roles, Substitution};
 use crate::normal::{Limits, normal_coefficients, normal_form};
 use crate::program::weighted_cost;
 use crate::workbench::Workbench;
@@ -18,26 +23,29 @@ use crate::zero::Verdict;
 const POWERS: usize = 4;
 
 /// Functions of the coordinates that the constraints make constant: `|q|^2` where `|q|^2 = 1`.
-pub(super) struct Onto {
+pub(super) struct Restriction {
     /// Each with its value, which vanishes nowhere.
     constants: Vec<(ExprId, ExprId)>,
+    /// Roots that were looked at.
+    roots: FastMap<ExprId, ExprId>,
 }
 
-impl Onto {
+impl Restriction {
     pub(super) fn new(bench: &mut Workbench, system: &Mechanics) -> Self {
         let equations: Vec<ExprId> = system.holonomic.iter().map(|holonomic| holonomic.equation).collect();
         let constants = equations.into_iter().filter_map(|e| split(bench, e)).collect();
-        Onto { constants }
+        Restriction { constants, roots: FastMap::default() }
     }
 
-    /// The expression tidied as it is on the constraints: powers of what is constant there are taken out of it.
-    pub(super) fn tidy(&self, bench: &mut Workbench, e: ExprId) -> ExprId {
-        self.taken_out(bench, e, &mut |bench, e| Some(bench.tidy(e))).unwrap_or(e)
+    /// The expression tidied, as it is on the constraints.
+    pub(super) fn tidy(&mut self, bench: &mut Workbench, e: ExprId) -> ExprId {
+        self.normal(bench, e, &mut |bench, e| Some(bench.tidy(e))).unwrap_or(e)
     }
 
-    /// The same by another way to a normal form; `None` where there is none.
-    pub(super) fn taken_out(
-        &self,
+    /// An expression as it is on the constraints, in a normal form: powers of what is constant there are taken out of it. `None`
+    /// where there is no normal form.
+    pub(super) fn normal(
+        &mut self,
         bench: &mut Workbench,
         e: ExprId,
         normal: &mut dyn FnMut(&mut Workbench, ExprId) -> Option<ExprId>,
@@ -64,20 +72,24 @@ impl Onto {
         let mut by_value = Substitution::new(self.constants.iter().copied());
         Some(by_value.of(&mut bench.graph, found))
     }
-}
 
-impl Onto {
     /// The expression with radicands that are homogeneous polynomials, where they are such on the constraints.
-    pub(super) fn with_even_roots(&self, bench: &mut Workbench, e: ExprId) -> ExprId {
+    fn with_even_roots(&mut self, bench: &mut Workbench, e: ExprId) -> ExprId {
         let mut images = Substitution::default();
         for id in bench.graph.reachable(&[e], |_| false) {
-            if let Node::Function(function @ Function::Root(_), radicand) = *bench.graph.node(id) {
-                let radicand = images.of(&mut bench.graph, radicand);
-                if let Some(even) = self.constants.iter().find_map(|c| evened(bench, radicand, *c)) {
-                    let root = bench.graph.function(function, even);
-                    images.add(id, root);
-                }
+            let Node::Function(function @ Function::Root(_), radicand) = *bench.graph.node(id) else {
+                continue;
+            };
+            if let Some(root) = self.roots.get(&id) {
+                images.add(id, *root);
+                continue;
             }
+            let inside = images.of(&mut bench.graph, radicand);
+            let even = self.constants.iter().find_map(|constant| evened(bench, inside, *constant));
+            let root = bench.graph.function(function, even.unwrap_or(inside));
+            self.roots.insert(id, root);
+            self.roots.insert(root, root);
+            images.add(id, root);
         }
         images.of(&mut bench.graph, e)
     }
@@ -152,17 +164,21 @@ pub(super) fn stay(bench: &mut Workbench, system: &Mechanics, velocities: &[Expr
     })
 }
 
-/// The equations without what vanishes wherever all constraints on positions hold.
-pub(super) fn reduced(bench: &mut Workbench, system: &Mechanics, mut equations: Equations) -> Equations {
+/// The equations without what is constant or vanishes wherever all constraints on positions hold: entries of the mass matrix,
+/// parameters on which a force does not depend there, and what it is at rest.
+pub(super) fn restricted(bench: &mut Workbench, system: &Mechanics, mut equations: Equations) -> Equations {
     if system.holonomic.is_empty() {
         return equations;
     }
     let l = system.forms.degrees;
     let zero = bench.graph.zero();
+    let mut restriction = Restriction::new(bench, system);
     for s in 0..l {
-        for t in 0..s {
-            if bench.verdict_on_manifold(equations.mass[s][t]) == Verdict::Zero {
-                (equations.mass[s][t], equations.mass[t][s]) = (zero, zero);
+        for t in 0..=s {
+            let open = written_out(bench, equations.mass[s][t]);
+            let entry = restriction.tidy(bench, open);
+            if bench.graph.roles(entry).is_constant() {
+                (equations.mass[s][t], equations.mass[t][s]) = (entry, entry);
             }
         }
     }
@@ -189,4 +205,18 @@ pub(super) fn reduced(bench: &mut Workbench, system: &Mechanics, mut equations: 
 fn depends_not(bench: &mut Workbench, a: ExprId, b: ExprId) -> bool {
     let difference = bench.graph.sub(a, b);
     bench.verdict_on_manifold(difference) == Verdict::Zero
+}
+
+/// The expression with nothing kept whole.
+pub(super) fn written_out(bench: &mut Workbench, e: ExprId) -> ExprId {
+    let graph = &mut bench.graph;
+    let kept = graph.reachable(&[e], |_| false);
+    let mut open = Substitution::default();
+    for id in kept {
+        if let Node::Kept(inside) = *graph.node(id) {
+            let image = open.of(graph, inside);
+            open.add(id, image);
+        }
+    }
+    open.of(graph, e)
 }
