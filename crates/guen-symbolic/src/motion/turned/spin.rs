@@ -1,7 +1,7 @@
 //! Velocities along the axes of a body: its angular velocity, and those of its mass centre.
 
 use super::is_orthogonal;
-use crate::algebra::{ExprId, Flow, Rational};
+use crate::algebra::{ExprId, Flow, Graph, Node, Rational};
 use crate::motion::projection::Measured;
 use crate::motion::restriction::{Restriction, written_out};
 use crate::motion::{Frame, Mechanics};
@@ -133,7 +133,8 @@ fn rates_of(
     Some(entries.iter().map(|e| rate_of(bench, *e)).collect())
 }
 
-/// Expressions in normal form as multiples of one of these components, or of one: what leaves the shortest.
+/// Expressions in normal form as multiples of one of these components, or of one: what leaves the shortest without dividing
+/// by anything else, for components vanish.
 fn shortest(
     bench: &mut Workbench,
     restriction: &mut Restriction,
@@ -145,6 +146,7 @@ fn shortest(
         best.push(normal_written_out(bench, restriction, *e)?);
     }
     let (own, mut factor) = (best.clone(), bench.graph.one());
+    let divided = divisors(&bench.graph, &own);
     let mut least = weighted_cost(&bench.graph, &best);
     for component in components {
         let (mut quotients, mut cost) = (Vec::new(), 0);
@@ -153,15 +155,27 @@ fn shortest(
             let Some(quotient) = normal_written_out(bench, restriction, quotient) else { break };
             quotients.push(quotient);
             cost = weighted_cost(&bench.graph, &quotients);
-            if cost >= least {
+            if cost >= least || divisors(&bench.graph, &[quotient]).iter().any(|e| !divided.contains(e)) {
+                quotients.clear();
                 break;
             }
         }
-        if quotients.len() == own.len() && cost < least {
+        if quotients.len() == own.len() {
             (best, factor, least) = (quotients, *component, cost);
         }
     }
     Some((factor, best))
+}
+
+/// What is divided by.
+fn divisors(graph: &Graph, es: &[ExprId]) -> Vec<ExprId> {
+    let mut found = Vec::new();
+    for id in graph.reachable(es, |_| false) {
+        if let Node::Product(factors) = graph.node(id) {
+            found.extend(factors.iter().filter(|(_, exponent)| *exponent < 0).map(|(base, _)| *base));
+        }
+    }
+    found
 }
 
 /// Derivatives along each of `X_0..X_l`.
