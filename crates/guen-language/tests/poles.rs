@@ -120,3 +120,20 @@ fn on_a_turning_table() {
     right_at_the_edge(&ball("rot_z(p)*rot_x(q)*rot_z(r)"), 0.0);
     right_at_the_edge(&ball("rot_y(p)*rot_z(q)*rot_x(r)"), QUARTER);
 }
+
+/// The normal in the body depends on the angles on both sides of the pole, and its rate is the sum of theirs.
+#[test]
+fn where_no_turn_is_about_the_upright_axis_first() {
+    for turns in ["rot_x(p)*rot_y(q)*rot_z(r)", "rot_y(p)*rot_z(q)*rot_x(r)"] {
+        for spin in ["angular_velocity_body(R)", "angular_velocity(R)"] {
+            right_at_the_edge(&ellipsoid(turns, spin), QUARTER);
+        }
+    }
+}
+
+/// Here rates have a component of the velocity as a factor, and a quotient by it would have another pole.
+#[test]
+fn in_the_angles_of_euler_about_a_level_axis() {
+    right_at_the_edge(&ellipsoid("rot_x(p)*rot_y(q)*rot_x(r)", "angular_velocity_body(R)"), 0.0);
+    right_at_the_edge(&ellipsoid("rot_y(p)*rot_z(q)*rot_y(r)", "angular_velocity(R)"), 0.0);
+}

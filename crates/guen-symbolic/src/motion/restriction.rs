@@ -42,6 +42,13 @@ impl Restriction {
         self.normal(bench, e, &mut |bench, e| Some(bench.tidy(e))).unwrap_or(e)
     }
 
+    /// The expression tidied, as it is on the constraints, if that is shorter.
+    fn shortened(&mut self, bench: &mut Workbench, e: ExprId) -> ExprId {
+        let tidy = self.tidy(bench, e);
+        let cost = |e: ExprId| weighted_cost(&bench.graph, &[e]);
+        if cost(tidy) < cost(e) { tidy } else { e }
+    }
+
     /// An expression as it is on the constraints, in a normal form: powers of what is constant there are taken out of it. `None`
     /// where there is no normal form.
     pub(super) fn normal(
@@ -177,10 +184,14 @@ pub(super) fn restricted(bench: &mut Workbench, system: &Mechanics, mut equation
         for t in 0..=s {
             let open = written_out(bench, equations.mass[s][t]);
             let entry = restriction.tidy(bench, open);
-            if bench.graph.roles(entry).is_constant() {
-                (equations.mass[s][t], equations.mass[t][s]) = (entry, entry);
-            }
+            let entry = if bench.graph.roles(entry).is_constant() {
+                entry
+            } else {
+                restriction.shortened(bench, equations.mass[s][t])
+            };
+            (equations.mass[s][t], equations.mass[t][s]) = (entry, entry);
         }
+        equations.forces[s] = restriction.shortened(bench, equations.forces[s]);
     }
     for eta in &system.etas[..l] {
         let mut at_rest = Substitution::new([(*eta, zero)]);
