@@ -65,7 +65,7 @@ pub struct Derivation {
     pub scleronomic: bool,
     /// All `a_v0 = 0`.
     pub catastatic: bool,
-    /// `h' = 0` identically.
+    /// `h' = 0` identically, wherever constraints on positions hold.
     pub conservative: bool,
     /// The equations of motion, `l` rows, generalised forces included.
     pub equations: Equations,

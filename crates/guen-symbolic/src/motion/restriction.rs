@@ -144,7 +144,7 @@ fn homogeneous(bench: &mut Workbench, e: ExprId, variables: &[ExprId]) -> Option
     degrees.all(|degree| degree == first).then_some(first).filter(|degree| *degree > 0)
 }
 
-/// An equation `f(x) = c` as the pair of both, if `c` is constant and vanishes nowhere.
+/// An equation `f(x) = c` as the pair of both, if `f` is a polynomial and `c` constant and nowhere zero.
 fn split(bench: &mut Workbench, equation: ExprId) -> Option<(ExprId, ExprId)> {
     let graph = &mut bench.graph;
     let Node::Sum { constant, terms } = graph.node(equation).clone() else { return None };
@@ -157,7 +157,13 @@ fn split(bench: &mut Workbench, equation: ExprId) -> Option<(ExprId, ExprId)> {
     let function = graph.linear(&moving);
     let (content, function) = graph.split_content(function);
     let value = graph.scale(value, &-(&Rational::ONE / &content));
-    (graph.manifestly_nonzero(value) && graph.roles(value).is_constant()).then_some((function, value))
+    if !graph.manifestly_nonzero(value) || !graph.roles(value).is_constant() {
+        return None;
+    }
+    let symbols = graph.symbols_in(&[function]);
+    let variables: Vec<ExprId> = symbols.into_iter().map(|s| graph.symbol_expr(s)).collect();
+    normal_coefficients(graph, function, &variables, &Limits::small())?;
+    Some((function, value))
 }
 
 /// Whether constraints on positions are integrals of these velocities, as they are of those by the operators: everywhere, so
@@ -230,4 +236,81 @@ pub(super) fn written_out(bench: &mut Workbench, e: ExprId) -> ExprId {
         }
     }
     open.of(graph, e)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Restriction, split};
+    use crate::algebra::{Bound, ExprId, FastMap, Graph, Rational, Role, SymbolId};
+    use crate::workbench::Workbench;
+    use crate::zero::evaluate;
+
+    /// Coordinates with `sum x^2 = value`.
+    fn sphere(
+        names: &[&str],
+        value: impl FnOnce(&mut Graph) -> ExprId,
+    ) -> (Workbench, Restriction, Vec<ExprId>) {
+        let mut graph = Graph::new();
+        let x: Vec<ExprId> = names.iter().map(|name| graph.symbol(name, Role::Coordinate)).collect();
+        let mut bench = Workbench::new(graph);
+        let square = bench.dot(&x, &x);
+        let value = value(&mut bench.graph);
+        let equation = bench.graph.sub(square, value);
+        bench.zero.set_manifold(&mut bench.graph, &[equation]);
+        let constants = vec![split(&mut bench, equation).expect("a function that is constant")];
+        (bench, Restriction { constants, roots: FastMap::default() }, x)
+    }
+
+    fn at(bench: &Workbench, e: ExprId, value: impl Fn(SymbolId) -> f64) -> f64 {
+        evaluate::<f64>(&bench.graph, &[e], &value)[0]
+    }
+
+    #[test]
+    fn powers_of_what_is_constant_are_taken_out() {
+        let (mut bench, mut restriction, x) = sphere(&["x", "y"], |graph| {
+            let l = graph.bounded_symbol("l", Role::Constant, Bound::Positive);
+            graph.powi(l, 2)
+        });
+        let square = bench.dot(&x, &x);
+        let l = restriction.constants[0].1;
+        for power in [-2, -1, 1, 2] {
+            let e = bench.graph.product(&[(x[0], 1), (square, power)]);
+            let expected = bench.graph.product(&[(x[0], 1), (l, power)]);
+            assert_eq!(restriction.tidy(&mut bench, e), expected, "{power}");
+        }
+        let excess = bench.graph.sub(square, l);
+        let e = bench.graph.mul(x[1], excess);
+        let tidy = restriction.tidy(&mut bench, e);
+        assert!(bench.graph.is_zero(tidy));
+    }
+
+    #[test]
+    fn radicands_become_homogeneous() {
+        // |e_z - n c|^2 for the axle c of a hoop, with c_z = n = w^2 - i^2 - j^2 + k^2: 4 (w^2 + k^2) (i^2 + j^2) where the
+        // quaternion has length one.
+        let (mut bench, mut restriction, q) = sphere(&["w", "i", "j", "k"], |graph| graph.one());
+        let graph = &mut bench.graph;
+        let squares: Vec<ExprId> = q.iter().map(|x| graph.powi(*x, 2)).collect();
+        let (plus, minus) = (graph.add(squares[0], squares[3]), graph.add(squares[1], squares[2]));
+        let n = graph.sub(plus, minus);
+        let mut pair = |a: usize, b: usize, c: usize, d: usize, sign: i64| {
+            let (first, second) = (graph.mul(q[a], q[b]), graph.mul(q[c], q[d]));
+            let sum = graph.linear(&[(first, Rational::integer(2)), (second, Rational::integer(2 * sign))]);
+            graph.mul(sum, n)
+        };
+        let (x, y) = (pair(0, 2, 1, 3, 1), pair(2, 3, 0, 1, -1));
+        let (one, square) = (graph.one(), graph.powi(n, 2));
+        let z = graph.sub(square, one);
+        let radicand = [x, y, z].map(|e| graph.powi(e, 2));
+        let radicand = graph.sum(radicand);
+        let root = graph.sqrt(radicand);
+        let even = restriction.tidy(&mut bench, root);
+        let point = [0.1, -0.7, 0.5, 0.5_f64];
+        let value = |scale: f64| {
+            let symbols: Vec<SymbolId> = q.iter().map(|x| bench.graph.as_symbol(*x).unwrap()).collect();
+            at(&bench, even, |symbol| scale * point[symbols.iter().position(|s| *s == symbol).unwrap()])
+        };
+        assert!((value(1.0) - 2.0 * (0.26_f64 * 0.74).sqrt()).abs() < 1e-15);
+        assert!((value(3.0) - 9.0 * value(1.0)).abs() < 1e-13, "of degree two, off the constraint too");
+    }
 }

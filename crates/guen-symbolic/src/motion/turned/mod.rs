@@ -11,8 +11,10 @@
 //!
 //! with the angular velocity of the body along the motion and along every `X_s`, each in normal form.
 //!
-//! What comes out is one more list of rates for the optimiser, proved equal to the others.
+//! What comes out is one more list of rates for the optimiser, proved equal to the others. Where there are constraints on
+//! positions everything is as it is on these (`restriction`): with a quaternion `R^T R = 1` holds there only.
 
+mod slopes;
 mod spin;
 
 use self::spin::{Flows, Spin, column, in_parameters};
@@ -200,7 +202,7 @@ fn velocity(bench: &mut Workbench, system: &Mechanics, position: [ExprId; 3]) ->
     position.map(|x| rate.of(&mut bench.graph, x))
 }
 
-/// Whether `R^T R = 1` as a function of everything.
+/// Whether `R^T R = 1` wherever constraints on positions hold.
 fn is_orthogonal(bench: &mut Workbench, rows: &[[ExprId; 3]; 3]) -> bool {
     (0..3).all(|a| {
         (0..=a).all(|b| {
