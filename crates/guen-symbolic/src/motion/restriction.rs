@@ -150,7 +150,7 @@ fn split(bench: &mut Workbench, equation: ExprId) -> Option<(ExprId, ExprId)> {
     let Node::Sum { constant, terms } = graph.node(equation).clone() else { return None };
     let moving = Roles::of(Role::Coordinate).or(Roles::of(Role::Time));
     let (moving, constants): (Vec<_>, Vec<_>) =
-        terms.to_vec().into_iter().partition(|(term, _)| graph.roles(*term).meets(moving));
+        terms.iter().cloned().partition(|(term, _)| graph.roles(*term).meets(moving));
     let rest = graph.linear(&constants);
     let constant = graph.number(constant);
     let value = graph.add(rest, constant);
