@@ -2,6 +2,7 @@
 //! constraints of both kinds, parameters.
 
 use crate::draw::Draw;
+use crate::functions::function;
 
 /// A declaration that grows.
 #[derive(Default)]
@@ -223,16 +224,24 @@ impl Text {
         }
     }
 
+    /// A function of some coordinates.
+    fn function(&mut self, draw: &mut Draw, depth: usize) -> String {
+        let names = [0; 2].map(|_| self.coordinates[draw.below(self.coordinates.len())].clone());
+        function(draw, names.each_ref().map(|name| &name[..]), depth)
+    }
+
     fn parameter(&mut self, draw: &mut Draw, q: &str) {
         let (name, number) = (self.fresh("v"), draw.pick(&NUMBERS));
         let other = self.free[draw.below(self.free.len())].clone();
         // Each has its own velocity with a coefficient that no other takes away.
-        self.parameters += &match draw.below(8) {
+        let parameter = match draw.below(8) {
             0 => format!("{name} = (2 + sin({other}))*dot({q}); "),
+            3 => format!("{name} = (5 + tanh({}))*dot({q}); ", self.function(draw, 1)),
             1 => format!("{name} = dot({q}) - {number}*t; "),
             2 => format!("{name} = dot({q} + {q}^3/5 + t*{number}); "),
             _ => format!("{name} = dot({q}); "),
         };
+        self.parameters += &parameter;
     }
 }
 
@@ -285,8 +294,22 @@ pub fn drawn(seed: u64) -> String {
     for q in text.free.clone() {
         text.parameter(draw, &q);
     }
+    if draw.once_in(3) {
+        let (name, value) = (text.fresh("seen"), text.function(draw, 2));
+        text.outputs += &format!("{name} = vec({value}, 1, 0)/(1 + dot({})^2);\n", text.coordinates[0]);
+    }
+    if draw.once_in(3) {
+        let (push, along) = (text.function(draw, 2), text.coordinates[0].clone());
+        text.forces += &format!("({push})*abs(dot({along})) along dot({along}); ");
+    }
+    let landscape = text.function(draw, 2);
     // Every coordinate has some inertia.
     let sluggish: Vec<String> = text.coordinates.iter().map(|q| format!("dot({q})^2/20")).collect();
+    // The momentum of a constraint.
+    let leaning = match text.constraints.split_once(':') {
+        Some((name, _)) => format!(" + {name}*dot({})/7 + {name}^2/9", text.coordinates[0]),
+        None => String::new(),
+    };
     let spring = &text.coordinates[draw.below(text.coordinates.len())];
     let section = |word: &str, entries: &str| {
         if entries.is_empty() { String::new() } else { format!("{word} {{ {entries} }}\n") }
@@ -304,10 +327,10 @@ pub fn drawn(seed: u64) -> String {
         section("outputs", &text.outputs),
     ];
     format!(
-        "system Drawn{seed} {{\nconstants {{ {} }}\n{}kinetic_energy = {};\npotential_energy = 3/4*{spring}^2;\n\
+        "system Drawn{seed} {{\nconstants {{ {} }}\n{}kinetic_energy = {};\npotential_energy = 3/4*{spring}^2 + {landscape};\n\
          gravity = vec(0, 1/5, -g);\n}}",
         [&text.constants[..], &["g = 9.81".to_owned()]].concat().join(", "),
         sections.concat(),
-        sluggish.join(" + "),
+        sluggish.join(" + ") + &leaning,
     )
 }

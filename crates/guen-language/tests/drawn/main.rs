@@ -9,6 +9,7 @@ mod declared;
 #[allow(dead_code, reason = "systems drawn over expressions use the rest")]
 #[path = "../../../guen-symbolic/tests/random_systems/draw.rs"]
 mod draw;
+mod functions;
 mod grammar;
 mod meaning;
 #[allow(dead_code, reason = "systems drawn over expressions use the rest")]
@@ -124,6 +125,8 @@ fn difference(text: &str, seed: u64) -> (f64, usize) {
             let known = derived.system.derivation.reactions.iter().zip(&reference.reactions);
             let reactions: Vec<f64> = known.filter_map(|(e, value)| e.map(|_| *value)).collect();
             if !reactions.is_empty() {
+                // `lambda_v` is formed along `X_v`, which has the inverse of the forms once more.
+                let unit = unit * reference.condition;
                 compare("reactions", comparison.program(function::REACTIONS), reactions, unit);
             }
         }
@@ -153,3 +156,37 @@ fn programs_of_drawn_declarations_are_what_they_mean() {
     println!("{states} states of {rounds} systems, at most {:.1e} of condition times scale", a.0.max(b.0));
     assert!(states as u64 >= 2 * rounds, "{states} states only");
 }
+
+/// Rates in other words are equal here only beyond what points modulo a prime see, and the derivatives that would prove it are a
+/// thousand times as large as the equations: they are left alone, and the equations derived.
+#[test]
+fn what_cannot_be_proved_cheaply_is_left_alone() {
+    let (_, states) = difference(NESTED, 1);
+    assert!(states > 0);
+}
+
+const NESTED: &str = "
+system Nested {
+constants { k4 > 0, k5 > 0, k6 > 0, k7 > 0, k10 > 0, k21 > 0, k22 > 0, k23 > 0, k25 > 0, k29 > 0, k30 > 0, k31 > 0, k32 > 0, k33 > 0, k35 > 0, k36 > 0, k39 > 0, k40 > 0, k41 > 0, k42 > 0, g = 9.81 }
+inputs { u24, u34 }
+coordinates { q1, r2, r3, e11, e12, e13, e14, s17, s18, s19, q26, q27, s37 }
+let arm8 = k4*(cos(q1)*vec(1, 0) + sin(q1)*vec(0, 1)) + k5*(cos(r2)*vec(1, 0) + sin(r2)*vec(0, 1));
+let RB20 = rot_z(2/3*t)*quaternion(e11, e12, e13, e14);
+let oB20 = vec(sin(t)/2, 0, 0) + rot_z(2/3*t)*vec(3/10, k10, 2/3) + vec(s17, s18, s19);
+let RB28 = rot_z(2/3*t)*rot_x(q26)*rot_y(q27);
+let oB28 = vec(sin(t)/2, 0, 0) + rot_z(2/3*t)*vec(0, 1/2, 0.7);
+let RB38 = RB28;
+let oB38 = oB28 + RB28*vec(1/2, 5/4, k36) + s37*RB28*vec(3/5, 0, -4/5);
+parameters { spin16 = angular_velocity_body(quaternion(e11, e12, e13, e14)); v45 = (5 + tanh(atan2(-1 - e14^2, q1)))*dot(q27); v46 = dot(s17) - 5/4*t; v47 = dot(s18) - 2/3*t; v48 = dot(s19 + s19^3/5 + t*2/3); v49 = dot(s37);  }
+holonomic { closed9: arm8 = 2*vec(1, 0) + k6*(cos(r3)*vec(1, 0) + sin(r3)*vec(0, 1)); length15: e11^2 + e12^2 + e13^2 + e14^2 = 1;  }
+bodies { B28 { mass: k30, inertia: sym(3 + k31, 3 + k32, 3 + k33, 0.2, -0.3, 0.7/4), center: oB28 + RB28*vec(2/3, k29, 0), orientation: RB28 }
+B38 { mass: k39, inertia: sym(3 + k40, 3 + k41, 3 + k42, 0.2, -0.3, 1.5/4), center: oB38 + RB38*vec(0, 0, 0), orientation: RB38 }
+ }
+constraints { c43: dot(q26) = q1*dot(s37) - s37*dot(q1); c44: dot(q1) = 0.7*cos(s17)*dot(s19);  }
+particles { k7 at arm8; k21 at oB20 + RB20*vec(0.3, 0.4, 0.5); k22 at oB20 + RB20*vec(-0.3, 0.7, 0.2); k23 at oB20 + RB20*vec(0.9, -0.2, -0.6);  }
+forces { u24*vec(1, 5/4, 0) along dot(oB20 + q1*vec(0, 7/5, 0)); -k25*norm(dot(oB20) + vec(0.1, 0.2, 0.3))*dot(oB20) along dot(oB20 + q1*vec(7/5, 1, 0)); u34*vec(1, 0.7, 0) along dot(oB28 + q1*vec(0, 7/5, 0)); -k35*norm(dot(oB28) + vec(0.1, 0.2, 0.3))*dot(oB28) along dot(oB28 + q1*vec(7/5, 1, 0)); (cot(3/2 + e11/8))*abs(dot(q1)) along dot(q1);  }
+kinetic_energy = dot(q1)^2/20 + dot(r2)^2/20 + dot(r3)^2/20 + dot(e11)^2/20 + dot(e12)^2/20 + dot(e13)^2/20 + dot(e14)^2/20 + dot(s17)^2/20 + dot(s18)^2/20 + dot(s19)^2/20 + dot(q26)^2/20 + dot(q27)^2/20 + dot(s37)^2/20 + c43*dot(q1)/7 + c43^2/9;
+potential_energy = 3/4*q27^2 + inner(vec(tanh(asin(e14/9)), 1, r2), unit(vec(1, r2, 2)));
+gravity = vec(0, 1/5, -g);
+}
+";

@@ -383,6 +383,7 @@ fn call<R: Analytic>(name: &str, arguments: &[Value<R>]) -> Result<Value<R>, Mis
         ("angular_velocity_body", [Value::Rotation(m)]) => {
             Value::Vector(applied(&transposed(m), &spin(m)).map(|e| velocity(e.re)))
         }
+        ("powi", [x, exponent]) => Value::Scalar(scalar_of(x)?.power(scalar_of(exponent)?.value() as i32)),
         ("atan2", [y, x]) => Value::Scalar(scalar_of(y)?.arc_tangent_2(&scalar_of(x)?)),
         (_, [Value::Scalar(e)]) => Value::Scalar(e.function(name).ok_or_else(wrong)?),
         _ => return Err(wrong()),

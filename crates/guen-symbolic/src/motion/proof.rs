@@ -3,7 +3,6 @@
 use super::{DerivationError, Equations};
 use crate::algebra::{ExprId, Rational};
 use crate::workbench::Workbench;
-use crate::zero::Verdict;
 
 /// Whether the two routes agree at points modulo p: if so they are equal but for roots of other sign; if not, the zero
 /// test looks closer at each equation.
@@ -31,7 +30,7 @@ pub(super) fn are_equal(
         return Ok(true);
     }
     for (place, e) in differences.into_iter().enumerate() {
-        if bench.verdict_on_manifold(e) == Verdict::Nonzero {
+        if bench.zero.is_shown_nonzero(&mut bench.graph, e, true) {
             // Velocities come first.
             return Err(DerivationError::RoutesDisagree { equation: place.saturating_sub(velocities) });
         }
@@ -59,7 +58,7 @@ pub(super) fn solve_equations(
         return Ok(true);
     }
     for (equation, e) in residuals.into_iter().enumerate() {
-        if bench.verdict_on_manifold(e) == Verdict::Nonzero {
+        if bench.zero.is_shown_nonzero(&mut bench.graph, e, true) {
             return Err(DerivationError::RoutesDisagree { equation });
         }
     }
@@ -79,7 +78,7 @@ pub(super) fn are_same(bench: &mut Workbench, a: &Equations, b: &Equations) -> R
         return Ok(true);
     }
     for (equation, row) in rows.into_iter().enumerate() {
-        if row.into_iter().any(|e| bench.verdict_on_manifold(e) == Verdict::Nonzero) {
+        if row.into_iter().any(|e| bench.zero.is_shown_nonzero(&mut bench.graph, e, true)) {
             return Err(DerivationError::RoutesDisagree { equation });
         }
     }
@@ -110,7 +109,7 @@ pub(super) fn are_same_along(
         return Ok(true);
     }
     for (equation, e) in differences.into_iter().enumerate() {
-        if bench.verdict_on_manifold(e) == Verdict::Nonzero {
+        if bench.zero.is_shown_nonzero(&mut bench.graph, e, true) {
             return Err(DerivationError::RoutesDisagree { equation: equation.min(mass.len() - 1) });
         }
     }
