@@ -6,7 +6,7 @@ use super::projection::Projected;
 use super::velocity_forms::VelocityPartials;
 use super::{
     DerivationError, Equations, Frame, KineticTerm, Mechanics, Solution, linkage, nested, poincare,
-    projection, proof, rephrased, tensions, turned,
+    projection, proof, rephrased, restriction, tensions, turned,
 };
 use crate::algebra::ExprId;
 use crate::geometry::dependence;
@@ -94,9 +94,26 @@ pub(super) fn equations(
         mass: projected.equations.mass[l..].to_vec(),
         forces: projected.equations.forces[l..].to_vec(),
     };
-    let mut candidates: Vec<Equations> = candidates(bench, system, &by_definition, &projected.equations)
+    let mut candidates = candidates(bench, system, &by_definition, &projected.equations);
+    // On constraints on positions the axes of the bodies leave less than those of the world.
+    let linked_only = linked.as_ref().is_some_and(|linked| is_much_shorter(bench, linked, whole));
+    let in_own_axes = match system.holonomic.is_empty() || linked_only {
+        true => None,
+        false => turned::equations(bench, system, frame, &projected.forms),
+    };
+    if let Some(own) = &in_own_axes
+        && weighted_cost(&bench.graph, &own.equations.entries())
+            < weighted_cost(&bench.graph, &candidates[0].entries())
+        && proof::are_same(bench, &by_definition, &own.equations)?
+    {
+        candidates.insert(0, own.equations.clone());
+    }
+    let mut candidates: Vec<Equations> = candidates
         .into_iter()
-        .map(|equations| equations.driven(bench, generalised_forces))
+        .map(|equations| {
+            let equations = equations.driven(bench, generalised_forces);
+            restriction::restricted(bench, system, equations)
+        })
         .collect();
     let equations = candidates.remove(0);
     affordable(bench)?;
@@ -128,7 +145,7 @@ pub(super) fn equations(
             alternatives.extend(others.map(|other| [&frame.velocities[..], &other.accelerations].concat()));
             (equations, Solution::known(bench, tensions.accelerations, &tensions.divisors))
         }
-        (tensions, Some(linked)) if MUCH * weighted_cost(&bench.graph, &linked.entries()) < whole => {
+        (tensions, Some(linked)) if linked_only => {
             let solution = solved(bench, &linked)?;
             let others = tensions.map(|tensions| [&frame.velocities[..], &tensions.accelerations].concat());
             alternatives.extend(others);
@@ -154,7 +171,9 @@ pub(super) fn equations(
             let mut others = nested::rates(bench, system, frame, terms, forms, generalised_forces, least);
             others.retain(|rates| weighted_cost(&bench.graph, rates) < least);
             by_nesting = !others.is_empty();
-            others.extend(turned::rates(bench, system, frame, forms, generalised_forces));
+            let in_own_axes = in_own_axes.or_else(|| turned::equations(bench, system, frame, forms));
+            others
+                .extend(in_own_axes.into_iter().flat_map(|own| own.rates(bench, system, generalised_forces)));
             others.extend(rephrased::rates(bench, system, frame, &equations, by_projection, words));
             for rates in others {
                 if proof::are_equal(bench, &own, &rates, n)? {
@@ -188,6 +207,11 @@ fn of_links(
         }
     }
     Ok(Some(equations))
+}
+
+/// Whether nothing else is to be solved beside these equations.
+fn is_much_shorter(bench: &Workbench, linked: &Equations, whole: u64) -> bool {
+    MUCH * weighted_cost(&bench.graph, &linked.entries()) < whole
 }
 
 impl Equations {
