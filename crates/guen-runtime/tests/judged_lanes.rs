@@ -187,6 +187,10 @@ fn starts<const N: usize>(count: usize, start: impl Fn(i32) -> [f64; N]) -> Vec<
     (0..count as i32).map(|k| start(apart * k)).collect()
 }
 
+/// One lane is a number, of which Miri learns nothing new.
+const WIDTHS: &[Width] =
+    if SLOW { &[Width::Four, Width::Eight] } else { &[Width::One, Width::Four, Width::Eight] };
+
 /// How many of the starts have to arrive, and how many to fail.
 const SOME: usize = if SLOW { 1 } else { 6 };
 
@@ -212,10 +216,10 @@ fn compare<F: Faulty<N>, const N: usize>(
                 }
             })
             .collect();
-        // What falls back to arrays was seen when Miri has seen arrays.
-        let again = |backend: &Backend| !SLOW || backend.is_available();
+        // Of Miri only what it can see: registers, where the target has them.
+        let again = |backend: &Backend| !SLOW || *backend == Backend::best();
         for backend in Backend::ALL.into_iter().filter(again) {
-            for width in [Width::One, Width::Four, Width::Eight] {
+            for width in WIDTHS.iter().copied() {
                 let task = InEach { system, starts, step, times, eight, guard: Guard::default() };
                 let ends = dispatch_on(backend, width, task);
                 assert_eq!(ends.iter().map(|(_, visits)| visits).sum::<usize>(), visits);
@@ -302,7 +306,7 @@ fn times_that_are_none() {
 
 #[test]
 fn limits_are_those_of_the_guard() {
-    let starts: Vec<[f64; 3]> = (0..16).map(|k| [1.0 + 0.3 * f64::from(k), 1.0, 0.0]).collect();
+    let starts = starts(16, |k| [1.0 + 0.3 * f64::from(k), 1.0, 0.0]);
     let strict = Guard { energy: 1e-12, step: 1e-12, every: Some(3), ..Guard::default() };
     let wrong = Guard { edge: f64::NAN, ..Guard::default() };
     let system = Of(Oscillator);
@@ -328,8 +332,8 @@ fn limits_are_those_of_the_guard() {
             failed.push(alone.iter().filter(|end| end.is_err()).count());
         }
     }
-    assert!(failed[0] > 8 && failed[1] > 0 && failed[1] < failed[0], "{failed:?}");
-    assert_eq!(failed[2..], [0, 0, 16, 16]);
+    assert!(2 * failed[0] > starts.len() && failed[1] > 0 && failed[1] < failed[0], "{failed:?}");
+    assert_eq!(failed[2..], [0, 0, starts.len(), starts.len()]);
 }
 
 /// With lanes as the real, in a run that has one end for all lanes.
@@ -372,7 +376,7 @@ fn compare_together<F: Faulty<N>, const N: usize>(of: F, starts: &[[f64; N]], st
                 end.err().map(|error| (error.time, error.cause))
             })
             .collect();
-        for width in [Width::One, Width::Four, Width::Eight] {
+        for width in WIDTHS.iter().copied() {
             let task = Together { system, starts, step, span, eight };
             let (lanes, ends) = dispatch_on(Backend::best(), width, task);
             for (group, end) in alone.chunks_exact(lanes).zip(ends) {
