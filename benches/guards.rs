@@ -5,8 +5,9 @@
 //! python3 benches/guard_instructions.py      # the ratio of instructions, which decides; needs valgrind
 //! ```
 //!
-//! Runs of the paper's hoop and sled, of a chain of ten links, and of the cheapest systems that there are, a particle
-//! without forces and a mass on a spring: there a look costs most beside a step. With a run and `plain` or `guarded` as
+//! Runs of the paper's hoop and sled, of Appell's system, of chains of ten and twenty links, and of the cheapest systems that
+//! there are, a particle without forces, a mass on a spring and one that must not come to a point: there a look costs most beside
+//! a step. `hoop'` is the hoop's carried form, and `hoop32` the hoop in single precision. With a run and `plain` or `guarded` as
 //! arguments that run alone is made, twice as often with a `2` behind, and nothing printed: what callgrind counts. `list`
 //! names the runs.
 
@@ -17,10 +18,10 @@ use guen::lanes::{LaneTask, Lanes, Width, dispatch};
 use guen::prelude::*;
 use guen::steppers::Method;
 use guen::{Differentiable, Laned, TaylorSeries};
-use guen_benchmarks::systems::{Chain10, chain10};
+use guen_benchmarks::systems::{Appell, Chain10, Chain20, appell, chain10, chain20};
 use guen_benchmarks::{hoop, sled};
 
-hoop! { guen::mechanical_system; provide taylor; }
+hoop! { guen::mechanical_system; provide taylor, carried; }
 sled! { guen::mechanical_system; provide taylor; }
 
 guen::mechanical_system! {
@@ -45,34 +46,49 @@ guen::mechanical_system! {
     }
 }
 
+guen::mechanical_system! {
+    /// A mass that is repelled from a point: an edge, and little else.
+    pub system Well {
+        constants { m > 0, k > 0 }
+        coordinates { x }
+        parameters { v = dot(x); }
+        kinetic_energy   = m/2*v^2;
+        potential_energy = k/x + k*x;
+    }
+}
+
 /// Runs with either guard, by name.
 struct Pair {
     name: String,
     run: Box<dyn Fn(Guard)>,
 }
 
-fn pair<S, M, const N: usize>(
+fn pair<R, S, M, const N: usize>(
     system: &'static str,
     method: &'static str,
     of: S,
-    start: [f64; N],
-    span: f64,
+    start: [R; N],
+    span: R,
     by: M,
 ) -> Pair
 where
-    S: System<f64, N> + 'static,
-    M: Method<f64, S, N> + 'static,
+    R: Real,
+    S: System<R, N> + 'static,
+    M: Method<R, S, N> + 'static,
 {
     let run = Box::new(move |guard: Guard| {
         let start = black_box(&start);
         black_box(
-            Integration::new(&of, 0.0, start).guard(guard).run(&by, span).expect("nothing is wrong with it"),
+            Integration::new(&of, R::zero(), start)
+                .guard(guard)
+                .run(&by, span)
+                .expect("nothing is wrong with it"),
         );
     });
     Pair { name: format!("{system}:{method}"), run }
 }
 
-/// Four motions that begin next to each other, in as many lanes.
+/// Motions that begin next to each other, in as many lanes.
 struct InLanes<'a, S, const N: usize> {
     of: &'a S,
     start: &'a [f64; N],
@@ -99,15 +115,39 @@ impl<S: Laned<N>, const N: usize> LaneTask for InLanes<'_, S, N> {
     }
 }
 
-fn in_lanes<S, const N: usize>(system: &'static str, of: S, start: [f64; N], span: f64, eight: bool) -> Pair
+/// In lanes, four by both methods and eight by one.
+fn in_lanes<S, const N: usize>(system: &'static str, of: S, start: [f64; N], span: f64) -> Vec<Pair>
 where
-    S: Laned<N> + 'static,
+    S: Laned<N> + Copy + 'static,
 {
-    let run = Box::new(move |guard: Guard| {
-        let task = InLanes { of: &of, start: black_box(&start), span, guard, eight };
-        assert!(black_box(dispatch(Width::Four, task)), "nothing is wrong with it");
-    });
-    Pair { name: format!("{system}:{}", if eight { "rk8-lanes" } else { "rk4-lanes" }), run }
+    let runs = [
+        ("rk4-lanes", Width::Four, false),
+        ("rk4-8-lanes", Width::Eight, false),
+        ("rk8-lanes", Width::Four, true),
+    ];
+    runs.map(|(method, width, eight)| {
+        let run = Box::new(move |guard: Guard| {
+            let span = if eight { 5.0 * span } else { span };
+            let task = InLanes { of: &of, start: black_box(&start), span, guard, eight };
+            assert!(black_box(dispatch(width, task)), "nothing is wrong with it");
+        });
+        Pair { name: format!("{system}:{method}"), run: run as _ }
+    })
+    .into()
+}
+
+/// Explicit methods with a fixed step.
+fn fixed<S, const N: usize>(name: &'static str, system: S, start: [f64; N], span: f64) -> Vec<Pair>
+where
+    S: Laned<N> + Copy + 'static,
+{
+    let mut pairs = vec![
+        pair(name, "euler", system, start, span / 4.0, Euler { step: 1e-5 }),
+        pair(name, "rk4", system, start, 4.0 * span, Rk4 { step: 1e-3 }),
+        pair(name, "rk8", system, start, 20.0 * span, Rk8::new(1e-2)),
+    ];
+    pairs.extend(in_lanes(name, system, start, 2.0 * span));
+    pairs
 }
 
 /// Every method over a span. Steps are such that none is refused; those of a particle without forces grow without limit,
@@ -116,15 +156,11 @@ fn pairs_of<S, const N: usize>(name: &'static str, system: S, start: [f64; N], s
 where
     S: Laned<N> + Differentiable<f64, N> + Copy + 'static,
 {
-    let mut pairs = vec![
-        pair(name, "euler", system, start, span / 4.0, Euler { step: 1e-5 }),
-        pair(name, "rk4", system, start, 4.0 * span, Rk4 { step: 1e-3 }),
-        pair(name, "rk8", system, start, 20.0 * span, Rk8::new(1e-2)),
-        in_lanes(name, system, start, 2.0 * span, false),
-        in_lanes(name, system, start, 10.0 * span, true),
+    let mut pairs = fixed(name, system, start, span);
+    pairs.extend([
         pair(name, "gauss4", system, start, span, Gauss4::new(1e-3)),
         pair(name, "gauss6", system, start, span, Gauss6::new(1e-3)),
-    ];
+    ]);
     if name != "free" {
         pairs.extend([
             pair(name, "tsit5", system, start, 20.0 * span, Tsit5::new(1e-9, 1e-9)),
@@ -158,16 +194,36 @@ fn pairs() -> Vec<Pair> {
     .into();
     let sliding = Sled { m: 1.0, alpha: 0.2, beta: 0.3, k: 0.4, incline: 0.3, g: 9.81 }.prepare();
     let sled: [f64; 5] = sled::State { phi: 0.3, eta1: 0.7, eta2: 0.5, ..Default::default() }.into();
+    let single = Hoop { a: 1.0_f32, A: 0.5, C: 1.0, g: 9.81 }.prepare().expect("positive constants");
+    let carried = rolling.carried().expect("nothing is infinite");
+    let lifted: [f64; 13] = hoop::State::from(start).carried(&carried, 0.0).into();
+    let crank = Appell { a: 1.0, A: 0.5, C: 1.0, g: 9.81 }.prepare().expect("positive constants");
+    let pushed: [f64; 9] =
+        appell::State { theta: 1.1, eta1: 0.4, eta2: 0.9, eta3: 2.5, ..Default::default() }.into();
+    let long = Chain20 { m: 1.0, l: 0.5, g: 9.81 }.prepare().expect("positive constants");
+    let bent: [f64; 40] = chain20::State { q1: 0.3, q5: 0.2, q9: -0.1, ..Default::default() }.into();
     let hanging = Chain10 { m: 1.0, l: 0.5, g: 9.81 }.prepare().expect("positive constants");
     let angles: [f64; 20] =
         chain10::State { q1: 0.3, q2: 0.2, q3: -0.1, q4: 0.4, q5: 0.3, ..Default::default() }.into();
     let free = Free { m: 1.5 }.prepare().expect("a positive mass");
     let spring = Spring { m: 1.5, k: 2.0 }.prepare().expect("positive constants");
+    let well = Well { m: 1.5, k: 2.0 }.prepare().expect("positive constants");
     let mut pairs = pairs_of("free", free, [0.5, 1.0], 10.0);
+    pairs.extend(pairs_of("well", well, [0.5, 1.0], 10.0));
     pairs.extend(with_taylor("spring", spring, [0.5, 1.0], 10.0));
     pairs.extend(with_taylor("sled", sliding.expect("positive constants"), sled, 5.0));
+    pairs.extend(fixed("appell", crank, pushed, 1.0));
     pairs.extend(with_taylor("hoop", rolling, start, 5.0));
+    // Not in lanes, whose starts would no longer be sines and cosines.
+    pairs.push(pair("hoop'", "euler", carried, lifted, 1.25, Euler { step: 1e-5 }));
+    pairs.push(pair("hoop'", "rk4", carried, lifted, 20.0, Rk4 { step: 1e-3 }));
+    pairs.push(pair("hoop'", "rk8", carried, lifted, 100.0, Rk8::new(1e-2)));
+    let short = start.map(|x| x as f32);
+    pairs.push(pair("hoop32", "euler", single, short, 1.0, Euler { step: 1e-4 }));
+    pairs.push(pair("hoop32", "rk4", single, short, 10.0, Rk4 { step: 1e-3 }));
+    pairs.push(pair("hoop32", "rk8", single, short, 100.0, Rk8::new(1e-2)));
     pairs.extend(pairs_of("chain10", hanging, angles, 1.0));
+    pairs.extend(fixed("chain20", long, bent, 1.0));
     pairs
 }
 

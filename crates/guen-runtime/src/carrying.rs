@@ -92,6 +92,10 @@ impl<R: Real, S: Carrying<R, N>, const N: usize> System<R, N> for Rejoined<S> {
     fn cost_of_look(&self) -> u32 {
         self.0.cost_of_look()
     }
+
+    fn cost_of_edges(&self) -> f64 {
+        self.0.cost_of_edges()
+    }
 }
 
 impl<R: Real, S: Carrying<R, N> + Differentiable<R, N>, const N: usize> Differentiable<R, N> for Rejoined<S> {

@@ -249,6 +249,7 @@ pub fn clamped<R: Ordered>(value: R, lower: R, upper: R) -> R {
 /// let [x, y] = [0.6, 0.81].map(Rounded::once);
 /// assert!((0.002..0.02).contains(&furthest(&[x * x + y * y - Rounded::exact(1.0)])));
 /// ```
+#[inline(always)]
 pub fn furthest<R: Real, const N: usize>(differences: &[Rounded<R>; N]) -> R {
     largest(
         &differences
@@ -262,6 +263,7 @@ pub fn furthest<R: Real, const N: usize>(differences: &[Rounded<R>; N]) -> R {
 /// use guen_runtime::{Rounded, checks::rounded};
 /// assert_eq!(rounded(&[1.5, -2.0])[1], Rounded { value: -2.0, error: 2.0 });
 /// ```
+#[inline(always)]
 pub fn rounded<R: Real, const N: usize>(values: &[R; N]) -> [Rounded<R>; N] {
     let mut rounded = [Rounded::exact(R::zero()); N];
     // A loop where the instructions of lanes are at hand: `map` is a call for each entry.
@@ -276,11 +278,36 @@ pub fn rounded<R: Real, const N: usize>(values: &[R; N]) -> [Rounded<R>; N] {
     rounded
 }
 
+/// Writes the first `count` functions that must not vanish to the head of `values`, as far as there is place for them, and
+/// returns how many: what [`System::edges`](crate::System::edges) does with them.
+///
+/// ```
+/// use guen_runtime::{Rounded, checks::placed};
+/// let functions = [1.0, 2.0, 3.0].map(Rounded::once);
+/// let mut values = [Rounded::once(0.0); 4];
+/// assert_eq!((placed(&mut values, &functions, 2), values[1].value, values[2].value), (2, 2.0, 0.0));
+/// assert_eq!(placed(&mut values[..1], &functions, 3), 1);
+/// ```
+#[inline(always)]
+pub fn placed<R: Real, const N: usize>(
+    values: &mut [Rounded<R>],
+    functions: &[Rounded<R>; N],
+    count: usize,
+) -> usize {
+    let mut written = 0;
+    for (place, function) in values.iter_mut().zip(functions.iter().take(count)) {
+        *place = *function;
+        written += 1;
+    }
+    written
+}
+
 /// How far carried functions are from their values: the largest `|w - f|/(1 + |f|)`.
 ///
 /// ```
 /// assert_eq!(guen_runtime::checks::drift(&[1.0, 3.0], &[1.0, 5.0]), 0.5);
 /// ```
+#[inline(always)]
 pub fn drift<R: Real, const K: usize>(values: &[R; K], carried: &[R]) -> R {
     let mut apart = [R::zero(); K];
     for ((apart, f), w) in apart.iter_mut().zip(values).zip(carried) {
@@ -295,6 +322,7 @@ pub fn drift<R: Real, const K: usize>(values: &[R; K], carried: &[R]) -> R {
 /// ```
 /// assert_eq!(guen_runtime::checks::largest(&[1.0, -3.0, 2.0]), 3.0);
 /// ```
+#[inline(always)]
 pub fn largest<R: Real>(values: &[R]) -> R {
     let (mut most, mut rest) = (R::zero(), R::zero());
     for value in values {

@@ -214,7 +214,7 @@ impl<R: Real, const N: usize> Real for Dual<R, N> {
         R::vectorize(function)
     }
 
-    by_slopes!();
+    by_slopes!(inline);
 
     #[inline]
     fn sin_cos_pair(first: Self, second: Self) -> ((Self, Self), (Self, Self)) {
@@ -292,6 +292,11 @@ impl<R: Real, const N: usize> Real for Dual<R, N> {
     fn where_above(self, limit: Self, above: Self, below: Self) -> Self {
         let choose = |above: R, below: R| self.value.where_above(limit.value, above, below);
         Self { value: choose(above.value, below.value), tangent: above.zip(below, choose) }
+    }
+
+    #[inline(always)]
+    fn most(self) -> f64 {
+        self.value.most()
     }
 
     fn each_alone(function: impl Fn(&dyn Fn(Self) -> f64) -> f64) -> Self {

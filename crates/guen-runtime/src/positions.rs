@@ -357,6 +357,10 @@ where
     fn cost_of_look(&self) -> u32 {
         self.0.cost_of_look()
     }
+
+    fn cost_of_edges(&self) -> f64 {
+        self.0.cost_of_edges()
+    }
 }
 
 impl<R, S, const N: usize, const H: usize, const M: usize> Differentiable<R, M> for Projected<S, N, H>

@@ -65,7 +65,7 @@ pub trait Real:
     fn from_f64(value: f64) -> Self;
 
     /// The nearest `f64`: for messages, step control and plots. Derived reals answer with their value; lanes,
-    /// which share their time, with the first lane.
+    /// which share their time, with the first lane: [`most`](Real::most) asks all of them.
     fn to_f64(self) -> f64;
 
     /// The number `sum m 2^e` over `parts = [(m, e), ..]`, in descending order of magnitude.
@@ -301,6 +301,27 @@ pub trait Real:
     #[inline(always)]
     fn where_above(self, limit: Self, above: Self, below: Self) -> Self {
         if self.to_f64() <= limit.to_f64() { below } else { above }
+    }
+
+    /// The largest of the numbers that it consists of, as the nearest `f64`, and NaN if one of them is: of
+    /// [`Lanes`](crate::lanes::Lanes) that of all lanes, of any other real [`to_f64`](Real::to_f64).
+    ///
+    /// ```
+    /// use guen_runtime::Real;
+    /// use guen_runtime::lanes::{LaneTask, Lanes, Width, dispatch};
+    ///
+    /// struct Most;
+    /// impl LaneTask for Most {
+    ///     type Output = f64;
+    ///     fn run<L: Lanes>(self) -> f64 {
+    ///         L::from_fn(|lane| if lane == 2 { 7.0 } else { 1.0 }).most()
+    ///     }
+    /// }
+    /// assert_eq!((2.5_f64.most(), dispatch(Width::Four, Most)), (2.5, 7.0));
+    /// ```
+    #[inline(always)]
+    fn most(self) -> f64 {
+        self.to_f64()
     }
 
     /// What a function makes of numbers in doubles, in every lane by itself, where the real consists of

@@ -37,28 +37,29 @@ pub struct Rounded<R> {
     pub error: R,
 }
 
+// Always: an operation of lanes that is a call loses their instructions.
 impl<R: Real> Rounded<R> {
     /// A number that is exact.
-    #[inline]
+    #[inline(always)]
     pub fn exact(value: R) -> Self {
         Self { value, error: R::zero() }
     }
 
     /// A number that was rounded once.
-    #[inline]
+    #[inline(always)]
     pub fn once(value: R) -> Self {
         Self { value, error: value.abs() }
     }
 
     /// What is left of the value: `|value| / error`, at most one for anything that was rounded; infinite for an exact
     /// number that is not zero.
-    #[inline]
+    #[inline(always)]
     pub fn left(self) -> R {
         self.value.abs() / self.error
     }
 
     /// `f(a)`, from its value and slope.
-    #[inline]
+    #[inline(always)]
     fn chain(self, value: R, slope: R) -> Self {
         Self { value, error: slope.abs() * self.error + value.abs() }
     }
@@ -67,7 +68,7 @@ impl<R: Real> Rounded<R> {
 impl<R: Real> Add for Rounded<R> {
     type Output = Self;
 
-    #[inline]
+    #[inline(always)]
     fn add(self, other: Self) -> Self {
         let value = self.value + other.value;
         Self { value, error: self.error + other.error + value.abs() }
@@ -77,7 +78,7 @@ impl<R: Real> Add for Rounded<R> {
 impl<R: Real> Sub for Rounded<R> {
     type Output = Self;
 
-    #[inline]
+    #[inline(always)]
     fn sub(self, other: Self) -> Self {
         let value = self.value - other.value;
         Self { value, error: self.error + other.error + value.abs() }
@@ -87,7 +88,7 @@ impl<R: Real> Sub for Rounded<R> {
 impl<R: Real> Mul for Rounded<R> {
     type Output = Self;
 
-    #[inline]
+    #[inline(always)]
     fn mul(self, other: Self) -> Self {
         let value = self.value * other.value;
         let error = self.value.abs() * other.error + other.value.abs() * self.error + value.abs();
@@ -98,7 +99,7 @@ impl<R: Real> Mul for Rounded<R> {
 impl<R: Real> Div for Rounded<R> {
     type Output = Self;
 
-    #[inline]
+    #[inline(always)]
     fn div(self, other: Self) -> Self {
         let value = self.value / other.value;
         let error = (self.error + value.abs() * other.error) / other.value.abs() + value.abs();
@@ -109,7 +110,7 @@ impl<R: Real> Div for Rounded<R> {
 impl<R: Real> Neg for Rounded<R> {
     type Output = Self;
 
-    #[inline]
+    #[inline(always)]
     fn neg(self) -> Self {
         Self { value: -self.value, error: self.error }
     }
@@ -118,12 +119,12 @@ impl<R: Real> Neg for Rounded<R> {
 assign_operators!(Rounded<R>, R: Real);
 
 impl<R: Real> Real for Rounded<R> {
-    #[inline]
+    #[inline(always)]
     fn from_ratio(num: i64, den: i64) -> Self {
         Self::exact(R::from_ratio(num, den))
     }
 
-    #[inline]
+    #[inline(always)]
     fn from_f64(value: f64) -> Self {
         Self::exact(R::from_f64(value))
     }
@@ -153,7 +154,7 @@ impl<R: Real> Real for Rounded<R> {
         R::vectorize(function)
     }
 
-    by_slopes!();
+    by_slopes!(inline(always));
 
     // d atan2(y, x) = (x dy - y dx) / (x^2 + y^2)
     #[inline]
@@ -164,20 +165,25 @@ impl<R: Real> Real for Rounded<R> {
         Self { value, error: moved + value.abs() }
     }
 
-    #[inline]
+    #[inline(always)]
     fn abs(self) -> Self {
         Self { value: self.value.abs(), error: self.error }
     }
 
-    #[inline]
+    #[inline(always)]
     fn sign(self) -> Self {
         Self::exact(self.value.sign())
     }
 
-    #[inline]
+    #[inline(always)]
     fn where_above(self, limit: Self, above: Self, below: Self) -> Self {
         let choose = |above: R, below: R| self.value.where_above(limit.value, above, below);
         Self { value: choose(above.value, below.value), error: choose(above.error, below.error) }
+    }
+
+    #[inline(always)]
+    fn most(self) -> f64 {
+        self.value.most()
     }
 
     fn each_alone(function: impl Fn(&dyn Fn(Self) -> f64) -> f64) -> Self {

@@ -1,80 +1,81 @@
 //! What numbers with something beside their value have in common: the rules of derivatives, and operators that assign.
 
-/// Elementary functions of one argument by `chain(value, slope)`, for a type with the argument in `value`.
+/// Elementary functions of one argument by `chain(value, slope)`, for a type with the argument in `value`, each with an
+/// attribute that says how it is inlined.
 ///
 /// Radicands are products, which keep their digits near the ends; `tanh' = 1 / cosh^2` and not `1 - tanh^2`, which
 /// cancels for large arguments.
 macro_rules! by_slopes {
-    () => {
+    ($inline:meta) => {
         // sin' = cos, cos' = -sin
-        #[inline]
+        #[$inline]
         fn sin_cos(self) -> (Self, Self) {
             let (sin, cos) = self.value.sin_cos();
             (self.chain(sin, cos), self.chain(cos, -sin))
         }
 
         // asin' = 1 / sqrt(1 - u^2)
-        #[inline]
+        #[$inline]
         fn asin(self) -> Self {
             let u = self.value;
             self.chain(u.asin(), ((R::one() - u) * (R::one() + u)).sqrt().recip())
         }
 
         // acos' = -1 / sqrt(1 - u^2)
-        #[inline]
+        #[$inline]
         fn acos(self) -> Self {
             let u = self.value;
             self.chain(u.acos(), -((R::one() - u) * (R::one() + u)).sqrt().recip())
         }
 
         // atan' = 1 / (1 + u^2)
-        #[inline]
+        #[$inline]
         fn atan(self) -> Self {
             let u = self.value;
             self.chain(u.atan(), (R::one() + u * u).recip())
         }
 
         // sinh' = cosh
-        #[inline]
+        #[$inline]
         fn sinh(self) -> Self {
             self.chain(self.value.sinh(), self.value.cosh())
         }
 
         // cosh' = sinh
-        #[inline]
+        #[$inline]
         fn cosh(self) -> Self {
             self.chain(self.value.cosh(), self.value.sinh())
         }
 
         // tanh' = 1 / cosh^2
-        #[inline]
+        #[$inline]
         fn tanh(self) -> Self {
             let sech = self.value.cosh().recip();
             self.chain(self.value.tanh(), sech * sech)
         }
 
         // exp' = exp
-        #[inline]
+        #[$inline]
         fn exp(self) -> Self {
             let exp = self.value.exp();
             self.chain(exp, exp)
         }
 
         // ln' = 1 / u
-        #[inline]
+        #[$inline]
         fn ln(self) -> Self {
             self.chain(self.value.ln(), self.value.recip())
         }
 
         // sqrt' = 1 / (2 sqrt)
-        #[inline]
+        #[$inline]
         fn sqrt(self) -> Self {
             let root = self.value.sqrt();
             self.chain(root, (root + root).recip())
         }
 
         // root_q' = 1 / (q root_q^(q - 1))
-        #[inline]
+        #[$inline]
         fn root(self, q: u32) -> Self {
             let root = self.value.root(q);
             let power = root.powi(i32::try_from(i64::from(q) - 1).unwrap_or(i32::MAX));

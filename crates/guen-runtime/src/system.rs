@@ -76,6 +76,14 @@ pub trait System<R: Real, const N: usize> {
     fn cost_of_look(&self) -> u32 {
         2
     }
+
+    /// What [`edges`](System::edges) of one state cost, in evaluations of the right-hand side, with what a guard makes of them:
+    /// next to fixed steps it asks for them more often than for the rest. Nothing, unless a system says more; generated systems
+    /// count their operations.
+    #[inline]
+    fn cost_of_edges(&self) -> f64 {
+        0.0
+    }
 }
 
 impl<R: Real, S: System<R, N> + ?Sized, const N: usize> System<R, N> for &S {
@@ -107,6 +115,11 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize> System<R, N> for &S {
     #[inline]
     fn cost_of_look(&self) -> u32 {
         (**self).cost_of_look()
+    }
+
+    #[inline]
+    fn cost_of_edges(&self) -> f64 {
+        (**self).cost_of_edges()
     }
 }
 

@@ -100,7 +100,7 @@ pub fn tasks() -> Vec<Task> {
             quick,
             Box::new(move || {
                 usual(start(1.2, 0.1, 0.2, spin), span)
-                    .ask::<f64>(format!("spinning at {spin:e} rad/s, for {span:e} s"))
+                    .ask::<f64>(format!("spinning at {spin:e} rad/s, for {span:.0e} s"))
             }),
         );
     }
@@ -113,7 +113,7 @@ pub fn tasks() -> Vec<Task> {
                 // Light about its diameter it nutates at sqrt(C/A) of its spin, or as fast as a few radians per second.
                 let span = if ratio < 1.0 { 10.0 * ratio.sqrt() } else { 0.5 };
                 motion((ratio.min(1.0), (1.0 / ratio).min(1.0)), 9.81, start(1.2, 0.1, 0.5, 2.0), span)
-                    .ask::<f64>(format!("A/C = {ratio:e}, for {span:e} s"))
+                    .ask::<f64>(format!("A/C = {ratio:e}, for {span:.0e} s"))
             }),
         );
     }

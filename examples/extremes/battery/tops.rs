@@ -24,7 +24,7 @@ pub fn tasks() -> Vec<Task> {
             Box::new(move || {
                 let (double, long) = both!(EulerTop { I1: 1.0, I2: 2.0, I3: 3.0 * ratio });
                 Motion::new("top", double, long, [0.1, 1.2, 0.3, 0.2, 0.3, 1e-3], (0.0, span))
-                    .ask::<f64>(format!("a third moment of {ratio:e} of the others, for {span:e} s"))
+                    .ask::<f64>(format!("a third moment of {ratio:e} of the others, for {span:.0e} s"))
             }),
         );
     }

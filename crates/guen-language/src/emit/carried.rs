@@ -5,6 +5,7 @@ use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};
 
 use super::classification::cost;
+use super::integrated::Looks;
 use super::motion::inputs;
 use super::{Layout, Subject, functions, integrated, lanes, records, serde};
 use crate::derive::function;
@@ -27,7 +28,8 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let Some(level) = &subject.level.carried else { return TokenStream::new() };
     let carried = Subject { model: subject.model, level };
     let own = Layout { is_whole: false, ..Layout::new(&carried) };
-    let module = module(&carried, &own, layout);
+    let looks = Looks::of(&carried, &own).and(Looks::of(subject, layout));
+    let module = module(&carried, &own, layout, looks);
     let (size, fields) = (layout.size, &layout.state);
     quote! {
         #[doc = " What belongs to the carried form, [`Carried`]: its state, and which functions it carries."]
@@ -71,7 +73,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     }
 }
 
-fn module(subject: &Subject<'_, '_>, layout: &Layout, base: &Layout) -> TokenStream {
+fn module(subject: &Subject<'_, '_>, layout: &Layout, base: &Layout, looks: Looks) -> TokenStream {
     let Subject { model, level } = subject;
     let text = |e: ExprId| model.bench.graph.text_limited(e, 400).unwrap_or_else(|| "(long)".to_owned());
     let lines = |texts: Vec<String>| {
@@ -97,7 +99,7 @@ fn module(subject: &Subject<'_, '_>, layout: &Layout, base: &Layout) -> TokenStr
     let state = records::carried(subject, layout);
     let serde = serde::state(layout);
     let prepared = prepared(subject, layout, base, invariants);
-    let systems = systems(subject, layout, base, invariants, edges);
+    let systems = systems(subject, layout, base, (invariants, edges), looks);
     let code = functions::modules(subject, layout);
     quote! {
         #state
@@ -216,8 +218,8 @@ fn systems(
     subject: &Subject<'_, '_>,
     layout: &Layout,
     base: &Layout,
-    invariants: usize,
-    edges: usize,
+    (invariants, edges): (usize, usize),
+    looks: Looks,
 ) -> TokenStream {
     let (size, count, variables) = (layout.size, layout.inputs, base.size);
     let rejoined = subject.level.program(function::REJOINED).map_or(0, |program| program.outputs.len());
@@ -230,10 +232,8 @@ fn systems(
     let further = (edges > 0).then(|| {
         let domain = integrated::rounded(&quote!(domain), &quote!(prepared), &quote!(t), &quote!(state));
         quote! {
-            let own = #domain;
-            for (place, value) in ::core::iter::Iterator::zip(values.iter_mut().skip(written), own) {
-                *place = value;
-                written += 1;
+            if let ::core::option::Option::Some(rest) = values.get_mut(written..) {
+                written += __guen::placed(rest, &#domain, #edges);
             }
         }
     });
@@ -294,7 +294,7 @@ fn systems(
             }
         }
     });
-    let cost_of_look = integrated::cost_of_look(subject, layout);
+    let prices = integrated::prices(subject, layout, &looks);
     let differentiable = integrated::differentiable(layout, &owner, &prepared);
     let lanes = lanes::carried(layout);
     quote! {
@@ -307,33 +307,35 @@ fn systems(
             }
 
             fn vitals(&self, t: R, state: &[R; #size]) -> __guen::Vitals<R> {
-                let prepared = &#prepared;
-                let values = program::carry(&prepared.constants, &prepared.hoisted, t, state);
-                let drift = __guen::drift(&values, &state[#variables..]);
-                #kept
-                let below = __guen::System::vitals(&#below, t, &Prepared::variables(state));
-                __guen::Vitals { carried: drift, ..below }
+                <R as __guen::Real>::vectorize(#[inline(always)] || {
+                    let prepared = &#prepared;
+                    let values = program::carry(&prepared.constants, &prepared.hoisted, t, state);
+                    let drift = __guen::drift(&values, &state[#variables..]);
+                    #kept
+                    let below = __guen::System::vitals(&#below, t, &Prepared::variables(state));
+                    __guen::Vitals { carried: drift, ..below }
+                })
             }
 
             fn edges(
                 &self, t: __guen::Rounded<R>, state: &[__guen::Rounded<R>; #size], values: &mut [__guen::Rounded<R>],
             ) -> usize {
-                let prepared = &#prepared;
-                let _ = &prepared;
-                let variables = Prepared::<__guen::Rounded<R>>::variables(state);
-                #[allow(unused_mut, reason = "there may be no further edges")]
-                let mut written = __guen::System::edges(&#below, t, &variables, values);
-                #further
-                written
+                <R as __guen::Real>::vectorize(#[inline(always)] || {
+                    let prepared = &#prepared;
+                    let _ = &prepared;
+                    let variables = Prepared::<__guen::Rounded<R>>::variables(state);
+                    #[allow(unused_mut, reason = "there may be no further edges")]
+                    let mut written = __guen::System::edges(&#below, t, &variables, values);
+                    #further
+                    written
+                })
             }
 
             fn condition(&self, t: R, state: &[R; #size]) -> R {
                 __guen::System::condition(&#below, t, &Prepared::variables(state))
             }
 
-            fn cost_of_look(&self) -> u32 {
-                #cost_of_look
-            }
+            #prices
         }
         #differentiable
         #monitored

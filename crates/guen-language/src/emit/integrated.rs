@@ -1,5 +1,6 @@
 //! What steppers ask of a system besides its rates: quantities for guards, and derivatives for implicit methods.
 
+use guen_symbolic::OperationCount;
 use proc_macro2::TokenStream;
 use quote::quote;
 
@@ -46,13 +47,7 @@ pub(super) fn guarded(subject: &Subject<'_, '_>, layout: &Layout, prepared: &Tok
             fn edges(
                 &self, t: __guen::Rounded<R>, state: &[__guen::Rounded<R>; #size], values: &mut [__guen::Rounded<R>],
             ) -> usize {
-                let found = ::core::iter::Iterator::take(::core::iter::IntoIterator::into_iter(#domain), #count);
-                let mut written = 0;
-                for (place, value) in ::core::iter::Iterator::zip(values.iter_mut(), found) {
-                    *place = value;
-                    written += 1;
-                }
-                written
+                <R as __guen::Real>::vectorize(#[inline(always)] || __guen::placed(values, &#domain, #count))
             }
         }
     });
@@ -61,59 +56,112 @@ pub(super) fn guarded(subject: &Subject<'_, '_>, layout: &Layout, prepared: &Tok
         let mass = program(quote!(mass), quote!(&x));
         quote! {
             fn condition(&self, t: R, state: &[R; #size]) -> R {
-                let x: [R; #n] = [#(state[#positions]),*];
-                __guen::condition::<R, #l>(&#mass)
+                <R as __guen::Real>::vectorize(#[inline(always)] || {
+                    let x: [R; #n] = [#(state[#positions]),*];
+                    __guen::condition::<R, #l>(&#mass)
+                })
             }
         }
     });
-    let cost = cost_of_look(subject, layout);
+    let prices = prices(subject, layout, &Looks::of(subject, layout));
     quote! {
         fn vitals(&self, t: R, state: &[R; #size]) -> __guen::Vitals<R> {
-            let x: [R; #n] = [#(state[#positions]),*];
-            let _ = (t, &x);
-            #measured
-            __guen::Vitals {
-                energy: #energy, scale: #scale, residual: #residual, carried: R::zero(),
-            }
+            <R as __guen::Real>::vectorize(#[inline(always)] || {
+                let x: [R; #n] = [#(state[#positions]),*];
+                let _ = (t, &x);
+                #measured
+                __guen::Vitals {
+                    energy: #energy, scale: #scale, residual: #residual, carried: R::zero(),
+                }
+            })
         }
 
         #edges
 
         #condition
-
-        fn cost_of_look(&self) -> u32 {
-            #cost
-        }
+        #prices
     }
 }
 
-/// What the methods above cost together, in right-hand sides with what a stepper does for each: an estimate from the counts of
-/// operations.
-pub(super) fn cost_of_look(subject: &Subject<'_, '_>, layout: &Layout) -> u32 {
-    /// Of an operation whose rounding is counted.
-    const ROUNDED: u64 = 4;
+/// The operations of looks: an estimate from the counts of their programs.
+#[derive(Clone, Copy)]
+pub(super) struct Looks {
+    /// Of `vitals`, `edges` and `condition` together.
+    pub(super) all: u64,
+    /// Of `edges` alone.
+    pub(super) edges: u64,
+}
+
+impl Looks {
+    /// Those of a level by itself.
+    pub(super) fn of(subject: &Subject<'_, '_>, layout: &Layout) -> Self {
+        /// Of an operation whose rounding is counted, and of a function.
+        const ROUNDED: [u64; 2] = [4, 2];
+        /// Of the comparisons of a function that must not vanish, or of one that is carried.
+        const COMPARED: u64 = 20;
+        let level = subject.level;
+        let cost = |names: &[&str]| -> u64 {
+            let programs = names.iter().filter_map(|name| level.program(name));
+            programs.map(|program| program.cost.weighted()).sum()
+        };
+        let rounded = |name: &str| {
+            level.program(name).map_or(0, |program| {
+                let OperationCount { sines, calls, .. } = program.cost;
+                let functions = OperationCount { sines, calls, ..Default::default() }.weighted();
+                let [of_operations, of_functions] = ROUNDED;
+                of_operations * (program.cost.weighted() - functions) + of_functions * functions
+            })
+        };
+        let energies = if layout.is_whole && level.derivation.conservative {
+            cost(&[function::ENERGY, function::KINETIC_ENERGY, function::FORCE_FUNCTION])
+        } else {
+            0
+        };
+        let edges = rounded(function::DOMAIN) + COMPARED * level.edges as u64;
+        // Factors of the matrix and the diagonal of its inverse, roots and divisions for scaling: in loops over short rows,
+        // which take more than their operations.
+        let l = layout.l as u64;
+        let condition = level.program(function::MASS).map_or(0, |_| l * l * (l + 20));
+        let carried = COMPARED * level.selection.carried.len() as u64;
+        let others =
+            rounded(function::POSITIONS) + cost(&[function::MASS, function::CARRY, function::INVARIANTS]);
+        Self { all: energies + edges + condition + carried + others, edges }
+    }
+
+    /// Those of a level and of the one below it.
+    pub(super) fn and(self, below: Self) -> Self {
+        Self { all: self.all + below.all, edges: self.edges + below.edges }
+    }
+}
+
+/// The methods `cost_of_look` and `cost_of_edges`: operations of looks in right-hand sides with what a stepper does for each.
+pub(super) fn prices(subject: &Subject<'_, '_>, layout: &Layout, looks: &Looks) -> TokenStream {
     /// Of a sum over stages, for each entry of the state.
     const STAGE: u64 = 4;
-    /// Of the calls, comparisons and copies of a look, whatever the system: counted for a particle without forces.
-    const BESIDES: u64 = 80;
-    let level = subject.level;
-    let cost = |names: &[&str]| -> u64 {
-        let programs = names.iter().filter_map(|name| level.program(name));
-        programs.map(|program| program.cost.weighted()).sum()
-    };
-    let energies = if layout.is_whole && level.derivation.conservative {
-        cost(&[function::ENERGY, function::KINETIC_ENERGY, function::FORCE_FUNCTION])
-    } else {
-        0
-    };
-    let rounded = ROUNDED * cost(&[function::DOMAIN, function::POSITIONS]);
-    // Factors of the matrix and the diagonal of its inverse, roots and divisions for scaling: in loops over short rows, which
-    // take more than their operations.
-    let l = layout.l as u64;
-    let condition = level.program(function::MASS).map_or(0, |_| l * l * (l + 20));
-    let look = energies + rounded + condition + cost(&[function::MASS]) + BESIDES;
-    let one = cost(&[function::RHS]) + STAGE * layout.size as u64;
-    u32::try_from(look.div_ceil(one.max(1))).unwrap_or(u32::MAX).max(1)
+    /// Of the calls, comparisons and copies of a look, whatever the system: counted for a particle without forces, whose
+    /// estimates of errors by RK8 have more operations than all of its right-hand sides.
+    const BESIDES: u64 = 160;
+    /// Of those of a look at edges alone.
+    const BESIDES_EDGES: u64 = 60;
+    let rhs = subject.level.program(function::RHS).map_or(0, |program| program.cost.weighted());
+    let one = (rhs + STAGE * layout.size as u64).max(1);
+    let look = u32::try_from((looks.all + BESIDES).div_ceil(one)).unwrap_or(u32::MAX);
+    let edges = (looks.edges > 0).then(|| {
+        // In hundredths, which are enough and read well.
+        let price = ((looks.edges + BESIDES_EDGES) * 100).div_ceil(one) as f64 / 100.0;
+        quote! {
+            fn cost_of_edges(&self) -> f64 {
+                #price
+            }
+        }
+    });
+    quote! {
+        fn cost_of_look(&self) -> u32 {
+            #look
+        }
+
+        #edges
+    }
 }
 
 /// A function of the program with the roundings counted: prepared values were rounded once.

@@ -88,7 +88,7 @@ where
         (memory, _): &Self::Memory,
         from: &Reached<R, N>,
         to: &Reached<R, N>,
-    ) -> [f64; N] {
+    ) -> [R; N] {
         self.method.defect(system, memory, from, to)
     }
 }

@@ -147,8 +147,8 @@ pub trait Course<R: Real, S: ?Sized, const N: usize> {
     /// The estimated error of the step made last, which began at `before` and was made with `dense`: absolute, for every
     /// entry of the state. None for methods that are not [`JUDGED`](Course::JUDGED). What it evaluates is the guard's and
     /// is not counted.
-    fn defect(&self, _system: &S, _before: &Reached<R, N>) -> [f64; N] {
-        [0.0; N]
+    fn defect(&self, _system: &S, _before: &Reached<R, N>) -> [R; N] {
+        [R::zero(); N]
     }
 
     /// The motion over the step made last, as a polynomial. To be asked for only after a step that was made with

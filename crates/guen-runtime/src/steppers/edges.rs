@@ -9,73 +9,58 @@ use crate::system::System;
 /// As many functions that must not vanish are watched; further ones are not.
 pub(super) const EDGES: usize = 16;
 
-/// The functions as the start had them.
-#[derive(Clone, Copy)]
-pub(super) struct Edges {
-    count: usize,
-    /// Whether each was negative at the start.
-    negative: [bool; EDGES],
+/// Whether the functions, each beside its value at the start, are on the same side as there and further than the limit from the
+/// edge: in every lane, where the real consists of lanes.
+#[inline(always)]
+pub(super) fn distances<R: Real>(
+    functions: impl Iterator<Item = (Rounded<R>, R)>,
+    found: f64,
+    limit: f64,
+) -> Result<(), Cause> {
+    let negative = |x: R| (-x).where_above(R::zero(), R::one(), R::zero());
+    for (function, (now, start)) in functions.enumerate() {
+        let left = now.left();
+        let turned = (negative(now.value) - negative(start)).abs();
+        // The least of all lanes.
+        let distance = -turned.where_above(R::zero(), left, -left).most();
+        if distance <= limit || distance.is_nan() {
+            return Err(Cause::Edge { found, function, distance, limit });
+        }
+    }
+    Ok(())
 }
 
-impl Edges {
-    /// Of the values at the start, of which there are so many.
-    pub fn new(count: usize, value: impl Fn(usize) -> f64) -> Self {
-        let mut negative = [false; EDGES];
-        for (function, negative) in negative.iter_mut().enumerate().take(count) {
-            *negative = value(function) < 0.0;
+/// In how many steps to look again, judged by the values before and after a step: in half of those after which the
+/// nearest edge would be reached at this pace. An error where one step changed a function by more than the factor
+/// `limit`: what divides by it is a pole that such steps do not resolve.
+#[inline(always)]
+pub(super) fn paces<R: Real>(
+    values: impl Iterator<Item = (R, R)>,
+    found: f64,
+    limit: f64,
+) -> Result<u32, Cause> {
+    let (zero, half) = (R::zero(), R::from_ratio(1, 2));
+    let mut soonest = R::from_f64(f64::from(u32::MAX));
+    for (function, (from, to)) in values.enumerate() {
+        let (from, to) = (from.abs(), to.abs());
+        let (down, up) = (from / to, to / from);
+        let ratio = down.where_above(up, down, up);
+        // Of two zeros there is no ratio.
+        let ratio = (-ratio).where_above(zero, zero, ratio).most();
+        if ratio > limit {
+            return Err(Cause::Approach { found, function, ratio, limit });
         }
-        Self { count, negative }
+        let steps = from.where_above(to, half * to / (from - to), soonest);
+        soonest = soonest.where_above(steps, steps, soonest);
     }
-
-    /// Whether there are any.
-    pub fn are_there(&self) -> bool {
-        self.count > 0
-    }
-
-    /// Whether values, and what is left of them, are on the same side as at the start and further than the limit from the edge.
-    pub fn distances(
-        &self,
-        values: impl Iterator<Item = (f64, f64)>,
-        found: f64,
-        limit: f64,
-    ) -> Result<(), Cause> {
-        for (function, ((value, left), negative)) in values.zip(self.negative).take(self.count).enumerate() {
-            let distance = if (value < 0.0) == negative { left } else { -left };
-            if distance <= limit || distance.is_nan() {
-                return Err(Cause::Edge { found, function, distance, limit });
-            }
-        }
-        Ok(())
-    }
-
-    /// In how many steps to look again, judged by the values before and after a step: in half of those after which the
-    /// nearest edge would be reached at this pace. An error where one step changed a function by more than the factor
-    /// `limit`: what divides by it is a pole that such steps do not resolve.
-    pub fn paces(
-        &self,
-        values: impl Iterator<Item = (f64, f64)>,
-        found: f64,
-        limit: f64,
-    ) -> Result<u32, Cause> {
-        let mut soonest = u32::MAX;
-        for (function, (from, to)) in values.take(self.count).enumerate() {
-            let (from, to) = (from.abs(), to.abs());
-            let ratio = f64::max(from / to, to / from);
-            if ratio > limit {
-                return Err(Cause::Approach { found, function, ratio, limit });
-            }
-            if to < from {
-                let steps = 0.5 * to / (from - to);
-                soonest =
-                    soonest.min(if steps < f64::from(u32::MAX) { (steps as u32).max(1) } else { u32::MAX });
-            }
-        }
-        Ok(soonest)
-    }
+    // The soonest of all lanes; in the next step where that is no number.
+    let soonest = -(-soonest).most();
+    Ok(if soonest < f64::from(u32::MAX) || soonest.is_nan() { (soonest as u32).max(1) } else { u32::MAX })
 }
 
 /// Writes the functions that must not vanish, where every entry is uncertain by a rounding of the largest value it has had, and
 /// returns how many they are.
+#[inline]
 pub(super) fn functions<R: Real, S, const N: usize>(
     system: &S,
     time: R,
@@ -86,9 +71,14 @@ pub(super) fn functions<R: Real, S, const N: usize>(
 where
     S: System<R, N> + ?Sized,
 {
-    let mut rounded = [Rounded::exact(time); N];
-    for ((entry, value), error) in rounded.iter_mut().zip(state).zip(largest) {
-        *entry = Rounded { value: *value, error: *error };
-    }
-    system.edges(Rounded::once(time), &rounded, into).min(EDGES)
+    R::vectorize(
+        #[inline(always)]
+        || {
+            let mut rounded = [Rounded::exact(time); N];
+            for ((entry, value), error) in rounded.iter_mut().zip(state).zip(largest) {
+                *entry = Rounded { value: *value, error: *error };
+            }
+            system.edges(Rounded::once(time), &rounded, into).min(EDGES)
+        },
+    )
 }

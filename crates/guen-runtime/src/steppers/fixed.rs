@@ -38,8 +38,7 @@ pub trait Formula<R: Real, S: ?Sized, const N: usize> {
 
     /// The estimated error of the step from `from` to `to`, the one made last and with `dense`: see `Defects`. What it
     /// evaluates is not counted.
-    fn defect(&self, system: &S, memory: &Self::Memory, from: &Reached<R, N>, to: &Reached<R, N>)
-    -> [f64; N];
+    fn defect(&self, system: &S, memory: &Self::Memory, from: &Reached<R, N>, to: &Reached<R, N>) -> [R; N];
 }
 
 /// A formula whose step is a change that is added to the state.
@@ -122,7 +121,7 @@ where
         Ok(())
     }
 
-    fn defect(&self, system: &S, before: &Reached<R, N>) -> [f64; N] {
+    fn defect(&self, system: &S, before: &Reached<R, N>) -> [R; N] {
         self.formula.defect(system, &self.memory, before, &self.reached)
     }
 

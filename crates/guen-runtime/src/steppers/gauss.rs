@@ -70,10 +70,12 @@ macro_rules! gauss {
                 memory: &Self::Memory,
                 from: &Reached<R, N>,
                 to: &Reached<R, N>,
-            ) -> [f64; N] {
+            ) -> [R; N] {
                 match &self.collocation {
-                    Some(collocation) => defect(collocation, $order, system, memory, from, to),
-                    None => [f64::NAN; N],
+                    Some(collocation) => {
+                        defect(collocation, $order, system, memory, from, to).map(R::from_f64)
+                    }
+                    None => [R::from_f64(f64::NAN); N],
                 }
             }
         }

@@ -1,8 +1,7 @@
 //! Guards: what is watched while a run goes on, besides that every state is finite.
 //!
-//! A look is taken after the first step, then every `k` steps, with `k` such that [`EVALUATIONS_BETWEEN_LOOKS`] right-hand
-//! sides lie between two of them, and [`COSTS_BETWEEN_LOOKS`] times what a look costs, and at the end; where a look finds a
-//! fault, the run goes back to the last look that did not, so that what it returns was seen to be in order.
+//! A look is taken after the first step, then every `k` steps, with a `k` that [`Schedule`] chooses, and at the end; where a look
+//! finds a fault, the run goes back to the last look that did not, so that what it returns was seen to be in order.
 //!
 //! Steps whose length is given do not become shorter next to an edge of the chart, and may pass it between two looks. So
 //! while such a run approaches an edge, the functions that must not vanish are looked at in between: after half of the
@@ -10,19 +9,12 @@
 
 use super::course::{Course, Reached};
 use super::defect::{Defects, worst};
-use super::edges::{EDGES, Edges, functions};
+use super::edges::{EDGES, distances, functions, paces};
+use super::schedule::Schedule;
 use crate::error::{Cause, IntegrationError, Setting};
 use crate::real::Real;
 use crate::rounded::Rounded;
 use crate::system::System;
-
-/// A look is taken after at least so many right-hand sides,
-const EVALUATIONS_BETWEEN_LOOKS: u32 = 160;
-/// and after so many times its own cost: at 2.5 percent, the rest up to three is for what a step does for the guard.
-const COSTS_BETWEEN_LOOKS: u32 = 40;
-/// What is done further at a look at a fixed step, in right-hand sides: an estimate of its error, which takes three and sums
-/// over the state, and edges on the way.
-const COST_OF_A_DEFECT: u32 = 10;
 
 /// What a run must not violate. A stepper watches these by default, of whatever the system tells in
 /// [`System::vitals`], [`System::edges`] and [`System::condition`], and methods with a fixed step by estimates of the errors of
@@ -34,8 +26,8 @@ const COST_OF_A_DEFECT: u32 = 10;
 /// has been shown the steps since then. So a run of one step is looked at twice, which can cost as much as the step: a loop
 /// of such runs may take [`Guard::FINITE`], and guards of its own.
 ///
-/// With lanes as the real, which have no order among them, the first lane alone is looked at, except that all must be
-/// finite; [`Rk4::integrate_in_lanes`](super::Rk4::integrate_in_lanes) looks at every lane as at a run alone.
+/// With lanes as the real every lane is looked at, with limits relative to its own energy and its own largest values, and a fault
+/// of one ends the run of all; [`Rk4::integrate_in_lanes`](super::Rk4::integrate_in_lanes) gives each lane an end of its own.
 ///
 /// ```
 /// use guen_runtime::steppers::Guard;
@@ -127,11 +119,11 @@ pub(super) struct Watch<R, const N: usize> {
     until_next: u32,
     /// Steps from the last look to the next one.
     between: u32,
-    /// Steps after which the sizes of entries are known: about [`EVALUATIONS_BETWEEN_LOOKS`] evaluations.
+    /// Steps after which the sizes of entries are known.
     young: u32,
     /// Whether the method has a fixed step.
     fixed: bool,
-    /// With a fixed step, steps until the edges are looked at, at least: they are cheaper than the rest.
+    /// With a fixed step, steps until the edges are looked at: they are cheaper than the rest.
     until_edges: u32,
     /// Where the last look found everything in order.
     good: Reached<R, N>,
@@ -142,13 +134,14 @@ pub(super) struct Watch<R, const N: usize> {
 /// What looks learn, the first one from the initial state.
 struct Known<R, const N: usize> {
     energy: Option<R>,
-    scale: f64,
-    edges: Edges,
-    /// The functions that must not vanish, as the look before had them.
+    scale: R,
+    /// How many functions there are that must not vanish, what they were at the start, and what the look before has found.
+    count: usize,
+    start: [R; EDGES],
     functions: [Rounded<R>; EDGES],
     /// The largest absolute value of each entry of the state.
-    largest: [f64; N],
-    defects: Defects<f64, N>,
+    largest: [R; N],
+    defects: Defects<R, N>,
 }
 
 impl<R: Real, const N: usize> Watch<R, N> {
@@ -161,8 +154,8 @@ impl<R: Real, const N: usize> Watch<R, N> {
             return Err(Cause::Setting(Setting::Guard));
         }
         let guard = guard.for_real::<R>();
-        let (young, usual) = steps_between_looks(C::EVALUATIONS, system.cost_of_look(), C::JUDGED);
-        let every = guard.every.unwrap_or(usual).max(1);
+        let price = (system.cost_of_look(), system.cost_of_edges());
+        let Schedule { young, edges, every } = Schedule::new(C::EVALUATIONS, price, C::JUDGED, guard.every);
         let first = if every == u32::MAX { every } else { 1 };
         Ok(Self {
             guard,
@@ -172,7 +165,7 @@ impl<R: Real, const N: usize> Watch<R, N> {
             between: first,
             young,
             fixed: C::JUDGED,
-            until_edges: if C::JUDGED && guard.every.is_none() { young } else { u32::MAX },
+            until_edges: edges,
             good: *start,
             known: None,
         })
@@ -225,9 +218,10 @@ impl<R: Real, const N: usize> Watch<R, N> {
         } else if let Some(known) = &mut self.known {
             known.look_at_edges(system, course.reached(), self.guard.edge)?;
         }
-        let watched = self.known.as_ref().is_some_and(|known| known.edges.are_there());
-        let edges = if watched { self.until_edges } else { u32::MAX };
-        self.until_look = rest.min(edges).min(self.approach(system, before, course.reached())?);
+        self.until_look = match self.approach(system, before, course.reached())? {
+            Some(soonest) => rest.min(Schedule::next(self.until_edges, soonest, self.between - rest)),
+            None => rest,
+        };
         self.until_next = rest - self.until_look;
         Ok(())
     }
@@ -273,25 +267,46 @@ impl<R: Real, const N: usize> Watch<R, N> {
         Reached { statistics: reached.statistics, ..self.good }
     }
 
-    /// In how many steps of a fixed length to look at the edges again, after they were looked at where the run stands.
+    /// In how many steps of a fixed length to look at the edges again at the latest, after they were looked at where the run
+    /// stands; nothing where there are none.
     fn approach<S>(
         &self,
         system: &S,
         before: Option<&Reached<R, N>>,
         reached: &Reached<R, N>,
-    ) -> Result<u32, Cause>
+    ) -> Result<Option<u32>, Cause>
     where
         S: System<R, N> + ?Sized,
     {
-        let (Some(known), Some(before), true) = (&self.known, before, self.fixed) else {
-            return Ok(u32::MAX);
-        };
-        known.approach(system, before, reached.time.to_f64(), self.guard.approach)
+        match (&self.known, before) {
+            (Some(known), Some(before)) if self.fixed && known.count > 0 => {
+                known.approach(system, before, reached.time.to_f64(), self.guard.approach).map(Some)
+            }
+            _ => Ok(None),
+        }
     }
 
     /// Looks at the state where the course stands, for so many steps; `before` is where the last of them began.
     #[inline(never)]
     fn look<C, S>(
+        &mut self,
+        system: &S,
+        steps: u32,
+        before: Option<&Reached<R, N>>,
+        course: &C,
+    ) -> Result<(), Cause>
+    where
+        C: Course<R, S, N>,
+        S: System<R, N> + ?Sized,
+    {
+        R::vectorize(
+            #[inline(always)]
+            || self.look_here(system, steps, before, course),
+        )
+    }
+
+    #[inline(always)]
+    fn look_here<C, S>(
         &mut self,
         system: &S,
         steps: u32,
@@ -313,17 +328,19 @@ impl<R: Real, const N: usize> Watch<R, N> {
         if let (Some(energy), Some(before)) = (vitals.energy, known.energy) {
             // With the scale of this state, for the start may have none: at rest, where the potential is zero. A state
             // that blew up is no larger than its own energy, so that its change is about one.
-            let scale = known.scale.max(vitals.scale.to_f64());
-            let change = relative((energy - before).to_f64().abs(), scale);
+            known.scale = vitals.scale.where_above(known.scale, vitals.scale, known.scale);
+            // What does not change at all is no change even of nothing.
+            let change = (energy - before).abs();
+            let change = change.where_above(R::zero(), change / known.scale, R::zero()).most();
             if exceeds(change, guard.energy) {
                 return Err(Cause::Energy { found, change, limit: guard.energy });
             }
-            known.scale = scale;
         }
-        let condition = system.condition(reached.time, &reached.state).to_f64();
-        in_order(guard, found, vitals.residual.to_f64(), condition)?;
+        let condition = system.condition(reached.time, &reached.state);
+        in_order(guard, found, vitals.residual.most(), condition.most())?;
         for (largest, entry) in known.largest.iter_mut().zip(&reached.state) {
-            *largest = largest.max(entry.to_f64().abs());
+            let size = entry.abs();
+            *largest = size.where_above(*largest, size, *largest);
         }
         known.look_at_edges(system, reached, guard.edge)?;
         *young = young.saturating_sub(steps);
@@ -335,12 +352,12 @@ impl<R: Real, const N: usize> Watch<R, N> {
             let defects = course.defect(system, before);
             // In the first steps an entry that was zero has no size yet.
             let negligible = if *young > 0 { limit } else { libm::sqrt(R::epsilon().to_f64()) };
-            if exceeds(known.defects.add(&defects, steps, &known.largest, negligible), limit) {
-                let worst = worst(&known.defects.judged(|entry| entry));
+            if exceeds(known.defects.add(&defects, steps, &known.largest, negligible).most(), limit) {
+                let worst = worst(&known.defects.judged(R::most));
                 return Err(Cause::Step { found, entry: worst.entry, defect: worst.defect, limit });
             }
         }
-        let drift = vitals.carried.to_f64();
+        let drift = vitals.carried.most();
         if exceeds(drift, guard.carried) {
             return Err(Cause::Carried { found, drift, limit: guard.carried });
         }
@@ -357,32 +374,27 @@ impl<R: Real, const N: usize> Known<R, N> {
     {
         let vitals = system.vitals(start.time, &start.state);
         let found = start.time.to_f64();
-        let condition = system.condition(start.time, &start.state).to_f64();
-        in_order(guard, found, vitals.residual.to_f64(), condition)?;
-        let largest = core::array::from_fn(|i| start.state[i].to_f64().abs());
-        let mut functions = [Rounded::exact(R::zero()); EDGES];
-        let count = Self::write(system, start, &largest, &mut functions);
-        let edges = Edges::new(count, |i| functions.get(i).map_or(0.0, |value| value.value.to_f64()));
-        let scale = vitals.scale.to_f64();
-        let known = Self { energy: vitals.energy, scale, edges, functions, largest, defects: Defects::new() };
+        let condition = system.condition(start.time, &start.state);
+        in_order(guard, found, vitals.residual.most(), condition.most())?;
+        let largest = start.state.map(Real::abs);
+        let mut values = [Rounded::exact(R::zero()); EDGES];
+        let count = functions(system, start.time, &start.state, &largest, &mut values);
+        let known = Self {
+            energy: vitals.energy,
+            scale: vitals.scale,
+            count,
+            start: values.map(|function| function.value),
+            functions: values,
+            largest,
+            defects: Defects::new(),
+        };
         known.distances(found, guard.edge)?;
         Ok(known)
     }
 
-    fn write<S>(system: &S, at: &Reached<R, N>, largest: &[f64; N], into: &mut [Rounded<R>; EDGES]) -> usize
-    where
-        S: System<R, N> + ?Sized,
-    {
-        let mut sizes = at.state;
-        for (size, largest) in sizes.iter_mut().zip(largest) {
-            *size = R::from_f64(*largest);
-        }
-        functions(system, at.time, &at.state, &sizes, into)
-    }
-
     fn distances(&self, found: f64, limit: f64) -> Result<(), Cause> {
-        let values = self.functions.iter().map(|value| (value.value.to_f64(), value.left().to_f64()));
-        self.edges.distances(values, found, limit)
+        let functions = self.functions.iter().copied().zip(self.start);
+        distances(functions.take(self.count), found, limit)
     }
 
     /// Whether a state is on the same side of the edges as the start, and further than the limit from them.
@@ -390,10 +402,10 @@ impl<R: Real, const N: usize> Known<R, N> {
     where
         S: System<R, N> + ?Sized,
     {
-        if !self.edges.are_there() {
+        if self.count == 0 {
             return Ok(());
         }
-        Self::write(system, reached, &self.largest, &mut self.functions);
+        functions(system, reached.time, &reached.state, &self.largest, &mut self.functions);
         self.distances(reached.time.to_f64(), limit)
     }
 
@@ -403,22 +415,11 @@ impl<R: Real, const N: usize> Known<R, N> {
     where
         S: System<R, N> + ?Sized,
     {
-        if !self.edges.are_there() {
-            return Ok(u32::MAX);
-        }
         let mut from = [Rounded::exact(R::zero()); EDGES];
-        Self::write(system, before, &self.largest, &mut from);
-        let values = from.iter().zip(&self.functions);
-        self.edges.paces(values.map(|(from, to)| (from.value.to_f64(), to.value.to_f64())), found, limit)
+        functions(system, before.time, &before.state, &self.largest, &mut from);
+        let values = from.iter().zip(&self.functions).map(|(from, to)| (from.value, to.value));
+        paces(values.take(self.count), found, limit)
     }
-}
-
-/// Steps of so many evaluations after which sizes of entries are known, and between two looks.
-pub(super) fn steps_between_looks(evaluations: u32, cost_of_look: u32, judged: bool) -> (u32, u32) {
-    let young = (EVALUATIONS_BETWEEN_LOOKS / evaluations.max(1)).max(1);
-    let cost = cost_of_look.saturating_add(if judged { COST_OF_A_DEFECT } else { 0 });
-    let paid = cost.saturating_mul(COSTS_BETWEEN_LOOKS) / evaluations.max(1);
-    (young, young.max(paid))
 }
 
 /// Tests of one state that need nothing of the states before.
@@ -430,11 +431,6 @@ pub(super) fn in_order(guard: &Guard, found: f64, residual: f64, condition: f64)
         return Err(Cause::Condition { found, condition, limit: guard.condition });
     }
     Ok(())
-}
-
-/// A change in units of a scale; what does not change at all is no change even of nothing.
-pub(super) fn relative(change: f64, scale: f64) -> f64 {
-    if change == 0.0 { 0.0 } else { change / scale }
 }
 
 /// Whether a value is above its limit, or none at all.

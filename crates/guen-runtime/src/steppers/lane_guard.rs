@@ -6,8 +6,9 @@
 
 use super::course::Reached;
 use super::defect::{Defects, Worst, worst};
-use super::edges::{EDGES, Edges, functions};
-use super::guard::{Guard, exceeds, in_order, steps_between_looks};
+use super::edges::{EDGES, distances, functions, paces};
+use super::guard::{Guard, exceeds, in_order};
+use super::schedule::Schedule;
 use crate::error::Cause;
 use crate::lanes::{Lanes, Mask};
 use crate::real::Real;
@@ -77,13 +78,13 @@ pub(super) struct LaneWatch<L, const N: usize> {
     every: u32,
     /// Steps after which the sizes of entries are known.
     young: u32,
-    /// Steps until the edges are looked at, at least.
+    /// Steps until the edges are looked at.
     until_edges: u32,
     /// Steps made since the guard did something, and those after which it does something again, for one of the lanes.
     made: u32,
     due: u32,
-    /// For each lane, steps from when the guard did something last.
-    until: [u32; MOST],
+    /// For each lane, steps from when the guard did something last; where they are the same for all, none but `due`.
+    until: Option<[u32; MOST]>,
     /// The same until the next look, which all lanes have at once, and the steps between the last one and that.
     rest: u32,
     between: u32,
@@ -101,7 +102,6 @@ struct Known<L, const N: usize> {
     scale: L,
     /// How many functions there are that must not vanish.
     count: usize,
-    edges: [Edges; MOST],
     /// What they were at the start, are where they were looked at last, and were a step before that.
     start: [L; EDGES],
     functions: [Rounded<L>; EDGES],
@@ -112,18 +112,17 @@ struct Known<L, const N: usize> {
 }
 
 impl<L: Lanes, const N: usize> LaneWatch<L, N> {
-    pub fn new(guard: Guard, evaluations: u32, cost_of_look: u32, start: &Moment<L, N>) -> Self {
-        let (young, usual) = steps_between_looks(evaluations, cost_of_look, true);
-        let every = guard.every.unwrap_or(usual).max(1);
+    pub fn new(guard: Guard, evaluations: u32, price: (u32, f64), start: &Moment<L, N>) -> Self {
+        let Schedule { young, edges, every } = Schedule::new(evaluations, price, true, guard.every);
         let first = if every == u32::MAX { every } else { 1 };
         Self {
             guard: guard.for_real::<L>(),
             every,
             young,
-            until_edges: if guard.every.is_none() { young } else { u32::MAX },
+            until_edges: edges,
             made: 0,
             due: first,
-            until: [first; MOST],
+            until: None,
             rest: first,
             between: first,
             good: *start,
@@ -156,43 +155,48 @@ impl<L: Lanes, const N: usize> LaneWatch<L, N> {
         going: Mask,
     ) {
         self.faults.forget();
-        for until in &mut self.until {
-            *until -= (*until).min(self.made);
-        }
         self.rest -= self.rest.min(self.made);
+        if let Some(until) = &mut self.until {
+            for until in until {
+                *until -= (*until).min(self.made);
+            }
+        }
         self.made = 0;
         let is_whole = self.rest == 0;
         if is_whole {
             let defects = (self.guard.step < f64::INFINITY).then(defects);
             self.whole(system, self.between, defects, now, going);
             (self.between, self.rest) = (self.every, self.every);
+            self.until = None;
         }
-        let Self { guard, known, faults, until, rest, until_edges, good, .. } = self;
-        match known {
-            Some(known) if known.count > 0 => {
-                if !is_whole {
-                    known.look_at_edges(system, now);
-                }
-                let suspects = if is_whole { Mask::all(0) } else { known.suspects(guard.edge) };
-                let soonest = known.paces(system, before, guard.approach);
-                for lane in (going - faults.lanes).lanes() {
-                    if until[lane] > 0 {
-                        continue;
-                    }
-                    let distances = if suspects.contains(lane) {
-                        known.distances(lane, now.time, guard.edge)
-                    } else {
-                        Ok(())
-                    };
-                    match distances.and_then(|()| known.pace(lane, soonest, now.time, guard.approach)) {
-                        Ok(soonest) => until[lane] = (*rest).min(*until_edges).min(soonest),
-                        Err(cause) => faults.add(lane, cause, good),
-                    }
-                }
+        let Self { guard, known, faults, until, rest, until_edges, good, due, between, .. } = self;
+        *due = *rest;
+        let Some(known) = known.as_mut().filter(|known| known.count > 0) else { return };
+        // What a whole look has judged is not judged again.
+        let suspects = if is_whole { Mask::all(0) } else { known.look_at_edges(system, now, guard.edge) };
+        let since = *between - *rest;
+        let next = |soonest: u32| (*rest).min(Schedule::next(*until_edges, soonest, since));
+        let (soonest, patient) = known.paces(system, before, guard.approach, *until_edges);
+        let lanes = going - faults.lanes;
+        let mut apart = until.unwrap_or([0; MOST]);
+        let together = lanes.lanes().all(|lane| apart[lane] == 0);
+        if together && (lanes - patient).is_empty() && (lanes & suspects).is_empty() {
+            (*due, *until) = (next(*until_edges), None);
+            return;
+        }
+        for lane in lanes.lanes() {
+            if apart[lane] > 0 {
+                continue;
             }
-            _ => *until = [*rest; MOST],
+            let distances =
+                if suspects.contains(lane) { known.distances(lane, now.time, guard.edge) } else { Ok(()) };
+            match distances.and_then(|()| known.pace(lane, soonest, now.time, guard.approach)) {
+                Ok(soonest) => apart[lane] = next(soonest),
+                Err(cause) => faults.add(lane, cause, good),
+            }
         }
-        self.due = self.until.into_iter().filter(|until| *until > 0).fold(self.rest, u32::min);
+        *due = apart.into_iter().filter(|until| *until > 0).fold(*rest, u32::min);
+        *until = Some(apart);
     }
 
     /// Looks at the end of a run, unless it was just looked at. The last step began at `before`, with these estimated errors,
@@ -217,8 +221,8 @@ impl<L: Lanes, const N: usize> LaneWatch<L, N> {
         if let (Some(known), Some(before)) = (known, before)
             && known.count > 0
         {
-            let soonest = known.paces(system, before, guard.approach);
-            for lane in (going - faults.lanes).lanes() {
+            let (soonest, patient) = known.paces(system, before, guard.approach, 1);
+            for lane in (going - faults.lanes - patient).lanes() {
                 if let Err(cause) = known.pace(lane, soonest, now.time, guard.approach) {
                     faults.add(lane, cause, good);
                 }
@@ -266,11 +270,11 @@ impl<L: Lanes, const N: usize> LaneWatch<L, N> {
         // In the first steps an entry that was zero has no size yet.
         let negligible = if *young > 0 { guard.step } else { libm::sqrt(f64::EPSILON) };
         let time = L::from_f64(now.time);
-        let vitals = system.vitals(time, &now.state);
-        let condition = system.condition(time, &now.state);
-        let (change, most, mut suspects) = L::vectorize(
+        let (vitals, condition, change, most, mut suspects) = L::vectorize(
             #[inline(always)]
             || {
+                let vitals = system.vitals(time, &now.state);
+                let condition = system.condition(time, &now.state);
                 known.scale = vitals.scale.where_above(known.scale, vitals.scale, known.scale);
                 let change = match (vitals.energy, known.energy) {
                     (Some(energy), Some(before)) => (energy - before).abs(),
@@ -290,12 +294,11 @@ impl<L: Lanes, const N: usize> LaneWatch<L, N> {
                     + above(condition, guard.condition)
                     + above(most, guard.step)
                     + above(vitals.carried, guard.carried);
-                (change, most, Mask::all(L::COUNT) - suspects.finite())
+                (vitals, condition, change, most, Mask::all(L::COUNT) - suspects.finite())
             },
         );
         if known.count > 0 {
-            known.look_at_edges(system, now);
-            suspects = suspects.or(known.suspects(guard.edge));
+            suspects = suspects.or(known.look_at_edges(system, now, guard.edge));
         }
         let found = now.time;
         for lane in ((lanes - faults.lanes) & suspects).lanes() {
@@ -343,15 +346,10 @@ impl<L: Lanes, const N: usize> Known<L, N> {
         let largest = start.state.map(Real::abs);
         let mut functions_there = [Rounded::exact(L::zero()); EDGES];
         let count = functions(system, time, &start.state, &largest, &mut functions_there);
-        let value = |i: usize, lane: usize| functions_there.get(i).map_or(0.0, |f| f.value.lane(lane));
-        // Of lanes that there are not, those of the first.
-        let edges =
-            core::array::from_fn(|k| Edges::new(count, |i| value(i, if k < L::COUNT { k } else { 0 })));
         let known = Self {
             energy: vitals.energy,
             scale: vitals.scale,
             count,
-            edges,
             start: functions_there.map(|function| function.value),
             functions: functions_there,
             before: functions_there,
@@ -367,16 +365,16 @@ impl<L: Lanes, const N: usize> Known<L, N> {
         known
     }
 
-    /// Evaluates the functions that must not vanish.
-    fn look_at_edges<S: System<L, N> + ?Sized>(&mut self, system: &S, now: &Moment<L, N>) {
-        functions(system, L::from_f64(now.time), &now.state, &self.largest, &mut self.functions);
-    }
-
-    /// The lanes that may have come to an edge.
-    fn suspects(&self, limit: f64) -> Mask {
+    /// Evaluates the functions that must not vanish, and returns the lanes that may have come to an edge.
+    fn look_at_edges<S>(&mut self, system: &S, now: &Moment<L, N>, limit: f64) -> Mask
+    where
+        S: System<L, N> + ?Sized,
+    {
         L::vectorize(
             #[inline(always)]
             || {
+                let time = L::from_f64(now.time);
+                functions(system, time, &now.state, &self.largest, &mut self.functions);
                 let (zero, nan) = (L::zero(), L::from_f64(f64::NAN));
                 let mut suspects = zero;
                 for (now, start) in self.functions.iter().zip(&self.start).take(self.count) {
@@ -392,20 +390,20 @@ impl<L: Lanes, const N: usize> Known<L, N> {
 
     fn distances(&self, lane: usize, found: f64, limit: f64) -> Result<(), Cause> {
         let alone = |f: &Rounded<L>| Rounded { value: f.value.lane(lane), error: f.error.lane(lane) };
-        let values = self.functions.iter().map(|f| (f.value.lane(lane), alone(f).left()));
-        self.edges[lane].distances(values, found, limit)
+        let functions = self.functions.iter().zip(&self.start).map(|(f, start)| (alone(f), start.lane(lane)));
+        distances(functions.take(self.count), found, limit)
     }
 
     /// In how many steps to look at the edges again, judged by the step that began at `before`; no number where that has to be
-    /// found out for a lane alone.
-    fn paces<S>(&mut self, system: &S, before: &Moment<L, N>, limit: f64) -> L
+    /// found out for a lane alone. And the lanes in which it is in as many as the longest, or later.
+    fn paces<S>(&mut self, system: &S, before: &Moment<L, N>, limit: f64, longest: u32) -> (L, Mask)
     where
         S: System<L, N> + ?Sized,
     {
-        functions(system, L::from_f64(before.time), &before.state, &self.largest, &mut self.before);
         L::vectorize(
             #[inline(always)]
             || {
+                functions(system, L::from_f64(before.time), &before.state, &self.largest, &mut self.before);
                 let (zero, half) = (L::zero(), L::from_f64(0.5));
                 let mut soonest = L::from_f64(f64::from(u32::MAX));
                 let mut rest = zero;
@@ -417,7 +415,10 @@ impl<L: Lanes, const N: usize> Known<L, N> {
                     rest += steps * zero;
                     soonest = soonest.where_above(steps, steps, soonest);
                 }
-                soonest + rest
+                let soonest = soonest + rest;
+                // NaN where the longest is longer, or cannot be compared.
+                let longest = L::from_f64(f64::from(longest));
+                (soonest, longest.where_above(soonest, L::from_f64(f64::NAN), zero).finite())
             },
         )
     }
@@ -429,6 +430,6 @@ impl<L: Lanes, const N: usize> Known<L, N> {
         }
         let values = self.before.iter().zip(&self.functions);
         let alone = values.map(|(from, to)| (from.value.lane(lane), to.value.lane(lane)));
-        self.edges[lane].paces(alone, found, limit)
+        paces(alone.take(self.count), found, limit)
     }
 }

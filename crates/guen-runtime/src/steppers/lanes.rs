@@ -300,6 +300,7 @@ where
     let start = Moment { time: t0, state: *x0 };
     let invalid = (!guard.is_valid()).then_some(Cause::Setting(Setting::Guard));
     let (formula, step, memory) = method.ready();
+    let price = (system.cost_of_look(), system.cost_of_edges());
     let mut run: Run<'_, M, L, S, N> = Run {
         system,
         formula,
@@ -310,7 +311,7 @@ where
         statistics: Statistics::default(),
         going: Mask::all(L::COUNT),
         ends: InLanes { ends: [const { None }; MOST] },
-        watch: LaneWatch::new(guard, M::EVALUATIONS, system.cost_of_look(), &start),
+        watch: LaneWatch::new(guard, M::EVALUATIONS, price, &start),
     };
     for (index, &time) in times.iter().enumerate() {
         let none = (!time.is_finite()).then_some(Cause::Setting(Setting::Time));

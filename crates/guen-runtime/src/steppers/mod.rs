@@ -42,6 +42,7 @@ mod radau5;
 mod reversal;
 pub mod rk4;
 mod rk8;
+mod schedule;
 mod tableau;
 mod taylor;
 mod tsit5;

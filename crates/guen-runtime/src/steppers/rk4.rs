@@ -168,14 +168,8 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Formula<R, S, N> for Rk4
         slopes.hermite(system, from, to, h, statistics)
     }
 
-    fn defect(
-        &self,
-        system: &S,
-        slopes: &Self::Memory,
-        from: &Reached<R, N>,
-        to: &Reached<R, N>,
-    ) -> [f64; N] {
-        quadrature(system, &slopes.first, from, to).map(R::to_f64)
+    fn defect(&self, system: &S, slopes: &Self::Memory, from: &Reached<R, N>, to: &Reached<R, N>) -> [R; N] {
+        quadrature(system, &slopes.first, from, to)
     }
 }
 

@@ -91,14 +91,8 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Formula<R, S, N> for Rk8
         self.tableau.dense(system, &memory.stages, from, to, &end, h)
     }
 
-    fn defect(
-        &self,
-        _system: &S,
-        memory: &Self::Memory,
-        from: &Reached<R, N>,
-        to: &Reached<R, N>,
-    ) -> [f64; N] {
-        estimate(&self.tableau, &memory.stages, to.time - from.time).map(R::to_f64)
+    fn defect(&self, _system: &S, memory: &Self::Memory, from: &Reached<R, N>, to: &Reached<R, N>) -> [R; N] {
+        estimate(&self.tableau, &memory.stages, to.time - from.time)
     }
 }
 
