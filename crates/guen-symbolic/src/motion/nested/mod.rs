@@ -5,7 +5,10 @@
 //! operators grows with all rows before it. Here velocities stay what they are, one a few terms from another, and the
 //! constraints are solved from one velocity to the next: the work of a train grows as a person's does, with its length.
 //!
-//! What comes out is one more list of rates for the optimiser. The operators that are shown, and all that is derived
+//! Points of a plane that constraints hold by an angle have their velocities in axes that turn with it, too (`axles`): in the
+//! world's a link turns by a difference that has no digits left where it is nearly in line with the one before.
+//!
+//! What comes out are more lists of rates for the optimiser. The operators that are shown, and all that is derived
 //! from them, are not touched.
 
 mod axles;
