@@ -107,7 +107,7 @@ impl ByHand for Hand {
 /// A state of length one: anywhere, next to a turn by nothing or by half a turn, or there, where components vanish.
 fn of_length_one(numbers: &mut Numbers, round: usize) -> [f64; 10] {
     let mut state: [f64; 10] = numbers.state();
-    if round % 3 > 0 {
+    if !round.is_multiple_of(3) {
         let distance = if round % 3 == 1 { 1e-5 } else { 0.0 };
         state[..4].iter_mut().for_each(|q| *q *= distance);
         state[round / 3 % 4] = 1.0;
