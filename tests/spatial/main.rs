@@ -26,5 +26,6 @@ mod physical;
 mod restoring;
 mod rotations;
 mod snakes;
+mod stones;
 mod tops;
 mod vehicles;

@@ -43,6 +43,18 @@ guen::mechanical_system! {
     }
 }
 
+guen::mechanical_system! {
+    /// Two components of the angular velocity are the same expression, in the body and in the world.
+    pub system Spindle {
+        constants { A > 0, B > 0, C > 0, D, E, F, kappa }
+        coordinates { turn }
+        let R = rot(unit(vec(1, 2, 2)), turn);
+        bodies { body { inertia: sym(A, B, C, D, E, F), orientation: R } }
+        parameters { omega = dot(turn); }
+        potential_energy = kappa/2*turn^2;
+    }
+}
+
 struct Hand {
     quaternions: bool,
     inertia: Matrix<f64>,
@@ -167,4 +179,17 @@ fn suslov_s_body_comes_to_turn_steadily() {
         Err(error) => panic!("{error}"),
     };
     assert!((E * state.p + D * state.q).abs() < 1e-8 && integral(&state) > 1.0);
+}
+
+/// `e . J e` for a turn about `e`, with every product of inertia.
+#[test]
+fn a_spindle_feels_its_inertia_about_an_axis_between_others() {
+    let [A, B, C, D, E, F, kappa] = [2.0, 3.0, 2.5, 0.3, -0.4, 0.2, 1.7];
+    let spindle = Spindle { A, B, C, D, E, F, kappa }.prepare().unwrap();
+    let axis = [1.0, 2.0, 2.0].map(|e: f64| e / 3.0);
+    let moment = inner(&axis, &apply(&[[A, D, F], [D, B, E], [F, E, C]], &axis));
+    let state = spindle::State { turn: 0.8, omega: -1.3 };
+    let rate = spindle.rhs(0.0, &state);
+    close("rates", &[rate.turn, rate.omega], &[-1.3, -kappa * 0.8 / moment]);
+    close("energy", &[spindle.kinetic_energy(0.0, &state)], &[moment / 2.0 * 1.3 * 1.3]);
 }

@@ -293,3 +293,54 @@ macro_rules! train {
         }
     } };
 }
+
+/// A car with five trailers, each hitched behind the axle of the one before it, by the angles at the hitches.
+#[macro_export]
+macro_rules! road_train {
+    ($($consumer:ident)::+ $(; $($more:tt)*)?) => { $($consumer)::+! {
+        /// A car with five trailers, each hitched behind the axle of the one before it, their loads ahead of their axles.
+        pub system RoadTrain {
+            constants { m > 0, J > 0, I > 0, l > 0, M > 0, K > 0, d > 0, k > 0 }
+            coordinates { x, y, heading, steering, bend1, bend2, bend3, bend4, bend5 }
+            let theta1 = heading + bend1;
+            let theta2 = theta1 + bend2;
+            let theta3 = theta2 + bend3;
+            let theta4 = theta3 + bend4;
+            let theta5 = theta4 + bend5;
+            let e0 = vec(cos(heading), sin(heading));
+            let e1 = vec(cos(theta1), sin(theta1));
+            let e2 = vec(cos(theta2), sin(theta2));
+            let e3 = vec(cos(theta3), sin(theta3));
+            let e4 = vec(cos(theta4), sin(theta4));
+            let e5 = vec(cos(theta5), sin(theta5));
+            let rear = vec(x, y);
+            let front = rear + l*e0;
+            let axle1 = rear - k*e0 - d*e1;
+            let axle2 = axle1 - k*e1 - d*e2;
+            let axle3 = axle2 - k*e2 - d*e3;
+            let axle4 = axle3 - k*e3 - d*e4;
+            let axle5 = axle4 - k*e4 - d*e5;
+            let load1 = axle1 + d/4*e1;
+            let load2 = axle2 + d/4*e2;
+            let load3 = axle3 + d/4*e3;
+            let load4 = axle4 + d/4*e4;
+            let load5 = axle5 + d/4*e5;
+            parameters { speed = inner(e0, dot(rear)); turning = dot(steering); }
+            constraints {
+                rear_axle: dot(x)*sin(heading) - dot(y)*cos(heading) = 0;
+                front_axle: inner(vec(-sin(heading + steering), cos(heading + steering)), dot(front)) = 0;
+                first: inner(vec(-sin(theta1), cos(theta1)), dot(axle1)) = 0;
+                second: inner(vec(-sin(theta2), cos(theta2)), dot(axle2)) = 0;
+                third: inner(vec(-sin(theta3), cos(theta3)), dot(axle3)) = 0;
+                fourth: inner(vec(-sin(theta4), cos(theta4)), dot(axle4)) = 0;
+                fifth: inner(vec(-sin(theta5), cos(theta5)), dot(axle5)) = 0;
+            }
+            kinetic_energy = m/2*(dot(x)^2 + dot(y)^2) + J/2*dot(heading)^2 + I/2*dot(heading + steering)^2
+                           + M/2*(inner(dot(load1), dot(load1)) + inner(dot(load2), dot(load2))
+                                + inner(dot(load3), dot(load3)) + inner(dot(load4), dot(load4))
+                                + inner(dot(load5), dot(load5)))
+                           + K/2*(dot(theta1)^2 + dot(theta2)^2 + dot(theta3)^2 + dot(theta4)^2 + dot(theta5)^2);
+            $($($more)*)?
+        }
+    } };
+}

@@ -20,10 +20,8 @@ use guen_study::Digits71;
 
 /// The factor of the bound.
 pub const FACTOR: f64 = 8.0;
-/// Systems with more parameters are bounded as a whole only,
+/// Systems with more parameters are bounded as a whole only.
 const BOUNDED_ENTRIES: usize = 3;
-/// and so are these: `docs/extremes.md` says why, and what their entries come to.
-const BOUNDED_AS_A_WHOLE: [&str; 2] = ["hoop in quaternions", "car with 3 trailers"];
 
 const REALS: [&str; 2] = ["f64", "f32"];
 const PLACES: [&str; 2] = ["random", "to the edge"];
@@ -92,7 +90,7 @@ impl fmt::Display for Worst {
 impl Found {
     /// Whether every entry by itself has to be within the bound.
     pub fn by_entries(&self) -> bool {
-        self.parameters <= BOUNDED_ENTRIES && !BOUNDED_AS_A_WHOLE.contains(&self.system)
+        self.parameters <= BOUNDED_ENTRIES
     }
 
     /// Whether everything is within the bound that has to be.

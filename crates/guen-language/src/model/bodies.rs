@@ -61,12 +61,13 @@ impl Evaluator<'_> {
         if let Some(rotation) = orientation {
             if let Some([xx, yy, zz, xy, yz, zx]) = inertia {
                 let [p, q, r] = rotation.body_rate;
-                let two = Rational::integer(2);
-                for (moment, a, b) in [(xx, p, p), (yy, q, q), (zz, r, r), (xy, p, q), (yz, q, r), (zx, r, p)]
-                {
+                // Two components may be one expression: which terms are products is said by place.
+                let (once, twice) = (Rational::integer(1), Rational::integer(2));
+                let squares = [(xx, p, p), (yy, q, q), (zz, r, r)].map(|term| (term, &once));
+                let products = [(xy, p, q), (yz, q, r), (zx, r, p)].map(|term| (term, &twice));
+                for ((moment, a, b), times) in squares.into_iter().chain(products) {
                     let product = self.bench.graph.product(&[(moment, 1), (a, 1), (b, 1)]);
-                    let product = if a == b { product } else { self.bench.graph.scale(product, &two) };
-                    energy.push(product);
+                    energy.push(self.bench.graph.scale(product, times));
                 }
             }
             value.orientation = Some(rotation);

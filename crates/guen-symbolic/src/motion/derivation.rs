@@ -65,7 +65,7 @@ pub struct Derivation {
     pub scleronomic: bool,
     /// All `a_v0 = 0`.
     pub catastatic: bool,
-    /// `h' = 0` identically.
+    /// `h' = 0` identically, wherever constraints on positions hold.
     pub conservative: bool,
     /// The equations of motion, `l` rows, generalised forces included.
     pub equations: Equations,
@@ -155,7 +155,7 @@ impl Derivation {
                 system.accelerations.iter().copied().zip(solution.accelerations.iter().copied()),
             );
             let power = solved.of(&mut bench.graph, power);
-            bench.vanishes(power)
+            bench.verdict_on_manifold(power) == Verdict::Zero
         });
         let power = power.unwrap_or(bench.graph.zero());
         let outputs = outputs(bench, &system, &mut frame, &solution.accelerations, &reactions);

@@ -14,6 +14,7 @@ mod poincare;
 mod projection;
 mod proof;
 mod rephrased;
+mod restriction;
 mod routes;
 mod solve;
 mod symmetry;

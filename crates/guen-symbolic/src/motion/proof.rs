@@ -3,7 +3,6 @@
 use super::{DerivationError, Equations};
 use crate::algebra::{ExprId, Rational};
 use crate::workbench::Workbench;
-use crate::zero::Verdict;
 
 /// Whether the two routes agree at points modulo p: if so they are equal but for roots of other sign; if not, the zero
 /// test looks closer at each equation.
@@ -15,11 +14,11 @@ pub(super) fn routes_agree(bench: &mut Workbench, a: &Equations, b: &Equations, 
         })
         .map(|(a, b)| bench.graph.sub(a, b))
         .collect();
-    vanish(bench, &differences)
+    vanish_where(bench, &differences, false)
 }
 
-/// Whether the rates in other words agree at points modulo p. Where only the sign of a root may differ they are not
-/// taken; a proved difference is a mistake of ours.
+/// Whether the rates in other words agree wherever constraints on positions hold, at points modulo p. Where only the sign of
+/// a root may differ they are not taken; a proved difference is a mistake of ours.
 pub(super) fn are_equal(
     bench: &mut Workbench,
     own: &[ExprId],
@@ -27,11 +26,11 @@ pub(super) fn are_equal(
     velocities: usize,
 ) -> Result<bool, DerivationError> {
     let differences: Vec<ExprId> = own.iter().zip(other).map(|(a, b)| bench.graph.sub(*a, *b)).collect();
-    if vanish(bench, &differences) {
+    if vanish_where(bench, &differences, true) {
         return Ok(true);
     }
     for (place, e) in differences.into_iter().enumerate() {
-        if bench.zero.verdict(&mut bench.graph, e) == Verdict::Nonzero {
+        if bench.zero.is_shown_nonzero(&mut bench.graph, e, true) {
             // Velocities come first.
             return Err(DerivationError::RoutesDisagree { equation: place.saturating_sub(velocities) });
         }
@@ -39,7 +38,8 @@ pub(super) fn are_equal(
     Ok(false)
 }
 
-/// Whether accelerations solve the equations of both routes, at points modulo p; a proved difference is a mistake of ours.
+/// Whether accelerations solve the equations of both routes, wherever constraints on positions hold, at points modulo p; a
+/// proved difference is a mistake of ours.
 pub(super) fn solve_equations(
     bench: &mut Workbench,
     equations: &Equations,
@@ -54,11 +54,11 @@ pub(super) fn solve_equations(
             bench.graph.sub(inertia, *force)
         })
         .collect();
-    if vanish(bench, &residuals) {
+    if vanish_where(bench, &residuals, true) {
         return Ok(true);
     }
     for (equation, e) in residuals.into_iter().enumerate() {
-        if bench.zero.verdict(&mut bench.graph, e) == Verdict::Nonzero {
+        if bench.zero.is_shown_nonzero(&mut bench.graph, e, true) {
             return Err(DerivationError::RoutesDisagree { equation });
         }
     }
@@ -78,7 +78,7 @@ pub(super) fn are_same(bench: &mut Workbench, a: &Equations, b: &Equations) -> R
         return Ok(true);
     }
     for (equation, row) in rows.into_iter().enumerate() {
-        if row.into_iter().any(|e| bench.verdict_on_manifold(e) == Verdict::Nonzero) {
+        if row.into_iter().any(|e| bench.zero.is_shown_nonzero(&mut bench.graph, e, true)) {
             return Err(DerivationError::RoutesDisagree { equation });
         }
     }
@@ -109,18 +109,14 @@ pub(super) fn are_same_along(
         return Ok(true);
     }
     for (equation, e) in differences.into_iter().enumerate() {
-        if bench.verdict_on_manifold(e) == Verdict::Nonzero {
+        if bench.zero.is_shown_nonzero(&mut bench.graph, e, true) {
             return Err(DerivationError::RoutesDisagree { equation: equation.min(mass.len() - 1) });
         }
     }
     Ok(false)
 }
 
-/// Whether all of them vanish at a few points modulo p.
-fn vanish(bench: &mut Workbench, es: &[ExprId]) -> bool {
-    vanish_where(bench, es, false)
-}
-
+/// Whether all of them vanish at a few points modulo p, which the constraints on positions may bind.
 fn vanish_where(bench: &mut Workbench, es: &[ExprId], on_manifold: bool) -> bool {
     (0..3).all(|sample| {
         bench

@@ -6,14 +6,13 @@ use super::projection::Projected;
 use super::velocity_forms::VelocityPartials;
 use super::{
     DerivationError, Equations, Frame, KineticTerm, Mechanics, Solution, linkage, nested, poincare,
-    projection, proof, rephrased, tensions, turned,
+    projection, proof, rephrased, restriction, tensions, turned,
 };
 use crate::algebra::ExprId;
 use crate::geometry::dependence;
 use crate::normal::{Limits, normal_coefficients};
 use crate::program::weighted_cost;
 use crate::workbench::Workbench;
-use crate::zero::Verdict;
 
 /// With so many parameters, and so many links that hang on links, equations are not multiplied out.
 const MANY: usize = 6;
@@ -95,9 +94,26 @@ pub(super) fn equations(
         mass: projected.equations.mass[l..].to_vec(),
         forces: projected.equations.forces[l..].to_vec(),
     };
-    let mut candidates: Vec<Equations> = candidates(bench, system, &by_definition, &projected.equations)
+    let mut candidates = candidates(bench, system, &by_definition, &projected.equations);
+    // On constraints on positions the axes of the bodies leave less than those of the world.
+    let linked_only = linked.as_ref().is_some_and(|linked| is_much_shorter(bench, linked, whole));
+    let in_own_axes = match system.holonomic.is_empty() || linked_only {
+        true => None,
+        false => turned::equations(bench, system, frame, &projected.forms),
+    };
+    if let Some(own) = &in_own_axes
+        && weighted_cost(&bench.graph, &own.equations.entries())
+            < weighted_cost(&bench.graph, &candidates[0].entries())
+        && proof::are_same(bench, &by_definition, &own.equations)?
+    {
+        candidates.insert(0, own.equations.clone());
+    }
+    let mut candidates: Vec<Equations> = candidates
         .into_iter()
-        .map(|equations| equations.driven(bench, generalised_forces))
+        .map(|equations| {
+            let equations = equations.driven(bench, generalised_forces);
+            restriction::restricted(bench, system, equations)
+        })
         .collect();
     let equations = candidates.remove(0);
     affordable(bench)?;
@@ -129,7 +145,7 @@ pub(super) fn equations(
             alternatives.extend(others.map(|other| [&frame.velocities[..], &other.accelerations].concat()));
             (equations, Solution::known(bench, tensions.accelerations, &tensions.divisors))
         }
-        (tensions, Some(linked)) if MUCH * weighted_cost(&bench.graph, &linked.entries()) < whole => {
+        (tensions, Some(linked)) if linked_only => {
             let solution = solved(bench, &linked)?;
             let others = tensions.map(|tensions| [&frame.velocities[..], &tensions.accelerations].concat());
             alternatives.extend(others);
@@ -150,12 +166,14 @@ pub(super) fn equations(
             alternatives.extend(others.map(|other| [&frame.velocities[..], &other].concat()));
             let own = [&frame.velocities[..], &solution.accelerations].concat();
             let Projected { equations: by_projection, forms, .. } = &projected;
-            let mut others = nested::rates(bench, system, frame, terms, forms, generalised_forces);
             // What multiplies out to little is better multiplied out.
             let least = weighted_cost(&bench.graph, &own);
+            let mut others = nested::rates(bench, system, frame, terms, forms, generalised_forces, least);
             others.retain(|rates| weighted_cost(&bench.graph, rates) < least);
             by_nesting = !others.is_empty();
-            others.extend(turned::rates(bench, system, frame, forms, generalised_forces));
+            let in_own_axes = in_own_axes.or_else(|| turned::equations(bench, system, frame, forms));
+            others
+                .extend(in_own_axes.into_iter().flat_map(|own| own.rates(bench, system, generalised_forces)));
             others.extend(rephrased::rates(bench, system, frame, &equations, by_projection, words));
             for rates in others {
                 if proof::are_equal(bench, &own, &rates, n)? {
@@ -191,6 +209,11 @@ fn of_links(
     Ok(Some(equations))
 }
 
+/// Whether nothing else is to be solved beside these equations.
+fn is_much_shorter(bench: &Workbench, linked: &Equations, whole: u64) -> bool {
+    MUCH * weighted_cost(&bench.graph, &linked.entries()) < whole
+}
+
 impl Equations {
     /// All entries.
     pub(super) fn entries(&self) -> Vec<ExprId> {
@@ -198,7 +221,7 @@ impl Equations {
     }
 
     /// The equations with the generalised forces.
-    fn driven(mut self, bench: &mut Workbench, generalised_forces: &[ExprId]) -> Self {
+    pub(super) fn driven(mut self, bench: &mut Workbench, generalised_forces: &[ExprId]) -> Self {
         for (force, q) in self.forces.iter_mut().zip(generalised_forces) {
             *force = bench.graph.add(*force, *q);
         }
@@ -221,7 +244,7 @@ fn compare(bench: &mut Workbench, a: &Equations, b: &Equations, l: usize) -> Res
     for s in 0..l {
         let same = |bench: &mut Workbench, a: ExprId, b: ExprId| {
             let difference = bench.graph.sub(a, b);
-            bench.zero.verdict(&mut bench.graph, difference) != Verdict::Nonzero
+            !bench.zero.is_shown_nonzero(&mut bench.graph, difference, false)
         };
         let agree =
             same(bench, a.forces[s], b.forces[s]) && (0..l).all(|t| same(bench, a.mass[s][t], b.mass[s][t]));

@@ -52,6 +52,9 @@ const REAL_POINTS: usize = 12;
 const REAL_WITNESSES: usize = 8;
 /// Derivatives of derivatives that are looked at for inverse functions.
 const DERIVATIVE_DEPTH: u32 = 2;
+/// Work on derivatives after which the question stays open: those of nested functions may be a thousand times as large as the
+/// function.
+const DERIVATIVE_WORK: u64 = 1_000_000;
 
 /// Decides whether expressions of one graph vanish, remembering all that it computed.
 ///
@@ -137,6 +140,16 @@ impl ZeroTest {
         }
     }
 
+    /// Whether a point shows that an expression does not vanish, on the manifold or anywhere: no more is asked where what is
+    /// not shown is left alone. It takes the work of evaluations, and no derivatives, which may be many times as large.
+    pub fn is_shown_nonzero(&mut self, g: &mut Graph, e: ExprId, on_manifold: bool) -> bool {
+        match g.node(e) {
+            Node::Number(value) => !value.is_zero(),
+            Node::Undefined => false,
+            _ => self.sight(g, e, on_manifold && self.manifold.is_some()) == Ok(Verdict::Nonzero),
+        }
+    }
+
     /// Whether an expression has no derivative by any of the variables: `Zero` means that it is constant.
     pub fn is_constant(&mut self, g: &mut Graph, e: ExprId, variables: &[ExprId]) -> Verdict {
         self.derivatives_vanish(g, e, variables, DERIVATIVE_DEPTH)
@@ -144,7 +157,11 @@ impl ZeroTest {
 
     fn derivatives_vanish(&mut self, g: &mut Graph, e: ExprId, variables: &[ExprId], depth: u32) -> Verdict {
         let mut verdict = Verdict::Zero;
+        let before = g.work();
         for variable in variables {
+            if g.work() - before > DERIVATIVE_WORK {
+                return Verdict::Unknown;
+            }
             let derivative = Flow::partial(g, *variable).of(g, e);
             match self.decide(g, derivative, false, depth) {
                 Verdict::Zero => {}
@@ -249,29 +266,11 @@ impl ZeroTest {
     }
 
     fn examine(&mut self, g: &mut Graph, e: ExprId, on_manifold: bool, depth: u32) -> Verdict {
-        self.table.scan(g);
-        let mut flags = self.table.flags[e.index()];
-        if flags & UNDEFINED != 0 {
-            return Verdict::Unknown;
-        }
-        if on_manifold
-            && let Some(manifold) = &mut self.manifold
-            && manifold.enters_functions(g, e)
-        {
-            flags |= OPAQUE;
-        }
-        let residues = self.residues_of(g, e, on_manifold, flags & ROOT != 0);
-        if residues == Residues::Vanish {
-            return Verdict::Zero;
-        }
-        if residues == Residues::Differ && flags & (ROOT | ATOM | TRANSCENDENTAL | OPAQUE) == 0 {
-            return Verdict::Nonzero;
-        }
-        let witnesses = self.look(g, e, on_manifold);
-        if witnesses.is_none() {
-            return Verdict::Nonzero;
-        }
-        if on_manifold || flags & (ATOM | TRANSCENDENTAL) == 0 || witnesses < Some(REAL_WITNESSES) {
+        let (flags, witnesses) = match self.sight(g, e, on_manifold) {
+            Ok(verdict) => return verdict,
+            Err(seen) => seen,
+        };
+        if on_manifold || flags & (ATOM | TRANSCENDENTAL) == 0 || witnesses < REAL_WITNESSES {
             return Verdict::Unknown;
         }
         // All derivatives vanish, and so does the constant in 200 bits.
@@ -282,6 +281,32 @@ impl ZeroTest {
         match self.derivatives_vanish(g, e, &variables, depth.saturating_sub(1)) {
             Verdict::Zero => Verdict::Zero,
             _ => Verdict::Unknown,
+        }
+    }
+
+    /// What points say; without an answer what is in the expression, and how many real points show nothing.
+    fn sight(&mut self, g: &mut Graph, e: ExprId, on_manifold: bool) -> Result<Verdict, (u8, usize)> {
+        self.table.scan(g);
+        let mut flags = self.table.flags[e.index()];
+        if flags & UNDEFINED != 0 {
+            return Ok(Verdict::Unknown);
+        }
+        if on_manifold
+            && let Some(manifold) = &mut self.manifold
+            && manifold.enters_functions(g, e)
+        {
+            flags |= OPAQUE;
+        }
+        let residues = self.residues_of(g, e, on_manifold, flags & ROOT != 0);
+        if residues == Residues::Vanish {
+            return Ok(Verdict::Zero);
+        }
+        if residues == Residues::Differ && flags & (ROOT | ATOM | TRANSCENDENTAL | OPAQUE) == 0 {
+            return Ok(Verdict::Nonzero);
+        }
+        match self.look(g, e, on_manifold) {
+            None => Ok(Verdict::Nonzero),
+            Some(witnesses) => Err((flags, witnesses)),
         }
     }
 

@@ -1,7 +1,8 @@
 //! Random trains on wheels: velocities that are solved for one from another, against multipliers.
 //!
-//! Each trailer hangs on the one before it, at the axle or beside it, drawn or pushed; headings are absolute, or angles at
-//! the hitches; the ground may be a belt that moves as prescribed. Trailers have masses, some of them an inertia.
+//! Each trailer hangs on the one before it, at the axle or beside it, drawn or pushed, and may have no wheels; headings are
+//! absolute, or angles at the hitches; the ground may be a belt that moves as prescribed. Trailers have masses, at the axle or
+//! beside it, some of them an inertia. Constraints are written by points, or by the angles between the links.
 
 use std::collections::BTreeMap;
 
@@ -44,7 +45,9 @@ fn drawn(seed: u64) -> (Words, Mechanics, Vec<&'static str>) {
     } else {
         [zero; 2]
     };
-    let mut written: Vec<ExprId> = Vec::new();
+    let (mut parameters, mut constraints): (Vec<ExprId>, Vec<ExprId>) = Default::default();
+    // The links before: lengths, and the angles at which they lie.
+    let mut links: Vec<(Rational, ExprId)> = Vec::new();
     let mut kinetic: Vec<(ExprId, ExprId)> = Vec::new();
     let mut potential = Vec::new();
     let (mut place, mut heading): (Place, ExprId) = ([words.x[0], words.x[1]], words.x[2]);
@@ -54,11 +57,13 @@ fn drawn(seed: u64) -> (Words, Mechanics, Vec<&'static str>) {
                 features.push("hitch off the axle");
                 let behind = words.number();
                 place = moved(&mut words, place, heading, &behind);
+                links.push((behind, heading));
             }
             let own = words.x[2 + k];
             heading = if relative { words.graph.add(heading, own) } else { own };
             let length = words.number();
             place = moved(&mut words, place, heading, &length);
+            links.push((length, heading));
         }
         let moving = place.map(|x| rate.of(&mut words.graph, x));
         let sliding = [0, 1].map(|i| words.graph.sub(moving[i], ground[i]));
@@ -66,11 +71,32 @@ fn drawn(seed: u64) -> (Words, Mechanics, Vec<&'static str>) {
         let [along, across] =
             [[c, s], [s, c]].map(|factors| [0, 1].map(|i| words.graph.mul(factors[i], sliding[i])));
         if k == 0 {
-            written.push(words.graph.add(along[0], along[1]));
-            written.push(words.velocities[2]);
+            parameters.push(words.graph.add(along[0], along[1]));
+            parameters.push(words.velocities[2]);
         }
-        written.push(words.graph.sub(across[1], across[0]));
-        moving.into_iter().for_each(|v| kinetic.push((mass, v)));
+        if k > 0 && words.draw.once_in(5) {
+            features.push("link without wheels");
+            parameters.push(words.velocities[2 + k]);
+        } else {
+            let plain = words.graph.sub(across[1], across[0]);
+            let across = if words.draw.once_in(4) {
+                features.push("multiplied out");
+                multiplied_out(&mut words, &mut rate, &ground, &links, heading)
+            } else {
+                plain
+            };
+            let factor = if words.draw.once_in(3) { words.number() } else { Rational::ONE };
+            constraints.push(words.graph.scale(across, &factor));
+        }
+        let mut load = place;
+        if words.draw.once_in(3) {
+            features.push("load off the axle");
+            let (behind, beside) = (words.number(), words.number());
+            load = moved(&mut words, place, heading, &behind);
+            load[0] = words.graph.linear(&[(load[0], Rational::ONE), (s, -beside.clone())]);
+            load[1] = words.graph.linear(&[(load[1], Rational::ONE), (c, beside)]);
+        }
+        kinetic.extend(load.map(|x| (mass, rate.of(&mut words.graph, x))));
         if words.draw.once_in(2) {
             features.push("inertia");
             let turning = rate.of(&mut words.graph, heading);
@@ -90,13 +116,18 @@ fn drawn(seed: u64) -> (Words, Mechanics, Vec<&'static str>) {
         let along = words.draw.pick(&words.velocities);
         Force { magnitude: words.graph.scale(words.etas[0], &Rational::new(-1, 2)), along }
     });
+    let l = parameters.len();
+    if words.draw.once_in(2) {
+        constraints.reverse();
+    }
+    let written = [parameters, constraints].concat();
     let forms = written.iter().map(|e| form(&mut words, *e)).collect();
     let mechanics = Mechanics {
-        forms: Forms { time: words.time, coordinates: words.x.clone(), forms, degrees: 2 },
+        forms: Forms { time: words.time, coordinates: words.x.clone(), forms, degrees: l },
         written,
         velocities: words.velocities.clone(),
         etas: words.etas.clone(),
-        accelerations: words.accelerations[..2].to_vec(),
+        accelerations: words.accelerations[..l].to_vec(),
         inputs: words.inputs.clone(),
         holonomic: Vec::new(),
         kinetic_energy: words.graph.sum(squares),
@@ -119,6 +150,26 @@ fn moved(words: &mut Words, from: Place, heading: ExprId, distance: &Rational) -
         *x = words.graph.sub(*x, part);
     }
     found
+}
+
+/// What the axle behind some links slides sideways on the ground, by the angles between it and them.
+fn multiplied_out(
+    words: &mut Words,
+    rate: &mut Flow,
+    ground: &Place,
+    links: &[(Rational, ExprId)],
+    heading: ExprId,
+) -> ExprId {
+    let graph = &mut words.graph;
+    let (s, c) = graph.sin_cos(heading);
+    let [x, y] = [0, 1].map(|i| graph.sub(words.velocities[i], ground[i]));
+    let mut terms = vec![(graph.mul(x, s), Rational::MINUS_ONE), (graph.mul(y, c), Rational::ONE)];
+    for (length, angle) in links {
+        let (turning, between) = (rate.of(graph, *angle), graph.sub(*angle, heading));
+        let cosine = graph.cos(between);
+        terms.push((graph.mul(cosine, turning), -length.clone()));
+    }
+    graph.linear(&terms)
 }
 
 /// The coefficients of what is affine in the velocities.
@@ -145,7 +196,9 @@ fn trains_move_as_with_multipliers() {
     }
     println!("nested {nested} of {DRAWN}, largest difference {worst:e}, with {shown:?}");
     assert!(nested >= NESTED);
-    for name in ["relative angles", "belt", "friction", "hitch off the axle", "inertia", "slope"] {
+    for name in
+        ["relative angles", "belt", "friction", "hitch off the axle", "load off the axle", "inertia", "slope"]
+    {
         assert!(shown.get(name).is_some_and(|count| *count >= SHOWN), "{name}: too few are nested");
     }
 }

@@ -8,14 +8,20 @@ use crate::workbench::Workbench;
 /// One linear function of velocity forms: a component along an operator, or the value in a motion.
 pub(super) struct Component<'a> {
     sums: &'a FastMap<ExprId, Relative>,
+    /// What symbols stand for that have no value of their own.
+    definitions: &'a FastMap<ExprId, ExprId>,
     known: FastMap<ExprId, ExprId>,
     /// Whether what has no velocity in it counts.
     with_offsets: bool,
 }
 
 impl<'a> Component<'a> {
-    pub(super) fn new(sums: &'a FastMap<ExprId, Relative>, with_offsets: bool) -> Self {
-        Component { sums, known: FastMap::default(), with_offsets }
+    pub(super) fn new(
+        sums: &'a FastMap<ExprId, Relative>,
+        definitions: &'a FastMap<ExprId, ExprId>,
+        with_offsets: bool,
+    ) -> Self {
+        Component { sums, definitions, known: FastMap::default(), with_offsets }
     }
 
     /// Gives a symbol its value.
@@ -78,6 +84,7 @@ impl<'a> Component<'a> {
             return Some(Vec::new());
         }
         match graph.node(e) {
+            Node::Symbol(_) => self.definitions.get(&e).map(|value| vec![*value]),
             Node::Kept(x) => Some(vec![*x]),
             Node::Sum { terms, .. } => match self.sums.get(&e) {
                 Some(Relative { parent, rest, .. }) => {
@@ -135,6 +142,7 @@ impl<'a> Component<'a> {
                 bench.graph.product(&all)
             }
             Node::Kept(x) => known(&x),
+            Node::Symbol(_) => bench.graph.keep(known(&self.definitions[&e])),
             _ => unreachable!("`below` has turned it away"),
         }
     }

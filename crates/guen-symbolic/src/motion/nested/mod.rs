@@ -8,7 +8,9 @@
 //! What comes out is one more list of rates for the optimiser. The operators that are shown, and all that is derived
 //! from them, are not touched.
 
+mod axles;
 mod component;
+mod planar;
 mod sums;
 mod unknowns;
 
@@ -17,7 +19,7 @@ use self::sums::{Relative, relatives};
 use self::unknowns::Unknowns;
 use super::between::Between;
 use super::projection::{self, Measured, MeasuredForms};
-use super::{Frame, KineticTerm, Mechanics, Solution};
+use super::{Equations, Frame, KineticTerm, Mechanics, Solution};
 use crate::algebra::{ExprId, FastMap, Flow, Graph, Node, Substitution};
 use crate::program::weighted_cost;
 use crate::workbench::Workbench;
@@ -25,7 +27,12 @@ use crate::workbench::Workbench;
 /// Velocities on the constraints up to this weight stay as the operators have them.
 const LIGHT: u64 = 4;
 
-/// The rates of the state, velocities first; none where nothing is in common, or nothing is seen to be.
+/// Equations that promise no more than so many times the cost of the shortest are left to the optimiser, as a fraction: a program
+/// for each is most of the work.
+const CLOSE: (u64, u64) = (5, 4);
+
+/// The rates of the state, velocities first; none where nothing is in common, or nothing is seen to be, or where equations
+/// promise no less than `most`.
 pub(super) fn rates(
     bench: &mut Workbench,
     system: &Mechanics,
@@ -33,8 +40,9 @@ pub(super) fn rates(
     terms: &[KineticTerm],
     forms: &MeasuredForms,
     generalised_forces: &[ExprId],
+    most: u64,
 ) -> Vec<Vec<ExprId>> {
-    found(bench, system, frame, terms, forms, generalised_forces).unwrap_or_default()
+    found(bench, system, frame, terms, forms, generalised_forces, most).unwrap_or_default()
 }
 
 fn found(
@@ -44,39 +52,98 @@ fn found(
     terms: &[KineticTerm],
     forms: &MeasuredForms,
     generalised_forces: &[ExprId],
+    most: u64,
 ) -> Option<Vec<Vec<ExprId>>> {
-    let l = system.forms.degrees;
-    let energy: Vec<ExprId> = terms.iter().flat_map(|term| term.forms.iter().copied()).collect();
     let mut unknowns = Unknowns::new(bench, system);
     let written: Vec<ExprId> = system.written.iter().map(|e| unknowns.form(bench, *e)).collect();
+    let in_world = Written { forms: written, terms: terms.to_vec(), ..Written::default() };
+    let on_axles = axles::written(bench, system, &mut unknowns, &in_world, forms);
+    let mut found: Vec<(u64, Assembled)> = Vec::new();
+    for written in core::iter::once(in_world).chain(on_axles) {
+        let assembled = assembled(bench, system, frame, &mut unknowns, &written, forms, generalised_forces);
+        if let Some(Assembled { velocities, equations }) = assembled {
+            let all = [&velocities[..], &equations.entries()].concat();
+            found.push((weighted_cost(&bench.graph, &all), Assembled { velocities, equations }));
+        }
+    }
+    let least = found.iter().map(|(cost, _)| *cost).min()?;
+    found.retain(|(cost, _)| *cost < most && CLOSE.1 * cost <= CLOSE.0 * least);
+    let mut lists = Vec::new();
+    for (_, Assembled { velocities, equations: Equations { mass, forces } }) in found {
+        let solutions = [Solution::new(bench, &mass, &forces).ok(), Solution::shared(bench, &mass, &forces)];
+        let solutions = solutions.into_iter().flatten();
+        lists.extend(solutions.map(|solution| [&velocities[..], &solution.accelerations].concat()));
+    }
+    Some(lists)
+}
+
+/// The rates of the coordinates, and the equations with the generalised forces.
+struct Assembled {
+    velocities: Vec<ExprId>,
+    equations: Equations,
+}
+
+/// The forms of a system over velocities, or over symbols for other ones.
+#[derive(Default)]
+struct Written {
+    /// What these symbols stand for.
+    definitions: FastMap<ExprId, ExprId>,
+    /// The forms of the declaration.
+    forms: Vec<ExprId>,
+    /// The kinetic energy.
+    terms: Vec<KineticTerm>,
+    /// The vectors in it that are taken apart in axes that turn.
+    points: Vec<Point>,
+}
+
+/// A vector in axes at an angle.
+struct Point {
+    angle: ExprId,
+    /// What the energy has for the velocities along the axes: the acceleration of a form belongs to its point, and two points
+    /// may have one of them in common.
+    forms: [ExprId; 2],
+    velocities: [ExprId; 2],
+}
+
+fn assembled(
+    bench: &mut Workbench,
+    system: &Mechanics,
+    frame: &Frame,
+    unknowns: &mut Unknowns,
+    written: &Written,
+    forms: &MeasuredForms,
+    generalised_forces: &[ExprId],
+) -> Option<Assembled> {
+    let l = system.forms.degrees;
+    let Written { definitions, forms: written, terms, points } = written;
+    let energy: Vec<ExprId> = terms.iter().flat_map(|term| term.forms.iter().copied()).collect();
     let in_unknowns: Vec<ExprId> = energy.iter().map(|e| unknowns.form(bench, *e)).collect();
-    let roots: Vec<ExprId> = written[l..].iter().chain(&in_unknowns).copied().collect();
-    let sums = relatives(bench, &roots)?;
-    let mut on_constraints = Velocities::new(bench, system, frame, &unknowns, &written, &sums)?;
+    let values = definitions.iter().map(|(_, value)| *value);
+    let values = values.chain(points.iter().flat_map(|point| point.velocities));
+    let roots: Vec<ExprId> = written[l..].iter().chain(&in_unknowns).copied().chain(values).collect();
+    let sums = match relatives(bench, &roots) {
+        Some(sums) => sums,
+        None if points.is_empty() => return None,
+        None => FastMap::default(),
+    };
+    let mut on_constraints = Velocities::new(bench, system, frame, unknowns, written, &sums, definitions)?;
     let mut motion = on_constraints.motion(bench, system);
     let mut displacements = on_constraints.displacements(bench, system);
     let mut nested = MeasuredForms::default();
+    for point in points {
+        on_constraints.measure_point(bench, system, &mut motion, point, &mut nested)?;
+    }
     for (u, in_unknowns) in energy.into_iter().zip(in_unknowns) {
         if !nested.contains_key(&u) {
-            let measured = on_constraints.measure(bench, system, &mut motion, in_unknowns, &forms[&u])?;
+            let mut measured = on_constraints.measure(bench, system, &mut motion, in_unknowns)?;
+            measured.turning.clone_from(&forms[&u].turning);
             nested.insert(u, measured);
         }
     }
     let (equations, _) =
         projection::assemble(bench, system, (0, &mut displacements), &mut motion, terms, &nested);
-    let forces: Vec<ExprId> = equations
-        .forces
-        .iter()
-        .zip(generalised_forces)
-        .map(|(force, q)| bench.graph.add(*force, *q))
-        .collect();
-    let velocities = on_constraints.velocities;
-    let solutions = [
-        Solution::new(bench, &equations.mass, &forces).ok(),
-        Solution::shared(bench, &equations.mass, &forces),
-    ];
-    let lists = solutions.into_iter().flatten();
-    Some(lists.map(|solution| [&velocities[..], &solution.accelerations].concat()).collect())
+    let equations = equations.driven(bench, generalised_forces);
+    Some(Assembled { velocities: on_constraints.velocities, equations })
 }
 
 /// The velocities on the constraints, and forms made of them.
@@ -99,12 +166,13 @@ impl<'a> Velocities<'a> {
         unknowns: &Unknowns,
         written: &[ExprId],
         sums: &'a FastMap<ExprId, Relative>,
+        definitions: &'a FastMap<ExprId, ExprId>,
     ) -> Option<Self> {
         let (n, l) = (system.forms.len(), system.forms.degrees);
         let (zero, one) = (bench.graph.zero(), bench.graph.one());
         let mut along: Vec<Component<'a>> = Vec::new();
         for s in 0..=l {
-            let mut component = Component::new(sums, s == 0);
+            let mut component = Component::new(sums, definitions, s == 0);
             for (t, eta) in system.etas.iter().enumerate() {
                 component.set(*eta, if t + 1 == s { one } else { zero });
             }
@@ -147,7 +215,7 @@ impl<'a> Velocities<'a> {
                 component.set(system.velocities[i], bench.graph.div(right, rows[v][i]));
             }
         }
-        let mut whole = Component::new(sums, true);
+        let mut whole = Component::new(sums, definitions, true);
         for (t, eta) in system.etas.iter().enumerate() {
             whole.set(*eta, if t < l { *eta } else { zero });
         }
@@ -190,14 +258,13 @@ impl<'a> Velocities<'a> {
         self.operators.iter().map(along).collect()
     }
 
-    /// A form of the energy; what belongs to the form and not to its place is known already.
+    /// A form of the energy but for its exterior derivative, which belongs to the form and not to its place.
     fn measure(
         &mut self,
         bench: &mut Workbench,
         system: &Mechanics,
         motion: &mut Flow,
         u: ExprId,
-        known: &Measured,
     ) -> Option<Measured> {
         let l = system.forms.degrees;
         let mut parts = Vec::with_capacity(l + 1);
@@ -216,8 +283,32 @@ impl<'a> Velocities<'a> {
             drift: parts[0],
             components: parts.split_off(1),
             acceleration: bench.keep_large(acceleration),
-            turning: known.turning.clone(),
+            turning: vec![bench.graph.zero(); l],
         })
+    }
+
+    /// The velocities of a point in axes that turn. With its acceleration along these axes, `u' - phi' w` and `w' + phi' u`, its
+    /// equations are those of closed forms.
+    fn measure_point(
+        &mut self,
+        bench: &mut Workbench,
+        system: &Mechanics,
+        motion: &mut Flow,
+        point: &Point,
+        nested: &mut MeasuredForms,
+    ) -> Option<()> {
+        let turning = motion.of(&mut bench.graph, point.angle);
+        let [u, w] = point.velocities;
+        let [mut along, mut across] =
+            [self.measure(bench, system, motion, u)?, self.measure(bench, system, motion, w)?];
+        let [by_across, by_along] = [&across, &along].map(|own| bench.graph.mul(turning, own.value));
+        let own = bench.graph.sub(along.acceleration, by_across);
+        along.acceleration = bench.keep_large(own);
+        let own = bench.graph.add(across.acceleration, by_along);
+        across.acceleration = bench.keep_large(own);
+        nested.insert(point.forms[0], along);
+        nested.insert(point.forms[1], across);
+        Some(())
     }
 }
 

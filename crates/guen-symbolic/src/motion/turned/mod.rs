@@ -11,40 +11,62 @@
 //!
 //! with the angular velocity of the body along the motion and along every `X_s`, each in normal form.
 //!
-//! What comes out is one more list of rates for the optimiser, proved equal to the others.
+//! What comes out is one more list of rates for the optimiser, proved equal to the others. Where there are constraints on
+//! positions everything is as it is on these (`restriction`): with a quaternion `R^T R = 1` holds there only.
 
+mod slopes;
 mod spin;
 
 use self::spin::{Flows, Spin, column, in_parameters};
 use super::projection::{self, MeasuredForms};
-use super::{Frame, KineticTerm, Mechanics, RigidBody, Solution};
+use super::restriction::{self, Restriction};
+use super::{Equations, Frame, KineticTerm, Mechanics, RigidBody, Solution};
 use crate::algebra::{ExprId, Flow, Rational};
 use crate::workbench::Workbench;
+use crate::zero::Verdict;
 
-/// The rates of the state, velocities first; none where no chart has an edge, or no body is turned.
-pub(super) fn rates(
-    bench: &mut Workbench,
-    system: &Mechanics,
-    frame: &mut Frame,
-    forms: &MeasuredForms,
-    generalised_forces: &[ExprId],
-) -> Vec<Vec<ExprId>> {
-    found(bench, system, frame, forms, generalised_forces).unwrap_or_default()
+/// The equations in the axes of the bodies, and what the rates of coordinates are there.
+pub(super) struct InOwnAxes {
+    /// Without the generalised forces.
+    pub(super) equations: Equations,
+    velocities: Vec<ExprId>,
 }
 
-fn found(
+impl InOwnAxes {
+    /// The rates of the state, velocities first.
+    pub(super) fn rates(
+        self,
+        bench: &mut Workbench,
+        system: &Mechanics,
+        generalised_forces: &[ExprId],
+    ) -> Vec<Vec<ExprId>> {
+        let equations = self.equations.driven(bench, generalised_forces);
+        let Equations { mass, forces } = restriction::restricted(bench, system, equations);
+        let solutions = [Solution::new(bench, &mass, &forces).ok(), Solution::shared(bench, &mass, &forces)];
+        let lists = solutions.into_iter().flatten();
+        lists.map(|solution| [&self.velocities[..], &solution.accelerations].concat()).collect()
+    }
+}
+
+/// None where no chart has an edge, or no body is turned.
+pub(super) fn equations(
     bench: &mut Workbench,
     system: &Mechanics,
     frame: &mut Frame,
     forms: &MeasuredForms,
-    generalised_forces: &[ExprId],
-) -> Option<Vec<Vec<ExprId>>> {
+) -> Option<InOwnAxes> {
     let multibody = system.multibody.as_ref()?;
     if frame.operators.chart.is_empty() || !bench.graph.is_zero(multibody.other_energy) {
         return None;
     }
+    let mut restriction = Restriction::new(bench, system);
     let l = system.forms.degrees;
-    let mut turned = Turned { terms: Vec::new(), forms: forms.clone(), velocities: frame.velocities.clone() };
+    let mut turned = Turned {
+        terms: Vec::new(),
+        forms: forms.clone(),
+        velocities: frame.velocities.clone(),
+        operators: frame.operators.xi[1..=l].to_vec(),
+    };
     let is_constant = |bench: &Workbench, rows: &[[ExprId; 3]; 3]| {
         rows.iter().flatten().all(|e| bench.graph.roles(*e).is_constant())
     };
@@ -52,7 +74,7 @@ fn found(
     for body in &multibody.bodies {
         match &body.orientation {
             Some(rows) if !is_constant(bench, rows) => {
-                turned.turn(bench, system, frame, body, rows)?;
+                turned.turn(bench, system, frame, &mut restriction, body, rows)?;
                 is_turned = true;
             }
             _ => turned.carry(bench, system, body)?,
@@ -61,23 +83,16 @@ fn found(
     if !is_turned {
         return None;
     }
-    let Turned { terms, forms, velocities } = turned;
-    let (equations, _) = projection::assemble(
-        bench,
-        system,
-        (0, &mut frame.displacements[..l]),
-        &mut frame.motion,
-        &terms,
-        &forms,
-    );
-    let forces: Vec<ExprId> =
-        equations.forces.iter().zip(generalised_forces).map(|(f, q)| bench.graph.add(*f, *q)).collect();
-    let solutions = [
-        Solution::new(bench, &equations.mass, &forces).ok(),
-        Solution::shared(bench, &equations.mass, &forces),
-    ];
-    let lists = solutions.into_iter().flatten();
-    Some(lists.map(|solution| [&velocities[..], &solution.accelerations].concat()).collect())
+    let Turned { terms, forms, velocities, operators } = turned;
+    let mut displacements: Vec<Flow> = operators
+        .into_iter()
+        .map(|xi| Flow::new(&bench.graph, system.forms.coordinates.iter().copied().zip(xi)))
+        .collect();
+    let (equations, _) =
+        projection::assemble(bench, system, (0, &mut displacements), &mut frame.motion, &terms, &forms);
+    let velocities =
+        if restriction::stay(bench, system, &velocities) { velocities } else { frame.velocities.clone() };
+    Some(InOwnAxes { equations, velocities })
 }
 
 /// The kinetic energy with the velocities of bodies in their own axes.
@@ -85,6 +100,8 @@ struct Turned {
     terms: Vec<KineticTerm>,
     forms: MeasuredForms,
     velocities: Vec<ExprId>,
+    /// `xi_s` for `s = 1..l`.
+    operators: Vec<Vec<ExprId>>,
 }
 
 impl Turned {
@@ -112,6 +129,7 @@ impl Turned {
         bench: &mut Workbench,
         system: &Mechanics,
         frame: &mut Frame,
+        restriction: &mut Restriction,
         body: &RigidBody,
         rows: &[[ExprId; 3]; 3],
     ) -> Option<()> {
@@ -119,19 +137,19 @@ impl Turned {
             return None;
         }
         let mut flows = Flows::new(bench, system, frame);
-        let spin = Spin::new(bench, system, &mut flows, rows);
+        let spin = Spin::new(bench, system, restriction, &mut flows, rows);
         if let Some(center) = body.center {
             let world: Vec<[ExprId; 3]> = (0..=system.forms.degrees)
                 .map(|s| {
                     center.map(|x| {
                         let component = flows.along(bench, s, x);
-                        bench.tidy(component)
+                        restriction.tidy(bench, component)
                     })
                 })
                 .collect();
-            let own = match spin.by_spin(bench, system, &mut flows, rows, &world) {
+            let own = match spin.by_spin(bench, system, restriction, &mut flows, rows, &world) {
                 Some(own) => own,
-                None => in_parameters(bench, system, &mut flows, rows, &world)?,
+                None => in_parameters(bench, system, restriction, &mut flows, rows, &world)?,
             };
             let velocity = velocity(bench, system, center);
             let half = bench.graph.scale(body.mass, &Rational::new(1, 2));
@@ -146,12 +164,15 @@ impl Turned {
             for (row, v) in rows.iter().zip(velocity) {
                 if let Some(k) = system.velocities.iter().position(|x| *x == v) {
                     self.velocities[k] = bench.dot(row, &own.values);
+                    for (xi, along) in self.operators.iter_mut().zip(&own.along[1..]) {
+                        xi[k] = bench.dot(row, along);
+                    }
                 }
             }
         }
         // The form of the angular velocity: [omega]x = R^T R'.
         let rates: Vec<[ExprId; 3]> = rows.iter().map(|row| velocity(bench, system, *row)).collect();
-        let own = spin.triple(bench, system, &mut flows);
+        let own = spin.triple(bench, system, restriction, &mut flows);
         let forms: [ExprId; 3] = std::array::from_fn(|a| {
             let (j, k) = ((a + 1) % 3, (a + 2) % 3);
             let form = bench.dot(&column(rows, k), &[rates[0][j], rates[1][j], rates[2][j]]);
@@ -181,7 +202,7 @@ fn velocity(bench: &mut Workbench, system: &Mechanics, position: [ExprId; 3]) ->
     position.map(|x| rate.of(&mut bench.graph, x))
 }
 
-/// Whether `R^T R = 1` as a function of everything.
+/// Whether `R^T R = 1` wherever constraints on positions hold.
 fn is_orthogonal(bench: &mut Workbench, rows: &[[ExprId; 3]; 3]) -> bool {
     (0..3).all(|a| {
         (0..=a).all(|b| {
@@ -189,7 +210,7 @@ fn is_orthogonal(bench: &mut Workbench, rows: &[[ExprId; 3]; 3]) -> bool {
             let product = bench.dot(&first, &second);
             let expected = if a == b { bench.graph.one() } else { bench.graph.zero() };
             let difference = bench.graph.sub(product, expected);
-            bench.vanishes(difference)
+            bench.verdict_on_manifold(difference) == Verdict::Zero
         })
     })
 }

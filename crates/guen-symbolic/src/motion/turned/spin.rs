@@ -1,14 +1,12 @@
 //! Velocities along the axes of a body: its angular velocity, and those of its mass centre.
 
 use super::is_orthogonal;
-use crate::algebra::{ExprId, Flow, Node, Rational, Substitution};
+use super::slopes::{normal, rates_of};
+use crate::algebra::{ExprId, Flow, Rational};
 use crate::motion::projection::Measured;
+use crate::motion::restriction::Restriction;
 use crate::motion::{Frame, Mechanics};
-use crate::normal::{Limits, normal_form};
 use crate::workbench::Workbench;
-
-/// What a component in a body's axes may cost: the operators are multiplied out for it.
-const COMPONENT: Limits = Limits { terms: 200, generators: 32, degree: 48, nodes: 800, steps: 20_000 };
 
 /// Three velocities along the axes of a body.
 pub(super) struct Triple {
@@ -36,6 +34,7 @@ impl Triple {
 pub(super) fn in_parameters(
     bench: &mut Workbench,
     system: &Mechanics,
+    restriction: &mut Restriction,
     flows: &mut Flows<'_>,
     rows: &[[ExprId; 3]; 3],
     world: &[[ExprId; 3]],
@@ -45,7 +44,7 @@ pub(super) fn in_parameters(
         let mut own = [bench.graph.zero(); 3];
         for (a, own) in own.iter_mut().enumerate() {
             let sum = bench.dot(&column(rows, a), world);
-            *own = normal(bench, sum)?;
+            *own = normal(bench, restriction, sum)?;
         }
         along.push(own);
     }
@@ -53,11 +52,32 @@ pub(super) fn in_parameters(
         let value = in_motion(bench, system, |s| along[s][a]);
         bench.keep_large(value)
     });
-    let rates = values.map(|value| {
-        let rate = flows.frame.motion.of(&mut bench.graph, value);
-        bench.keep_large(rate)
+    let rates = by_slopes(bench, system, restriction, flows, &along).unwrap_or_else(|| {
+        values.map(|value| {
+            let rate = flows.frame.motion.of(&mut bench.graph, value);
+            bench.keep_large(rate)
+        })
     });
     Some(Triple { along, values, rates })
+}
+
+/// The rates at fixed `eta` of what is linear in these, from those of its components.
+fn by_slopes(
+    bench: &mut Workbench,
+    system: &Mechanics,
+    restriction: &mut Restriction,
+    flows: &mut Flows<'_>,
+    along: &[[ExprId; 3]],
+) -> Option<[ExprId; 3]> {
+    let weights = &system.etas[..system.forms.degrees];
+    let entries: Vec<ExprId> = along.iter().flatten().copied().collect();
+    let rates = rates_of(bench, restriction, &entries, weights, |bench, e| {
+        (0..along.len()).map(|s| flows.along(bench, s, e)).collect()
+    })?;
+    Some(std::array::from_fn(|a| {
+        let rate = in_motion(bench, system, |s| rates[3 * s + a]);
+        bench.keep_large(rate)
+    }))
 }
 
 /// Derivatives along each of `X_0..X_l`.
@@ -93,6 +113,7 @@ impl Spin {
     pub(super) fn new(
         bench: &mut Workbench,
         system: &Mechanics,
+        restriction: &mut Restriction,
         flows: &mut Flows<'_>,
         rows: &[[ExprId; 3]; 3],
     ) -> Self {
@@ -103,7 +124,7 @@ impl Spin {
                     let (j, k) = ((a + 1) % 3, (a + 2) % 3);
                     let rates = rows.map(|row| flows.along(bench, s, row[j]));
                     let sum = bench.dot(&column(rows, k), &rates);
-                    bench.tidy(sum)
+                    restriction.tidy(bench, sum)
                 })
             })
             .collect();
@@ -119,6 +140,7 @@ impl Spin {
         &self,
         bench: &mut Workbench,
         system: &Mechanics,
+        restriction: &mut Restriction,
         flows: &mut Flows<'_>,
     ) -> [ExprId; 3] {
         let l = system.forms.degrees;
@@ -128,7 +150,7 @@ impl Spin {
                 let slopes: Vec<ExprId> = (0..=l)
                     .map(|r| {
                         let slope = flows.along(bench, r, along[a]);
-                        bench.tidy(slope)
+                        restriction.tidy(bench, slope)
                     })
                     .collect();
                 rates.push(in_motion(bench, system, |r| slopes[r]));
@@ -139,8 +161,14 @@ impl Spin {
     }
 
     /// With its rates.
-    pub(super) fn triple(&self, bench: &mut Workbench, system: &Mechanics, flows: &mut Flows<'_>) -> Triple {
-        let rates = self.rates(bench, system, flows);
+    pub(super) fn triple(
+        &self,
+        bench: &mut Workbench,
+        system: &Mechanics,
+        restriction: &mut Restriction,
+        flows: &mut Flows<'_>,
+    ) -> Triple {
+        let rates = self.rates(bench, system, restriction, flows);
         Triple { along: self.along.clone(), values: self.values, rates }
     }
 
@@ -150,6 +178,7 @@ impl Spin {
         &self,
         bench: &mut Workbench,
         system: &Mechanics,
+        restriction: &mut Restriction,
         flows: &mut Flows<'_>,
         rows: &[[ExprId; 3]; 3],
         world: &[[ExprId; 3]],
@@ -167,10 +196,18 @@ impl Spin {
                 world[1..].iter().map(|world| bench.dot(&column(rows, a), world)).collect();
             for (b, entry) in row.iter_mut().enumerate() {
                 let sum = bench.dot(&own, &column(by_parameter, b));
-                *entry = normal(bench, sum)?;
+                *entry = normal(bench, restriction, sum)?;
             }
         }
-        let rates = self.rates(bench, system, flows);
+        let rates = self.rates(bench, system, restriction, flows);
+        // Along the body's own axes, of which the components know.
+        let entries: Vec<ExprId> = rho.iter().flatten().copied().collect();
+        let slopes = rates_of(bench, restriction, &entries, values, |bench, e| {
+            let slopes: Vec<ExprId> = (0..along.len()).map(|s| flows.along(bench, s, e)).collect();
+            let own = (0..3).map(|b| bench.dot(&column(by_parameter, b), &slopes[1..]));
+            let own: Vec<ExprId> = own.collect();
+            [vec![slopes[0]], own].concat()
+        });
         let mut of_row = |bench: &mut Workbench, a: usize| {
             let along = along.iter().map(|spin| {
                 let component = bench.dot(&rho[a], spin);
@@ -178,7 +215,10 @@ impl Spin {
             });
             let along: Vec<ExprId> = along.collect();
             let value = bench.dot(&rho[a], values);
-            let slopes = rho[a].map(|e| flows.frame.motion.of(&mut bench.graph, e));
+            let slopes = match &slopes {
+                Some(slopes) => [0, 1, 2].map(|b| slopes[3 * a + b]),
+                None => rho[a].map(|e| flows.frame.motion.of(&mut bench.graph, e)),
+            };
             let (first, second) = (bench.dot(&slopes, values), bench.dot(&rho[a], &rates));
             let rate = bench.graph.add(first, second);
             (along, bench.keep_large(value), bench.keep_large(rate))
@@ -236,25 +276,4 @@ fn in_motion(bench: &mut Workbench, system: &Mechanics, e: impl Fn(usize) -> Exp
     let l = system.forms.degrees;
     let terms: Vec<ExprId> = (1..=l).map(|s| bench.graph.mul(e(s), system.etas[s - 1])).collect();
     bench.graph.sum(terms.into_iter().chain([e(0)]))
-}
-
-/// A component in normal form, nothing in it kept whole; `None` beyond the limits.
-fn normal(bench: &mut Workbench, e: ExprId) -> Option<ExprId> {
-    let open = written_out(bench, e);
-    let normal = normal_form(&mut bench.graph, open, &COMPONENT)?;
-    Some(bench.keep_large(normal))
-}
-
-/// The expression with nothing kept whole.
-fn written_out(bench: &mut Workbench, e: ExprId) -> ExprId {
-    let graph = &mut bench.graph;
-    let kept = graph.reachable(&[e], |_| false);
-    let mut open = Substitution::default();
-    for id in kept {
-        if let Node::Kept(inside) = *graph.node(id) {
-            let image = open.of(graph, inside);
-            open.add(id, image);
-        }
-    }
-    open.of(graph, e)
 }
