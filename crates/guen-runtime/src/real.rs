@@ -92,13 +92,13 @@ pub trait Real:
     }
 
     /// Zero.
-    #[inline]
+    #[inline(always)]
     fn zero() -> Self {
         Self::from_ratio(0, 1)
     }
 
     /// One.
-    #[inline]
+    #[inline(always)]
     fn one() -> Self {
         Self::from_ratio(1, 1)
     }
@@ -124,27 +124,28 @@ pub trait Real:
         (first.sin_cos(), second.sin_cos())
     }
 
+    // Always, here and below: in a real that is made of lanes a call would lose their instructions.
     /// Sine.
-    #[inline]
+    #[inline(always)]
     fn sin(self) -> Self {
         self.sin_cos().0
     }
 
     /// Cosine.
-    #[inline]
+    #[inline(always)]
     fn cos(self) -> Self {
         self.sin_cos().1
     }
 
     /// Tangent.
-    #[inline]
+    #[inline(always)]
     fn tan(self) -> Self {
         let (sin, cos) = self.sin_cos();
         sin / cos
     }
 
     /// Cotangent, `cos x / sin x`.
-    #[inline]
+    #[inline(always)]
     fn cot(self) -> Self {
         let (sin, cos) = self.sin_cos();
         cos / sin
@@ -219,7 +220,7 @@ pub trait Real:
     }
 
     /// The reciprocal, `1 / self`.
-    #[inline]
+    #[inline(always)]
     fn recip(self) -> Self {
         Self::one() / self
     }

@@ -128,9 +128,13 @@ impl Looks {
         Self { all: energies + edges + condition + carried + others, edges }
     }
 
-    /// Those of a level and of the one below it.
+    /// Those of a carried form and of the level that it is a form of, which is given a state of its own.
     pub(super) fn and(self, below: Self) -> Self {
-        Self { all: self.all + below.all, edges: self.edges + below.edges }
+        /// Of what is there besides operations: counted for the hoop.
+        const ANOTHER: Looks = Looks { all: 150, edges: 40 };
+        let edges = self.edges + below.edges;
+        let another = if edges > 0 { ANOTHER.edges } else { 0 };
+        Self { all: self.all + below.all + ANOTHER.all, edges: edges + another }
     }
 }
 
@@ -140,7 +144,7 @@ pub(super) fn prices(subject: &Subject<'_, '_>, layout: &Layout, looks: &Looks) 
     const STAGE: u64 = 4;
     /// Of the calls, comparisons and copies of a look, whatever the system: counted for a particle without forces, whose
     /// estimates of errors by RK8 have more operations than all of its right-hand sides.
-    const BESIDES: u64 = 160;
+    const BESIDES: u64 = 200;
     /// Of those of a look at edges alone.
     const BESIDES_EDGES: u64 = 60;
     let rhs = subject.level.program(function::RHS).map_or(0, |program| program.cost.weighted());
