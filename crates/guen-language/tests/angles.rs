@@ -1,21 +1,16 @@
 //! What the choice of angles costs: a system declared in relative angles, in absolute ones, or by rotations that are
 //! composed, is one system, and its right-hand side may not cost much more in one declaration than in another.
 
-use guen_language::diagnostics::collect;
-use guen_language::{derive, model, parse};
+mod common;
+
+use common::derived;
 
 /// The weighted operation count of the right-hand side, and the number of sines.
 fn cost(text: &str) -> (u64, u32) {
-    let (declaration, report) = parse::parse(text.parse().expect("tokens"));
-    assert!(report.is_empty(), "{report}");
-    let declaration = declaration.expect("a declaration");
-    let (derived, report) = collect(|faults| {
-        let model = model::resolve(&declaration, faults)?;
-        derive::derive(model, faults)
-    });
-    assert!(report.is_empty(), "{report}");
-    let cost = derived.expect("a derivation").system.programs.functions[0].cost;
-    (cost.weighted(), cost.sines)
+    derived(text, |derived| {
+        let cost = derived.system.programs.functions[0].cost;
+        (cost.weighted(), cost.sines)
+    })
 }
 
 fn list(links: usize, entry: impl Fn(usize) -> String, gap: &str) -> String {

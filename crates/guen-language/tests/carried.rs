@@ -1,10 +1,11 @@
 //! Carried forms of systems drawn at random, with every elementary function of the language: no call is left, the rates are
 //! those of the system, and those of the functions are what central differences along the motion show.
 
-use guen_language::derive::{self, Derived, Level, function};
-use guen_language::diagnostics::collect;
-use guen_language::{model, parse};
-use guen_symbolic::{Role, SymbolId, evaluate_function, evaluate_prepare};
+mod common;
+
+use common::{derived, evaluated};
+use guen_language::derive::{Derived, Level, function};
+use guen_symbolic::{Role, SymbolId};
 
 /// A fixed sequence of numbers that looks random (a linear congruential generator, upper bits).
 struct Sequence(u64);
@@ -83,9 +84,7 @@ fn values(derived: &Derived<'_>, level: &Level, name: &str, known: &[(SymbolId, 
             .unwrap_or_else(|| panic!("{} is not given", derived.model.bench.graph.symbol_info(symbol).name))
             .1
     };
-    let prepared = evaluate_prepare(&level.programs, at);
-    let index = level.programs.functions.iter().position(|function| function.name == name).unwrap();
-    evaluate_function(&level.programs, index, &prepared, at)
+    evaluated(level, name, at).expect("a program")
 }
 
 fn close(found: &[f64], expected: &[f64], tolerance: f64, what: &str) {
@@ -96,13 +95,7 @@ fn close(found: &[f64], expected: &[f64], tolerance: f64, what: &str) {
     }
 }
 
-fn check(text: &str, draw: &mut Sequence) {
-    let (declaration, report) = parse::parse(text.parse().unwrap());
-    assert!(report.is_empty(), "{text}");
-    let declaration = declaration.unwrap();
-    let (derived, report) = collect(|faults| derive::derive(model::resolve(&declaration, faults)?, faults));
-    assert!(report.is_empty(), "{text}\n{}", report.to_compile_errors());
-    let derived = derived.unwrap();
+fn check(text: &str, derived: &Derived<'_>, draw: &mut Sequence) {
     let (system, carried) = (&derived.system, derived.system.carried.as_deref().unwrap());
     let graph = &derived.model.bench.graph;
     let rates = carried.program(function::RHS).unwrap();
@@ -127,10 +120,10 @@ fn check(text: &str, draw: &mut Sequence) {
         let own = functions.iter().copied().zip(w.iter().copied());
         constants.iter().copied().chain([(time, t)]).chain(state).chain(own).collect()
     };
-    let carry = |t: f64, x: &[f64]| values(&derived, carried, function::CARRY, &with(t, x, &[]));
+    let carry = |t: f64, x: &[f64]| values(derived, carried, function::CARRY, &with(t, x, &[]));
     let w = carry(t, &x);
-    let expected = values(&derived, system, function::RHS, &with(t, &x, &[]));
-    let found = values(&derived, carried, function::RHS, &with(t, &x, &w));
+    let expected = values(derived, system, function::RHS, &with(t, &x, &[]));
+    let found = values(derived, carried, function::RHS, &with(t, &x, &w));
     close(&found[..5], &expected, 1e-12, text);
 
     // Differences of order four along the motion: their error is 1e-11 and less.
@@ -147,11 +140,11 @@ fn check(text: &str, draw: &mut Sequence) {
     if carried.program(function::INVARIANTS).is_none() {
         return;
     }
-    let invariants = |w: &[f64]| values(&derived, carried, function::INVARIANTS, &with(t, &x, w));
+    let invariants = |w: &[f64]| values(derived, carried, function::INVARIANTS, &with(t, &x, w));
     close(&invariants(&w), &vec![0.0; invariants(&w).len()], 1e-13, text);
     // A small fault is seen, and rejoining leaves its square of it.
     let off: Vec<f64> = w.iter().map(|w| w * (1.0 + 1e-4)).collect();
-    let again = values(&derived, carried, function::REJOINED, &with(t, &x, &off));
+    let again = values(derived, carried, function::REJOINED, &with(t, &x, &off));
     for (before, after) in invariants(&off).iter().zip(invariants(&again)) {
         assert!(before.abs() > 1e-5 && after.abs() < 2e-3 * before.abs(), "{text}: {before} became {after}");
     }
@@ -162,6 +155,6 @@ fn random_systems_move_as_they_did() {
     let mut draw = Sequence(7);
     for _ in 0..60 {
         let text = declaration(&mut draw);
-        check(&text, &mut draw);
+        derived(&text, |derived| check(&text, derived, &mut draw));
     }
 }

@@ -1,10 +1,12 @@
 //! Where the angles of a body have a pole its spins have none: the accelerations next to the edge are right to some
 //! roundings of the largest, against 71 digits, in whatever angles the body is turned.
 
+mod common;
+
+use common::{derived, evaluated};
 use f256::f256;
-use guen_language::diagnostics::collect;
-use guen_language::{derive, model, parse};
-use guen_symbolic::{evaluate, evaluate_function, evaluate_prepare};
+use guen_language::derive::{Derived, function};
+use guen_symbolic::{SymbolId, evaluate};
 
 /// Roundings of the largest acceleration that may be lost, far from the edge and next to it: there are some hundred
 /// operations, a mass matrix to be solved, and the rounding of the rates of angles.
@@ -44,25 +46,15 @@ fn ball(turns: &str) -> String {
 }
 
 /// The largest error of an acceleration, in roundings of the largest of them, on the way to `q = edge`.
-fn roundings(text: &str, edge: f64) -> f64 {
-    let (declaration, report) = parse::parse(text.parse().expect("tokens"));
-    assert!(report.is_empty(), "{report}");
-    let declaration = declaration.expect("a declaration");
-    let (derived, report) = collect(|faults| {
-        let model = model::resolve(&declaration, faults)?;
-        derive::derive(model, faults)
-    });
-    assert!(report.is_empty(), "{report}");
-    let derived = derived.expect("a derivation");
+fn roundings(derived: &Derived<'_>, edge: f64) -> f64 {
     let (graph, level) = (&derived.model.bench.graph, &derived.system);
     let derivation = &level.derivation;
     let exact = &derivation.solution.accelerations;
     let angle = graph.as_symbol(derivation.system.forms.coordinates[1]);
-    let rates = level.programs.functions.iter().position(|f| f.name == derive::function::RHS).expect("rates");
     let mut worst = 0.0_f64;
     for round in 0..60_u32 {
         let distance = 10.0_f64.powf(-f64::from(round) / 6.0);
-        let value = |symbol| {
+        let value = |symbol: SymbolId| {
             if Some(symbol) == angle {
                 return edge + distance;
             }
@@ -81,8 +73,7 @@ fn roundings(text: &str, edge: f64) -> f64 {
             }
         };
         let exact = evaluate(graph, exact, &|symbol| f256::from(value(symbol)));
-        let prepared = evaluate_prepare(&level.programs, value);
-        let found = evaluate_function(&level.programs, rates, &prepared, value);
+        let found = evaluated(level, function::RHS, value).expect("rates");
         let found = &found[found.len() - exact.len()..];
         let difference = |(a, b): (&f256, &f64)| (*a - f256::from(*b)).abs();
         let error = exact.iter().zip(found).map(difference).fold(f256::ZERO, f256::max);
@@ -94,7 +85,7 @@ fn roundings(text: &str, edge: f64) -> f64 {
 }
 
 fn right_at_the_edge(text: &str, edge: f64) {
-    let worst = roundings(text, edge);
+    let worst = derived(text, |derived| roundings(derived, edge));
     assert!(worst < ROUNDINGS, "{worst} roundings\n{text}");
 }
 
@@ -136,7 +127,8 @@ fn in_every_sequence_of_turns() {
             .collect();
         let edge = if sequence.starts_with(&sequence[2..]) { 0.0 } else { QUARTER };
         for spin in ["angular_velocity_body(R)", "angular_velocity(R)"] {
-            let worst = roundings(&ellipsoid(&turns.join("*"), spin), edge);
+            let text = ellipsoid(&turns.join("*"), spin);
+            let worst = derived(&text, |derived| roundings(derived, edge));
             println!("{sequence}, {spin}: {worst:.1} roundings");
             assert!(worst < FEW, "{sequence}, {spin}: {worst} roundings");
         }

@@ -1,10 +1,12 @@
 //! Equations on constraints on positions: what vanishes or is constant there is not computed, and what is computed loses
 //! nothing, against 71 digits on the constraint, entry by entry.
 
+mod common;
+
+use common::{derived, evaluated};
 use f256::f256;
-use guen_language::diagnostics::collect;
-use guen_language::{derive, model, parse};
-use guen_symbolic::{Derivation, ExprId, Graph, evaluate, evaluate_function, evaluate_prepare};
+use guen_language::derive::function;
+use guen_symbolic::{ExprId, Graph, evaluate};
 
 /// A hoop that rolls on the plane, in quaternions.
 const HOOP: &str = "pub system Hoop {
@@ -20,22 +22,10 @@ const HOOP: &str = "pub system Hoop {
     holonomic { length: w^2 + i^2 + j^2 + k^2 = 1; }
 }";
 
-fn derived<T>(text: &str, look: impl FnOnce(&Graph, &Derivation, &guen_symbolic::Programs) -> T) -> T {
-    let (declaration, report) = parse::parse(text.parse().expect("tokens"));
-    assert!(report.is_empty(), "{report}");
-    let declaration = declaration.expect("a declaration");
-    let (derived, report) = collect(|faults| {
-        let model = model::resolve(&declaration, faults)?;
-        derive::derive(model, faults)
-    });
-    assert!(report.is_empty(), "{report}");
-    let derived = derived.expect("a derivation");
-    look(&derived.model.bench.graph, &derived.system.derivation, &derived.system.programs)
-}
-
 #[test]
 fn the_third_spin_of_a_hoop_depends_on_the_others_alone() {
-    derived(HOOP, |graph, derivation, _| {
+    derived(HOOP, |derived| {
+        let (graph, derivation) = (&derived.model.bench.graph, &derived.system.derivation);
         let equations = &derivation.equations;
         assert!((0..2).all(|s| graph.is_zero(equations.mass[2][s]) && graph.is_zero(equations.mass[s][2])));
         assert_eq!(graph.text_limited(equations.mass[2][2], 40).as_deref(), Some("C + a^2"));
@@ -59,7 +49,8 @@ fn the_same_in_the_axes_of_the_world() {
     let text = HOOP
         .replace("diag(A, A, C)", "diag(0, 0, 0)")
         .replace("constraints {", &format!("{energy} constraints {{"));
-    derived(&text, |graph, derivation, _| {
+    derived(&text, |derived| {
+        let (graph, derivation) = (&derived.model.bench.graph, &derived.system.derivation);
         let equations = &derivation.equations;
         assert!((0..2).all(|s| graph.is_zero(equations.mass[2][s]) && graph.is_zero(equations.mass[s][2])));
         let third = graph.as_symbol(derivation.system.etas[2]).unwrap();
@@ -87,11 +78,11 @@ const ROUNDINGS: f64 = 4.0;
 /// terms with all three spins, two of its digits were lost.
 #[test]
 fn every_entry_keeps_its_digits() {
-    derived(HOOP, |graph, derivation, programs| {
+    derived(HOOP, |derived| {
+        let (graph, derivation) = (&derived.model.bench.graph, &derived.system.derivation);
         let exact = &derivation.solution.accelerations;
         let state = derivation.system.forms.coordinates.iter().chain(&derivation.system.etas[..3]);
         let state: Vec<_> = state.map(|e| graph.as_symbol(*e).unwrap()).collect();
-        let rates = programs.functions.iter().position(|f| f.name == derive::function::RHS).expect("rates");
         for round in 0..200_u32 {
             let letters = |k: usize| (1.7 * f64::from(round) + 2.3 * k as f64 + 0.4).sin();
             let mut x: Vec<f64> = (0..state.len()).map(letters).collect();
@@ -130,8 +121,7 @@ fn every_entry_keeps_its_digits() {
                     moved.iter().zip(&exact).map(|(a, b)| (*a - *b).abs() / step).collect()
                 })
                 .collect();
-            let prepared = evaluate_prepare(programs, value);
-            let found = evaluate_function(programs, rates, &prepared, value);
+            let found = evaluated(&derived.system, function::RHS, value).expect("rates");
             let found = &found[found.len() - exact.len()..];
             for (s, (exact, found)) in exact.iter().zip(found).enumerate() {
                 let error = (*exact - f256::from(*found)).abs();

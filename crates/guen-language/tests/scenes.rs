@@ -3,10 +3,12 @@
 
 use std::collections::BTreeSet;
 
-use guen_language::derive::{self, Derived, Level};
-use guen_language::diagnostics::collect;
-use guen_language::{model, parse};
-use guen_symbolic::{Role, SymbolId, evaluate_function, evaluate_prepare};
+mod common;
+
+use common::{derived, evaluated};
+use guen_language::derive::{Derived, Level};
+use guen_language::model;
+use guen_symbolic::{Role, SymbolId};
 
 /// A fixed sequence of numbers that looks random (a linear congruential generator, upper bits).
 struct Sequence(u64);
@@ -101,9 +103,7 @@ fn run(derived: &Derived<'_>, level: &Level, name: &str, constants: [f64; 3], st
             state[place]
         }
     };
-    let function = level.programs.functions.iter().position(|f| f.name == name).unwrap();
-    let prepared = evaluate_prepare(&level.programs, value);
-    evaluate_function(&level.programs, function, &prepared, value)
+    evaluated(level, name, value).expect("a program")
 }
 
 /// Which rates of the whole system change with which variable, somewhere.
@@ -142,50 +142,43 @@ fn what_is_kept_is_what_the_numbers_need() {
     let (mut smaller, mut parts, mut scenes) = (0, 0, 0);
     for _ in 0..rounds {
         let text = declaration(&mut draw);
-        let (declaration, report) = parse::parse(text.parse().unwrap());
-        assert!(report.is_empty(), "{report}");
-        let declaration = declaration.unwrap();
-        let (derived, report) = collect(|faults| {
-            let model = model::resolve(&declaration, faults)?;
-            derive::derive(model, faults)
-        });
-        assert!(report.is_empty(), "{report}\n{text}");
-        let derived = derived.unwrap();
-        let size = derived.system.selection.variables.len();
-        let general = pattern(&derived, [0.7, -0.4, 1.3], &mut draw);
-        let without_a = pattern(&derived, [0.0, -0.4, 1.3], &mut draw);
-        for (number, level) in derived.scenes.iter().enumerate() {
-            let fixed = number < 2 * N && number % 2 == 1;
-            let depends = if fixed { &without_a } else { &general };
-            let start: Vec<usize> = if number < 2 * N { vec![number / 2] } else { (N..size).collect() };
-            let expected = closed(depends, start);
-            let kept: BTreeSet<usize> = level.selection.variables.iter().copied().collect();
-            if number < 2 * N {
-                assert_eq!(kept, expected, "scene {number} of\n{text}");
-            } else {
-                assert!(kept.is_superset(&expected), "scene {number} of\n{text}");
-            }
-            let constants = [if fixed { 0.0 } else { 0.7 }, -0.4, 1.3];
-            let state: Vec<f64> = (0..size).map(|_| draw.unit()).collect();
-            let whole = run(&derived, &derived.system, "rhs", constants, &state);
-            let rates = run(&derived, level, "rhs", constants, &state);
-            for (rate, place) in rates.iter().zip(&level.selection.variables) {
-                let same = (rate - whole[*place]).abs() <= 1e-11 * (1.0 + rate.abs());
-                assert!(same, "{rate} and {} of {place} in scene {number} of\n{text}", whole[*place]);
-            }
-            if number == 2 * N {
-                for name in ["energy", "outputs"] {
-                    let (a, b) = (
-                        run(&derived, level, name, constants, &state)[0],
-                        run(&derived, &derived.system, name, constants, &state)[0],
-                    );
-                    assert!((a - b).abs() <= 1e-11 * (1.0 + a.abs()), "{name}: {a} and {b} of\n{text}");
+        derived(&text, |derived| {
+            let size = derived.system.selection.variables.len();
+            let general = pattern(derived, [0.7, -0.4, 1.3], &mut draw);
+            let without_a = pattern(derived, [0.0, -0.4, 1.3], &mut draw);
+            for (number, level) in derived.scenes.iter().enumerate() {
+                let fixed = number < 2 * N && number % 2 == 1;
+                let depends = if fixed { &without_a } else { &general };
+                let start: Vec<usize> = if number < 2 * N { vec![number / 2] } else { (N..size).collect() };
+                let expected = closed(depends, start);
+                let kept: BTreeSet<usize> = level.selection.variables.iter().copied().collect();
+                if number < 2 * N {
+                    assert_eq!(kept, expected, "scene {number} of\n{text}");
+                } else {
+                    assert!(kept.is_superset(&expected), "scene {number} of\n{text}");
                 }
+                let constants = [if fixed { 0.0 } else { 0.7 }, -0.4, 1.3];
+                let state: Vec<f64> = (0..size).map(|_| draw.unit()).collect();
+                let whole = run(derived, &derived.system, "rhs", constants, &state);
+                let rates = run(derived, level, "rhs", constants, &state);
+                for (rate, place) in rates.iter().zip(&level.selection.variables) {
+                    let same = (rate - whole[*place]).abs() <= 1e-11 * (1.0 + rate.abs());
+                    assert!(same, "{rate} and {} of {place} in scene {number} of\n{text}", whole[*place]);
+                }
+                if number == 2 * N {
+                    for name in ["energy", "outputs"] {
+                        let (a, b) = (
+                            run(derived, level, name, constants, &state)[0],
+                            run(derived, &derived.system, name, constants, &state)[0],
+                        );
+                        assert!((a - b).abs() <= 1e-11 * (1.0 + a.abs()), "{name}: {a} and {b} of\n{text}");
+                    }
+                }
+                scenes += 1;
+                smaller += usize::from(kept.len() < size);
+                parts += usize::from(level.scene.as_ref().unwrap().is_part);
             }
-            scenes += 1;
-            smaller += usize::from(kept.len() < size);
-            parts += usize::from(level.scene.as_ref().unwrap().is_part);
-        }
+        });
     }
     println!("{scenes} scenes, {smaller} smaller than their systems, {parts} parts of their programs");
     assert!(smaller > scenes / 4 && smaller < scenes, "{smaller} of {scenes} are smaller");

@@ -1,11 +1,11 @@
 //! Cars keep their digits: the rate of the heading where they are nearly steered straight, the acceleration of the steering
 //! where they nearly turn on the spot, and the rates of trailers that are nearly in line, however far behind.
 
-use guen_language::derive::{derive, function};
-use guen_language::diagnostics::collect;
-use guen_language::model::resolve;
-use guen_language::parse::parse;
-use guen_symbolic::{SymbolId, evaluate_function, evaluate_prepare};
+mod common;
+
+use common::{derived, evaluated};
+use guen_language::derive::function;
+use guen_symbolic::SymbolId;
 
 /// A car, its mass above the middle of the rear axle, and so many trailers.
 fn car(trailers: usize) -> String {
@@ -46,7 +46,7 @@ const TURNING: f64 = -0.3;
 
 /// The rates of a car that is steered like this.
 fn rates(trailers: usize, steering: f64) -> Vec<f64> {
-    evaluated(&car(trailers), |name| match name {
+    rates_of(&car(trailers), |name| match name {
         "heading" => HEADING,
         "steering" => steering,
         "speed" => SPEED,
@@ -64,17 +64,12 @@ fn rates(trailers: usize, steering: f64) -> Vec<f64> {
 }
 
 /// The rates of a declared system where its symbols have these values.
-fn evaluated(text: &str, value: impl Fn(&str) -> f64) -> Vec<f64> {
-    let (declaration, _) = parse(text.parse().unwrap());
-    let declaration = declaration.unwrap();
-    let (derived, report) = collect(|faults| derive(resolve(&declaration, faults)?, faults));
-    assert!(report.is_empty(), "{}", report.to_compile_errors());
-    let derived = derived.unwrap();
-    let graph = &derived.model.bench.graph;
-    let value = |symbol: SymbolId| value(&graph.symbol_info(symbol).name);
-    let programs = &derived.system.programs;
-    let rates = programs.functions.iter().position(|own| own.name == function::RHS).unwrap();
-    evaluate_function(programs, rates, &evaluate_prepare(programs, value), value)
+fn rates_of(text: &str, value: impl Fn(&str) -> f64) -> Vec<f64> {
+    derived(text, |derived| {
+        let graph = &derived.model.bench.graph;
+        let value = |symbol: SymbolId| value(&graph.symbol_info(symbol).name);
+        evaluated(&derived.system, function::RHS, value).expect("rates")
+    })
 }
 
 #[test]
@@ -169,7 +164,7 @@ fn trailers_nearly_in_line_turn_by_the_angles_between_them() {
                 Written::Bends => [0.05, -0.01, -1.7, -8e-4, -4e-4][i - 1],
                 _ => ANGLES[i] - ANGLES[i - 1],
             };
-            let found = evaluated(&train(5, written), |name| match name {
+            let found = rates_of(&train(5, written), |name| match name {
                 "heading" => HEADING,
                 "speed" => SPEED,
                 "turning" => TURNING,

@@ -5,6 +5,8 @@
 //! algebra, the derivation or the optimiser.
 
 mod analytic;
+#[path = "../common/mod.rs"]
+mod common;
 mod declared;
 #[allow(dead_code, reason = "systems drawn over expressions use the rest")]
 #[path = "../../../guen-symbolic/tests/random_systems/draw.rs"]
@@ -20,11 +22,11 @@ mod multipliers;
 mod scalar;
 mod space;
 
-use guen_language::derive::{Derived, derive, function};
-use guen_language::diagnostics::collect;
-use guen_language::{model, parse};
-use guen_symbolic::{ExprId, SymbolId, evaluate_function, evaluate_prepare};
+use guen_language::derive::{Derived, function};
+use guen_language::model;
+use guen_symbolic::{ExprId, SymbolId};
 
+use common::{derived, evaluated};
 use declared::Declared;
 use draw::Draw;
 
@@ -35,32 +37,8 @@ const LARGEST: f64 = 1e6;
 /// States of each system.
 const STATES: usize = 3;
 
-/// The values of a program, and what they were to be, for one state.
-struct Comparison<'a> {
-    derived: &'a Derived<'a>,
-    values: Vec<(SymbolId, f64)>,
-}
-
-impl Comparison<'_> {
-    fn program(&self, name: &str) -> Option<Vec<f64>> {
-        let programs = &self.derived.system.programs;
-        let place = programs.functions.iter().position(|own| own.name == name)?;
-        let value = |symbol: SymbolId| {
-            let known = self.values.iter().find(|(known, _)| *known == symbol);
-            known.map(|(_, value)| *value).expect("a symbol of the declaration")
-        };
-        Some(evaluate_function(programs, place, &evaluate_prepare(programs, value), value))
-    }
-}
-
 /// The largest difference between the programs of a declaration and its meaning, and how many states were looked at.
-fn difference(text: &str, seed: u64) -> (f64, usize) {
-    let (declaration, report) = parse::parse(text.parse().expect("tokens"));
-    assert!(report.is_empty(), "{}\n{text}", report.to_compile_errors());
-    let declaration = declaration.expect("a declaration");
-    let (derived, report) = collect(|faults| derive(model::resolve(&declaration, faults)?, faults));
-    assert!(report.is_empty(), "{}\n{text}", report.to_compile_errors());
-    let derived = derived.expect("a derivation");
+fn difference(text: &str, derived: &Derived<'_>, seed: u64) -> (f64, usize) {
     let model = &derived.model;
     let graph = &model.bench.graph;
     let symbol = |e: ExprId| graph.as_symbol(e).expect("a symbol");
@@ -70,7 +48,7 @@ fn difference(text: &str, seed: u64) -> (f64, usize) {
     let held: Vec<(String, SymbolId)> = constants.chain(model.inputs.iter().map(name)).collect();
     let degrees = derived.system.derivation.system.forms.degrees;
     let declared = Declared::new(
-        &declaration,
+        model.declaration,
         coordinates.iter().map(|(name, _)| name.clone()).collect(),
         held.iter().map(|(name, _)| name.clone()).collect(),
         model.forms.iter().map(|form| form.name.clone()).collect(),
@@ -96,7 +74,13 @@ fn difference(text: &str, seed: u64) -> (f64, usize) {
         values.extend(mechanics.velocities.iter().map(|e| symbol(*e)).zip(speeds.clone()));
         let accelerations = mechanics.accelerations.iter().map(|e| symbol(*e));
         values.extend(accelerations.zip(reference.accelerations.iter().copied()));
-        let comparison = Comparison { derived: &derived, values };
+        let program = |name: &str| {
+            let value = |symbol: SymbolId| {
+                let known = values.iter().find(|(known, _)| *known == symbol);
+                known.map(|(_, value)| *value).expect("a symbol of the declaration")
+            };
+            evaluated(&derived.system, name, value)
+        };
         let meaning = declared.meaning(&point);
         let mut compare = |what: &str, found: Option<Vec<f64>>, expected: Vec<f64>, unit: f64| {
             let found = found.unwrap_or_default();
@@ -108,17 +92,17 @@ fn difference(text: &str, seed: u64) -> (f64, usize) {
             }
         };
         let rates = speeds.chain(reference.accelerations.iter().copied()).collect();
-        compare("rates", comparison.program(function::RHS), rates, unit);
+        compare("rates", program(function::RHS), rates, unit);
         let energies = [
             (function::KINETIC_ENERGY, meaning.kinetic_energy),
             (function::FORCE_FUNCTION, meaning.force_function),
         ];
         for (name, energy) in energies {
-            compare(name, comparison.program(name), vec![energy], 1.0 + energy.abs());
+            compare(name, program(name), vec![energy], 1.0 + energy.abs());
         }
         if !meaning.outputs.is_empty() {
             let size = meaning.outputs.iter().fold(1.0_f64, |most, e| most.max(e.abs()));
-            compare("outputs", comparison.program(function::OUTPUTS), meaning.outputs, size);
+            compare("outputs", program(function::OUTPUTS), meaning.outputs, size);
         }
         // The reaction of `|q| = 1` depends on what `T` is off it, and so may others beside it.
         if model.quaternions.is_empty() {
@@ -127,7 +111,7 @@ fn difference(text: &str, seed: u64) -> (f64, usize) {
             if !reactions.is_empty() {
                 // `lambda_v` is formed along `X_v`, which has the inverse of the forms once more.
                 let unit = unit * reference.condition;
-                compare("reactions", comparison.program(function::REACTIONS), reactions, unit);
+                compare("reactions", program(function::REACTIONS), reactions, unit);
             }
         }
     }
@@ -141,7 +125,8 @@ fn programs_of_drawn_declarations_are_what_they_mean() {
     let run = |thread: u64| -> (f64, usize) {
         let mut all = (0.0_f64, 0);
         for seed in (thread..rounds).step_by(2) {
-            let (worst, states) = difference(&grammar::drawn(seed), seed);
+            let text = grammar::drawn(seed);
+            let (worst, states) = derived(&text, |derived| difference(&text, derived, seed));
             all = (all.0.max(worst), all.1 + states);
         }
         all
@@ -161,7 +146,7 @@ fn programs_of_drawn_declarations_are_what_they_mean() {
 /// thousand times as large as the equations: they are left alone, and the equations derived.
 #[test]
 fn what_cannot_be_proved_cheaply_is_left_alone() {
-    let (_, states) = difference(NESTED, 1);
+    let (_, states) = derived(NESTED, |derived| difference(NESTED, derived, 1));
     assert!(states > 0);
 }
 

@@ -1,0 +1,24 @@
+//! Declarations derived, and the programs that were made of them evaluated.
+
+use guen_language::derive::{Derived, Level, derive};
+use guen_language::diagnostics::collect;
+use guen_language::{model, parse};
+use guen_symbolic::{SymbolId, evaluate_function, evaluate_prepare};
+
+/// Looks at what follows from a declaration in which nothing is wrong.
+pub fn derived<T>(text: &str, look: impl FnOnce(&Derived<'_>) -> T) -> T {
+    let (declaration, report) = parse::parse(text.parse().expect("tokens"));
+    assert!(report.is_empty(), "{}\n{text}", report.to_compile_errors());
+    let declaration = declaration.expect("a declaration");
+    let (derived, report) = collect(|faults| derive(model::resolve(&declaration, faults)?, faults));
+    assert!(report.is_empty(), "{}\n{text}", report.to_compile_errors());
+    look(&derived.expect("a derivation"))
+}
+
+/// What a program of a level computes where its symbols have these values; `None` if there is none of that name.
+#[allow(dead_code, reason = "some tests look at costs only")]
+pub fn evaluated(level: &Level, name: &str, value: impl Fn(SymbolId) -> f64) -> Option<Vec<f64>> {
+    let programs = &level.programs;
+    let place = programs.functions.iter().position(|own| own.name == name)?;
+    Some(evaluate_function(programs, place, &evaluate_prepare(programs, &value), &value))
+}
