@@ -105,6 +105,9 @@ mod tests {
                 for since in [0, 1, 5, 20, 39, 40, 123] {
                     let next = Schedule::next(edges, soonest, since);
                     assert!((1..=soonest.min(edges)).contains(&next), "{edges} {soonest} {since}: {next}");
+                    // Wherever a run is, it comes to the same steps.
+                    let apart = Schedule::next(edges, soonest, 0);
+                    assert!((since + next).is_multiple_of(apart), "{edges} {soonest} {since}: {next}");
                 }
             }
         }

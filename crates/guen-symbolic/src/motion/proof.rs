@@ -125,3 +125,57 @@ fn vanish_where(bench: &mut Workbench, es: &[ExprId], on_manifold: bool) -> bool
             .is_some_and(|residues| residues.iter().all(|residue| *residue == 0))
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::algebra::{Graph, Role};
+
+    /// `(c^2 + s^2 n) a' = g s` for an angle with sine `s` and cosine `c`, by the numbers `n` and `g`, and a coordinate that is one
+    /// on the constraint.
+    fn equations(bench: &mut Workbench, x: ExprId, [n, g]: [i64; 2], factor: ExprId) -> Equations {
+        let (sine, cosine) = bench.graph.sin_cos(x);
+        let graph = &mut bench.graph;
+        let (s2, c2) = (graph.powi(sine, 2), graph.powi(cosine, 2));
+        let mass = graph.linear(&[(c2, Rational::ONE), (s2, Rational::integer(n))]);
+        let force = graph.linear(&[(sine, Rational::integer(g))]);
+        Equations { mass: vec![vec![graph.mul(mass, factor)]], forces: vec![graph.mul(force, factor)] }
+    }
+
+    #[test]
+    fn equal_equations_are_proved_and_others_refused() {
+        let mut bench = Workbench::new(Graph::new());
+        let x = bench.graph.symbol("x", Role::Coordinate);
+        let one = bench.graph.one();
+        let own = equations(&mut bench, x, [1, 3], one);
+        let same = Equations { mass: vec![vec![one]], forces: own.forces.clone() };
+        assert_eq!(are_same(&mut bench, &own, &same).ok(), Some(true));
+        for wrong in [[2, 3], [1, -3], [1, 4]] {
+            let other = equations(&mut bench, x, wrong, one);
+            assert!(are_same(&mut bench, &own, &other).is_err(), "{wrong:?}");
+            let along = are_same_along(&mut bench, &[5], (&own.mass[0], own.forces[0]), &other);
+            assert!(along.is_err(), "{wrong:?}");
+            let rates = [own.forces[0], other.forces[0]];
+            if rates[0] != rates[1] {
+                assert!(are_equal(&mut bench, &rates[..1], &rates[1..], 0).is_err(), "{wrong:?}");
+                assert!(solve_equations(&mut bench, &own, &rates[1..]).is_err(), "{wrong:?}");
+            }
+        }
+        assert_eq!(solve_equations(&mut bench, &own, &own.forces).ok(), Some(true));
+    }
+
+    #[test]
+    fn on_a_constraint_they_need_be_equal_there_only() {
+        let mut bench = Workbench::new(Graph::new());
+        let x = bench.graph.symbol("x", Role::Coordinate);
+        let length = bench.graph.symbol("r", Role::Coordinate);
+        let one = bench.graph.one();
+        let constraint = bench.graph.sub(length, one);
+        let (own, other) = (equations(&mut bench, x, [1, 3], one), equations(&mut bench, x, [1, 3], length));
+        assert!(are_same(&mut bench, &own, &other).is_err());
+        bench.zero.set_manifold(&mut bench.graph, &[constraint]);
+        assert_eq!(are_same(&mut bench, &own, &other).ok(), Some(true));
+        let wrong = equations(&mut bench, x, [1, -3], length);
+        assert!(are_same(&mut bench, &own, &wrong).is_err());
+    }
+}

@@ -169,10 +169,20 @@ fn split(bench: &mut Workbench, equation: ExprId) -> Option<(ExprId, ExprId)> {
 /// Whether constraints on positions are integrals of these velocities, as they are of those by the operators: everywhere, so
 /// that nothing drifts faster off them.
 pub(super) fn stay(bench: &mut Workbench, system: &Mechanics, velocities: &[ExprId]) -> bool {
-    let rates = system.forms.coordinates.iter().copied().zip(velocities.iter().copied());
-    let mut motion = Flow::new(&bench.graph, rates.chain([(system.forms.time, bench.graph.one())]));
-    system.holonomic.iter().all(|holonomic| {
-        let rate = motion.of(&mut bench.graph, holonomic.equation);
+    let equations: Vec<ExprId> = system.holonomic.iter().map(|holonomic| holonomic.equation).collect();
+    stays(bench, (system.forms.time, &system.forms.coordinates), &equations, velocities)
+}
+
+fn stays(
+    bench: &mut Workbench,
+    (time, coordinates): (ExprId, &[ExprId]),
+    equations: &[ExprId],
+    velocities: &[ExprId],
+) -> bool {
+    let rates = coordinates.iter().copied().zip(velocities.iter().copied());
+    let mut motion = Flow::new(&bench.graph, rates.chain([(time, bench.graph.one())]));
+    equations.iter().all(|equation| {
+        let rate = motion.of(&mut bench.graph, *equation);
         bench.vanishes(rate)
     })
 }
@@ -240,7 +250,7 @@ pub(super) fn written_out(bench: &mut Workbench, e: ExprId) -> ExprId {
 
 #[cfg(test)]
 mod tests {
-    use super::{Restriction, split};
+    use super::{Restriction, split, stays};
     use crate::algebra::{Bound, ExprId, FastMap, Graph, Rational, Role, SymbolId};
     use crate::workbench::Workbench;
     use crate::zero::evaluate;
@@ -312,5 +322,35 @@ mod tests {
         };
         assert!((value(1.0) - 2.0 * (0.26_f64 * 0.74).sqrt()).abs() < 1e-15);
         assert!((value(3.0) - 9.0 * value(1.0)).abs() < 1e-13, "of degree two, off the constraint too");
+    }
+
+    /// Where what is constant is not one, its powers count: `l^2 - x^2` is `y^2`.
+    #[test]
+    fn radicands_become_homogeneous_on_a_circle_of_any_size() {
+        let (mut bench, mut restriction, x) = sphere(&["x", "y"], |graph| {
+            let l = graph.bounded_symbol("l", Role::Constant, Bound::Positive);
+            graph.powi(l, 2)
+        });
+        let l2 = restriction.constants[0].1;
+        let square = bench.graph.powi(x[0], 2);
+        let rest = bench.graph.sub(l2, square);
+        let [root, other] = [rest, bench.graph.powi(x[1], 2)].map(|e| bench.graph.sqrt(e));
+        assert_eq!(restriction.tidy(&mut bench, root), bench.tidy(other));
+    }
+
+    /// Velocities may be replaced by others that keep a constraint everywhere, and by no others.
+    #[test]
+    fn velocities_keep_what_is_off_a_constraint_where_it_is() {
+        let (mut bench, _, x) = sphere(&["x", "y"], |graph| graph.one());
+        let square = bench.dot(&x, &x);
+        let one = bench.graph.one();
+        let equation = bench.graph.sub(square, one);
+        let time = bench.graph.symbol("t", Role::Time);
+        let turning = [bench.graph.neg(x[1]), x[0]];
+        // Equal on the circle: off it they lead away.
+        let away: Vec<ExprId> = x.iter().map(|e| bench.graph.mul(*e, equation)).collect();
+        let leading = [0, 1].map(|i| bench.graph.add(turning[i], away[i]));
+        assert!(stays(&mut bench, (time, &x), &[equation], &turning));
+        assert!(!stays(&mut bench, (time, &x), &[equation], &leading));
     }
 }

@@ -511,3 +511,49 @@ fn evaluations_agree() {
         assert!(difference < f256::f256::from(1e-15), "{function:?}: {plain} {long}");
     }
 }
+
+/// What points show, and nothing that they do not: neither what is zero nor what stays open is shown to differ.
+#[test]
+fn a_difference_is_shown_by_points_alone() {
+    let mut b = Bench::new();
+    let (x, y) = (b.q("x"), b.q("y"));
+    let (sine, cosine) = b.g.sin_cos(x);
+    let (s2, c2) = (b.g.powi(sine, 2), b.g.powi(cosine, 2));
+    let near = b.times(c2, 2, 1);
+    let zero = b.g.sub(x, x);
+    let angle = b.f(Function::Atan, y);
+    let turned = b.g.sub(angle, x);
+    for (e, shown) in [(zero, false), (s2, true), (near, true), (turned, true)] {
+        assert_eq!(b.test.is_shown_nonzero(&mut b.g, e, false), shown);
+    }
+    // On a circle of radius one its equation vanishes, and is no difference; off it there is one.
+    let (x2, y2, one) = (b.g.powi(x, 2), b.g.powi(y, 2), b.n(1));
+    let square = b.g.add(x2, y2);
+    let circle = b.g.sub(square, one);
+    b.test.set_manifold(&mut b.g, &[circle]);
+    assert!(!b.test.is_shown_nonzero(&mut b.g, circle, true));
+    assert!(b.test.is_shown_nonzero(&mut b.g, circle, false));
+    assert!(b.test.is_shown_nonzero(&mut b.g, x, true));
+}
+
+/// `asin(f) + acos(f)` is constant, which its derivatives prove: as long as they are no more work than anybody waits for.
+#[test]
+fn a_proof_by_derivatives_has_its_limit() {
+    for (terms, expected) in [(30, Zero), (1500, Unknown)] {
+        let mut b = Bench::new();
+        let mut waves = Vec::new();
+        for k in 0..terms {
+            let x = b.q(&format!("x{k}"));
+            waves.push(b.g.sin(x));
+        }
+        let sum = b.g.sum(waves);
+        let half = b.times(sum, 1, 2 * terms);
+        let (sine, cosine) = (b.f(Function::Asin, half), b.f(Function::Acos, half));
+        let sum = b.g.add(sine, cosine);
+        let pi = b.g.pi();
+        let turn = b.times(pi, 1, 2);
+        let before = b.g.work();
+        assert_eq!(b.differ(sum, turn), expected);
+        assert!(b.g.work() - before < 2 * DERIVATIVE_WORK, "{}", b.g.work() - before);
+    }
+}
