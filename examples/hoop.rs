@@ -133,9 +133,17 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
 
     // 4. The motion in numbers.
     let energy_start = hoop.energy(0.0, &start);
-    let mut table =
-        Table::new(&["t", "theta", "psi", "contact x", "contact y", "energy error", "residual", "hidden"])
-            .digits(5);
+    let mut table = Table::new(&[
+        "t",
+        "theta",
+        "psi",
+        "contact x",
+        "contact y",
+        "energy error",
+        "constraint error",
+        "height error",
+    ])
+    .digits(5);
     for column in 5..8 {
         table = table.column_digits(column, 2);
     }
