@@ -129,6 +129,44 @@ impl<R: Real> Real for Rounded<R> {
         Self::exact(R::from_f64(value))
     }
 
+    // As by default, but always inlined: of lanes a call would lose their instructions.
+    #[inline(always)]
+    fn zero() -> Self {
+        Self::exact(R::zero())
+    }
+
+    #[inline(always)]
+    fn one() -> Self {
+        Self::exact(R::one())
+    }
+
+    #[inline(always)]
+    fn sin(self) -> Self {
+        self.sin_cos().0
+    }
+
+    #[inline(always)]
+    fn cos(self) -> Self {
+        self.sin_cos().1
+    }
+
+    #[inline(always)]
+    fn tan(self) -> Self {
+        let (sine, cosine) = self.sin_cos();
+        sine / cosine
+    }
+
+    #[inline(always)]
+    fn cot(self) -> Self {
+        let (sine, cosine) = self.sin_cos();
+        cosine / sine
+    }
+
+    #[inline(always)]
+    fn recip(self) -> Self {
+        Self::one() / self
+    }
+
     #[inline]
     fn to_f64(self) -> f64 {
         self.value.to_f64()
