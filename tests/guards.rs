@@ -259,3 +259,25 @@ fn a_condition_limit_is_watched() {
     assert!((condition * 1e-14 - 1.0).abs() < 0.1 && limit == 1e12, "{condition:e}");
     assert!(!matches!(run(1e15), Err(Cause::Condition { .. })));
 }
+
+/// What looks cost is counted for the system, and decides how often a run looks.
+#[test]
+fn looks_have_a_price() {
+    let hoop = prepared();
+    let (look, edges) = (System::<f64, 9>::cost_of_look(&hoop), System::<f64, 9>::cost_of_edges(&hoop));
+    // The edge is a sine; a right-hand side has two, and 24 operations.
+    assert!(edges > 0.2 && edges < 3.0 && f64::from(look) > edges, "{look} {edges}");
+    // Without an edge there is nothing to ask for.
+    let free = Free { m: 1.0 }.prepare().unwrap();
+    assert_eq!(System::<f64, 2>::cost_of_edges(&free), 0.0);
+}
+
+guen::mechanical_system! {
+    /// A mass that nothing moves.
+    system Free {
+        constants { m > 0 }
+        coordinates { x }
+        parameters { v = dot(x); }
+        kinetic_energy = m/2*v^2;
+    }
+}
