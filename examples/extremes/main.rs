@@ -18,6 +18,7 @@
 
 mod battery;
 mod bounds;
+mod threads;
 
 use std::process::ExitCode;
 

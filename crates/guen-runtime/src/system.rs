@@ -48,7 +48,8 @@ pub trait System<R: Real, const N: usize> {
     /// Writes functions that must not vanish, since the system's chart or its equations end there, to the head of
     /// `values`, and returns how many: none, unless a system says more. What does not fit is left out. Their distance
     /// from vanishing is what is [`left`](Rounded::left) of them, given how uncertain time and state are. A guard
-    /// refuses to go on where one of them changes its sign or is closer than its limit.
+    /// refuses to go on where one of them changes its sign or is closer than its limit, and calls this inside of
+    /// [`Real::vectorize`], which costs less than to do so here.
     #[inline]
     fn edges(&self, _t: Rounded<R>, _state: &[Rounded<R>; N], _values: &mut [Rounded<R>]) -> usize {
         0

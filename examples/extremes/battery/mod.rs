@@ -25,6 +25,8 @@ use std::fmt;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use crate::threads::on_threads;
+
 /// What became of a question.
 #[derive(Clone, Debug)]
 pub enum Verdict {
@@ -117,22 +119,18 @@ pub fn run(
     let queue: Vec<Mutex<Option<Task>>> = tasks.into_iter().map(|task| Mutex::new(Some(task))).collect();
     let lines: Vec<Mutex<Option<Line>>> = queue.iter().map(|_| Mutex::new(None)).collect();
     let (next, done) = (AtomicUsize::new(0), AtomicUsize::new(0));
-    std::thread::scope(|scope| {
-        for _ in 0..threads.clamp(1, count.max(1)) {
-            scope.spawn(|| {
-                loop {
-                    let index = next.fetch_add(1, Ordering::Relaxed);
-                    let Some(task) = queue.get(index) else { break };
-                    let Some(task) = task.lock().ok().and_then(|mut task| task.take()) else { break };
-                    let start = std::time::Instant::now();
-                    let line = (task.ask)();
-                    let seconds = start.elapsed().as_secs_f64();
-                    progress(done.fetch_add(1, Ordering::Relaxed) + 1, count, &line, seconds);
-                    if let Ok(mut place) = lines[index].lock() {
-                        *place = Some(line);
-                    }
-                }
-            });
+    on_threads(threads.clamp(1, count.max(1)), || {
+        loop {
+            let index = next.fetch_add(1, Ordering::Relaxed);
+            let Some(task) = queue.get(index) else { break };
+            let Some(task) = task.lock().ok().and_then(|mut task| task.take()) else { break };
+            let start = std::time::Instant::now();
+            let line = (task.ask)();
+            let seconds = start.elapsed().as_secs_f64();
+            progress(done.fetch_add(1, Ordering::Relaxed) + 1, count, &line, seconds);
+            if let Ok(mut place) = lines[index].lock() {
+                *place = Some(line);
+            }
         }
     });
     lines.into_iter().filter_map(|line| line.into_inner().ok().flatten()).collect()

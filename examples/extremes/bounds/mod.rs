@@ -18,6 +18,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use guen::Real;
 use guen_study::Digits71;
 
+use crate::threads::on_threads;
+
 /// The factor of the bound.
 pub const FACTOR: f64 = 8.0;
 /// Systems with more parameters are bounded as a whole only.
@@ -148,20 +150,16 @@ pub fn all(states: usize, threads: usize, named: Option<&str>, done: impl Fn(&Fo
         systems::jobs().into_iter().filter(|(name, _)| wanted(name)).map(|(_, job)| job).collect();
     let found: Vec<Mutex<Option<Found>>> = jobs.iter().map(|_| Mutex::new(None)).collect();
     let next = AtomicUsize::new(0);
-    std::thread::scope(|scope| {
-        for _ in 0..threads.clamp(1, jobs.len().max(1)) {
-            scope.spawn(|| {
-                while let Some((job, place)) = {
-                    let index = next.fetch_add(1, Ordering::Relaxed);
-                    jobs.get(index).zip(found.get(index))
-                } {
-                    let found = job(states);
-                    done(&found);
-                    if let Ok(mut place) = place.lock() {
-                        *place = Some(found);
-                    }
-                }
-            });
+    on_threads(threads.clamp(1, jobs.len().max(1)), || {
+        while let Some((job, place)) = {
+            let index = next.fetch_add(1, Ordering::Relaxed);
+            jobs.get(index).zip(found.get(index))
+        } {
+            let found = job(states);
+            done(&found);
+            if let Ok(mut place) = place.lock() {
+                *place = Some(found);
+            }
         }
     });
     found.into_iter().map(|found| found.into_inner().ok().flatten().expect("every job was done")).collect()

@@ -317,18 +317,17 @@ fn systems(
                 })
             }
 
+            #[inline]
             fn edges(
                 &self, t: __guen::Rounded<R>, state: &[__guen::Rounded<R>; #size], values: &mut [__guen::Rounded<R>],
             ) -> usize {
-                <R as __guen::Real>::vectorize(#[inline(always)] || {
-                    let prepared = &#prepared;
-                    let _ = &prepared;
-                    let variables = Prepared::<__guen::Rounded<R>>::variables(state);
-                    #[allow(unused_mut, reason = "there may be no further edges")]
-                    let mut written = __guen::System::edges(&#below, t, &variables, values);
-                    #further
-                    written
-                })
+                let prepared = &#prepared;
+                let _ = &prepared;
+                let variables = Prepared::<__guen::Rounded<R>>::variables(state);
+                #[allow(unused_mut, reason = "there may be no further edges")]
+                let mut written = __guen::System::edges(&#below, t, &variables, values);
+                #further
+                written
             }
 
             fn condition(&self, t: R, state: &[R; #size]) -> R {

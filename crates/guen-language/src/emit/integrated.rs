@@ -44,10 +44,11 @@ pub(super) fn guarded(subject: &Subject<'_, '_>, layout: &Layout, prepared: &Tok
         let count = level.edges;
         let domain = rounded(&quote!(domain), prepared, &quote!(t), &quote!(state));
         quote! {
+            #[inline]
             fn edges(
                 &self, t: __guen::Rounded<R>, state: &[__guen::Rounded<R>; #size], values: &mut [__guen::Rounded<R>],
             ) -> usize {
-                <R as __guen::Real>::vectorize(#[inline(always)] || __guen::placed(values, &#domain, #count))
+                __guen::placed(values, &#domain, #count)
             }
         }
     });
@@ -145,8 +146,8 @@ pub(super) fn prices(subject: &Subject<'_, '_>, layout: &Layout, looks: &Looks) 
     /// Of the calls, comparisons and copies of a look, whatever the system: counted for a particle without forces, whose
     /// estimates of errors by RK8 have more operations than all of its right-hand sides.
     const BESIDES: u64 = 200;
-    /// Of those of a look at edges alone.
-    const BESIDES_EDGES: u64 = 60;
+    /// Of those of a look at edges alone: counted for Appell's system in lanes, which is the dearest beside its right-hand side.
+    const BESIDES_EDGES: u64 = 70;
     let rhs = subject.level.program(function::RHS).map_or(0, |program| program.cost.weighted());
     let one = (rhs + STAGE * layout.size as u64).max(1);
     let look = u32::try_from((looks.all + BESIDES).div_ceil(one)).unwrap_or(u32::MAX);

@@ -59,8 +59,8 @@ pub(super) fn paces<R: Real>(
 }
 
 /// Writes the functions that must not vanish, where every entry is uncertain by a rounding of the largest value it has had, and
-/// returns how many they are.
-#[inline]
+/// returns how many they are. Inside of [`Real::vectorize`], please.
+#[inline(always)]
 pub(super) fn functions<R: Real, S, const N: usize>(
     system: &S,
     time: R,
@@ -71,14 +71,9 @@ pub(super) fn functions<R: Real, S, const N: usize>(
 where
     S: System<R, N> + ?Sized,
 {
-    R::vectorize(
-        #[inline(always)]
-        || {
-            let mut rounded = [Rounded::exact(time); N];
-            for ((entry, value), error) in rounded.iter_mut().zip(state).zip(largest) {
-                *entry = Rounded { value: *value, error: *error };
-            }
-            system.edges(Rounded::once(time), &rounded, into).min(EDGES)
-        },
-    )
+    let mut rounded = [Rounded::exact(time); N];
+    for ((entry, value), error) in rounded.iter_mut().zip(state).zip(largest) {
+        *entry = Rounded { value: *value, error: *error };
+    }
+    system.edges(Rounded::once(time), &rounded, into).min(EDGES)
 }

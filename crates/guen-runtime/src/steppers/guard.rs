@@ -378,7 +378,10 @@ impl<R: Real, const N: usize> Known<R, N> {
         in_order(guard, found, vitals.residual.most(), condition.most())?;
         let largest = start.state.map(Real::abs);
         let mut values = [Rounded::exact(R::zero()); EDGES];
-        let count = functions(system, start.time, &start.state, &largest, &mut values);
+        let count = R::vectorize(
+            #[inline(always)]
+            || functions(system, start.time, &start.state, &largest, &mut values),
+        );
         let known = Self {
             energy: vitals.energy,
             scale: vitals.scale,
@@ -405,7 +408,10 @@ impl<R: Real, const N: usize> Known<R, N> {
         if self.count == 0 {
             return Ok(());
         }
-        functions(system, reached.time, &reached.state, &self.largest, &mut self.functions);
+        R::vectorize(
+            #[inline(always)]
+            || functions(system, reached.time, &reached.state, &self.largest, &mut self.functions),
+        );
         self.distances(reached.time.to_f64(), limit)
     }
 
@@ -416,7 +422,10 @@ impl<R: Real, const N: usize> Known<R, N> {
         S: System<R, N> + ?Sized,
     {
         let mut from = [Rounded::exact(R::zero()); EDGES];
-        functions(system, before.time, &before.state, &self.largest, &mut from);
+        R::vectorize(
+            #[inline(always)]
+            || functions(system, before.time, &before.state, &self.largest, &mut from),
+        );
         let values = from.iter().zip(&self.functions).map(|(from, to)| (from.value, to.value));
         paces(values.take(self.count), found, limit)
     }

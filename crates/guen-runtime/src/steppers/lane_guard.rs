@@ -173,17 +173,24 @@ impl<L: Lanes, const N: usize> LaneWatch<L, N> {
         *due = *rest;
         let Some(known) = known.as_mut().filter(|known| known.count > 0) else { return };
         // What a whole look has judged is not judged again.
-        let suspects = if is_whole { Mask::all(0) } else { known.look_at_edges(system, now, guard.edge) };
+        let (suspects, soonest, patient) = L::vectorize(
+            #[inline(always)]
+            || {
+                let suspects =
+                    if is_whole { Mask::all(0) } else { known.look_at_edges(system, now, guard.edge) };
+                let (soonest, patient) = known.paces(system, before, guard.approach, *until_edges);
+                (suspects, soonest, patient)
+            },
+        );
         let since = *between - *rest;
         let next = |soonest: u32| (*rest).min(Schedule::next(*until_edges, soonest, since));
-        let (soonest, patient) = known.paces(system, before, guard.approach, *until_edges);
         let lanes = going - faults.lanes;
-        let mut apart = until.unwrap_or([0; MOST]);
-        let together = lanes.lanes().all(|lane| apart[lane] == 0);
+        let together = until.is_none_or(|until| lanes.lanes().all(|lane| until[lane] == 0));
         if together && (lanes - patient).is_empty() && (lanes & suspects).is_empty() {
             (*due, *until) = (next(*until_edges), None);
             return;
         }
+        let mut apart = until.unwrap_or([0; MOST]);
         for lane in lanes.lanes() {
             if apart[lane] > 0 {
                 continue;
@@ -221,7 +228,10 @@ impl<L: Lanes, const N: usize> LaneWatch<L, N> {
         if let (Some(known), Some(before)) = (known, before)
             && known.count > 0
         {
-            let (soonest, patient) = known.paces(system, before, guard.approach, 1);
+            let (soonest, patient) = L::vectorize(
+                #[inline(always)]
+                || known.paces(system, before, guard.approach, 1),
+            );
             for lane in (going - faults.lanes - patient).lanes() {
                 if let Err(cause) = known.pace(lane, soonest, now.time, guard.approach) {
                     faults.add(lane, cause, good);
@@ -270,7 +280,7 @@ impl<L: Lanes, const N: usize> LaneWatch<L, N> {
         // In the first steps an entry that was zero has no size yet.
         let negligible = if *young > 0 { guard.step } else { libm::sqrt(f64::EPSILON) };
         let time = L::from_f64(now.time);
-        let (vitals, condition, change, most, mut suspects) = L::vectorize(
+        let (vitals, condition, change, most, suspects) = L::vectorize(
             #[inline(always)]
             || {
                 let vitals = system.vitals(time, &now.state);
@@ -294,12 +304,13 @@ impl<L: Lanes, const N: usize> LaneWatch<L, N> {
                     + above(condition, guard.condition)
                     + above(most, guard.step)
                     + above(vitals.carried, guard.carried);
-                (vitals, condition, change, most, Mask::all(L::COUNT) - suspects.finite())
+                let mut suspects = Mask::all(L::COUNT) - suspects.finite();
+                if known.count > 0 {
+                    suspects = suspects.or(known.look_at_edges(system, now, guard.edge));
+                }
+                (vitals, condition, change, most, suspects)
             },
         );
-        if known.count > 0 {
-            suspects = suspects.or(known.look_at_edges(system, now, guard.edge));
-        }
         let found = now.time;
         for lane in ((lanes - faults.lanes) & suspects).lanes() {
             let judge = || {
@@ -345,7 +356,10 @@ impl<L: Lanes, const N: usize> Known<L, N> {
         let condition = system.condition(time, &start.state);
         let largest = start.state.map(Real::abs);
         let mut functions_there = [Rounded::exact(L::zero()); EDGES];
-        let count = functions(system, time, &start.state, &largest, &mut functions_there);
+        let count = L::vectorize(
+            #[inline(always)]
+            || functions(system, time, &start.state, &largest, &mut functions_there),
+        );
         let known = Self {
             energy: vitals.energy,
             scale: vitals.scale,
@@ -365,27 +379,24 @@ impl<L: Lanes, const N: usize> Known<L, N> {
         known
     }
 
-    /// Evaluates the functions that must not vanish, and returns the lanes that may have come to an edge.
+    /// Evaluates the functions that must not vanish, and returns the lanes that may have come to an edge: inside of
+    /// [`Real::vectorize`], please.
+    #[inline(always)]
     fn look_at_edges<S>(&mut self, system: &S, now: &Moment<L, N>, limit: f64) -> Mask
     where
         S: System<L, N> + ?Sized,
     {
-        L::vectorize(
-            #[inline(always)]
-            || {
-                let time = L::from_f64(now.time);
-                functions(system, time, &now.state, &self.largest, &mut self.functions);
-                let (zero, nan) = (L::zero(), L::from_f64(f64::NAN));
-                let mut suspects = zero;
-                for (now, start) in self.functions.iter().zip(&self.start).take(self.count) {
-                    let left = now.value.abs() / now.error;
-                    suspects += left * zero
-                        + left.where_above(L::from_f64(limit), zero, nan)
-                        + (now.value * *start).where_above(zero, zero, nan);
-                }
-                Mask::all(L::COUNT) - suspects.finite()
-            },
-        )
+        let time = L::from_f64(now.time);
+        functions(system, time, &now.state, &self.largest, &mut self.functions);
+        let (zero, nan) = (L::zero(), L::from_f64(f64::NAN));
+        let mut suspects = zero;
+        for (now, start) in self.functions.iter().zip(&self.start).take(self.count) {
+            let left = now.value.abs() / now.error;
+            suspects += left * zero
+                + left.where_above(L::from_f64(limit), zero, nan)
+                + (now.value * *start).where_above(zero, zero, nan);
+        }
+        Mask::all(L::COUNT) - suspects.finite()
     }
 
     fn distances(&self, lane: usize, found: f64, limit: f64) -> Result<(), Cause> {
@@ -395,32 +406,29 @@ impl<L: Lanes, const N: usize> Known<L, N> {
     }
 
     /// In how many steps to look at the edges again, judged by the step that began at `before`; no number where that has to be
-    /// found out for a lane alone. And the lanes in which it is in as many as the longest, or later.
+    /// found out for a lane alone. And the lanes in which it is in as many as the longest, or later. Inside of
+    /// [`Real::vectorize`], please.
+    #[inline(always)]
     fn paces<S>(&mut self, system: &S, before: &Moment<L, N>, limit: f64, longest: u32) -> (L, Mask)
     where
         S: System<L, N> + ?Sized,
     {
-        L::vectorize(
-            #[inline(always)]
-            || {
-                functions(system, L::from_f64(before.time), &before.state, &self.largest, &mut self.before);
-                let (zero, half) = (L::zero(), L::from_f64(0.5));
-                let mut soonest = L::from_f64(f64::from(u32::MAX));
-                let mut rest = zero;
-                for (from, to) in self.before.iter().zip(&self.functions).take(self.count) {
-                    let (from, to) = (from.value.abs(), to.value.abs());
-                    rest += above(from / to, limit) + above(to / from, limit);
-                    let steps = half * to / (from - to);
-                    let steps = from.where_above(to, steps, soonest);
-                    rest += steps * zero;
-                    soonest = soonest.where_above(steps, steps, soonest);
-                }
-                let soonest = soonest + rest;
-                // NaN where the longest is longer, or cannot be compared.
-                let longest = L::from_f64(f64::from(longest));
-                (soonest, longest.where_above(soonest, L::from_f64(f64::NAN), zero).finite())
-            },
-        )
+        functions(system, L::from_f64(before.time), &before.state, &self.largest, &mut self.before);
+        let (zero, half) = (L::zero(), L::from_f64(0.5));
+        let mut soonest = L::from_f64(f64::from(u32::MAX));
+        let mut rest = zero;
+        for (from, to) in self.before.iter().zip(&self.functions).take(self.count) {
+            let (from, to) = (from.value.abs(), to.value.abs());
+            rest += above(from / to, limit) + above(to / from, limit);
+            let steps = half * to / (from - to);
+            let steps = from.where_above(to, steps, soonest);
+            rest += steps * zero;
+            soonest = soonest.where_above(steps, steps, soonest);
+        }
+        let soonest = soonest + rest;
+        // NaN where the longest is longer, or cannot be compared.
+        let longest = L::from_f64(f64::from(longest));
+        (soonest, longest.where_above(soonest, L::from_f64(f64::NAN), zero).finite())
     }
 
     fn pace(&self, lane: usize, soonest: L, found: f64, limit: f64) -> Result<u32, Cause> {

@@ -50,7 +50,11 @@ impl Schedule {
         let left = (1.0 / COSTS_TOGETHER - spent).max(1.0 / COSTS_TOGETHER - 1.0 / COSTS_BETWEEN_EDGES);
         let [least, most] = COST_OF_A_DEFECT.map(|estimate| f64::from(look) + estimate);
         let every = f64::max(COSTS_BETWEEN_LOOKS * most, least / left);
-        Self { young, edges: between, every: young.max(in_steps(every)) }
+        let every = young.max(in_steps(every));
+        // At a look at everything edges are looked at anyway.
+        let every =
+            if both > 0.0 { every.checked_next_multiple_of(between).unwrap_or(u32::MAX) } else { every };
+        Self { young, edges: between, every }
     }
 
     /// In how many steps to look at the edges again, so many steps after everything was looked at, if that should be within
@@ -84,12 +88,16 @@ mod tests {
                     let price = f64::from(look) + 4.0;
                     assert!(price / every + 2.0 * edges / between < most, "{every} {between}");
                     assert!((price + 6.0) / every < 1.08 / 40.0 && 2.0 * edges / between < 1.08 / 50.0);
+                    // Both meet.
+                    assert!(edges == 0.0 || every % between == 0.0, "{every} {between}");
                     // Nothing is looked at more rarely than it has to be.
                     assert!(between == f64::from(young) * of || 2.0 * edges / between > 1.0 / 51.0);
+                    let meeting = if edges > 0.0 { between } else { 0.0 };
+                    let alone = every - meeting;
                     assert!(
-                        (price + 6.0) / every > 0.9 / 40.0
-                            || price / every + 2.0 * edges / between > 0.9 / 34.0
-                            || every == f64::from(young) * of
+                        (price + 6.0) / alone > 0.9 / 40.0
+                            || price / alone + 2.0 * edges / between > 0.9 / 34.0
+                            || alone <= f64::from(young) * of
                     );
                     let free = Schedule::new(evaluations, (look, edges), false, None);
                     assert!(f64::from(free.every) * of <= every && free.edges == u32::MAX);
