@@ -15,6 +15,8 @@ mod battery;
 #[path = "../examples/extremes/bounds/mod.rs"]
 #[allow(dead_code, reason = "the head of the table is for the program")]
 mod bounds;
+#[path = "../examples/extremes/threads.rs"]
+mod threads;
 
 use battery::systems::Damped;
 

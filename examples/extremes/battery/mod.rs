@@ -25,7 +25,7 @@ use std::fmt;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use crate::threads::on_threads;
+use super::threads::on_threads;
 
 /// What became of a question.
 #[derive(Clone, Debug)]

@@ -18,7 +18,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use guen::Real;
 use guen_study::Digits71;
 
-use crate::threads::on_threads;
+use super::threads::on_threads;
 
 /// The factor of the bound.
 pub const FACTOR: f64 = 8.0;
