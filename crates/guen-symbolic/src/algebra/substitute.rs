@@ -66,3 +66,17 @@ impl Substitution {
         }
     }
 }
+
+impl Graph {
+    /// Expressions with nothing in them kept whole.
+    pub(crate) fn opened(&mut self, es: &[ExprId]) -> Vec<ExprId> {
+        let mut open = Substitution::default();
+        for id in self.reachable(es, |_| false) {
+            if let Node::Kept(inside) = *self.node(id) {
+                let image = open.of(self, inside);
+                open.add(id, image);
+            }
+        }
+        es.iter().map(|e| open.of(self, *e)).collect()
+    }
+}

@@ -140,7 +140,7 @@ pub(super) fn rates(
             let forces = derivation::generalised_forces(bench, system, frame, &mut partials);
             let velocities = symmetry.reduced_each(bench, &frame.velocities);
             let reduced = unflattened(reduced, l);
-            let equations = routes::candidates(bench, system, &reduced, &reduced);
+            let equations = candidates(bench, system, &reduced, &reduced);
             found.extend(solutions(bench, equations, &forces, &velocities));
             words = Words::unchanged(bench, system);
         }
@@ -155,6 +155,37 @@ pub(super) fn rates(
             found.extend(words.rates(bench, system, &mut Symmetry::default()));
         }
         bench.choose_base_angles(&[], &system.expressions());
+    }
+    found
+}
+
+/// The equations in several forms, as of [`routes::candidates`]; multiplied out alone, where that leaves little: velocities that
+/// are kept whole because they are long with a heading may be short without it, and their squares may meet.
+fn candidates(
+    bench: &mut Workbench,
+    system: &Mechanics,
+    definition: &Equations,
+    reduced: &Equations,
+) -> Vec<Equations> {
+    let mut found = routes::candidates(bench, system, definition, reduced);
+    let entries = reduced.entries();
+    if weighted_cost(&bench.graph, &entries) > SMALL {
+        return found;
+    }
+    let opened = bench.graph.opened(&entries);
+    if opened == entries {
+        return found;
+    }
+    let Equations { mut mass, forces } = unflattened(opened, system.forms.degrees);
+    let Some(forces) = routes::normal_forces(bench, system, &forces) else { return found };
+    for (entry, known) in mass.iter_mut().flatten().zip(found[0].mass.iter().flatten()) {
+        let tidy = bench.tidy(*entry);
+        let cost = |e: ExprId| weighted_cost(&bench.graph, &[e]);
+        *entry = if cost(tidy) < cost(*known) { tidy } else { *known };
+    }
+    let open = Equations { mass, forces };
+    if weighted_cost(&bench.graph, &open.entries()) < weighted_cost(&bench.graph, &found[0].entries()) {
+        found = vec![open];
     }
     found
 }
@@ -279,7 +310,7 @@ impl Words {
         let definition = definition.map(|list| unflattened(symmetry.reduced(bench, &list), l));
         let velocities = symmetry.reduced_each(bench, &self.frame.velocities);
         let definition = definition.as_ref().unwrap_or(&reduced);
-        let equations = routes::candidates(bench, &self.system, definition, &reduced);
+        let equations = candidates(bench, &self.system, definition, &reduced);
         let found = solutions(bench, equations, &self.forces, &velocities);
         found
             .into_iter()

@@ -298,7 +298,11 @@ pub(super) fn candidates(
 }
 
 /// Every force as a polynomial in the `eta` with coefficients in normal form, where all are small.
-fn normal_forces(bench: &mut Workbench, system: &Mechanics, forces: &[ExprId]) -> Option<Vec<ExprId>> {
+pub(super) fn normal_forces(
+    bench: &mut Workbench,
+    system: &Mechanics,
+    forces: &[ExprId],
+) -> Option<Vec<ExprId>> {
     let limits = Limits { nodes: 800, steps: 12_000, ..Limits::default() };
     let variables = &system.etas[..system.forms.degrees];
     forces

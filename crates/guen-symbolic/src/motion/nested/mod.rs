@@ -23,7 +23,7 @@ use self::unknowns::Unknowns;
 use super::between::Between;
 use super::projection::{self, Measured, MeasuredForms};
 use super::{Equations, Frame, KineticTerm, Mechanics, Solution};
-use crate::algebra::{ExprId, FastMap, Flow, Graph, Node, Substitution};
+use crate::algebra::{ExprId, FastMap, Flow};
 use crate::program::weighted_cost;
 use crate::workbench::Workbench;
 
@@ -321,25 +321,13 @@ fn in_short_angles(bench: &mut Workbench, entries: Vec<ExprId>) -> Vec<ExprId> {
     let between = Between::new(bench, &entries).shorter(&bench.graph);
     let short = entries.into_iter().map(|e| {
         let written = between.within(bench, e, |bench| {
-            let open = opened(&mut bench.graph, e);
+            let open = bench.graph.opened(&[e])[0];
             let tidy = bench.tidy(open);
             (tidy != open).then(|| bench.graph.keep(tidy))
         });
         written.flatten().unwrap_or(e)
     });
     short.collect()
-}
-
-/// An expression with nothing in it kept whole.
-fn opened(graph: &mut Graph, e: ExprId) -> ExprId {
-    let mut open = Substitution::default();
-    for id in graph.reachable(&[e], |_| false) {
-        if let Node::Kept(inside) = *graph.node(id) {
-            let image = open.of(graph, inside);
-            open.add(id, image);
-        }
-    }
-    open.of(graph, e)
 }
 
 /// The place of the first unknown of a list that a form gives with a constant pivot, others of the list not in it, and
