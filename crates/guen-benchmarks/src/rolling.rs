@@ -61,3 +61,43 @@ macro_rules! rattleback {
         }
     } };
 }
+
+/// A car with a trailer on five wheels that roll, by the angle at the hitch.
+#[macro_export]
+macro_rules! rig {
+    ($($consumer:ident)::+ $(; $($more:tt)*)?) => { $($consumer)::+! {
+        /// A car with a trailer on five rolling wheels: ten coordinates and eight constraints.
+        pub system Rig {
+            constants { m > 0, I > 0, w > 0, J > 0, r > 0, l > 0, b > 0, d > 0 }
+            inputs { push, handle }
+            coordinates { x, y, yaw, steer, trailing, left, right, front, near, off }
+            let up = vec(0, 0, r);
+            let C = rot_z(yaw); let F = C*rot_z(steer); let T = C*rot_z(trailing);
+            let rear = vec(x, y, r);
+            let nose = rear + l*C.x;
+            let axle = rear - d*T.x;
+            bodies {
+                car     { mass: m, inertia: diag(0, 0, I), center: rear + l/2*C.x, orientation: C }
+                trailer { mass: m/2, inertia: diag(0, 0, I/2), center: axle, orientation: T }
+                one     { mass: w, inertia: diag(J/2, J, J/2), center: rear + b*C.y, orientation: C*rot_y(left) }
+                two     { mass: w, inertia: diag(J/2, J, J/2), center: rear - b*C.y, orientation: C*rot_y(right) }
+                three   { mass: w, inertia: diag(J/2, J, J/2), center: nose, orientation: F*rot_y(front) }
+                four    { mass: w, inertia: diag(J/2, J, J/2), center: axle + b*T.y, orientation: T*rot_y(near) }
+                five    { mass: w, inertia: diag(J/2, J, J/2), center: axle - b*T.y, orientation: T*rot_y(off) }
+            }
+            parameters { speed = inner(C.x, dot(rear)); steering = dot(steer); }
+            constraints {
+                rear_axle:    inner(C.y, dot(rear)) = 0;
+                front_axle:   inner(F.y, dot(nose)) = 0;
+                trailer_axle: inner(T.y, dot(axle)) = 0;
+                roll_one:     inner(C.x, one.velocity_at(rear + b*C.y - up)) = 0;
+                roll_two:     inner(C.x, two.velocity_at(rear - b*C.y - up)) = 0;
+                roll_three:   inner(F.x, three.velocity_at(nose - up)) = 0;
+                roll_four:    inner(T.x, four.velocity_at(axle + b*T.y - up)) = 0;
+                roll_five:    inner(T.x, five.velocity_at(axle - b*T.y - up)) = 0;
+            }
+            forces { push along speed; handle along steering; }
+            $($($more)*)?
+        }
+    } };
+}

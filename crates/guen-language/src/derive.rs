@@ -14,7 +14,7 @@ mod series;
 use std::rc::Rc;
 
 use guen_symbolic::{
-    Contracted, Derivation, ExprId, FunctionProgram, Limits, ProgramBuilder, Programs, SeriesProgram,
+    Contracted, Derivation, ExprId, FunctionProgram, Graph, Limits, ProgramBuilder, Programs, SeriesProgram,
     Workbench, normal_coefficients, normal_form, weighted_cost,
 };
 
@@ -301,8 +301,7 @@ fn polish(bench: &mut Workbench, derivation: &mut Derivation) {
     let variables: Vec<ExprId> = system.accelerations.iter().chain(&system.etas).copied().collect();
     // What is larger is read by nobody, and seldom gets cheaper.
     let limits = Limits { nodes: 400, steps: 6_000, ..Limits::default() };
-    let mut polished = |e: ExprId| {
-        let graph = &mut bench.graph;
+    let in_angles = |graph: &mut Graph, e: ExprId| {
         let Some(coefficients) = normal_coefficients(graph, e, &variables, &limits) else { return e };
         let terms: Vec<ExprId> = coefficients
             .into_iter()
@@ -314,6 +313,15 @@ fn polish(bench: &mut Workbench, derivation: &mut Derivation) {
             .collect();
         let sum = graph.sum(terms);
         if weighted_cost(graph, &[sum]) <= weighted_cost(graph, &[e]) { sum } else { e }
+    };
+    let mut polished = |e: ExprId| {
+        let here = in_angles(&mut bench.graph, e);
+        if bench.graph.is_in_base_angles(e) {
+            return here;
+        }
+        let own = bench.in_base_angles(&[e], |bench| in_angles(&mut bench.graph, e));
+        let cost = |e: ExprId| weighted_cost(&bench.graph, &[e]);
+        if cost(own) < cost(here) { own } else { here }
     };
     let energies = &mut derivation.energies;
     energies.kinetic = polished(energies.kinetic);

@@ -126,7 +126,7 @@ impl Workbench {
     }
 
     /// Does something with base angles for some expressions, and returns to those of today with all that is remembered.
-    pub(crate) fn in_base_angles<T>(&mut self, roots: &[ExprId], work: impl FnOnce(&mut Self) -> T) -> T {
+    pub fn in_base_angles<T>(&mut self, roots: &[ExprId], work: impl FnOnce(&mut Self) -> T) -> T {
         let mut angles = BaseAngles::default();
         self.graph.exchange_base_angles(&mut angles);
         let tidied = core::mem::take(&mut self.tidied);

@@ -21,6 +21,7 @@ mod declared {
     guen_benchmarks::robot!(guen::mechanical_system);
     guen_benchmarks::train!(guen::mechanical_system);
     guen_benchmarks::road_train!(guen::mechanical_system);
+    guen_benchmarks::rig!(guen::mechanical_system);
     guen_benchmarks::belt_ball!(guen::mechanical_system);
     guen_benchmarks::quaternion_hoop!(guen::mechanical_system);
     guen_benchmarks::rattleback!(guen::mechanical_system);
@@ -191,6 +192,10 @@ fn vehicles() -> Vec<(&'static str, Job)> {
                 m: 3.0, J: 2.0, I: 0.125, l: 2.0, M: 1.0, K: 0.5, d: 1.5, k: 0.25
             },
             2 parameters, 11 + 8 = 19, anywhere, to([3], QUARTERS)),
+        bounded!("rig",
+            declared::rig::Rig { m: 9.0, I: 7.0, w: 0.5, J: 0.25, r: 0.375, l: 2.5, b: 0.75, d: 3.0 }
+            driven { push: 0.5, handle: -0.25 },
+            2 parameters, 12 + 8 = 20, anywhere, to([3], QUARTERS)),
         bounded!("robot",
             declared::robot::Robot {
                 m: 10.0, mw: 1.0, h: 0.5, b: 0.25, r: 0.125, A: 0.5, B: 0.375, C: 0.25, I: 0.00390625, J: 0.0078125, g: 9.8125

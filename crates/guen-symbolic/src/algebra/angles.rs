@@ -40,6 +40,14 @@ impl Graph {
         &self.base_angles.base
     }
 
+    /// Whether all sines and cosines in an expression are those of base angles.
+    pub fn is_in_base_angles(&self, e: ExprId) -> bool {
+        self.reachable(&[e], |id| self.roles(id).is_constant()).into_iter().all(|id| match self.node(id) {
+            Node::Function(Function::Sin | Function::Cos, x) => self.base_angles.base.contains(x),
+            _ => true,
+        })
+    }
+
     /// Puts base angles that were taken out before back, and takes those out that are there now.
     pub(crate) fn exchange_base_angles(&mut self, other: &mut BaseAngles) {
         core::mem::swap(&mut self.base_angles, other);

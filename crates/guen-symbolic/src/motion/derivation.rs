@@ -114,8 +114,16 @@ impl Derivation {
             .map_err(DerivationError::NotQuadratic)?;
         let generalised_forces = generalised_forces(bench, &system, &mut frame, &mut partials);
 
-        let Found { equations, constrained, solution, alternatives, by_tensions, by_nesting, by_links } =
-            routes::equations(bench, &system, &mut frame, &mut partials, &terms, &generalised_forces)?;
+        let Found {
+            equations,
+            constrained,
+            solution,
+            alternatives,
+            by_tensions,
+            by_nesting,
+            by_links,
+            mut symmetry,
+        } = routes::equations(bench, &system, &mut frame, &mut partials, &terms, &generalised_forces)?;
         affordable(bench)?;
 
         let closure = {
@@ -124,7 +132,10 @@ impl Derivation {
         };
         affordable(bench)?;
         let class = classify(bench, &system, &mut frame, &closure);
-        let energies = Energies::new(bench, &system, &mut frame, &mut partials, &terms);
+        let mut energies = Energies::new(bench, &system, &mut frame, &mut partials, &terms);
+        for e in energies.momenta.iter_mut().chain([&mut energies.kinetic, &mut energies.integral]) {
+            *e = symmetry.shorter(bench, *e);
+        }
         let without_momentum = without_momentum(bench, &system, &frame, &mut partials, &terms);
         let known_momentum: Vec<bool> = without_momentum
             .iter()
@@ -141,7 +152,8 @@ impl Derivation {
                         let mass = bench.tidy(*mass);
                         parts.push(bench.graph.mul(mass, *acceleration));
                     }
-                    bench.graph.sum(parts)
+                    let reaction = bench.graph.sum(parts);
+                    symmetry.shorter(bench, reaction)
                 })
             })
             .collect();

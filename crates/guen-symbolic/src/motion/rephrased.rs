@@ -116,19 +116,31 @@ impl Change {
     }
 }
 
-/// The rates of the state in other words, one list for each set of expressions that is worth a program.
-pub(super) fn rates(
+/// What is found in other words.
+#[derive(Default)]
+pub(super) struct Rephrased {
+    /// The rates of the state, one list for each set of expressions that is worth a program.
+    pub(super) rates: Vec<Vec<ExprId>>,
+    /// What the equations do not depend on.
+    pub(super) symmetry: Symmetry,
+    /// The equations without that, generalised forces not included, where they are in the parameters as declared.
+    pub(super) equations: Option<Equations>,
+}
+
+/// The motion in other words.
+pub(super) fn rephrased(
     bench: &mut Workbench,
     system: &Mechanics,
     frame: &mut Frame,
     shown: &Equations,
     raw: &Equations,
     mut words: Option<Words>,
-) -> Vec<Vec<ExprId>> {
+) -> Rephrased {
     let is_changed = words.is_some();
     let sums = bench.graph.base_angles().iter().any(|angle| !bench.graph.is_monomial(*angle));
     let (mut symmetry, reduced) = symmetry(bench, system, shown, raw);
     let mut found = Vec::new();
+    let mut without = None;
     if !symmetry.is_empty() {
         let l = system.forms.degrees;
         bench.choose_base_angles(&symmetry.heads, &reduced);
@@ -141,6 +153,7 @@ pub(super) fn rates(
             let velocities = symmetry.reduced_each(bench, &frame.velocities);
             let reduced = unflattened(reduced, l);
             let equations = candidates(bench, system, &reduced, &reduced);
+            without = equations.first().cloned();
             found.extend(solutions(bench, equations, &forces, &velocities));
             words = Words::unchanged(bench, system);
         }
@@ -156,7 +169,7 @@ pub(super) fn rates(
         }
         bench.choose_base_angles(&[], &system.expressions());
     }
-    found
+    Rephrased { rates: found, symmetry, equations: without }
 }
 
 /// The equations in several forms, as of [`routes::candidates`]; multiplied out alone, where that leaves little: velocities that

@@ -3,6 +3,7 @@
 use super::derivation::affordable;
 use super::linkage::Tree;
 use super::projection::Projected;
+use super::symmetry::Symmetry;
 use super::velocity_forms::VelocityPartials;
 use super::{
     DerivationError, Equations, Frame, KineticTerm, Mechanics, Solution, linkage, nested, poincare,
@@ -36,6 +37,8 @@ pub(super) struct Found {
     pub(super) by_tensions: bool,
     pub(super) by_nesting: bool,
     pub(super) by_links: bool,
+    /// What the equations do not depend on.
+    pub(super) symmetry: Symmetry,
 }
 
 pub(super) fn equations(
@@ -69,6 +72,7 @@ pub(super) fn equations(
             by_tensions: false,
             by_nesting: false,
             by_links: true,
+            symmetry: Symmetry::default(),
         });
     }
     let by_definition = poincare::equations(bench, system, frame);
@@ -136,6 +140,7 @@ pub(super) fn equations(
     let clear = tensions.as_ref().is_some_and(|tensions| tensions.is_clear);
     let mut alternatives: Vec<Vec<ExprId>> = Vec::new();
     let mut by_nesting = false;
+    let mut symmetry = Symmetry::default();
     let by_links = linked.is_some();
     let (equations, solution) = match (tensions, linked) {
         (Some(tensions), linked) if clear => {
@@ -174,17 +179,27 @@ pub(super) fn equations(
             let in_own_axes = in_own_axes.or_else(|| turned::equations(bench, system, frame, forms));
             others
                 .extend(in_own_axes.into_iter().flat_map(|own| own.rates(bench, system, generalised_forces)));
-            others.extend(rephrased::rates(bench, system, frame, &equations, by_projection, words));
+            let rephrased = rephrased::rephrased(bench, system, frame, &equations, by_projection, words);
+            others.extend(rephrased.rates);
+            symmetry = rephrased.symmetry;
             for rates in others {
                 if proof::are_equal(bench, &own, &rates, n)? {
                     alternatives.push(rates);
                 }
             }
-            (equations, solution)
+            let shorter = match rephrased.equations {
+                Some(other) if proof::are_same(bench, &by_definition, &other)? => {
+                    Some(other.driven(bench, generalised_forces))
+                }
+                _ => None,
+            };
+            let cost = |equations: &Equations| weighted_cost(&bench.graph, &equations.entries());
+            let shorter = shorter.filter(|other| cost(other) < cost(&equations));
+            (shorter.unwrap_or(equations), solution)
         }
     };
     affordable(bench)?;
-    Ok(Found { equations, constrained, solution, alternatives, by_tensions, by_nesting, by_links })
+    Ok(Found { equations, constrained, solution, alternatives, by_tensions, by_nesting, by_links, symmetry })
 }
 
 /// The equations of the links of a large tree, compared with (2.7) along two displacements.

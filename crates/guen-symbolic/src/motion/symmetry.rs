@@ -8,6 +8,7 @@
 use std::collections::BTreeMap;
 
 use crate::algebra::{ExprId, Function, Graph, Node, Rational, Role, Substitution};
+use crate::program::weighted_cost;
 use crate::workbench::Workbench;
 use crate::zero::Verdict;
 
@@ -59,6 +60,18 @@ impl Symmetry {
     /// Each expression with those replacements that leave it as it is.
     pub(super) fn reduced_each(&mut self, bench: &mut Workbench, es: &[ExprId]) -> Vec<ExprId> {
         es.iter().map(|e| self.reduced(bench, &[*e])[0]).collect()
+    }
+
+    /// An expression, without what it does not depend on where it is shorter so: as it is then, or multiplied out.
+    pub(super) fn shorter(&mut self, bench: &mut Workbench, e: ExprId) -> ExprId {
+        let reduced = self.reduced(bench, &[e])[0];
+        if reduced == e {
+            return e;
+        }
+        let open = bench.graph.opened(&[reduced])[0];
+        let tidy = bench.in_base_angles(&[open], |bench| bench.tidy(open));
+        let cost = |e: &ExprId| weighted_cost(&bench.graph, &[*e]);
+        [tidy, reduced, e].into_iter().min_by_key(cost).unwrap_or(e)
     }
 }
 
