@@ -1,6 +1,6 @@
 //! From the ring back into the graph: the cheapest of a few readable forms.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::algebra::{ExprId, Graph, Rational};
 
@@ -21,7 +21,7 @@ pub(super) fn rebuild(graph: &mut Graph, ring: &Ring, f: &Fraction) -> Result<Ex
         return Ok(graph.zero());
     }
     let roots = roots_below(ring, &mut num, &mut den)?;
-    num = fewest_terms(ring, num)?;
+    num = fewest_terms(ring, num, &den.mono)?;
 
     let den_constant = den.mono.part(&ring.constants);
     let den_variable = den.mono.without(&ring.constants);
@@ -77,7 +77,7 @@ pub(super) fn rebuild(graph: &mut Graph, ring: &Ring, f: &Fraction) -> Result<Ex
         monomial(ring, &den_variable, -1, &mut factors);
     }
     for (poly, k) in variable_polys {
-        let poly = fewest_terms(ring, poly.clone())?;
+        let poly = fewest_terms(ring, poly.clone(), &Mono::ONE)?;
         factors.push((collected(graph, ring, &poly, 0)?, -(k as i32)));
     }
     Ok(graph.product(&factors))
@@ -132,23 +132,25 @@ fn roots_below(ring: &Ring, num: &mut Poly, den: &mut Denominator) -> Result<Vec
     Ok(roots)
 }
 
-/// Squares of sines against squares of cosines, angle by angle, whichever needs fewer terms.
-fn fewest_terms(ring: &Ring, mut p: Poly) -> Result<Poly> {
+/// Squares of sines against squares of cosines, angle by angle, whichever needs fewer terms over this denominator.
+fn fewest_terms(ring: &Ring, mut p: Poly, den: &Mono) -> Result<Poly> {
     for angle in &ring.angles {
         if p.max_exponent(angle.sin) >= 2 {
-            p = fewest_terms_of(ring, &p, angle)?;
+            p = fewest_terms_of(ring, &p, angle, den.exponent(angle.cos) / 2)?;
         }
     }
     Ok(p)
 }
 
-fn fewest_terms_of(ring: &Ring, p: &Poly, angle: &Angle) -> Result<Poly> {
+/// `half` is half of the exponent of the cosine in the denominator.
+fn fewest_terms_of(ring: &Ring, p: &Poly, angle: &Angle, half: u32) -> Result<Poly> {
     let mask = Mono::mask([angle.sin]);
-    // Everything but even powers of the sine -> coefficients by powers of w = sin^2.
-    let mut groups: BTreeMap<Mono, Vec<Rational>> = BTreeMap::new();
+    // Everything but even powers of the sine -> coefficients by powers of w = sin^2; what differs in constants alone together.
+    let mut classes: BTreeMap<Mono, BTreeMap<Mono, Vec<Rational>>> = BTreeMap::new();
     for (mono, c) in &p.terms {
         let e = mono.exponent(angle.sin);
         let rest = mono.without(&mask).times(&Mono::power(angle.sin, e % 2)?)?;
+        let groups = classes.entry(rest.without(&ring.constants)).or_default();
         let row = groups.entry(rest).or_default();
         let place = (e / 2) as usize;
         if row.len() <= place {
@@ -157,36 +159,80 @@ fn fewest_terms_of(ring: &Ring, p: &Poly, angle: &Angle) -> Result<Poly> {
         row[place] = c.clone();
     }
     let mut terms: BTreeMap<Mono, Rational> = BTreeMap::new();
-    for (rest, row) in groups {
-        let low = row.iter().position(|c| !c.is_zero()).unwrap_or(0);
-        let mut row = row[low..].to_vec();
-        let mut cosines = 0;
-        // Divisible by 1 - w as long as the coefficients add up to zero.
-        while row.len() > 1 && row.iter().cloned().sum::<Rational>().is_zero() {
-            let mut sum = Rational::ZERO;
-            for c in &mut row {
-                sum = &sum + c;
-                *c = sum.clone();
+    for groups in classes.into_values() {
+        let written: Vec<(Mono, Squares)> =
+            groups.iter().map(|(rest, row)| (rest.clone(), fewest_squares(row))).collect();
+        // `1 + tan^2` next to other terms, and not `1/cos^2`: squares of tangents and numbers take nothing from each other.
+        let in_tangents: Option<Vec<(Mono, Squares)>> =
+            groups.iter().map(|(rest, row)| Some((rest.clone(), tangents(row, half as usize)?))).collect();
+        let count = |written: &[(Mono, Squares)]| {
+            let powers = written.iter().flat_map(|(_, squares)| squares.iter().map(|(s, k, _)| (*s, *k)));
+            powers.collect::<BTreeSet<_>>().len()
+        };
+        let written = match in_tangents {
+            Some(other) if count(&other) <= count(&written) => other,
+            _ => written,
+        };
+        for (rest, squares) in written {
+            for (s, k, c) in squares {
+                let powers =
+                    Mono::power(angle.sin, 2 * s as u32)?.times(&Mono::power(angle.cos, 2 * k as u32)?)?;
+                let slot = terms.entry(rest.times(&powers)?).or_default();
+                *slot = &*slot + &c;
             }
-            row.pop();
-            cosines += 1;
-        }
-        let in_cosines = complemented(&row);
-        let count = |row: &[Rational]| row.iter().filter(|c| !c.is_zero()).count();
-        let turned = count(&in_cosines) < count(&row);
-        for (i, c) in (if turned { &in_cosines } else { &row }).iter().enumerate() {
-            if c.is_zero() {
-                continue;
-            }
-            let (s, k) = if turned { (low, cosines + i) } else { (low + i, cosines) };
-            let powers =
-                Mono::power(angle.sin, 2 * s as u32)?.times(&Mono::power(angle.cos, 2 * k as u32)?)?;
-            let slot = terms.entry(rest.times(&powers)?).or_default();
-            *slot = &*slot + c;
         }
     }
     ring.budget.spend(p.len())?;
     Ok(Poly::collect(terms))
+}
+
+/// Terms `c sin^2s cos^2k`, as `s`, `k` and `c`.
+type Squares = Vec<(usize, usize, Rational)>;
+
+/// A polynomial in `w = sin^2`, with powers of `1 - w` where these are fewer.
+fn fewest_squares(row: &[Rational]) -> Squares {
+    let low = row.iter().position(|c| !c.is_zero()).unwrap_or(0);
+    let mut row = row[low..].to_vec();
+    let mut cosines = 0;
+    // Divisible by 1 - w as long as the coefficients add up to zero.
+    while row.len() > 1 && row.iter().cloned().sum::<Rational>().is_zero() {
+        let mut sum = Rational::ZERO;
+        for c in &mut row {
+            sum = &sum + c;
+            *c = sum.clone();
+        }
+        row.pop();
+        cosines += 1;
+    }
+    let in_cosines = complemented(&row);
+    let count = |row: &[Rational]| row.iter().filter(|c| !c.is_zero()).count();
+    let turned = count(&in_cosines) < count(&row);
+    let found = if turned { in_cosines } else { row };
+    let powers = |i: usize| if turned { (low, cosines + i) } else { (low + i, cosines) };
+    found
+        .into_iter()
+        .enumerate()
+        .filter(|(_, c)| !c.is_zero())
+        .map(|(i, c)| (powers(i).0, powers(i).1, c))
+        .collect()
+}
+
+/// The same over `cos^2h` as a polynomial in the square of the tangent: with `w^j (w + v)^(h - j)` for `w^j`. `None` where
+/// the degree is larger, or nothing is divided by.
+fn tangents(row: &[Rational], h: usize) -> Option<Squares> {
+    if h == 0 || row.len() > h + 1 {
+        return None;
+    }
+    let mut found = vec![Rational::ZERO; h + 1];
+    for (j, c) in row.iter().enumerate() {
+        let mut binomial = Rational::ONE;
+        for i in 0..=h - j {
+            found[j + i] = &found[j + i] + &(c * &binomial);
+            binomial =
+                &(&binomial * &Rational::integer((h - j - i) as i64)) * &Rational::new(1, i as i64 + 1);
+        }
+    }
+    Some(found.into_iter().enumerate().filter(|(_, c)| !c.is_zero()).map(|(s, c)| (s, h - s, c)).collect())
 }
 
 /// The coefficients of `r(1 - v)` by powers of `v`.

@@ -216,6 +216,18 @@ fn trigonometric_identities() {
 }
 
 #[test]
+fn squares_of_tangents_take_nothing_from_each_other() {
+    // Not `A/cos^2 - (A - C) tan^2`: next to a right angle both have no digits of `A`.
+    check("A/cos(x)^2 - (A - C)*sin(x)^2/cos(x)^2", "A + C*tan(x)^2");
+    check("A + C/cos(x)^2", "A + C/cos(x)^2");
+    check("A/cos(x)^4 - (A - C)*tan(x)^2/cos(x)^2", "A/cos(x)^2 + C*tan(x)^2/cos(x)^2");
+    // By itself it stays.
+    check("A/cos(x)^2", "A/cos(x)^2");
+    check("A*eta1*eta2/cos(x)^2 + C*eta1^2", "A*eta1*eta2/cos(x)^2 + C*eta1^2");
+    check("(A*cos(x)^2 + C*sin(x)^2)*y", "A*y*cos(x)^2 + C*y*sin(x)^2");
+}
+
+#[test]
 fn constants_and_quotients() {
     check("m*(alpha^2 + beta^2 + k^2) - m*beta^2", "m*(alpha^2 + k^2)");
     check("A*x + a^2*x", "(A + a^2)*x");
