@@ -223,8 +223,8 @@ fn squares_of_tangents_take_nothing_from_each_other() {
     check("A/cos(x)^4 - (A - C)*tan(x)^2/cos(x)^2", "A/cos(x)^2 + C*tan(x)^2/cos(x)^2");
     // By itself it stays.
     check("A/cos(x)^2", "A/cos(x)^2");
-    check("A*eta1*eta2/cos(x)^2 + C*eta1^2", "A*eta1*eta2/cos(x)^2 + C*eta1^2");
-    check("(A*cos(x)^2 + C*sin(x)^2)*y", "A*y*cos(x)^2 + C*y*sin(x)^2");
+    check("A*eta1*eta2/cos(x)^2 + C*eta1^2", "C*eta1^2 + A*eta1*eta2/cos(x)^2");
+    check("A*y*cos(x)^2 + C*y*sin(x)^2", "(A*cos(x)^2 + C*sin(x)^2)*y");
 }
 
 #[test]
