@@ -161,10 +161,10 @@ fn fewest_terms_of(ring: &Ring, p: &Poly, angle: &Angle, half: u32) -> Result<Po
     let mut terms: BTreeMap<Mono, Rational> = BTreeMap::new();
     for groups in classes.into_values() {
         let written: Vec<(Mono, Squares)> =
-            groups.iter().map(|(rest, row)| (rest.clone(), fewest_squares(row))).collect();
+            groups.iter().map(|(rest, row)| (*rest, fewest_squares(row))).collect();
         // `1 + tan^2` next to other terms, and not `1/cos^2`: squares of tangents and numbers take nothing from each other.
         let in_tangents: Option<Vec<(Mono, Squares)>> =
-            groups.iter().map(|(rest, row)| Some((rest.clone(), tangents(row, half as usize)?))).collect();
+            groups.iter().map(|(rest, row)| Some((*rest, tangents(row, half as usize)?))).collect();
         let count = |written: &[(Mono, Squares)]| {
             let powers = written.iter().flat_map(|(_, squares)| squares.iter().map(|(s, k, _)| (*s, *k)));
             powers.collect::<BTreeSet<_>>().len()
