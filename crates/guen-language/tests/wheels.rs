@@ -5,7 +5,7 @@ mod common;
 
 use common::{derived, evaluated};
 use guen_language::derive::function;
-use guen_symbolic::SymbolId;
+use guen_symbolic::{SymbolId, evaluate_f64};
 
 /// The trailer's angle is that at the hitch, or its heading.
 fn rig(relative: bool) -> String {
@@ -128,6 +128,20 @@ fn rates_are_those_by_hand() {
             ] {
                 let value = |symbol: SymbolId| value(&graph.symbol_info(symbol).name, relative, state);
                 let found = evaluated(&derived.system, function::RHS, value).expect("rates");
+                // The equations that are shown are those of this motion.
+                let accelerations = [("speed'", found[10]), ("steering'", found[11])];
+                let moving = |symbol: SymbolId| {
+                    let name = &graph.symbol_info(symbol).name;
+                    let known = accelerations.iter().find(|(own, _)| own == name);
+                    known.map_or_else(|| value(symbol), |(_, acceleration)| *acceleration)
+                };
+                // About the largest of their terms.
+                let scale = (M + I) / state[0].cos().powi(2) * found[10].abs().max(found[11].abs()).max(1.0);
+                for (equation, left) in
+                    evaluate_f64(graph, &derived.system.equations, &moving).iter().enumerate()
+                {
+                    assert!(left.abs() <= 1e-13 * scale, "{relative} {state:?} {equation}: {left}");
+                }
                 let mut expected = by_hand(state);
                 if !relative {
                     expected[4] = -state[2] * state[1].sin() / D;

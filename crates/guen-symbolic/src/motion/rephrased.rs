@@ -117,7 +117,6 @@ impl Change {
 }
 
 /// What is found in other words.
-#[derive(Default)]
 pub(super) struct Rephrased {
     /// The rates of the state, one list for each set of expressions that is worth a program.
     pub(super) rates: Vec<Vec<ExprId>>,
@@ -127,49 +126,51 @@ pub(super) struct Rephrased {
     pub(super) equations: Option<Equations>,
 }
 
-/// The motion in other words.
-pub(super) fn rephrased(
-    bench: &mut Workbench,
-    system: &Mechanics,
-    frame: &mut Frame,
-    shown: &Equations,
-    raw: &Equations,
-    mut words: Option<Words>,
-) -> Rephrased {
-    let is_changed = words.is_some();
-    let sums = bench.graph.base_angles().iter().any(|angle| !bench.graph.is_monomial(*angle));
-    let (mut symmetry, reduced) = symmetry(bench, system, shown, raw);
-    let mut found = Vec::new();
-    let mut without = None;
-    if !symmetry.is_empty() {
-        let l = system.forms.degrees;
-        bench.choose_base_angles(&symmetry.heads, &reduced);
-        if is_changed {
-            // The base angles are others now.
-            words = Words::changed(bench, system, frame);
-        } else {
-            let mut partials = VelocityPartials::of_system(bench, system);
-            let forces = derivation::generalised_forces(bench, system, frame, &mut partials);
-            let velocities = symmetry.reduced_each(bench, &frame.velocities);
-            let reduced = unflattened(reduced, l);
-            let equations = candidates(bench, system, &reduced, &reduced);
-            without = equations.first().cloned();
-            found.extend(solutions(bench, equations, &forces, &velocities));
-            words = Words::unchanged(bench, system);
+impl Rephrased {
+    /// Looks for other words for the motion.
+    pub(super) fn new(
+        bench: &mut Workbench,
+        system: &Mechanics,
+        frame: &mut Frame,
+        shown: &Equations,
+        raw: &Equations,
+        mut words: Option<Words>,
+    ) -> Self {
+        let is_changed = words.is_some();
+        let sums = bench.graph.base_angles().iter().any(|angle| !bench.graph.is_monomial(*angle));
+        let (mut symmetry, reduced) = symmetry(bench, system, shown, raw);
+        let mut found = Vec::new();
+        let mut without = None;
+        if !symmetry.is_empty() {
+            let l = system.forms.degrees;
+            bench.choose_base_angles(&symmetry.heads, &reduced);
+            if is_changed {
+                // The base angles are others now.
+                words = Words::changed(bench, system, frame);
+            } else {
+                let mut partials = VelocityPartials::of_system(bench, system);
+                let forces = derivation::generalised_forces(bench, system, frame, &mut partials);
+                let velocities = symmetry.reduced_each(bench, &frame.velocities);
+                let reduced = unflattened(reduced, l);
+                let equations = candidates(bench, system, &reduced, &reduced);
+                without = equations.first().cloned();
+                found.extend(solutions(bench, equations, &forces, &velocities));
+                words = Words::unchanged(bench, system);
+            }
         }
-    }
-    if let Some(words) = words {
-        found.extend(words.rates(bench, system, &mut symmetry));
-    }
-    if sums && found.iter().all(|rates| weighted_cost(&bench.graph, rates) <= SMALL) {
-        // In single coordinates too: `cos(q_2)` is more than it looks beside `q_1` and `q_1 + q_2`.
-        bench.choose_base_angles(&[], &[]);
-        if let Some(words) = Words::unchanged(bench, system) {
-            found.extend(words.rates(bench, system, &mut Symmetry::default()));
+        if let Some(words) = words {
+            found.extend(words.rates(bench, system, &mut symmetry));
         }
-        bench.choose_base_angles(&[], &system.expressions());
+        if sums && found.iter().all(|rates| weighted_cost(&bench.graph, rates) <= SMALL) {
+            // In single coordinates too: `cos(q_2)` is more than it looks beside `q_1` and `q_1 + q_2`.
+            bench.choose_base_angles(&[], &[]);
+            if let Some(words) = Words::unchanged(bench, system) {
+                found.extend(words.rates(bench, system, &mut Symmetry::default()));
+            }
+            bench.choose_base_angles(&[], &system.expressions());
+        }
+        Self { rates: found, symmetry, equations: without }
     }
-    Rephrased { rates: found, symmetry, equations: without }
 }
 
 /// The equations in several forms, as of [`routes::candidates`]; multiplied out alone, where that leaves little: velocities that

@@ -3,6 +3,7 @@
 use super::derivation::affordable;
 use super::linkage::Tree;
 use super::projection::Projected;
+use super::rephrased::Rephrased;
 use super::symmetry::Symmetry;
 use super::velocity_forms::VelocityPartials;
 use super::{
@@ -179,7 +180,7 @@ pub(super) fn equations(
             let in_own_axes = in_own_axes.or_else(|| turned::equations(bench, system, frame, forms));
             others
                 .extend(in_own_axes.into_iter().flat_map(|own| own.rates(bench, system, generalised_forces)));
-            let rephrased = rephrased::rephrased(bench, system, frame, &equations, by_projection, words);
+            let rephrased = Rephrased::new(bench, system, frame, &equations, by_projection, words);
             others.extend(rephrased.rates);
             symmetry = rephrased.symmetry;
             for rates in others {
