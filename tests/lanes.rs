@@ -92,6 +92,7 @@ struct Rolling<'a> {
     hoop: &'a hoop::Prepared,
     starts: &'a [[f64; 9]; 8],
     step: f64,
+    guard: Guard,
 }
 
 impl LaneTask for Rolling<'_> {
@@ -102,7 +103,8 @@ impl LaneTask for Rolling<'_> {
         let hoop = <hoop::Prepared as Laned<9>>::gather::<L>(|_| self.hoop);
         let ends = self.starts.chunks_exact(L::COUNT).flat_map(|starts| {
             let start = std::array::from_fn(|i| L::from_fn(|lane| starts[lane][i]));
-            Rk4 { step: self.step }.integrate_in_lanes(&hoop, 0.0, &start, 1.0)
+            let method = Rk4 { step: self.step };
+            method.guarded_in_lanes(&hoop, (0.0, &start), &[1.0], self.guard, |_, _, _, _| ())
         });
         ends.collect()
     }
@@ -119,21 +121,32 @@ fn a_falling_hoop_ends_as_it_would_alone() {
     let still = |theta: f64| hoop::State { theta, zeta: theta.sin(), ..Default::default() };
     starts[2] = still(0.5).into();
     starts[7] = hoop::State { eta2: 300.0, eta3: -900.0, ..still(0.3) }.into();
+    let infinity = f64::INFINITY;
+    // Edges alone, at every step with everything else.
+    let edges =
+        Guard { every: Some(1), energy: infinity, step: infinity, approach: infinity, ..Guard::default() };
     let mut causes = Vec::new();
-    for step in [1e-3, 7e-3, 2e-2] {
-        let alone = starts
-            .map(|start| Rk4 { step }.integrate(&hoop, 0.0, &start, 1.0, |_, _| ControlFlow::Continue(())));
+    for (step, guard, expected) in [
+        (1e-3, Guard::default(), &[2, 7][..]),
+        (7e-3, Guard::default(), &[2, 7]),
+        (2e-2, Guard::default(), &[2, 7]),
+        (1e-3, edges, &[2]),
+    ] {
+        let alone =
+            starts.map(|start| Integration::new(&hoop, 0.0, &start).guard(guard).run(&Rk4 { step }, 1.0));
         for backend in Backend::ALL {
             for width in [Width::One, Width::Four, Width::Eight] {
-                let ends = dispatch_on(backend, width, Rolling { hoop: &hoop, starts: &starts, step });
-                assert_eq!(ends, alone, "{backend:?} {width:?}");
+                let rolling = Rolling { hoop: &hoop, starts: &starts, step, guard };
+                assert_eq!(dispatch_on(backend, width, rolling), alone, "{backend:?} {width:?}");
             }
         }
         let failed: Vec<usize> = (0..8).filter(|k| alone[*k].is_err()).collect();
-        assert_eq!(failed, [2, 7]);
+        assert_eq!(failed, expected);
         causes.extend(alone.iter().filter_map(|end| Some(end.as_ref().err()?.cause)));
     }
-    for (cause, name) in causes.iter().zip(["approach", "energy", "approach", "energy", "edge", "energy"]) {
+    for (cause, name) in
+        causes.iter().zip(["approach", "energy", "approach", "energy", "edge", "energy", "edge"])
+    {
         let found = match cause {
             Cause::Approach { .. } => "approach",
             Cause::Edge { .. } => "edge",

@@ -126,6 +126,17 @@ impl Workbench {
     }
 
     /// Does something with base angles for some expressions, and returns to those of today with all that is remembered.
+    ///
+    /// ```
+    /// use guen_symbolic::{Graph, Role, Workbench};
+    /// let mut bench = Workbench::new(Graph::new());
+    /// let (p, q) = (bench.graph.symbol("p", Role::Coordinate), bench.graph.symbol("q", Role::Coordinate));
+    /// let sum = bench.graph.add(p, q);
+    /// let (link, next, between) = (bench.graph.cos(p), bench.graph.cos(sum), bench.graph.cos(q));
+    /// bench.choose_base_angles(&[], &[link, next]);
+    /// assert!(bench.graph.is_in_base_angles(next) && !bench.graph.is_in_base_angles(between));
+    /// assert!(bench.in_base_angles(&[between], |bench| bench.graph.is_in_base_angles(between)));
+    /// ```
     pub fn in_base_angles<T>(&mut self, roots: &[ExprId], work: impl FnOnce(&mut Self) -> T) -> T {
         let mut angles = BaseAngles::default();
         self.graph.exchange_base_angles(&mut angles);
