@@ -2,7 +2,7 @@
 //! robot.
 //!
 //! ```text
-//! cargo bench --bench control
+//! cargo bench -p guen-benchmarks --bench control
 //! python3 benches/control_instructions.py
 //! ```
 //!

@@ -19,8 +19,8 @@ FUNCTION = "control_period"
 
 
 def benchmark() -> str:
-    """The program of `cargo bench --bench control`."""
-    command = ["cargo", "bench", "--bench", "control", "--no-run", "--message-format=json"]
+    """The program of `cargo bench -p guen-benchmarks --bench control`."""
+    command = ["cargo", "bench", "-p", "guen-benchmarks", "--bench", "control", "--no-run", "--message-format=json"]
     lines = subprocess.run(command, check=True, capture_output=True, text=True).stdout.splitlines()
     artifacts = (json.loads(line) for line in lines)
     found = [a["executable"] for a in artifacts if a.get("target", {}).get("name") == "control" and a.get("executable")]

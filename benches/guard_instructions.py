@@ -17,8 +17,8 @@ LIMIT = 1.03
 
 
 def benchmark() -> str:
-    """The program of `cargo bench --bench guards`."""
-    command = ["cargo", "bench", "--bench", "guards", "--no-run", "--message-format=json"]
+    """The program of `cargo bench -p guen-benchmarks --bench guards`."""
+    command = ["cargo", "bench", "-p", "guen-benchmarks", "--bench", "guards", "--no-run", "--message-format=json"]
     lines = subprocess.run(command, check=True, capture_output=True, text=True).stdout.splitlines()
     artifacts = (json.loads(line) for line in lines)
     found = [a["executable"] for a in artifacts if a.get("target", {}).get("name") == "guards" and a.get("executable")]

@@ -1,7 +1,7 @@
 //! What guards cost: runs with the default guard and with none beyond finiteness, in turn.
 //!
 //! ```text
-//! cargo bench --bench guards
+//! cargo bench -p guen-benchmarks --bench guards
 //! python3 benches/guard_instructions.py      # the ratio of instructions, which decides; needs valgrind
 //! ```
 //!

@@ -1,9 +1,9 @@
 //! Right-hand sides that the macro made against the same written by hand, side by side.
 //!
 //! ```text
-//! cargo bench --bench right_hand_sides             # all systems
-//! cargo bench --bench right_hand_sides -- hoop     # those with `hoop` in their name
-//! RUSTFLAGS="-C target-cpu=native" cargo bench --bench right_hand_sides
+//! cargo bench -p guen-benchmarks --bench right_hand_sides             # all systems
+//! cargo bench -p guen-benchmarks --bench right_hand_sides -- hoop     # those with `hoop` in their name
+//! RUSTFLAGS="-C target-cpu=native" cargo bench -p guen-benchmarks --bench right_hand_sides
 //! ```
 //!
 //! Both sides are generic over the real and run in `f64`, so they call the same elementary functions. A ratio below one

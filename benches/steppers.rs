@@ -1,8 +1,8 @@
 //! What a stepper costs beyond the right-hand side, and what its guards cost.
 //!
 //! ```text
-//! cargo bench --bench steppers
-//! RUSTFLAGS="-C target-cpu=native" cargo bench --bench steppers
+//! cargo bench -p guen-benchmarks --bench steppers
+//! RUSTFLAGS="-C target-cpu=native" cargo bench -p guen-benchmarks --bench steppers
 //! ```
 //!
 //! The paper's hoop over ten seconds. Each figure is the median of many short runs, and those that are compared are

@@ -20,15 +20,16 @@ PICTURES = ROOT / "docs/pictures"
 TOLERANCE = 3.0
 
 FIRST = "cargo test --quiet --doc -p guen-pages first_system"
+SCENES = "cargo run --quiet --release -p guen-measure --bin scenes"
 # What is drawn: the file in docs/pictures, the file that the program writes, the program.
 MADE = [
     ("first-track.svg", "crates/guen-pages/track.svg", FIRST),
+    ("scenes-contact.svg", "target/guen/scenes/contact.svg", SCENES),
     *(
         (picture, f"target/guen/{example}/{file}.svg", f"cargo run --quiet --release --example {example}")
         for picture, example, file in [
             ("hoop-track.svg", "hoop", "track"),
             ("sled-track.svg", "chaplygin_sled", "track"),
-            ("scenes-contact.svg", "scenes", "contact"),
             ("example-appell.svg", "appell", "axis"),
             ("example-balancing-robot.svg", "balancing_robot", "balance"),
             ("example-ensemble.svg", "ensemble", "spread"),
@@ -87,7 +88,10 @@ def main():
         if not target.exists() or target.read_text() != made:
             changed.append(picture)
             if not check:
-                target.write_text(made)
+                # Whole or not at all.
+                temporary = target.with_suffix(".tmp")
+                temporary.write_text(made)
+                temporary.replace(target)
         print(f"  {picture}: {len(made)} bytes", flush=True)
     print("changed: " + (", ".join(changed) or "none"))
     if check and changed:

@@ -1,8 +1,8 @@
 //! What the choice of the real costs: sine and cosine alone, and the hoop's right-hand side with them.
 //!
 //! ```text
-//! cargo bench --bench elementary
-//! RUSTFLAGS="-C target-cpu=native" cargo bench --bench elementary
+//! cargo bench -p guen-benchmarks --bench elementary
+//! RUSTFLAGS="-C target-cpu=native" cargo bench -p guen-benchmarks --bench elementary
 //! ```
 //!
 //! Nanoseconds: medians of [`ROUNDS`] rounds in which all candidates take turns, each beside the median of its ratios to
@@ -103,6 +103,41 @@ fn by_hand(name: &'static str, states: &[[f64; 9]]) -> Candidate {
     hoops(name, states, move |state: &[f64; 9]| hoop.rhs(state))
 }
 
+/// One function of one argument, called out of line so that a loop over arguments cannot be turned into lanes.
+fn alone(
+    name: &'static str,
+    function: fn(f64) -> f64,
+    reference: fn(f64) -> f64,
+    arguments: &[f64],
+) -> Candidate {
+    let error = arguments.iter().fold(0.0, |error, &x| f64::max(error, (function(x) - reference(x)).abs()));
+    let (own, mut results) = (arguments.to_vec(), vec![0.0; COUNT]);
+    let first = own.clone();
+    let function = black_box(function);
+    let throughput = move || {
+        timed(PASSES * COUNT, || {
+            for _ in 0..PASSES {
+                for (x, result) in black_box(&own).iter().zip(&mut results) {
+                    *result = function(*x);
+                }
+                black_box(&results);
+            }
+        })
+    };
+    let latency = move || {
+        timed(PASSES * COUNT, || {
+            let mut last = 0.0;
+            for _ in 0..PASSES {
+                for x in black_box(&first) {
+                    last = function(*x + last) * 1e-300;
+                }
+            }
+            black_box(last);
+        })
+    };
+    Candidate { name, error, throughput: Box::new(throughput), latency: Box::new(latency) }
+}
+
 fn hoops<R: Real>(
     name: &'static str,
     states: &[[f64; 9]],
@@ -188,6 +223,31 @@ fn main() {
             sines::<f32>("f32", &arguments),
         ],
     );
+    // Evenly spaced arguments repeat a short pattern of quadrants; drawn ones are the worst case for branches.
+    let mut state = 0x9e37_79b9_7f4a_7c15_u64;
+    let mut draw = || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        20.0 * ((state >> 11) as f64 / (1_u64 << 53) as f64) - 10.0
+    };
+    let drawn: Vec<f64> = (0..COUNT).map(|_| draw()).collect();
+    for (title, arguments) in [("evenly spaced", &arguments), ("drawn", &drawn)] {
+        table(
+            &format!("one sine, {title}, to 10"),
+            vec![
+                alone("platform (std)", f64::sin, Real::sin, arguments),
+                alone("f64", Real::sin, Real::sin, arguments),
+                alone("f64, of the pair", |x| Real::sin_cos(x).0, Real::sin, arguments),
+            ],
+        );
+        table(
+            &format!("one cosine, {title}, to 10"),
+            vec![
+                alone("platform (std)", f64::cos, Real::cos, arguments),
+                alone("f64", Real::cos, Real::cos, arguments),
+                alone("f64, of the pair", |x| Real::sin_cos(x).1, Real::cos, arguments),
+            ],
+        );
+    }
     let states: Vec<[f64; 9]> = (0..COUNT)
         .map(|i| {
             [0.5 + part(i), 6.0 * part(i), 1.0, 0.0, 0.0, 0.8, part(i) - 0.4, 3.0 - part(i), 0.9 + part(i)]

@@ -1,8 +1,8 @@
 //! Right-hand sides in lanes: derived against written by hand over the same lanes, and lanes against plain `f64`.
 //!
 //! ```text
-//! cargo bench --bench lanes                                    # a default build: instructions chosen at run time
-//! RUSTFLAGS="-C target-cpu=native" cargo bench --bench lanes
+//! cargo bench -p guen-benchmarks --bench lanes                                    # a default build: instructions chosen at run time
+//! RUSTFLAGS="-C target-cpu=native" cargo bench -p guen-benchmarks --bench lanes
 //! ```
 //!
 //! Throughput over 1024 states, in nanoseconds for each. Every figure is the median of [`PAIRS`] rounds in which the

@@ -53,7 +53,7 @@ def run(command, **more):
 def built_by_cargo():
     """The program that times the declared systems, for this processor and not for the oldest one."""
     host = next(line.split()[1] for line in run(["rustc", "-vV"]).splitlines() if line.startswith("host"))
-    command = ["cargo", "build", "--release", "--target", host, "-p", "guen-benchmarks", "--example", "serve", "--message-format=json-render-diagnostics"]
+    command = ["cargo", "build", "--release", "--target", host, "-p", "guen-measure", "--bin", "serve", "--message-format=json-render-diagnostics"]
     environment = {**os.environ, "RUSTFLAGS": "-C target-cpu=native"}
     output = subprocess.run(command, cwd=ROOT, env=environment, check=True, stdout=subprocess.PIPE, text=True).stdout
     found = [json.loads(line).get("executable") for line in output.splitlines()]

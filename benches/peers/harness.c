@@ -4,7 +4,7 @@
  *   rates SYSTEM PROGRAM INDEX      answers with the rates of one state
  *   time SYSTEM PROGRAM MODE        answers with nanoseconds; MODE is throughput or latency
  *
- * The other side, crates/guen-benchmarks/examples/serve.rs, does the same with the declared systems.
+ * The other side, crates/guen-measure/src/serve.rs, does the same with the declared systems.
  */
 #include <math.h>
 #include <stdio.h>

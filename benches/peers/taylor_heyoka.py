@@ -38,7 +38,7 @@ class Server:
 
     def __init__(self, flags):
         host = next(line.split()[1] for line in output(["rustc", "-vV"]).splitlines() if line.startswith("host"))
-        command = ["cargo", "build", "--release", "--target", host, "-p", "guen-benchmarks", "--example", "taylor", "--message-format=json-render-diagnostics"]
+        command = ["cargo", "build", "--release", "--target", host, "-p", "guen-measure", "--bin", "taylor", "--message-format=json-render-diagnostics"]
         found = [json.loads(line).get("executable") for line in output(command, cwd=ROOT, env={**os.environ, "RUSTFLAGS": flags}).splitlines()]
         # Kept apart from the next build, which has other flags.
         path = next(path for path in found if path)

@@ -2,7 +2,7 @@
 //! at a token of the input. Run it by `cargo +nightly fuzz run expand` in the root of the repository.
 #![no_main]
 
-#[path = "../../crates/guen-language/tests/corpus/mod.rs"]
+#[path = "../../crates/guen-language/tests/declarations/corpus/mod.rs"]
 #[allow(dead_code, reason = "the texts that once failed are for the test")]
 mod corpus;
 

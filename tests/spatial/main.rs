@@ -6,11 +6,11 @@
 extern crate guen_benchmarks;
 
 #[allow(dead_code, reason = "the examples use the rest")]
-#[path = "../systems/large.rs"]
+#[path = "../../crates/guen-measure/src/large.rs"]
 mod large;
 
 #[allow(dead_code, reason = "the paper's tests need all of it")]
-#[path = "../paper/formulas.rs"]
+#[path = "../language/paper/formulas.rs"]
 mod formulas;
 
 mod balls;
@@ -28,4 +28,5 @@ mod rotations;
 mod snakes;
 mod stones;
 mod tops;
+mod twenty_links;
 mod vehicles;

@@ -5,7 +5,7 @@
 //! cargo rustc -p guen-bare --profile bare --crate-type staticlib
 //! ```
 //!
-//! makes a static library that needs nothing but `memcpy` and its kin. `tests/bare.rs` at the repository's root builds
+//! makes a static library that needs nothing but `memcpy` and its kin. `tests/toolchain/bare.rs` at the repository's root builds
 //! it, links it to the C program in `tests/bare`, and compares its run with that of the same code in Rust, bit for bit.
 #![no_std]
 

@@ -55,7 +55,9 @@ pub struct Level {
     /// Where the bodies of the system itself are, with a preparation of its own: nothing is prepared for programs that never
     /// look.
     pub placed: Option<Programs>,
-    /// Functions that must not vanish, in words: the domain of the chart.
+    /// Functions that must not vanish: the domain of the chart.
+    pub domain: Vec<ExprId>,
+    /// Each of them in words.
     pub domain_names: Vec<String>,
     /// How many of them, from the first, guards measure one by one; the others are determinants, and measured together
     /// as the condition of the mass matrix.
@@ -205,7 +207,7 @@ fn whole(
     let shown = shown(model, &derivation, &brackets, &equations);
     let (domain, domain_names) = domain(model, &derivation, &shown);
     let constant_pivots = constant_pivots(&derivation);
-    let quantities = formulas::whole(model, &derivation, &brackets, domain, constant_pivots.clone());
+    let quantities = formulas::whole(model, &derivation, &brackets, domain.clone(), constant_pivots.clone());
     let control = crate::control::quantities(&mut model.bench, &derivation);
     let quantities: Vec<Quantity> = quantities.into_iter().chain(control).collect();
     let mut lists = formulas::rates(&derivation);
@@ -227,6 +229,7 @@ fn whole(
         energy,
         programs,
         placed,
+        domain,
         domain_names,
         edges,
         constant_pivots,

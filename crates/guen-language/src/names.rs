@@ -26,8 +26,20 @@ pub const SPATIAL_FUNCTIONS: &[&str] = &[
 ];
 
 /// Reserved words that are not functions.
-pub const RESERVED_WORDS: &[&str] =
-    &["t", "pi", "at", "along", "diag", "sym", "energy", "reactions", "operators", "linearization", "taylor"];
+pub const RESERVED_WORDS: &[&str] = &[
+    "t",
+    "pi",
+    "π",
+    "at",
+    "along",
+    "diag",
+    "sym",
+    "energy",
+    "reactions",
+    "operators",
+    "linearization",
+    "taylor",
+];
 
 /// Names that begin with this belong to the expansion.
 pub const RESERVED_PREFIX: &str = "__guen";

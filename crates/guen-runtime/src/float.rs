@@ -148,8 +148,21 @@ fn sin_cos_single(x: f32) -> (f32, f32) {
     (sin as f32, cos as f32)
 }
 
+/// The sine alone, with the bits of [`sin_cos_single`].
+#[inline]
+fn sin_single(x: f32) -> f32 {
+    elementary::sin(x.into()) as f32
+}
+
+/// The cosine alone, with the bits of [`sin_cos_single`].
+#[inline]
+fn cos_single(x: f32) -> f32 {
+    elementary::cos(x.into()) as f32
+}
+
 impl Real for f64 {
     real_for_float!(f64, 1 << 53, libm::scalbn, {
+        sin: elementary::sin, cos: elementary::cos,
         tan: libm::tan, asin: libm::asin, acos: libm::acos, atan: libm::atan,
         sinh: libm::sinh, cosh: libm::cosh, tanh: libm::tanh, exp: libm::exp, ln: libm::log,
         sqrt: elementary::sqrt, abs: f64::abs,
@@ -175,6 +188,7 @@ impl Real for f64 {
 
 impl Real for f32 {
     real_for_float!(f32, 1 << 24, libm::scalbnf, {
+        sin: sin_single, cos: cos_single,
         tan: libm::tanf, asin: libm::asinf, acos: libm::acosf,
         atan: libm::atanf, sinh: libm::sinhf, cosh: libm::coshf, tanh: libm::tanhf, exp: libm::expf,
         ln: libm::logf, sqrt: libm::sqrtf, abs: f32::abs,

@@ -1,4 +1,4 @@
-//! What can go wrong when a study is written down, with the file or the picture that it concerns.
+//! Errors of writing and reading files and of drawing, with the file or the picture that they concern.
 
 use std::error::Error;
 use std::fmt;
@@ -16,6 +16,14 @@ pub enum StudyError {
         path: PathBuf,
         /// What the operating system said.
         source: io::Error,
+    },
+    /// A file could not be read, or is not what it should be.
+    #[cfg(feature = "serde")]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What the operating system or the reader said.
+        source: Box<dyn Error + Send + Sync>,
     },
     /// A picture has no curve with a finite point, or a page no motion of two samples.
     NothingToDraw {
@@ -67,6 +75,8 @@ impl fmt::Display for StudyError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Io { path, source } => write!(f, "cannot write `{}`: {source}", path.display()),
+            #[cfg(feature = "serde")]
+            Self::Read { path, source } => write!(f, "cannot read `{}`: {source}", path.display()),
             Self::NothingToDraw { title } => write!(f, "picture `{title}` has no finite point to draw"),
             Self::Size { title, width, height } => {
                 write!(f, "picture `{title}` cannot be drawn with {width} by {height} pixels")
@@ -88,6 +98,8 @@ impl Error for StudyError {
         match self {
             Self::Io { source, .. } => Some(source),
             Self::Drawing { source, .. } => Some(&**source),
+            #[cfg(feature = "serde")]
+            Self::Read { source, .. } => Some(&**source),
             Self::NothingToDraw { .. }
             | Self::Size { .. }
             | Self::NotDrawable { .. }
@@ -111,6 +123,13 @@ pub(crate) fn create_parents(path: &Path) -> Result<(), StudyError> {
 pub(crate) fn at_path(path: &Path) -> impl FnOnce(io::Error) -> StudyError {
     let path = path.to_path_buf();
     move |source| StudyError::Io { path, source }
+}
+
+/// Attaches the file that was being read.
+#[cfg(feature = "serde")]
+pub(crate) fn from_path<E: Into<Box<dyn Error + Send + Sync>>>(path: &Path) -> impl FnOnce(E) -> StudyError {
+    let path = path.to_path_buf();
+    move |source| StudyError::Read { path, source: source.into() }
 }
 
 #[cfg(test)]

@@ -8,6 +8,7 @@
 //! | how long will it take? | [`Progress`]: a line on the terminal during long runs |
 //! | how good is it? | [`Monitor`] and its [`Invariants`]; [`drift`] and [`residuals`] as curves |
 //! | what are the numbers? | [`Table`], aligned for a terminal; [`significant`] for one number |
+//! | where does it go? | [`replace_file`]: files that are written whole or not at all, as every writer here does |
 //! | what does it look like? | [`Plot`], an SVG picture |
 //! | how does it move? | `Viewer`, an HTML page that plays a recording; feature `viewer` |
 //! | what if it begins elsewhere? | [`Ensemble`]: many motions in lanes and on threads |
@@ -43,8 +44,12 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+mod cell;
 mod ensemble;
 mod error;
+#[cfg(feature = "serde")]
+mod exact;
+mod file;
 mod median;
 mod monitor;
 mod plot;
@@ -61,6 +66,7 @@ mod viewer;
 
 pub use ensemble::{End, Ensemble, Sampled};
 pub use error::StudyError;
+pub use file::replace_file;
 pub use median::median_with_interval;
 pub use monitor::{Invariants, Monitor, drift, residuals};
 pub use plot::Plot;

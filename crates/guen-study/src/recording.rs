@@ -1,11 +1,12 @@
 //! What happened during a run: its times and states, kept in memory that may be bounded, and written as CSV.
 
-use std::fs::File;
-use std::io::{self, BufWriter, Write};
+use std::io::{self, Write};
 use std::ops::ControlFlow;
 use std::path::Path;
 
-use crate::error::{StudyError, at_path, create_parents};
+use crate::cell;
+use crate::error::StudyError;
+use crate::file::replace_file;
 
 /// The times and states of a run, with a name for each entry of the state.
 ///
@@ -245,7 +246,8 @@ impl<const N: usize> Recording<N> {
 
     /// Writes the samples as comma-separated values: a line with `t` and the names, then a line for each sample.
     /// Every number is the shortest decimal that reads back as the same `f64`, bit for bit, except that NaNs read
-    /// back as some NaN; lines end with a line feed.
+    /// back as some NaN; lines end with a line feed. A name that a spreadsheet would run as a formula, such as `=1+1`, has an
+    /// apostrophe before it.
     ///
     /// ```
     /// use guen_study::Recording;
@@ -264,7 +266,7 @@ impl<const N: usize> Recording<N> {
     pub fn write_csv(&self, mut out: impl Write) -> io::Result<()> {
         write!(out, "t")?;
         for name in self.names {
-            write!(out, ",{}", csv_field(name))?;
+            write!(out, ",{}", cell::text(name))?;
         }
         writeln!(out)?;
         for (t, state) in self.iter() {
@@ -278,25 +280,14 @@ impl<const N: usize> Recording<N> {
         out.flush()
     }
 
-    /// Writes the samples as [`write_csv`](Recording::write_csv) does, to a file whose parent folders are created.
+    /// Writes the samples as [`write_csv`](Recording::write_csv) does, to a file that is written whole or not at all: see
+    /// [`replace_file`].
     ///
     /// # Errors
     ///
     /// [`StudyError::Io`] with the path.
     pub fn save_csv(&self, path: impl AsRef<Path>) -> Result<(), StudyError> {
-        let path = path.as_ref();
-        create_parents(path)?;
-        let file = File::create(path).map_err(at_path(path))?;
-        self.write_csv(BufWriter::new(file)).map_err(at_path(path))
-    }
-}
-
-/// A name as a field: in quotes, with quotes doubled, where it has characters that would end a field.
-fn csv_field(name: &str) -> String {
-    if name.contains([',', '"', '\n', '\r']) {
-        format!("\"{}\"", name.replace('"', "\"\""))
-    } else {
-        name.to_owned()
+        replace_file(path, |out| self.write_csv(out))
     }
 }
 

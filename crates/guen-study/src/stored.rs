@@ -1,20 +1,26 @@
 //! Recordings as serde sees them.
 
 use std::borrow::Cow;
+use std::fs::File;
+use std::io::BufReader;
+use std::path::Path;
 
 use serde::de::{Deserialize, DeserializeSeed, Deserializer, Error};
-use serde::ser::{Serialize, Serializer};
+use serde::ser::{Error as _, Serialize, Serializer};
 
 use crate::Recording;
+use crate::error::{StudyError, from_path};
+use crate::exact::Exact;
+use crate::file::replace_file;
 
-/// What is written: the names are text in a file, while those of a recording live as long as the program.
+/// What is in a file: the names are text there, while those of a recording live as long as the program.
 #[derive(serde::Serialize, serde::Deserialize)]
-#[serde(rename = "Recording")]
+#[serde(rename = "Recording", deny_unknown_fields)]
 struct Stored<'a> {
     names: Vec<Cow<'a, str>>,
-    times: Vec<f64>,
+    times: Vec<Exact>,
     /// A row for each time.
-    states: Vec<Vec<f64>>,
+    states: Vec<Vec<Exact>>,
     limit: Option<usize>,
     stride: u64,
     seen: u64,
@@ -22,17 +28,37 @@ struct Stored<'a> {
 
 impl<const N: usize> Serialize for Recording<N> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        if let Some(message) = disorder(&self.times) {
+            return Err(S::Error::custom(message));
+        }
         let limit = Some(self.limit).filter(|limit| *limit != usize::MAX);
         Stored {
             names: self.names.iter().map(|name| Cow::Borrowed(*name)).collect(),
-            times: self.times.clone(),
-            states: self.states.iter().map(|state| state.to_vec()).collect(),
+            times: self.times.iter().copied().map(Exact).collect(),
+            states: self.states.iter().map(|state| state.map(Exact).to_vec()).collect(),
             limit,
             stride: self.stride,
             seen: self.seen,
         }
         .serialize(serializer)
     }
+}
+
+/// Why these times are not those of a run: it goes one way, and is at the same time twice only where its state jumps.
+fn disorder(times: &[f64]) -> Option<String> {
+    let backwards = times.first() > times.last();
+    let ordered = |pair: &[f64]| if backwards { pair[0] >= pair[1] } else { pair[0] <= pair[1] };
+    let fault = match times {
+        // Alone it has no neighbour to be compared with.
+        [only] if only.is_nan() => Some(0),
+        _ => times.windows(2).position(|pair| !ordered(pair)).map(|place| place + 1),
+    };
+    fault.map(|place| {
+        format!(
+            "the times of a recording neither rise nor fall throughout: t = {:?} at place {place}",
+            times[place]
+        )
+    })
 }
 
 /// Reads a recording of a state with given names: see [`Recording::stored`].
@@ -44,6 +70,10 @@ pub struct StoredRecording<const N: usize> {
 impl<const N: usize> Recording<N> {
     /// What reads a recording from a file: its names have to be these, which is how a file of another system is told.
     /// What was read can be recorded to further.
+    ///
+    /// Every number comes back to the bit, NaN and infinities too: in formats for people those are texts, such as `"inf"`. Refused are
+    /// other names, times that neither rise nor fall throughout (equal neighbours are allowed: a state may jump), and counts that do not
+    /// fit the samples. A recording with such times is not written either.
     ///
     /// ```
     /// use guen_study::Recording;
@@ -61,6 +91,42 @@ impl<const N: usize> Recording<N> {
     pub fn stored(names: &'static [&'static str]) -> StoredRecording<N> {
         StoredRecording { names }
     }
+
+    /// Writes the recording as JSON to a file, whole or not at all: see [`replace_file`].
+    ///
+    /// ```
+    /// use guen_study::Recording;
+    ///
+    /// let mut recording = Recording::new(&["x"]);
+    /// recording.record(0.1, &[f64::INFINITY]);
+    /// let path = std::env::temp_dir().join(format!("guen-docs-{}.json", std::process::id()));
+    /// recording.save_json(&path)?;
+    /// assert_eq!(Recording::<1>::load_json(&["x"], &path)?, recording);
+    /// # std::fs::remove_file(&path).unwrap();
+    /// # Ok::<(), guen_study::StudyError>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// [`StudyError::Io`] with the path, also for times that neither rise nor fall throughout.
+    pub fn save_json(&self, path: impl AsRef<Path>) -> Result<(), StudyError> {
+        replace_file(path, |out| Ok(serde_json::to_writer(out, self)?))
+    }
+
+    /// Reads a recording of a state with these names from a file of JSON.
+    ///
+    /// # Errors
+    ///
+    /// [`StudyError::Read`] with the path: there is no such file, or it is no recording of such a state; see
+    /// [`stored`](Recording::stored).
+    pub fn load_json(names: &'static [&'static str], path: impl AsRef<Path>) -> Result<Self, StudyError> {
+        let path = path.as_ref();
+        let file = File::open(path).map_err(from_path(path))?;
+        let mut reader = serde_json::Deserializer::from_reader(BufReader::new(file));
+        let recording = Self::stored(names).deserialize(&mut reader).map_err(from_path(path))?;
+        reader.end().map_err(from_path(path))?;
+        Ok(recording)
+    }
 }
 
 impl<'de, const N: usize> DeserializeSeed<'de> for StoredRecording<N> {
@@ -71,13 +137,34 @@ impl<'de, const N: usize> DeserializeSeed<'de> for StoredRecording<N> {
         if names != self.names || names.len() != N {
             return Err(D::Error::custom(format!("a recording of {names:?}, and not of {:?}", self.names)));
         }
-        if times.len() != states.len() || !stride.is_power_of_two() {
-            return Err(D::Error::custom("times and states of a recording do not fit"));
+        let times: Vec<f64> = times.into_iter().map(|Exact(t)| t).collect();
+        if times.len() != states.len() {
+            return Err(D::Error::custom(format!("{} times and {} states", times.len(), states.len())));
         }
-        let states: Result<Vec<[f64; N]>, _> = states.into_iter().map(<[f64; N]>::try_from).collect();
+        if let Some(message) = disorder(&times) {
+            return Err(D::Error::custom(message));
+        }
+        if expected(stride, seen) != Some(times.len() as u64) {
+            let kept = times.len();
+            return Err(D::Error::custom(format!(
+                "{kept} samples, and not as many as are kept of {seen} with a stride of {stride}"
+            )));
+        }
+        let states: Result<Vec<[Exact; N]>, _> = states.into_iter().map(<[Exact; N]>::try_from).collect();
         let states =
             states.map_err(|state| D::Error::invalid_length(state.len(), &"an entry for each name"))?;
+        let states = states.into_iter().map(|state| state.map(|Exact(x)| x)).collect();
         let limit = limit.unwrap_or(usize::MAX).max(2);
         Ok(Recording { names: self.names, times, states, limit, stride, seen })
     }
+}
+
+/// How many samples are kept of those seen: every one whose number the stride divides, and the newest. None if there is no
+/// such stride.
+fn expected(stride: u64, seen: u64) -> Option<u64> {
+    if !stride.is_power_of_two() {
+        return None;
+    }
+    let Some(newest) = seen.checked_sub(1) else { return Some(0) };
+    Some(newest / stride + 1 + u64::from(!newest.is_multiple_of(stride)))
 }

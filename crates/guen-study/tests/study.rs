@@ -403,17 +403,7 @@ fn json_comes_back() {
     let report = oscillator().keep(|method, _| method == "RK4").run().report;
     let text = serde_json::to_string(&report).unwrap();
     let back: Report = serde_json::from_str(&text).unwrap();
-    assert_eq!(back.rows.len(), report.rows.len());
-    for (a, b) in report.rows.iter().zip(&back.rows) {
-        assert_eq!((a.name(), &a.failure, &a.code), (b.name(), &b.failure, &b.code));
-        let close = |a: Option<f64>, b: Option<f64>| match (a, b) {
-            (Some(a), Some(b)) => (a - b).abs() <= 1e-15 * a.abs(),
-            (a, b) => a == b,
-        };
-        assert!(close(a.error, b.error) && a.cost.is_some() == b.cost.is_some());
-        assert_eq!(a.nearby.is_some(), b.nearby.is_some());
-    }
-    assert_eq!(back.reference.is_some(), report.reference.is_some());
+    assert_eq!(back, report);
 }
 
 #[test]

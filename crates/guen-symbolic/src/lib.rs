@@ -13,6 +13,7 @@ mod algebra;
 mod geometry;
 mod motion;
 mod normal;
+mod numbering;
 mod print;
 mod program;
 mod workbench;
@@ -24,9 +25,10 @@ pub use algebra::{
 };
 pub use geometry::{Brackets, Closure, Combination, Form, Forms, Operators, SingularForms};
 pub use motion::{
-    Class, Dependence, Derivation, DerivationError, Energies, Equations, Force, Frame, Holonomic,
-    KineticTerm, Mechanics, MotionSymbol, Multibody, NotQuadratic, RigidBody, Solution, VelocityForm,
-    VelocityPartials, decompose, equations_by_definition,
+    BodyNode, Class, Component, Dependence, Derivation, DerivationError, Energies, Equations, Force,
+    FormShape, Frame, FrameId, FrameNode, Holonomic, KineticTerm, Mechanics, Motion, MotionSymbol, Multibody,
+    NotQuadratic, Place, RigidBody, Solution, SystemGraph, Turn, Velocity, VelocityForm, VelocityPartials,
+    decompose, equations_by_definition,
 };
 pub use normal::{Limits, normal_coefficients, normal_form};
 pub use print::{Contracted, Notation, greek_letter, latex_name};

@@ -65,6 +65,7 @@ fn chain(graph: &mut Graph, rotors: bool) -> (Mechanics, [ExprId; 3]) {
         stated: vec![true; LINKS],
         force_function: graph.sum(force),
         multibody: None,
+        structure: Default::default(),
         forces: vec![pull],
         outputs: Vec::new(),
         motion_symbols: Vec::new(),

@@ -10,6 +10,8 @@ pub extern "C" fn heading(seconds: f64) -> f64 {
     sled::heading(seconds)
 }
 
+/// Only where panics abort: elsewhere `std` brings its own. A second one would be an error, so nothing here needs `std`.
+#[cfg(panic = "abort")]
 #[panic_handler]
 fn halt(_: &core::panic::PanicInfo<'_>) -> ! {
     loop {}

@@ -8,12 +8,15 @@ mod declarations;
 mod paths;
 mod systems;
 
-/// What a panic comes to. Out of line: where it is linked, something can panic.
+/// What a panic comes to. Out of line: where it is linked, something can panic. Only where panics abort: elsewhere `std`
+/// brings its own.
+#[cfg(panic = "abort")]
 #[panic_handler]
 fn handler(_: &core::panic::PanicInfo<'_>) -> ! {
     halted()
 }
 
+#[cfg(panic = "abort")]
 #[inline(never)]
 fn halted() -> ! {
     loop {

@@ -11,7 +11,7 @@ robot! { guen::mechanical_system }
 train! { guen::mechanical_system }
 cart! { guen::mechanical_system }
 particle_pendulum! { guen::mechanical_system }
-// A chain of ten links: the test writes it.
+// A chain of ten links: the test compares it with the one of the benchmarks.
 include!("chain.rs");
 
 /// The symbols of one system: for each path its name and what it does with the prepared system, the state, time, step and

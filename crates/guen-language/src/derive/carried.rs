@@ -67,6 +67,7 @@ pub(super) fn derive(
         energy: level.energy,
         programs,
         edges: domain_names.len(),
+        domain: carried.edges,
         domain_names,
         constant_pivots: Vec::new(),
         jacobians: Jacobians::default(),

@@ -15,6 +15,16 @@ pub(super) struct Part {
     outputs: Vec<ExprId>,
 }
 
+/// The functions of a scene.
+pub(super) struct Functions {
+    pub(super) parts: Vec<Part>,
+    /// Those that must not vanish, and each of them in words.
+    pub(super) domain: Vec<ExprId>,
+    pub(super) domain_names: Vec<String>,
+    /// Expressions of constants that must not vanish.
+    pub(super) constant_pivots: Vec<ExprId>,
+}
+
 /// An expression with several replacements made. One can bring in what another replaces, so that they are made again
 /// while that changes something; as often as there are of them, since each is to leave for good.
 pub(super) fn replaced(bench: &mut Workbench, replacements: &mut [Replacement], mut e: ExprId) -> ExprId {
@@ -56,7 +66,7 @@ impl View {
     }
 }
 
-/// The functions of a scene, the words for its domain, and the expressions of constants that must not vanish.
+/// The functions of a scene.
 pub(super) fn parts(
     model: &mut Model<'_>,
     derivation: &Derivation,
@@ -64,7 +74,7 @@ pub(super) fn parts(
     selection: &Selection,
     shown: &Contracted,
     view: &mut View,
-) -> (Vec<Part>, Vec<String>, Vec<ExprId>) {
+) -> Functions {
     let l = derivation.system.forms.degrees;
     let n = model.coordinates.len();
     let (chart, names) = domain(model, derivation, shown);
@@ -90,7 +100,7 @@ pub(super) fn parts(
     push(model, view, function::GRADIENTS, selection.holonomic.iter().copied().chain(rows).collect());
 
     // Of the chart's functions those that the scene's variables determine; what became constant is a pivot.
-    let (mut determined, mut domain_names) = (Vec::new(), Vec::new());
+    let (mut determined, mut domain, mut domain_names) = (Vec::new(), Vec::new(), Vec::new());
     let mut constants: Vec<(Option<usize>, ExprId)> = Vec::new();
     for (place, pivot) in pivots.iter().enumerate() {
         constants.push((Some(place), view.holding.of(&mut model.bench, *pivot)));
@@ -105,6 +115,7 @@ pub(super) fn parts(
             constants.push((None, seen));
         } else {
             determined.push(place);
+            domain.push(seen);
             let same = seen == e;
             domain_names.push(if same { name } else { super::written(model, seen, &name) });
         }
@@ -134,7 +145,7 @@ pub(super) fn parts(
             parts.push(Part { name, places: (0..outputs.len()).collect(), outputs });
         }
     }
-    (parts, domain_names, constant_pivots)
+    Functions { parts, domain, domain_names, constant_pivots }
 }
 
 /// A reaction with the accelerations of the kept parameters as they are computed, and the others written out.

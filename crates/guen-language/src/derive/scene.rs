@@ -7,7 +7,7 @@ use guen_symbolic::{Dependence, Derivation, ExprId, Substitution};
 use super::closure::{Flow, Quadrature, Reason};
 use super::fixed::{self, Holding};
 use super::manifold::{Replacement, quaternions};
-use super::parts::{View, cheapest, parts, replaced};
+use super::parts::{Functions, View, cheapest, parts, replaced};
 use super::selection::{Held, Place, Selection};
 use super::{Commutator, Level, carried, commutators, formulas, polish, series, shown};
 use crate::diagnostics::{Fault, Faults};
@@ -150,7 +150,7 @@ fn level(
     let energy = view.of(model, derivation.energies.integral);
     let written: Vec<ExprId> = rates.iter().copied().chain([energy]).collect();
     let shown = shown(model, &derivation, &brackets, &written);
-    let (parts, domain_names, constant_pivots) =
+    let Functions { parts, domain, domain_names, constant_pivots } =
         parts(model, &derivation, &brackets, &selection, &shown, &mut view);
     let shares = Rc::ptr_eq(&derivation, &system.derivation) && selection.held.is_empty();
     let whole = shares.then_some(&system.programs);
@@ -190,6 +190,7 @@ fn level(
         programs,
         edges: domain_names.len(),
         placed: None,
+        domain,
         domain_names,
         constant_pivots,
         series,

@@ -67,7 +67,11 @@ impl Evaluator<'_> {
             if !moving.has(info.role) {
                 continue;
             }
-            let name = format!("dot({})", info.name);
+            // Rates of parameters are written as in the equations of motion.
+            let name = match info.role {
+                Role::QuasiVelocity => format!("{}'", info.name),
+                _ => format!("dot({})", info.name),
+            };
             let of = graph.symbol_expr(symbol);
             self.motion.rates.entry(of).or_insert_with(|| graph.symbol(&name, Role::QuasiAcceleration));
         }

@@ -1,6 +1,6 @@
 //! Particles, rigid bodies and gravity: what they add to the kinetic energy and to the force function.
 
-use guen_symbolic::{ExprId, Rational};
+use guen_symbolic::{BodyNode, ExprId, Rational};
 
 use super::evaluate::{Evaluated, Evaluator};
 use super::place::Place;
@@ -74,6 +74,32 @@ impl Evaluator<'_> {
         }
         let sum = self.bench.graph.sum(energy);
         Ok((self.bench.graph.scale(sum, &Rational::new(1, 2)), weight, value))
+    }
+
+    /// A particle in the system graph.
+    pub(super) fn particle_node(&mut self, (mass, position): Weight) {
+        let graph = &self.bench.graph;
+        let center = Some(self.shapes.place(graph, &position));
+        let inertia = [graph.zero(); 6];
+        self.shapes.system.bodies.push(BodyNode { name: String::new(), frame: None, center, mass, inertia });
+    }
+
+    /// A body in the system graph. Without a mass a centre moves nothing, and without inertia an orientation.
+    pub(super) fn body_node(&mut self, body: &BodyValue) {
+        let graph = &self.bench.graph;
+        let zero = graph.zero();
+        let frame = body.inertia.and(body.orientation.as_ref()).map(|rotation| rotation.frame);
+        let center = body.mass.and(body.center).map(|(position, _)| self.shapes.place(graph, &position));
+        if let Some(orientation) = &body.orientation {
+            self.shapes.system.name(orientation.frame, &body.name);
+        }
+        self.shapes.system.bodies.push(BodyNode {
+            name: body.name.clone(),
+            frame,
+            center,
+            mass: body.mass.unwrap_or(zero),
+            inertia: body.inertia.unwrap_or([zero; 6]),
+        });
     }
 
     /// The matrix entries `xx, yy, zz, xy, yz, zx`.

@@ -8,6 +8,7 @@ use proc_macro2::Span;
 use super::accelerations::MotionSymbols;
 use super::place::{Place, ROLES, role_name};
 use super::scope::Scope;
+use super::shapes::Shapes;
 use super::value::{Value, Vector};
 use crate::diagnostics::{Fault, Faults, Reported};
 use crate::limits::{MAX_EXPONENT, MAX_FACTORS, MAX_NUMBER_BITS, MAX_TOTAL_DEPTH};
@@ -19,6 +20,10 @@ pub(super) struct Evaluator<'f> {
     pub(super) faults: &'f mut Faults,
     /// Expressions and the zero test.
     pub(super) bench: Workbench,
+    /// The structure of values.
+    pub(super) shapes: Shapes,
+    /// Vectors among the forms: whether of parameters, and the places of their components in the section.
+    pub(super) vectors: Vec<(bool, [Option<usize>; 3])>,
     /// The names declared so far.
     pub(super) scope: Scope,
     /// The symbol of time.
@@ -359,15 +364,15 @@ impl Evaluator<'_> {
 
     fn added(&mut self, a: Value, b: Value, operator: AddOperator, span: Span) -> Evaluated {
         let minus = operator == AddOperator::Minus;
-        let combine =
-            |bench: &mut Workbench, a, b| if minus { bench.graph.sub(a, b) } else { bench.graph.add(a, b) };
         match (&a, &b) {
             (Value::Scalar(a), Value::Scalar(b)) => {
-                let sum = combine(&mut self.bench, *a, *b);
+                let b = if minus { self.opposite(*b) } else { *b };
+                let sum = self.sum(*a, b);
                 self.check_size(sum, span)
             }
             (Value::Vector(a), Value::Vector(b)) => {
-                let sum = std::array::from_fn(|i| combine(&mut self.bench, a[i], b[i]));
+                let b = if minus { self.opposite_vector(b) } else { *b };
+                let sum = self.vector_sum(a, &b);
                 self.checked_vector(sum, span)
             }
             _ => {

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use guen_symbolic::{
-    ExprId, Form, Role, Roles, Substitution, VelocityForm, VelocityPartials, Verdict, decompose,
+    ExprId, Form, FormShape, Role, Roles, Substitution, VelocityForm, VelocityPartials, Verdict, decompose,
 };
 use proc_macro2::Span;
 
@@ -24,6 +24,8 @@ pub(super) struct RawForm<'a> {
     pub(super) definition: ExprId,
     /// `f(t, x)` for a holonomic constraint.
     pub(super) position: Option<ExprId>,
+    /// What it says of places and frames.
+    pub(super) shape: Option<FormShape>,
     /// The sides as written, for blame.
     pub(super) sides: Vec<&'a Expression>,
 }
@@ -59,7 +61,11 @@ impl Evaluator<'_> {
     pub(super) fn holonomic<'a>(&mut self, equation: &'a Equation, forms: &mut Vec<RawForm<'a>>) {
         let position = self.difference(Place::Holonomic, equation);
         let (value, position) = match position {
-            Ok(Value::Scalar(f)) => (Ok(Value::Scalar(self.total_rate(f))), Some(vec![f])),
+            Ok(Value::Scalar(f)) => {
+                let rate = self.total_rate(f);
+                self.shapes.scalar_rate(&self.bench.graph, f, rate);
+                (Ok(Value::Scalar(rate)), Some(vec![f]))
+            }
             Ok(Value::Vector(f)) => (Ok(Value::Vector(self.vector_rate(&f))), Some(f.to_vec())),
             other => (other, None),
         };
@@ -82,12 +88,14 @@ impl Evaluator<'_> {
         let is_zero = |value: &Value| matches!(value, Value::Scalar(e) if self.bench.graph.is_zero(*e));
         match (&left, &right) {
             (Value::Vector(_), zero) if is_zero(zero) => Ok(left),
-            (zero, Value::Vector(v)) if is_zero(zero) => {
-                Ok(Value::Vector(v.map(|e| self.bench.graph.neg(e))))
+            (zero, Value::Vector(v)) if is_zero(zero) => Ok(Value::Vector(self.opposite_vector(&v.clone()))),
+            (Value::Scalar(a), Value::Scalar(b)) => {
+                let b = self.opposite(*b);
+                Ok(Value::Scalar(self.sum(*a, b)))
             }
-            (Value::Scalar(a), Value::Scalar(b)) => Ok(Value::Scalar(self.bench.graph.sub(*a, *b))),
             (Value::Vector(a), Value::Vector(b)) => {
-                Ok(Value::Vector(std::array::from_fn(|i| self.bench.graph.sub(a[i], b[i]))))
+                let b = self.opposite_vector(b);
+                Ok(Value::Vector(self.vector_sum(a, &b)))
             }
             _ => self.fail(
                 Fault::new(
@@ -125,30 +133,35 @@ impl Evaluator<'_> {
             }
             other => other,
         };
-        let push =
-            |this: &mut Self, forms: &mut Vec<RawForm<'a>>, text: &str, definition: ExprId, i: usize| {
-                let symbol = this.bench.graph.symbol(text, Role::QuasiVelocity);
-                forms.push(RawForm {
-                    entry: FormEntry {
-                        name: text.to_owned(),
-                        written: name,
-                        docs,
-                        kind,
-                        mentioned_in_energy: false,
-                    },
-                    symbol,
-                    definition,
-                    position: position.as_ref().map(|f| f[i]),
-                    sides: sides.clone(),
-                });
-                this.expansions.insert(symbol, definition);
-                symbol
-            };
+        let push = |this: &mut Self,
+                    forms: &mut Vec<RawForm<'a>>,
+                    text: &str,
+                    (definition, shape): (ExprId, Option<FormShape>),
+                    i: usize| {
+            let symbol = this.bench.graph.symbol(text, Role::QuasiVelocity);
+            forms.push(RawForm {
+                entry: FormEntry {
+                    name: text.to_owned(),
+                    written: name,
+                    docs,
+                    kind,
+                    mentioned_in_energy: false,
+                },
+                symbol,
+                definition,
+                shape,
+                position: position.as_ref().map(|f| f[i]),
+                sides: sides.clone(),
+            });
+            this.expansions.insert(symbol, definition);
+            symbol
+        };
         match value {
             Err(_) => self.scope.declare(self.faults, name, category, None),
             Ok(Value::Vector(components)) => {
                 let mut symbols = [self.bench.graph.zero(); 3];
                 let before = forms.len();
+                let mut places = [None; 3];
                 for (i, (definition, axis)) in components.into_iter().zip(AXES).enumerate() {
                     let text = format!("{}{axis}", name.text);
                     let value = if self.vanishes_as_form(definition) {
@@ -156,11 +169,17 @@ impl Evaluator<'_> {
                         self.left_out.push(text.clone());
                         self.bench.graph.zero()
                     } else {
-                        push(self, forms, &text, definition, i)
+                        let shape = self.shapes.component(&self.bench.graph, &components, i);
+                        places[i] = Some(forms.len());
+                        push(self, forms, &text, (definition, shape), i)
                     };
                     symbols[i] = value;
                     let value = Some(Value::Scalar(value));
                     self.scope.declare_component(self.faults, &text, name.span(), category, value);
+                }
+                if self.shapes.is_velocity(&components) {
+                    let parameters = kind == FormKind::Parameter;
+                    self.vectors.push((parameters, places));
                 }
                 if forms.len() == before {
                     let noun = noun(kind);
@@ -173,7 +192,8 @@ impl Evaluator<'_> {
                 self.scope.declare(self.faults, name, category, Some(Value::Vector(symbols)));
             }
             Ok(Value::Scalar(definition)) => {
-                let symbol = push(self, forms, &name.text, definition, 0);
+                let shape = self.shapes.form(definition);
+                let symbol = push(self, forms, &name.text, (definition, shape), 0);
                 self.scope.declare(self.faults, name, category, Some(Value::Scalar(symbol)));
             }
             Ok(_) => {}

@@ -6,7 +6,7 @@ use proc_macro2::Span;
 use super::accelerations::REACTION;
 use super::evaluate::{Evaluated, Evaluator};
 use super::place::role_name;
-use super::spatial::{cross, inner, inverse, minus, plus};
+use super::spatial::{cross, inner, plus};
 use super::value::{BodyValue, Value, Vector};
 use crate::diagnostics::Fault;
 use crate::names;
@@ -78,7 +78,10 @@ impl Evaluator<'_> {
         let value = self.value(base)?;
         let axis = ["x", "y", "z"].iter().position(|axis| *axis == name.text);
         match (&value, axis) {
-            (Value::Vector(v), Some(i)) => Ok(Value::Scalar(v[i])),
+            (Value::Vector(v), Some(i)) => {
+                self.shapes.taken(&self.bench.graph, v, i);
+                Ok(Value::Scalar(v[i]))
+            }
             // The body's axes in the world are the columns of the matrix.
             (Value::Rotation(r), Some(i)) => Ok(Value::Vector(std::array::from_fn(|k| r.matrix[k][i]))),
             (Value::Body(body), _) => {
@@ -215,6 +218,7 @@ impl Evaluator<'_> {
             "inner" => {
                 let (u, v) = (self.vector(function, &values[0])?, self.vector(function, &values[1])?);
                 let product = inner(&mut self.bench, &u, &v);
+                self.shapes.inner(&self.bench.graph, &u, &v, product);
                 self.check_size(product, function.span())
             }
             "cross" => {
@@ -227,11 +231,15 @@ impl Evaluator<'_> {
                 let square = inner(&mut self.bench, &v, &v);
                 let square = self.bench.tidy(square);
                 let length = self.bench.graph.sqrt(square);
+                self.shapes.length(&self.bench.graph, &v, length);
                 if text == "norm" {
                     return Ok(Value::Scalar(length));
                 }
                 self.check_divisor(length, values[0].1)?;
-                Ok(Value::Vector(v.map(|e| self.bench.graph.div(e, length))))
+                let unit = v.map(|e| self.bench.graph.div(e, length));
+                let inverse = self.bench.graph.powi(length, -1);
+                self.shapes.scaled(&mut self.bench.graph, inverse, &v, unit);
+                Ok(Value::Vector(unit))
             }
             "rot_x" | "rot_y" | "rot_z" => {
                 let angle = self.angle(function, &values[0])?;
@@ -270,7 +278,7 @@ impl Evaluator<'_> {
             }
             "transpose" | "angular_velocity" | "angular_velocity_body" => match &values[0].0 {
                 Value::Rotation(r) => Ok(match text {
-                    "transpose" => Value::Rotation(Box::new(inverse(&mut self.bench, r))),
+                    "transpose" => Value::Rotation(Box::new(self.inverse(r))),
                     "angular_velocity" => Value::Vector(r.world_rate),
                     _ => Value::Vector(r.body_rate),
                 }),
@@ -311,7 +319,11 @@ impl Evaluator<'_> {
             );
         }
         match value {
-            Value::Scalar(e) => Ok(Value::Scalar(self.total_rate(*e))),
+            Value::Scalar(e) => {
+                let rate = self.total_rate(*e);
+                self.shapes.scalar_rate(&self.bench.graph, *e, rate);
+                Ok(Value::Scalar(rate))
+            }
             Value::Vector(v) => Ok(Value::Vector(self.vector_rate(v))),
             other => {
                 let what = other.kind();
@@ -385,9 +397,12 @@ impl Evaluator<'_> {
                 ),
             ));
         };
-        let arm = minus(&mut self.bench, &point, position);
+        let back = self.opposite_vector(position);
+        let arm = self.vector_sum(&point, &back);
         let turning = cross(&mut self.bench, &rotation.world_rate, &arm);
-        Ok(Value::Vector(plus(&mut self.bench, velocity, &turning)))
+        let velocity = plus(&mut self.bench, velocity, &turning);
+        self.shapes.velocity_at(&mut self.bench.graph, (position, rotation.frame), &arm, velocity);
+        Ok(Value::Vector(velocity))
     }
 
     fn scalar(&mut self, function: &Name, value: &(Value, Span)) -> Evaluated<ExprId> {

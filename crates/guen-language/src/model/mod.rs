@@ -13,6 +13,7 @@ mod quaternions;
 mod resolve;
 mod scenes;
 mod scope;
+mod shapes;
 mod spatial;
 mod value;
 

@@ -15,6 +15,7 @@ use super::evaluate::{Evaluator, children};
 use super::forms::RawForm;
 use super::place::Place;
 use super::scope::{Category, Scope};
+use super::shapes::Shapes;
 use super::spatial::inner;
 use super::value::{BodyValue, Value};
 use super::{BodyEntry, ConstantEntry, Model, OutputEntry, SceneEntry, SymbolEntry};
@@ -69,11 +70,14 @@ impl<'a, 'f> Resolver<'a, 'f> {
         let mut graph = Graph::new();
         graph.keep_angles_whole();
         let time = graph.symbol("t", Role::Time);
+        let shapes = Shapes::new(&graph);
         Resolver {
             declaration,
             eval: Evaluator {
                 faults,
                 bench: Workbench::new(graph),
+                shapes,
+                vectors: Vec::new(),
                 scope: Scope::default(),
                 time,
                 rate: None,
@@ -168,6 +172,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
             Item::Let(definition) => {
                 self.eval.entry = Some(definition.name.text.clone());
                 let value = self.eval.at(Place::Let, &definition.value).ok();
+                value.iter().for_each(|value| self.eval.shapes.named(&definition.name.text, value));
                 self.eval.scope.declare(self.eval.faults, &definition.name, Category::Let, value);
             }
             Item::Parameters(section) => {
@@ -211,6 +216,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
                         let (mass, position) = weight;
                         let inertia = [self.eval.bench.graph.zero(); 6];
                         let center = Some(position);
+                        self.eval.particle_node(weight);
                         let (orientation, spin) = (None, None);
                         self.rigid_bodies.push(RigidBody { mass, center, orientation, spin, inertia });
                     }
@@ -222,6 +228,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
                     let value = self.eval.body(body).ok().map(|(energy, weight, value)| {
                         self.kinetic.push(energy);
                         self.weights.extend(weight);
+                        self.eval.body_node(&value);
                         let BodyValue { name, mass, inertia, center, orientation } = &value;
                         // Without a mass a centre moves nothing, and without inertia an orientation.
                         let zero = self.eval.bench.graph.zero();
@@ -327,9 +334,12 @@ impl<'a, 'f> Resolver<'a, 'f> {
         let magnitude = self.eval.at(Place::Force, &written.force);
         let direction = self.eval.at(Place::Direction, &written.direction);
         let (Ok(magnitude), Ok(direction)) = (magnitude, direction) else { return };
+        let (graph, shapes) = (&self.eval.bench.graph, &self.eval.shapes);
         let pairs = match (magnitude, direction) {
-            (Value::Scalar(f), Value::Scalar(u)) => vec![(f, u)],
-            (Value::Vector(f), Value::Vector(u)) => f.into_iter().zip(u).collect(),
+            (Value::Scalar(f), Value::Scalar(u)) => vec![(f, u, shapes.form(u))],
+            (Value::Vector(f), Value::Vector(u)) => {
+                (0..3).map(|i| (f[i], u[i], shapes.component(graph, &u, i))).collect()
+            }
             (f, u) => {
                 let fault = Fault::new(
                     written.along,
@@ -344,7 +354,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
             }
         };
         let moving = Roles::of(Role::Velocity).or(Roles::of(Role::QuasiVelocity));
-        if !pairs.iter().any(|(_, u)| self.eval.bench.graph.roles(*u).meets(moving)) {
+        if !pairs.iter().any(|(_, u, _)| self.eval.bench.graph.roles(*u).meets(moving)) {
             self.eval.faults.report(
                 Fault::new(
                     written.direction.span,
@@ -354,7 +364,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
             );
             return;
         }
-        for (magnitude, along) in pairs {
+        for (magnitude, along, shape) in pairs {
             let expanded = self.eval.expanded(along);
             let mut partials = guen_symbolic::VelocityPartials::new(&self.eval.bench, &self.velocities, &[]);
             if partials.affine(&mut self.eval.bench, expanded).is_none() {
@@ -373,6 +383,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
                 return;
             }
             self.forces.push(Force { magnitude, along });
+            self.eval.shapes.system.loads.push(shape);
         }
     }
 
@@ -446,6 +457,16 @@ impl<'a, 'f> Resolver<'a, 'f> {
         let force_function = bench.graph.sum(force_function);
         let kinetic_energy = bench.graph.sum(self.kinetic);
         let zero = bench.graph.zero();
+        let mut structure = self.eval.shapes.system;
+        structure.gravity = self.gravity;
+        // Constraints come after the parameters.
+        let place = |own: usize, parameters: bool| if parameters { own } else { own + degrees };
+        let vectors = self.eval.vectors.iter();
+        structure.vectors = vectors
+            .map(|(parameters, places)| places.map(|own| own.map(|own| place(own, *parameters))))
+            .collect();
+        structure.forms = raw.iter().map(|form| form.shape.clone()).collect();
+        let structure = structure.pruned();
         let multibody = self.has_masses.then(|| Multibody {
             bodies: self.rigid_bodies,
             gravity: self.gravity.unwrap_or([zero; 3]),
@@ -499,6 +520,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
             stated,
             force_function,
             multibody,
+            structure,
             forces: self.forces,
             outputs: self.output_values,
             motion_symbols,

@@ -1,6 +1,6 @@
 //! Arithmetic of vectors and rotations.
 
-use guen_symbolic::{ExprId, Workbench};
+use guen_symbolic::{ExprId, FrameId, Workbench};
 use proc_macro2::Span;
 
 use super::evaluate::{Evaluated, Evaluator};
@@ -10,24 +10,65 @@ use crate::diagnostics::Fault;
 impl Evaluator<'_> {
     pub(super) fn negated(&mut self, value: Value, span: Span) -> Evaluated {
         match value {
-            Value::Scalar(e) => Ok(Value::Scalar(self.bench.graph.neg(e))),
-            Value::Vector(v) => Ok(Value::Vector(v.map(|e| self.bench.graph.neg(e)))),
+            Value::Scalar(e) => Ok(Value::Scalar(self.opposite(e))),
+            Value::Vector(v) => Ok(Value::Vector(self.opposite_vector(&v))),
             other => self.fail(Fault::new(span, format!("{} has no negative", other.kind()))),
         }
+    }
+
+    /// `-e`.
+    pub(super) fn opposite(&mut self, e: ExprId) -> ExprId {
+        let minus = self.bench.graph.number(-1);
+        self.scaled(minus, e)
+    }
+
+    /// `-v`.
+    pub(super) fn opposite_vector(&mut self, v: &Vector) -> Vector {
+        let minus = self.bench.graph.number(-1);
+        self.scaled_vector(minus, v)
+    }
+
+    /// `a + b` of scalars.
+    pub(super) fn sum(&mut self, a: ExprId, b: ExprId) -> ExprId {
+        let sum = self.bench.graph.add(a, b);
+        self.shapes.scalar_sum(&mut self.bench.graph, a, b, sum);
+        sum
+    }
+
+    /// `a + b` of vectors.
+    pub(super) fn vector_sum(&mut self, a: &Vector, b: &Vector) -> Vector {
+        let sum = plus(&mut self.bench, a, b);
+        self.shapes.added(&mut self.bench.graph, a, b, sum);
+        sum
+    }
+
+    /// `a b`.
+    fn scaled(&mut self, a: ExprId, b: ExprId) -> ExprId {
+        let product = self.bench.graph.mul(a, b);
+        self.shapes.scalar_product(&mut self.bench.graph, a, b, product);
+        product
+    }
+
+    /// `a v`.
+    pub(super) fn scaled_vector(&mut self, a: ExprId, v: &Vector) -> Vector {
+        let product = v.map(|e| self.bench.graph.mul(a, e));
+        self.shapes.scaled(&mut self.bench.graph, a, v, product);
+        product
     }
 
     pub(super) fn multiplied(&mut self, a: Value, b: Value, span: Span) -> Evaluated {
         match (a, b) {
             (Value::Scalar(a), Value::Scalar(b)) => {
-                let product = self.bench.graph.mul(a, b);
+                let product = self.scaled(a, b);
                 self.check_size(product, span)
             }
             (Value::Scalar(a), Value::Vector(v)) | (Value::Vector(v), Value::Scalar(a)) => {
-                let product = v.map(|e| self.bench.graph.mul(a, e));
+                let product = self.scaled_vector(a, &v);
                 self.checked_vector(product, span)
             }
             (Value::Rotation(r), Value::Vector(v)) => {
                 let turned = apply(&mut self.bench, &r.matrix, &v);
+                self.shapes.turned(&mut self.bench.graph, &r, &v, turned);
                 self.checked_vector(turned, span)
             }
             (Value::Rotation(a), Value::Rotation(b)) => Ok(Value::Rotation(Box::new(self.composed(&a, &b)))),
@@ -48,11 +89,15 @@ impl Evaluator<'_> {
             (Value::Scalar(a), Value::Scalar(b)) => {
                 self.check_divisor(b, divisor_span)?;
                 let quotient = self.bench.graph.div(a, b);
+                let inverse = self.bench.graph.powi(b, -1);
+                self.shapes.scalar_product(&mut self.bench.graph, inverse, a, quotient);
                 self.check_size(quotient, span)
             }
             (Value::Vector(v), Value::Scalar(b)) => {
                 self.check_divisor(b, divisor_span)?;
                 let quotient = v.map(|e| self.bench.graph.div(e, b));
+                let inverse = self.bench.graph.powi(b, -1);
+                self.shapes.scaled(&mut self.bench.graph, inverse, &v, quotient);
                 self.checked_vector(quotient, span)
             }
             (a, b) => self.fail(Fault::new(span, format!("cannot divide {} by {}", a.kind(), b.kind()))),
@@ -61,7 +106,9 @@ impl Evaluator<'_> {
 
     /// The rate of every component.
     pub(super) fn vector_rate(&mut self, v: &Vector) -> Vector {
-        v.map(|e| self.total_rate(e))
+        let rate = v.map(|e| self.total_rate(e));
+        self.shapes.rate(&self.bench.graph, v, rate);
+        rate
     }
 
     /// A rotation by an angle about a fixed unit axis.
@@ -86,12 +133,32 @@ impl Evaluator<'_> {
         });
         let spin = axis.map(|e| bench.graph.mul(rate, e));
         let turns = Some(vec![Turn { axis, angle }]);
-        Rotation { matrix, world_rate: spin, body_rate: spin, turns }
+        let frame = self.shapes.turn(axis, angle);
+        self.remembered(Rotation { matrix, world_rate: spin, body_rate: spin, frame, turns })
+    }
+
+    fn remembered(&mut self, rotation: Rotation) -> Rotation {
+        self.shapes.rotation(&self.bench.graph, &rotation);
+        rotation
+    }
+
+    /// The inverse rotation.
+    pub(super) fn inverse(&mut self, r: &Rotation) -> Rotation {
+        let frame = self.shapes.system.inverse(&mut self.bench.graph, r.frame);
+        let inverse = inverse(&mut self.bench, r, frame);
+        self.remembered(inverse)
+    }
+
+    /// `A B`, and the frame as it was written.
+    fn composed(&mut self, a: &Rotation, b: &Rotation) -> Rotation {
+        let frame = self.shapes.system.product(a.frame, b.frame);
+        let product = Rotation { frame, ..self.joined_turns(a, b) };
+        self.remembered(product)
     }
 
     /// `A B`. Turns about one axis that meet become one, `rot_z(a)*rot_z(b) = rot_z(a + b)`: nobody would compute sines
     /// and cosines of sums of angles from those of every joint.
-    fn composed(&mut self, a: &Rotation, b: &Rotation) -> Rotation {
+    fn joined_turns(&mut self, a: &Rotation, b: &Rotation) -> Rotation {
         if let (Some(before), Some(after)) = (&a.turns, &b.turns)
             && let (Some((last, before)), Some((first, after))) = (before.split_last(), after.split_first())
             && let Some(angle) = self.joined(last, first)
@@ -100,7 +167,7 @@ impl Evaluator<'_> {
             let (before, after) = (before.to_vec(), after.to_vec());
             let middle = if self.bench.graph.is_zero(angle) { None } else { Some(turned) };
             let parts = [self.chain(&before), middle, self.chain(&after)];
-            let whole = parts.into_iter().flatten().reduce(|a, b| self.composed(&a, &b));
+            let whole = parts.into_iter().flatten().reduce(|a, b| self.joined_turns(&a, &b));
             return whole.unwrap_or_else(|| self.turn(last.axis, angle));
         }
         compose(&mut self.bench, a, b)
@@ -176,7 +243,12 @@ impl Evaluator<'_> {
                 bench.graph.scale(sum, &2.into())
             })
         };
-        Rotation { world_rate: rate(true), body_rate: rate(false), matrix, turns: None }
+        let (world_rate, body_rate) = (rate(true), rate(false));
+        let frame = self
+            .shapes
+            .system
+            .turned(FrameId::WORLD, guen_symbolic::Turn::General { matrix, spin: body_rate });
+        self.remembered(Rotation { world_rate, body_rate, matrix, frame, turns: None })
     }
 }
 
@@ -199,11 +271,6 @@ pub(super) fn plus(bench: &mut Workbench, u: &Vector, v: &Vector) -> Vector {
     std::array::from_fn(|i| bench.graph.add(u[i], v[i]))
 }
 
-/// `u - v`.
-pub(super) fn minus(bench: &mut Workbench, u: &Vector, v: &Vector) -> Vector {
-    std::array::from_fn(|i| bench.graph.sub(u[i], v[i]))
-}
-
 /// `M v`.
 pub(super) fn apply(bench: &mut Workbench, matrix: &[Vector; 3], v: &Vector) -> Vector {
     std::array::from_fn(|i| bench.dot(&matrix[i], v))
@@ -215,8 +282,9 @@ pub(super) fn transposed(matrix: &[Vector; 3]) -> [Vector; 3] {
 }
 
 /// The inverse rotation: the angular velocity of the world seen from the body.
-pub(super) fn inverse(bench: &mut Workbench, r: &Rotation) -> Rotation {
+fn inverse(bench: &mut Workbench, r: &Rotation, frame: FrameId) -> Rotation {
     Rotation {
+        frame,
         matrix: transposed(&r.matrix),
         world_rate: r.body_rate.map(|e| bench.graph.neg(e)),
         body_rate: r.world_rate.map(|e| bench.graph.neg(e)),
@@ -242,6 +310,7 @@ fn compose(bench: &mut Workbench, a: &Rotation, b: &Rotation) -> Rotation {
         matrix,
         world_rate: plus(bench, &a.world_rate, &carried),
         body_rate: plus(bench, &pulled, &b.body_rate),
+        frame: FrameId::WORLD,
         turns: a.turns.as_ref().zip(b.turns.as_ref()).map(|(a, b)| [&a[..], b].concat()),
     }
 }

@@ -1,6 +1,6 @@
 //! The kinds of value: scalars, vectors in space, rotations, and the names of bodies.
 
-use guen_symbolic::ExprId;
+use guen_symbolic::{ExprId, FrameId};
 
 /// A vector in space, by its components in the world's axes.
 pub(super) type Vector = [ExprId; 3];
@@ -14,6 +14,8 @@ pub(super) struct Rotation {
     pub(super) world_rate: Vector,
     /// The angular velocity in the body's axes.
     pub(super) body_rate: Vector,
+    /// The frame that it leads to from the world.
+    pub(super) frame: FrameId,
     /// The turns about fixed axes that the rotation is made of, if it is.
     pub(super) turns: Option<Vec<Turn>>,
 }

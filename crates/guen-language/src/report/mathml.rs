@@ -2,16 +2,13 @@
 //!
 //! What comes in is what [`guen_symbolic`] writes, a small part of LaTeX; anything else stays readable as a word.
 
-use std::iter::Peekable;
-use std::str::Chars;
-
 /// A formula as a paragraph that may be broken between its terms.
 pub(super) fn paragraph(latex: &str) -> String {
     let mut text = String::from(
         "<div class=\"guen-formula\" style=\"padding-left:2em;text-indent:-2em;margin:.5em 0\">",
     );
     for term in terms(latex) {
-        let mut parser = Parser { rest: term.chars().peekable() };
+        let mut parser = Parser { rest: term };
         text.push_str("<math displaystyle=\"true\"><mrow>");
         parser.row(&mut text, None);
         text.push_str("</mrow></math> ");
@@ -28,6 +25,7 @@ fn terms(latex: &str) -> Vec<&str> {
         match c {
             '{' | '(' => depth += 1,
             '}' | ')' => depth -= 1,
+            '|' => depth += if latex[..i].ends_with("\\left") { 1 } else { -1 },
             // With a space before: not the sign of a first term.
             '+' | '-' | '=' if depth == 0 && latex[..i].ends_with(' ') => {
                 terms.push(&latex[begin..i]);
@@ -41,15 +39,31 @@ fn terms(latex: &str) -> Vec<&str> {
 }
 
 struct Parser<'s> {
-    rest: Peekable<Chars<'s>>,
+    rest: &'s str,
 }
 
 impl Parser<'_> {
+    fn next(&mut self) -> Option<char> {
+        let c = self.rest.chars().next()?;
+        self.rest = &self.rest[c.len_utf8()..];
+        Some(c)
+    }
+
+    fn next_if(&mut self, is_it: impl Fn(char) -> bool) -> Option<char> {
+        self.rest.chars().next().filter(|c| is_it(*c))?;
+        self.next()
+    }
+
+    fn eat(&mut self, text: &str) -> bool {
+        let rest = self.rest.strip_prefix(text);
+        self.rest = rest.unwrap_or(self.rest);
+        rest.is_some()
+    }
+
     /// Atoms with their scripts, up to a closing mark or the end.
-    fn row(&mut self, out: &mut String, until: Option<char>) {
-        while let Some(c) = self.rest.peek().copied() {
-            if Some(c) == until {
-                self.rest.next();
+    fn row(&mut self, out: &mut String, until: Option<&str>) {
+        while !self.rest.is_empty() {
+            if until.is_some_and(|mark| self.eat(mark)) {
                 return;
             }
             let start = out.len();
@@ -61,8 +75,7 @@ impl Parser<'_> {
     /// `_{..}` and `^{..}` behind what was written from `start` on.
     fn scripts(&mut self, out: &mut String, start: usize) {
         let (mut below, mut above) = (None, None);
-        while let Some(mark @ ('_' | '^')) = self.rest.peek().copied() {
-            self.rest.next();
+        while let Some(mark) = self.next_if(|c| c == '_' || c == '^') {
             let mut script = String::new();
             self.argument(&mut script);
             *(if mark == '_' { &mut below } else { &mut above }) = Some(script);
@@ -79,9 +92,9 @@ impl Parser<'_> {
 
     /// One group, or one atom, as one element.
     fn argument(&mut self, out: &mut String) {
-        if self.rest.next_if_eq(&'{').is_some() {
+        if self.eat("{") {
             out.push_str("<mrow>");
-            self.row(out, Some('}'));
+            self.row(out, Some("}"));
             out.push_str("</mrow>");
         } else {
             self.atom(out);
@@ -90,16 +103,16 @@ impl Parser<'_> {
 
     /// The text of a group of letters, Greek ones among them as groups of their own.
     fn verbatim(&mut self) -> String {
-        self.rest.next_if_eq(&'{');
+        self.eat("{");
         let (mut text, mut depth) = (String::new(), 0);
-        while let Some(c) = self.rest.next() {
+        while let Some(c) = self.next() {
             match c {
                 '{' => depth += 1,
                 '}' if depth == 0 => break,
                 '}' => depth -= 1,
                 '\\' => {
                     let mut name = String::new();
-                    while let Some(c) = self.rest.next_if(|c| depth > 0 && c.is_ascii_alphabetic()) {
+                    while let Some(c) = self.next_if(|c| depth > 0 && c.is_ascii_alphabetic()) {
                         name.push(c);
                     }
                     match guen_symbolic::greek_letter(&name) {
@@ -114,24 +127,24 @@ impl Parser<'_> {
     }
 
     fn atom(&mut self, out: &mut String) {
-        let Some(c) = self.rest.next() else { return };
+        let Some(c) = self.next() else { return };
         match c {
             '\\' => self.command(out),
             '{' => {
                 out.push_str("<mrow>");
-                self.row(out, Some('}'));
+                self.row(out, Some("}"));
                 out.push_str("</mrow>");
             }
             '0'..='9' => {
                 let mut digits = String::from(c);
-                while let Some(c) = self.rest.next_if(|c| c.is_ascii_digit() || *c == '.') {
+                while let Some(c) = self.next_if(|c| c.is_ascii_digit() || c == '.') {
                     digits.push(c);
                 }
                 element(out, "mn", &digits);
             }
             // A sign that a term begins with is still one between terms; the space before it is that between the formulas.
             '+' | '=' => out.push_str(&format!("<mo form=\"infix\"{}>{c}</mo>", lead(out))),
-            '-' if self.rest.peek() == Some(&' ') => {
+            '-' if self.rest.starts_with(' ') => {
                 out.push_str(&format!("<mo form=\"infix\"{}>−</mo>", lead(out)));
             }
             '-' => out.push_str("<mo form=\"prefix\">−</mo>"),
@@ -145,13 +158,13 @@ impl Parser<'_> {
 
     fn command(&mut self, out: &mut String) {
         let mut name = String::new();
-        while let Some(c) = self.rest.next_if(|c| c.is_ascii_alphabetic()) {
+        while let Some(c) = self.next_if(|c| c.is_ascii_alphabetic()) {
             name.push(c);
         }
         match name.as_str() {
             // `\,` and other marks.
             "" => {
-                let mark = self.rest.next();
+                let mark = self.next();
                 out.push_str(if mark == Some(',') { "<mspace width=\"0.17em\"/>" } else { "" });
             }
             "frac" => {
@@ -162,9 +175,9 @@ impl Parser<'_> {
             }
             "sqrt" => {
                 let mut order = String::new();
-                if self.rest.next_if_eq(&'[').is_some() {
+                if self.eat("[") {
                     order.push_str("<mrow>");
-                    self.row(&mut order, Some(']'));
+                    self.row(&mut order, Some("]"));
                     order.push_str("</mrow>");
                 }
                 let tag = if order.is_empty() { "msqrt" } else { "mroot" };
@@ -173,7 +186,7 @@ impl Parser<'_> {
                 out.push_str(&format!("{order}</{tag}>"));
             }
             "dot" | "ddot" | "dddot" => {
-                self.rest.next_if_eq(&' ');
+                self.eat(" ");
                 // As an accent, browsers set the dot into the letter.
                 out.push_str("<mover>");
                 self.argument(out);
@@ -181,18 +194,29 @@ impl Parser<'_> {
             }
             "mathrm" | "text" | "operatorname" | "mathit" => {
                 let words = self.verbatim();
-                let tag = if name == "text" { "mtext" } else { "mi" };
-                element(out, tag, &words);
-                if name == "operatorname" {
-                    out.push_str("<mo>&#8289;</mo>");
+                match name.as_str() {
+                    "text" => element(out, "mtext", &words),
+                    "operatorname" => self.function(out, &words),
+                    // A letter alone would stand in italics.
+                    _ if words.chars().count() == 1 => {
+                        let start = out.len();
+                        element(out, "mi", &words);
+                        out.insert_str(start + "<mi".len(), " mathvariant=\"normal\"");
+                    }
+                    _ => element(out, "mi", &words),
                 }
             }
-            "left" | "right" if self.rest.next_if_eq(&'|').is_some() => {
-                let form = if name == "left" { "prefix" } else { "postfix" };
-                out.push_str(&format!("<mo form=\"{form}\">|</mo>"));
+            "left" => {
+                // With what it closes one thing, which may have an exponent.
+                let (mark, end) = if self.eat("|") { ('|', "\\right|") } else { ('(', "\\right)") };
+                self.eat("(");
+                out.push_str(&format!("<mrow><mo form=\"prefix\">{mark}</mo>"));
+                self.row(out, Some(end));
+                let mark = if mark == '|' { '|' } else { ')' };
+                out.push_str(&format!("<mo form=\"postfix\">{mark}</mo></mrow>"));
             }
-            // The mark itself follows.
-            "left" | "right" => self.atom(out),
+            // Without an opening mark: the mark itself follows.
+            "right" => self.atom(out),
             "quad" => out.push_str("<mspace width=\"1em\"/>"),
             "ldots" => out.push_str("<mo>…</mo>"),
             "neq" => out.push_str("<mo form=\"infix\">≠</mo>"),
@@ -200,15 +224,17 @@ impl Parser<'_> {
             "circ" => out.push_str("<mo>∘</mo>"),
             name => match guen_symbolic::greek_letter(name) {
                 Some(letter) => element(out, "mi", &letter.to_string()),
-                // A function: `sin`, with its argument to come.
-                None => {
-                    let start = out.len();
-                    element(out, "mi", name);
-                    self.scripts(out, start);
-                    out.push_str("<mo>&#8289;</mo><mspace width=\"0.17em\"/>");
-                }
+                None => self.function(out, name),
             },
         }
+    }
+
+    /// A function with its exponent, and its argument to come.
+    fn function(&mut self, out: &mut String, name: &str) {
+        let start = out.len();
+        element(out, "mi", name);
+        self.scripts(out, start);
+        out.push_str("<mo>&#8289;</mo><mspace width=\"0.17em\"/>");
     }
 }
 
@@ -262,14 +288,20 @@ mod tests {
         assert_eq!(math(r"\text{a < b}"), "<mtext>a &lt; b</mtext>");
         assert_eq!(
             math(r"\left(a - b\right)"),
-            "<mo form=\"prefix\">(</mo><mi>a</mi><mo form=\"infix\">−</mo><mi>b</mi><mo form=\"postfix\">)</mo>"
+            "<mrow><mo form=\"prefix\">(</mo><mi>a</mi><mo form=\"infix\">−</mo><mi>b</mi><mo form=\"postfix\">)</mo></mrow>"
         );
+        assert_eq!(
+            math(r"\left|a\right|^{2}"),
+            "<msup><mrow><mrow><mo form=\"prefix\">|</mo><mi>a</mi><mo form=\"postfix\">|</mo></mrow></mrow><mrow><mn>2</mn></mrow></msup>"
+        );
+        assert_eq!(math(r"\mathrm{o}"), "<mi mathvariant=\"normal\">o</mi>");
     }
 
     #[test]
     fn lines_break_between_terms_only() {
         assert_eq!(terms("a = b + (c - d) - e^{f + g}"), ["a ", "= b ", "+ (c - d) ", "- e^{f + g}"]);
         assert_eq!(terms("-a"), ["-a"]);
+        assert_eq!(terms(r"\left|a - b\right| - c"), [r"\left|a - b\right| ", "- c"]);
     }
 
     #[test]

@@ -9,11 +9,12 @@ pub use pages::set;
 
 use guen_symbolic::{Class, ExprId, Notation};
 
-use crate::derive::function;
+use crate::derive::{Level, function};
 use crate::emit::Subject;
-use crate::model::FormKind;
+use crate::model::{FormKind, Model};
 
 /// A heading with its lines: formulas, then words.
+#[derive(Clone)]
 pub struct Section {
     /// What the lines are.
     pub title: &'static str,
@@ -45,11 +46,18 @@ type Terms = Vec<(ExprId, String)>;
 
 /// What stands in place of a longer line.
 const TOO_LONG: &str = ".. (too long to print)";
+/// The same in a formula.
+const LATEX_TOO_LONG: &str = r"\ldots";
 
 /// Lines longer than this are left to the programs.
 const LONGEST: usize = 3000;
 
 impl Report {
+    /// Writes down what was derived of a level of detail of a model.
+    pub fn of(model: &Model<'_>, level: &Level) -> Self {
+        Report::new(&Subject { model, level })
+    }
+
     /// Writes down what was derived of a level of detail.
     pub(crate) fn new(subject: &Subject<'_, '_>) -> Self {
         let selection = &subject.level.selection;
@@ -122,6 +130,12 @@ impl<'w, 'g> Lines<'w, 'g> {
         Lines { writer, section: Section { title, text: Vec::new(), latex: Vec::new() } }
     }
 
+    /// `name = right`, of a symbol or of its rate.
+    fn named(&mut self, name: &str, right: ExprId) {
+        let latex = self.writer.latex.name(name);
+        self.equation(name, &latex, right);
+    }
+
     /// `left = right` with an expression on the right.
     fn equation(&mut self, left: &str, left_latex: &str, right: ExprId) {
         let text = self.writer.text.expression(right);
@@ -140,7 +154,7 @@ impl<'w, 'g> Lines<'w, 'g> {
 
     fn push(&mut self, left: &str, left_latex: &str, text: Option<String>, latex: Option<String>) {
         self.section.text.push(format!("{left} = {}", text.as_deref().unwrap_or(TOO_LONG)));
-        self.section.latex.push(format!("{left_latex} = {}", latex.as_deref().unwrap_or(r"\ldots")));
+        self.section.latex.push(format!("{left_latex} = {}", latex.as_deref().unwrap_or(LATEX_TOO_LONG)));
     }
 }
 
@@ -156,10 +170,6 @@ fn summary(subject: &Subject<'_, '_>) -> String {
     )
 }
 
-fn latex_of(name: &str) -> String {
-    guen_symbolic::latex_name(name)
-}
-
 fn forms(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
     let graph = &subject.model.bench.graph;
     let mut lines = Lines::new(writer, "Forms (1.1), (1.6)");
@@ -172,27 +182,23 @@ fn forms(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
             }
         }
         let terms: Vec<_> = terms.iter().map(|(c, name)| (*c, name.as_str())).collect();
-        let too_long = || TOO_LONG.to_owned();
-        let mut text = lines.writer.text.sum(&terms).unwrap_or_else(too_long);
-        let mut latex = lines.writer.latex.sum(&terms).unwrap_or_else(too_long);
-        if !graph.is_zero(form.offset) {
-            let offset = lines.writer.text.expression(form.offset).unwrap_or_else(too_long);
-            text = format!("{text} + {offset}").replace("+ -", "- ");
-            let offset = lines.writer.latex.expression(form.offset).unwrap_or_else(too_long);
-            latex = format!("{latex} + {offset}").replace("+ -", "- ");
-        }
+        let Writer { text, latex } = &mut *lines.writer;
         let zero = if j < system.forms.degrees { "" } else { " = 0" };
-        text = format!("{} = {text}{zero}", entry.name);
-        latex = format!("{} = {latex}{zero}", latex_of(&entry.name));
+        let or_too_long = |written: Option<String>, note: &str| written.unwrap_or_else(|| note.to_owned());
+        let (own, sum) = (&entry.name, or_too_long(text.affine(&terms, form.offset), TOO_LONG));
+        let mut line = format!("{own} = {sum}{zero}");
+        let (own, sum) =
+            (latex.name(&entry.name), or_too_long(latex.affine(&terms, form.offset), LATEX_TOO_LONG));
+        let mut formula = format!("{own} = {sum}{zero}");
         let holonomic = system.holonomic.iter().find(|h| h.form == j);
         if let Some(position) = holonomic.filter(|_| entry.kind == FormKind::Holonomic) {
-            text.push_str(&format!("   (the rate of {} = 0)", graph.text(position.equation)));
-            let equation =
-                lines.writer.latex.expression(position.equation).unwrap_or_else(|| r"\ldots".to_owned());
-            latex.push_str(&format!(r"\quad\text{{(the rate of }}{equation} = 0\text{{)}}"));
+            let equation = or_too_long(text.expression(position.equation), TOO_LONG);
+            line.push_str(&format!("   (the rate of {equation} = 0)"));
+            let equation = or_too_long(latex.expression(position.equation), LATEX_TOO_LONG);
+            formula.push_str(&format!(r"\quad\text{{(the rate of }}{equation} = 0\text{{)}}"));
         }
-        lines.section.text.push(text);
-        lines.section.latex.push(latex);
+        lines.section.text.push(line);
+        lines.section.latex.push(formula);
     }
     for name in &subject.model.left_out {
         lines.section.text.push(format!("{name} is left out: it says 0 = 0"));
@@ -318,7 +324,7 @@ fn velocities(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
     let system = &subject.level.derivation.system;
     for (x, value) in system.velocities.iter().zip(&subject.level.derivation.frame.velocities) {
         let name = subject.model.bench.graph.text(*x);
-        lines.equation(&name, &latex_of(&name), *value);
+        lines.named(&name, *value);
     }
     lines.section
 }
@@ -333,7 +339,7 @@ fn equations(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
             }
             _ => {
                 section.text.push(format!("{TOO_LONG} = 0"));
-                section.latex.push(r"\ldots = 0".to_owned());
+                section.latex.push(format!("{LATEX_TOO_LONG} = 0"));
             }
         }
     }
@@ -350,13 +356,12 @@ fn momenta(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
             unknown.push(format!("(dT°/d{name}) is unknown: T is given on the constraints"));
             continue;
         }
+        let set = lines.writer.latex.name(name);
         let (left, latex) = if j < l {
-            (format!("dT/d{name}"), format!(r"\frac{{\partial T}}{{\partial {}}}", latex_of(name)))
+            (format!("dT/d{name}"), format!(r"\frac{{\partial T}}{{\partial {set}}}"))
         } else {
-            (
-                format!("(dT°/d{name})"),
-                format!(r"\left(\frac{{\partial T^\circ}}{{\partial {}}}\right)", latex_of(name)),
-            )
+            let latex = format!(r"\left(\frac{{\partial T^\circ}}{{\partial {set}}}\right)");
+            (format!("(dT°/d{name})"), latex)
         };
         lines.equation(&left, &latex, *momentum);
     }
@@ -378,14 +383,11 @@ fn energies(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
 
 /// What must not vanish: formulas, then what is told in words.
 fn domain(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
-    let d = &subject.level.derivation;
-    let known: Vec<ExprId> = d.frame.operators.chart.iter().chain(&d.solution.pivots).copied().collect();
-    let written: Vec<_> = known.iter().map(|e| writer.text.expression(*e)).collect();
     let (mut formulas, mut words) = (Vec::new(), Vec::new());
-    for name in &subject.level.domain_names {
-        match written.iter().position(|text| text.as_ref() == Some(name)) {
-            Some(place) => formulas.push(known[place]),
-            None => words.push(format!("{name} != 0")),
+    for (e, name) in subject.level.domain.iter().zip(&subject.level.domain_names) {
+        match writer.text.expression(*e) {
+            Some(text) if text == *name => formulas.push(*e),
+            _ => words.push(format!("{name} != 0")),
         }
     }
     let mut section = Section::words("Domain of the chart", Vec::new());

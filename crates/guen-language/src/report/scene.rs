@@ -1,6 +1,6 @@
 //! What there is to tell of a scene: what it keeps and why, what left, and its rates.
 
-use super::{Lines, Section, Writer, class_name, latex_of, plural};
+use super::{Lines, Section, Writer, class_name, plural};
 use crate::derive::{Place, Reason, SceneFacts};
 use crate::emit::Subject;
 use crate::names::quoted;
@@ -70,7 +70,7 @@ pub(super) fn rates(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Secti
     let mut lines = Lines::new(writer, "Rates");
     for (place, rate) in level.selection.variables.iter().zip(&level.rates) {
         let name = model.variable_name(*place);
-        lines.equation(&format!("{name}'"), &format!(r"\dot {{{}}}", latex_of(name)), *rate);
+        lines.named(&format!("{name}'"), *rate);
     }
     let mut section = lines.section;
     if facts(subject).is_part {

@@ -1,7 +1,8 @@
 //! Elementary functions of our own, for the hot path of a right-hand side.
 //!
 //! They are straight-line code without fused operations, written for any register of lanes, so that `f64`, lanes and
-//! every platform give the same bits. One forward branch leaves the line, for arguments out of range.
+//! every platform give the same bits. One forward branch leaves the line, for arguments out of range. A sine or cosine
+//! of one number without its partner has a second branch, which chooses one of two polynomials.
 //!
 //! | function | range | error | beyond the range |
 //! | --- | --- | --- | --- |
@@ -14,7 +15,7 @@
 mod large;
 mod trigonometric;
 
-pub(crate) use trigonometric::{sin_cos, sin_cos_7, sin_cos_13};
+pub(crate) use trigonometric::{cos, sin, sin_cos, sin_cos_7, sin_cos_13};
 
 /// `a b + c`, rounded once.
 #[inline(always)]

@@ -65,6 +65,8 @@ pub struct Step<'a, R, K, const N: usize> {
 pub struct Adaptive<'a, P, K, R, const N: usize> {
     pair: &'a P,
     settings: Settings,
+    /// When the run began.
+    origin: R,
     reached: Reached<R, N>,
     before: Reached<R, N>,
     /// What the next step starts with; absent before the first.
@@ -86,9 +88,9 @@ where
     P: Pair<R, N>,
     R: Ordered,
 {
-    pub(super) fn new(pair: &'a P, settings: Settings, t0: R, x0: &[R; N]) -> Self {
-        let reached = Reached::new(t0, x0);
-        Self { pair, settings, reached, before: reached, ready: None, stages: None }
+    pub(super) fn new(pair: &'a P, settings: Settings, start: &Reached<R, N>) -> Self {
+        let reached = *start;
+        Self { pair, settings, origin: start.time, reached, before: reached, ready: None, stages: None }
     }
 
     /// Checks the settings and finds the first slope and step.
@@ -144,7 +146,8 @@ where
         let mut made = Ok(());
         for _ in 0..steps {
             let from = reached;
-            made = step(self.pair, self.settings, system, target, &mut reached, &mut ready).map(|stages| {
+            let leg = (self.origin, target);
+            made = step(self.pair, self.settings, system, leg, &mut reached, &mut ready).map(|stages| {
                 if dense {
                     self.before = from;
                     self.stages = Some(stages);
@@ -160,13 +163,13 @@ where
     }
 }
 
-/// Makes one accepted step.
+/// Makes one accepted step of a run that began at `origin`.
 #[inline(always)]
 fn step<P, R, S, const N: usize>(
     pair: &P,
     Settings { tolerance, max_steps, .. }: Settings,
     system: &S,
-    target: R,
+    (origin, target): (R, R),
     reached: &mut Reached<R, N>,
     ready: &mut Ready<R, N>,
 ) -> Result<P::Stages, Cause>
@@ -175,35 +178,28 @@ where
     R: Ordered,
     S: System<R, N> + ?Sized,
 {
-    let Ready { slope, mut step, level } = *ready;
-    let Reached { time, state, .. } = *reached;
+    let Ready { slope, step, level } = *ready;
+    let Reached { time, time_rest, state, .. } = *reached;
     let statistics = &mut reached.statistics;
-    let rest = target - time;
-    let span = rest.to_f64();
-    let shortest = control::shortest(time);
+    let span = ((target - time) - time_rest).to_f64();
+    let shortest = control::shortest(time, origin);
+    let mut step = if step < shortest { shortest } else { step };
     let mut rejected = false;
-    let mut finite = true;
     loop {
         if statistics.accepted + statistics.rejected >= max_steps {
             return Err(Cause::TooManySteps { limit: max_steps });
         }
-        if step <= shortest {
-            return Err(if finite { Cause::StepUnderflow } else { Cause::NotFinite });
-        }
         let landing = control::STRETCH * step > span.abs();
-        let (next, h) = if landing {
-            (target, rest)
-        } else {
-            let h = R::from_f64(step.copysign(span));
-            (time + h, h)
-        };
-        let size = if landing { span.abs() } else { step };
+        let next = if landing { target } else { time + R::from_f64(step.copysign(span)) };
+        // The distance that time really moves.
+        let h = (next - time) - time_rest;
+        let size = h.to_f64().abs();
         // Known before the step is made, so that nothing waits for it afterwards.
         let trend = P::CONTROL.trend(level, size);
         let attempt = pair.attempt(system, time, &state, &slope, h);
         statistics.evaluations += P::TRIAL;
         let margin = pair.margin(&attempt.errors, size, &tolerance.weights(&state, &attempt.guess));
-        finite = all_finite(&attempt.state) && margin.is_finite();
+        let mut finite = all_finite(&attempt.state) && margin.is_finite();
         if finite && margin.is_enough() {
             let mut accepted = attempt.state;
             system.restore(next, &mut accepted).map_err(|_| Cause::Positions)?;
@@ -230,6 +226,7 @@ where
                 *ready = Ready { slope: next_slope, step: next_step, level };
                 statistics.accepted += 1;
                 reached.time = next;
+                reached.time_rest = R::zero();
                 reached.state = accepted;
                 return Ok(attempt.stages);
             }
@@ -241,7 +238,10 @@ where
         } else {
             P::CONTROL.factor_out_of_domain()
         };
-        step = size * factor;
+        if step <= shortest {
+            return Err(if finite { Cause::StepUnderflow } else { Cause::NotFinite });
+        }
+        step = f64::max(size * factor, shortest);
     }
 }
 
@@ -269,7 +269,7 @@ where
 
     fn dense(&mut self, system: &S) -> Dense<R, N> {
         let (from, to) = (&self.before, &self.reached);
-        let h = to.time - from.time;
+        let h = to.since(from);
         let (Some(stages), Some(ready)) = (&self.stages, &self.ready) else {
             // No step was made with `dense`: there is nothing to interpolate but the present state.
             let zero = [R::zero(); N];

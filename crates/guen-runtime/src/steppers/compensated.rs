@@ -104,8 +104,8 @@ where
     where
         F: 'a;
 
-    fn start(&self, t0: R, x0: &[R; N]) -> Self::Course<'_> {
+    fn start(&self, start: &Reached<R, N>) -> Self::Course<'_> {
         let (step, memory) = self.method.begin();
-        Fixed::new(self, (memory, [R::zero(); N]), step, t0, x0)
+        Fixed::new(self, (memory, [R::zero(); N]), step, start)
     }
 }

@@ -179,10 +179,21 @@ fn rough_exp2(x: f64) -> f64 {
 /// A rest of less than this part of a step is not left for a step of its own.
 pub(super) const STRETCH: f64 = 1.01;
 
-/// The shortest step at this time: it must span so many spacings of numbers.
-pub(super) fn shortest<R: Real>(time: R) -> f64 {
-    const SPACINGS: f64 = 10.0;
-    SPACINGS * time.to_f64().abs() * R::epsilon().to_f64()
+/// The shortest step of a run that began at `origin`: it moves the time, and is so many roundings of the time since then.
+#[inline]
+pub(super) fn shortest<R: Real>(time: R, origin: R) -> f64 {
+    const ROUNDINGS: f64 = 10.0;
+    let elapsed = ROUNDINGS * (time - origin).to_f64().abs();
+    // A rounding of the time itself is a spacing of numbers there, or two.
+    let clock = time.to_f64().abs();
+    R::epsilon().to_f64() * if elapsed > clock { elapsed } else { clock }
+}
+
+/// Whether two steps are the same to this part: so nearly that what was factored for one of them serves the other. Times are
+/// rounded, and with them what is between them.
+#[inline]
+pub(super) fn nearly_the_same<R: Real>(step: R, other: R, part: f64) -> bool {
+    (step - other).to_f64().abs() <= part * other.to_f64().abs()
 }
 
 /// The tolerances: an error `e` in an entry `x` counts as `e / (absolute + relative |x|)`.

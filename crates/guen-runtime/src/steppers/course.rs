@@ -59,7 +59,10 @@ pub struct Done<R, const N: usize> {
 pub struct Reached<R, const N: usize> {
     /// The time.
     pub time: R,
-    /// The state at that time.
+    /// By how much the state is later than `time`, which is rounded: zero at the end of every step, and no more than half a
+    /// spacing of numbers where a run goes on from an event.
+    pub time_rest: R,
+    /// The state at `time + time_rest`.
     pub state: [R; N],
     /// The work done.
     pub statistics: Statistics,
@@ -68,7 +71,13 @@ pub struct Reached<R, const N: usize> {
 impl<R: Real, const N: usize> Reached<R, N> {
     /// The beginning of a run, before any work.
     pub fn new(time: R, state: &[R; N]) -> Self {
-        Self { time, state: *state, statistics: Statistics::default() }
+        Self { time, time_rest: R::zero(), state: *state, statistics: Statistics::default() }
+    }
+
+    /// The time from an earlier place of the run to this one: exact, but for one rounding of the difference.
+    #[inline]
+    pub fn since(&self, earlier: &Self) -> R {
+        (self.time - earlier.time) + (self.time_rest - earlier.time_rest)
     }
 
     pub(super) fn done(&self, outcome: Outcome) -> Done<R, N> {
@@ -94,8 +103,8 @@ pub trait Method<R: Real, S: ?Sized, const N: usize> {
     where
         Self: 'a;
 
-    /// Begins a run at time `t0` with the state `x0`. Nothing is checked yet.
-    fn start(&self, t0: R, x0: &[R; N]) -> Self::Course<'_>;
+    /// Begins a run at this time and state, before any work. Nothing is checked yet.
+    fn start(&self, start: &Reached<R, N>) -> Self::Course<'_>;
 }
 
 /// A run of one method from one initial state.
@@ -113,8 +122,9 @@ pub trait Course<R: Real, S: ?Sized, const N: usize> {
     /// Where the run stands.
     fn reached(&self) -> &Reached<R, N>;
 
-    /// Makes one accepted step towards `target`, which is not the present time. The step that reaches the target
-    /// sets the time to it, to the bit. With `dense`, what [`dense`](Course::dense) needs is kept.
+    /// Makes one accepted step towards `target`, which is not the present time. A step is as long as the difference of
+    /// the times at its ends, to the bit, so that the state belongs to the time whatever the clock says; the step that
+    /// reaches the target sets the time to it. With `dense`, what [`dense`](Course::dense) needs is kept.
     ///
     /// # Errors
     ///

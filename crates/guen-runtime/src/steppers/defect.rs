@@ -106,7 +106,7 @@ pub(super) fn quadrature<R: Real, S, const N: usize>(
 where
     S: System<R, N> + ?Sized,
 {
-    let h = reached.time - before.time;
+    let h = reached.since(before);
     let last = system.rhs(reached.time, &reached.state);
     // 1/2 -+ sqrt(3)/6
     let nodes = [0.211_324_865_405_187_13, 0.788_675_134_594_812_9];

@@ -5,7 +5,7 @@ pub use super::tableau::{Tableau, Trial};
 
 use super::adaptive::{Adaptive, Attempt, Pair, Settings, Step};
 use super::control::{self, Control, Margin, Tolerance};
-use super::course::Method;
+use super::course::{Method, Reached};
 use super::dense::Dense;
 use super::landing::short_ways;
 use super::tableau::{Made, Stages};
@@ -130,8 +130,8 @@ impl<R: Real, const N: usize> Pair<R, N> for Tableau<R> {
 impl<R: Ordered, S: System<R, N> + ?Sized, const N: usize> Method<R, S, N> for Dop853<R> {
     type Course<'a> = Adaptive<'a, Tableau<R>, Stages<R, N>, R, N>;
 
-    fn start(&self, t0: R, x0: &[R; N]) -> Self::Course<'_> {
-        Adaptive::new(&self.tableau, self.settings(), t0, x0)
+    fn start(&self, start: &Reached<R, N>) -> Self::Course<'_> {
+        Adaptive::new(&self.tableau, self.settings(), start)
     }
 }
 
@@ -188,7 +188,7 @@ mod tests {
     ) -> (Vec<f64>, [f64; N], Statistics) {
         let tolerance = Tolerance { relative: tolerance, absolute: tolerance };
         let settings = Settings { tolerance, max_steps: 100_000, first_step: None };
-        let mut course = Adaptive::new(pair, settings, 0.0, start);
+        let mut course = Adaptive::new(pair, settings, &Reached::new(0.0, start));
         let mut times = Vec::new();
         loop {
             course.advance(system, t1, false).unwrap();

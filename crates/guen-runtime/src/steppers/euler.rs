@@ -77,8 +77,8 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Formula<R, S, N> for Eul
 impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Method<R, S, N> for Euler<R> {
     type Course<'a> = Fixed<'a, Self, Slopes<R, N>, R, N>;
 
-    fn start(&self, t0: R, x0: &[R; N]) -> Self::Course<'_> {
-        Fixed::new(self, Slopes::new(), self.step, t0, x0)
+    fn start(&self, start: &Reached<R, N>) -> Self::Course<'_> {
+        Fixed::new(self, Slopes::new(), self.step, start)
     }
 }
 

@@ -70,9 +70,8 @@ pub struct Fixed<'a, F, M, R, const N: usize> {
 }
 
 impl<'a, F, M, R: Real, const N: usize> Fixed<'a, F, M, R, N> {
-    pub(super) fn new(formula: &'a F, memory: M, step: R, t0: R, x0: &[R; N]) -> Self {
-        let reached = Reached::new(t0, x0);
-        Self { formula, memory, step, reached, before: reached, leg: None }
+    pub(super) fn new(formula: &'a F, memory: M, step: R, start: &Reached<R, N>) -> Self {
+        Self { formula, memory, step, reached: *start, before: *start, leg: None }
     }
 }
 
@@ -97,12 +96,13 @@ where
     }
 
     fn advance(&mut self, system: &S, target: R, dense: bool) -> Result<(), Cause> {
-        let now = self.reached.time;
+        let Reached { time: now, time_rest, .. } = self.reached;
         let mut leg = match self.leg {
             Some(leg) if leg.target == target && leg.index < leg.count => leg,
             _ => Leg::new(now, target, self.step)?,
         };
         let (next, h) = leg.next(now)?;
+        let h = h - time_rest;
         let mut statistics = self.reached.statistics;
         let made = self.formula.step(system, &mut self.memory, &self.reached, h, dense, &mut statistics);
         self.reached.statistics = statistics;
@@ -116,6 +116,7 @@ where
         }
         self.reached.statistics.accepted += 1;
         self.reached.time = next;
+        self.reached.time_rest = R::zero();
         self.reached.state = state;
         self.leg = Some(leg);
         Ok(())
@@ -126,7 +127,7 @@ where
     }
 
     fn dense(&mut self, system: &S) -> Dense<R, N> {
-        let h = self.reached.time - self.before.time;
+        let h = self.reached.since(&self.before);
         let mut statistics = self.reached.statistics;
         let dense =
             self.formula.dense(system, &mut self.memory, &self.before, &self.reached, h, &mut statistics);
@@ -194,7 +195,8 @@ impl<R: Real, const N: usize> Slopes<R, N> {
     }
 }
 
-/// The steps from one time to another: `origin + k h` for `k = 1 .. count - 1`, then the target.
+/// The steps from one time to another: to `origin + k h` for `k = 1 .. count - 1`, then to the target. These times are rounded,
+/// and a step is as long as their difference.
 #[derive(Clone, Copy, Debug)]
 pub struct Leg<R> {
     origin: R,
@@ -238,11 +240,11 @@ impl<R: Real> Leg<R> {
     /// The end and the length of the next step.
     pub(super) fn next(&mut self, now: R) -> Result<(R, R), Cause> {
         self.index += 1;
-        let (next, h) = if self.index == self.count {
-            (self.target, self.target - now)
+        let next = if self.index == self.count {
+            self.target
         } else {
-            (self.origin + self.h * R::from_ratio(self.index, 1), self.h)
+            self.origin + self.h * R::from_ratio(self.index, 1)
         };
-        if next == now { Err(Cause::StepUnderflow) } else { Ok((next, h)) }
+        if next == now { Err(Cause::StepUnderflow) } else { Ok((next, next - now)) }
     }
 }

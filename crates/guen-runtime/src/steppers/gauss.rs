@@ -1,6 +1,7 @@
 //! The methods of Gauss and Legendre with two and three stages, with a fixed step.
 
 use super::collocation::{Collocation, Factors, shifted};
+use super::control;
 use super::course::{Method, Reached, Statistics};
 use super::defect::quadrature;
 use super::dense::Dense;
@@ -83,8 +84,8 @@ macro_rules! gauss {
         impl<R: Ordered, S: Differentiable<R, N> + ?Sized, const N: usize> Method<R, S, N> for $Gauss<R> {
             type Course<'a> = Fixed<'a, Self, Memory<R, N, $stages>, R, N>;
 
-            fn start(&self, t0: R, x0: &[R; N]) -> Self::Course<'_> {
-                Fixed::new(self, Memory::new(), self.step, t0, x0)
+            fn start(&self, start: &Reached<R, N>) -> Self::Course<'_> {
+                Fixed::new(self, Memory::new(), self.step, start)
             }
         }
 
@@ -231,6 +232,8 @@ where
 {
     /// With more iterations than this a new Jacobian costs less than to go on with the old one.
     const SLOW: u32 = 7;
+    /// Steps that differ by less have the same factors: each iteration leaves so much of the error.
+    const SAME: f64 = 1e-3;
 
     // A slope that dense output left belongs to the end of a step that is over.
     memory.slopes = Slopes::new();
@@ -244,7 +247,7 @@ where
             fresh = true;
         }
         let factors = match (memory.factors, &memory.jacobian) {
-            (Some((at, factors)), _) if at == h => factors,
+            (Some((at, factors)), _) if control::nearly_the_same(at, h, SAME) => factors,
             (_, Some(jacobian)) => {
                 let factors = collocation.factor(jacobian, h).ok_or(Cause::NoConvergence)?;
                 memory.factors = Some((h, factors));
@@ -335,7 +338,7 @@ where
     S: Differentiable<R, N> + ?Sized,
 {
     let ratio = R::from_ratio;
-    let h = to.time - from.time;
+    let h = to.since(from);
     let last = system.rhs(to.time, &to.state);
     let begins = system.along(from.time, &from.state, R::one(), first);
     let ends = system.along(to.time, &to.state, R::one(), &last);

@@ -148,7 +148,7 @@ impl<'a, R: Real, S: System<R, N> + ?Sized, const N: usize, const E: usize> Inte
         M: Method<R, S, N>,
     {
         self.check(t1).map_err(|cause| self.start.failed(cause))?;
-        let mut course = method.start(self.start.time, &self.start.state);
+        let mut course = method.start(&self.start);
         let mut watch = Watch::new::<M::Course<'_>, S>(self.guard, self.system, &self.start)
             .map_err(|cause| self.start.failed(cause))?;
         let mut trackers: [Tracker; E] =
@@ -297,7 +297,7 @@ impl<'a, R: Real, S: System<R, N> + ?Sized, const N: usize, const E: usize> Inte
                 let _ = observer(time, &state);
             }
             let statistics = course.reached().statistics;
-            return Ok(Some(Reached { time, state, statistics }.done(outcome)));
+            return Ok(Some(Reached { time, time_rest: R::zero(), state, statistics }.done(outcome)));
         }
     }
 

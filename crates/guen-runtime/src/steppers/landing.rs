@@ -23,7 +23,7 @@ where
     V: FnMut(usize, R, &[R; N]),
 {
     let start = Reached::new(t0, x0);
-    let mut course = method.start(t0, x0);
+    let mut course = method.start(&start);
     let mut watch = Watch::new::<M::Course<'_>, S>(Guard::default(), system, &start)
         .map_err(|cause| start.failed(cause))?;
     let (mut before, mut kept) = (start, false);

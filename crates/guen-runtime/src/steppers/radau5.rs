@@ -121,9 +121,18 @@ impl<R: Ordered> Radau5<R> {
 impl<R: Ordered, S: Differentiable<R, N> + ?Sized, const N: usize> Method<R, S, N> for Radau5<R> {
     type Course<'a> = Run<'a, R, N>;
 
-    fn start(&self, t0: R, x0: &[R; N]) -> Self::Course<'_> {
-        let reached = Reached::new(t0, x0);
-        Run { method: self, reached, before: reached, ready: None, last: None, jacobian: None, factors: None }
+    fn start(&self, start: &Reached<R, N>) -> Self::Course<'_> {
+        let (reached, origin) = (*start, start.time);
+        Run {
+            method: self,
+            origin,
+            reached,
+            before: reached,
+            ready: None,
+            last: None,
+            jacobian: None,
+            factors: None,
+        }
     }
 }
 
@@ -133,6 +142,8 @@ short_ways!(Radau5 over Ordered, systems Differentiable);
 #[derive(Clone, Copy, Debug)]
 pub struct Run<'a, R, const N: usize> {
     method: &'a Radau5<R>,
+    /// When the run began.
+    origin: R,
     reached: Reached<R, N>,
     before: Reached<R, N>,
     ready: Option<Ready<R, N>>,
@@ -269,37 +280,33 @@ where
         const FAST: f64 = 1e-3;
         /// A step that would grow by less than this stays as it is, with its factors.
         const WORTHWHILE: f64 = 1.2;
+        /// Steps that differ by less have the same factors, which make Newton's method converge no more slowly than a Jacobian
+        /// that is kept.
+        const SAME: f64 = 1e-5;
 
         let collocation = self.method.collocation.as_ref().ok_or(Cause::NoConvergence)?;
-        let Ready { slope, mut step } = match self.ready {
+        let Ready { slope, step } = match self.ready {
             Some(ready) => ready,
             None => self.start(system, target)?,
         };
         let tolerance = self.method.tolerance();
-        let Reached { time, state, .. } = self.reached;
+        let Reached { time, time_rest, state, .. } = self.reached;
         let weights = tolerance.weights(&state, &state);
-        let rest = target - time;
-        let span = rest.to_f64();
-        let shortest = control::shortest(time);
+        let span = ((target - time) - time_rest).to_f64();
+        let shortest = control::shortest(time, self.origin);
+        let mut step = if step < shortest { shortest } else { step };
         let mut rejected = false;
-        let mut trouble = Cause::StepUnderflow;
         let max_steps = self.method.max_steps;
         loop {
             let statistics = &mut self.reached.statistics;
             if statistics.accepted + statistics.rejected >= max_steps {
                 return Err(Cause::TooManySteps { limit: max_steps });
             }
-            if step <= shortest {
-                return Err(trouble);
-            }
             let landing = control::STRETCH * step > span.abs();
-            let (next, h) = if landing {
-                (target, rest)
-            } else {
-                let h = R::from_f64(step.copysign(span));
-                (time + h, h)
-            };
-            let size = if landing { span.abs() } else { step };
+            let next = if landing { target } else { time + R::from_f64(step.copysign(span)) };
+            // The distance that time really moves.
+            let h = (next - time) - time_rest;
+            let size = h.to_f64().abs();
             let (jacobian, present) = match self.jacobian {
                 Some(known) => known,
                 None => {
@@ -310,16 +317,19 @@ where
             };
             self.jacobian = Some((jacobian, present));
             let factors = match self.factors {
-                Some((at, factors)) if at == h => Some(factors),
-                _ => collocation.factor(&jacobian, h),
+                Some((at, factors)) if control::nearly_the_same(at, h, SAME) => Some(factors),
+                _ => {
+                    let factors = collocation.factor(&jacobian, h);
+                    self.factors = factors.map(|factors| (h, factors));
+                    factors
+                }
             };
-            self.factors = factors.map(|factors| (h, factors));
             let start = self.last.map(|(before, z)| collocation.predicted(&z, h / before));
             let solved = match &factors {
                 Some(factors) => self.solve(system, collocation, factors, h, start, &weights),
                 None => Solved::NotFinite,
             };
-            let factor = match (solved, &factors) {
+            let (trouble, factor) = match (solved, &factors) {
                 (Solved::Stages(z, iterations, rate), Some(Factors { real: Some(lu), .. })) => {
                     // An estimate of the error, filtered by the real system so that stiff parts do not inflate it.
                     let recip = R::one() / h;
@@ -362,43 +372,38 @@ where
                             self.before = self.reached;
                             self.reached.statistics.accepted += 1;
                             self.reached.time = next;
+                            self.reached.time_rest = R::zero();
                             self.reached.state = reached;
                             return Ok(());
                         }
-                        trouble = Cause::NotFinite;
-                        CONTROL.factor_out_of_domain()
+                        (Cause::NotFinite, CONTROL.factor_out_of_domain())
                     } else if finite {
-                        trouble = Cause::StepUnderflow;
-                        CONTROL.factor_after_failure(margin.log2())
+                        (Cause::StepUnderflow, CONTROL.factor_after_failure(margin.log2()))
                     } else {
-                        trouble = Cause::NotFinite;
-                        CONTROL.factor_out_of_domain()
+                        (Cause::NotFinite, CONTROL.factor_out_of_domain())
                     }
                 }
-                (Solved::Diverged, _) => {
-                    trouble = Cause::NoConvergence;
-                    0.5
-                }
-                _ => {
-                    trouble = Cause::NotFinite;
-                    CONTROL.factor_out_of_domain()
-                }
+                (Solved::Diverged, _) => (Cause::NoConvergence, 0.5),
+                _ => (Cause::NotFinite, CONTROL.factor_out_of_domain()),
             };
             self.reached.statistics.rejected += 1;
             rejected = true;
-            if present {
-                step = size * factor;
-            } else {
+            if !present {
                 // With the Jacobian of an earlier state: perhaps that one is to blame.
                 self.jacobian = None;
-                step = if matches!(trouble, Cause::NoConvergence) { size } else { size * factor };
+                if matches!(trouble, Cause::NoConvergence) {
+                    continue;
+                }
+            } else if step <= shortest {
+                return Err(trouble);
             }
+            step = f64::max(size * factor, shortest);
         }
     }
 
     fn dense(&mut self, _system: &S) -> Dense<R, N> {
         let (from, to) = (&self.before, &self.reached);
-        let h = to.time - from.time;
+        let h = to.since(from);
         let (Some((_, z)), Some(collocation)) = (&self.last, &self.method.collocation) else {
             let zero = [R::zero(); N];
             return Dense::cubic(to.time, R::one(), [to.state, zero, zero, zero]);

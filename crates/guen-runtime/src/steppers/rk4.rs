@@ -106,8 +106,9 @@ pub const fn cost(rhs: Cost, n: u32) -> Cost {
 /// The classical Runge-Kutta method with a fixed step.
 ///
 /// - Order 4, not symplectic, no error estimate: halve the step and compare.
-/// - The `k`-th time is `t0 + k h`, computed so and not summed up, hence without drift. The last step is
-///   shortened to land on the final time; a rest of a few roundings is merged into the step before it.
+/// - The `k`-th time is `t0 + k h`, computed so and not summed up, hence without drift, and a step is as long as the
+///   difference of two of these rounded times. The last step is shortened to land on the final time; a rest of a few
+///   roundings is merged into the step before it.
 /// - The step is a positive duration; the direction follows from the times. A span of zero is no step at all.
 /// - Works for every [`Real`]: lanes, which share their time, included.
 /// - Dense output is the cubic through both ends of a step with their slopes, off by `O(h^4)` as the steps are.
@@ -207,8 +208,8 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Changes<R, S, N> for Rk4
 impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Method<R, S, N> for Rk4<R> {
     type Course<'a> = Fixed<'a, Self, Slopes<R, N>, R, N>;
 
-    fn start(&self, t0: R, x0: &[R; N]) -> Self::Course<'_> {
-        Fixed::new(self, Slopes::new(), self.step, t0, x0)
+    fn start(&self, start: &Reached<R, N>) -> Self::Course<'_> {
+        Fixed::new(self, Slopes::new(), self.step, start)
     }
 }
 

@@ -92,7 +92,7 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Formula<R, S, N> for Rk8
     }
 
     fn defect(&self, _system: &S, memory: &Self::Memory, from: &Reached<R, N>, to: &Reached<R, N>) -> [R; N] {
-        estimate(&self.tableau, &memory.stages, to.time - from.time)
+        estimate(&self.tableau, &memory.stages, to.since(from))
     }
 }
 
@@ -156,9 +156,9 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Changes<R, S, N> for Rk8
 impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Method<R, S, N> for Rk8<R> {
     type Course<'a> = Fixed<'a, Self, Memory<R, N>, R, N>;
 
-    fn start(&self, t0: R, x0: &[R; N]) -> Self::Course<'_> {
+    fn start(&self, start: &Reached<R, N>) -> Self::Course<'_> {
         let (step, memory) = Changes::<R, S, N>::begin(self);
-        Fixed::new(self, memory, step, t0, x0)
+        Fixed::new(self, memory, step, start)
     }
 }
 

@@ -170,6 +170,8 @@ const LOWEST_DEFAULT: usize = 8;
 #[derive(Clone, Copy, Debug)]
 pub struct Run<'a, R, const N: usize> {
     method: &'a Taylor<R>,
+    /// When the run began.
+    origin: R,
     reached: Reached<R, N>,
     /// What the state is short of, by less than half of its last digit.
     rest: [R; N],
@@ -311,25 +313,20 @@ where
 
     fn advance(&mut self, system: &S, target: R, _dense: bool) -> Result<(), Cause> {
         let order = self.method.checked_order()?;
-        let Reached { time, state, statistics } = self.reached;
+        let Reached { time, time_rest, state, statistics } = self.reached;
         if statistics.accepted + statistics.rejected >= self.method.max_steps {
             return Err(Cause::TooManySteps { limit: self.method.max_steps });
         }
-        let rest = target - time;
-        let span = rest.to_f64();
+        let span = ((target - time) - time_rest).to_f64();
         self.expand(system, order, span)?;
         let step = self.length();
-        if step <= control::shortest(time) {
+        let landing = control::STRETCH * step > span.abs();
+        if !landing && step <= control::shortest(time, self.origin) {
             return Err(Cause::StepUnderflow);
         }
-        let landing = control::STRETCH * step > span.abs();
-        let (next, h) = if landing {
-            (target, rest)
-        } else {
-            let next = time + R::from_f64(step.copysign(span));
-            // The distance that time really moves.
-            (next, next - time)
-        };
+        let next = if landing { target } else { time + R::from_f64(step.copysign(span)) };
+        // The distance that time really moves.
+        let h = (next - time) - time_rest;
         let change = self.series.change(h / self.series.scale);
         let mut accepted = state;
         let mut left = self.rest;
@@ -353,6 +350,7 @@ where
         }
         self.reached.statistics.accepted += 1;
         self.reached.time = next;
+        self.reached.time_rest = R::zero();
         self.reached.state = accepted;
         Ok(())
     }
@@ -373,13 +371,13 @@ fn two_sum<R: Real>(a: R, b: R) -> (R, R) {
 impl<R: Ordered, S: TaylorSeries<R, N> + ?Sized, const N: usize> Method<R, S, N> for Taylor<R> {
     type Course<'a> = Run<'a, R, N>;
 
-    fn start(&self, t0: R, x0: &[R; N]) -> Self::Course<'_> {
+    fn start(&self, start: &Reached<R, N>) -> Self::Course<'_> {
         let zero = [R::zero(); N];
         // Before the first step there is nothing to interpolate but the present state.
         let mut coefficients = [zero; HIGHEST_ORDER + 1];
-        coefficients[0] = *x0;
-        let series = Series { start: t0, scale: R::one(), order: 1, coefficients };
-        Run { method: self, reached: Reached::new(t0, x0), rest: zero, series, scale: 0.0 }
+        coefficients[0] = start.state;
+        let series = Series { start: start.time, scale: R::one(), order: 1, coefficients };
+        Run { method: self, origin: start.time, reached: *start, rest: zero, series, scale: 0.0 }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::adaptive::{Adaptive, Attempt, Pair, Settings, Step};
 use super::control::{self, Control, Margin, Tolerance};
-use super::course::Method;
+use super::course::{Method, Reached};
 use super::dense::Dense;
 use super::landing::short_ways;
 use super::tsit5_coefficients as published;
@@ -169,8 +169,8 @@ impl<R: Real, const N: usize> Pair<R, N> for Formula<R> {
 impl<R: Ordered, S: System<R, N> + ?Sized, const N: usize> Method<R, S, N> for Tsit5<R> {
     type Course<'a> = Adaptive<'a, Formula<R>, Stages<R, N>, R, N>;
 
-    fn start(&self, t0: R, x0: &[R; N]) -> Self::Course<'_> {
-        Adaptive::new(&self.formula, self.settings(), t0, x0)
+    fn start(&self, start: &Reached<R, N>) -> Self::Course<'_> {
+        Adaptive::new(&self.formula, self.settings(), start)
     }
 }
 

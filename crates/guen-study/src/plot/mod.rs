@@ -8,10 +8,10 @@ mod frame;
 mod thin;
 mod ticks;
 
-use std::fs;
 use std::path::Path;
 
-use crate::error::{StudyError, at_path, create_parents};
+use crate::error::StudyError;
+use crate::file::replace_file;
 
 /// Curves on a pair of axes, drawn as SVG.
 ///
@@ -169,16 +169,14 @@ impl Plot {
         draw::draw(self)
     }
 
-    /// Writes the picture to a file whose parent folders are created.
+    /// Writes the picture to a file, whole or not at all: see [`replace_file`].
     ///
     /// # Errors
     ///
     /// Those of [`to_svg`](Plot::to_svg), and [`StudyError::Io`] with the path.
     pub fn save(&self, path: impl AsRef<Path>) -> Result<(), StudyError> {
-        let path = path.as_ref();
         let text = self.to_svg()?;
-        create_parents(path)?;
-        fs::write(path, text).map_err(at_path(path))
+        replace_file(path, |out| out.write_all(text.as_bytes()))
     }
 }
 
@@ -253,8 +251,8 @@ mod tests {
         let path = folder.join("deep/sine.svg");
         let plot = Plot::new("sine").line("sin", sine(100));
         plot.save(&path).unwrap();
-        assert_eq!(fs::read_to_string(&path).unwrap(), plot.to_svg().unwrap());
+        assert_eq!(std::fs::read_to_string(&path).unwrap(), plot.to_svg().unwrap());
         assert!(matches!(plot.save(&folder), Err(StudyError::Io { .. })));
-        fs::remove_dir_all(folder).unwrap();
+        std::fs::remove_dir_all(folder).unwrap();
     }
 }

@@ -1,11 +1,12 @@
 //! A report as CSV, in a file, and as a picture.
 
-use std::fs;
 use std::path::Path;
 
 use super::report::Report;
 use super::row::Nearby;
-use crate::error::{StudyError, at_path, create_parents};
+use crate::cell;
+use crate::error::StudyError;
+use crate::file::replace_file;
 
 impl Report {
     /// The rows as CSV (RFC 4180, lines end with a line feed): a head, then a line for each row. Numbers have as many
@@ -28,9 +29,9 @@ impl Report {
             let cost = row.cost;
             let failure = row.failure.as_ref().map_or("", |failure| &failure.message);
             let cells = [
-                quoted(&row.method),
-                quoted(&row.real),
-                quoted(&row.form),
+                cell::text(&row.method),
+                cell::text(&row.real),
+                cell::text(&row.form),
                 row.knob.symbol().to_owned(),
                 number(Some(row.setting)),
                 number(row.error),
@@ -43,7 +44,7 @@ impl Report {
                 number(Some(row.evaluations)),
                 number(Some(row.jacobians)),
                 front.contains(&index).to_string(),
-                quoted(failure),
+                cell::text(failure),
             ];
             text.push_str(&cells.join(","));
             text.push('\n');
@@ -51,23 +52,36 @@ impl Report {
         text
     }
 
-    /// Writes the rows as CSV to a file whose parent folders are created.
+    /// Writes the rows as CSV to a file, whole or not at all: see [`replace_file`].
     ///
     /// # Errors
     ///
     /// The file or a folder cannot be written.
     pub fn save_csv(&self, path: impl AsRef<Path>) -> Result<(), StudyError> {
-        let path = path.as_ref();
-        create_parents(path)?;
-        fs::write(path, self.to_csv()).map_err(at_path(path))
+        replace_file(path, |out| out.write_all(self.to_csv().as_bytes()))
     }
 }
 
-/// A cell, in quotation marks if it has to be.
-fn quoted(text: &str) -> String {
-    if text.contains([',', '"', '\n', '\r']) {
-        format!("\"{}\"", text.replace('"', "\"\""))
-    } else {
-        text.to_owned()
+#[cfg(feature = "serde")]
+impl Report {
+    /// Writes the report as JSON to a file, whole or not at all: see [`replace_file`].
+    ///
+    /// # Errors
+    ///
+    /// The file or a folder cannot be written.
+    pub fn save_json(&self, path: impl AsRef<Path>) -> Result<(), StudyError> {
+        replace_file(path, |out| Ok(serde_json::to_writer_pretty(out, self)?))
+    }
+
+    /// Reads a report that [`save_json`](Report::save_json) wrote, every number to the bit.
+    ///
+    /// # Errors
+    ///
+    /// [`StudyError::Read`] with the path: there is no such file, or it is no report.
+    pub fn load_json(path: impl AsRef<Path>) -> Result<Self, StudyError> {
+        use crate::error::from_path;
+        let path = path.as_ref();
+        let text = std::fs::read(path).map_err(from_path(path))?;
+        serde_json::from_slice(&text).map_err(from_path(path))
     }
 }

@@ -95,9 +95,11 @@ pub struct ReferenceReport {
     pub check: String,
     /// The largest difference between the two over all initial states, in the measure of the study: the stated error.
     /// None if one of them failed.
+    #[cfg_attr(feature = "serde", serde(with = "crate::exact::option"))]
     pub error: Option<f64>,
     /// Why there is no reference, or no check of it.
     pub failure: Option<String>,
     /// The seconds that both took.
+    #[cfg_attr(feature = "serde", serde(with = "crate::exact"))]
     pub seconds: f64,
 }

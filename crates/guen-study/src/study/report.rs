@@ -66,8 +66,10 @@ pub struct Report {
     /// The number of states nearby that settings were tried from.
     pub probes: usize,
     /// The median over the rows of half the interval of the median cost, relative.
+    #[cfg_attr(feature = "serde", serde(with = "crate::exact"))]
     pub noise: f64,
     /// How long the study took.
+    #[cfg_attr(feature = "serde", serde(with = "crate::exact"))]
     pub seconds: f64,
     /// Machine and build, as far as they are known.
     pub conditions: String,

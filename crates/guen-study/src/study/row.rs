@@ -34,6 +34,7 @@ pub struct Failure {
     /// What kind of failure.
     pub kind: FailureKind,
     /// The time that the run had reached, if it had begun.
+    #[cfg_attr(feature = "serde", serde(with = "crate::exact::option"))]
     pub time: Option<f64>,
     /// The whole message.
     pub message: String,
@@ -91,7 +92,7 @@ impl Failure {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Nearby {
     /// The largest error.
-    Error(f64),
+    Error(#[cfg_attr(feature = "serde", serde(with = "crate::exact"))] f64),
     /// A run failed.
     Failed,
 }
@@ -128,16 +129,20 @@ pub struct Row {
     /// What the setting is.
     pub knob: Knob,
     /// The setting.
+    #[cfg_attr(feature = "serde", serde(with = "crate::exact"))]
     pub setting: f64,
     /// The largest error over the initial states, in the study's measure.
+    #[cfg_attr(feature = "serde", serde(with = "crate::exact::option"))]
     pub error: Option<f64>,
     /// Whether the error is so small that the reference's own error may be a tenth of it, or more.
     pub limited: bool,
     /// What it errs from states nearby, for rows that may be chosen.
     pub nearby: Option<Nearby>,
     /// Evaluations of the right-hand side, for one initial state in the mean.
+    #[cfg_attr(feature = "serde", serde(with = "crate::exact"))]
     pub evaluations: f64,
     /// Evaluations of the Jacobian, likewise.
+    #[cfg_attr(feature = "serde", serde(with = "crate::exact"))]
     pub jacobians: f64,
     /// What it costs, for one initial state.
     pub cost: Option<Cost>,

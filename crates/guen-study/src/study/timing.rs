@@ -53,10 +53,13 @@ impl Stopwatch for Wall {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Cost {
     /// The median: seconds for one initial state, or evaluations in a study that counts them.
+    #[cfg_attr(feature = "serde", serde(with = "crate::exact"))]
     pub median: f64,
     /// The lower end of the interval in which the median lies with 95 percent.
+    #[cfg_attr(feature = "serde", serde(with = "crate::exact"))]
     pub low: f64,
     /// The upper end.
+    #[cfg_attr(feature = "serde", serde(with = "crate::exact"))]
     pub high: f64,
     /// How often it was measured.
     pub repetitions: u32,

@@ -11,12 +11,12 @@ mod shape;
 mod tests;
 mod turn;
 
-use std::fs;
 use std::path::Path;
 
 use guen_runtime::{Bodies, Monitored};
 
-use crate::error::{StudyError, at_path, create_parents};
+use crate::error::StudyError;
+use crate::file::replace_file;
 use crate::recording::Recording;
 
 pub use shape::{Pose, Shape};
@@ -433,16 +433,14 @@ impl<'a, const N: usize> Viewer<'a, N> {
         page::html(self)
     }
 
-    /// Writes the page to a file whose parent folders are created.
+    /// Writes the page to a file, whole or not at all: see [`replace_file`].
     ///
     /// # Errors
     ///
     /// Those of [`to_html`](Viewer::to_html), and [`StudyError::Io`] with the path.
     pub fn write(&self, path: impl AsRef<Path>) -> Result<(), StudyError> {
-        let path = path.as_ref();
         let text = self.to_html()?;
-        create_parents(path)?;
-        fs::write(path, text).map_err(at_path(path))
+        replace_file(path, |out| out.write_all(text.as_bytes()))
     }
 }
 

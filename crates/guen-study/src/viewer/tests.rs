@@ -223,7 +223,7 @@ fn a_file_in_a_new_folder() {
     let recording = recorded(3);
     let viewer = Viewer::new("v", &recording).curve("c", |t, _| t);
     viewer.write(&path).unwrap();
-    assert_eq!(fs::read_to_string(&path).unwrap(), viewer.to_html().unwrap());
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), viewer.to_html().unwrap());
     assert!(matches!(viewer.write(&folder), Err(StudyError::Io { .. })));
-    fs::remove_dir_all(folder).unwrap();
+    std::fs::remove_dir_all(folder).unwrap();
 }

@@ -1,5 +1,6 @@
 //! A mechanical system as the derivation takes it: checked names, kinds and shapes, nothing derived yet.
 
+use super::SystemGraph;
 use crate::algebra::{ExprId, Substitution};
 use crate::geometry::Forms;
 use crate::workbench::Workbench;
@@ -89,6 +90,8 @@ pub struct Mechanics {
     pub force_function: ExprId,
     /// The bodies that both are made of, where the declaration has any.
     pub multibody: Option<Multibody>,
+    /// Frames, places and forms as they were declared.
+    pub structure: SystemGraph,
     /// The other generalised forces.
     pub forces: Vec<Force>,
     /// Quantities computed on request.
@@ -132,6 +135,7 @@ impl Mechanics {
         for expression in expressions {
             *expression = values.of(&mut bench.graph, *expression);
         }
+        system.structure = self.structure.with_values(&mut bench.graph, &mut values);
         system
     }
 }

@@ -82,6 +82,8 @@ pub struct Derivation {
     /// Whether there are, or there are only, accelerations from the equations of bodies that hang on each other, in the axes
     /// of each.
     pub by_links: bool,
+    /// Whether the rates, or some of the alternatives, are those of a tree of bodies as they were declared.
+    pub by_bodies: bool,
     /// The reactions `lambda_v` as functions of `t, x, eta`, inputs and `eta'` (as symbols); none for constraints
     /// without momentum in `T°`.
     pub reactions: Vec<Option<ExprId>>,
@@ -122,6 +124,7 @@ impl Derivation {
             by_tensions,
             by_nesting,
             by_links,
+            by_bodies,
             mut symmetry,
         } = routes::equations(bench, &system, &mut frame, &mut partials, &terms, &generalised_forces)?;
         affordable(bench)?;
@@ -186,6 +189,7 @@ impl Derivation {
             by_tensions,
             by_nesting,
             by_links,
+            by_bodies,
             reactions,
             without_momentum,
             known_momentum,

@@ -6,8 +6,10 @@ mod dependence;
 mod derivation;
 mod energy;
 mod frame;
+mod graph;
 mod kinetic;
 mod linkage;
+mod multibody;
 mod nested;
 mod numerator;
 mod poincare;
@@ -27,6 +29,9 @@ pub use dependence::Dependence;
 pub use derivation::{Class, Derivation, DerivationError, Equations};
 pub use energy::Energies;
 pub use frame::Frame;
+pub use graph::{
+    BodyNode, Component, FormShape, FrameId, FrameNode, Motion, Place, SystemGraph, Turn, Velocity,
+};
 pub use kinetic::{KineticTerm, NotQuadratic, decompose};
 pub use poincare::equations as equations_by_definition;
 pub use solve::Solution;

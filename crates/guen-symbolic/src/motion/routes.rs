@@ -7,8 +7,8 @@ use super::rephrased::Rephrased;
 use super::symmetry::Symmetry;
 use super::velocity_forms::VelocityPartials;
 use super::{
-    DerivationError, Equations, Frame, KineticTerm, Mechanics, Solution, linkage, nested, poincare,
-    projection, proof, rephrased, restriction, tensions, turned,
+    DerivationError, Equations, Frame, KineticTerm, Mechanics, Solution, linkage, multibody, nested,
+    poincare, projection, proof, rephrased, restriction, tensions, turned,
 };
 use crate::algebra::ExprId;
 use crate::geometry::dependence;
@@ -21,6 +21,9 @@ const MANY: usize = 6;
 
 /// Multiplied out equations up to this estimate are solved as they are.
 const LARGE: u64 = 400;
+
+/// Rates up to this estimate are sought in all ways.
+const LARGEST_TRIED: u64 = 600;
 
 /// Where those of the links are so many times shorter, the others are not solved at all.
 const MUCH: u64 = 5;
@@ -38,6 +41,7 @@ pub(super) struct Found {
     pub(super) by_tensions: bool,
     pub(super) by_nesting: bool,
     pub(super) by_links: bool,
+    pub(super) by_bodies: bool,
     /// What the equations do not depend on.
     pub(super) symmetry: Symmetry,
 }
@@ -64,7 +68,12 @@ pub(super) fn equations(
             projection::equations(bench, system, frame, partials, terms, l..n).equations
         };
         affordable(bench)?;
-        let solution = solved(bench, &equations)?;
+        let mut solution = solved(bench, &equations)?;
+        let bodies = of_bodies(bench, system, frame, partials, &solution)?;
+        let by_bodies = bodies.is_some();
+        if let Some(found) = bodies {
+            solution = found.taken(bench, frame);
+        }
         return Ok(Found {
             equations,
             constrained,
@@ -73,6 +82,7 @@ pub(super) fn equations(
             by_tensions: false,
             by_nesting: false,
             by_links: true,
+            by_bodies,
             symmetry: Symmetry::default(),
         });
     }
@@ -140,7 +150,7 @@ pub(super) fn equations(
     let by_tensions = tensions.is_some();
     let clear = tensions.as_ref().is_some_and(|tensions| tensions.is_clear);
     let mut alternatives: Vec<Vec<ExprId>> = Vec::new();
-    let mut by_nesting = false;
+    let (mut by_nesting, mut by_bodies) = (false, false);
     let mut symmetry = Symmetry::default();
     let by_links = linked.is_some();
     let (equations, solution) = match (tensions, linked) {
@@ -152,13 +162,36 @@ pub(super) fn equations(
             (equations, Solution::known(bench, tensions.accelerations, &tensions.divisors))
         }
         (tensions, Some(linked)) if linked_only => {
-            let solution = solved(bench, &linked)?;
+            let mut solution = solved(bench, &linked)?;
             let others = tensions.map(|tensions| [&frame.velocities[..], &tensions.accelerations].concat());
             alternatives.extend(others);
+            if let Some(found) = of_bodies(bench, system, frame, partials, &solution)? {
+                by_bodies = true;
+                solution = found.taken(bench, frame);
+            }
             (linked, solution)
         }
         (tensions, linked) => {
             let solution = solved(bench, &equations)?;
+            // Where the bodies as they hang on each other promise half of the cost, nothing else is tried.
+            let bodies = of_bodies(bench, system, frame, partials, &solution)?;
+            if let Some(found) = &bodies
+                && found.is_half
+            {
+                let solution = found.clone().taken(bench, frame);
+                affordable(bench)?;
+                return Ok(Found {
+                    equations,
+                    constrained,
+                    solution,
+                    alternatives: Vec::new(),
+                    by_tensions: false,
+                    by_nesting: false,
+                    by_links,
+                    by_bodies: true,
+                    symmetry,
+                });
+            }
             let others = candidates
                 .into_iter()
                 .chain(linked)
@@ -171,6 +204,8 @@ pub(super) fn equations(
                 .chain(tensions.map(|tensions| tensions.accelerations));
             alternatives.extend(others.map(|other| [&frame.velocities[..], &other].concat()));
             let own = [&frame.velocities[..], &solution.accelerations].concat();
+            by_bodies = bodies.is_some();
+            alternatives.extend(bodies.map(|found| found.rates));
             let Projected { equations: by_projection, forms, .. } = &projected;
             // What multiplies out to little is better multiplied out.
             let least = weighted_cost(&bench.graph, &own);
@@ -200,7 +235,36 @@ pub(super) fn equations(
         }
     };
     affordable(bench)?;
-    Ok(Found { equations, constrained, solution, alternatives, by_tensions, by_nesting, by_links, symmetry })
+    Ok(Found {
+        equations,
+        constrained,
+        solution,
+        alternatives,
+        by_tensions,
+        by_nesting,
+        by_links,
+        by_bodies,
+        symmetry,
+    })
+}
+
+/// The rates of a tree of bodies, where these are cheaper than others, and equal to them.
+fn of_bodies(
+    bench: &mut Workbench,
+    system: &Mechanics,
+    frame: &Frame,
+    partials: &mut VelocityPartials,
+    solution: &Solution,
+) -> Result<Option<multibody::Found>, DerivationError> {
+    let own = [&frame.velocities[..], &solution.accelerations].concat();
+    let Some(mut found) = multibody::rates(bench, system, frame, partials) else { return Ok(None) };
+    let [cost, least] = [&found.rates, &own].map(|rates| weighted_cost(&bench.graph, rates));
+    if cost >= least {
+        return Ok(None);
+    }
+    found.is_half = cost > LARGEST_TRIED && 2 * cost <= least;
+    let is_equal = proof::are_equal(bench, &own, &found.rates, frame.velocities.len())?;
+    Ok(is_equal.then_some(found))
 }
 
 /// The equations of the links of a large tree, compared with (2.7) along two displacements.

@@ -73,6 +73,21 @@ impl Solution {
         Ok(solution)
     }
 
+    /// Accelerations of which each is coupled to all others, and the pivots by which they were found: these vanish nowhere but
+    /// where the mass matrix does not have its rank.
+    pub(super) fn of_pivots(bench: &mut Workbench, accelerations: Vec<ExprId>, pivots: &[ExprId]) -> Self {
+        let rows = (0..accelerations.len()).collect();
+        let mut solution = Self::known(bench, accelerations, &[]);
+        let factors: Vec<_> = pivots.iter().map(|pivot| (*pivot, 1)).collect();
+        let determinant = bench.graph.product(&factors);
+        if bench.graph.roles(determinant).is_constant() {
+            solution.require(bench, determinant);
+        } else {
+            solution.determinants.push((rows, determinant));
+        }
+        solution
+    }
+
     /// Accelerations that were found in another way; what was divided by must not vanish.
     pub(super) fn known(bench: &Workbench, accelerations: Vec<ExprId>, divisors: &[ExprId]) -> Self {
         let (pivots, determinants, constant_pivots) = Default::default();

@@ -7,10 +7,11 @@
 mod contracted;
 mod names;
 mod order;
+mod product;
 mod render;
 
 use crate::algebra::{ExprId, Graph};
-use render::Printer;
+use render::{Printer, sign};
 
 pub use contracted::Contracted;
 pub use names::{greek_letter, latex_name};
@@ -78,7 +79,7 @@ impl Graph {
             if style == Style::Latex { format!("\\text{{{note}}}") } else { note }
         };
         let mut notation = Notation { printer: Printer::new(self, style, LONGEST_TEXT), style, images: None };
-        notation.combination(terms, |e| Some(note(e))).unwrap_or_default()
+        notation.combination(terms, None, |e| Some(note(e))).unwrap_or_default()
     }
 
     fn note(&self, e: ExprId) -> String {
@@ -128,38 +129,52 @@ impl<'g> Notation<'g> {
         self.printer.expression(self.image(e))
     }
 
+    /// The name of a symbol, of its rate `x'` or of the operator `d/dx`, as the symbol is written in expressions.
+    pub fn name(&self, name: &str) -> String {
+        match self.style {
+            Style::Text => name.to_owned(),
+            Style::Latex => self.printer.names.of_name(name),
+        }
+    }
+
     /// A linear combination of named things, or `None` if a coefficient is too long; zero coefficients are left out.
     pub fn sum(&mut self, terms: &[(ExprId, &str)]) -> Option<String> {
-        self.combination(terms, |_| None)
+        self.combination(terms, None, |_| None)
+    }
+
+    /// The same with an expression behind it, unless that is zero.
+    pub fn affine(&mut self, terms: &[(ExprId, &str)], rest: ExprId) -> Option<String> {
+        self.combination(terms, Some(rest), |_| None)
     }
 
     fn combination(
         &mut self,
         terms: &[(ExprId, &str)],
+        rest: Option<ExprId>,
         otherwise: impl Fn(ExprId) -> Option<String>,
     ) -> Option<String> {
         let mut line = String::new();
         for (coefficient, name) in terms {
-            if self.printer.graph().is_zero(*coefficient) {
+            if self.printer.graph.is_zero(*coefficient) {
                 continue;
             }
-            let (negative, text) = match self.printer.coefficient(self.image(*coefficient)) {
+            let (minus, text) = match self.printer.coefficient(self.image(*coefficient)) {
                 Some(written) => written,
                 None => (false, otherwise(*coefficient)?),
             };
-            line.push_str(match (line.is_empty(), negative) {
-                (true, false) => "",
-                (true, true) => "-",
-                (false, false) => " + ",
-                (false, true) => " - ",
-            });
+            line.push_str(sign(&line, minus));
             if text != "1" {
                 line.push_str(&text);
                 line.push_str(if self.style == Style::Latex { "\\," } else { " " });
             }
-            match self.style {
-                Style::Text => line.push_str(name),
-                Style::Latex => line.push_str(&latex_name(name)),
+            line.push_str(&self.name(name));
+        }
+        if let Some(rest) = rest.filter(|rest| !self.printer.graph.is_zero(*rest)) {
+            let text = self.expression(rest)?;
+            match text.strip_prefix('-') {
+                // The terms of `-a + b` go on in the line.
+                Some(positive) => line.extend([sign(&line, true), positive]),
+                None => line.extend([sign(&line, false), &text]),
             }
         }
         Some(if line.is_empty() { "0".to_owned() } else { line })

@@ -1,5 +1,9 @@
 //! Names of a declaration as LaTeX: Greek letters, indices, dots of rates.
 
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::algebra::Graph;
+
 /// The Greek letters with their LaTeX commands; those that look Latin have none of their own.
 const GREEK: &[(&str, char, &str)] = &[
     ("alpha", 'α', "\\alpha"),
@@ -58,9 +62,43 @@ pub fn greek_letter(command: &str) -> Option<char> {
 /// assert_eq!(guen_symbolic::latex_name("mass_body"), "\\mathrm{mass}_{\\mathrm{body}}");
 /// ```
 pub fn latex_name(name: &str) -> String {
-    if let Some(variable) = name.strip_prefix("d/d") {
-        return format!("\\frac{{\\partial}}{{\\partial {}}}", latex_name(variable));
+    LatexNames::default().of_name(name)
+}
+
+/// The names of a graph as LaTeX, each in its own way: of `x1` and `x_1`, which are both `x_{1}`, letters are printed as they are.
+#[derive(Clone, Debug, Default)]
+pub(super) struct LatexNames {
+    /// Names that others are printed like.
+    shared: BTreeSet<String>,
+}
+
+impl LatexNames {
+    /// The names of all symbols.
+    pub(super) fn of(graph: &Graph) -> Self {
+        let mut names: BTreeMap<String, BTreeSet<&str>> = BTreeMap::new();
+        for symbol in graph.symbols() {
+            let (name, _) = undotted(&graph.symbol_info(symbol).name);
+            names.entry(indexed(name, 0)).or_default().insert(name);
+        }
+        let shared = names.into_values().filter(|names| names.len() > 1);
+        LatexNames { shared: shared.flatten().map(str::to_owned).collect() }
     }
+
+    /// [`latex_name`], or the letters of a name that another one is printed like.
+    pub(super) fn of_name(&self, name: &str) -> String {
+        if let Some(variable) = name.strip_prefix("d/d") {
+            return format!("\\frac{{\\partial}}{{\\partial {}}}", self.of_name(variable));
+        }
+        let (stem, dots) = undotted(name);
+        if self.shared.contains(stem) {
+            return dotted(&upright(stem), dots);
+        }
+        indexed(stem, dots)
+    }
+}
+
+/// A name without the marks of rates, and how many there are.
+fn undotted(name: &str) -> (&str, usize) {
     let (mut stem, mut dots) = (name, 0);
     loop {
         if let Some(inner) = stem.strip_prefix("dot(").and_then(|rest| rest.strip_suffix(')')) {
@@ -68,19 +106,24 @@ pub fn latex_name(name: &str) -> String {
         } else if let Some(inner) = stem.strip_suffix('\'') {
             (stem, dots) = (inner, dots + 1);
         } else {
-            break;
+            return (stem, dots);
         }
     }
+}
+
+fn dotted(text: &str, dots: usize) -> String {
+    if dots == 0 { text.to_owned() } else { format!("\\{}ot{{{text}}}", "d".repeat(dots)) }
+}
+
+/// A name with indices and dots.
+fn indexed(stem: &str, dots: usize) -> String {
     let (head, indices) = split_indices(stem);
-    let mut text = word(head);
-    if dots > 0 {
-        text = format!("\\{}ot{{{text}}}", "d".repeat(dots));
+    let text = dotted(&word(head), dots);
+    if indices.is_empty() {
+        return text;
     }
-    if !indices.is_empty() {
-        let indices: Vec<_> = indices.iter().map(|index| word(index)).collect();
-        text = format!("{text}_{{{}}}", indices.join(","));
-    }
-    text
+    let indices: Vec<_> = indices.iter().map(|index| word(index)).collect();
+    format!("{text}_{{{}}}", indices.join(","))
 }
 
 /// `omega_x1` is `omega` with the indices `x` and `1`; digits at the end of the first word are an index too.
@@ -111,9 +154,15 @@ fn word(text: &str) -> String {
     if !digits.is_empty() && digits.chars().all(|c| c.is_ascii_digit()) && !stem.is_empty() {
         return format!("{}{digits}", word(stem));
     }
-    let upright = text.chars().map(|c| match GREEK.iter().find(|(_, letter, _)| *letter == c) {
+    upright(text)
+}
+
+/// The letters of a name as they are.
+fn upright(text: &str) -> String {
+    let letters = text.chars().map(|c| match GREEK.iter().find(|(_, letter, _)| *letter == c) {
         Some((_, _, command)) => format!("{{{command}}}"),
+        None if c == '_' => "\\_".to_owned(),
         None => c.to_string(),
     });
-    format!("\\mathrm{{{}}}", upright.collect::<String>())
+    format!("\\mathrm{{{}}}", letters.collect::<String>())
 }

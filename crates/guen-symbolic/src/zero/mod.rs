@@ -198,6 +198,25 @@ impl ZeroTest {
         None
     }
 
+    /// The value of an expression at the point of a number; `None` at a pole, or if there is no such point.
+    pub(crate) fn value_at(
+        &mut self,
+        g: &mut Graph,
+        point: usize,
+        e: ExprId,
+        on_manifold: bool,
+    ) -> Option<u64> {
+        self.table.scan(g);
+        let point = self.sample(g, point, on_manifold)?;
+        let (table, samples) = self.parts(on_manifold);
+        samples[point].value(g, table, e)
+    }
+
+    /// Changes when the values at all points do.
+    pub(crate) fn generation(&self) -> u32 {
+        self.table.generation
+    }
+
     /// The rank of a matrix at general points; `None` if no point was found.
     pub fn rank(&mut self, g: &mut Graph, rows: &[Vec<ExprId>], on_manifold: bool) -> Option<usize> {
         let flat: Vec<ExprId> = rows.iter().flatten().copied().collect();

@@ -110,10 +110,10 @@ impl Real for f256 {
             Function::Atan => f256::atan(&self),
             Function::Exp => f256::exp(&self),
             Function::Ln => f256::ln(&self),
-            // Differences of exponentials would cancel near zero.
+            // Differences of exponentials would cancel near zero, and `e + 1` for large negative arguments.
             Function::Sinh => {
-                let e = f256::exp_m1(&self);
-                (e + e / (e + f256::ONE)) / f256::TWO
+                let e = f256::exp_m1(&f256::abs(&self));
+                ((e + e / (e + f256::ONE)) / f256::TWO).copysign(self)
             }
             Function::Cosh => {
                 let e = f256::exp(&self);

@@ -557,3 +557,44 @@ fn a_proof_by_derivatives_has_its_limit() {
         assert!(b.g.work() - before < 2 * DERIVATIVE_WORK, "{}", b.g.work() - before);
     }
 }
+
+/// `e + 1` with `e = exp(-u) - 1` cancels: the hyperbolic sine of large negative arguments lost twice their digits, and
+/// `sinh(u) + sinh(-u)` in two spellings was shown to differ from zero.
+#[test]
+fn functions_keep_their_digits_at_either_sign() {
+    use super::real::Real;
+    use f256::f256;
+    let least = f256::from(2).power(-225);
+    for function in [
+        Function::Sin,
+        Function::Cos,
+        Function::Atan,
+        Function::Sinh,
+        Function::Cosh,
+        Function::Tanh,
+        Function::Root(3),
+    ] {
+        let sign = if function.is_odd() { -f256::ONE } else { f256::ONE };
+        for x in [1e-40, 1e-3, 0.7, 3.0, 28.0, 90.0, 700.0].map(f256::from) {
+            let (plus, minus) = (x.of(function), (-x).of(function));
+            let difference = (plus - sign * minus).of(Function::Abs);
+            assert!(difference <= least * plus.of(Function::Abs), "{function:?}({x}): {plus} {minus}");
+        }
+    }
+    // cosh^2 - sinh^2 = 1
+    for x in [-28.0, -3.0, 3.0, 28.0].map(f256::from) {
+        let (s, c) = (x.of(Function::Sinh), x.of(Function::Cosh));
+        let one = (c - s) * (c + s);
+        assert!((one - f256::ONE).of(Function::Abs) <= least * c * c, "{x}: {one}");
+    }
+    let mut b = Bench::new();
+    let (x, y) = (b.q("x"), b.q("y"));
+    let (long, far) = (b.times(x, 1, 8), b.n(-28));
+    let arguments =
+        [b.g.sum([long, y, far]), b.g.linear(&[(x, Rational::new(-1, 8)), (y, Rational::MINUS_ONE)])];
+    let other = b.g.sub(arguments[1], far);
+    let kept = b.g.keep(other);
+    let (one, two) = (b.f(Function::Sinh, arguments[0]), b.f(Function::Sinh, kept));
+    let sum = b.g.add(one, two);
+    assert_ne!(b.test.verdict(&mut b.g, sum), Nonzero);
+}

@@ -9,8 +9,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::declared::{Declared, lift};
-use crate::scalar::hyper;
+use super::declared::{Declared, lift};
+use super::scalar::hyper;
 
 /// What the dense system gives.
 pub struct Multipliers {

@@ -89,6 +89,7 @@ impl Scene {
             kinetic_energy: kinetic,
             force_function: force,
             multibody: None,
+            structure: Default::default(),
             forces: Vec::new(),
             outputs: Vec::new(),
             motion_symbols: Vec::new(),

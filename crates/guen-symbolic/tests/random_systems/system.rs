@@ -55,6 +55,7 @@ pub fn drawn(seed: u64) -> (Words, Mechanics) {
         kinetic_energy,
         force_function,
         multibody: None,
+        structure: Default::default(),
         forces,
         outputs: Vec::new(),
         motion_symbols: Vec::new(),

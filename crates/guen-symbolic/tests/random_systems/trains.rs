@@ -134,6 +134,7 @@ fn drawn(seed: u64) -> (Words, Mechanics, Vec<&'static str>) {
         stated: vec![true; n],
         force_function: words.graph.sum(potential),
         multibody: None,
+        structure: Default::default(),
         forces: forces.into_iter().collect(),
         outputs: Vec::new(),
         motion_symbols: Vec::new(),

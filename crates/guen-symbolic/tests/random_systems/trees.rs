@@ -157,6 +157,7 @@ fn drawn(seed: u64) -> (Words, Mechanics, Features) {
         stated: vec![true; n],
         force_function: words.graph.sum(potential),
         multibody: None,
+        structure: Default::default(),
         forces: forces.into_iter().collect(),
         outputs: Vec::new(),
         motion_symbols: Vec::new(),

@@ -1,0 +1,277 @@
+//! The structure of values: which frames and places a vector, a rotation or a form was written in.
+//!
+//! Values are scalars of the exact algebra, in which equal expressions are one; so what a vector was made of is remembered
+//! under its three components, and a value without an entry is one without structure. Nothing here decides what an
+//! expression is worth: it only keeps what the evaluation would forget.
+
+use std::collections::BTreeMap;
+
+use guen_symbolic::{
+    Component, ExprId, FormShape, FrameId, Graph, Motion, Node, Place, Role, Roles, SystemGraph, Turn,
+    Velocity,
+};
+
+use super::value::{Rotation, Value, Vector};
+
+/// What is remembered.
+pub(super) struct Shapes {
+    /// Frames, bodies, forms and loads.
+    pub(super) system: SystemGraph,
+    places: BTreeMap<Vector, Place>,
+    velocities: BTreeMap<Vector, Velocity>,
+    forms: BTreeMap<ExprId, FormShape>,
+    /// Components of places along axes of the world.
+    heights: BTreeMap<ExprId, (usize, Place)>,
+}
+
+const MOVING: Roles = Roles::of(Role::Velocity)
+    .or(Roles::of(Role::QuasiVelocity))
+    .or(Roles::of(Role::QuasiAcceleration))
+    .or(Roles::of(Role::Input));
+
+fn is_moving(graph: &Graph, v: &Vector) -> bool {
+    v.iter().any(|e| graph.roles(*e).meets(MOVING))
+}
+
+fn axis(graph: &Graph, i: usize) -> Vector {
+    let mut axis = [graph.zero(); 3];
+    axis[i] = graph.one();
+    axis
+}
+
+impl Shapes {
+    /// Nothing is known yet.
+    pub(super) fn new(graph: &Graph) -> Self {
+        Shapes {
+            system: SystemGraph::new(graph),
+            places: BTreeMap::new(),
+            velocities: BTreeMap::new(),
+            forms: BTreeMap::new(),
+            heights: BTreeMap::new(),
+        }
+    }
+
+    /// A vector as a place; one that nothing is known of has its components in the world's axes.
+    pub(super) fn place(&self, graph: &Graph, v: &Vector) -> Place {
+        self.places.get(v).cloned().unwrap_or_else(|| Place::in_axes(graph, FrameId::WORLD, *v))
+    }
+
+    /// A vector as a velocity, where it is known to be one or has no velocity in it.
+    fn velocity(&self, graph: &Graph, v: &Vector) -> Option<Velocity> {
+        if let Some(known) = self.velocities.get(v) {
+            return Some(known.clone());
+        }
+        if is_moving(graph, v) {
+            return None;
+        }
+        let place = self.place(graph, v);
+        let given = Velocity::of(graph, Motion::Given(place.clone()));
+        Some(if place.terms.is_empty() { Velocity::default() } else { given })
+    }
+
+    fn remember_place(&mut self, v: Vector, place: Place) {
+        self.places.entry(v).or_insert(place);
+    }
+
+    fn remember_velocity(&mut self, v: Vector, velocity: Velocity) {
+        self.velocities.entry(v).or_insert(velocity);
+    }
+
+    fn remember_form(&mut self, graph: &Graph, e: ExprId, shape: FormShape) {
+        // The rate of a coordinate says what it is.
+        if !shape.components.is_empty() && !matches!(graph.node(e), Node::Symbol(_) | Node::Number(_)) {
+            self.forms.entry(e).or_insert(shape);
+        }
+    }
+
+    /// Whether a vector is known to be a velocity in space.
+    pub(super) fn is_velocity(&self, v: &Vector) -> bool {
+        self.velocities.contains_key(v)
+    }
+
+    /// A scalar as a form, where structure is known.
+    pub(super) fn form(&self, e: ExprId) -> Option<FormShape> {
+        self.forms.get(&e).cloned()
+    }
+
+    /// A component of a vector in the world's axes as a form, where structure is known.
+    pub(super) fn component(&self, graph: &Graph, v: &Vector, i: usize) -> Option<FormShape> {
+        if let Some(known) = self.form(v[i]) {
+            return Some(known);
+        }
+        let velocity = self.velocities.get(v)?.clone();
+        let direction = Place::in_axes(graph, FrameId::WORLD, axis(graph, i));
+        Some(FormShape { components: vec![Component { direction, velocity }], rest: graph.zero() })
+    }
+
+    fn form_or_rest(&self, e: ExprId) -> FormShape {
+        self.form(e).unwrap_or(FormShape { components: Vec::new(), rest: e })
+    }
+
+    /// A new rotation: its axes are places, its angular velocities velocities.
+    pub(super) fn rotation(&mut self, graph: &Graph, r: &Rotation) {
+        for i in 0..3 {
+            let column = [0, 1, 2].map(|k| r.matrix[k][i]);
+            // What does not move is at home in the world.
+            if column.iter().any(|e| !graph.roles(*e).is_constant()) {
+                self.remember_place(column, Place::in_axes(graph, r.frame, axis(graph, i)));
+            }
+        }
+        let spin = Velocity::of(graph, Motion::Spin(r.frame));
+        if is_moving(graph, &r.world_rate) {
+            self.remember_velocity(r.world_rate, spin.clone());
+        }
+        for (i, e) in r.body_rate.into_iter().enumerate() {
+            let direction = Place::in_axes(graph, r.frame, axis(graph, i));
+            let components = vec![Component { direction, velocity: spin.clone() }];
+            if graph.roles(e).meets(MOVING) {
+                self.remember_form(graph, e, FormShape { components, rest: graph.zero() });
+            }
+        }
+    }
+
+    /// The frame of a turn about a fixed axis.
+    pub(super) fn turn(&mut self, axis: Vector, angle: ExprId) -> FrameId {
+        self.system.turned(FrameId::WORLD, Turn::About { axis, angle })
+    }
+
+    /// `a + b` is `sum`.
+    pub(super) fn added(&mut self, graph: &mut Graph, a: &Vector, b: &Vector, sum: Vector) {
+        if is_moving(graph, a) || is_moving(graph, b) {
+            let (Some(a), Some(b)) = (self.velocity(graph, a), self.velocity(graph, b)) else { return };
+            let velocity = a.plus(graph, &b);
+            self.remember_velocity(sum, velocity);
+        } else if self.places.contains_key(a) || self.places.contains_key(b) {
+            let (a, b) = (self.place(graph, a), self.place(graph, b));
+            let place = a.plus(graph, &b);
+            self.remember_place(sum, place);
+        }
+    }
+
+    /// `factor v` is `product`.
+    pub(super) fn scaled(&mut self, graph: &mut Graph, factor: ExprId, v: &Vector, product: Vector) {
+        if graph.roles(factor).meets(MOVING) {
+            return;
+        }
+        if let Some(known) = self.velocities.get(v) {
+            let velocity = known.times(graph, factor);
+            self.remember_velocity(product, velocity);
+        } else if let Some(known) = self.places.get(v) {
+            let place = known.times(graph, factor);
+            self.remember_place(product, place);
+        }
+    }
+
+    /// `R v` is `turned`.
+    pub(super) fn turned(&mut self, graph: &mut Graph, r: &Rotation, v: &Vector, turned: Vector) {
+        if !is_moving(graph, v) {
+            let mut place = Place::default();
+            for (frame, components) in self.place(graph, v).terms {
+                let frame = self.system.product(r.frame, frame);
+                place = place.plus(graph, &Place::in_axes(graph, frame, components));
+            }
+            self.remember_place(turned, place);
+            return;
+        }
+        let Some(velocity) = self.velocities.get(v).cloned() else { return };
+        for (row, e) in r.matrix.iter().zip(turned) {
+            let components =
+                vec![Component { direction: self.place(graph, row), velocity: velocity.clone() }];
+            self.remember_form(graph, e, FormShape { components, rest: graph.zero() });
+        }
+    }
+
+    /// `dot(v)` is `rate`.
+    pub(super) fn rate(&mut self, graph: &Graph, v: &Vector, rate: Vector) {
+        if is_moving(graph, &rate) && !is_moving(graph, v) {
+            let place = self.place(graph, v);
+            self.remember_velocity(rate, Velocity::of(graph, Motion::Rate(place)));
+        }
+    }
+
+    /// The velocity `velocity` of a point that a body has at the end of `arm` from its centre.
+    pub(super) fn velocity_at(
+        &mut self,
+        graph: &mut Graph,
+        (center, frame): (&Vector, FrameId),
+        arm: &Vector,
+        velocity: Vector,
+    ) {
+        let center = Velocity::of(graph, Motion::Rate(self.place(graph, center)));
+        let arm = self.place(graph, arm);
+        let lever = Velocity::of(graph, Motion::Lever(frame, arm.clone()));
+        let whole = if arm.terms.is_empty() { center } else { center.plus(graph, &lever) };
+        self.remember_velocity(velocity, whole);
+    }
+
+    /// `inner(u, v)` is `product`.
+    pub(super) fn inner(&mut self, graph: &Graph, u: &Vector, v: &Vector, product: ExprId) {
+        let (direction, velocity) = match (is_moving(graph, u), is_moving(graph, v)) {
+            (false, true) => (u, v),
+            (true, false) => (v, u),
+            _ => return,
+        };
+        let Some(velocity) = self.velocities.get(velocity).cloned() else { return };
+        let components = vec![Component { direction: self.place(graph, direction), velocity }];
+        self.remember_form(graph, product, FormShape { components, rest: graph.zero() });
+    }
+
+    /// `norm(v)` is `length`.
+    pub(super) fn length(&mut self, graph: &Graph, v: &Vector, length: ExprId) {
+        let lengths = &mut self.system.lengths;
+        if self.places.contains_key(v)
+            && !graph.roles(length).is_constant()
+            && lengths.iter().all(|(known, _)| *known != length)
+        {
+            lengths.push((length, self.places[v].clone()));
+        }
+    }
+
+    /// `v.x`, `v.y` or `v.z`.
+    pub(super) fn taken(&mut self, graph: &Graph, v: &Vector, i: usize) {
+        if is_moving(graph, v)
+            && let Some(shape) = self.component(graph, v, i)
+        {
+            self.remember_form(graph, v[i], shape);
+        } else if let Some(place) = self.places.get(v) {
+            self.heights.entry(v[i]).or_insert((i, place.clone()));
+        }
+    }
+
+    /// `dot(e)` of a scalar is `rate`.
+    pub(super) fn scalar_rate(&mut self, graph: &Graph, e: ExprId, rate: ExprId) {
+        if let Some((i, place)) = self.heights.get(&e) {
+            let direction = Place::in_axes(graph, FrameId::WORLD, axis(graph, *i));
+            let velocity = Velocity::of(graph, Motion::Rate(place.clone()));
+            let components = vec![Component { direction, velocity }];
+            self.remember_form(graph, rate, FormShape { components, rest: graph.zero() });
+        }
+    }
+
+    /// `a + b` of scalars is `sum`.
+    pub(super) fn scalar_sum(&mut self, graph: &mut Graph, a: ExprId, b: ExprId, sum: ExprId) {
+        if self.forms.contains_key(&a) || self.forms.contains_key(&b) {
+            let shape = self.form_or_rest(a).plus(graph, &self.form_or_rest(b));
+            self.remember_form(graph, sum, shape);
+        }
+    }
+
+    /// `factor e` of scalars is `product`.
+    pub(super) fn scalar_product(&mut self, graph: &mut Graph, factor: ExprId, e: ExprId, product: ExprId) {
+        for (factor, e) in [(factor, e), (e, factor)] {
+            if let Some(known) = self.forms.get(&e)
+                && !graph.roles(factor).meets(MOVING)
+            {
+                let shape = known.times(graph, factor);
+                self.remember_form(graph, product, shape);
+            }
+        }
+    }
+
+    /// A name for a value: frames are called by it.
+    pub(super) fn named(&mut self, name: &str, value: &Value) {
+        if let Value::Rotation(rotation) = value {
+            self.system.name(rotation.frame, name);
+        }
+    }
+}

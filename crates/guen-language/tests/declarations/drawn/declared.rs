@@ -1,0 +1,151 @@
+//! A declaration as a system in numbers, and states to look at it.
+
+use std::collections::BTreeMap;
+
+use guen_language::syntax::Declaration;
+use nalgebra::{DMatrix, DVector};
+
+use super::analytic::Analytic;
+use super::draw::Draw;
+use super::meaning::Meaning;
+use super::scalar::{Dual, solve};
+
+/// What is declared, and the places of its symbols in a point: time, coordinates, velocities, constants and inputs.
+pub struct Declared<'a> {
+    declaration: &'a Declaration,
+    pub n: usize,
+    pub degrees: usize,
+    pub x: Vec<usize>,
+    pub velocities: Vec<usize>,
+    coordinates: Vec<String>,
+    pub held: Vec<String>,
+    forms: Vec<String>,
+}
+
+impl<'a> Declared<'a> {
+    /// With the names of coordinates, of constants and inputs, and of the forms, parameters first.
+    pub fn new(
+        declaration: &'a Declaration,
+        coordinates: Vec<String>,
+        held: Vec<String>,
+        forms: Vec<String>,
+        degrees: usize,
+    ) -> Self {
+        let n = coordinates.len();
+        Declared {
+            declaration,
+            n,
+            degrees,
+            x: (1..=n).collect(),
+            velocities: (n + 1..=2 * n).collect(),
+            coordinates,
+            held,
+            forms,
+        }
+    }
+
+    /// What it means at a point.
+    pub fn meaning<R: Analytic>(&self, point: &[R]) -> Meaning<R> {
+        let mut known = BTreeMap::new();
+        for (i, name) in self.coordinates.iter().enumerate() {
+            let value = Dual { re: point[self.x[i]].clone(), du: point[self.velocities[i]].clone() };
+            known.insert(name.clone(), value);
+        }
+        for (name, value) in self.held.iter().zip(&point[2 * self.n + 1..]) {
+            known.insert(name.clone(), Dual { re: value.clone(), du: R::constant(0.0) });
+        }
+        Meaning::new(self.declaration, point[0].clone(), known)
+            .unwrap_or_else(|missing| panic!("{missing} in {}", self.declaration))
+    }
+
+    /// A random state on the constraints with positions at 1e-14 of them; `None` where they were not found.
+    pub fn state(&self, draw: &mut Draw) -> Option<(Vec<f64>, Vec<f64>)> {
+        let mut point = vec![draw.real(-1.0, 1.0)];
+        point.extend((0..self.n).map(|_| draw.real(-1.0, 1.0)));
+        point.extend((0..self.n).map(|_| 0.0));
+        point.extend(self.held.iter().map(|_| draw.real(0.5, 1.5)));
+        for _ in 0..40 {
+            let left = self.meaning(&point).positions;
+            let largest = left.iter().fold(0.0_f64, |most, e| most.max(e.abs()));
+            if largest <= 1e-14 {
+                let etas: Vec<f64> = (0..self.degrees).map(|_| draw.real(-1.5, 1.5)).collect();
+                self.set_velocities(&mut point, &etas);
+                return Some((point, etas));
+            }
+            let mut slopes = DMatrix::zeros(left.len(), self.n);
+            for (i, x) in self.x.iter().enumerate() {
+                let moving = self.meaning(&lift(&point, |k| if k == *x { 1.0 } else { 0.0 })).positions;
+                slopes.set_column(i, &DVector::from_iterator(left.len(), moving.iter().map(|e| e.du)));
+            }
+            let step = slopes.svd(true, true).solve(&DVector::from_vec(left), 1e-9).ok()?;
+            for (x, step) in self.x.iter().zip(step.iter()) {
+                point[*x] -= step.clamp(-0.3, 0.3);
+            }
+        }
+        None
+    }
+
+    /// `x'` from `eta_1..eta_l`, the other forms zero.
+    fn set_velocities(&self, point: &mut [f64], etas: &[f64]) {
+        let forms = self.forms_at(point);
+        let matrix = forms.iter().map(|row| row[..self.n].to_vec()).collect();
+        let wanted = etas.iter().copied().chain(std::iter::repeat(0.0));
+        let right = forms.iter().zip(wanted).map(|(row, eta)| vec![eta - row[self.n]]).collect();
+        for (v, value) in self.velocities.iter().zip(solve(matrix, right)) {
+            point[*v] = value[0];
+        }
+    }
+
+    /// `a_j1..a_jn, a_j0` for each form: it is affine in the velocities.
+    pub fn forms_at<R: Analytic>(&self, point: &[R]) -> Vec<Vec<R>> {
+        let mut moving = point.to_vec();
+        let mut at = |moved: Option<usize>| {
+            for (i, v) in self.velocities.iter().enumerate() {
+                moving[*v] = R::constant(if moved == Some(i) { 1.0 } else { 0.0 });
+            }
+            let mut forms = self.meaning(&moving).forms;
+            self.forms.iter().map(|name| forms.remove(name).expect("a form")).collect::<Vec<R>>()
+        };
+        let offsets = at(None);
+        let columns: Vec<Vec<R>> = (0..self.n).map(|i| at(Some(i))).collect();
+        let row = |j: usize| {
+            let own = columns.iter().map(|column| column[j].minus(&offsets[j]));
+            own.chain([offsets[j].clone()]).collect()
+        };
+        (0..self.n).map(row).collect()
+    }
+
+    /// `T°`.
+    pub fn kinetic<R: Analytic>(&self, point: Vec<R>) -> R {
+        self.meaning(&point).kinetic_energy
+    }
+
+    /// `U`.
+    pub fn potential<R: Analytic>(&self, point: &[R]) -> R {
+        self.meaning(point).force_function
+    }
+
+    /// `Q_i`: each force times the derivative of what it acts along by `x_i'`.
+    pub fn generalised_forces(&self, point: &[f64]) -> Vec<f64> {
+        let along = |v: &usize| {
+            let works = self.meaning(&lift(point, |k| if k == *v { 1.0 } else { 0.0 })).works;
+            works.iter().map(|(force, form)| force.re * form.du).sum()
+        };
+        self.velocities.iter().map(along).collect()
+    }
+
+    /// The rates of a point along the motion at `x'' = 0`.
+    pub fn rates(&self, point: &[f64], _accelerations: &[f64]) -> Vec<f64> {
+        let mut rates = vec![0.0; point.len()];
+        rates[0] = 1.0;
+        for (x, v) in self.x.iter().zip(&self.velocities) {
+            rates[*x] = point[*v];
+        }
+        rates
+    }
+}
+
+/// The point with each symbol moving at a rate.
+pub fn lift(point: &[f64], rate: impl Fn(usize) -> f64) -> Vec<Dual<f64>> {
+    point.iter().enumerate().map(|(k, value)| Dual { re: *value, du: rate(k) }).collect()
+}

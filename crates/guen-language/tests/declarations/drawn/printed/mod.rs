@@ -1,0 +1,134 @@
+//! What reports print, read again: every line in text, LaTeX and MathML against what was derived.
+//!
+//! The readers know the grammar of the language and of the two markups, and nothing of the printer; what they read
+//! becomes an expression, and the zero test compares.
+
+mod expressions;
+mod latex;
+mod lines;
+mod math;
+mod mathml;
+mod names;
+mod pages;
+mod report;
+mod systems;
+mod term;
+mod text;
+
+use guen_symbolic::{Notation, Rational, Workbench};
+
+use crate::drawn::draw::Draw;
+use crate::drawn::{grammar, scenes};
+use lines::Format;
+use names::Name;
+use report::Checked;
+
+/// Systems in every run; a thousand with `GUEN_ROUNDS=1000`.
+fn rounds() -> u64 {
+    std::env::var("GUEN_ROUNDS").ok().and_then(|rounds| rounds.parse().ok()).unwrap_or(40)
+}
+
+/// A drawn declaration: every fourth one of bodies, which take longer, the others of forms; every second one with scenes, every
+/// third one with names that look like each other.
+fn declaration(seed: u64) -> String {
+    let mut text = if seed.is_multiple_of(4) {
+        grammar::drawn(seed)
+    } else {
+        let sparse = crate::scenes::declaration(&mut crate::scenes::Sequence(seed));
+        let (text, _) = sparse.split_once(" scene ").expect("scenes");
+        format!("{text} }}")
+    };
+    if seed.is_multiple_of(3) {
+        text = names::exchanged(&text, &mut Draw::new(seed));
+    }
+    if seed.is_multiple_of(2) {
+        text = scenes::drawn(&text, seed, 2).0;
+    }
+    text
+}
+
+#[test]
+fn reports_of_drawn_declarations_say_what_was_derived() {
+    let rounds = rounds();
+    // The machines that this runs on have two cores.
+    let run = |thread: u64| -> Checked {
+        let mut all = Checked::default();
+        for seed in (thread..rounds).step_by(2) {
+            let text = declaration(seed);
+            all.add(report::checked(&text).unwrap_or_else(|| panic!("faults in\n{text}")));
+        }
+        all
+    };
+    let all = std::thread::scope(|scope| {
+        let other = scope.spawn(|| run(1));
+        let mut own = run(0);
+        own.add(other.join().expect("the other half"));
+        own
+    });
+    println!("{all}");
+    all.assert();
+}
+
+/// All that stand in tests, examples, benchmarks and pages; those with many coordinates with `GUEN_ROUNDS=1000`.
+#[test]
+fn reports_of_the_systems_of_the_repository_say_what_was_derived() {
+    let systems = systems::all();
+    let most = if rounds() < 1000 { 5 } else { usize::MAX };
+    let mut all = Checked::default();
+    let mut sound = 0;
+    for (text, file) in systems.iter().filter(|(text, _)| systems::coordinates(text) <= most) {
+        match report::checked(text) {
+            Some(found) => {
+                sound += 1;
+                all.add(found);
+            }
+            // Tests of messages have declarations with faults in them.
+            None => assert!(systems::may_be_wrong(file), "{}: {text}", file.display()),
+        }
+    }
+    println!("{} declarations, {sound} of them looked at: {all}", systems.len());
+    assert!(sound > 100, "{sound}");
+    all.assert();
+}
+
+/// Expressions by themselves, and as coefficients of names, in both ways of writing.
+#[test]
+fn drawn_expressions_are_read_as_they_were() {
+    let mut draw = Draw::new(3);
+    let mut seen = 0;
+    for round in 0..12 * rounds() {
+        // Graphs grow; a new one is as quick as a small one.
+        let (mut graph, symbols, scope) = expressions::world();
+        let mut wanted = || expressions::expression(&mut draw, &mut graph, &symbols, 1 + round as usize % 4);
+        let [e, c, rest] = [0; 3].map(|_| wanted());
+        let mut bench = Workbench::new(graph);
+        let sum = bench.graph.linear(&[(e, Rational::ONE), (rest, Rational::ONE)]);
+        let x = symbols[round as usize % symbols.len()];
+        let named = names::ALIKE[round as usize % names::ALIKE.len()];
+        let by_name = scope.symbol(&Name::Text(named.to_owned())).expect("a name");
+        let (first, second) = (bench.graph.mul(e, by_name), bench.graph.mul(c, x));
+        let both = bench.graph.sum([first, second, rest]);
+        let second_name = bench.graph.text(x);
+        let terms = [(e, named), (c, &second_name[..])];
+        for format in [Format::Text, Format::Latex, Format::MathMl] {
+            let mut notation = match format {
+                Format::Text => Notation::text(&bench.graph, 20_000),
+                _ => Notation::latex(&bench.graph, 20_000),
+            };
+            let written = [
+                (notation.expression(e), e),
+                (notation.expression(sum), sum),
+                (notation.affine(&terms, rest), both),
+            ];
+            for (line, value) in written {
+                let Some(line) = line else { continue };
+                let found =
+                    lines::read(&line, format).and_then(|term| lines::same(&term, value, &mut bench, &scope));
+                assert_eq!(found, Ok(()), "round {round}, {format:?}: {line}");
+                seen += 1;
+            }
+        }
+    }
+    println!("{seen} formulas");
+    assert!(seen as u64 > 60 * rounds());
+}

@@ -1,0 +1,273 @@
+//! A report as it is printed, and what each of its lines has to say.
+
+use std::fmt::{self, Display, Formatter};
+
+use guen_language::derive::{Derived, Level, derive};
+use guen_language::diagnostics::collect;
+use guen_language::model::{FormKind, Model};
+use guen_language::report::{Report, Section};
+use guen_language::{model, parse};
+use guen_symbolic::{ExprId, Role};
+
+use super::lines::{Format, Found, Line, check, long, same};
+use super::names::{Name, Scope};
+use super::{pages, text};
+
+/// What was found in reports.
+#[derive(Default)]
+pub struct Checked {
+    reports: usize,
+    wrong: usize,
+    lines: usize,
+    long: usize,
+    faults: Vec<String>,
+}
+
+impl Checked {
+    pub fn add(&mut self, other: Checked) {
+        self.reports += other.reports;
+        self.wrong += other.wrong;
+        self.lines += other.lines;
+        self.long += other.long;
+        self.faults.extend(other.faults);
+    }
+
+    fn line(&mut self, found: Result<Found, String>, place: &str, line: &str) {
+        self.lines += 1;
+        match found {
+            Ok(Found::Same) => {}
+            Ok(Found::TooLong) => self.long += 1,
+            Err(why) => self.faults.push(format!("{place}: {why}\n  {line}")),
+        }
+    }
+
+    pub fn assert(&self) {
+        for fault in self.faults.iter().take(40) {
+            println!("{fault}\n");
+        }
+        assert!(self.faults.is_empty(), "{self}");
+        assert!(self.lines > 20 * self.reports && self.long < self.lines / 3, "{self}");
+    }
+}
+
+impl Display for Checked {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Checked { reports, wrong, lines, long, faults } = self;
+        write!(
+            f,
+            "{wrong} of {reports} reports wrong; {} of {lines} lines, {long} too long to print",
+            faults.len()
+        )
+    }
+}
+
+/// Checks the reports of a declaration and of its scenes; none where something is wrong in it.
+pub fn checked(text: &str) -> Option<Checked> {
+    let (declaration, faults) = parse::parse(text.parse().expect("tokens"));
+    let declaration = declaration.filter(|_| faults.is_empty())?;
+    let (derived, faults) = collect(|faults| derive(model::resolve(&declaration, faults)?, faults));
+    let Derived { mut model, system, scenes } = derived.filter(|_| faults.is_empty())?;
+    let mut all = Checked::default();
+    for level in [&system].into_iter().chain(&scenes) {
+        let mut own = level_checked(&mut model, level);
+        own.reports = 1;
+        own.wrong = usize::from(!own.faults.is_empty());
+        for fault in &mut own.faults {
+            fault.insert_str(0, &format!("{}: ", declaration.name));
+        }
+        all.add(own);
+    }
+    Some(all)
+}
+
+fn level_checked(model: &mut Model<'_>, level: &Level) -> Checked {
+    let report = Report::of(model, level);
+    let pi = model.bench.graph.pi();
+    let mut scope = scope(model, level);
+    scope.add("pi", pi);
+    let mut found = Checked::default();
+    for section in &report.sections {
+        let title = section.title;
+        let Some(expected) = expected(model, level, section, &mut scope) else { continue };
+        // Formulas of some sections stand among words.
+        let plain: Vec<&String> = match title {
+            "Classification" => {
+                let is_formula =
+                    |line: &&String| line.starts_with(INTEGRABLE) && !line.contains("a combination of");
+                section.text.iter().filter(is_formula).collect()
+            }
+            _ => section.text.iter().collect(),
+        };
+        let set: Vec<&String> = section.latex.iter().collect();
+        for (format, lines) in [(Format::Text, &plain), (Format::Latex, &set), (Format::MathMl, &set)] {
+            if format != Format::Text && lines.is_empty() {
+                continue;
+            }
+            assert!(lines.len() >= expected.len(), "lines of {title}");
+            for (line, expected) in lines.iter().zip(&expected) {
+                let mut own = check(line, format, expected, &mut model.bench, &scope);
+                if own == Ok(Found::TooLong) {
+                    own = long(expected, format, &mut model.bench, &scope);
+                }
+                found.line(own, &format!("{title}, {format:?}"), line);
+            }
+        }
+    }
+    for (e, name) in level.domain.iter().zip(&level.domain_names) {
+        let is_word = ["det M[", "a factor of", "a pivot of"].iter().any(|word| name.starts_with(word));
+        if !is_word {
+            let own = text::read(name).and_then(|term| same(&term, *e, &mut model.bench, &scope));
+            found.line(own.map(|()| Found::Same), "DOMAIN", name);
+        }
+    }
+    found.faults.extend(pages::faults(&report));
+    found
+}
+
+/// What stands before the integrable combinations of constraints.
+const INTEGRABLE: &str = "integrable: ";
+
+/// The names of a level.
+fn scope(model: &Model<'_>, level: &Level) -> Scope {
+    let mut scope = Scope::default();
+    let graph = &model.bench.graph;
+    let mechanics = &level.derivation.system;
+    let all = model.constants.iter().map(|c| c.symbol).chain(mechanics.inputs.iter().copied());
+    let all = all.chain(mechanics.forms.coordinates.iter().copied()).chain([mechanics.forms.time]);
+    for e in all.chain(mechanics.velocities.iter().copied()).chain(mechanics.etas.iter().copied()) {
+        let symbol = graph.as_symbol(e).expect("a symbol");
+        scope.add(&graph.symbol_info(symbol).name, e);
+    }
+    for (form, e) in model.forms.iter().zip(&mechanics.accelerations) {
+        scope.add(&format!("{}'", form.name), *e);
+    }
+    for held in &level.selection.held {
+        scope.add(model.variable_name(held.place), held.symbol);
+    }
+    scope
+}
+
+/// A symbol for something that has a name and is no expression.
+fn unknown(model: &mut Model<'_>, scope: &mut Scope, name: &str) -> ExprId {
+    if let Ok(known) = scope.symbol(&Name::Text(name.to_owned())) {
+        return known;
+    }
+    let symbol = model.bench.graph.symbol(name, Role::Input);
+    scope.add(name, symbol);
+    symbol
+}
+
+/// What the lines of a section have to say, in order; none for sections of words.
+fn expected(model: &mut Model<'_>, level: &Level, section: &Section, scope: &mut Scope) -> Option<Vec<Line>> {
+    let d = &level.derivation;
+    let (system, l) = (&d.system, d.system.forms.degrees);
+    let equation =
+        |label: String, value: ExprId| Line::Equation { label, value, vanishes: false, rate_of: None };
+    let mut lines = Vec::new();
+    match section.title.split(' ').next().expect("a word") {
+        "Forms" => {
+            for (j, form) in system.forms.forms.iter().enumerate() {
+                let linear = model.bench.dot(&form.row, &system.velocities);
+                let is_holonomic = model.forms[j].kind == FormKind::Holonomic;
+                let position = system.holonomic.iter().find(|h| h.form == j && is_holonomic);
+                lines.push(Line::Equation {
+                    label: model.forms[j].name.clone(),
+                    value: model.bench.graph.add(linear, form.offset),
+                    vanishes: j >= l,
+                    rate_of: position.map(|h| h.equation),
+                });
+            }
+        }
+        "Operators" => {
+            let names: Vec<String> = model.coordinates.iter().map(|entry| entry.name.text.clone()).collect();
+            for (j, xi) in d.frame.operators.xi.iter().enumerate() {
+                let mut terms = Vec::new();
+                if j == 0 {
+                    terms.push(unknown(model, scope, "d/dt"));
+                }
+                for (c, name) in xi.iter().zip(&names) {
+                    let partial = unknown(model, scope, &format!("d/d{name}"));
+                    terms.push(model.bench.graph.mul(*c, partial));
+                }
+                lines.push(equation(format!("X{j}"), model.bench.graph.sum(terms)));
+            }
+        }
+        "Brackets" => {
+            let last = model.last_operator();
+            let mut vanishing = Vec::new();
+            for (r, s) in (0..=last).flat_map(|r| (r + 1..=last).map(move |s| (r, s))) {
+                let label = format!("(X{r}, X{s})");
+                let bracket = level.brackets.iter().find(|bracket| (bracket.r, bracket.s) == (r, s));
+                let Some(bracket) = bracket else {
+                    vanishing.push(label);
+                    continue;
+                };
+                let mut terms = Vec::new();
+                for (t, c) in bracket.coefficients.iter().enumerate() {
+                    let operator = unknown(model, scope, &format!("X{}", t + 1));
+                    terms.push(model.bench.graph.mul(*c, operator));
+                }
+                lines.push(equation(label, model.bench.graph.sum(terms)));
+            }
+            // Many are told in words.
+            let words = section.text.last().map(String::as_str);
+            if !vanishing.is_empty() && !matches!(words, Some("all brackets vanish" | "all others vanish")) {
+                lines.push(Line::All(vanishing));
+            }
+        }
+        "Classification" => {
+            for combination in &d.closure.integrable {
+                let terms = combination.terms.iter();
+                let terms: Option<Vec<ExprId>> =
+                    terms.map(|(v, f)| f.map(|f| model.bench.graph.mul(f, system.etas[*v]))).collect();
+                if let Some(terms) = terms {
+                    lines.push(Line::Behind(INTEGRABLE, model.bench.graph.sum(terms)));
+                }
+            }
+        }
+        "Velocities" => {
+            for (x, value) in system.velocities.iter().zip(&d.frame.velocities) {
+                lines.push(equation(model.bench.graph.text(*x), *value));
+            }
+        }
+        "Equations" => lines.extend(level.equations.iter().map(|e| Line::Vanishes(*e))),
+        "Momenta" => {
+            for (j, momentum) in d.energies.momenta.iter().enumerate().filter(|(j, _)| d.known_momentum[*j]) {
+                let name = &model.forms[j].name;
+                let label = if j < l { format!("dT/d{name}") } else { format!("(dT°/d{name})") };
+                lines.push(equation(label, *momentum));
+            }
+        }
+        "Energies" if level.scene.is_some() => lines.push(equation("h".to_owned(), level.energy)),
+        "Energies" => {
+            lines.push(equation("T".to_owned(), d.energies.kinetic));
+            lines.push(equation("U".to_owned(), system.force_function));
+            lines.push(equation("h".to_owned(), d.energies.integral));
+            if !d.conservative {
+                lines.push(equation("h'".to_owned(), d.power));
+            }
+        }
+        "Rates" => {
+            for (place, rate) in level.selection.variables.iter().zip(&level.rates) {
+                lines.push(equation(format!("{}'", model.variable_name(*place)), *rate));
+            }
+        }
+        "Domain" => {
+            let mut all = level.domain.iter().zip(&level.domain_names);
+            for line in &section.text[..section.latex.len()] {
+                match all.find(|(_, name)| *line == format!("{name} != 0")) {
+                    Some((e, _)) => lines.push(Line::Differs(*e)),
+                    None => break,
+                }
+            }
+            lines.extend(level.constant_pivots.iter().map(|e| Line::Differs(*e)));
+        }
+        "Constants" => {
+            for (c, value) in level.scene.iter().flat_map(|facts| &facts.fixes) {
+                lines.push(equation(model.constants[*c].name.text.clone(), *value));
+            }
+        }
+        _ => return None,
+    }
+    Some(lines)
+}

@@ -1,0 +1,15 @@
+//! Declarations as text: what is derived of them, at which token their faults are reported, and what their programs compute.
+
+mod angles;
+mod carried;
+mod common;
+mod corpus;
+mod damage;
+mod drawn;
+mod poles;
+mod restricted;
+mod scenes;
+mod spans;
+mod structure;
+mod vehicles;
+mod wheels;

@@ -1,0 +1,171 @@
+//! The battery of extremes: every answer is right to what is printed, or a typed error, or the program fails.
+//!
+//! ```text
+//! cargo run --release -p guen-measure --bin extremes                     # everything, some ten minutes
+//! cargo run --release -p guen-measure --bin extremes -- --quick          # the shortened battery, which the tests run too
+//! cargo run --release -p guen-measure --bin extremes -- --system sled    # one system alone
+//! cargo run --release -p guen-measure --bin extremes -- --battery        # the battery alone
+//! cargo run --release -p guen-measure --bin extremes -- --bounds         # the errors of right-hand sides alone
+//! cargo run --release -p guen-measure --bin extremes -- --docs           # everything, and the tables of docs/extremes.md anew
+//! ```
+//!
+//! With `--battery` or `--bounds`, `--docs` writes that table alone.
+//!
+//! Ends with 0 if all is in order, 1 if a failure was silent or an answer that is due did not come, 2 for arguments that it
+//! does not know.
+
+#![allow(clippy::result_large_err, reason = "an error keeps the state that was reached")]
+
+mod battery;
+mod bounds;
+mod threads;
+
+#[cfg(test)]
+mod tests;
+
+use std::process::ExitCode;
+
+use battery::{Task, run, table, tasks};
+
+const HELP: &str = "\
+The battery of extremes, and the errors of right-hand sides.
+
+    --quick          the shortened battery
+    --system NAME    the battery of one system alone; with --bounds the systems whose names have this in them
+    --battery        the battery alone
+    --bounds         the errors of right-hand sides at 10,000 states of each system alone
+    --docs           write the tables of what was asked into docs/extremes.md
+    --help           this text
+";
+
+/// Random states of each system.
+const STATES: usize = 10_000;
+
+#[derive(Default)]
+struct Arguments {
+    quick: bool,
+    docs: bool,
+    battery: bool,
+    bounds: bool,
+    system: Option<String>,
+}
+
+fn arguments(mut given: impl Iterator<Item = String>) -> Result<Option<Arguments>, String> {
+    let mut arguments = Arguments::default();
+    while let Some(word) = given.next() {
+        match word.as_str() {
+            "--quick" => arguments.quick = true,
+            "--docs" => arguments.docs = true,
+            "--battery" => arguments.battery = true,
+            "--bounds" => arguments.bounds = true,
+            "--system" => arguments.system = Some(given.next().ok_or("--system wants a name")?),
+            "--help" | "-h" => return Ok(None),
+            word => return Err(format!("unknown argument `{word}`")),
+        }
+    }
+    let part = arguments.quick || arguments.system.is_some();
+    if arguments.docs && part {
+        return Err("--docs is about the whole battery".to_owned());
+    }
+    if arguments.bounds && arguments.quick {
+        return Err("--quick is about the battery".to_owned());
+    }
+    // What is not asked for by name is asked all the same, unless something else is.
+    if !arguments.battery && !arguments.bounds {
+        (arguments.battery, arguments.bounds) = (true, !part);
+    }
+    Ok(Some(arguments))
+}
+
+fn main() -> ExitCode {
+    let arguments = match arguments(std::env::args().skip(1)) {
+        Ok(Some(arguments)) => arguments,
+        Ok(None) => {
+            print!("{HELP}");
+            return ExitCode::SUCCESS;
+        }
+        Err(fault) => {
+            eprintln!("{fault}\n\n{HELP}");
+            return ExitCode::from(2);
+        }
+    };
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    let mut tables = Vec::new();
+    let mut in_order = true;
+    if arguments.battery {
+        match battery(&arguments, threads) {
+            Ok((table, none_failed)) => {
+                tables.push(("battery", table));
+                in_order &= none_failed;
+            }
+            Err(fault) => {
+                eprintln!("{fault}");
+                return ExitCode::from(2);
+            }
+        }
+    }
+    if arguments.bounds {
+        let (table, all_hold) = errors(threads, arguments.system.as_deref());
+        tables.push(("errors", table));
+        in_order &= all_hold;
+    }
+    if arguments.docs
+        && let Err(error) = write_docs(&tables)
+    {
+        eprintln!("docs/extremes.md: {error}");
+        return ExitCode::FAILURE;
+    }
+    if in_order { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+}
+
+/// The battery: its table, and whether nothing failed.
+fn battery(arguments: &Arguments, threads: usize) -> Result<(String, bool), String> {
+    let all = tasks();
+    let mut systems: Vec<&str> = all.iter().map(|task| task.system).collect();
+    systems.dedup();
+    if let Some(name) = &arguments.system
+        && !systems.contains(&name.as_str())
+    {
+        return Err(format!("no system `{name}`; there are {}", systems.join(", ")));
+    }
+    let wanted = |task: &Task| {
+        (task.quick || !arguments.quick) && arguments.system.as_ref().is_none_or(|name| name == task.system)
+    };
+    let chosen: Vec<Task> = all.into_iter().filter(wanted).collect();
+    let lines = run(chosen, threads, |done, of, line, seconds| {
+        eprintln!("{done} of {of}, {seconds:.1} s: {}: {}", line.system, line.asked);
+    });
+    for line in &lines {
+        println!("{}", table::paragraph(line));
+    }
+    let (right, refused, failures) = table::count(&lines);
+    println!("{right} answers right to what is printed, {refused} typed errors, {failures} failures");
+    Ok((table::markdown(&lines), failures == 0))
+}
+
+/// The errors of right-hand sides: their table, and whether all are within the bound.
+fn errors(threads: usize, named: Option<&str>) -> (String, bool) {
+    let found = bounds::all(STATES, threads, named, |found| {
+        eprintln!("{:.1} s: right-hand side of {}", found.seconds, found.system);
+    });
+    let table: String = found.iter().map(ToString::to_string).collect();
+    let table = format!("{}{table}", bounds::HEAD);
+    println!("{table}");
+    for found in found.iter().filter(|found| !found.holds()) {
+        println!("{}: beyond {} u (cond + kappa); {}", found.system, bounds::FACTOR, found.worst);
+    }
+    (table, found.iter().all(bounds::Found::holds))
+}
+
+/// Puts tables into the page, each between its marks.
+fn write_docs(tables: &[(&str, String)]) -> Result<(), Box<dyn std::error::Error>> {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/extremes.md");
+    let mut page = std::fs::read_to_string(path)?;
+    for (name, table) in tables {
+        let marks = [format!("<!-- {name} begins -->"), format!("<!-- {name} ends -->")];
+        let (before, rest) = page.split_once(&marks[0]).ok_or("a mark is gone")?;
+        let (_, after) = rest.split_once(&marks[1]).ok_or("a mark is gone")?;
+        page = format!("{before}{}\n\n{table}\n{}{after}", marks[0], marks[1]);
+    }
+    Ok(guen_study::replace_file(path, |out| out.write_all(page.as_bytes()))?)
+}

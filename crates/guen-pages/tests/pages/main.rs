@@ -1,0 +1,8 @@
+//! What the pages say, against what is there: blocks, executables, links, pointers, tables of manifests, and the places of `unsafe`.
+
+mod blocks;
+mod executables;
+mod links;
+mod manifests;
+mod pointers;
+mod unsafe_code;

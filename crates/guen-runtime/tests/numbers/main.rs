@@ -1,0 +1,9 @@
+//! Reals, duals, elementary functions, and what stands on them alone.
+
+mod classification;
+mod duals;
+mod elementary;
+mod nalgebra;
+mod operators;
+mod scalar;
+mod tuned;

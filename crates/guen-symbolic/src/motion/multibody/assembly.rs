@@ -1,0 +1,346 @@
+//! The quadratic form and the forces of all bodies, and the way back from the leaves to the parameters.
+
+use std::collections::BTreeMap;
+
+use super::form::Form;
+use super::forms::Functional;
+use super::kinematics::Kinematics;
+use super::plan::{Def, Equation};
+use super::relations::{definition, order};
+use super::tree::{Content, Tree, Turn};
+use super::variables::{Class, Kind, Var, Variables};
+use crate::motion::Mechanics;
+use crate::numbering::{Num, Numbering};
+use crate::workbench::Workbench;
+
+/// Which velocities the energies of the bodies speak of.
+pub(super) fn needed(tree: &Tree, variables: &Variables) -> Vec<Var> {
+    let mut found = Vec::new();
+    for content in &tree.contents {
+        if let Some(axis) = axial(tree, content) {
+            found.push(variables.spin(content.axes, axis));
+            let parent = tree.axes[content.axes].parent;
+            found.extend((0..3).filter(|q| *q != axis).map(|q| variables.spin(parent, q)));
+            continue;
+        }
+        let has_inertia = content.inertia.iter().chain(&content.moment).any(|e| !e.is_zero());
+        if has_inertia {
+            found.extend((0..3).map(|q| variables.spin(content.axes, q)));
+        }
+        if let Some(point) = content.point
+            && (!content.mass.is_zero() || content.moment.iter().any(|e| !e.is_zero()))
+        {
+            found.extend((0..3).map(|q| variables.velocity(point, q)));
+        }
+    }
+    found
+}
+
+/// The derivatives of what the force function has beside weights, by the coordinates that it depends on.
+pub(super) fn slopes(
+    bench: &mut Workbench,
+    numbers: &mut Numbering,
+    system: &Mechanics,
+) -> Vec<(usize, Num)> {
+    let Some(multibody) = &system.multibody else { return Vec::new() };
+    let potential = multibody.other_force_function;
+    let occurring = bench.graph.symbols_in(&[potential]);
+    let mut found = Vec::new();
+    for (i, x) in system.forms.coordinates.iter().enumerate() {
+        if bench.graph.as_symbol(*x).is_some_and(|symbol| occurring.contains(&symbol)) {
+            let slope = bench.partial(potential, *x);
+            let slope = numbers.import(bench, slope);
+            if !slope.is_zero() {
+                found.push((i, slope));
+            }
+        }
+    }
+    found
+}
+
+/// The axis of a joint about which alone a content has inertia: a rotor, or what is left of a wheel.
+fn axial(tree: &Tree, content: &Content) -> Option<usize> {
+    let Turn::About { axis, .. } = tree.axes[content.axes].turn else { return None };
+    let others = (0..6).filter(|q| *q != axis).map(|q| content.inertia[q]);
+    let mut others = others.chain(content.moment).chain([content.mass]);
+    others.all(|e| e.is_zero()).then_some(axis)
+}
+
+/// The equations of a tree while they are put up and solved.
+pub(super) struct Assembly<'a> {
+    pub(super) kinematics: Kinematics<'a>,
+    form: Form,
+}
+
+impl<'a> Assembly<'a> {
+    pub(super) fn new(kinematics: Kinematics<'a>) -> Self {
+        Assembly { kinematics, form: Form::default() }
+    }
+
+    fn add(&mut self, i: Var, j: Var, e: Num) {
+        let variables = self.kinematics.variables;
+        self.form.add(self.kinematics.numbers, variables, i, j, e);
+    }
+
+    /// A force along a variable.
+    pub(super) fn push(&mut self, i: Var, e: Num) {
+        let variables = self.kinematics.variables;
+        self.form.push(self.kinematics.numbers, variables, i, e);
+    }
+
+    /// Inertias and inertial forces of all bodies.
+    pub(super) fn bodies(&mut self) {
+        let tree = self.kinematics.tree;
+        for content in &tree.contents {
+            match axial(tree, content) {
+                Some(axis) => self.rotor(content, axis),
+                None => self.body(content),
+            }
+        }
+    }
+
+    /// A moment of inertia about the axis of a joint: in the axes of the carrier.
+    fn rotor(&mut self, content: &Content, k: usize) {
+        let (tree, variables) = (self.kinematics.tree, self.kinematics.variables);
+        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+        let parent = tree.axes[content.axes].parent;
+        let moment = content.inertia[k];
+        let own = variables.spin(content.axes, k);
+        self.add(own, own, moment);
+        let rate = self.kinematics.rate(own);
+        let numbers = &mut *self.kinematics.numbers;
+        let back = numbers.mul(moment, rate);
+        self.push(own, back.neg());
+        let value = self.kinematics.value(own);
+        let momentum = self.kinematics.numbers.mul(moment, value);
+        let [w_i, w_j] = [i, j].map(|q| self.kinematics.value(variables.spin(parent, q)));
+        let numbers = &mut *self.kinematics.numbers;
+        let (first, second) = (numbers.mul(momentum, w_j), numbers.mul(momentum, w_i));
+        self.push(variables.spin(parent, i), first.neg());
+        self.push(variables.spin(parent, j), second);
+    }
+
+    fn body(&mut self, content: &Content) {
+        let variables = self.kinematics.variables;
+        let spin = [0, 1, 2].map(|q| variables.spin(content.axes, q));
+        let (h, inertia) = (content.moment, content.inertia);
+        let turns = inertia.iter().chain(&h).any(|e| !e.is_zero());
+        let mut acceleration = [Num::ZERO; 3];
+        if let Some(point) = content.point
+            && (!content.mass.is_zero() || h.iter().any(|e| !e.is_zero()))
+        {
+            acceleration = [0, 1, 2].map(|q| self.kinematics.acceleration(point, q));
+            let velocity = [0, 1, 2].map(|q| variables.velocity(point, q));
+            for (q, own) in velocity.into_iter().enumerate() {
+                let (j, k) = ((q + 1) % 3, (q + 2) % 3);
+                self.add(own, own, content.mass);
+                self.add(own, spin[j], h[k]);
+                self.add(own, spin[k], h[j].neg());
+            }
+            let gradient = if turns { self.kinematics.gradient(content.axes) } else { [[Num::ZERO; 3]; 3] };
+            for (q, own) in velocity.into_iter().enumerate() {
+                let numbers = &mut *self.kinematics.numbers;
+                let straight = numbers.mul(content.mass, acceleration[q]);
+                let turning = numbers.dot(&gradient[q], &h);
+                let force = numbers.add(straight, turning);
+                self.push(own, force.neg());
+            }
+        }
+        if !turns {
+            return;
+        }
+        for q in 0..3 {
+            self.add(spin[q], spin[q], inertia[q]);
+            self.add(spin[q], spin[(q + 1) % 3], inertia[3 + q]);
+        }
+        let torque = self.torque(content);
+        let numbers = &mut *self.kinematics.numbers;
+        let lever = super::tree::cross(numbers, &h, &acceleration);
+        for q in 0..3 {
+            let whole = self.kinematics.numbers.add(torque[q], lever[q]);
+            self.push(spin[q], whole.neg());
+        }
+    }
+
+    /// `I alpha + omega x I omega`, by the products of the spins that the gradient has already.
+    fn torque(&mut self, content: &Content) -> [Num; 3] {
+        let [xx, yy, zz, xy, yz, zx] = content.inertia;
+        if content.inertia.iter().all(|e| e.is_zero()) {
+            return [Num::ZERO; 3];
+        }
+        let w = self.kinematics.spin(content.axes);
+        let alpha = self.kinematics.spin_rates(content.axes);
+        let u = self.kinematics.gradient(content.axes);
+        let n = &mut *self.kinematics.numbers;
+        let squares = w.map(|e| n.square(e));
+        let diagonal = [xx, yy, zz];
+        let off = [[Num::ZERO, xy, zx], [xy, Num::ZERO, yz], [zx, yz, Num::ZERO]];
+        [0, 1, 2].map(|q| {
+            let (j, k) = ((q + 1) % 3, (q + 2) % 3);
+            let own = n.mul(diagonal[q], alpha[q]);
+            let difference = n.sub(diagonal[k], diagonal[j]);
+            let product = n.mul(w[j], w[k]);
+            let gyroscopic = n.mul(difference, product);
+            let first = n.mul(off[q][j], u[k][q]);
+            let second = n.mul(off[q][k], u[j][q]);
+            let spread = n.sub(squares[j], squares[k]);
+            let third = n.mul(off[j][k], spread);
+            n.sum([own, gyroscopic, first.neg(), second, third])
+        })
+    }
+
+    /// A force along a form.
+    pub(super) fn load(&mut self, row: &Functional, magnitude: Num) {
+        for (var, c) in &row.terms {
+            let e = self.kinematics.numbers.mul(magnitude, *c);
+            self.push(*var, e);
+        }
+    }
+
+    /// Takes everything back to the parameters, and solves: the rates of the parameters, and what was divided by.
+    pub(super) fn solve(mut self) -> Option<(Vec<Num>, Vec<Num>)> {
+        let (variables, plan) = (self.kinematics.variables, self.kinematics.plan);
+        let bias = self.core_bias();
+        self.inwards()?;
+        for (index, var) in plan.unknowns.iter().enumerate().rev() {
+            let solution = self.kinematics.core.solutions[index].clone();
+            self.form.substitute(self.kinematics.numbers, *var, &solution, bias[index]);
+        }
+        let l = self.kinematics.system.forms.degrees;
+        let etas: Vec<Var> = (0..l).map(|s| variables.eta(s)).collect();
+        if !self.form.variables().iter().all(|var| etas.contains(var)) {
+            return None;
+        }
+        let mut left = etas.clone();
+        while !left.is_empty() {
+            let numbers = &mut *self.kinematics.numbers;
+            let next = left
+                .iter()
+                .enumerate()
+                .min_by_key(|(place, var)| {
+                    let own = self.form.entry(**var, **var);
+                    (!numbers.is_constant(own), self.form.neighbours(**var), usize::MAX - place)
+                })
+                .map(|(place, _)| place)?;
+            let var = left.remove(next);
+            if self.form.entry(var, var).is_zero() {
+                return None;
+            }
+            self.form.eliminate(numbers, var);
+        }
+        let found = self.form.solved(self.kinematics.numbers, |_, _, _| Num::ZERO);
+        let rates = etas.iter().map(|var| found.get(var).copied().unwrap_or(Num::ZERO)).collect();
+        Some((rates, self.form.pivots))
+    }
+
+    /// The rates of the core's unknowns at zero rates of the parameters.
+    fn core_bias(&mut self) -> Vec<Num> {
+        let plan = self.kinematics.plan;
+        let mut right = Vec::new();
+        for equation in &plan.core {
+            right.push(match equation {
+                Equation::Row(row) => {
+                    let row = plan.rows[*row].clone();
+                    self.kinematics.form_bias(&row)
+                }
+                Equation::Link(var) => self.kinematics.link_bias(*var, None).0,
+            });
+        }
+        let core = self.kinematics.core;
+        core.solve(self.kinematics.numbers, right)
+    }
+
+    /// Substitutes every velocity by those from which it follows, the youngest first; pairs are turned together.
+    fn inwards(&mut self) -> Option<()> {
+        let (tree, variables, plan) = (self.kinematics.tree, self.kinematics.variables, self.kinematics.plan);
+        let roots = self.form.variables();
+        let order = order(self.kinematics.numbers, tree, variables, plan, &roots);
+        // How many of those that are left follow from each.
+        let mut users: BTreeMap<Var, usize> = BTreeMap::new();
+        let mut definitions: BTreeMap<Var, (Vec<(Var, Num)>, Num)> = BTreeMap::new();
+        for var in &order {
+            if let Some(found) = definition(self.kinematics.numbers, tree, variables, plan, *var) {
+                found.0.iter().for_each(|(other, _)| *users.entry(*other).or_default() += 1);
+                definitions.insert(*var, found);
+            } else if !matches!(plan.def(*var), Some(Def::Known | Def::Core(_))) {
+                return None;
+            }
+        }
+        let mut left: Vec<Var> = order.iter().copied().filter(|var| definitions.contains_key(var)).collect();
+        while !left.is_empty() {
+            let is_ready = |var: &Var| users.get(var).copied().unwrap_or(0) == 0;
+            let plainly = left.iter().rposition(|var| is_ready(var) && self.pair(*var, &left).is_none());
+            let mut gone: Vec<Var> = Vec::new();
+            if let Some(place) = plainly {
+                let var = left[place];
+                let terms = definitions[&var].0.clone();
+                self.form.substitute(self.kinematics.numbers, var, &terms, Num::ZERO);
+                gone.push(var);
+            } else {
+                // All ready pairs of the youngest axes.
+                let mut pairs: Vec<(usize, [Var; 4])> = Vec::new();
+                for var in &left {
+                    if let Some((axes, pair)) = self.pair(*var, &left)
+                        && pair[0] == *var
+                        && is_ready(&pair[0])
+                        && is_ready(&pair[1])
+                    {
+                        pairs.push((axes, pair));
+                    }
+                }
+                let Some(youngest) = pairs.iter().map(|(axes, _)| *axes).max() else {
+                    // A pair one of which is still in use: each by itself.
+                    let place = left.iter().rposition(is_ready)?;
+                    let var = left[place];
+                    let terms = definitions[&var].0.clone();
+                    self.form.substitute(self.kinematics.numbers, var, &terms, Num::ZERO);
+                    left.remove(place);
+                    for (other, _) in &definitions[&var].0 {
+                        *users.get_mut(other)? -= 1;
+                    }
+                    continue;
+                };
+                let pairs: Vec<[Var; 4]> =
+                    pairs.into_iter().filter(|(axes, _)| *axes == youngest).map(|(_, pair)| pair).collect();
+                let Turn::About { cosine, sine, .. } = tree.axes[youngest].turn else { return None };
+                self.form.turn(self.kinematics.numbers, variables, &pairs, (cosine, sine));
+                gone.extend(pairs.iter().flat_map(|[x, y, ..]| [*x, *y]));
+            }
+            left.retain(|var| !gone.contains(var));
+            for var in gone {
+                for (other, _) in &definitions[&var].0 {
+                    *users.get_mut(other)? -= 1;
+                }
+            }
+        }
+        Some(())
+    }
+
+    /// The pair of which a variable is one, if both are turned and nothing else: axes, and `x, y, X, Y`.
+    fn pair(&self, var: Var, left: &[Var]) -> Option<(usize, [Var; 4])> {
+        let (tree, variables, plan) = (self.kinematics.tree, self.kinematics.variables, self.kinematics.plan);
+        let is_own = |var: Var| {
+            matches!(variables.class(var), Class::Of(own, _) if own == var)
+                && plan.def(var) == Some(Def::Kinematic)
+                && left.contains(&var)
+        };
+        let (axes, make): (usize, &dyn Fn(usize) -> (Var, Var)) = match variables.kind(var) {
+            Kind::Spin(axes, _) => {
+                let parent = tree.axes[axes].parent;
+                (axes, &move |q| (variables.spin(axes, q), variables.spin(parent, q)))
+            }
+            Kind::Velocity(point, _) => {
+                let node = &tree.points[point];
+                if node.axes == tree.points[node.parent].axes {
+                    return None;
+                }
+                (node.axes, &move |q| (variables.velocity(point, q), variables.before(point, q)))
+            }
+            _ => return None,
+        };
+        let Turn::About { axis, .. } = tree.axes[axes].turn else { return None };
+        let (i, j) = ((axis + 1) % 3, (axis + 2) % 3);
+        let ((x, wx), (y, wy)) = (make(i), make(j));
+        (is_own(x) && is_own(y) && (var == x || var == y)).then_some((axes, [x, y, wx, wy]))
+    }
+}

@@ -1,0 +1,139 @@
+//! Forms as linear functions of the velocities of a tree, in parts, with what their rates need beside accelerations.
+
+use super::tree::{Tree, Turn, Vec3, cross};
+use super::variables::{Var, Variables};
+use crate::numbering::{Num, Numbering};
+
+/// A direction, by its components in some axes.
+#[derive(Clone, Debug)]
+pub(super) struct Direction {
+    pub(super) axes: usize,
+    pub(super) vector: Vec3,
+    /// Whether its rate is of no matter, because the velocity vanishes in all directions.
+    pub(super) is_free: bool,
+}
+
+/// A part of a form, in the axes that it names.
+#[derive(Clone, Debug)]
+pub(super) enum Part {
+    /// The velocity of a point, in its axes.
+    Point { point: usize },
+    /// The angular velocity of `body` times a lever; the axes are those of the body, or its parent's if it turns about an
+    /// axis of these.
+    Arm { axes: usize, body: usize, arm: Vec3 },
+    /// The angular velocity of axes.
+    Spin { axes: usize },
+    /// A velocity that is given.
+    Given { axes: usize, vector: Vec3 },
+    /// Parameters as the components of a vector along the axes of the world.
+    Known { components: [Option<Var>; 3] },
+    /// A form in the rates of coordinates and the parameters.
+    Plain { terms: Vec<(Var, Num)>, offset: Num },
+}
+
+/// A form: parts along directions.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Functional {
+    /// Parts, each with the index of its direction and the components of that in the axes of the part.
+    pub(super) parts: Vec<(Part, usize, Vec3)>,
+    pub(super) directions: Vec<Direction>,
+    /// Coefficients of the variables.
+    pub(super) terms: Vec<(Var, Num)>,
+    /// What it is at rest.
+    pub(super) offset: Num,
+}
+
+impl Part {
+    /// The axes in which it is written.
+    pub(super) fn axes(&self, tree: &Tree) -> usize {
+        match self {
+            Part::Point { point } => tree.points[*point].axes,
+            Part::Arm { axes, .. } | Part::Spin { axes } | Part::Given { axes, .. } => *axes,
+            Part::Plain { .. } | Part::Known { .. } => 0,
+        }
+    }
+}
+
+impl Functional {
+    /// Adds a component of a velocity.
+    pub(super) fn add(
+        &mut self,
+        numbers: &mut Numbering,
+        (tree, variables): (&Tree, &Variables),
+        direction: &Direction,
+        parts: &[(Num, Part)],
+    ) {
+        let index = self.directions.len();
+        self.directions.push(direction.clone());
+        for (factor, part) in parts {
+            let axes = part.axes(tree);
+            let seen = tree.seen_in(numbers, axes, direction.axes, &direction.vector);
+            let along = seen.map(|e| numbers.mul(*factor, e));
+            self.add_terms(numbers, (tree, variables), part, &along);
+            self.parts.push((part.clone(), index, along));
+        }
+    }
+
+    fn add_terms(
+        &mut self,
+        numbers: &mut Numbering,
+        (tree, variables): (&Tree, &Variables),
+        part: &Part,
+        along: &Vec3,
+    ) {
+        match part {
+            Part::Point { point } => {
+                for (q, e) in along.iter().enumerate() {
+                    self.add_term(numbers, variables.velocity(*point, q), *e);
+                }
+            }
+            Part::Arm { axes, body, arm } => {
+                let moment = cross(numbers, arm, along);
+                for (q, e) in moment.into_iter().enumerate() {
+                    let own = match tree.axes[*body].turn {
+                        Turn::About { axis, .. } if axis == q => *body,
+                        _ => *axes,
+                    };
+                    self.add_term(numbers, variables.spin(own, q), e);
+                }
+            }
+            Part::Spin { axes } => {
+                for (q, e) in along.iter().enumerate() {
+                    self.add_term(numbers, variables.spin(*axes, q), *e);
+                }
+            }
+            Part::Given { vector, .. } => {
+                let given = numbers.dot(vector, along);
+                self.offset = numbers.add(self.offset, given);
+            }
+            Part::Known { components } => {
+                for (component, e) in components.iter().zip(along) {
+                    if let Some(var) = component {
+                        self.add_term(numbers, *var, *e);
+                    }
+                }
+            }
+            Part::Plain { .. } => {}
+        }
+    }
+
+    pub(super) fn add_term(&mut self, numbers: &mut Numbering, var: Var, coefficient: Num) {
+        if coefficient.is_zero() {
+            return;
+        }
+        match self.terms.iter_mut().find(|(known, _)| *known == var) {
+            Some((_, known)) => *known = numbers.add(*known, coefficient),
+            None => self.terms.push((var, coefficient)),
+        }
+        self.terms.retain(|(_, known)| !known.is_zero());
+    }
+
+    /// Adds a form in the rates of coordinates and the parameters.
+    pub(super) fn add_plain(&mut self, numbers: &mut Numbering, terms: Vec<(Var, Num)>, offset: Num) {
+        for (var, c) in &terms {
+            self.add_term(numbers, *var, *c);
+        }
+        self.offset = numbers.add(self.offset, offset);
+        self.parts.push((Part::Plain { terms, offset }, 0, [Num::ZERO; 3]));
+    }
+}

@@ -1,0 +1,165 @@
+//! Accelerations of bodies that hang on each other and roll: kinematics outwards, elimination inwards, over velocities that are
+//! named where they are.
+//!
+//! `axes` and `points` choose axes and origins, `tree` puts them together and regroups what the bodies weigh; `variables` says
+//! which velocities vanish or are one; `forms` and `declared` have the declaration over these, `plan` says what determines
+//! what, `core` solves what is left; `kinematics` goes outwards, `assembly` puts up the quadratic form and the forces and
+//! takes them back to the parameters.
+
+mod accelerations;
+mod assembly;
+mod axes;
+mod biases;
+mod core;
+mod declared;
+mod directions;
+mod form;
+mod forms;
+mod kinematics;
+mod plan;
+mod points;
+mod relations;
+mod safety;
+mod tree;
+mod variables;
+
+use self::assembly::Assembly;
+use self::core::Core;
+use self::declared::Declared;
+use self::kinematics::Kinematics;
+use self::plan::Planner;
+use self::tree::Tree;
+use self::variables::Variables;
+use super::graph::Turn;
+use super::velocity_forms::VelocityPartials;
+use super::{Frame, Mechanics, Solution};
+use crate::algebra::ExprId;
+use crate::numbering::{Num, Numbering};
+use crate::workbench::Workbench;
+
+/// Points of the zero test that are tried: not everywhere does every root exist.
+const POINTS: usize = 8;
+
+/// What a tree leads to.
+#[derive(Clone)]
+pub(super) struct Found {
+    /// The rates of the state, velocities first.
+    pub(super) rates: Vec<ExprId>,
+    /// The pivots of the elimination.
+    pub(super) pivots: Vec<ExprId>,
+    /// Whether they cost half of what others do, or less.
+    pub(super) is_half: bool,
+}
+
+impl Found {
+    /// The solution, and the velocities in the frame.
+    pub(super) fn taken(self, bench: &mut Workbench, frame: &mut Frame) -> Solution {
+        let mut velocities = self.rates;
+        let accelerations = velocities.split_off(frame.velocities.len());
+        frame.velocities = velocities;
+        Solution::of_pivots(bench, accelerations, &self.pivots)
+    }
+}
+
+/// The rates of the state of a system of bodies; none where its energies or forms are beyond what is understood here.
+pub(super) fn rates(
+    bench: &mut Workbench,
+    system: &Mechanics,
+    frame: &Frame,
+    partials: &mut VelocityPartials,
+) -> Option<Found> {
+    let structure = &system.structure;
+    let multibody = system.multibody.as_ref()?;
+    if structure.bodies.is_empty() || !is_understood(bench, system) {
+        return None;
+    }
+    if !bench.graph.is_zero(multibody.other_energy) {
+        return None;
+    }
+    // A rotation that is one on its constraint alone.
+    let is_general = structure.frames().iter().any(|frame| matches!(frame.turn, Turn::General { .. }));
+    let on_manifold = is_general && !system.holonomic.is_empty();
+    // What rolls and is posed by a quaternion has no axes here in which its contact rests: entries that are small where others
+    // are not would be differences of these.
+    if on_manifold && system.holonomic.len() < system.forms.len() - system.forms.degrees {
+        return None;
+    }
+    (0..POINTS).find_map(|point| attempt(bench, system, frame, partials, (point, on_manifold)))
+}
+
+/// Whether masses, inertias and gravity are constants.
+fn is_understood(bench: &Workbench, system: &Mechanics) -> bool {
+    let structure = &system.structure;
+    let weights = structure.bodies.iter().flat_map(|body| body.inertia.iter().chain([&body.mass]));
+    let mut weights = weights.chain(structure.gravity.iter().flatten());
+    weights.all(|e| bench.graph.roles(*e).is_constant())
+}
+
+/// Whether constraints on positions are no integrals of some velocities off the constraints: then these are of no use.
+fn drifts(bench: &mut Workbench, system: &Mechanics, velocities: &[ExprId]) -> bool {
+    let mut drift = Vec::new();
+    for holonomic in &system.holonomic {
+        let form = &system.forms.forms[holonomic.form];
+        let rate = bench.dot(&form.row, velocities);
+        drift.push(bench.graph.add(rate, form.offset));
+    }
+    let residues = bench.zero.residues(&mut bench.graph, 0, &drift, false);
+    !residues.is_some_and(|residues| residues.iter().all(|residue| *residue == 0))
+}
+
+fn attempt(
+    bench: &mut Workbench,
+    system: &Mechanics,
+    frame: &Frame,
+    partials: &mut VelocityPartials,
+    point: (usize, bool),
+) -> Option<Found> {
+    let (n, l) = (system.forms.len(), system.forms.degrees);
+    let generation = bench.zero.generation();
+    let mut own = Numbering::new(&mut bench.graph, point, generation);
+    let numbers = &mut own;
+    let mut tree = Tree::new(bench, numbers, system, partials)?;
+    let shapes = declared::shapes(bench, numbers, system, &mut tree)?;
+    let variables = Variables::new(bench, numbers, system, &tree)?;
+    let declared = Declared::new(bench, numbers, system, partials, (&tree, &variables), &shapes)?;
+    tree.regroup(numbers, &variables);
+    let loads = declared.loads.iter().flat_map(|load| load.terms.iter().map(|(var, _)| *var));
+    let slopes = assembly::slopes(bench, numbers, system);
+    let slopes: Vec<_> = slopes.into_iter().map(|(i, slope)| (variables.rate(i), slope)).collect();
+    let needed = assembly::needed(&tree, &variables).into_iter();
+    let needed: Vec<_> = needed.chain(loads).chain(slopes.iter().map(|(var, _)| *var)).collect();
+    let mut planner = Planner { bench, numbers, tree: &tree, variables: &variables };
+    let plan = planner.plan(declared.rows, &declared.groups, &needed)?;
+    let core = Core::new(&mut planner, &plan)?;
+
+    let mut kinematics = Kinematics::new(bench, numbers, system, frame, (&tree, &variables), (&plan, &core));
+    let velocities: Vec<Num> = (0..n).map(|i| kinematics.value(variables.rate(i))).collect();
+    // Forces may be written in velocities and in the names of constraints.
+    for (symbol, value) in system.velocities.iter().zip(&velocities) {
+        kinematics.numbers.define(*symbol, *value);
+    }
+    for eta in &system.etas[l..] {
+        kinematics.numbers.define(*eta, Num::ZERO);
+    }
+    let mut assembly = Assembly::new(kinematics);
+    assembly.bodies();
+    for (force, load) in system.forces.iter().zip(&declared.loads) {
+        let kinematics = &mut assembly.kinematics;
+        let magnitude = kinematics.numbers.import(kinematics.bench, force.magnitude);
+        assembly.load(load, magnitude);
+    }
+    for (var, slope) in slopes {
+        assembly.push(var, slope);
+    }
+    let (accelerations, pivots) = assembly.solve()?;
+    if !own.is_sound() {
+        return None;
+    }
+    let outputs: Vec<Num> = velocities.into_iter().chain(accelerations).chain(pivots).collect();
+    let mut rates = own.export(&mut bench.graph, &outputs);
+    let pivots = rates.split_off(n + l);
+    if point.1 && drifts(bench, system, &rates[..n]) {
+        rates[..n].copy_from_slice(&frame.velocities);
+    }
+    Some(Found { rates, pivots, is_half: false })
+}

@@ -1,0 +1,197 @@
+//! Points: the origins at which bodies are seen, each in its axes, from the places of a graph.
+//!
+//! A body is seen from the origin of its own axes, which is where the terms of its place in other axes lead. So the origin
+//! of a link is on its joint, and its body's centre and the joints that it carries are constants in its axes.
+
+use super::axes::{AllAxes, Matrix, Turned, Vector};
+use crate::algebra::ExprId;
+use crate::motion::graph::Place;
+use crate::workbench::Workbench;
+
+/// A point with axes.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Point {
+    /// The axes that move with it.
+    pub(super) axes: usize,
+    /// The point that it is seen from; older.
+    pub(super) parent: usize,
+    /// Where it is there, in the axes of that point.
+    pub(super) offset: Vector,
+    /// Whether that is no constant: then it has the axes of the point that it is seen from.
+    pub(super) slides: bool,
+}
+
+/// A place by the axes of its terms, in ascending order.
+pub(super) type Terms = Vec<(usize, Vector)>;
+
+/// All points; the first is the origin of the world.
+pub(super) struct Points {
+    pub(super) list: Vec<Point>,
+}
+
+impl Points {
+    pub(super) fn new(bench: &Workbench) -> Self {
+        let offset = [bench.graph.zero(); 3];
+        Points { list: vec![Point { axes: 0, parent: 0, offset, slides: false }] }
+    }
+
+    fn push(&mut self, point: Point) -> usize {
+        if let Some(known) = self.list.iter().position(|known| *known == point) {
+            return known;
+        }
+        self.list.push(point);
+        self.list.len() - 1
+    }
+
+    /// A place as an offset, constant in some axes, from a point with these axes.
+    pub(super) fn locate(
+        &mut self,
+        bench: &mut Workbench,
+        all: &AllAxes,
+        axes: usize,
+        terms: &Terms,
+    ) -> (usize, Vector) {
+        // What hangs elsewhere is seen in the axes where the ways part.
+        let mut own = [bench.graph.zero(); 3];
+        let mut rest = Terms::new();
+        for (place, vector) in terms {
+            if *place == axes || !all.hangs_on(axes, *place) && self.parts_at(all, axes, *place) == axes {
+                let seen = all.seen_from(bench, axes, *place, vector);
+                own = [0, 1, 2].map(|i| bench.graph.add(own[i], seen[i]));
+            } else {
+                rest.push((*place, *vector));
+            }
+        }
+        let (base, ahead) = self.origin(bench, all, axes, &rest);
+        if let Turned::About { axis, .. } = all.list[axes].turned {
+            own[axis] = bench.graph.add(own[axis], ahead);
+        }
+        let zero = bench.graph.zero();
+        let is_fixed = |e: ExprId| bench.graph.roles(e).is_constant();
+        let moving = own.map(|e| if is_fixed(e) { zero } else { e });
+        let fixed = own.map(|e| if is_fixed(e) { e } else { zero });
+        if moving == [zero; 3] {
+            return (base, fixed);
+        }
+        (self.push(Point { axes, parent: base, offset: moving, slides: true }), fixed)
+    }
+
+    /// The origin of axes whose place has these terms, none of them in the axes themselves, and how far that place is from it
+    /// along the axis of the joint: origins may be anywhere there.
+    fn origin(&mut self, bench: &mut Workbench, all: &AllAxes, axes: usize, rest: &Terms) -> (usize, ExprId) {
+        if axes == 0 {
+            return (0, bench.graph.zero());
+        }
+        let (parent, mut offset) = self.locate(bench, all, all.list[axes].parent, rest);
+        let mut ahead = bench.graph.zero();
+        if let Turned::About { axis, .. } = all.list[axes].turned {
+            ahead = core::mem::replace(&mut offset[axis], ahead);
+        }
+        (self.push(Point { axes, parent, offset, slides: false }), ahead)
+    }
+
+    /// The youngest axes on which both hang.
+    fn parts_at(&self, all: &AllAxes, a: usize, b: usize) -> usize {
+        let mut place = b;
+        while !all.hangs_on(a, place) {
+            place = all.list[place].parent;
+        }
+        place
+    }
+}
+
+impl AllAxes {
+    /// The terms of a place in axes.
+    pub(super) fn terms(&self, bench: &mut Workbench, place: &Place) -> Terms {
+        let mut terms = Terms::new();
+        for (frame, vector) in &place.terms {
+            let (axes, vector) = (self.of(*frame), self.vector(bench, *frame, vector));
+            match terms.iter_mut().find(|(known, _)| *known == axes) {
+                Some((_, known)) => *known = [0, 1, 2].map(|i| bench.graph.add(known[i], vector[i])),
+                None => terms.push((axes, vector)),
+            }
+        }
+        terms.sort_by_key(|(axes, _)| *axes);
+        terms.retain(|(_, vector)| vector.iter().any(|e| !bench.graph.is_zero(*e)));
+        terms
+    }
+
+    /// A vector in axes that hang on others, seen in these.
+    fn seen_from(&self, bench: &mut Workbench, axes: usize, place: usize, vector: &Vector) -> Vector {
+        let (mut place, mut vector) = (place, *vector);
+        while place != axes {
+            let matrix = self.matrix(bench, place);
+            vector = matrix.map(|row| bench.dot(&row, &vector));
+            place = self.list[place].parent;
+        }
+        vector
+    }
+
+    /// The matrix from axes to their parent's.
+    fn matrix(&self, bench: &mut Workbench, axes: usize) -> Matrix {
+        let (zero, one) = (bench.graph.zero(), bench.graph.one());
+        let mut matrix = [[zero; 3]; 3];
+        match &self.list[axes].turned {
+            Turned::World => (0..3).for_each(|i| matrix[i][i] = one),
+            Turned::About { axis, turn: [c, s], .. } => {
+                let (j, k) = ((axis + 1) % 3, (axis + 2) % 3);
+                matrix[*axis][*axis] = one;
+                matrix[j][j] = *c;
+                matrix[k][k] = *c;
+                matrix[k][j] = *s;
+                matrix[j][k] = bench.graph.neg(*s);
+            }
+            Turned::By { matrix: own, .. } => matrix = *own,
+        }
+        matrix
+    }
+
+    /// Lets axes hang on those of the link before them: where a place leads through axes that are turned about the same axis
+    /// of the same parent, the difference of the angles is the joint's.
+    pub(super) fn settle(&mut self, bench: &mut Workbench, axes: usize, terms: &Terms) {
+        let Turned::About { axis, angle: Some(angle), .. } = self.list[axes].turned else { return };
+        let parent = self.list[axes].parent;
+        // The link before: as deep as any other, about parallel axes.
+        let before = terms.iter().map(|(place, _)| *place).filter(|place| *place < axes && *place != parent);
+        let found = before.filter_map(|place| Some((place, self.whole_angle(bench, place, parent, axis)?)));
+        let Some((before, whole)) =
+            found.collect::<Vec<_>>().into_iter().max_by_key(|(place, _)| self.depth(*place))
+        else {
+            return;
+        };
+        let others = terms.iter().map(|(place, _)| *place).filter(|place| *place != axes);
+        if !others.into_iter().all(|other| self.hangs_on(before, other)) {
+            return;
+        }
+        let bend = bench.graph.sub(angle, whole);
+        let (sine, cosine) = bench.graph.sin_cos(bend);
+        self.list[axes] = super::axes::Axes {
+            parent: before,
+            turned: Turned::About { axis, turn: [cosine, sine], angle: Some(bend) },
+        };
+    }
+
+    fn depth(&self, axes: usize) -> usize {
+        let (mut place, mut depth) = (axes, 0);
+        while place > 0 {
+            place = self.list[place].parent;
+            depth += 1;
+        }
+        depth
+    }
+
+    /// The angle by which axes are turned against others about one axis, over any number of joints.
+    fn whole_angle(&self, bench: &mut Workbench, axes: usize, other: usize, about: usize) -> Option<ExprId> {
+        let mut place = axes;
+        let mut whole = bench.graph.zero();
+        while place != other {
+            let Turned::About { axis, angle: Some(angle), .. } = self.list[place].turned else { return None };
+            if axis != about || place == 0 {
+                return None;
+            }
+            whole = bench.graph.add(whole, angle);
+            place = self.list[place].parent;
+        }
+        Some(whole)
+    }
+}

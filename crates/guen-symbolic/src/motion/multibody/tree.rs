@@ -1,0 +1,424 @@
+//! The tree of axes and points in numbered expressions, and what hangs on it, regrouped.
+
+use super::axes::{AllAxes, Turned, Vector};
+use super::points::{Points, Terms};
+use super::variables::{Var, Variables};
+use crate::algebra::ExprId;
+use crate::motion::Mechanics;
+use crate::motion::graph::{FrameId, Place};
+use crate::motion::velocity_forms::VelocityPartials;
+use crate::numbering::{Num, Numbering};
+use crate::workbench::Workbench;
+
+pub(super) type Vec3 = [Num; 3];
+pub(super) type Mat3 = [Vec3; 3];
+
+/// A form in the rates of coordinates.
+#[derive(Clone, Debug, Default)]
+pub(super) struct RateForm {
+    /// Coordinates with coefficients.
+    pub(super) terms: Vec<(usize, Num)>,
+    /// What it is at rest.
+    pub(super) offset: Option<Num>,
+}
+
+/// How axes are turned against their parent's.
+#[derive(Clone, Debug)]
+pub(super) enum Turn {
+    World,
+    /// About a coordinate axis: cosine, sine, and the rate of the angle.
+    About {
+        axis: usize,
+        cosine: Num,
+        sine: Num,
+        rate: RateForm,
+    },
+    /// By any rotation: the matrix to the parent's axes, and the spin against the parent.
+    By {
+        matrix: Mat3,
+        spin: [RateForm; 3],
+    },
+}
+
+pub(super) struct AxesNode {
+    pub(super) parent: usize,
+    pub(super) turn: Turn,
+}
+
+pub(super) struct PointNode {
+    pub(super) axes: usize,
+    pub(super) parent: usize,
+    /// In the axes of the parent.
+    pub(super) offset: Vec3,
+    /// Its rate in these axes, where it is not constant.
+    pub(super) rate: Option<[RateForm; 3]>,
+}
+
+/// What moves with axes: about the origin of a point, or about any.
+#[derive(Clone, Debug)]
+pub(super) struct Content {
+    pub(super) axes: usize,
+    pub(super) point: Option<usize>,
+    pub(super) mass: Num,
+    pub(super) moment: Vec3,
+    /// `xx, yy, zz, xy, yz, zx` about the point.
+    pub(super) inertia: [Num; 6],
+}
+
+/// The tree.
+pub(super) struct Tree {
+    pub(super) all: AllAxes,
+    pub(super) origins: Points,
+    pub(super) axes: Vec<AxesNode>,
+    pub(super) points: Vec<PointNode>,
+    pub(super) contents: Vec<Content>,
+}
+
+impl Tree {
+    /// The tree of a system's bodies.
+    pub(super) fn new(
+        bench: &mut Workbench,
+        numbers: &mut Numbering,
+        system: &Mechanics,
+        partials: &mut VelocityPartials,
+    ) -> Option<Self> {
+        let structure = &system.structure;
+        let mut all = AllAxes::new(bench, structure)?;
+        let mut seats: Vec<(usize, Option<Terms>)> = Vec::new();
+        for body in &structure.bodies {
+            let terms = body.center.as_ref().map(|center| all.terms(bench, center));
+            // A particle is seen in the youngest axes of its place.
+            let youngest = terms.iter().flatten().map(|(axes, _)| *axes).max().unwrap_or(0);
+            let axes = body.frame.map_or(youngest, |frame| all.of(frame));
+            if let Some(terms) = &terms {
+                all.settle(bench, axes, terms);
+            }
+            seats.push((axes, terms));
+        }
+        let mut tree = Tree {
+            all,
+            origins: Points::new(bench),
+            axes: Vec::new(),
+            points: Vec::new(),
+            contents: Vec::new(),
+        };
+        let mut loaded = Vec::new();
+        for (body, (axes, terms)) in structure.bodies.iter().zip(seats) {
+            let located = terms.map(|terms| tree.origins.locate(bench, &tree.all, axes, &terms));
+            loaded.push((body, axes, located));
+        }
+        tree.number_axes(bench, numbers, system, partials);
+        tree.number_points(bench, numbers, system);
+        for (body, axes, located) in loaded {
+            let zero = bench.graph.zero();
+            let tensor = match body.frame {
+                Some(frame) => tree.all.tensor(bench, frame, &body.inertia),
+                None => [zero; 6],
+            };
+            tree.load(bench, numbers, axes, located, body.mass, &tensor);
+        }
+        Some(tree)
+    }
+
+    fn number_axes(
+        &mut self,
+        bench: &mut Workbench,
+        numbers: &mut Numbering,
+        system: &Mechanics,
+        partials: &mut VelocityPartials,
+    ) {
+        for axes in &self.all.list {
+            let turn = match &axes.turned {
+                Turned::World => Turn::World,
+                Turned::About { axis, turn, angle } => {
+                    let [cosine, sine] = turn.map(|e| numbers.import(bench, e));
+                    let rate = angle.map(|angle| rate_of(bench, numbers, system, angle)).unwrap_or_default();
+                    Turn::About { axis: *axis, cosine, sine, rate }
+                }
+                Turned::By { matrix, spin } => {
+                    let matrix = matrix.map(|row| row.map(|e| numbers.import(bench, e)));
+                    let spin = spin.map(|e| form_of(bench, numbers, partials, e));
+                    Turn::By { matrix, spin }
+                }
+            };
+            self.axes.push(AxesNode { parent: axes.parent, turn });
+        }
+    }
+
+    /// Numbers the points that have none yet.
+    fn number_points(&mut self, bench: &mut Workbench, numbers: &mut Numbering, system: &Mechanics) {
+        for point in &self.origins.list[self.points.len()..] {
+            let offset = point.offset.map(|e| numbers.import(bench, e));
+            let rate = point.slides.then(|| point.offset.map(|e| rate_of(bench, numbers, system, e)));
+            self.points.push(PointNode { axes: point.axes, parent: point.parent, offset, rate });
+        }
+    }
+
+    /// The point and the offset of a place in the youngest axes of its terms, or in axes that are given.
+    pub(super) fn locate(
+        &mut self,
+        bench: &mut Workbench,
+        numbers: &mut Numbering,
+        system: &Mechanics,
+        place: &Place,
+        axes: Option<usize>,
+    ) -> (usize, Vec3) {
+        let terms = self.all.terms(bench, place);
+        let axes = axes.unwrap_or_else(|| terms.iter().map(|(axes, _)| *axes).max().unwrap_or(0));
+        let (point, offset) = self.origins.locate(bench, &self.all, axes, &terms);
+        self.number_points(bench, numbers, system);
+        (point, offset.map(|e| numbers.import(bench, e)))
+    }
+
+    fn load(
+        &mut self,
+        bench: &mut Workbench,
+        numbers: &mut Numbering,
+        axes: usize,
+        located: Option<(usize, Vector)>,
+        mass: ExprId,
+        tensor: &[ExprId; 6],
+    ) {
+        let mut inertia = tensor.map(|e| numbers.import(bench, e));
+        let (mut point, mut moment, mut own) = (None, [Num::ZERO; 3], Num::ZERO);
+        if let Some((place, center)) = located {
+            own = numbers.import(bench, mass);
+            let center = center.map(|e| numbers.import(bench, e));
+            moment = center.map(|e| numbers.mul(own, e));
+            let steiner = about(numbers, &moment, &center);
+            inertia = [0, 1, 2, 3, 4, 5].map(|i| numbers.add(inertia[i], steiner[i]));
+            point = Some(place);
+        }
+        self.put(numbers, Content { axes, point, mass: own, moment, inertia });
+    }
+
+    /// Adds to what a point carries.
+    fn put(&mut self, numbers: &mut Numbering, content: Content) {
+        let same = |known: &&mut Content| known.axes == content.axes && known.point == content.point;
+        match self.contents.iter_mut().find(same) {
+            Some(known) => {
+                known.mass = numbers.add(known.mass, content.mass);
+                known.moment = [0, 1, 2].map(|i| numbers.add(known.moment[i], content.moment[i]));
+                known.inertia = [0, 1, 2, 3, 4, 5].map(|i| numbers.add(known.inertia[i], content.inertia[i]));
+            }
+            None => self.contents.push(content),
+        }
+    }
+
+    /// Constants that a turn of a joint leaves alone go to the parent: the mass, the moment along the axis, and so much of
+    /// the inertia across it as one of its axes has.
+    pub(super) fn regroup(&mut self, numbers: &mut Numbering, variables: &Variables) {
+        // From the youngest axes on: what goes to a parent may go on from there.
+        for axes in (1..self.axes.len()).rev() {
+            let Turn::About { axis, .. } = self.axes[axes].turn else { continue };
+            let (k, parent) = (axis, self.axes[axes].parent);
+            let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+            for place in 0..self.contents.len() {
+                let content = self.contents[place].clone();
+                let is_turned = content.point.is_none_or(|point| self.points[point].rate.is_none());
+                let is_constant = content.inertia.iter().chain(&content.moment).chain([&content.mass]);
+                let is_constant = is_constant.into_iter().all(|e| numbers.is_constant(*e));
+                if content.axes != axes || !is_turned || !is_constant {
+                    continue;
+                }
+                // Nothing goes where less is known.
+                let known = |var: Var| usize::from(variables.is_known(var));
+                let spins = |axes: usize| known(variables.spin(axes, i)) + known(variables.spin(axes, j));
+                let turns = spins(parent) >= spins(axes);
+                let moves = content.point.is_some_and(|point| {
+                    let velocities =
+                        |point: usize| (0..3).map(|q| known(variables.velocity(point, q))).sum::<usize>();
+                    let (here, there) = (velocities(point), velocities(self.points[point].parent));
+                    if self.is_root(point) { there > here } else { there >= here }
+                });
+                let across = if turns { content.inertia[j] } else { Num::ZERO };
+                let (mut moment, mut inertia) = ([Num::ZERO; 3], [Num::ZERO; 6]);
+                let mass = if moves { content.mass } else { Num::ZERO };
+                moment[k] = if moves && turns { content.moment[k] } else { Num::ZERO };
+                (inertia[i], inertia[j]) = (across, across);
+                let left = &mut self.contents[place];
+                left.mass = numbers.sub(left.mass, mass);
+                left.moment[k] = numbers.sub(left.moment[k], moment[k]);
+                left.inertia[i] = numbers.sub(left.inertia[i], across);
+                left.inertia[j] = numbers.sub(left.inertia[j], across);
+                let mut point = None;
+                if let Some(own) = content.point {
+                    let node = &self.points[own];
+                    point = Some(node.parent);
+                    let r = node.offset;
+                    // About the parent's origin: h + m r, and I + 2 (h.r) 1 - h r^T - r h^T + m (r^2 1 - r r^T).
+                    let first = r.map(|e| numbers.mul(mass, e));
+                    let own = about(numbers, &first, &r);
+                    let mixed = shifted(numbers, &moment, &r);
+                    for q in 0..6 {
+                        inertia[q] = numbers.sum([inertia[q], own[q], mixed[q]]);
+                    }
+                    moment = [0, 1, 2].map(|q| numbers.add(moment[q], first[q]));
+                }
+                self.put(numbers, Content { axes: parent, point, mass, moment, inertia });
+            }
+        }
+        self.contents.retain(|content| {
+            let all = content.inertia.iter().chain(&content.moment).chain([&content.mass]);
+            content.axes > 0 && !all.into_iter().all(|e| e.is_zero())
+                || content.axes == 0 && !content.mass.is_zero()
+        });
+    }
+
+    /// Whether a point is where something is that slides in the world.
+    fn is_root(&self, point: usize) -> bool {
+        let mut place = point;
+        while super::variables::is_at_rest(self, place) && place > 0 {
+            place = self.points[place].parent;
+        }
+        self.points[place].rate.is_some()
+    }
+
+    /// The axes of a frame.
+    pub(super) fn axes_of(&self, frame: FrameId) -> usize {
+        self.all.of(frame)
+    }
+
+    /// Terms of a place by axes, in numbered expressions.
+    pub(super) fn terms(
+        &self,
+        bench: &mut Workbench,
+        numbers: &mut Numbering,
+        place: &Place,
+    ) -> Vec<(usize, Vec3)> {
+        let terms = self.all.terms(bench, place);
+        terms.into_iter().map(|(axes, v)| (axes, v.map(|e| numbers.import(bench, e)))).collect()
+    }
+
+    /// A vector in the axes of a parent's, of axes.
+    pub(super) fn outwards(&self, numbers: &mut Numbering, axes: usize, v: &Vec3) -> Vec3 {
+        match &self.axes[axes].turn {
+            Turn::World => *v,
+            Turn::About { axis, cosine, sine, .. } => turned(numbers, *axis, *cosine, *sine, v),
+            Turn::By { matrix, .. } => {
+                [0, 1, 2].map(|q| numbers.dot(&[matrix[0][q], matrix[1][q], matrix[2][q]], v))
+            }
+        }
+    }
+
+    /// A vector of axes in those of their parent.
+    pub(super) fn inwards(&self, numbers: &mut Numbering, axes: usize, v: &Vec3) -> Vec3 {
+        match &self.axes[axes].turn {
+            Turn::World => *v,
+            Turn::About { axis, cosine, sine, .. } => turned(numbers, *axis, *cosine, sine.neg(), v),
+            Turn::By { matrix, .. } => matrix.map(|row| numbers.dot(&row, v)),
+        }
+    }
+
+    /// A vector of some axes seen in others.
+    pub(super) fn seen_in(&self, numbers: &mut Numbering, axes: usize, from: usize, v: &Vec3) -> Vec3 {
+        let (mut place, mut v) = (from, *v);
+        while !self.all.hangs_on(axes, place) {
+            v = self.inwards(numbers, place, &v);
+            place = self.axes[place].parent;
+        }
+        let mut way = Vec::new();
+        let mut target = axes;
+        while target != place {
+            way.push(target);
+            target = self.axes[target].parent;
+        }
+        for axes in way.into_iter().rev() {
+            v = self.outwards(numbers, axes, &v);
+        }
+        v
+    }
+}
+
+/// `R^T v` for a turn about a coordinate axis.
+pub(super) fn turned(numbers: &mut Numbering, axis: usize, cosine: Num, sine: Num, v: &Vec3) -> Vec3 {
+    let (i, j) = ((axis + 1) % 3, (axis + 2) % 3);
+    let mut image = *v;
+    let (a, b) = (numbers.mul(cosine, v[i]), numbers.mul(sine, v[j]));
+    image[i] = numbers.add(a, b);
+    let (a, b) = (numbers.mul(cosine, v[j]), numbers.mul(sine, v[i]));
+    image[j] = numbers.sub(a, b);
+    image
+}
+
+pub(super) fn cross(numbers: &mut Numbering, a: &Vec3, b: &Vec3) -> Vec3 {
+    [0, 1, 2].map(|i| {
+        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+        let (plus, minus) = (numbers.mul(a[j], b[k]), numbers.mul(a[k], b[j]));
+        numbers.sub(plus, minus)
+    })
+}
+
+pub(super) fn plus(numbers: &mut Numbering, a: &Vec3, b: &Vec3) -> Vec3 {
+    [0, 1, 2].map(|i| numbers.add(a[i], b[i]))
+}
+
+/// `(h.r) 1 - h r^T` for `h = m r`: the inertia of a mass away from a point.
+fn about(numbers: &mut Numbering, h: &Vec3, r: &Vec3) -> [Num; 6] {
+    let squares = [0, 1, 2].map(|i| numbers.mul(h[i], r[i]));
+    let products = [(0, 1), (1, 2), (2, 0)].map(|(i, k)| numbers.mul(h[i], r[k]));
+    [
+        numbers.add(squares[1], squares[2]),
+        numbers.add(squares[2], squares[0]),
+        numbers.add(squares[0], squares[1]),
+        products[0].neg(),
+        products[1].neg(),
+        products[2].neg(),
+    ]
+}
+
+/// `2 (h.r) 1 - h r^T - r h^T`.
+fn shifted(numbers: &mut Numbering, h: &Vec3, r: &Vec3) -> [Num; 6] {
+    let diagonal = [0, 1, 2].map(|i| {
+        let product = numbers.mul(h[i], r[i]);
+        numbers.add(product, product)
+    });
+    let products = [(0, 1), (1, 2), (2, 0)].map(|(i, k)| {
+        let (a, b) = (numbers.mul(h[i], r[k]), numbers.mul(r[i], h[k]));
+        numbers.add(a, b).neg()
+    });
+    [
+        numbers.add(diagonal[1], diagonal[2]),
+        numbers.add(diagonal[2], diagonal[0]),
+        numbers.add(diagonal[0], diagonal[1]),
+        products[0],
+        products[1],
+        products[2],
+    ]
+}
+
+/// The rate of a function of time and coordinates.
+fn rate_of(bench: &mut Workbench, numbers: &mut Numbering, system: &Mechanics, e: ExprId) -> RateForm {
+    let mut form = RateForm::default();
+    let occurring = bench.graph.symbols_in(&[e]);
+    let occurs = |bench: &Workbench, x: ExprId| {
+        bench.graph.as_symbol(x).is_some_and(|symbol| occurring.contains(&symbol))
+    };
+    for (i, x) in system.forms.coordinates.iter().enumerate() {
+        if occurs(bench, *x) {
+            let slope = bench.partial(e, *x);
+            let slope = numbers.import(bench, slope);
+            if !slope.is_zero() {
+                form.terms.push((i, slope));
+            }
+        }
+    }
+    if occurs(bench, system.forms.time) {
+        let slope = bench.partial(e, system.forms.time);
+        form.offset = Some(numbers.import(bench, slope)).filter(|e| !e.is_zero());
+    }
+    form
+}
+
+/// A form linear in the velocities.
+fn form_of(
+    bench: &mut Workbench,
+    numbers: &mut Numbering,
+    partials: &mut VelocityPartials,
+    e: ExprId,
+) -> RateForm {
+    let Some(form) = partials.affine(bench, e) else { return RateForm::default() };
+    let terms = form.on_velocities.iter().map(|(i, b)| (*i, numbers.import(bench, *b))).collect();
+    let offset = Some(numbers.import(bench, form.offset)).filter(|e| !e.is_zero());
+    RateForm { terms, offset }
+}

@@ -1,0 +1,98 @@
+//! Numbered expressions as expressions of the graph.
+
+use super::{Num, Numbering, Op};
+use crate::algebra::{ExprId, Graph};
+
+impl Numbering {
+    /// What is reached from some numbers, children first, and how often each is used; not below constants.
+    fn reached(&self, roots: &[Num]) -> (Vec<usize>, Vec<u32>) {
+        let mut uses = vec![0_u32; self.ops.len()];
+        let mut seen = vec![false; self.ops.len()];
+        let mut order = Vec::new();
+        for root in roots {
+            uses[root.index()] += 1;
+            let mut stack = vec![(root.index(), false)];
+            while let Some((index, done)) = stack.pop() {
+                if done {
+                    order.push(index);
+                    continue;
+                }
+                if std::mem::replace(&mut seen[index], true) {
+                    continue;
+                }
+                stack.push((index, true));
+                if self.constant[index] {
+                    continue;
+                }
+                for child in self.children(index).into_iter().flatten() {
+                    uses[child.index()] += 1;
+                    stack.push((child.index(), false));
+                }
+            }
+        }
+        (order, uses)
+    }
+
+    /// The expressions of the graph; what is used more than once is kept whole.
+    pub(crate) fn export(&self, graph: &mut Graph, roots: &[Num]) -> Vec<ExprId> {
+        let (order, uses) = self.reached(roots);
+        let mut done: Vec<Option<ExprId>> = vec![None; self.ops.len()];
+        for index in order {
+            if self.constant[index] {
+                let e = self.export_constant(graph, &mut done, index);
+                done[index] = Some(e);
+                continue;
+            }
+            let e = self.built(graph, &done, index);
+            done[index] = Some(if uses[index] > 1 { graph.keep(e) } else { e });
+        }
+        roots.iter().map(|root| signed(graph, &done, *root)).collect()
+    }
+
+    fn export_constant(&self, graph: &mut Graph, done: &mut [Option<ExprId>], index: usize) -> ExprId {
+        let mut stack = vec![index];
+        while let Some(place) = stack.last().copied() {
+            let pending: Vec<usize> = self
+                .children(place)
+                .into_iter()
+                .flatten()
+                .map(Num::index)
+                .filter(|child| done[*child].is_none())
+                .collect();
+            if pending.is_empty() {
+                stack.pop();
+                done[place] = Some(self.built(graph, done, place));
+            } else {
+                stack.extend(pending);
+            }
+        }
+        done[index].expect("it was the last one")
+    }
+
+    fn built(&self, graph: &mut Graph, done: &[Option<ExprId>], index: usize) -> ExprId {
+        match self.ops[index] {
+            Op::Expr(e) => e,
+            Op::Sum(a, b) => {
+                let (a, b) = (signed(graph, done, a), signed(graph, done, b));
+                graph.add(a, b)
+            }
+            Op::Product(a, b) => {
+                let (a, b) = (signed(graph, done, a), signed(graph, done, b));
+                graph.mul(a, b)
+            }
+            Op::Quotient(a, b) => {
+                let (a, b) = (signed(graph, done, a), signed(graph, done, b));
+                graph.div(a, b)
+            }
+            Op::SquareRoot(a) => {
+                let a = signed(graph, done, a);
+                graph.sqrt(a)
+            }
+        }
+    }
+}
+
+fn signed(graph: &mut Graph, done: &[Option<ExprId>], a: Num) -> ExprId {
+    let e = done[a.index()].expect("children come first");
+    if a.is_negative() { graph.neg(e) } else { e }
+}

@@ -1,0 +1,142 @@
+//! The operations of every benchmark system are golden values: `tests/costs.txt`. A change of the optimiser that moves a
+//! count, up or down, has to change that file, where a reviewer sees it.
+//!
+//! ```text
+//! GUEN_BLESS=1 cargo test -p guen-tests --test golden      # writes the file anew
+//! ```
+
+use std::fmt::Write;
+use std::path::Path;
+use std::{env, fs};
+
+use guen::Cost;
+use guen_benchmarks::{Subject, Visitor, visit_all};
+
+const HEADER: &str = "\
+# Operations of the benchmark systems, written by `GUEN_BLESS=1 cargo test -p guen-tests --test golden`.
+# One evaluation of the right-hand side, then the preparation of its constants: additions, negations,
+# multiplications, divisions, roots, calls. With an apostrophe: the carried form.
+";
+
+/// One line for each system: its name, then two programs of six counts.
+struct Lines(String);
+
+impl Visitor for Lines {
+    fn visit<S: Subject<N>, const N: usize>(&mut self, _: S) {
+        let _ = writeln!(self.0, "{:11} {}  |{}", S::NAME, counts(S::COST), counts(S::PREPARE_COST));
+    }
+}
+
+/// The same for the carried forms, whose programs are derived here: no call is left in any of them.
+struct CarriedLines(String);
+
+impl Visitor for CarriedLines {
+    fn visit<S: Subject<N>, const N: usize>(&mut self, _: S) {
+        let end = S::DECLARATION.rfind('}').unwrap();
+        let text = format!("{} provide carried; }}", &S::DECLARATION[..end]);
+        let (declaration, _) = guen_language::parse::parse(text.parse().unwrap());
+        let declaration = declaration.unwrap();
+        let (derived, report) = guen_language::diagnostics::collect(|faults| {
+            let model = guen_language::model::resolve(&declaration, faults)?;
+            guen_language::derive::derive(model, faults)
+        });
+        assert!(report.is_empty(), "{}: {:?}", S::NAME, report.to_compile_errors().to_string());
+        let level = derived.unwrap().system.carried.unwrap();
+        let rates = level.program(guen_language::derive::function::RHS).unwrap().cost;
+        assert_eq!((rates.sines, rates.calls), (0, 0), "{}", S::NAME);
+        let cost = |count: guen_symbolic::OperationCount| Cost {
+            additions: count.additions,
+            negations: count.negations,
+            multiplications: count.multiplications,
+            divisions: count.divisions,
+            roots: count.roots,
+            calls: count.sines + count.calls,
+        };
+        let (rates, prepare) = (counts(cost(rates)), counts(cost(level.programs.prepare_cost)));
+        let _ = writeln!(self.0, "{:11} {rates}  |{prepare}", format!("{}'", S::NAME));
+    }
+}
+
+fn counts(cost: Cost) -> String {
+    let Cost { additions, negations, multiplications, divisions, roots, calls } = cost;
+    [additions, negations, multiplications, divisions, roots, calls]
+        .map(|count| format!("{count:5}"))
+        .concat()
+}
+
+/// What the kinds of operations cost in units of a multiplication, as the optimiser weighs them.
+const WEIGHTS: [u32; 6] = [1, 1, 1, 4, 6, 20];
+
+/// The weighted cost of the right-hand side in a line, and with its preparation.
+fn totals(line: &str) -> (u32, u32) {
+    let (rates, preparation) = line.split_once('|').unwrap_or((line, ""));
+    let numbers =
+        |part: &str| -> Vec<u32> { part.split_whitespace().filter_map(|word| word.parse().ok()).collect() };
+    let sum =
+        |part: &str| numbers(part).iter().zip(WEIGHTS).map(|(count, weight)| count * weight).sum::<u32>();
+    (sum(rates), sum(rates) + sum(preparation))
+}
+
+#[test]
+fn costs_are_those_of_the_file() {
+    let mut lines = Lines(HEADER.to_owned());
+    visit_all(&mut lines);
+    let mut carried = CarriedLines(String::new());
+    visit_all(&mut carried);
+    lines.0.push_str(&carried.0);
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("costs.txt");
+    if env::var_os("GUEN_BLESS").is_some() {
+        fs::write(&file, &lines.0).unwrap();
+        return;
+    }
+    let golden = fs::read_to_string(&file).unwrap();
+    let changes = changes(&golden, &lines.0);
+    assert!(
+        changes.is_empty(),
+        "{changes}if this is meant, write tests/costs.txt anew with `GUEN_BLESS=1 cargo test -p guen-tests --test golden`"
+    );
+}
+
+/// What differs, a line for each system; empty if nothing does.
+fn changes(golden: &str, found: &str) -> String {
+    let name = |line: &str| line.split_whitespace().next().unwrap_or_default().to_owned();
+    let lines = |text: &str| -> Vec<String> {
+        text.lines().filter(|line| !line.starts_with('#')).map(str::to_owned).collect()
+    };
+    let (golden, found) = (lines(golden), lines(found));
+    let mut changes = String::new();
+    for line in &found {
+        match golden.iter().find(|known| name(known) == name(line)) {
+            Some(known) if known == line => {}
+            Some(known) => {
+                let verdict = if totals(line) > totals(known) { "REGRESSION" } else { "no dearer" };
+                let _ = writeln!(changes, "{verdict}\n  was {known}\n  is  {line}");
+            }
+            None => {
+                let _ = writeln!(changes, "a new system\n  is  {line}");
+            }
+        }
+    }
+    for line in golden.iter().filter(|line| found.iter().all(|new| name(new) != name(line))) {
+        let _ = writeln!(changes, "a system that is gone\n  was {line}");
+    }
+    changes
+}
+
+#[test]
+fn a_raised_count_is_called_a_regression() {
+    let golden = "# text\nhoop  6  1 17 1 0 2 | 3 0 4 5 0 0\nsled 5 0 9 0 0 1 | 1 1 1 1 0 0\n";
+    assert_eq!(changes(golden, golden), "");
+    let dearer = changes(golden, &golden.replace("17 1", "18 1"));
+    assert!(dearer.starts_with("REGRESSION\n  was hoop"), "{dearer}");
+    assert!(!dearer.contains("sled"), "{dearer}");
+    // The preparation counts too, where the right-hand side is the same; a cheaper one at its expense is no loss.
+    assert!(changes(golden, &golden.replace("| 1 1", "| 2 1")).starts_with("REGRESSION\n  was sled"));
+    assert!(
+        changes(golden, &golden.replace("5 0 9 0", "2 0 9 1")).starts_with("REGRESSION"),
+        "a division is dearer"
+    );
+    assert!(changes(golden, &golden.replace("5 0 9 0 0 1 | 1", "4 0 9 0 0 1 | 9")).starts_with("no dearer"));
+    assert!(changes(golden, "hoop  6  1 17 1 0 2 | 3 0 4 5 0 0\n").starts_with("a system that is gone"));
+    assert!(changes("", golden).starts_with("a new system"));
+}

@@ -1,0 +1,14 @@
+//! Runs of declared systems: their accuracy, their guards, their reversal, and what they take of memory.
+
+#[macro_use]
+extern crate guen_benchmarks;
+
+mod allocations;
+mod carried;
+mod guards;
+mod lanes;
+mod promise;
+mod recovery;
+mod reference;
+mod reversal;
+mod taylor;
