@@ -205,7 +205,8 @@ fn whole(
     };
     let equations = equations(&mut model.bench, &derivation);
     let shown = shown(model, &derivation, &brackets, &equations);
-    let (domain, domain_names) = domain(model, &derivation, &shown);
+    let edges = domain(model, &derivation, &shown).into_iter().map(|edge| (edge.function, edge.text));
+    let (domain, domain_names): (Vec<ExprId>, Vec<String>) = edges.unzip();
     let constant_pivots = constant_pivots(&derivation);
     let quantities = formulas::whole(model, &derivation, &brackets, domain.clone(), constant_pivots.clone());
     let control = crate::control::quantities(&mut model.bench, &derivation);
@@ -338,16 +339,28 @@ fn polish(bench: &mut Workbench, derivation: &mut Derivation) {
     derivation.power = polished(derivation.power);
 }
 
-/// The functions that must not vanish, and how they are written: large determinants by their rows.
-fn domain(model: &Model<'_>, derivation: &Derivation, shown: &Contracted) -> (Vec<ExprId>, Vec<String>) {
-    let named = |e: &ExprId, otherwise: &str| (*e, written(model, shown.image(*e), otherwise));
+/// A function that must not vanish, as it is written, and in words that hold wherever it is seen from.
+struct Edge {
+    function: ExprId,
+    text: String,
+    words: String,
+}
+
+/// The functions that must not vanish: large determinants are told by their rows.
+fn domain(model: &Model<'_>, derivation: &Derivation, shown: &Contracted) -> Vec<Edge> {
+    let named = |e: &ExprId, words: &str| Edge {
+        function: *e,
+        text: written(model, shown.image(*e), words),
+        words: words.to_owned(),
+    };
     let chart = derivation.frame.operators.chart.iter().map(|e| named(e, "a factor of det A"));
     let pivots = derivation.solution.pivots.iter().map(|e| named(e, "a pivot of the mass matrix"));
     let determinants = derivation.solution.determinants.iter().map(|(rows, e)| {
         let names: Vec<&str> = rows.iter().map(|s| model.forms[*s].name.as_str()).collect();
-        (*e, format!("det M[{}]", names.join(", ")))
+        let words = format!("det M[{}]", names.join(", "));
+        Edge { function: *e, text: words.clone(), words }
     });
-    chart.chain(pivots).chain(determinants).unzip()
+    chart.chain(pivots).chain(determinants).collect()
 }
 
 /// A function that must not vanish in words; another text where it is too long.

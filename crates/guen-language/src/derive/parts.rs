@@ -77,9 +77,10 @@ pub(super) fn parts(
 ) -> Functions {
     let l = derivation.system.forms.degrees;
     let n = model.coordinates.len();
-    let (chart, names) = domain(model, derivation, shown);
+    let chart = domain(model, derivation, shown);
     let pivots = constant_pivots(derivation);
-    let whole = formulas::whole(model, derivation, brackets, chart.clone(), pivots.clone());
+    let functions = chart.iter().map(|edge| edge.function).collect();
+    let whole = formulas::whole(model, derivation, brackets, functions, pivots.clone());
     let mut parts = Vec::new();
     let outputs = |name: &str| {
         whole.iter().find(|(known, _)| *known == name).map_or(&[][..], |(_, outputs)| &outputs[..])
@@ -105,8 +106,8 @@ pub(super) fn parts(
     for (place, pivot) in pivots.iter().enumerate() {
         constants.push((Some(place), view.holding.of(&mut model.bench, *pivot)));
     }
-    for (place, (e, name)) in chart.into_iter().zip(names).enumerate() {
-        let seen = view.replaced(model, e);
+    for (place, edge) in chart.into_iter().enumerate() {
+        let seen = view.replaced(model, edge.function);
         if view.is_lost(model, seen) {
             continue;
         }
@@ -116,8 +117,12 @@ pub(super) fn parts(
         } else {
             determined.push(place);
             domain.push(seen);
-            let same = seen == e;
-            domain_names.push(if same { name } else { super::written(model, seen, &name) });
+            // Another function than that of the whole system is never told in its formula: that has what left.
+            let text = match seen == edge.function {
+                true => edge.text,
+                false => super::written(model, seen, &edge.words),
+            };
+            domain_names.push(text);
         }
     }
     push(model, view, function::DOMAIN, determined);

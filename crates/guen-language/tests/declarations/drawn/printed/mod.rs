@@ -47,14 +47,23 @@ fn declaration(seed: u64) -> String {
     text
 }
 
+/// Numbers of declarations beyond the first ones whose reports were wrong once: in a scene, what must not vanish was too long
+/// and told by the formula of the whole system, with a coordinate that the scene had eliminated.
+const WRONG_ONCE: [u64; 1] = [488];
+
+/// That of one number with `GUEN_ONLY`.
 #[test]
 fn reports_of_drawn_declarations_say_what_was_derived() {
-    let rounds = rounds();
+    let only: Option<u64> = std::env::var("GUEN_ONLY").ok().and_then(|seed| seed.parse().ok());
+    let seeds: Vec<u64> = match only {
+        Some(seed) => vec![seed],
+        None => (0..rounds()).chain(WRONG_ONCE.into_iter().filter(|seed| *seed >= rounds())).collect(),
+    };
     // The machines that this runs on have two cores.
-    let run = |thread: u64| -> Checked {
+    let run = |thread: usize| -> Checked {
         let mut all = Checked::default();
-        for seed in (thread..rounds).step_by(2) {
-            let text = declaration(seed);
+        for seed in seeds.iter().skip(thread).step_by(2) {
+            let text = declaration(*seed);
             all.add(report::checked(&text).unwrap_or_else(|| panic!("faults in\n{text}")));
         }
         all
