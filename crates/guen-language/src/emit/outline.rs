@@ -12,13 +12,15 @@ use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
 use super::{facade, module_name};
+use crate::model::is_carried_form;
 use crate::syntax::{Declaration, Definition, Item, Plain};
 use kinds::{Kind, Kinds};
 
 /// The items of a declaration by its names alone.
 pub fn outline(declaration: &Declaration) -> TokenStream {
     let system = &declaration.name.ident;
-    if crate::names::is_generated_item(&declaration.name.text) {
+    let name = &declaration.name;
+    if crate::names::is_generated_item(&name.text) || is_carried_form(name, declaration) {
         // Two items of one name would be a second error.
         return TokenStream::new();
     }

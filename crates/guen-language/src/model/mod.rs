@@ -23,6 +23,7 @@ use proc_macro2::{Ident, Span};
 use crate::syntax::{BoundKind, Declaration, Docs, Name, Scene};
 
 pub use resolve::resolve;
+pub(crate) use scenes::is_carried_form;
 
 /// A checked system.
 pub struct Model<'a> {

@@ -570,7 +570,7 @@ fn report_idle_gravity(declaration: &Declaration, faults: &mut Faults) {
 /// Items of the generated module, and what generated code calls by short names: no system can have such a name.
 fn check_system_name(declaration: &Declaration, faults: &mut Faults) {
     let name = &declaration.name;
-    if !crate::names::is_generated_item(&name.text) && !super::scenes::is_carried_form(name, declaration) {
+    if !crate::names::is_generated_item(&name.text) && !super::is_carried_form(name, declaration) {
         return;
     }
     faults.report(

@@ -18,7 +18,7 @@ use crate::syntax::{Declaration, Fix, Item, Name, Provide, Scene};
 const QUANTITIES: [&str; 6] = ["energy", "reactions", "linearization", "operators", "carried", "taylor"];
 
 /// Whether a name is that of a carried form, and the declaration asks for one.
-pub(super) fn is_carried_form(name: &Name, declaration: &Declaration) -> bool {
+pub(crate) fn is_carried_form(name: &Name, declaration: &Declaration) -> bool {
     let asks = |provides: &[Provide]| provides.iter().any(|provide| provide.name.text == "carried");
     crate::emit::carried::NAMES.contains(&name.text.as_str())
         && declaration.items.iter().any(|item| match item {

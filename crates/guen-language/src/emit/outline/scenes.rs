@@ -8,6 +8,7 @@ use quote::{format_ident, quote};
 
 use super::{Names, carried, constants, levels, operators, prepared, push, records};
 use crate::emit::module_name;
+use crate::model::is_carried_form;
 use crate::syntax::{Declaration, Item, Scene};
 
 pub(super) fn items(declaration: &Declaration, names: &Names) -> TokenStream {
@@ -19,7 +20,9 @@ pub(super) fn items(declaration: &Declaration, names: &Names) -> TokenStream {
         let Item::Scene(scene) = item else { continue };
         let module = module_name(&scene.name.ident, "scene").to_string();
         let is_new = taken.insert(scene.name.text.clone()) && taken.insert(module);
-        if is_new && !crate::names::is_generated_item(&scene.name.text) {
+        let is_of_others =
+            crate::names::is_generated_item(&scene.name.text) || is_carried_form(&scene.name, declaration);
+        if is_new && !is_of_others {
             items.extend(self::scene(scene, system, names));
         }
     }
