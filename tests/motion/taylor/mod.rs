@@ -4,3 +4,4 @@
 
 mod method;
 mod recurrences;
+mod unseen;

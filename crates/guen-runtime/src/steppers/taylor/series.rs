@@ -1,0 +1,60 @@
+//! The motion over one step, as its series.
+
+use crate::real::Real;
+use crate::series::{Coefficients, HIGHEST_ORDER};
+use crate::steppers::dense::Interpolant;
+
+/// The motion over one step of [`Taylor`](super::Taylor): its series about the beginning, an [`Interpolant`].
+#[derive(Clone, Copy, Debug)]
+pub struct Series<R, const N: usize> {
+    pub(super) start: R,
+    pub(super) scale: R,
+    pub(super) order: usize,
+    pub(super) coefficients: Coefficients<R, N>,
+}
+
+impl<R: Real, const N: usize> Series<R, N> {
+    /// Before the first step there is nothing to interpolate but the present state.
+    pub(super) fn still(start: R, state: &[R; N]) -> Self {
+        let mut coefficients = [[R::zero(); N]; HIGHEST_ORDER + 1];
+        coefficients[0] = *state;
+        Self { start, scale: R::one(), order: 1, coefficients }
+    }
+
+    /// `sum_{k>=1} x_k s^k`, by Horner's rule.
+    #[inline]
+    fn change(&self, s: R) -> [R; N] {
+        // Within the bounds it is; said again, the compiler knows it too and leaves no panic.
+        let order = self.order.clamp(1, HIGHEST_ORDER);
+        let mut sum = self.coefficients[order];
+        for below in self.coefficients[1..order].iter().rev() {
+            for (entry, coefficient) in sum.iter_mut().zip(below) {
+                *entry = *entry * s + *coefficient;
+            }
+        }
+        sum.map(|entry| entry * s)
+    }
+
+    /// The change, to the same bits, and what the rates times the time would make it: `sum_{k>=1} k x_k s^k`.
+    #[inline]
+    pub(super) fn change_and_slope(&self, s: R) -> ([R; N], [R; N]) {
+        let order = self.order.clamp(1, HIGHEST_ORDER);
+        let mut sum = self.coefficients[order];
+        let mut slope = [R::zero(); N];
+        for below in self.coefficients[1..order].iter().rev() {
+            for i in 0..N {
+                slope[i] = slope[i] * s + sum[i];
+                sum[i] = sum[i] * s + below[i];
+            }
+        }
+        let slope = core::array::from_fn(|i| (sum[i] + slope[i] * s) * s);
+        (sum.map(|entry| entry * s), slope)
+    }
+}
+
+impl<R: Real, const N: usize> Interpolant<R, N> for Series<R, N> {
+    fn at(&self, t: R) -> [R; N] {
+        let change = self.change((t - self.start) / self.scale);
+        core::array::from_fn(|i| self.coefficients[0][i] + change[i])
+    }
+}
