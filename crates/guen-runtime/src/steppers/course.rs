@@ -37,7 +37,8 @@ pub enum Outcome {
     Arrived,
     /// The observer, or the receiver of events, stopped it.
     Stopped,
-    /// A terminal event ended it: the one at this position among the events.
+    /// A terminal event ended it: the one at this position among the events, the first one if several happened at that
+    /// instant. The receiver of events was told of all.
     Event(usize),
 }
 

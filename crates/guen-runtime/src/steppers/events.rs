@@ -17,13 +17,19 @@ pub enum Direction {
 ///
 /// - A crossing is seen as a change of sign between the ends of a step, or between the ends of its parts where
 ///   [`with_checks`](Event::with_checks) asks for some. Two crossings between two looks, such as a short contact or a
-///   function that only touches zero, are not seen. A zero at the very end of a step counts as a crossing.
+///   function that only touches zero, are not seen, unless the run ends between them. A zero at the very end of a step counts
+///   as a crossing. In the first step of a run a function that begins near zero is also looked at after an eighth of a part, a
+///   64th and so on: a ball that bounces is seen to land again, however short its flight.
 /// - It is located on the method's dense output by bisection and regula falsi, until the bracket is no longer than the
 ///   tolerance, and reported at the end of the bracket that is past the crossing. The tolerance bounds the error of the
 ///   root finder; the dense output adds its own (see [`Integration`](super::Integration)).
+/// - When an event ends the run, every event that has happened by then is reported, with the same time and state, whatever
+///   the order of declaration: several terminal ones at one instant are one set.
+/// - A run that continues from an event, with the state given by it or with velocities changed by an impact, reports what
+///   has not been reported, and nothing twice: the sign of each function says whether it is past its crossing. Only where both
+///   directions count the sign does not tell a return from an arrival. There the first crossing within 64 roundings of the time
+///   at the start is taken for a return and not reported, and what would cross so soon after the end of a run is reported with it.
 /// - The function counts as zero where it is so after rounding to `f64`; times keep the precision of the real.
-/// - Events within sixteen tolerances of the start are not reported, so a run that continues from an event does not
-///   find the same one again.
 ///
 /// ```
 /// use guen_runtime::steppers::{Direction, Event};
@@ -84,7 +90,8 @@ impl<'a, R: Ordered, const N: usize> Event<'a, R, N> {
         Self { terminal: true, ..self }
     }
 
-    /// The same, located to this duration only. Below four roundings of the time it is those.
+    /// The same, located to this duration only. Below four roundings of the time it is those, and for terminal events in any
+    /// case, because the run goes on from there.
     #[must_use]
     pub fn within(self, tolerance: f64) -> Self {
         Self { tolerance, ..self }
@@ -108,162 +115,49 @@ impl<R: Real, const N: usize> Event<'_, R, N> {
         self.tolerance >= 0.0 && self.tolerance.is_finite()
     }
 
-    pub(super) fn needs_dense(&self) -> bool {
-        self.checks > 1
+    /// In how many parts of a step it is looked at.
+    pub(super) fn parts(&self) -> u32 {
+        self.checks
+    }
+
+    /// Whether crossings in either direction count.
+    pub(super) fn is_for_both(&self) -> bool {
+        self.direction == Direction::Any
+    }
+
+    /// Whether a crossing in this direction counts.
+    pub(super) fn wants(&self, rising: bool) -> bool {
+        match self.direction {
+            Direction::Any => true,
+            Direction::Rising => rising,
+            Direction::Falling => !rising,
+        }
+    }
+
+    /// Whether a crossing, the first of a run, may be the way back of a function that the run before has left past its
+    /// crossing. In one direction it is known: what comes back goes in the other.
+    pub(super) fn may_return(&self, time: R, origin: R) -> bool {
+        self.is_for_both() && (time - origin).to_f64().abs() <= self.returns_within(time)
+    }
+
+    /// How long the way back takes at most: the way there took four roundings at most, and the way back is no faster than
+    /// a sixteenth of it.
+    pub(super) fn returns_within(&self, t: R) -> f64 {
+        16.0 * roundings(t)
     }
 
     pub(super) fn value(&self, t: R, x: &[R; N]) -> f64 {
         (self.function)(t, x).to_f64()
     }
 
-    /// The duration to which a root near this time is found.
+    /// The duration to which a root near this time is found. Of terminal events half of what is promised, since overlapping
+    /// ones are reported at the end of the last.
     pub(super) fn resolution(&self, t: R) -> f64 {
-        const ROUNDINGS: f64 = 4.0;
-        self.tolerance.max(ROUNDINGS * R::epsilon().to_f64() * t.to_f64().abs())
+        if self.terminal { 0.5 * roundings(t) } else { self.tolerance.max(roundings(t)) }
     }
 }
 
-/// The sign of a value: zero for NaN, which is no side of anything.
-pub(super) fn sign(value: f64) -> i8 {
-    i8::from(value > 0.0) - i8::from(value < 0.0)
-}
-
-/// A crossing within a step.
-#[derive(Clone, Copy)]
-pub(super) struct Crossing<R> {
-    pub time: R,
-    pub rising: bool,
-}
-
-/// Follows the sign of one event's function.
-#[derive(Clone, Copy, Default)]
-pub(super) struct Tracker {
-    /// The side on which the function was last; zero on the surface itself.
-    side: i8,
-}
-
-impl Tracker {
-    pub fn new(value: f64) -> Self {
-        Self { side: sign(value) }
-    }
-
-    /// Whether a step that ends with this value has no change of sign between its ends.
-    pub fn stays(self, value: f64) -> bool {
-        self.side == 0 || self.side == sign(value) || value.is_nan()
-    }
-
-    /// The next crossing of the step from `t0` to `t1` that lies after `from`, where the function has been followed to.
-    /// `state` gives the states of the step, `end` is the function's value at its end. The tracker then stands past
-    /// the crossing, or at the end of the step.
-    pub fn next<R: Real, const N: usize>(
-        &mut self,
-        event: &Event<'_, R, N>,
-        (t0, t1): (R, R),
-        from: R,
-        end: f64,
-        mut state: impl FnMut(R) -> [R; N],
-    ) -> Option<Crossing<R>> {
-        let span = t1 - t0;
-        let done = ((from - t0) / span).to_f64();
-        let mut before = from;
-        for part in 1..=event.checks {
-            let fraction = f64::from(part) / f64::from(event.checks);
-            if fraction <= done {
-                continue;
-            }
-            let (after, value) = if part == event.checks {
-                (t1, end)
-            } else {
-                let t = t0 + span * R::from_ratio(part.into(), event.checks.into());
-                (t, event.value(t, &state(t)))
-            };
-            let (old, new) = (self.side, sign(value));
-            if value.is_nan() {
-                return None;
-            }
-            self.side = new;
-            if old != 0 && new != old {
-                let rising = old < 0;
-                let wanted = match event.direction {
-                    Direction::Any => true,
-                    Direction::Rising => rising,
-                    Direction::Falling => !rising,
-                };
-                if wanted {
-                    let time =
-                        if new == 0 { after } else { root(event, before, after, value, old, &mut state) };
-                    return Some(Crossing { time, rising });
-                }
-            }
-            before = after;
-        }
-        None
-    }
-}
-
-/// The end past the crossing of a bracket no longer than the event's resolution. The function has the sign `old` at
-/// `a`, and the other at `b`, where it is `fb`.
-///
-/// Regula falsi with the value at an end that stays halved (the Illinois rule; M. Dowell and P. Jarratt, BIT 11
-/// (1971) 168-174), and a bisection whenever three steps have not halved the bracket, so that at most four evaluations
-/// gain a bit.
-fn root<R: Real, const N: usize>(
-    event: &Event<'_, R, N>,
-    mut a: R,
-    mut b: R,
-    mut fb: f64,
-    old: i8,
-    mut state: impl FnMut(R) -> [R; N],
-) -> R {
-    /// Enough to halve a bracket from one end of the exponents to the other.
-    const LIMIT: u32 = 10_000;
-    const PATIENCE: u32 = 3;
-
-    let mut fa = event.value(a, &state(a));
-    if sign(fa) != old {
-        // The side was left before `a`, at a point that counts as the surface: bisect.
-        fa = f64::from(old) * fb.abs();
-    }
-    let mut width = (b - a).to_f64().abs();
-    let (mut since, mut last) = (0, 0);
-    for _ in 0..LIMIT {
-        let present = (b - a).to_f64().abs();
-        let resolution = event.resolution(a).max(event.resolution(b));
-        if present <= resolution {
-            break;
-        }
-        if present <= width / 2.0 {
-            (width, since) = (present, 0);
-        }
-        let mut part = if since >= PATIENCE { 0.5 } else { fa / (fa - fb) };
-        if since >= PATIENCE {
-            (width, since) = (present, 0);
-        }
-        // A probe nearer to an end than the resolution could not close the bracket from the other side.
-        let margin = (0.5 * resolution / present).min(0.5);
-        part = if part.is_nan() { 0.5 } else { part.max(margin).min(1.0 - margin) };
-        since += 1;
-        let middle = a + (b - a) * R::from_f64(part);
-        if middle == a || middle == b {
-            break;
-        }
-        let value = event.value(middle, &state(middle));
-        if value == 0.0 {
-            return middle;
-        }
-        let moved = sign(value);
-        if moved == old {
-            (a, fa) = (middle, value);
-            if last == moved {
-                fb /= 2.0;
-            }
-        } else {
-            (b, fb) = (middle, value);
-            if last == moved {
-                fa /= 2.0;
-            }
-        }
-        last = moved;
-    }
-    b
+/// Four roundings of a time.
+fn roundings<R: Real>(t: R) -> f64 {
+    4.0 * R::epsilon().to_f64() * t.to_f64().abs()
 }

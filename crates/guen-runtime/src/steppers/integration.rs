@@ -3,8 +3,8 @@
 use core::ops::ControlFlow;
 
 use super::course::{Course, Done, Method, Outcome, Reached};
-use super::dense::Interpolant;
-use super::events::{Crossing, Event, Occurrence, Tracker};
+use super::crossing::Tracker;
+use super::events::{Event, Occurrence};
 use super::guard::{Guard, Watch};
 use crate::error::{Cause, IntegrationError, Setting};
 use crate::real::{Ordered, Real};
@@ -64,14 +64,14 @@ type Receiver<'a, R, const N: usize> = &'a mut dyn FnMut(&Occurrence<R, N>) -> C
 /// assert!((samples[1] - (5.0 - 9.81 / 8.0)).abs() < 1e-12);
 /// ```
 pub struct Integration<'a, R, S: ?Sized, const N: usize, const E: usize = 0> {
-    system: &'a S,
-    start: Reached<R, N>,
+    pub(super) system: &'a S,
+    pub(super) start: Reached<R, N>,
     guard: Guard,
-    observer: Option<Observer<'a, R, N>>,
-    samples: &'a [R],
-    visitor: Option<Visitor<'a, R, N>>,
-    events: [Event<'a, R, N>; E],
-    receiver: Option<Receiver<'a, R, N>>,
+    pub(super) observer: Option<Observer<'a, R, N>>,
+    pub(super) samples: &'a [R],
+    pub(super) visitor: Option<Visitor<'a, R, N>>,
+    pub(super) events: [Event<'a, R, N>; E],
+    pub(super) receiver: Option<Receiver<'a, R, N>>,
 }
 
 impl<R: Real, S: ?Sized, const N: usize, const E: usize> core::fmt::Debug for Integration<'_, R, S, N, E> {
@@ -123,7 +123,27 @@ impl<'a, R: Real, S: System<R, N> + ?Sized, const N: usize, const E: usize> Inte
     }
 
     /// Reports these events to `receive`; when it breaks, the run ends there with [`Outcome::Stopped`], and after a
-    /// terminal event with [`Outcome::Event`].
+    /// terminal event with [`Outcome::Event`]. Where the run ends, everything that has happened by then is reported with the time
+    /// and the state of the end, in the order of declaration: bodies that land at the same instant are all told of.
+    ///
+    /// ```
+    /// use core::ops::ControlFlow;
+    /// use guen_runtime::from_fn;
+    /// use guen_runtime::steppers::{Dop853, Event, Integration};
+    ///
+    /// // Two stones, dropped from the same height.
+    /// let stones = from_fn(|_t: f64, &[_, _, v, w]: &[f64; 4]| [v, w, -9.81, -9.81]);
+    /// let heights = [|_t: f64, x: &[f64; 4]| x[0], |_t: f64, x: &[f64; 4]| x[1]];
+    /// let mut landed = [false; 2];
+    /// Integration::new(&stones, 0.0, &[1.0, 1.0, 0.0, 0.0])
+    ///     .events([0, 1].map(|i| Event::new(&heights[i]).terminal()), &mut |event| {
+    ///         landed[event.index] = true;
+    ///         ControlFlow::Continue(())
+    ///     })
+    ///     .run(&Dop853::new(1e-10, 1e-10), 100.0)
+    ///     .unwrap();
+    /// assert_eq!(landed, [true, true]);
+    /// ```
     #[must_use]
     pub fn events<const F: usize>(
         self,
@@ -221,105 +241,6 @@ impl<'a, R: Real, S: System<R, N> + ?Sized, const N: usize, const E: usize> Inte
             visitor(index, time, state);
         }
     }
-
-    /// Samples and events of the step from `before` to where the course stands. Answers with the end of the run, if
-    /// one of them ended it.
-    fn within_step<C>(
-        &mut self,
-        course: &mut C,
-        before: &Reached<R, N>,
-        trackers: &mut [Tracker; E],
-        visited: &mut usize,
-    ) -> Result<Option<Done<R, N>>, Cause>
-    where
-        C: Course<R, S, N>,
-    {
-        let after = *course.reached();
-        let backwards = (after.time - before.time).to_f64() < 0.0;
-        // Whether `a` comes before `b` in the order in which the run goes.
-        let earlier = |a: R, b: R| a != b && ((b - a).to_f64() < 0.0) == backwards;
-        let mut polynomial: Option<C::Polynomial> = None;
-        let mut crossings = [None; E];
-        let mut from = [before.time; E];
-        let values: [f64; E] = core::array::from_fn(|i| self.events[i].value(after.time, &after.state));
-        let mut next = 0..E;
-        loop {
-            // Looks for the next crossing of each event that has none waiting: all of them at first, later the one
-            // that was reported last.
-            for i in (0..E).filter(|i| next.contains(i)) {
-                let event = &self.events[i];
-                let side = trackers[i];
-                if event.needs_dense() || !side.stays(values[i]) {
-                    let dense = *polynomial.get_or_insert_with(|| course.dense(self.system));
-                    let state = |t: R| if t == after.time { after.state } else { dense.at(t) };
-                    let span = (before.time, after.time);
-                    crossings[i] = trackers[i].next(event, span, from[i], values[i], state);
-                } else if !values[i].is_nan() {
-                    trackers[i] = Tracker::new(values[i]);
-                }
-            }
-            let mut first: Option<(usize, Crossing<R>)> = None;
-            for (i, crossing) in crossings.iter().enumerate() {
-                if let Some(crossing) = crossing
-                    && first.is_none_or(|(_, sooner)| earlier(crossing.time, sooner.time))
-                {
-                    first = Some((i, *crossing));
-                }
-            }
-            let until = first.map_or(after.time, |(_, crossing)| crossing.time);
-            while let Some(&time) = self.samples.get(*visited)
-                && !earlier(until, time)
-            {
-                let state = self.state(course, &mut polynomial, &after, time)?;
-                self.visit(*visited, time, &state);
-                *visited += 1;
-            }
-            // Below `E` it is; said again, the compiler knows it too and leaves no panic.
-            let Some((i, crossing)) = first.filter(|(i, _)| *i < E) else { return Ok(None) };
-            crossings[i] = None;
-            from[i] = crossing.time;
-            next = i..i + 1;
-            let since_start = (crossing.time - self.start.time).to_f64().abs();
-            if since_start <= NEAR_START * self.events[i].resolution(crossing.time) {
-                continue;
-            }
-            let state = self.state(course, &mut polynomial, &after, crossing.time)?;
-            let Crossing { time, rising } = crossing;
-            let occurrence = Occurrence { index: i, time, state, rising };
-            let stopped = self.receiver.as_mut().is_some_and(|receiver| receiver(&occurrence).is_break());
-            let outcome = match (self.events[i].is_terminal(), stopped) {
-                (true, _) => Outcome::Event(i),
-                (false, true) => Outcome::Stopped,
-                (false, false) => continue,
-            };
-            if let Some(observer) = &mut self.observer {
-                // The run is over, whatever the observer answers.
-                let _ = observer(time, &state);
-            }
-            let statistics = course.reached().statistics;
-            return Ok(Some(Reached { time, time_rest: R::zero(), state, statistics }.done(outcome)));
-        }
-    }
-
-    /// The state at a time within the step, on the constraints.
-    fn state<C>(
-        &self,
-        course: &mut C,
-        polynomial: &mut Option<C::Polynomial>,
-        after: &Reached<R, N>,
-        time: R,
-    ) -> Result<[R; N], Cause>
-    where
-        C: Course<R, S, N>,
-    {
-        if time == after.time {
-            return Ok(after.state);
-        }
-        let dense = polynomial.get_or_insert_with(|| course.dense(self.system));
-        let mut state = dense.at(time);
-        self.system.restore(time, &mut state).map_err(|_| Cause::Positions)?;
-        Ok(state)
-    }
 }
 
 /// The result of a run, if the last look finds it in order.
@@ -339,7 +260,3 @@ where
         Err(cause) => Err(watch.good(course.reached()).failed(cause)),
     }
 }
-
-/// Events are reported from this many resolutions after the start: a run that continues from an event starts at most
-/// one from it, and turns back no faster than sixteen times as slowly.
-const NEAR_START: f64 = 16.0;

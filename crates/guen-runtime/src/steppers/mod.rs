@@ -23,6 +23,7 @@ mod collocation;
 mod compensated;
 mod control;
 mod course;
+mod crossing;
 mod defect;
 mod dense;
 pub mod dop853;
@@ -47,6 +48,7 @@ mod tableau;
 mod taylor;
 mod tsit5;
 mod tsit5_coefficients;
+mod within_step;
 
 pub use bounded::{Bound, Bounded};
 pub use compensated::Compensated;

@@ -7,4 +7,5 @@ mod integration;
 mod judged;
 mod motions;
 mod orders;
+mod simultaneous;
 mod stiff;
