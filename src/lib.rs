@@ -52,12 +52,12 @@
 
 pub use guen_runtime::{
     Bodies, Body, BodyFault, BracketCoefficients, Carrying, Catastatic, Cause, Choice, Class, Coefficient,
-    Conservative, ConstantsError, Coordinate, Cost, Differentiable, Digits7, Digits7Functions, Digits13,
-    Digits13Functions, Dual, Equations, Function, Functions, Fused, FusedOperations, Generic, Holonomic,
-    IncompleteLieGroup, IntegrationError, Laned, LatexDocument, Level, LevelInfo, Levels, LieGroup, Lift,
-    Linearization, Monitored, Nonholonomic, Operator, Ordered, Positions, PositionsError, Projected, Real,
-    Recast, Rejoined, Report, ReportSection, Rheonomic, Rounded, Scleronomic, Setting, System, Tuned, Vitals,
-    from_fn, generic, lanes, prelude, project, projected, rejoined, steppers,
+    Conservative, ConstantsError, Coordinate, Cost, Derived, Differentiable, Digits7, Digits7Functions,
+    Digits13, Digits13Functions, Dual, Equations, Function, Functions, Fused, FusedOperations, Generic,
+    Holonomic, IncompleteLieGroup, IntegrationError, Laned, LatexDocument, Level, LevelInfo, Levels,
+    LieGroup, Lift, Linearization, Monitored, Nonholonomic, Operator, Ordered, Positions, PositionsError,
+    Projected, Real, Recast, Rejoined, Report, ReportSection, Rheonomic, Rounded, Scleronomic, Setting,
+    System, Tuned, Vitals, from_fn, generic, lanes, prelude, project, projected, rejoined, steppers,
 };
 pub use guen_runtime::{Coefficients, Convolutions, HIGHEST_ORDER, TaylorSeries};
 pub use guen_runtime::{Liftable, Linearizable, OutputLinearization, control, seeded};
@@ -139,11 +139,11 @@ pub mod __private {
     pub use guen_runtime::lanes::Lanes;
     pub use guen_runtime::{
         Bodies, Body, BracketCoefficients, Carrying, Catastatic, Class, Coefficient, Coefficients,
-        Conservative, ConstantsError, Convolutions, Cost, Differentiable, Dual, HIGHEST_ORDER, Holonomic,
-        IncompleteLieGroup, Laned, Level, LevelInfo, Levels, LieGroup, Lift, Liftable, Linearizable,
-        Linearization, Monitored, Nonholonomic, Operator, Ordered, OutputLinearization, Positions,
-        PositionsError, Real, Recast, Report, ReportSection, Rheonomic, Rounded, Scleronomic, System,
-        TaylorSeries, Vitals, nalgebra_conversions, seeded, zero_bracket,
+        Conservative, ConstantsError, Convolutions, Cost, Derived, Differentiable, Dual, HIGHEST_ORDER,
+        Holonomic, IncompleteLieGroup, Laned, Level, LevelInfo, Levels, LieGroup, Lift, Liftable,
+        Linearizable, Linearization, Monitored, Nonholonomic, Operator, Ordered, OutputLinearization,
+        Positions, PositionsError, Real, Recast, Report, ReportSection, Rheonomic, Rounded, Scleronomic,
+        System, TaylorSeries, Vitals, nalgebra_conversions, seeded, zero_bracket,
     };
     pub use guen_runtime::{
         bracket, cells, linearizable, mass_form, operator, program_functions, record, reduce, steady_motions,

@@ -95,7 +95,7 @@ fn conservative_systems() {
 
 #[test]
 fn driven_and_braked_systems() {
-    let system = Cart { M: 2.0, m: 0.6, l: 0.5, I: 0.05, c: 0.1, g: 9.81 }.prepare().unwrap();
+    let system = Cart { M: 2.0, m: 0.6, l: 0.5, I: 0.05.into(), c: 0.1, g: 9.81 }.prepare().unwrap();
     let inputs = cart::Inputs { push: 1.7, wind: -0.6 };
     let power = |t, s: &[f64; 4]| system.power(t, &cart::State::from(*s), &inputs);
     assert!(balance::<4, 5>("cart", &system.driven(inputs), power, numbers(4), 3.0) > 0.1);

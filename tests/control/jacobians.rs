@@ -86,8 +86,8 @@ pub fn check<const N: usize, const M: usize>(
 macro_rules! both {
     ($System:ident { $($constant:ident: $value:expr),* $(,)? }) => {
         (
-            $System::<f64> { $($constant: $value),* }.prepare().unwrap(),
-            $System::<Digits71> { $($constant: Digits71::from_f64($value)),* }.prepare().unwrap(),
+            $System::<f64> { $($constant: From::from($value)),* }.prepare().unwrap(),
+            $System::<Digits71> { $($constant: From::from(Digits71::from_f64($value))),* }.prepare().unwrap(),
         )
     };
 }
@@ -182,7 +182,7 @@ fn by_duals(cost: guen::Cost, n: u32) -> u32 {
 /// `C` and `D`, of scalars and vectors, with inputs.
 #[test]
 fn outputs_of_the_cart() {
-    let system = Cart { M: 2.0, m: 0.6, l: 0.5, I: 0.05, c: 0.1, g: 9.81 }.prepare().unwrap();
+    let system = Cart { M: 2.0, m: 0.6, l: 0.5, I: 0.05.into(), c: 0.1, g: 9.81 }.prepare().unwrap();
     let state = cart::State::from(numbers::<4>(7));
     let inputs = cart::Inputs::from(numbers::<2>(8));
     let found = system.linearize_outputs(0.3, &state, &inputs);

@@ -7,7 +7,7 @@ use crate::jacobians::{Cart, Hoop, Sled, cart, hoop, sled};
 use crate::vehicles::{robot, small_robot};
 
 fn pole_cart() -> cart::Prepared {
-    Cart { M: 2.0, m: 0.6, l: 0.5, I: 0.05, c: 0.1, g: 9.81 }.prepare().unwrap()
+    Cart { M: 2.0, m: 0.6, l: 0.5, I: 0.05.into(), c: 0.1, g: 9.81 }.prepare().unwrap()
 }
 
 /// The linear model over a period, against its own integration in small steps.

@@ -177,7 +177,7 @@ fn the_covector_of_a_rod() {
 
 #[test]
 fn equations_apart() {
-    let system = Cart { M: 2.0, m: 0.6, l: 0.5, I: 0.05, c: 0.1, g: 9.81 }.prepare().unwrap();
+    let system = Cart { M: 2.0, m: 0.6, l: 0.5, I: 0.05.into(), c: 0.1, g: 9.81 }.prepare().unwrap();
     let state = cart::State::from(numbers::<4>(5));
     let inputs = cart::Inputs { push: 0.7, wind: -0.3 };
     let form = system.mass_form(0.4, &state, &inputs);

@@ -7,6 +7,7 @@
 #[macro_use]
 extern crate guen_benchmarks;
 
+mod derived;
 mod generated;
 mod hygiene;
 mod paper;

@@ -42,6 +42,7 @@ mod condition;
 pub mod control;
 mod cost;
 mod decimal;
+mod derived;
 mod differentiable;
 mod dual;
 mod elementary;
@@ -75,6 +76,7 @@ pub use classification::{
     Scleronomic,
 };
 pub use cost::Cost;
+pub use derived::Derived;
 pub use differentiable::{Differentiable, Equations, Generic, generic};
 pub use dual::Dual;
 pub use error::{BodyFault, Cause, ConstantsError, IntegrationError, Setting};
@@ -103,7 +105,7 @@ pub use nalgebra;
 pub use serde;
 #[cfg(feature = "serde")]
 #[doc(hidden)]
-pub use serde_support::{deserialize_record, serialize_record};
+pub use serde_support::{deserialize_derived, deserialize_record, serialize_derived, serialize_record};
 
 /// What a program that integrates systems wants in scope.
 pub mod prelude {

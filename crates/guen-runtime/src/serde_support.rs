@@ -6,7 +6,8 @@
 /// `serde_record!(Type, "Type", count, [names], to_array, from_array)`: the names in order, and the way from and to an
 /// array. Every field has to be there when it is read, each once, and no other. Without the feature `serde` it expands to
 /// nothing. Works without a prelude and from any crate name. A record that has its names as `NAMES` and converts from and to
-/// an array is `serde_record!(Type, "Type", count)`.
+/// an array is `serde_record!(Type, "Type", count)`. With `derived` and a list of which fields are
+/// [`Derived`](crate::Derived) behind the names the arrays are of options: such a field may be missing, and follows then.
 ///
 /// ```
 /// #[derive(Debug, PartialEq, Clone, Copy)]
@@ -25,6 +26,28 @@ macro_rules! serde_record {
             |record| ::core::convert::From::from(*record),
             ::core::convert::From::from
         );
+    };
+    ($Type:ident, $name:literal, $n:literal, $names:expr, derived $derived:expr, $to:expr, $from:expr) => {
+        impl<R: $crate::serde::Serialize + ::core::marker::Copy> $crate::serde::Serialize for $Type<R> {
+            fn serialize<S: $crate::serde::Serializer>(
+                &self,
+                serializer: S,
+            ) -> ::core::result::Result<S::Ok, S::Error> {
+                let to: fn(&$Type<R>) -> [::core::option::Option<R>; $n] = $to;
+                $crate::serialize_derived(serializer, $name, &$names, &$derived, &to(self))
+            }
+        }
+
+        impl<'de, R: $crate::serde::Deserialize<'de>> $crate::serde::Deserialize<'de> for $Type<R> {
+            fn deserialize<D: $crate::serde::Deserializer<'de>>(
+                deserializer: D,
+            ) -> ::core::result::Result<Self, D::Error> {
+                const NAMES: [&'static str; $n] = $names;
+                const DERIVED: [bool; $n] = $derived;
+                let from: fn([::core::option::Option<R>; $n]) -> ::core::option::Option<$Type<R>> = $from;
+                $crate::deserialize_derived(deserializer, $name, &NAMES, &DERIVED, from)
+            }
+        }
     };
     ($Type:ident, $name:literal, $n:literal, $names:expr, $to:expr, $from:expr) => {
         impl<R: $crate::serde::Serialize + ::core::marker::Copy> $crate::serde::Serialize for $Type<R> {
@@ -54,11 +77,11 @@ macro_rules! serde_record {
 #[cfg(not(feature = "serde"))]
 #[macro_export]
 macro_rules! serde_record {
-    ($Type:ident, $name:literal, $n:literal $(, $names:expr, $to:expr, $from:expr)?) => {};
+    ($Type:ident, $name:literal, $n:literal $(, $names:expr, $(derived $derived:expr,)? $to:expr, $from:expr)?) => {};
 }
 
 #[cfg(feature = "serde")]
-pub use with_serde::{deserialize_record, serialize_record};
+pub use with_serde::{deserialize_derived, deserialize_record, serialize_derived, serialize_record};
 
 #[cfg(feature = "serde")]
 mod with_serde {
@@ -87,6 +110,29 @@ mod with_serde {
         record.end()
     }
 
+    /// Writes a record in which some fields may follow others; [`serde_record!`](crate::serde_record) calls it.
+    ///
+    /// # Errors
+    ///
+    /// Those of the serializer.
+    #[doc(hidden)]
+    pub fn serialize_derived<S: Serializer, R: Serialize>(
+        serializer: S,
+        name: &'static str,
+        names: &[&'static str],
+        derived: &[bool],
+        values: &[Option<R>],
+    ) -> Result<S::Ok, S::Error> {
+        let mut record = serializer.serialize_struct(name, names.len())?;
+        for ((name, derived), value) in names.iter().zip(derived).zip(values) {
+            match value {
+                Some(given) if !derived => record.serialize_field(name, given)?,
+                _ => record.serialize_field(name, value)?,
+            }
+        }
+        record.end()
+    }
+
     /// Reads a record; [`serde_record!`](crate::serde_record) calls it.
     ///
     /// # Errors
@@ -98,52 +144,82 @@ mod with_serde {
         name: &'static str,
         names: &'static [&'static str],
     ) -> Result<[R; N], D::Error> {
-        deserializer.deserialize_struct(name, names, Fields { name, names, real: PhantomData })
+        let fields = Fields { name, names, derived: &Fields::<R, N>::NONE, real: PhantomData };
+        let mut values = deserializer.deserialize_struct(name, names, fields)?.into_iter().flatten();
+        // No field may be missing, so that each has a value here.
+        Ok([(); N].map(|()| values.next().expect("every field is there")))
+    }
+
+    /// Reads a record in which some fields may be missing; [`serde_record!`](crate::serde_record) calls it.
+    ///
+    /// # Errors
+    ///
+    /// Those of the deserializer; a field that is missing and follows no other, is unknown or there twice.
+    #[doc(hidden)]
+    pub fn deserialize_derived<'de, D: Deserializer<'de>, R: Deserialize<'de>, T, const N: usize>(
+        deserializer: D,
+        name: &'static str,
+        names: &'static [&'static str],
+        derived: &'static [bool; N],
+        from: fn([Option<R>; N]) -> Option<T>,
+    ) -> Result<T, D::Error> {
+        let fields = Fields { name, names, derived, real: PhantomData };
+        let values = deserializer.deserialize_struct(name, names, fields)?;
+        from(values).ok_or_else(|| D::Error::custom("a field is missing"))
     }
 
     struct Fields<R, const N: usize> {
         name: &'static str,
         names: &'static [&'static str],
+        /// Which may be missing.
+        derived: &'static [bool; N],
         real: PhantomData<R>,
     }
 
-    /// All values, or the name of the first that is missing.
-    fn all<R, E: Error, const N: usize>(
-        values: [Option<R>; N],
-        names: &'static [&'static str],
-    ) -> Result<[R; N], E> {
-        if let Some(missing) = values.iter().position(Option::is_none) {
-            return Err(E::missing_field(names[missing]));
+    impl<R, const N: usize> Fields<R, N> {
+        /// No field may be missing.
+        const NONE: [bool; N] = [false; N];
+
+        /// The values, or the name of the first that is missing.
+        fn all<E: Error>(&self, values: [Option<R>; N]) -> Result<[Option<R>; N], E> {
+            match (0..N).find(|k| values[*k].is_none() && !self.derived[*k]) {
+                Some(missing) => Err(E::missing_field(self.names[missing])),
+                None => Ok(values),
+            }
         }
-        let mut values = values.into_iter().flatten();
-        // The count was checked a line above, so that no value is missing here.
-        Ok([(); N].map(|()| values.next().expect("every field is there")))
     }
 
     impl<'de, R: Deserialize<'de>, const N: usize> Visitor<'de> for Fields<R, N> {
-        type Value = [R; N];
+        type Value = [Option<R>; N];
 
         fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
             write!(f, "the {N} fields of `{}`", self.name)
         }
 
-        fn visit_seq<A: SeqAccess<'de>>(self, mut sequence: A) -> Result<[R; N], A::Error> {
+        fn visit_seq<A: SeqAccess<'de>>(self, mut sequence: A) -> Result<Self::Value, A::Error> {
             let mut values = [const { None }; N];
-            for (k, value) in values.iter_mut().enumerate() {
-                *value = Some(sequence.next_element()?.ok_or_else(|| A::Error::invalid_length(k, &self))?);
+            for k in 0..N {
+                let missing = |visitor: &Self| A::Error::invalid_length(k, visitor);
+                values[k] = if self.derived[k] {
+                    sequence.next_element()?.ok_or_else(|| missing(&self))?
+                } else {
+                    Some(sequence.next_element()?.ok_or_else(|| missing(&self))?)
+                };
             }
-            all(values, self.names)
+            self.all(values)
         }
 
-        fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<[R; N], A::Error> {
+        fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Self::Value, A::Error> {
             let mut values: [Option<R>; N] = [const { None }; N];
+            let mut seen = [false; N];
             while let Some(place) = map.next_key_seed(FieldName(self.names))? {
-                if values[place].is_some() {
+                if seen[place] {
                     return Err(A::Error::duplicate_field(self.names[place]));
                 }
-                values[place] = Some(map.next_value()?);
+                seen[place] = true;
+                values[place] = if self.derived[place] { map.next_value()? } else { Some(map.next_value()?) };
             }
-            all(values, self.names)
+            self.all(values)
         }
     }
 

@@ -1,6 +1,6 @@
 //! The struct of constants: `new`, `Default`, defaults of earlier constants, and what `prepare` refuses.
 
-use guen::ConstantsError;
+use guen::{ConstantsError, Derived};
 
 cart!(guen::mechanical_system);
 sled!(guen::mechanical_system);
@@ -32,7 +32,8 @@ guen::mechanical_system! {
 fn new_takes_constants_without_default_in_order() {
     let cart: Cart = Cart::new(2.0, 0.6);
     assert_eq!((cart.M, cart.m, cart.l, cart.c, cart.g), (2.0, 0.6, 0.5, 0.1, 9.81));
-    assert!((cart.I - 0.05).abs() < 1e-16);
+    assert_eq!(cart.I, Derived::Follows);
+    assert!((cart.resolved().I.value().unwrap() - 0.05).abs() < 1e-16);
     let prepared = cart.prepare().unwrap();
     assert_eq!(prepared.constants(), cart);
 }
@@ -41,13 +42,19 @@ fn new_takes_constants_without_default_in_order() {
 fn default_exists_where_all_have_one() {
     let settled: Settled = Settled::default();
     assert_eq!(settled, Settled::new());
-    assert_eq!((settled.k, settled.l), (2.0, 11.0));
-    assert!((settled.ratio - 1.0 / 6.0).abs() < 1e-16);
-    assert!((settled.root - std::f64::consts::SQRT_2 * std::f64::consts::PI).abs() < 1e-15);
-    assert_eq!(settled.tiny, 6.62607015e-34);
-    // A literal keeps the other defaults as they are: plain data.
+    let values = settled.resolved();
+    assert_eq!((values.k, values.l), (2.0, Derived::Set(11.0)));
+    assert!((values.ratio.value().unwrap() - 1.0 / 6.0).abs() < 1e-16);
+    let root = std::f64::consts::SQRT_2 * std::f64::consts::PI;
+    assert!((values.root.value().unwrap() - root).abs() < 1e-15);
+    assert_eq!(values.tiny, 6.62607015e-34);
+    // What follows does so in a literal too, and what follows what follows.
     let other = Settled { k: 4.0, ..settled };
-    assert_eq!(other.l, 11.0);
+    assert_eq!(other.resolved().l, 47.0);
+    assert_eq!(other.resolved().ratio, 4.0 / 48.0);
+    // A number that was set stays, and what follows it goes on from there.
+    let set = Settled { k: 4.0, l: 7.0.into(), ..Settled::new() }.resolved();
+    assert_eq!((set.l, set.ratio), (Derived::Set(7.0), Derived::Set(0.5)));
     assert!(other.prepare().is_ok());
 }
 

@@ -86,7 +86,7 @@ all_paths! { train [8] |c: 5|
         .map(|train| train.driven(train::Inputs { push: c[0], steering: c[1] }));
 }
 all_paths! { cart [4] |c: 6|
-    Cart { M: c[0], m: c[1], l: c[2], I: c[3], c: c[4], g: c[5] }
+    Cart { M: c[0], m: c[1], l: c[2], I: c[3].into(), c: c[4], g: c[5] }
         .prepare()
         .map(|cart| cart.driven(cart::Inputs { push: c[0], wind: c[1] }));
 }

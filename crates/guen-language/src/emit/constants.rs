@@ -6,6 +6,8 @@ use quote::{format_ident, quote};
 
 use super::code::number;
 use super::{Layout, Subject, documentation, recast, tokens, variable_ident};
+use crate::derive::Level;
+use crate::model::{ConstantEntry, Model};
 use crate::report::Report;
 use crate::syntax::BoundKind;
 
@@ -17,32 +19,89 @@ struct Field {
     docs: TokenStream,
     bound: Option<BoundKind>,
     default: Option<ExprId>,
+    /// Whether the default is made of other constants.
+    is_derived: bool,
+}
+
+/// Whether a constant of the system follows others until it is set: its field is a `Derived<R>`, and no plain number.
+pub(super) fn is_derived(model: &Model<'_>, constant: &ConstantEntry<'_>) -> bool {
+    constant.default.is_some_and(|e| !model.bench.graph.symbols_in(&[e]).is_empty())
+}
+
+/// The constants of a level that follow others, by place, each behind those that its formula reads. In a scene one that
+/// another is fixed by is not among them if it would follow itself.
+pub(super) fn derived(model: &Model<'_>, level: &Level) -> Vec<usize> {
+    let given = &level.selection.constants;
+    let mut left: Vec<usize> =
+        (0..given.len()).filter(|i| is_derived(model, &model.constants[given[*i]])).collect();
+    let mut found = Vec::new();
+    loop {
+        let reads = |i: &usize| {
+            let mut read = Vec::new();
+            if let Some(default) = model.constants[given[*i]].default {
+                reads(model, level, default, &mut read);
+            }
+            read
+        };
+        let Some(next) = left.iter().position(|i| !reads(i).iter().any(|read| left.contains(read))) else {
+            return found;
+        };
+        found.push(left.remove(next));
+    }
+}
+
+/// The constants of a level that an expression reads, those that a scene fixes at their values.
+fn reads(model: &Model<'_>, level: &Level, e: ExprId, read: &mut Vec<usize>) {
+    let graph = &model.bench.graph;
+    for symbol in graph.symbols_in(&[e]) {
+        let is_it = |c: usize| graph.as_symbol(model.constants[c].symbol) == Some(symbol);
+        let fixes = level.scene.iter().flat_map(|facts| &facts.fixes);
+        match level.selection.constants.iter().position(|c| is_it(*c)) {
+            Some(i) => read.push(i),
+            None => fixes.filter(|(c, _)| is_it(*c)).for_each(|(_, value)| reads(model, level, *value, read)),
+        }
+    }
+}
+
+/// The values of the constants of a struct, where those that are derived are computed.
+pub(super) fn values(layout: &Layout, names: &[&Ident], of: &TokenStream) -> TokenStream {
+    match layout.derived.is_empty() {
+        true => quote!([#(#of.#names),*]),
+        false => quote!(#of.__guen_values()),
+    }
 }
 
 /// The constants that a scene does not fix, then the variables that it holds.
-fn fields(subject: &Subject<'_, '_>) -> Vec<Field> {
+fn fields(subject: &Subject<'_, '_>, layout: &Layout) -> Vec<Field> {
     let Subject { model, level } = subject;
-    let constants = level.selection.constants.iter().map(|c| &model.constants[*c]).map(|c| Field {
-        ident: c.name.ident.clone(),
-        name: c.name.text.clone(),
-        docs: documentation::entry(c.docs, &format!("The constant `{}`.", c.name)),
-        bound: c.bound,
-        default: c.default,
+    let constants = level.selection.constants.iter().map(|c| &model.constants[*c]).enumerate();
+    let constants = constants.map(|(i, c)| {
+        let is_derived = layout.derived.contains(&i);
+        Field {
+            ident: c.name.ident.clone(),
+            name: c.name.text.clone(),
+            docs: documentation::entry(c.docs, &format!("The constant `{}`.", c.name)),
+            bound: c.bound,
+            default: c.default.filter(|_| is_derived || !self::is_derived(model, c)),
+            is_derived,
+        }
     });
     let held = level.selection.held.iter().map(|held| {
         let name = model.variable_name(held.place).to_owned();
         let text = format!("The value at which `{name}` stays.");
         let ident = variable_ident(model, held.place);
-        Field { ident, name, docs: quote!(#[doc = #text]), bound: None, default: None }
+        Field { ident, name, docs: quote!(#[doc = #text]), bound: None, default: None, is_derived: false }
     });
     constants.chain(held).collect()
 }
 
 pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, report: &Report) -> TokenStream {
     let system = &layout.system;
-    let fields = fields(subject);
+    let fields = fields(subject, layout);
     let names: Vec<&Ident> = fields.iter().map(|field| &field.ident).collect();
     let docs = fields.iter().map(|field| &field.docs);
+    let types =
+        fields.iter().map(|field| if field.is_derived { quote!(__guen::Derived<R>) } else { quote!(R) });
     let written = subject.scene().map_or(&subject.model.declaration.docs, |(scene, _)| &scene.docs);
     let head = documentation::system(report, written, layout.is_whole);
     let (count, hoisted) = (layout.constants, layout.hoisted);
@@ -56,7 +115,26 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, report: &Report)
         }
     });
     let marker_value = (count == 0).then(|| quote!(__guen_real: ::core::marker::PhantomData,));
-    let indices = 0..count;
+    let values = values(layout, &names, &quote!(self));
+    let resolution = resolution(subject, layout, &fields);
+    let derived: Vec<&Ident> = layout.derived.iter().map(|i| &fields[*i].ident).collect();
+    let (follows, follows_field, lifted) = match derived.len() {
+        0 => (None, None, None),
+        count => (
+            Some(quote!(follows: [#(__guen::Derived::follows(&self.#derived)),*],)),
+            Some(quote!(follows: [::core::primitive::bool; #count],)),
+            Some(quote!(follows: self.follows,)),
+        ),
+    };
+    let given = (0..count).map(|i| {
+        let place = layout.derived.iter().position(|derived| *derived == i);
+        match place {
+            None => quote!(self.constants[#i]),
+            Some(k) => quote! {
+                if self.follows[#k] { __guen::Derived::Follows } else { __guen::Derived::Set(self.constants[#i]) }
+            },
+        }
+    });
     let recast = recast::items(layout, &names, marker_value.as_ref());
     let what = if layout.is_whole { "system" } else { "scene" };
     let prepared_docs = format!(
@@ -68,11 +146,13 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, report: &Report)
             ::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq
         )]
         pub struct #system<R = f64> {
-            #(#docs pub #names: R,)*
+            #(#docs pub #names: #types,)*
             #marker
         }
 
         #constructors
+
+        #resolution
 
         impl<R: __guen::Real> #system<R> {
             /// Checks the constants and computes what depends on them alone.
@@ -82,10 +162,10 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, report: &Report)
             /// A constant that is not finite or outside of its bound, or constants that make something vanish
             /// which the equations divide by.
             pub fn prepare(self) -> ::core::result::Result<Prepared<R>, __guen::ConstantsError> {
-                let constants: [R; #count] = [#(self.#names),*];
+                let constants: [R; #count] = #values;
                 #checks
                 let hoisted = program::prepare(&constants);
-                let prepared = Prepared { constants, hoisted };
+                let prepared = Prepared { constants, hoisted, #follows };
                 prepared.check_pivots()?;
                 ::core::result::Result::Ok(prepared)
             }
@@ -98,12 +178,13 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, report: &Report)
         pub struct Prepared<R = f64> {
             constants: [R; #count],
             hoisted: [R; #hoisted],
+            #follows_field
         }
 
         impl<R: __guen::Real> Prepared<R> {
             /// The constants that the system was prepared from.
             pub fn constants(&self) -> #system<R> {
-                #system { #(#names: self.constants[#indices],)* #marker_value }
+                #system { #(#names: #given,)* #marker_value }
             }
 
             /// The same system over a real that contains `R`, such as duals over it: every prepared value becomes
@@ -112,12 +193,54 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, report: &Report)
                 Prepared {
                     constants: self.constants.map(<S as __guen::Lift<R>>::lift),
                     hoisted: self.hoisted.map(<S as __guen::Lift<R>>::lift),
+                    #lifted
                 }
             }
         }
 
         #recast
     }
+}
+
+/// How the constants that follow others become numbers; nothing where there are none.
+fn resolution(subject: &Subject<'_, '_>, layout: &Layout, fields: &[Field]) -> Option<TokenStream> {
+    if layout.derived.is_empty() {
+        return None;
+    }
+    let system = &layout.system;
+    let count = fields.len();
+    let locals: Vec<Ident> = (0..count).map(|i| format_ident!("__guen_c{i}")).collect();
+    // Formulas come last, each behind those that it reads.
+    let plain = (0..count).filter(|i| !fields[*i].is_derived).map(|i| {
+        let (local, name) = (&locals[i], &fields[i].ident);
+        quote!(let #local: R = self.#name;)
+    });
+    let formulas = layout.derived.iter().map(|i| {
+        let (local, name) = (&locals[*i], &fields[*i].ident);
+        let formula = fields[*i].default.map(|e| tokens(&default_text(subject, e)));
+        quote!(let #local: R = __guen::Derived::resolve(self.#name, || #formula);)
+    });
+    let resolved = fields.iter().enumerate().map(|(i, field)| {
+        let name = &field.ident;
+        let value = quote!(values[#i]);
+        if field.is_derived { quote!(#name: __guen::Derived::Set(#value)) } else { quote!(#name: #value) }
+    });
+    Some(quote! {
+        impl<R: __guen::Real> #system<R> {
+            /// The same constants with those that follow others set to what they are now.
+            pub fn resolved(&self) -> Self {
+                let values = self.__guen_values();
+                #system { #(#resolved),* }
+            }
+
+            /// The constants as numbers, each out of those before it.
+            fn __guen_values(&self) -> [R; #count] {
+                #(#plain)*
+                #(#formulas)*
+                [#(#locals),*]
+            }
+        }
+    })
 }
 
 /// Finite, and inside the bound, each constant.
@@ -173,17 +296,13 @@ fn constructors(subject: &Subject<'_, '_>, layout: &Layout, fields: &[Field]) ->
         }
     };
     let required: Vec<Ident> = fields.iter().filter(|field| field.default.is_none()).map(parameter).collect();
-    // Defaults may use earlier constants: they are evaluated in order, as locals that no constant can shadow.
-    let locals: Vec<Ident> = (0..fields.len()).map(|i| format_ident!("__guen_c{i}")).collect();
-    let values = fields.iter().zip(&locals).map(|(field, local)| match field.default {
+    let values = fields.iter().map(|field| match field.default {
         None => {
             let name = parameter(field);
-            quote!(let #local: R = #name;)
+            quote!(#name)
         }
-        Some(default) => {
-            let value = tokens(&default_text(subject, default));
-            quote!(let #local: R = #value;)
-        }
+        Some(_) if field.is_derived => quote!(__guen::Derived::Follows),
+        Some(default) => tokens(&default_text(subject, default)),
     });
     let marker = (fields.is_empty()).then(|| quote!(__guen_real: ::core::marker::PhantomData,));
     let docs = if required.is_empty() {
@@ -205,10 +324,8 @@ fn constructors(subject: &Subject<'_, '_>, layout: &Layout, fields: &[Field]) ->
         impl<R: __guen::Real> #system<R> {
             #[doc = #docs]
             #[allow(clippy::too_many_arguments, reason = "one for each constant without a default")]
-            #[allow(unused_variables, reason = "defaults need not use the constants before them")]
             pub fn new(#(#required: R),*) -> Self {
-                #(#values)*
-                #system { #(#names: #locals,)* #marker }
+                #system { #(#names: #values,)* #marker }
             }
         }
         #default

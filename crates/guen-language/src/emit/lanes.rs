@@ -6,22 +6,31 @@ use quote::quote;
 use super::Layout;
 
 /// How a prepared system is put together from those of the lanes.
-fn gathered(path: &TokenStream, of: &TokenStream) -> TokenStream {
+fn gathered(layout: &Layout, path: &TokenStream, of: &TokenStream) -> TokenStream {
+    // What follows in one lane alone has a value of its own over all of them.
+    let follows = (!layout.derived.is_empty()).then(|| {
+        quote! {
+            follows: ::core::array::from_fn(|k| {
+                ::core::iter::Iterator::all(&mut (0..<L as __guen::Lanes>::COUNT), |lane| member(lane)#of.follows[k])
+            }),
+        }
+    });
     quote! {
         #path {
             constants: ::core::array::from_fn(|k| <L as __guen::Lanes>::from_fn(|lane| member(lane)#of.constants[k])),
             hoisted: ::core::array::from_fn(|k| <L as __guen::Lanes>::from_fn(|lane| member(lane)#of.hoisted[k])),
+            #follows
         }
     }
 }
 
 pub(super) fn items(layout: &Layout) -> TokenStream {
-    laned(layout, &gathered(&quote!(Prepared), &quote!()))
+    laned(layout, &gathered(layout, &quote!(Prepared), &quote!()))
 }
 
 /// The same for a carried form, which has the system inside.
 pub(super) fn carried(layout: &Layout) -> TokenStream {
-    let system = gathered(&quote!(super::Prepared), &quote!(.system));
+    let system = gathered(layout, &quote!(super::Prepared), &quote!(.system));
     let prepared = quote! {
         Prepared {
             system: #system,

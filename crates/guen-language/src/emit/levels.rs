@@ -3,7 +3,7 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
-use super::constants::default_text;
+use super::constants::{default_text, is_derived};
 use super::{Layout, Subject, module_name, tokens, variable_ident};
 use crate::derive::{Level, Place};
 use crate::model::Model;
@@ -107,6 +107,38 @@ fn conversions(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
             }
         }
     });
+    // Constants that follow others are numbers among the values alone.
+    let is_derived = |c: usize| is_derived(model, &model.constants[c]);
+    let whole_values =
+        (0..model.constants.len()).any(is_derived).then(|| quote!(let values = system.__guen_values();));
+    let of_whole = |c: usize| {
+        let name = &model.constants[c].name.ident;
+        if whole_values.is_some() { quote!(values[#c]) } else { quote!(system.#name) }
+    };
+    let given: Vec<TokenStream> = selection.constants.iter().map(|c| of_whole(*c)).collect();
+    let given_fixed: Vec<TokenStream> = fixes.iter().map(|(c, _)| of_whole(*c)).collect();
+    // One that would follow itself in the scene is a number there.
+    let held_back = |i: usize| is_derived(selection.constants[i]) && !layout.derived.contains(&i);
+    let kept: Vec<TokenStream> = constants
+        .iter()
+        .enumerate()
+        .map(|(i, name)| if held_back(i) { of_whole(selection.constants[i]) } else { quote!(system.#name) })
+        .collect();
+    let back = constants.iter().enumerate().map(|(i, name)| match held_back(i) {
+        true => quote!(__guen::Derived::Set(self.#name)),
+        false => quote!(self.#name),
+    });
+    let own_values = (!layout.derived.is_empty()).then(|| quote!(let values = self.__guen_values();));
+    let own = constants.iter().enumerate().map(|(i, name)| match own_values {
+        Some(_) => quote!(values[#i]),
+        None => quote!(self.#name),
+    });
+    let put = fixes.iter().zip(&values).map(|((c, _), value)| match is_derived(*c) {
+        true => quote!(__guen::Derived::Set(#value)),
+        false => quote!(#value),
+    });
+    let kept_values = (0..constants.len()).any(held_back).then(|| whole_values.clone());
+    let built = quote!(#(#constants: #kept,)*);
     let what = if fixes.is_empty() { "" } else { ", if they are those that the scene fixes" };
     let docs =
         format!("The scene with the constants of the system{what}, and what it holds as it is in a state.");
@@ -117,7 +149,8 @@ fn conversions(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
                     #[inline]
                     fn from(system: super::#whole<R>) -> Self {
                         let _ = &system;
-                        #scene { #(#constants: system.#constants,)* #own_marker }
+                        #kept_values
+                        #scene { #built #own_marker }
                     }
                 }
             }
@@ -128,7 +161,8 @@ fn conversions(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
                     #[inline]
                     fn try_from(system: super::#whole<R>) -> ::core::result::Result<Self, Self::Error> {
                         Self::check_fixed(&system)?;
-                        ::core::result::Result::Ok(#scene { #(#constants: system.#constants,)* #own_marker })
+                        #kept_values
+                        ::core::result::Result::Ok(#scene { #built #own_marker })
                     }
                 }
             }
@@ -148,8 +182,9 @@ fn conversions(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
                 #state_name: &super::State<R>,
             ) -> ::core::result::Result<Self, __guen::ConstantsError> {
                 Self::check_fixed(system)?;
+                #kept_values
                 ::core::result::Result::Ok(#scene {
-                    #(#constants: system.#constants,)*
+                    #built
                     #(#held: #state_name.#held,)*
                     #own_marker
                 })
@@ -157,16 +192,18 @@ fn conversions(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
 
             #[allow(unused_variables, reason = "the fixed constants need not use every other")]
             fn check_fixed(system: &super::#whole<R>) -> ::core::result::Result<(), __guen::ConstantsError> {
-                let [#(#locals),*]: [R; #count] = [#(system.#constants),*];
-                #(__guen::check_fixed(system.#fixed, #values, #fixed_names)?;)*
+                #whole_values
+                let [#(#locals),*]: [R; #count] = [#(#given),*];
+                #(__guen::check_fixed(#given_fixed, #values, #fixed_names)?;)*
                 ::core::result::Result::Ok(())
             }
 
             /// The constants of the system, with those that the scene fixes at their values.
             #[allow(unused_variables, reason = "the fixed constants need not use every other")]
             pub fn system(&self) -> super::#whole<R> {
-                let [#(#locals),*]: [R; #count] = [#(self.#constants),*];
-                super::#whole { #(#constants: #locals,)* #(#fixed: #values,)* #whole_marker }
+                #own_values
+                let [#(#locals),*]: [R; #count] = [#(#own),*];
+                super::#whole { #(#constants: #back,)* #(#fixed: #put,)* #whole_marker }
             }
         }
 

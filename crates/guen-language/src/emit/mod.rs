@@ -107,6 +107,8 @@ struct Layout {
     constants: usize,
     hoisted: usize,
     inputs: usize,
+    /// The constants that follow others until they are set, each behind those that its formula reads.
+    derived: Vec<usize>,
     /// Fields of the state.
     state: Vec<Ident>,
     /// Whether this is the system itself.
@@ -126,6 +128,7 @@ impl Layout {
             constants: selection.constants.len() + selection.held.len(),
             hoisted: level.programs.prepared.len(),
             inputs: selection.inputs.len(),
+            derived: constants::derived(model, level),
             state: {
                 let variables = selection.variables.iter().map(|place| variable_ident(model, *place));
                 variables.chain(selection.carried.iter().map(|f| carried::ident(model, f))).collect()

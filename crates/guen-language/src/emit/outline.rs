@@ -70,6 +70,8 @@ pub fn outline(declaration: &Declaration) -> TokenStream {
 struct Names {
     constants: Vec<Ident>,
     required: Vec<Ident>,
+    /// The constants whose defaults are made of others.
+    derived: Vec<Ident>,
     coordinates: Vec<Ident>,
     /// Coordinates, then parameters.
     state: Vec<Ident>,
@@ -92,6 +94,14 @@ impl Names {
                         push(&mut names.constants, &constant.name.ident);
                         if constant.default.is_none() {
                             push(&mut names.required, &constant.name.ident);
+                        }
+                        let others = &section.entries;
+                        if constant
+                            .default
+                            .as_ref()
+                            .is_some_and(|e| others.iter().any(|c| e.mentions(&c.name.text)))
+                        {
+                            push(&mut names.derived, &constant.name.ident);
                         }
                     }
                 }
@@ -161,7 +171,11 @@ fn output_field(outputs: &mut Vec<(Ident, bool)>, output: &Definition, kind: Kin
 
 /// The struct of constants.
 fn constants(system: &Ident, names: &Names) -> TokenStream {
-    let Names { constants, required, .. } = names;
+    let Names { constants, required, derived, .. } = names;
+    let types = constants.iter().map(|name| match derived.contains(name) {
+        true => quote!(__guen::Derived<R>),
+        false => quote!(R),
+    });
     let marker = constants.is_empty().then(|| {
         quote! {
             #[doc(hidden)]
@@ -181,7 +195,7 @@ fn constants(system: &Ident, names: &Names) -> TokenStream {
             ::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq
         )]
         pub struct #system<R = f64> {
-            #(#[doc = ""] pub #constants: R,)*
+            #(#[doc = ""] pub #constants: #types,)*
             #marker
         }
         impl<R: __guen::Real> #system<R> {

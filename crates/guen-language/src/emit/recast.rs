@@ -10,7 +10,11 @@ use super::Layout;
 pub(super) fn items(layout: &Layout, names: &[&Ident], marker: Option<&TokenStream>) -> TokenStream {
     let (system, size) = (&layout.system, layout.size);
     let constants = |of: TokenStream| {
-        quote! { #system { #(#names: R::from_f64(#of.#names),)* #marker } }
+        let values = names.iter().enumerate().map(|(i, name)| match layout.derived.contains(&i) {
+            true => quote!(__guen::Derived::map(#of.#name, R::from_f64)),
+            false => quote!(R::from_f64(#of.#name)),
+        });
+        quote! { #system { #(#names: #values,)* #marker } }
     };
     let recast = |owner: TokenStream, made: TokenStream, before: TokenStream, value: TokenStream| {
         quote! {

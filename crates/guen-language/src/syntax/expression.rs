@@ -130,23 +130,34 @@ impl Expression {
 
     /// Whether a fault inside has been reported, so that nothing can be said about the whole.
     pub fn has_missing(&self) -> bool {
-        match &self.kind {
-            ExpressionKind::Missing => true,
-            ExpressionKind::Number(_) | ExpressionKind::Name(_) => false,
-            ExpressionKind::Call { arguments, .. } => arguments.iter().any(Expression::has_missing),
-            ExpressionKind::Field { base, .. } => base.has_missing(),
-            ExpressionKind::Method { base, arguments, .. } => {
-                base.has_missing() || arguments.iter().any(Expression::has_missing)
+        self.any(&|part| matches!(part.kind, ExpressionKind::Missing))
+    }
+
+    /// Whether a name stands inside.
+    pub fn mentions(&self, name: &str) -> bool {
+        self.any(&|part| matches!(&part.kind, ExpressionKind::Name(own) if own.text == name))
+    }
+
+    /// Whether something holds for the expression or for one inside of it.
+    fn any(&self, holds: &dyn Fn(&Expression) -> bool) -> bool {
+        let inside = |part: &Expression| part.any(holds);
+        holds(self)
+            || match &self.kind {
+                ExpressionKind::Missing | ExpressionKind::Number(_) | ExpressionKind::Name(_) => false,
+                ExpressionKind::Call { arguments, .. } => arguments.iter().any(inside),
+                ExpressionKind::Field { base, .. } => inside(base),
+                ExpressionKind::Method { base, arguments, .. } => {
+                    inside(base) || arguments.iter().any(inside)
+                }
+                ExpressionKind::Negation(operand) => inside(operand),
+                ExpressionKind::Sum { first, rest } => {
+                    inside(first) || rest.iter().any(|term| inside(&term.value))
+                }
+                ExpressionKind::Product { first, rest } => {
+                    inside(first) || rest.iter().any(|factor| inside(&factor.value))
+                }
+                ExpressionKind::Power { base, exponent } => inside(base) || inside(exponent),
             }
-            ExpressionKind::Negation(operand) => operand.has_missing(),
-            ExpressionKind::Sum { first, rest } => {
-                first.has_missing() || rest.iter().any(|term| term.value.has_missing())
-            }
-            ExpressionKind::Product { first, rest } => {
-                first.has_missing() || rest.iter().any(|factor| factor.value.has_missing())
-            }
-            ExpressionKind::Power { base, exponent } => base.has_missing() || exponent.has_missing(),
-        }
     }
 
     /// The number, if the expression is just a literal.

@@ -42,21 +42,21 @@ macro_rules! bounded {
         $(driven { $($input:ident: $held:expr),* })?,
         $parameters:literal parameters, $n:literal + $c:literal = $m:literal, $state:expr, $path:expr) => {
         ($name, Box::new(|states| {
-            let long = $from::$System { $($constant: Digits71::from_f64($value)),* }.prepare();
+            let long = $from::$System { $($constant: From::from(Digits71::from_f64($value))),* }.prepare();
             let long = long.expect("constants in their bounds");
-            let double = prepared!($from::$module::$System { $($constant: $value),* } $(driven { $($input: $held),* })?);
+            let double = prepared!($from::$module::$System { $($constant: From::from($value)),* } $(driven { $($input: $held),* })?);
             let mut direction = $n;
             let mut variable = |value: f64| {
                 direction += 1;
                 Dual::<Digits71, $m>::variable(Digits71::from_f64(value), direction - 1)
             };
-            let varied = prepared!($from::$module::$System { $($constant: variable($value)),* }
+            let varied = prepared!($from::$module::$System { $($constant: From::from(variable($value))),* }
                 $(driven { $($input: Dual::constant(Digits71::from_f64($held))),* })?);
             let bounded = Bounded::<_, _, _, _, $n, $c> {
                 name: $name,
                 parameters: $parameters,
                 double: double.expect("constants in their bounds"),
-                single: prepared!($from::$module::$System { $($constant: $value as f32),* }
+                single: prepared!($from::$module::$System { $($constant: From::from($value as f32)),* }
                     $(driven { $($input: $held as f32),* })?).map_err(|error| error.to_string()),
                 varied: varied.expect("constants in their bounds"),
                 kappa: move |t, x: &[f64; $n]| {
