@@ -241,6 +241,34 @@ fn inputs_that_are_not_affine() {
 }
 
 guen::mechanical_system! {
+    /// A mass that is pulled by a spring whose other end is moved sideways.
+    pub system Sideways {
+        inputs { u }
+        coordinates { x }
+        parameters { v = dot(x); }
+        kinetic_energy = 1/2*v^2;
+        forces { sqrt(1 + u^2) along v; }
+    }
+}
+
+#[test]
+fn a_force_that_does_not_change_at_zero() {
+    let system = Sideways::default().prepare().unwrap();
+    let given = sideways::Inputs { u: 0.5 };
+    let rates = system.rhs(0.0, &Default::default(), &given);
+    let found = system.inverse_dynamics(0.0, &Default::default(), &rates).unwrap();
+    assert!((found.u.abs() - 0.5).abs() < 1e-12, "{found:?}");
+    let start = sideways::Inputs { u: -1.0 };
+    let found = system.inverse_dynamics_from(0.0, &Default::default(), &rates, &start).unwrap();
+    assert!((found.u + 0.5).abs() < 1e-12, "{found:?}");
+    // It pushes with one at least: that is not shown.
+    let wanted = sideways::State { v: 0.5, ..Default::default() };
+    let refused = system.inverse_dynamics(0.0, &Default::default(), &wanted).unwrap_err();
+    assert!(matches!(refused, InverseDynamicsError::NotFound { starts: 17, .. }), "{refused:?}");
+    assert!(refused.to_string().contains("another start may do"), "{refused}");
+}
+
+guen::mechanical_system! {
     /// Limits from constants, from numbers, and none.
     pub system Limited {
         constants { strong > 0, weak = 0 }

@@ -1,18 +1,20 @@
 //! What controllers ask of a prepared system, with the names of its declaration.
 
+use guen_symbolic::{Operation, Role};
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
 use super::motion::inputs;
 use super::{Layout, Subject};
 use crate::control::{has_covector, known_combinations};
+use crate::derive::function;
 
 pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     if !layout.is_whole {
         return TokenStream::new();
     }
     let mass_form = mass_form(layout);
-    let inverse = (layout.inputs > 0).then(|| inverse_dynamics(layout));
+    let inverse = (layout.inputs > 0).then(|| inverse_dynamics(subject, layout));
     let reduce = reduce(subject, layout);
     let reactions = reactions(subject, layout);
     let (size, count, given) = (layout.size, layout.inputs, given(layout));
@@ -56,23 +58,73 @@ fn mass_form(layout: &Layout) -> TokenStream {
     quote!(__guen::mass_form!(#l, #count, #bias, #input #given);)
 }
 
-fn inverse_dynamics(layout: &Layout) -> TokenStream {
-    let (n, size) = (layout.n, layout.size);
+/// Whether the forces are affine in the inputs: then neither the bias nor the matrix of the inputs reads them.
+fn is_affine(subject: &Subject<'_, '_>) -> bool {
+    let graph = &subject.model.bench.graph;
+    let reads = |operation: &Operation| match operation {
+        Operation::Symbol(symbol) => graph.symbol_info(*symbol).role == Role::Input,
+        _ => false,
+    };
+    let program = subject.level.program(function::MASS_FORM);
+    program
+        .is_none_or(|program| !program.instructions.iter().any(|instruction| reads(&instruction.operation)))
+}
+
+fn inverse_dynamics(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
+    let (n, size, count) = (layout.n, layout.size, layout.inputs);
     let accelerations: Vec<usize> = (n..size).collect();
+    let wanted = quote!(&[#(rate[#accelerations]),*]);
+    let convert = quote!(::core::convert::From::from);
+    let (how, refused, solve) = if is_affine(subject) {
+        let solve = quote! {
+            let form = self.mass_form(t, state, &#convert([R::zero(); #count]));
+            let found = __guen::control::affine_inverse_dynamics(&form, #wanted)?;
+        };
+        let how = "The forces are affine in the inputs. Where the inputs are more than the forces they make, those of least length.";
+        (how, "The accelerations are outside of what the inputs reach, or something is not finite.", solve)
+    } else {
+        let solve = quote! {
+            let form = |inputs: &_| self.mass_form(t, state, &#convert(*inputs));
+            let found = __guen::control::inverse_dynamics(form, #wanted)?;
+        };
+        let how =
+            "The forces are not affine in the inputs: by Newton's method from zero and 16 other starts.";
+        (
+            how,
+            "No such inputs were found, which does not say that there are none, or something is not finite.",
+            solve,
+        )
+    };
     quote! {
         /// The inputs that produce given accelerations: of `rate` the fields of the parameters count, as
-        /// [`rhs`](Self::rhs) returns them. Where the inputs are more than the forces they make, those of least length.
+        /// [`rhs`](Self::rhs) returns them.
+        #[doc = #how]
         ///
         /// # Errors
         ///
-        /// The accelerations are outside of what the inputs reach, or something is not finite.
+        #[doc = #refused]
         pub fn inverse_dynamics(
             &self, t: R, state: &State<R>, rate: &State<R>,
         ) -> ::core::result::Result<Inputs<R>, __guen::control::InverseDynamicsError> {
-            let rate: [R; #size] = ::core::convert::From::from(*rate);
-            let form = |inputs: &_| self.mass_form(t, state, &::core::convert::From::from(*inputs));
-            let found = __guen::control::inverse_dynamics(form, &[#(rate[#accelerations]),*])?;
-            ::core::result::Result::Ok(::core::convert::From::from(found))
+            let rate: [R; #size] = #convert(*rate);
+            #solve
+            ::core::result::Result::Ok(#convert(found))
+        }
+
+        /// The inputs that produce given accelerations, as [`inverse_dynamics`](Self::inverse_dynamics), by Newton's method from these
+        /// inputs.
+        ///
+        /// # Errors
+        ///
+        /// No such inputs were found from there, or something is not finite.
+        pub fn inverse_dynamics_from(
+            &self, t: R, state: &State<R>, rate: &State<R>, start: &Inputs<R>,
+        ) -> ::core::result::Result<Inputs<R>, __guen::control::InverseDynamicsError> {
+            let rate: [R; #size] = #convert(*rate);
+            let start: [R; #count] = #convert(*start);
+            let form = |inputs: &_| self.mass_form(t, state, &#convert(*inputs));
+            let found = __guen::control::inverse_dynamics_from(form, #wanted, &start)?;
+            ::core::result::Result::Ok(#convert(found))
         }
     }
 }

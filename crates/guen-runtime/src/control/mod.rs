@@ -10,7 +10,7 @@
 //! | how does it deviate, on its leaf? | [`Leaf::reduce`], [`Reduced`] |
 //! | what happens over one period? | [`Frozen`], [`Flow`] |
 //! | what can the inputs reach? | [`controllability`] |
-//! | which inputs give these accelerations? | [`MassForm`], [`inverse_dynamics`] |
+//! | which inputs give these accelerations? | [`MassForm`], [`inverse_dynamics`], [`affine_inverse_dynamics`] |
 
 mod controllability;
 mod dense;
@@ -22,6 +22,8 @@ mod steady;
 pub use controllability::{Controllability, Uncontrollable, controllability};
 pub use dense::solve;
 pub use discrete::{DiscreteError, Flow, Frozen};
-pub use inverse::{InverseDynamicsError, MassForm, inverse_dynamics};
+pub use inverse::{
+    InverseDynamicsError, MassForm, affine_inverse_dynamics, inverse_dynamics, inverse_dynamics_from,
+};
 pub use reduced::{Component, Leaf, Quaternion, ReduceError, Reduced, independent};
 pub use steady::{SteadyError, SteadyMotion, named, steady};

@@ -24,6 +24,12 @@ pub(super) fn items(sizes: &Sizes, constrained: bool, has_outputs: bool) -> Toke
             ) -> ::core::result::Result<Inputs<R>, __guen::control::InverseDynamicsError> {
                 ::core::unreachable!()
             }
+            /// The inputs that produce given accelerations, from a start.
+            pub fn inverse_dynamics_from(
+                &self, t: R, state: &State<R>, rate: &State<R>, start: &Inputs<R>,
+            ) -> ::core::result::Result<Inputs<R>, __guen::control::InverseDynamicsError> {
+                ::core::unreachable!()
+            }
         }
     });
     let covector = constrained.then(|| {
