@@ -47,10 +47,7 @@ impl Fault {
     /// Adds the other place of a conflict, named by its line: stable Rust underlines one place per error.
     #[must_use]
     pub fn note_place(self, what: &str, place: Span) -> Self {
-        match line_of(place) {
-            Some(line) => self.note(format_args!("{what} at line {line}")),
-            None => self.note(format_args!("{what} above")),
-        }
+        self.note(format_args!("{what} at line {}", line_of(place)))
     }
 
     /// Where the mistake is.
@@ -164,36 +161,25 @@ impl Report {
 impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for fault in &self.faults {
-            match line_of(fault.span) {
-                Some(line) => writeln!(f, "line {line}: {fault}")?,
-                None => writeln!(f, "{fault}")?,
-            }
+            writeln!(f, "line {}: {fault}", line_of(fault.span))?;
         }
         Ok(())
     }
 }
 
 /// The line of a place.
-pub fn line_of(span: Span) -> Option<usize> {
-    position_of(span).map(|(line, _)| line)
+pub fn line_of(span: Span) -> usize {
+    position_of(span).0
 }
 
-/// Line and column of a place: from the compiler inside a macro; outside of one only where `proc_macro2` was built
-/// to keep locations (feature `span-locations`).
-fn position_of(span: Span) -> Option<(usize, usize)> {
+/// Line and column of a place: from the compiler inside a macro, from the text outside of one.
+fn position_of(span: Span) -> (usize, usize) {
     if proc_macro::is_available() {
         let span = span.unwrap();
-        return Some((span.line(), span.column()));
+        return (span.line(), span.column());
     }
-    #[cfg(any(test, feature = "span-locations"))]
-    {
-        let start = span.start();
-        Some((start.line, start.column))
-    }
-    #[cfg(not(any(test, feature = "span-locations")))]
-    {
-        None
-    }
+    let start = span.start();
+    (start.line, start.column)
 }
 
 #[cfg(test)]

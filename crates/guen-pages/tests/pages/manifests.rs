@@ -149,6 +149,28 @@ fn no_dependency_asks_for_a_newer_rust() {
     }
 }
 
+/// What the macro stands on is built once for the whole workspace, as a library and for the macro, with tests and without. Features
+/// that a dev-dependency adds would be there in some builds and not in others.
+#[test]
+fn tests_add_no_features_to_the_macro() {
+    let metadata = metadata();
+    let members = members(&metadata);
+    let macros = ["guen-symbolic", "guen-language", "guen-macros"].map(|name| members[name]);
+    let all = || macros.iter().flat_map(|package| list(&package["dependencies"]));
+    let features = |dependency: &Value| -> BTreeSet<String> {
+        list(&dependency["features"]).iter().map(|feature| feature.to_string()).collect()
+    };
+    let mut own: BTreeMap<&str, BTreeSet<String>> = BTreeMap::new();
+    for dependency in all().filter(|dependency| dependency["kind"].is_null()) {
+        own.entry(text(dependency, "name")).or_default().extend(features(dependency));
+    }
+    assert!(own.len() > 8, "{own:?}");
+    for dependency in all().filter(|dependency| dependency["kind"] == "dev") {
+        let Some(own) = own.get(text(dependency, "name")) else { continue };
+        assert!(features(dependency).is_subset(own), "{dependency} asks for more than {own:?}");
+    }
+}
+
 #[test]
 fn packages_are_ready_to_be_published() {
     let metadata = metadata();
