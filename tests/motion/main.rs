@@ -8,6 +8,7 @@ mod carried;
 mod guards;
 mod lanes;
 mod promise;
+mod published;
 mod recovery;
 mod reference;
 mod reversal;
