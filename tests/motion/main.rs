@@ -12,4 +12,5 @@ mod published;
 mod recovery;
 mod reference;
 mod reversal;
+mod singular;
 mod taylor;

@@ -58,6 +58,19 @@ pub(super) fn paces<R: Real>(
     Ok(if soonest < f64::from(u32::MAX) || soonest.is_nan() { (soonest as u32).max(1) } else { u32::MAX })
 }
 
+/// In how many steps to look again, judged by the values of two looks that are so many steps apart: in half of those after
+/// which the nearest edge would be reached at this pace. For steps that are not fixed.
+pub(super) fn soonest<R: Real>(values: impl Iterator<Item = (R, R)>, steps: u32) -> u32 {
+    let mut soonest = f64::INFINITY;
+    for (from, to) in values {
+        let (from, to) = (from.to_f64().abs(), to.to_f64().abs());
+        if to < from {
+            soonest = soonest.min(0.5 * to / (from - to));
+        }
+    }
+    ((soonest * f64::from(steps)) as u32).max(1)
+}
+
 /// Writes the functions that must not vanish, where every entry is uncertain by a rounding of the largest value it has had, and
 /// returns how many they are. Inside of [`Real::vectorize`], please.
 #[inline(always)]

@@ -3,13 +3,13 @@
 //! A look is taken after the first step, then every `k` steps, with a `k` that [`Schedule`] chooses, and at the end; where a look
 //! finds a fault, the run goes back to the last look that did not, so that what it returns was seen to be in order.
 //!
-//! Steps whose length is given do not become shorter next to an edge of the chart, and may pass it between two looks. So
-//! while such a run approaches an edge, the functions that must not vanish are looked at in between: after half of the
-//! steps that would lead there, then after half of the rest.
+//! An edge of the chart may be passed twice between two looks, and the functions that must not vanish are then on the side where they
+//! were. So they are looked at in between, as often as their price allows, and more often while they become smaller: after half of
+//! the steps that would lead to zero at this pace, then after half of the rest.
 
 use super::course::{Course, Reached};
 use super::defect::{Defects, worst};
-use super::edges::{EDGES, distances, functions, paces};
+use super::edges::{EDGES, distances, functions, paces, soonest};
 use super::schedule::Schedule;
 use crate::error::{Cause, IntegrationError, Setting};
 use crate::real::Real;
@@ -50,7 +50,15 @@ pub struct Guard {
     /// The distance to the edge of the chart at which to stop: what is [`left`](crate::Rounded::left) of each function that
     /// must not vanish, given that every entry of the state is uncertain by a rounding of the largest value that it has
     /// had. By default `1e-8`, where a term with its square in the denominator has no digits left in `f64`; in another
-    /// real the limit is multiplied by the root of the ratio of the roundings. A change of sign always ends the run.
+    /// real the limit is multiplied by the root of the ratio of the roundings.
+    ///
+    /// A look that finds another sign than at the start ends the run, whatever the limit. Two changes of sign between two looks
+    /// are not seen. An adaptive method looks at these functions as often as an eightieth of the run pays for, which is after every step
+    /// where they cost little beside a right-hand side, and sooner while one becomes smaller. `every: Some(1)` looks after each step.
+    ///
+    /// A negative limit watches none of it, and neither does [`approach`](Guard::approach) then: for a motion that is meant to pass
+    /// such positions, as a linkage whose bars come to lie on one line, where the state at each side is as it should be. Everything else
+    /// is watched as before, the condition of the mass matrix included.
     pub edge: f64,
     /// The largest [`condition`](System::condition) of the mass matrix. By default `1e12`, where accelerations have
     /// four digits left in `f64`; in another real the limit is divided by the ratio of the roundings.
@@ -61,7 +69,8 @@ pub struct Guard {
     /// below this part of the largest entry counts as nothing, since an entry that begins at zero has no size yet.
     pub step: f64,
     /// The largest factor by which a fixed step may change a function that must not vanish. Where it is divided by, there
-    /// is a pole, and the step is too long for the motion next to it. By default 2.
+    /// is a pole, and the step is too long for the motion next to it. By default 2. Not watched where [`edge`](Guard::edge) is
+    /// negative.
     pub approach: f64,
     /// Look every so many steps, at least every one; chosen by the method's cost if absent.
     pub every: Option<u32>,
@@ -82,7 +91,8 @@ impl Guard {
 
     pub(super) fn is_valid(&self) -> bool {
         let Self { energy, residual, carried, edge, condition, step, approach, .. } = *self;
-        [energy, residual, carried, edge, condition, step, approach].iter().all(|limit| *limit >= 0.0)
+        !edge.is_nan()
+            && [energy, residual, carried, condition, step, approach].iter().all(|limit| *limit >= 0.0)
     }
 
     /// The limits for a real: those given are meant for `f64`.
@@ -123,8 +133,10 @@ pub(super) struct Watch<R, const N: usize> {
     young: u32,
     /// Whether the method has a fixed step.
     fixed: bool,
-    /// With a fixed step, steps until the edges are looked at: they are cheaper than the rest.
+    /// Steps until the edges are looked at, at most: they are cheaper than the rest.
     until_edges: u32,
+    /// Steps that were to be made since they were looked at.
+    since_edges: u32,
     /// Where the last look found everything in order.
     good: Reached<R, N>,
     /// What the looks have learned so far.
@@ -135,10 +147,12 @@ pub(super) struct Watch<R, const N: usize> {
 struct Known<R, const N: usize> {
     energy: Option<R>,
     scale: R,
-    /// How many functions there are that must not vanish, what they were at the start, and what the look before has found.
+    /// How many functions there are that must not vanish, what they were at the start, and what the last look has found.
     count: usize,
     start: [R; EDGES],
     functions: [Rounded<R>; EDGES],
+    /// What the look before that has found.
+    earlier: [R; EDGES],
     /// The largest absolute value of each entry of the state.
     largest: [R; N],
     defects: Defects<R, N>,
@@ -166,6 +180,7 @@ impl<R: Real, const N: usize> Watch<R, N> {
             young,
             fixed: C::JUDGED,
             until_edges: edges,
+            since_edges: first,
             good: *start,
             known: None,
         })
@@ -218,10 +233,14 @@ impl<R: Real, const N: usize> Watch<R, N> {
         } else if let Some(known) = &mut self.known {
             known.look_at_edges(system, course.reached(), self.guard.edge)?;
         }
-        self.until_look = match self.approach(system, before, course.reached())? {
-            Some(soonest) => rest.min(Schedule::next(self.until_edges, soonest, self.between - rest)),
-            None => rest,
+        self.until_look = match (self.approach(system, before, course.reached())?, &self.known) {
+            (Some(soonest), _) => rest.min(Schedule::next(self.until_edges, soonest, self.between - rest)),
+            (None, Some(known)) if !self.fixed && known.count > 0 && self.until_edges < u32::MAX => {
+                rest.min(self.until_edges).min(soonest(known.since_the_look_before(), self.since_edges))
+            }
+            (None, _) => rest,
         };
+        self.since_edges = self.until_look;
         self.until_next = rest - self.until_look;
         Ok(())
     }
@@ -382,12 +401,14 @@ impl<R: Real, const N: usize> Known<R, N> {
             #[inline(always)]
             || functions(system, start.time, &start.state, &largest, &mut values),
         );
+        let count = if guard.edge < 0.0 { 0 } else { count };
         let known = Self {
             energy: vitals.energy,
             scale: vitals.scale,
             count,
             start: values.map(|function| function.value),
             functions: values,
+            earlier: values.map(|function| function.value),
             largest,
             defects: Defects::new(),
         };
@@ -408,11 +429,21 @@ impl<R: Real, const N: usize> Known<R, N> {
         if self.count == 0 {
             return Ok(());
         }
+        self.earlier = self.functions.map(|function| function.value);
         R::vectorize(
             #[inline(always)]
             || functions(system, reached.time, &reached.state, &self.largest, &mut self.functions),
         );
         self.distances(reached.time.to_f64(), limit)
+    }
+
+    /// What the functions were at the last two looks.
+    fn since_the_look_before(&self) -> impl Iterator<Item = (R, R)> {
+        self.earlier
+            .iter()
+            .copied()
+            .zip(self.functions.iter().map(|function| function.value))
+            .take(self.count)
     }
 
     /// In how many steps to look at the edges again, judged by the step that began at `before` and led to where they were

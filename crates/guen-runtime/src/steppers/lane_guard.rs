@@ -360,6 +360,7 @@ impl<L: Lanes, const N: usize> Known<L, N> {
             #[inline(always)]
             || functions(system, time, &start.state, &largest, &mut functions_there),
         );
+        let count = if guard.edge < 0.0 { 0 } else { count };
         let known = Self {
             energy: vitals.energy,
             scale: vitals.scale,

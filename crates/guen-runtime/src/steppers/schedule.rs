@@ -6,6 +6,8 @@ const EVALUATIONS_BETWEEN_LOOKS: u32 = 160;
 const COSTS_BETWEEN_LOOKS: f64 = 40.0;
 /// Looks at the edges alone may take a fiftieth,
 const COSTS_BETWEEN_EDGES: f64 = 50.0;
+/// an eightieth where steps are not fixed, which leaves what looks at everything take there,
+const COSTS_BETWEEN_FREE_EDGES: f64 = 80.0;
 /// and both together so little.
 const COSTS_TOGETHER: f64 = 34.0;
 /// What is done further at a look at a fixed step, in right-hand sides: an estimate of its error, which takes three and sums over
@@ -17,8 +19,7 @@ const COST_OF_A_DEFECT: [f64; 2] = [4.0, 10.0];
 pub(super) struct Schedule {
     /// Steps after which the sizes of entries are known.
     pub young: u32,
-    /// From one look at the edges alone to the next, at most; never with steps that become shorter where they have to, or where
-    /// somebody has chosen how often to look.
+    /// From one look at the edges alone to the next, at most; never where somebody has chosen how often to look.
     pub edges: u32,
     /// From one look at everything to the next.
     pub every: u32,
@@ -36,11 +37,11 @@ impl Schedule {
             return Self { young, edges: u32::MAX, every: chosen.max(1) };
         }
         if !fixed {
-            return Self {
-                young,
-                edges: u32::MAX,
-                every: young.max(in_steps(COSTS_BETWEEN_LOOKS * f64::from(look))),
-            };
+            // Steps as long as the tolerance allows may lead through an edge and back in a few: each is looked at, if that is
+            // cheap enough.
+            let between = if edges > 0.0 { in_steps(COSTS_BETWEEN_FREE_EDGES * edges).max(1) } else { young };
+            let every = young.max(in_steps(COSTS_BETWEEN_LOOKS * f64::from(look)));
+            return Self { young, edges: between, every };
         }
         // Before the step and after it; NaN is no price.
         let both = (2.0 * edges).max(0.0);
@@ -100,7 +101,10 @@ mod tests {
                             || alone <= f64::from(young) * of
                     );
                     let free = Schedule::new(evaluations, (look, edges), false, None);
-                    assert!(f64::from(free.every) * of <= every && free.edges == u32::MAX);
+                    assert!(f64::from(free.every) * of <= every);
+                    assert!(
+                        free.edges == 1 || edges / (f64::from(free.edges) * of) < 1.4 / 80.0 || edges == 0.0
+                    );
                 }
             }
         }
