@@ -1,9 +1,13 @@
 //! Fixed steps whose sum loses no digits.
 
-use super::course::{Method, Reached, Statistics};
+use core::ops::ControlFlow;
+
+use super::course::{Done, Method, Reached, Statistics};
 use super::dense::Dense;
 use super::fixed::{Changes, Fixed, Formula};
-use crate::error::Cause;
+use super::integration::Integration;
+use super::landing::visit_times;
+use crate::error::{Cause, IntegrationError};
 use crate::real::Real;
 use crate::system::System;
 
@@ -18,7 +22,8 @@ use crate::system::System;
 ///   4.2.2, theorem B), whatever the sizes of `x` and `y`, and given back in the next step. What is left are the roundings of
 ///   the changes, smaller than those of the states by the length of a step relative to the motion.
 /// - What is left beside them grows like the number of steps, though slowly: the coefficients of the method are rounded to
-///   the real's digits too, always to the same side. It is proportional to the step.
+///   the real's digits too, always to the same side. It is proportional to the step. On simple oscillators with some 300 steps in a
+///   period it is as large as what compensation saves after 1e6 steps.
 /// - Seven additions for each variable in a step. It pays where the error of the method is below rounding, on long runs:
 ///   `docs/integrators.md` has the figures.
 /// - Everything else is as without it. A change of the state from outside, by [`System::restore`], keeps what was lost.
@@ -36,6 +41,63 @@ use crate::system::System;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Compensated<F> {
     pub(super) method: F,
+}
+
+impl<F> Compensated<F> {
+    /// Integrates from `x0` at `t0` to `t1`, as [`Rk4::integrate`](super::Rk4::integrate) does.
+    ///
+    /// ```
+    /// use core::ops::ControlFlow;
+    /// use guen_runtime::{from_fn, steppers::Rk4};
+    ///
+    /// let growth = from_fn(|_t: f64, &[x]: &[f64; 1]| [x]);
+    /// let go_on = |_, _: &[f64; 1]| ControlFlow::Continue(());
+    /// let done = Rk4 { step: 0.01 }.compensated().integrate(&growth, 0.0, &[1.0], 1.0, go_on).unwrap();
+    /// assert!((done.state[0] - 1.0_f64.exp()).abs() < 1e-9);
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// Settings that make no sense; else what stopped the method, or what the default [`Guard`](super::Guard) found.
+    pub fn integrate<R, S, O, const N: usize>(
+        &self,
+        system: &S,
+        t0: R,
+        x0: &[R; N],
+        t1: R,
+        mut observer: O,
+    ) -> Result<Done<R, N>, IntegrationError<R, N>>
+    where
+        R: Real,
+        S: System<R, N> + ?Sized,
+        Self: Method<R, S, N>,
+        O: FnMut(R, &[R; N]) -> ControlFlow<()>,
+    {
+        Integration::new(system, t0, x0).observe(&mut observer).run(self, t1)
+    }
+
+    /// Integrates from `x0` at `t0` through the given times and lands on each of them, as
+    /// [`Rk4::sample`](super::Rk4::sample) does. What rounding took is kept from one to the next.
+    ///
+    /// # Errors
+    ///
+    /// Those of `integrate`; times visited before stay visited.
+    pub fn sample<R, S, V, const N: usize>(
+        &self,
+        system: &S,
+        t0: R,
+        x0: &[R; N],
+        times: &[R],
+        visit: V,
+    ) -> Result<Done<R, N>, IntegrationError<R, N>>
+    where
+        R: Real,
+        S: System<R, N> + ?Sized,
+        Self: Method<R, S, N>,
+        V: FnMut(usize, R, &[R; N]),
+    {
+        visit_times(self, system, t0, x0, times, visit)
+    }
 }
 
 impl<R, S, F, const N: usize> Formula<R, S, N> for Compensated<F>
