@@ -224,7 +224,7 @@ pub enum Setting {
     Step,
     /// A tolerance is negative or not finite, or both are zero.
     Tolerance,
-    /// The time to go to is not finite.
+    /// The time to start from, or one to go to, is not finite.
     Time,
     /// The times of samples do not run in order from the start to the end.
     Samples,
@@ -302,7 +302,7 @@ impl fmt::Display for Cause {
                 )?;
                 write!(f, "{defect:e} of its size, and {limit:e} is allowed")
             }
-            Self::Setting(Setting::Time) => f.write_str("the final time is not finite"),
+            Self::Setting(Setting::Time) => f.write_str("a time to start from or to go to is not finite"),
             Self::Setting(Setting::Samples) => {
                 f.write_str("the times of samples do not run in order from the start to the end")
             }

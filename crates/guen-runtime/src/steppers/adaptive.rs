@@ -199,7 +199,9 @@ where
         let attempt = pair.attempt(system, time, &state, &slope, h);
         statistics.evaluations += P::TRIAL;
         let margin = pair.margin(&attempt.errors, size, &tolerance.weights(&state, &attempt.guess));
-        let mut finite = all_finite(&attempt.state) && margin.is_finite();
+        // An error beyond the range of doubles, in units of a tiny tolerance, is an error of a state that there is.
+        let mut defined = all_finite(&attempt.state);
+        let finite = defined && margin.is_finite();
         if finite && margin.is_enough() {
             let mut accepted = attempt.state;
             system.restore(next, &mut accepted).map_err(|_| Cause::Positions)?;
@@ -211,8 +213,8 @@ where
                     system.rhs(next, &accepted)
                 }
             };
-            finite = all_finite(&next_slope);
-            if finite {
+            defined = all_finite(&next_slope);
+            if defined {
                 let margin = margin.log2();
                 let mut next_step = size * P::CONTROL.factor_after_success(margin, trend);
                 if rejected {
@@ -233,13 +235,13 @@ where
         }
         statistics.rejected += 1;
         rejected = true;
-        let factor = if finite {
+        let factor = if finite && defined {
             P::CONTROL.factor_after_failure(margin.log2())
         } else {
             P::CONTROL.factor_out_of_domain()
         };
         if step <= shortest {
-            return Err(if finite { Cause::StepUnderflow } else { Cause::NotFinite });
+            return Err(if defined { Cause::StepUnderflow } else { Cause::NotFinite });
         }
         step = f64::max(size * factor, shortest);
     }

@@ -95,14 +95,18 @@ where
         self.leg.is_some_and(|leg| leg.is_last() && leg.target == target)
     }
 
+    #[inline]
     fn advance(&mut self, system: &S, target: R, dense: bool) -> Result<(), Cause> {
         let Reached { time: now, time_rest, .. } = self.reached;
-        let mut leg = match self.leg {
+        let leg = match &mut self.leg {
             Some(leg) if leg.target == target && leg.index < leg.count => leg,
-            _ => Leg::new(now, target, self.step)?,
+            leg => leg.insert(Leg::new(now, target, self.step)?),
         };
-        let (next, h) = leg.next(now)?;
-        let h = h - time_rest;
+        let next = leg.end();
+        if next == now {
+            return Err(Cause::StepUnderflow);
+        }
+        let h = (next - now) - time_rest;
         let mut statistics = self.reached.statistics;
         let made = self.formula.step(system, &mut self.memory, &self.reached, h, dense, &mut statistics);
         self.reached.statistics = statistics;
@@ -114,11 +118,11 @@ where
         if dense {
             self.before = self.reached;
         }
+        leg.index += 1;
         self.reached.statistics.accepted += 1;
         self.reached.time = next;
         self.reached.time_rest = R::zero();
         self.reached.state = state;
-        self.leg = Some(leg);
         Ok(())
     }
 
@@ -237,14 +241,17 @@ impl<R: Real> Leg<R> {
         self.index + 1 == self.count
     }
 
-    /// The end and the length of the next step.
+    /// The end of the next step.
+    #[inline(always)]
+    fn end(&self) -> R {
+        let index = self.index + 1;
+        if index == self.count { self.target } else { self.origin + self.h * R::from_f64(index as f64) }
+    }
+
+    /// The end and the length of the next step, which is made.
     pub(super) fn next(&mut self, now: R) -> Result<(R, R), Cause> {
+        let next = self.end();
         self.index += 1;
-        let next = if self.index == self.count {
-            self.target
-        } else {
-            self.origin + self.h * R::from_ratio(self.index, 1)
-        };
         if next == now { Err(Cause::StepUnderflow) } else { Ok((next, next - now)) }
     }
 }

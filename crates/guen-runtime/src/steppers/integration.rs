@@ -218,7 +218,7 @@ impl<'a, R: Real, S: System<R, N> + ?Sized, const N: usize, const E: usize> Inte
 
     /// Refuses settings that make no sense.
     fn check(&self, t1: R) -> Result<(), Cause> {
-        if !t1.is_finite() {
+        if !self.start.time.is_finite() || !t1.is_finite() {
             return Err(Cause::Setting(Setting::Time));
         }
         if !self.events.iter().all(Event::is_valid) {

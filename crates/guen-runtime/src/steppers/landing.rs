@@ -28,7 +28,7 @@ where
         .map_err(|cause| start.failed(cause))?;
     let (mut before, mut kept) = (start, false);
     for (index, &time) in times.iter().enumerate() {
-        if !time.is_finite() {
+        if !t0.is_finite() || !time.is_finite() {
             return Err(course.reached().failed(Cause::Setting(Setting::Time)));
         }
         while course.reached().time != time {

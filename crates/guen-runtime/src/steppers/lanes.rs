@@ -314,7 +314,7 @@ where
         watch: LaneWatch::new(guard, M::EVALUATIONS, price, &start),
     };
     for (index, &time) in times.iter().enumerate() {
-        let none = (!time.is_finite()).then_some(Cause::Setting(Setting::Time));
+        let none = (!t0.is_finite() || !time.is_finite()).then_some(Cause::Setting(Setting::Time));
         if let Some(cause) = invalid.or(none) {
             for lane in run.going.lanes() {
                 run.fail(lane, Fault::new(lane, cause, &run.now));

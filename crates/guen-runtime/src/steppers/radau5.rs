@@ -239,7 +239,9 @@ impl<R: Ordered, const N: usize> Run<'_, R, N> {
             }
             let size = libm::sqrt(squares / (3 * N.max(1)) as f64);
             if !size.is_finite() {
-                return Solved::NotFinite;
+                // Of numbers, the size may be beyond the range of doubles in units of a tiny tolerance.
+                let defined = z.iter().all(all_finite);
+                return if defined { Solved::Diverged } else { Solved::NotFinite };
             }
             let mut left = if size == 0.0 { 0.0 } else { f64::INFINITY };
             if iteration > 1 && size > 0.0 {
@@ -296,6 +298,7 @@ where
         let shortest = control::shortest(time, self.origin);
         let mut step = if step < shortest { shortest } else { step };
         let mut rejected = false;
+        let mut last_trouble = Cause::StepUnderflow;
         let max_steps = self.method.max_steps;
         loop {
             let statistics = &mut self.reached.statistics;
@@ -307,6 +310,10 @@ where
             // The distance that time really moves.
             let h = (next - time) - time_rest;
             let size = h.to_f64().abs();
+            if !(R::one() / h).is_finite() {
+                // Next to the time zero steps become that short, and no equations of them can be solved.
+                return Err(last_trouble);
+            }
             let (jacobian, present) = match self.jacobian {
                 Some(known) => known,
                 None => {
@@ -327,6 +334,8 @@ where
             let start = self.last.map(|(before, z)| collocation.predicted(&z, h / before));
             let solved = match &factors {
                 Some(factors) => self.solve(system, collocation, factors, h, start, &weights),
+                // A matrix without an inverse, or beyond the range of doubles.
+                None if jacobian.iter().all(all_finite) => Solved::Diverged,
                 None => Solved::NotFinite,
             };
             let (trouble, factor) = match (solved, &factors) {
@@ -379,6 +388,9 @@ where
                         (Cause::NotFinite, CONTROL.factor_out_of_domain())
                     } else if finite {
                         (Cause::StepUnderflow, CONTROL.factor_after_failure(margin.log2()))
+                    } else if all_finite(&reached) {
+                        // An error beyond the range of doubles, in units of a tiny tolerance.
+                        (Cause::StepUnderflow, CONTROL.factor_out_of_domain())
                     } else {
                         (Cause::NotFinite, CONTROL.factor_out_of_domain())
                     }
@@ -388,6 +400,7 @@ where
             };
             self.reached.statistics.rejected += 1;
             rejected = true;
+            last_trouble = trouble;
             if !present {
                 // With the Jacobian of an earlier state: perhaps that one is to blame.
                 self.jacobian = None;

@@ -292,6 +292,40 @@ fn evaluations_for_dense_output_are_counted() {
     check("Radau 5", &Radau5::new(1e-9, 1e-9), 0.0);
 }
 
+#[test]
+fn a_time_that_is_none_and_a_tolerance_that_cannot_be_met_are_called_that() {
+    fn check<M: Method<f64, Turning, 2>>(name: &str, method: &M, _: f64) {
+        for (t0, t1) in [(f64::NAN, 1.0), (f64::INFINITY, 1.0), (0.0, f64::NAN), (f64::NAN, f64::NAN)] {
+            for times in [&[][..], &[0.5]] {
+                let run = Integration::new(&generic(Oscillator), t0, &START)
+                    .sample(times, &mut |_, _, _| ())
+                    .run(method, t1);
+                assert_eq!(run.unwrap_err().cause, Cause::Setting(Setting::Time), "{name}: {t0} {t1}");
+            }
+        }
+    }
+    with_every_method!(check);
+    for t0 in [f64::NAN, f64::INFINITY] {
+        let run = Rk4 { step: 0.1 }.sample(&generic(Oscillator), t0, &START, &[1.0], |_, _, _| ());
+        assert_eq!(run.unwrap_err().cause, Cause::Setting(Setting::Time));
+    }
+    // In units of this tolerance an error is beyond the range of doubles, though everything is finite.
+    let system = generic(Oscillator);
+    for tolerance in [1e-300, 1e-200, 1e-160] {
+        for t0 in [0.0, 1.0] {
+            let run = |name: &str, method: &dyn Fn(Integration<'_, f64, Turning, 2>) -> Cause| {
+                let cause = method(Integration::new(&system, t0, &START));
+                let expected =
+                    matches!(cause, Cause::StepUnderflow | Cause::TooManySteps { .. } | Cause::NoConvergence);
+                assert!(expected, "{name}, {tolerance:e}, from {t0}: {cause:?}");
+            };
+            run("DOP853", &|run| run.run(&Dop853::new(tolerance, tolerance), 3.0).unwrap_err().cause);
+            run("Tsit5", &|run| run.run(&Tsit5::new(tolerance, tolerance), 3.0).unwrap_err().cause);
+            run("Radau 5", &|run| run.run(&Radau5::new(tolerance, tolerance), 3.0).unwrap_err().cause);
+        }
+    }
+}
+
 /// The oscillator, counting evaluations and derivatives along a direction.
 #[derive(Default)]
 struct Counting(core::cell::Cell<u64>);

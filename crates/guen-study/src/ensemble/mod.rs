@@ -190,10 +190,20 @@ impl<S: Laned<N> + Sync, const N: usize, C: Choice> Ensemble<S, N, C> {
         in_turn(self.len(), self.width.lanes(), self.threads_for(task), |range| {
             let groups = range.step_by(self.width.lanes());
             let ends = groups.flat_map(|first| {
-                dispatch_on(self.backend, self.width, Group { task, first, kept: PhantomData::<K> })
+                dispatch_on(
+                    self.backend,
+                    self.width_from(first),
+                    Group { task, first, kept: PhantomData::<K> },
+                )
             });
             ends.map(&result).collect()
         })
+    }
+
+    /// The lanes for the members from one on: fewer than usual where fewer members are left, since idle lanes cost what the others do.
+    fn width_from(&self, first: usize) -> Width {
+        let wanted = self.width.lanes().min(self.len() - first);
+        [Width::One, Width::Four].into_iter().find(|width| width.lanes() >= wanted).unwrap_or(self.width)
     }
 
     /// As many threads as were asked for, or as there are processors, unless the work is done before a second one begins.
