@@ -198,9 +198,9 @@ mod with_serde {
 
         fn visit_seq<A: SeqAccess<'de>>(self, mut sequence: A) -> Result<Self::Value, A::Error> {
             let mut values = [const { None }; N];
-            for k in 0..N {
+            for (k, value) in values.iter_mut().enumerate() {
                 let missing = |visitor: &Self| A::Error::invalid_length(k, visitor);
-                values[k] = if self.derived[k] {
+                *value = if self.derived[k] {
                     sequence.next_element()?.ok_or_else(|| missing(&self))?
                 } else {
                     Some(sequence.next_element()?.ok_or_else(|| missing(&self))?)

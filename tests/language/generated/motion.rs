@@ -50,18 +50,18 @@ fn rates_with_inputs() {
 fn energies_and_momenta() {
     let cart = heavy_cart();
     let Cart { M, m, l, g, .. } = cart.constants();
-    let I = m * l * l / 3.0;
+    let inertia = m * l * l / 3.0;
     let cos = STATE.phi.cos();
     let kinetic = 0.5 * (M + m) * STATE.v * STATE.v
         + m * l * cos * STATE.v * STATE.omega
-        + 0.5 * (m * l * l + I) * STATE.omega * STATE.omega;
+        + 0.5 * (m * l * l + inertia) * STATE.omega * STATE.omega;
     assert_near(cart.kinetic_energy(0.0, &STATE), kinetic);
     assert_near(cart.force_function(0.0, &STATE), m * g * l * cos);
     assert_near(cart.energy(0.0, &STATE), kinetic - m * g * l * cos);
     assert_near(Monitored::energy(&cart.driven(INPUTS), 0.0, &STATE.into()), kinetic - m * g * l * cos);
     let momenta = cart.momenta(0.0, &STATE);
     assert_near(momenta.v, (M + m) * STATE.v + m * l * cos * STATE.omega);
-    assert_near(momenta.omega, m * l * cos * STATE.v + (m * l * l + I) * STATE.omega);
+    assert_near(momenta.omega, m * l * cos * STATE.v + (m * l * l + inertia) * STATE.omega);
 }
 
 /// (2.8): the momenta of the constraints too, by their formulas for the hoop.

@@ -3,6 +3,8 @@
 //! other to 2e-13 and with the published crank angle to 7e-11, its velocities violate its own constraints by 1e-9, and its multipliers are right to
 //! six digits. The car axis' velocities are right to nine, its multipliers to seven.
 
+#![allow(clippy::excessive_precision, reason = "the digits are those that were published")]
+
 use super::close;
 use guen::prelude::*;
 use guen::projected;

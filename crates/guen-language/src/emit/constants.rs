@@ -286,7 +286,6 @@ fn check_bound(name: &str, bound: BoundKind, value: &TokenStream) -> TokenStream
 /// `new` with the constants that have no default, and `Default` if all have one.
 fn constructors(subject: &Subject<'_, '_>, layout: &Layout, fields: &[Field]) -> TokenStream {
     let system = &layout.system;
-    let names: Vec<&Ident> = fields.iter().map(|field| &field.ident).collect();
     // A parameter named like a constant of the module, an operator or `None` would be a pattern.
     let parameter = |field: &Field| {
         if crate::names::is_pattern(&field.name) {
@@ -296,13 +295,20 @@ fn constructors(subject: &Subject<'_, '_>, layout: &Layout, fields: &[Field]) ->
         }
     };
     let required: Vec<Ident> = fields.iter().filter(|field| field.default.is_none()).map(parameter).collect();
-    let values = fields.iter().map(|field| match field.default {
-        None => {
-            let name = parameter(field);
-            quote!(#name)
+    let values = fields.iter().map(|field| {
+        let name = &field.ident;
+        match field.default {
+            None => {
+                let parameter = parameter(field);
+                // `a: a` would be a lint in the user's file.
+                if *name == parameter { quote!(#name) } else { quote!(#name: #parameter) }
+            }
+            Some(_) if field.is_derived => quote!(#name: __guen::Derived::Follows),
+            Some(default) => {
+                let value = tokens(&default_text(subject, default));
+                quote!(#name: #value)
+            }
         }
-        Some(_) if field.is_derived => quote!(__guen::Derived::Follows),
-        Some(default) => tokens(&default_text(subject, default)),
     });
     let marker = (fields.is_empty()).then(|| quote!(__guen_real: ::core::marker::PhantomData,));
     let docs = if required.is_empty() {
@@ -325,7 +331,7 @@ fn constructors(subject: &Subject<'_, '_>, layout: &Layout, fields: &[Field]) ->
             #[doc = #docs]
             #[allow(clippy::too_many_arguments, reason = "one for each constant without a default")]
             pub fn new(#(#required: R),*) -> Self {
-                #system { #(#names: #values,)* #marker }
+                #system { #(#values,)* #marker }
             }
         }
         #default
