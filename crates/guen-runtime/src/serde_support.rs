@@ -77,7 +77,10 @@ macro_rules! serde_record {
 #[cfg(not(feature = "serde"))]
 #[macro_export]
 macro_rules! serde_record {
-    ($Type:ident, $name:literal, $n:literal $(, $names:expr, $(derived $derived:expr,)? $to:expr, $from:expr)?) => {};
+    ($Type:ident, $name:literal, $n:literal) => {};
+    // An expression may begin with this word: where both could follow, the macro is ambiguous.
+    ($Type:ident, $name:literal, $n:literal, $names:expr, derived $derived:expr, $to:expr, $from:expr) => {};
+    ($Type:ident, $name:literal, $n:literal, $names:expr, $to:expr, $from:expr) => {};
 }
 
 #[cfg(feature = "serde")]

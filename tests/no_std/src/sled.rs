@@ -6,7 +6,7 @@ use guen::prelude::{Dop853, Rk4, System};
 guen::mechanical_system! {
     /// A sled with a blade, and a moment that steers it.
     pub system Sled {
-        constants { m > 0, k > 0, alpha, drag = 0.1 }
+        constants { m > 0, k > 0, alpha = k/2, drag = 0.1 }
         inputs { moment }
         coordinates { phi, x, y }
         parameters { turning = dot(phi); speed = dot(x)*cos(phi) + dot(y)*sin(phi); }
@@ -19,7 +19,7 @@ guen::mechanical_system! {
 /// The heading after some time, or a number that is none where the run fails.
 pub fn heading(seconds: f64) -> f64 {
     let start = sled::State { speed: 1.0, ..Default::default() };
-    let Ok(system) = Sled::new(2.0, 0.4, 0.2).prepare() else { return f64::NAN };
+    let Ok(system) = Sled::new(2.0, 0.4).prepare() else { return f64::NAN };
     let steered = system.driven(sled::Inputs { moment: 0.3 });
     let rate = steered.rhs(0.0, &start.into());
     let adaptive = Dop853::new(1e-12, 1e-12)
