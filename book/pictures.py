@@ -9,6 +9,7 @@ by less than a third of a point from the line through their neighbours (Ramer, D
 """
 
 import argparse
+import os
 import pathlib
 import re
 import subprocess
@@ -16,6 +17,8 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PICTURES = ROOT / "docs/pictures"
+# Where programs leave theirs.
+TARGET = ROOT / os.environ.get("CARGO_TARGET_DIR", "target") / "guen"
 # The programs' units are tenths of a point.
 TOLERANCE = 3.0
 
@@ -23,10 +26,10 @@ FIRST = "cargo test --quiet --doc -p guen-pages first_system"
 SCENES = "cargo run --quiet --release -p guen-measure --bin scenes"
 # What is drawn: the file in docs/pictures, the file that the program writes, the program.
 MADE = [
-    ("first-track.svg", "crates/guen-pages/track.svg", FIRST),
-    ("scenes-contact.svg", "target/guen/scenes/contact.svg", SCENES),
+    ("first-track.svg", ROOT / "crates/guen-pages/track.svg", FIRST),
+    ("scenes-contact.svg", TARGET / "scenes/contact.svg", SCENES),
     *(
-        (picture, f"target/guen/{example}/{file}.svg", f"cargo run --quiet --release --example {example}")
+        (picture, TARGET / example / f"{file}.svg", f"cargo run --quiet --release --example {example}")
         for picture, example, file in [
             ("hoop-track.svg", "hoop", "track"),
             ("sled-track.svg", "chaplygin_sled", "track"),
@@ -83,7 +86,7 @@ def main():
             run.add(command)
             print(f"$ {command}", flush=True)
             subprocess.run(command.split(), cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
-        made = smaller((ROOT / file).read_text())
+        made = smaller(file.read_text())
         target = PICTURES / picture
         if not target.exists() or target.read_text() != made:
             changed.append(picture)

@@ -9,12 +9,14 @@
 //! bracket, those of the hoop (3.3) are not, and the equations (3.11) lack the terms `a^2 eta1` of (3.6).
 
 use std::error::Error;
-use std::path::Path;
 use std::process::ExitCode;
 
 use guen::mechanical_system;
 use guen::prelude::*;
 use guen_study::{Monitor, Plot, Progress, Recording, Table, drift};
+
+#[path = "common/folder.rs"]
+mod folder;
 
 mechanical_system! {
     /// The system of Appell's Mécanique rationnelle, no. 469, as the paper declares it: (3.2), (3.7), (3.10).
@@ -103,7 +105,7 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
     }
     println!("{table}\n");
 
-    let pictures = Path::new("target/guen/appell");
+    let pictures = folder::folder("appell");
     let axis = recording.iter().map(|(t, state)| {
         let [x, y, _] = appell.outputs(t, &appell::State::from(*state)).axis;
         (x, y)

@@ -8,7 +8,6 @@
 //! model that the controller is designed with, and inside the bare static library that would run on the robot.
 
 use std::error::Error;
-use std::path::Path;
 use std::process::ExitCode;
 
 use guen::Linearization;
@@ -19,6 +18,8 @@ use nalgebra::{Matrix2, SMatrix};
 
 #[path = "../crates/guen-bare/src/controller.rs"]
 mod controller;
+#[path = "common/folder.rs"]
+mod folder;
 #[path = "../crates/guen-bare/src/plant.rs"]
 mod plant;
 
@@ -203,7 +204,7 @@ fn solve_riccati(a: Square, b: Torques, q: Square, r: Matrix2<f64>) -> Option<Sq
 }
 
 fn draw(record: &[(f64, State, Inputs)]) -> Result<(), Box<dyn Error>> {
-    let pictures = Path::new("target/guen/balancing_robot");
+    let pictures = folder::folder("balancing_robot");
     let curve = |f: fn(&State, &Inputs) -> f64| record.iter().map(move |(t, s, u)| (*t, f(s, u)));
     Plot::new("Balance: the push comes after four seconds")
         .axes("t in s", "")
@@ -245,7 +246,7 @@ fn play(robot: &robot::Prepared, record: &[(f64, State, Inputs)]) -> Result<(), 
         strut(-edges[1] / 3.0),
         Shape::rod([0.0, -b, -h], [0.0, b, -h], 0.018).coloured(0x4a525b),
     ];
-    let page = Path::new("target/guen/balancing_robot/robot.html");
+    let page = folder::folder("balancing_robot").join("robot.html");
     Viewer::new("A robot that balances on two wheels, drives, is pushed and turns", &recording)
         .bodies(robot)
         .drawn("chassis", chassis)
@@ -266,7 +267,7 @@ fn play(robot: &robot::Prepared, record: &[(f64, State, Inputs)]) -> Result<(), 
         .curve("left", |t, _| inputs(t).left_torque)
         .curve("right", |t, _| inputs(t).right_torque)
         .follow("chassis")
-        .write(page)?;
+        .write(&page)?;
     println!("to play: {}", page.display());
     Ok(())
 }

@@ -15,6 +15,9 @@ use guen::mechanical_system;
 use guen::prelude::*;
 use guen_study::{Monitor, Plot, Pose, Progress, Recording, Shape, Table, Viewer};
 
+#[path = "common/folder.rs"]
+mod folder;
+
 mechanical_system! {
     /// A sled on a plane inclined by `incline`, on a blade that does not slip sideways.
     pub system Sled {
@@ -95,7 +98,7 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
     }
     println!("{table}\n");
 
-    let pictures = Path::new("target/guen/chaplygin_sled");
+    let pictures = folder::folder("chaplygin_sled");
     Plot::new("The track of the blade: across the slope, and not down")
         .size(960, 420)
         .axes("across, in m", "uphill, in m")

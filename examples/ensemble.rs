@@ -9,7 +9,6 @@
 //! pictures to `target/guen/ensemble`, and ends with a nonzero status if a hoop loses energy.
 
 use std::error::Error;
-use std::path::Path;
 use std::process::ExitCode;
 use std::time::Instant;
 
@@ -20,6 +19,8 @@ use guen_study::{Ensemble, Plot, Progress, Sampled, Table};
 
 #[path = "common/arguments.rs"]
 mod arguments;
+#[path = "common/folder.rs"]
+mod folder;
 
 mechanical_system! {
     /// A hoop of radius `a` and mass one that rolls without slipping on a horizontal plane.
@@ -125,7 +126,7 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
     println!("{table}\n");
 
     // 5. The same as a picture, and a few of the tracks.
-    let pictures = Path::new("target/guen/ensemble");
+    let pictures = folder::folder("ensemble");
     let [tenth, half, most, all] = curves;
     Plot::new(format!("How far {count} hoops are from the one in the middle"))
         .axes("t in s", "distance in m")

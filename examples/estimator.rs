@@ -9,13 +9,15 @@
 //! no state of the filter, and its covariance is never singular.
 
 use std::error::Error;
-use std::path::Path;
 use std::process::ExitCode;
 
 use guen::control::Flow;
 use guen::mechanical_system;
 use guen_study::{Plot, Table};
 use nalgebra::{SMatrix, SVector};
+
+#[path = "common/folder.rs"]
+mod folder;
 
 mechanical_system! {
     /// A hoop of radius `a` that rolls without slipping on a horizontal plane.
@@ -184,7 +186,7 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
         table.row(&[*t, s.theta, e.theta, s.xi, e.xi, s.eta2, e.eta2, s.phi - e.phi]);
     }
     println!("{table}\n");
-    let pictures = Path::new("target/guen/estimator");
+    let pictures = folder::folder("estimator");
     Plot::new("The hoop's centre from above")
         .equal_scale(true)
         .axes("xi in m", "eta in m")

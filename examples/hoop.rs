@@ -3,6 +3,7 @@
 //! ```text
 //! cargo run --release --example hoop              # one minute of motion
 //! cargo run --release --example hoop -- 10000     # any other time, in seconds
+//! cargo run --release --example hoop -- --open    # shows the page that it makes, where there is a desktop
 //! ```
 //!
 //! Prints what was derived and a table of the motion, writes pictures and a page that plays the motion to
@@ -18,6 +19,10 @@ use guen_study::{Monitor, Plot, Pose, Progress, Recording, Shape, Table, Viewer,
 
 #[path = "common/arguments.rs"]
 mod arguments;
+#[path = "common/folder.rs"]
+mod folder;
+#[path = "common/open.rs"]
+mod open;
 
 mechanical_system! {
     /// A hoop of radius `a` and mass one that rolls without slipping on a horizontal plane.
@@ -80,14 +85,14 @@ const HIDDEN_ERROR: f64 = 1e-10;
 fn main() -> Result<ExitCode, Box<dyn Error>> {
     let about = "A hoop that rolls on a horizontal plane: from the declaration to its motion.";
     let seconds = |word: &str| word.parse().ok().filter(|time: &f64| time.is_finite());
-    let until = match arguments::read(
+    let (until, open) = match arguments::read_with_page(
         about,
         "SECONDS",
         "the time of the run; one minute by default",
         MINUTE,
         seconds,
     ) {
-        Ok(until) => until,
+        Ok(given) => given,
         Err(status) => return Ok(status),
     };
 
@@ -167,7 +172,7 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
     println!("{} steps, {} right-hand sides", done.statistics.accepted, done.statistics.evaluations);
 
     // 5. The motion in pictures.
-    let pictures = Path::new("target/guen/hoop");
+    let pictures = folder::folder("hoop");
     let contact = minute.iter().map(|(t, state)| {
         let [x, y, _] = hoop.outputs(t, &hoop::State::from(*state)).contact;
         (x, y)
@@ -189,7 +194,11 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
         .line("zeta - a sin(theta), in m", recording.iter().map(|(t, x)| (t, hidden(t, x) - hidden_start)))
         .save(pictures.join("drift.svg"))?;
     println!("pictures: track.svg, tilt.svg and drift.svg in {}", pictures.display());
-    play(&hoop, start, until, &pictures.join("hoop.html"))?;
+    let page = pictures.join("hoop.html");
+    play(&hoop, start, until, &page)?;
+    if open {
+        open::open(&page);
+    }
 
     // 6. What has to hold.
     let invariants = monitor.invariants();

@@ -8,13 +8,15 @@
 //! are sought, one run yields the motion and its exact derivatives by them: what Gauss and Newton's method needs.
 
 use std::error::Error;
-use std::path::Path;
 use std::process::ExitCode;
 
 use guen::mechanical_system;
 use guen::prelude::*;
 use guen_study::{Plot, Table};
 use nalgebra::{SMatrix, SVector};
+
+#[path = "common/folder.rs"]
+mod folder;
 
 mechanical_system! {
     /// A sled on a blade with a mass centre ahead of it, slowed down by drag.
@@ -126,7 +128,7 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
         works &= deviations < DEVIATIONS;
     }
 
-    let pictures = Path::new("target/guen/identification");
+    let pictures = folder::folder("identification");
     let track = |places: Vec<[f64; 2]>| places.into_iter().map(|[x, y]| (x, y));
     Plot::new("The measured track, the guess, and what was found")
         .equal_scale(true)

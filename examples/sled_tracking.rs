@@ -9,12 +9,14 @@
 //! sled turn the accelerations that this takes into a thrust and a torque.
 
 use std::error::Error;
-use std::path::Path;
 use std::process::ExitCode;
 
 use guen::mechanical_system;
 use guen::prelude::*;
 use guen_study::{Plot, Table};
+
+#[path = "common/folder.rs"]
+mod folder;
 
 mechanical_system! {
     /// A sled on a blade, driven by a propeller and a rudder.
@@ -161,7 +163,7 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
         table.row(&[*t, s.x, s.y, *distance, s.speed, s.turning, u.thrust, u.torque, outputs.ice]);
     }
     println!("\n{table}\n");
-    let pictures = Path::new("target/guen/sled_tracking");
+    let pictures = folder::folder("sled_tracking");
     Plot::new("The path, and the sled on it")
         .size(900, 560)
         .axes("x in m", "y in m")

@@ -8,12 +8,15 @@
 //! The ball draws itself by its inertia; what a car looks like has to be said. `docs/viewing.md` explains the calls.
 
 use std::error::Error;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::ExitCode;
 
 use guen::mechanical_system;
 use guen::prelude::*;
 use guen_study::{Pose, Recording, Shape, Viewer};
+
+#[path = "common/folder.rs"]
+mod folder;
 
 mechanical_system! {
     /// A ball that rolls on a table which turns at a given rate.
@@ -78,7 +81,7 @@ const RATE: f64 = 60.0;
 
 fn main() -> ExitCode {
     let mut names: Vec<String> = Vec::new();
-    let mut folder = PathBuf::from("target/guen/viewer");
+    let mut folder = folder::folder("viewer");
     let mut arguments = std::env::args().skip(1);
     while let Some(argument) = arguments.next() {
         match argument.as_str() {

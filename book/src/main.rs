@@ -10,10 +10,12 @@
 //! a page would load something from a network.
 
 mod check;
+#[path = "../../examples/common/open.rs"]
+mod open;
 
 use std::error::Error;
 use std::path::Path;
-use std::process::{Command, ExitCode};
+use std::process::ExitCode;
 use std::time::Instant;
 
 use mdbook_driver::MDBook;
@@ -61,12 +63,7 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
         return Ok(ExitCode::FAILURE);
     }
     if open {
-        let opener = match std::env::consts::OS {
-            "macos" => "open",
-            "windows" => "explorer",
-            _ => "xdg-open",
-        };
-        Command::new(opener).arg(folder.join("index.html")).status()?;
+        open::open(&folder.join("index.html"));
     }
     Ok(ExitCode::SUCCESS)
 }

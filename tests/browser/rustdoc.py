@@ -8,14 +8,12 @@ Exits with 0 if all is well, 1 if a page fails, 77 if there is no browser and no
 """
 
 import argparse
-import json
 import pathlib
 import subprocess
 import sys
 
 from browser import Browser
-
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from place import ROOT, target
 
 # Example, page of the type below the folder of documentation, and headings that it has to have.
 PAGES = [
@@ -23,13 +21,6 @@ PAGES = [
     ("balancing_robot", "balancing_robot/plant/robot/struct.Robot.html"),
 ]
 HEADINGS = ["Coordinates", "Forms", "Operators", "Brackets", "Classification", "Velocities", "Equations of motion", "Domain", "Cost"]
-
-
-def target():
-    """The folder that cargo builds in."""
-    command = ["cargo", "metadata", "--format-version", "1", "--no-deps"]
-    answer = subprocess.run(command, cwd=ROOT, check=True, capture_output=True).stdout
-    return pathlib.Path(json.loads(answer)["target_directory"])
 
 
 def faults(browser):

@@ -14,8 +14,7 @@ import sys
 import time
 
 from browser import Browser
-
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from place import ROOT, target
 
 # Example, its page, and the time at which its picture is taken, as a part of the whole.
 PAGES = [
@@ -176,7 +175,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--pictures", type=pathlib.Path, help="a folder for screenshots")
     parser.add_argument("--release", action="store_true", help="run the examples optimised")
-    parser.add_argument("--made", action="store_true", help="take the pages as they are in target/guen")
+    parser.add_argument("--made", action="store_true", help="take the pages as they are, from target/guen")
     parser.add_argument("pages", nargs="*", help="parts of the names of pages; all if there is none")
     arguments = parser.parse_args()
     browser = Browser()
@@ -187,7 +186,7 @@ def main():
         for _, name, part in PAGES:
             if arguments.pages and not any(wanted in name for wanted in arguments.pages):
                 continue
-            path = ROOT / "target/guen" / name
+            path = target() / "guen" / name
             stem = path.stem
             try:
                 browser.resize(900, 560)

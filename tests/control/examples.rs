@@ -16,7 +16,7 @@ macro_rules! programs {
     ($($name:ident $path:literal;)*) => {
         $(
             #[path = $path]
-            #[allow(dead_code, unused_imports, reason = "only the systems are of interest")]
+            #[allow(dead_code, unused_imports, clippy::duplicate_mod, reason = "only the systems are of interest")]
             mod $name;
         )*
     };

@@ -27,6 +27,9 @@ use guen_study::{Plot, Progress};
 
 use guen_study::Digits71;
 
+#[path = "../../../examples/common/folder.rs"]
+mod folder;
+
 mechanical_system! {
     /// A hoop of radius `a` that rolls without slipping on a horizontal plane.
     pub system Hoop {
@@ -311,8 +314,9 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
     }
     let law = |n: f64| (n.log10(), (f64::EPSILON / 4.0 * n.sqrt()).log10());
     plot = plot.line("square-root law", [law(1e3), law(*marks.last().unwrap_or(&1000) as f64)]);
-    plot.save("target/guen/long-run.svg")?;
-    println!("\ntarget/guen/long-run.svg");
+    let picture = folder::folder("long-run.svg");
+    plot.save(&picture)?;
+    println!("\n{}", picture.display());
     let span = if is("--quick") { 1e3 } else { 1e4 };
     let worst = ten_thousand_seconds(span)?;
     println!("Taylor over {span} s, the largest error of the energy at any step: {worst:.1e}");

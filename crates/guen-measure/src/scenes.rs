@@ -19,6 +19,9 @@ use guen_benchmarks::Random;
 use guen_benchmarks::timing::{STATES, Throughput, compare, conditions};
 use guen_study::{Nodes, Plot, Recovered, recover};
 
+#[path = "../../../examples/common/folder.rs"]
+mod folder;
+
 mechanical_system! {
     /// A hoop that rolls without slipping on a horizontal plane.
     pub system Hoop {
@@ -151,7 +154,7 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
     }
 
     println!("\nmotion of scenes, against the whole systems");
-    let pictures = Path::new("target/guen/scenes");
+    let pictures = &folder::folder("scenes");
     let healthy = [
         hoop_rolls(hoop, pictures)?,
         sled_turns(Sled { alpha: 0.02, ..sled }, pictures)?,

@@ -18,6 +18,9 @@ use std::time::Duration;
 use guen::mechanical_system;
 use guen_study::{Report, Study, Trade, Unit};
 
+#[path = "../../../examples/common/folder.rs"]
+mod folder;
+
 mechanical_system! {
     /// A hoop of radius `a` that rolls without slipping on a horizontal plane.
     pub system Hoop {
@@ -111,7 +114,7 @@ fn arguments() -> Result<Option<Arguments>, String> {
         all: false,
         evaluations: false,
         states: 1,
-        out: Path::new("target/guen/tradeoff").to_owned(),
+        out: folder::folder("tradeoff"),
     };
     let mut words = std::env::args().skip(1);
     while let Some(word) = words.next() {
