@@ -53,7 +53,7 @@ pub struct Guard {
     /// real the limit is multiplied by the root of the ratio of the roundings.
     ///
     /// A look that finds another sign than at the start ends the run, whatever the limit. Two changes of sign between two looks
-    /// are not seen. An adaptive method looks at these functions as often as an eightieth of the run pays for, which is after every step
+    /// are not seen. An adaptive method looks at these functions as often as a 160th of the run pays for, which is after every step
     /// where they cost little beside a right-hand side, and sooner while one becomes smaller. `every: Some(1)` looks after each step.
     ///
     /// A negative limit watches none of it, and neither does [`approach`](Guard::approach) then: for a motion that is meant to pass

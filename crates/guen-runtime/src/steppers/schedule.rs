@@ -6,8 +6,8 @@ const EVALUATIONS_BETWEEN_LOOKS: u32 = 160;
 const COSTS_BETWEEN_LOOKS: f64 = 40.0;
 /// Looks at the edges alone may take a fiftieth,
 const COSTS_BETWEEN_EDGES: f64 = 50.0;
-/// an eightieth where steps are not fixed, which leaves what looks at everything take there,
-const COSTS_BETWEEN_FREE_EDGES: f64 = 80.0;
+/// and a hundred-and-sixtieth where steps are not fixed, as much as further looks on the way to an edge take there,
+const COSTS_BETWEEN_FREE_EDGES: f64 = 160.0;
 /// and both together so little.
 const COSTS_TOGETHER: f64 = 34.0;
 /// What is done further at a look at a fixed step, in right-hand sides: an estimate of its error, which takes three and sums over
@@ -103,7 +103,7 @@ mod tests {
                     let free = Schedule::new(evaluations, (look, edges), false, None);
                     assert!(f64::from(free.every) * of <= every);
                     assert!(
-                        free.edges == 1 || edges / (f64::from(free.edges) * of) < 1.4 / 80.0 || edges == 0.0
+                        free.edges == 1 || edges / (f64::from(free.edges) * of) < 1.4 / 160.0 || edges == 0.0
                     );
                 }
             }
