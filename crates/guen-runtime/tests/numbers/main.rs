@@ -5,5 +5,6 @@ mod duals;
 mod elementary;
 mod nalgebra;
 mod operators;
+mod rounded;
 mod scalar;
 mod tuned;
