@@ -14,9 +14,13 @@ use crate::system::System;
 ///
 /// - The work depends on the settings alone: the same steps, the same evaluations, whatever the state. The formula is
 ///   that of [`Dop853`](super::Dop853) or of [`Tsit5`](super::Tsit5), with `12 n` or `6 n + 1` evaluations for `n` steps.
-/// - What it leaves is an estimate of the error of every entry: the sum over the steps of the absolute values of the
-///   formula's own estimates. How an error grows after it was made is not in it, so it is meant for spans over which
-///   errors do not grow much. For DOP853 an entry's estimate is `h e5^2 / sqrt(e5^2 + e3^2 / 100)`, as in its step control.
+/// - What it leaves is a bound of the error of every entry, made of the formula's own estimates: the sum over the steps of
+///   `max(e_i, s_i max_j e_j/s_j)` with `s_i` the larger of `h |x_i'|` at both ends and `|Delta x_i|`, since an error in one entry becomes one in others. For DOP853 an entry's
+///   estimate is `h e5^2 / sqrt(e5^2 + e3^2 / 100)`, as in its step control.
+/// - There is a bound only where that can be one: where no step's largest `e_j/s_j` is above `1e-4`, and the rates changed with the state by
+///   so little that errors cannot have grown much, `sum max_i(h |Delta x_i'|/S_i)/max_i(|Delta x_i|/S_i) <= 3`, with `S_i` the sum of the `s_i`. Of 20,000 runs
+///   of eight kinds of systems 7,347 had a bound, and 30 of these were off by more than it, at most 4.3 times
+///   (`cargo test --release -p guen-runtime --test steppers bounds_of_bounded -- --include-ignored --nocapture`).
 /// - Whether that is good enough is the caller's decision: [`Bound::error`] is what to compare.
 /// - No guard looks at the run except that all states are finite.
 ///
@@ -27,7 +31,7 @@ use crate::system::System;
 /// let period = Bounded::tsit5(25).advance(&oscillator, 0.0, &[0.0, 1.0], 0.5).unwrap();
 /// assert_eq!((period.statistics.accepted, period.statistics.evaluations), (4, 25));
 /// let off = (period.state[0] - 0.5_f64.sin()).abs();
-/// assert!(off < 1e-7 && period.error[0] < 1e-5);
+/// assert!(period.error.is_some_and(|bound| off < bound[0] && bound[0] < 1e-4));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bounded<R = f64> {
@@ -48,8 +52,9 @@ enum Kind<R> {
 pub struct Bound<R, const N: usize> {
     /// The state at the end of the span.
     pub state: [R; N],
-    /// An estimate of the error of each entry, not negative.
-    pub error: [f64; N],
+    /// A bound of the error of each entry, not negative; none where the steps are too long for the motion or the errors may have
+    /// grown, so that nothing is known. See [`Bounded`].
+    pub error: Option<[f64; N]>,
     /// The work done: the evaluations are at most those allowed.
     pub statistics: Statistics,
 }
@@ -98,10 +103,12 @@ impl<R: Ordered> Bounded<R> {
             return Err(start.failed(Cause::Setting(Setting::Time)));
         }
         match &self.formula {
-            Kind::Dop853(tableau) => advance(tableau, system, start, t1, steps, dop853_error),
-            Kind::Tsit5(formula) => advance(formula, system, start, t1, steps, |errors: &[R; N], h| {
-                errors.map(|error| (h * error.to_f64()).abs())
-            }),
+            Kind::Dop853(tableau) => {
+                advance(tableau, system, start, t1, steps, dop853_error, |[.., last]| *last)
+            }
+            Kind::Tsit5(formula) => {
+                advance(formula, system, start, t1, steps, tsit5_error, |[.., last]| *last)
+            }
         }
     }
 }
@@ -115,6 +122,62 @@ fn dop853_error<R: Real, const N: usize>(errors: &Trial<R, N>, h: f64) -> [f64; 
     })
 }
 
+/// Tsit5's estimate for each entry.
+fn tsit5_error<R: Real, const N: usize>(errors: &[R; N], h: f64) -> [f64; N] {
+    core::array::from_fn(|i| (h * errors[i].to_f64()).abs())
+}
+
+/// What is known of the error, step by step.
+struct Known<const N: usize> {
+    error: [f64; N],
+    /// How far each entry has gone: `S`.
+    way: [f64; N],
+    /// The logarithm of what errors can have grown by.
+    growth: f64,
+    resolved: bool,
+}
+
+impl<const N: usize> Known<N> {
+    /// Takes in a step: the estimates of its errors, and state and rates at both ends; what the rates are of is `h` long.
+    fn step<R: Real>(&mut self, own: [f64; N], h: f64, states: [&[R; N]; 2], rates: [&[R; N]; 2]) {
+        /// The largest estimate, as a part of the way of a step, of which the estimate of a further digit follows.
+        const PART: f64 = 1e-4;
+
+        let of = |pair: [&[R; N]; 2], i: usize| pair.map(|values| values[i].to_f64());
+        let ways: [f64; N] = core::array::from_fn(|i| {
+            let [begin, end] = of(rates, i);
+            let [from, to] = of(states, i);
+            f64::max(h * f64::max(begin.abs(), end.abs()), (to - from).abs())
+        });
+        let (mut part, mut turned, mut moved) = (0.0_f64, 0.0_f64, 0.0_f64);
+        for i in 0..N {
+            self.way[i] += ways[i];
+            if ways[i] > 0.0 {
+                part = part.max(own[i] / ways[i]);
+            }
+            if self.way[i] > 0.0 {
+                let [a, b] = of(rates, i);
+                turned = turned.max(h * (b - a).abs() / self.way[i]);
+                let [a, b] = of(states, i);
+                moved = moved.max((b - a).abs() / self.way[i]);
+            }
+        }
+        for i in 0..N {
+            self.error[i] += f64::max(own[i], part * ways[i]);
+        }
+        if moved > 0.0 {
+            self.growth += turned / moved;
+        }
+        self.resolved = self.resolved && part <= PART && own.iter().all(|error| error.is_finite());
+    }
+
+    fn bound(self) -> Option<[f64; N]> {
+        /// Errors are not followed on their way; this is what they may have grown by, as the logarithm.
+        const GROWTH: f64 = 3.0;
+        (self.resolved && self.growth <= GROWTH).then_some(self.error)
+    }
+}
+
 fn advance<P, S, R, const N: usize>(
     pair: &P,
     system: &S,
@@ -122,6 +185,8 @@ fn advance<P, S, R, const N: usize>(
     t1: R,
     steps: u32,
     estimate: impl Fn(&P::Errors, f64) -> [f64; N],
+    // The slope at the end of a step, or next to it.
+    last: impl Fn(&P::Stages) -> [R; N],
 ) -> Result<Bound<R, N>, IntegrationError<R, N>>
 where
     P: Pair<R, N>,
@@ -129,7 +194,7 @@ where
     R: Real,
 {
     let (t0, span) = (reached.time, t1 - reached.time);
-    let mut error = [0.0; N];
+    let mut known = Known { error: [0.0; N], way: [0.0; N], growth: 0.0, resolved: true };
     let mut end: Option<[R; N]> = None;
     let steps = if span == R::zero() { 0 } else { steps };
     for step in 1..=steps {
@@ -147,9 +212,9 @@ where
             return Err(reached.failed(Cause::NotFinite));
         }
         system.restore(next, &mut state).map_err(|_| reached.failed(Cause::Positions))?;
-        for (sum, part) in error.iter_mut().zip(estimate(&attempt.errors, h.to_f64().abs())) {
-            *sum += part;
-        }
+        let size = h.to_f64().abs();
+        let (own, there) = (estimate(&attempt.errors, size), last(&attempt.stages));
+        known.step(own, size, [&reached.state, &state], [&slope, &there]);
         // Where the state was put back, the slope at the end is that of the state before, by a difference of the size
         // of the error: another evaluation would be one too many.
         end = attempt.end;
@@ -157,5 +222,5 @@ where
         reached.state = state;
         reached.statistics.accepted += 1;
     }
-    Ok(Bound { state: reached.state, error, statistics: reached.statistics })
+    Ok(Bound { state: reached.state, error: known.bound(), statistics: reached.statistics })
 }

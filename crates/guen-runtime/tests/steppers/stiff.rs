@@ -186,32 +186,37 @@ fn bounded_work_never_exceeds_its_bound_and_says_what_it_left() {
         let found = bounded.advance(&system, 0.0, &start, 0.5).unwrap();
         assert_eq!((found.statistics.accepted, bounded.steps()), (steps, steps as u32));
         assert!(found.statistics.evaluations <= u64::from(evaluations));
-        for ((x, expected), error) in found.state.iter().zip(reference).zip(found.error) {
+        let error = found.error.unwrap();
+        for ((x, expected), error) in found.state.iter().zip(reference).zip(error) {
             let off = (x - expected).abs();
-            // The estimate is of truncation: of states of about one each step leaves a rounding, here and in the reference.
+            // The bound is of truncation: of states of about one each step leaves a rounding, here and in the reference.
             let rounding = f64::EPSILON * (steps + 1) as f64;
             assert!(off <= error + rounding, "{evaluations}: {off:e} {error:e}");
         }
-        assert!(found.error[0] <= last);
-        last = found.error[0];
+        assert!(error[0] <= last);
+        last = error[0];
     }
     for (evaluations, steps) in [(7, 1), (12, 1), (13, 2), (100, 16)] {
         let found = Bounded::tsit5(evaluations).advance(&system, 0.0, &start, 0.5).unwrap();
         assert_eq!(found.statistics.accepted, steps);
         assert_eq!(found.statistics.evaluations, 6 * steps + 1);
-        for ((x, expected), error) in found.state.iter().zip(reference).zip(found.error) {
-            // An estimate, not a bound: of the formula of order four, for one step half the length of a swing.
+        // One step is half the length of a swing: what its estimate is worth is not known.
+        assert_eq!(found.error.is_some(), steps > 1, "{evaluations}: {:?}", found.error);
+        for ((x, expected), error) in found.state.iter().zip(reference).zip(found.error.unwrap_or([1e-3; 2]))
+        {
             let off = (x - expected).abs();
-            println!("{evaluations}: {off:.1e}, estimated {error:.1e}");
-            assert!(off <= 3.0 * error + 4e-16, "{evaluations}: {off:e} {error:e}");
-            // An estimate that is far too large is no help either.
-            assert!(error < 1e-3);
+            println!("{evaluations}: {off:.1e}, at most {error:.1e}");
+            assert!(off <= error + 4e-16, "{evaluations}: {off:e} {error:e}");
+            // A bound that is far too large is no help either.
+            assert!(error <= 1e-3);
         }
     }
     for bounded in [Bounded::dop853(11), Bounded::tsit5(6)] {
         let error = bounded.advance(&system, 0.0, &start, 0.5).unwrap_err();
         assert_eq!(error.cause, Cause::Setting(guen_runtime::Setting::Budget));
     }
+    // Half a period in one step: what its estimates are worth is not known.
+    assert_eq!(Bounded::tsit5(7).advance(&system, 0.0, &start, 3.0).unwrap().error, None);
     let still = Bounded::tsit5(7).advance(&system, 1.0, &start, 1.0).unwrap();
     assert_eq!((still.state, still.statistics), (start, Statistics::default()));
 }
