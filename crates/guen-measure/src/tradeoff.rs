@@ -213,13 +213,13 @@ fn choices(report: &Report) -> Vec<String> {
             Err(none) => println!("in {} us: {none}", 1e6 * PERIOD),
         }
         // RK4 in doubles is what people begin with.
-        let plain = report.rows.iter().filter(|row| row.lever() == "RK4");
+        let plain = report.rows.iter().filter(|row| row.lever() == "RK4" && !row.limited);
         let cheap = plain.filter_map(|row| row.measured()).filter(|(error, _)| *error <= ERRORS[0]);
         let rk4 = cheap.map(|(_, cost)| cost.median).min_by(f64::total_cmp);
         let best = report.fastest_within(ERRORS[0]).ok().and_then(|choice| choice.row.cost);
         if let (Some(rk4), Some(best)) = (rk4, best) {
-            let coarse =
-                report.rows.iter().filter_map(|row| row.measured()).filter(|(error, _)| *error <= ERRORS[0]);
+            let coarse = report.rows.iter().filter(|row| !row.limited).filter_map(|row| row.measured());
+            let coarse = coarse.filter(|(error, _)| *error <= ERRORS[0]);
             let least = coarse.map(|(_, cost)| cost.median).fold(f64::INFINITY, f64::min);
             println!(
                 "the choice for 1e-3 takes {:.2} of the time of RK4, the fastest setting from this state {:.2}",

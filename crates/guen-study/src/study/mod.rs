@@ -2,10 +2,11 @@
 //!
 //! A [`Study`] holds what is to be done: `lever` and `standard` say what can be pulled, `measure` what counts as error,
 //! `reference` and `extrapolation` where the truth comes from, in the real of `digits71`. `run` does it, in stages within
-//! a `budget`; `timing` and `front` are what is known of costs and choices. Out comes a [`Trade`]: a [`Report`] (`row`,
-//! `report`, `files`, `picture`, `code`), and the means to ask whether a choice holds elsewhere (`trade`, `probes`).
+//! a `budget`; `timing` and `front` are what is known of costs. Out comes a [`Trade`]: a [`Report`] (`row`,
+//! `report`, `choice`, `files`, `picture`, `code`), and the means to ask whether a choice holds elsewhere (`trade`, `probes`).
 
 mod budget;
+mod choice;
 mod code;
 mod digits71;
 mod extrapolation;
@@ -30,11 +31,12 @@ use std::time::Duration;
 use guen_runtime::steppers::{Method, Taylor};
 use guen_runtime::{Real, Recast, System, TaylorSeries};
 
+pub use choice::{Choice, NoChoice};
 pub use digits71::Digits71;
 pub use front::pareto_front;
 pub use lever::Settings;
 pub use reference::ReferenceReport;
-pub use report::{Choice, Ending, NoChoice, Report, Unit};
+pub use report::{Ending, Report, Unit};
 pub use row::{Failure, FailureKind, Knob, Nearby, Row};
 pub use timing::{Cost, Stopwatch};
 pub use trade::{Forecast, Trade, Tried};

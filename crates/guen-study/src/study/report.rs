@@ -75,65 +75,6 @@ pub struct Report {
     pub conditions: String,
 }
 
-/// A chosen setting.
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-pub struct Choice<'a> {
-    /// Its position among the rows.
-    pub index: usize,
-    /// The setting, with the code to write.
-    pub row: &'a Row,
-    /// The error that was asked for; that of the setting where a time was given.
-    pub asked: f64,
-    /// Settings that fulfil the same and whose costs cannot be told from that of the choice.
-    pub ties: Vec<&'a Row>,
-    /// A setting that is quicker and was passed over, because it errs too much from states nearby.
-    pub passed_over: Option<&'a Row>,
-    unit: Unit,
-}
-
-/// Why there is no choice.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum NoChoice {
-    /// Nothing was measured: the study was cancelled, or its reference failed.
-    NothingMeasured,
-    /// No setting is that accurate; the most accurate one errs this much.
-    NotThatAccurate {
-        /// The least error measured.
-        least: f64,
-    },
-    /// Settings are that accurate from the initial states, and none of them from all states nearby.
-    NotNearby,
-    /// No setting is that cheap; the cheapest one costs this much.
-    NotThatCheap {
-        /// The least cost measured.
-        least: f64,
-    },
-}
-
-impl fmt::Display for NoChoice {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NothingMeasured => f.write_str("no setting has a measured error and a measured cost"),
-            Self::NotThatAccurate { least } => {
-                write!(f, "no setting is that accurate; the least error measured is {least:.1e}")
-            }
-            Self::NotNearby => f.write_str(
-                "settings are that accurate from the initial states, but none from all states nearby",
-            ),
-            Self::NotThatCheap { least } => {
-                write!(f, "no setting is that cheap; the least cost measured is {least:.2e}")
-            }
-        }
-    }
-}
-
-impl std::error::Error for NoChoice {}
-
-/// A setting may err this many times what was asked for from states nearby; ten times is what is promised.
-const NEARBY: f64 = 2.0;
-
 impl Report {
     fn points(&self) -> Vec<(f64, f64)> {
         let point = |row: &Row| row.measured().map_or((f64::NAN, f64::NAN), |(e, cost)| (e, cost.median));
@@ -148,70 +89,6 @@ impl Report {
 
     pub(super) fn front_indices(&self) -> Vec<usize> {
         pareto_front(&self.points())
-    }
-
-    /// The cheapest setting whose error was measured to be at most this, and whose error from states nearby was at most
-    /// twice this, where it was measured: so that the promise, ten times, has room.
-    ///
-    /// # Errors
-    ///
-    /// There is none.
-    pub fn fastest_within(&self, error: f64) -> Result<Choice<'_>, NoChoice> {
-        let accurate = |(_, row): &(usize, &Row)| row.measured().is_some_and(|(found, _)| found <= error);
-        let robust =
-            |(_, row): &(usize, &Row)| row.nearby.is_none_or(|nearby| nearby.is_within(NEARBY * error));
-        let cost = |row: &Row| row.cost.map_or(f64::INFINITY, |cost| cost.median);
-        let cheapest = |found: &mut dyn Iterator<Item = (usize, &Row)>| -> Option<(usize, usize)> {
-            found.min_by(|a, b| cost(a.1).total_cmp(&cost(b.1))).map(|(index, _)| (index, index))
-        };
-        let plain = cheapest(&mut self.rows.iter().enumerate().filter(accurate));
-        let Some((plain, _)) = plain else {
-            let least = self.rows.iter().filter_map(|row| Some(row.measured()?.0)).min_by(f64::total_cmp);
-            return Err(least.map_or(NoChoice::NothingMeasured, |least| NoChoice::NotThatAccurate { least }));
-        };
-        // Where nearby errors were measured at all, a row without one was not worth measuring, and is not chosen.
-        let probed = self.rows.iter().any(|row| row.nearby.is_some());
-        let known = |(_, row): &(usize, &Row)| !probed || row.nearby.is_some();
-        let chosen =
-            cheapest(&mut self.rows.iter().enumerate().filter(accurate).filter(robust).filter(known));
-        let Some((index, _)) = chosen else { return Err(NoChoice::NotNearby) };
-        let candidates = self.rows.iter().enumerate().filter(accurate).filter(robust).filter(known);
-        let ties = self.ties(index, candidates);
-        let passed_over = (plain != index).then(|| &self.rows[plain]);
-        Ok(Choice { index, row: &self.rows[index], asked: error, ties, passed_over, unit: self.unit })
-    }
-
-    /// The setting with the least measured error among those whose cost is at most this: the upper end of its interval,
-    /// so that noise does not choose. In seconds, or in evaluations where the study counts them.
-    ///
-    /// # Errors
-    ///
-    /// There is none.
-    pub fn most_accurate_within(&self, cost: f64) -> Result<Choice<'_>, NoChoice> {
-        let measured = || self.rows.iter().enumerate().filter_map(|(i, row)| Some((i, row.measured()?)));
-        let best = measured()
-            .filter(|(_, (_, found))| found.high <= cost)
-            .min_by(|a, b| a.1.0.total_cmp(&b.1.0).then(a.1.1.median.total_cmp(&b.1.1.median)));
-        let Some((index, (asked, _))) = best else {
-            let least = measured().map(|(_, (_, found))| found.high).min_by(f64::total_cmp);
-            return Err(least.map_or(NoChoice::NothingMeasured, |least| NoChoice::NotThatCheap { least }));
-        };
-        Ok(Choice {
-            index,
-            row: &self.rows[index],
-            asked,
-            ties: Vec::new(),
-            passed_over: None,
-            unit: self.unit,
-        })
-    }
-
-    fn ties<'a>(&'a self, index: usize, candidates: impl Iterator<Item = (usize, &'a Row)>) -> Vec<&'a Row> {
-        let Some(cost) = self.rows[index].cost else { return Vec::new() };
-        candidates
-            .filter(|(i, row)| *i != index && row.cost.is_some_and(|other| other.ties_with(&cost)))
-            .map(|(_, row)| row)
-            .collect()
     }
 
     /// The neighbours on the front whose costs cannot be told apart, and the number of neighbours.
@@ -320,28 +197,5 @@ impl fmt::Display for Report {
             Ending::Cancelled => writeln!(f, "cancelled before everything was measured")?,
         }
         write!(f, "{}", self.conditions)
-    }
-}
-
-impl fmt::Display for Choice<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let cost = self.row.cost.map_or_else(String::new, |cost| self.unit.show(cost.median));
-        let error = self.row.error.unwrap_or(f64::NAN);
-        write!(f, "{}: error {error:.1e}, {cost}", self.row.name())?;
-        if let Some(Nearby::Error(nearby)) = self.row.nearby {
-            write!(f, ", from states nearby at most {nearby:.1e}")?;
-        }
-        if let Some(row) = self.passed_over {
-            write!(f, "\n  quicker, but not as accurate from states nearby: {}", row.name())?;
-        }
-        if !self.ties.is_empty() {
-            const SHOWN: usize = 4;
-            let names: Vec<String> = self.ties.iter().take(SHOWN).map(|row| row.name()).collect();
-            write!(f, "\n  a tie, the machine was too noisy to rank them: {}", names.join("; "))?;
-            if self.ties.len() > SHOWN {
-                write!(f, "; and {} more", self.ties.len() - SHOWN)?;
-            }
-        }
-        Ok(())
     }
 }

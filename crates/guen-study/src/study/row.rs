@@ -134,7 +134,8 @@ pub struct Row {
     /// The largest error over the initial states, in the study's measure.
     #[cfg_attr(feature = "serde", serde(with = "crate::exact::option"))]
     pub error: Option<f64>,
-    /// Whether the error is so small that the reference's own error may be a tenth of it, or more.
+    /// Whether the error is so small that the reference's own error may be a tenth of it, or more. Such a row is not
+    /// chosen, and nothing is promised of it.
     pub limited: bool,
     /// What it errs from states nearby, for rows that may be chosen.
     pub nearby: Option<Nearby>,

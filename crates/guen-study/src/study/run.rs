@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 use guen_runtime::steppers::Statistics;
 
 use super::budget::{Budget, Stage};
+use super::choice::least_certain;
 use super::digits71::Digits71;
 use super::lever::{Lever, Run, Task};
 use super::measure::{against, kept};
@@ -29,8 +30,6 @@ const HOPELESS: f64 = 60.0;
 const AGAIN: f64 = 5e-3;
 /// A study that counts evaluations has no clock to tell it when a setting takes too long.
 const MOST_EVALUATIONS: f64 = 3e6;
-/// Settings are marked whose error is below so many times that of the reference.
-const LIMITED: f64 = 10.0;
 /// The repetitions of a timing: of all rows, and of those near the front.
 const FEW: usize = 5;
 const MANY: usize = 41;
@@ -166,10 +165,7 @@ fn errors<S, const N: usize>(
     let levers = std::mem::take(&mut study.levers);
     // Without a reference errors cannot be had. Unchecked, they are shown as limited.
     let measurable = !study.measure.needs_reference() || !references.is_empty();
-    let floor = match reference {
-        None => 0.0,
-        Some(reference) => reference.error.map_or(f64::INFINITY, |error| LIMITED * error),
-    };
+    let floor = reference.map_or(0.0, |reference| least_certain(reference.error));
     let share = budget.share(Stage::Accuracy);
     let patience = share.div_f64(4.0 * levers.len().max(1) as f64).max(Duration::from_millis(10));
     let count = levers.len() as f64;

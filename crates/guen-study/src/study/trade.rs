@@ -3,6 +3,7 @@
 use std::ops::Range;
 use std::rc::Rc;
 
+use super::choice::NoChoice;
 use super::lever::{Run, Task};
 use super::measure::{Measure, Scales, Tells, against, kept};
 use super::probes::{Probe, error_of, times_for, with_references};
@@ -54,6 +55,8 @@ pub enum Forecast {
         /// How far the run that the estimate was made with differs from one at a tenth of its tolerance.
         uncertainty: f64,
     },
+    /// Nothing is promised of this row: its error is not certain where it was measured.
+    Refused(NoChoice),
     /// The setting fails there, or nothing can be estimated, because the tighter run fails.
     Fails(Failure),
 }
@@ -86,9 +89,14 @@ impl<const N: usize> Trade<N> {
     /// doubles can tell. The promise is made if estimate and uncertainty together are at most half of ten times what was
     /// asked for.
     ///
+    /// A row whose error is not certain is refused, as it is for a choice.
+    ///
     /// Costs some times a run of the setting, and no extended precision. Errors of energy and constraints are measured
     /// and not estimated.
     pub fn forecast(&self, row: usize, asked: f64, start: &[f64; N], span: Range<f64>) -> Forecast {
+        if let Some(doubt) = self.report.rows.get(row).and_then(|row| self.report.doubt(row)) {
+            return Forecast::Refused(doubt);
+        }
         let Means { samples, measure, scales, tells, tight, .. } = &self.means;
         let times = times_for(&span, *samples);
         let starts = [*start];

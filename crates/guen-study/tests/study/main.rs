@@ -2,6 +2,8 @@
 
 #![cfg(feature = "study")]
 
+mod doubt;
+
 use std::cell::Cell;
 use std::rc::Rc;
 use std::time::Duration;
