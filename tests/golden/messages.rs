@@ -169,7 +169,7 @@ fn every_case_is_reported_as_written() {
         let (count, drawn) = shown(&case);
         let golden = root().join(&case.path).with_extension("stderr");
         if overwrite() {
-            fs::write(&golden, &drawn).unwrap();
+            guen_study::replace_file(&golden, |out| out.write_all(drawn.as_bytes())).unwrap();
         }
         let expected = fs::read_to_string(&golden).unwrap_or_default();
         if count != case.errors {
@@ -246,7 +246,7 @@ fn the_pages_of_errors_are_current() {
     for (path, page) in written {
         let file = root().join(&path);
         if overwrite() {
-            fs::write(&file, &page).unwrap();
+            guen_study::replace_file(&file, |out| out.write_all(page.as_bytes())).unwrap();
         }
         let current = fs::read_to_string(&file).unwrap_or_default();
         assert!(

@@ -226,8 +226,8 @@ fn every_report_is_latex() {
         assert_eq!(fault(&document), None, "{}: {document}", report.name);
         assert_eq!(fault(&report.latex().body().to_string()), None);
         if let Some(folder) = &folder {
-            std::fs::create_dir_all(folder).unwrap();
-            std::fs::write(folder.join(format!("{}.tex", report.name)), document).unwrap();
+            let file = folder.join(format!("{}.tex", report.name));
+            guen_study::replace_file(file, |out| out.write_all(document.as_bytes())).unwrap();
         }
     }
 }
