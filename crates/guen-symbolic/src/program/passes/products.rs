@@ -184,7 +184,9 @@ impl Search {
         }
     }
 
-    /// One more or one less of a pair; pairs that were never counted cannot become frequent by losing some.
+    /// One more or one less of a pair; pairs that were never counted cannot become frequent by losing some. Those of a factor that
+    /// was in one monomial only were not counted either, and a join may put it into a second one: of such a pair fewer are
+    /// counted than there are, and more may go than were counted.
     fn change(&mut self, pair: Pair, up: bool) {
         if up {
             let count = self.counts.or_default(pair);
@@ -193,7 +195,7 @@ impl Search {
                 self.heap.push(*count, pair);
             }
         } else if let Some(count) = self.counts.get_mut(&pair) {
-            *count -= 1;
+            *count = count.saturating_sub(1);
         }
     }
 
@@ -445,4 +447,48 @@ fn finish(graph: &mut Graph, net: &mut Net, monomial: &[(Literal, u32)]) -> (Exp
         _ => graph.product(&constants),
     };
     (k, net.plain_product(factors))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Factor, Literal, Monomial, Net, NetNode, Powers, Search};
+    use crate::algebra::{Graph, Role};
+
+    /// What a pair is joined into may be a factor already, of one monomial only.
+    #[test]
+    fn products_that_are_factors() {
+        let mut word = 1_u64;
+        let mut below = |n: usize| {
+            word = word.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (word >> 33) as usize % n
+        };
+        let mut joined = 0;
+        for _ in 0..3_000 {
+            let mut graph = Graph::new();
+            let mut net = Net::default();
+            let mut factors = Vec::new();
+            for name in ["a", "b", "c", "d", "e"] {
+                let symbol = graph.symbol(name, Role::Coordinate);
+                factors.push(net.intern(NetNode::Atom(symbol)));
+            }
+            for (i, j) in [(0, 1), (1, 2), (0, 2), (3, 4)] {
+                let product = Powers::from_sorted(vec![(factors[i], 1), (factors[j], 1)]);
+                factors.push(net.plain_product(product));
+            }
+            let mut search = Search::default();
+            for _ in 0..3 + below(5) {
+                let mut monomial = Monomial::new();
+                for _ in 0..1 + below(5) {
+                    let literal = Literal::new(Factor::Above(factors[below(factors.len())]));
+                    match monomial.iter_mut().find(|(known, _)| *known == literal) {
+                        Some((_, power)) => *power += 1,
+                        None => monomial.push((literal, 1)),
+                    }
+                }
+                search.add(monomial);
+            }
+            joined += usize::from(search.run(&graph, &mut net));
+        }
+        assert!(joined > 1_000, "{joined}");
+    }
 }
