@@ -1,7 +1,7 @@
 //! Scenes of systems with holonomic equations: kept whole, kept in part, eliminated, at fixed values.
 
 use guen::prelude::*;
-use guen::{Positions, projected};
+use guen::{Level, Positions, projected};
 
 use crate::compare::{assert_agree, assert_same_rates, states};
 
@@ -143,6 +143,15 @@ fn rope_states(l: f64) -> Vec<[f64; 8]> {
     free.into_iter().map(of).collect()
 }
 
+/// What the equations say of what is kept is what it is in the state, wherever it was.
+fn assert_determined<S: Level<f64, N, 8>, const N: usize>(scene: &S, state: &[f64; 8], expected: &[usize]) {
+    assert_eq!(S::DETERMINED, expected);
+    let mut full = *state;
+    expected.iter().for_each(|place| full[*place] = f64::NAN);
+    scene.determine(0.0, &scene.project(state), &mut full);
+    assert_agree(&full, state, 1e-14, "coordinates");
+}
+
 /// Holonomic equations say what an eliminated coordinate would be, with what is held as a constant.
 #[test]
 fn coordinates_that_are_eliminated() {
@@ -158,6 +167,10 @@ fn coordinates_that_are_eliminated() {
     for state in states {
         let scene = ropes::Held::of(&ROPES, &state.into()).unwrap().prepare().unwrap();
         assert_same_rates(&whole, &scene, &[state], 1e-12);
+        assert_determined(&scene, &state, &[2, 3]);
+        // `x` and `z` are kept: the second equation says `y`, and then the first one says `s`.
+        assert_determined(&ropes::Free::from(ROPES).prepare().unwrap(), &state, &[2, 0]);
+        assert_determined(&ropes::Both::from(ROPES).prepare().unwrap(), &state, &[0]);
     }
     let other = Ropes { l: 2.0, ..ROPES };
     let whole = other.prepare().unwrap();

@@ -35,6 +35,47 @@ guen::mechanical_system! {
     }
 }
 
+guen::mechanical_system! {
+    /// The pivots of the mass matrix are `m`, which is constant already, and what becomes constant in the scenes.
+    system Settled {
+        constants { m > 0, k > 0 }
+        coordinates { q, r, x, y }
+        parameters { v = dot(q); u = dot(x); w = dot(r) + r*u; z = k*dot(y); }
+        kinetic_energy = m*u^2 + v^2 + (v - dot(r))^2 + m*z^2;
+        scene Only { track v; }
+        scene Two { track v, z; }
+        scene Fixed { track v; fix k = 2; }
+    }
+}
+
+guen::mechanical_system! {
+    /// The same without a pivot that is constant in the system.
+    system Unsettled {
+        constants { m > 0 }
+        coordinates { q, r, x }
+        parameters { v = dot(q); u = dot(x); w = dot(r) + r*u; }
+        kinetic_energy = m*u^2 + v^2 + (v - dot(r))^2;
+        scene Only { track v; }
+    }
+}
+
+/// What must not vanish and is constant in a scene alone is one of its pivots.
+#[test]
+fn what_becomes_constant_in_a_scene_is_checked_when_it_is_prepared() {
+    let only = unsettled::Only { m: 1.5 }.prepare().unwrap();
+    let rates = System::rhs(&only, 0.0, &[0.3]);
+    let whole = Unsettled { m: 1.5 }.prepare().unwrap();
+    let full = unsettled::State { q: 0.1, r: 0.2, x: -0.3, v: 0.3, u: 0.4, w: -0.5 };
+    assert_agree(&rates, &[whole.rhs(0.0, &full).v], 1e-15, "rates");
+    for scene in [settled::Only::from(Settled { m: 1.5, k: 0.5 })] {
+        assert_agree(&System::rhs(&scene.prepare().unwrap(), 0.0, &[0.3]), &rates, 1e-15, "rates");
+    }
+    let two = settled::Two { m: 1.5, k: 0.5 }.prepare().unwrap();
+    assert_agree(&System::rhs(&two, 0.0, &[0.3, 0.7]), &[rates[0], 0.0], 1e-15, "rates");
+    assert!(settled::Two { m: 0.0, k: 0.5 }.prepare().is_err());
+    assert!(settled::Fixed { m: 1.5 }.prepare().is_ok());
+}
+
 #[test]
 fn names_that_need_care() {
     let system = Raw::new(1.5).prepare().unwrap();

@@ -1,6 +1,7 @@
 //! From the model to what is emitted: the derivation, its faults in the user's names, and the programs.
 
 mod carried;
+mod cheapest;
 mod closure;
 mod faults;
 mod fixed;
@@ -130,6 +131,8 @@ pub mod function {
     pub const DOMAIN: &str = "domain";
     /// The expressions of constants that must not vanish.
     pub const PIVOTS: &str = "pivots";
+    /// Coordinates that a scene leaves out and that holonomic equations say of what it keeps.
+    pub const DETERMINED: &str = "determined";
     /// The differentials of the integrable combinations of constraints, row by row.
     pub const LEAF: &str = "leaf";
     /// The lower triangle of the mass matrix, the bias, and the matrix of the inputs.

@@ -40,12 +40,20 @@ pub trait Level<R: Real, const N: usize, const FULL: usize> {
     /// on time, on what is kept and on the layers before. They can be recovered from a recorded run.
     const QUADRATURES: &'static [&'static [usize]];
 
+    /// Coordinates that the level leaves out and that holonomic equations say of what it keeps.
+    const DETERMINED: &'static [usize] = &[];
+
     /// What the level is called and what it costs.
     const INFO: LevelInfo;
 
     /// Puts the variables that the level holds constant into a state of the system; does nothing where there are none.
     #[inline]
     fn hold(&self, _full: &mut [R; FULL]) {}
+
+    /// Puts the [`DETERMINED`](Self::DETERMINED) coordinates at a state of the level into a state of the system; does nothing
+    /// where there are none.
+    #[inline]
+    fn determine(&self, _t: R, _state: &[R; N], _full: &mut [R; FULL]) {}
 
     /// The level's state out of a state of the system.
     #[inline]
@@ -68,11 +76,17 @@ pub trait Level<R: Real, const N: usize, const FULL: usize> {
 impl<R: Real, S: Level<R, N, FULL>, const N: usize, const FULL: usize> Level<R, N, FULL> for &S {
     const PLACES: [usize; N] = S::PLACES;
     const QUADRATURES: &'static [&'static [usize]] = S::QUADRATURES;
+    const DETERMINED: &'static [usize] = S::DETERMINED;
     const INFO: LevelInfo = S::INFO;
 
     #[inline]
     fn hold(&self, full: &mut [R; FULL]) {
         (**self).hold(full);
+    }
+
+    #[inline]
+    fn determine(&self, t: R, state: &[R; N], full: &mut [R; FULL]) {
+        (**self).determine(t, state, full);
     }
 }
 

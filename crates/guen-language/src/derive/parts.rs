@@ -1,18 +1,19 @@
-//! The functions of a scene, and the cheapest programs for them.
+//! The functions of a scene.
 
-use guen_symbolic::{Contracted, Dependence, Derivation, ExprId, Programs, Role, Substitution, Workbench};
+use guen_symbolic::{Contracted, Dependence, Derivation, ExprId, Substitution, Workbench};
 
 use super::fixed::Holding;
 use super::manifold::Replacement;
 use super::selection::Selection;
-use super::{Commutator, constant_pivots, domain, extend, formulas, function, programs};
+use super::{Commutator, constant_pivots, domain, formulas, function};
 use crate::model::Model;
 
-/// A function of a scene: its name, the places of its results in the function of the whole system, and the results.
+/// A function of a scene: its name, the places of its results in the function of the whole system if that has all of them, and
+/// the results.
 pub(super) struct Part {
-    name: &'static str,
-    places: Vec<usize>,
-    outputs: Vec<ExprId>,
+    pub(super) name: &'static str,
+    pub(super) places: Option<Vec<usize>>,
+    pub(super) outputs: Vec<ExprId>,
 }
 
 /// The functions of a scene.
@@ -74,6 +75,7 @@ pub(super) fn parts(
     selection: &Selection,
     shown: &Contracted,
     view: &mut View,
+    coordinates: &[(usize, ExprId)],
 ) -> Functions {
     let l = derivation.system.forms.degrees;
     let n = model.coordinates.len();
@@ -88,7 +90,7 @@ pub(super) fn parts(
     let mut push = |model: &mut Model<'_>, view: &mut View, name: &'static str, places: Vec<usize>| {
         let outputs = places.iter().map(|place| view.of(model, outputs(name)[*place])).collect();
         if !places.is_empty() {
-            parts.push(Part { name, places, outputs });
+            parts.push(Part { name, places: Some(places), outputs });
         }
     };
     push(model, view, function::ENERGY, selection.energy.then_some(0).into_iter().collect());
@@ -129,8 +131,8 @@ pub(super) fn parts(
     constants.retain(|(_, e)| model.bench.graph.as_number(*e).is_none());
     let constant_pivots: Vec<ExprId> = constants.iter().map(|(_, e)| *e).collect();
     if !constants.is_empty() {
-        // A pivot that the whole system does not have is only there where something is held, and nothing is shared.
-        let places = constants.iter().filter_map(|(place, _)| *place).collect();
+        // A function of the chart that became constant is no pivot of the whole system.
+        let places = constants.iter().map(|(place, _)| *place).collect();
         parts.push(Part { name: function::PIVOTS, places, outputs: constant_pivots.clone() });
     }
     if !selection.reactions.is_empty() {
@@ -141,14 +143,18 @@ pub(super) fn parts(
         let outputs = selection.reactions.iter().filter_map(|v| derivation.reactions[v - l]);
         let outputs: Vec<ExprId> = outputs.collect();
         let outputs = outputs.into_iter().map(|e| reaction(model, derivation, selection, view, e)).collect();
-        parts.push(Part { name: function::REACTIONS, places, outputs });
+        parts.push(Part { name: function::REACTIONS, places: Some(places), outputs });
     }
     if selection.operators {
         // Operators act on functions of all coordinates, whatever the scene's state is.
         for name in [function::OPERATORS, function::BRACKETS] {
             let outputs = outputs(name).to_vec();
-            parts.push(Part { name, places: (0..outputs.len()).collect(), outputs });
+            parts.push(Part { name, places: Some((0..outputs.len()).collect()), outputs });
         }
+    }
+    if !coordinates.is_empty() {
+        let outputs = coordinates.iter().map(|(_, e)| view.of(model, *e)).collect();
+        parts.push(Part { name: function::DETERMINED, places: None, outputs });
     }
     Functions { parts, domain, domain_names, constant_pivots }
 }
@@ -176,58 +182,4 @@ fn reaction(
     }
     let wholly = solved(&mut (0..l).filter(|s| !held.contains(s))).of(&mut model.bench.graph, e);
     view.of(model, wholly)
-}
-
-/// The cheapest programs of a scene, and whether its right-hand side is a part of the whole system's.
-///
-/// Rates that are optimised together with those that left may share what they do not share alone, so that a part of the
-/// larger program is tried beside a program of its own: the whole system's where nothing was fixed, so that every result
-/// is the same to the bit; else that of the system at the fixed values.
-pub(super) fn cheapest(
-    model: &mut Model<'_>,
-    selection: &Selection,
-    system: Option<&Programs>,
-    mut lists: Vec<Vec<ExprId>>,
-    mut kept: Vec<Vec<ExprId>>,
-    parts: &[Part],
-) -> (Programs, bool) {
-    extend(&mut model.bench, &mut kept);
-    let alone = programs(&mut model.bench, &kept, &[]);
-    let quantities: Vec<_> = parts.iter().map(|part| (part.name, part.outputs.clone())).collect();
-    let mut wanted = vec![(function::RHS, selection.variables.clone())];
-    let part = match system {
-        Some(system) => {
-            wanted.extend(parts.iter().map(|part| (part.name, part.places.clone())));
-            Some(system.part(&wanted))
-        }
-        None if selection.variables.len() == lists[0].len() => None,
-        None => {
-            extend(&mut model.bench, &mut lists);
-            wanted.extend(parts.iter().map(|part| (part.name, (0..part.outputs.len()).collect())));
-            Some(programs(&mut model.bench, &lists, &quantities).part(&wanted))
-        }
-    };
-    let cost = |programs: &Programs| programs.functions[0].cost.weighted();
-    match part {
-        Some(part) if cost(&part) <= cost(&alone) && fits(model, selection, &part) => {
-            (part, system.is_some())
-        }
-        _ => (programs(&mut model.bench, &kept, &quantities), false),
-    }
-}
-
-/// Whether programs read nothing that left.
-fn fits(model: &Model<'_>, selection: &Selection, programs: &Programs) -> bool {
-    let graph = &model.bench.graph;
-    let variables = selection.variables.iter().map(|place| model.variable(*place));
-    let accelerations = selection.parameters.iter().map(|s| model.mechanics.accelerations[*s]);
-    let inputs = selection.inputs.iter().map(|u| model.inputs[*u].symbol);
-    let kept: Vec<_> =
-        variables.chain(accelerations).chain(inputs).filter_map(|e| graph.as_symbol(e)).collect();
-    let is_everywhere = |name: &str| matches!(name, function::OPERATORS | function::BRACKETS);
-    programs.functions.iter().filter(|function| !is_everywhere(&function.name)).all(|function| {
-        function.symbols().all(|symbol| {
-            matches!(graph.symbol_info(symbol).role, Role::Time | Role::Constant) || kept.contains(&symbol)
-        })
-    })
 }

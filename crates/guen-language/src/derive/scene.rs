@@ -2,12 +2,13 @@
 
 use std::rc::Rc;
 
-use guen_symbolic::{Dependence, Derivation, ExprId, Substitution};
+use guen_symbolic::{Dependence, Derivation, ExprId, Substitution, Workbench};
 
+use super::cheapest::cheapest;
 use super::closure::{Flow, Quadrature, Reason};
 use super::fixed::{self, Holding};
 use super::manifold::{Replacement, quaternions};
-use super::parts::{Functions, View, cheapest, parts, replaced};
+use super::parts::{Functions, View, parts, replaced};
 use super::selection::{Held, Place, Selection};
 use super::{Commutator, Level, carried, commutators, formulas, polish, series, shown};
 use crate::diagnostics::{Fault, Faults};
@@ -24,6 +25,8 @@ pub struct SceneFacts {
     /// Variables that left and are pure quadratures, in layers: the rates of each depend on what is kept and on the layers
     /// before.
     pub quadratures: Vec<Vec<Quadrature>>,
+    /// Coordinates that left and that holonomic equations say of what is kept, with what they say.
+    pub determined: Vec<(usize, ExprId)>,
     /// Coordinates that holonomic equations eliminated.
     pub eliminated: Vec<usize>,
     /// The constants that are fixed, by index, and their values.
@@ -107,7 +110,10 @@ fn level(
             replacements.pop();
         }
     }
-    let quadratures = written.quadratures(bench, &mut dependence, &reasons);
+    let determined = determined(bench, &mut dependence, &derivation, &mut holding, (&variables, &reasons));
+    let mut known = reasons.clone();
+    determined.iter().for_each(|(i, _)| known[*i] = Some(Reason::Tracked));
+    let quadratures = written.quadratures(bench, &mut dependence, &known);
     selection.variables = (0..size).filter(|p| reasons[*p].is_some()).collect();
     selection.coordinates = selection.variables.iter().copied().filter(|p| *p < n).collect();
     selection.parameters = selection.variables.iter().filter_map(|p| p.checked_sub(n)).collect();
@@ -151,16 +157,15 @@ fn level(
     let written: Vec<ExprId> = rates.iter().copied().chain([energy]).collect();
     let shown = shown(model, &derivation, &brackets, &written);
     let Functions { parts, domain, domain_names, constant_pivots } =
-        parts(model, &derivation, &brackets, &selection, &shown, &mut view);
-    let shares = Rc::ptr_eq(&derivation, &system.derivation) && selection.held.is_empty();
-    let whole = shares.then_some(&system.programs);
+        parts(model, &derivation, &brackets, &selection, &shown, &mut view, &determined);
     let provided = |word: &str| {
         let names = scene.scene.provides.iter().map(|provide| &provide.name);
         names.into_iter().find(|name| name.text == word && !is_output(model, name))
     };
     let (carries, expands) = (provided("carried"), provided("taylor"));
     let forms = carries.map(|_| kept.clone()).unwrap_or_default();
-    let (mut programs, is_part) = cheapest(model, &selection, whole, lists, kept, &parts);
+    let (mut programs, is_part) =
+        cheapest(model, (system, &derivation), &selection, &scene.fixes, lists, kept, &parts);
     let jacobians = Jacobians::add(&mut programs, model, &selection);
     let series = expands.and_then(|word| series::of(model, &selection, &programs, word.span(), faults));
     let fixes = scene
@@ -171,6 +176,7 @@ fn level(
         index,
         reasons,
         quadratures,
+        determined,
         eliminated: view
             .replacements
             .iter()
@@ -203,6 +209,45 @@ fn level(
         level.carried = Some(carried::derive(model, &level, &forms, word, faults)?);
     }
     Some(level)
+}
+
+/// The coordinates that left and that holonomic equations say of what is kept, one by one.
+fn determined(
+    bench: &mut Workbench,
+    dependence: &mut Dependence,
+    derivation: &Derivation,
+    holding: &mut Holding,
+    (variables, reasons): (&[Option<ExprId>], &[Option<Reason>]),
+) -> Vec<(usize, ExprId)> {
+    let coordinates = &derivation.system.forms.coordinates;
+    let mut candidates: Vec<(usize, ExprId)> = Vec::new();
+    for replacement in Replacement::all(bench, &derivation.system, holding) {
+        if let (false, [i]) = (replacement.is_trial, &replacement.coordinates[..])
+            && reasons[*i].is_none()
+            && variables[*i].is_some()
+        {
+            let mut replacement = replacement;
+            let i = replacement.coordinates[0];
+            candidates.push((i, replacement.of(bench, coordinates[i])));
+        }
+    }
+    let mut found: Vec<(usize, ExprId)> = Vec::new();
+    loop {
+        let mut known = Substitution::new(found.iter().map(|(i, value)| (coordinates[*i], *value)));
+        let next = candidates.iter().find_map(|(i, value)| {
+            if found.iter().any(|(other, _)| other == i) {
+                return None;
+            }
+            let value = known.of(&mut bench.graph, *value);
+            let left = (0..variables.len()).filter(|place| reasons[*place].is_none());
+            let mut left = left.filter_map(|place| variables[place]);
+            left.all(|x| !dependence.depends(bench, value, x)).then_some((*i, value))
+        });
+        match next {
+            Some(next) => found.push(next),
+            None => return found,
+        }
+    }
 }
 
 fn is_output(model: &Model<'_>, name: &Name) -> bool {

@@ -86,7 +86,11 @@ pub(super) fn signature(name: &str) -> Signature {
         function::VELOCITIES | function::ENERGY | function::KINETIC_ENERGY | function::MOMENTA => {
             Signature::State
         }
-        function::DOMAIN | function::CARRY | function::INVARIANTS | function::REJOINED => Signature::State,
+        function::DOMAIN
+        | function::DETERMINED
+        | function::CARRY
+        | function::INVARIANTS
+        | function::REJOINED => Signature::State,
         function::OPERATORS | function::BRACKETS => Signature::Everywhere,
         _ => Signature::Position,
     }

@@ -20,6 +20,8 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
         let places = layers.map(|layer| layer.iter().map(|quadrature| quadrature.place));
         places.map(|places| quote!(&[#(#places),*])).collect()
     });
+    let determined: Vec<Place> =
+        subject.scene().map_or(Vec::new(), |(_, facts)| facts.determined.iter().map(|(i, _)| *i).collect());
     let held = level.selection.held.iter().map(|held| held.place);
     let held: Vec<(Place, usize)> = held.zip(level.selection.constants.len()..).collect();
     let owner = |owner: TokenStream, prepared: TokenStream| {
@@ -32,12 +34,25 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
                 }
             }
         });
+        let determine = (!determined.is_empty()).then(|| {
+            let values = determined.iter().enumerate().map(|(k, place)| quote!(full[#place] = values[#k];));
+            quote! {
+                const DETERMINED: &'static [usize] = &[#(#determined),*];
+
+                #[inline]
+                fn determine(&self, t: R, state: &[R; #size], full: &mut [R; #full]) {
+                    let values = program::determined(&#prepared.constants, &#prepared.hoisted, t, state);
+                    #(#values)*
+                }
+            }
+        });
         quote! {
             impl<R: __guen::Real> __guen::Level<R, #size, #full> for #owner {
                 const PLACES: [usize; #size] = [#(#places),*];
                 const QUADRATURES: &'static [&'static [usize]] = &[#(#layers),*];
                 const INFO: __guen::LevelInfo = INFO;
                 #hold
+                #determine
             }
         }
     };

@@ -88,8 +88,9 @@ impl<const FULL: usize> Recovered<FULL> {
     }
 }
 
-/// Recovers what a scene left out and what is an integral of what it keeps: variables in
-/// [`Level::QUADRATURES`](guen_runtime::Level::QUADRATURES), layer by layer, along a recorded run.
+/// Recovers what a scene left out, along a recorded run: what is an integral of what it keeps, variables in
+/// [`Level::QUADRATURES`](guen_runtime::Level::QUADRATURES), layer by layer, and the coordinates that holonomic equations
+/// say of it, [`Level::DETERMINED`](guen_runtime::Level::DETERMINED).
 ///
 /// `core` is the prepared scene, and `full` the prepared system with the same constants. `run` are the states of the
 /// scene at [`Nodes::times`], as [`Integration::sample`](guen_runtime::steppers::Integration::sample) gives them, and
@@ -168,7 +169,9 @@ where
     let path = Path { core, full, nodes, rest };
     let (fine, coarse) = (path.integrated(&Rule::new(1), run)?, path.integrated(&Rule::new(2), check)?);
 
-    let known = |place: &usize| S::QUADRATURES.iter().any(|layer| layer.contains(place));
+    let known = |place: &usize| {
+        S::DETERMINED.contains(place) || S::QUADRATURES.iter().any(|layer| layer.contains(place))
+    };
     // What the scene holds is exact: `hold` writes there, and nowhere else.
     let mut held = [f64::NAN; FULL];
     core.hold(&mut held);
@@ -210,13 +213,17 @@ impl<S, F, const FULL: usize> Path<'_, S, F, FULL> {
         F: System<f64, FULL>,
     {
         let times = &self.nodes.times;
-        let mut now = self.core.embed(&states[0], self.rest);
+        let embed = |place: usize, rest: &[f64; FULL]| {
+            let mut full = self.core.embed(&states[place], rest);
+            self.core.determine(times[place], &states[place], &mut full);
+            full
+        };
+        let mut now = embed(0, self.rest);
         let mut motion = vec![now];
         for first in (0..times.len() - 1).step_by(FINE) {
             let places: Vec<usize> = (first..=first + FINE).step_by(rule.stride).collect();
             let length = times[first + FINE] - times[first];
-            let mut along: Vec<[f64; FULL]> =
-                places.iter().map(|place| self.core.embed(&states[*place], &now)).collect();
+            let mut along: Vec<[f64; FULL]> = places.iter().map(|place| embed(*place, &now)).collect();
             for layer in S::QUADRATURES {
                 let rates: Vec<[f64; FULL]> = places
                     .iter()

@@ -58,6 +58,38 @@ fn layers_are_recovered_within_what_is_stated() {
     assert!(off(&recovered(80, 0.0), 2) < 1e-13 && recovered(80, 0.0).error(2) < 1e-6);
 }
 
+/// The same core where an equation says that `w = 2 x + t`, and `y' = w` follows.
+struct Bound;
+
+impl Level<f64, 2, 5> for Bound {
+    const PLACES: [usize; 2] = [0, 4];
+    const QUADRATURES: &'static [&'static [usize]] = &[&[1]];
+    const DETERMINED: &'static [usize] = &[3];
+    const INFO: LevelInfo =
+        LevelInfo { name: "Bound", variables: &["x", "v"], cost: Cost::ZERO, prepare_cost: Cost::ZERO };
+
+    fn determine(&self, t: f64, state: &[f64; 2], full: &mut [f64; 5]) {
+        full[3] = 2.0 * state[0] + t;
+    }
+}
+
+#[test]
+fn what_an_equation_says_is_as_good_as_what_it_says_it_of() {
+    let full = from_fn(|_t: f64, &[x, _y, _z, w, v]: &[f64; 5]| [v, w, f64::NAN, f64::NAN, -x]);
+    let grid: Vec<f64> = (0..=40).map(|k| 0.25 * f64::from(k)).collect();
+    let nodes = Nodes::new(&grid).unwrap();
+    let (run, check) = (motion(nodes.times(), 0.0), motion(nodes.times(), 1e-4));
+    let rest = [0.0, 0.0, 0.0, f64::NAN, 1.0];
+    let recovered = recover(&&Bound, &full, &nodes, &run, &check, &rest).unwrap();
+    for (t, state) in recovered.times.iter().zip(&recovered.states) {
+        let expected = [2.0 * t.sin() + t, 2.0 - 2.0 * t.cos() + t * t / 2.0];
+        for (place, expected) in [3, 1].into_iter().zip(expected) {
+            assert!((state[place] - expected).abs() < 1e-12, "{} and not {expected} at {t}", state[place]);
+        }
+    }
+    assert!(recovered.error(3) >= 1.9e-4 && recovered.error(3) < 2.1e-4 && recovered.error(2).is_infinite());
+}
+
 #[test]
 fn the_orders_are_those_of_the_rules() {
     // Halving the interval: 2^-9 at least of the error, 2^-5 of what is stated.

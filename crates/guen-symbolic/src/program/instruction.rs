@@ -71,6 +71,25 @@ impl Operation {
     }
 }
 
+impl Operation {
+    /// The values that are read, and the second one that is defined.
+    pub(super) fn values_mut(&mut self) -> impl Iterator<Item = &mut Value> {
+        let (a, b) = match self {
+            Operation::Number(_) | Operation::Pi | Operation::Symbol(_) | Operation::Prepared(_) => {
+                (None, None)
+            }
+            Operation::Neg(a) | Operation::Call(_, a) => (Some(a), None),
+            Operation::Add(a, b)
+            | Operation::Sub(a, b)
+            | Operation::Mul(a, b)
+            | Operation::Div(a, b)
+            | Operation::Atan2(a, b)
+            | Operation::SinCos { angle: a, cosine: b } => (Some(a), Some(b)),
+        };
+        a.into_iter().chain(b)
+    }
+}
+
 impl Key for Value {
     fn hash(&self) -> u32 {
         spread(self.0 as u64)

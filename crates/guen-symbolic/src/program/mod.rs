@@ -10,6 +10,7 @@ mod builder;
 mod carried;
 mod cost;
 mod evaluate;
+mod fixed;
 mod instruction;
 mod jacobian;
 mod lower;

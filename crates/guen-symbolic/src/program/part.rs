@@ -59,6 +59,43 @@ impl Programs {
         let prepare_cost = OperationCount::of(&prepare);
         Programs { prepare, prepared, prepare_values: self.prepare_values, prepare_cost, functions }
     }
+
+    /// Adds the functions of other programs behind one's own, and their preparation behind one's own.
+    ///
+    /// ```
+    /// use guen_symbolic::{Graph, ProgramBuilder, Role};
+    /// let mut g = Graph::new();
+    /// let (x, m, k) = (g.symbol("x", Role::Coordinate), g.symbol("m", Role::Constant), g.symbol("k", Role::Constant));
+    /// let (u, v) = (g.powi(m, 2), g.powi(k, 3));
+    /// let (u, v) = (g.mul(u, x), g.mul(v, x));
+    /// let of = |g: &mut Graph, name: &str, e| {
+    ///     let mut builder = ProgramBuilder::new(g);
+    ///     builder.add_function(name, &[e]);
+    ///     builder.finish()
+    /// };
+    /// let (mut programs, others) = (of(&mut g, "first", u), of(&mut g, "second", v));
+    /// programs.append(others);
+    /// assert_eq!((programs.functions.len(), programs.prepared.len()), (2, 2));
+    /// ```
+    pub fn append(&mut self, mut other: Programs) {
+        let values = self.prepare_values as u32;
+        for instruction in &mut other.prepare {
+            instruction.result.0 += values;
+            instruction.operation.values_mut().for_each(|value| value.0 += values);
+        }
+        for function in &mut other.functions {
+            for instruction in &mut function.instructions {
+                if let Operation::Prepared(k) = &mut instruction.operation {
+                    *k += self.prepared.len();
+                }
+            }
+        }
+        self.prepare.extend(other.prepare);
+        self.prepared.extend(other.prepared.into_iter().map(|value| Value(value.0 + values)));
+        self.prepare_values += other.prepare_values;
+        self.prepare_cost = OperationCount::of(&self.prepare);
+        self.functions.extend(other.functions);
+    }
 }
 
 impl Programs {

@@ -60,10 +60,27 @@ impl<'a> Declared<'a> {
 
     /// A random state on the constraints with positions at 1e-14 of them; `None` where they were not found.
     pub fn state(&self, draw: &mut Draw) -> Option<(Vec<f64>, Vec<f64>)> {
+        let mut point = self.start(draw);
+        point.extend(self.held.iter().map(|_| draw.real(0.5, 1.5)));
+        self.closed(draw, point)
+    }
+
+    /// The same at given constants and inputs.
+    pub fn state_of(&self, draw: &mut Draw, held: Vec<f64>) -> Option<(Vec<f64>, Vec<f64>)> {
+        let point = [self.start(draw), held].concat();
+        self.closed(draw, point)
+    }
+
+    /// Time, coordinates and velocities to begin with.
+    fn start(&self, draw: &mut Draw) -> Vec<f64> {
         let mut point = vec![draw.real(-1.0, 1.0)];
         point.extend((0..self.n).map(|_| draw.real(-1.0, 1.0)));
         point.extend((0..self.n).map(|_| 0.0));
-        point.extend(self.held.iter().map(|_| draw.real(0.5, 1.5)));
+        point
+    }
+
+    /// The nearest point on the constraints, about, and random velocities there.
+    fn closed(&self, draw: &mut Draw, mut point: Vec<f64>) -> Option<(Vec<f64>, Vec<f64>)> {
         for _ in 0..40 {
             let left = self.meaning(&point).positions;
             let largest = left.iter().fold(0.0_f64, |most, e| most.max(e.abs()));

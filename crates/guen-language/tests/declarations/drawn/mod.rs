@@ -11,6 +11,7 @@ mod declared;
 mod draw;
 mod functions;
 mod grammar;
+mod levels;
 mod meaning;
 #[allow(dead_code, reason = "systems drawn over expressions use the rest")]
 #[path = "../../../../guen-symbolic/tests/random_systems/multipliers.rs"]

@@ -1,0 +1,171 @@
+//! The cheapest programs for the functions of a scene.
+
+use std::rc::Rc;
+
+use guen_symbolic::{
+    Derivation, ExprId, Programs, Rational, Role, Substitution, SymbolId, Workbench, evaluate_f64,
+    evaluate_function, evaluate_prepare,
+};
+
+use super::parts::Part;
+use super::selection::Selection;
+use super::{Level, constant_pivots, extend, function, programs};
+use crate::model::{FixedConstant, Model};
+
+/// The cheapest programs of a scene, and whether its right-hand side is a part of the whole system's.
+///
+/// Rates that are optimised together with those that left may share what they do not share alone, so that a part of the
+/// larger program is tried beside a program of its own: the whole system's where nothing was fixed, so that every result
+/// is the same to the bit; else that of the system at the fixed values.
+///
+/// Where all these are dearer than the whole system's own, that is taken at the scene's values.
+pub(super) fn cheapest(
+    model: &mut Model<'_>,
+    (whole, derivation): (&Level, &Rc<Derivation>),
+    selection: &Selection,
+    fixes: &[FixedConstant<'_>],
+    mut lists: Vec<Vec<ExprId>>,
+    mut kept: Vec<Vec<ExprId>>,
+    parts: &[Part],
+) -> (Programs, bool) {
+    let shares = Rc::ptr_eq(derivation, &whole.derivation) && selection.held.is_empty();
+    let system = shares.then_some(&whole.programs);
+    let fixed = fixes.iter().map(|fix| (fix.symbol, fix.value));
+    let held = selection.held.iter().map(|held| (model.variable(held.place), held.symbol));
+    let values: Vec<(ExprId, ExprId)> = fixed.chain(held).collect();
+    extend(&mut model.bench, &mut kept);
+    let alone = programs(&mut model.bench, &kept, &[]);
+    let quantities: Vec<_> = parts.iter().map(|part| (part.name, part.outputs.clone())).collect();
+    let mut wanted = vec![(function::RHS, selection.variables.clone())];
+    let part = match system {
+        Some(system) => {
+            let shared = parts.iter().filter_map(|part| Some((part.name, part.places.clone()?)));
+            wanted.extend(shared);
+            let mut part = system.part(&wanted);
+            let own = parts.iter().filter(|part| part.places.is_none());
+            let own: Vec<_> = own.map(|part| (part.name, part.outputs.clone())).collect();
+            if !own.is_empty() {
+                part.append(programs(&mut model.bench, &[], &own));
+            }
+            Some(part)
+        }
+        None if selection.variables.len() == lists[0].len() => None,
+        None => {
+            extend(&mut model.bench, &mut lists);
+            wanted.extend(parts.iter().map(|part| (part.name, (0..part.outputs.len()).collect())));
+            Some(programs(&mut model.bench, &lists, &quantities).part(&wanted))
+        }
+    };
+    let cost = |programs: &Programs| programs.functions[0].cost.weighted();
+    let part = part.filter(|part| cost(part) <= cost(&alone) && fits(model, selection, part));
+    let best = part.as_ref().map_or(cost(&alone), cost);
+    if best > cost(&whole.programs)
+        && is_regular(model, whole, derivation, &values)
+        && let Some(mut rates) = at_values(model, whole, selection, &values, &kept[0])
+    {
+        rates.append(programs(&mut model.bench, &[], &quantities));
+        return (rates, false);
+    }
+    match part {
+        Some(part) => (part, shares),
+        None => (programs(&mut model.bench, &kept, &quantities), false),
+    }
+}
+
+/// Whether the whole system with what a scene fixes and holds at its values divides by nothing that the scene does not.
+fn is_regular(
+    model: &mut Model<'_>,
+    whole: &Level,
+    derivation: &Derivation,
+    values: &[(ExprId, ExprId)],
+) -> bool {
+    let bench = &mut model.bench;
+    let divisors = |derivation: &Derivation| -> Vec<ExprId> {
+        let solution = &derivation.solution;
+        let determinants = solution.determinants.iter().map(|(_, e)| e);
+        let chart = derivation.frame.operators.chart.iter().chain(&solution.pivots).chain(determinants);
+        chart.copied().chain(constant_pivots(derivation)).collect()
+    };
+    let mut at_values = Substitution::new(values.iter().copied());
+    let own: Vec<ExprId> =
+        divisors(derivation).into_iter().map(|e| at_values.of(&mut bench.graph, e)).collect();
+    divisors(&whole.derivation).into_iter().all(|e| {
+        let e = at_values.of(&mut bench.graph, e);
+        let is_number = |bench: &mut Workbench, e: ExprId| {
+            let tidy = bench.tidy(e);
+            bench.graph.as_number(tidy).is_some_and(|value| !value.is_zero())
+        };
+        is_number(bench, e)
+            || own.iter().any(|other| {
+                let quotient = bench.graph.div(e, *other);
+                is_number(bench, quotient)
+            })
+    })
+}
+
+/// The right-hand side of the whole system with what a scene fixes and holds at its values. What it reads and does not depend
+/// on is a number at which it has the values of the scene's rates.
+fn at_values(
+    model: &mut Model<'_>,
+    whole: &Level,
+    selection: &Selection,
+    values: &[(ExprId, ExprId)],
+    rates: &[ExprId],
+) -> Option<Programs> {
+    let part = whole.programs.part(&[(function::RHS, selection.variables.clone())]);
+    let kept: Vec<SymbolId> = kept(model, selection).collect();
+    let bench = &mut model.bench;
+    let fixed: Vec<SymbolId> = values.iter().filter_map(|(e, _)| bench.graph.as_symbol(*e)).collect();
+    let mut idle: Vec<SymbolId> = part.functions.first()?.symbols().collect();
+    idle.retain(|symbol| {
+        let is_given = matches!(bench.graph.symbol_info(*symbol).role, Role::Time | Role::Constant);
+        !is_given && !kept.contains(symbol) && !fixed.contains(symbol)
+    });
+    let symbols: Vec<SymbolId> = fixed.iter().chain(&idle).copied().collect();
+    if symbols.is_empty() {
+        return None;
+    }
+    for (n, d) in [(0, 1), (1, 1), (1, 2), (-1, 3)] {
+        let number = bench.graph.number(Rational::new(n, d));
+        let given = values.iter().map(|(_, value)| *value).chain(idle.iter().map(|_| number)).collect();
+        let given = programs(bench, &[], &[("values", given)]);
+        let found = part.with_values(&symbols, &given);
+        if idle.is_empty() || agrees(bench, &found, rates) {
+            return Some(found);
+        }
+    }
+    None
+}
+
+/// Whether a program has the values of expressions at some points, to rounding.
+fn agrees(bench: &Workbench, found: &Programs, expected: &[ExprId]) -> bool {
+    const CLOSE: f64 = 1e-9;
+    (1..=4).all(|round| {
+        let value =
+            |symbol: SymbolId| 0.3 + f64::from(round) * (symbol.index() as f64 * 2.3).sin().abs() / 3.0;
+        let wanted = evaluate_f64(&bench.graph, expected, &value);
+        let values = evaluate_function(found, 0, &evaluate_prepare(found, value), value);
+        let mut pairs = values.iter().zip(&wanted);
+        pairs.all(|(value, wanted)| (value - wanted).abs() <= CLOSE * (1.0 + wanted.abs()))
+    })
+}
+
+/// The symbols of what a scene keeps.
+fn kept(model: &Model<'_>, selection: &Selection) -> impl Iterator<Item = SymbolId> {
+    let variables = selection.variables.iter().map(|place| model.variable(*place));
+    let accelerations = selection.parameters.iter().map(|s| model.mechanics.accelerations[*s]);
+    let inputs = selection.inputs.iter().map(|u| model.inputs[*u].symbol);
+    variables.chain(accelerations).chain(inputs).filter_map(|e| model.bench.graph.as_symbol(e))
+}
+
+/// Whether programs read nothing that left.
+fn fits(model: &Model<'_>, selection: &Selection, programs: &Programs) -> bool {
+    let graph = &model.bench.graph;
+    let kept: Vec<SymbolId> = kept(model, selection).collect();
+    let is_everywhere = |name: &str| matches!(name, function::OPERATORS | function::BRACKETS);
+    programs.functions.iter().filter(|function| !is_everywhere(&function.name)).all(|function| {
+        function.symbols().all(|symbol| {
+            matches!(graph.symbol_info(symbol).role, Role::Time | Role::Constant) || kept.contains(&symbol)
+        })
+    })
+}
