@@ -10,13 +10,20 @@ use std::path::Path;
 use std::{env, fs};
 
 use guen::Cost;
+use guen_benchmarks::chains::{Angles, declaration};
 use guen_benchmarks::{Subject, Visitor, visit_all};
+use guen_language::derive::Derived;
+use guen_language::derive::function::RHS;
 
 const HEADER: &str = "\
 # Operations of the benchmark systems, written by `GUEN_BLESS=1 cargo test -p guen-tests --test golden`.
 # One evaluation of the right-hand side, then the preparation of its constants: additions, negations,
-# multiplications, divisions, roots, calls. With an apostrophe: the carried form.
+# multiplications, divisions, roots, calls. With an apostrophe: the carried form. With `-0`: no sign is promised
+# of any constant.
 ";
+
+/// Chains of so many links are not compiled.
+const LONG: usize = 40;
 
 /// One line for each system: its name, then two programs of six counts.
 struct Lines(String);
@@ -34,26 +41,60 @@ impl Visitor for CarriedLines {
     fn visit<S: Subject<N>, const N: usize>(&mut self, _: S) {
         let end = S::DECLARATION.rfind('}').unwrap();
         let text = format!("{} provide carried; }}", &S::DECLARATION[..end]);
-        let (declaration, _) = guen_language::parse::parse(text.parse().unwrap());
-        let declaration = declaration.unwrap();
-        let (derived, report) = guen_language::diagnostics::collect(|faults| {
-            let model = guen_language::model::resolve(&declaration, faults)?;
-            guen_language::derive::derive(model, faults)
+        let (rates, prepare) = derived(S::NAME, &text, |derived| {
+            let level = derived.system.carried.as_ref().unwrap();
+            let rates = level.program(RHS).unwrap().cost;
+            assert_eq!((rates.sines, rates.calls), (0, 0), "{}", S::NAME);
+            (counts(cost(rates)), counts(cost(level.programs.prepare_cost)))
         });
-        assert!(report.is_empty(), "{}: {:?}", S::NAME, report.to_compile_errors().to_string());
-        let level = derived.unwrap().system.carried.unwrap();
-        let rates = level.program(guen_language::derive::function::RHS).unwrap().cost;
-        assert_eq!((rates.sines, rates.calls), (0, 0), "{}", S::NAME);
-        let cost = |count: guen_symbolic::OperationCount| Cost {
-            additions: count.additions,
-            negations: count.negations,
-            multiplications: count.multiplications,
-            divisions: count.divisions,
-            roots: count.roots,
-            calls: count.sines + count.calls,
-        };
-        let (rates, prepare) = (counts(cost(rates)), counts(cost(level.programs.prepare_cost)));
         let _ = writeln!(self.0, "{:11} {rates}  |{prepare}", format!("{}'", S::NAME));
+    }
+}
+
+/// What is derived from a declaration while the test runs.
+fn derived<T>(name: &str, text: &str, look: impl FnOnce(&Derived<'_>) -> T) -> T {
+    let (declaration, _) = guen_language::parse::parse(text.parse().unwrap());
+    let declaration = declaration.unwrap();
+    let (derived, report) = guen_language::diagnostics::collect(|faults| {
+        let model = guen_language::model::resolve(&declaration, faults)?;
+        guen_language::derive::derive(model, faults)
+    });
+    assert!(report.is_empty(), "{name}: {:?}", report.to_compile_errors().to_string());
+    look(&derived.unwrap())
+}
+
+/// Chains that are longer than those that are compiled, and chains of which no constant has a bound.
+fn chains() -> String {
+    let mut lines = String::new();
+    for (angles, family, lengths) in
+        [(Angles::Absolute, "chain", &[5, 10, 20, 40][..]), (Angles::Relative, "joints", &[5, 10, 20])]
+    {
+        for links in lengths {
+            let text = declaration("Chain", *links, angles);
+            let mut row = |name: String, text: &str| {
+                let counts = derived(&name, text, |derived| {
+                    let rates = derived.system.program(RHS).unwrap().cost;
+                    [rates, derived.system.programs.prepare_cost].map(|count| counts(cost(count)))
+                });
+                let _ = writeln!(lines, "{name:11} {}  |{}", counts[0], counts[1]);
+            };
+            if *links >= LONG {
+                row(format!("{family}{links}"), &text);
+            }
+            row(format!("{family}{links}-0"), &text.replace(" > 0", ""));
+        }
+    }
+    lines
+}
+
+fn cost(count: guen_symbolic::OperationCount) -> Cost {
+    Cost {
+        additions: count.additions,
+        negations: count.negations,
+        multiplications: count.multiplications,
+        divisions: count.divisions,
+        roots: count.roots,
+        calls: count.sines + count.calls,
     }
 }
 
@@ -84,6 +125,7 @@ fn costs_are_those_of_the_file() {
     let mut carried = CarriedLines(String::new());
     visit_all(&mut carried);
     lines.0.push_str(&carried.0);
+    lines.0.push_str(&chains());
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("costs.txt");
     if env::var_os("GUEN_BLESS").is_some() {
         guen_study::replace_file(&file, |out| out.write_all(lines.0.as_bytes())).unwrap();

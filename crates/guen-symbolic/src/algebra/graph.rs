@@ -157,6 +157,8 @@ pub struct Graph {
     symbols: Vec<Symbol>,
     symbol_nodes: Vec<ExprId>,
     role_counts: [u32; 8],
+    // Constants that differ from zero by what they are, whatever was promised.
+    indispensable: Vec<SymbolId>,
     pub(super) base_angles: BaseAngles,
 }
 
@@ -258,6 +260,23 @@ impl Graph {
     /// What is known of a symbol.
     pub fn symbol_info(&self, symbol: SymbolId) -> &Symbol {
         &self.symbols[symbol.index()]
+    }
+
+    /// Remembers that a constant differs from zero by what it is, beside what was promised of its sign.
+    pub(crate) fn set_indispensable(&mut self, symbol: SymbolId) {
+        let bound = &mut self.symbols[symbol.index()].bound;
+        *bound = match *bound {
+            Bound::Free => Bound::NonZero,
+            Bound::NonNegative => Bound::Positive,
+            Bound::NonPositive => Bound::Negative,
+            known => known,
+        };
+        self.indispensable.push(symbol);
+    }
+
+    /// Whether a constant differs from zero by what it is.
+    pub(crate) fn is_indispensable(&self, symbol: SymbolId) -> bool {
+        self.indispensable.contains(&symbol)
     }
 
     /// The expression that a symbol is.

@@ -1,5 +1,6 @@
 //! The derivation as a whole: from a declared system to everything that is emitted.
 
+use super::indispensable;
 use super::routes::{self, Found};
 use super::velocity_forms::VelocityPartials;
 use super::{Energies, Frame, Mechanics, MotionSymbol, NotQuadratic, Solution, decompose};
@@ -114,12 +115,13 @@ impl Derivation {
         let symbols: Vec<ExprId> = system.velocities.iter().chain(&system.etas).copied().collect();
         let terms = decompose(bench, &mut partials, &symbols, system.kinetic_energy)
             .map_err(DerivationError::NotQuadratic)?;
+        let indispensable = indispensable::find(bench, &system, &frame, &mut partials, &terms);
         let generalised_forces = generalised_forces(bench, &system, &mut frame, &mut partials);
 
         let Found {
             equations,
             constrained,
-            solution,
+            mut solution,
             alternatives,
             by_tensions,
             by_nesting,
@@ -128,6 +130,8 @@ impl Derivation {
             mut symmetry,
         } = routes::equations(bench, &system, &mut frame, &mut partials, &terms, &generalised_forces)?;
         affordable(bench)?;
+        // What was taken to differ from zero is looked at when a system is prepared.
+        solution.constant_pivots.extend(indispensable);
 
         let closure = {
             let Frame { operators, brackets, .. } = &mut frame;

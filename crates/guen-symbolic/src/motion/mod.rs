@@ -7,6 +7,7 @@ mod derivation;
 mod energy;
 mod frame;
 mod graph;
+mod indispensable;
 mod kinetic;
 mod linkage;
 mod multibody;

@@ -18,7 +18,7 @@ use core::ops::Range;
 
 use super::velocity_forms::VelocityPartials;
 use super::{Equations, Frame, KineticTerm, Mechanics, VelocityForm};
-use crate::algebra::{ExprId, FastMap, Flow, Node, Rational};
+use crate::algebra::{ExprId, FastMap, Flow, Graph, Node, Rational};
 use crate::program::weighted_cost;
 use crate::workbench::Workbench;
 
@@ -40,7 +40,7 @@ pub(super) struct Measured {
 /// The forms of the kinetic energy, in the order in which its terms have them.
 pub(super) type MeasuredForms = FastMap<ExprId, Measured>;
 
-/// The quadratic part of `T°` as `1/2 sum_k m_k u_k^2` with positive constants `m_k`:
+/// The quadratic part of `T°` as `1/2 sum_k m_k u_k^2` with constants `m_k` of one sign:
 /// `sum_k m_k u_ks (D(u_k) + sum_t u_kt eta_t') = g_s`.
 pub(super) struct Squares {
     /// `m_k`.
@@ -198,7 +198,7 @@ fn with_factors(
     found
 }
 
-/// `1/2 m (c u)^2` with a positive constant `m`.
+/// `1/2 m (c u)^2` with a constant `m`; all of one sign.
 struct Square {
     mass: ExprId,
     /// `c(t, x)`.
@@ -242,13 +242,21 @@ fn squares(bench: &mut Workbench, terms: &[KineticTerm]) -> Option<Vec<Square>> 
             let mass = graph.scale(mass, &(&content * &Rational::integer(2)));
             let squares: Vec<_> = squares.into_iter().map(|(base, e)| (base, e / 2)).collect();
             let factor = graph.product(&squares);
-            if !graph.manifestly_positive(mass) {
-                return None;
-            }
             found.push(Square { mass, factor, form });
         }
     }
-    Some(found)
+    // The masses have one sign, which need not be known.
+    let first = found.first()?.mass;
+    let have_sign_of = |graph: &mut Graph, sign: ExprId| {
+        found.iter().all(|square| {
+            let ratio = graph.div(square.mass, sign);
+            graph.manifestly_positive(ratio)
+        })
+    };
+    let one = graph.one();
+    let have_one_sign =
+        have_sign_of(graph, one) || (graph.manifestly_nonzero(first) && have_sign_of(graph, first));
+    have_one_sign.then_some(found)
 }
 
 /// `x''` at `eta' = 0`: `A x'' = -(A' x' + a_0')` along the motion, so that the operators are never differentiated.

@@ -33,6 +33,19 @@ impl Numbering {
         (order, uses)
     }
 
+    /// What some numbers take to compute, in multiplications, without what depends on constants alone.
+    pub(crate) fn cost(&self, roots: &[Num]) -> usize {
+        let (order, _) = self.reached(roots);
+        let weight = |index: &usize| match self.ops[*index] {
+            _ if self.constant[*index] => 0,
+            Op::Expr(_) => 0,
+            Op::Sum(..) | Op::Product(..) => 1,
+            Op::Quotient(..) => 4,
+            Op::SquareRoot(_) => 6,
+        };
+        order.iter().map(weight).sum()
+    }
+
     /// The expressions of the graph; what is used more than once is kept whole.
     pub(crate) fn export(&self, graph: &mut Graph, roots: &[Num]) -> Vec<ExprId> {
         let (order, uses) = self.reached(roots);

@@ -21,7 +21,7 @@ use table::{ATOM, OPAQUE, ROOT, TRANSCENDENTAL, Table, UNDEFINED};
 
 pub use real::{Real, evaluate, evaluate_f64};
 
-use crate::algebra::{ExprId, FastMap, Flow, Graph, Node};
+use crate::algebra::{ExprId, FastMap, Flow, Graph, Node, SymbolId};
 
 /// The answer to a question that cannot always be decided.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -196,6 +196,20 @@ impl ZeroTest {
             }
         }
         None
+    }
+
+    /// The values of expressions modulo a prime at a random point at which one symbol is zero; `None` where one has none.
+    pub(crate) fn residues_without(
+        &mut self,
+        g: &Graph,
+        symbol: SymbolId,
+        es: &[ExprId],
+        number: u64,
+    ) -> Option<Vec<u64>> {
+        self.table.scan(g);
+        let mut sample = Sample::new(number);
+        sample.fixed.insert(symbol, 0);
+        es.iter().map(|e| sample.value(g, &self.table, *e)).collect()
     }
 
     /// The value of an expression at the point of a number; `None` at a pole, or if there is no such point.

@@ -2,10 +2,11 @@
 
 use std::collections::BTreeMap;
 
+use super::core::Core;
 use super::form::Form;
 use super::forms::Functional;
 use super::kinematics::Kinematics;
-use super::plan::{Def, Equation};
+use super::plan::{Def, Equation, Plan};
 use super::relations::{definition, order};
 use super::tree::{Content, Tree, Turn};
 use super::variables::{Class, Kind, Var, Variables};
@@ -64,6 +65,49 @@ fn axial(tree: &Tree, content: &Content) -> Option<usize> {
     let others = (0..6).filter(|q| *q != axis).map(|q| content.inertia[q]);
     let mut others = others.chain(content.moment).chain([content.mass]);
     others.all(|e| e.is_zero()).then_some(axis)
+}
+
+/// When a parameter leaves the equations.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Order {
+    /// After all velocities: the mass matrix of the parameters is factored.
+    AtTheRoot,
+    /// As soon as all that follows from it has left: the inertia of articulated bodies.
+    OnTheWay,
+}
+
+/// The rates of velocities beyond those at resting parameters, once the rates of the parameters are known.
+struct Outwards<'a, 'b> {
+    tree: &'a Tree,
+    variables: &'a Variables,
+    plan: &'a Plan,
+    core: &'a Core,
+    /// Of the core's unknowns at resting parameters.
+    bias: &'a [Num],
+    found: &'b BTreeMap<Var, Num>,
+    known: &'b mut BTreeMap<Var, Num>,
+}
+
+impl Outwards<'_, '_> {
+    fn rate(&mut self, numbers: &mut Numbering, var: Var) -> Num {
+        if let Some(rate) = self.found.get(&var).or_else(|| self.known.get(&var)) {
+            return *rate;
+        }
+        let (terms, mut sum) = match self.plan.def(var) {
+            Some(Def::Core(index)) => (self.core.solutions[index].clone(), self.bias[index]),
+            _ => {
+                let found = definition(numbers, self.tree, self.variables, self.plan, var);
+                (found.map(|(terms, _)| terms).unwrap_or_default(), Num::ZERO)
+            }
+        };
+        for (other, c) in terms {
+            let rate = self.rate(numbers, other);
+            let part = numbers.mul(c, rate);
+            sum = numbers.add(sum, part);
+        }
+        self.known.insert(var, sum);
+        sum
+    }
 }
 
 /// The equations of a tree while they are put up and solved.
@@ -197,11 +241,21 @@ impl<'a> Assembly<'a> {
         }
     }
 
-    /// Takes everything back to the parameters, and solves: the rates of the parameters, and what was divided by.
+    /// Takes everything back to the parameters, and solves: the rates of the parameters, and what was divided by. The cheaper
+    /// of two orders.
     pub(super) fn solve(mut self) -> Option<(Vec<Num>, Vec<Num>)> {
-        let (variables, plan) = (self.kinematics.variables, self.kinematics.plan);
         let bias = self.core_bias();
-        self.inwards()?;
+        let form = self.form.clone();
+        let at_the_root = self.solved_in(&bias, Order::AtTheRoot)?;
+        self.form = form;
+        let Some(on_the_way) = self.solved_in(&bias, Order::OnTheWay) else { return Some(at_the_root) };
+        let cost = |(rates, _): &(Vec<Num>, Vec<Num>)| self.kinematics.numbers.cost(rates);
+        Some(if cost(&on_the_way) < cost(&at_the_root) { on_the_way } else { at_the_root })
+    }
+
+    fn solved_in(&mut self, bias: &[Num], order: Order) -> Option<(Vec<Num>, Vec<Num>)> {
+        let (variables, plan) = (self.kinematics.variables, self.kinematics.plan);
+        self.inwards(order)?;
         for (index, var) in plan.unknowns.iter().enumerate().rev() {
             let solution = self.kinematics.core.solutions[index].clone();
             self.form.substitute(self.kinematics.numbers, *var, &solution, bias[index]);
@@ -211,7 +265,7 @@ impl<'a> Assembly<'a> {
         if !self.form.variables().iter().all(|var| etas.contains(var)) {
             return None;
         }
-        let mut left = etas.clone();
+        let mut left: Vec<Var> = etas.iter().copied().filter(|var| !self.form.is_eliminated(*var)).collect();
         while !left.is_empty() {
             let numbers = &mut *self.kinematics.numbers;
             let next = left
@@ -228,9 +282,14 @@ impl<'a> Assembly<'a> {
             }
             self.form.eliminate(numbers, var);
         }
-        let found = self.form.solved(self.kinematics.numbers, |_, _, _| Num::ZERO);
+        let (tree, core) = (self.kinematics.tree, self.kinematics.core);
+        let mut known = BTreeMap::new();
+        let found = self.form.solved(self.kinematics.numbers, |numbers, found, var| {
+            let mut outwards = Outwards { tree, variables, plan, core, bias, found, known: &mut known };
+            outwards.rate(numbers, var)
+        });
         let rates = etas.iter().map(|var| found.get(var).copied().unwrap_or(Num::ZERO)).collect();
-        Some((rates, self.form.pivots))
+        Some((rates, std::mem::take(&mut self.form.pivots)))
     }
 
     /// The rates of the core's unknowns at zero rates of the parameters.
@@ -251,7 +310,7 @@ impl<'a> Assembly<'a> {
     }
 
     /// Substitutes every velocity by those from which it follows, the youngest first; pairs are turned together.
-    fn inwards(&mut self) -> Option<()> {
+    fn inwards(&mut self, when: Order) -> Option<()> {
         let (tree, variables, plan) = (self.kinematics.tree, self.kinematics.variables, self.kinematics.plan);
         let roots = self.form.variables();
         let order = order(self.kinematics.numbers, tree, variables, plan, &roots);
@@ -266,8 +325,15 @@ impl<'a> Assembly<'a> {
                 return None;
             }
         }
+        // What the core is made of is needed until its unknowns leave.
+        for (eta, _) in self.kinematics.core.solutions.iter().flatten() {
+            *users.entry(*eta).or_default() += 1;
+        }
         let mut left: Vec<Var> = order.iter().copied().filter(|var| definitions.contains_key(var)).collect();
         while !left.is_empty() {
+            if when == Order::OnTheWay {
+                self.eliminate_free(&order, &users);
+            }
             let is_ready = |var: &Var| users.get(var).copied().unwrap_or(0) == 0;
             let plainly = left.iter().rposition(|var| is_ready(var) && self.pair(*var, &left).is_none());
             let mut gone: Vec<Var> = Vec::new();
@@ -314,6 +380,18 @@ impl<'a> Assembly<'a> {
             }
         }
         Some(())
+    }
+
+    /// Eliminates the parameters from which nothing follows that is left.
+    fn eliminate_free(&mut self, order: &[Var], users: &BTreeMap<Var, usize>) {
+        for var in order {
+            let is_free = self.kinematics.plan.def(*var) == Some(Def::Known)
+                && users.get(var).copied().unwrap_or(0) == 0
+                && !self.form.entry(*var, *var).is_zero();
+            if is_free {
+                self.form.eliminate(self.kinematics.numbers, *var);
+            }
+        }
     }
 
     /// The pair of which a variable is one, if both are turned and nothing else: axes, and `x, y, X, Y`.

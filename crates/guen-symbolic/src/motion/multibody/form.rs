@@ -8,7 +8,7 @@ use super::variables::{Class, Var, Variables};
 use crate::numbering::{Num, Numbering};
 
 /// `1/2 v^T D v` and `f`.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(super) struct Form {
     rows: BTreeMap<Var, BTreeMap<Var, Num>>,
     forces: BTreeMap<Var, Num>,
@@ -231,6 +231,11 @@ impl Form {
             found.insert(*i, sum);
         }
         found
+    }
+
+    /// Whether a variable left by its own equation.
+    pub(super) fn is_eliminated(&self, i: Var) -> bool {
+        self.eliminated.iter().any(|(other, ..)| *other == i)
     }
 
     /// How many others a variable meets.

@@ -1,0 +1,81 @@
+//! Limbs on a floating body: the rate of each joint leaves the equations before the velocities of the link that carries it.
+
+use std::fmt::Write;
+
+use crate::common::{derived, evaluated};
+use guen_language::derive::function;
+use guen_symbolic::{SymbolId, evaluate_f64};
+
+/// Bodies of general inertia that hang on each other: for each but the first its carrier, the axis of its joint, and where
+/// the joint is in the carrier.
+fn robot(links: &[(usize, char, &str)]) -> String {
+    let constants = |b: usize| {
+        let entries = ["x", "y", "z"].map(|c| format!("I{b}{c} > 0, P{b}{c}, c{b}{c}"));
+        format!("m{b} > 0, {}", entries.join(", "))
+    };
+    let all: Vec<String> = (0..=links.len()).map(constants).collect();
+    let angles: Vec<String> = (1..=links.len()).map(|i| format!("q{i}")).collect();
+    let mut text = format!(
+        "pub system Robot {{
+            constants {{ l > 0, g = 9.81, {} }}
+            coordinates {{ x, y, z, yaw, pitch, roll, {} }}
+            let A0 = rot_z(yaw)*rot_y(pitch)*rot_x(roll);
+            let p0 = vec(x, y, z);\n",
+        all.join(", "),
+        angles.join(", "),
+    );
+    for (i, (carrier, axis, place)) in (1..).zip(links) {
+        let _ = writeln!(text, "let A{i} = A{carrier}*rot_{axis}(q{i});");
+        let _ = writeln!(text, "let p{i} = p{carrier} + A{carrier}*vec({place});");
+    }
+    text.push_str("bodies {");
+    for b in 0..=links.len() {
+        let _ = writeln!(
+            text,
+            "b{b} {{ mass: m{b}, inertia: sym(I{b}x, I{b}y, I{b}z, P{b}x, P{b}y, P{b}z),
+                center: p{b} + A{b}*vec(c{b}x, c{b}y, c{b}z), orientation: A{b} }}"
+        );
+    }
+    text.push_str("} gravity = vec(0, 0, -g);");
+    text.push_str("parameters { v = transpose(A0)*dot(p0); w = angular_velocity_body(A0);");
+    for angle in &angles {
+        let _ = write!(text, "turn_{angle} = dot({angle});");
+    }
+    text + "} }"
+}
+
+#[test]
+fn a_quadruped_costs_so_many_operations_and_solves_its_equations() {
+    let corners = ["l, l/2, 0", "l, -l/2, 0", "-l, l/2, 0", "-l, -l/2, 0"];
+    let legs = corners.iter().enumerate().flat_map(|(leg, corner)| {
+        let hip = 3 * leg + 1;
+        [(0, 'x', *corner), (hip, 'y', "0, l/4, 0"), (hip + 1, 'y', "0, 0, -l")]
+    });
+    let text = robot(&legs.collect::<Vec<_>>());
+    derived(&text, |derived| {
+        let level = &derived.system;
+        let cost = level.program(function::RHS).unwrap().cost;
+        // 3,320 as this is written.
+        assert!(cost.operations() + cost.sines + cost.calls <= 3_500, "{}", cost.operations());
+        assert!(level.derivation.by_bodies);
+        let graph = &derived.model.bench.graph;
+        let value = |symbol: SymbolId| {
+            let name = &graph.symbol_info(symbol).name;
+            let draw = (7.3 * (1.0 + name.bytes().fold(0.0, |sum, byte| 1.7 * sum + f64::from(byte)))).sin();
+            match name.as_bytes()[0] {
+                b'm' | b'I' => 1.5 + draw,
+                _ => 0.4 * draw,
+            }
+        };
+        let rates = evaluated(level, function::RHS, value).unwrap();
+        let equations = &level.derivation.equations;
+        let forces = evaluate_f64(graph, &equations.forces, &value);
+        for (row, force) in equations.mass.iter().zip(&forces) {
+            let row = evaluate_f64(graph, row, &value);
+            let parts: Vec<f64> = row.iter().zip(&rates[18..]).map(|(m, rate)| m * rate).collect();
+            let size: f64 = parts.iter().map(|part| part.abs()).sum();
+            let residual = (parts.iter().sum::<f64>() - force).abs() / (1.0 + size + force.abs());
+            assert!(residual < 1e-11, "{residual:e}");
+        }
+    });
+}

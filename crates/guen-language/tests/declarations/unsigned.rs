@@ -1,0 +1,113 @@
+//! Constants of which nothing is promised: without which nothing has inertia may be divided by, whatever its sign is; a mass
+//! that may be zero or negative may not.
+
+use crate::common::{derived, evaluated};
+use guen_language::derive::{Derived, function};
+use guen_symbolic::{SymbolId, evaluate_f64};
+
+/// Particles on massless links, in absolute angles.
+fn chain(constants: &str, masses: [&str; 5]) -> String {
+    let list = |entry: &dyn Fn(usize) -> String| (1..=5).map(entry).collect::<Vec<_>>().join(" ");
+    format!(
+        "pub system Chain {{
+            constants {{ {constants}, g = 9.81 }}
+            coordinates {{ q1, q2, q3, q4, q5 }}
+            let p0 = vec(0, 0);
+            {}
+            parameters {{ {} }}
+            particles {{ {} }}
+            gravity = vec(0, -g);
+        }}",
+        list(&|i| format!("let p{i} = p{} + l*vec(sin(q{i}), -cos(q{i}));", i - 1)),
+        list(&|i| format!("w{i} = dot(q{i});")),
+        list(&|i| format!("{} at p{i};", masses[i - 1])),
+    )
+}
+
+/// The operations of the right-hand side.
+fn operations(text: &str) -> u32 {
+    derived(text, |derived| {
+        let mut functions = derived.system.programs.functions.iter();
+        functions.find(|own| own.name == function::RHS).unwrap().cost.operations()
+    })
+}
+
+/// What is left of the equations of motion with the rates of the program, relative to the forces in them.
+fn residual(derived: &Derived<'_>, constants: &[(&str, f64)]) -> f64 {
+    let graph = &derived.model.bench.graph;
+    let value = |symbol: SymbolId| {
+        let name = &graph.symbol_info(symbol).name;
+        let place = 1.0 + name.bytes().map(f64::from).sum::<f64>();
+        let known = constants.iter().find(|(known, _)| known == name).map(|(_, value)| *value);
+        known.unwrap_or((7.3 * place).sin())
+    };
+    let rates = evaluated(&derived.system, function::RHS, value).unwrap();
+    let equations = &derived.system.derivation.equations;
+    let forces = evaluate_f64(graph, &equations.forces, &value);
+    let mut worst: f64 = 0.0;
+    for (row, force) in equations.mass.iter().zip(&forces) {
+        let row = evaluate_f64(graph, row, &value);
+        let inertia: f64 = row.iter().zip(&rates[5..]).map(|(m, rate)| m * rate).sum();
+        worst = worst.max((inertia - force).abs() / (1.0 + force.abs()));
+    }
+    worst
+}
+
+/// The constants that `prepare` wants to differ from zero.
+fn pivots(derived: &Derived<'_>) -> Vec<String> {
+    let graph = &derived.model.bench.graph;
+    derived.system.constant_pivots.iter().map(|e| graph.text(*e)).collect()
+}
+
+#[test]
+fn one_mass_needs_no_sign() {
+    let unsigned = chain("m, l", ["m"; 5]);
+    assert_eq!(operations(&unsigned), operations(&chain("m > 0, l > 0", ["m"; 5])));
+    derived(&unsigned, |derived| {
+        assert_eq!(pivots(derived), ["m", "l"]);
+        for [m, l] in [[1.5, 0.4], [-1.5, 0.4], [1.5, -0.4]] {
+            let residual = residual(derived, &[("m", m), ("l", l), ("g", 9.81)]);
+            assert!(residual < 1e-12, "{m} {l}: {residual:e}");
+        }
+    });
+}
+
+#[test]
+fn a_mass_that_may_be_zero_is_no_divisor() {
+    derived(&chain("a, b, c, d, e, l", ["a", "b", "c", "d", "e"]), |derived| {
+        // Without the last particle the last link has no inertia.
+        assert_eq!(pivots(derived), ["e", "l"]);
+        for c in [0.7, 0.0, -0.1] {
+            let masses = [("a", 1.0), ("b", 0.5), ("c", c), ("d", 0.8), ("e", 1.2)];
+            let constants: Vec<_> = masses.into_iter().chain([("l", 0.4), ("g", 9.81)]).collect();
+            let residual = residual(derived, &constants);
+            assert!(residual < 1e-11, "{c}: {residual:e}");
+        }
+    });
+}
+
+/// Two masses of which neither is known to have the sign of the other.
+#[test]
+fn masses_of_unknown_signs_are_not_taken_for_those_of_one_sign() {
+    derived(&chain("m, M > 0, l > 0", ["M", "M", "M", "M", "m"]), |derived| {
+        for m in [0.6, -0.05] {
+            let constants = [("m", m), ("M", 1.1), ("l", 0.4), ("g", 9.81)];
+            let residual = residual(derived, &constants);
+            assert!(residual < 1e-11, "{m}: {residual:e}");
+        }
+        assert!(!derived.system.derivation.by_tensions);
+    });
+}
+
+/// A length that vanishes leaves the inertia of the body: neither is divided by.
+#[test]
+fn what_has_inertia_otherwise_is_no_divisor() {
+    let text = "pub system Pendulum {
+        constants { m, l, I, g = 9.81 }
+        coordinates { phi }
+        bodies { rod { mass: m, inertia: diag(0, 0, I), center: l*rot_z(phi).x, orientation: rot_z(phi) } }
+        gravity = vec(0, -g, 0);
+        parameters { w = dot(phi); }
+    }";
+    derived(text, |derived| assert_eq!(pivots(derived), ["I + m*l^2"]));
+}
