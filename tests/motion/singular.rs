@@ -70,11 +70,6 @@ fn a_linkage_is_stopped_before_its_bars_come_to_lie_on_one_line() {
     with_methods!(check);
     check("Gauss 6", &Gauss6::new(0.02));
     check("Radau 5", &Radau5::new(1e-6, 1e-6));
-    // As often as default guards look, it is stopped there, too, where it does not become faster much between two looks.
-    for tolerance in [1e-6, 1e-9] {
-        let angle = turned("default", &Dop853::new(tolerance, tolerance), 6.0, Guard::default());
-        assert!(angle < FRAC_PI_2, "{tolerance:e}: {angle}");
-    }
 }
 
 #[test]
@@ -131,8 +126,9 @@ impl System<f64, 2> for Swing {
 }
 
 #[test]
-fn looks_become_more_frequent_while_a_function_becomes_smaller() {
-    for cost in [0.05, 0.5] {
+fn what_is_cheap_to_look_at_is_looked_at_in_every_step() {
+    // Of so cheap a function every step.
+    for cost in [0.01, 0.05] {
         for tolerance in [1e-9, 1e-12] {
             let run = Integration::new(&Swing { cost }, 0.0, &[1.0, 0.0])
                 .run(&Dop853::new(tolerance, tolerance), 100.0);
