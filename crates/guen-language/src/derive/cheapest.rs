@@ -18,7 +18,8 @@ use crate::model::{FixedConstant, Model};
 /// larger program is tried beside a program of its own: the whole system's where nothing was fixed, so that every result
 /// is the same to the bit; else that of the system at the fixed values.
 ///
-/// Where all these are dearer than the whole system's own, that is taken at the scene's values.
+/// Where each of these takes more operations than the right-hand side of the whole system, the latter is used, with the values that the
+/// scene fixes.
 pub(super) fn cheapest(
     model: &mut Model<'_>,
     (whole, derivation): (&Level, &Rc<Derivation>),

@@ -119,7 +119,7 @@ pub(super) fn parts(
         } else {
             determined.push(place);
             domain.push(seen);
-            // Another function than that of the whole system is never told in its formula: that has what left.
+            // The function of the scene differs from that of the whole system, whose formula mentions coordinates that the scene lacks.
             let text = match seen == edge.function {
                 true => edge.text,
                 false => super::written(model, seen, &edge.words),
@@ -131,7 +131,7 @@ pub(super) fn parts(
     constants.retain(|(_, e)| model.bench.graph.as_number(*e).is_none());
     let constant_pivots: Vec<ExprId> = constants.iter().map(|(_, e)| *e).collect();
     if !constants.is_empty() {
-        // A function of the chart that became constant is no pivot of the whole system.
+        // A function of the chart that became constant in the scene is not among the pivots of the whole system.
         let places = constants.iter().map(|(place, _)| *place).collect();
         parts.push(Part { name: function::PIVOTS, places, outputs: constant_pivots.clone() });
     }

@@ -227,7 +227,7 @@ fn resolution(subject: &Subject<'_, '_>, layout: &Layout, fields: &[Field]) -> O
     });
     Some(quote! {
         impl<R: __guen::Real> #system<R> {
-            /// The same constants with those that follow others set to what they are now.
+            /// The same constants, with every derived one set to its present value.
             pub fn resolved(&self) -> Self {
                 let values = self.__guen_values();
                 #system { #(#resolved),* }

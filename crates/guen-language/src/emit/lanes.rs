@@ -7,7 +7,7 @@ use super::Layout;
 
 /// How a prepared system is put together from those of the lanes.
 fn gathered(layout: &Layout, path: &TokenStream, of: &TokenStream) -> TokenStream {
-    // What follows in one lane alone has a value of its own over all of them.
+    // A derived constant follows in the whole only if it follows in every lane; otherwise it is set, lane by lane.
     let follows = (!layout.derived.is_empty()).then(|| {
         quote! {
             follows: ::core::array::from_fn(|k| {

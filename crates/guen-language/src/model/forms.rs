@@ -24,7 +24,7 @@ pub(super) struct RawForm<'a> {
     pub(super) definition: ExprId,
     /// `f(t, x)` for a holonomic constraint.
     pub(super) position: Option<ExprId>,
-    /// What it says of places and frames.
+    /// The form in terms of points and frames, where it is declared so: what the system graph holds.
     pub(super) shape: Option<FormShape>,
     /// The sides as written, for blame.
     pub(super) sides: Vec<&'a Expression>,

@@ -13,7 +13,7 @@ use guen_symbolic::{
 
 use super::value::{Rotation, Value, Vector};
 
-/// What is remembered.
+/// The points and frames behind the expressions resolved so far.
 pub(super) struct Shapes {
     /// Frames, bodies, forms and loads.
     pub(super) system: SystemGraph,
@@ -112,7 +112,7 @@ impl Shapes {
     pub(super) fn rotation(&mut self, graph: &Graph, r: &Rotation) {
         for i in 0..3 {
             let column = [0, 1, 2].map(|k| r.matrix[k][i]);
-            // What does not move is at home in the world.
+            // A constant place is written in the axes of the world.
             if column.iter().any(|e| !graph.roles(*e).is_constant()) {
                 self.remember_place(column, Place::in_axes(graph, r.frame, axis(graph, i)));
             }
