@@ -51,6 +51,19 @@ impl Rule {
     }
 }
 
+/// The coefficients of the polynomial through the values at the points of the finer rule, by Chebyshev's polynomials.
+pub(super) fn chebyshev(values: &[f64]) -> [f64; FINE + 1] {
+    let half = |k: usize| if k == 0 || k == FINE { 0.5 } else { 1.0 };
+    std::array::from_fn(|k| {
+        let sign = if k.is_multiple_of(2) { 1.0 } else { -1.0 };
+        let terms = values
+            .iter()
+            .enumerate()
+            .map(|(j, value)| half(j) * value * (PI * (k * j) as f64 / FINE as f64).cos());
+        sign * half(k) * 2.0 / FINE as f64 * terms.sum::<f64>()
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
