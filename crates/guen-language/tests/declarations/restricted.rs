@@ -4,7 +4,7 @@
 use crate::common::{derived, evaluated};
 use f256::f256;
 use guen_language::derive::function;
-use guen_symbolic::{ExprId, Graph, evaluate};
+use guen_symbolic::{Class, ExprId, Graph, evaluate};
 
 /// A hoop that rolls on the plane, in quaternions.
 const HOOP: &str = "pub system Hoop {
@@ -132,4 +132,34 @@ fn every_entry_keeps_its_digits() {
             }
         }
     });
+}
+
+/// A structure coefficient is a constant where it is one on `|q| = 1`: `(X_u, X_z) = N X_s` with `N = w^2 + i^2 + j^2 + k^2`.
+#[test]
+fn structure_coefficients_that_are_constant_on_the_sphere() {
+    for (factor, class) in [("w^2 + i^2 + j^2 + k^2", Class::LieGroup), ("w^2 + 2*i^2", Class::Holonomic)] {
+        let text = format!(
+            "system Carried {{
+                constants {{ m > 0, A > 0 }}
+                coordinates {{ w, i, j, k, x, y, z }}
+                holonomic {{ unit_length: w^2 + i^2 + j^2 + k^2 = 1; }}
+                let q = quaternion(w, i, j, k);
+                bodies {{ ball {{ mass: 0, inertia: diag(A, A, A), center: vec(0, 0, 0), orientation: q }} }}
+                parameters {{
+                    spin = angular_velocity_body(q);
+                    u = dot(x);
+                    v = dot(z);
+                    s = dot(y) - ({factor})*x*dot(z);
+                }}
+                kinetic_energy = m/2*(u^2 + v^2 + s^2);
+            }}"
+        );
+        derived(&text, |derived| {
+            let derivation = &derived.system.derivation;
+            assert_eq!(derivation.class, class, "{factor}");
+            let graph = &derived.model.bench.graph;
+            let mut all = derived.system.brackets.iter().flat_map(|bracket| &bracket.coefficients);
+            assert_eq!(all.all(|c| graph.roles(*c).is_constant()), class == Class::LieGroup, "{factor}");
+        });
+    }
 }

@@ -299,7 +299,7 @@ fn classify(bench: &mut Workbench, system: &Mechanics, frame: &mut Frame, closur
         for r in 0..s {
             for t in 1..=n {
                 let c = frame.brackets.coefficient(bench, r, s, t);
-                if !is_constant(bench, c, &variables) {
+                if !is_constant(bench, c, &variables) && !rests(bench, system, frame, c) {
                     constant = false;
                     break 'all;
                 }
@@ -313,6 +313,23 @@ fn classify(bench: &mut Workbench, system: &Mechanics, frame: &mut Frame, closur
         (false, true, false) => Class::Holonomic,
         (false, false, _) => Class::Undecided,
     }
+}
+
+/// Whether a function is constant on the holonomic constraints: `X_j f = 0` there for all `j` whose displacement stays on them.
+fn rests(bench: &mut Workbench, system: &Mechanics, frame: &Frame, e: ExprId) -> bool {
+    let forms = &system.forms;
+    (0..=forms.len()).filter(|j| system.holonomic.iter().all(|h| h.form + 1 != *j)).all(|j| {
+        let mut terms: Vec<ExprId> = Vec::new();
+        if j == 0 {
+            terms.push(Flow::partial(&bench.graph, forms.time).of(&mut bench.graph, e));
+        }
+        for (x, xi) in forms.coordinates.iter().zip(&frame.operators.xi[j]) {
+            let slope = Flow::partial(&bench.graph, *x).of(&mut bench.graph, e);
+            terms.push(bench.graph.mul(*xi, slope));
+        }
+        let rate = bench.graph.sum(terms);
+        bench.verdict_on_manifold(rate) == Verdict::Zero
+    })
 }
 
 /// Whether all derivatives by the variables vanish where the holonomic constraints hold.
