@@ -12,7 +12,7 @@ guen::mechanical_system! {
     }
 }
 
-/// On purpose.
+/// On purpose; what a scene fixes need not be used.
 mod silent {
     #![allow(unused_variables)]
 
@@ -22,6 +22,7 @@ mod silent {
             coordinates { x }
             parameters { u = dot(x); }
             kinetic_energy = m/2*u^2;
+            scene Fixed { track x; fix k = 1; }
         }
     }
 }

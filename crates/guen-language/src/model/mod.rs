@@ -72,7 +72,7 @@ pub struct Model<'a> {
 /// Names at their places: for editors, which lead from a use to the declaration, and for the compiler's lint on what
 /// is never used.
 pub struct Identifiers {
-    /// Every other declared name.
+    /// Every declared name.
     pub declared: Vec<Ident>,
     /// Every use of a name.
     pub used: Vec<Ident>,

@@ -211,12 +211,10 @@ impl Scope {
         })
     }
 
-    /// Every name as written, sorted by whether it is used.
+    /// Every name as written, and those without any use: a scene may refer to one of them all the same.
     pub(super) fn into_identifiers(self) -> Identifiers {
         let idle: BTreeSet<usize> = self.unused().map(|text| self.entries[text].written).collect();
-        let places = self.declared.into_iter().enumerate();
-        let (unused, declared): (Vec<_>, Vec<_>) = places.partition(|(i, _)| idle.contains(i));
-        let names = |list: Vec<(usize, Ident)>| list.into_iter().map(|(_, name)| name).collect();
-        Identifiers { declared: names(declared), used: self.used, unused: names(unused) }
+        let unused = idle.into_iter().map(|place| self.declared[place].clone()).collect();
+        Identifiers { declared: self.declared, used: self.used, unused }
     }
 }
