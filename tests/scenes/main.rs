@@ -6,6 +6,7 @@ extern crate guen_benchmarks;
 
 mod closure;
 mod compare;
+mod drawn;
 mod ensembles;
 mod equations;
 mod fixing;

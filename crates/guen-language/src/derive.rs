@@ -347,6 +347,8 @@ struct Edge {
     function: ExprId,
     text: String,
     words: String,
+    /// Whether it is the determinant of a block of the mass matrix, which the words tell by its rows.
+    is_determinant: bool,
 }
 
 /// The functions that must not vanish: large determinants are told by their rows.
@@ -355,13 +357,14 @@ fn domain(model: &Model<'_>, derivation: &Derivation, shown: &Contracted) -> Vec
         function: *e,
         text: written(model, shown.image(*e), words),
         words: words.to_owned(),
+        is_determinant: false,
     };
     let chart = derivation.frame.operators.chart.iter().map(|e| named(e, "a factor of det A"));
     let pivots = derivation.solution.pivots.iter().map(|e| named(e, "a pivot of the mass matrix"));
     let determinants = derivation.solution.determinants.iter().map(|(rows, e)| {
         let names: Vec<&str> = rows.iter().map(|s| model.forms[*s].name.as_str()).collect();
         let words = format!("det M[{}]", names.join(", "));
-        Edge { function: *e, text: words.clone(), words }
+        Edge { function: *e, text: words.clone(), words, is_determinant: true }
     });
     chart.chain(pivots).chain(determinants).collect()
 }

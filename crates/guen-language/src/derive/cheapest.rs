@@ -3,13 +3,13 @@
 use std::rc::Rc;
 
 use guen_symbolic::{
-    Derivation, ExprId, Programs, Rational, Role, Substitution, SymbolId, Workbench, evaluate_f64,
+    Derivation, ExprId, Programs, Rational, Role, Substitution, SymbolId, Verdict, Workbench, evaluate_f64,
     evaluate_function, evaluate_prepare,
 };
 
-use super::parts::Part;
+use super::parts::Functions;
 use super::selection::Selection;
-use super::{Level, constant_pivots, extend, function, programs};
+use super::{Edge, Level, constant_pivots, domain, extend, function, programs, written};
 use crate::model::{FixedConstant, Model};
 
 /// The cheapest programs of a scene, and whether its right-hand side is a part of the whole system's.
@@ -19,7 +19,7 @@ use crate::model::{FixedConstant, Model};
 /// is the same to the bit; else that of the system at the fixed values.
 ///
 /// Where each of these takes more operations than the right-hand side of the whole system, the latter is used, with the values that the
-/// scene fixes.
+/// scene fixes. What it divides by and the scene's own does not is added to the functions that must not vanish.
 pub(super) fn cheapest(
     model: &mut Model<'_>,
     (whole, derivation): (&Level, &Rc<Derivation>),
@@ -27,8 +27,9 @@ pub(super) fn cheapest(
     fixes: &[FixedConstant<'_>],
     mut lists: Vec<Vec<ExprId>>,
     mut kept: Vec<Vec<ExprId>>,
-    parts: &[Part],
+    functions: &mut Functions,
 ) -> (Programs, bool) {
+    let parts = &functions.parts;
     let shares = Rc::ptr_eq(derivation, &whole.derivation) && selection.held.is_empty();
     let system = shares.then_some(&whole.programs);
     let fixed = fixes.iter().map(|fix| (fix.symbol, fix.value));
@@ -61,10 +62,8 @@ pub(super) fn cheapest(
     let part = part.filter(|part| cost(part) <= cost(&alone) && fits(model, selection, part));
     let best = part.as_ref().map_or(cost(&alone), cost);
     if best > cost(&whole.programs)
-        && is_regular(model, whole, derivation, &values)
-        && let Some(mut rates) = at_values(model, whole, selection, &values, &kept[0])
+        && let Some(rates) = at_values(model, (whole, derivation), selection, &values, (&kept[0], functions))
     {
-        rates.append(programs(&mut model.bench, &[], &quantities));
         return (rates, false);
     }
     match part {
@@ -73,45 +72,58 @@ pub(super) fn cheapest(
     }
 }
 
-/// Whether the whole system with what a scene fixes and holds at its values divides by nothing that the scene does not.
-fn is_regular(
+/// What the whole system at some values divides by and the scene does not, with how it is told; `None` where it may divide by zero
+/// everywhere.
+fn further_divisors(
     model: &mut Model<'_>,
     whole: &Level,
     derivation: &Derivation,
     values: &[(ExprId, ExprId)],
-) -> bool {
-    let bench = &mut model.bench;
-    let divisors = |derivation: &Derivation| -> Vec<ExprId> {
-        let solution = &derivation.solution;
-        let determinants = solution.determinants.iter().map(|(_, e)| e);
-        let chart = derivation.frame.operators.chart.iter().chain(&solution.pivots).chain(determinants);
-        chart.copied().chain(constant_pivots(derivation)).collect()
+) -> Option<Vec<(ExprId, String)>> {
+    let divisors = |model: &Model<'_>, derivation: &Derivation| -> Vec<Edge> {
+        let constants = constant_pivots(derivation).into_iter().map(|function| {
+            let (text, words) = Default::default();
+            Edge { function, text, words, is_determinant: false }
+        });
+        domain(model, derivation, &whole.shown).into_iter().chain(constants).collect()
     };
+    let (of_whole, own) = (divisors(model, &whole.derivation), divisors(model, derivation));
+    let bench = &mut model.bench;
     let mut at_values = Substitution::new(values.iter().copied());
-    let own: Vec<ExprId> =
-        divisors(derivation).into_iter().map(|e| at_values.of(&mut bench.graph, e)).collect();
-    divisors(&whole.derivation).into_iter().all(|e| {
-        let e = at_values.of(&mut bench.graph, e);
-        let is_number = |bench: &mut Workbench, e: ExprId| {
-            let tidy = bench.tidy(e);
-            bench.graph.as_number(tidy).is_some_and(|value| !value.is_zero())
+    let mut known: Vec<ExprId> =
+        own.iter().map(|edge| at_values.of(&mut bench.graph, edge.function)).collect();
+    let mut found = Vec::new();
+    for edge in of_whole {
+        let e = at_values.of(&mut bench.graph, edge.function);
+        let e = bench.tidy(e);
+        if bench.verdict_on_manifold(e) != Verdict::Nonzero {
+            return None;
+        }
+        let mut is_number = |divided: ExprId, by: ExprId| {
+            let quotient = bench.graph.div(divided, by);
+            let quotient = bench.tidy(quotient);
+            bench.graph.as_number(quotient).is_some()
         };
-        is_number(bench, e)
-            || own.iter().any(|other| {
-                let quotient = bench.graph.div(e, *other);
-                is_number(bench, quotient)
-            })
-    })
+        // The determinant of a block is the same, in whatever order it was eliminated.
+        let is_same = |other: &Edge| edge.is_determinant && other.words == edge.words;
+        let is_known = own.iter().any(is_same) || known.iter().any(|other| is_number(e, *other));
+        if !is_known && !bench.graph.manifestly_nonzero(e) {
+            known.push(e);
+            found.push((e, edge.words));
+        }
+    }
+    let told = |(e, words): (ExprId, String)| (e, written(model, e, &words));
+    Some(found.into_iter().map(told).collect())
 }
 
-/// The right-hand side of the whole system with what a scene fixes and holds at its values. What it reads and does not depend
-/// on is a number at which it has the values of the scene's rates.
+/// The right-hand side of the whole system with what a scene fixes and holds at its values, and the scene's functions. What it
+/// reads and does not depend on is a number at which it has the values of the scene's rates.
 fn at_values(
     model: &mut Model<'_>,
-    whole: &Level,
+    (whole, derivation): (&Level, &Derivation),
     selection: &Selection,
     values: &[(ExprId, ExprId)],
-    rates: &[ExprId],
+    (rates, functions): (&[ExprId], &mut Functions),
 ) -> Option<Programs> {
     let part = whole.programs.part(&[(function::RHS, selection.variables.clone())]);
     let kept: Vec<SymbolId> = kept(model, selection).collect();
@@ -127,11 +139,27 @@ fn at_values(
         return None;
     }
     for (n, d) in [(0, 1), (1, 1), (1, 2), (-1, 3)] {
+        let bench = &mut model.bench;
         let number = bench.graph.number(Rational::new(n, d));
-        let given = values.iter().map(|(_, value)| *value).chain(idle.iter().map(|_| number)).collect();
-        let given = programs(bench, &[], &[("values", given)]);
-        let found = part.with_values(&symbols, &given);
-        if idle.is_empty() || agrees(bench, &found, rates) {
+        let idle = idle.iter().map(|symbol| (bench.graph.symbol_expr(*symbol), number));
+        let all: Vec<(ExprId, ExprId)> = values.iter().copied().chain(idle).collect();
+        let given = programs(bench, &[], &[("values", all.iter().map(|(_, value)| *value).collect())]);
+        let mut found = part.with_values(&symbols, &given);
+        if all.len() > values.len() && !agrees(bench, &found, rates) {
+            continue;
+        }
+        let Some(divisors) = further_divisors(model, whole, derivation, &all) else { continue };
+        let quantities = functions.with_divisors(&divisors, &model.bench.graph);
+        found.append(programs(&mut model.bench, &[], &quantities));
+        if fits(model, selection, &found) {
+            for (e, told) in divisors {
+                if model.bench.graph.roles(e).is_constant() {
+                    functions.constant_pivots.push(e);
+                } else {
+                    functions.domain.push(e);
+                    functions.domain_names.push(told);
+                }
+            }
             return Some(found);
         }
     }

@@ -1,11 +1,11 @@
 //! The functions of a scene.
 
-use guen_symbolic::{Contracted, Dependence, Derivation, ExprId, Substitution, Workbench};
+use guen_symbolic::{Contracted, Dependence, Derivation, ExprId, Graph, Substitution, Workbench};
 
 use super::fixed::Holding;
 use super::manifold::Replacement;
 use super::selection::Selection;
-use super::{Commutator, constant_pivots, domain, formulas, function};
+use super::{Commutator, Quantity, constant_pivots, domain, formulas, function};
 use crate::model::Model;
 
 /// A function of a scene: its name, the places of its results in the function of the whole system if that has all of them, and
@@ -24,6 +24,23 @@ pub(super) struct Functions {
     pub(super) domain_names: Vec<String>,
     /// Expressions of constants that must not vanish.
     pub(super) constant_pivots: Vec<ExprId>,
+}
+
+impl Functions {
+    /// What the functions compute if these must not vanish either.
+    pub(super) fn with_divisors(&self, divisors: &[(ExprId, String)], graph: &Graph) -> Vec<Quantity> {
+        let (constants, edges): (Vec<ExprId>, Vec<ExprId>) =
+            divisors.iter().map(|(e, _)| *e).partition(|e| graph.roles(*e).is_constant());
+        let mut all: Vec<Quantity> =
+            self.parts.iter().map(|part| (part.name, part.outputs.clone())).collect();
+        for (name, further) in [(function::DOMAIN, edges), (function::PIVOTS, constants)] {
+            match all.iter_mut().find(|(known, _)| *known == name) {
+                Some((_, outputs)) => outputs.extend(further),
+                None => all.push((name, further)),
+            }
+        }
+        all
+    }
 }
 
 /// An expression with several replacements made. One can bring in what another replaces, so that they are made again

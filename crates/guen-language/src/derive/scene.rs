@@ -156,8 +156,7 @@ fn level(
     let energy = view.of(model, derivation.energies.integral);
     let written: Vec<ExprId> = rates.iter().copied().chain([energy]).collect();
     let shown = shown(model, &derivation, &brackets, &written);
-    let Functions { parts, domain, domain_names, constant_pivots } =
-        parts(model, &derivation, &brackets, &selection, &shown, &mut view, &determined);
+    let mut functions = parts(model, &derivation, &brackets, &selection, &shown, &mut view, &determined);
     let provided = |word: &str| {
         let names = scene.scene.provides.iter().map(|provide| &provide.name);
         names.into_iter().find(|name| name.text == word && !is_output(model, name))
@@ -165,7 +164,8 @@ fn level(
     let (carries, expands) = (provided("carried"), provided("taylor"));
     let forms = carries.map(|_| kept.clone()).unwrap_or_default();
     let (mut programs, is_part) =
-        cheapest(model, (system, &derivation), &selection, &scene.fixes, lists, kept, &parts);
+        cheapest(model, (system, &derivation), &selection, &scene.fixes, lists, kept, &mut functions);
+    let Functions { domain, domain_names, constant_pivots, .. } = functions;
     let jacobians = Jacobians::add(&mut programs, model, &selection);
     let series = expands.and_then(|word| series::of(model, &selection, &programs, word.span(), faults));
     let fixes = scene

@@ -1,14 +1,11 @@
 //! Scenes drawn at random for drawn declarations: their rates, energies, outputs and reactions are those of the whole system,
-//! they have all that their items read, and their right-hand sides cost at most
-//! two percent more: where a pivot is another one, the whole system's cannot be taken.
+//! they have all that their items read, and their right-hand sides never cost more.
 
 use guen_language::derive::{Derived, Level, function};
-use guen_language::model;
 use guen_symbolic::{ExprId, Role, SymbolId, evaluate_f64};
 
-use super::declared::Declared;
 use super::draw::Draw;
-use super::{grammar, multipliers, scenes};
+use super::{Numbers, grammar, multipliers, numbers, scenes};
 use crate::common::{derived, evaluated};
 
 /// Largest difference, in units of condition times scale.
@@ -37,7 +34,7 @@ impl Seen {
 }
 
 /// Every fourth one of bodies, the others of sparse forms.
-fn declaration(seed: u64) -> String {
+pub fn declaration(seed: u64) -> String {
     let text = if seed.is_multiple_of(4) {
         grammar::drawn(seed)
     } else {
@@ -68,17 +65,7 @@ fn looked_at(text: &str, derived: &Derived<'_>, seed: u64) -> Seen {
     let model = &derived.model;
     let graph = &model.bench.graph;
     let symbol = |e: ExprId| graph.as_symbol(e).expect("a symbol");
-    let name = |entry: &model::SymbolEntry<'_>| (entry.name.text.clone(), symbol(entry.symbol));
-    let coordinates: Vec<(String, SymbolId)> = model.coordinates.iter().map(name).collect();
-    let constants = model.constants.iter().map(|entry| (entry.name.text.clone(), symbol(entry.symbol)));
-    let held: Vec<(String, SymbolId)> = constants.chain(model.inputs.iter().map(name)).collect();
-    let declared = Declared::new(
-        model.declaration,
-        coordinates.iter().map(|(name, _)| name.clone()).collect(),
-        held.iter().map(|(name, _)| name.clone()).collect(),
-        model.forms.iter().map(|form| form.name.clone()).collect(),
-        derived.system.derivation.system.forms.degrees,
-    );
+    let Numbers { declared, coordinates, held } = numbers(derived);
     let cost = |level: &Level| level.program(function::RHS).map_or(0, |rhs| rhs.cost.weighted());
     let mut draw = Draw::new(seed.rotate_left(9));
     let mut seen = Seen::default();
@@ -97,7 +84,7 @@ fn looked_at(text: &str, derived: &Derived<'_>, seed: u64) -> Seen {
             fault(missing);
             continue;
         }
-        if cost(level) * 50 > cost(&derived.system) * 51 {
+        if cost(level) > cost(&derived.system) {
             let (own, whole) = (level.program(function::RHS), derived.system.program(function::RHS));
             fault(format!(
                 "{} of {}: {:?} of {:?}",

@@ -5,6 +5,7 @@
 //! algebra, the derivation or the optimiser.
 
 mod analytic;
+mod compiled;
 mod declared;
 #[allow(dead_code, reason = "systems drawn over expressions use the rest")]
 #[path = "../../../../guen-symbolic/tests/random_systems/draw.rs"]
@@ -24,7 +25,7 @@ mod scenes;
 mod space;
 
 use guen_language::derive::{Derived, function};
-use guen_language::model;
+use guen_language::model::{self, Model};
 use guen_symbolic::{ExprId, SymbolId};
 
 use crate::common::{derived, evaluated};
@@ -38,23 +39,39 @@ const LARGEST: f64 = 1e6;
 /// States of each system.
 const STATES: usize = 3;
 
-/// The largest difference between the programs of a declaration and its meaning, and how many states were looked at.
-fn difference(text: &str, derived: &Derived<'_>, seed: u64) -> (f64, usize) {
-    let model = &derived.model;
-    let graph = &model.bench.graph;
-    let symbol = |e: ExprId| graph.as_symbol(e).expect("a symbol");
+/// A declaration in numbers, and the symbols of its coordinates and of its constants and inputs with their names.
+struct Numbers<'a> {
+    declared: Declared<'a>,
+    coordinates: Vec<(String, SymbolId)>,
+    held: Vec<(String, SymbolId)>,
+}
+
+fn numbers<'a>(derived: &Derived<'a>) -> Numbers<'a> {
+    numbers_of(&derived.model)
+}
+
+fn numbers_of<'a>(model: &Model<'a>) -> Numbers<'a> {
+    let symbol = |e: ExprId| model.bench.graph.as_symbol(e).expect("a symbol");
     let name = |entry: &model::SymbolEntry<'_>| (entry.name.text.clone(), symbol(entry.symbol));
     let coordinates: Vec<(String, SymbolId)> = model.coordinates.iter().map(name).collect();
     let constants = model.constants.iter().map(|entry| (entry.name.text.clone(), symbol(entry.symbol)));
     let held: Vec<(String, SymbolId)> = constants.chain(model.inputs.iter().map(name)).collect();
-    let degrees = derived.system.derivation.system.forms.degrees;
     let declared = Declared::new(
         model.declaration,
         coordinates.iter().map(|(name, _)| name.clone()).collect(),
         held.iter().map(|(name, _)| name.clone()).collect(),
         model.forms.iter().map(|form| form.name.clone()).collect(),
-        degrees,
+        model.mechanics.forms.degrees,
     );
+    Numbers { declared, coordinates, held }
+}
+
+/// The largest difference between the programs of a declaration and its meaning, and how many states were looked at.
+fn difference(text: &str, derived: &Derived<'_>, seed: u64) -> (f64, usize) {
+    let model = &derived.model;
+    let graph = &model.bench.graph;
+    let symbol = |e: ExprId| graph.as_symbol(e).expect("a symbol");
+    let Numbers { declared, coordinates, held } = numbers(derived);
     let mut draw = Draw::new(!seed);
     let (mut worst, mut states) = (0.0_f64, 0);
     for _ in 0..STATES {
