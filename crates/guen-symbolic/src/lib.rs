@@ -26,9 +26,9 @@ pub use algebra::{
 pub use geometry::{Brackets, Closure, Combination, Form, Forms, Operators, SingularForms};
 pub use motion::{
     BodyNode, Class, Component, Dependence, Derivation, DerivationError, Energies, Equations, Force,
-    FormShape, Frame, FrameId, FrameNode, Holonomic, KineticTerm, Mechanics, Motion, MotionSymbol, Multibody,
-    NotQuadratic, Place, RigidBody, Solution, SystemGraph, Turn, Velocity, VelocityForm, VelocityPartials,
-    decompose, equations_by_definition,
+    FormShape, Formulated, Frame, FrameId, FrameNode, Holonomic, KineticTerm, Mechanics, Motion,
+    MotionSymbol, Multibody, NotQuadratic, Place, RigidBody, Solution, SystemGraph, Turn, Velocity,
+    VelocityForm, VelocityPartials, decompose, equations_by_definition,
 };
 pub use normal::{Limits, normal_coefficients, normal_form};
 pub use print::{Contracted, Notation, greek_letter, latex_name};

@@ -7,10 +7,7 @@ use crate::model::Model;
 
 /// The rates of the whole state in several equal forms: as shown, then as the optimiser may like them better.
 pub(super) fn rates(derivation: &Derivation) -> Vec<Vec<ExprId>> {
-    let shown = [&derivation.frame.velocities[..], &derivation.solution.accelerations].concat();
-    let mut lists = vec![shown];
-    lists.extend(derivation.alternatives.iter().cloned());
-    lists
+    derivation.formulations.iter().map(|formulated| formulated.rates.clone()).collect()
 }
 
 /// All other functions, in the order in which they are built.

@@ -57,7 +57,7 @@ fn a_quadruped_costs_so_many_operations_and_solves_its_equations() {
         let cost = level.program(function::RHS).unwrap().cost;
         // 3,320 as this is written.
         assert!(cost.operations() + cost.sines + cost.calls <= 3_500, "{}", cost.operations());
-        assert!(level.derivation.by_bodies);
+        assert!(level.derivation.is_by("bodies"));
         let graph = &derived.model.bench.graph;
         let value = |symbol: SymbolId| {
             let name = &graph.symbol_info(symbol).name;

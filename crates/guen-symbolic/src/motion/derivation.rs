@@ -1,22 +1,16 @@
 //! The derivation as a whole: from a declared system to everything that is emitted.
 
+use super::equations::Stated;
+use super::fault::{DerivationError, affordable};
+use super::forces::generalised_forces;
+use super::formulations::{self, Formulated, Found};
 use super::indispensable;
-use super::routes::{self, Found};
 use super::velocity_forms::VelocityPartials;
-use super::{Energies, Frame, Mechanics, MotionSymbol, NotQuadratic, Solution, decompose};
+use super::{Energies, Equations, Frame, Mechanics, MotionSymbol, Solution, decompose};
 use crate::algebra::{ExprId, FastMap, Flow, Role, Roles, Substitution};
-use crate::geometry::{Closure, Operators, SingularForms};
+use crate::geometry::{Closure, Operators};
 use crate::workbench::Workbench;
 use crate::zero::Verdict;
-
-/// `sum_t M_st eta_t' = f_s`.
-#[derive(Clone, Debug)]
-pub struct Equations {
-    /// `M_st`, a row for each equation, a column for each `eta_t'`.
-    pub mass: Vec<Vec<ExprId>>,
-    /// `f_s`.
-    pub forces: Vec<ExprId>,
-}
 
 /// The classification of the forms as declared, after (1.13) and (1.14).
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -31,25 +25,6 @@ pub enum Class {
     Nonholonomic,
     /// The zero test could not decide.
     Undecided,
-}
-
-/// Why a system has no equations of motion.
-#[derive(Clone, Debug)]
-pub enum DerivationError {
-    /// The forms are dependent, in these ways.
-    SingularForms(Vec<SingularForms>),
-    /// The kinetic energy is not quadratic in the velocities.
-    NotQuadratic(NotQuadratic),
-    /// The mass matrix is singular as a function: a motion with these values of these parameters, by index, and all
-    /// others zero is without inertia; values where they are known.
-    SingularMass(Vec<(usize, Option<ExprId>)>),
-    /// The derivation is more work than [`crate::MAX_WORK`].
-    TooLarge,
-    /// Two routes gave different equations: a mistake of ours.
-    RoutesDisagree {
-        /// The equation, from 0.
-        equation: usize,
-    },
 }
 
 /// Everything that follows from a declaration.
@@ -74,17 +49,11 @@ pub struct Derivation {
     pub generalised_forces: Vec<ExprId>,
     /// The solved accelerations.
     pub solution: Solution,
-    /// The rates of the state in other forms, velocities first, accelerations equal to the solution's: what costs least is found when code is made.
-    pub alternatives: Vec<Vec<ExprId>>,
-    /// Whether the accelerations were also, or only, found with the reactions between velocity forms as unknowns.
-    pub by_tensions: bool,
-    /// Whether rates are among the alternatives in which velocities are computed one from another.
-    pub by_nesting: bool,
-    /// Whether there are, or there are only, accelerations from the equations of bodies that hang on each other, in the axes
-    /// of each.
-    pub by_links: bool,
-    /// Whether the rates, or some of the alternatives, are those of a tree of bodies as they were declared.
-    pub by_bodies: bool,
+    /// The rates of the state by all formulations that gave some, those of the solution first: which costs least is found when code is
+    /// made.
+    pub formulations: Vec<Formulated>,
+    /// The formulations that gave nothing, each with the reason.
+    pub declined: Vec<(&'static str, &'static str)>,
     /// The reactions `lambda_v` as functions of `t, x, eta`, inputs and `eta'` (as symbols); none for constraints
     /// without momentum in `T°`.
     pub reactions: Vec<Option<ExprId>>,
@@ -118,18 +87,17 @@ impl Derivation {
         let indispensable = indispensable::find(bench, &system, &frame, &mut partials, &terms);
         let generalised_forces = generalised_forces(bench, &system, &mut frame, &mut partials);
 
-        let Found {
-            equations,
-            constrained,
-            mut solution,
-            alternatives,
-            by_tensions,
-            by_nesting,
-            by_links,
-            by_bodies,
-            mut symmetry,
-        } = routes::equations(bench, &system, &mut frame, &mut partials, &terms, &generalised_forces)?;
-        affordable(bench)?;
+        let mut stated = Stated::new(bench, &system, &mut frame, &mut partials, &terms, &generalised_forces)?;
+        let Found { equations, mut solution, formulations, declined, mut symmetry } = formulations::walk(
+            bench,
+            &system,
+            &mut frame,
+            &mut partials,
+            &terms,
+            &generalised_forces,
+            &mut stated,
+        )?;
+        let constrained = stated.constrained;
         // What was taken to differ from zero is looked at when a system is prepared.
         solution.constant_pivots.extend(indispensable);
 
@@ -189,11 +157,8 @@ impl Derivation {
             equations,
             generalised_forces,
             solution,
-            alternatives,
-            by_tensions,
-            by_nesting,
-            by_links,
-            by_bodies,
+            formulations,
+            declined,
             reactions,
             without_momentum,
             known_momentum,
@@ -201,6 +166,12 @@ impl Derivation {
             power,
             outputs,
         })
+    }
+
+    /// Whether a formulation gave rates.
+    #[must_use]
+    pub fn is_by(&self, name: &str) -> bool {
+        self.formulations.iter().any(|formulated| formulated.name == name)
     }
 
     /// Constraints whose momentum (2.7) needs, because some `C_rsv` differs from zero, although `T°` has none:
@@ -261,33 +232,6 @@ fn outputs(
     }
     let mut by_motion = Substitution::new(solved.into_iter().chain(images));
     constrained.into_iter().map(|e| by_motion.of(&mut bench.graph, e)).collect()
-}
-
-/// Gives a derivation up that has become more work than a compiler should do.
-pub(super) fn affordable(bench: &Workbench) -> Result<(), DerivationError> {
-    if bench.is_exhausted() { Err(DerivationError::TooLarge) } else { Ok(()) }
-}
-
-/// `Q_s = sum F beta_s`, with the force on the constraints.
-pub(super) fn generalised_forces(
-    bench: &mut Workbench,
-    system: &Mechanics,
-    frame: &mut Frame,
-    partials: &mut VelocityPartials,
-) -> Vec<ExprId> {
-    let n = system.forms.len();
-    let mut found: Vec<Vec<ExprId>> = vec![Vec::new(); n];
-    for force in &system.forces {
-        let magnitude = frame.constrain.of(&mut bench.graph, force.magnitude);
-        // The caller has checked that `along` is a velocity form.
-        let Some(form) = partials.affine(bench, force.along) else { continue };
-        for (s, q) in found.iter_mut().enumerate() {
-            let beta = frame.component(bench, &form, s + 1);
-            let beta = bench.tidy(beta);
-            q.push(bench.graph.mul(magnitude, beta));
-        }
-    }
-    found.into_iter().map(|terms| bench.graph.sum(terms)).collect()
 }
 
 fn classify(bench: &mut Workbench, system: &Mechanics, frame: &mut Frame, closure: &Closure) -> Class {

@@ -1,12 +1,18 @@
 //! From operators and energies to the equations of motion, (2.1)-(2.10), by two independent routes.
 
+mod base_parameters;
 mod between;
 mod declaration;
 mod dependence;
 mod derivation;
 mod energy;
+mod equations;
+mod fault;
+mod forces;
+mod formulations;
 mod frame;
 mod graph;
+mod headings;
 mod indispensable;
 mod kinetic;
 mod linkage;
@@ -16,19 +22,22 @@ mod numerator;
 mod poincare;
 mod projection;
 mod proof;
-mod rephrased;
+mod restated;
 mod restriction;
-mod routes;
 mod solve;
 mod symmetry;
 mod tensions;
 mod turned;
 mod velocity_forms;
+mod weightless;
 
 pub use declaration::{Force, Holonomic, Mechanics, MotionSymbol, Multibody, RigidBody};
 pub use dependence::Dependence;
-pub use derivation::{Class, Derivation, DerivationError, Equations};
+pub use derivation::{Class, Derivation};
 pub use energy::Energies;
+pub use equations::Equations;
+pub use fault::DerivationError;
+pub use formulations::Formulated;
 pub use frame::Frame;
 pub use graph::{
     BodyNode, Component, FormShape, FrameId, FrameNode, Motion, Place, SystemGraph, Turn, Velocity,

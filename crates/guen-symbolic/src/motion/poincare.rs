@@ -1,7 +1,7 @@
 //! The equations of motion (2.7), literally: the definition, and the oracle for the other route.
 
 use super::{Equations, Frame, Mechanics};
-use crate::algebra::{ExprId, Flow, Rational, Substitution};
+use crate::algebra::{ExprId, Flow, Substitution};
 use crate::workbench::Workbench;
 
 /// `sum_t M_st eta_t' = f_s` for `s = 1..l` without the generalised forces `Q_s`, before any simplification, from
@@ -34,28 +34,25 @@ pub fn equations(bench: &mut Workbench, system: &Mechanics, frame: &mut Frame) -
     Equations { mass, forces }
 }
 
-/// `sum_s w_s (2.7)_s` for numbers `w_s`, as the coefficients of the `eta_t'` and the force: one equation along the
-/// displacement `sum_s w_s X_s`, which is `l` times less work than all of them.
+/// `sum_s w_s (2.7)_s`, as the coefficients of the `eta_t'` and the force: one equation along the displacement `sum_s w_s X_s`,
+/// which is `l` times less work than all of them.
 pub(super) fn along(
     bench: &mut Workbench,
     system: &Mechanics,
     frame: &mut Frame,
-    weights: &[i64],
+    weights: &[ExprId],
 ) -> (Vec<ExprId>, ExprId) {
     let l = system.forms.degrees;
     let Energy { kinetic, momenta } = Energy::new(bench, system, frame);
-    let weights: Vec<Rational> = weights.iter().map(|w| Rational::integer(*w)).collect();
-    let parts: Vec<(ExprId, Rational)> = momenta[..l].iter().copied().zip(weights.iter().cloned()).collect();
-    let momentum = bench.graph.linear(&parts);
+    let momentum = bench.dot(weights, &momenta[..l]);
     let mass = system.etas[..l]
         .iter()
         .map(|eta| Flow::partial(&bench.graph, *eta).of(&mut bench.graph, momentum))
         .collect();
     let rates: Vec<ExprId> = (0..system.forms.len())
         .map(|i| {
-            let parts: Vec<(ExprId, Rational)> =
-                weights.iter().enumerate().map(|(s, w)| (frame.operators.xi[s + 1][i], w.clone())).collect();
-            bench.graph.linear(&parts)
+            let entries: Vec<ExprId> = (1..=l).map(|s| frame.operators.xi[s][i]).collect();
+            bench.dot(weights, &entries)
         })
         .collect();
     let lagrangian = bench.graph.add(kinetic, system.force_function);
@@ -63,11 +60,9 @@ pub(super) fn along(
     let rate = frame.motion.of(&mut bench.graph, momentum);
     let mut terms = vec![bench.graph.neg(rate), displacement.of(&mut bench.graph, lagrangian)];
     for (t, momentum) in momenta.iter().enumerate() {
-        let mut turning = Vec::new();
-        for (s, w) in weights.iter().enumerate() {
-            turning.push((frame.brackets.along_motion(bench, &system.etas, s + 1, t + 1), w.clone()));
-        }
-        let turning = bench.graph.linear(&turning);
+        let turning: Vec<ExprId> =
+            (1..=l).map(|s| frame.brackets.along_motion(bench, &system.etas, s, t + 1)).collect();
+        let turning = bench.dot(weights, &turning);
         terms.push(bench.graph.mul(turning, *momentum));
     }
     (mass, bench.graph.sum(terms))

@@ -308,8 +308,8 @@ fn bodies_on_bodies_move_as_with_multipliers() {
         let (words, mechanics, features) = drawn(seed);
         let Some((derived, difference)) = compared(words, mechanics, seed) else { continue };
         worst = worst.max(difference);
-        declared += usize::from(derived.derivation.by_bodies);
-        if derived.derivation.by_links {
+        declared += usize::from(derived.derivation.is_by("bodies"));
+        if derived.derivation.is_by("links") {
             linked += 1;
             features.into_iter().for_each(|name| *shown.entry(name).or_default() += 1);
         }

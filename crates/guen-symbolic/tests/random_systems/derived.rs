@@ -26,7 +26,8 @@ pub fn derive(graph: Graph, mechanics: Mechanics, seed: u64) -> Option<Derived> 
         Err(other) => panic!("seed {seed}: {other:?}"),
     };
     let accelerations = Tape::new(&bench.graph, &derivation.solution.accelerations);
-    let alternatives = derivation.alternatives.iter().map(|rates| Tape::new(&bench.graph, rates)).collect();
+    let alternatives = derivation.formulations[1..].iter();
+    let alternatives = alternatives.map(|other| Tape::new(&bench.graph, &other.rates)).collect();
     let reactions = derivation
         .reactions
         .iter()

@@ -173,7 +173,7 @@ fn trees_of_links_move_as_with_multipliers() {
         let (words, mechanics, features) = drawn(seed);
         let Some((derived, difference)) = compared(words, mechanics, seed) else { continue };
         worst = worst.max(difference);
-        if derived.derivation.by_tensions {
+        if derived.derivation.is_by("tensions") {
             solved += 1;
             features.present.into_iter().for_each(|name| *shown.entry(name).or_default() += 1);
         }

@@ -32,7 +32,7 @@ use self::tree::Tree;
 use self::variables::Variables;
 use super::graph::Turn;
 use super::velocity_forms::VelocityPartials;
-use super::{Frame, Mechanics, Solution};
+use super::{Frame, Mechanics};
 use crate::algebra::ExprId;
 use crate::numbering::{Num, Numbering};
 use crate::workbench::Workbench;
@@ -41,24 +41,11 @@ use crate::workbench::Workbench;
 const POINTS: usize = 8;
 
 /// What a tree leads to.
-#[derive(Clone)]
 pub(super) struct Found {
     /// The rates of the state, velocities first.
     pub(super) rates: Vec<ExprId>,
     /// The pivots of the elimination.
     pub(super) pivots: Vec<ExprId>,
-    /// Whether they cost half of what others do, or less.
-    pub(super) is_half: bool,
-}
-
-impl Found {
-    /// The solution, and the velocities in the frame.
-    pub(super) fn taken(self, bench: &mut Workbench, frame: &mut Frame) -> Solution {
-        let mut velocities = self.rates;
-        let accelerations = velocities.split_off(frame.velocities.len());
-        frame.velocities = velocities;
-        Solution::of_pivots(bench, accelerations, &self.pivots)
-    }
 }
 
 /// The rates of the state of a system of bodies; none where its energies or forms are beyond what is understood here.
@@ -161,5 +148,5 @@ fn attempt(
     if point.1 && drifts(bench, system, &rates[..n]) {
         rates[..n].copy_from_slice(&frame.velocities);
     }
-    Some(Found { rates, pivots, is_half: false })
+    Some(Found { rates, pivots })
 }

@@ -1,0 +1,208 @@
+//! The equations in other parameters: the rates of the base angles.
+//!
+//! The parameters of a chain in relative angles are the rates of its joints, and its mass matrix in them has long entries: each joint
+//! moves all links beyond it. In the rates of the base angles, the sums of the joints' rates, the equations are those of absolute angles.
+//! So the accelerations are found there, `zeta = J eta` with numbers for `J`, and turned back.
+
+use super::restated::Restated;
+use super::symmetry::Symmetry;
+use super::tensions::{self, Tensions};
+use super::{Frame, Mechanics};
+use crate::algebra::{ExprId, Rational, Role, Substitution};
+use crate::geometry::{Form, Operators};
+use crate::workbench::Workbench;
+
+type Matrix = Vec<Vec<Rational>>;
+
+/// Other parameters, `zeta = J eta`.
+struct Change {
+    to: Matrix,
+    back: Matrix,
+}
+
+impl Change {
+    /// The rates of base angles, as far as they are combinations of several parameters; parameters beside them.
+    fn new(bench: &mut Workbench, system: &Mechanics, frame: &mut Frame) -> Option<Self> {
+        let l = system.forms.degrees;
+        let etas = &system.etas[..l];
+        let mut rows: Matrix = Vec::new();
+        for angle in bench.graph.base_angles().to_vec() {
+            let rate = frame.motion.of(&mut bench.graph, angle);
+            let parts = bench.graph.linear_parts(rate);
+            let mut row = vec![Rational::ZERO; l];
+            let mut is_linear = true;
+            for (e, c) in parts {
+                match etas.iter().position(|eta| *eta == e) {
+                    Some(s) => row[s] = c,
+                    None => is_linear &= bench.graph.roles(e).is_constant(),
+                }
+            }
+            if is_linear && row.iter().any(|c| !c.is_zero()) {
+                rows.push(row);
+            }
+        }
+        if !rows.iter().any(|row| row.iter().filter(|c| !c.is_zero()).count() > 1) {
+            return None;
+        }
+        // Parameters that no angle stands for stay.
+        rows.extend((0..l).map(|s| unit(l, s)));
+        let mut to: Matrix = Vec::new();
+        let mut reduced: Vec<(usize, Vec<Rational>)> = Vec::new();
+        for row in rows {
+            let mut rest = row.clone();
+            for (pivot, other) in &reduced {
+                let c = rest[*pivot].clone();
+                eliminate(&mut rest, &c, other);
+            }
+            let Some(pivot) = rest.iter().position(|c| !c.is_zero()) else { continue };
+            let inverse = rest[pivot].recip()?;
+            rest.iter_mut().for_each(|c| *c = &*c * &inverse);
+            reduced.push((pivot, rest));
+            to.push(row);
+        }
+        let back = inverse(&to)?;
+        Some(Change { to, back })
+    }
+
+    /// The system in the other parameters.
+    fn system(&self, bench: &mut Workbench, system: &Mechanics, zetas: &[ExprId]) -> Mechanics {
+        let l = zetas.len();
+        let etas_of_zetas = applied(bench, &self.back, zetas);
+        let mut other = system.clone();
+        other.etas[..l].copy_from_slice(zetas);
+        let mut into = Substitution::new(system.etas[..l].iter().copied().zip(etas_of_zetas));
+        other.kinetic_energy = into.of(&mut bench.graph, system.kinetic_energy);
+        for force in &mut other.forces {
+            force.magnitude = into.of(&mut bench.graph, force.magnitude);
+            force.along = into.of(&mut bench.graph, force.along);
+        }
+        for (k, row) in self.to.iter().enumerate() {
+            let combined = |bench: &mut Workbench, entries: Vec<ExprId>| {
+                let terms: Vec<_> = entries.into_iter().zip(row.iter().cloned()).collect();
+                let sum = bench.graph.linear(&terms);
+                bench.tidy(sum)
+            };
+            let forms = &system.forms.forms[..l];
+            other.forms.forms[k] = Form {
+                row: (0..system.forms.len())
+                    .map(|i| combined(bench, forms.iter().map(|form| form.row[i]).collect()))
+                    .collect(),
+                offset: combined(bench, forms.iter().map(|form| form.offset).collect()),
+            };
+        }
+        other
+    }
+
+    /// `x' = xi_0 + xi eta` with `eta = J^-1 zeta`.
+    fn operators(&self, bench: &mut Workbench, operators: &Operators) -> Operators {
+        let mut other = operators.clone();
+        let l = self.to.len();
+        for i in 0..operators.xi[0].len() {
+            for k in 0..l {
+                let terms: Vec<_> =
+                    (0..l).map(|s| (operators.xi[s + 1][i], self.back[s][k].clone())).collect();
+                let sum = bench.graph.linear(&terms);
+                other.xi[k + 1][i] = bench.tidy(sum);
+            }
+        }
+        other
+    }
+}
+
+/// A system in the rates of its base angles.
+pub(super) struct InBaseParameters {
+    change: Change,
+    restated: Restated,
+}
+
+impl InBaseParameters {
+    /// `None` where these are the parameters as declared.
+    pub(super) fn new(bench: &mut Workbench, declared: &Mechanics, frame: &mut Frame) -> Option<Self> {
+        let change = Change::new(bench, declared, frame)?;
+        let zetas: Vec<ExprId> = (0..declared.forms.degrees)
+            .map(|s| bench.graph.symbol(&format!("zeta{}", s + 1), Role::QuasiVelocity))
+            .collect();
+        let system = change.system(bench, declared, &zetas);
+        let operators = change.operators(bench, &frame.operators);
+        let restated = Restated::new(bench, system, operators)?;
+        Some(InBaseParameters { change, restated })
+    }
+
+    /// By tensions, in the parameters as declared.
+    pub(super) fn tensions(&mut self, bench: &mut Workbench, declared: &Mechanics) -> Option<Tensions> {
+        let Restated { system, frame, forces, projected } = &mut self.restated;
+        let (squares, etas) = (projected.squares.as_ref()?, &system.etas[..system.forms.degrees]);
+        let tensions = tensions::solve(bench, frame, squares, &projected.equations, etas, forces)?;
+        let accelerations = self.turned_back(bench, declared, &[], tensions.accelerations);
+        Some(Tensions { accelerations, ..tensions })
+    }
+
+    /// By the equations, in the parameters as declared.
+    pub(super) fn rates(&mut self, bench: &mut Workbench, declared: &Mechanics) -> Vec<Vec<ExprId>> {
+        let n = declared.velocities.len();
+        let found = self.restated.rates(bench, &mut Symmetry::default());
+        let back = |mut rates: Vec<ExprId>| {
+            let accelerations = rates.split_off(n);
+            self.turned_back(bench, declared, &rates, accelerations)
+        };
+        found.into_iter().map(back).collect()
+    }
+
+    /// Back to the parameters as declared; each sum of them once.
+    fn turned_back(
+        &self,
+        bench: &mut Workbench,
+        declared: &Mechanics,
+        velocities: &[ExprId],
+        accelerations: Vec<ExprId>,
+    ) -> Vec<ExprId> {
+        let l = accelerations.len();
+        let sums = applied(bench, &self.change.to, &declared.etas[..l]);
+        let sums: Vec<ExprId> = sums.into_iter().map(|e| bench.graph.keep(e)).collect();
+        let mut out = Substitution::new(self.restated.system.etas[..l].iter().copied().zip(sums));
+        let accelerations = applied(bench, &self.change.back, &accelerations);
+        velocities.iter().chain(&accelerations).map(|e| out.of(&mut bench.graph, *e)).collect()
+    }
+}
+
+fn applied(bench: &mut Workbench, matrix: &Matrix, vector: &[ExprId]) -> Vec<ExprId> {
+    matrix
+        .iter()
+        .map(|row| {
+            let terms: Vec<_> = vector.iter().copied().zip(row.iter().cloned()).collect();
+            bench.graph.linear(&terms)
+        })
+        .collect()
+}
+
+fn unit(l: usize, s: usize) -> Vec<Rational> {
+    (0..l).map(|k| if k == s { Rational::ONE } else { Rational::ZERO }).collect()
+}
+
+/// `row - c other`.
+fn eliminate(row: &mut [Rational], c: &Rational, other: &[Rational]) {
+    if !c.is_zero() {
+        row.iter_mut().zip(other).for_each(|(a, b)| *a = &*a - &(c * b));
+    }
+}
+
+/// The inverse of a matrix of numbers, by elimination.
+fn inverse(matrix: &Matrix) -> Option<Matrix> {
+    let l = matrix.len();
+    let mut rows: Matrix =
+        matrix.iter().enumerate().map(|(k, row)| [row.clone(), unit(l, k)].concat()).collect();
+    for k in 0..l {
+        let pivot = (k..l).find(|r| !rows[*r][k].is_zero())?;
+        rows.swap(k, pivot);
+        let inverse = rows[k][k].recip()?;
+        rows[k].iter_mut().for_each(|c| *c = &*c * &inverse);
+        let own = rows[k].clone();
+        for (r, row) in rows.iter_mut().enumerate() {
+            if r != k {
+                let c = row[k].clone();
+                eliminate(row, &c, &own);
+            }
+        }
+    }
+    Some(rows.into_iter().map(|row| row[l..].to_vec()).collect())
+}

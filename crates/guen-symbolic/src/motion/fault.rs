@@ -1,0 +1,30 @@
+//! Why a derivation ends without equations of motion.
+
+use super::NotQuadratic;
+use crate::algebra::ExprId;
+use crate::geometry::SingularForms;
+use crate::workbench::Workbench;
+
+/// Why a system has no equations of motion.
+#[derive(Clone, Debug)]
+pub enum DerivationError {
+    /// The forms are dependent, in these ways.
+    SingularForms(Vec<SingularForms>),
+    /// The kinetic energy is not quadratic in the velocities.
+    NotQuadratic(NotQuadratic),
+    /// The mass matrix is singular as a function: a motion with these values of these parameters, by index, and all
+    /// others zero is without inertia; values where they are known.
+    SingularMass(Vec<(usize, Option<ExprId>)>),
+    /// The derivation is more work than [`crate::MAX_WORK`].
+    TooLarge,
+    /// Two routes gave different equations: a mistake of ours.
+    RoutesDisagree {
+        /// The equation, from 0.
+        equation: usize,
+    },
+}
+
+/// Gives a derivation up that has become more work than a compiler should do.
+pub(super) fn affordable(bench: &Workbench) -> Result<(), DerivationError> {
+    if bench.is_exhausted() { Err(DerivationError::TooLarge) } else { Ok(()) }
+}

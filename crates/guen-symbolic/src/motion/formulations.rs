@@ -1,0 +1,346 @@
+//! All ways to the rates of the state: one list, walked once.
+//!
+//! Each formulation gives rates of the state, perhaps several, or says why it has none; none knows of another. What it gives is
+//! proved against (2.7), and which costs least is found when code is made. Where one promises half of what the equations as they
+//! are stated cost, the others are not looked at.
+
+use super::base_parameters::InBaseParameters;
+use super::fault::{DerivationError, affordable};
+use super::symmetry::Symmetry;
+use super::velocity_forms::VelocityPartials;
+use super::weightless::solved;
+use super::{
+    Equations, Frame, KineticTerm, Mechanics, Solution, equations::Stated, headings, multibody, nested,
+    tensions, turned,
+};
+use crate::algebra::ExprId;
+use crate::program::weighted_cost;
+use crate::workbench::Workbench;
+
+/// Rates up to this estimate are sought in all ways.
+const LARGEST_TRIED: u64 = 600;
+
+/// A way to the rates of the state.
+struct Formulation {
+    /// What it is called in [`Formulated::name`].
+    name: &'static str,
+    find: fn(&mut Workbench, &mut Search<'_>) -> Result<Outcome, DerivationError>,
+}
+
+/// All formulations, in the order in which they are tried.
+const FORMULATIONS: [Formulation; 10] = [
+    Formulation { name: "links", find: of_links },
+    Formulation { name: "tensions", find: by_tensions },
+    Formulation { name: "multiplied out", find: multiplied_out },
+    Formulation { name: "bodies", find: of_bodies },
+    Formulation { name: "projected", find: projected },
+    Formulation { name: "shared", find: shared },
+    Formulation { name: "nested", find: nested },
+    Formulation { name: "own axes", find: in_own_axes },
+    Formulation { name: "base parameters", find: in_base_parameters },
+    Formulation { name: "without headings", find: without_headings },
+];
+
+/// The rates of the state by one formulation, proved to be those of (2.7).
+#[derive(Clone, Debug)]
+pub struct Formulated {
+    /// How the formulation is called.
+    pub name: &'static str,
+    /// The rates, velocities first.
+    pub rates: Vec<ExprId>,
+}
+
+/// What a formulation gives.
+enum Outcome {
+    Found(Vec<Candidate>),
+    /// The reason why it has nothing to give.
+    Declined(&'static str),
+}
+
+/// Rates of the state.
+struct Candidate {
+    /// Velocities first.
+    rates: Vec<ExprId>,
+    rank: Rank,
+}
+
+/// What rates are among others.
+enum Rank {
+    /// The equations as they are stated, solved: shown, with what was divided by, unless something is much shorter.
+    Base(Solution),
+    /// Equations that are proved, solved by elimination.
+    Solved,
+    /// One more way, yet to be proved.
+    Other,
+    /// So much shorter that no other formulation is worth a look, yet to be proved.
+    Last(Solution),
+}
+
+impl Outcome {
+    fn found(lists: Vec<Vec<ExprId>>, rank: fn() -> Rank) -> Self {
+        Outcome::Found(lists.into_iter().map(|rates| Candidate { rates, rank: rank() }).collect())
+    }
+}
+
+/// What the formulations stand on.
+struct Search<'a> {
+    system: &'a Mechanics,
+    frame: &'a mut Frame,
+    partials: &'a mut VelocityPartials,
+    terms: &'a [KineticTerm],
+    generalised_forces: &'a [ExprId],
+    stated: &'a mut Stated,
+    /// The system in the rates of its base angles, once it was looked for.
+    in_base: Option<InBaseParameters>,
+    /// The estimate of the rates by the equations as they are stated, once these are solved.
+    least: u64,
+    symmetry: Symmetry,
+    /// The equations without what they do not depend on.
+    shorter: Option<Equations>,
+}
+
+/// What the formulations lead to.
+pub(super) struct Found {
+    /// The equations for `s = 1..l`, generalised forces included.
+    pub(super) equations: Equations,
+    /// The solved accelerations.
+    pub(super) solution: Solution,
+    /// All rates that were found, those of the solution first.
+    pub(super) formulations: Vec<Formulated>,
+    /// The formulations that gave nothing, and why.
+    pub(super) declined: Vec<(&'static str, &'static str)>,
+    /// What the equations do not depend on.
+    pub(super) symmetry: Symmetry,
+}
+
+/// Walks the list.
+pub(super) fn walk(
+    bench: &mut Workbench,
+    system: &Mechanics,
+    frame: &mut Frame,
+    partials: &mut VelocityPartials,
+    terms: &[KineticTerm],
+    generalised_forces: &[ExprId],
+    stated: &mut Stated,
+) -> Result<Found, DerivationError> {
+    let (symmetry, shorter) = Default::default();
+    let mut search = Search {
+        system,
+        frame,
+        partials,
+        terms,
+        generalised_forces,
+        stated,
+        in_base: None,
+        least: 0,
+        symmetry,
+        shorter,
+    };
+    let mut formulations: Vec<Formulated> = Vec::new();
+    let mut declined = Vec::new();
+    let mut shown: Option<(usize, Solution)> = None;
+    'list: for Formulation { name, find } in FORMULATIONS {
+        let outcome = find(bench, &mut search)?;
+        affordable(bench)?;
+        let candidates = match outcome {
+            Outcome::Found(candidates) => candidates,
+            Outcome::Declined(reason) => {
+                declined.push((name, reason));
+                continue;
+            }
+        };
+        for Candidate { rates, rank } in candidates {
+            if matches!(rank, Rank::Other | Rank::Last(_))
+                && !search.stated.definition.is_solved_by(bench, &search.frame.velocities, &rates)?
+            {
+                declined.push((name, "it is not proved"));
+                continue;
+            }
+            let is_last = matches!(rank, Rank::Last(_));
+            if let Rank::Base(solution) | Rank::Last(solution) = rank {
+                shown = Some((formulations.len(), solution));
+            }
+            formulations.push(Formulated { name, rates });
+            if is_last {
+                break 'list;
+            }
+        }
+    }
+    let Search { symmetry, shorter, .. } = search;
+    let equations = match shorter {
+        Some(shorter) => shorter,
+        None => stated.shown().clone(),
+    };
+    // The base comes without proof, or with an error.
+    let Some((place, solution)) = shown else {
+        return Err(DerivationError::RoutesDisagree { equation: 0 });
+    };
+    // Those of the solution come first.
+    formulations[..=place].rotate_right(1);
+    frame.velocities = formulations[0].rates[..frame.velocities.len()].to_vec();
+    Ok(Found { equations, solution, formulations, declined, symmetry })
+}
+
+impl Search<'_> {
+    /// The rates of the state by solved equations.
+    fn rates(&self, accelerations: &[ExprId]) -> Vec<ExprId> {
+        [&self.frame.velocities, accelerations].concat()
+    }
+
+    /// The equations as they are stated, solved: what is shown unless something is much shorter.
+    fn base(&mut self, bench: &mut Workbench) -> Result<Outcome, DerivationError> {
+        let solution = solved(bench, self.stated.shown())?;
+        let rates = self.rates(&solution.accelerations);
+        self.least = weighted_cost(&bench.graph, &rates);
+        Ok(Outcome::Found(vec![Candidate { rates, rank: Rank::Base(solution) }]))
+    }
+}
+
+/// With the reactions between the velocity forms as unknowns.
+fn by_tensions(bench: &mut Workbench, search: &mut Search<'_>) -> Result<Outcome, DerivationError> {
+    let Stated { projected: Some(projected), multiplied, is_linked, .. } = &*search.stated else {
+        return Ok(Outcome::Declined("the energy is not multiplied out"));
+    };
+    search.in_base = InBaseParameters::new(bench, search.system, search.frame);
+    let found = match (&mut search.in_base, &projected.squares) {
+        (Some(in_base), _) => in_base.tensions(bench, search.system),
+        (None, Some(squares)) => {
+            let etas = &search.system.etas[..search.system.forms.degrees];
+            tensions::solve(bench, search.frame, squares, &multiplied[0], etas, search.generalised_forces)
+        }
+        (None, None) => return Ok(Outcome::Declined("the energy is no sum of squares")),
+    };
+    let Some(found) = found else { return Ok(Outcome::Declined("the mass matrix promises less")) };
+    let rates = search.rates(&found.accelerations);
+    let rank = if found.is_clear && !is_linked {
+        Rank::Last(Solution::known(bench, found.accelerations, &found.divisors))
+    } else {
+        Rank::Other
+    };
+    Ok(Outcome::Found(vec![Candidate { rates, rank }]))
+}
+
+/// The equations as they are multiplied out, solved.
+fn multiplied_out(bench: &mut Workbench, search: &mut Search<'_>) -> Result<Outcome, DerivationError> {
+    if search.stated.is_linked {
+        return Ok(Outcome::Declined("the equations of links are much shorter"));
+    }
+    search.base(bench)
+}
+
+/// The equations of links that hang on links, solved.
+fn of_links(bench: &mut Workbench, search: &mut Search<'_>) -> Result<Outcome, DerivationError> {
+    if search.stated.is_linked {
+        return search.base(bench);
+    }
+    let Some(Equations { mass, forces }) = &search.stated.linked else {
+        return Ok(Outcome::Declined("no bodies hang on each other, or little is shared between them"));
+    };
+    let Ok(solution) = Solution::new(bench, mass, forces) else {
+        return Ok(Outcome::Declined("no pivots are found"));
+    };
+    Ok(Outcome::found(vec![search.rates(&solution.accelerations)], || Rank::Solved))
+}
+
+/// Bodies that hang on each other and roll, as they were declared.
+fn of_bodies(bench: &mut Workbench, search: &mut Search<'_>) -> Result<Outcome, DerivationError> {
+    let Some(found) = multibody::rates(bench, search.system, search.frame, search.partials) else {
+        return Ok(Outcome::Declined("the energy is not that of bodies, or their axes are not understood"));
+    };
+    let cost = weighted_cost(&bench.graph, &found.rates);
+    if cost >= search.least {
+        return Ok(Outcome::Declined("the equations as stated promise less"));
+    }
+    let is_half = cost > LARGEST_TRIED && 2 * cost <= search.least;
+    let rank = if search.stated.is_linked || is_half {
+        let accelerations = found.rates[search.frame.velocities.len()..].to_vec();
+        Rank::Last(Solution::of_pivots(bench, accelerations, &found.pivots))
+    } else {
+        Rank::Other
+    };
+    Ok(Outcome::Found(vec![Candidate { rates: found.rates, rank }]))
+}
+
+/// The equations in further forms, solved.
+fn projected(bench: &mut Workbench, search: &mut Search<'_>) -> Result<Outcome, DerivationError> {
+    let others = search.stated.multiplied.iter().skip(1);
+    let solutions = others.filter_map(|other| Solution::new(bench, &other.mass, &other.forces).ok());
+    let solutions: Vec<Solution> = solutions.collect();
+    if solutions.is_empty() {
+        return Ok(Outcome::Declined("the equations have one form"));
+    }
+    let lists = solutions.iter().map(|other| search.rates(&other.accelerations)).collect();
+    Ok(Outcome::found(lists, || Rank::Solved))
+}
+
+/// The equations solved with the first value of each pair kept whole.
+fn shared(bench: &mut Workbench, search: &mut Search<'_>) -> Result<Outcome, DerivationError> {
+    let Equations { mass, forces } = search.stated.shown();
+    let Some(solution) = Solution::shared(bench, mass, forces) else {
+        return Ok(Outcome::Declined("no two accelerations are coupled by themselves"));
+    };
+    Ok(Outcome::found(vec![search.rates(&solution.accelerations)], || Rank::Solved))
+}
+
+/// Velocities computed one from another.
+fn nested(bench: &mut Workbench, search: &mut Search<'_>) -> Result<Outcome, DerivationError> {
+    let Some(projected) = &search.stated.projected else {
+        return Ok(Outcome::Declined("the energy is not multiplied out"));
+    };
+    let (system, forces, least) = (search.system, search.generalised_forces, search.least);
+    let mut lists = nested::rates(bench, system, search.frame, search.terms, &projected.forms, forces, least);
+    lists.retain(|rates| weighted_cost(&bench.graph, rates) < least);
+    if lists.is_empty() {
+        return Ok(Outcome::Declined(
+            "velocities have nothing in common, or the equations as stated promise less",
+        ));
+    }
+    Ok(Outcome::found(lists, || Rank::Other))
+}
+
+/// Velocities along the axes of the bodies.
+fn in_own_axes(bench: &mut Workbench, search: &mut Search<'_>) -> Result<Outcome, DerivationError> {
+    let Some(projected) = &search.stated.projected else {
+        return Ok(Outcome::Declined("the energy is not multiplied out"));
+    };
+    let own = match search.stated.in_own_axes.take() {
+        Some(own) => Some(own),
+        None => turned::equations(bench, search.system, search.frame, &projected.forms),
+    };
+    let Some(own) = own else {
+        return Ok(Outcome::Declined("no chart has an edge, or no body turns"));
+    };
+    let lists = own.rates(bench, search.system, search.generalised_forces);
+    Ok(Outcome::found(lists, || Rank::Other))
+}
+
+/// In the rates of the base angles.
+fn in_base_parameters(bench: &mut Workbench, search: &mut Search<'_>) -> Result<Outcome, DerivationError> {
+    let Some(in_base) = &mut search.in_base else {
+        return Ok(Outcome::Declined("the parameters are the rates of the base angles"));
+    };
+    Ok(Outcome::found(in_base.rates(bench, search.system), || Rank::Other))
+}
+
+/// Without coordinates that the equations do not depend on.
+fn without_headings(bench: &mut Workbench, search: &mut Search<'_>) -> Result<Outcome, DerivationError> {
+    let Some(projected) = &search.stated.projected else {
+        return Ok(Outcome::Declined("the energy is not multiplied out"));
+    };
+    let shown = search.stated.shown();
+    let forms = (shown, &projected.equations);
+    let found = headings::without(bench, search.system, search.frame, forms, search.generalised_forces);
+    let Some(found) = found else {
+        return Ok(Outcome::Declined("the equations depend on all their coordinates"));
+    };
+    let least = weighted_cost(&bench.graph, &shown.entries());
+    if let Some(shorter) = found.equations
+        && search.stated.definition.is(bench, &shorter, true)?
+    {
+        let shorter = shorter.driven(bench, search.generalised_forces);
+        let is_shorter = weighted_cost(&bench.graph, &shorter.entries()) < least;
+        search.shorter = is_shorter.then_some(shorter);
+    }
+    search.symmetry = found.symmetry;
+    Ok(Outcome::found(found.rates, || Rank::Other))
+}

@@ -1,0 +1,108 @@
+//! A system that is derived once more, in other parameters or for other base angles, as far as its rates ask for it.
+
+use super::projection::Projected;
+use super::symmetry::Symmetry;
+use super::velocity_forms::VelocityPartials;
+use super::{Equations, Frame, Mechanics, Solution, decompose, equations, forces, poincare, projection};
+use crate::algebra::ExprId;
+use crate::geometry::Operators;
+use crate::program::weighted_cost;
+use crate::workbench::Workbench;
+
+/// Up to this estimate all forms are tried.
+pub(super) const SMALL: u64 = 600;
+
+/// A system derived once more.
+pub(super) struct Restated {
+    pub(super) system: Mechanics,
+    pub(super) frame: Frame,
+    pub(super) forces: Vec<ExprId>,
+    pub(super) projected: Projected,
+}
+
+impl Restated {
+    pub(super) fn new(bench: &mut Workbench, system: Mechanics, operators: Operators) -> Option<Self> {
+        let mut frame = Frame::new(bench, &system, operators);
+        let mut partials = VelocityPartials::of_system(bench, &system);
+        let symbols: Vec<ExprId> = system.velocities.iter().chain(&system.etas).copied().collect();
+        let terms = decompose(bench, &mut partials, &symbols, system.kinetic_energy).ok()?;
+        let forces = forces::generalised_forces(bench, &system, &mut frame, &mut partials);
+        let l = system.forms.degrees;
+        let projected = projection::equations(bench, &system, &mut frame, &mut partials, &terms, 0..l);
+        Some(Restated { system, frame, forces, projected })
+    }
+
+    /// The rates of the state by the equations in several forms, without what these do not depend on.
+    pub(super) fn rates(&mut self, bench: &mut Workbench, symmetry: &mut Symmetry) -> Vec<Vec<ExprId>> {
+        let l = self.system.forms.degrees;
+        let list = flattened(&self.projected.equations, l);
+        let definition = (weighted_cost(&bench.graph, &list) <= SMALL)
+            .then(|| flattened(&poincare::equations(bench, &self.system, &mut self.frame), l));
+        let reduced = unflattened(symmetry.reduced(bench, &list), l);
+        let definition = definition.map(|list| unflattened(symmetry.reduced(bench, &list), l));
+        let velocities = symmetry.reduced_each(bench, &self.frame.velocities);
+        let found = forms(bench, &self.system, definition.as_ref().unwrap_or(&reduced), &reduced);
+        solutions(bench, found, &self.forces, &velocities)
+    }
+}
+
+/// The equations in several forms, as of [`equations::forms`]; multiplied out alone, where that leaves little: velocities that
+/// are kept whole because they are long with a heading may be short without it, and their squares may meet.
+pub(super) fn forms(
+    bench: &mut Workbench,
+    system: &Mechanics,
+    definition: &Equations,
+    reduced: &Equations,
+) -> Vec<Equations> {
+    let mut found = equations::forms(bench, system, definition, reduced);
+    let entries = reduced.entries();
+    if weighted_cost(&bench.graph, &entries) > SMALL {
+        return found;
+    }
+    let opened = bench.graph.opened(&entries);
+    if opened == entries {
+        return found;
+    }
+    let Equations { mut mass, forces } = unflattened(opened, system.forms.degrees);
+    let Some(forces) = equations::normal_forces(bench, system, &forces) else { return found };
+    for (entry, known) in mass.iter_mut().flatten().zip(found[0].mass.iter().flatten()) {
+        let tidy = bench.tidy(*entry);
+        let cost = |e: ExprId| weighted_cost(&bench.graph, &[e]);
+        *entry = if cost(tidy) < cost(*known) { tidy } else { *known };
+    }
+    let open = Equations { mass, forces };
+    if weighted_cost(&bench.graph, &open.entries()) < weighted_cost(&bench.graph, &found[0].entries()) {
+        found = vec![open];
+    }
+    found
+}
+
+/// A list of `l^2` entries of the mass matrix and `l` forces.
+pub(super) fn unflattened(mut list: Vec<ExprId>, l: usize) -> Equations {
+    let forces = list.split_off(l * l);
+    Equations { mass: list.chunks(l).map(<[ExprId]>::to_vec).collect(), forces }
+}
+
+/// The rates of the state by each of some equations.
+pub(super) fn solutions(
+    bench: &mut Workbench,
+    candidates: Vec<Equations>,
+    forces: &[ExprId],
+    velocities: &[ExprId],
+) -> Vec<Vec<ExprId>> {
+    let mut found = Vec::new();
+    for mut equations in candidates {
+        for (force, q) in equations.forces.iter_mut().zip(forces) {
+            *force = bench.graph.add(*force, *q);
+        }
+        if let Ok(solution) = Solution::new(bench, &equations.mass, &equations.forces) {
+            found.push([velocities, &solution.accelerations].concat());
+        }
+    }
+    found
+}
+
+/// The first `l` rows of the mass matrix, then as many forces.
+pub(super) fn flattened(equations: &Equations, l: usize) -> Vec<ExprId> {
+    equations.mass[..l].iter().flatten().chain(&equations.forces[..l]).copied().collect()
+}
