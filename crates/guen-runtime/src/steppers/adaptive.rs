@@ -244,6 +244,10 @@ where
             return Err(if defined { Cause::StepUnderflow } else { Cause::NotFinite });
         }
         step = f64::max(size * factor, shortest);
+        // A step of a few spacings of numbers that ends where the one before did would be refused for ever.
+        if time + R::from_f64(step.copysign(span)) == next {
+            step = shortest;
+        }
     }
 }
 

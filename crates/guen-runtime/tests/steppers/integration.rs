@@ -184,6 +184,20 @@ fn a_pole_is_an_underflow_with_the_last_good_state() {
 }
 
 #[test]
+fn a_jump_that_no_step_in_doubles_goes_over_is_an_underflow_soon() {
+    // Heights at which the error of the shortest steps is about the tolerance are among them: a step of a few spacings of
+    // numbers was tried again and again, as its end was rounded to where it had ended before.
+    for height in 1..200 {
+        let jumping =
+            from_fn(|t: f64, _: &[f64; 1]| [if t < 33.29925 { 1.0 } else { 50.0 * f64::from(height) }]);
+        let end = Dop853::new(1e-13, 1e-13).integrate(&jumping, 33.2, &[0.0], 33.4, go_on);
+        let Err(error) = end else { continue };
+        assert_eq!(error.cause, Cause::StepUnderflow, "{height}");
+        assert!(error.statistics.rejected < 200, "{height}: {}", error.statistics.rejected);
+    }
+}
+
+#[test]
 fn the_end_of_a_domain_is_not_finite() {
     // x' = -1 / (2 sqrt x): x = 1 - t until the root has no argument.
     let sinking = from_fn(|_t: f64, &[x]: &[f64; 1]| [-x.sqrt() / x.sqrt()]);
