@@ -83,6 +83,7 @@ pub use guen_runtime::{Std, StdFunctions};
 ///
 /// let trade = Study::new(Pendulum::new(1.0), [0.5, 0.0], 0.0..2.0)?
 ///     .keep(|method, real| method == "RK8" && real == "f64")
+/// #   .scan(1 << 12)
 ///     .count_evaluations()
 ///     .run();
 /// assert!(trade.report.fastest_within(1e-9)?.row.error < Some(1e-9));

@@ -51,6 +51,7 @@ fn trade(probes: usize) -> Trade<9> {
         .count_evaluations()
         .keep(|method, real| real == "f64" && ["RK4", "RK8", "Tsit5", "DOP853"].contains(&method))
         .probes(probes, 0.4)
+        .scan(1 << 14)
         // Nothing may depend on the time, and debug builds are slow.
         .within(Duration::from_secs(3600))
         .run()

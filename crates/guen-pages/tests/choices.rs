@@ -57,7 +57,7 @@ fn reports() -> [Report; 2] {
         0.0..0.25,
     );
     let closures = closures.keep(|method, _| ["Euler", "DOP853", "Bounded Tsit5"].contains(&method));
-    [study, closures.count_evaluations().probes(0, 0.4).run().report]
+    [study, closures.count_evaluations().scan(1 << 12).probes(0, 0.4).run().report]
 }
 
 /// The coarsest setting of each lever that errs by at most a hundredth, or its most accurate one.

@@ -78,7 +78,7 @@ pub use stored::StoredRecording;
 #[cfg(feature = "study")]
 pub use study::{
     Choice, Closures, Cost, Digits71, Ending, Failure, FailureKind, Forecast, Knob, Nearby, NoChoice,
-    ReferenceReport, Report, Row, Settings, Stopwatch, Study, Trade, Tried, Unit, pareto_front,
+    ReferenceReport, Report, Row, ScanReport, Settings, Stopwatch, Study, Trade, Tried, Unit, pareto_front,
 };
 pub use table::{Table, significant};
 #[cfg(feature = "viewer")]

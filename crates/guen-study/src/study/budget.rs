@@ -8,6 +8,7 @@ use crate::Progress;
 /// The parts of a study, with the part of the whole that each begins and ends at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Stage {
+    Scan,
     Reference,
     Accuracy,
     Nearby,
@@ -17,10 +18,11 @@ pub(super) enum Stage {
 impl Stage {
     fn part(self) -> (f64, f64) {
         match self {
-            Self::Reference => (0.0, 0.3),
-            Self::Accuracy => (0.3, 0.5),
-            Self::Nearby => (0.5, 0.65),
-            Self::Timing => (0.65, 1.0),
+            Self::Scan => (0.0, 0.1),
+            Self::Reference => (0.1, 0.35),
+            Self::Accuracy => (0.35, 0.55),
+            Self::Nearby => (0.55, 0.7),
+            Self::Timing => (0.7, 1.0),
         }
     }
 }
@@ -51,7 +53,8 @@ impl Budget {
         }
         self.cancelled |= (self.stop)(done);
         let over = Instant::now() >= self.deadline(stage);
-        self.late |= over;
+        // Of a scan that ends early the report says what it saw.
+        self.late |= over && stage != Stage::Scan;
         !over && !self.cancelled
     }
 

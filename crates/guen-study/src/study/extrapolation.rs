@@ -7,6 +7,10 @@ const COLUMNS: usize = 12;
 const SAFETY: f64 = 0.8;
 const SHORTEN: f64 = 0.1;
 const GROW: f64 = 4.0;
+/// Steps below this part of the span are short, and a jump of the rates is gone over by some 50 trials of them: by more there is a
+/// singularity.
+const SHORT: f64 = 1e-12;
+const MOST_SHORT: u32 = 200;
 
 /// Why a run ended early.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,6 +53,7 @@ where
     let span = times.last().map_or(0.0, |last| (*last - t0).to_f64().abs());
     // Shortened by the first trials, if it is too long.
     let mut size = span / 64.0;
+    let mut short = 0;
     for &target in times {
         while t != target {
             if !watch(t) {
@@ -58,7 +63,8 @@ where
             let landing = size >= 0.999 * rest.to_f64().abs();
             let step = if landing { rest } else { R::from_f64(size.copysign(rest.to_f64())) };
             let next = if landing { target } else { t + step };
-            if next == t || size < 1e-12 * span {
+            short = if size < SHORT * span { short + 1 } else { 0 };
+            if next == t || short > MOST_SHORT {
                 return Err(Stop::Underflow);
             }
             let (trial, error) = attempt(system, t, &x, step, tolerance);

@@ -1,8 +1,8 @@
 //! The trade of speed for accuracy, measured on a system of the user's own.
 //!
 //! A [`Study`] holds what is to be done: `lever` and `standard` say what can be pulled, `measure` what counts as error,
-//! `reference` and `extrapolation` where the truth comes from, in the real of `digits71`. `run` does it, in stages within
-//! a `budget`; `timing` and `front` are what is known of costs. Out comes a [`Trade`]: a [`Report`] (`row`,
+//! `reference` and `extrapolation` where the truth comes from, in the real of `digits71`; `scan` looks for what these might step
+//! over, and `known` is what it found. `run` does it, in stages within a `budget`; `timing` and `front` are what is known of costs. Out comes a [`Trade`]: a [`Report`] (`row`,
 //! `report`, `choice`, `files`, `picture`, `code`), and the means to ask whether a choice holds elsewhere (`trade`, `probes`).
 
 mod budget;
@@ -12,6 +12,7 @@ mod digits71;
 mod extrapolation;
 mod files;
 mod front;
+mod known;
 mod lever;
 mod measure;
 mod picture;
@@ -20,6 +21,7 @@ mod reference;
 mod report;
 mod row;
 mod run;
+mod scan;
 mod standard;
 mod timing;
 mod trade;
@@ -34,6 +36,7 @@ use guen_runtime::{Real, Recast, System, TaylorSeries};
 pub use choice::{Choice, NoChoice};
 pub use digits71::Digits71;
 pub use front::pareto_front;
+pub use known::ScanReport;
 pub use lever::Settings;
 pub use reference::ReferenceReport;
 pub use report::{Ending, Report, Unit};
@@ -41,6 +44,7 @@ pub use row::{Failure, FailureKind, Knob, Nearby, Row};
 pub use timing::{Cost, Stopwatch};
 pub use trade::{Forecast, Trade, Tried};
 
+use known::Scanner;
 use lever::{Lever, Run};
 use measure::{Measure, Scales, Tells};
 use reference::Named;
@@ -63,7 +67,10 @@ type Stop = Box<dyn FnMut(f64) -> bool>;
 ///
 /// Extrapolation of the midpoint rule (order 24, tolerance 1e-24) in [`Digits71`], checked by DOP853 in the same real at
 /// 1e-17, which shares no code with it but the right-hand side. What they differ by, in the measure of the study, is stated as the
-/// reference's error; settings with an error below ten times that are marked.
+/// reference's error; settings with an error below ten times that are marked, and not chosen.
+///
+/// Both land in kicks and steep layers that they would step over, which are looked for at a million times of the motion:
+/// [`scan`](Study::scan).
 ///
 /// ```
 /// use guen_runtime::{Equations, Real, generic};
@@ -80,6 +87,7 @@ type Stop = Box<dyn FnMut(f64) -> bool>;
 /// let trade = Study::new(generic(Oscillator), [0.0, 1.0], 0.0..5.0)?
 ///     .title("oscillator")
 ///     .keep(|method, real| method == "DOP853" && real == "f64")
+/// #   .scan(1 << 12)
 ///     .count_evaluations()
 ///     .run();
 /// let choice = trade.report.fastest_within(1e-6)?;
@@ -106,6 +114,8 @@ pub struct Study<S, const N: usize> {
     tells: Tells<N>,
     /// DOP853 in doubles at a tolerance, for forecasts.
     tight: Rc<dyn Fn(f64) -> Run<N>>,
+    scanner: Scanner<N>,
+    points: usize,
     unit: Unit,
     budget: Duration,
     progress: bool,
@@ -284,9 +294,9 @@ impl<S, const N: usize> Study<S, N> {
         Self { unit: Unit::Evaluations, ..self }
     }
 
-    /// The same with another limit on the time of the whole study; a minute by default. The stages share it: 30 parts of
-    /// a hundred for the reference, 20 to find errors, 15 for states nearby, 35 for times, and what a stage leaves is the
-    /// next one's.
+    /// The same with another limit on the time of the whole study; a minute by default. The stages share it: 10 parts of
+    /// a hundred to look for kicks, 25 for the reference, 20 to find errors, 15 for states nearby, 30 for times, and what a stage
+    /// leaves is the next one's.
     #[must_use]
     pub fn within(self, budget: Duration) -> Self {
         Self { budget, ..self }
@@ -316,6 +326,15 @@ impl<S, const N: usize> Study<S, N> {
     #[must_use]
     pub fn probes(self, count: usize, spread: f64) -> Self {
         Self { probes: count, spread, ..self }
+    }
+
+    /// The same with so many evaluations of the rates along each motion, 1,048,576 by default, to see kicks and steep layers that
+    /// methods would step over; a sixteenth of them for states nearby and forecasts. References land in what is found, and the
+    /// report says how long something has to last to be seen. A tenth of the study's time may go into it; what takes longer is looked
+    /// at less closely.
+    #[must_use]
+    pub fn scan(self, evaluations: usize) -> Self {
+        Self { points: evaluations.max(1), ..self }
     }
 
     /// Does it. Never fails: what could not be measured is said in the report.
@@ -432,7 +451,7 @@ impl<S, const N: usize> Study<S, N> {
         use guen_runtime::steppers::Dop853;
         /// More than any reference can afford.
         const STEPS: u64 = 100_000_000;
-        let tight = Rc::clone(doubles);
+        let (tight, scanned) = (Rc::clone(doubles), Rc::clone(doubles));
         let check = Dop853::new(reference::CHECK_TOLERANCE, reference::CHECK_TOLERANCE).with_max_steps(STEPS);
         let check_name = format!("DOP853 at {:e}", reference::CHECK_TOLERANCE);
         Self {
@@ -453,6 +472,8 @@ impl<S, const N: usize> Study<S, N> {
                 let method = Dop853::<f64>::new(tolerance, tolerance).with_max_steps(STEPS);
                 lever::run_of::<f64, D, _, N>(Rc::clone(&tight), method)
             }),
+            scanner: Rc::new(move |problem, look, watch| scan::scan(&*scanned, problem, look, watch)),
+            points: known::POINTS,
             unit: Unit::Seconds,
             budget: Duration::from_secs(60),
             progress: false,

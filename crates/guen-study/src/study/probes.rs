@@ -5,6 +5,7 @@ use std::ops::Range;
 use guen_runtime::Real;
 
 use super::digits71::Digits71;
+use super::known::{Scanner, landings_elsewhere};
 use super::measure::{Measure, Tells, against, kept};
 use super::reference::{Problem, Source};
 use super::{Scales, lengthened};
@@ -74,6 +75,7 @@ pub(super) fn with_references<const N: usize>(
     measure: &Measure<N>,
     (t0, times): (f64, &[f64]),
     source: &Source<N>,
+    (scanner, landings, points): (&Scanner<N>, &[f64], usize),
     watch: &mut dyn FnMut() -> bool,
 ) -> Vec<Probe<N>> {
     let mut probes = Vec::new();
@@ -85,7 +87,9 @@ pub(super) fn with_references<const N: usize>(
             probes.push(Probe { start, reference: Vec::new() });
             continue;
         }
-        let problem = Problem { start: &start, t0, times };
+        let problem = Problem { start: &start, t0, times, landings };
+        let landings = landings_elsewhere(scanner, &problem, points, watch);
+        let problem = Problem { landings: &landings, ..problem };
         if let Ok(reference) = source(&problem, &mut |_| watch()) {
             probes.push(Probe { start, reference });
         }

@@ -16,10 +16,38 @@ pub(super) type Source<const N: usize> =
     Box<dyn Fn(&Problem<'_, N>, &mut dyn FnMut(f64) -> bool) -> Result<Vec<[Long; N]>, String>>;
 
 /// One initial state and where the states are wanted.
+#[derive(Clone, Copy)]
 pub(super) struct Problem<'a, const N: usize> {
     pub start: &'a [f64; N],
     pub t0: f64,
     pub times: &'a [f64],
+    /// Further times to land on, because something abrupt is there.
+    pub landings: &'a [f64],
+}
+
+impl<const N: usize> Problem<'_, N> {
+    /// All times to land on, in the direction of the motion, and whether the state there is wanted.
+    pub fn stops(&self) -> Vec<(f64, bool)> {
+        let Some(&end) = self.times.last() else { return Vec::new() };
+        let inside = |t: f64| (t - self.t0) * (end - t) > 0.0;
+        let wanted = self.times.iter().map(|t| (*t, true));
+        let besides = self.landings.iter().filter(|t| inside(**t)).map(|t| (*t, false));
+        let mut stops: Vec<(f64, bool)> = wanted.chain(besides).collect();
+        // The sort keeps the order of equals: what is wanted comes before what is not.
+        stops.sort_by(|a, b| (a.0 - self.t0).abs().total_cmp(&(b.0 - self.t0).abs()));
+        stops.dedup_by(|later, first| later.0 == first.0 && !later.1);
+        stops
+    }
+
+    /// How long the motion is.
+    pub fn span(&self) -> f64 {
+        self.times.last().map_or(0.0, |end| (end - self.t0).abs())
+    }
+}
+
+/// Of the states at all stops those that are wanted.
+fn wanted<const N: usize>(stops: &[(f64, bool)], states: Vec<[Long; N]>) -> Vec<[Long; N]> {
+    stops.iter().zip(states).filter(|(stop, _)| stop.1).map(|(_, state)| state).collect()
 }
 
 /// A source with what is to be said of it.
@@ -44,9 +72,10 @@ where
 {
     let source = Box::new(move |problem: &Problem<'_, N>, watch: &mut dyn FnMut(f64) -> bool| {
         let (start, t0) = (problem.start.map(Long::from_f64), Long::from_f64(problem.t0));
-        let times: Vec<Long> = problem.times.iter().map(|t| Long::from_f64(*t)).collect();
+        let stops = problem.stops();
+        let times: Vec<Long> = stops.iter().map(|(t, _)| Long::from_f64(*t)).collect();
         extrapolate(&*system, t0, &start, &times, tolerance, |t| watch(t.to_f64()))
-            .map(|(states, _)| states)
+            .map(|(states, _)| wanted(&stops, states))
             .map_err(|stop| match stop {
                 Stop::Underflow => "the step became too short: the motion has a singularity".to_owned(),
                 Stop::Cancelled => CANCELLED.to_owned(),
@@ -62,10 +91,11 @@ where
     M: Method<Long, S, N> + 'static,
 {
     let source = Box::new(move |problem: &Problem<'_, N>, watch: &mut dyn FnMut(f64) -> bool| {
-        let mut states = Vec::with_capacity(problem.times.len());
+        let stops = problem.stops();
+        let mut states = Vec::with_capacity(stops.len());
         let (mut t, mut x) = (Long::from_f64(problem.t0), problem.start.map(Long::from_f64));
-        for &next in problem.times {
-            let next = Long::from_f64(next);
+        for (next, _) in &stops {
+            let next = Long::from_f64(*next);
             let mut look = |t: Long, _: &[Long; N]| {
                 if watch(t.to_f64()) { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
             };
@@ -79,7 +109,7 @@ where
             (t, x) = (next, done.state);
             states.push(x);
         }
-        Ok(states)
+        Ok(wanted(&stops, states))
     });
     Named { name, source }
 }
@@ -93,8 +123,8 @@ pub struct ReferenceReport {
     pub method: String,
     /// How it was checked.
     pub check: String,
-    /// The largest difference between the two over all initial states, in the measure of the study: the stated error.
-    /// None if one of them failed.
+    /// The largest difference between the two over all initial states, in the measure of the study, or, if that is larger, from a
+    /// motion in doubles that lands in more places: the stated error. None if one of them failed.
     #[cfg_attr(feature = "serde", serde(with = "crate::exact::option"))]
     pub error: Option<f64>,
     /// Why there is no reference, or no check of it.

@@ -3,6 +3,7 @@
 use std::fmt;
 
 use super::front::pareto_front;
+use super::known::ScanReport;
 use super::reference::ReferenceReport;
 use super::row::{Nearby, Row};
 use crate::significant;
@@ -59,6 +60,8 @@ pub struct Report {
     pub unit: Unit,
     /// The reference; none where the measure needs none.
     pub reference: Option<ReferenceReport>,
+    /// How closely the motions were looked at for what methods might step over; none where the measure needs no reference.
+    pub scan: Option<ScanReport>,
     /// Every setting that was tried and is worth showing, in the order of the levers, from coarse to fine.
     pub rows: Vec<Row>,
     /// How the study ended.
@@ -164,6 +167,9 @@ impl fmt::Display for Report {
                 (None, Some(failure)) => writeln!(f, "           none: {failure}")?,
                 (None, None) => writeln!(f, "           not checked")?,
             }
+        }
+        if let Some(scan) = &self.scan {
+            writeln!(f, "{scan}")?;
         }
         writeln!(f, "{} settings; those that no other one beats:\n", self.rows.len())?;
         f.write_str(&self.show(self.front().into_iter()))?;

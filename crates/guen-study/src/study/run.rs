@@ -1,4 +1,4 @@
-//! What a study does, stage by stage: reference, errors, states nearby, times. A stage that ends early leaves what it
+//! What a study does, stage by stage: scan, reference, errors, states nearby, times. A stage that ends early leaves what it
 //! has, and the next ones work with that.
 
 use std::rc::Rc;
@@ -9,6 +9,7 @@ use guen_runtime::steppers::Statistics;
 use super::budget::{Budget, Stage};
 use super::choice::least_certain;
 use super::digits71::Digits71;
+use super::known::Known;
 use super::lever::{Lever, Run, Task};
 use super::measure::{against, kept};
 use super::probes::{self, Probe};
@@ -49,9 +50,10 @@ pub(super) fn run<S, const N: usize>(mut study: Study<S, N>) -> Trade<N> {
     let mut budget = Budget::new(study.budget, study.progress, stop);
     let times = study.times();
 
-    let (references, reference) = references(&study, &times, &mut budget);
+    let known = known(&study, &times, &mut budget);
+    let (references, reference) = references(&study, &times, &known, &mut budget);
     let mut tried = errors(&mut study, &times, &references, reference.as_ref(), &mut budget);
-    let probes = nearby(&study, &times, &references, &mut tried, &mut budget);
+    let probes = nearby(&study, &times, &references, &known, &mut tried, &mut budget);
     costs(&mut study, &times, &mut tried, &mut budget);
 
     let mut report = Report {
@@ -60,6 +62,7 @@ pub(super) fn run<S, const N: usize>(mut study: Study<S, N>) -> Trade<N> {
         span: (study.t0, study.t1),
         starts: study.starts.len(),
         unit: study.unit,
+        scan: reference.is_some().then(|| known.report.clone()),
         reference,
         rows: Vec::new(),
         ending: Ending::Complete,
@@ -90,9 +93,23 @@ pub(super) fn run<S, const N: usize>(mut study: Study<S, N>) -> Trade<N> {
         scales: study.scales,
         tells: study.tells,
         tight: study.tight,
+        scanner: study.scanner,
+        // What happens at a time does so from every state.
+        landings: known.landings(0).to_vec(),
+        points: known.points_elsewhere,
         reference: study.elsewhere,
     };
     Trade { report, means }
+}
+
+/// Looks for what references might step over, where there are any.
+fn known<S, const N: usize>(study: &Study<S, N>, times: &[f64], budget: &mut Budget) -> Known<N> {
+    if !study.measure.needs_reference() {
+        return Known::nothing(study.points);
+    }
+    Known::look(&study.scanner, &study.starts, (study.t0, times), study.points, &mut |part| {
+        budget.goes_on(Stage::Scan, part)
+    })
 }
 
 /// The reference of every start, and what is to be said of it. Nothing where the measure needs none, and nothing where
@@ -100,6 +117,7 @@ pub(super) fn run<S, const N: usize>(mut study: Study<S, N>) -> Trade<N> {
 fn references<S, const N: usize>(
     study: &Study<S, N>,
     times: &[f64],
+    known: &Known<N>,
     budget: &mut Budget,
 ) -> (Vec<Vec<[Digits71; N]>>, Option<ReferenceReport>) {
     if !study.measure.needs_reference() {
@@ -108,10 +126,10 @@ fn references<S, const N: usize>(
     let begun = budget.seconds();
     let span = (study.t1 - study.t0).abs().max(f64::MIN_POSITIVE);
     let runs = 2.0 * study.starts.len() as f64;
-    let compute = |named: &Named<N>, start: &[f64; N], before: f64, budget: &mut Budget| {
-        let problem = Problem { start, t0: study.t0, times };
+    let compute = |named: &Named<N>, k: usize, before: usize, budget: &mut Budget| {
+        let problem = Problem { start: &study.starts[k], t0: study.t0, times, landings: known.landings(k) };
         (named.source)(&problem, &mut |t| {
-            let part = (before + (t - study.t0).abs() / span) / runs;
+            let part = ((before + k) as f64 + (t - study.t0).abs() / span) / runs;
             budget.goes_on(Stage::Reference, part)
         })
     };
@@ -123,8 +141,8 @@ fn references<S, const N: usize>(
         seconds: 0.0,
     };
     let mut found = Vec::new();
-    for (k, start) in study.starts.iter().enumerate() {
-        match compute(&study.reference, start, k as f64, budget) {
+    for k in 0..study.starts.len() {
+        match compute(&study.reference, k, 0, budget) {
             Ok(states) => found.push(states),
             Err(failure) => {
                 said.failure = Some(failure);
@@ -135,8 +153,8 @@ fn references<S, const N: usize>(
     }
     if let Some(check) = &study.check {
         let mut largest = 0.0_f64;
-        for (k, (start, reference)) in study.starts.iter().zip(&found).enumerate() {
-            match compute(check, start, (study.starts.len() + k) as f64, budget) {
+        for (k, reference) in found.iter().enumerate() {
+            match compute(check, k, study.starts.len(), budget) {
                 Ok(states) => {
                     let states = states.into_iter();
                     largest = largest.max(against(&study.measure, &study.scales, times, states, reference));
@@ -147,6 +165,15 @@ fn references<S, const N: usize>(
                     return (found, Some(said));
                 }
             }
+        }
+        // Both may have stepped over what the motion in doubles did not.
+        let off = |states: &[[f64; N]], truth: &[[Digits71; N]]| {
+            against(&study.measure, &study.scales, times, states.iter().map(lengthened), truth)
+        };
+        for (motion, reference) in known.motions.iter().zip(&found) {
+            let fine: Vec<_> = motion.fine.iter().map(lengthened).collect();
+            let found = motion.contradicts(off(&motion.fine, reference), off(&motion.coarse, &fine));
+            largest = largest.max(found);
         }
         said.error = Some(largest);
     }
@@ -223,6 +250,9 @@ fn errors<S, const N: usize>(
             if !measurable {
                 all.push(Tried { row, run: Some(Rc::new(run)), rough });
                 shown = true;
+                if work > MOST_EVALUATIONS * starts {
+                    break;
+                }
                 continue;
             }
             let error = error_of(study, times, references, &states);
@@ -358,11 +388,12 @@ fn nearby<S, const N: usize>(
     study: &Study<S, N>,
     times: &[f64],
     references: &[Vec<[Digits71; N]>],
+    known: &Known<N>,
     tried: &mut [Tried<N>],
     budget: &mut Budget,
 ) -> usize {
-    let known = !study.measure.needs_reference() || !references.is_empty();
-    if study.probes == 0 || !known || study.starts.is_empty() {
+    let measurable = !study.measure.needs_reference() || !references.is_empty();
+    if study.probes == 0 || !measurable || study.starts.is_empty() {
         return 0;
     }
     let along = along(study);
@@ -376,8 +407,9 @@ fn nearby<S, const N: usize>(
         &study.measure,
         (study.t0, times),
         &study.elsewhere.source,
+        (&study.scanner, known.landings(0), known.points_elsewhere),
         &mut || {
-            computed += 1e-4;
+            computed += 1e-5;
             budget.goes_on(Stage::Nearby, f64::min(computed, 0.5)) && Instant::now() < halfway
         },
     );

@@ -4,10 +4,11 @@ use std::ops::Range;
 use std::rc::Rc;
 
 use super::choice::NoChoice;
+use super::known::{self, Scanner};
 use super::lever::{Run, Task};
 use super::measure::{Measure, Scales, Tells, against, kept};
 use super::probes::{Probe, error_of, times_for, with_references};
-use super::reference::Named;
+use super::reference::{Named, Problem};
 use super::report::Report;
 use super::row::Failure;
 use super::{lengthened, probes};
@@ -36,6 +37,11 @@ pub(super) struct Means<const N: usize> {
     pub scales: Scales<N>,
     pub tells: Tells<N>,
     pub tight: Rc<dyn Fn(f64) -> Run<N>>,
+    pub scanner: Scanner<N>,
+    /// Where references land from the states that the study was made for.
+    pub landings: Vec<f64>,
+    /// The times at which a forecast looks at the rates.
+    pub points: usize,
     pub reference: Named<N>,
 }
 
@@ -52,7 +58,7 @@ pub enum Forecast {
     WillNot {
         /// The estimate.
         estimate: f64,
-        /// How far the run that the estimate was made with differs from one at a tenth of its tolerance.
+        /// How far the run that the estimate was made with differs from a coarser one.
         uncertainty: f64,
     },
     /// Nothing is promised of this row: its error is not certain where it was measured.
@@ -84,20 +90,21 @@ pub struct Tried<const N: usize> {
 
 impl<const N: usize> Trade<N> {
     /// What is to be expected of a row from another state or over another span, before it is relied upon: runs the
-    /// setting and compares with DOP853 in doubles at a tolerance a thousand times below the error asked for, 1e-14 at least.
-    /// That run is compared with one at ten times its tolerance, so that a motion is noticed whose errors grow beyond what
+    /// setting and compares with DOP853 in doubles at a tolerance of 1e-13, which looks for kicks and steep layers as the report's
+    /// [`scan`](Report::scan) says, and lands in those that the study found.
+    /// That run is compared with one at a hundredth of the error asked for, so that a motion is noticed whose errors grow beyond what
     /// doubles can tell. The promise is made if estimate and uncertainty together are at most half of ten times what was
     /// asked for.
     ///
     /// A row whose error is not certain is refused, as it is for a choice.
     ///
-    /// Costs some times a run of the setting, and no extended precision. Errors of energy and constraints are measured
+    /// Costs those evaluations, 65,536 by default, some times a run of the setting, and no extended precision. Errors of energy and constraints are measured
     /// and not estimated.
     pub fn forecast(&self, row: usize, asked: f64, start: &[f64; N], span: Range<f64>) -> Forecast {
         if let Some(doubt) = self.report.rows.get(row).and_then(|row| self.report.doubt(row)) {
             return Forecast::Refused(doubt);
         }
-        let Means { samples, measure, scales, tells, tight, .. } = &self.means;
+        let Means { samples, measure, scales, tells, .. } = &self.means;
         let times = times_for(&span, *samples);
         let starts = [*start];
         let task = Task { starts: &starts, t0: span.start, times: &times, deadline: None };
@@ -107,13 +114,16 @@ impl<const N: usize> Trade<N> {
         };
         let (estimate, uncertainty) = if measure.needs_reference() {
             let tolerance = (1e-3 * asked).clamp(1e-14, 1e-4);
-            let run = |tolerance: f64| {
-                let mut states = Vec::new();
-                tight(tolerance)(&task, &mut states).map(|_| states)
-            };
-            let (fine, coarse) = match (run(tolerance), run(10.0 * tolerance)) {
-                (Ok(fine), Ok(coarse)) => (fine, coarse),
-                (Err(failure), _) | (_, Err(failure)) => return Forecast::Fails(failure),
+            let Means { scanner, landings, points, .. } = &self.means;
+            let problem = Problem { start, t0: span.start, times: &times, landings };
+            let seen = known::motion(scanner, &problem, *points, 10.0 * tolerance, &mut || true);
+            let (fine, coarse) = match seen {
+                Some((motion, _)) => (motion.fine, motion.coarse),
+                // What cannot be looked at is a motion that fails, or long.
+                None => match (self.tight(tolerance, &task), self.tight(10.0 * tolerance, &task)) {
+                    (Ok(fine), Ok(coarse)) => (fine, coarse),
+                    (Err(failure), _) | (_, Err(failure)) => return Forecast::Fails(failure),
+                },
             };
             let truth: Vec<_> = fine.iter().map(lengthened).collect();
             let off =
@@ -138,10 +148,10 @@ impl<const N: usize> Trade<N> {
         starts: impl IntoIterator<Item = [f64; N]>,
         span: Range<f64>,
     ) -> Vec<Tried<N>> {
-        let Means { samples, measure, scales, tells, reference, .. } = &self.means;
+        let Means { samples, measure, scales, tells, reference, scanner, landings, points, .. } = &self.means;
         let times = times_for(&span, *samples);
-        let at = (span.start, &times[..]);
-        let probes = with_references(starts, measure, at, &reference.source, &mut || true);
+        let (at, known) = ((span.start, &times[..]), (scanner, &landings[..], *points));
+        let probes = with_references(starts, measure, at, &reference.source, known, &mut || true);
         let tried = |probe: &Probe<N>| {
             let forecast = self.forecast(row, asked, &probe.start, span.clone());
             let starts = [probe.start];
@@ -160,6 +170,13 @@ impl<const N: usize> Trade<N> {
     pub fn around(state: &[f64; N], count: usize, spread: f64, seed: u64) -> Vec<[f64; N]> {
         let mut draw = probes::Draw::new(seed);
         (0..count).map(|_| probes::moved(state, spread, &mut draw)).collect()
+    }
+
+    /// DOP853 in doubles.
+    fn tight(&self, tolerance: f64, task: &Task<'_, N>) -> Result<Vec<[f64; N]>, Failure> {
+        let mut states = Vec::new();
+        (self.means.tight)(tolerance)(task, &mut states)?;
+        Ok(states)
     }
 
     fn states(&self, row: usize, task: &Task<'_, N>) -> Result<Vec<[f64; N]>, Failure> {

@@ -21,7 +21,12 @@ fn explicit(method: &str, real: &str) -> bool {
 }
 
 fn spring() -> Study<guen_runtime::Generic<Spring>, 2> {
-    Study::new(generic(Spring), START, 0.0..50.0).unwrap().count_evaluations().keep(explicit).probes(0, 0.0)
+    Study::new(generic(Spring), START, 0.0..50.0)
+        .unwrap()
+        .count_evaluations()
+        .scan(1 << 12)
+        .keep(explicit)
+        .probes(0, 0.0)
 }
 
 /// References that are far from the truth, and from each other.
@@ -108,7 +113,7 @@ fn a_motion_that_every_method_has_exactly_is_chosen() {
             [v, R::zero()]
         }
     }
-    let study = Study::new(generic(Free), [0.0, 0.5], 0.0..4.0).unwrap().count_evaluations();
+    let study = Study::new(generic(Free), [0.0, 0.5], 0.0..4.0).unwrap().count_evaluations().scan(1 << 12);
     let trade = study.keep(|_, real| real == "f64").probes(0, 0.0).run();
     assert!(trade.report.fastest_within(1e-9).is_ok());
 }

@@ -3,6 +3,7 @@
 #![cfg(feature = "study")]
 
 mod doubt;
+mod kicks;
 
 use std::cell::Cell;
 use std::rc::Rc;
@@ -36,7 +37,11 @@ fn exact(t: f64) -> [Digits71; 2] {
 }
 
 fn oscillator() -> Study<guen_runtime::Generic<Oscillator>, 2> {
-    Study::new(generic(Oscillator), START, SPAN).unwrap().title("oscillator").count_evaluations()
+    Study::new(generic(Oscillator), START, SPAN)
+        .unwrap()
+        .title("oscillator")
+        .count_evaluations()
+        .scan(1 << 12)
 }
 
 fn plain(method: &str, real: &str) -> bool {
@@ -309,7 +314,7 @@ fn levers_of_ones_own() {
         START,
         SPAN,
     );
-    let trade = closures.keep(|method, _| method == "RK8").count_evaluations().run();
+    let trade = closures.keep(|method, _| method == "RK8").count_evaluations().scan(1 << 12).run();
     assert!(trade.report.fastest_within(1e-10).is_ok());
 
     // A form with another state: twice the oscillator.
@@ -432,7 +437,7 @@ fn constants_that_a_real_cannot_hold_are_rows() {
         }
     }
     let keep = |method: &str, real: &str| real == "f32" || plain(method, real);
-    let study = Study::new(Picky, START, SPAN).unwrap().count_evaluations().keep(keep);
+    let study = Study::new(Picky, START, SPAN).unwrap().count_evaluations().scan(1 << 12).keep(keep);
     let report = study.run().report;
     let failed: Vec<&Row> = report.rows.iter().filter(|row| row.real == "f32").collect();
     assert_eq!(failed.len(), 1);
