@@ -3,6 +3,7 @@
 use super::control::{self, Control, Margin, Tolerance};
 use super::course::{Course, Reached};
 use super::dense::Dense;
+use super::entries;
 use super::{all_finite, shifted};
 use crate::error::{Cause, Setting};
 use crate::real::{Ordered, Real};
@@ -122,7 +123,7 @@ where
         let h = R::from_f64(guess.copysign(span));
         let ahead = system.rhs(time + h, &shifted(&state, h, &slope));
         self.reached.statistics.evaluations += 1;
-        let change: [R; N] = core::array::from_fn(|i| ahead[i] - slope[i]);
+        let change: [R; N] = entries(|i| ahead[i] - slope[i]);
         let step = if all_finite(&change) {
             let change = control::size(&change, &tolerance.weights(&state, &state));
             P::CONTROL.first_step(guess, slope_size, change, span.abs())

@@ -3,6 +3,7 @@
 use super::adaptive::Pair;
 use super::all_finite;
 use super::course::{Reached, Statistics};
+use super::entries;
 use super::tableau::{Tableau, Trial};
 use super::tsit5::Formula;
 use crate::error::{Cause, IntegrationError, Setting};
@@ -115,7 +116,7 @@ impl<R: Ordered> Bounded<R> {
 
 /// DOP853's two estimates as one, for each entry.
 fn dop853_error<R: Real, const N: usize>(errors: &Trial<R, N>, h: f64) -> [f64; N] {
-    core::array::from_fn(|i| {
+    entries(|i| {
         let (five, three) = (errors.error5[i].to_f64(), errors.error3[i].to_f64());
         let size = libm::sqrt(five * five + 0.01 * three * three);
         if five == 0.0 { 0.0 } else { h * five * (five / size).abs() }.abs()
@@ -124,7 +125,7 @@ fn dop853_error<R: Real, const N: usize>(errors: &Trial<R, N>, h: f64) -> [f64; 
 
 /// Tsit5's estimate for each entry.
 fn tsit5_error<R: Real, const N: usize>(errors: &[R; N], h: f64) -> [f64; N] {
-    core::array::from_fn(|i| (h * errors[i].to_f64()).abs())
+    entries(|i| (h * errors[i].to_f64()).abs())
 }
 
 /// What is known of the error, step by step.
@@ -144,7 +145,7 @@ impl<const N: usize> Known<N> {
         const PART: f64 = 1e-4;
 
         let of = |pair: [&[R; N]; 2], i: usize| pair.map(|values| values[i].to_f64());
-        let ways: [f64; N] = core::array::from_fn(|i| {
+        let ways: [f64; N] = entries(|i| {
             let [begin, end] = of(rates, i);
             let [from, to] = of(states, i);
             f64::max(h * f64::max(begin.abs(), end.abs()), (to - from).abs())

@@ -14,6 +14,7 @@
 //! section IV.8. The residuals are formed with `A^-1` itself and not in the basis, so that the digits of `T` decide how
 //! fast Newton's method converges but not to what.
 
+use super::entries;
 use super::lu::{Complex, Lu};
 use crate::real::Real;
 use crate::system::System;
@@ -40,7 +41,7 @@ impl<R: Real, const S: usize> Collocation<R, S> {
     /// The method with nodes `c`, matrix `a` and weights `b`; the eigenvalues of `A^-1` as far as they are known.
     pub fn new(c: [R; S], a: [[R; S]; S], b: [R; S], real: Option<R>, pair: Complex<R>) -> Option<Self> {
         let inverse = inverse(a)?;
-        let d = core::array::from_fn(|j| (0..S).fold(R::zero(), |sum, i| sum + b[i] * inverse[i][j]));
+        let d = entries(|j| (0..S).fold(R::zero(), |sum, i| sum + b[i] * inverse[i][j]));
         let mut columns = [[R::zero(); S]; S];
         if let Some(real) = real {
             columns[0] = eigenvector(&inverse, Complex { re: real, im: R::zero() }).map(|entry| entry.re);
@@ -83,10 +84,10 @@ impl<R: Real, const S: usize> Collocation<R, S> {
         let mut residual = [[R::zero(); N]; S];
         let recip = R::one() / h;
         for (i, residual) in residual.iter_mut().enumerate() {
-            let stage: [R; N] = core::array::from_fn(|k| x[k] + z[i][k]);
+            let stage: [R; N] = entries(|k| x[k] + z[i][k]);
             let slope = system.rhs(t + self.c[i] * h, &stage);
             let mean = combined(&self.inverse[i], z);
-            *residual = core::array::from_fn(|k| slope[k] - recip * mean[k]);
+            *residual = entries(|k| slope[k] - recip * mean[k]);
         }
         let mut parts = self.to_basis.map(|row| combined(&row, &residual));
         if let Some(real) = &factors.real {
@@ -106,7 +107,7 @@ impl<R: Real, const S: usize> Collocation<R, S> {
     pub fn predicted<const N: usize>(&self, z: &[[R; N]; S], ratio: R) -> [[R; N]; S] {
         // Values of the polynomial through (0, 0) and (c_j, Z_j) at s.
         let value = |s: R| -> [R; N] {
-            let weights: [R; S] = core::array::from_fn(|j| {
+            let weights: [R; S] = entries(|j| {
                 let mut weight = s / self.c[j];
                 for m in 0..S {
                     if m != j {
@@ -120,14 +121,14 @@ impl<R: Real, const S: usize> Collocation<R, S> {
         let end = value(R::one());
         self.c.map(|c| {
             let ahead = value(R::one() + ratio * c);
-            core::array::from_fn(|k| ahead[k] - end[k])
+            entries(|k| ahead[k] - end[k])
         })
     }
 
     /// The slope with which the polynomial of a step begins.
     pub fn first_slope<const N: usize>(&self, z: &[[R; N]; S], h: R) -> [R; N] {
         // Of the polynomial through the slopes h^-1 (A^-1 Z)_j at c_j, at zero.
-        let weights: [R; S] = core::array::from_fn(|j| {
+        let weights: [R; S] = entries(|j| {
             (0..S)
                 .filter(|m| *m != j)
                 .fold(R::one(), |weight, m| weight * self.c[m] / (self.c[m] - self.c[j]))
@@ -151,21 +152,18 @@ pub struct Factors<R, const N: usize> {
 
 /// `sum_j w_j z_j`
 pub fn combined<R: Real, const N: usize, const S: usize>(weights: &[R; S], z: &[[R; N]; S]) -> [R; N] {
-    core::array::from_fn(|k| (0..S).fold(R::zero(), |sum, j| sum + weights[j] * z[j][k]))
+    entries(|k| (0..S).fold(R::zero(), |sum, j| sum + weights[j] * z[j][k]))
 }
 
 /// `lambda - J`
 pub fn shifted<R: Real, const N: usize>(jacobian: &[[R; N]; N], lambda: R) -> [[R; N]; N] {
-    core::array::from_fn(|i| {
-        core::array::from_fn(|j| if i == j { lambda - jacobian[i][j] } else { -jacobian[i][j] })
-    })
+    core::array::from_fn(|i| entries(|j| if i == j { lambda - jacobian[i][j] } else { -jacobian[i][j] }))
 }
 
 fn inverse<R: Real, const S: usize>(matrix: [[R; S]; S]) -> Option<[[R; S]; S]> {
     let factors = Lu::new(matrix)?;
-    let columns: [[R; S]; S] = core::array::from_fn(|j| {
-        factors.solve(core::array::from_fn(|i| if i == j { R::one() } else { R::zero() }))
-    });
+    let columns: [[R; S]; S] =
+        core::array::from_fn(|j| factors.solve(entries(|i| if i == j { R::one() } else { R::zero() })));
     Some(core::array::from_fn(|i| core::array::from_fn(|j| columns[j][i])))
 }
 

@@ -8,6 +8,7 @@
 //! that of two steps, and aim at a smaller part of the tolerance: `docs/integrators.md` has what that is worth. The other
 //! methods differ in the constants that they give.
 
+use super::entries;
 use crate::error::{Cause, Setting};
 use crate::real::Real;
 
@@ -215,7 +216,7 @@ impl Tolerance {
     /// What an error in each entry is multiplied by, the larger of the entries of `x` and `y` counting.
     #[inline]
     pub fn weights<R: Real, const N: usize>(self, x: &[R; N], y: &[R; N]) -> [f64; N] {
-        core::array::from_fn(|i| {
+        entries(|i| {
             let (a, b) = (x[i].to_f64().abs(), y[i].to_f64().abs());
             1.0 / (self.absolute + self.relative * if a > b { a } else { b })
         })
@@ -250,7 +251,7 @@ impl Tolerance {
 /// The sum of the squares of the weighted entries, in four parts that do not wait for each other.
 #[inline]
 pub(super) fn squares<R: Real, const N: usize>(values: &[R; N], weights: &[f64; N]) -> f64 {
-    let parts: [f64; N] = core::array::from_fn(|i| {
+    let parts: [f64; N] = entries(|i| {
         let part = values[i].to_f64() * weights[i];
         part * part
     });

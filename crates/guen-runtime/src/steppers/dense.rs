@@ -1,5 +1,6 @@
 //! Dense output: the motion between the ends of a step, as a polynomial.
 
+use super::entries;
 use crate::real::Real;
 
 /// The motion over one step of a method, to be asked for any time within it.
@@ -111,7 +112,7 @@ impl<R: Real, const N: usize> Dense<R, N> {
         let mut x = terms.next().map_or([R::zero(); N], |(_, highest)| *highest);
         for (k, term) in terms {
             let factor = if k % 2 == 0 { s } else { rest };
-            x = core::array::from_fn(|i| term[i] + factor * x[i]);
+            x = entries(|i| term[i] + factor * x[i]);
         }
         x
     }

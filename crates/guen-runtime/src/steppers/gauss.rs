@@ -5,6 +5,7 @@ use super::control;
 use super::course::{Method, Reached, Statistics};
 use super::defect::quadrature;
 use super::dense::Dense;
+use super::entries;
 use super::fixed::{Fixed, Formula, Slopes};
 use super::landing::short_ways;
 use super::lu::{Complex, Lu};
@@ -39,7 +40,7 @@ macro_rules! gauss {
             ) -> Result<[R; N], Cause> {
                 let collocation = self.collocation.as_ref().ok_or(Cause::NoConvergence)?;
                 let change = solve(collocation, system, memory, from, h, statistics)?;
-                Ok(core::array::from_fn(|i| from.state[i] + change[i]))
+                Ok(entries(|i| from.state[i] + change[i]))
             }
 
             fn dense(
@@ -308,8 +309,8 @@ where
     let jacobian = memory.jacobian.unwrap_or_else(|| system.jacobian(from.time, &from.state));
     let Some(factors) = Lu::new(shifted(&jacobian, R::from_ratio(4, 1) / *h)) else { return smooth };
     let begun = collocation.first_slope(z, *h);
-    let stiff = factors.solve(core::array::from_fn(|i| first[i] - begun[i]));
-    core::array::from_fn(|i| {
+    let stiff = factors.solve(entries(|i| first[i] - begun[i]));
+    entries(|i| {
         let (smooth, stiff) = (smooth[i], stiff[i].to_f64().abs());
         if order == 4 || smooth >= stiff {
             return smooth.min(stiff);
@@ -342,12 +343,12 @@ where
     let last = system.rhs(to.time, &to.state);
     let begins = system.along(from.time, &from.state, R::one(), first);
     let ends = system.along(to.time, &to.state, R::one(), &last);
-    let middle = core::array::from_fn(|i| {
+    let middle = entries(|i| {
         ratio(1, 2) * (from.state[i] + to.state[i])
             + h * (ratio(5, 32) * (first[i] - last[i]) + h * ratio(1, 64) * (begins[i] + ends[i]))
     });
     let middle = system.rhs(from.time + h * ratio(1, 2), &middle);
-    core::array::from_fn(|i| {
+    entries(|i| {
         let slopes = ratio(7, 30) * (first[i] + last[i]) + ratio(16, 30) * middle[i];
         let mean = slopes + h * ratio(1, 60) * (begins[i] - ends[i]);
         (to.state[i] - from.state[i] - h * mean).to_f64().abs()

@@ -71,8 +71,25 @@ pub use tsit5::Tsit5;
 
 use crate::real::Real;
 
+/// An array, entry by entry.
+// A loop, because the calls behind `core::array::from_fn` are not always inlined, and lanes need that. Each closure given to that
+// function makes five more to compile, too.
+#[inline(always)]
+fn entries<T: Copy + Default, const N: usize>(mut entry: impl FnMut(usize) -> T) -> [T; N] {
+    let mut all = [T::default(); N];
+    for (i, place) in all.iter_mut().enumerate() {
+        *place = entry(i);
+    }
+    all
+}
+
+/// `h k`
+#[inline(always)]
+fn scaled<R: Real, const N: usize>(h: R, slope: &[R; N]) -> [R; N] {
+    entries(|i| h * slope[i])
+}
+
 /// `x + h k`
-// A loop, because the calls behind `core::array::from_fn` are not always inlined, and lanes need that.
 #[inline(always)]
 fn shifted<R: Real, const N: usize>(x: &[R; N], h: R, slope: &[R; N]) -> [R; N] {
     let mut shifted = *x;

@@ -5,6 +5,7 @@ use super::collocation::{Collocation, Factors, combined};
 use super::control::{self, Control, Margin, Tolerance};
 use super::course::{Course, Method, Reached};
 use super::dense::Dense;
+use super::entries;
 use super::landing::short_ways;
 use super::lu::Complex;
 use crate::decimal::{Parts, decimal};
@@ -343,17 +344,17 @@ where
                     // An estimate of the error, filtered by the real system so that stiff parts do not inflate it.
                     let recip = R::one() / h;
                     let sum = combined(&self.method.error, &z);
-                    let defect: [R; N] = core::array::from_fn(|k| slope[k] + recip * sum[k]);
+                    let defect: [R; N] = entries(|k| slope[k] + recip * sum[k]);
                     let mut off = lu.solve(defect);
                     let mut margin = Margin::of_mean::<N>(control::squares(&off, &weights));
                     if margin.is_finite() && !margin.is_enough() && (rejected || self.last.is_none()) {
-                        let moved = core::array::from_fn(|k| state[k] + off[k]);
+                        let moved = entries(|k| state[k] + off[k]);
                         let again = system.rhs(time, &moved);
                         self.reached.statistics.evaluations += 1;
-                        off = lu.solve(core::array::from_fn(|k| again[k] + recip * sum[k]));
+                        off = lu.solve(entries(|k| again[k] + recip * sum[k]));
                         margin = Margin::of_mean::<N>(control::squares(&off, &weights));
                     }
-                    let mut reached: [R; N] = core::array::from_fn(|k| state[k] + z[2][k]);
+                    let mut reached: [R; N] = entries(|k| state[k] + z[2][k]);
                     let finite = all_finite(&reached) && margin.is_finite();
                     if finite && margin.is_enough() {
                         system.restore(next, &mut reached).map_err(|_| Cause::Positions)?;

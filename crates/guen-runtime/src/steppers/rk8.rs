@@ -7,6 +7,7 @@ use super::fixed::{Changes, Fixed, Formula, Slopes};
 use super::landing::short_ways;
 use super::lane_guard::Moment;
 use super::lanes::LaneFormula;
+use super::scaled;
 use super::shifted;
 use super::tableau::{Stages, Tableau};
 use crate::error::Cause;
@@ -149,7 +150,7 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Changes<R, S, N> for Rk8
         dense: bool,
         statistics: &mut Statistics,
     ) -> [R; N] {
-        self.slope(system, memory, from, h, dense, statistics).map(|slope| h * slope)
+        scaled(h, &self.slope(system, memory, from, h, dense, statistics))
     }
 }
 

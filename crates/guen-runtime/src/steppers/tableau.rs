@@ -4,6 +4,7 @@
 use super::course::Reached;
 use super::dense::Dense;
 use super::dop853_coefficients as published;
+use super::scaled;
 use super::{ahead, arrived, leading, moved, shifted, weighted};
 use crate::decimal::reals;
 use crate::real::Real;
@@ -323,10 +324,9 @@ impl<R: Real> Tableau<R> {
         let k14 = at(0, weighted(&self.a14, [k1, k7, k8, k9, k10, k11, k12, end]));
         let k15 = at(1, weighted(&self.a15, [k1, k6, k7, k8, k11, k12, end, &k14]));
         let k16 = at(2, weighted(&self.a16, [k1, k6, k7, k8, k9, end, &k14, &k15]));
-        let further = self.d.map(|d| {
-            let slope = weighted(&d, [k1, k6, k7, k8, k9, k10, k11, k12, end, &k14, &k15, &k16]);
-            slope.map(|slope| h * slope)
-        });
+        let further = self
+            .d
+            .map(|d| scaled(h, &weighted(&d, [k1, k6, k7, k8, k9, k10, k11, k12, end, &k14, &k15, &k16])));
         Dense::hermite(from.time, h, &from.state, k1, &to.state, end).with_terms(further)
     }
 }

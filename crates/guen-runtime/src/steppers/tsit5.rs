@@ -5,6 +5,7 @@ use super::control::{self, Control, Margin, Tolerance};
 use super::course::{Method, Reached};
 use super::dense::Dense;
 use super::landing::short_ways;
+use super::scaled;
 use super::tsit5_coefficients as published;
 use super::{ahead, arrived, leading, shifted, weighted};
 use crate::decimal::reals;
@@ -162,7 +163,7 @@ impl<R: Real, const N: usize> Pair<R, N> for Formula<R> {
         // The formula's own slope at the end: where a constraint was restored, the state's is another.
         let hermite = Dense::hermite(from.time, h, &from.state, &stages[0], &to.state, &stages[6]);
         let bend = weighted(&self.d, stages.each_ref());
-        (hermite.with_terms([bend.map(|bend| h * bend)]), 0)
+        (hermite.with_terms([scaled(h, &bend)]), 0)
     }
 }
 

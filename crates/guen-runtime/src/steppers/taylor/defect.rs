@@ -1,5 +1,6 @@
 //! What the series does not satisfy of the equations of motion: its defect at a place within its step.
 
+use super::super::entries;
 use super::Series;
 use crate::real::{Ordered, Real};
 use crate::series::TaylorSeries;
@@ -92,7 +93,7 @@ impl<R: Ordered, const N: usize> Defect<'_, R, N> {
 /// A state whose entries are off by so many roundings, every other one to the other side.
 fn neighbour<R: Real, const N: usize>(state: &[R; N], roundings: f64) -> [R; N] {
     let part = R::epsilon() * R::from_f64(roundings);
-    core::array::from_fn(|i| {
+    entries(|i| {
         let change = state[i] * part;
         if i % 2 == 0 { state[i] + change } else { state[i] - change }
     })

@@ -3,6 +3,8 @@
 use super::super::all_finite;
 use super::super::control;
 use super::super::course::{Course, Reached, Statistics};
+use super::super::entries;
+use super::super::scaled;
 use super::defect::{self, Defect};
 use super::{Series, Taylor};
 use crate::error::Cause;
@@ -187,9 +189,9 @@ impl<'a, R: Ordered, const N: usize> Run<'a, R, N> {
         let series = &self.series[self.here()];
         let part = h * R::from_f64(defect::INSIDE);
         let (change, slope) = series.change_and_slope(part / series.scale);
-        let state = core::array::from_fn(|i| series.coefficients[0][i] + change[i]);
+        let state = entries(|i| series.coefficients[0][i] + change[i]);
         let time = series.start + part;
-        let rates = system.rhs(time, &state).map(|rate| rate * part);
+        let rates = scaled(part, &system.rhs(time, &state));
         self.reached.statistics.evaluations += 1;
         Defect { series, time, state: &state, length: part, slope: &slope, weights }.is_none(system, &rates)
     }
@@ -249,10 +251,10 @@ impl<R: Ordered, const N: usize> Run<'_, R, N> {
         let rates = if ahead {
             let after = &self.series[here ^ 1];
             let part = h / after.scale;
-            after.coefficients[1].map(|rate| rate * part)
+            scaled(part, &after.coefficients[1])
         } else {
             self.reached.statistics.evaluations += 1;
-            system.rhs(next, &state).map(|rate| rate * h)
+            scaled(h, &system.rhs(next, &state))
         };
         let series = &self.series[here];
         if !all_finite(&rates) {
@@ -267,7 +269,7 @@ impl<R: Ordered, const N: usize> Run<'_, R, N> {
         }
         // The series leads to where the state was before it was put back.
         self.reached.statistics.evaluations += 1;
-        let rates = system.rhs(next, &sum).map(|rate| rate * h);
+        let rates = scaled(h, &system.rhs(next, &sum));
         if (Defect { state: &sum, ..defect }).is_none(system, &rates) {
             Ok(Trial { state, rest, ahead })
         } else {

@@ -1,5 +1,7 @@
 //! The motion over one step, as its series.
 
+use super::super::entries;
+use super::super::scaled;
 use crate::real::Real;
 use crate::series::{Coefficients, HIGHEST_ORDER};
 use crate::steppers::dense::Interpolant;
@@ -32,7 +34,7 @@ impl<R: Real, const N: usize> Series<R, N> {
                 *entry = *entry * s + *coefficient;
             }
         }
-        sum.map(|entry| entry * s)
+        scaled(s, &sum)
     }
 
     /// The change, to the same bits, and what the rates times the time would make it: `sum_{k>=1} k x_k s^k`.
@@ -47,14 +49,14 @@ impl<R: Real, const N: usize> Series<R, N> {
                 sum[i] = sum[i] * s + below[i];
             }
         }
-        let slope = core::array::from_fn(|i| (sum[i] + slope[i] * s) * s);
-        (sum.map(|entry| entry * s), slope)
+        let slope = entries(|i| (sum[i] + slope[i] * s) * s);
+        (scaled(s, &sum), slope)
     }
 }
 
 impl<R: Real, const N: usize> Interpolant<R, N> for Series<R, N> {
     fn at(&self, t: R) -> [R; N] {
         let change = self.change((t - self.start) / self.scale);
-        core::array::from_fn(|i| self.coefficients[0][i] + change[i])
+        entries(|i| self.coefficients[0][i] + change[i])
     }
 }
