@@ -3,9 +3,11 @@
 
     python3 benches/build_time.py                # one build of each
     python3 benches/build_time.py --repeats 3    # the least of three, taken in turn
+    python3 benches/build_time.py --optimised    # instead: macros built with optimisation, and what a changed file waits for
 
 Every build begins with an empty target folder; sources are fetched before and not counted. The projects with guen declare the hoop of the
-README and integrate it. `processor` adds up the seconds of all cores and depends less on what else the machine does.
+README and integrate it. With `--optimised` they declare the bicycle of the tests, and the second build, after the file was touched, expands
+it again. `processor` adds up the seconds of all cores and depends less on what else the machine does.
 """
 
 import argparse
@@ -61,10 +63,36 @@ def measure(folder, options):
     return build(folder, options)
 
 
+def bicycle():
+    """The largest declaration of the tests, as a program."""
+    text = (ROOT / "tests/spatial/bicycle.rs").read_text()
+    return text[text.index("guen::mechanical_system!") :].partition("\n}\n")[0] + "\n}\n" + PLAIN
+
+
+def optimised():
+    """Builds with each level of the macro's optimisation: from nothing, and after a change of the own file."""
+    print(f"| build-override | first build | processor | changed file | processor |\n{'| --- ' * 5}|")
+    for level in range(4):
+        with tempfile.TemporaryDirectory(prefix="guen-build-") as place:
+            folder = pathlib.Path(place) / "new"
+            prepare(folder, PROJECTS["guen"][0], True)
+            (folder / "src/main.rs").write_text(bicycle())
+            options = ["--config", f"profile.dev.build-override.opt-level={level}"]
+            _, first, work = build(folder, options)
+            (folder / "src/main.rs").touch()
+            _, again, less = build(folder, options)
+        print(f"| `opt-level = {level}` | {first:.0f} s | {work:.0f} s | {again:.1f} s | {less:.1f} s |", flush=True)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--repeats", type=int, default=1)
-    repeats = parser.parse_args().repeats
+    parser.add_argument("--optimised", action="store_true")
+    arguments = parser.parse_args()
+    if arguments.optimised:
+        optimised()
+        return
+    repeats = arguments.repeats
     with tempfile.TemporaryDirectory(prefix="guen-build-") as empty:
         folders = {}
         for name, (dependencies, declares) in PROJECTS.items():
