@@ -4,7 +4,9 @@
 extern crate guen_benchmarks;
 
 mod allocations;
+mod by_hand;
 mod carried;
+mod extremes;
 mod guards;
 mod lanes;
 mod promise;

@@ -75,7 +75,7 @@ fn follow<S, D, const N: usize, const M: usize>(
     sampled(case, &subject.system, &start, &bounds, allowed, &Rk8::new(0.005));
     // Shorter, because debug builds solve linear systems slowly.
     let mut early = case.clone();
-    early.times.retain(|t| *t <= 4.0);
+    early.times.retain(|t| *t <= 2.0);
     sampled(&early, &subject.system, &start, &bounds, allowed, &Gauss6::new(0.005));
     sampled(&early, &subject.system, &start, &bounds, allowed, &Radau5::new(tolerance, tolerance));
 }

@@ -1,7 +1,7 @@
 //! Carried forms of systems drawn at random, with every elementary function of the language: no call is left, the rates are
 //! those of the system, and those of the functions are what central differences along the motion show.
 
-use crate::common::{derived, evaluated};
+use crate::common::{derived, evaluated, rounds};
 use guen_language::derive::{Derived, Level, function};
 use guen_symbolic::{Role, SymbolId};
 
@@ -151,7 +151,7 @@ fn check(text: &str, derived: &Derived<'_>, draw: &mut Sequence) {
 #[test]
 fn random_systems_move_as_they_did() {
     let mut draw = Sequence(7);
-    for _ in 0..60 {
+    for _ in 0..rounds(16) {
         let text = declaration(&mut draw);
         derived(&text, |derived| check(&text, derived, &mut draw));
     }

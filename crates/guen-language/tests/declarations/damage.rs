@@ -4,6 +4,7 @@
 
 use std::time::Instant;
 
+use crate::common::rounds;
 use crate::corpus::{ONCE_FAILED, SOUND, check, damaged, pipeline, strangers};
 use proc_macro2::TokenStream;
 
@@ -22,8 +23,7 @@ const MOST_WORK: u64 = 1_000_000;
 
 #[test]
 fn damage_never_panics_and_is_told_inside_of_the_tokens() {
-    // More by `GUEN_ROUNDS=100000`.
-    let rounds = std::env::var("GUEN_ROUNDS").ok().and_then(|rounds| rounds.parse().ok()).unwrap_or(8000);
+    let rounds = rounds(2000) as usize;
     let started = Instant::now();
     let pool = strangers();
     let sound: Vec<TokenStream> = SOUND.iter().map(|text| text.parse().unwrap()).collect();

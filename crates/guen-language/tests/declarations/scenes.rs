@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::common::{derived, evaluated};
+use crate::common::{derived, evaluated, rounds};
 use guen_language::derive::{Derived, Level};
 use guen_language::model;
 use guen_symbolic::{Role, SymbolId};
@@ -134,8 +134,7 @@ fn closed(depends: &[Vec<bool>], start: impl IntoIterator<Item = usize>) -> BTre
 
 #[test]
 fn what_is_kept_is_what_the_numbers_need() {
-    // More by `GUEN_ROUNDS=1000`.
-    let rounds = std::env::var("GUEN_ROUNDS").ok().and_then(|rounds| rounds.parse().ok()).unwrap_or(12);
+    let rounds = rounds(8);
     let mut draw = Sequence(11);
     let (mut smaller, mut parts, mut scenes) = (0, 0, 0);
     for _ in 0..rounds {

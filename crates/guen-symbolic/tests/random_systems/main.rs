@@ -24,23 +24,25 @@ mod words;
 use closure::Shapes;
 use sweep::Tally;
 
-/// Systems drawn: enough that five hundred remain when ill-conditioned ones are left out.
-const DRAWN: u64 = 540;
-/// Systems that must be left.
-const COMPARED: usize = 500;
-/// Systems in which each feature must differ from zero.
-const SHOWN: usize = 50;
+/// Systems drawn in every run; `GUEN_ROUNDS` asks for others, as `.ci/run` does in an optimised build.
+const DRAWN: u64 = 160;
+
+/// How many are drawn.
+fn rounds(quick: u64) -> u64 {
+    std::env::var("GUEN_ROUNDS").ok().and_then(|rounds| rounds.parse().ok()).unwrap_or(quick)
+}
 /// The machines that this runs on have two cores.
 const THREADS: u64 = 2;
 
 #[test]
 fn equations_of_drawn_systems_are_those_with_multipliers() {
+    let rounds = rounds(DRAWN);
     let tallies: Vec<Tally> = std::thread::scope(|scope| {
         let threads: Vec<_> = (0..THREADS)
             .map(|thread| {
                 scope.spawn(move || {
                     let (mut tally, mut shapes) = (Tally::default(), Shapes::default());
-                    for seed in (thread..DRAWN).step_by(THREADS as usize) {
+                    for seed in (thread..rounds).step_by(THREADS as usize) {
                         tally.examine(seed, &mut shapes);
                     }
                     tally
@@ -64,7 +66,12 @@ fn equations_of_drawn_systems_are_those_with_multipliers() {
     for (name, count) in poincare::NAMES.iter().zip(tally.turned) {
         println!("  {name}: {count}");
     }
-    assert!(tally.compared() >= COMPARED);
+    assert!(
+        tally.compared() as u64 >= rounds - rounds / 12,
+        "few are left when ill-conditioned ones are left out"
+    );
+    // Systems in which each feature must differ from zero.
+    let shown = rounds as usize / 11;
     assert!(rate < 20.0, "too many draws are rejected");
     for name in [
         "C_0st",
@@ -76,9 +83,9 @@ fn equations_of_drawn_systems_are_those_with_multipliers() {
         "integrable only in combination",
         "rates in other words",
     ] {
-        assert!(tally.features[name] >= SHOWN, "{name} differs from zero in too few systems");
+        assert!(tally.features[name] >= shown, "{name} differs from zero in too few systems");
     }
     for (name, count) in poincare::NAMES.iter().zip(tally.turned) {
-        assert!(count >= SHOWN, "the sign of {name} is seen in too few systems");
+        assert!(count >= shown, "the sign of {name} is seen in too few systems");
     }
 }

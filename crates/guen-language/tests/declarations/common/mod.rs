@@ -5,6 +5,11 @@ use guen_language::diagnostics::collect;
 use guen_language::{model, parse};
 use guen_symbolic::{SymbolId, evaluate_function, evaluate_prepare};
 
+/// How many a test draws: so many in every run, and more with `GUEN_ROUNDS`, as `.ci/run` asks for them in an optimised build.
+pub fn rounds(quick: u64) -> u64 {
+    std::env::var("GUEN_ROUNDS").ok().and_then(|rounds| rounds.parse().ok()).unwrap_or(quick)
+}
+
 /// Looks at what follows from a declaration in which nothing is wrong.
 pub fn derived<T>(text: &str, look: impl FnOnce(&Derived<'_>) -> T) -> T {
     let (declaration, report) = parse::parse(text.parse().expect("tokens"));

@@ -28,7 +28,7 @@ use guen_language::derive::{Derived, function};
 use guen_language::model::{self, Model};
 use guen_symbolic::{ExprId, SymbolId};
 
-use crate::common::{derived, evaluated};
+use crate::common::{derived, evaluated, rounds};
 use declared::Declared;
 use draw::Draw;
 
@@ -136,10 +136,9 @@ fn difference(text: &str, derived: &Derived<'_>, seed: u64) -> (f64, usize) {
     (worst, states)
 }
 
-/// More of them with `GUEN_ROUNDS`.
 #[test]
 fn programs_of_drawn_declarations_are_what_they_mean() {
-    let rounds = std::env::var("GUEN_ROUNDS").ok().and_then(|rounds| rounds.parse().ok()).unwrap_or(100_u64);
+    let rounds = rounds(32);
     let run = |thread: u64| -> (f64, usize) {
         let mut all = (0.0_f64, 0);
         for seed in (thread..rounds).step_by(2) {

@@ -23,9 +23,9 @@ use lines::Format;
 use names::Name;
 use report::Checked;
 
-/// Systems in every run; a thousand with `GUEN_ROUNDS=1000`.
+/// Systems drawn.
 fn rounds() -> u64 {
-    std::env::var("GUEN_ROUNDS").ok().and_then(|rounds| rounds.parse().ok()).unwrap_or(40)
+    crate::common::rounds(12)
 }
 
 /// A drawn declaration: every fourth one of bodies, which take longer, the others of forms; every second one with scenes, every
@@ -105,7 +105,7 @@ fn reports_of_the_systems_of_the_repository_say_what_was_derived() {
 fn drawn_expressions_are_read_as_they_were() {
     let mut draw = Draw::new(3);
     let mut seen = 0;
-    for round in 0..12 * rounds() {
+    for round in 0..20 * rounds() {
         // Graphs grow; a new one is as quick as a small one.
         let (mut graph, symbols, scope) = expressions::world();
         let mut wanted = || expressions::expression(&mut draw, &mut graph, &symbols, 1 + round as usize % 4);
@@ -139,5 +139,5 @@ fn drawn_expressions_are_read_as_they_were() {
         }
     }
     println!("{seen} formulas");
-    assert!(seen as u64 > 60 * rounds());
+    assert!(seen as u64 > 100 * rounds());
 }

@@ -1,32 +1,21 @@
-//! The shortened battery of extremes, and the errors of right-hand sides: see `docs/extremes.md`.
-//!
-//! Builds without optimisation take the reference in 71 digits slowly: they ask less. All of it is in
+//! What was silent once, each by itself: steps that are too long where nobody looked. The whole battery is
 //! `cargo run --release -p guen-measure --bin extremes`.
 
 use guen::prelude::*;
 use guen::steppers::Method;
 use guen_benchmarks::systems::{EulerTop, Hoop, hoop};
 
-use super::{battery, bounds};
-use battery::systems::Damped;
-
-/// Systems whose lines are quick without optimisation too.
-const CHEAP: [&str; 5] = ["constants", "lanes", "single", "units", "starts"];
-
-#[test]
-fn no_failure_is_silent() {
-    let wanted =
-        |task: &battery::Task| task.quick && (!cfg!(debug_assertions) || CHEAP.contains(&task.system));
-    let tasks: Vec<battery::Task> = battery::tasks().into_iter().filter(wanted).collect();
-    let asked = tasks.len();
-    let lines = battery::run(tasks, 2, |_, _, line, seconds| println!("{seconds:.1} s: {}", line.asked));
-    lines.iter().for_each(|line| println!("{}", battery::table::paragraph(line)));
-    let (right, refused, failures) = battery::table::count(&lines);
-    assert_eq!((lines.len(), failures), (asked, 0));
-    assert!(right > 40 && refused > 40, "{right} right, {refused} refused");
+guen::mechanical_system! {
+    system Damped {
+        constants { m > 0, k, c >= 0 }
+        coordinates { q }
+        parameters { v = dot(q); }
+        kinetic_energy   = m/2*v^2;
+        potential_energy = k/2*q^2;
+        forces { -c*v along v; }
+    }
 }
 
-/// What was silent once, each by itself: steps that are too long where nobody looked.
 #[test]
 fn what_was_silent_is_refused() {
     fn cause<M, S, const N: usize>(method: &M, system: &S, start: &[f64; N], span: f64) -> Cause
@@ -75,26 +64,4 @@ fn what_was_silent_is_refused() {
     ] {
         assert!((end[1] + 1e-6).abs() < 1e-12, "{end:?}");
     }
-}
-
-#[test]
-fn right_hand_sides_are_as_accurate_as_their_condition_allows() {
-    let states = if cfg!(debug_assertions) { 20 } else { 10_000 };
-    let (mut tightest, mut refused) = (0.0_f64, 0);
-    for found in bounds::all(states, 2, None, |found| println!("{:.1} s: {}", found.seconds, found.system)) {
-        println!("{found}");
-        assert!(
-            found.holds(),
-            "{}: beyond {} u (cond + kappa); {}",
-            found.system,
-            bounds::FACTOR,
-            found.worst
-        );
-        tightest = tightest.max(found.whole[0][0].largest());
-        refused += usize::from(found.refused.is_some());
-    }
-    // The sled whose mass matrix has less left than single precision has.
-    assert_eq!(refused, 1);
-    // The bound is not idle: some errors come near it.
-    assert!(tightest > 0.02 * bounds::FACTOR, "{tightest}");
 }
