@@ -10,6 +10,8 @@ use crate::Progress;
 pub(super) enum Stage {
     Scan,
     Reference,
+    /// A reference of fewer digits, where the other one took too long.
+    Shorter,
     Accuracy,
     Nearby,
     Timing,
@@ -19,10 +21,11 @@ impl Stage {
     fn part(self) -> (f64, f64) {
         match self {
             Self::Scan => (0.0, 0.1),
-            Self::Reference => (0.1, 0.35),
-            Self::Accuracy => (0.35, 0.55),
-            Self::Nearby => (0.55, 0.7),
-            Self::Timing => (0.7, 1.0),
+            Self::Reference => (0.1, 0.3),
+            Self::Shorter => (0.3, 0.45),
+            Self::Accuracy => (0.45, 0.6),
+            Self::Nearby => (0.6, 0.72),
+            Self::Timing => (0.72, 1.0),
         }
     }
 }
@@ -53,8 +56,8 @@ impl Budget {
         }
         self.cancelled |= (self.stop)(done);
         let over = Instant::now() >= self.deadline(stage);
-        // Of a scan that ends early the report says what it saw.
-        self.late |= over && stage != Stage::Scan;
+        // Of a scan that ends early the report says what it saw, and another reference takes the place of one that does.
+        self.late |= over && !matches!(stage, Stage::Scan | Stage::Reference);
         !over && !self.cancelled
     }
 
@@ -74,6 +77,11 @@ impl Budget {
 
     pub fn is_cancelled(&self) -> bool {
         self.cancelled
+    }
+
+    /// Remembers whether something had to end early.
+    pub fn be_late(&mut self, late: bool) {
+        self.late |= late;
     }
 
     /// Whether a stage had to end early.

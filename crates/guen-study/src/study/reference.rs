@@ -1,15 +1,39 @@
-//! The reference: states in 71 digits by one method, and by another one, so that their difference is known.
+//! The reference: states in 71 digits by one method, and by another one, so that their difference is known; or in 31
+//! digits, where 71 take too long.
 
 use std::ops::ControlFlow;
 use std::rc::Rc;
 
-use guen_runtime::steppers::{Integration, Method, Outcome};
-use guen_runtime::{Real, System};
+use guen_runtime::steppers::{Dop853, Integration, Method, Outcome};
+use guen_runtime::{Ordered, System};
 
+use super::digits31::Digits31;
 use super::digits71::Digits71;
 use super::extrapolation::{Stop, extrapolate};
 
 type Long = Digits71;
+
+/// A real that references are computed in.
+pub(super) trait Extended: Ordered + 'static {
+    /// What a report says of it.
+    const NAME: &'static str;
+    /// The same number in the longest of them.
+    fn lengthened(self) -> Long;
+}
+
+impl Extended for Digits71 {
+    const NAME: &'static str = "71 digits";
+    fn lengthened(self) -> Long {
+        self
+    }
+}
+
+impl Extended for Digits31 {
+    const NAME: &'static str = "31 digits";
+    fn lengthened(self) -> Long {
+        Self::lengthened(self)
+    }
+}
 
 /// Where a reference is computed, and by what. `watch` is told the time reached, and says whether to go on.
 pub(super) type Source<const N: usize> =
@@ -46,8 +70,9 @@ impl<const N: usize> Problem<'_, N> {
 }
 
 /// Of the states at all stops those that are wanted.
-fn wanted<const N: usize>(stops: &[(f64, bool)], states: Vec<[Long; N]>) -> Vec<[Long; N]> {
-    stops.iter().zip(states).filter(|(stop, _)| stop.1).map(|(_, state)| state).collect()
+fn wanted<R: Extended, const N: usize>(stops: &[(f64, bool)], states: Vec<[R; N]>) -> Vec<[Long; N]> {
+    let kept = stops.iter().zip(states).filter(|(stop, _)| stop.1);
+    kept.map(|(_, state)| state.map(Extended::lengthened)).collect()
 }
 
 /// A source with what is to be said of it.
@@ -56,24 +81,51 @@ pub(super) struct Named<const N: usize> {
     pub source: Source<N>,
 }
 
-const CANCELLED: &str = "it was cancelled, or took longer than the study had for it";
+/// A reference, its check, and the reference of states nearby.
+pub(super) struct References<const N: usize> {
+    pub reference: Named<N>,
+    pub check: Named<N>,
+    pub elsewhere: Named<N>,
+}
+
+/// References in a real, the first of them at this tolerance.
+pub(super) fn references_in<R, S, const N: usize>(system: &Rc<S>, tolerance: f64) -> References<N>
+where
+    R: Extended,
+    S: System<R, N> + 'static,
+{
+    /// More than any reference can afford.
+    const STEPS: u64 = 100_000_000;
+    let check = Dop853::<R>::new(CHECK_TOLERANCE, CHECK_TOLERANCE).with_max_steps(STEPS);
+    let check_name = format!("DOP853 at {CHECK_TOLERANCE:e} in {}", R::NAME);
+    References {
+        reference: by_extrapolation::<R, S, N>(Rc::clone(system), tolerance),
+        elsewhere: by_extrapolation::<R, S, N>(Rc::clone(system), ELSEWHERE_TOLERANCE),
+        check: by_method(check_name, Rc::clone(system), check),
+    }
+}
+
+pub(super) const CANCELLED: &str = "it was cancelled, or took longer than the study had for it";
 
 /// The order of the reference is high, so that digits are cheap: 1e-24 is not twice the work of 1e-18.
 pub(super) const EXTRAPOLATION_TOLERANCE: f64 = 1e-24;
+/// That in 31 digits, of which the table of extrapolation leaves some 25.
+pub(super) const SHORTER_TOLERANCE: f64 = 1e-20;
 /// Of states nearby: far below the rounding of doubles.
-pub(super) const ELSEWHERE_TOLERANCE: f64 = 1e-18;
+const ELSEWHERE_TOLERANCE: f64 = 1e-18;
 /// The check is of order eight, where ten times the digits is twelve times the work: as tight as it has to be for
 /// differences below the rounding of doubles.
-pub(super) const CHECK_TOLERANCE: f64 = 1e-17;
+const CHECK_TOLERANCE: f64 = 1e-17;
 
-pub(super) fn by_extrapolation<S, const N: usize>(system: Rc<S>, tolerance: f64) -> Named<N>
+fn by_extrapolation<R, S, const N: usize>(system: Rc<S>, tolerance: f64) -> Named<N>
 where
-    S: System<Long, N> + 'static,
+    R: Extended,
+    S: System<R, N> + 'static,
 {
     let source = Box::new(move |problem: &Problem<'_, N>, watch: &mut dyn FnMut(f64) -> bool| {
-        let (start, t0) = (problem.start.map(Long::from_f64), Long::from_f64(problem.t0));
+        let (start, t0) = (problem.start.map(R::from_f64), R::from_f64(problem.t0));
         let stops = problem.stops();
-        let times: Vec<Long> = stops.iter().map(|(t, _)| Long::from_f64(*t)).collect();
+        let times: Vec<R> = stops.iter().map(|(t, _)| R::from_f64(*t)).collect();
         extrapolate(&*system, t0, &start, &times, tolerance, |t| watch(t.to_f64()))
             .map(|(states, _)| wanted(&stops, states))
             .map_err(|stop| match stop {
@@ -81,22 +133,26 @@ where
                 Stop::Cancelled => CANCELLED.to_owned(),
             })
     });
-    Named { name: format!("extrapolated midpoint rule of order 24, tolerance {tolerance:e}"), source }
+    Named {
+        name: format!("extrapolated midpoint rule of order 24, tolerance {tolerance:e}, in {}", R::NAME),
+        source,
+    }
 }
 
 /// A method of guen's, or of the user's, that lands on every time.
-pub(super) fn by_method<S, M, const N: usize>(name: String, system: Rc<S>, method: M) -> Named<N>
+pub(super) fn by_method<R, S, M, const N: usize>(name: String, system: Rc<S>, method: M) -> Named<N>
 where
-    S: System<Long, N> + 'static,
-    M: Method<Long, S, N> + 'static,
+    R: Extended,
+    S: System<R, N> + 'static,
+    M: Method<R, S, N> + 'static,
 {
     let source = Box::new(move |problem: &Problem<'_, N>, watch: &mut dyn FnMut(f64) -> bool| {
         let stops = problem.stops();
         let mut states = Vec::with_capacity(stops.len());
-        let (mut t, mut x) = (Long::from_f64(problem.t0), problem.start.map(Long::from_f64));
+        let (mut t, mut x) = (R::from_f64(problem.t0), problem.start.map(R::from_f64));
         for (next, _) in &stops {
-            let next = Long::from_f64(*next);
-            let mut look = |t: Long, _: &[Long; N]| {
+            let next = R::from_f64(*next);
+            let mut look = |t: R, _: &[R; N]| {
                 if watch(t.to_f64()) { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
             };
             let done = Integration::new(&*system, t, &x)

@@ -13,7 +13,7 @@ use super::known::Known;
 use super::lever::{Lever, Run, Task};
 use super::measure::{against, kept};
 use super::probes::{self, Probe};
-use super::reference::{Named, Problem, ReferenceReport};
+use super::reference::{CANCELLED, Named, Problem, ReferenceReport, References};
 use super::report::{Ending, Report, Unit};
 use super::row::{FailureKind, Nearby, Row};
 use super::timing::Cost;
@@ -51,7 +51,7 @@ pub(super) fn run<S, const N: usize>(mut study: Study<S, N>) -> Trade<N> {
     let times = study.times();
 
     let known = known(&study, &times, &mut budget);
-    let (references, reference) = references(&study, &times, &known, &mut budget);
+    let (references, reference) = references(&mut study, &times, &known, &mut budget);
     let mut tried = errors(&mut study, &times, &references, reference.as_ref(), &mut budget);
     let probes = nearby(&study, &times, &references, &known, &mut tried, &mut budget);
     costs(&mut study, &times, &mut tried, &mut budget);
@@ -113,9 +113,9 @@ fn known<S, const N: usize>(study: &Study<S, N>, times: &[f64], budget: &mut Bud
 }
 
 /// The reference of every start, and what is to be said of it. Nothing where the measure needs none, and nothing where
-/// one of them failed.
+/// one of them failed. Shorter reals take the place of long ones that take too long, from then on.
 fn references<S, const N: usize>(
-    study: &Study<S, N>,
+    study: &mut Study<S, N>,
     times: &[f64],
     known: &Known<N>,
     budget: &mut Budget,
@@ -123,6 +123,35 @@ fn references<S, const N: usize>(
     if !study.measure.needs_reference() {
         return (Vec::new(), None);
     }
+    let (found, said) = references_by(study, times, known, Stage::Reference, budget);
+    let slow = said.failure.as_ref().is_some_and(|failure| failure.ends_with(CANCELLED));
+    // States nearby take the time of the reference each, and half of that stage is for them.
+    let each = said.seconds / 2.0 / study.starts.len().max(1) as f64;
+    let nearby = 2.0 * each * study.probes as f64 > budget.share(Stage::Nearby).as_secs_f64();
+    if budget.is_cancelled() || !(slow || nearby) {
+        return (found, Some(said));
+    }
+    let Some(References { reference, check, elsewhere }) = study.shorter.take() else {
+        budget.be_late(slow);
+        return (found, Some(said));
+    };
+    study.elsewhere = elsewhere;
+    if !slow {
+        return (found, Some(said));
+    }
+    (study.reference, study.check) = (reference, Some(check));
+    let (found, said) = references_by(study, times, known, Stage::Shorter, budget);
+    (found, Some(said))
+}
+
+/// References by the methods of the study, within the time of a stage.
+fn references_by<S, const N: usize>(
+    study: &Study<S, N>,
+    times: &[f64],
+    known: &Known<N>,
+    stage: Stage,
+    budget: &mut Budget,
+) -> (Vec<Vec<[Digits71; N]>>, ReferenceReport) {
     let begun = budget.seconds();
     let span = (study.t1 - study.t0).abs().max(f64::MIN_POSITIVE);
     let runs = 2.0 * study.starts.len() as f64;
@@ -130,7 +159,7 @@ fn references<S, const N: usize>(
         let problem = Problem { start: &study.starts[k], t0: study.t0, times, landings: known.landings(k) };
         (named.source)(&problem, &mut |t| {
             let part = ((before + k) as f64 + (t - study.t0).abs() / span) / runs;
-            budget.goes_on(Stage::Reference, part)
+            budget.goes_on(stage, part)
         })
     };
     let mut said = ReferenceReport {
@@ -147,7 +176,7 @@ fn references<S, const N: usize>(
             Err(failure) => {
                 said.failure = Some(failure);
                 said.seconds = budget.seconds() - begun;
-                return (Vec::new(), Some(said));
+                return (Vec::new(), said);
             }
         }
     }
@@ -162,7 +191,7 @@ fn references<S, const N: usize>(
                 Err(failure) => {
                     said.failure = Some(format!("the check of the reference: {failure}"));
                     said.seconds = budget.seconds() - begun;
-                    return (found, Some(said));
+                    return (found, said);
                 }
             }
         }
@@ -178,7 +207,7 @@ fn references<S, const N: usize>(
         said.error = Some(largest);
     }
     said.seconds = budget.seconds() - begun;
-    (found, Some(said))
+    (found, said)
 }
 
 /// Runs every lever at its settings, from coarse to fine, until nothing is gained.

@@ -10,9 +10,10 @@ use guen_runtime::{
 };
 
 use super::code::{self, Origin};
+use super::digits31::Digits31;
 use super::lever::{Argument, Lever, Settings, Task, explicit_levers, lever, run_bounded};
 use super::row::Failure;
-use super::{Digits71, Study};
+use super::{Digits71, Study, reference};
 use crate::Ensemble;
 
 /// The explicit methods over a real, or a lever that failed if the constants cannot be prepared there.
@@ -118,6 +119,8 @@ where
     pub fn new(system: S, start: impl Into<[f64; N]>, span: Range<f64>) -> Result<Self, ConstantsError> {
         let doubles = Rc::new(system.recast::<f64>()?);
         let long = Rc::new(system.recast::<Digits71>()?);
+        // Constants that this real cannot hold leave the study without it.
+        let shorter = system.recast::<Digits31>().ok();
         let ends = (span.start, span.end);
         let mut levers = of_doubles("f64", &doubles, ends, Origin::Recast);
         levers.extend(over::<Digits13, S, N>("Digits13", &system, ends));
@@ -128,6 +131,9 @@ where
         levers.extend(implicit(&doubles, ends));
         let mut study = Self::bare(system, &doubles, &long, start.into(), span);
         study.levers = levers;
+        study.shorter = shorter.map(|system| {
+            reference::references_in::<Digits31, _, N>(&Rc::new(system), reference::SHORTER_TOLERANCE)
+        });
         Ok(study)
     }
 

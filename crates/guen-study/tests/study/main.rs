@@ -4,6 +4,7 @@
 
 mod doubt;
 mod kicks;
+mod shorter;
 
 use std::cell::Cell;
 use std::rc::Rc;
