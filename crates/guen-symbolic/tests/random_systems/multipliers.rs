@@ -71,6 +71,10 @@ pub fn solve(system: &Declared, point: &[f64]) -> Option<Multipliers> {
             matrix[(n + j, n + j)] = -1.0;
         }
     }
+    // The iteration for singular values does not end at a NaN.
+    if size == 0 || !matrix.iter().all(|e| e.is_finite()) {
+        return None;
+    }
     let singular = matrix.clone().svd(false, false).singular_values;
     let condition = singular.max() / singular.min();
     // NaN is not below either.

@@ -5,6 +5,7 @@
 //! algebra, the derivation or the optimiser.
 
 mod analytic;
+mod bodies;
 mod compiled;
 mod declared;
 #[allow(dead_code, reason = "systems drawn over expressions use the rest")]
@@ -14,6 +15,7 @@ mod functions;
 mod grammar;
 mod levels;
 mod meaning;
+mod mechanisms;
 #[allow(dead_code, reason = "systems drawn over expressions use the rest")]
 #[path = "../../../../guen-symbolic/tests/random_systems/multipliers.rs"]
 mod multipliers;
