@@ -57,6 +57,49 @@ guen::mechanical_system! {
     }
 }
 
+guen::mechanical_system! {
+    /// The chain of twenty links, with its series.
+    pub system Links {
+        constants { m > 0, l > 0, g = 9.81 }
+        coordinates {
+            q1, q2, q3, q4, q5, q6, q7, q8, q9, q10, q11, q12, q13, q14, q15, q16, q17, q18, q19, q20
+        }
+        let p1 = vec(l*sin(q1), -l*cos(q1));
+        let p2 = p1 + vec(l*sin(q2), -l*cos(q2));
+        let p3 = p2 + vec(l*sin(q3), -l*cos(q3));
+        let p4 = p3 + vec(l*sin(q4), -l*cos(q4));
+        let p5 = p4 + vec(l*sin(q5), -l*cos(q5));
+        let p6 = p5 + vec(l*sin(q6), -l*cos(q6));
+        let p7 = p6 + vec(l*sin(q7), -l*cos(q7));
+        let p8 = p7 + vec(l*sin(q8), -l*cos(q8));
+        let p9 = p8 + vec(l*sin(q9), -l*cos(q9));
+        let p10 = p9 + vec(l*sin(q10), -l*cos(q10));
+        let p11 = p10 + vec(l*sin(q11), -l*cos(q11));
+        let p12 = p11 + vec(l*sin(q12), -l*cos(q12));
+        let p13 = p12 + vec(l*sin(q13), -l*cos(q13));
+        let p14 = p13 + vec(l*sin(q14), -l*cos(q14));
+        let p15 = p14 + vec(l*sin(q15), -l*cos(q15));
+        let p16 = p15 + vec(l*sin(q16), -l*cos(q16));
+        let p17 = p16 + vec(l*sin(q17), -l*cos(q17));
+        let p18 = p17 + vec(l*sin(q18), -l*cos(q18));
+        let p19 = p18 + vec(l*sin(q19), -l*cos(q19));
+        let p20 = p19 + vec(l*sin(q20), -l*cos(q20));
+        parameters {
+            w1 = dot(q1); w2 = dot(q2); w3 = dot(q3); w4 = dot(q4); w5 = dot(q5);
+            w6 = dot(q6); w7 = dot(q7); w8 = dot(q8); w9 = dot(q9); w10 = dot(q10);
+            w11 = dot(q11); w12 = dot(q12); w13 = dot(q13); w14 = dot(q14); w15 = dot(q15);
+            w16 = dot(q16); w17 = dot(q17); w18 = dot(q18); w19 = dot(q19); w20 = dot(q20);
+        }
+        particles {
+            m at p1; m at p2; m at p3; m at p4; m at p5; m at p6; m at p7;
+            m at p8; m at p9; m at p10; m at p11; m at p12; m at p13; m at p14;
+            m at p15; m at p16; m at p17; m at p18; m at p19; m at p20;
+        }
+        gravity = vec(0, -g);
+        provide taylor;
+    }
+}
+
 /// Runs with either guard, by name.
 struct Pair {
     name: String,
@@ -224,6 +267,8 @@ fn pairs() -> Vec<Pair> {
     pairs.push(pair("hoop32", "rk8", single, short, 100.0, Rk8::new(1e-2)));
     pairs.extend(pairs_of("chain10", hanging, angles, 1.0));
     pairs.extend(fixed("chain20", long, bent, 1.0));
+    let linked = Links { m: 1.0, l: 0.5, g: 9.81 }.prepare().expect("positive constants");
+    pairs.push(pair("chain20", "taylor", linked, bent, 20.0, Taylor::new(1e-12)));
     pairs
 }
 

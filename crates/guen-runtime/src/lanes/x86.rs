@@ -12,6 +12,7 @@ use super::register::{Pair, Register};
 use super::{LaneTask, Width, run};
 
 /// Whether the processor has 256-bit registers with integer operations, and fused multiply-add.
+#[inline]
 pub(super) fn has_avx2() -> bool {
     #[cfg(feature = "std")]
     {
@@ -24,11 +25,17 @@ pub(super) fn has_avx2() -> bool {
 }
 
 /// Whether it has 512-bit registers, and the same instructions for shorter ones.
+#[inline]
 pub(super) fn has_avx512() -> bool {
+    has_avx2() && has_avx512_besides()
+}
+
+/// The same of a processor that has 256-bit registers.
+#[inline]
+fn has_avx512_besides() -> bool {
     #[cfg(feature = "std")]
     {
-        has_avx2()
-            && std::arch::is_x86_feature_detected!("avx512f")
+        std::arch::is_x86_feature_detected!("avx512f")
             && std::arch::is_x86_feature_detected!("avx512dq")
             && std::arch::is_x86_feature_detected!("avx512vl")
     }
@@ -90,14 +97,14 @@ pub(super) fn fused<T>(function: impl FnOnce() -> T) -> T {
 /// Calls a function with the longest registers that the processor has.
 #[inline(always)]
 pub(super) fn wide<T>(function: impl FnOnce() -> T) -> T {
-    if has_avx512() {
-        // SAFETY: the processor has been asked.
+    if !has_avx2() {
+        function()
+    } else if has_avx512_besides() {
+        // SAFETY: the processor has been asked, for both.
         unsafe { with_avx512(function) }
-    } else if has_avx2() {
+    } else {
         // SAFETY: the processor has been asked.
         unsafe { with_avx2(function) }
-    } else {
-        function()
     }
 }
 

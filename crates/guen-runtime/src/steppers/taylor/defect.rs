@@ -9,6 +9,19 @@ use crate::series::TaylorSeries;
 /// would vanish.
 pub(super) const INSIDE: f64 = 0.45;
 
+/// The order up to which the terms of a series of order `p` count there. If at the end of the step they fall to the tolerance like
+/// `tol^(k/p)`, at this place those of
+///
+/// ```text
+/// k > p log(tol) / (log(tol) + p log(INSIDE))
+/// ```
+///
+/// are below it, and `k` times as much, which they add to the slope, is below [`ALLOWED`].
+pub(super) fn order_inside(order: usize, tolerance: f64) -> usize {
+    let (order, digits) = (order as f64, libm::log2(tolerance).min(0.0));
+    (order * digits / (digits + order * libm::log2(INSIDE))) as usize
+}
+
 /// The largest defect over a step, in units of the tolerance. What order `p` leaves out of it is about `(p + 1)/16`, so
 /// that a step is not refused because of what its length is chosen by.
 const ALLOWED: f64 = 64.0;
@@ -35,22 +48,31 @@ pub(super) struct Defect<'a, R, const N: usize> {
 }
 
 impl<R: Ordered, const N: usize> Defect<'_, R, N> {
-    /// Whether the defect is within the tolerance, or no more than the rounding of the rates. `rates` are `h f` at the place.
-    #[inline]
+    /// Whether the defect is within the tolerance, or no more than the rounding of the rates. `rates` are `f` at the place.
+    ///
+    /// Not inlined, so that `benches/guard_instructions.py` finds what it costs.
+    #[inline(never)]
     pub fn is_none<S>(&self, system: &S, rates: &[R; N]) -> bool
     where
         S: TaylorSeries<R, N> + ?Sized,
     {
-        let mut largest = 0.0_f64;
+        self.is_small(rates) || self.is_rounding(system, rates)
+    }
+
+    /// Whether the defect is within the tolerance.
+    #[inline(always)]
+    pub fn is_small(&self, rates: &[R; N]) -> bool {
+        // All of them, without a branch in between.
+        let mut small = true;
         for ((slope, rate), weight) in self.slope.iter().zip(rates).zip(self.weights) {
-            let size = (*slope - *rate).to_f64().abs() * weight;
-            largest = if size <= largest { largest } else { size };
+            small &= (*slope - *rate * self.length).to_f64().abs() * weight <= ALLOWED;
         }
-        largest <= ALLOWED || (largest.is_finite() && self.is_rounding(system, rates))
+        small
     }
 
     /// Whether the rates are no better determined than the defect is large: those of neighbouring states differ as much.
     #[cold]
+    #[inline(never)]
     fn is_rounding<S>(&self, system: &S, rates: &[R; N]) -> bool
     where
         S: TaylorSeries<R, N> + ?Sized,
@@ -68,11 +90,11 @@ impl<R: Ordered, const N: usize> Defect<'_, R, N> {
         // Of the sum: the largest of its terms counts.
         let terms = self.terms(over);
         (0..N).all(|i| {
-            let at_end = here[i] * self.length - rates[i];
+            let at_end = (here[i] - rates[i]) * self.length;
             let at_begin = there[i] * self.length - self.series.coefficients[1][i] * over;
             let rounding = at_end.to_f64().abs() + at_begin.to_f64().abs() + R::epsilon().to_f64() * terms[i];
-            let defect = (self.slope[i] - rates[i]).to_f64().abs();
-            defect <= f64::max(ALLOWED / self.weights[i], FACTOR * rounding)
+            let defect = (self.slope[i] - rates[i] * self.length).to_f64().abs();
+            defect < f64::INFINITY && defect <= f64::max(ALLOWED / self.weights[i], FACTOR * rounding)
         })
     }
 

@@ -3,7 +3,6 @@
 use super::super::all_finite;
 use super::super::control;
 use super::super::course::{Course, Reached, Statistics};
-use super::super::entries;
 use super::super::scaled;
 use super::defect::{self, Defect};
 use super::{Series, Taylor};
@@ -16,10 +15,30 @@ use crate::series::{HIGHEST_ORDER, TaylorSeries};
 const SHORTER: f64 = 0.5;
 const LONGER: f64 = 2.0;
 
+/// Up to which orders terms are summed.
+#[derive(Clone, Copy, Debug)]
+struct Orders {
+    /// In a step.
+    step: usize,
+    /// Where the rates within it are compared.
+    inside: usize,
+}
+
+impl Orders {
+    fn new<R: Ordered>(method: &Taylor<R>) -> Result<Self, Cause> {
+        let step = method.checked_order()?;
+        let tolerance = method.tolerance();
+        let loosest = f64::max(tolerance.relative, tolerance.absolute);
+        Ok(Self { step, inside: defect::order_inside(step, loosest) })
+    }
+}
+
 /// A run of Taylor's method.
 #[derive(Clone, Copy, Debug)]
 pub struct Run<'a, R, const N: usize> {
     method: &'a Taylor<R>,
+    /// Known once the settings were found to be in order.
+    orders: Option<Orders>,
     /// When the run began.
     origin: R,
     reached: Reached<R, N>,
@@ -67,6 +86,7 @@ impl<'a, R: Ordered, const N: usize> Run<'a, R, N> {
     pub(super) fn new(method: &'a Taylor<R>, start: &Reached<R, N>) -> Self {
         Self {
             method,
+            orders: None,
             origin: start.time,
             reached: *start,
             rest: [R::zero(); N],
@@ -181,19 +201,49 @@ impl<'a, R: Ordered, const N: usize> Run<'a, R, N> {
         shortest
     }
 
-    /// Whether the rates within the step of length `h` are those of its series, in one place.
-    fn agrees_inside<S>(&mut self, system: &S, h: R, weights: &[f64; N]) -> bool
+    /// Whether the rates within the step of length `h` are those of its series, in one place: by the terms up to the order `low`, and
+    /// by all of them where these leave a doubt.
+    ///
+    /// Not inlined, so that `benches/guard_instructions.py` finds what it costs.
+    #[inline(never)]
+    fn agrees_inside<S>(&mut self, system: &S, low: usize, h: R, weights: &[f64; N]) -> bool
+    where
+        S: TaylorSeries<R, N> + ?Sized,
+    {
+        self.reached.statistics.evaluations += 1;
+        self.compare(system, low, h, weights, |defect, rates| defect.is_small(rates))
+            || self.agrees_by_all_terms(system, h, weights)
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn agrees_by_all_terms<S>(&mut self, system: &S, h: R, weights: &[f64; N]) -> bool
+    where
+        S: TaylorSeries<R, N> + ?Sized,
+    {
+        self.reached.statistics.evaluations += 1;
+        self.compare(system, HIGHEST_ORDER, h, weights, |defect, rates| defect.is_none(system, rates))
+    }
+
+    /// What a judge says of the terms up to an order, within the step of length `h`.
+    #[inline(always)]
+    fn compare<S>(
+        &self,
+        system: &S,
+        order: usize,
+        h: R,
+        weights: &[f64; N],
+        judge: impl FnOnce(&Defect<'_, R, N>, &[R; N]) -> bool,
+    ) -> bool
     where
         S: TaylorSeries<R, N> + ?Sized,
     {
         let series = &self.series[self.here()];
-        let part = h * R::from_f64(defect::INSIDE);
-        let (change, slope) = series.change_and_slope(part / series.scale);
-        let state = entries(|i| series.coefficients[0][i] + change[i]);
-        let time = series.start + part;
-        let rates = scaled(part, &system.rhs(time, &state));
-        self.reached.statistics.evaluations += 1;
-        Defect { series, time, state: &state, length: part, slope: &slope, weights }.is_none(system, &rates)
+        let length = h * R::from_f64(defect::INSIDE);
+        let time = series.start + length;
+        let (state, slope) = series.state_and_slope(order.min(series.order), length / series.scale);
+        let rates = system.rhs(time, &state);
+        judge(&Defect { series, time, state: &state, length, slope: &slope, weights }, &rates)
     }
 }
 
@@ -219,6 +269,7 @@ impl<R: Ordered, const N: usize> Run<'_, R, N> {
     fn attempt<S>(
         &mut self,
         system: &S,
+        orders: Orders,
         (next, h): (R, R),
         weights: &[f64; N],
         wanted: bool,
@@ -227,7 +278,6 @@ impl<R: Ordered, const N: usize> Run<'_, R, N> {
         S: TaylorSeries<R, N> + ?Sized,
     {
         let here = self.here();
-        let order = self.series[here].order;
         let (change, slope) = self.series[here].change_and_slope(h / self.series[here].scale);
         let (mut state, mut rest) = (self.reached.state, self.rest);
         for i in 0..N {
@@ -244,17 +294,17 @@ impl<R: Ordered, const N: usize> Run<'_, R, N> {
                 rest[i] = R::zero();
             }
         }
-        if !self.agrees_inside(system, h, weights) {
+        if !self.agrees_inside(system, orders.inside, h, weights) {
             return Err(Refused::Defect);
         }
-        let ahead = wanted && self.expand(system, here ^ 1, order, (next, &state)).is_ok();
+        let ahead = wanted && self.expand(system, here ^ 1, orders.step, (next, &state)).is_ok();
         let rates = if ahead {
             let after = &self.series[here ^ 1];
-            let part = h / after.scale;
+            let part = R::recip(after.scale);
             scaled(part, &after.coefficients[1])
         } else {
             self.reached.statistics.evaluations += 1;
-            scaled(h, &system.rhs(next, &state))
+            system.rhs(next, &state)
         };
         let series = &self.series[here];
         if !all_finite(&rates) {
@@ -269,7 +319,7 @@ impl<R: Ordered, const N: usize> Run<'_, R, N> {
         }
         // The series leads to where the state was before it was put back.
         self.reached.statistics.evaluations += 1;
-        let rates = scaled(h, &system.rhs(next, &sum));
+        let rates = system.rhs(next, &sum);
         if (Defect { state: &sum, ..defect }).is_none(system, &rates) {
             Ok(Trial { state, rest, ahead })
         } else {
@@ -292,7 +342,10 @@ where
     }
 
     fn advance(&mut self, system: &S, target: R, _dense: bool) -> Result<(), Cause> {
-        let order = self.method.checked_order()?;
+        let orders = match self.orders {
+            Some(orders) => orders,
+            None => *self.orders.insert(Orders::new(self.method)?),
+        };
         let limit = self.method.max_steps;
         let Reached { time, time_rest, state, statistics } = self.reached;
         if statistics.accepted + statistics.rejected >= limit {
@@ -303,7 +356,7 @@ where
             if self.scale == 0.0 {
                 self.scale = self.first_scale(system, span)?;
             }
-            self.expand(system, self.here(), order, (time, &state))?;
+            self.expand(system, self.here(), orders.step, (time, &state))?;
             self.ahead = true;
         }
         let weights = self.method.tolerance().weights(&state, &state);
@@ -321,7 +374,7 @@ where
             if step.is_finite() {
                 self.scale = power_of_two(step);
             }
-            match self.attempt(system, (next, h), &weights, !landing && !rejected) {
+            match self.attempt(system, orders, (next, h), &weights, !landing && !rejected) {
                 Ok(trial) => {
                     self.longest = LONGER * if rejected { step } else { self.longest };
                     self.made = self.here();

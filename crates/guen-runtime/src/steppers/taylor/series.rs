@@ -38,20 +38,53 @@ impl<R: Real, const N: usize> Series<R, N> {
     }
 
     /// The change, to the same bits, and what the rates times the time would make it: `sum_{k>=1} k x_k s^k`.
-    #[inline]
+    ///
+    /// Not inlined, so that `benches/guard_instructions.py` finds what it costs.
+    #[inline(never)]
     pub(super) fn change_and_slope(&self, s: R) -> ([R; N], [R; N]) {
-        let order = self.order.clamp(1, HIGHEST_ORDER);
-        let mut sum = self.coefficients[order];
-        let mut slope = [R::zero(); N];
-        for below in self.coefficients[1..order].iter().rev() {
-            for i in 0..N {
-                slope[i] = slope[i] * s + sum[i];
-                sum[i] = sum[i] * s + below[i];
-            }
-        }
-        let slope = entries(|i| (sum[i] + slope[i] * s) * s);
-        (scaled(s, &sum), slope)
+        let [_, rest @ ..] = &self.coefficients;
+        let terms = rest.get(..self.order).unwrap_or(rest);
+        R::wide(
+            #[inline(always)]
+            || {
+                // change = s q(s), slope = s (q(s) + s q'(s))
+                let (mut change, mut slope) = horner(terms, s);
+                for (change, slope) in change.iter_mut().zip(&mut slope) {
+                    *slope = (*change + *slope * s) * s;
+                    *change *= s;
+                }
+                (change, slope)
+            },
+        )
     }
+
+    /// The state of the terms up to an order, and what the rates times the time would make of them.
+    #[inline]
+    pub(super) fn state_and_slope(&self, order: usize, s: R) -> ([R; N], [R; N]) {
+        let terms = self.coefficients.get(..=order).unwrap_or(&self.coefficients);
+        R::wide(
+            #[inline(always)]
+            || {
+                let (state, slope) = horner(terms, s);
+                (state, scaled(s, &slope))
+            },
+        )
+    }
+}
+
+/// `sum_k a_k s^k` and `sum_k k a_k s^(k-1)`.
+#[inline(always)]
+fn horner<R: Real, const N: usize>(terms: &[[R; N]], s: R) -> ([R; N], [R; N]) {
+    let mut slope = [R::zero(); N];
+    let Some((highest, lower)) = terms.split_last() else { return (slope, slope) };
+    let mut sum = *highest;
+    for below in lower.iter().rev() {
+        for i in 0..N {
+            slope[i] = slope[i] * s + sum[i];
+            sum[i] = sum[i] * s + below[i];
+        }
+    }
+    (sum, slope)
 }
 
 impl<R: Real, const N: usize> Interpolant<R, N> for Series<R, N> {
