@@ -294,27 +294,50 @@ fn a_span_of_a_few_spacings_is_no_underflow() {
         let spacing = (f64::from_bits(clock.to_bits() + 1) - clock).abs();
         for spacings in 1..=12 {
             for end in [clock + f64::from(spacings) * spacing, clock - f64::from(spacings) * spacing] {
+                let right = |name: &str, here: [f64; 2], there: [f64; 2]| {
+                    let (here, there) = (off(end - clock, &here), off(end - clock, &there));
+                    let span = end - clock;
+                    assert!(
+                        here <= 2.0 * there + 1e-15,
+                        "{name} over {span} from {clock}: {here:e} {there:e}"
+                    );
+                };
                 macro_rules! check {
                     ($name:literal, $method:expr) => {
-                        let done = $method.integrate(&system, clock, &START, end, |t, _| go_on(t)).unwrap();
-                        let there =
-                            $method.integrate(&system, 0.0, &START, end - clock, |t, _| go_on(t)).unwrap();
-                        let (here, there) = (off(end - clock, &done.state), off(end - clock, &there.state));
-                        assert!(
-                            here <= 2.0 * there + 1e-15,
-                            "{} over {} from {clock}: {here:e} {there:e}",
-                            $name,
-                            end - clock
-                        );
+                        let run = |from: f64, to: f64| {
+                            $method.integrate(&system, from, &START, to, |t, _| go_on(t)).unwrap().state
+                        };
+                        right($name, run(clock, end), run(0.0, end - clock));
                     };
                 }
-                check!("DOP853", Dop853::new(1e-12, 1e-12));
-                check!("Tsit5", Tsit5::new(1e-9, 1e-9));
-                check!("Radau 5", Radau5::new(1e-9, 1e-9));
-                check!("Taylor", Taylor::new(1e-15));
-                check!("RK4", Rk4 { step: 0.1 * (end - clock).abs().max(1.0) });
-                check!("RK8", Rk8::new(1.0));
+                with_every_method!(check);
+                check!("RK4, compensated", Rk4 { step: 0.01 }.compensated());
+                for (name, work) in
+                    [("bounded DOP853", Bounded::dop853(12)), ("bounded Tsit5", Bounded::tsit5(7))]
+                {
+                    let run = |from: f64, to: f64| work.advance(&system, from, &START, to).unwrap().state;
+                    right(name, run(clock, end), run(0.0, end - clock));
+                }
+                let run = |from: f64, to: f64| dispatch(Width::Four, Ends(from, to));
+                let (here, there) = (run(clock, end), run(0.0, end - clock));
+                right("RK4 in lanes", here[0], there[0]);
+                right("RK8 in lanes", here[1], there[1]);
             }
         }
+    }
+}
+
+/// The ends of the first of all lanes, by both methods, over a span.
+struct Ends(f64, f64);
+
+impl LaneTask for Ends {
+    type Output = [[f64; 2]; 2];
+
+    fn run<L: Lanes>(self) -> Self::Output {
+        let Self(from, to) = self;
+        let start = START.map(L::from_f64);
+        let four = Rk4 { step: 0.01 }.integrate_in_lanes(&generic(Oscillator), from, &start, to);
+        let eight = Rk8::new(0.1).integrate_in_lanes(&generic(Oscillator), from, &start, to);
+        [four, eight].map(|ends| ends.lane(0).unwrap().as_ref().unwrap().state)
     }
 }
