@@ -148,3 +148,17 @@ fn loops_edges_and_moving_belts_keep_what_they_are_made_of() {
     }
     assert!(!disc.contains("unused") && !disc.contains("form whole"), "{disc}");
 }
+
+/// The page that tells the way from a body to its rates shows the graph of its own declaration.
+#[test]
+fn the_page_shows_the_graph_of_its_declaration() {
+    let page = include_str!("../../../../docs/design/derivation.md");
+    let mut blocks = page.split("```text\n").skip(1).map(|rest| rest.split("```").next().unwrap());
+    let (declaration, shown) = (blocks.next().unwrap(), blocks.next().unwrap());
+    let graph = structure(declaration);
+    for line in shown.lines() {
+        assert!(graph.lines().any(|other| other == line), "{line}\nis not in\n{graph}");
+    }
+    let is_tree = |line: &&str| line.starts_with("frame") || line.starts_with("body");
+    assert_eq!(graph.lines().filter(is_tree).count(), shown.lines().filter(is_tree).count());
+}

@@ -157,6 +157,15 @@ pub(super) fn walk(
                 continue;
             }
             let is_last = matches!(rank, Rank::Last(_));
+            if is_last {
+                // A program for what promises more would only cost time.
+                let least = weighted_cost(&bench.graph, &rates);
+                formulations.retain(|other| {
+                    let is_dearer = weighted_cost(&bench.graph, &other.rates) >= least;
+                    declined.extend(is_dearer.then_some((other.name, "another formulation promises less")));
+                    !is_dearer
+                });
+            }
             if let Rank::Base(solution) | Rank::Last(solution) = rank {
                 shown = Some((formulations.len(), solution));
             }
