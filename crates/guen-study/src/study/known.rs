@@ -81,10 +81,15 @@ pub(super) struct Motion<const N: usize> {
 }
 
 impl<const N: usize> Motion<N> {
+    /// By how much the finer motion may be off, given its difference from the coarser one.
+    pub fn uncertainty(&self, from_coarser: f64) -> f64 {
+        from_coarser + OF_JUMPS * self.uncertain
+    }
+
     /// By how much a reference is off that this motion contradicts, given the differences of the finer motion from it and from the
     /// coarser one: by nothing, where the motion may be off by as much.
     pub fn contradicts(&self, from_reference: f64, from_coarser: f64) -> f64 {
-        let allowed = from_coarser + ROUNDING + OF_JUMPS * self.uncertain;
+        let allowed = self.uncertainty(from_coarser) + ROUNDING;
         if from_reference <= allowed { 0.0 } else { from_reference }
     }
 }

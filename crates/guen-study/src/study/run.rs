@@ -98,6 +98,7 @@ pub(super) fn run<S, const N: usize>(mut study: Study<S, N>) -> Trade<N> {
         landings: known.landings(0).to_vec(),
         points: known.points_elsewhere,
         reference: study.elsewhere,
+        check: study.check,
     };
     Trade { report, means }
 }

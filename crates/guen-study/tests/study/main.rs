@@ -4,6 +4,7 @@
 
 mod doubt;
 mod kicks;
+mod promises;
 mod shorter;
 
 use std::cell::Cell;
