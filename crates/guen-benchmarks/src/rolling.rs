@@ -62,6 +62,29 @@ macro_rules! rattleback {
     } };
 }
 
+/// The rattleback in quaternions.
+#[macro_export]
+macro_rules! quaternion_rattleback {
+    ($($consumer:ident)::+ $(; $($more:tt)*)?) => { $($consumer)::+! {
+        /// The rattleback, quaternions in place of angles.
+        pub system QuaternionRattleback {
+            constants { m > 0, a > 0, b > 0, c > 0, h, A > 0, B > 0, C > 0, D, g = 9.81 }
+            coordinates { w, i, j, k, x, y, z }
+            let R = quaternion(w, i, j, k);
+            let n = transpose(R)*vec(0, 0, 1);
+            let size = sqrt((a*n.x)^2 + (b*n.y)^2 + (c*n.z)^2);
+            let lowest = vec(a^2*n.x, b^2*n.y, c^2*n.z)/-size;
+            let p = vec(x, y, z);
+            bodies { stone { mass: m, inertia: sym(A, B, C, D, 0, 0), center: p, orientation: R } }
+            gravity = vec(0, 0, -g);
+            parameters { spin = angular_velocity_body(R); }
+            constraints { rolling: stone.velocity_at(p + R*(lowest + vec(0, 0, h))) = 0; }
+            holonomic { length: w^2 + i^2 + j^2 + k^2 = 1; }
+            $($($more)*)?
+        }
+    } };
+}
+
 /// A car with a trailer on five wheels that roll, by the angle at the hitch.
 #[macro_export]
 macro_rules! rig {

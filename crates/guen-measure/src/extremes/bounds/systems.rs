@@ -25,6 +25,7 @@ mod declared {
     guen_benchmarks::belt_ball!(guen::mechanical_system);
     guen_benchmarks::quaternion_hoop!(guen::mechanical_system);
     guen_benchmarks::rattleback!(guen::mechanical_system);
+    guen_benchmarks::quaternion_rattleback!(guen::mechanical_system);
 }
 
 /// The prepared system in one real, driven by held inputs if it has any.
@@ -151,6 +152,11 @@ fn rolling() -> Vec<(&'static str, Job)> {
                 m: 1.5, a: 2.0, b: 0.5, c: 0.375, h: 0.125, A: 0.25, B: 1.5, C: 1.625, D: -0.0625, g: 9.8125
             },
             3 parameters, 9 + 10 = 19, anywhere, to([1], QUARTERS)),
+        bounded!("rattleback in quaternions",
+            declared::quaternion_rattleback::QuaternionRattleback {
+                m: 1.5, a: 2.0, b: 0.5, c: 0.375, h: 0.125, A: 0.25, B: 1.5, C: 1.625, D: -0.0625, g: 9.8125
+            },
+            3 parameters, 10 + 10 = 20, |random| turned(anywhere(random)), nearly_turned),
         bounded!("top", systems::euler_top::EulerTop { I1: 1.0, I2: 2.5, I3: 3.25 },
             3 parameters, 6 + 3 = 9, anywhere, to([1], FLAT)),
     ]
