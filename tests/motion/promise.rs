@@ -1,5 +1,5 @@
-//! `fastest_within` keeps its promise: chosen on one initial state and span, tried on twenty others, the error stays within
-//! ten times what was asked for, or it was said before that it would not, which it may be at most twice.
+//! `fastest_within` keeps its promise: chosen on one initial state and span, tried on others, the error stays within
+//! ten times what was asked for, or it was said before that it would not, which it may be of one in eight.
 //!
 //! Costs are evaluations, so that nothing here depends on time. The truth is in 71 digits.
 
@@ -42,6 +42,8 @@ const START: hoop::State = hoop::State {
 };
 const SPAN: Range<f64> = 0.0..1.5;
 const LONGER: Range<f64> = 0.0..2.0;
+/// Other states: few, for truth in 71 digits is slow in debug builds. `tradeoff` tries twenty of each of its systems.
+const OTHERS: usize = 8;
 
 fn trade(probes: usize) -> Trade<9> {
     let hoop = Hoop { a: 1.0, A: 0.5, C: 1.0, g: 9.81 };
@@ -59,16 +61,16 @@ fn trade(probes: usize) -> Trade<9> {
 
 #[test]
 fn what_is_chosen_holds_elsewhere_or_is_said_not_to() {
-    let trade = trade(20);
-    assert_eq!(trade.report.probes, 20);
+    let trade = trade(OTHERS);
+    assert_eq!(trade.report.probes, OTHERS);
     assert!(trade.report.reference.as_ref().unwrap().error.unwrap() < 1e-14);
     for asked in [1e-3, 1e-6, 1e-9] {
         let choice = trade.report.fastest_within(asked).unwrap();
         // Other states and another span.
-        let states = Trade::around(&START.into(), 20, 0.4, 31);
+        let states = Trade::around(&START.into(), OTHERS, 0.4, 31);
         for span in if asked == 1e-6 { vec![SPAN, LONGER] } else { vec![SPAN] } {
             let tried = trade.trial(choice.index, asked, states.iter().copied(), span.clone());
-            assert_eq!(tried.len(), 20);
+            assert_eq!(tried.len(), OTHERS);
             let excused = tried.iter().filter(|one| !one.forecast.holds()).count();
             let worst =
                 tried.iter().filter(|one| one.forecast.holds()).map(|one| one.error).fold(0.0, f64::max);
@@ -80,7 +82,7 @@ fn what_is_chosen_holds_elsewhere_or_is_said_not_to() {
             assert!(tried.iter().all(|one| one.kept), "{asked:e}: {tried:?}");
             assert!(worst <= 10.0 * asked);
             if span == SPAN {
-                assert!(excused <= 2, "{asked:e}: {excused}");
+                assert!(excused <= OTHERS / 8, "{asked:e}: {excused}");
             }
         }
     }

@@ -409,7 +409,7 @@ fn csv_says_what_the_rows_say() {
 #[cfg(feature = "serde")]
 #[test]
 fn json_comes_back() {
-    let report = oscillator().keep(|method, _| method == "RK4").run().report;
+    let report = oscillator().keep(plain).run().report;
     let text = serde_json::to_string(&report).unwrap();
     let back: Report = serde_json::from_str(&text).unwrap();
     assert_eq!(back, report);
