@@ -25,20 +25,30 @@ const LONGEST: Duration = Duration::from_secs(6);
 
 #[test]
 fn every_system_expands_in_seconds() {
-    let others = [TRICYCLE, LADEN_ELLIPSOID].map(|text| text.parse().unwrap());
-    for declaration in FILES.iter().flat_map(|file| declarations(file.parse().unwrap())).chain(others) {
-        let name = declaration.clone().into_iter().filter_map(|token| match token {
-            TokenTree::Ident(name) => Some(name.to_string()),
-            _ => None,
-        });
-        let name = name.skip_while(|name| name != "system").nth(1).unwrap_or_default();
-        let start = clock();
-        let items = guen_language::expand(declaration).to_string();
-        let time = clock() - start;
-        assert!(items.contains("REPORT"), "{name} does not expand");
-        println!("{name:16} {:6.0} ms, {:4} kB", time.as_secs_f64() * 1e3, items.len() / 1024);
-        assert!(time < LONGEST, "{name} took {time:?}");
-    }
+    // Tokens stay in their thread, and the machines that this runs on have two cores.
+    let half = |part: usize| {
+        let others = [TRICYCLE, LADEN_ELLIPSOID].map(|text| text.parse().unwrap());
+        let all = FILES.iter().flat_map(|file| declarations(file.parse().unwrap())).chain(others);
+        all.skip(part).step_by(2).for_each(expands);
+    };
+    std::thread::scope(|scope| {
+        scope.spawn(|| half(1));
+        half(0);
+    });
+}
+
+fn expands(declaration: TokenStream) {
+    let name = declaration.clone().into_iter().filter_map(|token| match token {
+        TokenTree::Ident(name) => Some(name.to_string()),
+        _ => None,
+    });
+    let name = name.skip_while(|name| name != "system").nth(1).unwrap_or_default();
+    let start = clock();
+    let items = guen_language::expand(declaration).to_string();
+    let time = clock() - start;
+    assert!(items.contains("REPORT"), "{name} does not expand");
+    println!("{name:16} {:6.0} ms, {:4} kB", time.as_secs_f64() * 1e3, items.len() / 1024);
+    assert!(time < LONGEST, "{name} took {time:?}");
 }
 
 /// A snake of ten links: twelve coordinates, ten constraints. Its brackets go on for longer than anybody waits, and its

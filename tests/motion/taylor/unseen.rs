@@ -98,7 +98,7 @@ fn a_pendulum_that_turns_back() {
         (bits >> 33) as f64 / (1_u64 << 31) as f64
     };
     let mut worst = 0.0_f64;
-    for _ in 0..40 {
+    for _ in 0..12 {
         let system = Dry { c: 0.2 + number(), e: 0.01 }.prepare().unwrap();
         let start = [1.0 + number(), 4.0 * number() - 2.0];
         let exact = reference(&system, start, 2.0);

@@ -151,7 +151,7 @@ fn check(text: &str, derived: &Derived<'_>, draw: &mut Sequence) {
 #[test]
 fn random_systems_move_as_they_did() {
     let mut draw = Sequence(7);
-    for _ in 0..rounds(16) {
+    for _ in 0..rounds(6) {
         let text = declaration(&mut draw);
         derived(&text, |derived| check(&text, derived, &mut draw));
     }

@@ -285,12 +285,12 @@ fn duals_carry_the_derivative_by_the_initial_state() {
 fn compensated_steps_keep_what_rounding_takes() {
     // x' = 2^-60 + 2^-9: the first part is lost in every plain sum.
     let drip = from_fn(|_t: f64, _: &[f64; 2]| [(-60.0_f64).exp2(), (-9.0_f64).exp2()]);
-    let steps = 1 << 20;
+    let steps = 1 << 16;
     let span = f64::from(steps);
     let method = Rk4 { step: 1.0 };
     let plain = Integration::new(&drip, 0.0, &[1.0, 0.0]).run(&method, span).unwrap();
     let done = Integration::new(&drip, 0.0, &[1.0, 0.0]).run(&method.compensated(), span).unwrap();
-    assert_eq!((plain.state[0], done.state[0] - 1.0), (1.0, (-40.0_f64).exp2()));
+    assert_eq!((plain.state[0], done.state[0] - 1.0), (1.0, (-44.0_f64).exp2()));
     let eighth = Integration::new(&drip, 0.0, &[1.0, 0.0]).run(&Rk8::new(1.0).compensated(), span).unwrap();
     assert!((eighth.state[0] - done.state[0]).abs() <= f64::EPSILON);
     assert_eq!(done.statistics, plain.statistics);

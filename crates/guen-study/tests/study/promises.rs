@@ -129,65 +129,78 @@ fn end<E: Equations<N> + Clone, const N: usize>(
     Some(Integration::new(system, span.start, start).run(method, span.end).ok()?.state)
 }
 
+/// Systems of one size are one type: every type that is studied takes the compiler two seconds.
 macro_rules! systems {
-    ($($(#[$doc:meta])* $name:ident, $n:literal, |$t:ident, $x:pat_param, $number:ident| $rates:expr;)*) => {
-        $($(#[$doc])* #[derive(Clone)]
-        struct $name;
-        impl Equations<$n> for $name {
-            #[allow(unused_variables)]
-            fn rates<R: Real>(&self, $t: R, $x: &[R; $n]) -> [R; $n] {
-                let $number = |value: f64| R::from_f64(value);
-                $rates
+    ($all:ident, $n:literal: $($(#[$doc:meta])* $name:ident, |$t:ident, $x:pat_param, $number:ident| $rates:expr;)*) => {
+        #[derive(Clone)]
+        enum $all {
+            $($(#[$doc])* $name,)*
+        }
+        impl Equations<$n> for $all {
+            fn rates<R: Real>(&self, t: R, x: &[R; $n]) -> [R; $n] {
+                match self {
+                    $(Self::$name => {
+                        #[allow(unused_variables)]
+                        let ($t, $x, $number) = (t, x, |value: f64| R::from_f64(value));
+                        $rates
+                    })*
+                }
             }
-        })*
+        }
     };
 }
 
-systems! {
-    Pendulum, 2, |t, &[q, w], n| [w, -n(9.81) * q.sin() - n(0.05) * w];
-    Duffing, 2, |t, &[x, v], n| [v, x - x * x * x - n(0.2) * v + n(0.3) * (n(1.2) * t).cos()];
-    VanDerPol, 2, |t, &[x, v], n| [v, n(5.0) * (n(1.0) - x * x) * v - x];
-    Kepler, 4, |t, &[x, y, u, v], n| {
+systems! { Two, 2:
+    Pendulum, |t, &[q, w], n| [w, -n(9.81) * q.sin() - n(0.05) * w];
+    Duffing, |t, &[x, v], n| [v, x - x * x * x - n(0.2) * v + n(0.3) * (n(1.2) * t).cos()];
+    VanDerPol, |t, &[x, v], n| [v, n(5.0) * (n(1.0) - x * x) * v - x];
+    Decay, |t, &[x, y], n| [n(-40.0) * (x - t.cos()), x - y];
+    Brusselator, |t, &[x, y], n| [n(1.0) + x * x * y - n(4.0) * x, n(3.0) * x - x * x * y];
+}
+
+systems! { Three, 3:
+    Lorenz, |t, &[x, y, z], n| [n(10.0) * (y - x), x * (n(28.0) - z) - y, x * y - n(8.0) / n(3.0) * z];
+    Top, |t, &[a, b, c], n| [n(-0.7) * b * c, n(0.9) * c * a, n(-0.35) * a * b];
+}
+
+systems! { Four, 4:
+    Kepler, |t, &[x, y, u, v], n| {
         let r = (x * x + y * y).sqrt();
         let cube = r * r * r;
         [u, v, -x / cube, -y / cube]
     };
-    HenonHeiles, 4, |t, &[x, y, u, v], n| [u, v, -x - n(2.0) * x * y, -y - x * x + y * y];
-    Lorenz, 3, |t, &[x, y, z], n| [n(10.0) * (y - x), x * (n(28.0) - z) - y, x * y - n(8.0) / n(3.0) * z];
-    Top, 3, |t, &[a, b, c], n| [n(-0.7) * b * c, n(0.9) * c * a, n(-0.35) * a * b];
+    HenonHeiles, |t, &[x, y, u, v], n| [u, v, -x - n(2.0) * x * y, -y - x * x + y * y];
     /// A pendulum on a spring.
-    Spring, 4, |t, &[r, q, v, w], n| {
+    Spring, |t, &[r, q, v, w], n| {
         [v, w, r * w * w - n(20.0) * (r - n(1.0)) + n(9.81) * q.cos(), -(n(2.0) * v * w + n(9.81) * q.sin()) / r]
     };
-    Decay, 2, |t, &[x, y], n| [n(-40.0) * (x - t.cos()), x - y];
-    Brusselator, 2, |t, &[x, y], n| [n(1.0) + x * x * y - n(4.0) * x, n(3.0) * x - x * x * y];
     /// Two pendulums, one on the other.
-    Double, 4, |t, &[a, b, u, v], n| {
+    Double, |t, &[a, b, u, v], n| {
         let (sin, cos) = (a - b).sin_cos();
         let below = n(2.0) - cos * cos;
         let (p, q) = (-sin * v * v - n(2.0) * a.sin(), sin * u * u - b.sin());
         [u, v, (p - cos * q) / below, (n(2.0) * q - cos * p) / below]
     };
-    Sled, 4, |t, &[phi, x, w, v], n| [w, v * phi.cos(), n(-0.4) * v * w, n(0.2) * w * w + n(0.98) * phi.cos()];
+    Sled, |t, &[phi, x, w, v], n| [w, v * phi.cos(), n(-0.4) * v * w, n(0.2) * w * w + n(0.98) * phi.cos()];
 }
 
 fn battery(states: usize) -> Counts {
     let mut battery = Battery { states, counts: Counts::default() };
     let all = states > QUICK;
     let asked: &[f64] = if all { &[1e-3, 1e-6, 1e-9, 1e-12] } else { &[1e-6, 1e-12] };
-    battery.try_system("Lorenz", Lorenz, [1.0, 2.0, 20.0], 0.0..8.0, asked);
-    battery.try_system("Van der Pol", VanDerPol, [1.5, 0.5], 0.0..if all { 20.0 } else { 5.0 }, asked);
-    battery.try_system("pendulum", Pendulum, [1.0, 0.5], 0.0..if all { 10.0 } else { 3.0 }, asked);
+    battery.try_system("Lorenz", Three::Lorenz, [1.0, 2.0, 20.0], 0.0..8.0, asked);
+    battery.try_system("Van der Pol", Two::VanDerPol, [1.5, 0.5], 0.0..if all { 20.0 } else { 5.0 }, asked);
+    battery.try_system("pendulum", Two::Pendulum, [1.0, 0.5], 0.0..if all { 10.0 } else { 3.0 }, asked);
     if all {
-        battery.try_system("Duffing", Duffing, [0.5, 0.1], 0.0..30.0, asked);
-        battery.try_system("Kepler", Kepler, [0.6, 0.1, 0.1, 1.4], 0.0..12.0, asked);
-        battery.try_system("Henon-Heiles", HenonHeiles, [0.2, 0.1, 0.3, 0.2], 0.0..40.0, asked);
-        battery.try_system("top", Top, [1.0, 0.1, 0.8], 0.0..20.0, asked);
-        battery.try_system("spring", Spring, [1.3, 0.5, 0.0, 0.2], 0.0..8.0, asked);
-        battery.try_system("decay", Decay, [0.5, 0.2], 0.0..5.0, asked);
-        battery.try_system("Brusselator", Brusselator, [1.5, 3.0], 0.0..15.0, asked);
-        battery.try_system("double", Double, [1.2, 0.8, 0.3, -0.2], 0.0..10.0, asked);
-        battery.try_system("sled", Sled, [0.3, 0.0, 0.7, 0.5], 0.0..10.0, asked);
+        battery.try_system("Duffing", Two::Duffing, [0.5, 0.1], 0.0..30.0, asked);
+        battery.try_system("Kepler", Four::Kepler, [0.6, 0.1, 0.1, 1.4], 0.0..12.0, asked);
+        battery.try_system("Henon-Heiles", Four::HenonHeiles, [0.2, 0.1, 0.3, 0.2], 0.0..40.0, asked);
+        battery.try_system("top", Three::Top, [1.0, 0.1, 0.8], 0.0..20.0, asked);
+        battery.try_system("spring", Four::Spring, [1.3, 0.5, 0.0, 0.2], 0.0..8.0, asked);
+        battery.try_system("decay", Two::Decay, [0.5, 0.2], 0.0..5.0, asked);
+        battery.try_system("Brusselator", Two::Brusselator, [1.5, 3.0], 0.0..15.0, asked);
+        battery.try_system("double", Four::Double, [1.2, 0.8, 0.3, -0.2], 0.0..10.0, asked);
+        battery.try_system("sled", Four::Sled, [0.3, 0.0, 0.7, 0.5], 0.0..10.0, asked);
     }
     println!("all          now {:?}\n             before {:?}", battery.counts.now, battery.counts.before);
     battery.counts

@@ -16,7 +16,7 @@ use crate::sweep::compared;
 use crate::words::Words;
 
 /// Trees drawn in every run.
-const DRAWN: u64 = 50;
+const DRAWN: u64 = 30;
 
 type Vector = [ExprId; 3];
 type Matrix = [Vector; 3];
@@ -331,7 +331,7 @@ fn bodies_on_bodies_move_as_with_multipliers() {
         "a constraint",
     ] {
         assert!(
-            shown.get(name).is_some_and(|count| *count as u64 >= rounds / 12),
+            shown.get(name).is_some_and(|count| *count as u64 >= rounds / 20),
             "{name}: too few link by link"
         );
     }

@@ -25,7 +25,7 @@ use closure::Shapes;
 use sweep::Tally;
 
 /// Systems drawn in every run; `GUEN_ROUNDS` asks for others, as `.ci/run` does in an optimised build.
-const DRAWN: u64 = 160;
+const DRAWN: u64 = 60;
 
 /// How many are drawn.
 fn rounds(quick: u64) -> u64 {

@@ -12,11 +12,8 @@ use crate::draw::Draw;
 use crate::sweep::compared;
 use crate::words::Words;
 
-/// Trains drawn.
-const DRAWN: u64 = 100;
-/// Trains whose velocities must be nested, and in how many of these each feature must occur.
-const NESTED: usize = 40;
-const SHOWN: usize = 10;
+/// Trains drawn in every run.
+const DRAWN: u64 = 40;
 
 /// A point of the plane.
 type Place = [ExprId; 2];
@@ -185,8 +182,9 @@ fn form(words: &mut Words, e: ExprId) -> Form {
 #[test]
 fn trains_move_as_with_multipliers() {
     let mut shown: BTreeMap<&str, usize> = BTreeMap::new();
-    let (mut nested, mut worst) = (0, 0.0_f64);
-    for seed in 0..DRAWN {
+    let (mut nested, mut worst) = (0_u64, 0.0_f64);
+    let rounds = crate::rounds(DRAWN);
+    for seed in 0..rounds {
         let (words, mechanics, features) = drawn(seed);
         let Some((derived, difference)) = compared(words, mechanics, seed) else { continue };
         worst = worst.max(difference);
@@ -195,11 +193,14 @@ fn trains_move_as_with_multipliers() {
             features.into_iter().for_each(|name| *shown.entry(name).or_default() += 1);
         }
     }
-    println!("nested {nested} of {DRAWN}, largest difference {worst:e}, with {shown:?}");
-    assert!(nested >= NESTED);
+    println!("nested {nested} of {rounds}, largest difference {worst:e}, with {shown:?}");
+    assert!(10 * nested >= 4 * rounds);
     for name in
         ["relative angles", "belt", "friction", "hitch off the axle", "load off the axle", "inertia", "slope"]
     {
-        assert!(shown.get(name).is_some_and(|count| *count >= SHOWN), "{name}: too few are nested");
+        assert!(
+            shown.get(name).is_some_and(|count| 10 * *count as u64 >= rounds),
+            "{name}: too few are nested"
+        );
     }
 }

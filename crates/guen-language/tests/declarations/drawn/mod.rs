@@ -140,7 +140,7 @@ fn difference(text: &str, derived: &Derived<'_>, seed: u64) -> (f64, usize) {
 
 #[test]
 fn programs_of_drawn_declarations_are_what_they_mean() {
-    let rounds = rounds(32);
+    let rounds = rounds(12);
     let run = |thread: u64| -> (f64, usize) {
         let mut all = (0.0_f64, 0);
         for seed in (thread..rounds).step_by(2) {

@@ -25,7 +25,7 @@ use report::Checked;
 
 /// Systems drawn.
 fn rounds() -> u64 {
-    crate::common::rounds(12)
+    crate::common::rounds(6)
 }
 
 /// A drawn declaration: every fourth one of bodies, which take longer, the others of forms; every second one with scenes, every
@@ -82,7 +82,7 @@ fn reports_of_drawn_declarations_say_what_was_derived() {
 #[test]
 fn reports_of_the_systems_of_the_repository_say_what_was_derived() {
     let systems = systems::all();
-    let most = if rounds() < 1000 { 5 } else { usize::MAX };
+    let most = if rounds() < 1000 { 4 } else { usize::MAX };
     let mut all = Checked::default();
     let mut sound = 0;
     for (text, file) in systems.iter().filter(|(text, _)| systems::coordinates(text) <= most) {
