@@ -92,6 +92,8 @@ struct Search<'a> {
     stated: &'a mut Stated,
     /// The system in the rates of its base angles, once it was looked for.
     in_base: Option<InBaseParameters>,
+    /// The rates by bodies, once they were looked for.
+    of_bodies: Option<Option<multibody::Found>>,
     /// The estimate of the rates by the equations as they are stated, once these are solved.
     least: u64,
     symmetry: Symmetry,
@@ -132,6 +134,7 @@ pub(super) fn walk(
         generalised_forces,
         stated,
         in_base: None,
+        of_bodies: None,
         least: 0,
         symmetry,
         shorter,
@@ -196,6 +199,12 @@ impl Search<'_> {
         [&self.frame.velocities, accelerations].concat()
     }
 
+    /// The rates by bodies.
+    fn bodies(&mut self, bench: &mut Workbench) -> Option<multibody::Found> {
+        let Search { system, frame, partials, of_bodies, .. } = self;
+        of_bodies.get_or_insert_with(|| multibody::rates(bench, system, frame, partials)).clone()
+    }
+
     /// The equations as they are stated, solved: what is shown unless something is much shorter.
     fn base(&mut self, bench: &mut Workbench) -> Result<Outcome, DerivationError> {
         let solution = solved(bench, self.stated.shown())?;
@@ -221,7 +230,13 @@ fn by_tensions(bench: &mut Workbench, search: &mut Search<'_>) -> Result<Outcome
     };
     let Some(found) = found else { return Ok(Outcome::Declined("the mass matrix promises less")) };
     let rates = search.rates(&found.accelerations);
-    let rank = if found.is_clear && !is_linked {
+    let cost = weighted_cost(&bench.graph, &rates);
+    // What the others solve is dearer before it is solved; bodies do not solve it.
+    let is_least = found.is_clear
+        && !is_linked
+        && cost <= weighted_cost(&bench.graph, &multiplied[0].entries())
+        && search.bodies(bench).is_none_or(|found| cost <= weighted_cost(&bench.graph, &found.rates));
+    let rank = if is_least {
         Rank::Last(Solution::known(bench, found.accelerations, &found.divisors))
     } else {
         Rank::Other
@@ -253,7 +268,7 @@ fn of_links(bench: &mut Workbench, search: &mut Search<'_>) -> Result<Outcome, D
 
 /// Bodies that hang on each other and roll, as they were declared.
 fn of_bodies(bench: &mut Workbench, search: &mut Search<'_>) -> Result<Outcome, DerivationError> {
-    let Some(found) = multibody::rates(bench, search.system, search.frame, search.partials) else {
+    let Some(found) = search.bodies(bench) else {
         return Ok(Outcome::Declined("the energy is not that of bodies, or their axes are not understood"));
     };
     let cost = weighted_cost(&bench.graph, &found.rates);

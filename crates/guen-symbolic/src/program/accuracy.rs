@@ -117,9 +117,12 @@ impl Point {
         // 53 bits, in [0, 1).
         let draw = mix(mix(self.seed) ^ symbol.index() as u64) >> 11;
         let part = draw as f64 / (1_u64 << 53) as f64;
-        match graph.symbol_info(symbol).bound {
+        let info = graph.symbol_info(symbol);
+        match info.bound {
             Bound::Positive | Bound::NonNegative => 0.3 + 1.5 * part,
             Bound::Negative | Bound::NonPositive => -0.3 - 1.5 * part,
+            // What a bound promises must not change which program is taken.
+            _ if info.role == Role::Constant => 0.3 + 1.5 * part,
             Bound::Free | Bound::NonZero => 3.0 * part - 1.5,
         }
     }
@@ -150,7 +153,7 @@ impl Candidate {
     }
 
     /// Whether it is the same program.
-    fn equals(&self, other: &Candidate) -> bool {
+    pub(super) fn equals(&self, other: &Candidate) -> bool {
         self.code.instructions == other.code.instructions
             && self.code.outputs == other.code.outputs
             && self.prepared.expressions == other.prepared.expressions

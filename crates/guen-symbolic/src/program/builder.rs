@@ -65,6 +65,10 @@ const SMALL: usize = 60;
 /// Beyond this estimate a function is optimised only with names for what is kept whole.
 const LARGEST_UNNAMED: u64 = 400;
 
+/// Up to this cost all effort goes into so many formulations that are nearly as cheap.
+const SMALL_FINALIST: u64 = 300;
+const FINALISTS: usize = 3;
+
 impl<'a> ProgramBuilder<'a> {
     /// A builder without functions.
     pub fn new(graph: &'a mut Graph) -> Self {
@@ -177,8 +181,10 @@ impl<'a> ProgramBuilder<'a> {
             best = accuracy::promising(self.graph, &programs);
         }
         if !is_short {
-            let index = tried[best].0;
-            tried.push(attempt(self.graph, &mut programs, index, effort));
+            let finalists = finalists(&programs, best).into_iter().map(|place| tried[place].0);
+            for index in finalists.collect::<Vec<usize>>() {
+                tried.push(attempt(self.graph, &mut programs, index, effort));
+            }
             best = accuracy::best(self.graph, &programs);
         }
         let (index, net, roots) = if tried.is_empty() { Default::default() } else { tried.swap_remove(best) };
@@ -209,6 +215,20 @@ impl<'a> ProgramBuilder<'a> {
             functions: self.functions,
         }
     }
+}
+
+/// Which of some programs may be the cheapest once all effort goes into them: the best one, and small ones that cost little more.
+fn finalists(programs: &[Candidate], best: usize) -> Vec<usize> {
+    let least = programs[best].cost();
+    let mut found = vec![best];
+    for (place, program) in programs.iter().enumerate() {
+        let is_near = least <= SMALL_FINALIST && 16 * program.cost() <= 17 * least;
+        if found.len() < FINALISTS && is_near && !found.iter().any(|other| program.equals(&programs[*other]))
+        {
+            found.push(place);
+        }
+    }
+    found
 }
 
 /// The outputs, optimised depth by depth, with the definitions in place of their symbols.

@@ -1,8 +1,7 @@
 //! Mechanisms drawn at random: each ends with rates that are those of the multipliers, or with an error; nothing is refused that the
-//! multipliers solve. Of every third the operations with no bounds on its constants, with some and with all are compared. More bounds
-//! may cost an operation or two percent: the points at which candidates are compared in accuracy keep bounds. In one of ten they may
-//! cost more: with masses of one sign tensions are found first, and where they promise half of what is multiplied out, bodies
-//! are not looked at.
+//! multipliers solve. Of every third the operations with no bounds on its constants, with some and with all are compared. What more bounds
+//! may cost is what the optimiser, which gives way to the first of equals, leaves to the order of terms: an operation or two percent,
+//! six percent in one of forty.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -38,6 +37,8 @@ struct Seen {
     dearer: Vec<String>,
     /// By more than one operation and two percent.
     much_dearer: usize,
+    /// The largest ratio of what more bounds and fewer cost, of those.
+    ratio: f64,
     faults: Vec<String>,
     /// First lines of errors.
     messages: Vec<String>,
@@ -53,6 +54,7 @@ impl Seen {
         self.compared += other.compared;
         self.dearer.extend(other.dearer);
         self.much_dearer += other.much_dearer;
+        self.ratio = self.ratio.max(other.ratio);
         self.faults.extend(other.faults);
         self.messages.extend(other.messages);
     }
@@ -193,7 +195,12 @@ fn looked_at(seed: u64) -> Seen {
             let told =
                 format!("number {seed}: {without}, {partly}, {all} operations with more and more bounds");
             let is_dearer = |more: u64, fewer: u64| more * 50 > fewer * 51 + 50;
-            seen.much_dearer += usize::from(is_dearer(all, partly) || is_dearer(partly, without));
+            for (more, fewer) in [(all, partly), (partly, without), (all, without)] {
+                if is_dearer(more, fewer) {
+                    seen.much_dearer = 1;
+                    seen.ratio = seen.ratio.max(more as f64 / fewer as f64);
+                }
+            }
             if all > partly || partly > without {
                 seen.dearer.push(told);
             }
@@ -231,7 +238,7 @@ fn mechanisms_end_with_the_right_rates_or_an_error() {
         own
     });
     println!(
-        "{} accepted, {} without a state, {} refused; {} states, at most {:.1e} of condition times scale; bounds cost in {} of {}, much in {}",
+        "{} accepted, {} without a state, {} refused; {} states, at most {:.1e} of condition times scale; bounds cost in {} of {}, much in {}, at most {:.2} times",
         all.accepted,
         all.unseen,
         all.refused,
@@ -239,7 +246,8 @@ fn mechanisms_end_with_the_right_rates_or_an_error() {
         all.worst,
         all.dearer.len(),
         all.compared,
-        all.much_dearer
+        all.much_dearer,
+        all.ratio
     );
     all.messages.sort();
     for message in all.messages.iter().chain(&all.dearer).chain(&all.faults) {
@@ -247,7 +255,7 @@ fn mechanisms_end_with_the_right_rates_or_an_error() {
     }
     assert!(all.faults.is_empty(), "{} faults", all.faults.len());
     assert!(
-        10 * all.much_dearer <= all.compared.max(10),
+        40 * all.much_dearer <= all.compared.max(40) && all.ratio <= 1.07,
         "bounds cost in {} of {}",
         all.much_dearer,
         all.compared

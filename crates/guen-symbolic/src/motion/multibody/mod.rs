@@ -41,6 +41,7 @@ use crate::workbench::Workbench;
 const POINTS: usize = 8;
 
 /// What a tree leads to.
+#[derive(Clone)]
 pub(super) struct Found {
     /// The rates of the state, velocities first.
     pub(super) rates: Vec<ExprId>,
