@@ -77,7 +77,7 @@ pub use recovery::{Nodes, Recovered, RecoveryError, recover};
 pub use stored::StoredRecording;
 #[cfg(feature = "study")]
 pub use study::{
-    Choice, Closures, Cost, Digits71, Ending, Failure, FailureKind, Forecast, Knob, Nearby, NoChoice,
+    Caveat, Choice, Closures, Cost, Digits71, Ending, Failure, FailureKind, Forecast, Knob, Nearby, NoChoice,
     ReferenceReport, Report, Row, ScanReport, Settings, Stopwatch, Study, Trade, Tried, Unit, pareto_front,
 };
 pub use table::{Table, significant};

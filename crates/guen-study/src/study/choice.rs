@@ -36,15 +36,51 @@ pub struct Choice<'a> {
     pub ties: Vec<&'a Row>,
     /// A setting that is quicker and was passed over, because it errs too much from states nearby.
     pub passed_over: Option<&'a Row>,
+    /// What was not asked of it, or asked in vain: what is promised of the choice is promised but for that.
+    pub caveats: Vec<Caveat>,
     unit: Unit,
+}
+
+/// What a promise leaves out.
+///
+/// ```
+/// use guen_study::Caveat;
+///
+/// assert_eq!(Caveat::NotTriedNearby.to_string(), "not tried from states nearby");
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Caveat {
+    /// The motion could not be followed closely, or not in time, as stiff ones cannot: what lasts less than a step may have been
+    /// stepped over, by the setting and by what it was compared with.
+    NotScanned,
+    /// The setting was not tried from states nearby: none were asked for, there was no time, or the motion from them has no
+    /// reference.
+    NotTriedNearby,
+    /// From a state nearby the setting failed. Only where a cost was given: what is chosen for an error holds nearby.
+    FailsNearby,
+}
+
+impl fmt::Display for Caveat {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::NotScanned => {
+                "nobody looked for what lasts less than a step: it may have been stepped over"
+            }
+            Self::NotTriedNearby => "not tried from states nearby",
+            Self::FailsNearby => "fails from a state nearby",
+        })
+    }
 }
 
 /// Why there is no choice.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum NoChoice {
-    /// Nothing was measured: the study was cancelled, or its reference failed.
+    /// Nothing was measured: the study was cancelled, or no setting came to the end.
     NothingMeasured,
+    /// There is no reference, so that no error is known: the report has the reason.
+    NoReference,
     /// The reference was not checked by a second method, so that no error is certain.
     Unchecked,
     /// The reference and its check differ too much for the errors that were measured against them.
@@ -58,7 +94,10 @@ pub enum NoChoice {
         least: f64,
     },
     /// Settings are that accurate from the initial states, and none of them from all states nearby.
-    NotNearby,
+    NotNearby {
+        /// The least error of theirs from the worst of these states; infinite if all of them fail from one.
+        least: f64,
+    },
     /// No setting is that cheap; the cheapest one costs this much.
     NotThatCheap {
         /// The least cost measured.
@@ -81,9 +120,19 @@ impl fmt::Display for NoChoice {
             Self::NotThatAccurate { least } => {
                 write!(f, "no setting is that accurate; the least error measured is {least:.1e}")
             }
-            Self::NotNearby => f.write_str(
-                "settings are that accurate from the initial states, but none from all states nearby",
+            Self::NoReference => f.write_str(
+                "there is no reference, so no error is known; where time or steps did not suffice, `within`, a shorter \
+                 span or, for stiff systems, `reference_by` help",
             ),
+            Self::NotNearby { least } => {
+                f.write_str("settings are that accurate from the initial states, but not from all states nearby: ")?;
+                if least.is_finite() {
+                    write!(f, "the least error from the worst of these is {least:.1e}")?;
+                } else {
+                    f.write_str("from one of these all of them fail")?;
+                }
+                f.write_str("; `probes` with a smaller spread asks less")
+            }
             Self::NotThatCheap { least } => {
                 write!(f, "no setting is that cheap; the least cost measured is {least:.2e}")
             }
@@ -164,7 +213,13 @@ impl Report {
         let robust = |one: &Certain<'_>| {
             accurate(one) && one.row.nearby.map_or(!probed, |nearby| nearby.is_within(NEARBY * error))
         };
-        let Some(chosen) = cheapest(&robust) else { return Err(NoChoice::NotNearby) };
+        let Some(chosen) = cheapest(&robust) else {
+            let nearby = certain.iter().filter(|one| accurate(one)).filter_map(|one| match one.row.nearby {
+                Some(Nearby::Error(error)) => Some(error),
+                _ => None,
+            });
+            return Err(NoChoice::NotNearby { least: nearby.fold(f64::INFINITY, f64::min) });
+        };
         let tied = |one: &&Certain<'_>| {
             let costs = (one.row.cost, chosen.row.cost);
             one.index != chosen.index && robust(one) && matches!(costs, (Some(a), Some(b)) if a.ties_with(&b))
@@ -175,6 +230,7 @@ impl Report {
             asked: error,
             ties: certain.iter().filter(tied).map(|one| one.row).collect(),
             passed_over: (plain.index != chosen.index).then_some(plain.row),
+            caveats: self.caveats(chosen.row),
             unit: self.unit,
         })
     }
@@ -204,13 +260,28 @@ impl Report {
             asked: best.error,
             ties: Vec::new(),
             passed_over: None,
+            caveats: self.caveats(best.row),
             unit: self.unit,
         })
     }
 
+    /// What a promise made of this row leaves out.
+    fn caveats(&self, row: &Row) -> Vec<Caveat> {
+        let unseen = self.reference.is_some() && !self.is_scanned();
+        let nearby = match row.nearby {
+            Some(Nearby::Error(_)) => None,
+            Some(Nearby::Failed) => Some(Caveat::FailsNearby),
+            None => Some(Caveat::NotTriedNearby),
+        };
+        unseen.then_some(Caveat::NotScanned).into_iter().chain(nearby).collect()
+    }
+
     /// Why no row at all is certain.
     fn nothing(&self) -> NoChoice {
-        self.doubts(|_, _| true).unwrap_or(NoChoice::NothingMeasured)
+        let failed = self.reference.as_ref().is_some_and(|reference| reference.error.is_none());
+        let none =
+            if failed && !self.rows.is_empty() { NoChoice::NoReference } else { NoChoice::NothingMeasured };
+        self.doubts(|_, _| true).unwrap_or(none)
     }
 }
 
@@ -221,6 +292,9 @@ impl fmt::Display for Choice<'_> {
         write!(f, "{}: error {error:.1e}, {cost}", self.row.name())?;
         if let Some(Nearby::Error(nearby)) = self.row.nearby {
             write!(f, ", from states nearby at most {nearby:.1e}")?;
+        }
+        for caveat in &self.caveats {
+            write!(f, "\n  {caveat}")?;
         }
         if let Some(row) = self.passed_over {
             write!(f, "\n  quicker, but not as accurate from states nearby: {}", row.name())?;

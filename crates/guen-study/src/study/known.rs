@@ -177,14 +177,13 @@ fn elsewhere(points: usize) -> usize {
     (points / PART_ELSEWHERE).max(1)
 }
 
-/// The times that a reference elsewhere has to land on, where it is known that other motions need some.
+/// The times that a reference elsewhere has to land on; none if the motion there cannot be looked at.
 pub(super) fn landings_elsewhere<const N: usize>(
     scanner: &Scanner<N>,
     problem: &Problem<'_, N>,
     points: usize,
     watch: &mut dyn FnMut() -> bool,
-) -> Vec<f64> {
-    let mut landings = problem.landings.to_vec();
-    landings.extend(scanner(problem, Look::At(points), watch).into_iter().flat_map(|seen| seen.landings));
-    landings
+) -> Option<Vec<f64>> {
+    let seen = scanner(problem, Look::At(points), watch)?;
+    Some(problem.landings.iter().copied().chain(seen.landings).collect())
 }

@@ -34,7 +34,7 @@ use std::time::Duration;
 use guen_runtime::steppers::{Method, Taylor};
 use guen_runtime::{Real, Recast, System, TaylorSeries};
 
-pub use choice::{Choice, NoChoice};
+pub use choice::{Caveat, Choice, NoChoice};
 pub use digits71::Digits71;
 pub use front::pareto_front;
 pub use known::ScanReport;
@@ -454,8 +454,8 @@ impl<S, const N: usize> Study<S, N> {
         L: System<Digits71, N> + 'static,
     {
         use guen_runtime::steppers::Dop853;
-        /// More than any run can afford.
-        const STEPS: u64 = 100_000_000;
+        /// As many evaluations as the motion that is looked at closely may take: stiff ones take more.
+        const STEPS: u64 = scan::MOST_STEPS;
         let (tight, scanned) = (Rc::clone(doubles), Rc::clone(doubles));
         let References { reference, check, elsewhere } =
             reference::references_in::<Digits71, L, N>(long, reference::EXTRAPOLATION_TOLERANCE);

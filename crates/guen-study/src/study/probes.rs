@@ -69,13 +69,13 @@ pub(super) fn states<const N: usize>(
 }
 
 /// The states with their references; those are left out from where none can be computed, because the motion leaves the
-/// chart. Stops early where `watch` says so.
+/// chart, and those whose motions cannot be looked at where the study's own were. Stops early where `watch` says so.
 pub(super) fn with_references<const N: usize>(
     states: impl IntoIterator<Item = [f64; N]>,
     measure: &Measure<N>,
     (t0, times): (f64, &[f64]),
     source: &Source<N>,
-    (scanner, landings, points): (&Scanner<N>, &[f64], usize),
+    (scanner, landings, points, scanned): (&Scanner<N>, &[f64], usize, bool),
     watch: &mut dyn FnMut() -> bool,
 ) -> Vec<Probe<N>> {
     let mut probes = Vec::new();
@@ -88,7 +88,13 @@ pub(super) fn with_references<const N: usize>(
             continue;
         }
         let problem = Problem { start: &start, t0, times, landings };
-        let landings = landings_elsewhere(scanner, &problem, points, watch);
+        // What could not be looked at from the states of the study is not tried again.
+        let found = if scanned {
+            landings_elsewhere(scanner, &problem, points, watch)
+        } else {
+            Some(landings.to_vec())
+        };
+        let Some(landings) = found else { continue };
         let problem = Problem { landings: &landings, ..problem };
         if let Ok(reference) = source(&problem, &mut |_| watch()) {
             probes.push(Probe { start, reference });

@@ -90,6 +90,11 @@ impl Report {
         pareto_front(&self.points()).into_iter().map(|i| &self.rows[i]).collect()
     }
 
+    /// Whether the motions were looked at closely.
+    pub(super) fn is_scanned(&self) -> bool {
+        self.scan.as_ref().is_some_and(|scan| scan.width.is_some())
+    }
+
     pub(super) fn front_indices(&self) -> Vec<usize> {
         pareto_front(&self.points())
     }

@@ -20,7 +20,7 @@ use super::timing::Cost;
 use super::trade::{Means, Trade};
 use super::{Stop, Study, lengthened};
 
-/// Settings that err more are not worth a row.
+/// Settings that err more are not worth a row, unless all do: then the best of them is one.
 const USELESS: f64 = 0.5;
 /// A lever is given up when so many settings in a row gain less than a factor of two on the best so far ..
 const STAGNATION: u32 = 6;
@@ -227,6 +227,7 @@ fn errors<S, const N: usize>(
     let patience = share.div_f64(4.0 * levers.len().max(1) as f64).max(Duration::from_millis(10));
     let count = levers.len() as f64;
     let mut all: Vec<Tried<N>> = Vec::new();
+    let mut least: Option<Tried<N>> = None;
     for (k, lever) in levers.iter().enumerate() {
         if !budget.goes_on(Stage::Accuracy, k as f64 / count) {
             break;
@@ -296,6 +297,9 @@ fn errors<S, const N: usize>(
                     shown = true;
                 } else {
                     failed = None;
+                    if least.as_ref().is_none_or(|least| least.row.error > row.error) {
+                        least = Some(Tried { row, run: Some(Rc::new(run)), rough });
+                    }
                 }
             }
             idle = if best < SETTLED && error > 0.5 * best { idle + 1 } else { 0 };
@@ -310,6 +314,9 @@ fn errors<S, const N: usize>(
             }
         }
         all.extend(failed);
+    }
+    if all.iter().all(|one| one.row.error.is_none()) {
+        all.extend(least);
     }
     budget.goes_on(Stage::Accuracy, 1.0);
     all
@@ -426,7 +433,7 @@ fn nearby<S, const N: usize>(
     if study.probes == 0 || !measurable || study.starts.is_empty() {
         return 0;
     }
-    let along = along(study);
+    let along = along(study, budget.deadline(Stage::Nearby));
     let states = probes::states(&study.starts, &along, study.t0, &study.tells, (study.probes, study.spread));
     // References take their time; half of the stage is for trying.
     let now = Instant::now();
@@ -437,7 +444,7 @@ fn nearby<S, const N: usize>(
         &study.measure,
         (study.t0, times),
         &study.elsewhere.source,
-        (&study.scanner, known.landings(0), known.points_elsewhere),
+        (&study.scanner, known.landings(0), known.points_elsewhere, known.report.width.is_some()),
         &mut || {
             computed += 1e-5;
             budget.goes_on(Stage::Nearby, f64::min(computed, 0.5)) && Instant::now() < halfway
@@ -470,10 +477,10 @@ fn try_at<S, const N: usize>(study: &Study<S, N>, run: &Run<N>, probe: &Probe<N>
 }
 
 /// States of the motions themselves, by the tight method in doubles.
-fn along<S, const N: usize>(study: &Study<S, N>) -> Vec<[f64; N]> {
+fn along<S, const N: usize>(study: &Study<S, N>, deadline: Instant) -> Vec<[f64; N]> {
     const COUNT: usize = 16;
     let times = super::sample_times(study.t0, study.t1, COUNT);
-    let task = Task { starts: &study.starts, t0: study.t0, times: &times, deadline: None };
+    let task = Task { starts: &study.starts, t0: study.t0, times: &times, deadline: Some(deadline) };
     let mut states = Vec::new();
     // Of a run that fails, what it reached serves as well.
     let _ = (study.tight)(1e-12)(&task, &mut states);

@@ -38,6 +38,7 @@ const SUSPECT: f64 = 2e-12;
 const MISSED: f64 = 1e-11;
 /// Everything may take so many evaluations, and so many for each of the times. Beyond, rates vary too fast everywhere.
 const MOST: u64 = 2_000_000;
+pub(super) const MOST_STEPS: u64 = MOST / EVALUATIONS_OF_STEP;
 const MOST_OF_EACH: u64 = 16;
 /// A jump of the rates is stepped over by so many spacings of numbers, twice as many at each further try.
 const JUMP: f64 = 4.0;

@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::rc::Rc;
 
-use super::choice::NoChoice;
+use super::choice::{Caveat, NoChoice};
 use super::digits71::Digits71;
 use super::known::{self, Scanner};
 use super::lever::{Run, Task};
@@ -57,6 +57,8 @@ pub enum Forecast {
     Holds {
         /// The estimate.
         estimate: f64,
+        /// What this leaves out.
+        caveat: Option<Caveat>,
     },
     /// It is not: the estimate, or the uncertainty of the estimate, is too large.
     WillNot {
@@ -95,7 +97,7 @@ pub struct Tried<const N: usize> {
 /// The promise, if estimate and uncertainty together leave room for it.
 fn judged(estimate: f64, uncertainty: f64, asked: f64) -> Forecast {
     if estimate + uncertainty <= CERTAIN * asked {
-        Forecast::Holds { estimate }
+        Forecast::Holds { estimate, caveat: None }
     } else {
         Forecast::WillNot { estimate, uncertainty }
     }
@@ -111,7 +113,8 @@ impl<const N: usize> Trade<N> {
     /// Where these two cannot tell, two methods in extended precision decide, the reference of the study and its check, from this
     /// state.
     ///
-    /// A row whose error is not certain is refused, as it is for a choice.
+    /// A row whose error is not certain is refused, as it is for a choice. Where the motion cannot be looked at closely, the
+    /// promise leaves out what lasts less than a step, and says so: [`Caveat::NotScanned`].
     ///
     /// Costs those evaluations, 65,536 by default, and some times a run of the setting; a reference and its check where doubles
     /// cannot tell. Errors of energy and constraints are measured
@@ -138,43 +141,52 @@ impl<const N: usize> Trade<N> {
         let Means { scanner, landings, points, .. } = &self.means;
         let problem = Problem { start, t0: span.start, times: &times, landings };
         let seen = known::motion(scanner, &problem, *points, 10.0 * tolerance, &mut || true);
+        let caveat = seen.is_none().then_some(Caveat::NotScanned);
+        let judged = |estimate, uncertainty| match judged(estimate, uncertainty, asked) {
+            Forecast::Holds { estimate, .. } => Forecast::Holds { estimate, caveat },
+            other => other,
+        };
         let jumps = seen.as_ref().map_or(0.0, |(motion, _)| motion.uncertainty(0.0));
         let (fine, coarse) = match seen {
             Some((motion, _)) => (motion.fine, motion.coarse),
-            // What cannot be looked at is a motion that fails, or long.
+            // What cannot be looked at is a motion that fails, or a long or stiff one.
             None => match (self.tight(tolerance, &task), self.tight(10.0 * tolerance, &task)) {
                 (Ok(fine), Ok(coarse)) => (fine, coarse),
-                (Err(failure), _) | (_, Err(failure)) => return Forecast::Fails(failure),
+                (Err(failure), _) | (_, Err(failure)) => {
+                    let certified = self.certified(&problem, &states);
+                    return certified.map_or(Forecast::Fails(failure), |(estimate, difference)| {
+                        judged(estimate, difference)
+                    });
+                }
             },
         };
         let truth: Vec<_> = fine.iter().map(lengthened).collect();
         let (estimate, uncertainty) = (off(&states, &truth), off(&coarse, &truth) + jumps);
-        let said = judged(estimate, uncertainty, asked);
+        let said = judged(estimate, uncertainty);
         // What errs by more than the promise, whatever is uncertain, needs no better reference.
         if said.holds() || estimate - uncertainty > PROMISE * asked {
             return said;
         }
-        match self.certified(&problem) {
-            Some([truth, check]) => {
-                let difference = against(measure, scales, &times, check.into_iter(), &truth);
-                judged(off(&states, &truth), difference, asked)
-            }
-            None => said,
-        }
+        let landings = known::landings_elsewhere(scanner, &problem, *points, &mut || true);
+        let problem = Problem { landings: landings.as_deref().unwrap_or(problem.landings), ..problem };
+        let certified = self.certified(&problem, &states);
+        certified.map_or(said, |(estimate, difference)| judged(estimate, difference))
     }
 
-    /// The states at the times by the reference of the study and by its check, which land where the motion in doubles had to.
-    fn certified(&self, problem: &Problem<'_, N>) -> Option<[Vec<[Digits71; N]>; 2]> {
-        let Means { scanner, points, reference, check, .. } = &self.means;
-        let check = check.as_ref()?;
-        let landings = known::landings_elsewhere(scanner, problem, *points, &mut || true);
-        let problem = Problem { landings: &landings, ..*problem };
-        let run = |named: &Named<N>| (named.source)(&problem, &mut |_| true).ok();
-        Some([run(reference)?, run(check)?])
+    /// How far these states are from the reference of the study, and by how much its check differs from that.
+    fn certified(&self, problem: &Problem<'_, N>, states: &[[f64; N]]) -> Option<(f64, f64)> {
+        let Means { measure, scales, reference, check, .. } = &self.means;
+        let run = |named: &Named<N>| (named.source)(problem, &mut |_| true).ok();
+        let (truth, check) = (run(reference)?, run(check.as_ref()?)?);
+        let off = |states: &mut dyn Iterator<Item = [Digits71; N]>| {
+            against(measure, scales, problem.times, states, &truth)
+        };
+        Some((off(&mut states.iter().map(lengthened)), off(&mut check.into_iter())))
     }
 
     /// Makes the forecast of a row from each of these states, then measures its error there, against a reference in 71
-    /// digits for each. States from which there is no reference are left out.
+    /// digits for each. States are left out from which there is no reference, or whose motions cannot be looked at closely where the
+    /// study's could.
     pub fn trial(
         &self,
         row: usize,
@@ -184,7 +196,8 @@ impl<const N: usize> Trade<N> {
     ) -> Vec<Tried<N>> {
         let Means { samples, measure, scales, tells, reference, scanner, landings, points, .. } = &self.means;
         let times = times_for(&span, *samples);
-        let (at, known) = ((span.start, &times[..]), (scanner, &landings[..], *points));
+        let (at, known) =
+            ((span.start, &times[..]), (scanner, &landings[..], *points, self.report.is_scanned()));
         let probes = with_references(starts, measure, at, &reference.source, known, &mut || true);
         let tried = |probe: &Probe<N>| {
             let forecast = self.forecast(row, asked, &probe.start, span.clone());

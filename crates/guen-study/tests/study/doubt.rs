@@ -2,7 +2,7 @@
 
 use guen_runtime::steppers::{Dop853, Rk4, Rk8};
 use guen_runtime::{Equations, Real, from_fn, generic};
-use guen_study::{Digits71, Forecast, NoChoice, Report, Settings, Study};
+use guen_study::{Caveat, Digits71, Forecast, Knob, NoChoice, Report, Settings, Study};
 
 /// `x'' = -x`.
 #[derive(Clone)]
@@ -142,4 +142,64 @@ fn forms_and_methods_of_ones_own_are_judged_alike() {
         .run();
     assert!(trade.report.rows.iter().any(|row| row.method == "own" && row.error.is_some()));
     nothing_is_chosen(&trade.report, "differ by");
+}
+
+/// What DOP853 in doubles cannot follow, as stiff motions, is chosen for with a word on it, and forecasts carry the same.
+#[test]
+fn choices_and_forecasts_say_what_nobody_looked_at() {
+    let study = Study::of_closures(
+        // It looks closely, and cannot.
+        |_, _: &[f64; 2]| [f64::NAN; 2],
+        |_, &[x, v]: &[Digits71; 2]| [v, -x],
+        START,
+        0.0..5.0,
+    );
+    let trade = study
+        .keep(|_, _| false)
+        .with_method_on(
+            from_fn(|_, &[x, v]: &[f64; 2]| [v, -x]),
+            ["DOP853", "f64", "by hand"],
+            Settings::Tolerances,
+            |tolerance| Dop853::new(tolerance, tolerance),
+            |_| String::new(),
+        )
+        .count_evaluations()
+        .probes(2, 0.1)
+        .run();
+    let report = &trade.report;
+    assert_eq!(report.scan.as_ref().unwrap().width, None, "{report}");
+    let choice = report.fastest_within(1e-6).unwrap();
+    assert_eq!(choice.caveats, [Caveat::NotScanned]);
+    assert!(choice.to_string().contains("may have been stepped over"), "{choice}");
+    let forecast = trade.forecast(choice.index, choice.asked, &[0.9, 0.0], 0.0..5.0);
+    assert!(matches!(forecast, Forecast::Holds { caveat: Some(Caveat::NotScanned), .. }), "{forecast:?}");
+
+    // What was looked at needs no word, but for states nearby that nobody asked for.
+    let report = spring().run().report;
+    let choice = report.fastest_within(1e-6).unwrap();
+    assert_eq!(choice.caveats, [Caveat::NotTriedNearby]);
+    assert!(choice.to_string().contains("not tried from states nearby"), "{choice}");
+    let report = spring().probes(3, 0.4).run().report;
+    assert_eq!(report.fastest_within(1e-6).unwrap().caveats, []);
+    assert!(report.most_accurate_within(f64::INFINITY).unwrap().caveats.len() <= 1);
+}
+
+/// Where every setting is far off, as in chaotic motions over long spans, the reason says how far, and not that nothing was measured.
+#[test]
+fn settings_that_are_all_useless_are_said_to_be() {
+    /// `x' = 3 x`: over 4 seconds every error grows by 1e5.
+    #[derive(Clone)]
+    struct Growing;
+    impl Equations<1> for Growing {
+        fn rates<R: Real>(&self, _t: R, &[x]: &[R; 1]) -> [R; 1] {
+            [x * R::from_ratio(3, 1)]
+        }
+    }
+    let study = Study::new(generic(Growing), [1.0], 0.0..4.0).unwrap();
+    let steps = Settings::List(Knob::Step, vec![2.0, 1.0, 0.5]);
+    let study = study.keep(|_, _| false).with_method("RK4", steps, |step| Rk4 { step }, |_| String::new());
+    let report = study.unwrap().scales([1e3]).count_evaluations().scan(1 << 12).probes(0, 0.0).run().report;
+    let [row] = &report.rows[..] else { panic!("{}", report.table()) };
+    assert!(row.setting == 0.5 && row.error > Some(0.5), "{row:?}");
+    assert_eq!(report.fastest_within(1e-3), Err(NoChoice::NotThatAccurate { least: row.error.unwrap() }));
 }

@@ -214,7 +214,7 @@ fn a_reference_that_cannot_be_had_leaves_the_rest() {
     assert!(trade.report.rows.iter().all(|row| row.error.is_none()));
     let failed: Vec<&Row> = trade.report.rows.iter().filter(|row| row.failure.is_some()).collect();
     assert!(!failed.is_empty() && failed.iter().all(|row| row.failure.as_ref().unwrap().time < Some(1.5)));
-    assert!(matches!(trade.report.fastest_within(1.0), Err(NoChoice::NothingMeasured)));
+    assert!(matches!(trade.report.fastest_within(1.0), Err(NoChoice::NoReference)));
     assert!(trade.report.table().contains("failed"));
 }
 
