@@ -6,28 +6,9 @@
 use std::ops::Range;
 use std::time::Duration;
 
-use guen::mechanical_system;
 use guen_study::{Study, Trade};
 
-mechanical_system! {
-    /// A hoop of radius `a` that rolls without slipping on a horizontal plane.
-    pub system Hoop {
-        constants   { a > 0, A > 0, C > 0, g = 9.81 }
-        coordinates { theta, psi, phi, xi, eta, zeta }
-        parameters {
-            eta1 = dot(theta);
-            eta2 = dot(psi)*sin(theta);
-            eta3 = dot(psi)*cos(theta) + dot(phi);
-        }
-        constraints {
-            eta4: dot(xi)   = a*sin(theta)*sin(psi)*dot(theta) - a*cos(theta)*cos(psi)*dot(psi) - a*cos(psi)*dot(phi);
-            eta5: dot(eta)  + a*sin(theta)*cos(psi)*dot(theta) + a*cos(theta)*sin(psi)*dot(psi) + a*sin(psi)*dot(phi) = 0;
-            eta6: dot(zeta) - a*cos(theta)*dot(theta) = 0;
-        }
-        kinetic_energy = 1/2*(dot(xi)^2 + dot(eta)^2 + dot(zeta)^2) + 1/2*(A*eta1^2 + A*eta2^2 + C*eta3^2);
-        force_function = -a*g*sin(theta);
-    }
-}
+guen_benchmarks::hoop!(guen::mechanical_system);
 
 const START: hoop::State = hoop::State {
     theta: 1.1,

@@ -20,7 +20,6 @@ use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use guen::mechanical_system;
 use guen::prelude::*;
 use guen::steppers::Method;
 use guen_study::{Plot, Progress};
@@ -30,26 +29,7 @@ use guen_study::Digits71;
 #[path = "../../../examples/common/folder.rs"]
 mod folder;
 
-mechanical_system! {
-    /// A hoop of radius `a` that rolls without slipping on a horizontal plane.
-    pub system Hoop {
-        constants   { a > 0, A > 0, C > 0, g = 9.81 }
-        coordinates { theta, psi, phi, xi, eta, zeta }
-        parameters {
-            eta1 = dot(theta);
-            eta2 = dot(psi)*sin(theta);
-            eta3 = dot(psi)*cos(theta) + dot(phi);
-        }
-        constraints {
-            eta4: dot(xi)   = a*sin(theta)*sin(psi)*dot(theta) - a*cos(theta)*cos(psi)*dot(psi) - a*cos(psi)*dot(phi);
-            eta5: dot(eta)  + a*sin(theta)*cos(psi)*dot(theta) + a*cos(theta)*sin(psi)*dot(psi) + a*sin(psi)*dot(phi) = 0;
-            eta6: dot(zeta) - a*cos(theta)*dot(theta) = 0;
-        }
-        kinetic_energy = 1/2*(dot(xi)^2 + dot(eta)^2 + dot(zeta)^2) + 1/2*(A*eta1^2 + A*eta2^2 + C*eta3^2);
-        force_function = -a*g*sin(theta);
-        provide taylor, carried;
-    }
-}
+guen_benchmarks::hoop!(guen::mechanical_system; provide taylor, carried;);
 
 fn prepared<R: Real>() -> Result<hoop::Prepared<R>, guen::ConstantsError> {
     let ratio = R::from_ratio;

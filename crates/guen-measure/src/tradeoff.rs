@@ -21,26 +21,8 @@ use guen_study::{Report, Study, Trade, Unit};
 #[path = "../../../examples/common/folder.rs"]
 mod folder;
 
-mechanical_system! {
-    /// A hoop of radius `a` that rolls without slipping on a horizontal plane.
-    pub system Hoop {
-        constants   { a > 0, A > 0, C > 0, g = 9.81 }
-        coordinates { theta, psi, phi, xi, eta, zeta }
-        parameters {
-            eta1 = dot(theta);
-            eta2 = dot(psi)*sin(theta);
-            eta3 = dot(psi)*cos(theta) + dot(phi);
-        }
-        constraints {
-            eta4: dot(xi)   = a*sin(theta)*sin(psi)*dot(theta) - a*cos(theta)*cos(psi)*dot(psi) - a*cos(psi)*dot(phi);
-            eta5: dot(eta)  + a*sin(theta)*cos(psi)*dot(theta) + a*cos(theta)*sin(psi)*dot(psi) + a*sin(psi)*dot(phi) = 0;
-            eta6: dot(zeta) - a*cos(theta)*dot(theta) = 0;
-        }
-        kinetic_energy = 1/2*(dot(xi)^2 + dot(eta)^2 + dot(zeta)^2) + 1/2*(A*eta1^2 + A*eta2^2 + C*eta3^2);
-        force_function = -a*g*sin(theta);
-        provide taylor, carried;
-    }
-}
+guen_benchmarks::hoop!(guen::mechanical_system; provide taylor, carried;);
+guen_benchmarks::sled!(guen::mechanical_system; provide taylor, carried;);
 
 mechanical_system! {
     /// The system of Appell's Mécanique rationnelle, no. 469.
@@ -59,24 +41,6 @@ mechanical_system! {
         }
         kinetic_energy = 1/2*((A + a^2)*eta1^2 + A*eta2^2 + (C + a^2)*eta3^2);
         force_function = -a*g*sin(theta);
-        provide taylor, carried;
-    }
-}
-
-mechanical_system! {
-    /// A sled on an inclined plane, with a blade that does not slip sideways.
-    pub system Sled {
-        constants   { m > 0, alpha, beta, k > 0, incline, g = 9.81 }
-        coordinates { phi, xi, eta }
-        parameters {
-            eta1 = dot(phi);
-            eta2 = dot(xi)*cos(phi) + dot(eta)*sin(phi);
-        }
-        constraints { eta3: dot(xi)*sin(phi) - dot(eta)*cos(phi) = 0; }
-        let x = xi  + alpha*cos(phi) - beta*sin(phi);
-        let y = eta + alpha*sin(phi) + beta*cos(phi);
-        kinetic_energy = m/2*(dot(x)^2 + dot(y)^2) + m/2*k^2*dot(phi)^2;
-        force_function = m*g*sin(incline)*x;
         provide taylor, carried;
     }
 }
