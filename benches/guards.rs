@@ -9,7 +9,7 @@
 //! there are, a particle without forces, a mass on a spring and one that must not come to a point: there a look costs most beside
 //! a step. `hoop'` is the hoop's carried form, and `hoop32` the hoop in single precision. With a run and `plain` or `guarded` as
 //! arguments that run alone is made, twice as often with a `2` behind, and nothing printed: what callgrind counts. `list`
-//! names the runs.
+//! names the runs. `taylor-blind` is Taylor's method without its comparison of rates.
 
 use std::hint::black_box;
 use std::time::Instant;
@@ -214,13 +214,23 @@ where
     pairs
 }
 
+/// Taylor's method, and what it is without the comparison of rates.
+fn by_taylor<S, const N: usize>(name: &'static str, system: S, start: [f64; N], span: f64) -> [Pair; 2]
+where
+    S: TaylorSeries<f64, N> + Copy + 'static,
+{
+    let method = Taylor::new(1e-12);
+    [("taylor", method), ("taylor-blind", method.without_comparison())]
+        .map(|(word, method)| pair(name, word, system, start, span, method))
+}
+
 /// The same with Taylor's method, for systems that provide their series.
 fn with_taylor<S, const N: usize>(name: &'static str, system: S, start: [f64; N], span: f64) -> Vec<Pair>
 where
     S: Laned<N> + Differentiable<f64, N> + TaylorSeries<f64, N> + Copy + 'static,
 {
     let mut pairs = pairs_of(name, system, start, span);
-    pairs.push(pair(name, "taylor", system, start, 20.0 * span, Taylor::new(1e-12)));
+    pairs.extend(by_taylor(name, system, start, 20.0 * span));
     pairs
 }
 
@@ -268,7 +278,7 @@ fn pairs() -> Vec<Pair> {
     pairs.extend(pairs_of("chain10", hanging, angles, 1.0));
     pairs.extend(fixed("chain20", long, bent, 1.0));
     let linked = Links { m: 1.0, l: 0.5, g: 9.81 }.prepare().expect("positive constants");
-    pairs.push(pair("chain20", "taylor", linked, bent, 20.0, Taylor::new(1e-12)));
+    pairs.extend(by_taylor("chain20", linked, bent, 20.0));
     pairs
 }
 

@@ -49,9 +49,7 @@ pub(super) struct Defect<'a, R, const N: usize> {
 
 impl<R: Ordered, const N: usize> Defect<'_, R, N> {
     /// Whether the defect is within the tolerance, or no more than the rounding of the rates. `rates` are `f` at the place.
-    ///
-    /// Not inlined, so that `benches/guard_instructions.py` finds what it costs.
-    #[inline(never)]
+    #[inline]
     pub fn is_none<S>(&self, system: &S, rates: &[R; N]) -> bool
     where
         S: TaylorSeries<R, N> + ?Sized,
