@@ -185,8 +185,8 @@ impl<'a, R: Ordered, const N: usize> Run<'a, R, N> {
 
         let Series { order, coefficients, .. } = series;
         let tolerance = self.method.tolerance();
-        let tightest = f64::max(tolerance.relative, tolerance.absolute);
-        let ratio = f64::max(RATIO, -PART * log2(tightest) / *order as f64);
+        let looser = f64::max(tolerance.relative, tolerance.absolute);
+        let ratio = f64::max(RATIO, -PART * log2(looser) / *order as f64);
         let mut shortest = f64::INFINITY;
         for (k, coefficients) in coefficients.iter().enumerate().take(*order + 1).skip(first) {
             let mut largest = 0.0_f64;
