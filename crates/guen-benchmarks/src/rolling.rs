@@ -62,12 +62,29 @@ macro_rules! rattleback {
     } };
 }
 
-/// The rattleback in quaternions.
+/// The rattleback in quaternions, by its spins.
 #[macro_export]
 macro_rules! quaternion_rattleback {
-    ($($consumer:ident)::+ $(; $($more:tt)*)?) => { $($consumer)::+! {
+    ($($consumer:ident)::+ $(; $($more:tt)*)?) => { $crate::quaternion_rattleback_by! {
+        $($consumer)::+, QuaternionRattleback, { spin = angular_velocity_body(R); }, $($($more)*)?
+    } };
+}
+
+/// The rattleback in quaternions, by the rates of three entries: the fourth has an edge at zero.
+#[macro_export]
+macro_rules! rate_rattleback {
+    ($($consumer:ident)::+ $(; $($more:tt)*)?) => { $crate::quaternion_rattleback_by! {
+        $($consumer)::+, RateRattleback, { u = dot(i); v = dot(j); r = dot(k); }, $($($more)*)?
+    } };
+}
+
+/// The rattleback in quaternions, by some parameters.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! quaternion_rattleback_by {
+    ($($consumer:ident)::+, $System:ident, { $($parameters:tt)* }, $($more:tt)*) => { $($consumer)::+! {
         /// The rattleback, quaternions in place of angles.
-        pub system QuaternionRattleback {
+        pub system $System {
             constants { m > 0, a > 0, b > 0, c > 0, h, A > 0, B > 0, C > 0, D, g = 9.81 }
             coordinates { w, i, j, k, x, y, z }
             let R = quaternion(w, i, j, k);
@@ -77,10 +94,10 @@ macro_rules! quaternion_rattleback {
             let p = vec(x, y, z);
             bodies { stone { mass: m, inertia: sym(A, B, C, D, 0, 0), center: p, orientation: R } }
             gravity = vec(0, 0, -g);
-            parameters { spin = angular_velocity_body(R); }
+            parameters { $($parameters)* }
             constraints { rolling: stone.velocity_at(p + R*(lowest + vec(0, 0, h))) = 0; }
             holonomic { length: w^2 + i^2 + j^2 + k^2 = 1; }
-            $($($more)*)?
+            $($more)*
         }
     } };
 }

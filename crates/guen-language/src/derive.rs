@@ -214,8 +214,8 @@ fn whole(
     let quantities = formulas::whole(model, &derivation, &brackets, domain.clone(), constant_pivots.clone());
     let control = crate::control::quantities(&mut model.bench, &derivation);
     let quantities: Vec<Quantity> = quantities.into_iter().chain(control).collect();
+    let rates = derivation.formulations[0].rates.clone();
     let mut lists = formulas::rates(&derivation);
-    let rates = lists[0].clone();
     extend(&mut model.bench, &mut lists);
     let placed = formulas::placed(model);
     let placed = (!placed.is_empty()).then(|| programs(&mut model.bench, &[], &[(function::BODIES, placed)]));

@@ -5,9 +5,13 @@ use guen_symbolic::{Derivation, ExprId};
 use super::{Commutator, Quantity, function};
 use crate::model::Model;
 
-/// The rates of the whole state in several equal forms: as shown, then as the optimiser may like them better.
+/// The rates of the whole state in several equal forms: as shown, then as the optimiser may like them better. Where there are some
+/// by the spins of bodies, these alone: next to an edge of the parameters, or of their mass matrix, digits are lost by all
+/// others.
 pub(super) fn rates(derivation: &Derivation) -> Vec<Vec<ExprId>> {
-    derivation.formulations.iter().map(|formulated| formulated.rates.clone()).collect()
+    let is_wanted = derivation.formulations.iter().any(|formulated| formulated.is_by_spins);
+    let wanted = derivation.formulations.iter().filter(|formulated| formulated.is_by_spins || !is_wanted);
+    wanted.map(|formulated| formulated.rates.clone()).collect()
 }
 
 /// All other functions, in the order in which they are built.

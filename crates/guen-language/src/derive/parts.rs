@@ -79,7 +79,7 @@ impl View {
     }
 
     /// Whether an expression depends on something that left.
-    fn is_lost(&mut self, model: &mut Model<'_>, e: ExprId) -> bool {
+    pub(super) fn is_lost(&mut self, model: &mut Model<'_>, e: ExprId) -> bool {
         self.idle.iter().any(|symbol| self.dependence.depends(&mut model.bench, e, *symbol))
     }
 }

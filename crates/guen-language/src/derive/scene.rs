@@ -74,15 +74,17 @@ fn level(
 ) -> Option<Level> {
     let (n, size) = model.sizes();
     let lists = formulas::rates(&derivation);
-    let held = fixed::held(model, &lists[0], &scene.held, faults)?;
+    let first = derivation.formulations[0].rates.clone();
+    let held = fixed::held(model, &first, &scene.held, faults)?;
     let mut holding = Holding::new(model, &held);
-    let lists: Vec<Vec<ExprId>> = lists
+    let first: Vec<ExprId> = first.into_iter().map(|e| holding.of(&mut model.bench, e)).collect();
+    let mut lists: Vec<Vec<ExprId>> = lists
         .into_iter()
         .map(|list| list.into_iter().map(|e| holding.of(&mut model.bench, e)).collect())
         .collect();
     let mut selection = provided(model, &derivation, scene, faults)?;
     let tracked = tracked(model, &held, scene, faults)?;
-    let wanted = wanted(model, &derivation, &mut holding, &lists[0], &selection);
+    let wanted = wanted(model, &derivation, &mut holding, &first, &selection);
 
     // What is kept, with the fewest variables that the holonomic equations allow.
     let variables: Vec<Option<ExprId>> =
@@ -90,7 +92,7 @@ fn level(
     let bench = &mut model.bench;
     let wholes = quaternions(bench, &derivation.system);
     let mut dependence = Dependence::default();
-    let written = Flow { variables: &variables, rates: &lists[0], wholes: &wholes };
+    let written = Flow { variables: &variables, rates: &first, wholes: &wholes };
     let mut reasons = written.closure(bench, &mut dependence, &tracked, &wanted);
     let mut replacements: Vec<Replacement> = Vec::new();
     for candidate in Replacement::all(bench, &derivation.system, &mut holding) {
@@ -98,7 +100,7 @@ fn level(
             continue;
         }
         replacements.push(candidate);
-        let rates: Vec<ExprId> = lists[0].iter().map(|e| replaced(bench, &mut replacements, *e)).collect();
+        let rates: Vec<ExprId> = first.iter().map(|e| replaced(bench, &mut replacements, *e)).collect();
         let provided = wanted.iter().map(|(name, e)| (name.clone(), replaced(bench, &mut replacements, *e)));
         let provided: Vec<_> = provided.collect();
         let flow = Flow { variables: &variables, rates: &rates, wholes: &wholes };
@@ -120,7 +122,7 @@ fn level(
 
     // Expressions without what left.
     let mut view = View { holding, replacements, dependence, idle: Vec::new() };
-    let rates: Vec<ExprId> = selection.variables.iter().map(|p| view.replaced(model, lists[0][*p])).collect();
+    let rates: Vec<ExprId> = selection.variables.iter().map(|p| view.replaced(model, first[*p])).collect();
     let results: Vec<ExprId> = rates.iter().copied().chain(wanted.iter().map(|(_, e)| *e)).collect();
     let needed = |model: &mut Model<'_>, view: &mut View, symbol: ExprId| {
         results.iter().any(|e| view.dependence.depends(&mut model.bench, *e, symbol))
@@ -130,11 +132,23 @@ fn level(
     let left_variables = (0..size).filter(|p| reasons[*p].is_none()).map(|p| model.variable(p));
     let left_inputs = model.inputs.iter().enumerate().filter(|(i, _)| !selection.inputs.contains(i));
     view.idle = left_variables.chain(left_inputs.map(|(_, input)| input.symbol)).collect();
+    // Off the constraints on positions rates that are equal there may depend on what the first ones do not.
+    if lists[0] != first {
+        lists.retain(|list| {
+            selection.variables.iter().all(|p| {
+                let e = view.replaced(model, list[*p]);
+                !view.is_lost(model, e)
+            })
+        });
+        if lists.is_empty() {
+            lists.push(first.clone());
+        }
+    }
     let kept: Vec<Vec<ExprId>> = lists
         .iter()
         .map(|list| selection.variables.iter().map(|p| view.of(model, list[*p])).collect())
         .collect();
-    let rates = kept[0].clone();
+    let rates: Vec<ExprId> = selection.variables.iter().map(|p| view.of(model, first[*p])).collect();
 
     let coordinates = selection.coordinates.clone();
     selection.holonomic = (0..derivation.system.holonomic.len())

@@ -6,6 +6,7 @@ mod common;
 mod corpus;
 mod damage;
 mod drawn;
+mod edges;
 mod limbs;
 mod poles;
 mod restricted;

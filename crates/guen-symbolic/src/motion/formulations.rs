@@ -11,7 +11,7 @@ use super::velocity_forms::VelocityPartials;
 use super::weightless::solved;
 use super::{
     Equations, Frame, KineticTerm, Mechanics, Solution, equations::Stated, headings, multibody, nested,
-    tensions, turned,
+    spins, tensions, turned,
 };
 use crate::algebra::ExprId;
 use crate::program::weighted_cost;
@@ -24,21 +24,24 @@ const LARGEST_TRIED: u64 = 600;
 struct Formulation {
     /// What it is called in [`Formulated::name`].
     name: &'static str,
+    /// As of [`Formulated::is_by_spins`].
+    is_by_spins: bool,
     find: fn(&mut Workbench, &mut Search<'_>) -> Result<Outcome, DerivationError>,
 }
 
 /// All formulations, in the order in which they are tried.
-const FORMULATIONS: [Formulation; 10] = [
-    Formulation { name: "links", find: of_links },
-    Formulation { name: "tensions", find: by_tensions },
-    Formulation { name: "multiplied out", find: multiplied_out },
-    Formulation { name: "bodies", find: of_bodies },
-    Formulation { name: "projected", find: projected },
-    Formulation { name: "shared", find: shared },
-    Formulation { name: "nested", find: nested },
-    Formulation { name: "own axes", find: in_own_axes },
-    Formulation { name: "base parameters", find: in_base_parameters },
-    Formulation { name: "without headings", find: without_headings },
+const FORMULATIONS: [Formulation; 11] = [
+    Formulation { name: "links", is_by_spins: false, find: of_links },
+    Formulation { name: "tensions", is_by_spins: false, find: by_tensions },
+    Formulation { name: "multiplied out", is_by_spins: false, find: multiplied_out },
+    Formulation { name: "bodies", is_by_spins: false, find: of_bodies },
+    Formulation { name: "projected", is_by_spins: false, find: projected },
+    Formulation { name: "shared", is_by_spins: false, find: shared },
+    Formulation { name: "nested", is_by_spins: false, find: nested },
+    Formulation { name: "own axes", is_by_spins: false, find: in_own_axes },
+    Formulation { name: "spins", is_by_spins: true, find: by_spins },
+    Formulation { name: "base parameters", is_by_spins: false, find: in_base_parameters },
+    Formulation { name: "without headings", is_by_spins: false, find: without_headings },
 ];
 
 /// The rates of the state by one formulation, proved to be those of (2.7).
@@ -48,6 +51,8 @@ pub struct Formulated {
     pub name: &'static str,
     /// The rates, velocities first.
     pub rates: Vec<ExprId>,
+    /// Whether they are found by spins of bodies, which know nothing of an edge of the parameters.
+    pub is_by_spins: bool,
 }
 
 /// What a formulation gives.
@@ -142,7 +147,7 @@ pub(super) fn walk(
     let mut formulations: Vec<Formulated> = Vec::new();
     let mut declined = Vec::new();
     let mut shown: Option<(usize, Solution)> = None;
-    'list: for Formulation { name, find } in FORMULATIONS {
+    'list: for Formulation { name, is_by_spins, find } in FORMULATIONS {
         let outcome = find(bench, &mut search)?;
         affordable(bench)?;
         let candidates = match outcome {
@@ -172,7 +177,7 @@ pub(super) fn walk(
             if let Rank::Base(solution) | Rank::Last(solution) = rank {
                 shown = Some((formulations.len(), solution));
             }
-            formulations.push(Formulated { name, rates });
+            formulations.push(Formulated { name, rates, is_by_spins });
             if is_last {
                 break 'list;
             }
@@ -335,6 +340,14 @@ fn in_own_axes(bench: &mut Workbench, search: &mut Search<'_>) -> Result<Outcome
         return Ok(Outcome::Declined("no chart has an edge, or no body turns"));
     };
     let lists = own.rates(bench, search.system, search.generalised_forces);
+    Ok(Outcome::found(lists, || Rank::Other))
+}
+
+/// By the spins of the bodies.
+fn by_spins(bench: &mut Workbench, search: &mut Search<'_>) -> Result<Outcome, DerivationError> {
+    let Some(lists) = spins::rates(bench, search.system, search.frame, search.partials) else {
+        return Ok(Outcome::Declined("no body turns freely, or its spins have the edges of the parameters"));
+    };
     Ok(Outcome::found(lists, || Rank::Other))
 }
 

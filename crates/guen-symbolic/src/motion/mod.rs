@@ -25,6 +25,7 @@ mod proof;
 mod restated;
 mod restriction;
 mod solve;
+mod spins;
 mod symmetry;
 mod tensions;
 mod turned;

@@ -26,6 +26,7 @@ mod declared {
     guen_benchmarks::quaternion_hoop!(guen::mechanical_system);
     guen_benchmarks::rattleback!(guen::mechanical_system);
     guen_benchmarks::quaternion_rattleback!(guen::mechanical_system);
+    guen_benchmarks::rate_rattleback!(guen::mechanical_system);
 }
 
 /// The prepared system in one real, driven by held inputs if it has any.
@@ -117,6 +118,13 @@ fn nearly_turned<const N: usize>(random: &mut Random, part: f64) -> [f64; N] {
     turned(x)
 }
 
+/// Turned by nearly half a turn: the first entry of the quaternion is small.
+fn nearly_half_a_turn<const N: usize>(random: &mut Random, part: f64) -> [f64; N] {
+    let mut x: [f64; N] = anywhere(random);
+    x[0] *= distance(part);
+    turned(x)
+}
+
 /// The first two entries on a circle of radius `l`, at this angle.
 fn on_circle<const N: usize>(mut x: [f64; N], angle: f64, l: f64) -> [f64; N] {
     (x[0], x[1]) = (l * angle.sin(), -l * angle.cos());
@@ -157,6 +165,11 @@ fn rolling() -> Vec<(&'static str, Job)> {
                 m: 1.5, a: 2.0, b: 0.5, c: 0.375, h: 0.125, A: 0.25, B: 1.5, C: 1.625, D: -0.0625, g: 9.8125
             },
             3 parameters, 10 + 10 = 20, |random| turned(anywhere(random)), nearly_turned),
+        bounded!("rattleback in rates of a quaternion",
+            declared::rate_rattleback::RateRattleback {
+                m: 1.5, a: 2.0, b: 0.5, c: 0.375, h: 0.125, A: 0.25, B: 1.5, C: 1.625, D: -0.0625, g: 9.8125
+            },
+            3 parameters, 10 + 10 = 20, |random| turned(anywhere(random)), nearly_half_a_turn),
         bounded!("top", systems::euler_top::EulerTop { I1: 1.0, I2: 2.5, I3: 3.25 },
             3 parameters, 6 + 3 = 9, anywhere, to([1], FLAT)),
     ]

@@ -17,6 +17,7 @@
 mod slopes;
 mod spin;
 
+pub(super) use self::slopes::divisors;
 use self::spin::{Flows, Spin, column, in_parameters};
 use super::projection::{self, MeasuredForms};
 use super::restriction::{self, Restriction};
@@ -55,8 +56,21 @@ pub(super) fn equations(
     frame: &mut Frame,
     forms: &MeasuredForms,
 ) -> Option<InOwnAxes> {
+    if frame.operators.chart.is_empty() {
+        return None;
+    }
+    in_any_chart(bench, system, frame, forms)
+}
+
+/// None where no body is turned.
+pub(super) fn in_any_chart(
+    bench: &mut Workbench,
+    system: &Mechanics,
+    frame: &mut Frame,
+    forms: &MeasuredForms,
+) -> Option<InOwnAxes> {
     let multibody = system.multibody.as_ref()?;
-    if frame.operators.chart.is_empty() || !bench.graph.is_zero(multibody.other_energy) {
+    if !bench.graph.is_zero(multibody.other_energy) {
         return None;
     }
     let mut restriction = Restriction::new(bench, system);
@@ -193,6 +207,18 @@ impl Turned {
         }
         Some(())
     }
+}
+
+/// The angular velocity of a body in its own axes, over velocities: half the antisymmetric part of `R^T R'`.
+pub(super) fn spin(bench: &mut Workbench, system: &Mechanics, rows: &[[ExprId; 3]; 3]) -> [ExprId; 3] {
+    let rates: Vec<[ExprId; 3]> = rows.iter().map(|row| velocity(bench, system, *row)).collect();
+    std::array::from_fn(|a| {
+        let (j, k) = ((a + 1) % 3, (a + 2) % 3);
+        let [first, second] = [(k, j), (j, k)]
+            .map(|(of, by)| bench.dot(&column(rows, of), &[rates[0][by], rates[1][by], rates[2][by]]));
+        let difference = bench.graph.sub(first, second);
+        bench.graph.scale(difference, &Rational::new(1, 2))
+    })
 }
 
 /// The rates of functions of the coordinates, over velocities.

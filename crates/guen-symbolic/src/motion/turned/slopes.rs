@@ -110,7 +110,7 @@ fn shortest(
 }
 
 /// What is divided by.
-fn divisors(graph: &Graph, es: &[ExprId]) -> Vec<ExprId> {
+pub(in crate::motion) fn divisors(graph: &Graph, es: &[ExprId]) -> Vec<ExprId> {
     let mut found = Vec::new();
     for id in graph.reachable(es, |_| false) {
         if let Node::Product(factors) = graph.node(id) {
