@@ -6,59 +6,80 @@ use guen_runtime::steppers::InLanes;
 use guen_runtime::{Rounded, Setting, Vitals, checks};
 
 /// Something to go wrong in every way that a guard knows, by the first entry of the state, which says how much of it there is.
-trait Faulty<const N: usize>: Copy {
+trait Faulty {
     /// Of its edges, in right-hand sides.
     const PRICE: f64 = 0.0;
 
-    fn rates<R: Real>(t: R, state: &[R; N]) -> [R; N];
+    fn rates<R: Real>(t: R, state: &[R; 3]) -> [R; 3];
 
-    fn vitals<R: Real>(_state: &[R; N]) -> Vitals<R> {
+    fn vitals<R: Real>(_state: &[R; 3]) -> Vitals<R> {
         Vitals::default()
     }
 
-    fn edges<R: Real>(_state: &[Rounded<R>; N], _values: &mut [Rounded<R>]) -> usize {
+    fn edges<R: Real>(_state: &[Rounded<R>; 3], _values: &mut [Rounded<R>]) -> usize {
         0
     }
 
-    fn condition<R: Real>(_state: &[R; N]) -> R {
+    fn condition<R: Real>(_state: &[R; 3]) -> R {
         R::one()
     }
 }
 
+/// One of them. They are one type, because runs in lanes of every width and backend, once for each type, took the compiler half a
+/// minute.
 #[derive(Clone, Copy)]
-struct Of<F>(F);
+enum Fault {
+    Pole,
+    Fall,
+    Oscillator,
+    Untold,
+    Growth,
+}
 
-impl<R: Real, F: Faulty<N>, const N: usize> System<R, N> for Of<F> {
+macro_rules! as_type {
+    ($fault:expr, $F:ident => $value:expr) => {
+        as_type!($fault, $F => $value, Pole Fall Oscillator Untold Growth)
+    };
+    ($fault:expr, $F:ident => $value:expr, $($name:ident)*) => {
+        match $fault {
+            $(Fault::$name => {
+                type $F = $name;
+                $value
+            })*
+        }
+    };
+}
+
+impl<R: Real> System<R, 3> for Fault {
     #[inline]
-    fn rhs(&self, t: R, state: &[R; N]) -> [R; N] {
+    fn rhs(&self, t: R, state: &[R; 3]) -> [R; 3] {
         R::vectorize(
             #[inline(always)]
-            || F::rates(t, state),
+            || as_type!(self, F => F::rates(t, state)),
         )
     }
 
-    fn vitals(&self, _t: R, state: &[R; N]) -> Vitals<R> {
-        F::vitals(state)
+    fn vitals(&self, _t: R, state: &[R; 3]) -> Vitals<R> {
+        as_type!(self, F => F::vitals(state))
     }
 
-    fn edges(&self, _t: Rounded<R>, state: &[Rounded<R>; N], values: &mut [Rounded<R>]) -> usize {
-        F::edges(state, values)
+    fn edges(&self, _t: Rounded<R>, state: &[Rounded<R>; 3], values: &mut [Rounded<R>]) -> usize {
+        as_type!(self, F => F::edges(state, values))
     }
 
-    fn condition(&self, _t: R, state: &[R; N]) -> R {
-        F::condition(state)
+    fn condition(&self, _t: R, state: &[R; 3]) -> R {
+        as_type!(self, F => F::condition(state))
     }
 
     fn cost_of_edges(&self) -> f64 {
-        F::PRICE
+        as_type!(self, F => F::PRICE)
     }
 }
 
 /// Past a pole at `t = 1`, at a distance that the run begins with: a step is too long for it, or not.
-#[derive(Clone, Copy)]
 struct Pole;
 
-impl Faulty<3> for Pole {
+impl Faulty for Pole {
     const PRICE: f64 = 2.5;
 
     fn rates<R: Real>(t: R, &[offset, _, _]: &[R; 3]) -> [R; 3] {
@@ -75,25 +96,23 @@ impl Faulty<3> for Pole {
 }
 
 /// Through a function that must not vanish, which it reaches, or not.
-#[derive(Clone, Copy)]
 struct Fall;
 
-impl Faulty<2> for Fall {
-    fn rates<R: Real>(_t: R, &[speed, _]: &[R; 2]) -> [R; 2] {
-        [R::zero(), -speed]
+impl Faulty for Fall {
+    fn rates<R: Real>(_t: R, &[speed, _, _]: &[R; 3]) -> [R; 3] {
+        [R::zero(), -speed, R::zero()]
     }
 
-    fn edges<R: Real>(state: &[Rounded<R>; 2], values: &mut [Rounded<R>]) -> usize {
+    fn edges<R: Real>(state: &[Rounded<R>; 3], values: &mut [Rounded<R>]) -> usize {
         values[0] = state[1];
         1
     }
 }
 
 /// An oscillator of some frequency: too fast for the step, or not. It keeps its energy.
-#[derive(Clone, Copy)]
 struct Oscillator;
 
-impl Faulty<3> for Oscillator {
+impl Faulty for Oscillator {
     fn rates<R: Real>(_t: R, &[omega, x, v]: &[R; 3]) -> [R; 3] {
         [R::zero(), v, -(omega * omega * x)]
     }
@@ -105,20 +124,18 @@ impl Faulty<3> for Oscillator {
 }
 
 /// The same, and nothing is known of its energy.
-#[derive(Clone, Copy)]
 struct Untold;
 
-impl Faulty<3> for Untold {
+impl Faulty for Untold {
     fn rates<R: Real>(t: R, state: &[R; 3]) -> [R; 3] {
         Oscillator::rates(t, state)
     }
 }
 
 /// Something that grows until the residual, or what it carries, or the mass matrix is beyond its limit.
-#[derive(Clone, Copy)]
 struct Growth;
 
-impl Faulty<3> for Growth {
+impl Faulty for Growth {
     fn rates<R: Real>(_t: R, &[rate, x, y]: &[R; 3]) -> [R; 3] {
         [R::zero(), rate * x, -(rate * y)]
     }
@@ -139,9 +156,9 @@ impl Faulty<3> for Growth {
     }
 }
 
-struct InEach<'a, const N: usize, F> {
-    system: Of<F>,
-    starts: &'a [[f64; N]],
+struct InEach<'a> {
+    system: Fault,
+    starts: &'a [[f64; 3]],
     step: f64,
     times: &'a [f64],
     /// By RK8 in place of RK4.
@@ -149,8 +166,8 @@ struct InEach<'a, const N: usize, F> {
     guard: Guard,
 }
 
-impl<F: Faulty<N>, const N: usize> LaneTask for InEach<'_, N, F> {
-    type Output = Vec<(InLanes<N>, usize)>;
+impl LaneTask for InEach<'_> {
+    type Output = Vec<(InLanes<3>, usize)>;
 
     #[inline(always)]
     fn run<L: Lanes>(self) -> Self::Output {
@@ -159,7 +176,7 @@ impl<F: Faulty<N>, const N: usize> LaneTask for InEach<'_, N, F> {
             .map(|group| {
                 let start = core::array::from_fn(|i| L::from_fn(|lane| group[lane][i]));
                 let mut visits = 0;
-                let visit = |_: usize, _: f64, state: &[L; N], going: Mask| {
+                let visit = |_: usize, _: f64, state: &[L; 3], going: Mask| {
                     visits += going.lanes().count();
                     for lane in 0..L::COUNT {
                         let finite = state.iter().all(|entry| entry.lane(lane).is_finite());
@@ -182,7 +199,7 @@ impl<F: Faulty<N>, const N: usize> LaneTask for InEach<'_, N, F> {
 const SLOW: bool = cfg!(miri);
 
 /// So many starts by their number.
-fn starts<const N: usize>(count: usize, start: impl Fn(i32) -> [f64; N]) -> Vec<[f64; N]> {
+fn starts(count: usize, start: impl Fn(i32) -> [f64; 3]) -> Vec<[f64; 3]> {
     let (count, apart) = if SLOW { (8, 5) } else { (count, 1) };
     (0..count as i32).map(|k| start(apart * k)).collect()
 }
@@ -195,20 +212,14 @@ const WIDTHS: &[Width] =
 const SOME: usize = if SLOW { 1 } else { 6 };
 
 /// Compares the ends in lanes with those alone, of both methods; returns how many arrived, and the causes of the others.
-fn compare<F: Faulty<N>, const N: usize>(
-    of: F,
-    starts: &[[f64; N]],
-    step: f64,
-    times: &[f64],
-) -> (usize, Vec<Cause>) {
-    let system = Of(of);
+fn compare(system: Fault, starts: &[[f64; 3]], step: f64, times: &[f64]) -> (usize, Vec<Cause>) {
     let mut causes = Vec::new();
     for eight in [false, true] {
         let mut visits = 0;
         let alone: Vec<_> = starts
             .iter()
             .map(|start| {
-                let visit = |_: usize, _: f64, _: &[f64; N]| visits += 1;
+                let visit = |_: usize, _: f64, _: &[f64; 3]| visits += 1;
                 if eight {
                     Rk8::new(step).sample(&system, 0.0, start, times, visit)
                 } else {
@@ -239,7 +250,7 @@ fn a_pole_that_a_step_passes() {
     let starts = starts(32, |k| [offset(k), (1.0 + offset(k).powi(2)).sqrt(), 0.0]);
     let steps = if SLOW { &[0.05][..] } else { &[0.01, 0.0099, 0.0137] };
     for &step in steps {
-        let (arrived, causes) = compare(Pole, &starts, step, &[0.5, 2.0]);
+        let (arrived, causes) = compare(Fault::Pole, &starts, step, &[0.5, 2.0]);
         assert!(arrived >= SOME && causes.len() >= SOME, "{arrived}");
         assert!(
             causes
@@ -252,8 +263,8 @@ fn a_pole_that_a_step_passes() {
 
 #[test]
 fn an_edge_that_some_come_to() {
-    let starts = starts(24, |k| [f64::from(k % 7) * 0.3, 1.0]);
-    let (arrived, causes) = compare(Fall, &starts, if SLOW { 0.02 } else { 0.003 }, &[0.4, 0.4, 1.3]);
+    let starts = starts(24, |k| [f64::from(k % 7) * 0.3, 1.0, 0.0]);
+    let (arrived, causes) = compare(Fault::Fall, &starts, if SLOW { 0.02 } else { 0.003 }, &[0.4, 0.4, 1.3]);
     assert!(arrived >= SOME && causes.len() >= SOME);
     assert!(
         causes.iter().all(|cause| matches!(cause, Cause::Edge { .. } | Cause::Approach { .. })),
@@ -267,26 +278,26 @@ fn steps_that_are_too_long_for_some() {
     let mut steps = 0;
     let runs = [(0.02, 0.02), (0.1, 0.3), (0.02, 6.0), (0.05, 3.01)];
     for (step, span) in runs.into_iter().take(if SLOW { 2 } else { 4 }) {
-        let (_, causes) = compare(Oscillator, &starts, step, &[span]);
+        let (_, causes) = compare(Fault::Oscillator, &starts, step, &[span]);
         assert!(causes.iter().any(|cause| matches!(cause, Cause::Energy { .. } | Cause::Step { .. })));
-        let (_, causes) = compare(Untold, &starts, step, &[span / 3.0, span]);
+        let (_, causes) = compare(Fault::Untold, &starts, step, &[span / 3.0, span]);
         steps += causes.iter().filter(|cause| matches!(cause, Cause::Step { .. })).count();
         // Back to the start, and nothing at all.
-        compare(Untold, &starts, step, &[span, 0.0]);
-        compare(Untold, &starts, step, &[0.0]);
+        compare(Fault::Untold, &starts, step, &[span, 0.0]);
+        compare(Fault::Untold, &starts, step, &[0.0]);
     }
     assert!(steps > if SLOW { 0 } else { 20 }, "{steps}");
     // Some grow out of range before anybody looks again, and one was no number from the beginning.
     let mut starts = starts;
     starts[5][1] = f64::NAN;
-    let (_, causes) = compare(Untold, &starts, 3e9, &[1.5e11]);
+    let (_, causes) = compare(Fault::Untold, &starts, 3e9, &[1.5e11]);
     assert!(causes.contains(&Cause::NotFinite));
 }
 
 #[test]
 fn residuals_carried_functions_and_conditions_of_every_lane() {
     let starts = starts(32, |k| [0.1 + 0.07 * f64::from(k % 13), 1.0 + f64::from(k % 3), 3.0]);
-    let (arrived, causes) = compare(Growth, &starts, if SLOW { 0.1 } else { 0.01 }, &[3.0, 5.0]);
+    let (arrived, causes) = compare(Fault::Growth, &starts, if SLOW { 0.1 } else { 0.01 }, &[3.0, 5.0]);
     assert!(arrived > 0 && causes.len() >= SOME, "{arrived} {causes:?}");
     // The first one that must be seen is that of a lane which is not the first.
     let names = |cause: &Cause| {
@@ -298,9 +309,9 @@ fn residuals_carried_functions_and_conditions_of_every_lane() {
 #[test]
 fn times_that_are_none() {
     let starts = [[1.0, 1.0, 0.0]; 8];
-    let (_, causes) = compare(Untold, &starts, 0.02, &[1.0, f64::NAN]);
+    let (_, causes) = compare(Fault::Untold, &starts, 0.02, &[1.0, f64::NAN]);
     assert!(causes.iter().all(|cause| matches!(cause, Cause::Setting(Setting::Time))) && causes.len() == 16);
-    let (_, causes) = compare(Untold, &starts, 0.0, &[1.0]);
+    let (_, causes) = compare(Fault::Untold, &starts, 0.0, &[1.0]);
     assert!(causes.iter().all(|cause| matches!(cause, Cause::Setting(Setting::Step))) && causes.len() == 16);
 }
 
@@ -309,7 +320,7 @@ fn limits_are_those_of_the_guard() {
     let starts = starts(16, |k| [1.0 + 0.3 * f64::from(k), 1.0, 0.0]);
     let strict = Guard { energy: 1e-12, step: 1e-12, every: Some(3), ..Guard::default() };
     let wrong = Guard { edge: f64::NAN, ..Guard::default() };
-    let system = Of(Oscillator);
+    let system = Fault::Oscillator;
     let times = [2.0];
     let mut failed = Vec::new();
     for guard in [strict, Guard::FINITE, wrong] {
@@ -337,15 +348,15 @@ fn limits_are_those_of_the_guard() {
 }
 
 /// With lanes as the real, in a run that has one end for all lanes.
-struct Together<'a, const N: usize, F> {
-    system: Of<F>,
-    starts: &'a [[f64; N]],
+struct Together<'a> {
+    system: Fault,
+    starts: &'a [[f64; 3]],
     step: f64,
     span: f64,
     eight: bool,
 }
 
-impl<F: Faulty<N>, const N: usize> LaneTask for Together<'_, N, F> {
+impl LaneTask for Together<'_> {
     /// How many lanes, and for each group of starts the time and cause of its error, if it has one.
     type Output = (usize, Vec<Option<(f64, Cause)>>);
 
@@ -364,8 +375,7 @@ impl<F: Faulty<N>, const N: usize> LaneTask for Together<'_, N, F> {
 }
 
 /// A run of all lanes ends with the first fault of one of them, and returns the last look at which all were in order.
-fn compare_together<F: Faulty<N>, const N: usize>(of: F, starts: &[[f64; N]], step: f64, span: f64) -> usize {
-    let system = Of(of);
+fn compare_together(system: Fault, starts: &[[f64; 3]], step: f64, span: f64) -> usize {
     let mut failed = 0;
     for eight in [false, true] {
         let alone: Vec<_> = starts
@@ -409,19 +419,19 @@ fn compare_together<F: Faulty<N>, const N: usize>(of: F, starts: &[[f64; N]], st
 fn with_lanes_as_the_real_a_fault_of_any_lane_ends_the_run() {
     // Of every eight and every four one is at fault, and never the first one.
     let oscillators = starts(32, |k| [if k % 4 == 3 { 30.0 } else { 1.0 }, 1.0, 0.2 * f64::from(k)]);
-    let found = compare_together(Oscillator, &oscillators, 0.03, 1.5);
+    let found = compare_together(Fault::Oscillator, &oscillators, 0.03, 1.5);
     assert!(found >= SOME, "{found}");
-    let found = compare_together(Untold, &oscillators, 0.1, 6.0);
+    let found = compare_together(Fault::Untold, &oscillators, 0.1, 6.0);
     assert!(found >= SOME, "{found}");
     let growing = starts(32, |k| [if k % 4 == 1 { 0.9 } else { 0.1 }, 1.0 + f64::from(k % 3), 3.0]);
-    let found = compare_together(Growth, &growing, if SLOW { 0.1 } else { 0.01 }, 3.0);
+    let found = compare_together(Fault::Growth, &growing, if SLOW { 0.1 } else { 0.01 }, 3.0);
     assert!(found >= SOME, "{found}");
-    let falls = starts(32, |k| [if k % 4 == 2 { 1.1 } else { 0.1 }, 1.0]);
-    let found = compare_together(Fall, &falls, if SLOW { 0.02 } else { 0.003 }, 1.3);
+    let falls = starts(32, |k| [if k % 4 == 2 { 1.1 } else { 0.1 }, 1.0, 0.0]);
+    let found = compare_together(Fault::Fall, &falls, if SLOW { 0.02 } else { 0.003 }, 1.3);
     assert!(found >= SOME, "{found}");
     let mut missing = oscillators;
     missing.iter_mut().for_each(|start| start[0] = 1.0);
     missing[5][1] = f64::NAN;
     // One of them, in one group of either width, by both methods.
-    assert_eq!(compare_together(Untold, &missing, 0.05, 1.5), 4);
+    assert_eq!(compare_together(Fault::Untold, &missing, 0.05, 1.5), 4);
 }

@@ -1,5 +1,7 @@
 //! Declarations derived, and the programs that were made of them evaluated.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use guen_language::derive::{Derived, Level, derive};
 use guen_language::diagnostics::collect;
 use guen_language::{model, parse};
@@ -8,6 +10,24 @@ use guen_symbolic::{SymbolId, evaluate_function, evaluate_prepare};
 /// How many a test draws: so many in every run, and more with `GUEN_ROUNDS`, as `.ci/run` asks for them in an optimised build.
 pub fn rounds(quick: u64) -> u64 {
     std::env::var("GUEN_ROUNDS").ok().and_then(|rounds| rounds.parse().ok()).unwrap_or(quick)
+}
+
+/// What is found of each, in their order. Two threads take the next one that is left, for the machines that this runs on have two
+/// cores, and some take much longer than others.
+pub fn by_two_threads<I: Sync, T: Send>(all: &[I], look: impl Fn(&I) -> T + Sync) -> Vec<T> {
+    let next = AtomicUsize::new(0);
+    let run = || -> Vec<(usize, T)> {
+        let mine = std::iter::from_fn(|| Some(next.fetch_add(1, Ordering::Relaxed)));
+        mine.map_while(|place| all.get(place).map(|one| (place, look(one)))).collect()
+    };
+    let mut found = std::thread::scope(|scope| {
+        let other = scope.spawn(run);
+        let mut own = run();
+        own.extend(other.join().expect("the other half"));
+        own
+    });
+    found.sort_by_key(|(place, _)| *place);
+    found.into_iter().map(|(_, found)| found).collect()
 }
 
 /// Looks at what follows from a declaration in which nothing is wrong.

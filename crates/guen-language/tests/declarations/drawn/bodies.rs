@@ -213,7 +213,7 @@ fn looked_at(seed: u64) -> Seen {
 #[test]
 fn mechanisms_end_with_the_right_rates_or_an_error() {
     let number = |name: &str| std::env::var(name).ok().and_then(|text| text.parse::<u64>().ok());
-    let rounds = rounds(20);
+    let rounds = rounds(60);
     let first = number("GUEN_FIRST").unwrap_or(0);
     let only = number("GUEN_ONLY");
     if let Some(seed) = only {

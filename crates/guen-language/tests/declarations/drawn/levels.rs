@@ -6,7 +6,7 @@ use guen_symbolic::{ExprId, Role, SymbolId, evaluate_f64};
 
 use super::draw::Draw;
 use super::{Numbers, grammar, multipliers, numbers, scenes};
-use crate::common::{derived, evaluated};
+use crate::common::{by_two_threads, derived, evaluated};
 
 /// Largest difference, in units of condition times scale.
 const ROUNDING: f64 = 1e-11;
@@ -199,21 +199,12 @@ fn scenes_of_drawn_declarations_are_those_of_the_whole_system() {
     let number = |name: &str| std::env::var(name).ok().and_then(|text| text.parse::<u64>().ok());
     let rounds = number("GUEN_ROUNDS").unwrap_or(6);
     let seeds: Vec<u64> = number("GUEN_ONLY").map_or_else(|| (0..rounds).collect(), |seed| vec![seed]);
-    let run = |thread: usize| {
-        let mut all = Seen::default();
-        for seed in seeds.iter().skip(thread).step_by(2) {
-            let text = declaration(*seed);
-            all.add(derived(&text, |derived| looked_at(&text, derived, *seed)));
-        }
-        all
-    };
-    // The machines that this runs on have two cores.
-    let all = std::thread::scope(|scope| {
-        let other = scope.spawn(|| run(1));
-        let mut own = run(0);
-        own.add(other.join().expect("the other half"));
-        own
+    let mut all = Seen::default();
+    let found = by_two_threads(&seeds, |seed| {
+        let text = declaration(*seed);
+        derived(&text, |derived| looked_at(&text, derived, *seed))
     });
+    found.into_iter().for_each(|found| all.add(found));
     let Seen { scenes, states, smaller, parts, faults } = all;
     println!("{scenes} scenes, {smaller} smaller, {parts} parts of their systems; {states} states");
     for fault in &faults {

@@ -30,7 +30,7 @@ use guen_language::derive::{Derived, function};
 use guen_language::model::{self, Model};
 use guen_symbolic::{ExprId, SymbolId};
 
-use crate::common::{derived, evaluated, rounds};
+use crate::common::{by_two_threads, derived, evaluated, rounds};
 use declared::Declared;
 use draw::Draw;
 
@@ -141,23 +141,14 @@ fn difference(text: &str, derived: &Derived<'_>, seed: u64) -> (f64, usize) {
 #[test]
 fn programs_of_drawn_declarations_are_what_they_mean() {
     let rounds = rounds(12);
-    let run = |thread: u64| -> (f64, usize) {
-        let mut all = (0.0_f64, 0);
-        for seed in (thread..rounds).step_by(2) {
-            let text = grammar::drawn(seed);
-            let (worst, states) = derived(&text, |derived| difference(&text, derived, seed));
-            all = (all.0.max(worst), all.1 + states);
-        }
-        all
-    };
-    // The machines that this runs on have two cores.
-    let (a, b) = std::thread::scope(|scope| {
-        let other = scope.spawn(|| run(1));
-        let own = run(0);
-        (own, other.join().expect("the other half"))
+    let seeds: Vec<u64> = (0..rounds).collect();
+    let found = by_two_threads(&seeds, |seed| {
+        let text = grammar::drawn(*seed);
+        derived(&text, |derived| difference(&text, derived, *seed))
     });
-    let states = a.1 + b.1;
-    println!("{states} states of {rounds} systems, at most {:.1e} of condition times scale", a.0.max(b.0));
+    let states: usize = found.iter().map(|(_, states)| states).sum();
+    let worst = found.iter().map(|(worst, _)| *worst).fold(0.0, f64::max);
+    println!("{states} states of {rounds} systems, at most {worst:.1e} of condition times scale");
     assert!(states as u64 >= 2 * rounds, "{states} states only");
 }
 

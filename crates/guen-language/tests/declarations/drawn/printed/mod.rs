@@ -17,6 +17,7 @@ mod text;
 
 use guen_symbolic::{Notation, Rational, Workbench};
 
+use crate::common::by_two_threads;
 use crate::drawn::draw::Draw;
 use crate::drawn::{grammar, scenes};
 use lines::Format;
@@ -59,21 +60,12 @@ fn reports_of_drawn_declarations_say_what_was_derived() {
         Some(seed) => vec![seed],
         None => (0..rounds()).chain(WRONG_ONCE.into_iter().filter(|seed| *seed >= rounds())).collect(),
     };
-    // The machines that this runs on have two cores.
-    let run = |thread: usize| -> Checked {
-        let mut all = Checked::default();
-        for seed in seeds.iter().skip(thread).step_by(2) {
-            let text = declaration(*seed);
-            all.add(report::checked(&text).unwrap_or_else(|| panic!("faults in\n{text}")));
-        }
-        all
-    };
-    let all = std::thread::scope(|scope| {
-        let other = scope.spawn(|| run(1));
-        let mut own = run(0);
-        own.add(other.join().expect("the other half"));
-        own
+    let mut all = Checked::default();
+    let found = by_two_threads(&seeds, |seed| {
+        let text = declaration(*seed);
+        report::checked(&text).unwrap_or_else(|| panic!("faults in\n{text}"))
     });
+    found.into_iter().for_each(|found| all.add(found));
     println!("{all}");
     all.assert();
 }
@@ -85,8 +77,10 @@ fn reports_of_the_systems_of_the_repository_say_what_was_derived() {
     let most = if rounds() < 1000 { 4 } else { usize::MAX };
     let mut all = Checked::default();
     let mut sound = 0;
-    for (text, file) in systems.iter().filter(|(text, _)| systems::coordinates(text) <= most) {
-        match report::checked(text) {
+    let looked_at: Vec<_> = systems.iter().filter(|(text, _)| systems::coordinates(text) <= most).collect();
+    let found = by_two_threads(&looked_at, |(text, _)| report::checked(text));
+    for ((text, file), found) in looked_at.iter().zip(found) {
+        match found {
             Some(found) => {
                 sound += 1;
                 all.add(found);
