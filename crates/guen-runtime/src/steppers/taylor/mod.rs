@@ -39,7 +39,7 @@ pub use series::Series;
 /// - Trials that [`Statistics`](super::Statistics) calls rejected are those steps, and expansions whose coefficients overflowed,
 ///   which are repeated with another scale. In a smooth motion there are none: the length is known before a step is made.
 /// - Of two steps one after the other the rates at the end of the first are the first coefficients of the second, so
-///   that the comparison costs one evaluation for each step, and two for the last: 1.3 percent of the instructions for a chain of
+///   that the comparison costs one evaluation for each step, and two for the last: 1.2 percent of the instructions for a chain of
 ///   twenty links, 4 for the hoop, 6 for the sled (`benches/guard_instructions.py`).
 /// - Dense output is the series itself, at no price but its evaluation.
 /// - The state is carried as a sum of two numbers, so that what a step adds is not rounded to the state's last digit: over
