@@ -74,7 +74,7 @@ fn reports_of_drawn_declarations_say_what_was_derived() {
 #[test]
 fn reports_of_the_systems_of_the_repository_say_what_was_derived() {
     let systems = systems::all();
-    let most = if rounds() < 1000 { 4 } else { usize::MAX };
+    let most = if rounds() < 1000 { 5 } else { usize::MAX };
     let mut all = Checked::default();
     let mut sound = 0;
     let looked_at: Vec<_> = systems.iter().filter(|(text, _)| systems::coordinates(text) <= most).collect();
