@@ -64,3 +64,21 @@ fn what_is_missing_unknown_or_twice_is_refused() {
     assert!(error(r#"{"x":0.1,"x":1,"speed":2}"#).contains("duplicate field `x`"));
     assert!(error("[1]").contains("invalid length 1"));
 }
+
+/// A name that a type parameter of serde's traits has by custom.
+mod short_names {
+    guen::mechanical_system! {
+        pub system Short {
+            constants { a = 1 }
+            coordinates { q }
+            parameters { v = dot(q); }
+            kinetic_energy = a*v^2/2;
+            scene D { fix a = 2; }
+        }
+    }
+
+    #[test]
+    fn are_free_for_scenes() {
+        assert!(short::D::try_from(Short { a: 2.0 }).is_ok());
+    }
+}

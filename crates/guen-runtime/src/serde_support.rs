@@ -29,19 +29,19 @@ macro_rules! serde_record {
     };
     ($Type:ident, $name:literal, $n:literal, $names:expr, derived $derived:expr, $to:expr, $from:expr) => {
         impl<R: $crate::serde::Serialize + ::core::marker::Copy> $crate::serde::Serialize for $Type<R> {
-            fn serialize<S: $crate::serde::Serializer>(
+            fn serialize<GuenSerializer: $crate::serde::Serializer>(
                 &self,
-                serializer: S,
-            ) -> ::core::result::Result<S::Ok, S::Error> {
+                serializer: GuenSerializer,
+            ) -> ::core::result::Result<GuenSerializer::Ok, GuenSerializer::Error> {
                 let to: fn(&$Type<R>) -> [::core::option::Option<R>; $n] = $to;
                 $crate::serialize_derived(serializer, $name, &$names, &$derived, &to(self))
             }
         }
 
         impl<'de, R: $crate::serde::Deserialize<'de>> $crate::serde::Deserialize<'de> for $Type<R> {
-            fn deserialize<D: $crate::serde::Deserializer<'de>>(
-                deserializer: D,
-            ) -> ::core::result::Result<Self, D::Error> {
+            fn deserialize<GuenDeserializer: $crate::serde::Deserializer<'de>>(
+                deserializer: GuenDeserializer,
+            ) -> ::core::result::Result<Self, GuenDeserializer::Error> {
                 const NAMES: [&'static str; $n] = $names;
                 const DERIVED: [bool; $n] = $derived;
                 let from: fn([::core::option::Option<R>; $n]) -> ::core::option::Option<$Type<R>> = $from;
@@ -51,22 +51,23 @@ macro_rules! serde_record {
     };
     ($Type:ident, $name:literal, $n:literal, $names:expr, $to:expr, $from:expr) => {
         impl<R: $crate::serde::Serialize + ::core::marker::Copy> $crate::serde::Serialize for $Type<R> {
-            fn serialize<S: $crate::serde::Serializer>(
+            fn serialize<GuenSerializer: $crate::serde::Serializer>(
                 &self,
-                serializer: S,
-            ) -> ::core::result::Result<S::Ok, S::Error> {
+                serializer: GuenSerializer,
+            ) -> ::core::result::Result<GuenSerializer::Ok, GuenSerializer::Error> {
                 let to: fn(&$Type<R>) -> [R; $n] = $to;
                 $crate::serialize_record(serializer, $name, &$names, &to(self))
             }
         }
 
         impl<'de, R: $crate::serde::Deserialize<'de>> $crate::serde::Deserialize<'de> for $Type<R> {
-            fn deserialize<D: $crate::serde::Deserializer<'de>>(
-                deserializer: D,
-            ) -> ::core::result::Result<Self, D::Error> {
+            fn deserialize<GuenDeserializer: $crate::serde::Deserializer<'de>>(
+                deserializer: GuenDeserializer,
+            ) -> ::core::result::Result<Self, GuenDeserializer::Error> {
                 const NAMES: [&'static str; $n] = $names;
                 let from: fn([R; $n]) -> $Type<R> = $from;
-                let values = $crate::deserialize_record::<D, R, $n>(deserializer, $name, &NAMES)?;
+                let values =
+                    $crate::deserialize_record::<GuenDeserializer, R, $n>(deserializer, $name, &NAMES)?;
                 ::core::result::Result::Ok(from(values))
             }
         }
