@@ -159,22 +159,17 @@ impl Candidate {
             && self.prepared.expressions == other.prepared.expressions
     }
 
-    /// The largest relative error of an output at a point, given what is prepared there; none where nothing is finite.
-    fn loss(&self, graph: &Graph, point: &Point, prepared: &[f64]) -> Option<f64> {
+    /// The relative error of each output at a point, given what is prepared there; none where one is not finite.
+    fn loss(&self, graph: &Graph, point: &Point, prepared: &[f64]) -> Option<Vec<f64>> {
         let prepared: Vec<Running> = prepared.iter().map(|value| Running::rounded(*value, 0.0)).collect();
         let Code { instructions, values, outputs } = &self.code;
         let symbols = |symbol| Running::exact(point.value(graph, symbol));
         let outputs = run(instructions, *values, outputs, &prepared, symbols);
-        let mut worst = 0.0_f64;
-        for Running { value, error } in outputs {
-            if !value.is_finite() {
-                return None;
-            }
-            if value != 0.0 {
-                worst = worst.max(error / value.abs());
-            }
-        }
-        worst.is_finite().then_some(worst)
+        let relative = |Running { value, error }| if value == 0.0 { 0.0 } else { error / f64::abs(value) };
+        let found = |output: Running| {
+            Some(relative(output)).filter(|loss| output.value.is_finite() && loss.is_finite())
+        };
+        outputs.into_iter().map(found).collect()
     }
 
     /// Divisors that depend on the state, in their order.
@@ -252,17 +247,30 @@ fn chosen(graph: &Graph, codes: &[Candidate], accurate: bool) -> Option<usize> {
     }
     let costs: Vec<u64> = codes.iter().map(Candidate::cost).collect();
     let losses = losses(graph, codes);
-    let least = losses.iter().copied().fold(f64::INFINITY, f64::min);
-    // Where every program loses as much it is the function that is ill conditioned there.
-    let limit = if least > SERIOUS { f64::INFINITY } else { SERIOUS.max(INTOLERABLE * least) };
-    let tolerable = |i: &usize| losses[*i] <= limit;
+    // Where every program loses as much it is the output that is ill conditioned at that point.
+    let excess: Vec<f64> = losses.iter().map(|losses| losses.excess).collect();
+    let limit = excess.iter().copied().fold(f64::INFINITY, f64::min).max(1.0);
+    let tolerable = |i: &usize| excess[*i] <= limit;
     let cost = (0..codes.len()).filter(tolerable).map(|i| costs[i]).min()?;
     let mut cheapest = (0..codes.len()).filter(tolerable).filter(|i| costs[*i] == cost);
-    if accurate { cheapest.min_by(|i, j| losses[*i].total_cmp(&losses[*j])) } else { cheapest.next() }
+    if accurate {
+        cheapest.min_by(|i, j| losses[*i].largest.total_cmp(&losses[*j].largest))
+    } else {
+        cheapest.next()
+    }
 }
 
-/// The largest loss of each program over all points at which some program is defined.
-fn losses(graph: &Graph, codes: &[Candidate]) -> Vec<f64> {
+/// What a program loses, over all points at which some program is defined.
+#[derive(Clone, Copy)]
+struct Losses {
+    /// The largest.
+    largest: f64,
+    /// The largest by that which is tolerable of the same output at the same point; at most one for a program to be taken.
+    excess: f64,
+}
+
+/// What each program loses.
+fn losses(graph: &Graph, codes: &[Candidate]) -> Vec<Losses> {
     let mut points: Vec<Point> = (0..POINTS).map(|seed| Point { seed, moved: None }).collect();
     // Equal programs lose as much, and no constant moves: each is looked at once.
     let mut different: Vec<&Candidate> = Vec::new();
@@ -284,18 +292,29 @@ fn losses(graph: &Graph, codes: &[Candidate]) -> Vec<f64> {
             points.extend(candidate.near_pole(graph, &random[0], &prepared[0], divisor));
         }
     }
-    let mut worst = vec![0.0_f64; different.len()];
+    let mut worst = vec![Losses { largest: 0.0, excess: 0.0 }; different.len()];
     for point in &points {
-        let found: Vec<Option<f64>> = different
+        let found: Vec<Option<Vec<f64>>> = different
             .iter()
             .zip(&prepared)
             .map(|(candidate, prepared)| candidate.loss(graph, point, &prepared[point.seed as usize]))
             .collect();
-        if found.iter().all(Option::is_none) {
-            continue;
+        let Some(defined) = found.iter().flatten().next() else { continue };
+        let mut least = vec![f64::INFINITY; defined.len()];
+        for losses in found.iter().flatten() {
+            for (least, loss) in least.iter_mut().zip(losses) {
+                *least = least.min(*loss);
+            }
         }
         for (worst, found) in worst.iter_mut().zip(found) {
-            *worst = worst.max(found.unwrap_or(f64::INFINITY));
+            let Some(losses) = found else {
+                *worst = Losses { largest: f64::INFINITY, excess: f64::INFINITY };
+                continue;
+            };
+            for (loss, least) in losses.into_iter().zip(&least) {
+                worst.largest = worst.largest.max(loss);
+                worst.excess = worst.excess.max(loss / SERIOUS.max(INTOLERABLE * least));
+            }
         }
     }
     kinds.into_iter().map(|kind| worst[kind]).collect()
@@ -342,6 +361,14 @@ mod tests {
         for lists in [[vec![cancels], vec![keeps]], [vec![keeps], vec![cancels]]] {
             let (_, _, found) = taken(&mut g, &lists, &[1e-7]);
             assert!((found[0] - 0.5).abs() < 1e-14, "{}", found[0]);
+        }
+        // An output that nobody can find to more digits does not hide what is lost of another one.
+        let large = g.ratio(1_000_000_000_000, 1);
+        let phase = g.mul(large, x);
+        let lost = g.sin(phase);
+        for lists in [[vec![lost, cancels], vec![lost, keeps]], [vec![lost, keeps], vec![lost, cancels]]] {
+            let (_, _, found) = taken(&mut g, &lists, &[1e-7]);
+            assert!((found[1] - 0.5).abs() < 1e-14, "{}", found[1]);
         }
     }
 
