@@ -70,7 +70,7 @@ impl Draw {
     }
 }
 
-/// What is asked of a system: its programs at a state, which ends with the constants.
+/// A derived system whose programs are evaluated at states. A state is a list of coordinates, parameters and constants.
 struct Asked<'a> {
     derived: &'a Derived<'a>,
     level: &'a Level,

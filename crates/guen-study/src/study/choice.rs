@@ -36,12 +36,12 @@ pub struct Choice<'a> {
     pub ties: Vec<&'a Row>,
     /// A setting that is quicker and was passed over, because it errs too much from states nearby.
     pub passed_over: Option<&'a Row>,
-    /// What was not asked of it, or asked in vain: what is promised of the choice is promised but for that.
+    /// What the study could not check; the promise does not cover it.
     pub caveats: Vec<Caveat>,
     unit: Unit,
 }
 
-/// What a promise leaves out.
+/// Something that a study could not check and its promise does not cover.
 ///
 /// ```
 /// use guen_study::Caveat;
@@ -265,7 +265,7 @@ impl Report {
         })
     }
 
-    /// What a promise made of this row leaves out.
+    /// What the study could not check of this row.
     fn caveats(&self, row: &Row) -> Vec<Caveat> {
         let unseen = self.reference.is_some() && !self.is_scanned();
         let nearby = match row.nearby {

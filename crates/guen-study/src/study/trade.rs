@@ -57,7 +57,7 @@ pub enum Forecast {
     Holds {
         /// The estimate.
         estimate: f64,
-        /// What this leaves out.
+        /// What could not be checked, if anything.
         caveat: Option<Caveat>,
     },
     /// It is not: the estimate, or the uncertainty of the estimate, is too large.

@@ -12,8 +12,8 @@ pub fn rounds(quick: u64) -> u64 {
     std::env::var("GUEN_ROUNDS").ok().and_then(|rounds| rounds.parse().ok()).unwrap_or(quick)
 }
 
-/// What is found of each, in their order. Two threads take the next one that is left, for the machines that this runs on have two
-/// cores, and some take much longer than others.
+/// Applies `look` to every item in two threads and returns the results in the order of the items. A thread that is done with
+/// one item takes the next, because some take much longer than others.
 pub fn by_two_threads<I: Sync, T: Send>(all: &[I], look: impl Fn(&I) -> T + Sync) -> Vec<T> {
     let next = AtomicUsize::new(0);
     let run = || -> Vec<(usize, T)> {
@@ -23,7 +23,7 @@ pub fn by_two_threads<I: Sync, T: Send>(all: &[I], look: impl Fn(&I) -> T + Sync
     let mut found = std::thread::scope(|scope| {
         let other = scope.spawn(run);
         let mut own = run();
-        own.extend(other.join().expect("the other half"));
+        own.extend(other.join().expect("the other thread"));
         own
     });
     found.sort_by_key(|(place, _)| *place);

@@ -15,7 +15,7 @@ use super::declared::Declared;
 use super::draw::Draw;
 use super::mechanisms::{self, Mechanism};
 use super::{Numbers, multipliers, numbers_of};
-use crate::common::{evaluated, rounds};
+use crate::common::{by_two_threads, evaluated, rounds};
 
 /// Largest difference, in units of condition times scale.
 const ROUNDING: f64 = 1e-12;
@@ -36,7 +36,7 @@ struct Seen {
     compared: usize,
     dearer: Vec<String>,
     /// By more than one operation and two percent.
-    much_dearer: usize,
+    clearly_dearer: usize,
     /// The largest ratio of what more bounds and fewer cost, of those.
     ratio: f64,
     faults: Vec<String>,
@@ -53,7 +53,7 @@ impl Seen {
         self.worst = self.worst.max(other.worst);
         self.compared += other.compared;
         self.dearer.extend(other.dearer);
-        self.much_dearer += other.much_dearer;
+        self.clearly_dearer += other.clearly_dearer;
         self.ratio = self.ratio.max(other.ratio);
         self.faults.extend(other.faults);
         self.messages.extend(other.messages);
@@ -197,7 +197,7 @@ fn looked_at(seed: u64) -> Seen {
             let is_dearer = |more: u64, fewer: u64| more * 50 > fewer * 51 + 50;
             for (more, fewer) in [(all, partly), (partly, without), (all, without)] {
                 if is_dearer(more, fewer) {
-                    seen.much_dearer = 1;
+                    seen.clearly_dearer = 1;
                     seen.ratio = seen.ratio.max(more as f64 / fewer as f64);
                 }
             }
@@ -220,23 +220,14 @@ fn mechanisms_end_with_the_right_rates_or_an_error() {
         println!("{}", mechanisms::drawn(seed).text(|_| false));
     }
     let seeds: Vec<u64> = only.map_or_else(|| (first..first + rounds).collect(), |seed| vec![seed]);
-    let run = |thread: usize| {
-        let mut all = Seen::default();
-        for seed in seeds.iter().skip(thread).step_by(2) {
-            match catch_unwind(AssertUnwindSafe(|| looked_at(*seed))) {
-                Ok(seen) => all.add(seen),
-                Err(_) => all.faults.push(format!("number {seed}: a panic")),
-            }
+    let found = by_two_threads(&seeds, |seed| catch_unwind(AssertUnwindSafe(|| looked_at(*seed))));
+    let mut all = Seen::default();
+    for (seed, found) in seeds.iter().zip(found) {
+        match found {
+            Ok(seen) => all.add(seen),
+            Err(_) => all.faults.push(format!("number {seed}: a panic")),
         }
-        all
-    };
-    // The machines that this runs on have two cores.
-    let mut all = std::thread::scope(|scope| {
-        let other = scope.spawn(|| run(1));
-        let mut own = run(0);
-        own.add(other.join().expect("the other half"));
-        own
-    });
+    }
     println!(
         "{} accepted, {} without a state, {} refused; {} states, at most {:.1e} of condition times scale; bounds cost in {} of {}, much in {}, at most {:.2} times",
         all.accepted,
@@ -246,7 +237,7 @@ fn mechanisms_end_with_the_right_rates_or_an_error() {
         all.worst,
         all.dearer.len(),
         all.compared,
-        all.much_dearer,
+        all.clearly_dearer,
         all.ratio
     );
     all.messages.sort();
@@ -255,9 +246,9 @@ fn mechanisms_end_with_the_right_rates_or_an_error() {
     }
     assert!(all.faults.is_empty(), "{} faults", all.faults.len());
     assert!(
-        40 * all.much_dearer <= all.compared.max(40) && all.ratio <= 1.07,
+        40 * all.clearly_dearer <= all.compared.max(40) && all.ratio <= 1.07,
         "bounds cost in {} of {}",
-        all.much_dearer,
+        all.clearly_dearer,
         all.compared
     );
     assert!(only.is_some() || 2 * all.accepted as u64 > rounds && all.states > all.accepted);

@@ -126,8 +126,8 @@ impl<R: Ordered> Taylor<R> {
         Self { max_steps, ..self }
     }
 
-    /// The same without the comparison of rates, against which its cost is measured (`benches/guard_instructions.py`). What the
-    /// coefficients do not see is wrong in silence then.
+    /// The same method without the comparison of rates, to measure what it costs (`benches/guard_instructions.py`). A feature that
+    /// the coefficients do not show is then missed without an error.
     #[doc(hidden)]
     pub fn without_comparison(self) -> Self {
         Self { compares: false, ..self }
