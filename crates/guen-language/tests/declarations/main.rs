@@ -11,6 +11,7 @@ mod limbs;
 mod poles;
 mod restricted;
 mod scenes;
+mod signs;
 mod spans;
 mod structure;
 mod unsigned;

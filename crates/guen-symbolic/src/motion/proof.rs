@@ -4,6 +4,7 @@ use super::fault::DerivationError;
 use super::{Equations, Frame, Mechanics, poincare};
 use crate::algebra::{ExprId, Role};
 use crate::workbench::Workbench;
+use crate::zero::POINTS_WITH_ROOTS;
 use crate::zero::field::{add, mul};
 
 /// Points of a proof; at each of them a displacement is drawn, too.
@@ -129,12 +130,18 @@ fn same(bench: &mut Workbench, a: &[ExprId], b: &[ExprId], on_manifold: bool) ->
     hold(bench, &differences, on_manifold, |values| values.iter().all(|value| *value == 0))
 }
 
-/// Whether something holds of the values of expressions at all points.
+/// Whether something holds of the values of expressions at all points: at many, as far as they are found, where signs may be right by
+/// chance.
 fn hold(bench: &mut Workbench, es: &[ExprId], on_manifold: bool, holds: impl Fn(&[u64]) -> bool) -> bool {
-    (0..POINTS).all(|point| {
-        let values = bench.zero.residues(&mut bench.graph, point, es, on_manifold);
-        values.is_some_and(|values| holds(&values))
-    })
+    let signs = es.iter().any(|e| bench.zero.has_signs(&bench.graph, *e));
+    for point in 0..if signs { POINTS_WITH_ROOTS } else { POINTS } {
+        match bench.zero.residues(&mut bench.graph, point, es, on_manifold) {
+            Some(values) if holds(&values) => {}
+            Some(_) => return false,
+            None => return point >= POINTS,
+        }
+    }
+    true
 }
 
 /// Ends with a difference that is shown not to vanish.

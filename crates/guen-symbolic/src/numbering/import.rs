@@ -27,7 +27,8 @@ impl Numbering {
     fn look(&mut self, bench: &mut Workbench, e: ExprId) -> Num {
         let roles = bench.graph.roles(e);
         let constant = roles.is_constant();
-        let residue = if roles.meets(MOVING) { None } else { self.at_point(bench, e) };
+        let (moves, signs) = (roles.meets(MOVING), bench.zero.has_signs(&bench.graph, e));
+        let residue = if moves || signs { None } else { self.at_point(bench, e) };
         if let Some(residue) = residue {
             if residue == 0 {
                 return Num::ZERO;
@@ -66,6 +67,10 @@ impl Numbering {
             Node::Function(Function::Root(2), x) => {
                 let x = self.import(bench, x);
                 self.sqrt(x)
+            }
+            // |x| is x at some points and -x at others: a value that no other expression has.
+            _ if signs && !moves => {
+                self.push(Op::Expr(e), field::mix(e.index() as u64) % field::PRIME, constant)
             }
             _ => match residue {
                 Some(residue) => self.push(Op::Expr(e), residue, constant),

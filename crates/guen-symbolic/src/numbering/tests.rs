@@ -1,7 +1,7 @@
 //! What is found by value, what is handed back, and rates.
 
 use super::{Num, Numbering, Rates};
-use crate::algebra::{ExprId, Graph, Role, SymbolId};
+use crate::algebra::{ExprId, Function, Graph, Role, SymbolId};
 use crate::workbench::Workbench;
 use crate::zero::evaluate_f64;
 
@@ -188,4 +188,16 @@ fn a_root_or_a_quotient_without_a_value_is_reported() {
     let mut other = numbering(&mut bench);
     other.div(Num::ONE, Num::ZERO);
     assert!(!other.is_sound());
+}
+
+#[test]
+fn absolute_values_are_nothing_else() {
+    let mut bench = bench();
+    let [x] = symbols(&mut bench, Role::Coordinate);
+    let [size, sign] = [Function::Abs, Function::Sign].map(|function| bench.graph.function(function, x));
+    let mut n = numbering(&mut bench);
+    let [x, size, sign] = [x, size, sign].map(|e| n.import(&mut bench, e));
+    assert!(n.is_sound());
+    assert!(x.abs() != size.abs());
+    assert!(sign.abs() != Num::ONE && !n.is_constant(sign));
 }

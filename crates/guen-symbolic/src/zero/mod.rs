@@ -17,7 +17,7 @@ mod tests;
 use manifold::Manifold;
 use real::{RealPoint, Sighting};
 use sample::Sample;
-use table::{ATOM, OPAQUE, ROOT, TRANSCENDENTAL, Table, UNDEFINED};
+use table::{ATOM, OPAQUE, ROOT, SIGN, TRANSCENDENTAL, Table, UNDEFINED};
 
 pub use real::{Real, evaluate, evaluate_f64};
 
@@ -37,7 +37,7 @@ pub enum Verdict {
 /// Points that must agree before an expression counts as zero.
 const POINTS: usize = 3;
 /// The same where each point may have a root's sign right by chance.
-const POINTS_WITH_ROOTS: usize = 64;
+pub(crate) const POINTS_WITH_ROOTS: usize = 64;
 /// Draws in vain, one after the other, before the real route is taken.
 const REDRAWS: usize = 64;
 /// Draws in all for one expression.
@@ -224,6 +224,12 @@ impl ZeroTest {
         let point = self.sample(g, point, on_manifold)?;
         let (table, samples) = self.parts(on_manifold);
         samples[point].value(g, table, e)
+    }
+
+    /// Whether absolute values or signs occur: at one point they tell nothing of others.
+    pub(crate) fn has_signs(&mut self, g: &Graph, e: ExprId) -> bool {
+        self.table.scan(g);
+        self.table.flags[e.index()] & SIGN != 0
     }
 
     /// Changes when the values at all points do.

@@ -19,6 +19,8 @@ pub(crate) const ATOM: Flags = 2;
 pub(crate) const TRANSCENDENTAL: Flags = 4;
 /// Arguments of functions that may be equal without being seen to be.
 pub(crate) const OPAQUE: Flags = 8;
+/// Absolute values and signs: at a point they are one of a number and its opposite, and elsewhere the other.
+pub(crate) const SIGN: Flags = 32;
 /// A division by the number zero, or a number that the prime cannot represent.
 pub(crate) const UNDEFINED: Flags = 16;
 
@@ -112,7 +114,8 @@ impl Table {
                     Function::Asin | Function::Acos | Function::Atan | Function::Ln => {
                         (Op::At(function, x), ATOM)
                     }
-                    Function::Abs | Function::Sign | Function::Root(_) => (Op::At(function, x), ROOT),
+                    Function::Abs | Function::Sign => (Op::At(function, x), ROOT | SIGN),
+                    Function::Root(_) => (Op::At(function, x), ROOT),
                     Function::Sin | Function::Cos => self.of_argument(graph, function, x, true),
                     Function::Exp | Function::Sinh | Function::Cosh | Function::Tanh => {
                         self.of_argument(graph, function, x, false)
