@@ -425,12 +425,29 @@ fn extend(bench: &mut Workbench, lists: &mut Vec<Vec<ExprId>>) {
 
 /// The code of the rates, given in several equal forms, and of everything else.
 fn programs(bench: &mut Workbench, rates: &[Vec<ExprId>], quantities: &[Quantity]) -> Programs {
+    /// Reactions beyond this estimate get no program of their own.
+    const LARGE: u64 = 1000;
+    let quantity =
+        |name: &str| quantities.iter().find(|(known, _)| *known == name).map(|(_, outputs)| outputs);
+    // The covector is the reactions times the rows of their constraints: where they are large one program is made, and divided.
+    let reactions = quantity(function::REACTIONS).filter(|list| weighted_cost(&bench.graph, list) > LARGE);
+    let both = reactions.zip(quantity(function::REACTION_COVECTOR));
     let mut builder = ProgramBuilder::new(&mut bench.graph);
     if !rates.is_empty() {
         builder.add_equal(function::RHS, rates);
     }
     for (name, outputs) in quantities.iter().filter(|(_, outputs)| !outputs.is_empty()) {
-        builder.add_cold(name, outputs);
+        match (*name, both) {
+            (function::REACTIONS, Some(_)) => {}
+            (function::REACTION_COVECTOR, Some((reactions, covector))) => {
+                builder.add_cold(name, &[&covector[..], reactions].concat());
+            }
+            _ => builder.add_cold(name, outputs),
+        }
     }
-    builder.finish()
+    let mut programs = builder.finish();
+    if let Some((_, covector)) = both {
+        programs.divide(function::REACTION_COVECTOR, covector.len(), function::REACTIONS);
+    }
+    programs
 }

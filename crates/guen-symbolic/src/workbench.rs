@@ -5,8 +5,9 @@ use crate::normal::{Limits, normal_form};
 use crate::program::weighted_cost;
 use crate::zero::{Verdict, ZeroTest};
 
-/// What is tidied: coefficients and entries. Larger expressions stay as they are, before time is lost on them.
-const TIDYING: Limits = Limits { terms: 150, generators: 32, degree: 32, nodes: 400, steps: 6_000 };
+/// What is tidied: coefficients and entries. Larger expressions stay as they are, before time is lost on them: of what takes
+/// more steps hardly anything gets shorter.
+const TIDYING: Limits = Limits { terms: 150, generators: 32, degree: 32, nodes: 400, steps: 2_600 };
 
 /// Steps of building ([`Graph::work`]) beyond which a derivation is given up: some seconds without optimisation,
 /// many times what the largest systems need that can be run at all.
@@ -19,6 +20,8 @@ pub struct Workbench {
     /// The zero test.
     pub zero: ZeroTest,
     tidied: FastMap<ExprId, ExprId>,
+    /// Expressions whose normal forms are beyond the limits.
+    beyond: FastMap<ExprId, ()>,
     limits: Limits,
     /// Work that was done before the present derivation began.
     before: u64,
@@ -27,7 +30,14 @@ pub struct Workbench {
 impl Workbench {
     /// A workbench around a graph.
     pub fn new(graph: Graph) -> Self {
-        Workbench { graph, zero: ZeroTest::new(), tidied: FastMap::default(), limits: TIDYING, before: 0 }
+        Workbench {
+            graph,
+            zero: ZeroTest::new(),
+            tidied: FastMap::default(),
+            beyond: FastMap::default(),
+            limits: TIDYING,
+            before: 0,
+        }
     }
 
     /// The expression in normal form where that is small, zero if it is proved to vanish, else as it is.
@@ -43,15 +53,31 @@ impl Workbench {
         }
         let tidy = if self.vanishes(e) {
             self.graph.zero()
+        } else if self.is_beyond(e) {
+            e
         } else {
             match normal_form(&mut self.graph, e, &self.limits) {
                 Some(normal) if self.is_worth(normal, e) => normal,
-                _ => e,
+                Some(_) => e,
+                None => {
+                    self.beyond.insert(e, ());
+                    e
+                }
             }
         };
         self.tidied.insert(e, tidy);
         self.tidied.insert(tidy, tidy);
         tidy
+    }
+
+    /// Whether something in the expression has no normal form within the limits: then the whole has seldom one either.
+    fn is_beyond(&mut self, e: ExprId) -> bool {
+        if self.beyond.is_empty() {
+            return false;
+        }
+        let graph = &self.graph;
+        let parts = graph.reachable(&[e], |id| matches!(graph.node(id), Node::Kept(_)));
+        parts.iter().any(|part| self.beyond.contains_key(part))
     }
 
     /// Whether a normal form does not cost much more than what was written: multiplied out, sines of long sums of
@@ -123,6 +149,7 @@ impl Workbench {
     pub fn choose_base_angles(&mut self, given: &[ExprId], roots: &[ExprId]) {
         self.graph.choose_base_angles(given, roots);
         self.tidied = FastMap::default();
+        self.beyond = FastMap::default();
     }
 
     /// Does something with base angles for some expressions, and returns to those of today with all that is remembered.
@@ -141,10 +168,11 @@ impl Workbench {
         let mut angles = BaseAngles::default();
         self.graph.exchange_base_angles(&mut angles);
         let tidied = core::mem::take(&mut self.tidied);
+        let beyond = core::mem::take(&mut self.beyond);
         self.choose_base_angles(&[], roots);
         let result = work(self);
         self.graph.exchange_base_angles(&mut angles);
-        self.tidied = tidied;
+        (self.tidied, self.beyond) = (tidied, beyond);
         result
     }
 

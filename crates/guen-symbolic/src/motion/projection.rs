@@ -73,10 +73,11 @@ pub(super) fn equations(
     rows: Range<usize>,
 ) -> Projected {
     let resting = resting_accelerations(bench, system, frame);
+    let mut curl = Curl::new(bench, system);
     let mut forms = MeasuredForms::default();
     for u in terms.iter().flat_map(|term| &term.forms) {
         if !forms.contains_key(u) {
-            let measured = measure(bench, system, frame, partials, &resting, *u, rows.clone());
+            let measured = measure(bench, system, frame, partials, (&resting, &mut curl), *u, rows.clone());
             forms.insert(*u, measured);
         }
     }
@@ -291,7 +292,7 @@ fn measure(
     system: &Mechanics,
     frame: &mut Frame,
     partials: &mut VelocityPartials,
-    resting: &[ExprId],
+    (resting, curl): (&[ExprId], &mut Curl),
     u: ExprId,
     rows: Range<usize>,
 ) -> Measured {
@@ -334,12 +335,59 @@ fn measure(
             acceleration = other;
         }
     }
+    let turning = if curl.vanishes(bench, system, &form) {
+        vec![bench.graph.zero(); rows.len()]
+    } else {
+        rows.map(|s| exterior(bench, system, frame, &form, s)).collect()
+    };
     Measured {
         value: bench.keep_large(value),
         components,
         drift,
         acceleration: bench.keep_large(acceleration),
-        turning: rows.map(|s| exterior(bench, system, frame, &form, s)).collect(),
+        turning,
+    }
+}
+
+/// The exterior derivative of velocities on two directions that nothing restricts: `(1, x')` and `(0, eta)`. It says of
+/// all `E_s(u)` at once that they are zero, without the operators, which have the roots and divisions of the constraints.
+struct Curl {
+    along: Flow,
+    across: Flow,
+}
+
+impl Curl {
+    fn new(bench: &Workbench, system: &Mechanics) -> Self {
+        let forms = &system.forms;
+        let direction = |rates: &[ExprId]| {
+            let rates: Vec<_> = forms.coordinates.iter().copied().zip(rates.iter().copied()).collect();
+            rates
+        };
+        let time = (forms.time, bench.graph.one());
+        let along = direction(&system.velocities).into_iter().chain([time]);
+        Curl {
+            along: Flow::new(&bench.graph, along),
+            across: Flow::new(&bench.graph, direction(&system.etas)),
+        }
+    }
+
+    /// Whether a form of velocities alone is proved to be closed.
+    fn vanishes(&mut self, bench: &mut Workbench, system: &Mechanics, form: &VelocityForm) -> bool {
+        if !form.on_etas.is_empty() {
+            return false;
+        }
+        let mut terms = Vec::new();
+        for (i, b) in &form.on_velocities {
+            let rate = self.along.of(&mut bench.graph, *b);
+            let slope = self.across.of(&mut bench.graph, *b);
+            terms.push(bench.graph.mul(rate, system.etas[*i]));
+            let back = bench.graph.mul(slope, system.velocities[*i]);
+            terms.push(bench.graph.neg(back));
+        }
+        let slope = self.across.of(&mut bench.graph, form.offset);
+        terms.push(bench.graph.neg(slope));
+        let sum = bench.graph.sum(terms);
+        bench.vanishes(sum)
     }
 }
 
@@ -376,7 +424,7 @@ fn exterior(
         terms.push(bench.graph.neg(back));
     }
     let sum = bench.graph.sum(terms);
-    // The curl of a true velocity is zero as a function, seldom as written.
+    // Zero as a function is seldom zero as written.
     let turning = bench.dropped(sum);
     bench.keep_large(turning)
 }

@@ -121,6 +121,31 @@ impl Programs {
             FunctionProgram { name: name.to_owned(), instructions, outputs, values: whole.values, cost };
         self.functions.push(excerpt);
     }
+
+    /// Divides a function: its outputs from a place on become those of a function of their own, each of the two computes what
+    /// it needs.
+    ///
+    /// ```
+    /// use guen_symbolic::{Graph, ProgramBuilder, Role};
+    /// let mut g = Graph::new();
+    /// let x = g.symbol("x", Role::Coordinate);
+    /// let (sine, square) = (g.sin(x), g.powi(x, 2));
+    /// let mut builder = ProgramBuilder::new(&mut g);
+    /// builder.add_function("sine", &[sine, square]);
+    /// let mut programs = builder.finish();
+    /// programs.divide("sine", 1, "square");
+    /// let costs: Vec<_> = programs.functions.iter().map(|f| (f.cost.operations(), f.cost.sines)).collect();
+    /// assert_eq!(costs, [(0, 1), (1, 0)]);
+    /// ```
+    pub fn divide(&mut self, name: &str, at: usize, rest: &str) {
+        let Some(place) = self.functions.iter().position(|function| function.name == name) else { return };
+        let count = self.functions[place].outputs.len();
+        self.add_excerpt(rest, name, at..count);
+        let whole = &mut self.functions[place];
+        whole.outputs.truncate(at);
+        whole.instructions = needed(&whole.instructions, whole.values, &whole.outputs);
+        whole.cost = OperationCount::of(&whole.instructions);
+    }
 }
 
 impl FunctionProgram {
