@@ -149,5 +149,5 @@ pub mod __private {
     pub use guen_runtime::{
         bracket, cells, linearizable, mass_form, operator, program_functions, record, reduce, steady_motions,
     };
-    pub use guen_runtime::{consistent, control, serde_record};
+    pub use guen_runtime::{consistent, control, furthest_surplus, serde_record};
 }

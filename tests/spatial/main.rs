@@ -15,6 +15,7 @@ mod formulas;
 
 mod balls;
 mod bicycle;
+mod bricard;
 mod by_hand;
 mod expansion;
 mod floating;

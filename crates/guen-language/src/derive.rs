@@ -119,9 +119,9 @@ pub mod function {
     pub const POWER: &str = "power";
     /// The outputs.
     pub const OUTPUTS: &str = "outputs";
-    /// The holonomic constraints.
+    /// The holonomic constraints, then those that follow from them.
     pub const POSITIONS: &str = "positions";
-    /// The holonomic constraints and then their derivatives, row by row; only where there are some.
+    /// The same and then their derivatives, row by row; only where there are some.
     pub const GRADIENTS: &str = "gradients";
     /// The lower triangle of the mass matrix, where it is not diagonal.
     pub const MASS: &str = "mass";
@@ -198,6 +198,7 @@ fn whole(
         held: Vec::new(),
         inputs: (0..model.inputs.len()).collect(),
         holonomic: (0..derivation.system.holonomic.len()).collect(),
+        redundant: (0..derivation.system.redundant.len()).collect(),
         momenta: forms.clone().filter(|j| derivation.known_momentum[*j]).collect(),
         reactions: forms.skip(size - n).filter(|v| derivation.reactions[v + n - size].is_some()).collect(),
         outputs: (0..model.outputs.len()).collect(),

@@ -84,6 +84,8 @@ pub use level::{Level, LevelInfo, Levels};
 pub use lift::Lift;
 pub use linearization::{Liftable, Linearizable, Linearization, OutputLinearization, seeded};
 pub use operator::{Applied, Coordinate, Function, Operator};
+#[doc(hidden)]
+pub use positions::furthest_surplus;
 pub use positions::{Positions, PositionsError, Projected, consistent, project, projected};
 pub use real::{Ordered, Real};
 pub use recast::Recast;

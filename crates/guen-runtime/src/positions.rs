@@ -21,6 +21,13 @@ pub trait Positions<R: Real, const N: usize, const H: usize> {
 
     /// The left sides, and beside them the derivatives `F_vi = d f_v / d x_i`, exact, a row for each constraint.
     fn linearized(&self, t: R, coordinates: &[R; N]) -> ([R; H], [[R; N]; H]);
+
+    /// How far the coordinates are from further equations that follow from these wherever all hold, as a length: the largest left
+    /// side over the length of its gradient. They are not solved: their gradients depend on those of the others. Zero where there
+    /// are none.
+    fn surplus(&self, _t: R, _coordinates: &[R; N]) -> f64 {
+        0.0
+    }
 }
 
 impl<R: Real, S: Positions<R, N, H> + ?Sized, const N: usize, const H: usize> Positions<R, N, H> for &S {
@@ -33,6 +40,21 @@ impl<R: Real, S: Positions<R, N, H> + ?Sized, const N: usize, const H: usize> Po
     fn linearized(&self, t: R, coordinates: &[R; N]) -> ([R; H], [[R; N]; H]) {
         (**self).linearized(t, coordinates)
     }
+
+    #[inline]
+    fn surplus(&self, t: R, coordinates: &[R; N]) -> f64 {
+        (**self).surplus(t, coordinates)
+    }
+}
+
+/// The largest of left sides over the lengths of their gradients; NaN and infinity count as infinite.
+#[doc(hidden)]
+pub fn furthest_surplus<R: Real, const N: usize>(equations: impl Iterator<Item = (R, [R; N])>) -> f64 {
+    let lengths = equations.map(|(gap, gradient)| match gap.to_f64().abs() {
+        0.0 => 0.0,
+        gap => gap / size(&gradient),
+    });
+    lengths.fold(0.0, |most, length| if length.is_nan() { f64::INFINITY } else { most.max(length) })
 }
 
 /// Why no coordinates were found that fulfil the constraints.
@@ -205,7 +227,7 @@ where
     for round in 0..STEPS {
         let (f, gradients) = system.linearized(t, x);
         if f.iter().all(|f| f.to_f64() == 0.0) {
-            return Ok(distance(x, &begin));
+            return ended(system, t, x, &begin, precision * extent);
         }
         let factor = Factor::new(gradients, free, &f)?;
         let step = factor.step(&f);
@@ -219,7 +241,7 @@ where
         // What is left after a step is of the order of its square: this one is the last.
         if length <= precision * extent {
             *x = moved(x, &step, 1.0);
-            return Ok(distance(x, &begin));
+            return ended(system, t, x, &begin, precision * extent);
         }
         let mut part = 1.0;
         loop {
@@ -237,6 +259,23 @@ where
         }
     }
     Err(PositionsError::NotFound { residual: largest(&system.gaps(t, x)) })
+}
+
+/// The distance from where a search began, if what follows from the equations holds where it ended: on another branch of the
+/// equations that were solved it may not.
+fn ended<R, S, const N: usize, const H: usize>(
+    system: &S,
+    t: R,
+    x: &[R; N],
+    begin: &[R; N],
+    near: f64,
+) -> Result<f64, PositionsError>
+where
+    R: Ordered,
+    S: Positions<R, N, H> + ?Sized,
+{
+    let surplus = system.surplus(t, x);
+    if surplus <= near { Ok(distance(x, begin)) } else { Err(PositionsError::NotFound { residual: surplus }) }
 }
 
 /// `F` with the factor `L` of `F F^T = L L^T`.

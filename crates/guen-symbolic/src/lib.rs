@@ -38,4 +38,4 @@ pub use program::{
     SeriesProgram, SeriesStep, Source, Start, Value, evaluate_function, evaluate_prepare, weighted_cost,
 };
 pub use workbench::{MAX_WORK, Workbench};
-pub use zero::{Real, Verdict, ZeroTest, evaluate, evaluate_f64};
+pub use zero::{Real, Redundant, Verdict, ZeroTest, evaluate, evaluate_f64};

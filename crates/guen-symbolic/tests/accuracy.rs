@@ -61,6 +61,7 @@ fn chain(graph: &mut Graph, rotors: bool) -> (Mechanics, [ExprId; 3]) {
         accelerations,
         inputs: Vec::new(),
         holonomic: Vec::new(),
+        redundant: Vec::new(),
         kinetic_energy: graph.sum(kinetic),
         stated: vec![true; LINKS],
         force_function: graph.sum(force),

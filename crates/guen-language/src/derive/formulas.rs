@@ -32,9 +32,13 @@ pub(super) fn whole(
     let energies = &derivation.energies;
     let known = energies.momenta.iter().zip(&derivation.known_momentum);
     let momenta = known.filter(|(_, known)| **known).map(|(e, _)| *e).collect();
-    let positions: Vec<ExprId> = system.holonomic.iter().map(|h| h.equation).collect();
+    let positions = system.holonomic.iter().map(|h| h.equation).chain(system.redundant.iter().copied());
+    let positions: Vec<ExprId> = positions.collect();
     let rows = system.holonomic.iter().flat_map(|h| &system.forms.forms[h.form].row);
-    let gradients: Vec<ExprId> = positions.iter().chain(rows).copied().collect();
+    let mut gradients: Vec<ExprId> = positions.iter().chain(rows).copied().collect();
+    for equation in &system.redundant {
+        gradients.extend(system.forms.coordinates.iter().map(|x| bench.partial(*equation, *x)));
+    }
     let mut quantities = vec![
         (function::VELOCITIES, derivation.frame.velocities.clone()),
         (function::FORMS, forms),

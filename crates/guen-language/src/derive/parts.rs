@@ -113,11 +113,14 @@ pub(super) fn parts(
     push(model, view, function::ENERGY, selection.energy.then_some(0).into_iter().collect());
     let components = selection.outputs.iter().flat_map(|o| model.outputs[*o].components.clone()).collect();
     push(model, view, function::OUTPUTS, components);
-    push(model, view, function::POSITIONS, selection.holonomic.clone());
-    let count = derivation.system.holonomic.len();
-    let rows =
-        selection.holonomic.iter().flat_map(|h| selection.coordinates.iter().map(move |i| count + h * n + i));
-    push(model, view, function::GRADIENTS, selection.holonomic.iter().copied().chain(rows).collect());
+    let holonomic = derivation.system.holonomic.len();
+    let count = holonomic + derivation.system.redundant.len();
+    let redundant = selection.redundant.iter().map(|r| holonomic + r);
+    let equations: Vec<usize> = selection.holonomic.iter().copied().chain(redundant).collect();
+    push(model, view, function::POSITIONS, equations.clone());
+    let rows = equations.iter().flat_map(|h| selection.coordinates.iter().map(move |i| count + h * n + i));
+    let rows: Vec<usize> = rows.collect();
+    push(model, view, function::GRADIENTS, [equations, rows].concat());
 
     // Of the chart's functions those that the scene's variables determine; what became constant is a pivot.
     let (mut determined, mut domain, mut domain_names) = (Vec::new(), Vec::new(), Vec::new());

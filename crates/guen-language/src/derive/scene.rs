@@ -151,17 +151,22 @@ fn level(
     let rates: Vec<ExprId> = selection.variables.iter().map(|p| view.of(model, first[*p])).collect();
 
     let coordinates = selection.coordinates.clone();
-    selection.holonomic = (0..derivation.system.holonomic.len())
-        .filter(|h| {
-            let equation = view.holding.of(&mut model.bench, derivation.system.holonomic[*h].equation);
-            let depends = |view: &mut View, model: &mut Model<'_>, i: usize| {
-                let x = model.coordinates[i].symbol;
-                view.dependence.depends(&mut model.bench, equation, x)
-            };
-            let on: Vec<usize> = (0..n).filter(|i| depends(&mut view, model, *i)).collect();
-            !on.is_empty() && on.iter().all(|i| coordinates.contains(i))
-        })
-        .collect();
+    let mut has_all = |model: &mut Model<'_>, equation: ExprId| {
+        let equation = view.holding.of(&mut model.bench, equation);
+        let mut depends = |i: &usize| {
+            let x = model.coordinates[*i].symbol;
+            view.dependence.depends(&mut model.bench, equation, x)
+        };
+        let on: Vec<usize> = (0..n).filter(&mut depends).collect();
+        !on.is_empty() && on.iter().all(|i| coordinates.contains(i))
+    };
+    let positions = &derivation.system.holonomic;
+    selection.holonomic = (0..positions.len()).filter(|h| has_all(model, positions[*h].equation)).collect();
+    let redundant = &derivation.system.redundant;
+    selection.redundant = (0..redundant.len()).filter(|r| has_all(model, redundant[*r])).collect();
+    if selection.holonomic.is_empty() {
+        selection.redundant.clear();
+    }
     selection.held = held;
     selection.constants = (0..model.constants.len())
         .filter(|c| scene.fixes.iter().all(|fix| fix.symbol != model.constants[*c].symbol))

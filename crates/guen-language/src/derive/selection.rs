@@ -33,6 +33,8 @@ pub struct Selection {
     pub inputs: Vec<usize>,
     /// The holonomic equations, by their order in the mechanics.
     pub holonomic: Vec<usize>,
+    /// The holonomic equations that follow from others, by their order in the mechanics.
+    pub redundant: Vec<usize>,
     /// The forms whose momentum is offered.
     pub momenta: Vec<usize>,
     /// The forms whose reaction is offered.

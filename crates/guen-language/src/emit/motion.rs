@@ -236,7 +236,7 @@ fn residuals(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
         return TokenStream::new();
     }
     let mut positions_before = 0_usize;
-    let values: Vec<_> = constraints
+    let mut values: Vec<_> = constraints
         .iter()
         .enumerate()
         .map(|(v, form)| {
@@ -250,6 +250,10 @@ fn residuals(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
             }
         })
         .collect();
+    values.extend(subject.level.selection.redundant.iter().map(|r| {
+        let i = positions_before + r;
+        quote!(positions[#i])
+    }));
     quote! {
         /// What is left of every constraint at a state.
         pub fn residuals(&self, t: R, state: &State<R>) -> Residuals<R> {

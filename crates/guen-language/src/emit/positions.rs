@@ -12,6 +12,34 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
         return TokenStream::new();
     }
     let n = layout.n;
+    let all = count + level.selection.redundant.len();
+    // What follows from other equations is looked at and never solved.
+    let surplus = (all > count).then(|| {
+        quote! {
+            #[inline]
+            fn surplus(&self, t: R, coordinates: &[R; #n]) -> f64 {
+                let values = program::gradients(&self.constants, &self.hoisted, t, coordinates);
+                let row = |v: usize| -> [R; #n] { ::core::array::from_fn(|i| values[#all + v * #n + i]) };
+                __guen::furthest_surplus((#count..#all).map(|v| (values[v], row(v))))
+            }
+        }
+    });
+    let passed = (all > count).then(|| {
+        quote! {
+            #[inline]
+            fn surplus(&self, t: R, coordinates: &[R; #n]) -> f64 {
+                __guen::Positions::surplus(&self.system, t, coordinates)
+            }
+        }
+    });
+    let gaps = if all > count {
+        quote! {
+            let values = program::positions(&self.constants, &self.hoisted, t, coordinates);
+            ::core::array::from_fn(|v| values[v])
+        }
+    } else {
+        quote!(program::positions(&self.constants, &self.hoisted, t, coordinates))
+    };
     let coordinates = level.selection.coordinates.iter().map(|i| &model.coordinates[*i]);
     let names: Vec<&str> = coordinates.map(|c| c.name.text.as_str()).collect();
     let driven = (layout.inputs > 0).then(|| {
@@ -26,6 +54,8 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
                 fn linearized(&self, t: R, coordinates: &[R; #n]) -> ([R; #count], [[R; #n]; #count]) {
                     __guen::Positions::linearized(&self.system, t, coordinates)
                 }
+
+                #passed
             }
         }
     });
@@ -33,15 +63,17 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
         impl<R: __guen::Real> __guen::Positions<R, #n, #count> for Prepared<R> {
             #[inline]
             fn gaps(&self, t: R, coordinates: &[R; #n]) -> [R; #count] {
-                program::positions(&self.constants, &self.hoisted, t, coordinates)
+                #gaps
             }
 
             #[inline]
             fn linearized(&self, t: R, coordinates: &[R; #n]) -> ([R; #count], [[R; #n]; #count]) {
                 let values = program::gradients(&self.constants, &self.hoisted, t, coordinates);
-                let row = |v| ::core::array::from_fn(|i| values[#count + v * #n + i]);
+                let row = |v| ::core::array::from_fn(|i| values[#all + v * #n + i]);
                 (::core::array::from_fn(|v| values[v]), ::core::array::from_fn(row))
             }
+
+            #surplus
         }
         #driven
 

@@ -56,15 +56,36 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     } else {
         selection.holonomic.iter().map(|h| level.derivation.system.holonomic[*h].form).collect()
     };
+    let mut reactions = forms(&selection.reactions, "The multiplier of");
+    for (field, form) in reactions.iter_mut().zip(&selection.reactions) {
+        let surplus = model.redundant.iter().filter(|redundant| redundant.beside.contains(form));
+        let names: Vec<String> = surplus.map(|redundant| format!("`{}`", redundant.entry.name)).collect();
+        if !names.is_empty() {
+            let (docs, names) = (&field.docs, names.join(", "));
+            let note = format!(
+                "Not determined by itself, because {names} follows from this constraint and others: given for none of {names}."
+            );
+            field.docs = quote!(#docs #[doc = ""] #[doc = #note]);
+        }
+    }
+    let mut residuals = forms(&bound, "What is left of");
+    residuals.extend(selection.redundant.iter().map(|r| {
+        let entry = &model.redundant[*r].entry;
+        field(
+            &form_ident(entry),
+            entry.docs,
+            format!("What is left of `{}`, which follows from others.", entry.name),
+        )
+    }));
     add(
         "Residuals",
         "What is left of each constraint: `eta_v` of a velocity constraint, `f(t, x)` of a holonomic one; zero where it holds.",
-        &forms(&bound, "What is left of"),
+        &residuals,
     );
     add(
         "Reactions",
         "The reactions `lambda_v`: the generalised force of each constraint along its own form. As a covector on `x'` they are `R_i = sum_v lambda_v a_vi`.",
-        &forms(&selection.reactions, "The multiplier of"),
+        &reactions,
     );
     let inputs = selection.inputs.iter().map(|u| &model.inputs[*u]);
     let inputs: Vec<Field> =

@@ -39,6 +39,8 @@ pub struct Model<'a> {
     pub coordinates: Vec<SymbolEntry<'a>>,
     /// The forms `eta_1..eta_n`, parameters first.
     pub forms: Vec<FormEntry<'a>>,
+    /// Holonomic equations that follow from others wherever all hold, in the order of the mechanics.
+    pub redundant: Vec<RedundantEntry<'a>>,
     /// Bodies in order.
     pub bodies: Vec<BodyEntry>,
     /// Masses and positions of particles in order.
@@ -136,6 +138,14 @@ pub struct FormEntry<'a> {
     pub kind: FormKind,
     /// Whether the kinetic energy mentions the name.
     pub mentioned_in_energy: bool,
+}
+
+/// A holonomic equation that follows from others wherever all hold, and is no form.
+pub struct RedundantEntry<'a> {
+    /// How it was declared.
+    pub entry: FormEntry<'a>,
+    /// The forms that it is dependent on, whose reactions it leaves undetermined.
+    pub beside: Vec<usize>,
 }
 
 /// What a body is made of.

@@ -2,12 +2,13 @@
 
 mod count;
 mod provide;
+mod redundant;
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use guen_symbolic::{
     Bound, ExprId, Flow, Force, Forms, Graph, Holonomic, Mechanics, Multibody, RigidBody, Role, Roles,
-    Workbench,
+    Substitution, Workbench,
 };
 
 use super::bodies::Weight;
@@ -417,10 +418,10 @@ impl<'a, 'f> Resolver<'a, 'f> {
         let has_energy = self.energy.is_some() || self.has_masses;
         let mut raw: Vec<RawForm<'a>> = self.parameters;
         raw.extend(self.constraints);
-        let positions: Vec<ExprId> = raw.iter().filter_map(|form| form.position).collect();
-        if !positions.is_empty() && !failed {
-            let bench = &mut self.eval.bench;
-            bench.zero.set_manifold(&mut bench.graph, &positions);
+        let mut redundant = Vec::new();
+        if !failed && raw.iter().any(|form| form.position.is_some()) {
+            let coordinates: Vec<ExprId> = self.coordinates.iter().map(|c| c.symbol).collect();
+            redundant = redundant::taken(&mut self.eval, &mut raw, &coordinates, degrees);
             self.eval.check_divisors_on_manifold();
         }
         let (forms, idle) = self.eval.linear_forms(&raw, &velocities);
@@ -436,7 +437,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
             let place = keyword(SectionKind::Parameters)
                 .or(keyword(SectionKind::Coordinates))
                 .unwrap_or(self.declaration.name.span());
-            count::check(&mut self.eval, &raw, degrees, &velocities, idle, place);
+            count::check(&mut self.eval, &raw, &redundant, degrees, &velocities, idle, place);
             self.eval.scope.report_unused(self.eval.faults);
             if self.gravity.is_some() && self.weights.is_empty() {
                 report_idle_gravity(self.declaration, self.eval.faults);
@@ -455,7 +456,18 @@ impl<'a, 'f> Resolver<'a, 'f> {
             }
         }
         let force_function = bench.graph.sum(force_function);
-        let kinetic_energy = bench.graph.sum(self.kinetic);
+        let mut kinetic_energy = bench.graph.sum(self.kinetic);
+        let mut in_velocities = Substitution::new(redundant.iter().map(|taken| taken.rate));
+        let mut written_out = |e: &mut ExprId| *e = in_velocities.of(&mut bench.graph, *e);
+        written_out(&mut kinetic_energy);
+        self.written_energy.iter_mut().for_each(&mut written_out);
+        self.output_values.iter_mut().for_each(&mut written_out);
+        self.forces
+            .iter_mut()
+            .flat_map(|force| [&mut force.magnitude, &mut force.along])
+            .for_each(&mut written_out);
+        let (redundant, further): (Vec<_>, Vec<_>) =
+            redundant.into_iter().map(|taken| (taken.entry, taken.equation)).unzip();
         let zero = bench.graph.zero();
         let mut structure = self.eval.shapes.system;
         structure.gravity = self.gravity;
@@ -516,6 +528,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
             accelerations,
             inputs: self.inputs.iter().map(|input| input.symbol).collect(),
             holonomic,
+            redundant: further,
             kinetic_energy,
             stated,
             force_function,
@@ -536,6 +549,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
             inputs: self.inputs,
             coordinates: self.coordinates,
             forms: raw.into_iter().map(|form| form.entry).collect(),
+            redundant,
             bodies: self.bodies,
             particles: self.particles,
             outputs: self.outputs,

@@ -11,7 +11,7 @@ use guen_symbolic::{Class, ExprId, Notation};
 
 use crate::derive::{Level, function};
 use crate::emit::Subject;
-use crate::model::{FormKind, Model};
+use crate::model::{FormKind, Model, RedundantEntry};
 
 /// A heading with its lines: formulas, then words.
 #[derive(Clone)]
@@ -203,7 +203,24 @@ fn forms(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
     for name in &subject.model.left_out {
         lines.section.text.push(format!("{name} is left out: it says 0 = 0"));
     }
+    for redundant in &subject.model.redundant {
+        let (name, others) = (&redundant.entry.name, beside(subject.model, redundant));
+        lines.section.text.push(format!(
+            "{name} is no form: it follows from {others} wherever all hold, as points of them show; only the sum of their \
+             reactions is determined, and those of {others} are given for none of {name}"
+        ));
+    }
     lines.section
+}
+
+/// The equations that another follows from.
+fn beside(model: &Model<'_>, redundant: &RedundantEntry<'_>) -> String {
+    let names: Vec<&str> = redundant.beside.iter().map(|form| model.forms[*form].name.as_str()).collect();
+    match names.split_last() {
+        Some((last, [])) => (*last).to_owned(),
+        Some((last, others)) => format!("{} and {last}", others.join(", ")),
+        None => "the others".to_owned(),
+    }
 }
 
 fn operators(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {

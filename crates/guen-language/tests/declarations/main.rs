@@ -9,6 +9,7 @@ mod drawn;
 mod edges;
 mod limbs;
 mod poles;
+mod redundant;
 mod restricted;
 mod scenes;
 mod signs;

@@ -81,6 +81,9 @@ pub struct Mechanics {
     pub inputs: Vec<ExprId>,
     /// The constraints on positions.
     pub holonomic: Vec<Holonomic>,
+    /// Constraints on positions that follow from the others wherever all of them hold, see [`crate::ZeroTest::redundant`]: they are
+    /// no forms, and whoever measures how far a state is from the constraints looks at them, too.
+    pub redundant: Vec<ExprId>,
     /// `T°(t, x, x', eta)`, with constraints dropped.
     pub kinetic_energy: ExprId,
     /// For each form whether `T°` speaks of its momentum, so that one that vanishes is truly zero and not left out
@@ -128,6 +131,7 @@ impl Mechanics {
         let expressions = [&mut system.kinetic_energy, &mut system.force_function]
             .into_iter()
             .chain(system.holonomic.iter_mut().map(|h| &mut h.equation))
+            .chain(&mut system.redundant)
             .chain(system.forces.iter_mut().flat_map(|force| [&mut force.magnitude, &mut force.along]))
             .chain(&mut system.outputs)
             .chain(&mut system.written)

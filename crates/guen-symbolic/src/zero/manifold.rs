@@ -192,7 +192,7 @@ impl Manifold {
 }
 
 /// Solves a small system given with its right side as last column; `None` if it is singular.
-fn solve_dense<R: Real + PartialOrd>(mut rows: Vec<Vec<R>>) -> Option<Vec<R>> {
+pub(super) fn solve_dense<R: Real + PartialOrd>(mut rows: Vec<Vec<R>>) -> Option<Vec<R>> {
     let n = rows.len();
     let zero = R::rational(&crate::algebra::Rational::ZERO);
     for column in 0..n {

@@ -9,6 +9,7 @@
 pub(crate) mod field;
 mod manifold;
 mod real;
+mod redundant;
 mod sample;
 mod table;
 #[cfg(test)]
@@ -20,6 +21,7 @@ use sample::Sample;
 use table::{ATOM, OPAQUE, ROOT, SIGN, TRANSCENDENTAL, Table, UNDEFINED};
 
 pub use real::{Real, evaluate, evaluate_f64};
+pub use redundant::Redundant;
 
 use crate::algebra::{ExprId, FastMap, Flow, Graph, Node, SymbolId};
 
@@ -263,6 +265,41 @@ impl ZeroTest {
         let matrix: Vec<Vec<u64>> =
             rows.iter().map(|row| values.by_ref().take(row.len()).collect()).collect();
         Some(field::relations(&matrix))
+    }
+
+    /// The equations `f(t, x) = 0` that follow from others of them wherever all hold, although gradients by the coordinates are
+    /// independent elsewhere; none where gradients are dependent everywhere. The manifold is that of the equations afterwards.
+    ///
+    /// Where points modulo the prime can be found, independence is decided there. Else it is observed: at four real points from
+    /// random starts, in 237 bits.
+    ///
+    /// ```
+    /// use guen_symbolic::{Graph, Redundant, Role, ZeroTest};
+    /// let mut g = Graph::new();
+    /// let angles = ["a", "b", "c"].map(|name| g.symbol(name, Role::Coordinate));
+    /// let parts = angles.map(|angle| g.sin_cos(angle));
+    /// // sin(a) = sin(b), cos(a) = cos(b) and sin(a) cos(c) = cos(b) sin(c).
+    /// let (left, right) = (g.mul(parts[0].0, parts[2].1), g.mul(parts[1].1, parts[2].0));
+    /// let equations = [g.sub(parts[0].0, parts[1].0), g.sub(parts[0].1, parts[1].1), g.sub(left, right)];
+    /// let redundant = ZeroTest::new().redundant(&mut g, &equations, &angles);
+    /// assert_eq!(redundant, [Redundant { equation: 1, beside: vec![0] }]);
+    /// ```
+    pub fn redundant(
+        &mut self,
+        g: &mut Graph,
+        equations: &[ExprId],
+        coordinates: &[ExprId],
+    ) -> Vec<Redundant> {
+        self.set_manifold(g, equations);
+        let rows: Vec<Vec<ExprId>> = equations
+            .iter()
+            .map(|e| coordinates.iter().map(|x| Flow::partial(g, *x).of(g, *e)).collect())
+            .collect();
+        let all = Some(rows.len());
+        if rows.len() < 2 || self.rank(g, &rows, true) == all || self.rank(g, &rows, false) != all {
+            return Vec::new();
+        }
+        redundant::find(g, equations)
     }
 
     fn parts(&mut self, on_manifold: bool) -> (&Table, &mut Vec<Sample>) {

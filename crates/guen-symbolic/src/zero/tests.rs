@@ -598,3 +598,54 @@ fn functions_keep_their_digits_at_either_sign() {
     let sum = b.g.add(one, two);
     assert_ne!(b.test.verdict(&mut b.g, sum), Nonzero);
 }
+
+/// The closing equations of Bricard's mechanism: six bars of these lengths, six hinges at right angles, the last bar in place.
+fn bricard(b: &mut Bench, lengths: &[ExprId; 6]) -> (Vec<ExprId>, Vec<ExprId>) {
+    let angles: Vec<ExprId> = (1..=5).map(|i| b.q(&format!("q{i}"))).collect();
+    let (zero, one) = (b.g.zero(), b.g.one());
+    let unit = |k: usize| -> [ExprId; 3] { core::array::from_fn(|i| if i == k { one } else { zero }) };
+    // The axes of a bar: along it, across, and of its first hinge.
+    let [mut x, mut y, mut z] = [0, 1, 2].map(unit);
+    let mut end = [zero; 3];
+    for (i, angle) in angles.iter().enumerate() {
+        let (s, c) = b.g.sin_cos(*angle);
+        let minus = b.g.neg(s);
+        let turned = |b: &mut Bench, p: ExprId, q: ExprId| -> [ExprId; 3] {
+            core::array::from_fn(|k| {
+                let products = [b.g.mul(p, x[k]), b.g.mul(q, y[k])];
+                b.g.sum(products.to_vec())
+            })
+        };
+        let (along, across) = (turned(b, c, s), turned(b, minus, c));
+        for k in 0..3 {
+            let step = b.g.mul(lengths[i], along[k]);
+            end[k] = b.g.add(end[k], step);
+        }
+        // The next hinge, a right angle about the bar; the last one ends the chain.
+        let opposite = across.map(|e| b.g.neg(e));
+        (x, y, z) = if i % 2 == 0 { (along, z, opposite) } else { (along, z.map(|e| b.g.neg(e)), across) };
+    }
+    let closing = b.g.add(end[0], lengths[5]);
+    (vec![closing, end[1], end[2], z[0], z[2]], angles)
+}
+
+#[test]
+fn bricards_mechanism_has_one_equation_too_many() {
+    let mut b = Bench::new();
+    let one = b.g.one();
+    let length = b.positive("l");
+    for lengths in [[one; 6], [length; 6]] {
+        let (equations, angles) = bricard(&mut b, &lengths);
+        let redundant = b.test.redundant(&mut b.g, &equations, &angles);
+        assert_eq!(redundant, [Redundant { equation: 4, beside: vec![0, 1, 2, 3] }]);
+        let gradients: Vec<Vec<ExprId>> = equations
+            .iter()
+            .map(|e| angles.iter().map(|x| Flow::partial(&b.g, *x).of(&mut b.g, *e)).collect())
+            .collect();
+        assert_eq!(b.test.rank(&mut b.g, &gradients, false), Some(5));
+    }
+    // With bars of different lengths it is a rigid frame.
+    let lengths = ["l1", "l2", "l3", "l4", "l5", "l6"].map(|name| b.positive(name));
+    let (equations, angles) = bricard(&mut b, &lengths);
+    assert_eq!(b.test.redundant(&mut b.g, &equations, &angles), []);
+}

@@ -281,6 +281,7 @@ fn drawn(seed: u64) -> (Words, Mechanics, Vec<&'static str>) {
         accelerations: words.accelerations.clone(),
         inputs: words.inputs.clone(),
         holonomic: Vec::new(),
+        redundant: Vec::new(),
         kinetic_energy: words.graph.sum(energies),
         stated: vec![true; n],
         force_function: words.graph.sum(potential),

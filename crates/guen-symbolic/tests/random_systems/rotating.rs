@@ -86,6 +86,7 @@ impl Scene {
             accelerations: words.accelerations[..degrees].to_vec(),
             inputs: words.inputs,
             holonomic: Vec::new(),
+            redundant: Vec::new(),
             kinetic_energy: kinetic,
             force_function: force,
             multibody: None,

@@ -52,6 +52,7 @@ pub fn drawn(seed: u64) -> (Words, Mechanics) {
         accelerations: words.accelerations[..degrees].to_vec(),
         inputs: words.inputs.clone(),
         holonomic,
+        redundant: Vec::new(),
         kinetic_energy,
         force_function,
         multibody: None,

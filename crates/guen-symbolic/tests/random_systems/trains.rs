@@ -127,6 +127,7 @@ fn drawn(seed: u64) -> (Words, Mechanics, Vec<&'static str>) {
         accelerations: words.accelerations[..l].to_vec(),
         inputs: words.inputs.clone(),
         holonomic: Vec::new(),
+        redundant: Vec::new(),
         kinetic_energy: words.graph.sum(squares),
         stated: vec![true; n],
         force_function: words.graph.sum(potential),

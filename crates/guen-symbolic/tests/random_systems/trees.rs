@@ -150,6 +150,7 @@ fn drawn(seed: u64) -> (Words, Mechanics, Features) {
         accelerations: words.accelerations.clone(),
         inputs: words.inputs.clone(),
         holonomic: Vec::new(),
+        redundant: Vec::new(),
         kinetic_energy: words.graph.sum(kinetic),
         stated: vec![true; n],
         force_function: words.graph.sum(potential),

@@ -2,6 +2,7 @@
 
 use guen_symbolic::ExprId;
 
+use super::redundant::Taken;
 use crate::diagnostics::Fault;
 use crate::model::FormKind;
 use crate::model::evaluate::Evaluator;
@@ -12,6 +13,7 @@ use crate::names::quoted;
 pub(super) fn check(
     eval: &mut Evaluator<'_>,
     raw: &[RawForm<'_>],
+    redundant: &[Taken<'_>],
     degrees: usize,
     velocities: &[ExprId],
     idle: usize,
@@ -36,8 +38,22 @@ pub(super) fn check(
         format!("{} {need} {}, and {} {are} declared", plural(n, "coordinate"), plural(n, "form"), raw.len()),
     )
     .note(format!("found: {}", found.join(", ")));
+    if !redundant.is_empty() {
+        let names = quoted(redundant.iter().map(|taken| taken.entry.entry.name.as_str()));
+        let follow = if redundant.len() == 1 { "follows" } else { "follow" };
+        let count = if redundant.len() == 1 { "does not count" } else { "do not count" };
+        fault = fault.note(format!(
+            "{names} {follow} from the other holonomic constraints wherever all of them hold, and {count}"
+        ));
+    }
     if raw.len() > n {
         let surplus = raw.len() - n;
+        if holonomic > 1 {
+            fault = fault.note(
+                "no holonomic constraint is seen to follow from the others where all of them hold: one that does so for particular \
+                 values of constants only needs these as numbers, or as one constant where they are equal",
+            );
+        }
         eval.faults.report(fault.help(format!(
             "remove {}, or declare {} more",
             plural(surplus, "form"),
