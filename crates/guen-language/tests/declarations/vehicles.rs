@@ -42,11 +42,11 @@ const HEADING: f64 = 1.75;
 const SPEED: f64 = 0.7;
 const TURNING: f64 = -0.3;
 
-/// The rates of a car that is steered like this.
-fn rates(trailers: usize, steering: f64) -> Vec<f64> {
-    rates_of(&car(trailers), |name| match name {
+/// The rates of a car where it is steered like each of these.
+fn rates(trailers: usize, steering: &[f64]) -> Vec<Vec<f64>> {
+    rates_of(&car(trailers), steering, |steering, name| match name {
         "heading" => HEADING,
-        "steering" => steering,
+        "steering" => *steering,
         "speed" => SPEED,
         "turning" => TURNING,
         "m" => M,
@@ -61,21 +61,24 @@ fn rates(trailers: usize, steering: f64) -> Vec<f64> {
     })
 }
 
-/// The rates of a declared system where its symbols have these values.
-fn rates_of(text: &str, value: impl Fn(&str) -> f64) -> Vec<f64> {
+/// The rates of a declared system at each of some places, where its symbols have these values. Derived once: that takes longest.
+fn rates_of<P>(text: &str, places: &[P], value: impl Fn(&P, &str) -> f64) -> Vec<Vec<f64>> {
     derived(text, |derived| {
         let graph = &derived.model.bench.graph;
-        let value = |symbol: SymbolId| value(&graph.symbol_info(symbol).name);
-        evaluated(&derived.system, function::RHS, value).expect("rates")
+        let rates = |place: &P| {
+            let value = |symbol: SymbolId| value(place, &graph.symbol_info(symbol).name);
+            evaluated(&derived.system, function::RHS, value).expect("rates")
+        };
+        places.iter().map(rates).collect()
     })
 }
 
 #[test]
 fn the_heading_turns_by_the_steering_angle_alone() {
     for trailers in [0, 1, 3] {
-        for steering in [1e-9_f64, -1e-5, 0.4, 1.55] {
-            let (found, expected) = (rates(trailers, steering)[2], SPEED * steering.tan() / L);
-            let error = (found / expected - 1.0).abs();
+        let angles = [1e-9_f64, -1e-5, 0.4, 1.55];
+        for (steering, found) in angles.into_iter().zip(rates(trailers, &angles)) {
+            let error = (found[2] / (SPEED * steering.tan() / L) - 1.0).abs();
             assert!(error < 1e-15, "{trailers} trailers at {steering}: {error:e}");
         }
     }
@@ -83,14 +86,14 @@ fn the_heading_turns_by_the_steering_angle_alone() {
 
 #[test]
 fn the_steering_of_a_car_that_turns_on_the_spot_keeps_its_digits() {
-    for distance in [1e-1_f64, 1e-4, 1e-8] {
-        let steering = std::f64::consts::FRAC_PI_2 - distance;
+    let distances = [1e-1_f64, 1e-4, 1e-8];
+    let angles = distances.map(|distance| std::f64::consts::FRAC_PI_2 - distance);
+    for ((distance, steering), found) in distances.into_iter().zip(angles).zip(rates(0, &angles)) {
         let (sine, cosine) = steering.sin_cos();
         // m v' + J k (k v)' = 0 and (k v + turning)' = 0 with k = tan(steering)/l, multiplied by cos^2.
         let inertia = M * cosine * cosine + J * (sine / L).powi(2);
         let expected = -SPEED * TURNING / L * M / inertia;
-        let found = *rates(0, steering).last().unwrap();
-        let error = (found / expected - 1.0).abs();
+        let error = (found.last().unwrap() / expected - 1.0).abs();
         assert!(error < 1e-14, "{distance:e} from the edge: {error:e}");
     }
 }
@@ -156,25 +159,26 @@ fn train(trailers: usize, written: Written) -> String {
 fn trailers_nearly_in_line_turn_by_the_angles_between_them() {
     const ANGLES: [f64; 6] = [HEADING, 1.8, 1.79, 0.0964, 0.0956, 0.0952];
     const LENGTH: f64 = 1.5;
-    for hitch in [0.0, 0.25] {
-        for written in [Written::Headings, Written::Bends, Written::MultipliedOut] {
-            let bend = |i: usize| match written {
-                Written::Bends => [0.05, -0.01, -1.7, -8e-4, -4e-4][i - 1],
-                _ => ANGLES[i] - ANGLES[i - 1],
-            };
-            let found = rates_of(&train(5, written), |name| match name {
-                "heading" => HEADING,
-                "speed" => SPEED,
-                "turning" => TURNING,
-                "M" => M,
-                "J" => J,
-                "d" => LENGTH,
-                "b" => hitch,
-                _ => {
-                    let Some(Ok(i)) = name.strip_prefix('q').map(str::parse::<usize>) else { return 0.0 };
-                    if written == Written::Bends { bend(i) } else { ANGLES[i] }
-                }
-            });
+    const HITCHES: [f64; 2] = [0.0, 0.25];
+    for written in [Written::Headings, Written::Bends, Written::MultipliedOut] {
+        let bend = |i: usize| match written {
+            Written::Bends => [0.05, -0.01, -1.7, -8e-4, -4e-4][i - 1],
+            _ => ANGLES[i] - ANGLES[i - 1],
+        };
+        let rates = rates_of(&train(5, written), &HITCHES, |hitch, name| match name {
+            "heading" => HEADING,
+            "speed" => SPEED,
+            "turning" => TURNING,
+            "M" => M,
+            "J" => J,
+            "d" => LENGTH,
+            "b" => *hitch,
+            _ => {
+                let Some(Ok(i)) = name.strip_prefix('q').map(str::parse::<usize>) else { return 0.0 };
+                if written == Written::Bends { bend(i) } else { ANGLES[i] }
+            }
+        });
+        for (hitch, found) in HITCHES.into_iter().zip(rates) {
             // The speed of an axle, and how its link turns.
             let (mut speed, mut turning) = (SPEED, TURNING);
             for i in 1..=5 {

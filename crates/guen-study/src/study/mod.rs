@@ -212,24 +212,20 @@ impl<S, const N: usize> Study<S, N> {
     /// cheaper.
     ///
     /// ```
-    /// # use guen_runtime::{Equations, Real, generic};
-    /// # #[derive(Clone)]
-    /// # struct Oscillator;
-    /// # impl Equations<2> for Oscillator {
-    /// #     fn rates<R: Real>(&self, _t: R, &[x, v]: &[R; 2]) -> [R; 2] { [v, -x] }
-    /// # }
     /// use guen_runtime::{from_fn, steppers::Rk4};
     /// use guen_study::{Settings, Study};
     ///
-    /// let by_hand = from_fn(|_t: f64, &[x, v]: &[f64; 2]| [v, -x]);
-    /// let study = Study::new(generic(Oscillator), [0.0, 1.0], 0.0..5.0)?.with_method_on(
-    ///     by_hand,
-    ///     ["RK4", "f64", "by hand"],
-    ///     Settings::Steps,
-    ///     |step| Rk4 { step },
-    ///     |step| format!("Rk4 {{ step: {step} }} on `by_hand`"),
-    /// );
-    /// # Ok::<(), guen_runtime::ConstantsError>(())
+    /// /// A study of an oscillator, with its right-hand side by hand besides.
+    /// fn with_the_one_by_hand<S>(study: Study<S, 2>) -> Study<S, 2> {
+    ///     let by_hand = from_fn(|_t: f64, &[x, v]: &[f64; 2]| [v, -x]);
+    ///     study.with_method_on(
+    ///         by_hand,
+    ///         ["RK4", "f64", "by hand"],
+    ///         Settings::Steps,
+    ///         |step| Rk4 { step },
+    ///         |step| format!("Rk4 {{ step: {step} }} on `by_hand`"),
+    ///     )
+    /// }
     /// ```
     #[must_use]
     pub fn with_method_on<T, M>(
@@ -254,24 +250,20 @@ impl<S, const N: usize> Study<S, N> {
     /// are those of the state that comes back. The way there and back counts as the form's cost.
     ///
     /// ```
-    /// # use guen_runtime::{Equations, Real, generic};
-    /// # #[derive(Clone)]
-    /// # struct Pendulum;
-    /// # impl Equations<2> for Pendulum {
-    /// #     fn rates<R: Real>(&self, _t: R, &[q, w]: &[R; 2]) -> [R; 2] { [w, -q.sin()] }
-    /// # }
     /// use guen_runtime::from_fn;
     /// use guen_study::Study;
     ///
-    /// // `s = sin q` and `c = cos q` as states: a right-hand side without a call.
-    /// let carried = from_fn(|_t: f64, &[_, w, s, c]: &[f64; 4]| [w, -s, c * w, -s * w]);
-    /// let study = Study::new(generic(Pendulum), [1.0, 0.0], 0.0..5.0)?.with_form(
-    ///     "carried",
-    ///     carried,
-    ///     |&[q, w]: &[f64; 2]| [q, w, q.sin(), q.cos()],
-    ///     |&[q, w, _, _]| [q, w],
-    /// );
-    /// # Ok::<(), guen_runtime::ConstantsError>(())
+    /// /// A study of a pendulum, with its carried form besides: `s = sin q` and `c = cos q` as states, and a right-hand side
+    /// /// without a call.
+    /// fn with_the_carried_form<S>(study: Study<S, 2>) -> Study<S, 2> {
+    ///     let carried = from_fn(|_t: f64, &[_, w, s, c]: &[f64; 4]| [w, -s, c * w, -s * w]);
+    ///     study.with_form(
+    ///         "carried",
+    ///         carried,
+    ///         |&[q, w]: &[f64; 2]| [q, w, q.sin(), q.cos()],
+    ///         |&[q, w, _, _]| [q, w],
+    ///     )
+    /// }
     /// ```
     #[must_use]
     pub fn with_form<T, const M: usize>(
@@ -367,23 +359,18 @@ impl<S: Recast<N>, const N: usize> Study<S, N> {
     /// Those of `prepare`.
     ///
     /// ```
-    /// # use guen_runtime::{Equations, Real, generic};
-    /// # #[derive(Clone)]
-    /// # struct Oscillator;
-    /// # impl Equations<2> for Oscillator {
-    /// #     fn rates<R: Real>(&self, _t: R, &[x, v]: &[R; 2]) -> [R; 2] { [v, -x] }
-    /// # }
-    /// use guen_runtime::steppers::Dop853;
+    /// use guen_runtime::{ConstantsError, Recast, steppers::Dop853};
     /// use guen_study::{Settings, Study};
     ///
-    /// // DOP853 with a relative tolerance only.
-    /// let study = Study::new(generic(Oscillator), [0.0, 1.0], 0.0..5.0)?.with_method(
-    ///     "DOP853, relative",
-    ///     Settings::Tolerances,
-    ///     |tolerance| Dop853::new(tolerance, 1e-300),
-    ///     |tolerance| format!("Dop853::new({tolerance:?}, 1e-300)"),
-    /// )?;
-    /// # Ok::<(), guen_runtime::ConstantsError>(())
+    /// /// A study with DOP853 with a relative tolerance only.
+    /// fn with_relative<S: Recast<2>>(study: Study<S, 2>) -> Result<Study<S, 2>, ConstantsError> {
+    ///     study.with_method(
+    ///         "DOP853, relative",
+    ///         Settings::Tolerances,
+    ///         |tolerance| Dop853::new(tolerance, 1e-300),
+    ///         |tolerance| format!("Dop853::new({tolerance:?}, 1e-300)"),
+    ///     )
+    /// }
     /// ```
     pub fn with_method<M>(
         self,

@@ -1,5 +1,6 @@
 //! Files: whole or not at all, equal to the bit, harmless in a spreadsheet.
 
+mod cells;
 mod kill;
 #[cfg(feature = "serde")]
 mod recordings;

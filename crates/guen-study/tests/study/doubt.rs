@@ -4,9 +4,10 @@ use guen_runtime::steppers::{Dop853, Rk4, Rk8};
 use guen_runtime::{Equations, Real, from_fn, generic};
 use guen_study::{Caveat, Digits71, Forecast, Knob, NoChoice, Report, Settings, Study};
 
+use crate::systems::{Planar, Scalar};
+
 /// `x'' = -x`.
-#[derive(Clone)]
-struct Spring;
+pub struct Spring;
 
 impl Equations<2> for Spring {
     fn rates<R: Real>(&self, _t: R, &[x, v]: &[R; 2]) -> [R; 2] {
@@ -20,8 +21,8 @@ fn explicit(method: &str, real: &str) -> bool {
     real == "f64" && ["RK4", "DOP853"].contains(&method)
 }
 
-fn spring() -> Study<guen_runtime::Generic<Spring>, 2> {
-    Study::new(generic(Spring), START, 0.0..50.0)
+fn spring() -> Study<guen_runtime::Generic<Planar>, 2> {
+    Study::new(generic(Planar::Spring), START, 0.0..50.0)
         .unwrap()
         .count_evaluations()
         .scan(1 << 12)
@@ -30,7 +31,7 @@ fn spring() -> Study<guen_runtime::Generic<Spring>, 2> {
 }
 
 /// References that are far from the truth, and from each other.
-fn disagreeing() -> Study<guen_runtime::Generic<Spring>, 2> {
+fn disagreeing() -> Study<guen_runtime::Generic<Planar>, 2> {
     let step = |n| Digits71::from_ratio(n, 2);
     spring().reference_by(["RK4", "RK8"], Rk4 { step: step(2) }, Rk8::new(step(5))).unwrap()
 }
@@ -103,17 +104,19 @@ fn choices_are_certain_and_marks_are_not_relied_upon() {
     assert!(edited.most_accurate_within(f64::INFINITY).unwrap().row.error >= Some(1e-8));
 }
 
+/// A body that nothing moves: reference, check and settings are right to the bit.
+pub struct Free;
+
+impl Equations<2> for Free {
+    fn rates<R: Real>(&self, _t: R, &[_, v]: &[R; 2]) -> [R; 2] {
+        [v, R::zero()]
+    }
+}
+
 #[test]
 fn a_motion_that_every_method_has_exactly_is_chosen() {
-    /// A body that nothing moves: reference, check and settings are right to the bit.
-    #[derive(Clone)]
-    struct Free;
-    impl Equations<2> for Free {
-        fn rates<R: Real>(&self, _t: R, &[_, v]: &[R; 2]) -> [R; 2] {
-            [v, R::zero()]
-        }
-    }
-    let study = Study::new(generic(Free), [0.0, 0.5], 0.0..4.0).unwrap().count_evaluations().scan(1 << 12);
+    let study =
+        Study::new(generic(Planar::Free), [0.0, 0.5], 0.0..4.0).unwrap().count_evaluations().scan(1 << 12);
     let trade = study.keep(|_, real| real == "f64").probes(0, 0.0).run();
     assert!(trade.report.fastest_within(1e-9).is_ok());
 }
@@ -187,15 +190,7 @@ fn choices_and_forecasts_say_what_nobody_looked_at() {
 /// Where every setting is far off, as in chaotic motions over long spans, the reason says how far, and not that nothing was measured.
 #[test]
 fn settings_that_are_all_useless_are_said_to_be() {
-    /// `x' = 3 x`: over 4 seconds every error grows by 1e5.
-    #[derive(Clone)]
-    struct Growing;
-    impl Equations<1> for Growing {
-        fn rates<R: Real>(&self, _t: R, &[x]: &[R; 1]) -> [R; 1] {
-            [x * R::from_ratio(3, 1)]
-        }
-    }
-    let study = Study::new(generic(Growing), [1.0], 0.0..4.0).unwrap();
+    let study = Study::new(generic(Scalar::Growing), [1.0], 0.0..4.0).unwrap();
     let steps = Settings::List(Knob::Step, vec![2.0, 1.0, 0.5]);
     let study = study.keep(|_, _| false).with_method("RK4", steps, |step| Rk4 { step }, |_| String::new());
     let report = study.unwrap().scales([1e3]).count_evaluations().scan(1 << 12).probes(0, 0.0).run().report;

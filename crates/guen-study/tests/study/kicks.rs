@@ -5,12 +5,14 @@ use guen_runtime::steppers::{Dop853, Integration, Rk4};
 use guen_runtime::{Equations, Generic, Real, generic};
 use guen_study::{Digits71, Ending, Knob, Report, Row, Settings, Study, Trade};
 
+use crate::systems::Planar;
+
 const SPAN: f64 = 50.0;
 const START: [f64; 2] = [1.0, 0.0];
 
 /// What acts on `x'' = -x`, and as long as it does.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Force {
+pub enum Force {
     /// A constant force, with edges.
     Box,
     /// The same momentum as a bell.
@@ -21,7 +23,7 @@ enum Force {
 
 /// A force that gives the momentum `strength` at a time, or while the body passes a place.
 #[derive(Clone, Copy, Debug)]
-struct Kicked {
+pub struct Kicked {
     force: Force,
     at: f64,
     width: f64,
@@ -50,7 +52,7 @@ impl Equations<2> for Kicked {
 }
 
 fn studied(system: Kicked, points: usize) -> Trade<2> {
-    Study::new(generic(system), START, 0.0..SPAN)
+    Study::new(generic(Planar::Kicked(system)), START, 0.0..SPAN)
         .unwrap()
         .count_evaluations()
         .keep(|method, real| real == "f64" && method == "DOP853")
@@ -71,7 +73,10 @@ fn studied(system: Kicked, points: usize) -> Trade<2> {
 /// The end state: in closed form, or by runs that land many times while the force acts.
 fn truth(system: Kicked, start: [f64; 2]) -> [f64; 2] {
     let run = |x: [f64; 2], from: f64, to: f64| {
-        Integration::new(&generic(system), from, &x).run(&Dop853::new(1e-13, 1e-13), to).unwrap().state
+        Integration::new(&generic(Planar::Kicked(system)), from, &x)
+            .run(&Dop853::new(1e-13, 1e-13), to)
+            .unwrap()
+            .state
     };
     let landing = |mut x: [f64; 2], from: f64, to: f64, count: u32| {
         let at = |k: u32| from + (to - from) * (f64::from(k) / f64::from(count));
@@ -107,7 +112,7 @@ fn truth(system: Kicked, start: [f64; 2]) -> [f64; 2] {
 
 fn end(report: &Report, index: usize, system: Kicked, start: [f64; 2]) -> [f64; 2] {
     let row = &report.rows[index];
-    let system = generic(system);
+    let system = generic(Planar::Kicked(system));
     let run = Integration::new(&system, 0.0, &start);
     match row.method.as_str() {
         "RK4" => run.run(&Rk4 { step: row.setting }, SPAN),
@@ -230,9 +235,9 @@ fn no_choice_breaks_its_promise_for_what_is_wide_enough() {
     assert!(count.choices > 0);
 }
 
-fn smooth() -> Study<Generic<Kicked>, 2> {
+fn smooth() -> Study<Generic<Planar>, 2> {
     let system = Kicked { force: Force::Bell, at: 20.0, width: 8.0, strength: 1.0 };
-    Study::new(generic(system), START, 0.0..SPAN)
+    Study::new(generic(Planar::Kicked(system)), START, 0.0..SPAN)
         .unwrap()
         .count_evaluations()
         .keep(|method, real| real == "f64" && method == "DOP853")
@@ -284,7 +289,7 @@ fn a_study_without_a_reference_that_counts_evaluations_ends() {
     // The reference has a step that it refuses.
     let none = Rk4 { step: Digits71::zero() };
     let system = Kicked { force: Force::Bell, at: 20.0, width: 8.0, strength: 1.0 };
-    let study = Study::new(generic(system), START, 0.0..SPAN).unwrap().count_evaluations();
+    let study = Study::new(generic(Planar::Kicked(system)), START, 0.0..SPAN).unwrap().count_evaluations();
     let study = study.keep(|method, real| method == "RK4" && real == "f64").probes(0, 0.0).scan(1 << 12);
     let begun = std::time::Instant::now();
     let report = study.reference_by(["nothing", "nothing"], none, none).unwrap().run().report;

@@ -2,10 +2,14 @@
 
 #![cfg(feature = "study")]
 
+#[path = "../files/cells.rs"]
+mod cells;
 mod doubt;
 mod kicks;
 mod promises;
 mod shorter;
+mod spreadsheet;
+mod systems;
 
 use std::cell::Cell;
 use std::rc::Rc;
@@ -18,8 +22,9 @@ use guen_study::{
     Cost, Digits71, Ending, FailureKind, NoChoice, Report, Row, Settings, Stopwatch, Study, Trade, Unit,
 };
 
+use systems::{Planar, Scalar};
+
 /// `x' = v`, `v' = -4 x`: `x = x0 cos 2t + v0/2 sin 2t`.
-#[derive(Clone)]
 struct Oscillator;
 
 impl Equations<2> for Oscillator {
@@ -39,8 +44,8 @@ fn exact(t: f64) -> [Digits71; 2] {
     [x * cos + half * sin, two * (half * cos - x * sin)]
 }
 
-fn oscillator() -> Study<guen_runtime::Generic<Oscillator>, 2> {
-    Study::new(generic(Oscillator), START, SPAN)
+fn oscillator() -> Study<guen_runtime::Generic<Planar>, 2> {
+    Study::new(generic(Planar::Oscillator), START, SPAN)
         .unwrap()
         .title("oscillator")
         .count_evaluations()
@@ -70,7 +75,7 @@ fn reported_errors_are_the_true_ones() {
     for row in report.rows.iter().filter(|row| row.method == "RK4" && row.failure.is_none()) {
         let method = Rk4 { step: row.setting };
         let go_on = |_, _: &[f64; 2]| std::ops::ControlFlow::Continue(());
-        let end = method.integrate(&generic(Oscillator), 0.0, &START, SPAN.end, go_on).unwrap().state;
+        let end = method.integrate(&generic(Planar::Oscillator), 0.0, &START, SPAN.end, go_on).unwrap().state;
         let off = |i: usize| {
             (Digits71::from_f64(end[i]) - truth[i]).abs().to_f64() / truth[i].to_f64().abs().max(1.0)
         };
@@ -191,15 +196,7 @@ fn a_wrong_reference_is_noticed() {
 
 #[test]
 fn a_reference_that_cannot_be_had_leaves_the_rest() {
-    // `x' = x^2` has a pole at t = 1.
-    #[derive(Clone)]
-    struct Pole;
-    impl Equations<1> for Pole {
-        fn rates<R: Real>(&self, _t: R, &[x]: &[R; 1]) -> [R; 1] {
-            [x * x]
-        }
-    }
-    let trade = Study::new(generic(Pole), [1.0], 0.0..2.0)
+    let trade = Study::new(generic(Scalar::Pole), [1.0], 0.0..2.0)
         .unwrap()
         .count_evaluations()
         .keep(|method, real| method == "DOP853" && real == "f64")
@@ -235,7 +232,7 @@ impl Stopwatch for Told64 {
 }
 
 fn two_settings(noise: f64) -> Trade<2> {
-    Study::new(generic(Oscillator), START, SPAN)
+    Study::new(generic(Planar::Oscillator), START, SPAN)
         .unwrap()
         .keep(|_, _| false)
         .probes(0, 0.0)
@@ -289,7 +286,7 @@ fn a_cancelled_study_keeps_what_it_has() {
 
 #[test]
 fn time_runs_out_before_the_work_does() {
-    let trade = Study::new(generic(Oscillator), START, 0.0..1e6)
+    let trade = Study::new(generic(Planar::Oscillator), START, 0.0..1e6)
         .unwrap()
         .keep(plain)
         .within(Duration::from_millis(60))
@@ -443,12 +440,12 @@ fn constants_that_a_real_cannot_hold_are_rows() {
     // Refused in single precision: FailureKind::Constants is what the row says.
     struct Picky;
     impl guen_runtime::Recast<2> for Picky {
-        type In<R: Real> = guen_runtime::Generic<Oscillator>;
+        type In<R: Real> = guen_runtime::Generic<Planar>;
         fn recast<R: Real>(&self) -> Result<Self::In<R>, guen_runtime::ConstantsError> {
             if R::epsilon().to_f64() > 1e-10 {
                 return Err(guen_runtime::ConstantsError::NotFinite { name: "m", value: f64::INFINITY });
             }
-            Ok(generic(Oscillator))
+            Ok(generic(Planar::Oscillator))
         }
     }
     let keep = |method: &str, real: &str| real == "f32" || plain(method, real);

@@ -11,6 +11,8 @@ use guen_runtime::steppers::{Dop853, Integration, Method, Rk8, Tsit5};
 use guen_runtime::{Equations, Generic, Real, generic};
 use guen_study::{Row, Study, Trade};
 
+use crate::systems::Planar;
+
 const PROMISE: f64 = 10.0;
 /// States that every run of the tests tries, of three systems.
 const QUICK: usize = 3;
@@ -129,11 +131,11 @@ fn end<E: Equations<N> + Clone, const N: usize>(
     Some(Integration::new(system, span.start, start).run(method, span.end).ok()?.state)
 }
 
-/// Systems of one size are one type: every type that is studied takes the compiler two seconds.
+/// Systems of one size are one type: see `systems`.
 macro_rules! systems {
     ($all:ident, $n:literal: $($(#[$doc:meta])* $name:ident, |$t:ident, $x:pat_param, $number:ident| $rates:expr;)*) => {
         #[derive(Clone)]
-        enum $all {
+        pub enum $all {
             $($(#[$doc])* $name,)*
         }
         impl Equations<$n> for $all {
@@ -189,16 +191,28 @@ fn battery(states: usize) -> Counts {
     let all = states > QUICK;
     let asked: &[f64] = if all { &[1e-3, 1e-6, 1e-9, 1e-12] } else { &[1e-6, 1e-12] };
     battery.try_system("Lorenz", Three::Lorenz, [1.0, 2.0, 20.0], 0.0..8.0, asked);
-    battery.try_system("Van der Pol", Two::VanDerPol, [1.5, 0.5], 0.0..if all { 20.0 } else { 5.0 }, asked);
-    battery.try_system("pendulum", Two::Pendulum, [1.0, 0.5], 0.0..if all { 10.0 } else { 3.0 }, asked);
+    battery.try_system(
+        "Van der Pol",
+        Planar::Battery(Two::VanDerPol),
+        [1.5, 0.5],
+        0.0..if all { 20.0 } else { 5.0 },
+        asked,
+    );
+    battery.try_system(
+        "pendulum",
+        Planar::Battery(Two::Pendulum),
+        [1.0, 0.5],
+        0.0..if all { 10.0 } else { 3.0 },
+        asked,
+    );
     if all {
-        battery.try_system("Duffing", Two::Duffing, [0.5, 0.1], 0.0..30.0, asked);
+        battery.try_system("Duffing", Planar::Battery(Two::Duffing), [0.5, 0.1], 0.0..30.0, asked);
         battery.try_system("Kepler", Four::Kepler, [0.6, 0.1, 0.1, 1.4], 0.0..12.0, asked);
         battery.try_system("Henon-Heiles", Four::HenonHeiles, [0.2, 0.1, 0.3, 0.2], 0.0..40.0, asked);
         battery.try_system("top", Three::Top, [1.0, 0.1, 0.8], 0.0..20.0, asked);
         battery.try_system("spring", Four::Spring, [1.3, 0.5, 0.0, 0.2], 0.0..8.0, asked);
-        battery.try_system("decay", Two::Decay, [0.5, 0.2], 0.0..5.0, asked);
-        battery.try_system("Brusselator", Two::Brusselator, [1.5, 3.0], 0.0..15.0, asked);
+        battery.try_system("decay", Planar::Battery(Two::Decay), [0.5, 0.2], 0.0..5.0, asked);
+        battery.try_system("Brusselator", Planar::Battery(Two::Brusselator), [1.5, 3.0], 0.0..15.0, asked);
         battery.try_system("double", Four::Double, [1.2, 0.8, 0.3, -0.2], 0.0..10.0, asked);
         battery.try_system("sled", Four::Sled, [0.3, 0.0, 0.7, 0.5], 0.0..10.0, asked);
     }

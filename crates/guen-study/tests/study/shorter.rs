@@ -5,9 +5,10 @@ use std::time::Duration;
 use guen_runtime::{Equations, Real, generic};
 use guen_study::Study;
 
+use crate::systems::Planar;
+
 /// A pendulum whose rates take three hundredths of a second in 71 digits.
-#[derive(Clone)]
-struct Slow;
+pub struct Slow;
 
 impl Equations<2> for Slow {
     fn rates<R: Real>(&self, _t: R, &[q, w]: &[R; 2]) -> [R; 2] {
@@ -20,7 +21,7 @@ impl Equations<2> for Slow {
 
 #[test]
 fn what_is_too_slow_for_71_digits_has_31() {
-    let study = Study::new(generic(Slow), [1.0, 0.0], 0.0..2.0).unwrap();
+    let study = Study::new(generic(Planar::Slow), [1.0, 0.0], 0.0..2.0).unwrap();
     let trade = study
         .count_evaluations()
         .keep(|method, real| real == "f64" && ["RK4", "DOP853"].contains(&method))
