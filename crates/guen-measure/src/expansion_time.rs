@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! cargo run -p guen-measure --bin expansion_time
+//! cargo run -p guen-measure --bin expansion_time -- --quick     # every system once: that it works, and no figures to compare
 //! ```
 //!
 //! Without `--release`: cargo builds procedural macros without optimisation, in a user's dev profile and in the release
@@ -155,7 +156,11 @@ impl Compiler {
         fs::write(&file, format!("guen_clock::stages! {{ {declaration} }}"))?;
         let mut clock = std::ffi::OsString::from("guen_clock=");
         clock.push(&self.clock);
-        let output = Command::new("rustc")
+        let mut rustc = Command::new("rustc");
+        if env::args().any(|argument| argument == "--quick") {
+            rustc.env("GUEN_ONCE", "");
+        }
+        let output = rustc
             .args(["--edition=2024", "--crate-type=lib", "--emit=metadata", "--out-dir"])
             .arg(&self.folder)
             .arg("--extern")

@@ -134,7 +134,7 @@ fn closed(depends: &[Vec<bool>], start: impl IntoIterator<Item = usize>) -> BTre
 
 #[test]
 fn what_is_kept_is_what_the_numbers_need() {
-    let rounds = rounds(8);
+    let rounds = rounds(4);
     let mut draw = Sequence(11);
     let (mut smaller, mut parts, mut scenes) = (0, 0, 0);
     for _ in 0..rounds {
