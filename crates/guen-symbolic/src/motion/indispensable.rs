@@ -6,11 +6,11 @@
 
 use super::velocity_forms::VelocityPartials;
 use super::{Frame, KineticTerm, Mechanics};
-use crate::algebra::{Bound, ExprId, Node, Role, SymbolId};
+use crate::algebra::{Bound, ExprId, FastMap, Node, Role, SymbolId};
 use crate::workbench::Workbench;
-use crate::zero::field;
+use crate::zero::{Sample, field};
 
-/// Values at points beyond which no constant is tried: each takes one of every expression of the energy.
+/// Values at points beyond which no constant is tried: each may take one of every expression of the energy.
 const MOST_VALUES: usize = 400_000;
 
 /// Points at which the mass matrix must be singular.
@@ -57,8 +57,22 @@ pub(super) fn find(
     let symbols = graph.symbols_in(&all);
     let mut open: Vec<SymbolId> = symbols.iter().copied().filter(is_open).collect();
     open.truncate(MOST_VALUES / reachable.len().max(1));
-    for symbol in open {
-        if (0..POINTS).all(|point| energy.is_singular_without(bench, symbol, &all, point)) {
+    let dependents = dependents(bench, &reachable, &open);
+    let mut points: Vec<Option<At>> = Vec::new();
+    for (symbol, dependent) in open.into_iter().zip(&dependents) {
+        let mut is_singular = true;
+        for number in 0..POINTS {
+            if points.len() as u64 <= number {
+                points.push(At::new(bench, &energy, &all, number));
+            }
+            let at = &points[number as usize];
+            is_singular =
+                at.as_ref().is_some_and(|at| at.is_singular_without(bench, &energy, &all, symbol, dependent));
+            if !is_singular {
+                break;
+            }
+        }
+        if is_singular {
             bench.graph.set_indispensable(symbol);
         }
     }
@@ -104,50 +118,141 @@ impl Energy {
         weights.chain(coefficients).chain(self.operators.iter().flatten().copied()).collect()
     }
 
-    /// Whether the mass matrix is singular at a point where a constant is zero; not where it has no value there.
-    fn is_singular_without(
-        &self,
-        bench: &mut Workbench,
-        symbol: SymbolId,
-        all: &[ExprId],
-        point: u64,
-    ) -> bool {
-        let Some(values) = bench.zero.residues_without(&bench.graph, symbol, all, point) else {
-            return false;
-        };
-        let mut values = values.into_iter();
-        let weights: Vec<u64> = values.by_ref().take(self.terms.len()).collect();
-        let mut coefficients = Vec::new();
-        for [velocities, etas] in &self.forms {
-            coefficients.push([velocities, etas].map(|list| -> Vec<(usize, u64)> {
-                list.iter().zip(values.by_ref()).map(|((place, _), value)| (*place, value)).collect()
-            }));
-        }
-        let operators: Vec<Vec<u64>> =
-            self.operators.iter().map(|row| values.by_ref().take(row.len()).collect()).collect();
-        let components: Vec<Vec<u64>> = coefficients
-            .iter()
-            .map(|[velocities, etas]| {
-                let component = |(s, operator): (usize, &Vec<u64>)| {
-                    let along = velocities.iter().map(|(i, c)| field::mul(*c, operator[*i]));
-                    let own = etas.iter().filter(|(j, _)| *j == s).map(|(_, c)| *c);
-                    along.chain(own).fold(0, field::add)
-                };
-                operators.iter().enumerate().map(component).collect()
-            })
-            .collect();
-        let l = operators.len();
-        let mut mass = vec![vec![0; l]; l];
-        for (weight, (_, [u, v])) in weights.into_iter().zip(&self.terms) {
-            for (s, row) in mass.iter_mut().enumerate() {
-                for (a, b) in [(u, v), (v, u)] {
-                    let scaled = field::mul(weight, components[*a][s]);
-                    for (entry, other) in row.iter_mut().zip(&components[*b]) {
-                        *entry = field::add(*entry, field::mul(scaled, *other));
-                    }
+    /// The components of a form along the operators that are not zero, out of the values of all expressions, which begin
+    /// with the weights.
+    fn components(&self, values: &[u64], form: usize) -> Vec<(usize, u64)> {
+        let [velocities, etas] = &self.forms[form];
+        let before: usize = self.forms[..form].iter().flatten().map(Vec::len).sum();
+        let own = &values[self.terms.len() + before..];
+        let width = self.operators.first().map_or(0, Vec::len);
+        let operators = &values[values.len() - self.operators.len() * width..];
+        let mut found = Vec::new();
+        for s in 0..self.operators.len() {
+            let mut sum = 0;
+            for (place, (i, _)) in velocities.iter().enumerate() {
+                let along = operators[s * width + i];
+                if along != 0 {
+                    sum = field::add(sum, field::mul(own[place], along));
                 }
             }
+            for (place, (j, _)) in etas.iter().enumerate() {
+                if *j == s {
+                    sum = field::add(sum, own[velocities.len() + place]);
+                }
+            }
+            if sum != 0 {
+                found.push((s, sum));
+            }
         }
-        field::rank(&mass) < l
+        found
+    }
+}
+
+/// The nodes that depend on each of some symbols, of nodes in the order in which one is made of others.
+fn dependents(bench: &Workbench, nodes: &[ExprId], symbols: &[SymbolId]) -> Vec<Vec<ExprId>> {
+    const BITS: usize = u64::BITS as usize;
+    let words = symbols.len().div_ceil(BITS);
+    let mut found = vec![Vec::new(); symbols.len()];
+    let mut sets: FastMap<ExprId, Vec<u64>> = FastMap::default();
+    for id in nodes {
+        let mut set = vec![0; words];
+        if let Some(place) =
+            bench.graph.as_symbol(*id).and_then(|symbol| symbols.iter().position(|other| *other == symbol))
+        {
+            set[place / BITS] |= 1 << (place % BITS);
+        }
+        bench.graph.visit_children(*id, |child| {
+            if let Some(below) = sets.get(&child) {
+                for (word, other) in set.iter_mut().zip(below) {
+                    *word |= other;
+                }
+            }
+        });
+        for (word, bits) in set.iter().enumerate() {
+            let mut bits = *bits;
+            while bits != 0 {
+                found[word * BITS + bits.trailing_zeros() as usize].push(*id);
+                bits &= bits - 1;
+            }
+        }
+        sets.insert(*id, set);
+    }
+    found
+}
+
+/// The mass matrix at a point where no constant is zero: of that where one is, only the terms that know of it differ.
+struct At {
+    sample: Sample,
+    values: Vec<u64>,
+    components: Vec<Vec<(usize, u64)>>,
+    mass: Vec<Vec<u64>>,
+}
+
+impl At {
+    /// `None` where an expression has no value.
+    fn new(bench: &mut Workbench, energy: &Energy, all: &[ExprId], number: u64) -> Option<Self> {
+        let mut sample = bench.zero.point(&bench.graph, number);
+        let values = bench.zero.values_at(&bench.graph, &mut sample, all)?;
+        let components: Vec<_> =
+            (0..energy.forms.len()).map(|form| energy.components(&values, form)).collect();
+        let l = energy.operators.len();
+        let mut mass = vec![vec![0; l]; l];
+        for (weight, (_, [u, v])) in values.iter().zip(&energy.terms) {
+            add_products(&mut mass, *weight, &components[*u], &components[*v]);
+        }
+        Some(At { sample, values, components, mass })
+    }
+
+    /// Whether the mass matrix is singular where a constant is zero; not where it has no value there.
+    fn is_singular_without(
+        &self,
+        bench: &Workbench,
+        energy: &Energy,
+        all: &[ExprId],
+        symbol: SymbolId,
+        dependent: &[ExprId],
+    ) -> bool {
+        let mut sample = self.sample.without(symbol, dependent);
+        let Some(values) = bench.zero.values_at(&bench.graph, &mut sample, all) else { return false };
+        let count = energy.terms.len();
+        let forms: usize = energy.forms.iter().flatten().map(Vec::len).sum();
+        let operators_differ = values[count + forms..] != self.values[count + forms..];
+        // The components of a form, where they differ from those at the point.
+        let mut changed: Vec<Option<Vec<(usize, u64)>>> = Vec::new();
+        let mut at = count;
+        for (form, [velocities, etas]) in energy.forms.iter().enumerate() {
+            let end = at + velocities.len() + etas.len();
+            let differs = operators_differ || values[at..end] != self.values[at..end];
+            changed.push(differs.then(|| energy.components(&values, form)));
+            at = end;
+        }
+        let mut mass = self.mass.clone();
+        for (term, (_, [u, v])) in energy.terms.iter().enumerate() {
+            let (old, new) = (self.values[term], values[term]);
+            if old == new && changed[*u].is_none() && changed[*v].is_none() {
+                continue;
+            }
+            let [first, second] = [u, v].map(|form| &self.components[*form]);
+            add_products(&mut mass, field::neg(old), first, second);
+            let [first, second] =
+                [u, v].map(|form| changed[*form].as_ref().unwrap_or(&self.components[*form]));
+            add_products(&mut mass, new, first, second);
+        }
+        field::rank(&mass) < mass.len()
+    }
+}
+
+/// Adds `w (u v^T + v u^T)`.
+fn add_products(mass: &mut [Vec<u64>], w: u64, u: &[(usize, u64)], v: &[(usize, u64)]) {
+    if w == 0 {
+        return;
+    }
+    for (s, a) in u {
+        let scaled = field::mul(w, *a);
+        for (t, b) in v {
+            let product = field::mul(scaled, *b);
+            mass[*s][*t] = field::add(mass[*s][*t], product);
+            mass[*t][*s] = field::add(mass[*t][*s], product);
+        }
     }
 }

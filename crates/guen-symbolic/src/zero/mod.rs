@@ -17,13 +17,13 @@ mod tests;
 
 use manifold::Manifold;
 use real::{RealPoint, Sighting};
-use sample::Sample;
+pub(crate) use sample::Sample;
 use table::{ATOM, OPAQUE, ROOT, SIGN, TRANSCENDENTAL, Table, UNDEFINED};
 
 pub use real::{Real, evaluate, evaluate_f64};
 pub use redundant::Redundant;
 
-use crate::algebra::{ExprId, FastMap, Flow, Graph, Node, SymbolId};
+use crate::algebra::{ExprId, FastMap, Flow, Graph, Node};
 
 /// The answer to a question that cannot always be decided.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -200,18 +200,15 @@ impl ZeroTest {
         None
     }
 
-    /// The values of expressions modulo a prime at a random point at which one symbol is zero; `None` where one has none.
-    pub(crate) fn residues_without(
-        &mut self,
-        g: &Graph,
-        symbol: SymbolId,
-        es: &[ExprId],
-        number: u64,
-    ) -> Option<Vec<u64>> {
+    /// A random point modulo the prime, of those at which symbols may be made zero.
+    pub(crate) fn point(&mut self, g: &Graph, number: u64) -> Sample {
         self.table.scan(g);
-        let mut sample = Sample::new(number);
-        sample.fixed.insert(symbol, 0);
-        es.iter().map(|e| sample.value(g, &self.table, *e)).collect()
+        Sample::new(number)
+    }
+
+    /// The values of expressions at such a point; `None` where one has none.
+    pub(crate) fn values_at(&self, g: &Graph, point: &mut Sample, es: &[ExprId]) -> Option<Vec<u64>> {
+        es.iter().map(|e| point.value(g, &self.table, *e)).collect()
     }
 
     /// The value of an expression at the point of a number; `None` at a pole, or if there is no such point.

@@ -19,7 +19,7 @@ const SET: u64 = 2;
 const MINUS_ONE: u64 = PRIME - 1;
 
 /// A random point.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Sample {
     seed: u64,
     /// Whether symbols without a promise are squares as well, so that more roots exist.
@@ -36,6 +36,18 @@ impl Sample {
     /// Every other point has squares for all symbols of unknown sign: there are roots of each then.
     pub(crate) fn new(number: u64) -> Self {
         Sample { seed: mix(number), squares: number % 2 == 1, ..Sample::default() }
+    }
+
+    /// The same point with a symbol at zero, given all nodes that depend on it.
+    pub(crate) fn without(&self, symbol: SymbolId, dependent: &[ExprId]) -> Self {
+        let mut sample = self.clone();
+        sample.fixed.insert(symbol, 0);
+        for id in dependent {
+            if let Some(value) = sample.values.get_mut(id.index()) {
+                *value = UNSET;
+            }
+        }
+        sample
     }
 
     fn draw(&self, purpose: u64, index: u64) -> u64 {
