@@ -87,6 +87,16 @@ fn report_singular_forms(model: &mut Model<'_>, singular: SingularForms, faults:
     let form = &model.forms[last];
     let (place, name) = (form.written.span(), form.name.clone());
     let noun = if form.kind == FormKind::Parameter { "parameter" } else { "constraint" };
+    if others.is_empty() {
+        let fault = if form.kind == FormKind::Holonomic {
+            let fault = Fault::new(place, format!("the rate of `{name}` vanishes wherever `{name}` holds"));
+            fault.help("write the constraint so that its gradient differs from zero: `x - y = 0` for `(x - y)^2 = 0`")
+        } else {
+            Fault::new(place, format!("{noun} `{name}` vanishes wherever the holonomic constraints hold"))
+        };
+        faults.report(fault);
+        return;
+    }
     let other_names = quoted(others.iter().map(|(j, _)| model.forms[*j].name.as_str()));
     let rates: Vec<&str> = others
         .iter()

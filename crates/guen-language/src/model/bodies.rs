@@ -1,6 +1,6 @@
 //! Particles, rigid bodies and gravity: what they add to the kinetic energy and to the force function.
 
-use guen_symbolic::{BodyNode, ExprId, Rational};
+use guen_symbolic::{BodyNode, ExprId, Graph, Rational, Workbench};
 
 use super::evaluate::{Evaluated, Evaluator};
 use super::place::Place;
@@ -120,4 +120,35 @@ impl Evaluator<'_> {
         }
         healthy.map(|()| entries)
     }
+}
+
+/// Whether the entries `xx, yy, zz, xy, yz, zx` of an inertia are numbers that no distribution of mass has: `tr(I)/2 1 - I`, the
+/// integral of `r r^T dm`, has a negative principal minor.
+pub(super) fn is_no_inertia(graph: &Graph, entries: &[ExprId; 6]) -> bool {
+    /// Limits are meant to be reached: what is below them by this part of the trace is rounding.
+    const ROUNDING: f64 = 1e-14;
+    let numbers: Option<Vec<f64>> = entries.iter().map(|e| Some(graph.as_number(*e)?.to_f64())).collect();
+    let Some([xx, yy, zz, xy, yz, zx]) = numbers.as_deref() else { return false };
+    let half = (xx + yy + zz) / 2.0;
+    let scale = numbers.iter().flatten().fold(0.0_f64, |most, entry| most.max(entry.abs()));
+    if scale == 0.0 {
+        return false;
+    }
+    let [a, b, c] = [xx, yy, zz].map(|moment| (half - moment) / scale);
+    let [d, e, f] = [xy, yz, zx].map(|product| -product / scale);
+    let determinant = a * b * c + 2.0 * d * e * f - a * e * e - b * f * f - c * d * d;
+    [a, b, c, a * b - d * d, b * c - e * e, c * a - f * f, determinant].iter().any(|minor| *minor < -ROUNDING)
+}
+
+/// Whether an angular velocity, in body axes, has more than one direction.
+pub(super) fn turns_about_several_axes(
+    bench: &mut Workbench,
+    rate: &[ExprId; 3],
+    velocities: &[ExprId],
+) -> bool {
+    let rows: Vec<Vec<ExprId>> = velocities
+        .iter()
+        .map(|v| rate.iter().map(|component| bench.partial(*component, *v)).collect())
+        .collect();
+    bench.zero.rank(&mut bench.graph, &rows, false).is_some_and(|rank| rank > 1)
 }

@@ -160,6 +160,8 @@ pub struct BodyEntry {
     pub center: Option<[ExprId; 3]>,
     /// The matrix of its orientation, row by row, if it has one.
     pub orientation: Option<[[ExprId; 3]; 3]>,
+    /// Whether its inertia is given in numbers that no distribution of mass has, and it turns about more than one axis.
+    pub is_impossible: bool,
 }
 
 /// A scene whose names are sound.

@@ -11,7 +11,7 @@ use guen_symbolic::{
     Substitution, Workbench,
 };
 
-use super::bodies::Weight;
+use super::bodies::{Weight, is_no_inertia, turns_about_several_axes};
 use super::evaluate::{Evaluator, children};
 use super::forms::RawForm;
 use super::place::Place;
@@ -241,7 +241,14 @@ impl<'a, 'f> Resolver<'a, 'f> {
                             spin: turned.map(|rotation| rotation.body_rate),
                             inertia: inertia.unwrap_or([zero; 6]),
                         });
+                        let is_impossible = inertia.zip(turned).is_some_and(|(inertia, rotation)| {
+                            let bench = &mut self.eval.bench;
+                            let velocities = &self.velocities;
+                            is_no_inertia(&bench.graph, &inertia)
+                                && turns_about_several_axes(bench, &rotation.body_rate, velocities)
+                        });
                         self.bodies.push(BodyEntry {
+                            is_impossible,
                             name: name.clone(),
                             mass: *mass,
                             inertia: *inertia,
@@ -437,7 +444,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
             let place = keyword(SectionKind::Parameters)
                 .or(keyword(SectionKind::Coordinates))
                 .unwrap_or(self.declaration.name.span());
-            count::check(&mut self.eval, &raw, &redundant, degrees, &velocities, idle, place);
+            count::check(&mut self.eval, &raw, forms.as_deref(), &redundant, &velocities, idle, place);
             self.eval.scope.report_unused(self.eval.faults);
             if self.gravity.is_some() && self.weights.is_empty() {
                 report_idle_gravity(self.declaration, self.eval.faults);

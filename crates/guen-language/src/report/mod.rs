@@ -203,6 +203,12 @@ fn forms(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
     for name in &subject.model.left_out {
         lines.section.text.push(format!("{name} is left out: it says 0 = 0"));
     }
+    for body in subject.model.bodies.iter().filter(|body| body.is_impossible) {
+        let name = &body.name;
+        lines.section.text.push(format!(
+            "the inertia of {name} is that of no body: a principal moment is negative, or exceeds the sum of the others"
+        ));
+    }
     for redundant in &subject.model.redundant {
         let (name, others) = (&redundant.entry.name, beside(subject.model, redundant));
         lines.section.text.push(format!(

@@ -1,7 +1,8 @@
 //! Holonomic equations that follow from others wherever all hold: which they are, and what is said where the count is wrong.
 
-use guen_language::derive::function;
+use guen_language::derive::{derive, function};
 use guen_language::diagnostics::collect;
+use guen_language::report::Report;
 use guen_language::{model, parse};
 
 use crate::common::derived;
@@ -33,8 +34,8 @@ fn fault(text: &str) -> String {
     let (declaration, report) = parse::parse(text.parse().unwrap());
     assert!(report.is_empty(), "{}", report.to_compile_errors());
     let declaration = declaration.unwrap();
-    let (model, report) = collect(|faults| model::resolve(&declaration, faults));
-    assert!(model.is_none());
+    let (derived, report) = collect(|faults| derive(model::resolve(&declaration, faults)?, faults));
+    assert!(derived.is_none());
     report.to_compile_errors().to_string()
 }
 
@@ -65,4 +66,83 @@ fn without_a_parameter_the_mechanism_is_no_system_without_motion() {
         ),
         "{text}"
     );
+}
+
+/// Forms of a frame in direction cosines, by rows and by columns: three of six say everything.
+#[test]
+fn rows_and_columns_of_a_rotation_say_the_same() {
+    let text = "pub system Turn {
+        constants { J > 0 }
+        coordinates { a, b, c, d }
+        kinetic_energy = J/2*(dot(a)^2 + dot(b)^2 + dot(c)^2 + dot(d)^2);
+        parameters { w = a*dot(c) + b*dot(d) - c*dot(a) - d*dot(b); }
+        holonomic {
+            first: a^2 + b^2 = 1; second: c^2 + d^2 = 1; across: a*c + b*d = 0;
+            left: a^2 + c^2 = 1; right: b^2 + d^2 = 1; between: a*b + c*d = 0;
+        }
+    }";
+    derived(text, |derived| {
+        let names: Vec<&str> = derived.model.redundant.iter().map(|one| one.entry.name.as_str()).collect();
+        assert_eq!(names, ["left", "right", "between"]);
+    });
+}
+
+/// A particle in the plane with a second equation on its distance.
+fn circle(second: &str) -> String {
+    format!(
+        "pub system Circle {{
+            constants {{ m > 0, l > 0 }}
+            coordinates {{ x, y }}
+            particles {{ m at vec(x, y); }}
+            parameters {{ u = x*dot(y) - y*dot(x); }}
+            holonomic {{ first: x^2 + y^2 = l^2; second: {second} = 0; }}
+        }}"
+    )
+}
+
+#[test]
+fn what_is_said_twice_everywhere_is_named() {
+    for second in ["(x^2 + y^2)^2 - l^4", "x^2 + y^2 - 2*l^2"] {
+        let text = fault(&circle(second));
+        let note = "the velocities of `second` are those of `first`: it repeats or contradicts them";
+        assert!(text.contains(note), "{text}");
+    }
+}
+
+#[test]
+fn an_inertia_of_no_body_has_a_line_in_the_report() {
+    let line = |inertia: &str, turn: &str| {
+        let text = format!(
+            "pub system Top {{
+                coordinates {{ a, b, c }}
+                let R = {turn};
+                bodies {{ top {{ mass: 1, inertia: {inertia}, center: vec(a, b, c), orientation: R }} }}
+                parameters {{ u = dot(a); v = dot(b); w = dot(c); }}
+            }}"
+        );
+        derived(&text, |derived| {
+            let report = Report::of(&derived.model, &derived.system).to_text();
+            report.contains("the inertia of top is that of no body")
+        })
+    };
+    let turn = "rot_z(a)*rot_x(b)*rot_z(c)";
+    assert!(
+        line("diag(1, 1, 5)", turn) && line("diag(1, -1, 5)", turn) && line("sym(1, 1, 1, 2, 0, 0)", turn)
+    );
+    assert!(!line("diag(1, 1, 2)", turn) && !line("sym(2, 2, 2, 1/2, 1/2, 0)", turn));
+    // About one axis nobody sees the others.
+    assert!(!line("diag(0, 0, 5)", "rot_z(a)"));
+}
+
+#[test]
+fn a_constraint_whose_gradient_vanishes_where_it_holds_is_named() {
+    let text = "pub system Pair {
+        constants { m > 0 }
+        coordinates { x, y }
+        particles { m at vec(x, y); }
+        parameters { u = dot(x); }
+        holonomic { same: (x - y)^2 = 0; }
+    }";
+    let text = fault(text);
+    assert!(text.contains("the rate of `same` vanishes wherever `same` holds"), "{text}");
 }

@@ -364,7 +364,10 @@ impl Solver<'_> {
             })
             .collect();
         for c in 0..n {
-            let r = (c..n).find(|r| self.bench.verdict_on_manifold(rows[*r][c]) == Verdict::Nonzero)?;
+            // What is not shown to vanish may be divided by: it joins the domain of the chart, where it is measured.
+            let verdicts: Vec<Verdict> = (c..n).map(|r| self.bench.verdict_on_manifold(rows[r][c])).collect();
+            let first = |wanted| verdicts.iter().position(|verdict| *verdict == wanted);
+            let r = c + first(Verdict::Nonzero).or_else(|| first(Verdict::Unknown))?;
             rows.swap(c, r);
             let pivot = rows[c][c];
             self.require(pivot);

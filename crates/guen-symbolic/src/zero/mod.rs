@@ -265,7 +265,7 @@ impl ZeroTest {
     }
 
     /// The equations `f(t, x) = 0` that follow from others of them wherever all hold, although gradients by the coordinates are
-    /// independent elsewhere; none where gradients are dependent everywhere. The manifold is that of the equations afterwards.
+    /// independent elsewhere, not those whose gradients depend on theirs everywhere. The manifold is that of the equations afterwards.
     ///
     /// Where points modulo the prime can be found, independence is decided there. Else it is observed: at four real points from
     /// random starts, in 237 bits.
@@ -292,11 +292,15 @@ impl ZeroTest {
             .iter()
             .map(|e| coordinates.iter().map(|x| Flow::partial(g, *x).of(g, *e)).collect())
             .collect();
-        let all = Some(rows.len());
-        if rows.len() < 2 || self.rank(g, &rows, true) == all || self.rank(g, &rows, false) != all {
+        if rows.len() < 2 || self.rank(g, &rows, true) == Some(rows.len()) {
             return Vec::new();
         }
-        redundant::find(g, equations)
+        let mut found = redundant::find(g, equations);
+        found.retain(|Redundant { equation, beside }| {
+            let together: Vec<_> = beside.iter().chain([equation]).map(|i| rows[*i].clone()).collect();
+            self.rank(g, &together, false) == Some(together.len())
+        });
+        found
     }
 
     fn parts(&mut self, on_manifold: bool) -> (&Table, &mut Vec<Sample>) {

@@ -7,6 +7,8 @@
 //! independent. A dependence is looked at in 237 bits: Newton's method on the independent equations alone has to end where the
 //! others hold, and their gradients are combinations of those, to more than fifty digits. That is observed at points, and no proof.
 
+use core::cmp::Reverse;
+
 use f256::f256;
 
 use super::manifold::solve_dense;
@@ -29,6 +31,8 @@ const MOST_STARTS: usize = 40;
 const WORK: usize = 4_000_000;
 /// Steps of one search.
 const STEPS: usize = 120;
+/// With so much left beside those before it a gradient of length one is taken in its order.
+const CLEARLY: f64 = 0.02;
 /// A gradient of length one with so much left beside the others is independent of them.
 const INDEPENDENT: f64 = 1e-4;
 /// One with less left is a combination of them, as far as double precision tells.
@@ -83,8 +87,9 @@ pub(super) fn find(graph: &mut Graph, equations: &[ExprId]) -> Vec<Redundant> {
             .filter(|least| *least > INDEPENDENT)
             .count()
     };
-    let Some(chosen) = points.iter().map(|point| &point.chosen).rev().max_by_key(|chosen| serves(chosen))
-    else {
+    let sets = points.iter().map(|point| &point.chosen);
+    // Of sets that serve alike that of the equations which come first.
+    let Some(chosen) = sets.max_by_key(|chosen| (serves(chosen), Reverse(*chosen))) else {
         return Vec::new();
     };
     if serves(chosen) < POINTS {
@@ -243,11 +248,17 @@ fn take<R: Real>(rows: &mut [Vec<R>], chosen: usize) {
     }
 }
 
-/// Rows that all others are combinations of, each the first of those that are not much nearer to the rows before it than any other;
-/// none where it is not clear at which row to end.
+/// Rows that all others are combinations of, in their order as far as they are clearly independent; none where it is not clear at
+/// which row to end.
 fn independent(gradients: &[Vec<f64>]) -> Option<Vec<usize>> {
     let mut rests = gradients.to_vec();
     let mut chosen: Vec<usize> = Vec::new();
+    for i in 0..rests.len() {
+        if dot(&rests[i], &rests[i]).sqrt() > CLEARLY {
+            chosen.push(i);
+            take(&mut rests, i);
+        }
+    }
     loop {
         let open = (0..rests.len()).filter(|i| !chosen.contains(i));
         let left: Vec<(usize, f64)> = open.map(|i| (i, dot(&rests[i], &rests[i]).sqrt())).collect();
@@ -262,7 +273,7 @@ fn independent(gradients: &[Vec<f64>]) -> Option<Vec<usize>> {
         if most < INDEPENDENT {
             return None;
         }
-        let (next, _) = *left.iter().find(|(_, left)| *left >= most / 4.0)?;
+        let (next, _) = *left.iter().find(|(_, left)| *left >= most)?;
         chosen.push(next);
         take(&mut rests, next);
     }

@@ -1,6 +1,6 @@
 //! As many forms as coordinates.
 
-use guen_symbolic::ExprId;
+use guen_symbolic::{ExprId, Form, Role, Workbench};
 
 use super::redundant::Taken;
 use crate::diagnostics::Fault;
@@ -13,8 +13,8 @@ use crate::names::quoted;
 pub(super) fn check(
     eval: &mut Evaluator<'_>,
     raw: &[RawForm<'_>],
+    forms: Option<&[(Form, ExprId)]>,
     redundant: &[Taken<'_>],
-    degrees: usize,
     velocities: &[ExprId],
     idle: usize,
     place: proc_macro2::Span,
@@ -26,6 +26,7 @@ pub(super) fn check(
     }
     let count = |kind| raw.iter().filter(|form| form.entry.kind == kind).count();
     let plural = |count: usize, noun: &str| format!("{count} {noun}{}", if count == 1 { "" } else { "s" });
+    let degrees = count(FormKind::Parameter);
     let (constraints, holonomic) = (count(FormKind::Constraint), count(FormKind::Holonomic));
     let mut found = vec![plural(degrees, "parameter"), plural(constraints, "constraint")];
     if holonomic > 0 {
@@ -48,11 +49,30 @@ pub(super) fn check(
     }
     if raw.len() > n {
         let surplus = raw.len() - n;
-        if holonomic > 1 {
-            fault = fault.note(
-                "no holonomic constraint is seen to follow from the others where all of them hold: one that does so for particular \
-                 values of constants only needs these as numbers, or as one constant where they are equal",
-            );
+        let combinations = forms.map_or_else(Vec::new, |forms| combinations(&mut eval.bench, forms, degrees));
+        for (form, beside) in &combinations {
+            let entry = &raw[*form].entry;
+            let (name, others) = (&entry.name, quoted(beside.iter().map(|k| raw[*k].entry.name.as_str())));
+            fault = fault.note(format!(
+                "the velocities of `{name}` are those of {others}: it repeats or contradicts them"
+            ));
+            let whole = &entry.written.text;
+            if name != whole {
+                fault = fault.help(format!(
+                    "impose the other components of `{whole}` one by one, as `{whole}_x: inner(e, vec(1, 0, 0)) = 0;`"
+                ));
+            }
+        }
+        let positions: Vec<ExprId> = raw.iter().filter_map(|form| form.position).collect();
+        if holonomic > 1 && combinations.is_empty() && forms.is_some() {
+            fault = fault
+                .note("no holonomic constraint is seen to follow from the others where all of them hold");
+            if positions.iter().any(|e| eval.bench.graph.roles(*e).has(Role::Constant)) {
+                fault = fault.note(
+                    "one that follows for particular values of constants only needs these as numbers, or as one constant where \
+                     they are equal",
+                );
+            }
         }
         eval.faults.report(fault.help(format!(
             "remove {}, or declare {} more",
@@ -86,4 +106,34 @@ pub(super) fn check(
         _ => fault.help(format!("add {} under `parameters` or `constraints`", plural(lacking, "form"))),
     };
     eval.faults.report(fault);
+}
+
+/// Constraints whose velocities are combinations of those of constraints before them, each with these.
+fn combinations(bench: &mut Workbench, forms: &[(Form, ExprId)], degrees: usize) -> Vec<(usize, Vec<usize>)> {
+    /// With more the message says less.
+    const MOST: usize = 24;
+    let mut found = Vec::new();
+    let mut independent: Vec<usize> = Vec::new();
+    let mut depend = |own: &[usize]| {
+        let rows: Vec<Vec<ExprId>> = own.iter().map(|k| forms[*k].0.row.clone()).collect();
+        bench.zero.rank(&mut bench.graph, &rows, false).is_some_and(|rank| rank < rows.len())
+    };
+    for form in (degrees..forms.len()).take(MOST) {
+        if !depend(&[&independent[..], &[form]].concat()) {
+            independent.push(form);
+            continue;
+        }
+        let mut beside = independent.clone();
+        for k in &independent {
+            let without: Vec<usize> = beside.iter().copied().filter(|other| other != k).collect();
+            if depend(&[&without[..], &[form]].concat()) {
+                beside = without;
+            }
+        }
+        // As many as there are coordinates are combined to anything.
+        if beside.len() < forms[form].0.row.len() {
+            found.push((form, beside));
+        }
+    }
+    found
 }
