@@ -1,26 +1,25 @@
-//! The equations of motion as they are stated: by the definition and by projection, compared; of links that hang on links where
-//! that is shorter.
+//! The equations of motion as they are stated: by the definition and by projection, compared; of bodies, as they were put up at
+//! the root of their tree, where that is much shorter.
 
 use super::fault::{DerivationError, affordable};
-use super::linkage::Tree;
+use super::graph::Turn;
 use super::projection::Projected;
 use super::proof::Definition;
 use super::turned::InOwnAxes;
 use super::velocity_forms::VelocityPartials;
-use super::{Frame, KineticTerm, Mechanics, linkage, poincare, projection, restriction, turned};
+use super::{
+    Frame, FrameId, FrameNode, KineticTerm, Mechanics, multibody, poincare, projection, restriction, turned,
+};
 use crate::algebra::ExprId;
 use crate::normal::{Limits, normal_coefficients};
 use crate::program::weighted_cost;
 use crate::workbench::Workbench;
 
-/// With so many parameters, and so many links that hang on links, equations are not multiplied out.
+/// With so many parameters, and so many frames that hang on frames about other axes, equations are not multiplied out.
 const MANY: usize = 6;
 
-/// Multiplied out equations up to this estimate are solved as they are.
-const LARGE: u64 = 400;
-
-/// Where those of the links are so many times shorter, the others are not solved at all.
-const MUCH: u64 = 5;
+/// Nor where the velocities alone cost more.
+const LARGEST_MULTIPLIED: u64 = 4000;
 
 /// `sum_t M_st eta_t' = f_s`.
 #[derive(Clone, Debug)]
@@ -51,6 +50,13 @@ impl Equations {
         self
     }
 
+    /// The equations without the generalised forces.
+    fn undriven(&self, bench: &mut Workbench, generalised_forces: &[ExprId]) -> Self {
+        let forces = self.forces.iter().zip(generalised_forces);
+        let forces = forces.map(|(force, q)| bench.graph.sub(*force, *q)).collect();
+        Equations { mass: self.mass.clone(), forces }
+    }
+
     fn cost(&self, bench: &Workbench) -> u64 {
         weighted_cost(&bench.graph, &self.entries())
     }
@@ -64,10 +70,8 @@ pub(super) struct Stated {
     pub(super) multiplied: Vec<Equations>,
     /// What they were multiplied out from.
     pub(super) projected: Option<Projected>,
-    /// Those of links that hang on links.
-    pub(super) linked: Option<Equations>,
-    /// Whether the latter are so much shorter that no others are solved.
-    pub(super) is_linked: bool,
+    /// The equations of bodies and their solution, where no others are multiplied out.
+    pub(super) of_bodies: Option<(Equations, multibody::Found)>,
     /// In the axes of the bodies, where constraints on positions ask for them.
     pub(super) in_own_axes: Option<InOwnAxes>,
     /// The rows `s = l+1..n`, of the reactions, without the generalised forces.
@@ -77,9 +81,9 @@ pub(super) struct Stated {
 impl Stated {
     /// The equations to show, for `s = 1..l`.
     pub(super) fn shown(&self) -> &Equations {
-        match &self.linked {
-            Some(linked) if self.is_linked => linked,
-            _ => &self.multiplied[0],
+        match &self.of_bodies {
+            Some((equations, _)) => equations,
+            None => &self.multiplied[0],
         }
     }
 
@@ -92,29 +96,31 @@ impl Stated {
         generalised_forces: &[ExprId],
     ) -> Result<Self, DerivationError> {
         affordable(bench)?;
-        let tree = linkage::tree(bench, system, frame, partials);
-        if let Some(tree) = &tree
-            && system.forms.degrees.min(tree.joints()) >= MANY
-            && let Some(linked) = linkage::equations(bench, system, frame, partials, tree)
-        {
+        let velocities = weighted_cost(&bench.graph, &frame.velocities);
+        if is_large(bench, system) || velocities > LARGEST_MULTIPLIED {
             let definition = Definition::along(bench, system, frame, generalised_forces);
             affordable(bench)?;
-            if definition.is(bench, &linked, true)? {
-                let linked = linked.driven(bench, generalised_forces);
-                return Ok(Self::of_links(bench, system, frame, partials, terms, (definition, linked)));
+            if let Some(mut found) = multibody::rates(bench, system, frame, partials, true)
+                && let Some(equations) = found.equations.take()
+                && let own = equations.undriven(bench, generalised_forces)
+                && definition.is(bench, &own, true)?
+                && definition.is_solved_by(bench, &frame.velocities, &found.rates)?
+            {
+                let of_bodies = (equations, found);
+                return Ok(Self::of_bodies(bench, system, frame, partials, terms, (definition, of_bodies)));
             }
         }
-        Self::multiplied_out(bench, system, frame, partials, terms, generalised_forces, tree)
+        Self::multiplied_out(bench, system, frame, partials, terms, generalised_forces)
     }
 
-    /// The equations of a large tree.
-    fn of_links(
+    /// The equations of bodies alone.
+    fn of_bodies(
         bench: &mut Workbench,
         system: &Mechanics,
         frame: &mut Frame,
         partials: &mut VelocityPartials,
         terms: &[KineticTerm],
-        (definition, linked): (Definition, Equations),
+        (definition, of_bodies): (Definition, (Equations, multibody::Found)),
     ) -> Self {
         let (n, l) = (system.forms.len(), system.forms.degrees);
         let constrained = if l == n {
@@ -126,8 +132,7 @@ impl Stated {
             definition,
             multiplied: Vec::new(),
             projected: None,
-            linked: Some(linked),
-            is_linked: true,
+            of_bodies: Some(of_bodies),
             in_own_axes: None,
             constrained,
         }
@@ -140,27 +145,11 @@ impl Stated {
         partials: &mut VelocityPartials,
         terms: &[KineticTerm],
         generalised_forces: &[ExprId],
-        tree: Option<Tree<'_>>,
     ) -> Result<Self, DerivationError> {
         let (n, l) = (system.forms.len(), system.forms.degrees);
         let by_definition = poincare::equations(bench, system, frame);
         affordable(bench)?;
-        let whole = by_definition.cost(bench);
         let definition = Definition::whole(by_definition.clone(), generalised_forces);
-        let linked = match tree {
-            Some(tree) if whole > LARGE => linkage::equations(bench, system, frame, partials, &tree),
-            _ => None,
-        };
-        let linked = linked.filter(|linked| linked.cost(bench) < whole);
-        let is_linked = linked.as_ref().is_some_and(|linked| MUCH * linked.cost(bench) < whole);
-        let linked = match linked {
-            Some(linked) if definition.is(bench, &linked, true)? => {
-                Some(linked.driven(bench, generalised_forces))
-            }
-            _ => None,
-        };
-        let is_linked = is_linked && linked.is_some();
-
         let projected = projection::equations(bench, system, frame, partials, terms, 0..n);
         let mut by_projection = projected.equations.clone();
         let constrained =
@@ -168,7 +157,7 @@ impl Stated {
         definition.is(bench, &by_projection, false)?;
         let mut multiplied = forms(bench, system, &by_definition, &projected.equations);
         // On constraints on positions the axes of the bodies leave less than those of the world.
-        let in_own_axes = match system.holonomic.is_empty() || is_linked {
+        let in_own_axes = match system.holonomic.is_empty() {
             true => None,
             false => turned::equations(bench, system, frame, &projected.forms),
         };
@@ -185,8 +174,30 @@ impl Stated {
         let multiplied = multiplied.collect();
         affordable(bench)?;
         let projected = Some(projected);
-        Ok(Stated { definition, multiplied, projected, linked, is_linked, in_own_axes, constrained })
+        Ok(Stated { definition, multiplied, projected, of_bodies: None, in_own_axes, constrained })
     }
+}
+
+/// Whether many frames hang on others, turned about other axes than these: multiplied out, each brings a factor.
+fn is_large(bench: &Workbench, system: &Mechanics) -> bool {
+    let structure = &system.structure;
+    let moves = |frame: &FrameNode| match &frame.turn {
+        Turn::About { angle, .. } => !bench.graph.roles(*angle).is_constant(),
+        Turn::General { .. } => true,
+    };
+    let joints =
+        structure.frames().iter().skip(1).filter(|frame| frame.parent != FrameId::WORLD && moves(frame));
+    let mut axes: Vec<_> = structure
+        .frames()
+        .iter()
+        .skip(1)
+        .map(|frame| match &frame.turn {
+            Turn::About { axis, .. } => Some(*axis),
+            Turn::General { .. } => None,
+        })
+        .collect();
+    axes.dedup();
+    (axes.len() > 1 || axes.contains(&None)) && system.forms.degrees.min(joints.count()) >= MANY
 }
 
 /// The equations in several forms, the one to show first: normal forms where they are small, then the projection as it

@@ -30,8 +30,7 @@ struct Formulation {
 }
 
 /// All formulations, in the order in which they are tried.
-const FORMULATIONS: [Formulation; 11] = [
-    Formulation { name: "links", is_by_spins: false, find: of_links },
+const FORMULATIONS: [Formulation; 10] = [
     Formulation { name: "tensions", is_by_spins: false, find: by_tensions },
     Formulation { name: "multiplied out", is_by_spins: false, find: multiplied_out },
     Formulation { name: "bodies", is_by_spins: false, find: of_bodies },
@@ -97,10 +96,10 @@ struct Search<'a> {
     stated: &'a mut Stated,
     /// The system in the rates of its base angles, once it was looked for.
     in_base: Option<InBaseParameters>,
-    /// The rates by bodies, once they were looked for.
-    of_bodies: Option<Option<multibody::Found>>,
     /// The estimate of the rates by the equations as they are stated, once these are solved.
     least: u64,
+    /// The rates by bodies, once they were looked for beside others.
+    of_bodies: Option<Option<multibody::Found>>,
     symmetry: Symmetry,
     /// The equations without what they do not depend on.
     shorter: Option<Equations>,
@@ -207,7 +206,7 @@ impl Search<'_> {
     /// The rates by bodies.
     fn bodies(&mut self, bench: &mut Workbench) -> Option<multibody::Found> {
         let Search { system, frame, partials, of_bodies, .. } = self;
-        of_bodies.get_or_insert_with(|| multibody::rates(bench, system, frame, partials)).clone()
+        of_bodies.get_or_insert_with(|| multibody::rates(bench, system, frame, partials, false)).clone()
     }
 
     /// The equations as they are stated, solved: what is shown unless something is much shorter.
@@ -221,7 +220,7 @@ impl Search<'_> {
 
 /// With the reactions between the velocity forms as unknowns.
 fn by_tensions(bench: &mut Workbench, search: &mut Search<'_>) -> Result<Outcome, DerivationError> {
-    let Stated { projected: Some(projected), multiplied, is_linked, .. } = &*search.stated else {
+    let Stated { projected: Some(projected), multiplied, .. } = &*search.stated else {
         return Ok(Outcome::Declined("the energy is not multiplied out"));
     };
     search.in_base = InBaseParameters::new(bench, search.system, search.frame);
@@ -238,7 +237,6 @@ fn by_tensions(bench: &mut Workbench, search: &mut Search<'_>) -> Result<Outcome
     let cost = weighted_cost(&bench.graph, &rates);
     // What the others solve is dearer before it is solved; bodies do not solve it.
     let is_least = found.is_clear
-        && !is_linked
         && cost <= weighted_cost(&bench.graph, &multiplied[0].entries())
         && search.bodies(bench).is_none_or(|found| cost <= weighted_cost(&bench.graph, &found.rates));
     let rank = if is_least {
@@ -251,28 +249,20 @@ fn by_tensions(bench: &mut Workbench, search: &mut Search<'_>) -> Result<Outcome
 
 /// The equations as they are multiplied out, solved.
 fn multiplied_out(bench: &mut Workbench, search: &mut Search<'_>) -> Result<Outcome, DerivationError> {
-    if search.stated.is_linked {
-        return Ok(Outcome::Declined("the equations of links are much shorter"));
+    if search.stated.of_bodies.is_some() {
+        return Ok(Outcome::Declined("the equations of bodies are much shorter"));
     }
     search.base(bench)
 }
 
-/// The equations of links that hang on links, solved.
-fn of_links(bench: &mut Workbench, search: &mut Search<'_>) -> Result<Outcome, DerivationError> {
-    if search.stated.is_linked {
-        return search.base(bench);
-    }
-    let Some(Equations { mass, forces }) = &search.stated.linked else {
-        return Ok(Outcome::Declined("no bodies hang on each other, or little is shared between them"));
-    };
-    let Ok(solution) = Solution::new(bench, mass, forces) else {
-        return Ok(Outcome::Declined("no pivots are found"));
-    };
-    Ok(Outcome::found(vec![search.rates(&solution.accelerations)], || Rank::Solved))
-}
-
 /// Bodies that hang on each other and roll, as they were declared.
 fn of_bodies(bench: &mut Workbench, search: &mut Search<'_>) -> Result<Outcome, DerivationError> {
+    if let Some((_, found)) = &search.stated.of_bodies {
+        let accelerations = found.rates[search.frame.velocities.len()..].to_vec();
+        let solution = Solution::of_pivots(bench, accelerations, &found.pivots);
+        let candidate = Candidate { rates: found.rates.clone(), rank: Rank::Last(solution) };
+        return Ok(Outcome::Found(vec![candidate]));
+    }
     let Some(found) = search.bodies(bench) else {
         return Ok(Outcome::Declined("the energy is not that of bodies, or their axes are not understood"));
     };
@@ -281,7 +271,7 @@ fn of_bodies(bench: &mut Workbench, search: &mut Search<'_>) -> Result<Outcome, 
         return Ok(Outcome::Declined("the equations as stated promise less"));
     }
     let is_half = cost > LARGEST_TRIED && 2 * cost <= search.least;
-    let rank = if search.stated.is_linked || is_half {
+    let rank = if is_half {
         let accelerations = found.rates[search.frame.velocities.len()..].to_vec();
         Rank::Last(Solution::of_pivots(bench, accelerations, &found.pivots))
     } else {

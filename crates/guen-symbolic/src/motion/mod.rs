@@ -15,7 +15,6 @@ mod graph;
 mod headings;
 mod indispensable;
 mod kinetic;
-mod linkage;
 mod multibody;
 mod nested;
 mod numerator;

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::beside::Row;
 use super::core::Core;
 use super::form::Form;
 use super::forms::Functional;
@@ -10,9 +11,7 @@ use super::plan::{Def, Equation, Plan};
 use super::relations::{definition, order};
 use super::tree::{Content, Tree, Turn};
 use super::variables::{Class, Kind, Var, Variables};
-use crate::motion::Mechanics;
 use crate::numbering::{Num, Numbering};
-use crate::workbench::Workbench;
 
 /// Which velocities the energies of the bodies speak of.
 pub(super) fn needed(tree: &Tree, variables: &Variables) -> Vec<Var> {
@@ -32,28 +31,6 @@ pub(super) fn needed(tree: &Tree, variables: &Variables) -> Vec<Var> {
             && (!content.mass.is_zero() || content.moment.iter().any(|e| !e.is_zero()))
         {
             found.extend((0..3).map(|q| variables.velocity(point, q)));
-        }
-    }
-    found
-}
-
-/// The derivatives of what the force function has beside weights, by the coordinates that it depends on.
-pub(super) fn slopes(
-    bench: &mut Workbench,
-    numbers: &mut Numbering,
-    system: &Mechanics,
-) -> Vec<(usize, Num)> {
-    let Some(multibody) = &system.multibody else { return Vec::new() };
-    let potential = multibody.other_force_function;
-    let occurring = bench.graph.symbols_in(&[potential]);
-    let mut found = Vec::new();
-    for (i, x) in system.forms.coordinates.iter().enumerate() {
-        if bench.graph.as_symbol(*x).is_some_and(|symbol| occurring.contains(&symbol)) {
-            let slope = bench.partial(potential, *x);
-            let slope = numbers.import(bench, slope);
-            if !slope.is_zero() {
-                found.push((i, slope));
-            }
         }
     }
     found
@@ -114,11 +91,13 @@ impl Outwards<'_, '_> {
 pub(super) struct Assembly<'a> {
     pub(super) kinematics: Kinematics<'a>,
     form: Form,
+    /// The mass matrix of the parameters and their forces, once they were solved for at the root.
+    pub(super) at_the_root: Option<(Vec<Vec<Num>>, Vec<Num>)>,
 }
 
 impl<'a> Assembly<'a> {
     pub(super) fn new(kinematics: Kinematics<'a>) -> Self {
-        Assembly { kinematics, form: Form::default() }
+        Assembly { kinematics, form: Form::default(), at_the_root: None }
     }
 
     fn add(&mut self, i: Var, j: Var, e: Num) {
@@ -241,9 +220,31 @@ impl<'a> Assembly<'a> {
         }
     }
 
+    /// What the energies beside those of the bodies have.
+    pub(super) fn beside(&mut self, rows: &[Row]) {
+        let variables = self.kinematics.variables;
+        for Row { coordinate: i, inertia, force } in rows {
+            let own = variables.rate(*i);
+            let Kinematics { bench, numbers, .. } = &mut self.kinematics;
+            let force = numbers.import(bench, *force);
+            self.push(own, force);
+            for (j, entry) in inertia {
+                let other = variables.rate(*j);
+                let Kinematics { bench, numbers, .. } = &mut self.kinematics;
+                let entry = numbers.import(bench, *entry);
+                if i <= j {
+                    self.add(own, other, entry);
+                }
+                let rate = self.kinematics.rate(other);
+                let back = self.kinematics.numbers.mul(entry, rate);
+                self.push(own, back.neg());
+            }
+        }
+    }
+
     /// Takes everything back to the parameters, and solves: the rates of the parameters, and what was divided by. The cheaper
     /// of two orders.
-    pub(super) fn solve(mut self) -> Option<(Vec<Num>, Vec<Num>)> {
+    pub(super) fn solve(&mut self) -> Option<(Vec<Num>, Vec<Num>)> {
         let bias = self.core_bias();
         let form = self.form.clone();
         let at_the_root = self.solved_in(&bias, Order::AtTheRoot)?;
@@ -264,6 +265,11 @@ impl<'a> Assembly<'a> {
         let etas: Vec<Var> = (0..l).map(|s| variables.eta(s)).collect();
         if !self.form.variables().iter().all(|var| etas.contains(var)) {
             return None;
+        }
+        if order == Order::AtTheRoot {
+            let row = |s: &Var| etas.iter().map(|t| self.form.entry(*s, *t)).collect();
+            let forces = etas.iter().map(|s| self.form.force(*s)).collect();
+            self.at_the_root = Some((etas.iter().map(row).collect(), forces));
         }
         let mut left: Vec<Var> = etas.iter().copied().filter(|var| !self.form.is_eliminated(*var)).collect();
         while !left.is_empty() {

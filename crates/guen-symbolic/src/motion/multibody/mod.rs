@@ -9,6 +9,7 @@
 mod accelerations;
 mod assembly;
 mod axes;
+mod beside;
 mod biases;
 mod core;
 mod declared;
@@ -32,7 +33,7 @@ use self::tree::Tree;
 use self::variables::Variables;
 use super::graph::Turn;
 use super::velocity_forms::VelocityPartials;
-use super::{Frame, Mechanics};
+use super::{Equations, Frame, Mechanics};
 use crate::algebra::ExprId;
 use crate::numbering::{Num, Numbering};
 use crate::workbench::Workbench;
@@ -47,6 +48,8 @@ pub(super) struct Found {
     pub(super) rates: Vec<ExprId>,
     /// The pivots of the elimination.
     pub(super) pivots: Vec<ExprId>,
+    /// What was solved, generalised forces included; only where it was asked for.
+    pub(super) equations: Option<Equations>,
 }
 
 /// The rates of the state of a system of bodies; none where its energies or forms are beyond what is understood here.
@@ -55,13 +58,10 @@ pub(super) fn rates(
     system: &Mechanics,
     frame: &Frame,
     partials: &mut VelocityPartials,
+    with_equations: bool,
 ) -> Option<Found> {
     let structure = &system.structure;
-    let multibody = system.multibody.as_ref()?;
     if structure.bodies.is_empty() || !is_understood(bench, system) {
-        return None;
-    }
-    if !bench.graph.is_zero(multibody.other_energy) {
         return None;
     }
     // A rotation that is one on its constraint alone.
@@ -72,7 +72,8 @@ pub(super) fn rates(
     if on_manifold && system.holonomic.len() < system.forms.len() - system.forms.degrees {
         return None;
     }
-    (0..POINTS).find_map(|point| attempt(bench, system, frame, partials, (point, on_manifold)))
+    (0..POINTS)
+        .find_map(|point| attempt(bench, system, frame, partials, (point, on_manifold), with_equations))
 }
 
 /// Whether masses, inertias and gravity are constants.
@@ -101,6 +102,7 @@ fn attempt(
     frame: &Frame,
     partials: &mut VelocityPartials,
     point: (usize, bool),
+    with_equations: bool,
 ) -> Option<Found> {
     let (n, l) = (system.forms.len(), system.forms.degrees);
     let generation = bench.zero.generation();
@@ -112,10 +114,10 @@ fn attempt(
     let declared = Declared::new(bench, numbers, system, partials, (&tree, &variables), &shapes)?;
     tree.regroup(numbers, &variables);
     let loads = declared.loads.iter().flat_map(|load| load.terms.iter().map(|(var, _)| *var));
-    let slopes = assembly::slopes(bench, numbers, system);
-    let slopes: Vec<_> = slopes.into_iter().map(|(i, slope)| (variables.rate(i), slope)).collect();
+    let beside = beside::rows(bench, system, partials)?;
+    let moved = beside.iter().flat_map(|row| row.inertia.iter().map(|(j, _)| *j).chain([row.coordinate]));
     let needed = assembly::needed(&tree, &variables).into_iter();
-    let needed: Vec<_> = needed.chain(loads).chain(slopes.iter().map(|(var, _)| *var)).collect();
+    let needed: Vec<_> = needed.chain(loads).chain(moved.map(|i| variables.rate(i))).collect();
     let mut planner = Planner { bench, numbers, tree: &tree, variables: &variables };
     let plan = planner.plan(declared.rows, &declared.groups, &needed)?;
     let core = Core::new(&mut planner, &plan)?;
@@ -136,18 +138,23 @@ fn attempt(
         let magnitude = kinematics.numbers.import(kinematics.bench, force.magnitude);
         assembly.load(load, magnitude);
     }
-    for (var, slope) in slopes {
-        assembly.push(var, slope);
-    }
+    assembly.beside(&beside);
     let (accelerations, pivots) = assembly.solve()?;
+    let at_the_root = assembly.at_the_root.take().filter(|_| with_equations);
     if !own.is_sound() {
         return None;
     }
     let outputs: Vec<Num> = velocities.into_iter().chain(accelerations).chain(pivots).collect();
     let mut rates = own.export(&mut bench.graph, &outputs);
     let pivots = rates.split_off(n + l);
+    let equations = at_the_root.map(|(mass, forces)| {
+        let entries: Vec<Num> = mass.into_iter().flatten().chain(forces).collect();
+        let mut entries = own.export(&mut bench.graph, &entries);
+        let forces = entries.split_off(l * l);
+        Equations { mass: (0..l).map(|s| entries[s * l..][..l].to_vec()).collect(), forces }
+    });
     if point.1 && drifts(bench, system, &rates[..n]) {
         rates[..n].copy_from_slice(&frame.velocities);
     }
-    Some(Found { rates, pivots })
+    Some(Found { rates, pivots, equations })
 }
