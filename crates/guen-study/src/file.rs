@@ -159,7 +159,7 @@ mod tests {
         fn new(name: &str) -> Self {
             let path = std::env::temp_dir().join(format!("guen-study-{name}-{}", process::id()));
             let _ = fs::remove_dir_all(&path);
-            fs::create_dir_all(&path).unwrap();
+            fs::create_dir_all(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
             Self(path)
         }
 
@@ -194,7 +194,7 @@ mod tests {
                 panic!("halfway")
             })
         });
-        assert!(panicked.is_err());
+        assert!(panicked.is_err(), "{panicked:?}");
         assert_eq!(fs::read(&path).unwrap(), b"old");
         assert_eq!(folder.names(), ["run.csv"]);
         // A folder is no file, and stays.

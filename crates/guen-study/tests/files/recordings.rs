@@ -3,7 +3,7 @@
 use guen_study::{Recording, StudyError};
 use serde::de::DeserializeSeed;
 
-use crate::{Folder, Random};
+use crate::{Folder, Random, write};
 
 const NAMES: &[&str] = &["x", "v"];
 
@@ -89,11 +89,11 @@ fn what_is_no_recording_of_this_state_is_refused() {
     let path = folder.0.join("run.json");
     let load = || Recording::<2>::load_json(NAMES, &path);
     assert!(matches!(load(), Err(StudyError::Read { path: at, .. }) if at == path));
-    std::fs::write(&path, replaced("", "") + "x").unwrap();
+    write(&path, &(replaced("", "") + "x"));
     assert!(load().unwrap_err().to_string().contains("trailing characters"));
     let text = replaced("", "");
     for length in 0..text.len() {
-        std::fs::write(&path, &text[..length]).unwrap();
+        write(&path, &text[..length]);
         assert!(load().is_err(), "{length} of {} bytes", text.len());
     }
 }
