@@ -146,3 +146,23 @@ fn a_constraint_whose_gradient_vanishes_where_it_holds_is_named() {
     let text = fault(text);
     assert!(text.contains("the rate of `same` vanishes wherever `same` holds"), "{text}");
 }
+
+/// Two four-bar linkages side by side, with the angles of all bars.
+#[test]
+fn where_loops_are_stretched_out_the_domain_ends_in_the_names_of_the_declaration() {
+    let text = "pub system Bars {
+        constants { g = 9.81 }
+        coordinates { a0, a1, a2, b1, b2 }
+        let top0 = rot_z(a0).x;
+        let top1 = vec(1, 0) + rot_z(a1).x;
+        let top2 = vec(2, 0) + rot_z(a2).x;
+        particles { 1 at top0; 1 at top1; 1 at top2; }
+        gravity = vec(0, -g);
+        parameters { turn = dot(a0); }
+        holonomic { left: top0 + rot_z(b1).x = top1; right: top1 + rot_z(b2).x = top2; }
+    }";
+    derived(text, |derived| {
+        assert_eq!(derived.system.domain_names[..2], ["-sin(a1 - b1)", "-sin(a2 - b2)"]);
+        assert!(derived.model.redundant.is_empty());
+    });
+}
