@@ -9,9 +9,11 @@ use std::fmt::Write;
 use std::path::Path;
 use std::{env, fs};
 
+use proc_macro2::{TokenStream, TokenTree};
+
 use guen::Cost;
 use guen_benchmarks::chains::{Angles, declaration};
-use guen_benchmarks::{Subject, Visitor, visit_all};
+use guen_benchmarks::{Subject, Visitor, arms, robots, visit_all};
 use guen_language::derive::Derived;
 use guen_language::derive::function::RHS;
 
@@ -20,6 +22,11 @@ const HEADER: &str = "\
 # One evaluation of the right-hand side, then the preparation of its constants: additions, negations,
 # multiplications, divisions, roots, calls. With an apostrophe: the carried form. With `-0`: no sign is promised
 # of any constant.
+";
+
+const HEADER_OF_LARGE: &str = "\
+# Operations of large systems, written by `GUEN_BLESS=1 cargo test -p guen-tests --test golden -- --ignored`.
+# As in costs.txt.
 ";
 
 /// Chains of so many links are not compiled.
@@ -71,20 +78,55 @@ fn chains() -> String {
     {
         for links in lengths {
             let text = declaration("Chain", *links, angles);
-            let mut row = |name: String, text: &str| {
-                let counts = derived(&name, text, |derived| {
-                    let rates = derived.system.program(RHS).unwrap().cost;
-                    [rates, derived.system.programs.prepare_cost].map(|count| counts(cost(count)))
-                });
-                let _ = writeln!(lines, "{name:11} {}  |{}", counts[0], counts[1]);
-            };
             if *links >= LONG {
-                row(format!("{family}{links}"), &text);
+                lines.push_str(&row(&format!("{family}{links}"), &text));
             }
-            row(format!("{family}{links}-0"), &text.replace(" > 0", ""));
+            lines.push_str(&row(&format!("{family}{links}-0"), &text.replace(" > 0", "")));
         }
     }
     lines
+}
+
+/// A line of a declaration that is derived here.
+fn row(name: &str, text: &str) -> String {
+    let counts = derived(name, text, |derived| {
+        let rates = derived.system.program(RHS).unwrap().cost;
+        [rates, derived.system.programs.prepare_cost].map(|count| counts(cost(count)))
+    });
+    format!("{name:11} {}  |{}\n", counts[0], counts[1])
+}
+
+/// Vehicles, linkages, arms and robots that are not compiled here.
+fn mechanisms() -> String {
+    let in_file = |source: &str| declared(source.parse().unwrap()).to_string();
+    let rows = [
+        ("bicycle", in_file(include_str!("../spatial/bicycle.rs"))),
+        ("snake6", crate::large::snake(6)),
+        ("rattleback", guen_benchmarks::rattleback!(stringify).to_owned()),
+        ("hoop-quat", guen_benchmarks::quaternion_hoop!(stringify).to_owned()),
+        ("four-bar", in_file(include_str!("../spatial/linkages.rs"))),
+        ("arm4", arms::declaration("Arm", &AXES[..4])),
+        ("arm5", arms::declaration("Arm", &AXES[..5])),
+        ("quadruped", robots::quadruped()),
+    ];
+    rows.iter().map(|(name, text)| row(name, text)).collect()
+}
+
+/// The joints of the longest arm, of which the others are the first ones.
+const AXES: &str = "zyyxyxyxy";
+
+/// The first declaration of a file.
+fn declared(source: TokenStream) -> TokenStream {
+    let tokens: Vec<TokenTree> = source.into_iter().collect();
+    let found = tokens.windows(3).find_map(|three| match three {
+        [TokenTree::Ident(name), TokenTree::Punct(mark), TokenTree::Group(group)]
+            if name == "mechanical_system" && mark.as_char() == '!' =>
+        {
+            Some(group.stream())
+        }
+        _ => None,
+    });
+    found.expect("the file declares a system")
 }
 
 fn cost(count: guen_symbolic::OperationCount) -> Cost {
@@ -124,23 +166,42 @@ fn costs_are_those_of_the_file() {
     visit_all(&mut lines);
     let mut carried = CarriedLines(String::new());
     // Each takes as long as the other.
-    let chains = std::thread::scope(|scope| {
-        let chains = scope.spawn(chains);
+    let others = std::thread::scope(|scope| {
+        let others = scope.spawn(|| chains() + &mechanisms());
         visit_all(&mut carried);
-        chains.join().unwrap()
+        others.join().unwrap()
     });
     lines.0.push_str(&carried.0);
-    lines.0.push_str(&chains);
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("costs.txt");
+    lines.0.push_str(&others);
+    compared("costs.txt", &lines.0, "");
+}
+
+/// Those that take a minute without optimisation.
+#[test]
+#[ignore = "takes a minute: cargo test -p guen-tests --test golden -- --ignored"]
+fn costs_of_large_systems_are_those_of_the_file() {
+    let rows = [
+        ("arm7", arms::declaration("Arm", &AXES[..7])),
+        ("arm8", arms::declaration("Arm", &AXES[..8])),
+        ("arm9", arms::declaration("Arm", AXES)),
+        ("humanoid", robots::declaration(&robots::HUMANOID)),
+        ("held7", robots::held()),
+    ];
+    let lines = rows.iter().fold(HEADER_OF_LARGE.to_owned(), |lines, (name, text)| lines + &row(name, text));
+    compared("costs_of_large.txt", &lines, " -- --ignored");
+}
+
+/// Compares lines with a file, or writes it anew.
+fn compared(file: &str, lines: &str, arguments: &str) {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(file);
     if env::var_os("GUEN_BLESS").is_some() {
-        guen_study::replace_file(&file, |out| out.write_all(lines.0.as_bytes())).unwrap();
+        guen_study::replace_file(&path, |out| out.write_all(lines.as_bytes())).unwrap();
         return;
     }
-    let golden = fs::read_to_string(&file).unwrap();
-    let changes = changes(&golden, &lines.0);
+    let changes = changes(&fs::read_to_string(&path).unwrap(), lines);
     assert!(
         changes.is_empty(),
-        "{changes}if this is meant, write tests/costs.txt anew with `GUEN_BLESS=1 cargo test -p guen-tests --test golden`"
+        "{changes}if this is meant, write tests/{file} anew with `GUEN_BLESS=1 cargo test -p guen-tests --test golden{arguments}`"
     );
 }
 

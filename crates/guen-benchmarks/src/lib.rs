@@ -13,6 +13,7 @@ mod declarations;
 pub mod platform;
 mod processor;
 mod random;
+pub mod robots;
 #[macro_use]
 mod rolling;
 mod subjects;

@@ -6,43 +6,9 @@ use crate::common::{derived, evaluated};
 use guen_language::derive::{Derived, function};
 use guen_symbolic::{SymbolId, evaluate_f64};
 
-/// Bodies of general inertia that hang on each other: for each but the first its carrier, the axis of its joint, and where
-/// the joint is in the carrier.
-fn robot(links: &[(usize, char, &str)]) -> String {
-    let constants = |b: usize| {
-        let entries = ["x", "y", "z"].map(|c| format!("I{b}{c} > 0, P{b}{c}, c{b}{c}"));
-        format!("m{b} > 0, {}", entries.join(", "))
-    };
-    let all: Vec<String> = (0..=links.len()).map(constants).collect();
-    let angles: Vec<String> = (1..=links.len()).map(|i| format!("q{i}")).collect();
-    let mut text = format!(
-        "pub system Robot {{
-            constants {{ l > 0, g = 9.81, {} }}
-            coordinates {{ x, y, z, yaw, pitch, roll, {} }}
-            let A0 = rot_z(yaw)*rot_y(pitch)*rot_x(roll);
-            let p0 = vec(x, y, z);\n",
-        all.join(", "),
-        angles.join(", "),
-    );
-    for (i, (carrier, axis, place)) in (1..).zip(links) {
-        let _ = writeln!(text, "let A{i} = A{carrier}*rot_{axis}(q{i});");
-        let _ = writeln!(text, "let p{i} = p{carrier} + A{carrier}*vec({place});");
-    }
-    text.push_str("bodies {");
-    for b in 0..=links.len() {
-        let _ = writeln!(
-            text,
-            "b{b} {{ mass: m{b}, inertia: sym(I{b}x, I{b}y, I{b}z, P{b}x, P{b}y, P{b}z),
-                center: p{b} + A{b}*vec(c{b}x, c{b}y, c{b}z), orientation: A{b} }}"
-        );
-    }
-    text.push_str("} gravity = vec(0, 0, -g);");
-    text.push_str("parameters { v = transpose(A0)*dot(p0); w = angular_velocity_body(A0);");
-    for angle in &angles {
-        let _ = write!(text, "turn_{angle} = dot({angle});");
-    }
-    text + "} }"
-}
+#[allow(dead_code, reason = "the others take too long here")]
+#[path = "../../../guen-benchmarks/src/robots.rs"]
+mod robots;
 
 /// A level's rates, put into its equations at a state.
 fn residual(derived: &Derived<'_>) -> f64 {
@@ -120,12 +86,7 @@ fn a_held_chain_is_not_multiplied_out() {
 
 #[test]
 fn a_quadruped_costs_so_many_operations_and_solves_its_equations() {
-    let corners = ["l, l/2, 0", "l, -l/2, 0", "-l, l/2, 0", "-l, -l/2, 0"];
-    let legs = corners.iter().enumerate().flat_map(|(leg, corner)| {
-        let hip = 3 * leg + 1;
-        [(0, 'x', *corner), (hip, 'y', "0, l/4, 0"), (hip + 1, 'y', "0, 0, -l")]
-    });
-    let text = robot(&legs.collect::<Vec<_>>());
+    let text = robots::quadruped();
     derived(&text, |derived| {
         let level = &derived.system;
         let cost = level.program(function::RHS).unwrap().cost;

@@ -1,0 +1,121 @@
+//! The text of declarations of robots with limbs on a floating body, and of a chain whose tip is held.
+//!
+//! Text for the same reasons as in `chains`.
+
+use std::fmt::Write;
+
+/// A link: its carrier, the axis of its joint, and where the joint is in the carrier.
+pub type Link = (usize, char, &'static str);
+
+/// A trunk with two legs of six joints, two arms of four, two joints of the chest and two of the neck.
+pub const HUMANOID: [Link; 24] = [
+    (0, 'z', "0, -l/4, -l/3"),
+    (1, 'x', "0, 0, 0"),
+    (2, 'y', "0, 0, 0"),
+    (3, 'y', "0, 0, -l"),
+    (4, 'y', "0, 0, -l"),
+    (5, 'x', "0, 0, 0"),
+    (0, 'z', "0, l/4, -l/3"),
+    (7, 'x', "0, 0, 0"),
+    (8, 'y', "0, 0, 0"),
+    (9, 'y', "0, 0, -l"),
+    (10, 'y', "0, 0, -l"),
+    (11, 'x', "0, 0, 0"),
+    (0, 'z', "0, 0, l/3"),
+    (13, 'y', "0, 0, l/4"),
+    (14, 'y', "0, -l/3, l/2"),
+    (15, 'x', "0, 0, 0"),
+    (16, 'z', "0, 0, 0"),
+    (17, 'y', "0, 0, -l"),
+    (14, 'y', "0, l/3, l/2"),
+    (19, 'x', "0, 0, 0"),
+    (20, 'z', "0, 0, 0"),
+    (21, 'y', "0, 0, -l"),
+    (14, 'z', "0, 0, l"),
+    (23, 'y', "0, 0, l/6"),
+];
+
+/// A trunk with four legs of three joints.
+pub fn quadruped() -> String {
+    let corners = ["l, l/2, 0", "l, -l/2, 0", "-l, l/2, 0", "-l, -l/2, 0"];
+    let legs = corners.iter().enumerate().flat_map(|(leg, corner)| {
+        let hip = 3 * leg + 1;
+        [(0, 'x', *corner), (hip, 'y', "0, l/4, 0"), (hip + 1, 'y', "0, 0, -l")]
+    });
+    declaration(&legs.collect::<Vec<_>>())
+}
+
+/// Bodies of general inertia that hang on each other, the first of them floating.
+pub fn declaration(links: &[Link]) -> String {
+    let constants = |b: usize| {
+        let entries = ["x", "y", "z"].map(|c| format!("I{b}{c} > 0, P{b}{c}, c{b}{c}"));
+        format!("m{b} > 0, {}", entries.join(", "))
+    };
+    let all: Vec<String> = (0..=links.len()).map(constants).collect();
+    let angles: Vec<String> = (1..=links.len()).map(|i| format!("q{i}")).collect();
+    let mut text = format!(
+        "pub system Robot {{
+            constants {{ l > 0, g = 9.81, {} }}
+            coordinates {{ x, y, z, yaw, pitch, roll, {} }}
+            let A0 = rot_z(yaw)*rot_y(pitch)*rot_x(roll);
+            let p0 = vec(x, y, z);\n",
+        all.join(", "),
+        angles.join(", "),
+    );
+    for (i, (carrier, axis, place)) in (1..).zip(links) {
+        let _ = writeln!(text, "let A{i} = A{carrier}*rot_{axis}(q{i});");
+        let _ = writeln!(text, "let p{i} = p{carrier} + A{carrier}*vec({place});");
+    }
+    text.push_str("bodies {");
+    for b in 0..=links.len() {
+        let _ = writeln!(
+            text,
+            "b{b} {{ mass: m{b}, inertia: sym(I{b}x, I{b}y, I{b}z, P{b}x, P{b}y, P{b}z),
+                center: p{b} + A{b}*vec(c{b}x, c{b}y, c{b}z), orientation: A{b} }}"
+        );
+    }
+    text.push_str("} gravity = vec(0, 0, -g);");
+    text.push_str("parameters { v = transpose(A0)*dot(p0); w = angular_velocity_body(A0);");
+    for angle in &angles {
+        let _ = write!(text, "turn_{angle} = dot({angle});");
+    }
+    text + "} }"
+}
+
+/// A chain of seven joints about oblique axes, the fourth a slide, whose tip is held by three equations.
+pub fn held() -> String {
+    let axes = ["0, 1, -1", "2, 1, -2", "1, 0, 1", "", "1, 2, 2", "0, 1, -1", "2, 1, -2"];
+    let list = |entry: &dyn Fn(usize) -> String| (1..=axes.len()).map(entry).collect::<String>();
+    let place = |i: usize| {
+        let (before, base) = match i {
+            1 => (String::new(), String::new()),
+            _ => (format!("R{}*", i - 1), format!("o{} + ", i - 1)),
+        };
+        match axes[i - 1] {
+            "" => format!(
+                "let R{i} = R{0}; let o{i} = {base}{before}vec(l{i}, 0, 1/3) + q{i}*{before}vec(4/5, 0, -3/5);",
+                i - 1
+            ),
+            axis => format!(
+                "let R{i} = {before}rot(unit(vec({axis})), q{i}); let o{i} = {base}{before}vec(l{i}, 1/4, 1/3);"
+            ),
+        }
+    };
+    format!(
+        "pub system Held {{
+            constants {{ g = 9.81, {} }}
+            coordinates {{ {} }}
+            {}
+            holonomic {{ tip: o7 + R7*vec(1/2, 0, 1/3) = vec(3/2, 0, 0); }}
+            bodies {{ {} }}
+            parameters {{ w1 = dot(q1); w2 = dot(q2); w3 = dot(q3); w4 = dot(q4); }}
+            gravity = vec(0, 0, -g);
+        }}",
+        list(&|i| format!("l{i} > 0, m{i} > 0, J{i} > 0, K{i} > 0, L{i} > 0, ")),
+        list(&|i| format!("q{i}, ")),
+        list(&place),
+        list(&|i| format!(
+            "B{i} {{ mass: m{i}, inertia: diag(J{i}, K{i}, L{i}), center: o{i} + R{i}*vec(1/2, 0, l{i}), orientation: R{i} }}"
+        )),
+    )
+}
