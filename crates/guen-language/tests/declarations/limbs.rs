@@ -84,6 +84,37 @@ fn a_held_chain_is_not_multiplied_out() {
     });
 }
 
+/// The turn of a ball joint is declared in the world's axes: its spin is known, and the rates of its quaternion follow from that.
+#[test]
+fn spins_in_the_axes_of_the_world_are_those_of_bodies() {
+    let text = "pub system Ball {
+        constants { l > 0, m > 0, I > 0, J > 0, K > 0, g = 9.81 }
+        coordinates { q, s, a, b, c, d, u }
+        let R = rot_z(q);
+        let o = vec(0, l, 0) + s*R.z;
+        let Q = R*quaternion(a, b, c, d);
+        let p = o + R*vec(0, 1/2, 0);
+        let e = p + Q*vec(2/3, 0, 1/2) + u*Q*vec(4/5, 0, -3/5);
+        holonomic { length: a^2 + b^2 + c^2 + d^2 = 1; }
+        bodies {
+            mast { mass: m, inertia: diag(I, J, I), center: o + R*vec(l, 0, 1/2), orientation: R }
+            ball { mass: m, inertia: diag(I, J, K), center: p + Q*vec(0, l, 0), orientation: Q }
+            slide { mass: m, inertia: diag(I, J, I), center: e, orientation: Q }
+        }
+        parameters {
+            spin = angular_velocity(quaternion(a, b, c, d));
+            turn = dot(q); rise = dot(s); out = dot(u);
+        }
+        gravity = vec(0, 0, -g);
+    }";
+    derived(text, |derived| {
+        let level = &derived.system;
+        let cost = level.program(function::RHS).unwrap().cost;
+        assert!(level.derivation.is_by("bodies"), "{:?}", level.derivation.declined);
+        assert!(cost.operations() <= 1_000, "{}", cost.operations());
+    });
+}
+
 #[test]
 fn a_quadruped_costs_so_many_operations_and_solves_its_equations() {
     let text = robots::quadruped();

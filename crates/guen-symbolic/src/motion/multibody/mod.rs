@@ -68,8 +68,9 @@ pub(super) fn rates(
     let is_general = structure.frames().iter().any(|frame| matches!(frame.turn, Turn::General { .. }));
     let on_manifold = is_general && !system.holonomic.is_empty();
     // What rolls and is posed by a quaternion has no axes here in which its contact rests: entries that are small where others
-    // are not would be differences of these.
-    if on_manifold && system.holonomic.len() < system.forms.len() - system.forms.degrees {
+    // are not would be differences of these. Where nothing else is derived that has to do.
+    let rolls = system.holonomic.len() < system.forms.len() - system.forms.degrees;
+    if on_manifold && rolls && !with_equations {
         return None;
     }
     (0..POINTS)

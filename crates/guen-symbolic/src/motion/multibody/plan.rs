@@ -267,6 +267,20 @@ impl Planner<'_> {
         found
     }
 
+    /// What the velocities follow from that forms determine: equations that nothing has used.
+    fn determined_otherwise(&mut self, plan: &Plan) -> Vec<(Equation, Linear)> {
+        let mut found = Vec::new();
+        for index in 0..self.variables.len() {
+            let var = Var(index as u32);
+            if let Some(Def::Row(_)) = plan.def(var)
+                && let Some((terms, _)) = link(self.numbers, self.tree, self.variables, var)
+            {
+                found.push((Equation::Link(var), terms));
+            }
+        }
+        found
+    }
+
     /// Whether a divisor does not vanish at the rest position, nor elsewhere for all that is seen.
     pub(super) fn is_safe(&mut self, pivot: Num) -> bool {
         if self.numbers.is_constant(pivot) {
@@ -350,6 +364,7 @@ impl Planner<'_> {
             }
         }
         equations.extend(links.iter().map(|(var, terms)| (Equation::Link(*var), terms.clone())));
+        equations.extend(self.determined_otherwise(plan));
         let mut list: Vec<(bool, usize, Equation, Vec<u64>)> = Vec::new();
         for (equation, terms) in equations {
             if terms.iter().any(|(var, _)| plan.def(*var).is_none()) {
