@@ -19,3 +19,25 @@ fn close(what: &str, found: &[f64], expected: &[f64], scale: f64, tolerance: f64
         assert!(error <= tolerance, "{what}, entry {i}: {a} instead of {b}, off by {error:.1e}");
     }
 }
+
+/// The last column of the table in `docs/published.md`.
+#[test]
+fn the_page_says_what_the_rates_cost() {
+    let costs = [
+        ("Whipple's bicycle", bicycle::whipple::COST),
+        ("Andrews' squeezer", linkages::squeezer::COST),
+        ("car axis", linkages::car_axis::COST),
+        ("heavy top", tops::heavy_top::COST),
+        ("rattleback", rattleback::rattleback::COST),
+        ("rolling disc", disc::disc::COST),
+    ];
+    let page = include_str!("../../../docs/published.md");
+    let differing = costs.iter().filter(|(name, cost)| {
+        let row =
+            page.lines().find(|line| line.starts_with(&format!("| {name}"))).expect("a row of the table");
+        let said = row.trim_end_matches([' ', '|']).rsplit('|').next().expect("a last column");
+        said.trim() != cost.total().to_string()
+    });
+    let differing: Vec<String> = differing.map(|(name, cost)| format!("{name}: {}", cost.total())).collect();
+    assert!(differing.is_empty(), "not on the page: {differing:?}");
+}
