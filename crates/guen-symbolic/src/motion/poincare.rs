@@ -34,38 +34,68 @@ pub fn equations(bench: &mut Workbench, system: &Mechanics, frame: &mut Frame) -
     Equations { mass, forces }
 }
 
-/// `sum_s w_s (2.7)_s`, as the coefficients of the `eta_t'` and the force: one equation along the displacement `sum_s w_s X_s`,
-/// which is `l` times less work than all of them.
+/// `sum_s w_s (2.7)_s`: one equation along the displacement `sum_s w_s X_s`.
+pub(super) struct Along {
+    /// `sum_s w_s dT/d eta_s`. Its derivative along the `eta_t'` is what the equation has of these.
+    pub(super) momentum: ExprId,
+    /// All but these, on the side of the forces, without the generalised forces.
+    pub(super) force: ExprId,
+}
+
+/// (2.7) along a displacement. Each sum over the equations, over `eta_r` and over the momenta is one derivative along a direction, so
+/// that the work grows with the energy as it is written and not with the number of parameters.
 pub(super) fn along(
     bench: &mut Workbench,
     system: &Mechanics,
     frame: &mut Frame,
     weights: &[ExprId],
-) -> (Vec<ExprId>, ExprId) {
-    let l = system.forms.degrees;
-    let Energy { kinetic, momenta } = Energy::new(bench, system, frame);
-    let momentum = bench.dot(weights, &momenta[..l]);
-    let mass = system.etas[..l]
-        .iter()
-        .map(|eta| Flow::partial(&bench.graph, *eta).of(&mut bench.graph, momentum))
-        .collect();
-    let rates: Vec<ExprId> = (0..system.forms.len())
+) -> Along {
+    let (n, l) = (system.forms.len(), system.forms.degrees);
+    let (dropped, kinetic) = kinetic(bench, system, frame);
+    let directions = system.etas.iter().copied().zip(weights.iter().copied());
+    let momentum = Flow::new(&bench.graph, directions).of(&mut bench.graph, kinetic);
+    let rates: Vec<ExprId> = (0..n)
         .map(|i| {
             let entries: Vec<ExprId> = (1..=l).map(|s| frame.operators.xi[s][i]).collect();
             bench.dot(weights, &entries)
         })
         .collect();
     let lagrangian = bench.graph.add(kinetic, system.force_function);
-    let mut displacement = Flow::new(&bench.graph, system.forms.coordinates.iter().copied().zip(rates));
+    let displaced = system.forms.coordinates.iter().copied().zip(rates.iter().copied());
+    let slope = Flow::new(&bench.graph, displaced).of(&mut bench.graph, lagrangian);
     let rate = frame.motion.of(&mut bench.graph, momentum);
-    let mut terms = vec![bench.graph.neg(rate), displacement.of(&mut bench.graph, lagrangian)];
-    for (t, momentum) in momenta.iter().enumerate() {
-        let turning: Vec<ExprId> =
-            (1..=l).map(|s| frame.brackets.along_motion(bench, &system.etas, s, t + 1)).collect();
-        let turning = bench.dot(weights, &turning);
-        terms.push(bench.graph.mul(turning, *momentum));
-    }
-    (mass, bench.graph.sum(terms))
+    // sum_s w_s (C_0st + sum_r eta_r C_rst) for each t, times the momenta of T° on the constraints.
+    let turning: Vec<ExprId> =
+        (0..n).map(|t| frame.brackets.between(bench, &frame.velocities, &rates, t)).collect();
+    let turning = system.etas.iter().copied().zip(turning);
+    let turned = Flow::new(&bench.graph, turning).of(&mut bench.graph, dropped);
+    let turned = on_constraints(bench, system).of(&mut bench.graph, turned);
+    let rest = bench.graph.sub(slope, rate);
+    Along { momentum, force: bench.graph.add(rest, turned) }
+}
+
+/// `T°`, with every parameter free, and `T`, on the constraints.
+fn kinetic(bench: &mut Workbench, system: &Mechanics, frame: &Frame) -> (ExprId, ExprId) {
+    let (n, l) = (system.forms.len(), system.forms.degrees);
+    // x' = xi_0 + sum_{j<=n} eta_j xi_j.
+    let free: Vec<ExprId> = (0..n)
+        .map(|i| {
+            let mut terms = vec![frame.velocities[i]];
+            for j in l + 1..=n {
+                terms.push(bench.graph.mul(system.etas[j - 1], frame.operators.xi[j][i]));
+            }
+            bench.graph.sum(terms)
+        })
+        .collect();
+    let mut release = Substitution::new(system.velocities.iter().copied().zip(free));
+    let dropped = release.of(&mut bench.graph, system.kinetic_energy);
+    (dropped, on_constraints(bench, system).of(&mut bench.graph, dropped))
+}
+
+/// `eta_v = 0`.
+fn on_constraints(bench: &Workbench, system: &Mechanics) -> Substitution {
+    let zero = bench.graph.zero();
+    Substitution::new(system.etas[system.forms.degrees..].iter().map(|eta| (*eta, zero)))
 }
 
 /// `T` on the constraints, and the momenta `(dT°/d eta_j)` there.
@@ -76,22 +106,8 @@ struct Energy {
 
 impl Energy {
     fn new(bench: &mut Workbench, system: &Mechanics, frame: &Frame) -> Self {
-        let (n, l) = (system.forms.len(), system.forms.degrees);
-        let zero = bench.graph.zero();
-        // T° with every parameter free: x' = xi_0 + sum_{j<=n} eta_j xi_j.
-        let free: Vec<ExprId> = (0..n)
-            .map(|i| {
-                let mut terms = vec![frame.velocities[i]];
-                for j in l + 1..=n {
-                    terms.push(bench.graph.mul(system.etas[j - 1], frame.operators.xi[j][i]));
-                }
-                bench.graph.sum(terms)
-            })
-            .collect();
-        let mut release = Substitution::new(system.velocities.iter().copied().zip(free));
-        let dropped = release.of(&mut bench.graph, system.kinetic_energy);
-        let mut constrain = Substitution::new(system.etas[l..].iter().map(|eta| (*eta, zero)));
-        let kinetic = constrain.of(&mut bench.graph, dropped);
+        let (dropped, kinetic) = kinetic(bench, system, frame);
+        let mut constrain = on_constraints(bench, system);
         let momenta: Vec<ExprId> = system
             .etas
             .iter()

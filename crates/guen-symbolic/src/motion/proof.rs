@@ -2,7 +2,7 @@
 
 use super::fault::DerivationError;
 use super::{Equations, Frame, Mechanics, poincare};
-use crate::algebra::{ExprId, Role};
+use crate::algebra::{ExprId, Flow, Role};
 use crate::workbench::Workbench;
 use crate::zero::POINTS_WITH_ROOTS;
 use crate::zero::field::{add, mul};
@@ -10,23 +10,58 @@ use crate::zero::field::{add, mul};
 /// Points of a proof; at each of them a displacement is drawn, too.
 const POINTS: usize = 3;
 
-/// The equations (2.7) by definition: all of them, or their sum along one displacement
-/// `sum_s w_s X_s` with symbols for the `w_s`. At a point modulo p these are numbers like all others, so that such a sum tells of
-/// every displacement, at the cost of one.
+/// The equations (2.7) by definition.
 pub(super) struct Definition {
-    /// `w_1..w_l`; none where there is a row for each `X_s`.
-    weights: Vec<ExprId>,
-    /// Without the generalised forces, which are the same in all equations: not every one has values modulo p.
-    equations: Equations,
+    rows: Rows,
     /// The generalised force of each row.
     generalised_forces: Vec<ExprId>,
+}
+
+/// Without the generalised forces, which are the same in all equations: not every one has values modulo p.
+enum Rows {
+    /// One for each `X_s`.
+    Each(Equations),
+    /// Their sum along one displacement.
+    Along(Along),
+}
+
+/// `sum_s w_s (2.7)_s`, with symbols for the `w_s`. At a point modulo p these are numbers like all others, so that such a sum
+/// tells of every displacement, at the cost of one.
+struct Along {
+    /// `w_1..w_l`.
+    weights: Vec<ExprId>,
+    /// `eta_1'..eta_l'`, symbols too.
+    accelerations: Vec<ExprId>,
+    /// `eta_1..eta_l`.
+    etas: Vec<ExprId>,
+    equation: poincare::Along,
+}
+
+impl Along {
+    /// `sum_st w_s M_st eta_t'` with these `eta_t'`.
+    fn inertia(&self, bench: &mut Workbench, accelerations: &[ExprId]) -> ExprId {
+        let rates = self.etas.iter().copied().zip(accelerations.iter().copied());
+        Flow::new(&bench.graph, rates).of(&mut bench.graph, self.equation.momentum)
+    }
+
+    /// Inertia and force of equations along the displacement, at a point or as expressions.
+    fn sum<T: Copy>(
+        (weights, accelerations): (&[T], &[T]),
+        rows: &[Vec<T>],
+        mut dot: impl FnMut(&[T], &[T]) -> T,
+    ) -> (T, T) {
+        let l = accelerations.len();
+        let inertias: Vec<T> = rows.iter().map(|row| dot(&row[..l], accelerations)).collect();
+        let forces: Vec<T> = rows.iter().map(|row| row[l]).collect();
+        (dot(weights, &inertias), dot(weights, &forces))
+    }
 }
 
 impl Definition {
     /// All equations.
     pub(super) fn whole(equations: Equations, generalised_forces: &[ExprId]) -> Self {
         let generalised_forces = generalised_forces[..equations.forces.len()].to_vec();
-        Definition { weights: Vec::new(), equations, generalised_forces }
+        Definition { rows: Rows::Each(equations), generalised_forces }
     }
 
     /// Their sum along a displacement that is drawn.
@@ -36,12 +71,14 @@ impl Definition {
         frame: &mut Frame,
         generalised_forces: &[ExprId],
     ) -> Self {
-        let weight = |s: usize| bench.graph.symbol(&format!("w{s}"), Role::Input);
-        let weights: Vec<ExprId> = (1..=system.forms.degrees).map(weight).collect();
-        let (mass, force) = poincare::along(bench, system, frame, &weights);
-        let generalised_forces = vec![bench.dot(&weights, generalised_forces)];
-        let equations = Equations { mass: vec![mass], forces: vec![force] };
-        Definition { weights, equations, generalised_forces }
+        let l = system.forms.degrees;
+        // No declaration has names with a blank.
+        let weight = |s: usize| bench.graph.symbol(&format!("w {s}"), Role::Input);
+        let weights: Vec<ExprId> = (1..=l).map(weight).collect();
+        let equation = poincare::along(bench, system, frame, &weights);
+        let generalised_forces = vec![bench.dot(&weights, &generalised_forces[..l])];
+        let (accelerations, etas) = (system.accelerations.clone(), system.etas[..l].to_vec());
+        Definition { rows: Rows::Along(Along { weights, accelerations, etas, equation }), generalised_forces }
     }
 
     /// Whether equations without generalised forces are these, everywhere or wherever constraints on positions hold, but for roots of
@@ -53,30 +90,34 @@ impl Definition {
         on_manifold: bool,
     ) -> Result<bool, DerivationError> {
         let rows = equations.rows();
-        let own = self.equations.rows();
-        let is_met = if self.weights.is_empty() {
-            same(bench, &own.concat(), &rows.concat(), on_manifold)
-        } else {
-            let (l, columns) = (rows.len(), own[0].len());
-            let all = [&self.weights[..], &own[0], &rows.concat()].concat();
-            hold(bench, &all, on_manifold, |values| {
-                let (weights, values) = values.split_at(l);
-                let (own, others) = values.split_at(columns);
-                let entry = |s: usize, t: usize| mul(weights[s], others[s * columns + t]);
-                (0..columns).all(|t| own[t] == (0..l).map(|s| entry(s, t)).fold(0, add))
-            })
-        };
-        if is_met {
-            return Ok(true);
-        }
-        let rows = match self.weights[..] {
-            [] => rows,
-            _ => {
-                let column = |t: usize| -> Vec<ExprId> { rows.iter().map(|row| row[t]).collect() };
-                vec![(0..own[0].len()).map(|t| bench.dot(&self.weights, &column(t))).collect()]
+        let (own, others) = match &self.rows {
+            Rows::Each(own) => {
+                let own = own.rows();
+                if same(bench, &own.concat(), &rows.concat(), on_manifold) {
+                    return Ok(true);
+                }
+                (own, rows)
+            }
+            Rows::Along(along) => {
+                let (weights, accelerations) = (&along.weights, &along.accelerations);
+                let own = vec![along.inertia(bench, accelerations), along.equation.force];
+                let l = weights.len();
+                let is_met = |values: &[u64]| {
+                    let (drawn, values) = values.split_at(2 * l);
+                    let (own, others) = values.split_at(2);
+                    let rows: Vec<Vec<u64>> = others.chunks(l + 1).map(<[u64]>::to_vec).collect();
+                    let dot = |a: &[u64], b: &[u64]| a.iter().zip(b).map(|(a, b)| mul(*a, *b)).fold(0, add);
+                    Along::sum(drawn.split_at(l), &rows, dot) == (own[0], own[1])
+                };
+                let all = [&weights[..], accelerations, &own, &rows.concat()].concat();
+                if hold(bench, &all, on_manifold, is_met) {
+                    return Ok(true);
+                }
+                let (inertia, force) = Along::sum((weights, accelerations), &rows, |a, b| bench.dot(a, b));
+                (vec![own], vec![vec![inertia, force]])
             }
         };
-        for (equation, (own, others)) in own.iter().zip(&rows).enumerate() {
+        for (equation, (own, others)) in own.iter().zip(&others).enumerate() {
             for (a, b) in own.iter().zip(others) {
                 let difference = bench.graph.sub(*a, *b);
                 refuse(bench, difference, on_manifold, equation)?;
@@ -93,29 +134,43 @@ impl Definition {
         velocities: &[ExprId],
         rates: &[ExprId],
     ) -> Result<bool, DerivationError> {
-        let Equations { mass, forces } = &self.equations;
         let (moving, accelerations) = rates.split_at(velocities.len());
-        let (l, rows) = (accelerations.len(), forces.len());
-        let all = [accelerations, &mass.concat(), forces, &self.generalised_forces].concat();
-        let is_solved = |values: &[u64]| {
-            let (accelerations, values) = values.split_at(l);
-            let (mass, values) = values.split_at(rows * l);
-            let (forces, generalised_forces) = values.split_at(rows);
-            let inertia = |s: usize| {
-                let row = mass[s * l..][..l].iter();
-                row.zip(accelerations).map(|(m, a)| mul(*m, *a)).fold(0, add)
+        let is_solved = same(bench, velocities, moving, true)
+            && match &self.rows {
+                Rows::Each(Equations { mass, forces }) => {
+                    let (l, rows) = (accelerations.len(), forces.len());
+                    let all = [accelerations, &mass.concat(), forces, &self.generalised_forces].concat();
+                    hold(bench, &all, true, |values| {
+                        let (accelerations, values) = values.split_at(l);
+                        let (mass, values) = values.split_at(rows * l);
+                        let (forces, generalised_forces) = values.split_at(rows);
+                        let inertia = |s: usize| {
+                            let row = mass[s * l..][..l].iter();
+                            row.zip(accelerations).map(|(m, a)| mul(*m, *a)).fold(0, add)
+                        };
+                        (0..rows).all(|s| inertia(s) == add(forces[s], generalised_forces[s]))
+                    })
+                }
+                Rows::Along(along) => {
+                    let inertia = along.inertia(bench, accelerations);
+                    let all = [inertia, along.equation.force, self.generalised_forces[0]];
+                    hold(bench, &all, true, |values| values[0] == add(values[1], values[2]))
+                }
             };
-            (0..rows).all(|s| inertia(s) == add(forces[s], generalised_forces[s]))
-        };
-        if same(bench, velocities, moving, true) && hold(bench, &all, true, is_solved) {
+        if is_solved {
             return Ok(true);
         }
         for (own, other) in velocities.iter().zip(moving) {
             let difference = bench.graph.sub(*own, *other);
             refuse(bench, difference, true, 0)?;
         }
-        for (equation, row) in mass.iter().enumerate() {
-            let inertia = bench.dot(row, accelerations);
+        let (inertias, forces) = match &self.rows {
+            Rows::Each(Equations { mass, forces }) => {
+                (mass.iter().map(|row| bench.dot(row, accelerations)).collect(), forces.clone())
+            }
+            Rows::Along(along) => (vec![along.inertia(bench, accelerations)], vec![along.equation.force]),
+        };
+        for (equation, inertia) in inertias.into_iter().enumerate() {
             let force = bench.graph.add(forces[equation], self.generalised_forces[equation]);
             let difference = bench.graph.sub(inertia, force);
             refuse(bench, difference, true, equation)?;
@@ -175,11 +230,20 @@ mod tests {
 
     /// The same along `w X_1`.
     fn along(bench: &mut Workbench, equations: &Equations) -> Definition {
-        let w = bench.graph.symbol("w1", Role::Input);
-        let mut times = |e: ExprId| bench.graph.mul(w, e);
-        let (mass, force) = (times(equations.mass[0][0]), times(equations.forces[0]));
-        let equations = Equations { mass: vec![vec![mass]], forces: vec![force] };
-        Definition { weights: vec![w], equations, generalised_forces: vec![bench.graph.zero()] }
+        drawn(bench, &["w1"], equations)
+    }
+
+    /// Equations along a displacement that is drawn.
+    fn drawn(bench: &mut Workbench, weights: &[&str], equations: &Equations) -> Definition {
+        let symbols = |bench: &mut Workbench, kind: &str| -> Vec<ExprId> {
+            weights.iter().map(|w| bench.graph.symbol(&format!("{kind}{w}"), Role::QuasiVelocity)).collect()
+        };
+        let [weights, accelerations, etas] = ["", "rate of ", "speed "].map(|kind| symbols(bench, kind));
+        let momenta: Vec<ExprId> = equations.mass.iter().map(|row| bench.dot(row, &etas)).collect();
+        let momentum = bench.dot(&weights, &momenta);
+        let equation = poincare::Along { momentum, force: bench.dot(&weights, &equations.forces) };
+        let rows = Rows::Along(Along { weights, accelerations, etas, equation });
+        Definition { rows, generalised_forces: vec![bench.graph.zero()] }
     }
 
     #[test]
@@ -211,12 +275,10 @@ mod tests {
     fn all_displacements_are_looked_at() {
         let mut bench = Workbench::new(Graph::new());
         let [x, y] = ["x", "y"].map(|name| bench.graph.symbol(name, Role::Coordinate));
-        let weights = ["w1", "w2"].map(|name| bench.graph.symbol(name, Role::Input)).to_vec();
         let (zero, one) = (bench.graph.zero(), bench.graph.one());
         let mass = vec![vec![one, zero], vec![zero, one]];
-        let force = bench.dot(&weights, &[x, y]);
-        let equations = Equations { mass: vec![weights.clone()], forces: vec![force] };
-        let definition = Definition { weights, equations, generalised_forces: vec![zero] };
+        let own = Equations { mass: mass.clone(), forces: vec![x, y] };
+        let definition = drawn(&mut bench, &["w1", "w2"], &own);
         let right = Equations { mass: mass.clone(), forces: vec![x, y] };
         assert_eq!(definition.is(&mut bench, &right, true).ok(), Some(true));
         let wrong = Equations { mass, forces: vec![y, x] };
