@@ -7,15 +7,13 @@ use super::projection::Projected;
 use super::proof::Definition;
 use super::turned::InOwnAxes;
 use super::velocity_forms::VelocityPartials;
-use super::{
-    Frame, FrameId, FrameNode, KineticTerm, Mechanics, multibody, poincare, projection, restriction, turned,
-};
+use super::{Frame, FrameNode, KineticTerm, Mechanics, multibody, poincare, projection, restriction, turned};
 use crate::algebra::ExprId;
 use crate::normal::{Limits, normal_coefficients};
 use crate::program::weighted_cost;
 use crate::workbench::Workbench;
 
-/// With so many parameters, and so many frames that hang on frames about other axes, equations are not multiplied out.
+/// With so many parameters, and so many frames that turn, equations are not multiplied out.
 const MANY: usize = 6;
 
 /// Nor where the velocities alone cost more.
@@ -178,15 +176,14 @@ impl Stated {
     }
 }
 
-/// Whether many frames hang on others, turned about other axes than these: multiplied out, each brings a factor.
+/// Whether many frames turn, about several axes: multiplied out, each brings a factor.
 fn is_large(bench: &Workbench, system: &Mechanics) -> bool {
     let structure = &system.structure;
     let moves = |frame: &FrameNode| match &frame.turn {
         Turn::About { angle, .. } => !bench.graph.roles(*angle).is_constant(),
         Turn::General { .. } => true,
     };
-    let joints =
-        structure.frames().iter().skip(1).filter(|frame| frame.parent != FrameId::WORLD && moves(frame));
+    let joints = structure.frames().iter().skip(1).filter(|frame| moves(frame));
     let mut axes: Vec<_> = structure
         .frames()
         .iter()
