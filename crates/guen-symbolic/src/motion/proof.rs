@@ -77,7 +77,8 @@ impl Definition {
         let weights: Vec<ExprId> = (1..=l).map(weight).collect();
         let equation = poincare::along(bench, system, frame, &weights);
         let generalised_forces = vec![bench.dot(&weights, &generalised_forces[..l])];
-        let (accelerations, etas) = (system.accelerations.clone(), system.etas[..l].to_vec());
+        let [accelerations, etas] =
+            [&system.accelerations, &system.etas].map(|symbols| symbols[..l].to_vec());
         Definition { rows: Rows::Along(Along { weights, accelerations, etas, equation }), generalised_forces }
     }
 
