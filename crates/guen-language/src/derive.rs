@@ -121,7 +121,8 @@ pub mod function {
     pub const OUTPUTS: &str = "outputs";
     /// The holonomic constraints, then those that follow from them.
     pub const POSITIONS: &str = "positions";
-    /// The same and then their derivatives, row by row; only where there are some.
+    /// The values of [`POSITIONS`], then the derivatives of each by the coordinates, one constraint after the other. There is no such
+    /// program without holonomic constraints.
     pub const GRADIENTS: &str = "gradients";
     /// The lower triangle of the mass matrix, where it is not diagonal.
     pub const MASS: &str = "mass";

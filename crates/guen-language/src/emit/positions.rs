@@ -13,7 +13,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     }
     let n = layout.n;
     let all = count + level.selection.redundant.len();
-    // What follows from other equations is looked at and never solved.
+    // An equation that follows from others is checked, but Newton's method does not solve it.
     let surplus = (all > count).then(|| {
         quote! {
             #[inline]

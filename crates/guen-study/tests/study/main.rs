@@ -22,6 +22,7 @@ use guen_study::{
     Cost, Digits71, Ending, FailureKind, NoChoice, Report, Row, Settings, Stopwatch, Study, Trade, Unit,
 };
 
+use cells::cells;
 use systems::{Planar, Scalar};
 
 /// `x' = v`, `v' = -4 x`: `x = x0 cos 2t + v0/2 sin 2t`.
@@ -373,25 +374,6 @@ fn progress_goes_forwards_to_the_end() {
         .run();
     assert_eq!(trade.report.unit, Unit::Evaluations);
     assert!(last.get() > 0.9);
-}
-
-/// The cells of a line of CSV.
-fn cells(line: &str) -> Vec<String> {
-    let (mut cells, mut cell, mut quoted) = (Vec::new(), String::new(), false);
-    let mut chars = line.chars().peekable();
-    while let Some(c) = chars.next() {
-        match (c, quoted) {
-            ('"', true) if chars.peek() == Some(&'"') => {
-                cell.push('"');
-                chars.next();
-            }
-            ('"', _) => quoted = !quoted,
-            (',', false) => cells.push(std::mem::take(&mut cell)),
-            _ => cell.push(c),
-        }
-    }
-    cells.push(cell);
-    cells
 }
 
 #[test]

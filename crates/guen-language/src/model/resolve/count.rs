@@ -130,7 +130,7 @@ fn combinations(bench: &mut Workbench, forms: &[(Form, ExprId)], degrees: usize)
                 beside = without;
             }
         }
-        // As many as there are coordinates are combined to anything.
+        // As many independent forms as there are coordinates span all forms: that one depends on them says nothing.
         if beside.len() < forms[form].0.row.len() {
             found.push((form, beside));
         }

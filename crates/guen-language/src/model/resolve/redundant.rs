@@ -66,7 +66,7 @@ pub(super) fn taken<'a>(
     let positions: Vec<ExprId> = raw.iter().filter_map(|form| form.position).collect();
     let bench = &mut eval.bench;
     bench.zero.set_manifold(&mut bench.graph, &positions);
-    // The search is no part of the derivation, whose work is limited.
+    // The steps of this search do not count towards the limit of the derivation.
     bench.begin_another();
     taken
 }

@@ -36,7 +36,7 @@ struct Seen {
     compared: usize,
     dearer: Vec<String>,
     /// By more than one operation and two percent.
-    clearly_dearer: usize,
+    dearer_by_two_percent: usize,
     /// The largest ratio of what more bounds and fewer cost, of those.
     ratio: f64,
     faults: Vec<String>,
@@ -53,7 +53,7 @@ impl Seen {
         self.worst = self.worst.max(other.worst);
         self.compared += other.compared;
         self.dearer.extend(other.dearer);
-        self.clearly_dearer += other.clearly_dearer;
+        self.dearer_by_two_percent += other.dearer_by_two_percent;
         self.ratio = self.ratio.max(other.ratio);
         self.faults.extend(other.faults);
         self.messages.extend(other.messages);
@@ -197,7 +197,7 @@ fn looked_at(seed: u64) -> Seen {
             let is_dearer = |more: u64, fewer: u64| more * 50 > fewer * 51 + 50;
             for (more, fewer) in [(all, partly), (partly, without), (all, without)] {
                 if is_dearer(more, fewer) {
-                    seen.clearly_dearer = 1;
+                    seen.dearer_by_two_percent = 1;
                     seen.ratio = seen.ratio.max(more as f64 / fewer as f64);
                 }
             }
@@ -237,7 +237,7 @@ fn mechanisms_end_with_the_right_rates_or_an_error() {
         all.worst,
         all.dearer.len(),
         all.compared,
-        all.clearly_dearer,
+        all.dearer_by_two_percent,
         all.ratio
     );
     all.messages.sort();
@@ -246,9 +246,9 @@ fn mechanisms_end_with_the_right_rates_or_an_error() {
     }
     assert!(all.faults.is_empty(), "{} faults", all.faults.len());
     assert!(
-        40 * all.clearly_dearer <= all.compared.max(40) && all.ratio <= 1.07,
+        40 * all.dearer_by_two_percent <= all.compared.max(40) && all.ratio <= 1.07,
         "bounds cost in {} of {}",
-        all.clearly_dearer,
+        all.dearer_by_two_percent,
         all.compared
     );
     assert!(only.is_some() || 2 * all.accepted as u64 > rounds && all.states > all.accepted);
