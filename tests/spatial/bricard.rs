@@ -98,3 +98,28 @@ fn what_is_consistent_fulfils_all_equations() {
     }
     assert!(found > 20 && refused > 0, "{found} {refused}");
 }
+
+guen::mechanical_system! {
+    /// Where both equations hold, the second follows from the first; on the branch `x = 1 - y` of the first it does not.
+    pub system Branches {
+        coordinates { x, y }
+        kinetic_energy = 1/2*(dot(x)^2 + dot(y)^2);
+        parameters { v = dot(y); }
+        holonomic { either: x^2 = x*(1 - y); zero: x = 0; }
+    }
+}
+
+#[test]
+fn a_branch_where_a_redundant_equation_fails_is_refused() {
+    assert!(
+        branches::REPORT
+            .lines("Forms")
+            .iter()
+            .any(|line| line.starts_with("zero is no form: it follows from either"))
+    );
+    let system = Branches::new().prepare().unwrap();
+    let near = |x| system.consistent(0.0, &branches::Coordinates { x, y: 0.0 }, &[]);
+    assert!(near(0.1).unwrap().x.abs() < 1e-12);
+    let Err(PositionsError::NotFound { residual }) = near(0.9) else { panic!("{:?}", near(0.9)) };
+    assert!((0.9..1.0).contains(&residual), "{residual}");
+}
