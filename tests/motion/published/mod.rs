@@ -6,6 +6,7 @@
 mod bicycle;
 mod closed_forms;
 mod disc;
+mod governor;
 mod linkages;
 mod rattleback;
 mod tops;
@@ -28,6 +29,7 @@ fn the_page_says_what_the_rates_cost() {
         ("Andrews' squeezer", linkages::squeezer::COST),
         ("car axis", linkages::car_axis::COST),
         ("heavy top", tops::heavy_top::COST),
+        ("stiff flyball governor", governor::governor::COST),
         ("rattleback", rattleback::rattleback::COST),
         ("rolling disc", disc::disc::COST),
     ];
