@@ -45,7 +45,7 @@ fn medians<const K: usize>(tasks: [&mut dyn FnMut(); K]) -> [(f64, f64); K] {
     })
 }
 
-fn run<M>(hoop: &hoop::Prepared, start: &State, method: &M, guard: Guard) -> Done<f64, 9>
+fn run<M>(hoop: &hoop::Prepared, start: &State, method: &M, guard: Guard) -> IntegrationResult<f64, 9>
 where
     M: Method<f64, hoop::Prepared, 9>,
 {

@@ -11,7 +11,7 @@ use std::error::Error;
 use std::process::ExitCode;
 
 use guen::Linearization;
-use guen::control::{Component, Frozen, controllability};
+use guen::control::{Component, ZeroOrderHold, controllability};
 use guen::prelude::*;
 use guen_study::{Plot, Recording, Shape, Table, Viewer};
 use nalgebra::{Matrix2, SMatrix};
@@ -104,7 +104,7 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
     controllability(&linear, 1e-9).require()?;
 
     // 4. The gain: the discrete model over one period, and the Riccati equation for it.
-    let model = Frozen::new(&linear, &[0.0; FED_BACK], PERIOD)?;
+    let model = ZeroOrderHold::new(&linear, &[0.0; FED_BACK], PERIOD)?;
     let a = Square::from_fn(|i, j| model.phi[i][j]);
     let b = Torques::from_fn(|i, j| model.gamma[i][j]);
     let weights = Square::from_diagonal(&[4.0, 20.0, 6.0, 0.5, 1.0].into());

@@ -11,7 +11,7 @@
 use std::error::Error;
 use std::process::ExitCode;
 
-use guen::control::Flow;
+use guen::control::FlowMap;
 use guen::mechanical_system;
 use guen_study::{Plot, Table};
 use nalgebra::{SMatrix, SVector};
@@ -90,7 +90,7 @@ impl Filter {
     /// `z -> Phi z`, with the Jacobian of the flow between the bases of both ends.
     fn predict(&mut self, hoop: &hoop::Prepared, t: f64) -> Result<(), Box<dyn Error>> {
         let here = hoop.reduce(t, &self.state.into(), &INDEPENDENT)?;
-        let flow = Flow::new(hoop, t, &self.state, &[], PERIOD, 2)?;
+        let flow = FlowMap::new(hoop, t, &self.state, &[], PERIOD, 2)?;
         let there = hoop.reduce(t + PERIOD, &flow.next.into(), &INDEPENDENT)?;
         let phi = matrix(&there.projection) * matrix(&flow.phi) * matrix(&here.basis);
         let unknown = SVector::<f64, Z>::from_fn(|i, _| if i < 5 { 0.0 } else { UNKNOWN * UNKNOWN });

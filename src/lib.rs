@@ -51,13 +51,14 @@
 #![forbid(unsafe_code)]
 
 pub use guen_runtime::{
-    Bodies, Body, BodyFault, BracketCoefficients, Carrying, Catastatic, Cause, Choice, Class, Coefficient,
-    Conservative, ConstantsError, Coordinate, Cost, Derived, Differentiable, Digits7, Digits7Functions,
-    Digits13, Digits13Functions, Dual, Equations, Function, Functions, Fused, FusedOperations, Generic,
-    Holonomic, IncompleteLieGroup, IntegrationError, Laned, LatexDocument, Level, LevelInfo, Levels,
-    LieGroup, Lift, Linearization, Monitored, Nonholonomic, Operator, Ordered, Positions, PositionsError,
-    Projected, Real, Recast, Rejoined, Report, ReportSection, Rheonomic, Rounded, Scleronomic, Setting,
-    System, Tuned, Vitals, from_fn, generic, lanes, prelude, project, projected, rejoined, steppers,
+    Approx7, Approx7Functions, Approx13, Approx13Functions, AuxiliaryStates, Bodies, Body, BodyFault,
+    BracketCoefficients, Catastatic, Cause, Class, Coefficient, Conservative, ConstantsError, Coordinate,
+    Cost, Derived, Differentiable, Dual, Equations, Function, Functions, Fused, FusedOperations, Generic,
+    Holonomic, IncompleteLieGroup, IntegrationError, Invariants, LaneScalar, Laned, LatexDocument, Level,
+    LevelInfo, Levels, LieGroup, Lift, Linearization, Monitored, Nonholonomic, Operator, Ordered, Positions,
+    PositionsError, Projected, Real, Recast, Renormalized, Report, ReportSection, Rheonomic, RunningError,
+    Scleronomic, Setting, System, WithFunctions, from_fn, generic, lanes, prelude, project, projected,
+    renormalized, steppers,
 };
 pub use guen_runtime::{Coefficients, Convolutions, HIGHEST_ORDER, TaylorSeries};
 pub use guen_runtime::{Liftable, Linearizable, OutputLinearization, control, seeded};
@@ -139,12 +140,12 @@ pub mod __private {
     };
     pub use guen_runtime::lanes::Lanes;
     pub use guen_runtime::{
-        Bodies, Body, BracketCoefficients, Carrying, Catastatic, Class, Coefficient, Coefficients,
+        AuxiliaryStates, Bodies, Body, BracketCoefficients, Catastatic, Class, Coefficient, Coefficients,
         Conservative, ConstantsError, Convolutions, Cost, Derived, Differentiable, Dual, HIGHEST_ORDER,
-        Holonomic, IncompleteLieGroup, Laned, Level, LevelInfo, Levels, LieGroup, Lift, Liftable,
+        Holonomic, IncompleteLieGroup, Invariants, Laned, Level, LevelInfo, Levels, LieGroup, Lift, Liftable,
         Linearizable, Linearization, Monitored, Nonholonomic, Operator, Ordered, OutputLinearization,
-        Positions, PositionsError, Real, Recast, Report, ReportSection, Rheonomic, Rounded, Scleronomic,
-        System, TaylorSeries, Vitals, nalgebra_conversions, seeded, zero_bracket,
+        Positions, PositionsError, Real, Recast, Report, ReportSection, Rheonomic, RunningError, Scleronomic,
+        System, TaylorSeries, nalgebra_conversions, seeded, zero_bracket,
     };
     pub use guen_runtime::{
         bracket, cells, linearizable, mass_form, operator, program_functions, record, reduce, steady_motions,

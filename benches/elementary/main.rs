@@ -16,7 +16,7 @@ mod hoop;
 use std::hint::black_box;
 use std::time::Instant;
 
-use guen::{Digits7, Digits13, Functions, Fused, Real, Std, System, Tuned};
+use guen::{Approx7, Approx13, Functions, Fused, Real, Std, System, WithFunctions};
 use guen_benchmarks::systems::Hoop;
 
 /// The number of arguments and of states.
@@ -36,7 +36,7 @@ impl Functions<f64> for LibmFunctions {
     }
 }
 
-type Libm = Tuned<f64, LibmFunctions>;
+type Libm = WithFunctions<f64, LibmFunctions>;
 
 /// One candidate: what it is called, and what to time.
 struct Candidate {
@@ -218,8 +218,8 @@ fn main() {
             sines::<f64>("f64", &arguments),
             sines::<Libm>("libm", &arguments),
             sines::<Std>("Std", &arguments),
-            sines::<Digits13>("Digits13", &arguments),
-            sines::<Digits7>("Digits7", &arguments),
+            sines::<Approx13>("Approx13", &arguments),
+            sines::<Approx7>("Approx7", &arguments),
             sines::<f32>("f32", &arguments),
         ],
     );
@@ -260,10 +260,10 @@ fn main() {
             by_hand("f64, by hand", &states),
             derived::<Libm>("libm", &states),
             derived::<Std>("Std", &states),
-            derived::<Digits13>("Digits13", &states),
-            derived::<Digits7>("Digits7", &states),
+            derived::<Approx13>("Approx13", &states),
+            derived::<Approx7>("Approx7", &states),
             derived::<Fused>("Fused", &states),
-            derived::<Fused<Digits7>>("Fused<Digits7>", &states),
+            derived::<Fused<Approx7>>("Fused<Approx7>", &states),
             derived::<f32>("f32", &states),
         ],
     );

@@ -1,6 +1,6 @@
 //! Discrete models, steady motions and controllability.
 
-use guen::control::{DiscreteError, Flow, Frozen, SteadyError, controllability};
+use guen::control::{DiscreteError, FlowMap, SteadyError, ZeroOrderHold, controllability};
 use guen::prelude::*;
 
 use crate::jacobians::{Cart, Hoop, Sled, cart, hoop, sled};
@@ -18,7 +18,7 @@ fn the_frozen_pair_solves_the_linear_model() {
     let linear = system.linearize(0.0, &state, &inputs);
     let rates: [f64; 4] = system.rhs(0.0, &state, &inputs).into();
     for h in [0.01, 2.0] {
-        let pair = Frozen::new(&linear, &rates, h).unwrap();
+        let pair = ZeroOrderHold::new(&linear, &rates, h).unwrap();
         let (ds, du) = ([0.1, -0.2, 0.3, 0.05], [0.7, -0.4]);
         let model = from_fn(|_t: f64, s: &[f64; 4]| {
             std::array::from_fn(|i| {
@@ -40,7 +40,7 @@ fn the_frozen_pair_solves_the_linear_model() {
         }
     }
     let broken = [f64::NAN; 4];
-    assert_eq!(Frozen::new(&linear, &broken, 0.1), Err(DiscreteError::NotFinite));
+    assert_eq!(ZeroOrderHold::new(&linear, &broken, 0.1), Err(DiscreteError::NotFinite));
 }
 
 /// The Jacobian of the flow against differences of it, and its state against the stepper, bit for bit.
@@ -49,7 +49,7 @@ fn the_flow_and_its_derivatives() {
     let (system, inputs) = (pole_cart(), cart::Inputs { push: 1.0, wind: 0.5 });
     let (state, u): ([f64; 4], [f64; 2]) = ([0.1, 2.0, 0.4, -3.0], inputs.into());
     let (h, steps) = (0.08, 4);
-    let flow = Flow::new(&system, 0.2, &state, &u, h, steps).unwrap();
+    let flow = FlowMap::new(&system, 0.2, &state, &u, h, steps).unwrap();
     let next = |s: &[f64; 4], u: &[f64; 2]| {
         let driven = system.driven((*u).into());
         (0..steps)
@@ -74,13 +74,13 @@ fn the_flow_and_its_derivatives() {
             assert!((found - expected).abs() < 1e-8, "({i}, {j}): {found} and {expected}");
         }
     }
-    assert_eq!(Flow::new(&system, 0.0, &state, &u, h, 0), Err(DiscreteError::NoSteps));
+    assert_eq!(FlowMap::new(&system, 0.0, &state, &u, h, 0), Err(DiscreteError::NoSteps));
     // To first order in the period both models are one; they differ in the second.
     let rates: [f64; 4] = system.rhs(0.2, &state.into(), &inputs).into();
     let linear = system.linearize(0.2, &state.into(), &inputs);
     let difference = |h: f64| {
-        let frozen = Frozen::new(&linear, &rates, h).unwrap();
-        let flow = Flow::new(&system, 0.2, &state, &u, h, 1).unwrap();
+        let frozen = ZeroOrderHold::new(&linear, &rates, h).unwrap();
+        let flow = FlowMap::new(&system, 0.2, &state, &u, h, 1).unwrap();
         (frozen.phi[3][1] - flow.phi[3][1]).abs()
     };
     let order = (difference(0.02) / difference(0.01)).log2();

@@ -1,7 +1,7 @@
 //! Constants that follow others until they are set, in every way of making a system.
 
 use guen::prelude::*;
-use guen::{ConstantsError, Derived, Digits7, Recast, mechanical_system};
+use guen::{Approx7, ConstantsError, Derived, Recast, mechanical_system};
 
 mechanical_system! {
     /// A disc that is turned, with a wheel whose moment follows the disc's.
@@ -71,7 +71,7 @@ fn other_reals() {
     let single = Disc::<f32> { m: 1.7, r: 0.6, ..Disc::new(0.3) }.prepare().unwrap();
     assert_eq!(disc.recast::<f32>().unwrap(), single);
     assert_eq!(disc.prepare().unwrap().recast::<f32>().unwrap(), single);
-    let long = disc.prepare().unwrap().recast::<Digits7>().unwrap();
+    let long = disc.prepare().unwrap().recast::<Approx7>().unwrap();
     assert_eq!((long.constants().J, long.constants().wheel), (Derived::Follows, Derived::Follows));
     let set = Disc { J: 2.0.into(), ..disc }.recast::<f32>().unwrap();
     assert_eq!(set.constants().J, 2.0_f32);

@@ -1,7 +1,7 @@
 //! A declared system made anew over other reals: from its constants, prepared, and with inputs held.
 
 use guen::prelude::*;
-use guen::{Digits7, Recast, mechanical_system};
+use guen::{Approx7, Recast, mechanical_system};
 
 mechanical_system! {
     /// A pendulum.
@@ -36,7 +36,7 @@ mechanical_system! {
 #[test]
 fn constants_and_prepared_systems_are_made_anew() {
     let pendulum = Pendulum { l: 0.1, g: 9.81 };
-    let long = pendulum.recast::<Digits7>().unwrap();
+    let long = pendulum.recast::<Approx7>().unwrap();
     assert_eq!(long.constants().l.value, 0.1);
     // Hoisted values are computed again, in the arithmetic of the other real.
     let short = pendulum.prepare().unwrap().recast::<f32>().unwrap();

@@ -67,7 +67,7 @@ where
     count(&format!("{name}, right-hand side"), || {
         black_box(system.rhs(0.0, black_box(start)));
         black_box(system.jacobian(0.0, black_box(start)));
-        black_box(system.vitals(0.0, black_box(start)));
+        black_box(system.conserved(0.0, black_box(start)));
         black_box(system.condition(0.0, black_box(start)));
     });
     count(&format!("{name}, control period"), || {
@@ -123,8 +123,8 @@ fn nothing_is_allocated() {
     let start = START.carried(&carried, 0.0).into();
     assert!(run("a carried form", &carried, &Rk4 { step: 1e-3 }, &start));
     assert!(run(
-        "a carried form that is rejoined",
-        &guen::rejoined(carried),
+        "a carried form that is renormalized",
+        &guen::renormalized(carried),
         &Dop853::new(1e-9, 1e-9),
         &start
     ));

@@ -84,8 +84,8 @@ fn fixed_steps_say_so_before_the_energy_is_lost() {
                     matches!(
                         error.cause,
                         Cause::Energy { .. }
-                            | Cause::Edge { .. }
-                            | Cause::Approach { .. }
+                            | Cause::ChartSingularity { .. }
+                            | Cause::ApproachingSingularity { .. }
                             | Cause::Step { .. }
                             | Cause::NotFinite
                             | Cause::NoConvergence
@@ -133,7 +133,9 @@ fn stepping_over_the_edge_of_the_chart_is_refused() {
     let error = Dop853::new(1e-9, 1e-9)
         .integrate(&system, 0.0, &start.into(), 1.0, |_, _| ControlFlow::Continue(()))
         .unwrap_err();
-    let Cause::Edge { found, function, distance, limit } = error.cause else { panic!("{:?}", error.cause) };
+    let Cause::ChartSingularity { found, function, distance, limit } = error.cause else {
+        panic!("{:?}", error.cause)
+    };
     assert_eq!(hoop::DOMAIN[function], "sin(theta)");
     assert!(distance < 0.0 && limit == 1e-8 && found > error.time);
     assert!(error.state[0] > 0.0, "the state returned is on this side");
@@ -141,7 +143,7 @@ fn stepping_over_the_edge_of_the_chart_is_refused() {
     let error = Rk4 { step: 1e-3 }
         .integrate(&system, 0.0, &start.into(), 1.0, |_, _| ControlFlow::Continue(()))
         .unwrap_err();
-    let Cause::Approach { found, function: 0, ratio, limit } = error.cause else {
+    let Cause::ApproachingSingularity { found, function: 0, ratio, limit } = error.cause else {
         panic!("{:?}", error.cause)
     };
     // As many steps as lie between two looks.
@@ -149,10 +151,10 @@ fn stepping_over_the_edge_of_the_chart_is_refused() {
     assert!(error.state[0] > 0.0 && error.state[0].sin() < 0.4, "{}", error.state[0]);
     // A limit of one's own stops earlier.
     let error = Integration::new(&system, 0.0, &start.into())
-        .guard(Guard { edge: 0.1, every: Some(1), ..Guard::default() })
+        .guard(Guard { singularity: 0.1, every: Some(1), ..Guard::default() })
         .run(&Dop853::new(1e-9, 1e-9), 1.0)
         .unwrap_err();
-    let Cause::Edge { distance, .. } = error.cause else { panic!("{:?}", error.cause) };
+    let Cause::ChartSingularity { distance, .. } = error.cause else { panic!("{:?}", error.cause) };
     assert!(distance <= 0.1 && error.state[0].sin() > 0.1 * 0.5_f64.sin());
 }
 
@@ -224,13 +226,13 @@ fn the_distance_from_the_edge_counts_roundings() {
     let system = prepared();
     let run = |theta: f64, edge: f64| {
         let start = hoop::State { theta, zeta: theta.sin(), eta3: -1.0, ..Default::default() };
-        let guard = Guard { edge, every: Some(1), ..Guard::FINITE };
+        let guard = Guard { singularity: edge, every: Some(1), ..Guard::FINITE };
         let run =
             Integration::new(&system, 0.0, &start.into()).guard(guard).run(&Dop853::new(1e-9, 1e-9), 1e-6);
         run.map_err(|error| error.cause)
     };
     let near = std::f64::consts::PI - 1e-9;
-    let Err(Cause::Edge { distance, limit, found, .. }) = run(near, 1e-8) else {
+    let Err(Cause::ChartSingularity { distance, limit, found, .. }) = run(near, 1e-8) else {
         panic!("{:?}", run(near, 1e-8))
     };
     assert!(distance > 0.0 && distance < limit && limit == 1e-8 && found == 0.0, "{distance:e}");
@@ -261,12 +263,13 @@ fn a_condition_limit_is_watched() {
 #[test]
 fn looks_have_a_price() {
     let hoop = prepared();
-    let (look, edges) = (System::<f64, 9>::cost_of_look(&hoop), System::<f64, 9>::cost_of_edges(&hoop));
+    let (look, edges) =
+        (System::<f64, 9>::check_cost(&hoop), System::<f64, 9>::singularity_check_cost(&hoop));
     // The edge is a sine; a right-hand side has two, and 24 operations.
     assert!(edges > 0.2 && edges < 3.0 && f64::from(look) > edges, "{look} {edges}");
     // Without an edge there is nothing to ask for.
     let free = Free { m: 1.0 }.prepare().unwrap();
-    assert_eq!(System::<f64, 2>::cost_of_edges(&free), 0.0);
+    assert_eq!(System::<f64, 2>::singularity_check_cost(&free), 0.0);
 }
 
 guen::mechanical_system! {

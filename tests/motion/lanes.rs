@@ -93,7 +93,7 @@ struct Rolling<'a> {
 }
 
 impl LaneTask for Rolling<'_> {
-    type Output = Vec<Result<Done<f64, 9>, IntegrationError<f64, 9>>>;
+    type Output = Vec<Result<IntegrationResult<f64, 9>, IntegrationError<f64, 9>>>;
 
     #[inline(always)]
     fn run<L: Lanes>(self) -> Self::Output {
@@ -145,8 +145,8 @@ fn a_falling_hoop_ends_as_it_would_alone() {
         causes.iter().zip(["approach", "energy", "approach", "energy", "edge", "energy", "edge"])
     {
         let found = match cause {
-            Cause::Approach { .. } => "approach",
-            Cause::Edge { .. } => "edge",
+            Cause::ApproachingSingularity { .. } => "approach",
+            Cause::ChartSingularity { .. } => "edge",
             Cause::Energy { .. } => "energy",
             _ => "something else",
         };

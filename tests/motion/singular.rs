@@ -54,7 +54,10 @@ fn turned<M: Method<f64, Closed, 4>>(name: &str, method: &M, turn: f64, guard: G
     let start = upright(turn);
     let run = Integration::new(&closed(9.81), 0.0, &start).guard(guard).run(method, 20.0);
     let error = run.expect_err(name);
-    assert!(matches!(error.cause, Cause::Edge { .. } | Cause::Approach { .. }), "{name}: {error}");
+    assert!(
+        matches!(error.cause, Cause::ChartSingularity { .. } | Cause::ApproachingSingularity { .. }),
+        "{name}: {error}"
+    );
     (error.state[0] - start[0]).abs()
 }
 
@@ -77,7 +80,7 @@ fn it_passes_if_the_edge_is_not_watched_and_everything_else_still_is() {
     // Without the implicit methods, whose equations may have no solution in such a place.
     fn check<M: Method<f64, Closed, 4>>(name: &str, method: &M) {
         let (system, start) = (closed(9.81), upright(6.0));
-        let pass = Guard { edge: -1.0, ..Guard::default() };
+        let pass = Guard { singularity: -1.0, ..Guard::default() };
         let (mut passed, mut side) = (0, 1.0);
         let done = Integration::new(&system, 0.0, &start)
             .guard(pass)
@@ -109,18 +112,18 @@ impl System<f64, 2> for Swing {
         [v, -x]
     }
 
-    fn edges(
+    fn singularities(
         &self,
-        _: guen::Rounded<f64>,
-        state: &[guen::Rounded<f64>; 2],
-        values: &mut [guen::Rounded<f64>],
+        _: guen::RunningError<f64>,
+        state: &[guen::RunningError<f64>; 2],
+        values: &mut [guen::RunningError<f64>],
     ) -> usize {
         // Zero where x is -0.9, twice within a tenth of a turn.
-        values[0] = state[0] + guen::Rounded::once(0.9);
+        values[0] = state[0] + guen::RunningError::once(0.9);
         1
     }
 
-    fn cost_of_edges(&self) -> f64 {
+    fn singularity_check_cost(&self) -> f64 {
         self.cost
     }
 }
@@ -134,7 +137,7 @@ fn what_is_cheap_to_look_at_is_looked_at_in_every_step() {
                 .run(&Dop853::new(tolerance, tolerance), 100.0);
             let error = run.unwrap_err();
             assert!(
-                matches!(error.cause, Cause::Edge { .. }) && error.time < 3.0,
+                matches!(error.cause, Cause::ChartSingularity { .. }) && error.time < 3.0,
                 "{cost} {tolerance:e}: {error}"
             );
         }

@@ -1,6 +1,6 @@
 //! What scenes provide is that of the whole system: energy, reactions, outputs, operators, linearisations.
 
-use guen::Rounded;
+use guen::RunningError;
 use guen::prelude::*;
 use guen::{BracketCoefficients, Linearizable};
 
@@ -153,10 +153,10 @@ fn energy_to_watch() {
         let small = unit.project(&state);
         assert_agree(&[watched(&unit, &small)], &[watched(&whole, &state)], NEAR, "energy");
         // The edge of the chart is the same one.
-        let (mut found, mut expected) = ([Rounded::exact(0.0); 1], [Rounded::exact(0.0); 1]);
-        let now = Rounded::exact(0.0);
-        assert_eq!(unit.edges(now, &small.map(Rounded::once), &mut found), 1);
-        assert_eq!(whole.edges(now, &state.map(Rounded::once), &mut expected), 1);
+        let (mut found, mut expected) = ([RunningError::exact(0.0); 1], [RunningError::exact(0.0); 1]);
+        let now = RunningError::exact(0.0);
+        assert_eq!(unit.singularities(now, &small.map(RunningError::once), &mut found), 1);
+        assert_eq!(whole.singularities(now, &state.map(RunningError::once), &mut expected), 1);
         assert_agree(&[found[0].value], &[expected[0].value], NEAR, "edges");
     }
     let start = [1.1, 0.2, 0.4, 2.0];

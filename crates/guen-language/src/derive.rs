@@ -153,7 +153,7 @@ pub mod function {
     /// What vanishes where carried functions are what they stand for.
     pub const INVARIANTS: &str = "invariants";
     /// Carried functions, closer to their relations.
-    pub const REJOINED: &str = "rejoined";
+    pub const RENORMALIZED: &str = "renormalized";
 }
 
 /// Derives a checked model and its scenes; a system without equations of motion is reported.

@@ -183,7 +183,7 @@ fn choices(report: &Report) -> Vec<String> {
             Err(none) => println!("in {} us: {none}", 1e6 * PERIOD),
         }
         // RK4 in doubles is what people begin with.
-        let plain = report.rows.iter().filter(|row| row.lever() == "RK4" && !row.limited);
+        let plain = report.rows.iter().filter(|row| row.variant() == "RK4" && !row.limited);
         let cheap = plain.filter_map(|row| row.measured()).filter(|(error, _)| *error <= ERRORS[0]);
         let rk4 = cheap.map(|(_, cost)| cost.median).min_by(f64::total_cmp);
         let best = report.fastest_within(ERRORS[0]).ok().and_then(|choice| choice.row.cost);

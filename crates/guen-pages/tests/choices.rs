@@ -4,7 +4,7 @@
 //! GUEN_BLESS=1 cargo test -p guen-pages --test choices      # writes the file anew
 //! ```
 //!
-//! `choices/written.rs` has the code of one setting of every lever, each in a function, to the letter. A report that writes
+//! `choices/written.rs` has the code of one setting of every variant, each in a function, to the letter. A report that writes
 //! anything else fails here, code that is no longer right does not compile, and every function has to end where the
 //! report says that its setting does.
 
@@ -37,7 +37,7 @@ const PENDULUM: Pendulum = Pendulum { l: 1.0, g: 9.81 };
 const SPAN: std::ops::Range<f64> = 0.0..1.0;
 const STARTS: [[f64; 2]; 2] = [[0.5, 0.25], [-1.0, 0.5]];
 
-/// A study of the pendulum with every lever that there is, and one of closures that are the same.
+/// A study of the pendulum with every variant that there is, and one of closures that are the same.
 fn reports() -> [Report; 2] {
     let prepared = PENDULUM.prepare().unwrap();
     let form = prepared.carried().unwrap();
@@ -60,12 +60,12 @@ fn reports() -> [Report; 2] {
     [study, closures.count_evaluations().scan(1 << 12).probes(0, 0.4).run().report]
 }
 
-/// The coarsest setting of each lever that errs by at most a hundredth, or its most accurate one.
+/// The coarsest setting of each variant that errs by at most a hundredth, or its most accurate one.
 fn chosen(report: &Report) -> Vec<&Row> {
     let errors = |row: &Row| row.error.filter(|_| row.failure.is_none()).unwrap_or(f64::INFINITY);
     let mut rows: Vec<&Row> = Vec::new();
     for row in report.rows.iter().filter(|row| errors(row).is_finite()) {
-        match rows.iter_mut().find(|other| other.lever() == row.lever()) {
+        match rows.iter_mut().find(|other| other.variant() == row.variant()) {
             Some(other) if errors(other) > 1e-2 && errors(row) < errors(other) => *other = row,
             Some(_) => {}
             None => rows.push(row),
@@ -76,7 +76,7 @@ fn chosen(report: &Report) -> Vec<&Row> {
 
 /// A function with the code of a setting, and its name.
 fn function(prefix: &str, row: &Row) -> (String, String) {
-    let name: String = format!("{prefix}{}", row.lever())
+    let name: String = format!("{prefix}{}", row.variant())
         .chars()
         .map(|c| if c.is_alphanumeric() { c.to_ascii_lowercase() } else { '_' })
         .collect();
@@ -152,7 +152,7 @@ type Ends = Result<Vec<[f64; 2]>, Box<dyn Error>>;
 const WRITTEN: &str = include_str!("choices/written.rs");
 
 #[test]
-fn the_code_of_every_lever_is_what_was_compiled() {
+fn the_code_of_every_variant_is_what_was_compiled() {
     let [study, closures] = reports();
     let text = file(&chosen(&study), &chosen(&closures));
     if env::var_os("GUEN_BLESS").is_some() {
@@ -160,9 +160,9 @@ fn the_code_of_every_lever_is_what_was_compiled() {
         fs::write(path, text).unwrap();
         return;
     }
-    // Every lever of the study is in it: one that always failed has no code that could be compiled.
-    let levers: BTreeSet<String> = study.rows.iter().map(|row| row.lever()).collect();
-    assert_eq!(levers.len(), chosen(&study).len(), "{levers:?}");
+    // Every variant of the study is in it: one that always failed has no code that could be compiled.
+    let variants: BTreeSet<String> = study.rows.iter().map(|row| row.variant()).collect();
+    assert_eq!(variants.len(), chosen(&study).len(), "{variants:?}");
     assert!(
         text == WRITTEN,
         "reports write other code than `tests/choices/written.rs` has; if this is meant, write it anew with \
@@ -207,7 +207,7 @@ fn lanes_err_as_the_same_method_does_apart_and_cost_as_much_to_count() {
     let study = study.keep(|method, real| method == "RK4" && real != "Fused" && real != "Std");
     let report = study.energy(1).count_evaluations().probes(0, 0.4).run().report;
     let rows = |real: &str| -> Vec<&Row> { report.rows.iter().filter(|row| row.real == real).collect() };
-    for (lanes, apart) in [("f64 lanes", "f64"), ("Digits7 lanes", "Digits7")] {
+    for (lanes, apart) in [("f64 lanes", "f64"), ("Approx7 lanes", "Approx7")] {
         let (lanes, apart) = (rows(lanes), rows(apart));
         assert!(lanes.len() > 8 && apart.len() > 8);
         for (lanes, apart) in lanes.iter().zip(&apart) {

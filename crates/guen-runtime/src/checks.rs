@@ -2,7 +2,7 @@
 
 pub use crate::condition::condition;
 use crate::error::BodyFault;
-use crate::{ConstantsError, Ordered, Real, Rounded};
+use crate::{ConstantsError, Ordered, Real, RunningError};
 
 /// The name of a field without the `r#` of one that is a keyword.
 ///
@@ -244,13 +244,13 @@ pub fn clamped<R: Ordered>(value: R, lower: R, upper: R) -> R {
 /// The largest of some differences that should vanish, each relative to the size of its terms.
 ///
 /// ```
-/// use guen_runtime::{Rounded, checks::furthest};
+/// use guen_runtime::{RunningError, checks::furthest};
 /// // x^2 + y^2 - 1 at (3/5, 0.81)
-/// let [x, y] = [0.6, 0.81].map(Rounded::once);
-/// assert!((0.002..0.02).contains(&furthest(&[x * x + y * y - Rounded::exact(1.0)])));
+/// let [x, y] = [0.6, 0.81].map(RunningError::once);
+/// assert!((0.002..0.02).contains(&furthest(&[x * x + y * y - RunningError::exact(1.0)])));
 /// ```
 #[inline(always)]
-pub fn furthest<R: Real, const N: usize>(differences: &[Rounded<R>; N]) -> R {
+pub fn furthest<R: Real, const N: usize>(differences: &[RunningError<R>; N]) -> R {
     largest(
         &differences
             .map(|difference| difference.value.abs().where_above(R::zero(), difference.left(), R::zero())),
@@ -260,18 +260,18 @@ pub fn furthest<R: Real, const N: usize>(differences: &[Rounded<R>; N]) -> R {
 /// Values that were rounded once.
 ///
 /// ```
-/// use guen_runtime::{Rounded, checks::rounded};
-/// assert_eq!(rounded(&[1.5, -2.0])[1], Rounded { value: -2.0, error: 2.0 });
+/// use guen_runtime::{RunningError, checks::rounded};
+/// assert_eq!(rounded(&[1.5, -2.0])[1], RunningError { value: -2.0, error: 2.0 });
 /// ```
 #[inline(always)]
-pub fn rounded<R: Real, const N: usize>(values: &[R; N]) -> [Rounded<R>; N] {
-    let mut rounded = [Rounded::exact(R::zero()); N];
+pub fn rounded<R: Real, const N: usize>(values: &[R; N]) -> [RunningError<R>; N] {
+    let mut rounded = [RunningError::exact(R::zero()); N];
     // A loop where the instructions of lanes are at hand: `map` is a call for each entry.
     R::vectorize(
         #[inline(always)]
         || {
             for (rounded, value) in rounded.iter_mut().zip(values) {
-                *rounded = Rounded { value: *value, error: value.abs() };
+                *rounded = RunningError { value: *value, error: value.abs() };
             }
         },
     );
@@ -279,19 +279,19 @@ pub fn rounded<R: Real, const N: usize>(values: &[R; N]) -> [Rounded<R>; N] {
 }
 
 /// Writes the first `count` functions that must not vanish to the head of `values`, as far as there is place for them, and
-/// returns how many: what [`System::edges`](crate::System::edges) does with them.
+/// returns how many: what [`System::singularities`](crate::System::singularities) does with them.
 ///
 /// ```
-/// use guen_runtime::{Rounded, checks::placed};
-/// let functions = [1.0, 2.0, 3.0].map(Rounded::once);
-/// let mut values = [Rounded::once(0.0); 4];
+/// use guen_runtime::{RunningError, checks::placed};
+/// let functions = [1.0, 2.0, 3.0].map(RunningError::once);
+/// let mut values = [RunningError::once(0.0); 4];
 /// assert_eq!((placed(&mut values, &functions, 2), values[1].value, values[2].value), (2, 2.0, 0.0));
 /// assert_eq!(placed(&mut values[..1], &functions, 3), 1);
 /// ```
 #[inline(always)]
 pub fn placed<R: Real, const N: usize>(
-    values: &mut [Rounded<R>],
-    functions: &[Rounded<R>; N],
+    values: &mut [RunningError<R>],
+    functions: &[RunningError<R>; N],
     count: usize,
 ) -> usize {
     let mut written = 0;

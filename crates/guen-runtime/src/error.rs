@@ -155,7 +155,7 @@ pub enum Cause {
     },
     /// The motion came to the edge of the chart, where the equations divide by zero. The time and state beside this
     /// cause are the last on this side of the limit.
-    Edge {
+    ChartSingularity {
         /// The time at which it was found.
         found: f64,
         /// Which of the functions that must not vanish; a generated system has their formulas in `DOMAIN`.
@@ -170,7 +170,7 @@ pub enum Cause {
     /// A fixed step is too long next to the edge of the chart: over one step a function that must not vanish changed so much
     /// that the pole of what divides by it is not resolved. The time and state beside this cause are the last look that
     /// found no such step.
-    Approach {
+    ApproachingSingularity {
         /// The time at which it was found.
         found: f64,
         /// Which of the functions that must not vanish; a generated system has their formulas in `DOMAIN`.
@@ -265,14 +265,14 @@ impl fmt::Display for Cause {
             Self::Carried { found, drift, limit } => {
                 write!(f, "by t = {found} a carried function was off by {drift:e}, and {limit:e} is allowed")
             }
-            Self::Edge { found, function, distance, limit } => {
+            Self::ChartSingularity { found, function, distance, limit } => {
                 write!(
                     f,
                     "by t = {found} the motion had come to the edge of the chart: of function {function} that must "
                 )?;
                 write!(f, "not vanish {distance:e} was left, and {limit:e} is the limit")
             }
-            Self::Approach { found, function, ratio, limit } => {
+            Self::ApproachingSingularity { found, function, ratio, limit } => {
                 write!(
                     f,
                     "by t = {found} a fixed step was too long for the edge of the chart that is near: it changed "

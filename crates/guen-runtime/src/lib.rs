@@ -4,9 +4,9 @@
 //!
 //! | question | answer |
 //! | --- | --- |
-//! | what is a number? | [`Real`], [`Ordered`], [`Dual`], [`Rounded`]; [`Lift`] embeds a base real |
+//! | what is a number? | [`Real`], [`Ordered`], [`Dual`], [`RunningError`]; [`Lift`] embeds a base real |
 //! | what is integrated? | [`System`], [`Monitored`], [`Differentiable`], [`TaylorSeries`], [`from_fn`], [`generic`] |
-//! | which functions does it have? | [`Tuned`]: [`Digits13`], [`Digits7`], [`Fused`], [`Functions`] of your own |
+//! | which functions does it have? | [`WithFunctions`]: [`Approx13`], [`Approx7`], [`Fused`], [`Functions`] of your own |
 //! | over which reals? | [`Recast`], what can be made anew over each |
 //! | how many at once? | [`lanes`]; [`Laned`] systems |
 //! | what acts on functions? | [`Operator`], [`Function`], [`Coordinate`], [`BracketCoefficients`] |
@@ -33,9 +33,9 @@
 #[cfg(feature = "std")]
 extern crate std;
 
+mod auxiliary_states;
 mod bodies;
 mod bracket;
-mod carrying;
 pub mod checks;
 mod classification;
 mod condition;
@@ -49,6 +49,7 @@ mod elementary;
 mod emitted;
 mod error;
 mod float;
+mod invariants;
 pub mod lanes;
 mod level;
 mod lift;
@@ -59,18 +60,17 @@ mod positions;
 mod real;
 mod recast;
 mod report;
-mod rounded;
 mod rules;
+mod running_error;
 mod serde_support;
 mod series;
 pub mod steppers;
 mod system;
-mod tuned;
-mod vitals;
+mod with_functions;
 
+pub use auxiliary_states::{AuxiliaryStates, Renormalized, renormalized};
 pub use bodies::{Bodies, Body};
 pub use bracket::{BracketCoefficients, Coefficient};
-pub use carrying::{Carrying, Rejoined, rejoined};
 pub use classification::{
     Catastatic, Class, Conservative, Holonomic, IncompleteLieGroup, LieGroup, Nonholonomic, Rheonomic,
     Scleronomic,
@@ -80,6 +80,7 @@ pub use derived::Derived;
 pub use differentiable::{Differentiable, Equations, Generic, generic};
 pub use dual::Dual;
 pub use error::{BodyFault, Cause, ConstantsError, IntegrationError, Setting};
+pub use invariants::Invariants;
 pub use level::{Level, LevelInfo, Levels};
 pub use lift::Lift;
 pub use linearization::{Liftable, Linearizable, Linearization, OutputLinearization, seeded};
@@ -90,16 +91,15 @@ pub use positions::{Positions, PositionsError, Projected, consistent, project, p
 pub use real::{Ordered, Real};
 pub use recast::Recast;
 pub use report::{LatexDocument, MarkdownDocument, Report, ReportSection};
-pub use rounded::Rounded;
+pub use running_error::RunningError;
 pub use series::{Coefficients, Convolutions, HIGHEST_ORDER, TaylorSeries};
 pub use system::{FromFn, Laned, Monitored, System, from_fn};
-pub use tuned::{
-    Choice, Digits7, Digits7Functions, Digits13, Digits13Functions, Functions, Fused, FusedOperations, Own,
-    Tuned,
+pub use with_functions::{
+    Approx7, Approx7Functions, Approx13, Approx13Functions, Functions, Fused, FusedOperations, LaneScalar,
+    PlainLanes, WithFunctions,
 };
 #[cfg(feature = "std")]
-pub use tuned::{Std, StdFunctions};
-pub use vitals::Vitals;
+pub use with_functions::{Std, StdFunctions};
 
 #[cfg(feature = "nalgebra")]
 pub use nalgebra;
@@ -112,8 +112,8 @@ pub use serde_support::{deserialize_derived, deserialize_record, serialize_deriv
 /// What a program that integrates systems wants in scope.
 pub mod prelude {
     pub use crate::steppers::{
-        Bounded, Direction, Done, Dop853, Euler, Event, Gauss4, Gauss6, Guard, Integration, Outcome, Radau5,
-        Rk4, Rk8, Statistics, Taylor, Tsit5,
+        Bounded, Direction, Dop853, Euler, Event, Gauss4, Gauss6, Guard, Integration, IntegrationResult,
+        Outcome, Radau5, Rk4, Rk8, Statistics, Taylor, Tsit5,
     };
     pub use crate::{
         Cause, Coordinate, Dual, Function, IntegrationError, Level, Lift, Monitored, Operator, Ordered, Real,

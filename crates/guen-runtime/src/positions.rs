@@ -8,11 +8,11 @@ use core::error::Error;
 use core::fmt;
 
 use crate::differentiable::Differentiable;
+use crate::invariants::Invariants;
 use crate::real::{Ordered, Real};
-use crate::rounded::Rounded;
+use crate::running_error::RunningError;
 use crate::series::{Coefficients, TaylorSeries};
 use crate::system::{Monitored, System};
-use crate::vitals::Vitals;
 
 /// A system with constraints on positions `f(t, x) = 0`: `H` of them, on `N` coordinates.
 pub trait Positions<R: Real, const N: usize, const H: usize> {
@@ -381,24 +381,29 @@ where
         project(&self.0, t, state).map(|_| ())
     }
 
-    fn vitals(&self, t: R, state: &[R; M]) -> Vitals<R> {
-        self.0.vitals(t, state)
+    fn conserved(&self, t: R, state: &[R; M]) -> Invariants<R> {
+        self.0.conserved(t, state)
     }
 
-    fn edges(&self, t: Rounded<R>, state: &[Rounded<R>; M], values: &mut [Rounded<R>]) -> usize {
-        self.0.edges(t, state, values)
+    fn singularities(
+        &self,
+        t: RunningError<R>,
+        state: &[RunningError<R>; M],
+        values: &mut [RunningError<R>],
+    ) -> usize {
+        self.0.singularities(t, state, values)
     }
 
     fn condition(&self, t: R, state: &[R; M]) -> R {
         self.0.condition(t, state)
     }
 
-    fn cost_of_look(&self) -> u32 {
-        self.0.cost_of_look()
+    fn check_cost(&self) -> u32 {
+        self.0.check_cost()
     }
 
-    fn cost_of_edges(&self) -> f64 {
-        self.0.cost_of_edges()
+    fn singularity_check_cost(&self) -> f64 {
+        self.0.singularity_check_cost()
     }
 }
 

@@ -18,7 +18,7 @@ use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAss
 /// - **Elementary functions** of `f32` and `f64` are our own (sine and cosine, straight-line code with errors below
 ///   0.8 ulp for `f64`) or those of the crate `libm`, with or without `std`. `std`'s functions may come from the
 ///   platform, and which ones a dependency calls can change with the features of the build; here the same input
-///   gives the same bits in every build. Other functions are other types: see [`Tuned`](crate::Tuned).
+///   gives the same bits in every build. Other functions are other types: see [`WithFunctions`](crate::WithFunctions).
 /// - **Domains** are those of IEEE arithmetic: outside of them the result is NaN or infinite, never a panic.
 ///   Whether a value is usable is asked once per step, with [`is_finite`](Real::is_finite).
 ///

@@ -1,10 +1,10 @@
 //! What a stepper integrates: a right-hand side over `N` reals, and what it may be asked to keep.
 
+use crate::invariants::Invariants;
 use crate::lanes::Lanes;
 use crate::positions::PositionsError;
 use crate::real::Real;
-use crate::rounded::Rounded;
-use crate::vitals::Vitals;
+use crate::running_error::RunningError;
 
 /// A system of `N` ordinary differential equations of first order over the real `R`.
 ///
@@ -41,17 +41,22 @@ pub trait System<R: Real, const N: usize> {
     /// Quantities that the exact motion keeps, for the [`Guard`](crate::steppers::Guard) of a stepper to look at now
     /// and then. None, unless a system says more; generated systems do.
     #[inline]
-    fn vitals(&self, _t: R, _state: &[R; N]) -> Vitals<R> {
-        Vitals::default()
+    fn conserved(&self, _t: R, _state: &[R; N]) -> Invariants<R> {
+        Invariants::default()
     }
 
     /// Writes functions that must not vanish, since the system's chart or its equations end there, to the head of
     /// `values`, and returns how many: none, unless a system says more. What does not fit is left out. Their distance
-    /// from vanishing is what is [`left`](Rounded::left) of them, given how uncertain time and state are. A guard
+    /// from vanishing is what is [`left`](RunningError::left) of them, given how uncertain time and state are. A guard
     /// refuses to go on where one of them changes its sign or is closer than its limit, and calls this inside of
     /// [`Real::vectorize`], which costs less than to do so here.
     #[inline]
-    fn edges(&self, _t: Rounded<R>, _state: &[Rounded<R>; N], _values: &mut [Rounded<R>]) -> usize {
+    fn singularities(
+        &self,
+        _t: RunningError<R>,
+        _state: &[RunningError<R>; N],
+        _values: &mut [RunningError<R>],
+    ) -> usize {
         0
     }
 
@@ -70,19 +75,19 @@ pub trait System<R: Real, const N: usize> {
         R::one()
     }
 
-    /// What [`vitals`](System::vitals), [`edges`](System::edges) and [`condition`](System::condition) of one state cost
+    /// What [`conserved`](System::conserved), [`singularities`](System::singularities) and [`condition`](System::condition) of one state cost
     /// together, in evaluations of the right-hand side: the dearer they are, the seldomer a guard asks for them. Two, unless
     /// a system says more; generated systems count their operations.
     #[inline]
-    fn cost_of_look(&self) -> u32 {
+    fn check_cost(&self) -> u32 {
         2
     }
 
-    /// What [`edges`](System::edges) of one state cost, in evaluations of the right-hand side, with what a guard makes of them:
+    /// What [`singularities`](System::singularities) of one state cost, in evaluations of the right-hand side, with what a guard makes of them:
     /// next to fixed steps it asks for them more often than for the rest. Nothing, unless a system says more; generated systems
     /// count their operations.
     #[inline]
-    fn cost_of_edges(&self) -> f64 {
+    fn singularity_check_cost(&self) -> f64 {
         0.0
     }
 }
@@ -99,13 +104,18 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize> System<R, N> for &S {
     }
 
     #[inline]
-    fn vitals(&self, t: R, state: &[R; N]) -> Vitals<R> {
-        (**self).vitals(t, state)
+    fn conserved(&self, t: R, state: &[R; N]) -> Invariants<R> {
+        (**self).conserved(t, state)
     }
 
     #[inline]
-    fn edges(&self, t: Rounded<R>, state: &[Rounded<R>; N], values: &mut [Rounded<R>]) -> usize {
-        (**self).edges(t, state, values)
+    fn singularities(
+        &self,
+        t: RunningError<R>,
+        state: &[RunningError<R>; N],
+        values: &mut [RunningError<R>],
+    ) -> usize {
+        (**self).singularities(t, state, values)
     }
 
     #[inline]
@@ -114,13 +124,13 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize> System<R, N> for &S {
     }
 
     #[inline]
-    fn cost_of_look(&self) -> u32 {
-        (**self).cost_of_look()
+    fn check_cost(&self) -> u32 {
+        (**self).check_cost()
     }
 
     #[inline]
-    fn cost_of_edges(&self) -> f64 {
-        (**self).cost_of_edges()
+    fn singularity_check_cost(&self) -> f64 {
+        (**self).singularity_check_cost()
     }
 }
 

@@ -6,7 +6,7 @@
 //! | --- | --- |
 //! | what happened? | [`Recording`]: times and states, in bounded memory if wanted, and CSV |
 //! | how long will it take? | [`Progress`]: a line on the terminal during long runs |
-//! | how good is it? | [`Monitor`] and its [`Invariants`]; [`drift`] and [`residuals`] as curves |
+//! | how good is it? | [`Monitor`] and its [`InvariantErrors`]; [`drift`] and [`residuals`] as curves |
 //! | what are the numbers? | [`Table`], aligned for a terminal; [`significant`] for one number |
 //! | where does it go? | [`replace_file`]: files that are written whole or not at all, as every writer here does |
 //! | what does it look like? | [`Plot`], an SVG picture |
@@ -68,7 +68,7 @@ pub use ensemble::{End, Ensemble, Sampled};
 pub use error::StudyError;
 pub use file::replace_file;
 pub use median::median_with_interval;
-pub use monitor::{Invariants, Monitor, drift, residuals};
+pub use monitor::{InvariantErrors, Monitor, drift, residuals};
 pub use plot::Plot;
 pub use progress::Progress;
 pub use recording::Recording;

@@ -24,7 +24,7 @@ const ERROR_DIGITS: usize = 2;
 ///
 /// The energy says something only of a system that keeps it; it tells nothing of errors along the level set.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Invariants {
+pub struct InvariantErrors {
     /// The number of states looked at.
     pub samples: u64,
     /// The energy that all others are compared with: that of the first state.
@@ -41,7 +41,7 @@ pub struct Invariants {
     pub residual_time: f64,
 }
 
-impl Invariants {
+impl InvariantErrors {
     /// The invariants along the samples that a recording kept; `None` if it is empty.
     ///
     /// Samples that a bounded recording dropped are not looked at; a [`Monitor`] beside the recording sees all.
@@ -75,7 +75,7 @@ impl Invariants {
     }
 }
 
-impl fmt::Display for Invariants {
+impl fmt::Display for InvariantErrors {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         fn largest(f: &mut fmt::Formatter<'_>, what: &str, error: f64, time: f64) -> fmt::Result {
             write!(f, "largest {what}: {}", significant(error, ERROR_DIGITS))?;
@@ -126,7 +126,7 @@ impl fmt::Display for Invariants {
 #[derive(Clone, Copy, Debug)]
 pub struct Monitor<S> {
     system: S,
-    found: Invariants,
+    found: InvariantErrors,
 }
 
 impl<S> Monitor<S> {
@@ -137,7 +137,7 @@ impl<S> Monitor<S> {
     {
         let energy = system.energy(t, state);
         let size = energy.abs();
-        let mut found = Invariants {
+        let mut found = InvariantErrors {
             samples: 0,
             energy_start: energy,
             energy_scale: if size > 0.0 && size.is_finite() { size } else { 1.0 },
@@ -166,13 +166,13 @@ impl<S> Monitor<S> {
     }
 
     /// What was found so far.
-    pub fn invariants(&self) -> Invariants {
+    pub fn invariants(&self) -> InvariantErrors {
         self.found
     }
 }
 
 /// The relative error of the energy over time, with its sign: a curve for a [`Plot`](crate::Plot). Scaled as in
-/// [`Invariants`]; empty if the recording is.
+/// [`InvariantErrors`]; empty if the recording is.
 ///
 /// Cost: one energy for each sample, when the iterator is asked for it.
 pub fn drift<'a, S, const N: usize>(
@@ -184,7 +184,7 @@ where
 {
     let start = recording.first().map(|(t, x)| Monitor::new(system, t, x).invariants());
     recording.iter().filter_map(move |(t, x)| {
-        let Invariants { energy_start, energy_scale, .. } = start?;
+        let InvariantErrors { energy_start, energy_scale, .. } = start?;
         Some((t, (system.energy(t, x) - energy_start) / energy_scale))
     })
 }
@@ -242,7 +242,7 @@ mod tests {
     #[test]
     fn largest_errors_with_their_times() {
         let recording = recorded(&[[-4.0, 0.0], [-4.5, 1e-3], [-3.0, 2e-3], [-5.0, 1e-3]]);
-        let found = Invariants::along(&Given, &recording).unwrap();
+        let found = InvariantErrors::along(&Given, &recording).unwrap();
         assert_eq!((found.energy_error, found.energy_error_time), (0.25, 2.0));
         assert_eq!((found.residual, found.residual_time), (2e-3, 2.0));
         assert_eq!(found.samples, 4);
@@ -255,13 +255,13 @@ mod tests {
 
     #[test]
     fn the_start_counts_as_well() {
-        let found = Invariants::along(&Given, &recorded(&[[1.0, 0.5], [1.0, 0.1]])).unwrap();
+        let found = InvariantErrors::along(&Given, &recorded(&[[1.0, 0.5], [1.0, 0.1]])).unwrap();
         assert_eq!((found.residual, found.residual_time), (0.5, 0.0));
     }
 
     #[test]
     fn a_zero_energy_makes_absolute_errors() {
-        let found = Invariants::along(&Given, &recorded(&[[0.0, 0.0], [1e-3, 0.0]])).unwrap();
+        let found = InvariantErrors::along(&Given, &recorded(&[[0.0, 0.0], [1e-3, 0.0]])).unwrap();
         assert_eq!(found.energy_error, 1e-3);
         assert!(found.to_string().starts_with("largest energy error: 0.001 at"));
         let mut monitor = Monitor::new(&Given, 0.0, &[0.0, 0.0]).with_scale(-10.0);
@@ -274,7 +274,7 @@ mod tests {
         for states in
             [[[1.0, 0.0], [f64::NAN, 0.0]], [[f64::NAN, 0.0], [1.0, 0.0]], [[1.0, 0.0], [1.0, f64::NAN]]]
         {
-            let found = Invariants::along(&Given, &recorded(&states)).unwrap();
+            let found = InvariantErrors::along(&Given, &recorded(&states)).unwrap();
             assert!(!found.within(f64::MAX, f64::MAX));
         }
     }
@@ -282,7 +282,7 @@ mod tests {
     #[test]
     fn an_empty_recording_has_none() {
         let empty = recorded(&[]);
-        assert_eq!(Invariants::along(&Given, &empty), None);
+        assert_eq!(InvariantErrors::along(&Given, &empty), None);
         assert_eq!(drift(&Given, &empty).count(), 0);
         assert_eq!(residuals(&Given, &empty).count(), 0);
     }

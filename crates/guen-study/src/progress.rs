@@ -141,7 +141,7 @@ fn part(from: f64, to: f64, t: f64) -> f64 {
 /// What the line says.
 fn line(part: f64, elapsed: Duration) -> String {
     let full = (part * BAR as f64).floor() as usize;
-    // Rounded down: a hundred means done.
+    // RunningError down: a hundred means done.
     let percent = (100.0 * part).floor();
     let bar = format!("[{}{}] {percent:3} %", "#".repeat(full), "-".repeat(BAR - full));
     if part >= ESTIMABLE {

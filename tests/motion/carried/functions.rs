@@ -1,7 +1,7 @@
 //! A system whose rates call every elementary function, with an input and explicit time; a scene that fixes a constant; and
 //! one with a constraint on positions.
 
-use guen::Rounded;
+use guen::RunningError;
 use guen::prelude::*;
 
 guen::mechanical_system! {
@@ -58,8 +58,9 @@ fn every_function_is_carried() {
     assert!(carried.drift(4.5, &done.state.into()) < 1e-9);
     // Roots, the argument of the logarithm and the radius of the angle must not vanish; the input is the system's own.
     assert_eq!(bead::carried::EDGES.len(), 4, "{:?}", bead::carried::EDGES);
-    let mut values = [Rounded::once(0.0); 8];
-    let written = own.edges(Rounded::once(4.5), &done.state.map(Rounded::once), &mut values);
+    let mut values = [RunningError::once(0.0); 8];
+    let written =
+        own.singularities(RunningError::once(4.5), &done.state.map(RunningError::once), &mut values);
     assert!(written >= 4 && values[..written].iter().all(|value| value.value > 0.0));
     // In the scene the names are the same, and the constants are gone.
     let soft = bead::Soft::new(1.2, 0.5).prepare().unwrap().carried().unwrap();
@@ -94,11 +95,11 @@ fn constraints_on_positions_and_energies_are_still_watched() {
     let start = ladder::State { phi, x: 1.5 * phi.cos(), y: 1.5 * phi.sin(), omega: 0.0 };
     let lifted = start.carried(&carried, 0.0);
     let off = ladder::carried::State { x: lifted.x + 0.125, ..lifted };
-    let vitals = carried.vitals(0.0, &off.into());
-    assert_eq!((vitals.energy.is_some(), vitals.carried), (true, 0.0));
+    let invariants = carried.conserved(0.0, &off.into());
+    assert_eq!((invariants.energy.is_some(), invariants.carried), (true, 0.0));
     // Relative to the size of its terms and their uncertainty, which is some units.
-    assert!((0.125 / 8.0..0.125).contains(&vitals.residual), "{}", vitals.residual);
-    assert!(carried.vitals(0.0, &lifted.into()).residual < 1e-15);
+    assert!((0.125 / 8.0..0.125).contains(&invariants.residual), "{}", invariants.residual);
+    assert!(carried.conserved(0.0, &lifted.into()).residual < 1e-15);
     assert_eq!(carried.energy(0.0, &lifted.into()), prepared.energy(0.0, &start));
     let end = Dop853::new(1e-11, 1e-11).integrate(&carried, 0.0, &lifted.into(), 1.0, go_on).unwrap().state;
     let full = Dop853::new(1e-11, 1e-11).integrate(&prepared, 0.0, &start.into(), 1.0, go_on).unwrap().state;

@@ -1,7 +1,7 @@
 //! The hoop of the paper with its sines and cosines as states, against the reference in 25 digits.
 
 use guen::prelude::*;
-use guen::{Carrying, Cost, rejoined};
+use guen::{AuxiliaryStates, Cost, renormalized};
 
 use guen_study::Digits71;
 
@@ -88,8 +88,8 @@ fn every_stepper_takes_it() {
         ("Radau5", Radau5::new(1e-9, 1e-9).integrate(&carried, 0.0, &start, t, go_on).unwrap().state, 1e-7),
         ("Euler", Euler { step: 1e-5 }.integrate(&carried, 0.0, &start, t, go_on).unwrap().state, 1e-2),
         (
-            "Rejoined",
-            Rk8::new(1e-2).integrate(&rejoined(carried), 0.0, &start, t, go_on).unwrap().state,
+            "Renormalized",
+            Rk8::new(1e-2).integrate(&renormalized(carried), 0.0, &start, t, go_on).unwrap().state,
             1e-10,
         ),
     ];
@@ -158,9 +158,9 @@ fn a_guard_sees_a_state_that_is_none() {
     }
 }
 
-/// What a step leaves of the circle is its square after rejoining, and the drift of the phase stays.
+/// What a step leaves of the circle is its square after renormalizing, and the drift of the phase stays.
 #[test]
-fn rejoining_keeps_the_circle() {
+fn renormalizing_keeps_the_circle() {
     let carried = prepared::<f64>().carried().unwrap();
     let start = hoop::State::from(reference()[0].1).carried(&carried, 0.0).into();
     let method = Rk4 { step: 0.02 };
@@ -169,10 +169,10 @@ fn rejoining_keeps_the_circle() {
         left.iter().fold(0.0_f64, |most, left| most.max(left.abs()))
     };
     let free = left(method.integrate(&carried, 0.0, &start, 10.0, go_on).unwrap().state);
-    let held = left(method.integrate(&rejoined(carried), 0.0, &start, 10.0, go_on).unwrap().state);
+    let held = left(method.integrate(&renormalized(carried), 0.0, &start, 10.0, go_on).unwrap().state);
     assert!(free > 1e-6 && held < 1e-14, "{free:e} and {held:e}");
     let mut state: [f64; 13] = start;
     state[9] *= 1.0 + 1e-6;
-    carried.rejoin(0.0, &mut state);
+    carried.renormalize(0.0, &mut state);
     assert!(left(state) < 1e-11);
 }

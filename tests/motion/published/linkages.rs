@@ -20,7 +20,7 @@ guen::mechanical_system! {
         let c = vec(0.014, 0.072);
         let crank = rot_z(beta);
         let rod = rot_z(beta + theta);
-        let lever = rot_z(gamma);
+        let variant = rot_z(gamma);
         let upper = rot_z(phi + delta);
         let upper_arm = rot_z(delta);
         let lower = rot_z(omega + epsilon);
@@ -29,11 +29,11 @@ guen::mechanical_system! {
         let pin = knee - rod*vec(0.028, 0);
         let elbow = a + upper_arm*vec(0.04, 0);
         let heel = a - lower_arm*vec(0, 0.04);
-        let spring = b + lever*vec(0.02, -0.018) - c;
+        let spring = b + variant*vec(0.02, -0.018) - c;
         bodies {
             k1 { mass: 0.04325, inertia: diag(0, 0, 2.194e-6), center: crank*vec(0.00092, 0), orientation: crank }
             k2 { mass: 0.00365, inertia: diag(0, 0, 4.41e-7), center: knee - rod*vec(0.0115, 0), orientation: rod }
-            k3 { mass: 0.02373, inertia: diag(0, 0, 5.255e-6), center: b + lever*vec(0.01043, -0.01874), orientation: lever }
+            k3 { mass: 0.02373, inertia: diag(0, 0, 5.255e-6), center: b + variant*vec(0.01043, -0.01874), orientation: variant }
             k4 { mass: 0.00706, inertia: diag(0, 0, 5.667e-7), center: elbow - upper*vec(0, 0.00579), orientation: upper }
             k5 { mass: 0.0705, inertia: diag(0, 0, 1.169e-5), center: a + upper_arm*vec(0.02308, 0.00916), orientation: upper_arm }
             k6 { mass: 0.00706, inertia: diag(0, 0, 5.667e-7), center: heel + lower*vec(0.00579, 0), orientation: lower }
@@ -43,7 +43,7 @@ guen::mechanical_system! {
         parameters { speed = dot(beta); }
         forces { mom along speed; }
         holonomic {
-            with_lever: pin = b - lever*vec(0, 0.035);
+            with_lever: pin = b - variant*vec(0, 0.035);
             with_upper: pin = elbow - upper*vec(0, 0.02);
             with_lower: pin = heel + lower*vec(0.02, 0);
         }

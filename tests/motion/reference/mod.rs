@@ -106,8 +106,10 @@ fn sampled<S, M, const N: usize>(
     let name = std::any::type_name::<M>().rsplit("::").next().unwrap();
     if let Err(error) = result {
         // A fixed step may be too long for a case, and then says so; an adaptive one has no excuse.
-        let too_long =
-            matches!(error.cause, Cause::Energy { .. } | Cause::Step { .. } | Cause::Approach { .. });
+        let too_long = matches!(
+            error.cause,
+            Cause::Energy { .. } | Cause::Step { .. } | Cause::ApproachingSingularity { .. }
+        );
         assert!(too_long && error.statistics.rejected == 0, "{error}");
         assert!(worst <= allowed, "{}: {name}, until it was stopped", case.label);
         assert!(["Rk8", "Gauss6"].contains(&name), "{name}: {error}");

@@ -133,7 +133,7 @@ fn errors_fall_as_the_power_of_the_step() {
         let digits = 0.8 * f64::from(order);
         let (coarse, fine) =
             (run(10f64.powf(-digits), order), run(10f64.powf(-digits - 0.5 * f64::from(order)), order));
-        let error = |done: &Done<Digits71, 9>| {
+        let error = |done: &IntegrationResult<Digits71, 9>| {
             done.state.iter().zip(&exact).map(|(a, b)| (*a - *b).abs().to_f64()).fold(0.0, f64::max)
         };
         let steps = fine.statistics.accepted as f64 / coarse.statistics.accepted as f64;

@@ -87,7 +87,7 @@ fn programs(model: &mut Model<'_>, forms: &[Vec<ExprId>], carried: Option<&Carri
         let of =
             |what: fn(&CarriedFunction) -> ExprId| carried.functions.iter().map(what).collect::<Vec<_>>();
         builder.add_cold(function::CARRY, &of(|function| function.value));
-        builder.add_cold(function::REJOINED, &of(|function| function.rejoined));
+        builder.add_cold(function::RENORMALIZED, &of(|function| function.rejoined));
         builder.add_cold(function::INVARIANTS, &carried.invariants);
         builder.add_cold(function::DOMAIN, &carried.edges);
     }

@@ -222,7 +222,8 @@ fn systems(
     looks: Looks,
 ) -> TokenStream {
     let (size, count, variables) = (layout.size, layout.inputs, base.size);
-    let rejoined = subject.level.program(function::REJOINED).map_or(0, |program| program.outputs.len());
+    let renormalized =
+        subject.level.program(function::RENORMALIZED).map_or(0, |program| program.outputs.len());
     let kept = (invariants > 0).then(|| {
         quote! {
             let broken = __guen::largest(&program::invariants(&prepared.constants, &prepared.hoisted, t, state));
@@ -283,12 +284,12 @@ fn systems(
             }
         }
     });
-    let rejoin = (rejoined > 0).then(|| {
+    let renormalize = (renormalized > 0).then(|| {
         quote! {
-            impl<R: __guen::Real> __guen::Carrying<R, #size> for #owner {
-                fn rejoin(&self, t: R, state: &mut [R; #size]) {
+            impl<R: __guen::Real> __guen::AuxiliaryStates<R, #size> for #owner {
+                fn renormalize(&self, t: R, state: &mut [R; #size]) {
                     let prepared = &#prepared;
-                    let values = program::rejoined(&prepared.constants, &prepared.hoisted, t, state);
+                    let values = program::renormalized(&prepared.constants, &prepared.hoisted, t, state);
                     state[#variables..].copy_from_slice(&values);
                 }
             }
@@ -306,26 +307,25 @@ fn systems(
                 program::rhs(&#prepared.constants, &#prepared.hoisted, t, state, #held)
             }
 
-            fn vitals(&self, t: R, state: &[R; #size]) -> __guen::Vitals<R> {
+            fn conserved(&self, t: R, state: &[R; #size]) -> __guen::Invariants<R> {
                 <R as __guen::Real>::vectorize(#[inline(always)] || {
                     let prepared = &#prepared;
                     let values = program::carry(&prepared.constants, &prepared.hoisted, t, state);
                     let drift = __guen::drift(&values, &state[#variables..]);
                     #kept
-                    let below = __guen::System::vitals(&#below, t, &Prepared::variables(state));
-                    __guen::Vitals { carried: drift, ..below }
+                    let below = __guen::System::conserved(&#below, t, &Prepared::variables(state));
+                    __guen::Invariants { carried: drift, ..below }
                 })
             }
 
             #[inline]
-            fn edges(
-                &self, t: __guen::Rounded<R>, state: &[__guen::Rounded<R>; #size], values: &mut [__guen::Rounded<R>],
+            fn singularities(&self, t: __guen::RunningError<R>, state: &[__guen::RunningError<R>; #size], values: &mut [__guen::RunningError<R>],
             ) -> usize {
                 let prepared = &#prepared;
                 let _ = &prepared;
-                let variables = Prepared::<__guen::Rounded<R>>::variables(state);
+                let variables = Prepared::<__guen::RunningError<R>>::variables(state);
                 #[allow(unused_mut, reason = "there may be no further edges")]
-                let mut written = __guen::System::edges(&#below, t, &variables, values);
+                let mut written = __guen::System::singularities(&#below, t, &variables, values);
                 #further
                 written
             }
@@ -338,7 +338,7 @@ fn systems(
         }
         #differentiable
         #monitored
-        #rejoin
+        #renormalize
         #lanes
     }
 }

@@ -90,7 +90,7 @@ pub(super) fn signature(name: &str) -> Signature {
         | function::DETERMINED
         | function::CARRY
         | function::INVARIANTS
-        | function::REJOINED => Signature::State,
+        | function::RENORMALIZED => Signature::State,
         function::OPERATORS | function::BRACKETS => Signature::Everywhere,
         _ => Signature::Position,
     }

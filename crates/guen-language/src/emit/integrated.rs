@@ -7,7 +7,7 @@ use quote::quote;
 use super::{Layout, Subject};
 use crate::derive::function;
 
-/// The methods `vitals`, `edges` and `condition` of the trait `System`, as far as the level has what they look at. `prepared` is the
+/// The methods `conserved`, `singularities` and `condition` of the trait `System`, as far as the level has what they look at. `prepared` is the
 /// prepared system.
 pub(super) fn guarded(subject: &Subject<'_, '_>, layout: &Layout, prepared: &TokenStream) -> TokenStream {
     let level = subject.level;
@@ -35,8 +35,8 @@ pub(super) fn guarded(subject: &Subject<'_, '_>, layout: &Layout, prepared: &Tok
         let positions = rounded(
             &quote!(positions),
             prepared,
-            &quote!(__guen::Rounded::once(t)),
-            &quote!(&x.map(__guen::Rounded::once)),
+            &quote!(__guen::RunningError::once(t)),
+            &quote!(&x.map(__guen::RunningError::once)),
         );
         quote!(__guen::furthest(&#positions))
     };
@@ -45,8 +45,7 @@ pub(super) fn guarded(subject: &Subject<'_, '_>, layout: &Layout, prepared: &Tok
         let domain = rounded(&quote!(domain), prepared, &quote!(t), &quote!(state));
         quote! {
             #[inline]
-            fn edges(
-                &self, t: __guen::Rounded<R>, state: &[__guen::Rounded<R>; #size], values: &mut [__guen::Rounded<R>],
+            fn singularities(&self, t: __guen::RunningError<R>, state: &[__guen::RunningError<R>; #size], values: &mut [__guen::RunningError<R>],
             ) -> usize {
                 __guen::placed(values, &#domain, #count)
             }
@@ -66,12 +65,12 @@ pub(super) fn guarded(subject: &Subject<'_, '_>, layout: &Layout, prepared: &Tok
     });
     let prices = prices(subject, layout, &Looks::of(subject, layout));
     quote! {
-        fn vitals(&self, t: R, state: &[R; #size]) -> __guen::Vitals<R> {
+        fn conserved(&self, t: R, state: &[R; #size]) -> __guen::Invariants<R> {
             <R as __guen::Real>::vectorize(#[inline(always)] || {
                 let x: [R; #n] = [#(state[#positions]),*];
                 let _ = (t, &x);
                 #measured
-                __guen::Vitals {
+                __guen::Invariants {
                     energy: #energy, scale: #scale, residual: #residual, carried: R::zero(),
                 }
             })
@@ -87,9 +86,9 @@ pub(super) fn guarded(subject: &Subject<'_, '_>, layout: &Layout, prepared: &Tok
 /// The operations of looks: an estimate from the counts of their programs.
 #[derive(Clone, Copy)]
 pub(super) struct Looks {
-    /// Of `vitals`, `edges` and `condition` together.
+    /// Of `conserved`, `singularities` and `condition` together.
     pub(super) all: u64,
-    /// Of `edges` alone.
+    /// Of `singularities` alone.
     pub(super) edges: u64,
 }
 
@@ -139,7 +138,7 @@ impl Looks {
     }
 }
 
-/// The methods `cost_of_look` and `cost_of_edges`: operations of looks in right-hand sides with what a stepper does for each.
+/// The methods `check_cost` and `singularity_check_cost`: operations of looks in right-hand sides with what a stepper does for each.
 pub(super) fn prices(subject: &Subject<'_, '_>, layout: &Layout, looks: &Looks) -> TokenStream {
     /// Of a sum over stages, for each entry of the state.
     const STAGE: u64 = 4;
@@ -155,13 +154,13 @@ pub(super) fn prices(subject: &Subject<'_, '_>, layout: &Layout, looks: &Looks) 
         // In hundredths, which are enough and read well.
         let price = ((looks.edges + BESIDES_EDGES) * 100).div_ceil(one) as f64 / 100.0;
         quote! {
-            fn cost_of_edges(&self) -> f64 {
+            fn singularity_check_cost(&self) -> f64 {
                 #price
             }
         }
     });
     quote! {
-        fn cost_of_look(&self) -> u32 {
+        fn check_cost(&self) -> u32 {
             #look
         }
 

@@ -173,14 +173,14 @@ fn domain(subject: &Subject<'_, '_>) -> TokenStream {
     });
     let distances = match subject.level.program(function::DOMAIN) {
         Some(_) => {
-            let state = quote!(&<[R; #size]>::from(*state).map(__guen::Rounded::once));
+            let state = quote!(&<[R; #size]>::from(*state).map(__guen::RunningError::once));
             let domain = integrated::rounded(
                 &quote!(domain),
                 &quote!(self),
-                &quote!(__guen::Rounded::once(t)),
+                &quote!(__guen::RunningError::once(t)),
                 &state,
             );
-            quote!(#domain.map(__guen::Rounded::left))
+            quote!(#domain.map(__guen::RunningError::left))
         }
         None => quote!([]),
     };
@@ -201,7 +201,7 @@ fn domain(subject: &Subject<'_, '_>) -> TokenStream {
 
         /// How far the state is from the edge of the chart: of each function of [`DOMAIN`] what is left of it, from one
         /// where it is as certain as what it is made of to zero where it vanishes. Times and states count as rounded
-        /// once; so do the constants. See [`Rounded`](__guen::Rounded).
+        /// once; so do the constants. See [`RunningError`](__guen::RunningError).
         pub fn distances(&self, #inputs) -> [R; #count] {
             #distances
         }

@@ -140,9 +140,9 @@ fn check(text: &str, derived: &Derived<'_>, draw: &mut Sequence) {
     }
     let invariants = |w: &[f64]| values(derived, carried, function::INVARIANTS, &with(t, &x, w));
     close(&invariants(&w), &vec![0.0; invariants(&w).len()], 1e-13, text);
-    // A small fault is seen, and rejoining leaves its square of it.
+    // A small fault is seen, and renormalizing leaves its square of it.
     let off: Vec<f64> = w.iter().map(|w| w * (1.0 + 1e-4)).collect();
-    let again = values(derived, carried, function::REJOINED, &with(t, &x, &off));
+    let again = values(derived, carried, function::RENORMALIZED, &with(t, &x, &off));
     for (before, after) in invariants(&off).iter().zip(invariants(&again)) {
         assert!(before.abs() > 1e-5 && after.abs() < 2e-3 * before.abs(), "{text}: {before} became {after}");
     }

@@ -85,8 +85,8 @@ fn arguments() -> Result<Option<Arguments>, String> {
 fn measure(problem: &Problem, arguments: &Arguments, missed: &mut Vec<String>) -> Findings {
     let (mut choices, mut runs) = (Vec::new(), Vec::new());
     for candidate in &problem.candidates {
-        let (method, lever) = (candidate.method, candidate.lever);
-        let mut search = Search::new(lever, &candidate.judge);
+        let (method, knob) = (candidate.method, candidate.knob);
+        let mut search = Search::new(knob, &candidate.judge);
         let found = search.cheapest(ACCURACIES, candidate.most);
         for (accuracy, setting) in found.into_iter().enumerate() {
             let limit = ACCURACIES[accuracy];
@@ -100,14 +100,14 @@ fn measure(problem: &Problem, arguments: &Arguments, missed: &mut Vec<String>) -
                 }
                 continue;
             };
-            let value = lever.value(setting, problem.span);
+            let value = knob.value(setting, problem.span);
             choices.push(Choice { method, accuracy, value, evaluations: run.evaluations, error: run.error });
             runs.push((candidate.made)(setting));
         }
         if arguments.settings {
             let tried = search
                 .tried()
-                .map(|(setting, run)| (lever.value(setting, problem.span), run.evaluations, run.error));
+                .map(|(setting, run)| (knob.value(setting, problem.span), run.evaluations, run.error));
             tables::print_tried(problem, method, tried);
         }
     }

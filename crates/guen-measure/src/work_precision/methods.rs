@@ -4,11 +4,11 @@ use std::hint::black_box;
 use std::rc::Rc;
 
 use guen::prelude::*;
-use guen::steppers::{Done, Method};
+use guen::steppers::{IntegrationResult, Method};
 use guen::{Differentiable, Fused, TaylorSeries};
 
 use super::references::Case;
-use super::search::{Lever, Run};
+use super::search::{Knob, Run};
 
 /// What is compared, in the order of the tables: with an apostrophe on the carried form, with two on that form in `Fused`. Methods
 /// that solve equations with a Jacobian are not run there: it comes from dual numbers on a carried form, and is larger.
@@ -32,7 +32,7 @@ pub fn reach(method: &str) -> f64 {
 /// One method on one form of a system.
 pub struct Candidate {
     pub method: &'static str,
-    pub lever: Lever,
+    pub knob: Knob,
     /// A setting that takes more evaluations than these is not tried.
     pub most: u64,
     /// A run with a setting, and what came of it; none if it failed.
@@ -56,7 +56,7 @@ where
     fn with<K>(
         &self,
         method: &'static str,
-        (lever, most): (Lever, u64),
+        (knob, most): (Knob, u64),
         make: impl Fn(f64) -> K + Copy + 'static,
     ) -> Candidate
     where
@@ -64,11 +64,11 @@ where
     {
         let (system, start, case) = (self.system.clone(), self.start, self.case.clone());
         let span = case.span;
-        let method_of = move |setting| make(lever.value(setting, span));
+        let method_of = move |setting| make(knob.value(setting, span));
         let (same_system, same_start) = (system.clone(), start);
         Candidate {
             method,
-            lever,
+            knob,
             most,
             judge: Box::new(move |setting| {
                 let done = run(&system, &start, span, &method_of(setting))?;
@@ -100,7 +100,12 @@ where
 
 /// What is timed: a run under the guards that are there by default.
 #[inline(never)]
-fn run<S, K, R, const M: usize>(system: &S, start: &[R; M], span: f64, method: &K) -> Option<Done<R, M>>
+fn run<S, K, R, const M: usize>(
+    system: &S,
+    start: &[R; M],
+    span: f64,
+    method: &K,
+) -> Option<IntegrationResult<R, M>>
 where
     S: System<R, M>,
     K: Method<R, S, M>,
@@ -110,9 +115,9 @@ where
 }
 
 // As many evaluations as take some 25 ms.
-const EXPLICIT: (Lever, u64) = (Lever::Steps, 1_000_000);
-const IMPLICIT: (Lever, u64) = (Lever::Steps, 100_000);
-const ADAPTIVE: (Lever, u64) = (Lever::Tolerance, 200_000);
+const EXPLICIT: (Knob, u64) = (Knob::Steps, 1_000_000);
+const IMPLICIT: (Knob, u64) = (Knob::Steps, 100_000);
+const ADAPTIVE: (Knob, u64) = (Knob::Tolerance, 200_000);
 
 /// All methods on a system, and the explicit ones on its carried form and on that in `Fused`.
 pub fn candidates<S, C, F, const M: usize, const N: usize>(

@@ -21,7 +21,7 @@ const PER_DECADE: f64 = 8.0;
 
 /// What a method is set by.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Lever {
+pub enum Knob {
     /// Equal steps, as many as the setting says.
     Steps,
     /// A tolerance, of so many eighths of a decade below one.
@@ -35,42 +35,42 @@ pub struct Run {
     pub error: f64,
 }
 
-impl Lever {
+impl Knob {
     /// The `j`-th of the finer settings that have to hold.
     fn finer(self, setting: u32, j: u32) -> u32 {
         match self {
-            Lever::Steps => (setting + j).max((f64::from(setting) * FINER.powi(j as i32)).ceil() as u32),
-            Lever::Tolerance => setting + j,
+            Knob::Steps => (setting + j).max((f64::from(setting) * FINER.powi(j as i32)).ceil() as u32),
+            Knob::Tolerance => setting + j,
         }
     }
 
     fn next(self, setting: u32) -> u32 {
         match self {
-            Lever::Steps => (setting + 1).max((f64::from(setting) * STRIDE) as u32),
-            Lever::Tolerance => setting + 1,
+            Knob::Steps => (setting + 1).max((f64::from(setting) * STRIDE) as u32),
+            Knob::Tolerance => setting + 1,
         }
     }
 
     /// The step or tolerance of a setting.
     pub fn value(self, setting: u32, span: f64) -> f64 {
         match self {
-            Lever::Steps => span / f64::from(setting),
-            Lever::Tolerance => 10.0_f64.powf(-f64::from(setting) / PER_DECADE),
+            Knob::Steps => span / f64::from(setting),
+            Knob::Tolerance => 10.0_f64.powf(-f64::from(setting) / PER_DECADE),
         }
     }
 }
 
 /// What was tried of one method.
 pub struct Search<F> {
-    lever: Lever,
+    knob: Knob,
     run: F,
     /// For each setting its run, if that did not fail.
     tried: BTreeMap<u32, Option<Run>>,
 }
 
 impl<F: Fn(u32) -> Option<Run>> Search<F> {
-    pub fn new(lever: Lever, run: F) -> Self {
-        Self { lever, run, tried: BTreeMap::new() }
+    pub fn new(knob: Knob, run: F) -> Self {
+        Self { knob, run, tried: BTreeMap::new() }
     }
 
     /// The settings that were tried and did not fail, from coarse to fine.
@@ -84,7 +84,7 @@ impl<F: Fn(u32) -> Option<Run>> Search<F> {
 
     fn holds(&mut self, setting: u32, accuracy: f64) -> bool {
         (0..=NEXT).all(|j| {
-            let finer = self.lever.finer(setting, j);
+            let finer = self.knob.finer(setting, j);
             self.at(finer).is_some_and(|run| run.error <= accuracy)
         })
     }
@@ -100,9 +100,9 @@ impl<F: Fn(u32) -> Option<Run>> Search<F> {
         for (place, accuracy) in found.iter_mut().zip(accuracies) {
             let mut below = setting;
             while !self.holds(setting, accuracy) {
-                (below, setting) = (setting, self.lever.next(setting));
+                (below, setting) = (setting, self.knob.next(setting));
                 let dear = self.at(setting).is_some_and(|run| run.evaluations > most);
-                if dear || self.lever == Lever::Tolerance && setting > FINEST {
+                if dear || self.knob == Knob::Tolerance && setting > FINEST {
                     return found;
                 }
             }

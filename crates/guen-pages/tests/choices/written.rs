@@ -71,10 +71,10 @@ pub fn bounded_tsit5(system: &Pendulum, start: [f64; 2]) -> End<2> {
     Ok(end)
 }
 
-pub fn rk4_in_digits13(system: &Pendulum, start: [f64; 2]) -> End<2> {
+pub fn rk4_in_approx13(system: &Pendulum, start: [f64; 2]) -> End<2> {
     use guen::{Recast, prelude::*};
-    use guen::Digits13;
-    type R = Digits13;
+    use guen::Approx13;
+    type R = Approx13;
     let system = system.recast::<R>()?;
     let method = Rk4 { step: R::from_f64(0.125) };
     let go_on = |_, _: &_| ControlFlow::Continue(());
@@ -83,10 +83,10 @@ pub fn rk4_in_digits13(system: &Pendulum, start: [f64; 2]) -> End<2> {
     Ok(end)
 }
 
-pub fn rk8_in_digits13(system: &Pendulum, start: [f64; 2]) -> End<2> {
+pub fn rk8_in_approx13(system: &Pendulum, start: [f64; 2]) -> End<2> {
     use guen::{Recast, prelude::*};
-    use guen::Digits13;
-    type R = Digits13;
+    use guen::Approx13;
+    type R = Approx13;
     let system = system.recast::<R>()?;
     let method = Rk8::new(R::from_f64(0.125));
     let go_on = |_, _: &_| ControlFlow::Continue(());
@@ -95,10 +95,10 @@ pub fn rk8_in_digits13(system: &Pendulum, start: [f64; 2]) -> End<2> {
     Ok(end)
 }
 
-pub fn tsit5_in_digits13(system: &Pendulum, start: [f64; 2]) -> End<2> {
+pub fn tsit5_in_approx13(system: &Pendulum, start: [f64; 2]) -> End<2> {
     use guen::{Recast, prelude::*};
-    use guen::Digits13;
-    type R = Digits13;
+    use guen::Approx13;
+    type R = Approx13;
     let system = system.recast::<R>()?;
     let method = Tsit5::new(0.001, 0.001);
     let go_on = |_, _: &_| ControlFlow::Continue(());
@@ -107,10 +107,10 @@ pub fn tsit5_in_digits13(system: &Pendulum, start: [f64; 2]) -> End<2> {
     Ok(end)
 }
 
-pub fn dop853_in_digits13(system: &Pendulum, start: [f64; 2]) -> End<2> {
+pub fn dop853_in_approx13(system: &Pendulum, start: [f64; 2]) -> End<2> {
     use guen::{Recast, prelude::*};
-    use guen::Digits13;
-    type R = Digits13;
+    use guen::Approx13;
+    type R = Approx13;
     let system = system.recast::<R>()?;
     let method = Dop853::new(0.01, 0.01);
     let go_on = |_, _: &_| ControlFlow::Continue(());
@@ -119,10 +119,10 @@ pub fn dop853_in_digits13(system: &Pendulum, start: [f64; 2]) -> End<2> {
     Ok(end)
 }
 
-pub fn rk4_in_digits7(system: &Pendulum, start: [f64; 2]) -> End<2> {
+pub fn rk4_in_approx7(system: &Pendulum, start: [f64; 2]) -> End<2> {
     use guen::{Recast, prelude::*};
-    use guen::Digits7;
-    type R = Digits7;
+    use guen::Approx7;
+    type R = Approx7;
     let system = system.recast::<R>()?;
     let method = Rk4 { step: R::from_f64(0.125) };
     let go_on = |_, _: &_| ControlFlow::Continue(());
@@ -131,10 +131,10 @@ pub fn rk4_in_digits7(system: &Pendulum, start: [f64; 2]) -> End<2> {
     Ok(end)
 }
 
-pub fn rk8_in_digits7(system: &Pendulum, start: [f64; 2]) -> End<2> {
+pub fn rk8_in_approx7(system: &Pendulum, start: [f64; 2]) -> End<2> {
     use guen::{Recast, prelude::*};
-    use guen::Digits7;
-    type R = Digits7;
+    use guen::Approx7;
+    type R = Approx7;
     let system = system.recast::<R>()?;
     let method = Rk8::new(R::from_f64(0.125));
     let go_on = |_, _: &_| ControlFlow::Continue(());
@@ -143,10 +143,10 @@ pub fn rk8_in_digits7(system: &Pendulum, start: [f64; 2]) -> End<2> {
     Ok(end)
 }
 
-pub fn tsit5_in_digits7(system: &Pendulum, start: [f64; 2]) -> End<2> {
+pub fn tsit5_in_approx7(system: &Pendulum, start: [f64; 2]) -> End<2> {
     use guen::{Recast, prelude::*};
-    use guen::Digits7;
-    type R = Digits7;
+    use guen::Approx7;
+    type R = Approx7;
     let system = system.recast::<R>()?;
     let method = Tsit5::new(0.001, 0.001);
     let go_on = |_, _: &_| ControlFlow::Continue(());
@@ -155,10 +155,10 @@ pub fn tsit5_in_digits7(system: &Pendulum, start: [f64; 2]) -> End<2> {
     Ok(end)
 }
 
-pub fn dop853_in_digits7(system: &Pendulum, start: [f64; 2]) -> End<2> {
+pub fn dop853_in_approx7(system: &Pendulum, start: [f64; 2]) -> End<2> {
     use guen::{Recast, prelude::*};
-    use guen::Digits7;
-    type R = Digits7;
+    use guen::Approx7;
+    type R = Approx7;
     let system = system.recast::<R>()?;
     let method = Dop853::new(0.01, 0.01);
     let go_on = |_, _: &_| ControlFlow::Continue(());
@@ -359,18 +359,18 @@ pub fn rk8_in_f64_lanes(system: &Pendulum, starts: Vec<[f64; 2]>) -> Ends {
     ends.into_iter().map(|end| Ok(end?.state)).collect()
 }
 
-pub fn rk4_in_digits7_lanes(system: &Pendulum, starts: Vec<[f64; 2]>) -> Ends {
+pub fn rk4_in_approx7_lanes(system: &Pendulum, starts: Vec<[f64; 2]>) -> Ends {
     use guen::{Recast, prelude::*, study::Ensemble};
     let system = system.recast::<f64>()?;
-    let ensemble = Ensemble::of_states(system, starts).with_choice::<guen::Digits7Functions>();
+    let ensemble = Ensemble::of_states(system, starts).with_scalar::<guen::Approx7Functions>();
     let ends = ensemble.integrate(&Rk4 { step: 0.125 }, 0.0, 1.0);
     ends.into_iter().map(|end| Ok(end?.state)).collect()
 }
 
-pub fn rk8_in_digits7_lanes(system: &Pendulum, starts: Vec<[f64; 2]>) -> Ends {
+pub fn rk8_in_approx7_lanes(system: &Pendulum, starts: Vec<[f64; 2]>) -> Ends {
     use guen::{Recast, prelude::*, study::Ensemble};
     let system = system.recast::<f64>()?;
-    let ensemble = Ensemble::of_states(system, starts).with_choice::<guen::Digits7Functions>();
+    let ensemble = Ensemble::of_states(system, starts).with_scalar::<guen::Approx7Functions>();
     let ends = ensemble.integrate(&Rk8::new(0.125), 0.0, 1.0);
     ends.into_iter().map(|end| Ok(end?.state)).collect()
 }
@@ -441,14 +441,14 @@ pub const DECLARED: &[(&str, fn(&Pendulum, [f64; 2]) -> End<2>)] = &[
     ("euler", euler),
     ("bounded_dop853", bounded_dop853),
     ("bounded_tsit5", bounded_tsit5),
-    ("rk4_in_digits13", rk4_in_digits13),
-    ("rk8_in_digits13", rk8_in_digits13),
-    ("tsit5_in_digits13", tsit5_in_digits13),
-    ("dop853_in_digits13", dop853_in_digits13),
-    ("rk4_in_digits7", rk4_in_digits7),
-    ("rk8_in_digits7", rk8_in_digits7),
-    ("tsit5_in_digits7", tsit5_in_digits7),
-    ("dop853_in_digits7", dop853_in_digits7),
+    ("rk4_in_approx13", rk4_in_approx13),
+    ("rk8_in_approx13", rk8_in_approx13),
+    ("tsit5_in_approx13", tsit5_in_approx13),
+    ("dop853_in_approx13", dop853_in_approx13),
+    ("rk4_in_approx7", rk4_in_approx7),
+    ("rk8_in_approx7", rk8_in_approx7),
+    ("tsit5_in_approx7", tsit5_in_approx7),
+    ("dop853_in_approx7", dop853_in_approx7),
     ("rk4_in_fused", rk4_in_fused),
     ("rk8_in_fused", rk8_in_fused),
     ("tsit5_in_fused", tsit5_in_fused),
@@ -480,6 +480,6 @@ pub const GIVEN: &[(&str, fn(&pendulum::Carried<f64>, [f64; 4]) -> End<4>)] = &[
 pub const LANES: &[(&str, fn(&Pendulum, Vec<[f64; 2]>) -> Ends)] = &[
     ("rk4_in_f64_lanes", rk4_in_f64_lanes),
     ("rk8_in_f64_lanes", rk8_in_f64_lanes),
-    ("rk4_in_digits7_lanes", rk4_in_digits7_lanes),
-    ("rk8_in_digits7_lanes", rk8_in_digits7_lanes),
+    ("rk4_in_approx7_lanes", rk4_in_approx7_lanes),
+    ("rk8_in_approx7_lanes", rk8_in_approx7_lanes),
 ];

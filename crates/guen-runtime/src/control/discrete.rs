@@ -39,10 +39,10 @@ impl Error for DiscreteError {}
 /// s(h) = s_0 + offset + Phi (s - s_0) + Gamma (u - u_0)
 /// ```
 ///
-/// with `r` the rates at `s_0, u_0`. It is the solution of the *linear* model: it differs from the [`Flow`] by what the
+/// with `r` the rates at `s_0, u_0`. It is the solution of the *linear* model: it differs from the [`FlowMap`] by what the
 /// derivatives change along the period, of second order in `h` away from equilibria.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Frozen<R, const N: usize, const M: usize> {
+pub struct ZeroOrderHold<R, const N: usize, const M: usize> {
     /// `Phi`, `N` by `N`.
     pub phi: [[R; N]; N],
     /// `Gamma`, `N` by `M`.
@@ -51,17 +51,17 @@ pub struct Frozen<R, const N: usize, const M: usize> {
     pub offset: [R; N],
 }
 
-impl<R: Ordered, const N: usize, const M: usize> Frozen<R, N, M> {
+impl<R: Ordered, const N: usize, const M: usize> ZeroOrderHold<R, N, M> {
     /// The discrete pair of a linear model with the rates at its point.
     ///
     /// `Psi` is summed as a series over `h 2^-k`, with `k` such that `norm(A) h 2^-k` is at most a half, and doubled by
     /// `Psi(2h) = Psi + Phi Psi`. About `25 + 2 k` products of matrices, no allocation.
     ///
     /// ```
-    /// use guen_runtime::{Linearization, control::Frozen};
+    /// use guen_runtime::{Linearization, control::ZeroOrderHold};
     /// // A mass under a force: h^2/2 and h.
     /// let mass = Linearization { a: [[0.0, 1.0], [0.0, 0.0]], b: [[0.0], [1.0]] };
-    /// let pair = Frozen::new(&mass, &[3.0, 0.0], 0.5).unwrap();
+    /// let pair = ZeroOrderHold::new(&mass, &[3.0, 0.0], 0.5).unwrap();
     /// assert_eq!((pair.phi, pair.gamma), ([[1.0, 0.5], [0.0, 1.0]], [[0.125], [0.5]]));
     /// assert_eq!(pair.offset, [1.5, 0.0]);
     /// ```
@@ -122,7 +122,7 @@ impl<R: Ordered, const N: usize, const M: usize> Frozen<R, N, M> {
         let offset: [R; N] = core::array::from_fn(|i| super::dense::dot(&psi[i], rates));
         let all = phi.iter().flatten().chain(gamma.iter().flatten()).chain(&offset);
         if all.copied().all(Real::is_finite) {
-            Ok(Frozen { phi, gamma, offset })
+            Ok(ZeroOrderHold { phi, gamma, offset })
         } else {
             Err(DiscreteError::NotFinite)
         }
@@ -135,7 +135,7 @@ impl<R: Ordered, const N: usize, const M: usize> Frozen<R, N, M> {
 /// next = phi_h(s, u)      Phi = d next / d s      Gamma = d next / d u
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Flow<R, const N: usize, const M: usize> {
+pub struct FlowMap<R, const N: usize, const M: usize> {
     /// The state after the period.
     pub next: [R; N],
     /// `Phi`, `N` by `N`.
@@ -144,7 +144,7 @@ pub struct Flow<R, const N: usize, const M: usize> {
     pub gamma: [[R; M]; N],
 }
 
-impl<R: Ordered, const N: usize, const M: usize> Flow<R, N, M>
+impl<R: Ordered, const N: usize, const M: usize> FlowMap<R, N, M>
 where
     Dual<R, N>: Lift<R>,
     Dual<R, M>: Lift<R>,
@@ -153,7 +153,7 @@ where
     /// numbers. `next` has the bits of the same steps without duals.
     ///
     /// ```
-    /// use guen_runtime::{Lift, Liftable, Real, control::Flow};
+    /// use guen_runtime::{Lift, Liftable, Real, control::FlowMap};
     ///
     /// /// `x' = -x^2 + u`.
     /// struct Decay;
@@ -163,7 +163,7 @@ where
     ///     }
     /// }
     /// // x(t) = 1/(1 + t) from 1, so that dx(1)/dx(0) = 1/4.
-    /// let flow = Flow::new(&Decay, 0.0, &[1.0], &[0.0], 1.0, 100).unwrap();
+    /// let flow = FlowMap::new(&Decay, 0.0, &[1.0], &[0.0], 1.0, 100).unwrap();
     /// assert!((flow.next[0] - 0.5).abs() < 1e-9 && (flow.phi[0][0] - 0.25).abs() < 1e-9);
     /// ```
     ///
@@ -184,7 +184,7 @@ where
         let held = inputs.map(Dual::constant);
         let by_state = run(system, t, seeded(state), held, period, steps);
         let by_input = run(system, t, state.map(Dual::constant), seeded(inputs), period, steps);
-        let flow = Flow {
+        let flow = FlowMap {
             next: by_state.map(|x| x.value),
             phi: by_state.map(|x| x.tangent),
             gamma: by_input.map(|x| x.tangent),

@@ -8,7 +8,7 @@
 //! | --- | --- |
 //! | where does it rest, or turn steadily? | [`steady`] |
 //! | how does it deviate, on its leaf? | [`Leaf::reduce`], [`Reduced`] |
-//! | what happens over one period? | [`Frozen`], [`Flow`] |
+//! | what happens over one period? | [`ZeroOrderHold`], [`FlowMap`] |
 //! | what can the inputs reach? | [`controllability`] |
 //! | which inputs give these accelerations? | [`MassForm`], [`inverse_dynamics`], [`affine_inverse_dynamics`] |
 
@@ -21,7 +21,7 @@ mod steady;
 
 pub use controllability::{Controllability, Uncontrollable, controllability};
 pub use dense::solve;
-pub use discrete::{DiscreteError, Flow, Frozen};
+pub use discrete::{DiscreteError, FlowMap, ZeroOrderHold};
 pub use inverse::{
     InverseDynamicsError, MassForm, affine_inverse_dynamics, inverse_dynamics, inverse_dynamics_from,
 };

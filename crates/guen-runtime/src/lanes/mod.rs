@@ -74,10 +74,10 @@ pub trait Lanes: Real + Lift<f64> + Lift<Self> {
     /// The lanes whose number is neither infinite nor NaN.
     fn finite(self) -> Mask;
 
-    /// Sine and cosine with an absolute error below 1e-13: [`Digits13`](crate::Digits13) calls it.
+    /// Sine and cosine with an absolute error below 1e-13: [`Approx13`](crate::Approx13) calls it.
     fn sin_cos_13(self) -> (Self, Self);
 
-    /// Sine and cosine with an absolute error below 4e-8: [`Digits7`](crate::Digits7) calls it.
+    /// Sine and cosine with an absolute error below 4e-8: [`Approx7`](crate::Approx7) calls it.
     fn sin_cos_7(self) -> (Self, Self);
 
     /// `self * b + c`, rounded once, by whatever means: [`Fused`](crate::Fused) calls it.

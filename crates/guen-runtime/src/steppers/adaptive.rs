@@ -1,9 +1,9 @@
 //! The loop around an explicit formula with an error estimate: trial steps until one is good enough.
 
 use super::control::{self, Control, Margin, Tolerance};
-use super::course::{Course, Reached};
 use super::dense::Dense;
 use super::entries;
+use super::run::{Checkpoint, StepperRun};
 use super::{all_finite, shifted};
 use crate::error::{Cause, Setting};
 use crate::real::{Ordered, Real};
@@ -54,8 +54,8 @@ pub struct Attempt<R: Real, P: Pair<R, N> + ?Sized, const N: usize> {
 
 /// A step that was accepted.
 pub struct Step<'a, R, K, const N: usize> {
-    pub from: &'a Reached<R, N>,
-    pub to: &'a Reached<R, N>,
+    pub from: &'a Checkpoint<R, N>,
+    pub to: &'a Checkpoint<R, N>,
     pub stages: &'a K,
     pub end: &'a [R; N],
     pub h: R,
@@ -68,8 +68,8 @@ pub struct Adaptive<'a, P, K, R, const N: usize> {
     settings: Settings,
     /// When the run began.
     origin: R,
-    reached: Reached<R, N>,
-    before: Reached<R, N>,
+    reached: Checkpoint<R, N>,
+    before: Checkpoint<R, N>,
     /// What the next step starts with; absent before the first.
     ready: Option<Ready<R, N>>,
     stages: Option<K>,
@@ -89,7 +89,7 @@ where
     P: Pair<R, N>,
     R: Ordered,
 {
-    pub(super) fn new(pair: &'a P, settings: Settings, start: &Reached<R, N>) -> Self {
+    pub(super) fn new(pair: &'a P, settings: Settings, start: &Checkpoint<R, N>) -> Self {
         let reached = *start;
         Self { pair, settings, origin: start.time, reached, before: reached, ready: None, stages: None }
     }
@@ -101,7 +101,7 @@ where
     {
         let tolerance = self.settings.tolerance;
         tolerance.check()?;
-        let Reached { time, state, .. } = self.reached;
+        let Checkpoint { time, state, .. } = self.reached;
         if !time.is_finite() || !all_finite(&state) {
             return Err(Cause::NotFinite);
         }
@@ -171,7 +171,7 @@ fn step<P, R, S, const N: usize>(
     Settings { tolerance, max_steps, .. }: Settings,
     system: &S,
     (origin, target): (R, R),
-    reached: &mut Reached<R, N>,
+    reached: &mut Checkpoint<R, N>,
     ready: &mut Ready<R, N>,
 ) -> Result<P::Stages, Cause>
 where
@@ -180,7 +180,7 @@ where
     S: System<R, N> + ?Sized,
 {
     let Ready { slope, step, level } = *ready;
-    let Reached { time, time_rest, state, .. } = *reached;
+    let Checkpoint { time, time_rest, state, .. } = *reached;
     let statistics = &mut reached.statistics;
     let span = ((target - time) - time_rest).to_f64();
     let shortest = control::shortest(time, origin);
@@ -252,7 +252,7 @@ where
     }
 }
 
-impl<P, R, S, const N: usize> Course<R, S, N> for Adaptive<'_, P, P::Stages, R, N>
+impl<P, R, S, const N: usize> StepperRun<R, S, N> for Adaptive<'_, P, P::Stages, R, N>
 where
     P: Pair<R, N>,
     R: Ordered,
@@ -262,7 +262,7 @@ where
 
     type Polynomial = Dense<R, N>;
 
-    fn reached(&self) -> &Reached<R, N> {
+    fn checkpoint(&self) -> &Checkpoint<R, N> {
         &self.reached
     }
 

@@ -2,8 +2,8 @@
 
 use super::adaptive::Pair;
 use super::all_finite;
-use super::course::{Reached, Statistics};
 use super::entries;
+use super::run::{Checkpoint, Statistics};
 use super::tableau::{Tableau, Trial};
 use super::tsit5::Formula;
 use crate::error::{Cause, IntegrationError, Setting};
@@ -97,7 +97,7 @@ impl<R: Ordered> Bounded<R> {
     where
         S: System<R, N> + ?Sized,
     {
-        let start = Reached::new(t0, x0);
+        let start = Checkpoint::new(t0, x0);
         let steps = self.steps();
         if steps == 0 {
             return Err(start.failed(Cause::Setting(Setting::Budget)));
@@ -184,7 +184,7 @@ impl<const N: usize> Known<N> {
 fn advance<P, S, R, const N: usize>(
     pair: &P,
     system: &S,
-    mut reached: Reached<R, N>,
+    mut reached: Checkpoint<R, N>,
     t1: R,
     steps: u32,
     estimate: impl Fn(&P::Errors, f64) -> [f64; N],

@@ -2,11 +2,11 @@
 
 use core::ops::ControlFlow;
 
-use super::course::{Done, Method, Reached, Statistics};
 use super::dense::Dense;
 use super::fixed::{Changes, Fixed, Formula};
 use super::integration::Integration;
-use super::landing::visit_times;
+use super::run::{Checkpoint, IntegrationResult, Method, Statistics};
+use super::stop_times::visit_times;
 use crate::error::{Cause, IntegrationError};
 use crate::real::Real;
 use crate::system::System;
@@ -32,7 +32,7 @@ use crate::system::System;
 /// use guen_runtime::prelude::*;
 ///
 /// let oscillator = from_fn(|_t: f64, &[x, v]: &[f64; 2]| [v, -x]);
-/// let off = |done: Done<f64, 2>| (done.state[0].powi(2) + done.state[1].powi(2) - 1.0).abs();
+/// let off = |done: IntegrationResult<f64, 2>| (done.state[0].powi(2) + done.state[1].powi(2) - 1.0).abs();
 /// let (method, start) = (Rk8::new(0.01), [0.0, 1.0]);
 /// let plain = Integration::new(&oscillator, 0.0, &start).run(&method, 100.0).unwrap();
 /// let compensated = Integration::new(&oscillator, 0.0, &start).run(&method.compensated(), 100.0).unwrap();
@@ -66,7 +66,7 @@ impl<F> Compensated<F> {
         x0: &[R; N],
         t1: R,
         mut observer: O,
-    ) -> Result<Done<R, N>, IntegrationError<R, N>>
+    ) -> Result<IntegrationResult<R, N>, IntegrationError<R, N>>
     where
         R: Real,
         S: System<R, N> + ?Sized,
@@ -89,7 +89,7 @@ impl<F> Compensated<F> {
         x0: &[R; N],
         times: &[R],
         visit: V,
-    ) -> Result<Done<R, N>, IntegrationError<R, N>>
+    ) -> Result<IntegrationResult<R, N>, IntegrationError<R, N>>
     where
         R: Real,
         S: System<R, N> + ?Sized,
@@ -115,7 +115,7 @@ where
         &self,
         system: &S,
         (memory, lost): &mut Self::Memory,
-        from: &Reached<R, N>,
+        from: &Checkpoint<R, N>,
         h: R,
         dense: bool,
         statistics: &mut Statistics,
@@ -136,8 +136,8 @@ where
         &self,
         system: &S,
         (memory, _): &mut Self::Memory,
-        from: &Reached<R, N>,
-        to: &Reached<R, N>,
+        from: &Checkpoint<R, N>,
+        to: &Checkpoint<R, N>,
         h: R,
         statistics: &mut Statistics,
     ) -> Dense<R, N> {
@@ -148,8 +148,8 @@ where
         &self,
         system: &S,
         (memory, _): &Self::Memory,
-        from: &Reached<R, N>,
-        to: &Reached<R, N>,
+        from: &Checkpoint<R, N>,
+        to: &Checkpoint<R, N>,
     ) -> [R; N] {
         self.method.defect(system, memory, from, to)
     }
@@ -161,12 +161,12 @@ where
     S: System<R, N> + ?Sized,
     F: Changes<R, S, N>,
 {
-    type Course<'a>
+    type Run<'a>
         = Fixed<'a, Self, (F::Memory, [R; N]), R, N>
     where
         F: 'a;
 
-    fn start(&self, start: &Reached<R, N>) -> Self::Course<'_> {
+    fn start(&self, start: &Checkpoint<R, N>) -> Self::Run<'_> {
         let (step, memory) = self.method.begin();
         Fixed::new(self, (memory, [R::zero(); N]), step, start)
     }

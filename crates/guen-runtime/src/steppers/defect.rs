@@ -1,4 +1,4 @@
-//! What fixed steps got wrong, from estimates of single steps that the methods make: see `Course::defect`.
+//! What fixed steps got wrong, from estimates of single steps that the methods make: see `StepperRun::defect`.
 //!
 //! For explicit methods up to order four that is [`quadrature`],
 //!
@@ -12,7 +12,7 @@
 //! of higher order estimate by themselves: an eighth-order one was right to 1e-7 on a sled where `d` said three times the
 //! size of an entry, and implicit ones hold damping at rates beyond their step.
 
-use super::course::Reached;
+use super::run::Checkpoint;
 use crate::real::Real;
 use crate::system::System;
 
@@ -100,8 +100,8 @@ fn relative<R: Real, const N: usize>(defects: &[R; N], largest: &[R; N], negligi
 pub(super) fn quadrature<R: Real, S, const N: usize>(
     system: &S,
     first: &[R; N],
-    before: &Reached<R, N>,
-    reached: &Reached<R, N>,
+    before: &Checkpoint<R, N>,
+    reached: &Checkpoint<R, N>,
 ) -> [R; N]
 where
     S: System<R, N> + ?Sized,
@@ -133,21 +133,21 @@ where
 
 #[cfg(test)]
 mod tests {
-    use super::{Reached, quadrature};
+    use super::{Checkpoint, quadrature};
     use crate::{System, from_fn};
 
     /// Of an oscillator the errors of Euler's method and of RK4 are known.
     #[test]
     fn the_estimate_is_the_error_of_the_step() {
         let oscillator = from_fn(|_t: f64, &[x, v]: &[f64; 2]| [v, -x]);
-        let before = Reached::new(0.0, &[1.0, 0.0]);
+        let before = Checkpoint::new(0.0, &[1.0, 0.0]);
         for h in [0.1_f64, 0.3] {
             let exact = [h.cos(), -h.sin()];
             for (state, order) in
                 [([1.0, -h], 1), ([1.0 - h * h / 2.0 + h.powi(4) / 24.0, -h + h.powi(3) / 6.0], 4)]
             {
                 let first = oscillator.rhs(0.0, &before.state);
-                let found = quadrature(&oscillator, &first, &before, &Reached::new(h, &state));
+                let found = quadrature(&oscillator, &first, &before, &Checkpoint::new(h, &state));
                 let error = (0..2).map(|i| (state[i] - exact[i]).abs()).fold(0.0, f64::max);
                 let estimate = found.iter().fold(0.0_f64, |most, d| most.max(*d));
                 assert!(

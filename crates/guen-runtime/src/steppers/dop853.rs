@@ -5,9 +5,9 @@ pub use super::tableau::{Tableau, Trial};
 
 use super::adaptive::{Adaptive, Attempt, Pair, Settings, Step};
 use super::control::{self, Control, Margin, Tolerance};
-use super::course::{Method, Reached};
 use super::dense::Dense;
-use super::landing::short_ways;
+use super::run::{Checkpoint, Method};
+use super::stop_times::short_ways;
 use super::tableau::{Made, Stages};
 use crate::real::{Ordered, Real};
 use crate::system::System;
@@ -128,9 +128,9 @@ impl<R: Real, const N: usize> Pair<R, N> for Tableau<R> {
 }
 
 impl<R: Ordered, S: System<R, N> + ?Sized, const N: usize> Method<R, S, N> for Dop853<R> {
-    type Course<'a> = Adaptive<'a, Tableau<R>, Stages<R, N>, R, N>;
+    type Run<'a> = Adaptive<'a, Tableau<R>, Stages<R, N>, R, N>;
 
-    fn start(&self, start: &Reached<R, N>) -> Self::Course<'_> {
+    fn start(&self, start: &Checkpoint<R, N>) -> Self::Run<'_> {
         Adaptive::new(&self.tableau, self.settings(), start)
     }
 }
@@ -144,7 +144,7 @@ mod tests {
     use std::println;
     use std::vec::Vec;
 
-    use super::super::course::{Course, Statistics};
+    use super::super::run::{Statistics, StepperRun};
     use super::*;
     use crate::system::from_fn;
 
@@ -188,11 +188,11 @@ mod tests {
     ) -> (Vec<f64>, [f64; N], Statistics) {
         let tolerance = Tolerance { relative: tolerance, absolute: tolerance };
         let settings = Settings { tolerance, max_steps: 100_000, first_step: None };
-        let mut course = Adaptive::new(pair, settings, &Reached::new(0.0, start));
+        let mut run = Adaptive::new(pair, settings, &Checkpoint::new(0.0, start));
         let mut times = Vec::new();
         loop {
-            course.advance(system, t1, false).unwrap();
-            let reached = Course::<f64, S, N>::reached(&course);
+            run.advance(system, t1, false).unwrap();
+            let reached = StepperRun::<f64, S, N>::checkpoint(&run);
             times.push(reached.time);
             if reached.time == t1 {
                 return (times, reached.state, reached.statistics);

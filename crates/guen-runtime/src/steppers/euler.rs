@@ -1,11 +1,11 @@
 //! The explicit method of Euler, with a fixed step.
 
-use super::course::{Method, Reached, Statistics};
 use super::defect::quadrature;
 use super::dense::Dense;
 use super::fixed::{Fixed, Formula, Slopes};
-use super::landing::short_ways;
+use super::run::{Checkpoint, Method, Statistics};
 use super::shifted;
+use super::stop_times::short_ways;
 use crate::error::Cause;
 use crate::real::Real;
 use crate::system::System;
@@ -48,7 +48,7 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Formula<R, S, N> for Eul
         &self,
         system: &S,
         slopes: &mut Self::Memory,
-        from: &Reached<R, N>,
+        from: &Checkpoint<R, N>,
         h: R,
         _dense: bool,
         statistics: &mut Statistics,
@@ -61,23 +61,29 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Formula<R, S, N> for Eul
         &self,
         system: &S,
         slopes: &mut Self::Memory,
-        from: &Reached<R, N>,
-        to: &Reached<R, N>,
+        from: &Checkpoint<R, N>,
+        to: &Checkpoint<R, N>,
         h: R,
         statistics: &mut Statistics,
     ) -> Dense<R, N> {
         slopes.hermite(system, from, to, h, statistics)
     }
 
-    fn defect(&self, system: &S, slopes: &Self::Memory, from: &Reached<R, N>, to: &Reached<R, N>) -> [R; N] {
+    fn defect(
+        &self,
+        system: &S,
+        slopes: &Self::Memory,
+        from: &Checkpoint<R, N>,
+        to: &Checkpoint<R, N>,
+    ) -> [R; N] {
         quadrature(system, &slopes.first, from, to)
     }
 }
 
 impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Method<R, S, N> for Euler<R> {
-    type Course<'a> = Fixed<'a, Self, Slopes<R, N>, R, N>;
+    type Run<'a> = Fixed<'a, Self, Slopes<R, N>, R, N>;
 
-    fn start(&self, start: &Reached<R, N>) -> Self::Course<'_> {
+    fn start(&self, start: &Checkpoint<R, N>) -> Self::Run<'_> {
         Fixed::new(self, Slopes::new(), self.step, start)
     }
 }

@@ -1,8 +1,8 @@
 //! What methods with a fixed step share: where the steps begin and end, and the loop around a formula.
 
 use super::all_finite;
-use super::course::{Course, Reached, Statistics};
 use super::dense::Dense;
+use super::run::{Checkpoint, Statistics, StepperRun};
 use crate::error::{Cause, Setting};
 use crate::real::Real;
 use crate::system::System;
@@ -19,7 +19,7 @@ pub trait Formula<R: Real, S: ?Sized, const N: usize> {
         &self,
         system: &S,
         memory: &mut Self::Memory,
-        from: &Reached<R, N>,
+        from: &Checkpoint<R, N>,
         h: R,
         dense: bool,
         statistics: &mut Statistics,
@@ -30,15 +30,21 @@ pub trait Formula<R: Real, S: ?Sized, const N: usize> {
         &self,
         system: &S,
         memory: &mut Self::Memory,
-        from: &Reached<R, N>,
-        to: &Reached<R, N>,
+        from: &Checkpoint<R, N>,
+        to: &Checkpoint<R, N>,
         h: R,
         statistics: &mut Statistics,
     ) -> Dense<R, N>;
 
     /// The estimated error of the step from `from` to `to`, the one made last and with `dense`: see `Defects`. What it
     /// evaluates is not counted.
-    fn defect(&self, system: &S, memory: &Self::Memory, from: &Reached<R, N>, to: &Reached<R, N>) -> [R; N];
+    fn defect(
+        &self,
+        system: &S,
+        memory: &Self::Memory,
+        from: &Checkpoint<R, N>,
+        to: &Checkpoint<R, N>,
+    ) -> [R; N];
 }
 
 /// A formula whose step is a change that is added to the state.
@@ -51,7 +57,7 @@ pub trait Changes<R: Real, S: ?Sized, const N: usize>: Formula<R, S, N> {
         &self,
         system: &S,
         memory: &mut Self::Memory,
-        from: &Reached<R, N>,
+        from: &Checkpoint<R, N>,
         h: R,
         dense: bool,
         statistics: &mut Statistics,
@@ -64,18 +70,18 @@ pub struct Fixed<'a, F, M, R, const N: usize> {
     formula: &'a F,
     memory: M,
     step: R,
-    reached: Reached<R, N>,
-    before: Reached<R, N>,
+    reached: Checkpoint<R, N>,
+    before: Checkpoint<R, N>,
     leg: Option<Leg<R>>,
 }
 
 impl<'a, F, M, R: Real, const N: usize> Fixed<'a, F, M, R, N> {
-    pub(super) fn new(formula: &'a F, memory: M, step: R, start: &Reached<R, N>) -> Self {
+    pub(super) fn new(formula: &'a F, memory: M, step: R, start: &Checkpoint<R, N>) -> Self {
         Self { formula, memory, step, reached: *start, before: *start, leg: None }
     }
 }
 
-impl<F, R, S, const N: usize> Course<R, S, N> for Fixed<'_, F, F::Memory, R, N>
+impl<F, R, S, const N: usize> StepperRun<R, S, N> for Fixed<'_, F, F::Memory, R, N>
 where
     F: Formula<R, S, N>,
     R: Real,
@@ -86,7 +92,7 @@ where
 
     type Polynomial = Dense<R, N>;
 
-    fn reached(&self) -> &Reached<R, N> {
+    fn checkpoint(&self) -> &Checkpoint<R, N> {
         &self.reached
     }
 
@@ -97,7 +103,7 @@ where
 
     #[inline]
     fn advance(&mut self, system: &S, target: R, dense: bool) -> Result<(), Cause> {
-        let Reached { time: now, time_rest, .. } = self.reached;
+        let Checkpoint { time: now, time_rest, .. } = self.reached;
         let leg = match &mut self.leg {
             Some(leg) if leg.target == target && leg.index < leg.count => leg,
             leg => leg.insert(Leg::new(now, target, self.step)?),
@@ -126,7 +132,7 @@ where
         Ok(())
     }
 
-    fn defect(&self, system: &S, before: &Reached<R, N>) -> [R; N] {
+    fn defect(&self, system: &S, before: &Checkpoint<R, N>) -> [R; N] {
         self.formula.defect(system, &self.memory, before, &self.reached)
     }
 
@@ -155,7 +161,12 @@ impl<R: Real, const N: usize> Slopes<R, N> {
 
     /// The slope where the next step begins, evaluated unless it is known.
     #[inline]
-    pub(super) fn begin<S>(&mut self, system: &S, from: &Reached<R, N>, statistics: &mut Statistics) -> [R; N]
+    pub(super) fn begin<S>(
+        &mut self,
+        system: &S,
+        from: &Checkpoint<R, N>,
+        statistics: &mut Statistics,
+    ) -> [R; N]
     where
         S: System<R, N> + ?Sized,
     {
@@ -170,7 +181,7 @@ impl<R: Real, const N: usize> Slopes<R, N> {
     }
 
     /// The slope at the end of the last step, which the next one will begin with.
-    pub(super) fn end<S>(&mut self, system: &S, to: &Reached<R, N>, statistics: &mut Statistics) -> [R; N]
+    pub(super) fn end<S>(&mut self, system: &S, to: &Checkpoint<R, N>, statistics: &mut Statistics) -> [R; N]
     where
         S: System<R, N> + ?Sized,
     {
@@ -186,8 +197,8 @@ impl<R: Real, const N: usize> Slopes<R, N> {
     pub(super) fn hermite<S>(
         &mut self,
         system: &S,
-        from: &Reached<R, N>,
-        to: &Reached<R, N>,
+        from: &Checkpoint<R, N>,
+        to: &Checkpoint<R, N>,
         h: R,
         statistics: &mut Statistics,
     ) -> Dense<R, N>

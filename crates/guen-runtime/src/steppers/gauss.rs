@@ -2,13 +2,13 @@
 
 use super::collocation::{Collocation, Factors, shifted};
 use super::control;
-use super::course::{Method, Reached, Statistics};
 use super::defect::quadrature;
 use super::dense::Dense;
 use super::entries;
 use super::fixed::{Fixed, Formula, Slopes};
-use super::landing::short_ways;
 use super::lu::{Complex, Lu};
+use super::run::{Checkpoint, Method, Statistics};
+use super::stop_times::short_ways;
 use crate::decimal::{Parts, decimal};
 use crate::differentiable::Differentiable;
 use crate::error::Cause;
@@ -33,7 +33,7 @@ macro_rules! gauss {
                 &self,
                 system: &S,
                 memory: &mut Self::Memory,
-                from: &Reached<R, N>,
+                from: &Checkpoint<R, N>,
                 h: R,
                 _dense: bool,
                 statistics: &mut Statistics,
@@ -47,8 +47,8 @@ macro_rules! gauss {
                 &self,
                 system: &S,
                 memory: &mut Self::Memory,
-                from: &Reached<R, N>,
-                to: &Reached<R, N>,
+                from: &Checkpoint<R, N>,
+                to: &Checkpoint<R, N>,
                 h: R,
                 statistics: &mut Statistics,
             ) -> Dense<R, N> {
@@ -70,8 +70,8 @@ macro_rules! gauss {
                 &self,
                 system: &S,
                 memory: &Self::Memory,
-                from: &Reached<R, N>,
-                to: &Reached<R, N>,
+                from: &Checkpoint<R, N>,
+                to: &Checkpoint<R, N>,
             ) -> [R; N] {
                 match &self.collocation {
                     Some(collocation) => {
@@ -83,9 +83,9 @@ macro_rules! gauss {
         }
 
         impl<R: Ordered, S: Differentiable<R, N> + ?Sized, const N: usize> Method<R, S, N> for $Gauss<R> {
-            type Course<'a> = Fixed<'a, Self, Memory<R, N, $stages>, R, N>;
+            type Run<'a> = Fixed<'a, Self, Memory<R, N, $stages>, R, N>;
 
-            fn start(&self, start: &Reached<R, N>) -> Self::Course<'_> {
+            fn start(&self, start: &Checkpoint<R, N>) -> Self::Run<'_> {
                 Fixed::new(self, Memory::new(), self.step, start)
             }
         }
@@ -223,7 +223,7 @@ fn solve<R, S, const N: usize, const M: usize>(
     collocation: &Collocation<R, M>,
     system: &S,
     memory: &mut Memory<R, N, M>,
-    from: &Reached<R, N>,
+    from: &Checkpoint<R, N>,
     h: R,
     statistics: &mut Statistics,
 ) -> Result<[R; N], Cause>
@@ -292,8 +292,8 @@ fn defect<R, S, const N: usize, const M: usize>(
     order: u32,
     system: &S,
     memory: &Memory<R, N, M>,
-    from: &Reached<R, N>,
-    to: &Reached<R, N>,
+    from: &Checkpoint<R, N>,
+    to: &Checkpoint<R, N>,
 ) -> [f64; N]
 where
     R: Ordered,
@@ -331,8 +331,8 @@ where
 fn curved<R, S, const N: usize>(
     system: &S,
     first: &[R; N],
-    from: &Reached<R, N>,
-    to: &Reached<R, N>,
+    from: &Checkpoint<R, N>,
+    to: &Checkpoint<R, N>,
 ) -> [f64; N]
 where
     R: Ordered,
@@ -360,7 +360,7 @@ fn iterate<R, S, const N: usize, const M: usize>(
     collocation: &Collocation<R, M>,
     system: &S,
     factors: &Factors<R, N>,
-    from: &Reached<R, N>,
+    from: &Checkpoint<R, N>,
     h: R,
     start: Option<[[R; N]; M]>,
     statistics: &mut Statistics,

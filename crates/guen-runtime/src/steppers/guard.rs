@@ -7,17 +7,17 @@
 //! were. So they are looked at in between, as often as their price allows, and more often while they become smaller: after half of
 //! the steps that would lead to zero at this pace, then after half of the rest.
 
-use super::course::{Course, Reached};
 use super::defect::{Defects, worst};
-use super::edges::{EDGES, distances, functions, paces, soonest};
+use super::run::{Checkpoint, StepperRun};
 use super::schedule::Schedule;
+use super::singularities::{MAX_SINGULARITIES, distances, functions, paces, soonest};
 use crate::error::{Cause, IntegrationError, Setting};
 use crate::real::Real;
-use crate::rounded::Rounded;
+use crate::running_error::RunningError;
 use crate::system::System;
 
 /// What a run must not violate. A stepper watches these by default, of whatever the system tells in
-/// [`System::vitals`], [`System::edges`] and [`System::condition`], and methods with a fixed step by estimates of the errors of
+/// [`System::conserved`], [`System::singularities`] and [`System::condition`], and methods with a fixed step by estimates of the errors of
 /// single steps.
 ///
 /// Every accepted state is tested to be finite. After the first step, then every [`every`](Guard::every) steps, at the end
@@ -47,7 +47,7 @@ pub struct Guard {
     /// How far functions that are carried as states may be from what they stand for: the largest of `|w - f|/(1 + |f|)`
     /// and of what is left of `sin^2 + cos^2 - 1` and the like. By default 0.01, as for the energy.
     pub carried: f64,
-    /// The distance to the edge of the chart at which to stop: what is [`left`](crate::Rounded::left) of each function that
+    /// The distance to the edge of the chart at which to stop: what is [`left`](crate::RunningError::left) of each function that
     /// must not vanish, given that every entry of the state is uncertain by a rounding of the largest value that it has
     /// had. By default `1e-8`, where a term with its square in the denominator has no digits left in `f64`; in another
     /// real the limit is multiplied by the root of the ratio of the roundings.
@@ -59,7 +59,7 @@ pub struct Guard {
     /// A negative limit watches none of it, and neither does [`approach`](Guard::approach) then: for a motion that is meant to pass
     /// such positions, as a linkage whose bars come to lie on one line, where the state at each side is as it should be. Everything else
     /// is watched as before, the condition of the mass matrix included.
-    pub edge: f64,
+    pub singularity: f64,
     /// The largest [`condition`](System::condition) of the mass matrix. By default `1e12`, where accelerations have
     /// four digits left in `f64`; in another real the limit is divided by the ratio of the roundings.
     pub condition: f64,
@@ -69,7 +69,7 @@ pub struct Guard {
     /// below this part of the largest entry counts as nothing, since an entry that begins at zero has no size yet.
     pub step: f64,
     /// The largest factor by which a fixed step may change a function that must not vanish. Where it is divided by, there
-    /// is a pole, and the step is too long for the motion next to it. By default 2. Not watched where [`edge`](Guard::edge) is
+    /// is a pole, and the step is too long for the motion next to it. By default 2. Not watched where [`singularity`](Guard::singularity) is
     /// negative.
     pub approach: f64,
     /// Look every so many steps, at least every one; chosen by the method's cost if absent.
@@ -82,7 +82,7 @@ impl Guard {
         energy: f64::INFINITY,
         residual: f64::INFINITY,
         carried: f64::INFINITY,
-        edge: 0.0,
+        singularity: 0.0,
         condition: f64::INFINITY,
         step: f64::INFINITY,
         approach: f64::INFINITY,
@@ -90,8 +90,8 @@ impl Guard {
     };
 
     pub(super) fn is_valid(&self) -> bool {
-        let Self { energy, residual, carried, edge, condition, step, approach, .. } = *self;
-        !edge.is_nan()
+        let Self { energy, residual, carried, singularity, condition, step, approach, .. } = *self;
+        !singularity.is_nan()
             && [energy, residual, carried, condition, step, approach].iter().all(|limit| *limit >= 0.0)
     }
 
@@ -100,7 +100,7 @@ impl Guard {
         let ratio = R::epsilon().to_f64() / f64::EPSILON;
         // Of a real too long for a ratio of its rounding to be one.
         let ratio = if ratio > 0.0 { ratio } else { f64::MIN_POSITIVE };
-        Self { edge: self.edge * libm::sqrt(ratio), condition: self.condition / ratio, ..self }
+        Self { singularity: self.singularity * libm::sqrt(ratio), condition: self.condition / ratio, ..self }
     }
 }
 
@@ -110,7 +110,7 @@ impl Default for Guard {
             energy: 1e-2,
             residual: 1e-3,
             carried: 1e-2,
-            edge: 1e-8,
+            singularity: 1e-8,
             condition: 1e12,
             step: 0.05,
             approach: 2.0,
@@ -138,7 +138,7 @@ pub(super) struct Watch<R, const N: usize> {
     /// Steps that were to be made since they were looked at.
     since_edges: u32,
     /// Where the last look found everything in order.
-    good: Reached<R, N>,
+    good: Checkpoint<R, N>,
     /// What the looks have learned so far.
     known: Option<Known<R, N>>,
 }
@@ -149,26 +149,26 @@ struct Known<R, const N: usize> {
     scale: R,
     /// How many functions there are that must not vanish, what they were at the start, and what the last look has found.
     count: usize,
-    start: [R; EDGES],
-    functions: [Rounded<R>; EDGES],
+    start: [R; MAX_SINGULARITIES],
+    functions: [RunningError<R>; MAX_SINGULARITIES],
     /// What the look before that has found.
-    earlier: [R; EDGES],
+    earlier: [R; MAX_SINGULARITIES],
     /// The largest absolute value of each entry of the state.
     largest: [R; N],
     defects: Defects<R, N>,
 }
 
 impl<R: Real, const N: usize> Watch<R, N> {
-    pub fn new<C, S>(guard: Guard, system: &S, start: &Reached<R, N>) -> Result<Self, Cause>
+    pub fn new<C, S>(guard: Guard, system: &S, start: &Checkpoint<R, N>) -> Result<Self, Cause>
     where
-        C: Course<R, S, N>,
+        C: StepperRun<R, S, N>,
         S: System<R, N> + ?Sized,
     {
         if !guard.is_valid() {
             return Err(Cause::Setting(Setting::Guard));
         }
         let guard = guard.for_real::<R>();
-        let price = (system.cost_of_look(), system.cost_of_edges());
+        let price = (system.check_cost(), system.singularity_check_cost());
         let Schedule { young, edges, every } = Schedule::new(C::EVALUATIONS, price, C::JUDGED, guard.every);
         let first = if every == u32::MAX { every } else { 1 };
         Ok(Self {
@@ -205,35 +205,35 @@ impl<R: Real, const N: usize> Watch<R, N> {
         &mut self,
         system: &S,
         from: u64,
-        before: Option<&Reached<R, N>>,
-        course: &C,
+        before: Option<&Checkpoint<R, N>>,
+        run: &C,
     ) -> Result<(), Cause>
     where
-        C: Course<R, S, N>,
+        C: StepperRun<R, S, N>,
         S: System<R, N> + ?Sized,
     {
-        let made = course.reached().statistics.accepted.saturating_sub(from);
+        let made = run.checkpoint().statistics.accepted.saturating_sub(from);
         self.until_look = self.until_look.saturating_sub(u32::try_from(made).unwrap_or(u32::MAX));
         if self.until_look > 0 {
             return Ok(());
         }
-        self.due(system, before, course)
+        self.due(system, before, run)
     }
 
     #[inline(never)]
-    fn due<C, S>(&mut self, system: &S, before: Option<&Reached<R, N>>, course: &C) -> Result<(), Cause>
+    fn due<C, S>(&mut self, system: &S, before: Option<&Checkpoint<R, N>>, run: &C) -> Result<(), Cause>
     where
-        C: Course<R, S, N>,
+        C: StepperRun<R, S, N>,
         S: System<R, N> + ?Sized,
     {
         let mut rest = self.until_next;
         if rest == 0 {
-            self.look(system, self.between, before, course)?;
+            self.look(system, self.between, before, run)?;
             (self.between, rest) = (self.every, self.every);
         } else if let Some(known) = &mut self.known {
-            known.look_at_edges(system, course.reached(), self.guard.edge)?;
+            known.look_at_edges(system, run.checkpoint(), self.guard.singularity)?;
         }
-        self.until_look = match (self.approach(system, before, course.reached())?, &self.known) {
+        self.until_look = match (self.approach(system, before, run.checkpoint())?, &self.known) {
             (Some(soonest), _) => rest.min(Schedule::next(self.until_edges, soonest, self.between - rest)),
             (None, Some(known)) if !self.fixed && known.count > 0 && self.until_edges < u32::MAX => {
                 rest.min(self.until_edges).min(soonest(known.since_the_look_before(), self.since_edges))
@@ -249,41 +249,41 @@ impl<R: Real, const N: usize> Watch<R, N> {
     pub fn finish<C, S>(
         &mut self,
         system: &S,
-        before: Option<&Reached<R, N>>,
-        course: &C,
+        before: Option<&Checkpoint<R, N>>,
+        run: &C,
     ) -> Result<(), Cause>
     where
-        C: Course<R, S, N>,
+        C: StepperRun<R, S, N>,
         S: System<R, N> + ?Sized,
     {
         let steps = self.between - self.until_look - self.until_next;
         if steps == 0 || self.every == u32::MAX {
             return Ok(());
         }
-        self.look(system, steps, before, course)?;
-        self.approach(system, before, course.reached()).map(|_| ())
+        self.look(system, steps, before, run)?;
+        self.approach(system, before, run.checkpoint()).map(|_| ())
     }
 
     /// The error of a run that cannot go on from where it stands: for the cause given, unless the steps since the last
     /// look went wrong before.
-    pub fn stopped<C, S>(&mut self, system: &S, course: &C, cause: Cause) -> IntegrationError<R, N>
+    pub fn stopped<C, S>(&mut self, system: &S, run: &C, cause: Cause) -> IntegrationError<R, N>
     where
-        C: Course<R, S, N>,
+        C: StepperRun<R, S, N>,
         S: System<R, N> + ?Sized,
     {
-        let reached = course.reached();
+        let reached = run.checkpoint();
         if reached.time == self.good.time || self.every == u32::MAX {
             return reached.failed(cause);
         }
-        match self.look(system, 0, None, course) {
+        match self.look(system, 0, None, run) {
             Ok(()) => reached.failed(cause),
             Err(earlier) => self.good(reached).failed(earlier),
         }
     }
 
     /// The last time and state that were found in order, with the work done since then counted.
-    pub fn good(&self, reached: &Reached<R, N>) -> Reached<R, N> {
-        Reached { statistics: reached.statistics, ..self.good }
+    pub fn good(&self, reached: &Checkpoint<R, N>) -> Checkpoint<R, N> {
+        Checkpoint { statistics: reached.statistics, ..self.good }
     }
 
     /// In how many steps of a fixed length to look at the edges again at the latest, after they were looked at where the run
@@ -291,8 +291,8 @@ impl<R: Real, const N: usize> Watch<R, N> {
     fn approach<S>(
         &self,
         system: &S,
-        before: Option<&Reached<R, N>>,
-        reached: &Reached<R, N>,
+        before: Option<&Checkpoint<R, N>>,
+        reached: &Checkpoint<R, N>,
     ) -> Result<Option<u32>, Cause>
     where
         S: System<R, N> + ?Sized,
@@ -305,22 +305,22 @@ impl<R: Real, const N: usize> Watch<R, N> {
         }
     }
 
-    /// Looks at the state where the course stands, for so many steps; `before` is where the last of them began.
+    /// Looks at the state where the run stands, for so many steps; `before` is where the last of them began.
     #[inline(never)]
     fn look<C, S>(
         &mut self,
         system: &S,
         steps: u32,
-        before: Option<&Reached<R, N>>,
-        course: &C,
+        before: Option<&Checkpoint<R, N>>,
+        run: &C,
     ) -> Result<(), Cause>
     where
-        C: Course<R, S, N>,
+        C: StepperRun<R, S, N>,
         S: System<R, N> + ?Sized,
     {
         R::vectorize(
             #[inline(always)]
-            || self.look_here(system, steps, before, course),
+            || self.look_here(system, steps, before, run),
         )
     }
 
@@ -329,25 +329,25 @@ impl<R: Real, const N: usize> Watch<R, N> {
         &mut self,
         system: &S,
         steps: u32,
-        before: Option<&Reached<R, N>>,
-        course: &C,
+        before: Option<&Checkpoint<R, N>>,
+        run: &C,
     ) -> Result<(), Cause>
     where
-        C: Course<R, S, N>,
+        C: StepperRun<R, S, N>,
         S: System<R, N> + ?Sized,
     {
         let Self { guard, good, known, young, .. } = self;
-        let reached = course.reached();
+        let reached = run.checkpoint();
         let known = match known {
             Some(known) => known,
             None => known.insert(Known::new(system, guard, good)?),
         };
         let found = reached.time.to_f64();
-        let vitals = system.vitals(reached.time, &reached.state);
-        if let (Some(energy), Some(before)) = (vitals.energy, known.energy) {
+        let invariants = system.conserved(reached.time, &reached.state);
+        if let (Some(energy), Some(before)) = (invariants.energy, known.energy) {
             // With the scale of this state, for the start may have none: at rest, where the potential is zero. A state
             // that blew up is no larger than its own energy, so that its change is about one.
-            known.scale = vitals.scale.where_above(known.scale, vitals.scale, known.scale);
+            known.scale = invariants.scale.where_above(known.scale, invariants.scale, known.scale);
             // What does not change at all is no change even of nothing.
             let change = (energy - before).abs();
             let change = change.where_above(R::zero(), change / known.scale, R::zero()).most();
@@ -356,19 +356,19 @@ impl<R: Real, const N: usize> Watch<R, N> {
             }
         }
         let condition = system.condition(reached.time, &reached.state);
-        in_order(guard, found, vitals.residual.most(), condition.most())?;
+        in_order(guard, found, invariants.residual.most(), condition.most())?;
         for (largest, entry) in known.largest.iter_mut().zip(&reached.state) {
             let size = entry.abs();
             *largest = size.where_above(*largest, size, *largest);
         }
-        known.look_at_edges(system, reached, guard.edge)?;
+        known.look_at_edges(system, reached, guard.singularity)?;
         *young = young.saturating_sub(steps);
         let limit = guard.step;
         if let Some(before) = before
             && C::JUDGED
             && limit < f64::INFINITY
         {
-            let defects = course.defect(system, before);
+            let defects = run.defect(system, before);
             // In the first steps an entry that was zero has no size yet.
             let negligible = if *young > 0 { limit } else { libm::sqrt(R::epsilon().to_f64()) };
             if exceeds(known.defects.add(&defects, steps, &known.largest, negligible).most(), limit) {
@@ -376,7 +376,7 @@ impl<R: Real, const N: usize> Watch<R, N> {
                 return Err(Cause::Step { found, entry: worst.entry, defect: worst.defect, limit });
             }
         }
-        let drift = vitals.carried.most();
+        let drift = invariants.carried.most();
         if exceeds(drift, guard.carried) {
             return Err(Cause::Carried { found, drift, limit: guard.carried });
         }
@@ -387,24 +387,24 @@ impl<R: Real, const N: usize> Watch<R, N> {
 
 impl<R: Real, const N: usize> Known<R, N> {
     /// Looks at the start.
-    fn new<S>(system: &S, guard: &Guard, start: &Reached<R, N>) -> Result<Self, Cause>
+    fn new<S>(system: &S, guard: &Guard, start: &Checkpoint<R, N>) -> Result<Self, Cause>
     where
         S: System<R, N> + ?Sized,
     {
-        let vitals = system.vitals(start.time, &start.state);
+        let invariants = system.conserved(start.time, &start.state);
         let found = start.time.to_f64();
         let condition = system.condition(start.time, &start.state);
-        in_order(guard, found, vitals.residual.most(), condition.most())?;
+        in_order(guard, found, invariants.residual.most(), condition.most())?;
         let largest = start.state.map(Real::abs);
-        let mut values = [Rounded::exact(R::zero()); EDGES];
+        let mut values = [RunningError::exact(R::zero()); MAX_SINGULARITIES];
         let count = R::vectorize(
             #[inline(always)]
             || functions(system, start.time, &start.state, &largest, &mut values),
         );
-        let count = if guard.edge < 0.0 { 0 } else { count };
+        let count = if guard.singularity < 0.0 { 0 } else { count };
         let known = Self {
-            energy: vitals.energy,
-            scale: vitals.scale,
+            energy: invariants.energy,
+            scale: invariants.scale,
             count,
             start: values.map(|function| function.value),
             functions: values,
@@ -412,7 +412,7 @@ impl<R: Real, const N: usize> Known<R, N> {
             largest,
             defects: Defects::new(),
         };
-        known.distances(found, guard.edge)?;
+        known.distances(found, guard.singularity)?;
         Ok(known)
     }
 
@@ -422,7 +422,7 @@ impl<R: Real, const N: usize> Known<R, N> {
     }
 
     /// Whether a state is on the same side of the edges as the start, and further than the limit from them.
-    fn look_at_edges<S>(&mut self, system: &S, reached: &Reached<R, N>, limit: f64) -> Result<(), Cause>
+    fn look_at_edges<S>(&mut self, system: &S, reached: &Checkpoint<R, N>, limit: f64) -> Result<(), Cause>
     where
         S: System<R, N> + ?Sized,
     {
@@ -448,11 +448,11 @@ impl<R: Real, const N: usize> Known<R, N> {
 
     /// In how many steps to look at the edges again, judged by the step that began at `before` and led to where they were
     /// looked at last.
-    fn approach<S>(&self, system: &S, before: &Reached<R, N>, found: f64, limit: f64) -> Result<u32, Cause>
+    fn approach<S>(&self, system: &S, before: &Checkpoint<R, N>, found: f64, limit: f64) -> Result<u32, Cause>
     where
         S: System<R, N> + ?Sized,
     {
-        let mut from = [Rounded::exact(R::zero()); EDGES];
+        let mut from = [RunningError::exact(R::zero()); MAX_SINGULARITIES];
         R::vectorize(
             #[inline(always)]
             || functions(system, before.time, &before.state, &self.largest, &mut from),

@@ -2,10 +2,10 @@
 
 use core::ops::ControlFlow;
 
-use super::course::{Course, Done, Method, Outcome, Reached};
 use super::crossing::Tracker;
 use super::events::{Event, Occurrence};
 use super::guard::{Guard, Watch};
+use super::run::{Checkpoint, IntegrationResult, Method, Outcome, StepperRun};
 use crate::error::{Cause, IntegrationError, Setting};
 use crate::real::{Ordered, Real};
 use crate::system::System;
@@ -65,7 +65,7 @@ type Receiver<'a, R, const N: usize> = &'a mut dyn FnMut(&Occurrence<R, N>) -> C
 /// ```
 pub struct Integration<'a, R, S: ?Sized, const N: usize, const E: usize = 0> {
     pub(super) system: &'a S,
-    pub(super) start: Reached<R, N>,
+    pub(super) start: Checkpoint<R, N>,
     guard: Guard,
     pub(super) observer: Option<Observer<'a, R, N>>,
     pub(super) samples: &'a [R],
@@ -90,7 +90,7 @@ impl<'a, R: Real, S: System<R, N> + ?Sized, const N: usize> Integration<'a, R, S
     pub fn new(system: &'a S, t0: R, x0: &[R; N]) -> Self {
         Self {
             system,
-            start: Reached::new(t0, x0),
+            start: Checkpoint::new(t0, x0),
             guard: Guard::default(),
             observer: None,
             samples: &[],
@@ -163,13 +163,13 @@ impl<'a, R: Real, S: System<R, N> + ?Sized, const N: usize, const E: usize> Inte
     ///
     /// Settings that make no sense, before anything is integrated; else what stopped the method or what the guard
     /// found, with the last time and state that are known to be in order.
-    pub fn run<M>(mut self, method: &M, t1: R) -> Result<Done<R, N>, IntegrationError<R, N>>
+    pub fn run<M>(mut self, method: &M, t1: R) -> Result<IntegrationResult<R, N>, IntegrationError<R, N>>
     where
         M: Method<R, S, N>,
     {
         self.check(t1).map_err(|cause| self.start.failed(cause))?;
-        let mut course = method.start(&self.start);
-        let mut watch = Watch::new::<M::Course<'_>, S>(self.guard, self.system, &self.start)
+        let mut run = method.start(&self.start);
+        let mut watch = Watch::new::<M::Run<'_>, S>(self.guard, self.system, &self.start)
             .map_err(|cause| self.start.failed(cause))?;
         let mut trackers: [Tracker; E] =
             core::array::from_fn(|i| Tracker::new(self.events[i].value(self.start.time, &self.start.state)));
@@ -180,40 +180,40 @@ impl<'a, R: Real, S: System<R, N> + ?Sized, const N: usize, const E: usize> Inte
             visited += 1;
         }
         let (mut before, mut kept) = (start, false);
-        while course.reached().time != t1 {
+        while run.checkpoint().time != t1 {
             let dense = E > 0 || visited < self.samples.len();
-            kept = dense || watch.wants_before(course.is_last(t1));
+            kept = dense || watch.wants_before(run.is_last(t1));
             if kept {
-                before = *course.reached();
+                before = *run.checkpoint();
             }
-            let from = course.reached().statistics.accepted;
+            let from = run.checkpoint().statistics.accepted;
             let made = if kept || self.observer.is_some() {
-                course.advance(self.system, t1, kept)
+                run.advance(self.system, t1, kept)
             } else {
-                course.go_on(self.system, t1, watch.patience())
+                run.go_on(self.system, t1, watch.patience())
             };
             if let Err(cause) = made {
-                return Err(watch.stopped(self.system, &course, cause));
+                return Err(watch.stopped(self.system, &run, cause));
             }
-            if let Err(cause) = watch.step(self.system, from, kept.then_some(&before), &course) {
-                return Err(watch.good(course.reached()).failed(cause));
+            if let Err(cause) = watch.step(self.system, from, kept.then_some(&before), &run) {
+                return Err(watch.good(run.checkpoint()).failed(cause));
             }
             if dense {
-                let ended = self.within_step(&mut course, &before, &mut trackers, &mut visited);
+                let ended = self.within_step(&mut run, &before, &mut trackers, &mut visited);
                 if let Some(done) = ended.map_err(|cause| before.failed(cause))? {
-                    return finished(&mut watch, self.system, kept.then_some(&before), &course, done);
+                    return finished(&mut watch, self.system, kept.then_some(&before), &run, done);
                 }
             }
             if let Some(observer) = &mut self.observer {
-                let reached = course.reached();
+                let reached = run.checkpoint();
                 if observer(reached.time, &reached.state).is_break() {
                     let done = reached.done(Outcome::Stopped);
-                    return finished(&mut watch, self.system, kept.then_some(&before), &course, done);
+                    return finished(&mut watch, self.system, kept.then_some(&before), &run, done);
                 }
             }
         }
-        let done = course.reached().done(Outcome::Arrived);
-        finished(&mut watch, self.system, kept.then_some(&before), &course, done)
+        let done = run.checkpoint().done(Outcome::Arrived);
+        finished(&mut watch, self.system, kept.then_some(&before), &run, done)
     }
 
     /// Refuses settings that make no sense.
@@ -247,16 +247,16 @@ impl<'a, R: Real, S: System<R, N> + ?Sized, const N: usize, const E: usize> Inte
 pub(super) fn finished<C, R: Real, S, const N: usize>(
     watch: &mut Watch<R, N>,
     system: &S,
-    before: Option<&Reached<R, N>>,
-    course: &C,
-    done: Done<R, N>,
-) -> Result<Done<R, N>, IntegrationError<R, N>>
+    before: Option<&Checkpoint<R, N>>,
+    run: &C,
+    done: IntegrationResult<R, N>,
+) -> Result<IntegrationResult<R, N>, IntegrationError<R, N>>
 where
-    C: Course<R, S, N>,
+    C: StepperRun<R, S, N>,
     S: System<R, N> + ?Sized,
 {
-    match watch.finish(system, before, course) {
+    match watch.finish(system, before, run) {
         Ok(()) => Ok(done),
-        Err(cause) => Err(watch.good(course.reached()).failed(cause)),
+        Err(cause) => Err(watch.good(run.checkpoint()).failed(cause)),
     }
 }

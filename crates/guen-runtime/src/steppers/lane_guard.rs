@@ -4,15 +4,15 @@
 //! What is looked at is computed and compared with the limits in all lanes at once; where a lane could be beyond one of them, that
 //! lane is judged alone.
 
-use super::course::Reached;
 use super::defect::{Defects, Worst, worst};
-use super::edges::{EDGES, distances, functions, paces};
 use super::guard::{Guard, exceeds, in_order};
+use super::run::Checkpoint;
 use super::schedule::Schedule;
+use super::singularities::{MAX_SINGULARITIES, distances, functions, paces};
 use crate::error::Cause;
 use crate::lanes::{Lanes, Mask};
 use crate::real::Real;
-use crate::rounded::Rounded;
+use crate::running_error::RunningError;
 use crate::system::System;
 
 /// The most lanes that there are.
@@ -26,8 +26,8 @@ pub(super) struct Moment<L, const N: usize> {
 }
 
 impl<L: Lanes, const N: usize> Moment<L, N> {
-    pub fn reached(&self) -> Reached<L, N> {
-        Reached::new(L::from_f64(self.time), &self.state)
+    pub fn checkpoint(&self) -> Checkpoint<L, N> {
+        Checkpoint::new(L::from_f64(self.time), &self.state)
     }
 
     /// The state in one lane.
@@ -103,9 +103,9 @@ struct Known<L, const N: usize> {
     /// How many functions there are that must not vanish.
     count: usize,
     /// What they were at the start, are where they were looked at last, and were a step before that.
-    start: [L; EDGES],
-    functions: [Rounded<L>; EDGES],
-    before: [Rounded<L>; EDGES],
+    start: [L; MAX_SINGULARITIES],
+    functions: [RunningError<L>; MAX_SINGULARITIES],
+    before: [RunningError<L>; MAX_SINGULARITIES],
     /// The largest absolute value of each entry of the state.
     largest: [L; N],
     defects: Defects<L, N>,
@@ -177,7 +177,7 @@ impl<L: Lanes, const N: usize> LaneWatch<L, N> {
             #[inline(always)]
             || {
                 let suspects =
-                    if is_whole { Mask::all(0) } else { known.look_at_edges(system, now, guard.edge) };
+                    if is_whole { Mask::all(0) } else { known.look_at_edges(system, now, guard.singularity) };
                 let (soonest, patient) = known.paces(system, before, guard.approach, *until_edges);
                 (suspects, soonest, patient)
             },
@@ -195,8 +195,11 @@ impl<L: Lanes, const N: usize> LaneWatch<L, N> {
             if apart[lane] > 0 {
                 continue;
             }
-            let distances =
-                if suspects.contains(lane) { known.distances(lane, now.time, guard.edge) } else { Ok(()) };
+            let distances = if suspects.contains(lane) {
+                known.distances(lane, now.time, guard.singularity)
+            } else {
+                Ok(())
+            };
             match distances.and_then(|()| known.pace(lane, soonest, now.time, guard.approach)) {
                 Ok(soonest) => apart[lane] = next(soonest),
                 Err(cause) => faults.add(lane, cause, good),
@@ -280,13 +283,13 @@ impl<L: Lanes, const N: usize> LaneWatch<L, N> {
         // In the first steps an entry that was zero has no size yet.
         let negligible = if *young > 0 { guard.step } else { libm::sqrt(f64::EPSILON) };
         let time = L::from_f64(now.time);
-        let (vitals, condition, change, most, suspects) = L::vectorize(
+        let (invariants, condition, change, most, suspects) = L::vectorize(
             #[inline(always)]
             || {
-                let vitals = system.vitals(time, &now.state);
+                let invariants = system.conserved(time, &now.state);
                 let condition = system.condition(time, &now.state);
-                known.scale = vitals.scale.where_above(known.scale, vitals.scale, known.scale);
-                let change = match (vitals.energy, known.energy) {
+                known.scale = invariants.scale.where_above(known.scale, invariants.scale, known.scale);
+                let change = match (invariants.energy, known.energy) {
                     (Some(energy), Some(before)) => (energy - before).abs(),
                     _ => L::zero(),
                 };
@@ -300,15 +303,15 @@ impl<L: Lanes, const N: usize> LaneWatch<L, N> {
                     None => L::zero(),
                 };
                 let suspects = above(change, guard.energy)
-                    + above(vitals.residual, guard.residual)
+                    + above(invariants.residual, guard.residual)
                     + above(condition, guard.condition)
                     + above(most, guard.step)
-                    + above(vitals.carried, guard.carried);
+                    + above(invariants.carried, guard.carried);
                 let mut suspects = Mask::all(L::COUNT) - suspects.finite();
                 if known.count > 0 {
-                    suspects = suspects.or(known.look_at_edges(system, now, guard.edge));
+                    suspects = suspects.or(known.look_at_edges(system, now, guard.singularity));
                 }
-                (vitals, condition, change, most, suspects)
+                (invariants, condition, change, most, suspects)
             },
         );
         let found = now.time;
@@ -318,14 +321,14 @@ impl<L: Lanes, const N: usize> LaneWatch<L, N> {
                 if exceeds(change, guard.energy) {
                     return Err(Cause::Energy { found, change, limit: guard.energy });
                 }
-                in_order(guard, found, vitals.residual.lane(lane), condition.lane(lane))?;
-                known.distances(lane, found, guard.edge)?;
+                in_order(guard, found, invariants.residual.lane(lane), condition.lane(lane))?;
+                known.distances(lane, found, guard.singularity)?;
                 let limit = guard.step;
                 if exceeds(most.lane(lane), limit) {
                     let Worst { entry, defect } = worst(&known.defects.judged(|entry| entry.lane(lane)));
                     return Err(Cause::Step { found, entry, defect, limit });
                 }
-                let (drift, limit) = (vitals.carried.lane(lane), guard.carried);
+                let (drift, limit) = (invariants.carried.lane(lane), guard.carried);
                 if exceeds(drift, limit) { Err(Cause::Carried { found, drift, limit }) } else { Ok(()) }
             };
             if let Err(cause) = judge() {
@@ -352,18 +355,18 @@ impl<L: Lanes, const N: usize> Known<L, N> {
         faults: &mut Faults<N>,
     ) -> Self {
         let time = L::from_f64(start.time);
-        let vitals = system.vitals(time, &start.state);
+        let invariants = system.conserved(time, &start.state);
         let condition = system.condition(time, &start.state);
         let largest = start.state.map(Real::abs);
-        let mut functions_there = [Rounded::exact(L::zero()); EDGES];
+        let mut functions_there = [RunningError::exact(L::zero()); MAX_SINGULARITIES];
         let count = L::vectorize(
             #[inline(always)]
             || functions(system, time, &start.state, &largest, &mut functions_there),
         );
-        let count = if guard.edge < 0.0 { 0 } else { count };
+        let count = if guard.singularity < 0.0 { 0 } else { count };
         let known = Self {
-            energy: vitals.energy,
-            scale: vitals.scale,
+            energy: invariants.energy,
+            scale: invariants.scale,
             count,
             start: functions_there.map(|function| function.value),
             functions: functions_there,
@@ -372,8 +375,8 @@ impl<L: Lanes, const N: usize> Known<L, N> {
             defects: Defects::new(),
         };
         for lane in lanes.lanes() {
-            let order = in_order(guard, start.time, vitals.residual.lane(lane), condition.lane(lane));
-            if let Err(cause) = order.and_then(|()| known.distances(lane, start.time, guard.edge)) {
+            let order = in_order(guard, start.time, invariants.residual.lane(lane), condition.lane(lane));
+            if let Err(cause) = order.and_then(|()| known.distances(lane, start.time, guard.singularity)) {
                 faults.add(lane, cause, start);
             }
         }
@@ -401,7 +404,8 @@ impl<L: Lanes, const N: usize> Known<L, N> {
     }
 
     fn distances(&self, lane: usize, found: f64, limit: f64) -> Result<(), Cause> {
-        let alone = |f: &Rounded<L>| Rounded { value: f.value.lane(lane), error: f.error.lane(lane) };
+        let alone =
+            |f: &RunningError<L>| RunningError { value: f.value.lane(lane), error: f.error.lane(lane) };
         let functions = self.functions.iter().zip(&self.start).map(|(f, start)| (alone(f), start.lane(lane)));
         distances(functions.take(self.count), found, limit)
     }

@@ -3,12 +3,12 @@
 //! All lanes share their times, which are those of a run in plain `f64`, and so are the states, to the bit. A lane that
 //! fails is set aside with its error, and the others go on.
 
-use super::course::{Done, Outcome, Statistics};
 use super::fixed::Leg;
 use super::guard::Guard;
 use super::lane_guard::{Fault, LaneWatch, MOST, Moment};
 use super::rk4::Rk4;
 use super::rk8::Rk8;
+use super::run::{IntegrationResult, Outcome, Statistics};
 use crate::error::{Cause, IntegrationError, Setting};
 use crate::lanes::{Lanes, Mask};
 use crate::system::System;
@@ -50,12 +50,12 @@ pub(super) trait LaneFormula<L: Lanes, S: ?Sized, const N: usize> {
 /// How the trajectories in lanes ended.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InLanes<const N: usize> {
-    ends: [Option<Result<Done<f64, N>, IntegrationError<f64, N>>>; MOST],
+    ends: [Option<Result<IntegrationResult<f64, N>, IntegrationError<f64, N>>>; MOST],
 }
 
 impl<const N: usize> InLanes<N> {
     /// The end of the trajectory in a lane; none if there is no such lane.
-    pub fn lane(&self, lane: usize) -> Option<&Result<Done<f64, N>, IntegrationError<f64, N>>> {
+    pub fn lane(&self, lane: usize) -> Option<&Result<IntegrationResult<f64, N>, IntegrationError<f64, N>>> {
         self.ends.get(lane)?.as_ref()
     }
 
@@ -67,7 +67,7 @@ impl<const N: usize> InLanes<N> {
 }
 
 impl<const N: usize> IntoIterator for InLanes<N> {
-    type Item = Result<Done<f64, N>, IntegrationError<f64, N>>;
+    type Item = Result<IntegrationResult<f64, N>, IntegrationError<f64, N>>;
     type IntoIter = core::iter::Flatten<core::array::IntoIter<Option<Self::Item>, MOST>>;
 
     /// The ends, one for each lane.
@@ -300,7 +300,7 @@ where
     let start = Moment { time: t0, state: *x0 };
     let invalid = (!guard.is_valid()).then_some(Cause::Setting(Setting::Guard));
     let (formula, step, memory) = method.ready();
-    let price = (system.cost_of_look(), system.cost_of_edges());
+    let price = (system.check_cost(), system.singularity_check_cost());
     let mut run: Run<'_, M, L, S, N> = Run {
         system,
         formula,
@@ -413,7 +413,7 @@ where
             self.set_aside();
         }
         for lane in self.going.lanes() {
-            let done = Done {
+            let done = IntegrationResult {
                 time: self.now.time,
                 state: self.now.alone(lane),
                 outcome: Outcome::Arrived,

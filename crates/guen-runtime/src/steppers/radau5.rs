@@ -3,11 +3,11 @@
 use super::all_finite;
 use super::collocation::{Collocation, Factors, combined};
 use super::control::{self, Control, Margin, Tolerance};
-use super::course::{Course, Method, Reached};
 use super::dense::Dense;
 use super::entries;
-use super::landing::short_ways;
 use super::lu::Complex;
+use super::run::{Checkpoint, Method, StepperRun};
+use super::stop_times::short_ways;
 use crate::decimal::{Parts, decimal};
 use crate::differentiable::Differentiable;
 use crate::error::{Cause, Setting};
@@ -120,9 +120,9 @@ impl<R: Ordered> Radau5<R> {
 }
 
 impl<R: Ordered, S: Differentiable<R, N> + ?Sized, const N: usize> Method<R, S, N> for Radau5<R> {
-    type Course<'a> = Run<'a, R, N>;
+    type Run<'a> = Run<'a, R, N>;
 
-    fn start(&self, start: &Reached<R, N>) -> Self::Course<'_> {
+    fn start(&self, start: &Checkpoint<R, N>) -> Self::Run<'_> {
         let (reached, origin) = (*start, start.time);
         Run {
             method: self,
@@ -145,8 +145,8 @@ pub struct Run<'a, R, const N: usize> {
     method: &'a Radau5<R>,
     /// When the run began.
     origin: R,
-    reached: Reached<R, N>,
-    before: Reached<R, N>,
+    reached: Checkpoint<R, N>,
+    before: Checkpoint<R, N>,
     ready: Option<Ready<R, N>>,
     /// The step made last, with its stages.
     last: Option<(R, [[R; N]; 3])>,
@@ -177,7 +177,7 @@ impl<R: Ordered, const N: usize> Run<'_, R, N> {
     {
         let tolerance = self.method.tolerance();
         tolerance.check()?;
-        let Reached { time, state, .. } = self.reached;
+        let Checkpoint { time, state, .. } = self.reached;
         if !time.is_finite() || !all_finite(&state) {
             return Err(Cause::NotFinite);
         }
@@ -228,7 +228,7 @@ impl<R: Ordered, const N: usize> Run<'_, R, N> {
         let mut z = start.unwrap_or([[R::zero(); N]; 3]);
         let (mut last, mut rate) = (f64::INFINITY, 0.0);
         for iteration in 1..=ITERATIONS {
-            let Reached { time, state, .. } = &self.reached;
+            let Checkpoint { time, state, .. } = &self.reached;
             let step = collocation.newton(system, factors, (*time, state, h), &z);
             self.reached.statistics.evaluations += 3;
             let mut squares = 0.0;
@@ -265,7 +265,7 @@ impl<R: Ordered, const N: usize> Run<'_, R, N> {
     }
 }
 
-impl<R, S, const N: usize> Course<R, S, N> for Run<'_, R, N>
+impl<R, S, const N: usize> StepperRun<R, S, N> for Run<'_, R, N>
 where
     R: Ordered,
     S: Differentiable<R, N> + ?Sized,
@@ -274,7 +274,7 @@ where
 
     type Polynomial = Dense<R, N>;
 
-    fn reached(&self) -> &Reached<R, N> {
+    fn checkpoint(&self) -> &Checkpoint<R, N> {
         &self.reached
     }
 
@@ -293,7 +293,7 @@ where
             None => self.start(system, target)?,
         };
         let tolerance = self.method.tolerance();
-        let Reached { time, time_rest, state, .. } = self.reached;
+        let Checkpoint { time, time_rest, state, .. } = self.reached;
         let weights = tolerance.weights(&state, &state);
         let span = ((target - time) - time_rest).to_f64();
         let shortest = control::shortest(time, self.origin);

@@ -2,10 +2,10 @@
 
 use core::ops::ControlFlow;
 
-use super::course::{Done, Method};
 use super::guard::Guard;
 use super::integration::Integration;
 use super::lu::Lu;
+use super::run::{IntegrationResult, Method};
 use crate::dual::Dual;
 use crate::error::{Cause, IntegrationError, Setting};
 use crate::lift::Lift;
@@ -20,7 +20,7 @@ const EVERY: u32 = 8;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reversible<R, const N: usize> {
     /// How the run ended.
-    pub done: Done<R, N>,
+    pub done: IntegrationResult<R, N>,
     /// `matrix[i][j]`: the derivative of entry `i` of the end by entry `j` of the start.
     pub matrix: [[R; N]; N],
     /// How much relative rounding errors grow on the way back: `|Phi|`, the largest over the run.
@@ -148,7 +148,12 @@ where
     }
     let state = done.state.map(|x| x.value);
     Ok(Reversible {
-        done: Done { time: done.time.value, state, outcome: done.outcome, statistics: done.statistics },
+        done: IntegrationResult {
+            time: done.time.value,
+            state,
+            outcome: done.outcome,
+            statistics: done.statistics,
+        },
         matrix: done.state.map(|x| x.tangent),
         growth: back.worst,
     })

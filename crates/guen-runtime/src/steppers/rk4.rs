@@ -1,14 +1,14 @@
 //! The classical method of order four, with a fixed step.
 
 use super::compensated::Compensated;
-use super::course::{Method, Reached, Statistics};
 use super::defect::quadrature;
 use super::dense::Dense;
 use super::fixed::{Changes, Fixed, Formula, Slopes};
-use super::landing::short_ways;
 use super::lane_guard::Moment;
 use super::lanes::LaneFormula;
 use super::moved;
+use super::run::{Checkpoint, Method, Statistics};
+use super::stop_times::short_ways;
 use crate::cost::Cost;
 use crate::error::Cause;
 use crate::lanes::Lanes;
@@ -144,7 +144,7 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Formula<R, S, N> for Rk4
         &self,
         system: &S,
         slopes: &mut Self::Memory,
-        from: &Reached<R, N>,
+        from: &Checkpoint<R, N>,
         h: R,
         _dense: bool,
         statistics: &mut Statistics,
@@ -161,15 +161,21 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Formula<R, S, N> for Rk4
         &self,
         system: &S,
         slopes: &mut Self::Memory,
-        from: &Reached<R, N>,
-        to: &Reached<R, N>,
+        from: &Checkpoint<R, N>,
+        to: &Checkpoint<R, N>,
         h: R,
         statistics: &mut Statistics,
     ) -> Dense<R, N> {
         slopes.hermite(system, from, to, h, statistics)
     }
 
-    fn defect(&self, system: &S, slopes: &Self::Memory, from: &Reached<R, N>, to: &Reached<R, N>) -> [R; N] {
+    fn defect(
+        &self,
+        system: &S,
+        slopes: &Self::Memory,
+        from: &Checkpoint<R, N>,
+        to: &Checkpoint<R, N>,
+    ) -> [R; N] {
         quadrature(system, &slopes.first, from, to)
     }
 }
@@ -191,7 +197,7 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Changes<R, S, N> for Rk4
         &self,
         system: &S,
         slopes: &mut Self::Memory,
-        from: &Reached<R, N>,
+        from: &Checkpoint<R, N>,
         h: R,
         _dense: bool,
         statistics: &mut Statistics,
@@ -206,9 +212,9 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Changes<R, S, N> for Rk4
 }
 
 impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Method<R, S, N> for Rk4<R> {
-    type Course<'a> = Fixed<'a, Self, Slopes<R, N>, R, N>;
+    type Run<'a> = Fixed<'a, Self, Slopes<R, N>, R, N>;
 
-    fn start(&self, start: &Reached<R, N>) -> Self::Course<'_> {
+    fn start(&self, start: &Checkpoint<R, N>) -> Self::Run<'_> {
         Fixed::new(self, Slopes::new(), self.step, start)
     }
 }
@@ -242,7 +248,7 @@ impl<L: Lanes, S: System<L, N> + ?Sized, const N: usize> LaneFormula<L, S, N> fo
     fn defect((): &(), system: &S, first: &[L; N], before: &Moment<L, N>, now: &Moment<L, N>) -> [L; N] {
         L::vectorize(
             #[inline(always)]
-            || quadrature(system, first, &before.reached(), &now.reached()),
+            || quadrature(system, first, &before.checkpoint(), &now.checkpoint()),
         )
     }
 }

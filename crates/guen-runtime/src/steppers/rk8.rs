@@ -1,14 +1,14 @@
 //! The formula of order eight of DOP853, with a fixed step.
 
 use super::compensated::Compensated;
-use super::course::{Method, Reached, Statistics};
 use super::dense::Dense;
 use super::fixed::{Changes, Fixed, Formula, Slopes};
-use super::landing::short_ways;
 use super::lane_guard::Moment;
 use super::lanes::LaneFormula;
+use super::run::{Checkpoint, Method, Statistics};
 use super::scaled;
 use super::shifted;
+use super::stop_times::short_ways;
 use super::tableau::{Stages, Tableau};
 use crate::error::Cause;
 use crate::lanes::Lanes;
@@ -70,7 +70,7 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Formula<R, S, N> for Rk8
         &self,
         system: &S,
         memory: &mut Self::Memory,
-        from: &Reached<R, N>,
+        from: &Checkpoint<R, N>,
         h: R,
         dense: bool,
         statistics: &mut Statistics,
@@ -82,8 +82,8 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Formula<R, S, N> for Rk8
         &self,
         system: &S,
         memory: &mut Self::Memory,
-        from: &Reached<R, N>,
-        to: &Reached<R, N>,
+        from: &Checkpoint<R, N>,
+        to: &Checkpoint<R, N>,
         h: R,
         statistics: &mut Statistics,
     ) -> Dense<R, N> {
@@ -92,7 +92,13 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Formula<R, S, N> for Rk8
         self.tableau.dense(system, &memory.stages, from, to, &end, h)
     }
 
-    fn defect(&self, _system: &S, memory: &Self::Memory, from: &Reached<R, N>, to: &Reached<R, N>) -> [R; N] {
+    fn defect(
+        &self,
+        _system: &S,
+        memory: &Self::Memory,
+        from: &Checkpoint<R, N>,
+        to: &Checkpoint<R, N>,
+    ) -> [R; N] {
         estimate(&self.tableau, &memory.stages, to.since(from))
     }
 }
@@ -120,7 +126,7 @@ impl<R: Real> Rk8<R> {
         &self,
         system: &S,
         memory: &mut Memory<R, N>,
-        from: &Reached<R, N>,
+        from: &Checkpoint<R, N>,
         h: R,
         dense: bool,
         statistics: &mut Statistics,
@@ -145,7 +151,7 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Changes<R, S, N> for Rk8
         &self,
         system: &S,
         memory: &mut Self::Memory,
-        from: &Reached<R, N>,
+        from: &Checkpoint<R, N>,
         h: R,
         dense: bool,
         statistics: &mut Statistics,
@@ -155,9 +161,9 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Changes<R, S, N> for Rk8
 }
 
 impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Method<R, S, N> for Rk8<R> {
-    type Course<'a> = Fixed<'a, Self, Memory<R, N>, R, N>;
+    type Run<'a> = Fixed<'a, Self, Memory<R, N>, R, N>;
 
-    fn start(&self, start: &Reached<R, N>) -> Self::Course<'_> {
+    fn start(&self, start: &Checkpoint<R, N>) -> Self::Run<'_> {
         let (step, memory) = Changes::<R, S, N>::begin(self);
         Fixed::new(self, memory, step, start)
     }

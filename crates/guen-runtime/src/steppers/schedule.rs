@@ -27,7 +27,7 @@ pub(super) struct Schedule {
 
 impl Schedule {
     /// Of a method that evaluates so often in a step, `fixed` if of a fixed length, and a system with these prices of looks:
-    /// [`cost_of_look`](crate::System::cost_of_look) and [`cost_of_edges`](crate::System::cost_of_edges). `chosen` is how often
+    /// [`check_cost`](crate::System::check_cost) and [`singularity_check_cost`](crate::System::singularity_check_cost). `chosen` is how often
     /// somebody wants to look.
     pub fn new(evaluations: u32, (look, edges): (u32, f64), fixed: bool, chosen: Option<u32>) -> Self {
         let evaluations = evaluations.max(1);
@@ -84,7 +84,7 @@ mod tests {
                     let Schedule { edges: between, every, young } =
                         Schedule::new(evaluations, (look, edges), true, None);
                     let (between, every) = (f64::from(between) * of, f64::from(every) * of);
-                    // Rounded down to whole steps, in the worst case a part of thirteen.
+                    // RunningError down to whole steps, in the worst case a part of thirteen.
                     let most = 1.08 / 34.0;
                     let price = f64::from(look) + 4.0;
                     assert!(price / every + 2.0 * edges / between < most, "{every} {between}");

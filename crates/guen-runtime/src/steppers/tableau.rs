@@ -1,9 +1,9 @@
 //! One step of DOP853: from a state and its slope to the next state, two estimates of the error, and the polynomial
 //! between, without any decision about them.
 
-use super::course::Reached;
 use super::dense::Dense;
 use super::dop853_coefficients as published;
+use super::run::Checkpoint;
 use super::scaled;
 use super::{ahead, arrived, leading, moved, shifted, weighted};
 use crate::decimal::reals;
@@ -309,8 +309,8 @@ impl<R: Real> Tableau<R> {
         &self,
         system: &S,
         stages: &Stages<R, N>,
-        from: &Reached<R, N>,
-        to: &Reached<R, N>,
+        from: &Checkpoint<R, N>,
+        to: &Checkpoint<R, N>,
         end: &[R; N],
         h: R,
     ) -> Dense<R, N>

@@ -2,10 +2,10 @@
 
 use super::adaptive::{Adaptive, Attempt, Pair, Settings, Step};
 use super::control::{self, Control, Margin, Tolerance};
-use super::course::{Method, Reached};
 use super::dense::Dense;
-use super::landing::short_ways;
+use super::run::{Checkpoint, Method};
 use super::scaled;
+use super::stop_times::short_ways;
 use super::tsit5_coefficients as published;
 use super::{ahead, arrived, leading, shifted, weighted};
 use crate::decimal::reals;
@@ -168,9 +168,9 @@ impl<R: Real, const N: usize> Pair<R, N> for Formula<R> {
 }
 
 impl<R: Ordered, S: System<R, N> + ?Sized, const N: usize> Method<R, S, N> for Tsit5<R> {
-    type Course<'a> = Adaptive<'a, Formula<R>, Stages<R, N>, R, N>;
+    type Run<'a> = Adaptive<'a, Formula<R>, Stages<R, N>, R, N>;
 
-    fn start(&self, start: &Reached<R, N>) -> Self::Course<'_> {
+    fn start(&self, start: &Checkpoint<R, N>) -> Self::Run<'_> {
         Adaptive::new(&self.formula, self.settings(), start)
     }
 }

@@ -1,28 +1,28 @@
 //! What lies within one step of a run: samples and events, in the order of time, and the end of a run at an event.
 
-use super::course::{Course, Done, Outcome, Reached};
 use super::crossing::{Crossing, Looks, Tracker, earlier, sign};
 use super::dense::Interpolant;
 use super::events::{Event, Occurrence};
 use super::integration::Integration;
+use super::run::{Checkpoint, IntegrationResult, Outcome, StepperRun};
 use crate::error::Cause;
 use crate::real::Real;
 use crate::system::System;
 
-/// The motion over the step that a course has made last, on the constraints.
-struct Motion<'a, C: Course<R, S, N>, R: Real, S: ?Sized, const N: usize> {
+/// The motion over the step that a run has made last, on the constraints.
+struct Motion<'a, C: StepperRun<R, S, N>, R: Real, S: ?Sized, const N: usize> {
     system: &'a S,
-    course: &'a mut C,
-    after: Reached<R, N>,
+    run: &'a mut C,
+    after: Checkpoint<R, N>,
     polynomial: Option<C::Polynomial>,
 }
 
-impl<C: Course<R, S, N>, R: Real, S: System<R, N> + ?Sized, const N: usize> Motion<'_, C, R, S, N> {
+impl<C: StepperRun<R, S, N>, R: Real, S: System<R, N> + ?Sized, const N: usize> Motion<'_, C, R, S, N> {
     fn at(&mut self, time: R) -> Result<[R; N], Cause> {
         if time == self.after.time {
             return Ok(self.after.state);
         }
-        let dense = self.polynomial.get_or_insert_with(|| self.course.dense(self.system));
+        let dense = self.polynomial.get_or_insert_with(|| self.run.dense(self.system));
         let mut state = dense.at(time);
         self.system.restore(time, &mut state).map_err(|_| Cause::Positions)?;
         Ok(state)
@@ -51,7 +51,7 @@ impl<R: Real> Followed<R> {
         origin: R,
         motion: &mut Motion<'_, C, R, S, N>,
     ) where
-        C: Course<R, S, N>,
+        C: StepperRun<R, S, N>,
         S: System<R, N> + ?Sized,
     {
         self.ahead = self.behind;
@@ -74,7 +74,7 @@ impl<R: Real> Followed<R> {
         motion: &mut Motion<'_, C, R, S, N>,
     ) -> bool
     where
-        C: Course<R, S, N>,
+        C: StepperRun<R, S, N>,
         S: System<R, N> + ?Sized,
     {
         let backwards = (self.looks.end - self.looks.start).to_f64() < 0.0;
@@ -108,21 +108,21 @@ impl<R: Real> Followed<R> {
 }
 
 impl<R: Real, S: System<R, N> + ?Sized, const N: usize, const E: usize> Integration<'_, R, S, N, E> {
-    /// Samples and events of the step from `before` to where the course stands. Answers with the end of the run, if
+    /// Samples and events of the step from `before` to where the run stands. Answers with the end of the run, if
     /// one of them ended it.
     pub(super) fn within_step<C>(
         &mut self,
-        course: &mut C,
-        before: &Reached<R, N>,
+        run: &mut C,
+        before: &Checkpoint<R, N>,
         trackers: &mut [Tracker; E],
         visited: &mut usize,
-    ) -> Result<Option<Done<R, N>>, Cause>
+    ) -> Result<Option<IntegrationResult<R, N>>, Cause>
     where
-        C: Course<R, S, N>,
+        C: StepperRun<R, S, N>,
     {
         let Self { system, start, events, samples, visitor, receiver, observer, .. } = self;
-        let after = *course.reached();
-        let mut motion = Motion { system: *system, course, after, polynomial: None };
+        let after = *run.checkpoint();
+        let mut motion = Motion { system: *system, run, after, polynomial: None };
         let backwards = (after.time - before.time).to_f64() < 0.0;
         let origin = start.time;
         let mut followed: [Followed<R>; E] = core::array::from_fn(|i| {
@@ -224,8 +224,10 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize, const E: usize> Integrat
             if let Some(observer) = observer {
                 let _ = observer(until, &state);
             }
-            let statistics = motion.course.reached().statistics;
-            return Ok(Some(Reached { time: until, time_rest: R::zero(), state, statistics }.done(outcome)));
+            let statistics = motion.run.checkpoint().statistics;
+            return Ok(Some(
+                Checkpoint { time: until, time_rest: R::zero(), state, statistics }.done(outcome),
+            ));
         }
     }
 }
@@ -233,12 +235,12 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize, const E: usize> Integrat
 /// Whether an event's function is much smaller where a run begins than where its first step ends or in its middle.
 fn is_near<C, R: Real, S, const N: usize>(
     event: &Event<'_, R, N>,
-    start: &Reached<R, N>,
+    start: &Checkpoint<R, N>,
     end: f64,
     motion: &mut Motion<'_, C, R, S, N>,
 ) -> bool
 where
-    C: Course<R, S, N>,
+    C: StepperRun<R, S, N>,
     S: System<R, N> + ?Sized,
 {
     /// By this factor.

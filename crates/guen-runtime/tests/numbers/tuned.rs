@@ -2,7 +2,7 @@
 
 use f256::f256;
 use guen_runtime::steppers::Rk4;
-use guen_runtime::{Digits7, Digits13, Dual, Functions, Fused, Lift, Real, Tuned, from_fn};
+use guen_runtime::{Approx7, Approx13, Dual, Functions, Fused, Lift, Real, WithFunctions, from_fn};
 
 /// Numbers over the range in which the polynomials serve themselves, its ends included, and beyond.
 fn arguments() -> impl Iterator<Item = f64> {
@@ -18,7 +18,7 @@ fn arguments() -> impl Iterator<Item = f64> {
 /// The largest absolute errors against the accurate functions, which err by 1e-16.
 fn largest<F: Functions<f64>>() -> (f64, f64) {
     arguments().fold((0.0, 0.0), |(in_sin, in_cos), x| {
-        let (sin, cos) = Tuned::<f64, F>::new(x).sin_cos();
+        let (sin, cos) = WithFunctions::<f64, F>::new(x).sin_cos();
         let exact = Real::sin_cos(x);
         (f64::max(in_sin, (sin.value - exact.0).abs()), f64::max(in_cos, (cos.value - exact.1).abs()))
     })
@@ -26,22 +26,22 @@ fn largest<F: Functions<f64>>() -> (f64, f64) {
 
 #[test]
 fn polynomials_err_as_stated() {
-    let thirteen = largest::<guen_runtime::Digits13Functions>();
-    let seven = largest::<guen_runtime::Digits7Functions>();
-    println!("Digits13: sin {:.2e}, cos {:.2e}", thirteen.0, thirteen.1);
-    println!("Digits7:  sin {:.2e}, cos {:.2e}", seven.0, seven.1);
+    let thirteen = largest::<guen_runtime::Approx13Functions>();
+    let seven = largest::<guen_runtime::Approx7Functions>();
+    println!("Approx13: sin {:.2e}, cos {:.2e}", thirteen.0, thirteen.1);
+    println!("Approx7:  sin {:.2e}, cos {:.2e}", seven.0, seven.1);
     assert!(thirteen.0 < 1e-13 && thirteen.1 < 1e-13);
     assert!(seven.0 < 4e-8 && seven.1 < 4e-8);
     // They are what they are said to be, and not the accurate ones.
     assert!(thirteen.1 > 1e-14 && seven.1 > 1e-8);
-    assert!(Digits7::new(-0.0).sin().value.is_sign_negative());
-    assert!(Digits13::new(f64::INFINITY).sin().value.is_nan());
+    assert!(Approx7::new(-0.0).sin().value.is_sign_negative());
+    assert!(Approx13::new(f64::INFINITY).sin().value.is_nan());
 }
 
 #[test]
 fn duals_take_the_exchanged_functions() {
-    let x = Dual::<Digits7, 1>::variable(Digits7::new(1.1), 0);
-    let (sin, cos) = Digits7::new(1.1).sin_cos();
+    let x = Dual::<Approx7, 1>::variable(Approx7::new(1.1), 0);
+    let (sin, cos) = Approx7::new(1.1).sin_cos();
     assert_eq!(x.sin_cos(), (Dual { value: sin, tangent: [cos] }, Dual { value: cos, tangent: [-sin] }));
     let nested: Dual<Dual<Fused, 2>, 1> = Lift::lift(0.25);
     assert_eq!(nested.value.value, Fused::new(0.25));
@@ -88,10 +88,10 @@ fn a_dual_fuses_what_its_real_fuses() {
 
 #[test]
 fn steppers_take_tuned_reals() {
-    let pendulum = from_fn(|_t: Digits13, &[q, w]: &[Digits13; 2]| [w, -q.sin()]);
-    let start = [1.0, 0.0].map(Digits13::new);
-    let method = Rk4 { step: Digits13::new(0.01) };
-    let [zero, one] = [0.0, 1.0].map(Digits13::new);
+    let pendulum = from_fn(|_t: Approx13, &[q, w]: &[Approx13; 2]| [w, -q.sin()]);
+    let start = [1.0, 0.0].map(Approx13::new);
+    let method = Rk4 { step: Approx13::new(0.01) };
+    let [zero, one] = [0.0, 1.0].map(Approx13::new);
     let done =
         method.integrate(&pendulum, zero, &start, one, |_, _| core::ops::ControlFlow::Continue(())).unwrap();
     let exact = from_fn(|_t: f64, &[q, w]: &[f64; 2]| [w, -Real::sin(q)]);

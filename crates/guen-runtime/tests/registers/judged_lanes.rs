@@ -3,7 +3,7 @@
 use guen_runtime::lanes::{Backend, LaneTask, Lanes, Mask, Width, dispatch_on};
 use guen_runtime::prelude::*;
 use guen_runtime::steppers::InLanes;
-use guen_runtime::{Rounded, Setting, Vitals, checks};
+use guen_runtime::{Invariants, RunningError, Setting, checks};
 
 /// Something to go wrong in every way that a guard knows, by the first entry of the state, which says how much of it there is.
 trait Faulty {
@@ -12,11 +12,11 @@ trait Faulty {
 
     fn rates<R: Real>(t: R, state: &[R; 3]) -> [R; 3];
 
-    fn vitals<R: Real>(_state: &[R; 3]) -> Vitals<R> {
-        Vitals::default()
+    fn conserved<R: Real>(_state: &[R; 3]) -> Invariants<R> {
+        Invariants::default()
     }
 
-    fn edges<R: Real>(_state: &[Rounded<R>; 3], _values: &mut [Rounded<R>]) -> usize {
+    fn singularities<R: Real>(_state: &[RunningError<R>; 3], _values: &mut [RunningError<R>]) -> usize {
         0
     }
 
@@ -59,19 +59,24 @@ impl<R: Real> System<R, 3> for Fault {
         )
     }
 
-    fn vitals(&self, _t: R, state: &[R; 3]) -> Vitals<R> {
-        as_type!(self, F => F::vitals(state))
+    fn conserved(&self, _t: R, state: &[R; 3]) -> Invariants<R> {
+        as_type!(self, F => F::conserved(state))
     }
 
-    fn edges(&self, _t: Rounded<R>, state: &[Rounded<R>; 3], values: &mut [Rounded<R>]) -> usize {
-        as_type!(self, F => F::edges(state, values))
+    fn singularities(
+        &self,
+        _t: RunningError<R>,
+        state: &[RunningError<R>; 3],
+        values: &mut [RunningError<R>],
+    ) -> usize {
+        as_type!(self, F => F::singularities(state, values))
     }
 
     fn condition(&self, _t: R, state: &[R; 3]) -> R {
         as_type!(self, F => F::condition(state))
     }
 
-    fn cost_of_edges(&self) -> f64 {
+    fn singularity_check_cost(&self) -> f64 {
         as_type!(self, F => F::PRICE)
     }
 }
@@ -88,8 +93,8 @@ impl Faulty for Pole {
         [R::zero(), late / x, offset / (x * x)]
     }
 
-    fn edges<R: Real>(state: &[Rounded<R>; 3], values: &mut [Rounded<R>]) -> usize {
-        values[0] = Rounded::exact(R::from_ratio(3, 1));
+    fn singularities<R: Real>(state: &[RunningError<R>; 3], values: &mut [RunningError<R>]) -> usize {
+        values[0] = RunningError::exact(R::from_ratio(3, 1));
         values[1] = state[1];
         2
     }
@@ -103,7 +108,7 @@ impl Faulty for Fall {
         [R::zero(), -speed, R::zero()]
     }
 
-    fn edges<R: Real>(state: &[Rounded<R>; 3], values: &mut [Rounded<R>]) -> usize {
+    fn singularities<R: Real>(state: &[RunningError<R>; 3], values: &mut [RunningError<R>]) -> usize {
         values[0] = state[1];
         1
     }
@@ -117,9 +122,9 @@ impl Faulty for Oscillator {
         [R::zero(), v, -(omega * omega * x)]
     }
 
-    fn vitals<R: Real>(&[omega, x, v]: &[R; 3]) -> Vitals<R> {
+    fn conserved<R: Real>(&[omega, x, v]: &[R; 3]) -> Invariants<R> {
         let energy = v * v + omega * omega * x * x;
-        Vitals { energy: Some(energy), scale: energy, ..Vitals::default() }
+        Invariants { energy: Some(energy), scale: energy, ..Invariants::default() }
     }
 }
 
@@ -140,13 +145,16 @@ impl Faulty for Growth {
         [R::zero(), rate * x, -(rate * y)]
     }
 
-    fn vitals<R: Real>(&[_, x, y]: &[R; 3]) -> Vitals<R> {
-        let gaps = [(Rounded::once(x) - Rounded::exact(x)), Rounded::once(x) - Rounded::exact(y)];
+    fn conserved<R: Real>(&[_, x, y]: &[R; 3]) -> Invariants<R> {
+        let gaps = [
+            (RunningError::once(x) - RunningError::exact(x)),
+            RunningError::once(x) - RunningError::exact(y),
+        ];
         let residual = checks::furthest(&gaps) * R::from_ratio(1, 10_000);
-        Vitals {
+        Invariants {
             residual,
             carried: checks::largest(&[y, R::zero(), x]) * R::from_ratio(1, 1_000),
-            ..Vitals::default()
+            ..Invariants::default()
         }
     }
 
@@ -252,12 +260,11 @@ fn a_pole_that_a_step_passes() {
     for &step in steps {
         let (arrived, causes) = compare(Fault::Pole, &starts, step, &[0.5, 2.0]);
         assert!(arrived >= SOME && causes.len() >= SOME, "{arrived}");
-        assert!(
-            causes
-                .iter()
-                .all(|cause| matches!(cause, Cause::Approach { function: 1, .. } | Cause::Step { .. }))
-        );
-        assert!(causes.iter().any(|cause| matches!(cause, Cause::Approach { .. })));
+        assert!(causes.iter().all(|cause| matches!(
+            cause,
+            Cause::ApproachingSingularity { function: 1, .. } | Cause::Step { .. }
+        )));
+        assert!(causes.iter().any(|cause| matches!(cause, Cause::ApproachingSingularity { .. })));
     }
 }
 
@@ -267,7 +274,10 @@ fn an_edge_that_some_come_to() {
     let (arrived, causes) = compare(Fault::Fall, &starts, if SLOW { 0.02 } else { 0.003 }, &[0.4, 0.4, 1.3]);
     assert!(arrived >= SOME && causes.len() >= SOME);
     assert!(
-        causes.iter().all(|cause| matches!(cause, Cause::Edge { .. } | Cause::Approach { .. })),
+        causes.iter().all(|cause| matches!(
+            cause,
+            Cause::ChartSingularity { .. } | Cause::ApproachingSingularity { .. }
+        )),
         "{causes:?}"
     );
 }
@@ -319,7 +329,7 @@ fn times_that_are_none() {
 fn limits_are_those_of_the_guard() {
     let starts = starts(16, |k| [1.0 + 0.3 * f64::from(k), 1.0, 0.0]);
     let strict = Guard { energy: 1e-12, step: 1e-12, every: Some(3), ..Guard::default() };
-    let wrong = Guard { edge: f64::NAN, ..Guard::default() };
+    let wrong = Guard { singularity: f64::NAN, ..Guard::default() };
     let system = Fault::Oscillator;
     let times = [2.0];
     let mut failed = Vec::new();

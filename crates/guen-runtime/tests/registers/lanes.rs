@@ -1,7 +1,7 @@
 //! Lanes against plain `f64`: the same bits from every operation, in every backend that this processor has.
 
 use guen_runtime::lanes::{Backend, LaneTask, Lanes, Mask, Width, dispatch_on};
-use guen_runtime::{Digits7, Digits13, Dual, Fused, Lift, Real};
+use guen_runtime::{Approx7, Approx13, Dual, Fused, Lift, Real};
 
 /// Numbers of every kind: even, tiny, huge, next to multiples of `pi/2`, special.
 fn numbers() -> Vec<f64> {
@@ -126,8 +126,8 @@ impl LaneTask for Bits {
 
     fn run<L: Lanes>(self) -> usize {
         compare::<L, f64, L>(|x| x, |x| x, |x| x, |x| x);
-        compare::<L, _, _>(Digits13::new, |x| x.value, Digits13::new, |x| x.value);
-        compare::<L, _, _>(Digits7::new, |x| x.value, Digits7::new, |x| x.value);
+        compare::<L, _, _>(Approx13::new, |x| x.value, Approx13::new, |x| x.value);
+        compare::<L, _, _>(Approx7::new, |x| x.value, Approx7::new, |x| x.value);
         compare::<L, _, _>(Fused::new, |x| x.value, Fused::new, |x| x.value);
         compare::<L, Dual<f64, 1>, Dual<L, 1>>(
             |x| Dual { value: x, tangent: [1.5] },

@@ -251,7 +251,8 @@ fn senseless_settings_are_refused_before_anything_is_done() {
     let system = from_fn(|_t: f64, _: &[f64; 1]| -> [f64; 1] { unreachable!("nothing is evaluated") });
     let method = Dop853::new(1e-9, 1e-9);
     let value = |_: f64, x: &[f64; 1]| x[0];
-    let cause = |result: Result<Done<f64, 1>, IntegrationError<f64, 1>>| result.unwrap_err().cause;
+    let cause =
+        |result: Result<IntegrationResult<f64, 1>, IntegrationError<f64, 1>>| result.unwrap_err().cause;
     for times in [[0.5, 0.4], [-0.1, 0.5], [0.5, 1.5], [0.5, f64::NAN]] {
         let run = Integration::new(&system, 0.0, &[1.0]).sample(&times, &mut |_, _, _| ()).run(&method, 1.0);
         assert_eq!(cause(run), Cause::Setting(Setting::Samples), "{times:?}");

@@ -4,7 +4,7 @@ use core::ops::ControlFlow;
 
 use guen_runtime::prelude::*;
 use guen_runtime::steppers::Method;
-use guen_runtime::{Equations, Generic, Rounded, generic};
+use guen_runtime::{Equations, Generic, RunningError, generic};
 
 fn go_on<const N: usize>(_: f64, _: &[f64; N]) -> ControlFlow<()> {
     ControlFlow::Continue(())
@@ -117,7 +117,12 @@ impl System<f64, 2> for Pole {
         [(t - 1.0) / x, self.offset / (x * x)]
     }
 
-    fn edges(&self, _t: Rounded<f64>, state: &[Rounded<f64>; 2], values: &mut [Rounded<f64>]) -> usize {
+    fn singularities(
+        &self,
+        _t: RunningError<f64>,
+        state: &[RunningError<f64>; 2],
+        values: &mut [RunningError<f64>],
+    ) -> usize {
         values[0] = state[0];
         1
     }
@@ -144,7 +149,8 @@ fn passing_an_edge_between_two_looks_is_seen() {
                         counts.0 += 1;
                     }
                     Err(error) => {
-                        let Cause::Approach { found, ratio, function: 0, .. } = error.cause else {
+                        let Cause::ApproachingSingularity { found, ratio, function: 0, .. } = error.cause
+                        else {
                             panic!("{error}")
                         };
                         assert!(ratio > 2.0 && (found - 1.0).abs() < 0.05, "{error}");

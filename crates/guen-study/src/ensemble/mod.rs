@@ -8,13 +8,13 @@ mod threads;
 use std::marker::PhantomData;
 
 use guen_runtime::lanes::{Backend, LaneTask, Lanes, Width, dispatch_on};
-use guen_runtime::steppers::{Done, LaneMethod};
-use guen_runtime::{Choice, IntegrationError, Laned, Own};
+use guen_runtime::steppers::{IntegrationResult, LaneMethod};
+use guen_runtime::{IntegrationError, LaneScalar, Laned, PlainLanes};
 
 use threads::{in_turn, processors};
 
 /// The end of one trajectory: the last time and state with the work done, or the same with a cause.
-pub type End<const N: usize> = Result<Done<f64, N>, IntegrationError<f64, N>>;
+pub type End<const N: usize> = Result<IntegrationResult<f64, N>, IntegrationError<f64, N>>;
 
 /// One trajectory at the times that were asked for.
 #[derive(Clone, Debug, PartialEq)]
@@ -69,7 +69,7 @@ pub struct Sampled<const N: usize> {
 /// assert!((ends[10].as_ref().unwrap().state[0] - f64::exp(-1.0)).abs() < 1e-9);
 /// ```
 #[derive(Clone, Debug)]
-pub struct Ensemble<S, const N: usize, C = Own> {
+pub struct Ensemble<S, const N: usize, C = PlainLanes> {
     /// One for each start, or one for all.
     systems: Vec<S>,
     starts: Vec<[f64; N]>,
@@ -109,8 +109,8 @@ impl<S, const N: usize, C> Ensemble<S, N, C> {
         Self { backend, width, ..self }
     }
 
-    /// Exchanges the elementary functions, as in `with_choice::<Digits7Functions>()`.
-    pub fn with_choice<D: Choice>(self) -> Ensemble<S, N, D> {
+    /// Exchanges the elementary functions, as in `with_scalar::<Approx7Functions>()`.
+    pub fn with_scalar<D: LaneScalar>(self) -> Ensemble<S, N, D> {
         let Self { systems, starts, threads, backend, width, .. } = self;
         Ensemble { systems, starts, threads, backend, width, choice: PhantomData }
     }
@@ -160,7 +160,7 @@ impl<S, const N: usize, C> Ensemble<S, N, C> {
     }
 }
 
-impl<S: Laned<N> + Sync, const N: usize, C: Choice> Ensemble<S, N, C> {
+impl<S: Laned<N> + Sync, const N: usize, C: LaneScalar> Ensemble<S, N, C> {
     /// Integrates every member from `t0` to `t1`.
     ///
     /// The end of each is that of the method's `integrate` for it alone, to the bit.
@@ -241,7 +241,7 @@ where
     M: LaneMethod,
     K: Default,
     V: Fn(&mut K, [f64; N]),
-    C: Choice,
+    C: LaneScalar,
 {
     type Output = Vec<(K, End<N>)>;
 

@@ -2,7 +2,7 @@ use std::ops::ControlFlow;
 
 use guen_runtime::lanes::{Backend, Lanes, Width};
 use guen_runtime::steppers::{Rk4, Rk8};
-use guen_runtime::{Cause, Digits7Functions, FusedOperations, Laned, Real, Setting, System};
+use guen_runtime::{Approx7Functions, Cause, FusedOperations, Laned, Real, Setting, System};
 
 use super::{End, Ensemble};
 
@@ -122,8 +122,8 @@ fn functions_are_exchanged_on_request() {
     let method = Rk4 { step: 0.5 };
     let ensemble = Ensemble::of_states(Oscillator(1.1), (0..60).map(|i| [2.0 + 0.01 * f64::from(i), 1.0]));
     let own = ensemble.integrate(&method, 0.0, 3.0);
-    let short = ensemble.clone().with_choice::<Digits7Functions>().integrate(&method, 0.0, 3.0);
-    let fused = ensemble.with_choice::<(FusedOperations, Digits7Functions)>().integrate(&method, 0.0, 3.0);
+    let short = ensemble.clone().with_scalar::<Approx7Functions>().integrate(&method, 0.0, 3.0);
+    let fused = ensemble.with_scalar::<(FusedOperations, Approx7Functions)>().integrate(&method, 0.0, 3.0);
     let state = |ends: &[End<2>], i: usize| ends[i].as_ref().unwrap().state[1];
     for i in 0..60 {
         let (own, short, fused) = (state(&own, i), state(&short, i), state(&fused, i));

@@ -1,6 +1,6 @@
 //! The Rust code to write for a setting.
 
-use super::lever::Argument;
+use super::variant::Argument;
 
 /// What `system` is in the code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -75,7 +75,7 @@ pub(super) fn lanes(choice: &str, method: &str, step: f64, span: (f64, f64)) -> 
     let method =
         if method == "RK8" { format!("Rk8::new({step:?})") } else { format!("Rk4 {{ step: {step:?} }}") };
     let choice =
-        if choice == "f64" { String::new() } else { format!(".with_choice::<guen::{choice}Functions>()") };
+        if choice == "f64" { String::new() } else { format!(".with_scalar::<guen::{choice}Functions>()") };
     format!(
         "use guen::{{Recast, prelude::*, study::Ensemble}};\n\
          let system = system.recast::<f64>()?;\n\

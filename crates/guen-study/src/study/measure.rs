@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use guen_runtime::{Real, Vitals};
+use guen_runtime::{Invariants, Real};
 
 use super::digits71::Digits71;
 
@@ -10,7 +10,7 @@ use super::digits71::Digits71;
 pub(super) type Output<const N: usize> = Rc<dyn Fn(f64, &[f64; N]) -> f64>;
 
 /// What a system tells of a state, in the long real.
-pub(super) type Tells<const N: usize> = Box<dyn Fn(Digits71, &[Digits71; N]) -> Vitals<Digits71>>;
+pub(super) type Tells<const N: usize> = Box<dyn Fn(Digits71, &[Digits71; N]) -> Invariants<Digits71>>;
 
 /// What counts as error: see the methods of [`Study`](super::Study) that set it.
 #[derive(Clone)]

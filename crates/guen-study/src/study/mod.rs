@@ -1,6 +1,6 @@
 //! The trade of speed for accuracy, measured on a system of the user's own.
 //!
-//! A [`Study`] holds what is to be done: `lever` and `standard` say what can be pulled, `measure` what counts as error,
+//! A [`Study`] holds what is to be done: `variant` and `standard` say what can be pulled, `measure` what counts as error,
 //! `reference` and `extrapolation` where the truth comes from, in the real of `digits71`; `scan` looks for what these might step
 //! over, and `known` is what it found. `run` does it, in stages within a `budget`; `timing` and `front` are what is known of costs. Out comes a [`Trade`]: a [`Report`] (`row`,
 //! `report`, `choice`, `files`, `picture`, `code`), and the means to ask whether a choice holds elsewhere (`trade`, `probes`).
@@ -14,7 +14,6 @@ mod extrapolation;
 mod files;
 mod front;
 mod known;
-mod lever;
 mod measure;
 mod picture;
 mod probes;
@@ -26,6 +25,7 @@ mod scan;
 mod standard;
 mod timing;
 mod trade;
+mod variant;
 
 use std::ops::Range;
 use std::rc::Rc;
@@ -38,22 +38,22 @@ pub use choice::{Caveat, Choice, NoChoice};
 pub use digits71::Digits71;
 pub use front::pareto_front;
 pub use known::ScanReport;
-pub use lever::Settings;
 pub use reference::ReferenceReport;
 pub use report::{Ending, Report, Unit};
 pub use row::{Failure, FailureKind, Knob, Nearby, Row};
 pub use timing::{Cost, Stopwatch};
 pub use trade::{Forecast, Trade, Tried};
+pub use variant::Settings;
 
 use known::Scanner;
-use lever::{Lever, Run};
 use measure::{Measure, Scales, Tells};
 use reference::{Named, References};
+use variant::{Run, Variant};
 
 /// Told the part of the study that is done; says whether to stop.
 type Stop = Box<dyn FnMut(f64) -> bool>;
 
-/// The work-precision of every lever on one system: what to measure.
+/// The work-precision of every variant on one system: what to measure.
 ///
 /// By default: the error of the end state, every method over every real, at most a minute, times by the machine's clock.
 ///
@@ -108,7 +108,7 @@ pub struct Study<S, const N: usize> {
     samples: usize,
     measure: Measure<N>,
     scales: Scales<N>,
-    levers: Vec<Lever<N>>,
+    variants: Vec<Variant<N>>,
     reference: Named<N>,
     check: Option<Named<N>>,
     /// The reference of states nearby and of trials.
@@ -136,7 +136,7 @@ impl<S, const N: usize> std::fmt::Debug for Study<S, N> {
             .field("starts", &self.starts)
             .field("span", &(self.t0, self.t1))
             .field("measure", &self.measure.text())
-            .field("levers", &self.levers.len())
+            .field("variants", &self.variants.len())
             .finish_non_exhaustive()
     }
 }
@@ -198,16 +198,16 @@ impl<S, const N: usize> Study<S, N> {
         Self { scales: Some(scales), ..self }
     }
 
-    /// Keeps those levers only whose method and real the function wants: `RK4`, `RK8`, `Tsit5`, `DOP853`, `Euler`,
+    /// Keeps those variants only whose method and real the function wants: `RK4`, `RK8`, `Tsit5`, `DOP853`, `Euler`,
     /// `Gauss 4`, `Gauss 6`, `Radau 5`, `Bounded DOP853`, `Bounded Tsit5` and what was added; `f64`, `f32`, `Std`,
-    /// `Digits13`, `Digits7`, `Fused` and lanes.
+    /// `Approx13`, `Approx7`, `Fused` and lanes.
     #[must_use]
     pub fn keep(mut self, wanted: impl Fn(&str, &str) -> bool) -> Self {
-        self.levers.retain(|lever| wanted(&lever.method, &lever.real));
+        self.variants.retain(|variant| wanted(&variant.method, &variant.real));
         self
     }
 
-    /// The same with a lever of the user's own: a method on any system in doubles, with its settings and the code that
+    /// The same with a variant of the user's own: a method on any system in doubles, with its settings and the code that
     /// the report shows for a setting. The system may be another one of the same state, such as a form that is
     /// cheaper.
     ///
@@ -241,7 +241,13 @@ impl<S, const N: usize> Study<S, N> {
         M: Method<f64, T, N> + 'static,
     {
         let system = Rc::new(system);
-        self.levers.push(lever::lever::<f64, T, M, N>([method, real, form], &system, settings, make, code));
+        self.variants.push(variant::variant::<f64, T, M, N>(
+            [method, real, form],
+            &system,
+            settings,
+            make,
+            code,
+        ));
         self
     }
 
@@ -276,10 +282,14 @@ impl<S, const N: usize> Study<S, N> {
     where
         T: System<f64, M> + 'static,
     {
-        let levers =
-            lever::explicit_levers::<f64, T, M>("f64", &Rc::new(system), self.span(), code::Origin::Given);
+        let variants = variant::explicit_variants::<f64, T, M>(
+            "f64",
+            &Rc::new(system),
+            self.span(),
+            code::Origin::Given,
+        );
         let way = Rc::new((to, back));
-        self.levers.extend(levers.into_iter().map(|lever| lever.of_form(name, Rc::clone(&way))));
+        self.variants.extend(variants.into_iter().map(|variant| variant.of_form(name, Rc::clone(&way))));
         self
     }
 
@@ -352,7 +362,7 @@ fn sample_times(t0: f64, t1: f64, samples: usize) -> Vec<f64> {
 }
 
 impl<S: Recast<N>, const N: usize> Study<S, N> {
-    /// The same with a lever of the user's own: a method on the system in doubles.
+    /// The same with a variant of the user's own: a method on the system in doubles.
     ///
     /// # Errors
     ///
@@ -397,7 +407,7 @@ impl<S: Recast<N>, const N: usize> Study<S, N> {
     {
         let span = self.span();
         self.with_method("Taylor", Settings::Tolerances, Taylor::<f64>::new, move |tolerance| {
-            code::run(code::Origin::Recast, "f64", "Taylor", lever::Argument::Tolerance, tolerance, span)
+            code::run(code::Origin::Recast, "f64", "Taylor", variant::Argument::Tolerance, tolerance, span)
         })
     }
 
@@ -430,11 +440,11 @@ fn tells_of<L, const N: usize>(system: Rc<L>) -> Tells<N>
 where
     L: System<Digits71, N> + 'static,
 {
-    Box::new(move |t, x| system.vitals(t, x))
+    Box::new(move |t, x| system.conserved(t, x))
 }
 
 impl<S, const N: usize> Study<S, N> {
-    /// With everything but levers.
+    /// With everything but variants.
     fn bare<D, L>(system: S, doubles: &Rc<D>, long: &Rc<L>, start: [f64; N], span: Range<f64>) -> Self
     where
         D: System<f64, N> + 'static,
@@ -455,7 +465,7 @@ impl<S, const N: usize> Study<S, N> {
             samples: 1,
             measure: Measure::EndState,
             scales: None,
-            levers: Vec::new(),
+            variants: Vec::new(),
             reference,
             check: Some(check),
             elsewhere,
@@ -463,7 +473,7 @@ impl<S, const N: usize> Study<S, N> {
             tells: tells_of(Rc::clone(long)),
             tight: Rc::new(move |tolerance| {
                 let method = Dop853::<f64>::new(tolerance, tolerance).with_max_steps(STEPS);
-                lever::run_of::<f64, D, _, N>(Rc::clone(&tight), method)
+                variant::run_of::<f64, D, _, N>(Rc::clone(&tight), method)
             }),
             scanner: Rc::new(move |problem, look, watch| scan::scan(&*scanned, problem, look, watch)),
             points: known::POINTS,
@@ -488,7 +498,7 @@ pub struct Closures;
 
 impl<const N: usize> Study<Closures, N> {
     /// A study of a right-hand side that exists as closures only: one over doubles, and one over [`Digits71`] for the
-    /// reference. Explicit methods in doubles are its levers. Where the right-hand side can be written once for every real, as
+    /// reference. Explicit methods in doubles are its variants. Where the right-hand side can be written once for every real, as
     /// [`Equations`](guen_runtime::Equations), [`Study::new`] with [`generic`](guen_runtime::generic) has all of them.
     ///
     /// ```
@@ -510,7 +520,7 @@ impl<const N: usize> Study<Closures, N> {
         let doubles = Rc::new(guen_runtime::from_fn(doubles));
         let long = Rc::new(guen_runtime::from_fn(long));
         let mut study = Self::bare(Closures, &doubles, &long, start, span);
-        study.levers = standard::of_doubles("f64", &doubles, study.span(), code::Origin::Given);
+        study.variants = standard::of_doubles("f64", &doubles, study.span(), code::Origin::Given);
         study
     }
 }

@@ -14,14 +14,14 @@ const NOISY: f64 = 0.5;
 
 impl Report {
     /// Work against precision: cost over error, both axes logarithmic, a curve for each method over doubles, and the
-    /// front of all levers as a grey band. Rows that failed, or were timed fewer than three
+    /// front of all variants as a grey band. Rows that failed, or were timed fewer than three
     /// times, or whose interval is wider than the cost itself, are not there.
     pub fn picture(&self) -> Plot {
         let front = self.front();
-        self.draw(&front, |row| row.real == "f64", Row::lever)
+        self.draw(&front, |row| row.real == "f64", Row::variant)
     }
 
-    /// The same of one method: a curve for each real, and the front of all levers.
+    /// The same of one method: a curve for each real, and the front of all variants.
     pub fn picture_of_reals(&self, method: &str) -> Plot {
         let front = self.front();
         self.draw(&front, |row| row.method == method && row.form == "declared", |row| row.real.clone())
@@ -52,7 +52,7 @@ impl Report {
             .size(900, 620)
             .axes(format!("error of {}", self.measure), unit)
             .logarithmic(true)
-            .band("not beaten by any lever", front);
+            .band("not beaten by any variant", front);
         for (label, points) in curves {
             plot = plot.line(label, points);
         }

@@ -150,7 +150,7 @@ mod tests {
     #[test]
     fn constraints_leave_states_of_the_motion_only() {
         // On the circle x^2 + y^2 = 1.
-        let tells: Tells<2> = Box::new(|_, &[x, y]| guen_runtime::Vitals {
+        let tells: Tells<2> = Box::new(|_, &[x, y]| guen_runtime::Invariants {
             residual: x * x + y * y - Digits71::one(),
             ..Default::default()
         });

@@ -62,7 +62,7 @@ pub struct Report {
     pub reference: Option<ReferenceReport>,
     /// How closely the motions were looked at for what methods might step over; none where the measure needs no reference.
     pub scan: Option<ScanReport>,
-    /// Every setting that was tried and is worth showing, in the order of the levers, from coarse to fine.
+    /// Every setting that was tried and is worth showing, in the order of the variants, from coarse to fine.
     pub rows: Vec<Row>,
     /// How the study ended.
     pub ending: Ending,

@@ -1,10 +1,10 @@
-//! What is known of one setting of one lever.
+//! What is known of one setting of one variant.
 
 use guen_runtime::{Cause, ConstantsError};
 
 use super::timing::Cost;
 
-/// What the setting of a lever is.
+/// What the setting of a variant is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Knob {
@@ -68,7 +68,7 @@ impl Failure {
             Cause::NoConvergence => FailureKind::NoConvergence,
             Cause::Energy { .. }
             | Cause::Residual { .. }
-            | Cause::Edge { .. }
+            | Cause::ChartSingularity { .. }
             | Cause::Carried { .. }
             | Cause::Positions => FailureKind::Guard,
             Cause::Setting(_) => FailureKind::Setting,
@@ -113,7 +113,7 @@ impl Nearby {
     }
 }
 
-/// One setting of one lever: what it is, what it errs, what it costs. A row of the table.
+/// One setting of one variant: what it is, what it errs, what it costs. A row of the table.
 ///
 /// Fields that were not measured are `None`: a cancelled study, or one whose reference failed, has such rows.
 #[derive(Clone, Debug, PartialEq)]
@@ -122,9 +122,9 @@ impl Nearby {
 pub struct Row {
     /// The method, such as `DOP853`.
     pub method: String,
-    /// The real that it computes with, such as `f64` or `Digits7`.
+    /// The real that it computes with, such as `f64` or `Approx7`.
     pub real: String,
-    /// The form of the right-hand side: `declared` unless the lever brings another one.
+    /// The form of the right-hand side: `declared` unless the variant brings another one.
     pub form: String,
     /// What the setting is.
     pub knob: Knob,
@@ -156,16 +156,16 @@ pub struct Row {
 impl Row {
     /// Method, real and form, as far as they are not the usual ones.
     ///
-    /// `DOP853`, `RK8 in Digits7`, `DOP853, carried`.
-    pub fn lever(&self) -> String {
+    /// `DOP853`, `RK8 in Approx7`, `DOP853, carried`.
+    pub fn variant(&self) -> String {
         let real = if self.real == "f64" { String::new() } else { format!(" in {}", self.real) };
         let form = if self.form == "declared" { String::new() } else { format!(", {}", self.form) };
         format!("{}{real}{form}", self.method)
     }
 
-    /// The lever with its setting: `RK8 in Digits7, h = 0.05`.
+    /// The variant with its setting: `RK8 in Approx7, h = 0.05`.
     pub fn name(&self) -> String {
-        format!("{}, {} = {}", self.lever(), self.knob.symbol(), crate::significant(self.setting, 3))
+        format!("{}, {} = {}", self.variant(), self.knob.symbol(), crate::significant(self.setting, 3))
     }
 
     /// Error and cost, if both were measured and the setting did not fail.

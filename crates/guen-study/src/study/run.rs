@@ -10,7 +10,6 @@ use super::budget::{Budget, Stage};
 use super::choice::least_certain;
 use super::digits71::Digits71;
 use super::known::Known;
-use super::lever::{Lever, Run, Task};
 use super::measure::{against, kept};
 use super::probes::{self, Probe};
 use super::reference::{CANCELLED, Named, Problem, ReferenceReport, References};
@@ -18,11 +17,12 @@ use super::report::{Ending, Report, Unit};
 use super::row::{FailureKind, Nearby, Row};
 use super::timing::Cost;
 use super::trade::{Means, Trade};
+use super::variant::{Run, Task, Variant};
 use super::{Stop, Study, lengthened};
 
 /// Settings that err more are not worth a row, unless all do: then the best of them is one.
 const USELESS: f64 = 0.5;
-/// A lever is given up when so many settings in a row gain less than a factor of two on the best so far ..
+/// A variant is given up when so many settings in a row gain less than a factor of two on the best so far ..
 const STAGNATION: u32 = 6;
 /// .. once it is this accurate, or when it is so many times as dear as another one that errs no more.
 const SETTLED: f64 = 1e-2;
@@ -211,7 +211,7 @@ fn references_by<S, const N: usize>(
     (found, said)
 }
 
-/// Runs every lever at its settings, from coarse to fine, until nothing is gained.
+/// Runs every variant at its settings, from coarse to fine, until nothing is gained.
 fn errors<S, const N: usize>(
     study: &mut Study<S, N>,
     times: &[f64],
@@ -219,23 +219,23 @@ fn errors<S, const N: usize>(
     reference: Option<&ReferenceReport>,
     budget: &mut Budget,
 ) -> Vec<Tried<N>> {
-    let levers = std::mem::take(&mut study.levers);
+    let variants = std::mem::take(&mut study.variants);
     // Without a reference errors cannot be had. Unchecked, they are shown as limited.
     let measurable = !study.measure.needs_reference() || !references.is_empty();
     let floor = reference.map_or(0.0, |reference| least_certain(reference.error));
     let share = budget.share(Stage::Accuracy);
-    let patience = share.div_f64(4.0 * levers.len().max(1) as f64).max(Duration::from_millis(10));
-    let count = levers.len() as f64;
+    let patience = share.div_f64(4.0 * variants.len().max(1) as f64).max(Duration::from_millis(10));
+    let count = variants.len() as f64;
     let mut all: Vec<Tried<N>> = Vec::new();
     let mut least: Option<Tried<N>> = None;
-    for (k, lever) in levers.iter().enumerate() {
+    for (k, variant) in variants.iter().enumerate() {
         if !budget.goes_on(Stage::Accuracy, k as f64 / count) {
             break;
         }
-        let make = match &lever.make {
+        let make = match &variant.make {
             Ok(make) => make,
             Err(failure) => {
-                let row = Row { failure: Some(failure.clone()), ..blank(lever, f64::NAN) };
+                let row = Row { failure: Some(failure.clone()), ..blank(variant, f64::NAN) };
                 all.push(Tried { row, run: None, rough: f64::NAN });
                 continue;
             }
@@ -244,7 +244,7 @@ fn errors<S, const N: usize>(
         let (mut idle, mut hopeless) = (0, 0);
         let mut failed: Option<Tried<N>> = None;
         let mut shown = false;
-        for setting in lever.settings.values(study.t1 - study.t0) {
+        for setting in variant.settings.values(study.t1 - study.t0) {
             let run = make(setting);
             let begun = Instant::now();
             let deadline =
@@ -259,7 +259,7 @@ fn errors<S, const N: usize>(
                 let _ = std::hint::black_box(run(&task, &mut Vec::new()));
                 seconds = seconds.min(begun.elapsed().as_secs_f64());
             }
-            let mut row = blank(lever, setting);
+            let mut row = blank(variant, setting);
             let statistics = match outcome {
                 Ok(statistics) => statistics,
                 Err(failure) => {
@@ -322,12 +322,12 @@ fn errors<S, const N: usize>(
     all
 }
 
-fn blank<const N: usize>(lever: &Lever<N>, setting: f64) -> Row {
+fn blank<const N: usize>(variant: &Variant<N>, setting: f64) -> Row {
     Row {
-        method: lever.method.clone(),
-        real: lever.real.clone(),
-        form: lever.form.clone(),
-        knob: lever.settings.knob(),
+        method: variant.method.clone(),
+        real: variant.real.clone(),
+        form: variant.form.clone(),
+        knob: variant.settings.knob(),
         setting,
         error: None,
         limited: false,
@@ -336,7 +336,7 @@ fn blank<const N: usize>(lever: &Lever<N>, setting: f64) -> Row {
         jacobians: 0.0,
         cost: None,
         failure: None,
-        code: (lever.code)(setting),
+        code: (variant.code)(setting),
     }
 }
 

@@ -1,30 +1,30 @@
-//! The levers there are for every system, and those for systems that can do more.
+//! The variants there are for every system, and those for systems that can do more.
 
 use std::ops::Range;
 use std::rc::Rc;
 
 use guen_runtime::steppers::{Bounded, Euler, Gauss4, Gauss6, LaneMethod, Radau5, Rk4, Rk8, Statistics};
 use guen_runtime::{
-    Choice, ConstantsError, Differentiable, Digits7, Digits7Functions, Digits13, Fused, Laned, Ordered, Real,
-    Recast, Std, System,
+    Approx7, Approx7Functions, Approx13, ConstantsError, Differentiable, Fused, LaneScalar, Laned, Ordered,
+    Real, Recast, Std, System,
 };
 
 use super::code::{self, Origin};
 use super::digits31::Digits31;
-use super::lever::{Argument, Lever, Settings, Task, explicit_levers, lever, run_bounded};
 use super::row::Failure;
+use super::variant::{Argument, Settings, Task, Variant, explicit_variants, run_bounded, variant};
 use super::{Digits71, Study, reference};
 use crate::Ensemble;
 
-/// The explicit methods over a real, or a lever that failed if the constants cannot be prepared there.
-fn over<R, S, const N: usize>(real: &'static str, system: &S, span: (f64, f64)) -> Vec<Lever<N>>
+/// The explicit methods over a real, or a variant that failed if the constants cannot be prepared there.
+fn over<R, S, const N: usize>(real: &'static str, system: &S, span: (f64, f64)) -> Vec<Variant<N>>
 where
     R: Ordered,
     S: Recast<N>,
 {
     match system.recast::<R>() {
-        Ok(system) => explicit_levers::<R, S::In<R>, N>(real, &Rc::new(system), span, Origin::Recast),
-        Err(error) => vec![Lever {
+        Ok(system) => explicit_variants::<R, S::In<R>, N>(real, &Rc::new(system), span, Origin::Recast),
+        Err(error) => vec![Variant {
             method: "all".to_owned(),
             real: real.to_owned(),
             form: "declared".to_owned(),
@@ -41,12 +41,12 @@ pub(super) fn of_doubles<D, const N: usize>(
     system: &Rc<D>,
     span: (f64, f64),
     origin: Origin,
-) -> Vec<Lever<N>>
+) -> Vec<Variant<N>>
 where
     D: System<f64, N> + 'static,
 {
-    let mut levers = explicit_levers::<f64, D, N>(real, system, span, origin);
-    levers.push(lever::<f64, D, _, N>(
+    let mut variants = explicit_variants::<f64, D, N>(real, system, span, origin);
+    variants.push(variant::<f64, D, _, N>(
         ["Euler", real, "declared"],
         system,
         Settings::Steps,
@@ -55,7 +55,7 @@ where
     ));
     let bounded = |name: &str, constructor: &'static str, formula: fn(u32) -> Bounded| {
         let system = Rc::clone(system);
-        Lever {
+        Variant {
             method: name.to_owned(),
             real: real.to_owned(),
             form: "declared".to_owned(),
@@ -64,13 +64,13 @@ where
             code: Box::new(move |n| code::bounded(origin, constructor, n, span)),
         }
     };
-    levers.push(bounded("Bounded DOP853", "dop853", Bounded::dop853));
-    levers.push(bounded("Bounded Tsit5", "tsit5", Bounded::tsit5));
-    levers
+    variants.push(bounded("Bounded DOP853", "dop853", Bounded::dop853));
+    variants.push(bounded("Bounded Tsit5", "tsit5", Bounded::tsit5));
+    variants
 }
 
 /// The implicit methods, in doubles.
-fn implicit<D, const N: usize>(system: &Rc<D>, span: (f64, f64)) -> Vec<Lever<N>>
+fn implicit<D, const N: usize>(system: &Rc<D>, span: (f64, f64)) -> Vec<Variant<N>>
 where
     D: Differentiable<f64, N> + 'static,
 {
@@ -79,21 +79,21 @@ where
         move |setting| code::run(Origin::Recast, "f64", constructor, argument, setting, span)
     };
     vec![
-        lever::<f64, D, _, N>(
+        variant::<f64, D, _, N>(
             names("Gauss 4"),
             system,
             Settings::Steps,
             Gauss4::new,
             code("Gauss4", Argument::Step),
         ),
-        lever::<f64, D, _, N>(
+        variant::<f64, D, _, N>(
             names("Gauss 6"),
             system,
             Settings::Steps,
             Gauss6::new,
             code("Gauss6", Argument::Step),
         ),
-        lever::<f64, D, _, N>(
+        variant::<f64, D, _, N>(
             names("Radau 5"),
             system,
             Settings::Tolerances,
@@ -122,22 +122,22 @@ where
         // Constants that this real cannot hold leave the study without it.
         let shorter = system.recast::<Digits31>().ok();
         let ends = (span.start, span.end);
-        let mut levers = of_doubles("f64", &doubles, ends, Origin::Recast);
-        levers.extend(over::<Digits13, S, N>("Digits13", &system, ends));
-        levers.extend(over::<Digits7, S, N>("Digits7", &system, ends));
-        levers.extend(over::<Fused, S, N>("Fused", &system, ends));
-        levers.extend(over::<Std, S, N>("Std", &system, ends));
-        levers.extend(over::<f32, S, N>("f32", &system, ends));
-        levers.extend(implicit(&doubles, ends));
+        let mut variants = of_doubles("f64", &doubles, ends, Origin::Recast);
+        variants.extend(over::<Approx13, S, N>("Approx13", &system, ends));
+        variants.extend(over::<Approx7, S, N>("Approx7", &system, ends));
+        variants.extend(over::<Fused, S, N>("Fused", &system, ends));
+        variants.extend(over::<Std, S, N>("Std", &system, ends));
+        variants.extend(over::<f32, S, N>("f32", &system, ends));
+        variants.extend(implicit(&doubles, ends));
         let mut study = Self::bare(system, &doubles, &long, start.into(), span);
-        study.levers = levers;
+        study.variants = variants;
         study.shorter = shorter.map(|system| {
             reference::references_in::<Digits31, _, N>(&Rc::new(system), reference::SHORTER_TOLERANCE)
         });
         Ok(study)
     }
 
-    /// The same with RK4 and RK8 in lanes, in doubles and with the functions of `Digits7`: several initial states at once, on one
+    /// The same with RK4 and RK8 in lanes, in doubles and with the functions of `Approx7`: several initial states at once, on one
     /// thread. Costs are for one state, so lanes are worth nothing for a single one.
     ///
     /// # Errors
@@ -151,11 +151,16 @@ where
         let span = self.span();
         let four = |step| Rk4 { step };
         let names = |method| [method, "f64 lanes", "f64"];
-        self.levers.push(in_lanes::<_, guen_runtime::Own, _, N>(names("RK4"), &system, span, four));
-        self.levers.push(in_lanes::<_, guen_runtime::Own, _, N>(names("RK8"), &system, span, Rk8::new));
-        let names = |method| [method, "Digits7 lanes", "Digits7"];
-        self.levers.push(in_lanes::<_, Digits7Functions, _, N>(names("RK4"), &system, span, four));
-        self.levers.push(in_lanes::<_, Digits7Functions, _, N>(names("RK8"), &system, span, Rk8::new));
+        self.variants.push(in_lanes::<_, guen_runtime::PlainLanes, _, N>(names("RK4"), &system, span, four));
+        self.variants.push(in_lanes::<_, guen_runtime::PlainLanes, _, N>(
+            names("RK8"),
+            &system,
+            span,
+            Rk8::new,
+        ));
+        let names = |method| [method, "Approx7 lanes", "Approx7"];
+        self.variants.push(in_lanes::<_, Approx7Functions, _, N>(names("RK4"), &system, span, four));
+        self.variants.push(in_lanes::<_, Approx7Functions, _, N>(names("RK8"), &system, span, Rk8::new));
         Ok(self)
     }
 }
@@ -166,10 +171,10 @@ fn in_lanes<D, C, M, const N: usize>(
     system: &D,
     span: (f64, f64),
     of_step: impl Fn(f64) -> M + Copy + 'static,
-) -> Lever<N>
+) -> Variant<N>
 where
     D: Laned<N> + Sync + Clone + 'static,
-    C: Choice,
+    C: LaneScalar,
     M: LaneMethod + Sync,
 {
     let system = system.clone();
@@ -177,7 +182,7 @@ where
         let system = system.clone();
         Box::new(move |task: &Task<'_, N>, out| {
             let ensemble = Ensemble::of_states(system.clone(), task.starts.to_vec());
-            let ensemble = ensemble.with_choice::<C>().with_threads(1);
+            let ensemble = ensemble.with_scalar::<C>().with_threads(1);
             let mut total = Statistics::default();
             // It lands on every time, for lanes share their steps.
             for sampled in ensemble.sample(&of_step(step), task.t0, task.times) {
@@ -188,7 +193,7 @@ where
             Ok(total)
         })
     };
-    Lever {
+    Variant {
         method: method.to_owned(),
         real: real.to_owned(),
         form: "declared".to_owned(),

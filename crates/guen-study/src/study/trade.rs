@@ -6,12 +6,12 @@ use std::rc::Rc;
 use super::choice::{Caveat, NoChoice};
 use super::digits71::Digits71;
 use super::known::{self, Scanner};
-use super::lever::{Run, Task};
 use super::measure::{Measure, Scales, Tells, against, kept};
 use super::probes::{Probe, error_of, times_for, with_references};
 use super::reference::{Named, Problem};
 use super::report::Report;
 use super::row::Failure;
+use super::variant::{Run, Task};
 use super::{lengthened, probes};
 
 /// What is promised of a choice elsewhere: at most so many times the error that was asked for.

@@ -17,7 +17,7 @@ use std::sync::LazyLock;
 use std::time::Duration;
 
 use guen_runtime::steppers::{Dop853, Rk4, Rk8};
-use guen_runtime::{Equations, Real, Vitals, from_fn, generic};
+use guen_runtime::{Equations, Invariants, Real, from_fn, generic};
 use guen_study::{
     Cost, Digits71, Ending, FailureKind, NoChoice, Report, Row, Settings, Stopwatch, Study, Trade, Unit,
 };
@@ -140,9 +140,14 @@ impl<R: Real> guen_runtime::System<R, 2> for Turning {
     fn rhs(&self, _t: R, &[x, v]: &[R; 2]) -> [R; 2] {
         [v, -x]
     }
-    fn vitals(&self, _t: R, &[x, v]: &[R; 2]) -> Vitals<R> {
+    fn conserved(&self, _t: R, &[x, v]: &[R; 2]) -> Invariants<R> {
         let energy = x * x + v * v;
-        Vitals { energy: Some(energy), scale: energy, residual: energy - R::one(), ..Vitals::default() }
+        Invariants {
+            energy: Some(energy),
+            scale: energy,
+            residual: energy - R::one(),
+            ..Invariants::default()
+        }
     }
 }
 

@@ -71,8 +71,8 @@ pub(super) fn items(names: &Names, provides: &[&Provide]) -> TokenStream {
                 fn jacobian(&self, _: R, _: &[R; #size]) -> [[R; #size]; #size] { ::core::unreachable!() }
                 fn along(&self, _: R, _: &[R; #size], _: R, _: &[R; #size]) -> [R; #size] { ::core::unreachable!() }
             }
-            impl<R: __guen::Real> __guen::Carrying<R, #size> for #owner {
-                fn rejoin(&self, _: R, _: &mut [R; #size]) { ::core::unreachable!() }
+            impl<R: __guen::Real> __guen::AuxiliaryStates<R, #size> for #owner {
+                fn renormalize(&self, _: R, _: &mut [R; #size]) { ::core::unreachable!() }
             }
             /// The functions.
             pub const FUNCTIONS: [&str; 0] = [];

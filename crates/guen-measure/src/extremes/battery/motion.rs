@@ -188,7 +188,7 @@ fn energy_change<R: Real, S: System<R, N>, const N: usize>(
     start: &[R; N],
     error: &IntegrationError<R, N>,
 ) -> f64 {
-    let [first, last] = [(begin, start), (error.time, &error.state)].map(|(t, x)| system.vitals(t, x));
+    let [first, last] = [(begin, start), (error.time, &error.state)].map(|(t, x)| system.conserved(t, x));
     match (first.energy, last.energy) {
         (Some(first_energy), Some(energy)) => {
             let change = (energy - first_energy).to_f64().abs();
@@ -218,8 +218,8 @@ pub fn short(cause: &Cause) -> &'static str {
         Cause::NoConvergence => "no convergence",
         Cause::Energy { .. } => "energy",
         Cause::Residual { .. } => "residual",
-        Cause::Edge { .. } => "edge",
-        Cause::Approach { .. } => "approach",
+        Cause::ChartSingularity { .. } => "edge",
+        Cause::ApproachingSingularity { .. } => "approach",
         Cause::Condition { .. } => "condition",
         Cause::Step { .. } => "step",
         Cause::Setting(_) => "setting",

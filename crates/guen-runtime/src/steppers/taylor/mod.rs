@@ -5,8 +5,8 @@ mod run;
 mod series;
 
 use super::control::Tolerance;
-use super::course::{Method, Reached};
-use super::landing::short_ways;
+use super::run::{Checkpoint, Method};
+use super::stop_times::short_ways;
 use crate::error::{Cause, Setting};
 use crate::real::Ordered;
 use crate::series::{HIGHEST_ORDER, TaylorSeries};
@@ -156,9 +156,9 @@ impl<R: Ordered> Taylor<R> {
 const LOWEST_DEFAULT: usize = 8;
 
 impl<R: Ordered, S: TaylorSeries<R, N> + ?Sized, const N: usize> Method<R, S, N> for Taylor<R> {
-    type Course<'a> = Run<'a, R, N>;
+    type Run<'a> = Run<'a, R, N>;
 
-    fn start(&self, start: &Reached<R, N>) -> Self::Course<'_> {
+    fn start(&self, start: &Checkpoint<R, N>) -> Self::Run<'_> {
         Run::new(self, start)
     }
 }

@@ -2,7 +2,7 @@
 
 use super::super::all_finite;
 use super::super::control;
-use super::super::course::{Course, Reached, Statistics};
+use super::super::run::{Checkpoint, Statistics, StepperRun};
 use super::super::scaled;
 use super::defect::{self, Defect};
 use super::{Series, Taylor};
@@ -41,7 +41,7 @@ pub struct Run<'a, R, const N: usize> {
     orders: Option<Orders>,
     /// When the run began.
     origin: R,
-    reached: Reached<R, N>,
+    reached: Checkpoint<R, N>,
     /// What the state is short of, by less than half of its last digit.
     rest: [R; N],
     /// The series of the last step, and the one about the present state.
@@ -83,7 +83,7 @@ fn exp2(x: f64) -> f64 {
 }
 
 impl<'a, R: Ordered, const N: usize> Run<'a, R, N> {
-    pub(super) fn new(method: &'a Taylor<R>, start: &Reached<R, N>) -> Self {
+    pub(super) fn new(method: &'a Taylor<R>, start: &Checkpoint<R, N>) -> Self {
         Self {
             method,
             orders: None,
@@ -108,7 +108,7 @@ impl<'a, R: Ordered, const N: usize> Run<'a, R, N> {
     where
         S: TaylorSeries<R, N> + ?Sized,
     {
-        let Reached { time, state, .. } = self.reached;
+        let Checkpoint { time, state, .. } = self.reached;
         if !time.is_finite() || !all_finite(&state) {
             return Err(Cause::NotFinite);
         }
@@ -346,7 +346,7 @@ impl<R: Ordered, const N: usize> Run<'_, R, N> {
     }
 }
 
-impl<R, S, const N: usize> Course<R, S, N> for Run<'_, R, N>
+impl<R, S, const N: usize> StepperRun<R, S, N> for Run<'_, R, N>
 where
     R: Ordered,
     S: TaylorSeries<R, N> + ?Sized,
@@ -355,7 +355,7 @@ where
 
     type Polynomial = Series<R, N>;
 
-    fn reached(&self) -> &Reached<R, N> {
+    fn checkpoint(&self) -> &Checkpoint<R, N> {
         &self.reached
     }
 
@@ -365,7 +365,7 @@ where
             None => *self.orders.insert(Orders::new(self.method)?),
         };
         let limit = self.method.max_steps;
-        let Reached { time, time_rest, state, statistics } = self.reached;
+        let Checkpoint { time, time_rest, state, statistics } = self.reached;
         if statistics.accepted + statistics.rejected >= limit {
             return Err(Cause::TooManySteps { limit });
         }

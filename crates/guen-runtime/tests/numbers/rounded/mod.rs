@@ -1,4 +1,4 @@
-//! `Rounded` is a bound: of each function for exact arguments, of ratios, and of programs.
+//! `RunningError` is a bound: of each function for exact arguments, of ratios, and of programs.
 //!
 //! ```text
 //! cargo test --release -p guen-runtime --test numbers rounded -- --include-ignored --nocapture     # ten million of each
@@ -7,7 +7,7 @@
 mod pair;
 
 use f256::f256;
-use guen_runtime::{Real, Rounded};
+use guen_runtime::{Real, RunningError};
 use pair::Pair;
 
 /// Numbers between zero and one, the same in every run.
@@ -31,8 +31,8 @@ impl Draws {
 struct Function {
     name: &'static str,
     range: (f64, f64, bool),
-    double: fn(Rounded<f64>, Rounded<f64>) -> Rounded<f64>,
-    single: fn(Rounded<f32>, Rounded<f32>) -> Rounded<f32>,
+    double: fn(RunningError<f64>, RunningError<f64>) -> RunningError<f64>,
+    single: fn(RunningError<f32>, RunningError<f32>) -> RunningError<f32>,
     exact: fn(Pair, Pair) -> Pair,
     /// In 71 digits, to judge what judges.
     slow: fn(f256, f256) -> f256,
@@ -109,12 +109,12 @@ fn worst(function: &Function, count: usize) -> [(f64, f64); 2] {
     for _ in 0..count {
         let sizes = [draws.size(least, largest), draws.size(least, largest)];
         let [x, y] = if positive { sizes.map(f64::abs) } else { sizes };
-        let found = (function.double)(Rounded::exact(x), Rounded::exact(y));
+        let found = (function.double)(RunningError::exact(x), RunningError::exact(y));
         let exact = (function.exact)(x.into(), y.into());
         let off = (Pair::from(found.value) - exact).0.abs();
         judge(0, off, found.value, found.error, 0.5 * f64::EPSILON, x, y);
         let [x, y] = [x as f32, y as f32];
-        let found = (function.single)(Rounded::exact(x), Rounded::exact(y));
+        let found = (function.single)(RunningError::exact(x), RunningError::exact(y));
         let exact = (function.exact)(f64::from(x).into(), f64::from(y).into());
         let off = (Pair::from(f64::from(found.value)) - exact).0.abs();
         let unit = 0.5 * f64::from(f32::EPSILON);
@@ -181,24 +181,24 @@ fn constants_are_bounded() {
     let unit = 0.5 * f64::from(f32::EPSILON);
     for den in 1..200_i64 {
         for num in [0, 1, 3, -7, 10, 981, 12_345_678, 1 << 24, (1 << 24) + 1, (1 << 40) + 1] {
-            let found = <Rounded<f32> as Real>::from_ratio(num, den);
+            let found = <RunningError<f32> as Real>::from_ratio(num, den);
             let off = (f64::from(found.value) - num as f64 / den as f64).abs();
             assert!(off <= unit * f64::from(found.error) * (1.0 + 1e-7), "{num}/{den}: {found:?}");
         }
     }
-    assert_eq!(<Rounded<f64> as Real>::from_ratio(1, 3).error, 1.0 / 3.0);
-    assert_eq!(<Rounded<f64> as Real>::from_ratio(3, 4).error, 0.0);
-    assert_eq!(<Rounded<f64> as Real>::from_ratio(6, 3).error, 0.0);
-    assert_eq!(<Rounded<f32> as Real>::from_f64(0.1).error, 0.1_f32);
-    assert_eq!(<Rounded<f32> as Real>::from_f64(0.5).error, 0.0);
+    assert_eq!(<RunningError<f64> as Real>::from_ratio(1, 3).error, 1.0 / 3.0);
+    assert_eq!(<RunningError<f64> as Real>::from_ratio(3, 4).error, 0.0);
+    assert_eq!(<RunningError<f64> as Real>::from_ratio(6, 3).error, 0.0);
+    assert_eq!(<RunningError<f32> as Real>::from_f64(0.1).error, 0.1_f32);
+    assert_eq!(<RunningError<f32> as Real>::from_f64(0.5).error, 0.0);
 }
 
 #[test]
 fn exact_arguments_move_nothing() {
-    let at = |x: f64| Rounded::exact(x);
+    let at = |x: f64| RunningError::exact(x);
     assert_eq!(at(0.0).sqrt().error, 0.0);
     assert_eq!(at(0.0).atan2(at(0.0)).error, 0.0);
     assert!(at(1.0).asin().error < 7.0 && at(1.0).acos().error == 0.0);
-    assert!(Rounded::once(1.0_f64).asin().error.is_infinite());
-    assert!(Rounded { value: 1.0, error: f64::NAN }.exp().error.is_nan());
+    assert!(RunningError::once(1.0_f64).asin().error.is_infinite());
+    assert!(RunningError { value: 1.0, error: f64::NAN }.exp().error.is_nan());
 }

@@ -3,17 +3,17 @@
 
 use crate::error::Cause;
 use crate::real::Real;
-use crate::rounded::Rounded;
+use crate::running_error::RunningError;
 use crate::system::System;
 
 /// As many functions that must not vanish are watched; further ones are not.
-pub(super) const EDGES: usize = 16;
+pub(super) const MAX_SINGULARITIES: usize = 16;
 
 /// Whether the functions, each beside its value at the start, are on the same side as there and further than the limit from the
 /// edge: in every lane, where the real consists of lanes.
 #[inline(always)]
 pub(super) fn distances<R: Real>(
-    functions: impl Iterator<Item = (Rounded<R>, R)>,
+    functions: impl Iterator<Item = (RunningError<R>, R)>,
     found: f64,
     limit: f64,
 ) -> Result<(), Cause> {
@@ -24,7 +24,7 @@ pub(super) fn distances<R: Real>(
         // The least of all lanes.
         let distance = -turned.where_above(R::zero(), left, -left).most();
         if distance <= limit || distance.is_nan() {
-            return Err(Cause::Edge { found, function, distance, limit });
+            return Err(Cause::ChartSingularity { found, function, distance, limit });
         }
     }
     Ok(())
@@ -48,7 +48,7 @@ pub(super) fn paces<R: Real>(
         // Of two zeros there is no ratio.
         let ratio = (-ratio).where_above(zero, zero, ratio).most();
         if ratio > limit {
-            return Err(Cause::Approach { found, function, ratio, limit });
+            return Err(Cause::ApproachingSingularity { found, function, ratio, limit });
         }
         let steps = from.where_above(to, half * to / (from - to), soonest);
         soonest = soonest.where_above(steps, steps, soonest);
@@ -79,14 +79,14 @@ pub(super) fn functions<R: Real, S, const N: usize>(
     time: R,
     state: &[R; N],
     largest: &[R; N],
-    into: &mut [Rounded<R>; EDGES],
+    into: &mut [RunningError<R>; MAX_SINGULARITIES],
 ) -> usize
 where
     S: System<R, N> + ?Sized,
 {
-    let mut rounded = [Rounded::exact(time); N];
+    let mut rounded = [RunningError::exact(time); N];
     for ((entry, value), error) in rounded.iter_mut().zip(state).zip(largest) {
-        *entry = Rounded { value: *value, error: *error };
+        *entry = RunningError { value: *value, error: *error };
     }
-    system.edges(Rounded::once(time), &rounded, into).min(EDGES)
+    system.singularities(RunningError::once(time), &rounded, into).min(MAX_SINGULARITIES)
 }

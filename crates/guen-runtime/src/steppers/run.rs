@@ -1,4 +1,4 @@
-//! What a method is to a driver: something that starts a course, and a course that goes on step by step.
+//! What a method is to a driver: something that starts a run, and a run that goes on step by step.
 
 use core::ops::AddAssign;
 
@@ -44,7 +44,7 @@ pub enum Outcome {
 
 /// The result of an integration.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Done<R, const N: usize> {
+pub struct IntegrationResult<R, const N: usize> {
     /// The time reached.
     pub time: R,
     /// The state at that time.
@@ -57,7 +57,7 @@ pub struct Done<R, const N: usize> {
 
 /// Where a run stands: the last accepted time and state, and the work so far.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Reached<R, const N: usize> {
+pub struct Checkpoint<R, const N: usize> {
     /// The time.
     pub time: R,
     /// By how much the state is later than `time`, which is rounded: zero at the end of every step, and no more than half a
@@ -69,7 +69,7 @@ pub struct Reached<R, const N: usize> {
     pub statistics: Statistics,
 }
 
-impl<R: Real, const N: usize> Reached<R, N> {
+impl<R: Real, const N: usize> Checkpoint<R, N> {
     /// The beginning of a run, before any work.
     pub fn new(time: R, state: &[R; N]) -> Self {
         Self { time, time_rest: R::zero(), state: *state, statistics: Statistics::default() }
@@ -81,8 +81,8 @@ impl<R: Real, const N: usize> Reached<R, N> {
         (self.time - earlier.time) + (self.time_rest - earlier.time_rest)
     }
 
-    pub(super) fn done(&self, outcome: Outcome) -> Done<R, N> {
-        Done { time: self.time, state: self.state, outcome, statistics: self.statistics }
+    pub(super) fn done(&self, outcome: Outcome) -> IntegrationResult<R, N> {
+        IntegrationResult { time: self.time, state: self.state, outcome, statistics: self.statistics }
     }
 
     pub(super) fn failed(&self, cause: Cause) -> IntegrationError<R, N> {
@@ -92,7 +92,7 @@ impl<R: Real, const N: usize> Reached<R, N> {
 
 /// A method with its settings, as an [`Integration`](super::Integration) uses it.
 ///
-/// All methods of this module are one, and a method written elsewhere becomes one by this trait and [`Course`]. The
+/// All methods of this module are one, and a method written elsewhere becomes one by this trait and [`StepperRun`]. The
 /// system's type is a parameter because implicit methods ask more of it than explicit ones.
 #[diagnostic::on_unimplemented(
     message = "the method `{Self}` cannot integrate `{S}`",
@@ -100,32 +100,32 @@ impl<R: Real, const N: usize> Reached<R, N> {
 )]
 pub trait Method<R: Real, S: ?Sized, const N: usize> {
     /// A run of the method.
-    type Course<'a>: Course<R, S, N>
+    type Run<'a>: StepperRun<R, S, N>
     where
         Self: 'a;
 
     /// Begins a run at this time and state, before any work. Nothing is checked yet.
-    fn start(&self, start: &Reached<R, N>) -> Self::Course<'_>;
+    fn start(&self, start: &Checkpoint<R, N>) -> Self::Run<'_>;
 }
 
 /// A run of one method from one initial state.
-pub trait Course<R: Real, S: ?Sized, const N: usize> {
+pub trait StepperRun<R: Real, S: ?Sized, const N: usize> {
     /// Evaluations of the right-hand side in a usual step, by which a guard chooses how often to look.
     const EVALUATIONS: u32;
 
-    /// Whether a guard judges single steps by [`defect`](Course::defect): so with a fixed step, while a method that chooses
+    /// Whether a guard judges single steps by [`defect`](StepperRun::defect): so with a fixed step, while a method that chooses
     /// its steps estimates their errors itself.
     const JUDGED: bool = false;
 
-    /// The motion over one step, as [`dense`](Course::dense) returns it: for most methods a [`Dense`](super::Dense).
+    /// The motion over one step, as [`dense`](StepperRun::dense) returns it: for most methods a [`Dense`](super::Dense).
     type Polynomial: Interpolant<R, N>;
 
     /// Where the run stands.
-    fn reached(&self) -> &Reached<R, N>;
+    fn checkpoint(&self) -> &Checkpoint<R, N>;
 
     /// Makes one accepted step towards `target`, which is not the present time. A step is as long as the difference of
     /// the times at its ends, to the bit, so that the state belongs to the time whatever the clock says; the step that
-    /// reaches the target sets the time to it. With `dense`, what [`dense`](Course::dense) needs is kept.
+    /// reaches the target sets the time to it. With `dense`, what [`dense`](StepperRun::dense) needs is kept.
     ///
     /// # Errors
     ///
@@ -133,7 +133,7 @@ pub trait Course<R: Real, S: ?Sized, const N: usize> {
     fn advance(&mut self, system: &S, target: R, dense: bool) -> Result<(), Cause>;
 
     /// Makes as many accepted steps towards `target` as are given, at least one: fewer if it arrives, and none that is known
-    /// to be the last but the first. The same as [`advance`](Course::advance) as often, where nobody looks in between; a
+    /// to be the last but the first. The same as [`advance`](StepperRun::advance) as often, where nobody looks in between; a
     /// method can keep in registers then what it would leave in memory.
     ///
     /// # Errors
@@ -141,7 +141,7 @@ pub trait Course<R: Real, S: ?Sized, const N: usize> {
     /// What made a step impossible; the run stands where it stood before that step.
     fn go_on(&mut self, system: &S, target: R, steps: u32) -> Result<(), Cause> {
         for made in 0..steps.max(1) {
-            if made > 0 && (self.reached().time == target || self.is_last(target)) {
+            if made > 0 && (self.checkpoint().time == target || self.is_last(target)) {
                 break;
             }
             self.advance(system, target, false)?;
@@ -156,9 +156,9 @@ pub trait Course<R: Real, S: ?Sized, const N: usize> {
     }
 
     /// The estimated error of the step made last, which began at `before` and was made with `dense`: absolute, for every
-    /// entry of the state. None for methods that are not [`JUDGED`](Course::JUDGED). What it evaluates is the guard's and
+    /// entry of the state. None for methods that are not [`JUDGED`](StepperRun::JUDGED). What it evaluates is the guard's and
     /// is not counted.
-    fn defect(&self, _system: &S, _before: &Reached<R, N>) -> [R; N] {
+    fn defect(&self, _system: &S, _before: &Checkpoint<R, N>) -> [R; N] {
         [R::zero(); N]
     }
 

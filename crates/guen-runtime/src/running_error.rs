@@ -17,7 +17,7 @@ use crate::rules::assign_operators;
 ///   order: terms with `u^2` are left out, and slopes are those at the value, so that next to a singularity of `f`, as of the arc sine
 ///   at one, an argument that is not exact has to be nearer to its value than to the singularity.
 /// - `|value| / error` is one where nothing cancels, and the part that is left where something does: a function that
-///   must not vanish is at that *relative distance* from its zero. See [`System::edges`](crate::System::edges).
+///   must not vanish is at that *relative distance* from its zero. See [`System::singularities`](crate::System::singularities).
 /// - A running error analysis (Wilkinson): errors that cancel each other are not seen, so that the bound grows along
 ///   long programs. A product costs three further products and three sums. Of lanes, each counts its own.
 ///
@@ -40,21 +40,21 @@ use crate::rules::assign_operators;
 /// | `tanh` | 5 | libm states up to 2 ulp between 0.1 and 0.2554, and less elsewhere | 2.81 | 2.79 |
 /// | `root` | 3 | of order 3 libm's is below 0.667 ulp; others end with a step of Newton's method, of a power below 0.7 ulp: 1 + (1.4 + 1)/4 | 1.20 | 1.00 |
 ///
-/// Of reals whose functions have other errors, as [`Tuned`](crate::Tuned) with thirteen digits, the bound is too small by as much.
+/// Of reals whose functions have other errors, as [`WithFunctions`](crate::WithFunctions) with thirteen digits, the bound is too small by as much.
 ///
 /// ```
-/// use guen_runtime::{Real, Rounded};
+/// use guen_runtime::{Real, RunningError};
 ///
-/// let angle = Rounded::once(3.0);
+/// let angle = RunningError::once(3.0);
 /// assert!(angle.sin().left() > 0.03);
 /// // Next to its zero at pi a sine is as uncertain as the angle, and small.
-/// let angle = Rounded::once(f64::pi() - 1e-9);
+/// let angle = RunningError::once(f64::pi() - 1e-9);
 /// assert!(angle.sin().left() < 1e-9);
 /// // Next to its zero at zero it is not: a small angle has all its digits.
-/// assert!(Rounded::once(1e-9_f64).sin().left() > 0.3);
+/// assert!(RunningError::once(1e-9_f64).sin().left() > 0.3);
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Rounded<R> {
+pub struct RunningError<R> {
     /// The value.
     pub value: R,
     /// The bound of its error, in units of the unit roundoff; not negative.
@@ -62,7 +62,7 @@ pub struct Rounded<R> {
 }
 
 // Always: an operation of lanes that is a call loses their instructions.
-impl<R: Real> Rounded<R> {
+impl<R: Real> RunningError<R> {
     /// A number that is exact.
     #[inline(always)]
     pub fn exact(value: R) -> Self {
@@ -91,7 +91,7 @@ impl<R: Real> Rounded<R> {
     }
 }
 
-impl<R: Real> Add for Rounded<R> {
+impl<R: Real> Add for RunningError<R> {
     type Output = Self;
 
     #[inline(always)]
@@ -101,7 +101,7 @@ impl<R: Real> Add for Rounded<R> {
     }
 }
 
-impl<R: Real> Sub for Rounded<R> {
+impl<R: Real> Sub for RunningError<R> {
     type Output = Self;
 
     #[inline(always)]
@@ -111,7 +111,7 @@ impl<R: Real> Sub for Rounded<R> {
     }
 }
 
-impl<R: Real> Mul for Rounded<R> {
+impl<R: Real> Mul for RunningError<R> {
     type Output = Self;
 
     #[inline(always)]
@@ -122,7 +122,7 @@ impl<R: Real> Mul for Rounded<R> {
     }
 }
 
-impl<R: Real> Div for Rounded<R> {
+impl<R: Real> Div for RunningError<R> {
     type Output = Self;
 
     #[inline(always)]
@@ -133,7 +133,7 @@ impl<R: Real> Div for Rounded<R> {
     }
 }
 
-impl<R: Real> Neg for Rounded<R> {
+impl<R: Real> Neg for RunningError<R> {
     type Output = Self;
 
     #[inline(always)]
@@ -142,9 +142,9 @@ impl<R: Real> Neg for Rounded<R> {
     }
 }
 
-assign_operators!(Rounded<R>, R: Real);
+assign_operators!(RunningError<R>, R: Real);
 
-/// What functions add to the error, in units of their values: see [`Rounded`].
+/// What functions add to the error, in units of their values: see [`RunningError`].
 mod own {
     pub const SINE: i64 = 2;
     pub const TANGENT: i64 = 6;
@@ -164,7 +164,7 @@ fn is_short(num: i64, den: i64) -> bool {
     den != 0 && if den.is_power_of_two() { num <= LARGEST } else { num % den == 0 && num / den <= LARGEST }
 }
 
-impl<R: Real> Real for Rounded<R> {
+impl<R: Real> Real for RunningError<R> {
     /// Exact where the ratio is a number of few bits, by its denominator: one, or a power of two, in any form. Others
     /// are rounded once.
     #[inline(always)]
@@ -365,7 +365,7 @@ impl<R: Real> Real for Rounded<R> {
 
 #[cfg(test)]
 mod tests {
-    use super::Rounded;
+    use super::RunningError;
     use crate::real::Real;
 
     /// The errors of single precision, of programs that cancel, against the same programs in doubles.
@@ -386,7 +386,7 @@ mod tests {
         let mut tightest = [0.0_f64; 6];
         for k in 1..2000 {
             let (x, y) = (1.0 + (k as f32 * 0.37).sin() * 0.5, 1.0 + (k as f32 * 0.71).cos() * 0.4);
-            let bounds = program(Rounded::exact(x), Rounded::exact(y));
+            let bounds = program(RunningError::exact(x), RunningError::exact(y));
             let exact = program(f64::from(x), f64::from(y));
             for (i, (bound, exact)) in bounds.iter().zip(exact).enumerate() {
                 let off = (f64::from(bound.value) - exact).abs();

@@ -1,8 +1,8 @@
 //! The two short ways to run a method, `integrate` and `sample`, which every method offers by itself.
 
-use super::course::{Course, Done, Method, Outcome, Reached};
 use super::guard::{Guard, Watch};
 use super::integration::finished;
+use super::run::{Checkpoint, IntegrationResult, Method, Outcome, StepperRun};
 use crate::error::{Cause, IntegrationError, Setting};
 use crate::real::Real;
 use crate::system::System;
@@ -15,44 +15,44 @@ pub(super) fn visit_times<M, R, S, V, const N: usize>(
     x0: &[R; N],
     times: &[R],
     mut visit: V,
-) -> Result<Done<R, N>, IntegrationError<R, N>>
+) -> Result<IntegrationResult<R, N>, IntegrationError<R, N>>
 where
     M: Method<R, S, N>,
     R: Real,
     S: System<R, N> + ?Sized,
     V: FnMut(usize, R, &[R; N]),
 {
-    let start = Reached::new(t0, x0);
-    let mut course = method.start(&start);
-    let mut watch = Watch::new::<M::Course<'_>, S>(Guard::default(), system, &start)
-        .map_err(|cause| start.failed(cause))?;
+    let start = Checkpoint::new(t0, x0);
+    let mut run = method.start(&start);
+    let mut watch =
+        Watch::new::<M::Run<'_>, S>(Guard::default(), system, &start).map_err(|cause| start.failed(cause))?;
     let (mut before, mut kept) = (start, false);
     for (index, &time) in times.iter().enumerate() {
         if !t0.is_finite() || !time.is_finite() {
-            return Err(course.reached().failed(Cause::Setting(Setting::Time)));
+            return Err(run.checkpoint().failed(Cause::Setting(Setting::Time)));
         }
-        while course.reached().time != time {
-            kept = watch.wants_before(index + 1 == times.len() && course.is_last(time));
+        while run.checkpoint().time != time {
+            kept = watch.wants_before(index + 1 == times.len() && run.is_last(time));
             if kept {
-                before = *course.reached();
+                before = *run.checkpoint();
             }
-            let from = course.reached().statistics.accepted;
+            let from = run.checkpoint().statistics.accepted;
             let made = if kept {
-                course.advance(system, time, kept)
+                run.advance(system, time, kept)
             } else {
-                course.go_on(system, time, watch.patience())
+                run.go_on(system, time, watch.patience())
             };
             if let Err(cause) = made {
-                return Err(watch.stopped(system, &course, cause));
+                return Err(watch.stopped(system, &run, cause));
             }
-            if let Err(cause) = watch.step(system, from, kept.then_some(&before), &course) {
-                return Err(watch.good(course.reached()).failed(cause));
+            if let Err(cause) = watch.step(system, from, kept.then_some(&before), &run) {
+                return Err(watch.good(run.checkpoint()).failed(cause));
             }
         }
-        visit(index, time, &course.reached().state);
+        visit(index, time, &run.checkpoint().state);
     }
-    let done = course.reached().done(Outcome::Arrived);
-    finished(&mut watch, system, kept.then_some(&before), &course, done)
+    let done = run.checkpoint().done(Outcome::Arrived);
+    finished(&mut watch, system, kept.then_some(&before), &run, done)
 }
 
 /// The methods `integrate` and `sample` of a method over the real `R`, for systems with the given bounds.
@@ -75,7 +75,7 @@ macro_rules! short_ways {
                 x0: &[R; N],
                 t1: R,
                 mut observer: O,
-            ) -> Result<super::Done<R, N>, $crate::IntegrationError<R, N>>
+            ) -> Result<super::IntegrationResult<R, N>, $crate::IntegrationError<R, N>>
             where
                 S: $($bound)+<R, N> + ?Sized,
                 O: FnMut(R, &[R; N]) -> core::ops::ControlFlow<()>,
@@ -98,12 +98,12 @@ macro_rules! short_ways {
                 x0: &[R; N],
                 times: &[R],
                 visit: V,
-            ) -> Result<super::Done<R, N>, $crate::IntegrationError<R, N>>
+            ) -> Result<super::IntegrationResult<R, N>, $crate::IntegrationError<R, N>>
             where
                 S: $($bound)+<R, N> + ?Sized,
                 V: FnMut(usize, R, &[R; N]),
             {
-                super::landing::visit_times(self, system, t0, x0, times, visit)
+                super::stop_times::visit_times(self, system, t0, x0, times, visit)
             }
         }
     };

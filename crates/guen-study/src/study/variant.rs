@@ -27,7 +27,7 @@ impl<const N: usize> Task<'_, N> {
     }
 }
 
-/// A lever at a setting: fills in the states at the times of each start, one start after the other.
+/// A variant at a setting: fills in the states at the times of each start, one start after the other.
 pub(super) type Run<const N: usize> =
     Box<dyn Fn(&Task<'_, N>, &mut Vec<[f64; N]>) -> Result<Statistics, Failure>>;
 
@@ -74,8 +74,8 @@ impl Settings {
     }
 }
 
-/// A lever with its settings.
-pub(super) struct Lever<const N: usize> {
+/// A variant with its settings.
+pub(super) struct Variant<const N: usize> {
     pub method: String,
     pub real: String,
     pub form: String,
@@ -84,9 +84,9 @@ pub(super) struct Lever<const N: usize> {
     pub code: Box<dyn Fn(f64) -> String>,
 }
 
-impl<const M: usize> Lever<M> {
-    /// The same lever for states that are carried there and back.
-    pub fn of_form<A, B, const N: usize>(self, form: &str, way: Rc<(A, B)>) -> Lever<N>
+impl<const M: usize> Variant<M> {
+    /// The same variant for states that are carried there and back.
+    pub fn of_form<A, B, const N: usize>(self, form: &str, way: Rc<(A, B)>) -> Variant<N>
     where
         A: Fn(&[f64; N]) -> [f64; M] + 'static,
         B: Fn(&[f64; M]) -> [f64; N] + 'static,
@@ -109,7 +109,7 @@ impl<const M: usize> Lever<M> {
         let code = Box::new(move |setting| {
             format!("// `system` and `start` are those of the form `{name}`\n{}", code(setting))
         });
-        Lever { method, real, form: form.to_owned(), settings, make, code }
+        Variant { method, real, form: form.to_owned(), settings, make, code }
     }
 }
 
@@ -203,14 +203,14 @@ where
     })
 }
 
-/// The lever of a method that is made of a setting.
-pub(super) fn lever<R, S, M, const N: usize>(
+/// The variant of a method that is made of a setting.
+pub(super) fn variant<R, S, M, const N: usize>(
     names: [&str; 3],
     system: &Rc<S>,
     settings: Settings,
     make: impl Fn(f64) -> M + 'static,
     code: impl Fn(f64) -> String + 'static,
-) -> Lever<N>
+) -> Variant<N>
 where
     R: Real,
     S: System<R, N> + 'static,
@@ -219,16 +219,16 @@ where
     let [method, real, form] = names.map(str::to_owned);
     let system = Rc::clone(system);
     let make = Box::new(move |setting| run_of::<R, S, M, N>(Rc::clone(&system), make(setting)));
-    Lever { method, real, form, settings, make: Ok(make), code: Box::new(code) }
+    Variant { method, real, form, settings, make: Ok(make), code: Box::new(code) }
 }
 
 /// The limits of `Ordered` are those of methods whose steps follow the error.
-pub(super) fn explicit_levers<R, S, const N: usize>(
+pub(super) fn explicit_variants<R, S, const N: usize>(
     real: &'static str,
     system: &Rc<S>,
     span: (f64, f64),
     origin: Origin,
-) -> Vec<Lever<N>>
+) -> Vec<Variant<N>>
 where
     R: Ordered,
     S: System<R, N> + 'static,
@@ -240,28 +240,28 @@ where
     let step = |setting: f64| R::from_f64(setting);
     let names = |method| [method, real, "declared"];
     vec![
-        lever::<R, S, _, N>(
+        variant::<R, S, _, N>(
             names("RK4"),
             system,
             Settings::Steps,
             move |h| Rk4 { step: step(h) },
             code("Rk4", Argument::Field),
         ),
-        lever::<R, S, _, N>(
+        variant::<R, S, _, N>(
             names("RK8"),
             system,
             Settings::Steps,
             move |h| Rk8::new(step(h)),
             code("Rk8", Argument::Step),
         ),
-        lever::<R, S, _, N>(
+        variant::<R, S, _, N>(
             names("Tsit5"),
             system,
             Settings::Tolerances,
             |tol| Tsit5::<R>::new(tol, tol),
             code("Tsit5", Argument::Tolerances),
         ),
-        lever::<R, S, _, N>(
+        variant::<R, S, _, N>(
             names("DOP853"),
             system,
             Settings::Tolerances,

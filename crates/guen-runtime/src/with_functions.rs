@@ -1,6 +1,6 @@
 //! Reals with exchanged functions: the platform's, shorter polynomials, fused multiply-add.
 //!
-//! A [`Tuned`] number is the number inside, with the operations of some [`Functions`] in place of its own. As it is a
+//! A [`WithFunctions`] number is the number inside, with the operations of some [`Functions`] in place of its own. As it is a
 //! type, a program can hold several at once and compare them, and nobody changes the results of somebody else.
 
 use core::fmt::Debug;
@@ -21,25 +21,25 @@ use crate::real::{Ordered, Real};
 /// # }
 /// ```
 #[cfg(feature = "std")]
-pub type Std<R = f64> = Tuned<R, StdFunctions>;
+pub type Std<R = f64> = WithFunctions<R, StdFunctions>;
 
 /// A number whose `sin_cos` errs by less than 1e-13, absolutely, and takes some 15 operations less.
 ///
 /// ```
-/// use guen_runtime::{Digits13, Real};
-/// let (sin, cos) = Digits13::new(2.0).sin_cos();
+/// use guen_runtime::{Approx13, Real};
+/// let (sin, cos) = Approx13::new(2.0).sin_cos();
 /// assert!((sin.value - 2.0_f64.sin()).abs() < 1e-13 && (cos.value - 2.0_f64.cos()).abs() < 1e-13);
 /// ```
-pub type Digits13<R = f64> = Tuned<R, Digits13Functions>;
+pub type Approx13<R = f64> = WithFunctions<R, Approx13Functions>;
 
 /// A number whose `sin_cos` errs by less than 4e-8, absolutely: for games, and where a model is no better than that.
 ///
 /// ```
-/// use guen_runtime::{Digits7, Real};
-/// let (sin, cos) = Digits7::new(2.0).sin_cos();
+/// use guen_runtime::{Approx7, Real};
+/// let (sin, cos) = Approx7::new(2.0).sin_cos();
 /// assert!((sin.value - 2.0_f64.sin()).abs() < 4e-8 && (cos.value - 2.0_f64.cos()).abs() < 4e-8);
 /// ```
-pub type Digits7<R = f64> = Tuned<R, Digits7Functions>;
+pub type Approx7<R = f64> = WithFunctions<R, Approx7Functions>;
 
 /// A number that rounds products and sums together where generated code allows it: fewer instructions and fewer
 /// roundings, other bits than without. On x86-64 the instruction is chosen at run time; where the processor has none
@@ -52,27 +52,27 @@ pub type Digits7<R = f64> = Tuned<R, Digits7Functions>;
 /// let square = x.times_minus(x, Fused::new(1.0 + 2.0 * f64::EPSILON));
 /// assert_eq!(square.value, f64::EPSILON * f64::EPSILON);
 /// ```
-pub type Fused<R = f64> = Tuned<R, FusedOperations>;
+pub type Fused<R = f64> = WithFunctions<R, FusedOperations>;
 
 /// A real `R` with some operations exchanged by `F`; it lifts constants of base `f64` like `R` itself, nests in
 /// duals, and is [`Lanes`] if `R` is.
 ///
 /// ```
-/// use guen_runtime::{Digits7, Dual, Fused, Real};
+/// use guen_runtime::{Approx7, Dual, Fused, Real};
 ///
 /// // The derivative of sin^2, with short polynomials and fused operations.
-/// let x = Dual::<Fused<Digits7>, 1>::variable(Fused::new(Digits7::new(0.3)), 0);
+/// let x = Dual::<Fused<Approx7>, 1>::variable(Fused::new(Approx7::new(0.3)), 0);
 /// let square = x.sin().powi(2);
 /// assert!((square.tangent[0].to_f64() - 0.6_f64.sin()).abs() < 1e-7);
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd)]
-pub struct Tuned<R, F> {
+pub struct WithFunctions<R, F> {
     /// The number.
     pub value: R,
     functions: PhantomData<F>,
 }
 
-impl<R, F> Tuned<R, F> {
+impl<R, F> WithFunctions<R, F> {
     /// The number, from now on with the other operations.
     #[inline(always)]
     pub const fn new(value: R) -> Self {
@@ -80,7 +80,7 @@ impl<R, F> Tuned<R, F> {
     }
 }
 
-impl<R, F> From<R> for Tuned<R, F> {
+impl<R, F> From<R> for WithFunctions<R, F> {
     #[inline(always)]
     fn from(value: R) -> Self {
         Self::new(value)
@@ -92,7 +92,7 @@ macro_rules! functions {
         /// Operations to be exchanged in a real; what is not overridden stays the real's own.
         ///
         /// ```
-        /// use guen_runtime::{Functions, Real, Tuned};
+        /// use guen_runtime::{Functions, Real, WithFunctions};
         ///
         /// /// Pendulums of a time when sines were expensive.
         /// #[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd)]
@@ -104,7 +104,7 @@ macro_rules! functions {
         ///     }
         /// }
         ///
-        /// assert_eq!(Tuned::<f64, SmallAngles>::new(0.2).sin().value, 0.2);
+        /// assert_eq!(WithFunctions::<f64, SmallAngles>::new(0.2).sin().value, 0.2);
         /// ```
         pub trait Functions<R: Real>: Copy + Debug + Default + PartialEq + PartialOrd + 'static {
             /// [`Real::sin_cos`]; [`Real::sin`] and [`Real::cos`] are taken from it.
@@ -153,7 +153,7 @@ macro_rules! functions {
             }
         }
 
-        impl<R: Real, F: Functions<R>> Real for Tuned<R, F> {
+        impl<R: Real, F: Functions<R>> Real for WithFunctions<R, F> {
             $(
                 #[inline(always)]
                 fn $method(self) -> Self {
@@ -290,7 +290,7 @@ functions! { tan asin acos atan sinh cosh tanh exp ln sqrt }
 macro_rules! operators {
     ($($trait:ident $method:ident $assign:ident $assign_method:ident $operator:tt;)*) => {
         $(
-            impl<R: Real, F: Functions<R>> $trait for Tuned<R, F> {
+            impl<R: Real, F: Functions<R>> $trait for WithFunctions<R, F> {
                 type Output = Self;
 
                 #[inline(always)]
@@ -299,7 +299,7 @@ macro_rules! operators {
                 }
             }
 
-            impl<R: Real, F: Functions<R>> $assign for Tuned<R, F> {
+            impl<R: Real, F: Functions<R>> $assign for WithFunctions<R, F> {
                 #[inline(always)]
                 fn $assign_method(&mut self, other: Self) {
                     self.value = self.value $operator other.value;
@@ -316,7 +316,7 @@ operators! {
     Div div DivAssign div_assign /;
 }
 
-impl<R: Real, F: Functions<R>> Neg for Tuned<R, F> {
+impl<R: Real, F: Functions<R>> Neg for WithFunctions<R, F> {
     type Output = Self;
 
     #[inline(always)]
@@ -325,30 +325,30 @@ impl<R: Real, F: Functions<R>> Neg for Tuned<R, F> {
     }
 }
 
-impl<R: Ordered, F: Functions<R>> Ordered for Tuned<R, F> {}
+impl<R: Ordered, F: Functions<R>> Ordered for WithFunctions<R, F> {}
 
-impl<L: Lanes, F: Functions<L>> Lift<f64> for Tuned<L, F> {
+impl<L: Lanes, F: Functions<L>> Lift<f64> for WithFunctions<L, F> {
     #[inline(always)]
     fn lift(base: f64) -> Self {
         Self::new(L::lift(base))
     }
 }
 
-impl<F: Functions<f32>> Lift<f32> for Tuned<f32, F> {
+impl<F: Functions<f32>> Lift<f32> for WithFunctions<f32, F> {
     #[inline(always)]
     fn lift(base: f32) -> Self {
         Self::new(base)
     }
 }
 
-impl<R: Real, F: Functions<R>> Lift<Self> for Tuned<R, F> {
+impl<R: Real, F: Functions<R>> Lift<Self> for WithFunctions<R, F> {
     #[inline(always)]
     fn lift(base: Self) -> Self {
         base
     }
 }
 
-impl<L: Lanes, F: Functions<L>> Lanes for Tuned<L, F> {
+impl<L: Lanes, F: Functions<L>> Lanes for WithFunctions<L, F> {
     const COUNT: usize = L::COUNT;
 
     #[inline(always)]
@@ -389,22 +389,22 @@ impl<L: Lanes, F: Functions<L>> Lanes for Tuned<L, F> {
     }
 }
 
-/// The functions of [`Digits13`].
+/// The functions of [`Approx13`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd)]
-pub struct Digits13Functions;
+pub struct Approx13Functions;
 
-impl<L: Lanes> Functions<L> for Digits13Functions {
+impl<L: Lanes> Functions<L> for Approx13Functions {
     #[inline(always)]
     fn sin_cos(x: L) -> (L, L) {
         x.sin_cos_13()
     }
 }
 
-/// The functions of [`Digits7`].
+/// The functions of [`Approx7`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd)]
-pub struct Digits7Functions;
+pub struct Approx7Functions;
 
-impl<L: Lanes> Functions<L> for Digits7Functions {
+impl<L: Lanes> Functions<L> for Approx7Functions {
     #[inline(always)]
     fn sin_cos(x: L) -> (L, L) {
         x.sin_cos_7()
@@ -468,33 +468,33 @@ std_functions!(f32: tan asin acos atan sinh cosh tanh exp ln sqrt);
 
 /// A choice of real over lanes of every kind, for code that makes lanes itself.
 ///
-/// [`Own`] is the lanes as they are; [`Digits13Functions`], [`Digits7Functions`] and [`FusedOperations`] exchange
+/// [`PlainLanes`] is the lanes as they are; [`Approx13Functions`], [`Approx7Functions`] and [`FusedOperations`] exchange
 /// operations, and a pair does both.
-pub trait Choice: 'static {
+pub trait LaneScalar: 'static {
     /// The real over the lanes `L`.
     type Of<L: Lanes>: Lanes;
 }
 
 /// The functions and operations that a real has by itself.
 #[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd)]
-pub struct Own;
+pub struct PlainLanes;
 
-impl Choice for Own {
+impl LaneScalar for PlainLanes {
     type Of<L: Lanes> = L;
 }
 
-impl Choice for Digits13Functions {
-    type Of<L: Lanes> = Digits13<L>;
+impl LaneScalar for Approx13Functions {
+    type Of<L: Lanes> = Approx13<L>;
 }
 
-impl Choice for Digits7Functions {
-    type Of<L: Lanes> = Digits7<L>;
+impl LaneScalar for Approx7Functions {
+    type Of<L: Lanes> = Approx7<L>;
 }
 
-impl Choice for FusedOperations {
+impl LaneScalar for FusedOperations {
     type Of<L: Lanes> = Fused<L>;
 }
 
-impl<A: Choice, B: Choice> Choice for (A, B) {
+impl<A: LaneScalar, B: LaneScalar> LaneScalar for (A, B) {
     type Of<L: Lanes> = A::Of<B::Of<L>>;
 }

@@ -1,16 +1,16 @@
 //! What a system tells the guards of a stepper: quantities that its exact solutions keep.
 
 /// Quantities of one state that a guard compares with those of the start: see
-/// [`System::vitals`](crate::System::vitals).
+/// [`System::conserved`](crate::System::conserved).
 ///
 /// ```
-/// use guen_runtime::Vitals;
+/// use guen_runtime::Invariants;
 ///
 /// // A system that says nothing is not guarded, except that its states must be finite.
-/// assert_eq!(Vitals::<f64>::default().energy, None);
+/// assert_eq!(Invariants::<f64>::default().energy, None);
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Vitals<R> {
+pub struct Invariants<R> {
     /// The energy integral, if the system keeps it.
     pub energy: Option<R>,
     /// A size for errors of the energy to be relative to, such as `|T| + |U|`: not negative, in units of energy.
