@@ -105,28 +105,6 @@ impl Brackets {
         bench.graph.sum(terms)
     }
 
-    /// `-d omega_t(motion, displacement)`, `t` from 0, for the motion with these rates of the coordinates and a displacement: the sum of
-    /// `C_0st + sum_r eta_r C_rst` over what the displacement has of each `X_s`.
-    pub(crate) fn between(
-        &self,
-        bench: &mut Workbench,
-        motion: &[ExprId],
-        displacement: &[ExprId],
-        t: usize,
-    ) -> ExprId {
-        let (zero, one) = (bench.graph.zero(), bench.graph.one());
-        let component = |field: &[ExprId], time: ExprId, p: usize| if p == 0 { time } else { field[p - 1] };
-        let mut terms = Vec::new();
-        for (p, q, curl) in &self.curls[t] {
-            let [mp, mq] = [*p, *q].map(|p| component(motion, one, p));
-            let [dp, dq] = [*p, *q].map(|p| component(displacement, zero, p));
-            let (forward, backward) = (bench.graph.mul(mq, dp), bench.graph.mul(mp, dq));
-            let area = bench.graph.sub(forward, backward);
-            terms.push(bench.graph.mul(*curl, area));
-        }
-        bench.graph.sum(terms)
-    }
-
     /// `xi_j^p` with `xi_0^0 = 1` and `xi_j^0 = 0`.
     fn component(&self, bench: &Workbench, j: usize, p: usize) -> ExprId {
         match (j, p) {

@@ -7,7 +7,7 @@ use super::projection::Projected;
 use super::proof::Definition;
 use super::turned::InOwnAxes;
 use super::velocity_forms::VelocityPartials;
-use super::{Frame, FrameNode, KineticTerm, Mechanics, multibody, poincare, projection, restriction, turned};
+use super::{Frame, FrameNode, KineticTerm, Mechanics, multibody, projection, restriction, turned};
 use crate::algebra::ExprId;
 use crate::normal::{Limits, normal_coefficients};
 use crate::program::weighted_cost;
@@ -95,20 +95,22 @@ impl Stated {
     ) -> Result<Self, DerivationError> {
         affordable(bench)?;
         let velocities = weighted_cost(&bench.graph, &frame.velocities);
-        if is_large(bench, system) || velocities > LARGEST_MULTIPLIED {
-            let definition = Definition::along(bench, system, frame, generalised_forces);
-            affordable(bench)?;
-            if let Some(mut found) = multibody::rates(bench, system, frame, partials, true)
-                && let Some(equations) = found.equations.take()
-                && let own = equations.undriven(bench, generalised_forces)
-                && definition.is(bench, &own, true)?
-                && definition.is_solved_by(bench, &frame.velocities, &found.rates)?
-            {
-                let of_bodies = (equations, found);
-                return Ok(Self::of_bodies(bench, system, frame, partials, terms, (definition, of_bodies)));
-            }
+        let is_large = is_large(bench, system) || velocities > LARGEST_MULTIPLIED;
+        let of_bodies = match is_large {
+            true => multibody::rates(bench, system, frame, partials, true),
+            false => None,
+        };
+        let mut definition = Definition::new(bench, system, generalised_forces);
+        if let Some(mut found) = of_bodies
+            && let Some(equations) = found.equations.take()
+            && let own = equations.undriven(bench, generalised_forces)
+            && definition.is(bench, (system, frame), &own, true)?
+            && definition.is_solved_by(bench, (system, frame), &found.rates)?
+        {
+            let of_bodies = (equations, found);
+            return Ok(Self::of_bodies(bench, system, frame, partials, terms, (definition, of_bodies)));
         }
-        Self::multiplied_out(bench, system, frame, partials, terms, generalised_forces)
+        Self::multiplied_out(bench, system, frame, partials, terms, definition)
     }
 
     /// The equations of bodies alone.
@@ -142,17 +144,17 @@ impl Stated {
         frame: &mut Frame,
         partials: &mut VelocityPartials,
         terms: &[KineticTerm],
-        generalised_forces: &[ExprId],
+        mut definition: Definition,
     ) -> Result<Self, DerivationError> {
         let (n, l) = (system.forms.len(), system.forms.degrees);
-        let by_definition = poincare::equations(bench, system, frame);
+        let by_definition = definition.written(bench, system, frame).clone();
         affordable(bench)?;
-        let definition = Definition::whole(by_definition.clone(), generalised_forces);
+        definition.is(bench, (system, frame), &by_definition, false)?;
         let projected = projection::equations(bench, system, frame, partials, terms, 0..n);
         let mut by_projection = projected.equations.clone();
         let constrained =
             Equations { mass: by_projection.mass.split_off(l), forces: by_projection.forces.split_off(l) };
-        definition.is(bench, &by_projection, false)?;
+        definition.is(bench, (system, frame), &by_projection, false)?;
         let mut multiplied = forms(bench, system, &by_definition, &projected.equations);
         // On constraints on positions the axes of the bodies leave less than those of the world.
         let in_own_axes = match system.holonomic.is_empty() {
@@ -161,12 +163,12 @@ impl Stated {
         };
         if let Some(own) = &in_own_axes
             && own.equations.cost(bench) < multiplied[0].cost(bench)
-            && definition.is(bench, &own.equations, true)?
+            && definition.is(bench, (system, frame), &own.equations, true)?
         {
             multiplied.insert(0, own.equations.clone());
         }
         let multiplied = multiplied.into_iter().map(|equations| {
-            let equations = equations.driven(bench, generalised_forces);
+            let equations = equations.driven(bench, definition.generalised_forces());
             restriction::restricted(bench, system, equations)
         });
         let multiplied = multiplied.collect();

@@ -157,9 +157,7 @@ pub(super) fn walk(
             }
         };
         for Candidate { rates, rank } in candidates {
-            if matches!(rank, Rank::Other | Rank::Last(_))
-                && !search.stated.definition.is_solved_by(bench, &search.frame.velocities, &rates)?
-            {
+            if matches!(rank, Rank::Other | Rank::Last(_)) && !search.is_proved(bench, &rates)? {
                 declined.push((name, "it is not proved"));
                 continue;
             }
@@ -198,6 +196,12 @@ pub(super) fn walk(
 }
 
 impl Search<'_> {
+    /// Whether rates solve (2.7).
+    fn is_proved(&mut self, bench: &mut Workbench, rates: &[ExprId]) -> Result<bool, DerivationError> {
+        let Search { system, frame, stated, .. } = self;
+        stated.definition.is_solved_by(bench, (system, frame), rates)
+    }
+
     /// The rates of the state by solved equations.
     fn rates(&self, accelerations: &[ExprId]) -> Vec<ExprId> {
         [&self.frame.velocities, accelerations].concat()
@@ -362,7 +366,7 @@ fn without_headings(bench: &mut Workbench, search: &mut Search<'_>) -> Result<Ou
     };
     let least = weighted_cost(&bench.graph, &shown.entries());
     if let Some(shorter) = found.equations
-        && search.stated.definition.is(bench, &shorter, true)?
+        && search.stated.definition.is(bench, (search.system, search.frame), &shorter, true)?
     {
         let shorter = shorter.driven(bench, search.generalised_forces);
         let is_shorter = weighted_cost(&bench.graph, &shorter.entries()) < least;

@@ -15,6 +15,7 @@ mod graph;
 mod headings;
 mod indispensable;
 mod kinetic;
+mod lagrange;
 mod multibody;
 mod nested;
 mod numerator;

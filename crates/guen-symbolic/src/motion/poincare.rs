@@ -34,46 +34,6 @@ pub fn equations(bench: &mut Workbench, system: &Mechanics, frame: &mut Frame) -
     Equations { mass, forces }
 }
 
-/// `sum_s w_s (2.7)_s`: one equation along the displacement `sum_s w_s X_s`.
-pub(super) struct Along {
-    /// `sum_s w_s dT/d eta_s`. Its derivative along the `eta_t'` is what the equation has of these.
-    pub(super) momentum: ExprId,
-    /// All but these, on the side of the forces, without the generalised forces.
-    pub(super) force: ExprId,
-}
-
-/// (2.7) along a displacement. Each sum over the equations, over `eta_r` and over the momenta is one derivative along a direction, so
-/// that the work grows with the energy as it is written and not with the number of parameters.
-pub(super) fn along(
-    bench: &mut Workbench,
-    system: &Mechanics,
-    frame: &mut Frame,
-    weights: &[ExprId],
-) -> Along {
-    let (n, l) = (system.forms.len(), system.forms.degrees);
-    let (dropped, kinetic) = kinetic(bench, system, frame);
-    let directions = system.etas.iter().copied().zip(weights.iter().copied());
-    let momentum = Flow::new(&bench.graph, directions).of(&mut bench.graph, kinetic);
-    let rates: Vec<ExprId> = (0..n)
-        .map(|i| {
-            let entries: Vec<ExprId> = (1..=l).map(|s| frame.operators.xi[s][i]).collect();
-            bench.dot(weights, &entries)
-        })
-        .collect();
-    let lagrangian = bench.graph.add(kinetic, system.force_function);
-    let displaced = system.forms.coordinates.iter().copied().zip(rates.iter().copied());
-    let slope = Flow::new(&bench.graph, displaced).of(&mut bench.graph, lagrangian);
-    let rate = frame.motion.of(&mut bench.graph, momentum);
-    // sum_s w_s (C_0st + sum_r eta_r C_rst) for each t, times the momenta of T° on the constraints.
-    let turning: Vec<ExprId> =
-        (0..n).map(|t| frame.brackets.between(bench, &frame.velocities, &rates, t)).collect();
-    let turning = system.etas.iter().copied().zip(turning);
-    let turned = Flow::new(&bench.graph, turning).of(&mut bench.graph, dropped);
-    let turned = on_constraints(bench, system).of(&mut bench.graph, turned);
-    let rest = bench.graph.sub(slope, rate);
-    Along { momentum, force: bench.graph.add(rest, turned) }
-}
-
 /// `T°`, with every parameter free, and `T`, on the constraints.
 fn kinetic(bench: &mut Workbench, system: &Mechanics, frame: &Frame) -> (ExprId, ExprId) {
     let (n, l) = (system.forms.len(), system.forms.degrees);

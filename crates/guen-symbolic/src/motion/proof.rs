@@ -1,124 +1,79 @@
 //! Proofs of what was found in different ways against the definition (2.7): before anything is emitted, at points modulo p.
 
 use super::fault::DerivationError;
+use super::lagrange::{Lagrange, Point};
 use super::{Equations, Frame, Mechanics, poincare};
-use crate::algebra::{ExprId, Flow, Role};
+use crate::algebra::ExprId;
 use crate::workbench::Workbench;
-use crate::zero::POINTS_WITH_ROOTS;
-use crate::zero::field::{add, mul};
+use crate::zero::field::{add, mul, sub};
+use crate::zero::{POINTS_WITH_ROOTS, REDRAWS};
 
-/// Points of a proof; at each of them a displacement is drawn, too.
+/// Points of a proof.
 const POINTS: usize = 3;
 
-/// The equations (2.7) by definition.
+/// The equations (2.7): their left sides at points, and where points do not decide, as expressions.
 pub(super) struct Definition {
-    rows: Rows,
+    at_points: Lagrange,
+    /// By definition, without the generalised forces, once they were asked for.
+    written: Option<Equations>,
     /// The generalised force of each row.
     generalised_forces: Vec<ExprId>,
 }
 
-/// Without the generalised forces, which are the same in all equations: not every one has values modulo p.
-enum Rows {
-    /// One for each `X_s`.
-    Each(Equations),
-    /// Their sum along one displacement.
-    Along(Along),
-}
-
-/// `sum_s w_s (2.7)_s`, with symbols for the `w_s`. At a point modulo p these are numbers like all others, so that such a sum
-/// tells of every displacement, at the cost of one.
-struct Along {
-    /// `w_1..w_l`.
-    weights: Vec<ExprId>,
-    /// `eta_1'..eta_l'`, symbols too.
-    accelerations: Vec<ExprId>,
-    /// `eta_1..eta_l`.
-    etas: Vec<ExprId>,
-    equation: poincare::Along,
-}
-
-impl Along {
-    /// `sum_st w_s M_st eta_t'` with these `eta_t'`.
-    fn inertia(&self, bench: &mut Workbench, accelerations: &[ExprId]) -> ExprId {
-        let rates = self.etas.iter().copied().zip(accelerations.iter().copied());
-        Flow::new(&bench.graph, rates).of(&mut bench.graph, self.equation.momentum)
-    }
-
-    /// Inertia and force of equations along the displacement, at a point or as expressions.
-    fn sum<T: Copy>(
-        (weights, accelerations): (&[T], &[T]),
-        rows: &[Vec<T>],
-        mut dot: impl FnMut(&[T], &[T]) -> T,
-    ) -> (T, T) {
-        let l = accelerations.len();
-        let inertias: Vec<T> = rows.iter().map(|row| dot(&row[..l], accelerations)).collect();
-        let forces: Vec<T> = rows.iter().map(|row| row[l]).collect();
-        (dot(weights, &inertias), dot(weights, &forces))
-    }
+/// What points say of equations.
+enum Seen {
+    /// They hold.
+    Holds,
+    /// Values differ in this row.
+    Differs(usize),
+    /// Too few points have values.
+    Few,
 }
 
 impl Definition {
-    /// All equations.
-    pub(super) fn whole(equations: Equations, generalised_forces: &[ExprId]) -> Self {
-        let generalised_forces = generalised_forces[..equations.forces.len()].to_vec();
-        Definition { rows: Rows::Each(equations), generalised_forces }
+    pub(super) fn new(bench: &mut Workbench, system: &Mechanics, generalised_forces: &[ExprId]) -> Self {
+        let generalised_forces = generalised_forces[..system.forms.degrees].to_vec();
+        Definition { at_points: Lagrange::new(bench, system), written: None, generalised_forces }
     }
 
-    /// Their sum along a displacement that is drawn.
-    pub(super) fn along(
+    /// `Q_1..Q_l`.
+    pub(super) fn generalised_forces(&self) -> &[ExprId] {
+        &self.generalised_forces
+    }
+
+    /// The equations by definition, without the generalised forces.
+    pub(super) fn written(
+        &mut self,
         bench: &mut Workbench,
         system: &Mechanics,
         frame: &mut Frame,
-        generalised_forces: &[ExprId],
-    ) -> Self {
-        let l = system.forms.degrees;
-        // No declaration has names with a blank.
-        let weight = |s: usize| bench.graph.symbol(&format!("w {s}"), Role::Input);
-        let weights: Vec<ExprId> = (1..=l).map(weight).collect();
-        let equation = poincare::along(bench, system, frame, &weights);
-        let generalised_forces = vec![bench.dot(&weights, &generalised_forces[..l])];
-        let [accelerations, etas] =
-            [&system.accelerations, &system.etas].map(|symbols| symbols[..l].to_vec());
-        Definition { rows: Rows::Along(Along { weights, accelerations, etas, equation }), generalised_forces }
+    ) -> &Equations {
+        self.written.get_or_insert_with(|| poincare::equations(bench, system, frame))
     }
 
     /// Whether equations without generalised forces are these, everywhere or wherever constraints on positions hold, but for roots of
     /// other sign. A proved difference is a mistake of ours.
     pub(super) fn is(
-        &self,
+        &mut self,
         bench: &mut Workbench,
+        (system, frame): (&Mechanics, &mut Frame),
         equations: &Equations,
         on_manifold: bool,
     ) -> Result<bool, DerivationError> {
+        let l = system.forms.degrees;
         let rows = equations.rows();
-        let (own, others) = match &self.rows {
-            Rows::Each(own) => {
-                let own = own.rows();
-                if same(bench, &own.concat(), &rows.concat(), on_manifold) {
-                    return Ok(true);
-                }
-                (own, rows)
-            }
-            Rows::Along(along) => {
-                let (weights, accelerations) = (&along.weights, &along.accelerations);
-                let own = vec![along.inertia(bench, accelerations), along.equation.force];
-                let l = weights.len();
-                let is_met = |values: &[u64]| {
-                    let (drawn, values) = values.split_at(2 * l);
-                    let (own, others) = values.split_at(2);
-                    let rows: Vec<Vec<u64>> = others.chunks(l + 1).map(<[u64]>::to_vec).collect();
-                    let dot = |a: &[u64], b: &[u64]| a.iter().zip(b).map(|(a, b)| mul(*a, *b)).fold(0, add);
-                    Along::sum(drawn.split_at(l), &rows, dot) == (own[0], own[1])
-                };
-                let all = [&weights[..], accelerations, &own, &rows.concat()].concat();
-                if hold(bench, &all, on_manifold, is_met) {
-                    return Ok(true);
-                }
-                let (inertia, force) = Along::sum((weights, accelerations), &rows, |a, b| bench.dot(a, b));
-                (vec![own], vec![vec![inertia, force]])
-            }
-        };
-        for (equation, (own, others)) in own.iter().zip(&others).enumerate() {
+        let all = [&system.accelerations[..l], &rows.concat()].concat();
+        let seen = self.look(bench, system, (&all, on_manifold), |point, values| {
+            let (accelerations, values) = values.split_at(l);
+            let left = point.left_sides(accelerations)?;
+            let right = values.chunks(l + 1).map(|row| sub(dot(&row[..l], accelerations), row[l]));
+            Some(left.into_iter().zip(right).position(|(left, right)| left != right))
+        });
+        if self.decided(bench, system, (&all, on_manifold), seen)? {
+            return Ok(true);
+        }
+        let own = self.written(bench, system, frame).rows();
+        for (equation, (own, others)) in own.iter().zip(&rows).enumerate() {
             for (a, b) in own.iter().zip(others) {
                 let difference = bench.graph.sub(*a, *b);
                 refuse(bench, difference, on_manifold, equation)?;
@@ -130,74 +85,95 @@ impl Definition {
     /// Whether rates of the state are those of the operators and solve the equations, wherever constraints on positions hold.
     /// Where only the sign of a root may differ they are not taken; a proved difference is a mistake of ours.
     pub(super) fn is_solved_by(
-        &self,
+        &mut self,
         bench: &mut Workbench,
-        velocities: &[ExprId],
+        (system, frame): (&Mechanics, &mut Frame),
         rates: &[ExprId],
     ) -> Result<bool, DerivationError> {
-        let (moving, accelerations) = rates.split_at(velocities.len());
-        let is_solved = same(bench, velocities, moving, true)
-            && match &self.rows {
-                Rows::Each(Equations { mass, forces }) => {
-                    let (l, rows) = (accelerations.len(), forces.len());
-                    let all = [accelerations, &mass.concat(), forces, &self.generalised_forces].concat();
-                    hold(bench, &all, true, |values| {
-                        let (accelerations, values) = values.split_at(l);
-                        let (mass, values) = values.split_at(rows * l);
-                        let (forces, generalised_forces) = values.split_at(rows);
-                        let inertia = |s: usize| {
-                            let row = mass[s * l..][..l].iter();
-                            row.zip(accelerations).map(|(m, a)| mul(*m, *a)).fold(0, add)
-                        };
-                        (0..rows).all(|s| inertia(s) == add(forces[s], generalised_forces[s]))
-                    })
-                }
-                Rows::Along(along) => {
-                    let inertia = along.inertia(bench, accelerations);
-                    let all = [inertia, along.equation.force, self.generalised_forces[0]];
-                    hold(bench, &all, true, |values| values[0] == add(values[1], values[2]))
-                }
-            };
-        if is_solved {
+        let n = system.forms.len();
+        let all = [rates, &self.generalised_forces].concat();
+        let seen = self.look(bench, system, (&all, true), |point, values| {
+            let (rates, generalised_forces) = values.split_at(rates.len());
+            let (moving, accelerations) = rates.split_at(n);
+            if point.velocities != moving {
+                return Some(Some(0));
+            }
+            let left = point.left_sides(accelerations)?;
+            Some(left.iter().zip(generalised_forces).position(|(left, force)| left != force))
+        });
+        if self.decided(bench, system, (&all, true), seen)? {
             return Ok(true);
         }
-        for (own, other) in velocities.iter().zip(moving) {
+        let (moving, accelerations) = rates.split_at(n);
+        for (own, other) in frame.velocities.clone().iter().zip(moving) {
             let difference = bench.graph.sub(*own, *other);
             refuse(bench, difference, true, 0)?;
         }
-        let (inertias, forces) = match &self.rows {
-            Rows::Each(Equations { mass, forces }) => {
-                (mass.iter().map(|row| bench.dot(row, accelerations)).collect(), forces.clone())
-            }
-            Rows::Along(along) => (vec![along.inertia(bench, accelerations)], vec![along.equation.force]),
-        };
-        for (equation, inertia) in inertias.into_iter().enumerate() {
+        let Equations { mass, forces } = self.written(bench, system, frame).clone();
+        for (equation, row) in mass.iter().enumerate() {
+            let inertia = bench.dot(row, accelerations);
             let force = bench.graph.add(forces[equation], self.generalised_forces[equation]);
             let difference = bench.graph.sub(inertia, force);
             refuse(bench, difference, true, equation)?;
         }
         Ok(false)
     }
-}
 
-/// Whether expressions are others at all points; what they have in common needs no values.
-fn same(bench: &mut Workbench, a: &[ExprId], b: &[ExprId], on_manifold: bool) -> bool {
-    let differences: Vec<ExprId> = a.iter().zip(b).map(|(a, b)| bench.graph.sub(*a, *b)).collect();
-    hold(bench, &differences, on_manifold, |values| values.iter().all(|value| *value == 0))
-}
+    /// What is seen at as many points as it takes: at many, where signs may be right by chance. Each is given the values of some
+    /// expressions, and says which row differs, if any.
+    fn look(
+        &self,
+        bench: &mut Workbench,
+        system: &Mechanics,
+        (es, on_manifold): (&[ExprId], bool),
+        differs: impl Fn(&mut Point<'_>, &[u64]) -> Option<Option<usize>>,
+    ) -> Seen {
+        let all = [es, &system.expressions()].concat();
+        let signs = all.iter().any(|e| bench.zero.has_signs(&bench.graph, *e));
+        let wanted = if signs { POINTS_WITH_ROOTS } else { POINTS };
+        let (mut seen, mut in_vain) = (0, 0);
+        for number in 0.. {
+            let Some(sample) = bench.zero.fresh(&bench.graph, number, on_manifold) else { break };
+            let row = self.at_points.point(bench, system, sample).and_then(|mut point| {
+                let values = point.values(es)?;
+                differs(&mut point, &values)
+            });
+            match row {
+                Some(Some(row)) => return Seen::Differs(row),
+                Some(None) => (seen, in_vain) = (seen + 1, 0),
+                None => in_vain += 1,
+            }
+            if seen == wanted || in_vain > REDRAWS {
+                break;
+            }
+        }
+        if seen >= POINTS { Seen::Holds } else { Seen::Few }
+    }
 
-/// Whether something holds of the values of expressions at all points: at many, as far as they are found, where signs may be right by
-/// chance.
-fn hold(bench: &mut Workbench, es: &[ExprId], on_manifold: bool, holds: impl Fn(&[u64]) -> bool) -> bool {
-    let signs = es.iter().any(|e| bench.zero.has_signs(&bench.graph, *e));
-    for point in 0..if signs { POINTS_WITH_ROOTS } else { POINTS } {
-        match bench.zero.residues(&mut bench.graph, point, es, on_manifold) {
-            Some(values) if holds(&values) => {}
-            Some(_) => return false,
-            None => return point >= POINTS,
+    /// Whether equations hold, if points decide that: residues may differ where functions do not.
+    fn decided(
+        &self,
+        bench: &mut Workbench,
+        system: &Mechanics,
+        (es, on_manifold): (&[ExprId], bool),
+        seen: Seen,
+    ) -> Result<bool, DerivationError> {
+        match seen {
+            Seen::Holds => Ok(true),
+            Seen::Few => Ok(false),
+            Seen::Differs(equation) => {
+                let all = [es, &system.expressions()].concat();
+                match bench.zero.is_exact(&bench.graph, &all, on_manifold) {
+                    true => Err(DerivationError::RoutesDisagree { equation }),
+                    false => Ok(false),
+                }
+            }
         }
     }
-    true
+}
+
+fn dot(a: &[u64], b: &[u64]) -> u64 {
+    a.iter().zip(b).fold(0, |sum, (a, b)| add(sum, mul(*a, *b)))
 }
 
 /// Ends with a difference that is shown not to vanish.
@@ -216,58 +192,144 @@ fn refuse(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::algebra::{Graph, Rational};
+    use crate::algebra::{Graph, Node, Rational, Role};
+    use crate::geometry::{Form, Forms, Operators};
+    use crate::motion::{Force, Holonomic, Solution};
 
-    /// `(c^2 + s^2 n) a' = g s` for an angle with sine `s` and cosine `c`, by the numbers `n` and `g`, and a coordinate that is one
-    /// on the constraint.
-    fn equations(bench: &mut Workbench, x: ExprId, [n, g]: [i64; 2], factor: ExprId) -> Equations {
-        let (sine, cosine) = bench.graph.sin_cos(x);
+    /// The names of coordinates, forms, kinetic energy and force function of a system without forces.
+    fn system(
+        bench: &mut Workbench,
+        names: &[&str],
+        degrees: usize,
+        declare: impl FnOnce(&mut Graph, &[ExprId], &[ExprId], ExprId) -> (Vec<Form>, ExprId, ExprId),
+    ) -> Mechanics {
         let graph = &mut bench.graph;
-        let (s2, c2) = (graph.powi(sine, 2), graph.powi(cosine, 2));
-        let mass = graph.linear(&[(c2, Rational::ONE), (s2, Rational::integer(n))]);
-        let force = graph.linear(&[(sine, Rational::integer(g))]);
-        Equations { mass: vec![vec![graph.mul(mass, factor)]], forces: vec![graph.mul(force, factor)] }
-    }
-
-    /// The same along `w X_1`.
-    fn along(bench: &mut Workbench, equations: &Equations) -> Definition {
-        drawn(bench, &["w1"], equations)
-    }
-
-    /// Equations along a displacement that is drawn.
-    fn drawn(bench: &mut Workbench, weights: &[&str], equations: &Equations) -> Definition {
-        let symbols = |bench: &mut Workbench, kind: &str| -> Vec<ExprId> {
-            weights.iter().map(|w| bench.graph.symbol(&format!("{kind}{w}"), Role::QuasiVelocity)).collect()
+        let symbols = |graph: &mut Graph, prefix: &str, role: Role| -> Vec<ExprId> {
+            names.iter().map(|name| graph.symbol(&format!("{prefix}{name}"), role)).collect()
         };
-        let [weights, accelerations, etas] = ["", "rate of ", "speed "].map(|kind| symbols(bench, kind));
-        let momenta: Vec<ExprId> = equations.mass.iter().map(|row| bench.dot(row, &etas)).collect();
-        let momentum = bench.dot(&weights, &momenta);
-        let equation = poincare::Along { momentum, force: bench.dot(&weights, &equations.forces) };
-        let rows = Rows::Along(Along { weights, accelerations, etas, equation });
-        Definition { rows, generalised_forces: vec![bench.graph.zero()] }
+        let time = graph.symbol("t", Role::Time);
+        let coordinates = symbols(graph, "", Role::Coordinate);
+        let velocities = symbols(graph, "rate of ", Role::Velocity);
+        let etas = symbols(graph, "eta ", Role::QuasiVelocity);
+        let mut accelerations = symbols(graph, "rate of eta ", Role::QuasiAcceleration);
+        accelerations.truncate(degrees);
+        let (forms, kinetic_energy, force_function) = declare(graph, &coordinates, &velocities, time);
+        let forms = Forms { time, coordinates, forms, degrees };
+        Mechanics {
+            stated: vec![false; names.len()],
+            written: forms.over(graph, &velocities),
+            forms,
+            velocities,
+            etas,
+            accelerations,
+            inputs: Vec::new(),
+            holonomic: Vec::new(),
+            redundant: Vec::new(),
+            kinetic_energy,
+            force_function,
+            multibody: None,
+            structure: Default::default(),
+            forces: Vec::new(),
+            outputs: Vec::new(),
+            motion_symbols: Vec::new(),
+        }
+    }
+
+    /// A sled whose blade drifts with the time, its energy written in velocities and in `eta_1`.
+    fn sled(bench: &mut Workbench) -> Mechanics {
+        let mut sled = system(bench, &["phi", "x", "y"], 2, |graph, at, v, time| {
+            let [mass, arm, inertia, weight] =
+                ["m", "a", "J", "g"].map(|name| graph.symbol(name, Role::Constant));
+            let spin = graph.symbol("eta phi", Role::QuasiVelocity);
+            let (sine, cosine) = graph.sin_cos(at[0]);
+            let (zero, one) = (graph.zero(), graph.one());
+            let (minus_cosine, drift) = (graph.neg(cosine), graph.mul(time, sine));
+            let forms = vec![
+                Form { row: vec![one, zero, zero], offset: zero },
+                Form { row: vec![zero, cosine, sine], offset: zero },
+                Form { row: vec![zero, sine, minus_cosine], offset: drift },
+            ];
+            let (across, along) = (graph.product(&[(arm, 1), (sine, 1), (spin, 1)]), graph.mul(arm, cosine));
+            let (ahead, aside) = (graph.sub(v[1], across), graph.mul(along, v[0]));
+            let aside = graph.add(v[2], aside);
+            let half = graph.ratio(1, 2);
+            let parts = [(mass, ahead), (mass, aside), (inertia, v[0])]
+                .map(|(weight, u)| graph.product(&[(half, 1), (weight, 1), (u, 2)]));
+            let height = graph.add(at[1], along);
+            (forms, graph.sum(parts.to_vec()), graph.product(&[(mass, 1), (weight, 1), (height, 1)]))
+        });
+        let pull = bench.graph.symbol("u", Role::Input);
+        sled.inputs.push(pull);
+        sled.forces.push(Force { magnitude: pull, along: sled.etas[1] });
+        sled
+    }
+
+    /// The frame of a system, and its equations by definition.
+    fn written(bench: &mut Workbench, system: &Mechanics) -> (Frame, Equations) {
+        let operators = Operators::new(bench, &system.forms).ok().unwrap();
+        let mut frame = Frame::new(bench, system, operators);
+        let equations = poincare::equations(bench, system, &mut frame);
+        (frame, equations)
+    }
+
+    /// An expression with one term of it turned, for each of its terms; twice itself where it has one.
+    fn turned(bench: &mut Workbench, e: ExprId) -> Vec<ExprId> {
+        let Node::Sum { terms, .. } = bench.graph.node(e).clone() else {
+            return vec![bench.graph.scale(e, &Rational::integer(2))];
+        };
+        let turn = terms.iter().map(|(term, c)| {
+            let twice = bench.graph.linear(&[(*term, &(-c.clone()) * &Rational::integer(2))]);
+            bench.graph.add(e, twice)
+        });
+        turn.collect()
     }
 
     #[test]
-    fn equal_equations_are_proved_and_others_refused() {
+    fn a_term_that_is_turned_is_refused() {
         let mut bench = Workbench::new(Graph::new());
-        let x = bench.graph.symbol("x", Role::Coordinate);
-        let one = bench.graph.one();
-        let zero = bench.graph.zero();
-        let own = equations(&mut bench, x, [1, 3], one);
-        let same = Equations { mass: vec![vec![one]], forces: own.forces.clone() };
-        for definition in [Definition::whole(own.clone(), &[zero]), along(&mut bench, &own)] {
-            assert_eq!(definition.is(&mut bench, &same, true).ok(), Some(true));
-            for wrong in [[2, 3], [1, -3], [1, 4]] {
-                let other = equations(&mut bench, x, wrong, one);
-                assert!(definition.is(&mut bench, &other, true).is_err(), "{wrong:?}");
-                if own.forces != other.forces {
-                    assert!(definition.is_solved_by(&mut bench, &[], &other.forces).is_err(), "{wrong:?}");
+        let sled = sled(&mut bench);
+        let (mut frame, own) = written(&mut bench, &sled);
+        let (zero, u) = (bench.graph.zero(), sled.inputs[0]);
+        let mut definition = Definition::new(&mut bench, &sled, &[zero, u]);
+        assert_eq!(definition.is(&mut bench, (&sled, &mut frame), &own, false).ok(), Some(true));
+        let mut count = 0;
+        for s in 0..2 {
+            let entries = [&own.mass[s][..], &[own.forces[s]]].concat();
+            for (t, e) in entries.into_iter().enumerate() {
+                for wrong in turned(&mut bench, e) {
+                    if wrong == e {
+                        continue;
+                    }
+                    let mut other = own.clone();
+                    *other.mass[s].get_mut(t).unwrap_or(&mut other.forces[s]) = wrong;
+                    let found = definition.is(&mut bench, (&sled, &mut frame), &other, false);
+                    assert!(
+                        matches!(found, Err(DerivationError::RoutesDisagree { equation }) if equation == s)
+                    );
+                    count += 1;
                 }
             }
-            assert_eq!(definition.is_solved_by(&mut bench, &[], &own.forces).ok(), Some(true));
-            let moving = [&[x][..], &own.forces].concat();
-            assert_eq!(definition.is_solved_by(&mut bench, &[x], &moving).ok(), Some(true));
-            assert!(definition.is_solved_by(&mut bench, &[one], &moving).is_err());
+        }
+        assert!(count > 8, "{count} terms");
+    }
+
+    #[test]
+    fn rates_that_are_turned_are_refused() {
+        let mut bench = Workbench::new(Graph::new());
+        let sled = sled(&mut bench);
+        let (mut frame, mut own) = written(&mut bench, &sled);
+        let (zero, u) = (bench.graph.zero(), sled.inputs[0]);
+        let mut definition = Definition::new(&mut bench, &sled, &[zero, u]);
+        own.forces[1] = bench.graph.add(own.forces[1], u);
+        let solution = Solution::new(&mut bench, &own.mass, &own.forces).ok().unwrap();
+        let rates = [&frame.velocities[..], &solution.accelerations].concat();
+        assert_eq!(definition.is_solved_by(&mut bench, (&sled, &mut frame), &rates).ok(), Some(true));
+        for (place, e) in rates.iter().enumerate() {
+            for wrong in turned(&mut bench, *e) {
+                let mut other = rates.clone();
+                other[place] = wrong;
+                assert!(definition.is_solved_by(&mut bench, (&sled, &mut frame), &other).is_err());
+            }
         }
     }
 
@@ -275,32 +337,54 @@ mod tests {
     #[test]
     fn all_displacements_are_looked_at() {
         let mut bench = Workbench::new(Graph::new());
-        let [x, y] = ["x", "y"].map(|name| bench.graph.symbol(name, Role::Coordinate));
-        let (zero, one) = (bench.graph.zero(), bench.graph.one());
-        let mass = vec![vec![one, zero], vec![zero, one]];
-        let own = Equations { mass: mass.clone(), forces: vec![x, y] };
-        let definition = drawn(&mut bench, &["w1", "w2"], &own);
-        let right = Equations { mass: mass.clone(), forces: vec![x, y] };
-        assert_eq!(definition.is(&mut bench, &right, true).ok(), Some(true));
-        let wrong = Equations { mass, forces: vec![y, x] };
-        assert!(definition.is(&mut bench, &wrong, true).is_err());
-        assert!(definition.is_solved_by(&mut bench, &[], &[y, x]).is_err());
+        let plane = system(&mut bench, &["x", "y"], 2, |graph, at, v, _| {
+            let (zero, one) = (graph.zero(), graph.one());
+            let forms = [vec![one, zero], vec![zero, one]].map(|row| Form { row, offset: zero });
+            let squares = [v[0], v[1]].map(|v| (graph.powi(v, 2), Rational::new(1, 2)));
+            let hills = [at[0], at[1]].map(|x| (graph.powi(x, 2), Rational::new(1, 2)));
+            (forms.to_vec(), graph.linear(&squares), graph.linear(&hills))
+        });
+        let (mut frame, right) = written(&mut bench, &plane);
+        let zero = bench.graph.zero();
+        let mut definition = Definition::new(&mut bench, &plane, &[zero, zero]);
+        assert_eq!(definition.is(&mut bench, (&plane, &mut frame), &right, true).ok(), Some(true));
+        let wrong = Equations { mass: right.mass, forces: vec![right.forces[1], right.forces[0]] };
+        assert!(definition.is(&mut bench, (&plane, &mut frame), &wrong, true).is_err());
+        let rates = [&plane.etas[..], &wrong.forces].concat();
+        assert!(definition.is_solved_by(&mut bench, (&plane, &mut frame), &rates).is_err());
     }
 
+    /// A pendulum whose length is one on the constraint.
     #[test]
     fn on_a_constraint_they_need_be_equal_there_only() {
         let mut bench = Workbench::new(Graph::new());
-        let x = bench.graph.symbol("x", Role::Coordinate);
-        let length = bench.graph.symbol("r", Role::Coordinate);
-        let one = bench.graph.one();
-        let constraint = bench.graph.sub(length, one);
-        let (own, other) = (equations(&mut bench, x, [1, 3], one), equations(&mut bench, x, [1, 3], length));
-        let definition = Definition::whole(own, &[bench.graph.zero()]);
-        assert!(definition.is(&mut bench, &other, true).is_err());
+        let mut pendulum = system(&mut bench, &["x", "r"], 1, |graph, at, v, _| {
+            let (zero, one) = (graph.zero(), graph.one());
+            let forms = [vec![one, zero], vec![zero, one]].map(|row| Form { row, offset: zero });
+            let (across, along) = (graph.product(&[(at[1], 2), (v[0], 2)]), graph.powi(v[1], 2));
+            let energy = graph.linear(&[(across, Rational::new(1, 2)), (along, Rational::new(1, 2))]);
+            // The cosine of a number has values that differ where it does not.
+            let number = graph.ratio(1, 3);
+            let (cosine, lean) = (graph.cos(at[0]), graph.cos(number));
+            (forms.to_vec(), energy, graph.product(&[(lean, 1), (at[1], 1), (cosine, 1)]))
+        });
+        let (one, r) = (bench.graph.one(), pendulum.forms.coordinates[1]);
+        let constraint = bench.graph.sub(r, one);
+        pendulum.holonomic.push(Holonomic { form: 1, equation: constraint });
+        let (mut frame, own) = written(&mut bench, &pendulum);
+        let force = bench.graph.div(own.forces[0], r);
+        let short = Equations { mass: vec![vec![r]], forces: vec![force] };
+        let opposite = bench.graph.neg(force);
+        let wrong = Equations { mass: vec![vec![r]], forces: vec![opposite] };
+        let zero = bench.graph.zero();
+        let mut definition = Definition::new(&mut bench, &pendulum, &[zero]);
         bench.zero.set_manifold(&mut bench.graph, &[constraint]);
-        assert_eq!(definition.is(&mut bench, &other, true).ok(), Some(true));
-        assert!(definition.is(&mut bench, &other, false).is_err());
-        let wrong = equations(&mut bench, x, [1, -3], length);
-        assert!(definition.is(&mut bench, &wrong, true).is_err());
+        let mut is = |bench: &mut Workbench, equations: &Equations, on_manifold| {
+            definition.is(bench, (&pendulum, &mut frame), equations, on_manifold).ok()
+        };
+        assert_eq!(is(&mut bench, &own, false), Some(true));
+        assert_eq!(is(&mut bench, &short, true), Some(true));
+        assert_eq!(is(&mut bench, &short, false), None);
+        assert_eq!(is(&mut bench, &wrong, true), None);
     }
 }

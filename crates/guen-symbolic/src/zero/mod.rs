@@ -7,6 +7,7 @@
 //! same answer in every expansion.
 
 pub(crate) mod field;
+pub(crate) mod jets;
 mod manifold;
 mod real;
 mod redundant;
@@ -41,7 +42,7 @@ const POINTS: usize = 3;
 /// The same where each point may have a root's sign right by chance.
 pub(crate) const POINTS_WITH_ROOTS: usize = 64;
 /// Draws in vain, one after the other, before the real route is taken.
-const REDRAWS: usize = 64;
+pub(crate) const REDRAWS: usize = 64;
 /// Draws in all for one expression.
 const DRAWS: usize = 512;
 /// Points with roots that suffice where all draws are used up.
@@ -198,6 +199,25 @@ impl ZeroTest {
             }
         }
         None
+    }
+
+    /// The point of a number without any values yet: symbols may be placed.
+    pub(crate) fn fresh(&mut self, g: &Graph, number: usize, on_manifold: bool) -> Option<Sample> {
+        self.table.scan(g);
+        let number = self.sample(g, number, on_manifold)?;
+        Some(self.parts(on_manifold).1[number].fresh())
+    }
+
+    /// Whether a residue that differs from zero shows that an expression of these does.
+    pub(crate) fn is_exact(&mut self, g: &Graph, es: &[ExprId], on_manifold: bool) -> bool {
+        self.table.scan(g);
+        es.iter().all(|e| {
+            let enters = match &mut self.manifold {
+                Some(manifold) if on_manifold => manifold.enters_functions(g, *e),
+                _ => false,
+            };
+            !enters && self.table.flags[e.index()] & (ROOT | ATOM | TRANSCENDENTAL | OPAQUE | UNDEFINED) == 0
+        })
     }
 
     /// A random point modulo the prime, of those at which symbols may be made zero.
