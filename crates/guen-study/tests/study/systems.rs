@@ -3,10 +3,10 @@
 use guen_runtime::{Equations, Real};
 
 use crate::Oscillator;
+use crate::budget::Slow;
 use crate::doubt::{Free, Spring};
 use crate::kicks::Kicked;
 use crate::promises::Two;
-use crate::shorter::Slow;
 
 /// A system of one variable.
 #[derive(Clone)]
