@@ -22,11 +22,11 @@ TARGET = ROOT / os.environ.get("CARGO_TARGET_DIR", "target") / "guen"
 # The programs' units are tenths of a point.
 TOLERANCE = 3.0
 
-FIRST = "cargo test --quiet --doc -p guen-pages first_system"
+FIRST = "cargo test --quiet -p guen-pages --test blocks first_system"
 SCENES = "cargo run --quiet --release -p guen-measure --bin scenes"
 # What is drawn: the file in docs/pictures, the file that the program writes, the program.
 MADE = [
-    ("first-track.svg", ROOT / "crates/guen-pages/track.svg", FIRST),
+    ("first-track.svg", TARGET.parent / "tmp/pages/track.svg", FIRST),
     ("scenes-contact.svg", TARGET / "scenes/contact.svg", SCENES),
     *(
         (picture, TARGET / example / f"{file}.svg", f"cargo run --quiet --release --example {example}")

@@ -1,8 +1,8 @@
-//! The pages of the book, the README and CONTRIBUTING: `cargo test --doc -p guen-pages` compiles and runs every Rust block
-//! of theirs, and the tests of this package hold their links, pictures, tables and pointers to what is there.
+//! The pages of the book, the README and CONTRIBUTING: `cargo test -p guen-pages --test blocks` compiles and runs every Rust
+//! block of theirs, and the other tests of this package hold their links, pictures, tables and pointers to what is there.
 //!
-//! The list of the pages is made by `build.rs`. A block is Rust if it says so or says nothing; there is no way around the
-//! tests (`ignore`, `no_run`) that `tests/blocks.rs` would let pass.
+//! The blocks are written as tests by `build.rs`. A block is Rust if it says so, every block says what it is, and there is no
+//! way around its test, as `ignore` and `no_run` would be: `tests/pages/blocks.rs` sees to that.
 #![forbid(unsafe_code)]
 
 /// A page or another text of the repository.
@@ -112,9 +112,4 @@ impl Page {
         }
         found
     }
-}
-
-#[cfg(doctest)]
-mod doctests {
-    include!(concat!(env!("OUT_DIR"), "/pages.rs"));
 }
