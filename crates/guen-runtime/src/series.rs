@@ -120,7 +120,8 @@ impl<R: Real, const A: usize, const B: usize> Convolutions<R, A, B> {
         self.sums[place][k & 31]
     }
 
-    /// Takes in the coefficients of order `k` of all factors; `pairs` are the two factors of each sum, always the same.
+    /// Takes in the coefficients of order `k` of all factors; `pairs` are the two factors of each sum, always the same. In a
+    /// closure for [`Real::wide`] this is done in the longest registers of the processor, as generated systems do.
     #[inline(always)]
     pub fn push(&mut self, pairs: &[[u16; 2]; B], now: &[R; A], k: usize) {
         // The coefficients of the highest order follow from sums for the order below.
@@ -128,11 +129,7 @@ impl<R: Real, const A: usize, const B: usize> Convolutions<R, A, B> {
         if k >= last {
             return;
         }
-        let (factors, sums) = (&mut self.factors, &mut self.sums);
-        R::wide(
-            #[inline(always)]
-            || spread(factors, sums, pairs, now, k, last),
-        );
+        spread(&mut self.factors, &mut self.sums, pairs, now, k, last);
     }
 }
 

@@ -29,7 +29,10 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
             fn series(
                 &self, t: R, state: &[R; #size], scale: R, order: usize, coefficients: &mut __guen::Coefficients<R, #size>,
             ) {
-                program::series(&#prepared.constants, &#prepared.hoisted, t, state, #inputs, scale, order, coefficients)
+                <R as __guen::Real>::wide(
+                    #[inline(always)]
+                    || program::series(&#prepared.constants, &#prepared.hoisted, t, state, #inputs, scale, order, coefficients)
+                )
             }
         }
     }
@@ -138,7 +141,7 @@ pub(super) fn function(series: &SeriesProgram, loads: &dyn Loads, layout: &Layou
     let (rates, kept, now) = (rates.join(","), kept.join(","), now.join(","));
     let (begin, next, next_rates) = (blocks(&begin, &begun), blocks(&next, &used), next_rates.join(","));
     format!(
-        "#[inline] pub(super) fn series<R: __guen::Real>(
+        "#[inline(always)] pub(super) fn series<R: __guen::Real>(
             c: &[R; {constants}], k: &[R; {hoisted}], t: R, s: &[R; {size}], u: &[R; {inputs}],
             scale: R, order: usize, out: &mut __guen::Coefficients<R, {size}>,
         ) {{
