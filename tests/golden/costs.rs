@@ -15,19 +15,22 @@ use guen::Cost;
 use guen_benchmarks::chains::{Angles, declaration};
 use guen_benchmarks::{Subject, Visitor, arms, robots, visit_all};
 use guen_language::derive::Derived;
-use guen_language::derive::function::RHS;
+use guen_language::derive::function::{MASS_FORM, MOMENTA, REACTIONS, RHS};
 
 const HEADER: &str = "\
 # Operations of the benchmark systems, written by `GUEN_BLESS=1 cargo test -p guen-tests --test golden`.
 # One evaluation of the right-hand side, then the preparation of its constants: additions, negations,
 # multiplications, divisions, roots, calls. With an apostrophe: the carried form. With `-0`: no sign is promised
-# of any constant.
+# of any constant. With a slash: momenta, mass matrix with bias, reactions, where they are large.
 ";
 
 const HEADER_OF_LARGE: &str = "\
 # Operations of large systems, written by `GUEN_BLESS=1 cargo test -p guen-tests --test golden -- --ignored`.
 # As in costs.txt.
 ";
+
+/// Momenta, mass forms and reactions of more operations have a line.
+const LARGE: u32 = 200;
 
 /// Chains of so many links are not compiled.
 const LONG: usize = 40;
@@ -87,13 +90,20 @@ fn chains() -> String {
     lines
 }
 
-/// A line of a declaration that is derived here.
+/// The lines of a declaration that is derived here: of its rates and their preparation, then of what is large beside them.
 fn row(name: &str, text: &str) -> String {
-    let counts = derived(name, text, |derived| {
-        let rates = derived.system.program(RHS).unwrap().cost;
-        [rates, derived.system.programs.prepare_cost].map(|count| counts(cost(count)))
-    });
-    format!("{name:11} {}  |{}\n", counts[0], counts[1])
+    derived(name, text, |derived| {
+        let program = |function: &str| derived.system.program(function).map(|program| program.cost);
+        let [rates, preparation] =
+            [program(RHS).unwrap(), derived.system.programs.prepare_cost].map(|count| counts(cost(count)));
+        let mut lines = format!("{name:11} {rates}  |{preparation}\n");
+        for function in [MOMENTA, MASS_FORM, REACTIONS] {
+            if let Some(count) = program(function).filter(|count| count.operations() > LARGE) {
+                let _ = writeln!(lines, "{:21} {}  |", format!("{name}/{function}"), counts(cost(count)));
+            }
+        }
+        lines
+    })
 }
 
 /// Vehicles, linkages, arms and robots that are not compiled here.

@@ -172,6 +172,7 @@ pub fn derive<'a>(mut model: Model<'a>, faults: &mut Faults) -> Option<Derived<'
     if faults.count() > before {
         return None;
     }
+    derivation.restate_by_bodies(&mut model.bench);
     polish(&mut model.bench, &mut derivation);
     let brackets = commutators(&mut model, &mut derivation);
     let mut system = whole(&mut model, Rc::new(derivation), Rc::new(brackets), faults);

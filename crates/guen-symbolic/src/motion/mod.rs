@@ -11,6 +11,7 @@ mod fault;
 mod forces;
 mod formulations;
 mod frame;
+mod freed;
 mod graph;
 mod headings;
 mod indispensable;

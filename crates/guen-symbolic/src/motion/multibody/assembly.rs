@@ -254,7 +254,21 @@ impl<'a> Assembly<'a> {
         Some(if cost(&on_the_way) < cost(&at_the_root) { on_the_way } else { at_the_root })
     }
 
-    fn solved_in(&mut self, bias: &[Num], order: Order) -> Option<(Vec<Num>, Vec<Num>)> {
+    /// The mass matrix of the parameters and their forces, at the root.
+    pub(super) fn at_the_root(&mut self) -> Option<(Vec<Vec<Num>>, Vec<Num>)> {
+        let bias = self.core_bias();
+        let etas = self.reach_parameters(&bias, Order::AtTheRoot)?;
+        Some(self.left_of(&etas))
+    }
+
+    /// The form and the forces of some variables.
+    fn left_of(&self, vars: &[Var]) -> (Vec<Vec<Num>>, Vec<Num>) {
+        let row = |i: &Var| vars.iter().map(|j| self.form.entry(*i, *j)).collect();
+        (vars.iter().map(row).collect(), vars.iter().map(|i| self.form.force(*i)).collect())
+    }
+
+    /// Substitutes everything by the parameters, which it returns.
+    fn reach_parameters(&mut self, bias: &[Num], order: Order) -> Option<Vec<Var>> {
         let (variables, plan) = (self.kinematics.variables, self.kinematics.plan);
         self.inwards(order)?;
         for (index, var) in plan.unknowns.iter().enumerate().rev() {
@@ -263,13 +277,14 @@ impl<'a> Assembly<'a> {
         }
         let l = self.kinematics.system.forms.degrees;
         let etas: Vec<Var> = (0..l).map(|s| variables.eta(s)).collect();
-        if !self.form.variables().iter().all(|var| etas.contains(var)) {
-            return None;
-        }
+        self.form.variables().iter().all(|var| etas.contains(var)).then_some(etas)
+    }
+
+    fn solved_in(&mut self, bias: &[Num], order: Order) -> Option<(Vec<Num>, Vec<Num>)> {
+        let (variables, plan) = (self.kinematics.variables, self.kinematics.plan);
+        let etas = self.reach_parameters(bias, order)?;
         if order == Order::AtTheRoot {
-            let row = |s: &Var| etas.iter().map(|t| self.form.entry(*s, *t)).collect();
-            let forces = etas.iter().map(|s| self.form.force(*s)).collect();
-            self.at_the_root = Some((etas.iter().map(row).collect(), forces));
+            self.at_the_root = Some(self.left_of(&etas));
         }
         let mut left: Vec<Var> = etas.iter().copied().filter(|var| !self.form.is_eliminated(*var)).collect();
         while !left.is_empty() {

@@ -65,8 +65,7 @@ pub(super) fn rates(
         return None;
     }
     // A rotation that is one on its constraint alone.
-    let is_general = structure.frames().iter().any(|frame| matches!(frame.turn, Turn::General { .. }));
-    let on_manifold = is_general && !system.holonomic.is_empty();
+    let on_manifold = has_general_turns(system) && !system.holonomic.is_empty();
     // What rolls and is posed by a quaternion has no axes here in which its contact rests: entries that are small where others
     // are not would be differences of these. Where nothing else is derived that has to do.
     let rolls = system.holonomic.len() < system.forms.len() - system.forms.degrees;
@@ -75,6 +74,10 @@ pub(super) fn rates(
     }
     (0..POINTS)
         .find_map(|point| attempt(bench, system, frame, partials, (point, on_manifold), with_equations))
+}
+
+fn has_general_turns(system: &Mechanics) -> bool {
+    system.structure.frames().iter().any(|frame| matches!(frame.turn, Turn::General { .. }))
 }
 
 /// Whether masses, inertias and gravity are constants.
@@ -97,18 +100,54 @@ fn drifts(bench: &mut Workbench, system: &Mechanics, velocities: &[ExprId]) -> b
     !residues.is_some_and(|residues| residues.iter().all(|residue| *residue == 0))
 }
 
-fn attempt(
+/// The equations of a system of bodies whose constraints are parameters that stay zero: a row for each form, a column for each parameter
+/// of the system, generalised forces included. None where `rates` has none.
+pub(super) fn freed(
     bench: &mut Workbench,
     system: &Mechanics,
     frame: &Frame,
     partials: &mut VelocityPartials,
-    point: (usize, bool),
-    with_equations: bool,
-) -> Option<Found> {
+) -> Option<Equations> {
+    if system.structure.bodies.is_empty()
+        || !is_understood(bench, system)
+        || (has_general_turns(system) && !system.holonomic.is_empty())
+    {
+        return None;
+    }
     let (n, l) = (system.forms.len(), system.forms.degrees);
-    let generation = bench.zero.generation();
-    let mut own = Numbering::new(&mut bench.graph, point, generation);
-    let numbers = &mut own;
+    let mut free = system.clone();
+    free.forms.degrees = n;
+    free.holonomic.clear();
+    let mut attempt = |point| {
+        let generation = bench.zero.generation();
+        let mut own = Numbering::new(&mut bench.graph, (point, false), generation);
+        let (mass, forces) =
+            assembled(bench, &mut own, (&free, l), frame, partials, |assembly, _| assembly.at_the_root())?;
+        if !own.is_sound() {
+            return None;
+        }
+        let rows = mass.into_iter().map(|row| row[..l].to_vec());
+        let entries: Vec<Num> = rows.flatten().chain(forces).collect();
+        let mut entries = own.export(&mut bench.graph, &entries);
+        let forces = entries.split_off(n * l);
+        Some(Equations { mass: (0..n).map(|j| entries[j * l..][..l].to_vec()).collect(), forces })
+    };
+    (0..POINTS).find_map(&mut attempt)
+}
+
+/// Puts up the equations of the bodies of a system, of whose parameters those from some place on are zero, and hands them on with the
+/// velocities.
+fn assembled<T>(
+    bench: &mut Workbench,
+    numbers: &mut Numbering,
+    (system, moving): (&Mechanics, usize),
+    frame: &Frame,
+    partials: &mut VelocityPartials,
+    then: impl FnOnce(&mut Assembly<'_>, Vec<Num>) -> Option<T>,
+) -> Option<T> {
+    for eta in &system.etas[moving..] {
+        numbers.define(*eta, Num::ZERO);
+    }
     let mut tree = Tree::new(bench, numbers, system, partials)?;
     let shapes = declared::shapes(bench, numbers, system, &mut tree)?;
     let variables = Variables::new(bench, numbers, system, &tree)?;
@@ -124,13 +163,10 @@ fn attempt(
     let core = Core::new(&mut planner, &plan)?;
 
     let mut kinematics = Kinematics::new(bench, numbers, system, frame, (&tree, &variables), (&plan, &core));
-    let velocities: Vec<Num> = (0..n).map(|i| kinematics.value(variables.rate(i))).collect();
+    let velocities: Vec<Num> = (0..system.forms.len()).map(|i| kinematics.value(variables.rate(i))).collect();
     // Forces may be written in velocities and in the names of constraints.
     for (symbol, value) in system.velocities.iter().zip(&velocities) {
         kinematics.numbers.define(*symbol, *value);
-    }
-    for eta in &system.etas[l..] {
-        kinematics.numbers.define(*eta, Num::ZERO);
     }
     let mut assembly = Assembly::new(kinematics);
     assembly.bodies();
@@ -140,8 +176,26 @@ fn attempt(
         assembly.load(load, magnitude);
     }
     assembly.beside(&beside);
-    let (accelerations, pivots) = assembly.solve()?;
-    let at_the_root = assembly.at_the_root.take().filter(|_| with_equations);
+    then(&mut assembly, velocities)
+}
+
+fn attempt(
+    bench: &mut Workbench,
+    system: &Mechanics,
+    frame: &Frame,
+    partials: &mut VelocityPartials,
+    point: (usize, bool),
+    with_equations: bool,
+) -> Option<Found> {
+    let (n, l) = (system.forms.len(), system.forms.degrees);
+    let generation = bench.zero.generation();
+    let mut own = Numbering::new(&mut bench.graph, point, generation);
+    let solved = assembled(bench, &mut own, (system, l), frame, partials, |assembly, velocities| {
+        let (accelerations, pivots) = assembly.solve()?;
+        let at_the_root = assembly.at_the_root.take().filter(|_| with_equations);
+        Some((velocities, accelerations, pivots, at_the_root))
+    });
+    let (velocities, accelerations, pivots, at_the_root) = solved?;
     if !own.is_sound() {
         return None;
     }
