@@ -4,5 +4,6 @@ mod blocks;
 mod executables;
 mod links;
 mod manifests;
+mod operations;
 mod pointers;
 mod unsafe_code;
