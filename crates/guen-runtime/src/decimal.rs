@@ -7,7 +7,11 @@ pub(crate) type Parts = [(i64, i32); 2];
 
 /// A row of published numbers in the real `R`.
 pub(crate) fn reals<R: Real, const M: usize>(parts: &[Parts; M]) -> [R; M] {
-    core::array::from_fn(|j| R::from_parts(&parts[j]))
+    let mut all = [R::zero(); M];
+    for (real, parts) in all.iter_mut().zip(parts) {
+        *real = R::from_parts(parts);
+    }
+    all
 }
 
 /// Bits of the leading part: the precision of `f64`, so that an `f64` is the decimal rounded once.

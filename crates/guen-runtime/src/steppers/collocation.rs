@@ -89,17 +89,17 @@ impl<R: Real, const S: usize> Collocation<R, S> {
             let mean = combined(&self.inverse[i], z);
             *residual = entries(|k| slope[k] - recip * mean[k]);
         }
-        let mut parts = self.to_basis.map(|row| combined(&row, &residual));
+        let mut parts = products(&self.to_basis, &residual);
         if let Some(real) = &factors.real {
             parts[0] = real.solve(parts[0]);
         }
         // With the columns p, q of the pair, A^-1 (p, q) = (p, q) [[re, im], [-im, re]], so w = w_p - i w_q solves the
         // complex system with re + i im.
-        let right = core::array::from_fn(|k| Complex { re: parts[S - 2][k], im: -parts[S - 1][k] });
+        let right = entries(|k| Complex { re: parts[S - 2][k], im: -parts[S - 1][k] });
         let solution = factors.pair.solve(right);
-        parts[S - 2] = solution.map(|entry| entry.re);
-        parts[S - 1] = solution.map(|entry| -entry.im);
-        self.basis.map(|row| combined(&row, &parts))
+        parts[S - 2] = entries(|k| solution[k].re);
+        parts[S - 1] = entries(|k| -solution[k].im);
+        products(&self.basis, &parts)
     }
 
     /// The stages of a step that is `ratio` times as long as the one before it, whose stages were `z`, on the
@@ -133,8 +133,8 @@ impl<R: Real, const S: usize> Collocation<R, S> {
                 .filter(|m| *m != j)
                 .fold(R::one(), |weight, m| weight * self.c[m] / (self.c[m] - self.c[j]))
         });
-        let slopes = self.inverse.map(|row| combined(&row, z));
-        combined(&weights, &slopes).map(|slope| slope / h)
+        let mean = combined(&weights, &products(&self.inverse, z));
+        entries(|k| mean[k] / h)
     }
 
     /// The end of the step less its beginning.
@@ -153,6 +153,15 @@ pub struct Factors<R, const N: usize> {
 /// `sum_j w_j z_j`
 pub fn combined<R: Real, const N: usize, const S: usize>(weights: &[R; S], z: &[[R; N]; S]) -> [R; N] {
     entries(|k| (0..S).fold(R::zero(), |sum, j| sum + weights[j] * z[j][k]))
+}
+
+/// The product of a matrix and the rows `z`.
+fn products<R: Real, const N: usize, const S: usize>(matrix: &[[R; S]; S], z: &[[R; N]; S]) -> [[R; N]; S] {
+    let mut found = *z;
+    for (found, row) in found.iter_mut().zip(matrix) {
+        *found = combined(row, z);
+    }
+    found
 }
 
 /// `lambda - J`

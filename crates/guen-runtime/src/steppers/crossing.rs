@@ -31,7 +31,7 @@ impl<R> Crossing<R> {
 }
 
 /// The times within a step at which a function is looked at, in the order in which the run goes.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 pub(super) struct Looks<R> {
     /// The beginning of the step.
     pub start: R,

@@ -8,6 +8,7 @@
 //! the steps that would lead to zero at this pace, then after half of the rest.
 
 use super::defect::{Defects, worst};
+use super::entries;
 use super::run::{Checkpoint, StepperRun};
 use super::schedule::Schedule;
 use super::singularities::{MAX_SINGULARITIES, distances, functions, paces, soonest};
@@ -395,7 +396,7 @@ impl<R: Real, const N: usize> Known<R, N> {
         let found = start.time.to_f64();
         let condition = system.condition(start.time, &start.state);
         in_order(guard, found, invariants.residual.most(), condition.most())?;
-        let largest = start.state.map(Real::abs);
+        let largest = entries(|i| start.state[i].abs());
         let mut values = [RunningError::exact(R::zero()); MAX_SINGULARITIES];
         let count = R::vectorize(
             #[inline(always)]
@@ -406,9 +407,9 @@ impl<R: Real, const N: usize> Known<R, N> {
             energy: invariants.energy,
             scale: invariants.scale,
             count,
-            start: values.map(|function| function.value),
+            start: entries(|i| values[i].value),
             functions: values,
-            earlier: values.map(|function| function.value),
+            earlier: entries(|i| values[i].value),
             largest,
             defects: Defects::new(),
         };
@@ -429,7 +430,7 @@ impl<R: Real, const N: usize> Known<R, N> {
         if self.count == 0 {
             return Ok(());
         }
-        self.earlier = self.functions.map(|function| function.value);
+        self.earlier = entries(|i| self.functions[i].value);
         R::vectorize(
             #[inline(always)]
             || functions(system, reached.time, &reached.state, &self.largest, &mut self.functions),

@@ -3,6 +3,7 @@
 use core::ops::ControlFlow;
 
 use super::crossing::Tracker;
+use super::entries;
 use super::events::{Event, Occurrence};
 use super::guard::{Guard, Watch};
 use super::run::{Checkpoint, IntegrationResult, Method, Outcome, StepperRun};
@@ -172,7 +173,7 @@ impl<'a, R: Real, S: System<R, N> + ?Sized, const N: usize, const E: usize> Inte
         let mut watch = Watch::new::<M::Run<'_>, S>(self.guard, self.system, &self.start)
             .map_err(|cause| self.start.failed(cause))?;
         let mut trackers: [Tracker; E] =
-            core::array::from_fn(|i| Tracker::new(self.events[i].value(self.start.time, &self.start.state)));
+            entries(|i| Tracker::new(self.events[i].value(self.start.time, &self.start.state)));
         let mut visited = 0;
         let start = self.start;
         while self.samples.get(visited) == Some(&start.time) {

@@ -5,13 +5,13 @@
 //! lane is judged alone.
 
 use super::defect::{Defects, Worst, worst};
+use super::entries;
 use super::guard::{Guard, exceeds, in_order};
 use super::run::Checkpoint;
 use super::schedule::Schedule;
 use super::singularities::{MAX_SINGULARITIES, distances, functions, paces};
 use crate::error::Cause;
 use crate::lanes::{Lanes, Mask};
-use crate::real::Real;
 use crate::running_error::RunningError;
 use crate::system::System;
 
@@ -32,7 +32,7 @@ impl<L: Lanes, const N: usize> Moment<L, N> {
 
     /// The state in one lane.
     pub fn alone(&self, lane: usize) -> [f64; N] {
-        self.state.map(|entry| entry.lane(lane))
+        entries(|i| self.state[i].lane(lane))
     }
 }
 
@@ -357,7 +357,7 @@ impl<L: Lanes, const N: usize> Known<L, N> {
         let time = L::from_f64(start.time);
         let invariants = system.conserved(time, &start.state);
         let condition = system.condition(time, &start.state);
-        let largest = start.state.map(Real::abs);
+        let largest = entries(|i| start.state[i].abs());
         let mut functions_there = [RunningError::exact(L::zero()); MAX_SINGULARITIES];
         let count = L::vectorize(
             #[inline(always)]
@@ -368,7 +368,7 @@ impl<L: Lanes, const N: usize> Known<L, N> {
             energy: invariants.energy,
             scale: invariants.scale,
             count,
-            start: functions_there.map(|function| function.value),
+            start: entries(|i| functions_there[i].value),
             functions: functions_there,
             before: functions_there,
             largest,

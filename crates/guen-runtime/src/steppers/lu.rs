@@ -23,7 +23,7 @@ impl<R: Real> Field for R {
 }
 
 /// `re + i im`
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Complex<R> {
     pub re: R,
     pub im: R,

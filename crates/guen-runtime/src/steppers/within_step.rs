@@ -2,6 +2,7 @@
 
 use super::crossing::{Crossing, Looks, Tracker, earlier, sign};
 use super::dense::Interpolant;
+use super::entries;
 use super::events::{Event, Occurrence};
 use super::integration::Integration;
 use super::run::{Checkpoint, IntegrationResult, Outcome, StepperRun};
@@ -30,7 +31,7 @@ impl<C: StepperRun<R, S, N>, R: Real, S: System<R, N> + ?Sized, const N: usize> 
 }
 
 /// How far an event has been followed through a step.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 struct Followed<R> {
     /// Up to where its crossings have been reported, and the tracker as it stood there.
     from: R,
@@ -125,7 +126,7 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize, const E: usize> Integrat
         let mut motion = Motion { system: *system, run, after, polynomial: None };
         let backwards = (after.time - before.time).to_f64() < 0.0;
         let origin = start.time;
-        let mut followed: [Followed<R>; E] = core::array::from_fn(|i| {
+        let mut followed: [Followed<R>; E] = entries(|i| {
             let event = &events[i];
             let end = event.value(after.time, &after.state);
             let close = before.time == origin && is_near(event, before, end, &mut motion);
