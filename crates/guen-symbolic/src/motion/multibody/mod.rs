@@ -34,7 +34,7 @@ use self::variables::Variables;
 use super::graph::Turn;
 use super::velocity_forms::VelocityPartials;
 use super::{Equations, Frame, Mechanics};
-use crate::algebra::ExprId;
+use crate::algebra::{ExprId, FastMap};
 use crate::numbering::{Num, Numbering};
 use crate::workbench::Workbench;
 
@@ -158,7 +158,8 @@ fn assembled<T>(
     let moved = beside.iter().flat_map(|row| row.inertia.iter().map(|(j, _)| *j).chain([row.coordinate]));
     let needed = assembly::needed(&tree, &variables).into_iter();
     let needed: Vec<_> = needed.chain(loads).chain(moved.map(|i| variables.rate(i))).collect();
-    let mut planner = Planner { bench, numbers, tree: &tree, variables: &variables };
+    let mut planner =
+        Planner { bench, numbers, tree: &tree, variables: &variables, known: FastMap::default() };
     let plan = planner.plan(declared.rows, &declared.groups, &needed)?;
     let core = Core::new(&mut planner, &plan)?;
 

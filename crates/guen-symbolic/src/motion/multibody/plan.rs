@@ -10,6 +10,7 @@ use super::relations::{Linear, back, link, raw_kinematic, reduced, solved, turne
 use super::safety::{SMALL, STATES, real_value};
 use super::tree::{RateForm, Tree, Turn};
 use super::variables::{Class, Kind, Var, Variables};
+use crate::algebra::FastMap;
 use crate::numbering::{Num, Numbering};
 use crate::workbench::Workbench;
 use crate::zero::field;
@@ -59,11 +60,29 @@ pub(super) struct Planner<'a> {
     pub(super) numbers: &'a mut Numbering,
     pub(super) tree: &'a Tree,
     pub(super) variables: &'a Variables,
+    /// Divisors that were looked at, and whether they are safe.
+    pub(super) known: FastMap<Num, bool>,
 }
 
 impl Planner<'_> {
     /// A plan for what is needed; `None` where forms and unknowns do not fit.
     pub(super) fn plan(&mut self, rows: Vec<Functional>, groups: &[Group], needed: &[Var]) -> Option<Plan> {
+        let links = self.links();
+        if let Some(plan) = self.planned(rows.clone(), groups, needed, (&links, true)) {
+            return Some(plan);
+        }
+        // Used on the way to the leaves, what vanishing velocities follow from may be missing in the core.
+        self.planned(rows, groups, needed, (&links, false))
+    }
+
+    /// A plan where what vanishing velocities follow from is used on the way, or in the core alone.
+    fn planned(
+        &mut self,
+        rows: Vec<Functional>,
+        groups: &[Group],
+        needed: &[Var],
+        (links, on_the_way): (&[(Var, Linear)], bool),
+    ) -> Option<Plan> {
         let used = vec![false; rows.len()];
         let mut plan = Plan {
             defs: vec![None; self.variables.len()],
@@ -81,27 +100,28 @@ impl Planner<'_> {
         let wanted: Vec<Var> = needed.iter().filter_map(|var| self.representative(*var)).collect();
         let terms = plan.rows.iter().flat_map(|row| &row.terms);
         let spoken: Vec<Var> = terms.filter_map(|(var, _)| self.representative(*var)).collect();
-        let links = self.links();
-        let all = self.closure(wanted.iter().chain(&spoken).copied().collect());
-        self.advance(&mut plan, &all, &links, true);
+        let (used, further) = if on_the_way { (links, &[][..]) } else { (&[][..], links) };
+        let further = further.iter().flat_map(|(_, terms)| terms).map(|(var, _)| var);
+        let all = self.closure(wanted.iter().chain(&spoken).chain(further).copied().collect());
+        self.advance(&mut plan, &all, used, true);
         // What is still open becomes an unknown, from the root on; then all forms that are left determine them.
         while let Some(var) = self.next_unknown(&plan, &wanted) {
             plan.defs[var.0 as usize] = Some(Def::Core(plan.unknowns.len()));
             plan.unknowns.push(var);
-            self.advance(&mut plan, &all, &links, false);
+            self.advance(&mut plan, &all, used, false);
         }
         loop {
             let mut trial = plan.clone();
             self.turn_directions(&mut trial, groups);
-            if self.choose_core(&mut trial, &links).is_some() {
-                self.finish(&mut trial, &links);
+            if self.choose_core(&mut trial, links).is_some() {
+                self.finish(&mut trial, used);
                 return Some(trial);
             }
             // The forms speak of more than is needed.
             let var = self.next_unknown(&plan, &spoken)?;
             plan.defs[var.0 as usize] = Some(Def::Core(plan.unknowns.len()));
             plan.unknowns.push(var);
-            self.advance(&mut plan, &all, &links, false);
+            self.advance(&mut plan, &all, used, false);
         }
     }
 
@@ -286,7 +306,10 @@ impl Planner<'_> {
         if self.numbers.is_constant(pivot) {
             return true;
         }
-        (0..STATES).all(|state| real_value(self.bench, self.numbers, pivot, state).abs() > SMALL)
+        let Planner { bench, numbers, known, .. } = self;
+        *known.or_insert_with(pivot, || {
+            (0..STATES).all(|state| real_value(bench, numbers, pivot, state).abs() > SMALL)
+        })
     }
 
     /// The vector of a variable over parameters and unknowns of the core, modulo the prime.
