@@ -7,7 +7,7 @@
 use super::restated::Restated;
 use super::symmetry::Symmetry;
 use super::tensions::{self, Tensions};
-use super::{Frame, Mechanics};
+use super::{Equations, Frame, Mechanics};
 use crate::algebra::{ExprId, Rational, Role, Substitution};
 use crate::geometry::{Form, Operators};
 use crate::workbench::Workbench;
@@ -95,7 +95,8 @@ impl Change {
 
     /// `x' = xi_0 + xi eta` with `eta = J^-1 zeta`.
     fn operators(&self, bench: &mut Workbench, operators: &Operators) -> Operators {
-        let mut other = operators.clone();
+        // The steps are those of the forms as declared.
+        let mut other = Operators { steps: Vec::new(), ..operators.clone() };
         let l = self.to.len();
         for i in 0..operators.xi[0].len() {
             for k in 0..l {
@@ -128,6 +129,32 @@ impl InBaseParameters {
         Some(InBaseParameters { change, restated })
     }
 
+    /// The equations in the parameters as declared, `J^T M J eta' = J^T f`, without the generalised forces.
+    pub(super) fn equations(&self, bench: &mut Workbench, declared: &Mechanics) -> Equations {
+        let Equations { mass, forces } = &self.restated.projected.equations;
+        let columns = transposed(&self.change.to);
+        let kept = |bench: &mut Workbench, v: &[ExprId]| -> Vec<ExprId> {
+            accumulated(bench, &columns, v).into_iter().map(|e| bench.keep_large(e)).collect()
+        };
+        let right: Vec<Vec<ExprId>> = mass.iter().map(|row| kept(bench, row)).collect();
+        let turned: Vec<Vec<ExprId>> = transposed(&right).iter().map(|column| kept(bench, column)).collect();
+        let forces = kept(bench, forces);
+        let l = forces.len();
+        let sums = self.parameters(bench, declared);
+        let mut out = Substitution::new(self.restated.system.etas[..l].iter().copied().zip(sums));
+        let mut out = |bench: &mut Workbench, e: &ExprId| out.of(&mut bench.graph, *e);
+        Equations {
+            mass: transposed(&turned).iter().map(|row| row.iter().map(|e| out(bench, e)).collect()).collect(),
+            forces: forces.iter().map(|e| out(bench, e)).collect(),
+        }
+    }
+
+    /// The other parameters by those as declared; each sum of them once.
+    fn parameters(&self, bench: &mut Workbench, declared: &Mechanics) -> Vec<ExprId> {
+        let sums = applied(bench, &self.change.to, &declared.etas[..self.change.to.len()]);
+        sums.into_iter().map(|e| bench.graph.keep(e)).collect()
+    }
+
     /// By tensions, in the parameters as declared.
     pub(super) fn tensions(&mut self, bench: &mut Workbench, declared: &Mechanics) -> Option<Tensions> {
         let Restated { system, frame, forces, projected } = &mut self.restated;
@@ -157,8 +184,7 @@ impl InBaseParameters {
         accelerations: Vec<ExprId>,
     ) -> Vec<ExprId> {
         let l = accelerations.len();
-        let sums = applied(bench, &self.change.to, &declared.etas[..l]);
-        let sums: Vec<ExprId> = sums.into_iter().map(|e| bench.graph.keep(e)).collect();
+        let sums = self.parameters(bench, declared);
         let mut out = Substitution::new(self.restated.system.etas[..l].iter().copied().zip(sums));
         let accelerations = applied(bench, &self.change.back, &accelerations);
         velocities.iter().chain(&accelerations).map(|e| out.of(&mut bench.graph, *e)).collect()
@@ -173,6 +199,36 @@ fn applied(bench: &mut Workbench, matrix: &Matrix, vector: &[ExprId]) -> Vec<Exp
             bench.graph.linear(&terms)
         })
         .collect()
+}
+
+/// The same, where each sum is what is short of it beyond one that was found before: no two of these have opposite signs where rows of
+/// the matrix grow by one entry each.
+fn accumulated(bench: &mut Workbench, matrix: &Matrix, vector: &[ExprId]) -> Vec<ExprId> {
+    let count = |row: &[Rational]| row.iter().filter(|c| !c.is_zero()).count();
+    let mut order: Vec<usize> = (0..matrix.len()).collect();
+    order.sort_by_key(|k| count(&matrix[*k]));
+    let mut found: Vec<(usize, ExprId)> = Vec::new();
+    for k in order {
+        let mut best = (matrix[k].clone(), None);
+        for (other, e) in &found {
+            let beyond: Vec<Rational> = matrix[k].iter().zip(&matrix[*other]).map(|(a, b)| a - b).collect();
+            if count(&beyond) + 1 < count(&best.0) {
+                best = (beyond, Some(*e));
+            }
+        }
+        let (beyond, known) = best;
+        let own = vector.iter().copied().zip(beyond).filter(|(_, c)| !c.is_zero());
+        let terms: Vec<_> = own.chain(known.map(|e| (e, Rational::ONE))).collect();
+        let sum = bench.graph.linear(&terms);
+        found.push((k, bench.graph.keep(sum)));
+    }
+    found.sort_by_key(|(k, _)| *k);
+    found.into_iter().map(|(_, e)| e).collect()
+}
+
+fn transposed<T: Clone>(matrix: &[Vec<T>]) -> Vec<Vec<T>> {
+    let width = matrix.first().map_or(0, Vec::len);
+    (0..width).map(|k| matrix.iter().map(|row| row[k].clone()).collect()).collect()
 }
 
 fn unit(l: usize, s: usize) -> Vec<Rational> {

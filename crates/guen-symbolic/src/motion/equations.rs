@@ -1,6 +1,7 @@
 //! The equations of motion as they are stated: by the definition and by projection, compared; of bodies, as they were put up at
 //! the root of their tree, where that is much shorter.
 
+use super::base_parameters::InBaseParameters;
 use super::fault::{DerivationError, affordable};
 use super::graph::Turn;
 use super::projection::Projected;
@@ -18,6 +19,10 @@ const MANY: usize = 6;
 
 /// Nor where the velocities alone cost more.
 const LARGEST_MULTIPLIED: u64 = 4000;
+
+/// Nor where so many products would be put up, one for each term of the energy in each entry of the mass matrix, and other parameters
+/// make them few.
+const MOST_PRODUCTS: usize = 20_000;
 
 /// `sum_t M_st eta_t' = f_s`.
 #[derive(Clone, Debug)]
@@ -70,6 +75,8 @@ pub(super) struct Stated {
     pub(super) projected: Option<Projected>,
     /// The equations of bodies and their solution, where no others are multiplied out.
     pub(super) of_bodies: Option<(Equations, multibody::Found)>,
+    /// The system in the rates of its base angles, where the equations come from there.
+    pub(super) in_base: Option<InBaseParameters>,
     /// In the axes of the bodies, where constraints on positions ask for them.
     pub(super) in_own_axes: Option<InOwnAxes>,
     /// The rows `s = l+1..n`, of the reactions, without the generalised forces.
@@ -110,6 +117,26 @@ impl Stated {
             let of_bodies = (equations, found);
             return Ok(Self::of_bodies(bench, system, frame, partials, terms, (definition, of_bodies)));
         }
+        let l = system.forms.degrees;
+        if terms.len() * l * l > MOST_PRODUCTS
+            && let Some(in_base) = InBaseParameters::new(bench, system, frame)
+        {
+            let equations = in_base.equations(bench, system);
+            affordable(bench)?;
+            if definition.is(bench, (system, frame), &equations, true)? {
+                let equations = equations.driven(bench, generalised_forces);
+                let constrained = constrained(bench, system, frame, partials, terms);
+                return Ok(Stated {
+                    definition,
+                    multiplied: vec![equations],
+                    projected: None,
+                    of_bodies: None,
+                    in_base: Some(in_base),
+                    in_own_axes: None,
+                    constrained,
+                });
+            }
+        }
         Self::multiplied_out(bench, system, frame, partials, terms, definition)
     }
 
@@ -122,17 +149,13 @@ impl Stated {
         terms: &[KineticTerm],
         (definition, of_bodies): (Definition, (Equations, multibody::Found)),
     ) -> Self {
-        let (n, l) = (system.forms.len(), system.forms.degrees);
-        let constrained = if l == n {
-            Equations { mass: Vec::new(), forces: Vec::new() }
-        } else {
-            projection::equations(bench, system, frame, partials, terms, l..n).equations
-        };
+        let constrained = constrained(bench, system, frame, partials, terms);
         Stated {
             definition,
             multiplied: Vec::new(),
             projected: None,
             of_bodies: Some(of_bodies),
+            in_base: None,
             in_own_axes: None,
             constrained,
         }
@@ -174,8 +197,31 @@ impl Stated {
         let multiplied = multiplied.collect();
         affordable(bench)?;
         let projected = Some(projected);
-        Ok(Stated { definition, multiplied, projected, of_bodies: None, in_own_axes, constrained })
+        Ok(Stated {
+            definition,
+            multiplied,
+            projected,
+            of_bodies: None,
+            in_base: None,
+            in_own_axes,
+            constrained,
+        })
     }
+}
+
+/// The rows of the reactions alone.
+fn constrained(
+    bench: &mut Workbench,
+    system: &Mechanics,
+    frame: &mut Frame,
+    partials: &mut VelocityPartials,
+    terms: &[KineticTerm],
+) -> Equations {
+    let (n, l) = (system.forms.len(), system.forms.degrees);
+    if l == n {
+        return Equations { mass: Vec::new(), forces: Vec::new() };
+    }
+    projection::equations(bench, system, frame, partials, terms, l..n).equations
 }
 
 /// Whether many frames turn, about several axes: multiplied out, each brings a factor.

@@ -224,17 +224,22 @@ impl Search<'_> {
 
 /// With the reactions between the velocity forms as unknowns.
 fn by_tensions(bench: &mut Workbench, search: &mut Search<'_>) -> Result<Outcome, DerivationError> {
-    let Stated { projected: Some(projected), multiplied, .. } = &*search.stated else {
-        return Ok(Outcome::Declined("the energy is not multiplied out"));
+    search.in_base = match search.stated.in_base.take() {
+        None if search.stated.projected.is_some() => {
+            InBaseParameters::new(bench, search.system, search.frame)
+        }
+        known => known,
     };
-    search.in_base = InBaseParameters::new(bench, search.system, search.frame);
-    let found = match (&mut search.in_base, &projected.squares) {
+    let Stated { projected, multiplied, .. } = &*search.stated;
+    let squares = projected.as_ref().map(|projected| &projected.squares);
+    let found = match (&mut search.in_base, squares) {
         (Some(in_base), _) => in_base.tensions(bench, search.system),
-        (None, Some(squares)) => {
+        (None, Some(Some(squares))) => {
             let etas = &search.system.etas[..search.system.forms.degrees];
             tensions::solve(bench, search.frame, squares, &multiplied[0], etas, search.generalised_forces)
         }
-        (None, None) => return Ok(Outcome::Declined("the energy is no sum of squares")),
+        (None, Some(None)) => return Ok(Outcome::Declined("the energy is no sum of squares")),
+        (None, None) => return Ok(Outcome::Declined("the energy is not multiplied out")),
     };
     let Some(found) = found else { return Ok(Outcome::Declined("the mass matrix promises less")) };
     let rates = search.rates(&found.accelerations);
