@@ -13,7 +13,7 @@ use proc_macro2::{TokenStream, TokenTree};
 
 use guen::Cost;
 use guen_benchmarks::chains::{Angles, declaration};
-use guen_benchmarks::{Subject, Visitor, arms, robots, visit_all};
+use guen_benchmarks::{Subject, Visitor, arms, bars, robots, visit_all};
 use guen_language::derive::Derived;
 use guen_language::derive::function::{MASS_FORM, MOMENTA, REACTIONS, RHS};
 
@@ -118,6 +118,8 @@ fn mechanisms() -> String {
         ("arm4", arms::declaration("Arm", &AXES[..4])),
         ("arm5", arms::declaration("Arm", &AXES[..5])),
         ("quadruped", robots::quadruped()),
+        ("bars2", bars::in_angles(2)),
+        ("bars2-xy", bars::in_points(2)),
     ];
     rows.iter().map(|(name, text)| row(name, text)).collect()
 }
@@ -153,7 +155,7 @@ fn cost(count: guen_symbolic::OperationCount) -> Cost {
 fn counts(cost: Cost) -> String {
     let Cost { additions, negations, multiplications, divisions, roots, calls } = cost;
     [additions, negations, multiplications, divisions, roots, calls]
-        .map(|count| format!("{count:5}"))
+        .map(|count| format!(" {count:4}"))
         .concat()
 }
 
@@ -196,6 +198,12 @@ fn costs_of_large_systems_are_those_of_the_file() {
         ("arm9", arms::declaration("Arm", AXES)),
         ("humanoid", robots::declaration(&robots::HUMANOID)),
         ("held7", robots::held()),
+        ("joints40", declaration("Chain", 40, Angles::Relative)),
+        ("joints40-0", declaration("Chain", 40, Angles::Relative).replace(" > 0", "")),
+        ("bars10", bars::in_angles(10)),
+        ("bars10-xy", bars::in_points(10)),
+        ("bars40", bars::in_angles(40)),
+        ("bars40-xy", bars::in_points(40)),
     ];
     let lines = rows.iter().fold(HEADER_OF_LARGE.to_owned(), |lines, (name, text)| lines + &row(name, text));
     compared("costs_of_large.txt", &lines, " -- --ignored");

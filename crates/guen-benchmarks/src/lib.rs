@@ -6,6 +6,7 @@
 #![forbid(unsafe_code)]
 
 pub mod arms;
+pub mod bars;
 pub mod by_hand;
 pub mod chains;
 #[macro_use]

@@ -11,6 +11,7 @@ mod limbs;
 mod poles;
 mod redundant;
 mod restricted;
+mod rows_of_bars;
 mod scenes;
 mod signs;
 mod spans;

@@ -8,12 +8,15 @@
 use std::collections::BTreeMap;
 
 use super::Forms;
-use crate::algebra::{ExprId, Graph, Rational};
+use crate::algebra::{ExprId, Graph, Node, Rational};
 use crate::workbench::Workbench;
 use crate::zero::Verdict;
 
 /// Blocks above this size are eliminated row by row, and the pivots join the domain of the chart.
 const ADJUGATE_SIZE: usize = 5;
+
+/// Of more coordinates than so many, entries that are made of others are not multiplied out: there are the square of their number.
+pub(crate) const MANY: usize = 24;
 
 /// The operators `X_0..X_n` by their coefficients.
 #[derive(Clone, Debug)]
@@ -24,6 +27,29 @@ pub struct Operators {
     pub chart: Vec<ExprId>,
     /// Functions of constants alone that must not vanish.
     pub constant_pivots: Vec<ExprId>,
+    /// How the forms were solved.
+    pub(crate) steps: Vec<Step>,
+}
+
+/// A step of the solution of the forms, to be repeated with other right sides. Forms and coordinates are counted from 0.
+#[derive(Clone, Debug)]
+pub(crate) enum Step {
+    /// A form, divided by its entry for a coordinate, is subtracted from others.
+    Subtract {
+        form: usize,
+        pivot: ExprId,
+        /// Forms, each with its entry for the coordinate.
+        others: Vec<(usize, ExprId)>,
+    },
+    /// A block of forms is solved for as many coordinates.
+    Block {
+        /// Each form with what it has for coordinates that are known.
+        forms: Vec<(usize, Vec<(usize, ExprId)>)>,
+        coordinates: Vec<usize>,
+        inverse: Vec<Vec<ExprId>>,
+    },
+    /// A coordinate from a form that was subtracted, with its entries for coordinates that are known.
+    Back { form: usize, coordinate: usize, known: Vec<(usize, ExprId)> },
 }
 
 /// The forms are linearly dependent as functions.
@@ -38,11 +64,60 @@ pub struct SingularForms {
 /// A linear equation `sum_c entries[c] x_c' = sum_j right[j] eta_j`, where `right[0]` goes with the number one.
 #[derive(Clone)]
 struct Equation {
+    /// The form that it was.
+    form: usize,
     entries: BTreeMap<usize, ExprId>,
     right: BTreeMap<usize, ExprId>,
 }
 
 impl Operators {
+    /// The `x'` of which the forms have these values, `A x' = right`, each from those before it: where coordinates depend on
+    /// each other one after the other, that is much less than a product with `A^-1`. `None` where it is not known how.
+    pub(crate) fn solved(&self, bench: &mut Workbench, mut right: Vec<ExprId>) -> Option<Vec<ExprId>> {
+        if self.steps.is_empty() {
+            return None;
+        }
+        let mut found = vec![bench.graph.zero(); right.len()];
+        let less = |bench: &mut Workbench, e: ExprId, known: &[(usize, ExprId)], values: &[ExprId]| {
+            let mut terms = vec![e];
+            for (c, a) in known {
+                let product = bench.graph.mul(*a, values[*c]);
+                terms.push(bench.graph.neg(product));
+            }
+            bench.graph.sum(terms)
+        };
+        for step in &self.steps {
+            match step {
+                Step::Subtract { form, pivot, others } => {
+                    let own = bench.graph.div(right[*form], *pivot);
+                    right[*form] = bench.keep_large(own);
+                    for (other, factor) in others {
+                        let product = bench.graph.mul(*factor, right[*form]);
+                        right[*other] = bench.graph.sub(right[*other], product);
+                    }
+                }
+                Step::Block { forms, coordinates, inverse } => {
+                    let sides: Vec<ExprId> = forms
+                        .iter()
+                        .map(|(form, known)| {
+                            let side = less(bench, right[*form], known, &found);
+                            bench.keep_large(side)
+                        })
+                        .collect();
+                    for (coordinate, row) in coordinates.iter().zip(inverse) {
+                        let value = bench.dot(row, &sides);
+                        found[*coordinate] = bench.keep_large(value);
+                    }
+                }
+                Step::Back { form, coordinate, known } => {
+                    let value = less(bench, right[*form], known, &found);
+                    found[*coordinate] = bench.keep_large(value);
+                }
+            }
+        }
+        Some(found)
+    }
+
     /// Inverts the forms, or lists what makes them dependent.
     pub fn new(bench: &mut Workbench, forms: &Forms) -> Result<Self, Vec<SingularForms>> {
         let n = forms.len();
@@ -63,15 +138,16 @@ impl Operators {
             if !bench.graph.is_zero(form.offset) {
                 right.insert(0, bench.graph.neg(form.offset));
             }
-            equations.push(Some(Equation { entries, right }));
+            equations.push(Some(Equation { form: j, entries, right }));
         }
-        let mut solver = Solver { bench, chart: Vec::new(), constant_pivots: Vec::new(), solved: Vec::new() };
+        let (chart, constant_pivots, solved, steps) = Default::default();
+        let mut solver = Solver { bench, chart, constant_pivots, solved, steps, is_large: n > MANY };
         solver.eliminate(&mut equations, forms.degrees);
         let core: Vec<Equation> = equations.into_iter().flatten().collect();
         let mut values: Vec<Option<BTreeMap<usize, ExprId>>> = vec![None; n];
-        solver.solve_core(core, &mut values).map_err(|singular| vec![singular])?;
+        solver.solve_core(core, forms.degrees, &mut values).map_err(|singular| vec![singular])?;
         solver.substitute_back(&mut values);
-        let Solver { chart, constant_pivots, .. } = solver;
+        let Solver { chart, constant_pivots, steps, .. } = solver;
         let zero = bench.graph.zero();
         let xi = (0..=n)
             .map(|j| {
@@ -84,7 +160,7 @@ impl Operators {
                     .collect()
             })
             .collect();
-        Ok(Operators { xi, chart, constant_pivots })
+        Ok(Operators { xi, chart, constant_pivots, steps })
     }
 }
 
@@ -189,6 +265,9 @@ struct Solver<'a> {
     constant_pivots: Vec<ExprId>,
     // Columns with the equations that give them, in the order of elimination.
     solved: Vec<(usize, Equation)>,
+    steps: Vec<Step>,
+    /// There are many coordinates.
+    is_large: bool,
 }
 
 impl Solver<'_> {
@@ -220,12 +299,16 @@ impl Solver<'_> {
             }
             let Some((_, r, c)) = best else { return };
             let pivot_row = equations[r].take().expect("the pivot's row is active");
+            let pivot = pivot_row.entries[&c];
             let row = self.normalised(pivot_row, c);
+            let mut others = Vec::new();
             for equation in equations.iter_mut().flatten() {
                 if let Some(factor) = equation.entries.remove(&c) {
                     self.subtract(equation, factor, &row);
+                    others.push((equation.form, factor));
                 }
             }
+            self.steps.push(Step::Subtract { form: row.form, pivot, others });
             self.solved.push((c, row));
         }
     }
@@ -248,7 +331,9 @@ impl Solver<'_> {
                 let product = bench.graph.mul(factor, *value);
                 let old = into.get(c).copied().unwrap_or(bench.graph.zero());
                 let difference = bench.graph.sub(old, product);
-                let difference = bench.tidy(difference);
+                // What is kept whole has nothing in common with others.
+                let is_kept = self.is_large && matches!(bench.graph.node(*value), Node::Kept(_));
+                let difference = if is_kept { difference } else { bench.tidy(difference) };
                 if bench.graph.is_zero(difference) {
                     into.remove(c);
                 } else {
@@ -258,24 +343,30 @@ impl Solver<'_> {
         }
     }
 
-    /// Solves what elimination left, block by block.
+    /// Solves what elimination left, block by block; `degrees` as in the forms.
     fn solve_core(
         &mut self,
         core: Vec<Equation>,
+        degrees: usize,
         values: &mut [Option<BTreeMap<usize, ExprId>>],
     ) -> Result<(), SingularForms> {
         let generic = || SingularForms { combination: Vec::new(), rest: None };
         for (rows, columns) in blocks(&core).ok_or_else(generic)? {
             let mut right: Vec<BTreeMap<usize, ExprId>> = Vec::new();
+            let mut forms: Vec<(usize, Vec<(usize, ExprId)>)> = Vec::new();
             for r in &rows {
-                let mut equation = Equation { entries: BTreeMap::new(), right: core[*r].right.clone() };
+                let form = core[*r].form;
+                let mut equation = Equation { form, entries: BTreeMap::new(), right: core[*r].right.clone() };
+                let mut before = Vec::new();
                 for (c, a) in &core[*r].entries {
                     if let Some(known) = &values[*c] {
-                        let row = Equation { entries: BTreeMap::new(), right: known.clone() };
+                        let row = Equation { form, entries: BTreeMap::new(), right: known.clone() };
                         self.subtract(&mut equation, *a, &row);
+                        before.push((*c, *a));
                     }
                 }
                 right.push(equation.right);
+                forms.push((form, before));
             }
             let zero = self.bench.graph.zero();
             let matrix: Vec<Vec<ExprId>> = rows
@@ -292,13 +383,15 @@ impl Solver<'_> {
                         value.insert(*j, self.bench.graph.add(old, product));
                     }
                 }
-                for e in value.values_mut() {
-                    let tidy = self.bench.tidy(*e);
+                for (j, e) in &mut value {
+                    let tidy =
+                        if *j > degrees && is_nested(self.bench, *e) { *e } else { self.bench.tidy(*e) };
                     *e = self.bench.keep_large(tidy);
                 }
                 value.retain(|_, e| !self.bench.graph.is_zero(*e));
                 values[*c] = Some(value);
             }
+            self.steps.push(Step::Block { forms, coordinates: columns, inverse });
         }
         Ok(())
     }
@@ -402,17 +495,32 @@ impl Solver<'_> {
     /// The eliminated columns, last eliminated first.
     fn substitute_back(&mut self, values: &mut [Option<BTreeMap<usize, ExprId>>]) {
         while let Some((c, row)) = self.solved.pop() {
-            let mut equation = Equation { entries: BTreeMap::new(), right: row.right };
+            let form = row.form;
+            let mut equation = Equation { form, entries: BTreeMap::new(), right: row.right };
             for (k, a) in &row.entries {
                 let known = values[*k].clone().expect("columns eliminated later are known");
-                self.subtract(&mut equation, *a, &Equation { entries: BTreeMap::new(), right: known });
+                self.subtract(&mut equation, *a, &Equation { form, entries: BTreeMap::new(), right: known });
             }
+            let known = row.entries.iter().map(|(k, a)| (*k, *a)).collect();
+            self.steps.push(Step::Back { form, coordinate: c, known });
             for e in equation.right.values_mut() {
                 *e = self.bench.keep_large(*e);
             }
             values[c] = Some(equation.right);
         }
     }
+}
+
+/// Whether an expression is made of others that are kept whole: then there is little in it to be multiplied out.
+pub(crate) fn is_nested(bench: &Workbench, e: ExprId) -> bool {
+    let graph = &bench.graph;
+    let mut found = false;
+    graph.reachable(&[e], |id| {
+        let is_kept = matches!(graph.node(id), Node::Kept(_));
+        found |= is_kept;
+        is_kept || graph.roles(id).is_constant()
+    });
+    found
 }
 
 /// Adjugate and determinant by minors, each minor once.

@@ -8,5 +8,5 @@ mod inverse;
 pub use brackets::Brackets;
 pub use closure::{Closure, Combination};
 pub use forms::{Form, Forms};
+pub(crate) use inverse::{MANY, adjugate, dependence, is_nested};
 pub use inverse::{Operators, SingularForms};
-pub(crate) use inverse::{adjugate, dependence};

@@ -19,6 +19,7 @@ use core::ops::Range;
 use super::velocity_forms::VelocityPartials;
 use super::{Equations, Frame, KineticTerm, Mechanics, VelocityForm};
 use crate::algebra::{ExprId, FastMap, Flow, Graph, Node, Rational};
+use crate::geometry::{MANY, is_nested};
 use crate::program::weighted_cost;
 use crate::workbench::Workbench;
 
@@ -278,13 +279,17 @@ fn resting_accelerations(bench: &mut Workbench, system: &Mechanics, frame: &mut 
             bench.keep_large(right)
         })
         .collect();
-    (0..n)
+    let by_operators: Vec<ExprId> = (0..n)
         .map(|i| {
             let column: Vec<ExprId> = (1..=n).map(|j| frame.operators.xi[j][i]).collect();
             let acceleration = bench.dot(&column, &right);
             bench.keep_large(acceleration)
         })
-        .collect()
+        .collect();
+    let Some(one_by_one) = frame.operators.solved(bench, right) else { return by_operators };
+    let cost = |list: &[ExprId]| weighted_cost(&bench.graph, list);
+    // An estimate: what promises little more may be shorter once the whole is known.
+    if 10 * cost(&one_by_one) < 7 * cost(&by_operators) { one_by_one } else { by_operators }
 }
 
 fn measure(
@@ -301,7 +306,9 @@ fn measure(
     let components: Vec<ExprId> = (1..=n)
         .map(|s| {
             let component = frame.component(bench, &form, s);
-            let tidy = bench.tidy(component);
+            // Those of the constraints are for reactions only.
+            let is_left = s > l && n > MANY && is_nested(bench, component);
+            let tidy = if is_left { component } else { bench.tidy(component) };
             bench.keep_large(tidy)
         })
         .collect();

@@ -128,6 +128,8 @@ impl Definition {
         (es, on_manifold): (&[ExprId], bool),
         differs: impl Fn(&mut Point<'_>, &[u64]) -> Option<Option<usize>>,
     ) -> Seen {
+        // What holds everywhere holds on constraints of which no points are found, too.
+        let on_manifold = on_manifold && bench.zero.manifold_is_solved();
         let all = [es, &system.expressions()].concat();
         let signs = all.iter().any(|e| bench.zero.has_signs(&bench.graph, *e));
         let wanted = if signs { POINTS_WITH_ROOTS } else { POINTS };
@@ -161,6 +163,8 @@ impl Definition {
         match seen {
             Seen::Holds => Ok(true),
             Seen::Few => Ok(false),
+            // The points were none of the constraints.
+            Seen::Differs(_) if on_manifold && !bench.zero.manifold_is_solved() => Ok(false),
             Seen::Differs(equation) => {
                 let all = [es, &system.expressions()].concat();
                 match bench.zero.is_exact(&bench.graph, &all, on_manifold) {

@@ -6,7 +6,7 @@
 //! method onto the manifold.
 
 use super::field::{self, PRIME, add, inverse, mul, neg, sub};
-use super::real::{Real, RealPoint, evaluate, exponent};
+use super::real::{Real, RealPoint, evaluate_in, exponent};
 use super::sample::Sample;
 use super::table::Table;
 use crate::algebra::{Bound, ExprId, FastMap, Flow, Function, Graph, Node, Role, SymbolId};
@@ -66,14 +66,17 @@ impl Manifold {
             .filter(|s| matches!(graph.symbol_info(*s).role, Role::Coordinate | Role::Constant))
             .collect();
         let mut jacobian = vec![graph.zero(); equations.len() * variables.len()];
-        for (j, symbol) in variables.iter().enumerate() {
-            let symbol = graph.symbol_expr(*symbol);
+        let occurring: Vec<Vec<SymbolId>> = equations.iter().map(|e| graph.symbols_in(&[*e])).collect();
+        for (j, symbol_id) in variables.iter().enumerate() {
+            let symbol = graph.symbol_expr(*symbol_id);
             let mut flow = Flow::partial(graph, symbol);
             for (i, equation) in equations.iter().enumerate() {
-                jacobian[i * variables.len() + j] = flow.of(graph, *equation);
+                if occurring[i].contains(symbol_id) {
+                    jacobian[i * variables.len() + j] = flow.of(graph, *equation);
+                }
             }
         }
-        let blocks = triangular(graph, &equations);
+        let blocks = triangular(graph, &equations, occurring);
         Manifold { blocks, equations, variables, jacobian, occurrence: Vec::new() }
     }
 
@@ -121,13 +124,16 @@ impl Manifold {
 
     /// The point of a number over the reals.
     pub(super) fn real_point(&self, graph: &Graph, number: u64) -> Option<RealPoint> {
+        let roots: Vec<_> = self.equations.iter().chain(&self.jacobian).copied().collect();
+        let order = graph.reachable(&roots, |_| false);
+        let all = (&roots[..], &order[..]);
         (0..PROJECTIONS).find_map(|attempt| {
             let mut point = RealPoint::new(number + STRIDE * attempt);
             let mut x: Vec<f64> = self.variables.iter().map(|s| point.draw(graph, *s)).collect();
             let time = |s: SymbolId| RealPoint::new(number + STRIDE * attempt).draw(graph, s);
             let mut last = f64::INFINITY;
             for _ in 0..NEWTON_STEPS {
-                last = self.project(graph, &mut x, &time)?;
+                last = self.project(graph, all, &mut x, &time)?;
                 if last < 1e-12 {
                     break;
                 }
@@ -145,7 +151,7 @@ impl Manifold {
             let mut x: Vec<f256> = x.into_iter().map(f256::from).collect();
             let mut last = f256::ONE;
             for _ in 0..POLISH_STEPS {
-                last = self.project(graph, &mut x, &|s| f256::from(time(s)))?;
+                last = self.project(graph, all, &mut x, &|s| f256::from(time(s)))?;
             }
             if exponent(last) > -200.0 {
                 return None;
@@ -155,28 +161,28 @@ impl Manifold {
         })
     }
 
-    /// One step `x -= J^T (J J^T)^-1 f`; returns the largest component of the step.
+    /// One step `x -= J^T (J J^T)^-1 f`; returns the largest component of the step. Given `f` and `J` with all that they are made of.
     fn project<R: Real + PartialOrd>(
         &self,
         graph: &Graph,
+        (roots, order): (&[ExprId], &[ExprId]),
         x: &mut [R],
         others: &dyn Fn(SymbolId) -> R,
     ) -> Option<R> {
-        let roots: Vec<_> = self.equations.iter().chain(&self.jacobian).copied().collect();
-        let values =
-            evaluate(graph, &roots, &|symbol| match self.variables.iter().position(|s| *s == symbol) {
-                Some(i) => x[i],
-                None => others(symbol),
-            });
+        let value = |symbol| match self.variables.iter().position(|s| *s == symbol) {
+            Some(i) => x[i],
+            None => others(symbol),
+        };
+        let values = evaluate_in(graph, order, roots, &value);
         let (f, jacobian) = values.split_at(self.equations.len());
         let rows: Vec<&[R]> = jacobian.chunks(self.variables.len().max(1)).collect();
         let zero = R::rational(&crate::algebra::Rational::ZERO);
-        let dot = |a: &[R], b: &[R]| a.iter().zip(b).fold(zero, |sum, (a, b)| sum + *a * *b);
-        let system = rows
-            .iter()
-            .zip(f)
-            .map(|(row, f)| rows.iter().map(|other| dot(row, other)).chain([*f]).collect())
-            .collect();
+        // Each equation is about few of the variables.
+        let sparse: Vec<Vec<usize>> =
+            rows.iter().map(|row| (0..row.len()).filter(|j| row[*j] != zero).collect()).collect();
+        let dot = |i: usize, k: usize| sparse[i].iter().fold(zero, |sum, j| sum + rows[i][*j] * rows[k][*j]);
+        let row = |(i, f): (usize, &R)| (0..rows.len()).map(|k| dot(i, k)).chain([*f]).collect();
+        let system = f.iter().enumerate().map(row).collect();
         let multipliers = solve_dense(system)?;
         let mut largest = zero;
         for (j, x) in x.iter_mut().enumerate() {
@@ -203,20 +209,27 @@ pub(super) fn solve_dense<R: Real + PartialOrd>(mut rows: Vec<Vec<R>>) -> Option
             }
         }
         rows.swap(column, best);
-        let pivot_row = rows[column].clone();
+        let (above, below) = rows.split_at_mut(column + 1);
+        let pivot_row = &above[column];
         if pivot_row[column].of(Function::Abs).partial_cmp(&zero) != Some(core::cmp::Ordering::Greater) {
             return None;
         }
-        for (i, row) in rows.iter_mut().enumerate() {
-            if i != column {
-                let factor = row[column] / pivot_row[column];
-                for (value, pivot) in row[column..].iter_mut().zip(&pivot_row[column..]) {
-                    *value = *value - factor * *pivot;
-                }
+        // Most of a row is zero, and stays so.
+        let filled: Vec<usize> = (column..=n).filter(|j| pivot_row[*j] != zero).collect();
+        for row in below.iter_mut().filter(|row| row[column] != zero) {
+            let factor = row[column] / pivot_row[column];
+            for j in &filled {
+                row[*j] = row[*j] - factor * pivot_row[*j];
             }
         }
     }
-    Some((0..n).map(|i| rows[i][n] / rows[i][i]).collect())
+    let mut found = vec![zero; n];
+    for i in (0..n).rev() {
+        let known = (i + 1..n).filter(|j| rows[i][*j] != zero);
+        let rest = known.fold(rows[i][n], |rest, j| rest - rows[i][j] * found[j]);
+        found[i] = rest / rows[i][i];
+    }
+    Some(found)
 }
 
 /// The residues of equations where the block's symbols have the given values.
@@ -350,8 +363,12 @@ fn degree(graph: &Graph, e: ExprId, symbols: &[SymbolId]) -> Option<u32> {
 }
 
 /// An order in which the equations can be solved, found from its end: what is solved last disturbs nothing.
-fn triangular(graph: &Graph, equations: &[ExprId]) -> Option<Vec<Block>> {
-    let occurring: Vec<Vec<SymbolId>> = equations.iter().map(|e| graph.symbols_in(&[*e])).collect();
+fn triangular(graph: &Graph, equations: &[ExprId], occurring: Vec<Vec<SymbolId>>) -> Option<Vec<Block>> {
+    let polynomial = occurring.iter().zip(equations).map(|(symbols, e)| {
+        let is_polynomial = |symbol: &SymbolId| degree(graph, *e, &[*symbol]).is_some();
+        symbols.iter().copied().filter(is_polynomial).collect()
+    });
+    let polynomial: Vec<Vec<SymbolId>> = polynomial.collect();
     let mut remaining: Vec<usize> = (0..equations.len()).collect();
     let mut blocks = Vec::new();
     while !remaining.is_empty() {
@@ -359,7 +376,14 @@ fn triangular(graph: &Graph, equations: &[ExprId]) -> Option<Vec<Block>> {
             // A single equation should be linear if any is.
             [false, true].into_iter().find_map(|quadratic| {
                 subsets(&remaining, size).into_iter().find_map(|chosen| {
-                    let block = last_block(graph, equations, &occurring, &remaining, &chosen, quadratic)?;
+                    let block = last_block(
+                        graph,
+                        equations,
+                        [&occurring, &polynomial],
+                        &remaining,
+                        &chosen,
+                        quadratic,
+                    )?;
                     Some((chosen, block))
                 })
             })
@@ -377,11 +401,12 @@ fn triangular(graph: &Graph, equations: &[ExprId]) -> Option<Vec<Block>> {
     Some(blocks)
 }
 
-/// The chosen equations as a block whose symbols occur in no other remaining equation.
+/// The chosen equations as a block whose symbols occur in no other remaining equation; given which symbols occur in each, and in which
+/// it is a polynomial of at most second degree.
 fn last_block(
     graph: &Graph,
     equations: &[ExprId],
-    occurring: &[Vec<SymbolId>],
+    [occurring, polynomial]: [&[Vec<SymbolId>]; 2],
     remaining: &[usize],
     chosen: &[usize],
     quadratic: bool,
@@ -392,7 +417,7 @@ fn last_block(
     candidates.retain(|symbol| {
         matches!(graph.symbol_info(*symbol).role, Role::Coordinate | Role::Constant)
             && remaining.iter().all(|i| chosen.contains(i) || !occurring[*i].contains(symbol))
-            && chosen.iter().all(|i| degree(graph, equations[*i], &[*symbol]).is_some())
+            && chosen.iter().all(|i| !occurring[*i].contains(symbol) || polynomial[*i].contains(symbol))
     });
     candidates.sort_by_key(|symbol| (graph.symbol_info(*symbol).role != Role::Coordinate, *symbol));
     let highest = if quadratic { 2 } else { 1 };

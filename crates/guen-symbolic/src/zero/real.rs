@@ -145,8 +145,18 @@ impl Real for f256 {
 /// The values of expressions at given values of the symbols; not finite outside the domain.
 pub fn evaluate<R: Real>(graph: &Graph, roots: &[ExprId], values: &dyn Fn(SymbolId) -> R) -> Vec<R> {
     let order = graph.reachable(roots, |_| false);
+    evaluate_in(graph, &order, roots, values)
+}
+
+/// The same, given all that the expressions are made of in an order in which it can be evaluated: for many evaluations.
+pub(super) fn evaluate_in<R: Real>(
+    graph: &Graph,
+    order: &[ExprId],
+    roots: &[ExprId],
+    values: &dyn Fn(SymbolId) -> R,
+) -> Vec<R> {
     let mut known: FastMap<ExprId, R> = FastMap::default();
-    for id in order {
+    for id in order.iter().copied() {
         let value = match graph.node(id) {
             Node::Number(value) => R::rational(value),
             Node::Pi => R::pi(),

@@ -12,7 +12,7 @@ use core::cmp::Reverse;
 use f256::f256;
 
 use super::manifold::solve_dense;
-use super::real::{Real, RealPoint, evaluate, exponent};
+use super::real::{Real, RealPoint, evaluate_in, exponent};
 use crate::algebra::{Bound, ExprId, Flow, Function, Graph, Rational, Role, SymbolId};
 
 /// An equation that follows from others where all of them hold.
@@ -46,8 +46,10 @@ const NOTHING: f64 = -180.0;
 struct Equations<'a> {
     graph: &'a Graph,
     equations: &'a [ExprId],
-    /// Row by row.
-    jacobian: Vec<ExprId>,
+    /// They, and their derivatives row by row.
+    roots: Vec<ExprId>,
+    /// What these are made of.
+    order: Vec<ExprId>,
     /// What a point may move along: coordinates and constants.
     variables: Vec<SymbolId>,
     /// Which of the variables are coordinates.
@@ -107,22 +109,28 @@ impl<'a> Equations<'a> {
             .collect();
         let mut flows: Vec<Flow> =
             variables.iter().map(|symbol| Flow::partial(graph, graph.symbol_expr(*symbol))).collect();
-        let mut jacobian = Vec::new();
+        let mut roots = equations.to_vec();
         for equation in equations {
-            jacobian.extend(flows.iter_mut().map(|flow| flow.of(graph, *equation)));
+            let own = graph.symbols_in(&[*equation]);
+            let zero = graph.zero();
+            roots.extend(
+                variables.iter().zip(&mut flows).map(|(symbol, flow)| {
+                    if own.contains(symbol) { flow.of(graph, *equation) } else { zero }
+                }),
+            );
         }
         let moving = variables.iter().map(|s| graph.symbol_info(*s).role == Role::Coordinate).collect();
-        Equations { graph, equations, jacobian, variables, moving }
+        let order = graph.reachable(&roots, |_| false);
+        Equations { graph, equations, roots, order, variables, moving }
     }
 
     /// Left sides and gradients by all variables.
     fn values<R: Real + From<f64>>(&self, x: &[R], others: &RealPoint) -> (Vec<R>, Vec<Vec<R>>) {
-        let roots: Vec<ExprId> = self.equations.iter().chain(&self.jacobian).copied().collect();
         let value = |symbol: SymbolId| match self.variables.iter().position(|own| *own == symbol) {
             Some(i) => x[i],
             None => R::from(others.draw(self.graph, symbol)),
         };
-        let mut values = evaluate(self.graph, &roots, &value);
+        let mut values = evaluate_in(self.graph, &self.order, &self.roots, &value);
         let jacobian = values.split_off(self.equations.len());
         (values, jacobian.chunks(self.variables.len().max(1)).map(<[R]>::to_vec).collect())
     }

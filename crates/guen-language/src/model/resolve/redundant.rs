@@ -27,6 +27,8 @@ pub(super) fn taken<'a>(
     let positions: Vec<ExprId> = raw.iter().filter_map(|form| form.position).collect();
     let bench = &mut eval.bench;
     let found = bench.zero.redundant(&mut bench.graph, &positions, coordinates);
+    // The steps of this search do not count towards the limit of the derivation.
+    bench.begin_another();
     if found.is_empty() {
         return Vec::new();
     }
@@ -66,7 +68,6 @@ pub(super) fn taken<'a>(
     let positions: Vec<ExprId> = raw.iter().filter_map(|form| form.position).collect();
     let bench = &mut eval.bench;
     bench.zero.set_manifold(&mut bench.graph, &positions);
-    // The steps of this search do not count towards the limit of the derivation.
     bench.begin_another();
     taken
 }
