@@ -33,81 +33,59 @@
 #[cfg(feature = "std")]
 extern crate std;
 
-mod auxiliary_states;
-mod bodies;
-mod bracket;
-pub mod checks;
-mod classification;
-mod condition;
 pub mod control;
-mod cost;
-mod decimal;
-mod derived;
-mod differentiable;
-mod dual;
-mod elementary;
-mod emitted;
-mod error;
-mod float;
-mod invariants;
-pub mod lanes;
-mod level;
-mod lift;
-mod linearization;
-mod nalgebra_support;
-mod operator;
-mod positions;
-mod real;
-mod recast;
+mod generated;
+mod linear_algebra;
+mod numbers;
 mod report;
-mod rules;
-mod running_error;
-mod serde_support;
-mod series;
 pub mod steppers;
 mod system;
-mod with_functions;
 
-pub use auxiliary_states::{AuxiliaryStates, Renormalized, renormalized};
-pub use bodies::{Bodies, Body};
-pub use bracket::{BracketCoefficients, Coefficient};
-pub use classification::{
-    Catastatic, Class, Conservative, Holonomic, IncompleteLieGroup, LieGroup, Nonholonomic, Rheonomic,
-    Scleronomic,
-};
-pub use cost::Cost;
-pub use derived::Derived;
-pub use differentiable::{Differentiable, Equations, Generic, generic};
-pub use dual::Dual;
-pub use error::{BodyFault, Cause, ConstantsError, IntegrationError, Setting};
-pub use invariants::Invariants;
-pub use level::{Level, LevelInfo, Levels};
-pub use lift::Lift;
-pub use linearization::{Liftable, Linearizable, Linearization, OutputLinearization, seeded};
-pub use operator::{Applied, Coordinate, Function, Operator};
-#[doc(hidden)]
-pub use positions::furthest_surplus;
-pub use positions::{Positions, PositionsError, Projected, consistent, project, projected};
-pub use real::{Ordered, Real};
-pub use recast::Recast;
-pub use report::{LatexDocument, MarkdownDocument, Report, ReportSection};
-pub use running_error::RunningError;
-pub use series::{Coefficients, Convolutions, HIGHEST_ORDER, TaylorSeries};
-pub use system::{FromFn, Laned, Monitored, System, from_fn};
-pub use with_functions::{
+pub use generated::checks;
+pub use generated::cost::Cost;
+pub use generated::derived::Derived;
+pub use numbers::dual::Dual;
+pub use numbers::lanes;
+pub use numbers::lift::Lift;
+pub use numbers::real::{Ordered, Real};
+pub use numbers::running_error::RunningError;
+pub use numbers::with_functions::{
     Approx7, Approx7Functions, Approx13, Approx13Functions, Functions, Fused, FusedOperations, LaneScalar,
     PlainLanes, WithFunctions,
 };
 #[cfg(feature = "std")]
-pub use with_functions::{Std, StdFunctions};
+pub use numbers::with_functions::{Std, StdFunctions};
+pub use report::{LatexDocument, MarkdownDocument, Report, ReportSection};
+pub use steppers::{Cause, IntegrationError, Setting};
+pub use system::auxiliary_states::{AuxiliaryStates, Renormalized, renormalized};
+pub use system::bodies::{Bodies, Body};
+pub use system::bracket::{BracketCoefficients, Coefficient};
+pub use system::classification::{
+    Catastatic, Class, Conservative, Holonomic, IncompleteLieGroup, LieGroup, Nonholonomic, Rheonomic,
+    Scleronomic,
+};
+pub use system::constants_error::{BodyFault, ConstantsError};
+pub use system::differentiable::{Differentiable, Equations, Generic, generic};
+pub use system::invariants::Invariants;
+pub use system::level::{Level, LevelInfo, Levels};
+pub use system::linearization::{Liftable, Linearizable, Linearization, OutputLinearization, seeded};
+pub use system::operator::{Applied, Coordinate, Function, Operator};
+#[doc(hidden)]
+pub use system::positions::furthest_surplus;
+pub use system::positions::{Positions, PositionsError, Projected, consistent, project, projected};
+pub use system::recast::Recast;
+pub use system::series::{Coefficients, Convolutions, HIGHEST_ORDER, TaylorSeries};
+pub use system::{FromFn, Laned, Monitored, System, from_fn};
 
+#[cfg(feature = "serde")]
+#[doc(hidden)]
+pub use generated::serde_support::{
+    deserialize_derived, deserialize_record, serialize_derived, serialize_record,
+};
 #[cfg(feature = "nalgebra")]
 pub use nalgebra;
 #[cfg(feature = "serde")]
 pub use serde;
-#[cfg(feature = "serde")]
-#[doc(hidden)]
-pub use serde_support::{deserialize_derived, deserialize_record, serialize_derived, serialize_record};
 
 /// What a program that integrates systems wants in scope.
 pub mod prelude {

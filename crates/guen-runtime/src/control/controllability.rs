@@ -3,9 +3,9 @@
 use core::error::Error;
 use core::fmt;
 
-use super::dense::{Basis, apply, largest, length, transpose};
-use crate::linearization::Linearization;
-use crate::real::Ordered;
+use crate::linear_algebra::dense::{Basis, apply, largest, length, transpose};
+use crate::numbers::real::Ordered;
+use crate::system::linearization::Linearization;
 
 /// What the inputs reach: see [`controllability`].
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -3,13 +3,13 @@
 use core::error::Error;
 use core::fmt;
 
-use super::dense::{largest, product, unit};
-use crate::dual::Dual;
-use crate::lift::Lift;
-use crate::linearization::{Liftable, Linearization, seeded};
-use crate::real::{Ordered, Real};
-use crate::steppers::rk4;
+use crate::linear_algebra::dense::{largest, product, unit};
+use crate::numbers::dual::Dual;
+use crate::numbers::lift::Lift;
+use crate::numbers::real::{Ordered, Real};
+use crate::steppers::explicit::rk4;
 use crate::system::from_fn;
+use crate::system::linearization::{Liftable, Linearization, seeded};
 
 /// Why there is no discrete model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -119,7 +119,7 @@ impl<R: Ordered, const N: usize, const M: usize> ZeroOrderHold<R, N, M> {
             phi = product(&phi, &phi);
         }
         let gamma = product(&psi, &linear.b);
-        let offset: [R; N] = core::array::from_fn(|i| super::dense::dot(&psi[i], rates));
+        let offset: [R; N] = core::array::from_fn(|i| crate::linear_algebra::dense::dot(&psi[i], rates));
         let all = phi.iter().flatten().chain(gamma.iter().flatten()).chain(&offset);
         if all.copied().all(Real::is_finite) {
             Ok(ZeroOrderHold { phi, gamma, offset })

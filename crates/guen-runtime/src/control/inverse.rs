@@ -3,8 +3,8 @@
 use core::error::Error;
 use core::fmt;
 
-use super::dense::{Basis, apply, dot, largest, length, transpose};
-use crate::real::Ordered;
+use crate::linear_algebra::dense::{Basis, apply, dot, largest, length, transpose};
+use crate::numbers::real::Ordered;
 
 /// The equations of motion as controllers use them:
 ///
@@ -265,7 +265,7 @@ impl<R: Ordered, const L: usize, const M: usize> Gap<R, L, M> {
         });
         let right: [[R; 1]; L] =
             core::array::from_fn(|k| [if k < rank { dot(&basis.vectors[k], gap) } else { R::zero() }]);
-        let y = super::dense::solve(&s, &right)?;
+        let y = crate::linear_algebra::dense::solve(&s, &right)?;
         let change = core::array::from_fn(|j| (0..rank).fold(R::zero(), |sum, k| sum + r[k][j] * y[k][0]));
         Some((change, rank, complete))
     }

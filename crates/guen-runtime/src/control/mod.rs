@@ -13,14 +13,13 @@
 //! | which inputs give these accelerations? | [`MassForm`], [`inverse_dynamics`], [`affine_inverse_dynamics`] |
 
 mod controllability;
-mod dense;
 mod discrete;
 mod inverse;
 mod reduced;
 mod steady;
 
+pub use crate::linear_algebra::dense::solve;
 pub use controllability::{Controllability, Uncontrollable, controllability};
-pub use dense::solve;
 pub use discrete::{DiscreteError, FlowMap, ZeroOrderHold};
 pub use inverse::{
     InverseDynamicsError, MassForm, affine_inverse_dynamics, inverse_dynamics, inverse_dynamics_from,

@@ -3,9 +3,9 @@
 use core::error::Error;
 use core::fmt;
 
-use super::dense::{apply, largest, product};
-use crate::linearization::{Linearization, OutputLinearization};
-use crate::real::{Ordered, Real};
+use crate::linear_algebra::dense::{apply, largest, product};
+use crate::numbers::real::{Ordered, Real};
+use crate::system::linearization::{Linearization, OutputLinearization};
 
 /// Four coordinates that are a unit quaternion, by their indices: `w, x, y, z`.
 pub type Quaternion = [usize; 4];

@@ -3,9 +3,9 @@
 use core::error::Error;
 use core::fmt;
 
-use super::dense::{Basis, dot, largest, length, transpose};
-use crate::linearization::Linearizable;
-use crate::real::Ordered;
+use crate::linear_algebra::dense::{Basis, dot, largest, length, transpose};
+use crate::numbers::real::Ordered;
+use crate::system::linearization::Linearizable;
 
 /// Why there is no steady motion.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -17,59 +17,33 @@
 //! `integrate`, with an observer, and `sample`, which lands on given times. Sizes are fixed at compile time and nothing
 //! is allocated. Every accepted state is finite, and a failure carries the last one that was in order.
 
-mod adaptive;
-mod bounded;
-mod collocation;
-mod compensated;
-mod control;
-mod crossing;
-mod defect;
-mod dense;
-pub mod dop853;
-mod dop853_coefficients;
-mod euler;
-mod events;
-mod fixed;
-mod gauss;
+mod driver;
+pub(crate) mod explicit;
 mod guard;
-mod integration;
-mod lane_guard;
-mod lanes;
-mod lu;
-mod radau5;
-mod reversal;
-pub mod rk4;
-mod rk8;
-mod run;
-mod schedule;
-mod singularities;
-mod stop_times;
-mod tableau;
+mod implicit;
+mod step_size;
 mod taylor;
-mod tsit5;
-mod tsit5_coefficients;
-mod within_step;
 
-pub use bounded::{Bound, Bounded};
-pub use compensated::Compensated;
-pub use dense::{Dense, Interpolant};
-pub use dop853::Dop853;
-pub use euler::Euler;
-pub use events::{Direction, Event, Occurrence};
-pub use gauss::{Gauss4, Gauss6};
+pub use driver::dense::{Dense, Interpolant};
+pub use driver::error::{Cause, IntegrationError, Setting};
+pub use driver::events::{Direction, Event, Occurrence};
+pub use driver::integration::Integration;
+pub use driver::run::{Checkpoint, IntegrationResult, Method, Outcome, Statistics, StepperRun};
+pub use explicit::bounded::{Bound, Bounded};
+pub use explicit::compensated::Compensated;
+pub use explicit::dop853::{self, Dop853};
+pub use explicit::euler::Euler;
+pub use explicit::lanes::{InLanes, LaneMethod};
+pub use explicit::rk4::{self, Rk4};
+pub use explicit::rk8::Rk8;
+pub use explicit::tsit5::Tsit5;
 pub use guard::Guard;
-pub use integration::Integration;
-pub use lanes::{InLanes, LaneMethod};
-pub(crate) use lu::Lu;
-pub use radau5::Radau5;
-pub use reversal::{Reversible, Varied, reversible};
-pub use rk4::Rk4;
-pub use rk8::Rk8;
-pub use run::{Checkpoint, IntegrationResult, Method, Outcome, Statistics, StepperRun};
+pub use guard::reversal::{Reversible, Varied, reversible};
+pub use implicit::gauss::{Gauss4, Gauss6};
+pub use implicit::radau5::Radau5;
 pub use taylor::{Series, Taylor};
-pub use tsit5::Tsit5;
 
-use crate::real::Real;
+use crate::numbers::real::Real;
 
 /// An array, entry by entry.
 // A loop, because the calls behind `core::array::from_fn` are not always inlined, and lanes need that. Each closure given to that

@@ -2,8 +2,8 @@
 
 use super::super::entries;
 use super::Series;
-use crate::real::{Ordered, Real};
-use crate::series::TaylorSeries;
+use crate::numbers::real::{Ordered, Real};
+use crate::system::series::TaylorSeries;
 
 /// Where the rates are compared beside the end of a step, as a part of it. Not the middle, where what is symmetric about it
 /// would vanish.

@@ -4,12 +4,12 @@ mod defect;
 mod run;
 mod series;
 
-use super::control::Tolerance;
-use super::run::{Checkpoint, Method};
-use super::stop_times::short_ways;
-use crate::error::{Cause, Setting};
-use crate::real::Ordered;
-use crate::series::{HIGHEST_ORDER, TaylorSeries};
+use crate::numbers::real::Ordered;
+use crate::steppers::driver::error::{Cause, Setting};
+use crate::steppers::driver::run::{Checkpoint, Method};
+use crate::steppers::driver::stop_times::short_ways;
+use crate::steppers::step_size::Tolerance;
+use crate::system::series::{HIGHEST_ORDER, TaylorSeries};
 use run::Run;
 pub use series::Series;
 
@@ -36,7 +36,7 @@ pub use series::Series;
 ///   force that is constant to rounding where the series was expanded, as `tanh` far from its zero, leaves no trace in the
 ///   coefficients; where it is another one further on, the step is halved until the rates agree, and the next ones
 ///   grow by at most two. What leaves no trace in either place is not seen: `docs/extremes.md` has how narrow that is.
-/// - Trials that [`Statistics`](super::Statistics) calls rejected are those steps, and expansions whose coefficients overflowed,
+/// - Trials that [`Statistics`](crate::steppers::Statistics) calls rejected are those steps, and expansions whose coefficients overflowed,
 ///   which are repeated with another scale. In a smooth motion there are none: the length is known before a step is made.
 /// - Of two steps one after the other the rates at the end of the first are the first coefficients of the second, so
 ///   that the comparison costs one evaluation for each step, and two for the last: 1.2 percent of the instructions for a chain of
@@ -163,4 +163,4 @@ impl<R: Ordered, S: TaylorSeries<R, N> + ?Sized, const N: usize> Method<R, S, N>
     }
 }
 
-short_ways!(Taylor over Ordered, systems crate::series::TaylorSeries);
+short_ways!(Taylor over Ordered, systems crate::system::series::TaylorSeries);

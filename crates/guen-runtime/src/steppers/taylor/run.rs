@@ -1,14 +1,14 @@
 //! The steps: how long the coefficients allow them to be, and whether the rates there are those of the series.
 
 use super::super::all_finite;
-use super::super::control;
-use super::super::run::{Checkpoint, Statistics, StepperRun};
 use super::super::scaled;
 use super::defect::{self, Defect};
 use super::{Series, Taylor};
-use crate::error::Cause;
-use crate::real::{Ordered, Real};
-use crate::series::{HIGHEST_ORDER, TaylorSeries};
+use crate::numbers::real::{Ordered, Real};
+use crate::steppers::driver::error::Cause;
+use crate::steppers::driver::run::{Checkpoint, Statistics, StepperRun};
+use crate::steppers::step_size;
+use crate::system::series::{HIGHEST_ORDER, TaylorSeries};
 
 /// How much shorter a step becomes whose rates are not those of its series, and how much longer at most the one after it
 /// is: what the coefficients did not see is near.
@@ -381,11 +381,11 @@ where
         let mut step = self.length(&weights).min(self.longest);
         let mut rejected = false;
         loop {
-            let landing = control::STRETCH * step > span.abs();
+            let landing = step_size::STRETCH * step > span.abs();
             let next = if landing { target } else { time + R::from_f64(step.copysign(span)) };
             // The distance that time really moves.
             let h = (next - time) - time_rest;
-            let shortest = step.min(span.abs()) <= control::shortest(time, self.origin);
+            let shortest = step.min(span.abs()) <= step_size::shortest(time, self.origin);
             if shortest && !landing && !rejected {
                 return Err(Cause::StepUnderflow);
             }
@@ -420,7 +420,7 @@ where
                 return Err(Cause::TooManySteps { limit });
             }
             let longest = if landing { h.to_f64().abs() } else { step };
-            step = f64::max(SHORTER * longest, control::shortest(time, self.origin));
+            step = f64::max(SHORTER * longest, step_size::shortest(time, self.origin));
         }
     }
 

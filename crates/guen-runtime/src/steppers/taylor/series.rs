@@ -2,11 +2,11 @@
 
 use super::super::entries;
 use super::super::scaled;
-use crate::real::Real;
-use crate::series::{Coefficients, HIGHEST_ORDER};
-use crate::steppers::dense::Interpolant;
+use crate::numbers::real::Real;
+use crate::steppers::driver::dense::Interpolant;
+use crate::system::series::{Coefficients, HIGHEST_ORDER};
 
-/// The motion over one step of [`Taylor`](super::Taylor): its series about the beginning, an [`Interpolant`].
+/// The motion over one step of [`Taylor`](crate::steppers::Taylor): its series about the beginning, an [`Interpolant`].
 #[derive(Clone, Copy, Debug)]
 pub struct Series<R, const N: usize> {
     pub(super) start: R,

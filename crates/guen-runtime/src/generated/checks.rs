@@ -1,0 +1,335 @@
+//! Checks that generated code calls, out of line.
+
+pub use crate::generated::condition::condition;
+use crate::system::constants_error::BodyFault;
+use crate::{ConstantsError, Ordered, Real, RunningError};
+
+/// The name of a field without the `r#` of one that is a keyword.
+///
+/// ```
+/// assert_eq!(guen_runtime::checks::plain("r#type"), "type");
+/// assert_eq!(guen_runtime::checks::plain("theta"), "theta");
+/// ```
+pub const fn plain(field: &'static str) -> &'static str {
+    match field.as_bytes() {
+        [b'r', b'#', ..] => field.split_at(2).1,
+        _ => field,
+    }
+}
+
+/// Refuses a constant that is not finite.
+///
+/// ```
+/// assert!(guen_runtime::checks::check_finite(1.0_f64, "a").is_ok());
+/// assert!(guen_runtime::checks::check_finite(f64::NAN, "a").is_err());
+/// ```
+///
+/// # Errors
+///
+/// [`ConstantsError::NotFinite`] with its name and value.
+pub fn check_finite<R: Real>(value: R, name: &'static str) -> Result<(), ConstantsError> {
+    if value.is_finite() { Ok(()) } else { Err(ConstantsError::NotFinite { name, value: value.to_f64() }) }
+}
+
+/// Refuses a constant that has to be positive and is not; `bound` says so in words.
+///
+/// ```
+/// assert!(guen_runtime::checks::check_positive(1.0_f64, "a", "a > 0").is_ok());
+/// assert!(guen_runtime::checks::check_positive(0.0_f64, "a", "a > 0").is_err());
+/// ```
+///
+/// # Errors
+///
+/// [`ConstantsError::OutOfBound`] with its name, bound and value.
+pub fn check_positive<R: Real>(
+    value: R,
+    name: &'static str,
+    bound: &'static str,
+) -> Result<(), ConstantsError> {
+    bounded(value, name, bound, |value| value > 0.0)
+}
+
+/// Refuses a constant that is negative and must not be.
+///
+/// ```
+/// assert!(guen_runtime::checks::check_nonnegative(0.0_f64, "a", "a >= 0").is_ok());
+/// assert!(guen_runtime::checks::check_nonnegative(-1.0_f64, "a", "a >= 0").is_err());
+/// ```
+///
+/// # Errors
+///
+/// [`ConstantsError::OutOfBound`] with its name, bound and value.
+pub fn check_nonnegative<R: Real>(
+    value: R,
+    name: &'static str,
+    bound: &'static str,
+) -> Result<(), ConstantsError> {
+    bounded(value, name, bound, |value| value >= 0.0)
+}
+
+/// Refuses a constant that is zero and must not be.
+///
+/// ```
+/// assert!(guen_runtime::checks::check_nonzero(-1.0_f64, "a", "a != 0").is_ok());
+/// assert!(guen_runtime::checks::check_nonzero(0.0_f64, "a", "a != 0").is_err());
+/// ```
+///
+/// # Errors
+///
+/// [`ConstantsError::OutOfBound`] with its name, bound and value.
+pub fn check_nonzero<R: Real>(
+    value: R,
+    name: &'static str,
+    bound: &'static str,
+) -> Result<(), ConstantsError> {
+    bounded(value, name, bound, |value| value != 0.0)
+}
+
+fn bounded<R: Real>(
+    value: R,
+    name: &'static str,
+    bound: &'static str,
+    holds: impl Fn(f64) -> bool,
+) -> Result<(), ConstantsError> {
+    let value = value.to_f64();
+    if holds(value) { Ok(()) } else { Err(ConstantsError::OutOfBound { name, bound, value }) }
+}
+
+/// Refuses a pivot of constants that is zero or not finite.
+///
+/// ```
+/// assert!(guen_runtime::checks::check_pivot(0.0_f64, "a - b").is_err());
+/// assert!(guen_runtime::checks::check_pivot(1.0_f64, "a - b").is_ok());
+/// ```
+///
+/// # Errors
+///
+/// [`ConstantsError::SingularPivot`] with the expression and its value.
+pub fn check_pivot<R: Real>(value: R, what: &'static str) -> Result<(), ConstantsError> {
+    if value == R::zero() || !value.is_finite() {
+        return Err(ConstantsError::SingularPivot { what, value: value.to_f64() });
+    }
+    Ok(())
+}
+
+/// Refuses a prepared value that is not finite.
+///
+/// ```
+/// assert!(guen_runtime::checks::check_hoisted(f64::INFINITY).is_err());
+/// ```
+///
+/// # Errors
+///
+/// [`ConstantsError::SingularPivot`]: constants are finite, so only a division can have made it so.
+pub fn check_hoisted<R: Real>(value: R) -> Result<(), ConstantsError> {
+    if value.is_finite() {
+        return Ok(());
+    }
+    Err(ConstantsError::SingularPivot { what: "an expression of the constants", value: value.to_f64() })
+}
+
+/// Refuses a constant of a system that is not what a scene fixes it at.
+///
+/// ```
+/// assert!(guen_runtime::checks::check_fixed(9.81, 9.81, "g").is_ok());
+/// assert!(guen_runtime::checks::check_fixed(1.62, 9.81, "g").is_err());
+/// ```
+///
+/// # Errors
+///
+/// [`ConstantsError::Contradicted`] with both values.
+pub fn check_fixed<R: Real>(value: R, fixed: R, name: &'static str) -> Result<(), ConstantsError> {
+    if value == fixed {
+        return Ok(());
+    }
+    Err(ConstantsError::Contradicted { name, fixed: fixed.to_f64(), value: value.to_f64() })
+}
+
+/// Refuses limits of an input that leave no value between them.
+///
+/// ```
+/// assert!(guen_runtime::checks::check_limits(-1.0, 1.0, "tau").is_ok());
+/// assert!(guen_runtime::checks::check_limits(1.0, -1.0, "tau").is_err());
+/// ```
+///
+/// # Errors
+///
+/// [`ConstantsError::Limits`] with both limits.
+pub fn check_limits<R: Real>(lower: R, upper: R, input: &'static str) -> Result<(), ConstantsError> {
+    let (lower, upper) = (lower.to_f64(), upper.to_f64());
+    if lower <= upper {
+        return Ok(());
+    }
+    Err(ConstantsError::Limits { input, lower, upper })
+}
+
+/// Refuses a negative mass.
+///
+/// ```
+/// assert!(guen_runtime::checks::check_mass(0.0, "frame").is_ok());
+/// assert!(guen_runtime::checks::check_mass(-1.0, "frame").is_err());
+/// ```
+///
+/// # Errors
+///
+/// [`ConstantsError::NotPhysical`].
+pub fn check_mass<R: Real>(mass: R, body: &'static str) -> Result<(), ConstantsError> {
+    let fault = BodyFault::NegativeMass;
+    if mass.to_f64() < 0.0 { Err(ConstantsError::NotPhysical { body, fault }) } else { Ok(()) }
+}
+
+/// Refuses an inertia, given by the matrix entries `xx, yy, zz, xy, yz, zx`, that no distribution of mass has.
+///
+/// ```text
+/// S = tr(I)/2 1 - I = integral of r r^T dm
+/// ```
+///
+/// must be positive semidefinite: all its principal minors are nonnegative. Then the principal moments are the sums
+/// `s_2 + s_3, s_3 + s_1, s_1 + s_2` of nonnegative numbers, which is what the triangle inequality says.
+///
+/// ```
+/// // A thin disc reaches the limit, C = 2 A; half of its moment about a diameter is too little.
+/// assert!(guen_runtime::checks::check_inertia(&[0.1, 0.1, 0.2, 0.0, 0.0, 0.0], "disc").is_ok());
+/// assert!(guen_runtime::checks::check_inertia(&[0.05, 0.05, 0.2, 0.0, 0.0, 0.0], "disc").is_err());
+/// ```
+///
+/// # Errors
+///
+/// [`ConstantsError::NotPhysical`].
+pub fn check_inertia<R: Real>(entries: &[R; 6], body: &'static str) -> Result<(), ConstantsError> {
+    /// Limits are meant to be reached: what is above them by this part of the trace is rounding.
+    const ROUNDING: f64 = 64.0 * f64::EPSILON;
+
+    let [xx, yy, zz, xy, yz, zx] = entries.map(Real::to_f64);
+    let half = (xx + yy + zz) / 2.0;
+    let fault = ConstantsError::NotPhysical { body, fault: BodyFault::Inertia };
+    if half == 0.0 {
+        // Without a trace there is nothing to measure by, and nothing but zero is physical.
+        let still = [xx, yy, zz, xy, yz, zx].iter().all(|entry| *entry == 0.0);
+        return if still { Ok(()) } else { Err(fault) };
+    }
+    // S over half the trace; the products of inertia enter with their signs turned.
+    let [a, b, c] = [xx, yy, zz].map(|moment| 1.0 - moment / half);
+    let [d, e, f] = [xy, yz, zx].map(|product| -product / half);
+    let minors = [
+        a,
+        b,
+        c,
+        a * b - d * d,
+        b * c - e * e,
+        c * a - f * f,
+        a * b * c + 2.0 * d * e * f - a * e * e - b * f * f - c * d * d,
+    ];
+    if half > 0.0 && minors.iter().all(|minor| *minor >= -ROUNDING) { Ok(()) } else { Err(fault) }
+}
+
+/// A value inside of limits; what cannot be compared with them stays as it is.
+///
+/// ```
+/// use guen_runtime::checks::clamped;
+/// assert_eq!((clamped(3.0, -1.0, 1.0), clamped(-3.0, -1.0, 1.0), clamped(0.5, -1.0, 1.0)), (1.0, -1.0, 0.5));
+/// assert!(clamped(f64::NAN, -1.0, 1.0).is_nan());
+/// ```
+#[inline]
+pub fn clamped<R: Ordered>(value: R, lower: R, upper: R) -> R {
+    if value < lower {
+        lower
+    } else if value > upper {
+        upper
+    } else {
+        value
+    }
+}
+
+/// The largest of some differences that should vanish, each relative to the size of its terms.
+///
+/// ```
+/// use guen_runtime::{RunningError, checks::furthest};
+/// // x^2 + y^2 - 1 at (3/5, 0.81)
+/// let [x, y] = [0.6, 0.81].map(RunningError::once);
+/// assert!((0.002..0.02).contains(&furthest(&[x * x + y * y - RunningError::exact(1.0)])));
+/// ```
+#[inline(always)]
+pub fn furthest<R: Real, const N: usize>(differences: &[RunningError<R>; N]) -> R {
+    largest(
+        &differences
+            .map(|difference| difference.value.abs().where_above(R::zero(), difference.left(), R::zero())),
+    )
+}
+
+/// Values that were rounded once.
+///
+/// ```
+/// use guen_runtime::{RunningError, checks::rounded};
+/// assert_eq!(rounded(&[1.5, -2.0])[1], RunningError { value: -2.0, error: 2.0 });
+/// ```
+#[inline(always)]
+pub fn rounded<R: Real, const N: usize>(values: &[R; N]) -> [RunningError<R>; N] {
+    let mut rounded = [RunningError::exact(R::zero()); N];
+    // A loop where the instructions of lanes are at hand: `map` is a call for each entry.
+    R::vectorize(
+        #[inline(always)]
+        || {
+            for (rounded, value) in rounded.iter_mut().zip(values) {
+                *rounded = RunningError { value: *value, error: value.abs() };
+            }
+        },
+    );
+    rounded
+}
+
+/// Writes the first `count` functions that must not vanish to the head of `values`, as far as there is place for them, and
+/// returns how many: what [`System::singularities`](crate::System::singularities) does with them.
+///
+/// ```
+/// use guen_runtime::{RunningError, checks::placed};
+/// let functions = [1.0, 2.0, 3.0].map(RunningError::once);
+/// let mut values = [RunningError::once(0.0); 4];
+/// assert_eq!((placed(&mut values, &functions, 2), values[1].value, values[2].value), (2, 2.0, 0.0));
+/// assert_eq!(placed(&mut values[..1], &functions, 3), 1);
+/// ```
+#[inline(always)]
+pub fn placed<R: Real, const N: usize>(
+    values: &mut [RunningError<R>],
+    functions: &[RunningError<R>; N],
+    count: usize,
+) -> usize {
+    let mut written = 0;
+    for (place, function) in values.iter_mut().zip(functions.iter().take(count)) {
+        *place = *function;
+        written += 1;
+    }
+    written
+}
+
+/// How far carried functions are from their values: the largest `|w - f|/(1 + |f|)`.
+///
+/// ```
+/// assert_eq!(guen_runtime::checks::drift(&[1.0, 3.0], &[1.0, 5.0]), 0.5);
+/// ```
+#[inline(always)]
+pub fn drift<R: Real, const K: usize>(values: &[R; K], carried: &[R]) -> R {
+    let mut apart = [R::zero(); K];
+    for ((apart, f), w) in apart.iter_mut().zip(values).zip(carried) {
+        *apart = (*w - *f) / (R::one() + f.abs());
+    }
+    largest(&apart)
+}
+
+/// The largest absolute value, as a real without an order can have it: through `f64` for the comparison, of lanes in every
+/// lane by itself. Zero for no values, not finite if one of them is not.
+///
+/// ```
+/// assert_eq!(guen_runtime::checks::largest(&[1.0, -3.0, 2.0]), 3.0);
+/// ```
+#[inline(always)]
+pub fn largest<R: Real>(values: &[R]) -> R {
+    let (mut most, mut rest) = (R::zero(), R::zero());
+    for value in values {
+        let size = value.abs();
+        most = size.where_above(most, size, most);
+        // Zero, unless it is not finite: what is compared with NaN would be taken for larger.
+        rest += size * R::zero();
+    }
+    most + rest
+}

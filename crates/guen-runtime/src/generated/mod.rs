@@ -1,0 +1,9 @@
+//! What the code of an expansion calls, and the facts that it states: nothing here integrates or knows of a stepper.
+
+pub mod checks;
+mod condition;
+pub(crate) mod cost;
+pub(crate) mod derived;
+mod emitted;
+mod nalgebra_support;
+pub(crate) mod serde_support;

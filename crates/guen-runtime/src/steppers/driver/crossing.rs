@@ -1,0 +1,210 @@
+//! How the crossings of an event within a step are found: by looks at the function's sign, then by a root finder.
+
+use crate::numbers::real::Real;
+use crate::steppers::driver::events::Event;
+
+/// The sign of a value: zero for NaN, which is no side of anything.
+pub(in crate::steppers) fn sign(value: f64) -> i8 {
+    i8::from(value > 0.0) - i8::from(value < 0.0)
+}
+
+/// Whether `a` comes before `b` in a run that goes `backwards` or not.
+pub(in crate::steppers) fn earlier<R: Real>(a: R, b: R, backwards: bool) -> bool {
+    a != b && ((b - a).to_f64() < 0.0) == backwards
+}
+
+/// A crossing within a step.
+#[derive(Clone, Copy)]
+pub(in crate::steppers) struct Crossing<R> {
+    /// The last time at which the function was found before the crossing.
+    pub after: R,
+    /// The first time at which it was found past it.
+    pub time: R,
+    pub rising: bool,
+}
+
+impl<R> Crossing<R> {
+    /// The side on which the function was before.
+    pub fn side(&self) -> i8 {
+        if self.rising { -1 } else { 1 }
+    }
+}
+
+/// The times within a step at which a function is looked at, in the order in which the run goes.
+#[derive(Clone, Copy, Default)]
+pub(in crate::steppers) struct Looks<R> {
+    /// The beginning of the step.
+    pub start: R,
+    /// Its end.
+    pub end: R,
+    /// Whether a run begins with the step near the function's surface. Then its first part is looked at after an eighth, a
+    /// 64th and so on as well, as far as the digits of a double go: what leaves the surface there may be back long before the
+    /// part ends.
+    pub close: bool,
+}
+
+impl<R: Real> Looks<R> {
+    /// How many looks there are in so many parts.
+    fn count(&self, parts: u32) -> u32 {
+        if self.close { parts.saturating_add(CLOSER) } else { parts }
+    }
+
+    /// The time of a look, counted from one.
+    fn time(&self, look: u32, parts: u32) -> R {
+        let closer = if self.close { CLOSER } else { 0 };
+        let part = look.saturating_sub(closer);
+        if part >= parts {
+            return self.end;
+        }
+        let length = (self.end - self.start) * R::from_ratio(part.max(1).into(), parts.max(1).into());
+        let shorter = if part == 0 { libm::exp2(-3.0 * f64::from(CLOSER + 1 - look)) } else { 1.0 };
+        self.start + length * R::from_f64(shorter)
+    }
+}
+
+/// How often the first part of the first step is divided by eight: `8^-17` is a rounding of `f64`.
+const CLOSER: u32 = 17;
+
+/// Follows the sign of one event's function.
+#[derive(Clone, Copy, Default)]
+pub(in crate::steppers) struct Tracker {
+    /// The side on which the function was last; zero on the surface itself.
+    side: i8,
+    /// Whether it has crossed since the start of the run.
+    crossed: bool,
+}
+
+impl Tracker {
+    pub fn new(value: f64) -> Self {
+        Self { side: sign(value), crossed: false }
+    }
+
+    /// Whether a step that ends with this value has no change of sign between its ends.
+    pub fn stays(self, value: f64) -> bool {
+        self.side == 0 || self.side == sign(value) || value.is_nan()
+    }
+
+    pub fn side(self) -> i8 {
+        self.side
+    }
+
+    /// The same after a look at a value that is no crossing.
+    pub fn at(self, value: f64) -> Self {
+        if value.is_nan() { self } else { Self { side: sign(value), ..self } }
+    }
+
+    /// The next crossing of a step that lies after `from`, where the function has been followed to, of a run that began at
+    /// `origin`. `state` gives the states of the step, `end` is the function's value at its end. The tracker then stands
+    /// past the crossing, or at the end of the step.
+    pub fn next<R: Real, const N: usize>(
+        &mut self,
+        event: &Event<'_, R, N>,
+        looks: Looks<R>,
+        (origin, from): (R, R),
+        end: f64,
+        mut state: impl FnMut(R) -> Option<[R; N]>,
+    ) -> Option<Crossing<R>> {
+        let mut value = |t: R| state(t).map_or(f64::NAN, |x| event.value(t, &x));
+        let backwards = (looks.end - looks.start).to_f64() < 0.0;
+        let mut before = from;
+        let count = looks.count(event.parts());
+        for look in 1..=count {
+            let after = looks.time(look, event.parts());
+            if !earlier(before, after, backwards) {
+                continue;
+            }
+            let found = if after == looks.end { end } else { value(after) };
+            if found.is_nan() {
+                continue;
+            }
+            let (old, new) = (self.side, sign(found));
+            self.side = new;
+            if old != 0 && new != old {
+                let rising = old < 0;
+                let first = !self.crossed;
+                self.crossed = true;
+                if event.wants(rising) {
+                    let crossing = if new == 0 {
+                        Crossing { after, time: after, rising }
+                    } else {
+                        root(event, (before, after), found, old, &mut value)
+                    };
+                    let returns = first && event.may_return(crossing.time, origin);
+                    if !returns {
+                        return Some(crossing);
+                    }
+                }
+            }
+            before = after;
+        }
+        None
+    }
+}
+
+/// A bracket no longer than the event's resolution. The function has the sign `old` at `a`, and the other at `b`, where it
+/// is `fb`.
+///
+/// Regula falsi with the value at an end that stays halved (the Illinois rule; M. Dowell and P. Jarratt, BIT 11
+/// (1971) 168-174), and a bisection whenever three steps have not halved the bracket, so that at most four evaluations
+/// gain a bit.
+fn root<R: Real, const N: usize>(
+    event: &Event<'_, R, N>,
+    (mut a, mut b): (R, R),
+    mut fb: f64,
+    old: i8,
+    mut value: impl FnMut(R) -> f64,
+) -> Crossing<R> {
+    /// Enough to halve a bracket from one end of the exponents to the other.
+    const LIMIT: u32 = 10_000;
+    const PATIENCE: u32 = 3;
+
+    let rising = old < 0;
+    let mut fa = value(a);
+    if sign(fa) != old {
+        // The side was left before `a`, at a point that counts as the surface: bisect.
+        fa = f64::from(old) * fb.abs();
+    }
+    let mut width = (b - a).to_f64().abs();
+    let (mut since, mut last) = (0, 0);
+    for _ in 0..LIMIT {
+        let present = (b - a).to_f64().abs();
+        let resolution = event.resolution(a).max(event.resolution(b));
+        if present <= resolution {
+            break;
+        }
+        if present <= width / 2.0 {
+            (width, since) = (present, 0);
+        }
+        let mut part = if since >= PATIENCE { 0.5 } else { fa / (fa - fb) };
+        if since >= PATIENCE {
+            (width, since) = (present, 0);
+        }
+        // A probe nearer to an end than the resolution could not close the bracket from the other side.
+        let margin = (0.5 * resolution / present).min(0.5);
+        part = if part.is_nan() { 0.5 } else { part.max(margin).min(1.0 - margin) };
+        since += 1;
+        let middle = a + (b - a) * R::from_f64(part);
+        if middle == a || middle == b {
+            break;
+        }
+        let found = value(middle);
+        if found == 0.0 {
+            return Crossing { after: middle, time: middle, rising };
+        }
+        // Where there is no value nothing has been crossed.
+        let moved = if found.is_nan() { old } else { sign(found) };
+        if moved == old {
+            (a, fa) = (middle, found);
+            if last == moved {
+                fb /= 2.0;
+            }
+        } else {
+            (b, fb) = (middle, found);
+            if last == moved {
+                fa /= 2.0;
+            }
+        }
+        last = moved;
+    }
+    Crossing { after: a, time: b, rising }
+}

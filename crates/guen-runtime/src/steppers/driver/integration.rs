@@ -1,0 +1,263 @@
+//! The driver that all methods share: from a start to a time, with samples, events, an observer and guards.
+
+use core::ops::ControlFlow;
+
+use crate::numbers::real::{Ordered, Real};
+use crate::steppers::driver::crossing::Tracker;
+use crate::steppers::driver::error::{Cause, IntegrationError, Setting};
+use crate::steppers::driver::events::{Event, Occurrence};
+use crate::steppers::driver::run::{Checkpoint, IntegrationResult, Method, Outcome, StepperRun};
+use crate::steppers::entries;
+use crate::steppers::guard::{Guard, Watch};
+use crate::system::System;
+
+type Observer<'a, R, const N: usize> = &'a mut dyn FnMut(R, &[R; N]) -> ControlFlow<()>;
+type Visitor<'a, R, const N: usize> = &'a mut dyn FnMut(usize, R, &[R; N]);
+type Receiver<'a, R, const N: usize> = &'a mut dyn FnMut(&Occurrence<R, N>) -> ControlFlow<()>;
+
+/// An integration of a system from a state: what to look at on the way, to be run by any method.
+///
+/// - [`observe`](Integration::observe): every accepted step, and the state at which a terminal event ends the run.
+/// - [`sample`](Integration::sample): the states at given times, from the dense output, so that samples do not change
+///   the steps.
+/// - [`events`](Integration::events): functions of the state that cross zero, located on the dense output.
+/// - [`guard`](Integration::guard): what must not happen; a [`Guard`] with its defaults is always there.
+///
+/// Within a step the order is that of time, then samples before events before the observer. Samples and states of
+/// events are put back onto the constraints by [`System::restore`], as steps are. Runs go backwards as well; a span of
+/// zero is no step, and has the sample at its time but no event. What was shown before a failure stays shown.
+///
+/// | method | error of the dense output within a step | further evaluations for it |
+/// | --- | --- | --- |
+/// | [`Euler`](crate::steppers::Euler), [`Rk4`](crate::steppers::Rk4) | `O(h^4)`, cubic Hermite | none: the slope at the end is the next step's |
+/// | [`Rk8`](crate::steppers::Rk8), [`Dop853`](crate::steppers::Dop853) | `O(h^8)` | 3 (and one that `Rk8`'s next step uses) |
+/// | [`Tsit5`](crate::steppers::Tsit5) | `O(h^5)` | none |
+/// | [`Gauss4`](crate::steppers::Gauss4), [`Gauss6`](crate::steppers::Gauss6) | `O(h^4)` and `O(h^6)`, Hermite | 2 and 4 |
+/// | [`Radau5`](crate::steppers::Radau5) | `O(h^4)`, collocation | none |
+/// | [`Taylor`](crate::steppers::Taylor) | that of the step, its own series | none |
+///
+/// No allocation; every callback is called through a reference, once in a step.
+///
+/// ```
+/// use core::ops::ControlFlow;
+/// use guen_runtime::from_fn;
+/// use guen_runtime::steppers::{Direction, Dop853, Event, Integration, Outcome};
+///
+/// // A stone, thrown up with 10 m/s.
+/// let stone = from_fn(|_t: f64, &[_, v]: &[f64; 2]| [v, -9.81]);
+/// let (height, speed) = (|_t: f64, x: &[f64; 2]| x[0], |_t: f64, x: &[f64; 2]| x[1]);
+/// let (mut samples, mut top) = (Vec::new(), 0.0);
+/// let done = Integration::new(&stone, 0.0, &[0.0, 10.0])
+///     .sample(&[0.0, 0.5, 1.0], &mut |_k, _t, x| samples.push(x[0]))
+///     .events(
+///         [Event::new(&speed), Event::new(&height).direction(Direction::Falling).terminal()],
+///         &mut |event| {
+///             if event.index == 0 {
+///                 top = event.time;
+///             }
+///             ControlFlow::Continue(())
+///         },
+///     )
+///     .run(&Dop853::new(1e-10, 1e-10), 100.0)
+///     .unwrap();
+/// assert_eq!(done.outcome, Outcome::Event(1));
+/// assert!((done.time - 20.0 / 9.81).abs() < 1e-12 && (top - 10.0 / 9.81).abs() < 1e-12);
+/// assert!((samples[1] - (5.0 - 9.81 / 8.0)).abs() < 1e-12);
+/// ```
+pub struct Integration<'a, R, S: ?Sized, const N: usize, const E: usize = 0> {
+    pub(in crate::steppers) system: &'a S,
+    pub(in crate::steppers) start: Checkpoint<R, N>,
+    guard: Guard,
+    pub(in crate::steppers) observer: Option<Observer<'a, R, N>>,
+    pub(in crate::steppers) samples: &'a [R],
+    pub(in crate::steppers) visitor: Option<Visitor<'a, R, N>>,
+    pub(in crate::steppers) events: [Event<'a, R, N>; E],
+    pub(in crate::steppers) receiver: Option<Receiver<'a, R, N>>,
+}
+
+impl<R: Real, S: ?Sized, const N: usize, const E: usize> core::fmt::Debug for Integration<'_, R, S, N, E> {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.debug_struct("Integration")
+            .field("start", &self.start)
+            .field("guard", &self.guard)
+            .field("samples", &self.samples)
+            .field("events", &self.events)
+            .finish_non_exhaustive()
+    }
+}
+
+impl<'a, R: Real, S: System<R, N> + ?Sized, const N: usize> Integration<'a, R, S, N> {
+    /// An integration from the state `x0` at time `t0`.
+    pub fn new(system: &'a S, t0: R, x0: &[R; N]) -> Self {
+        Self {
+            system,
+            start: Checkpoint::new(t0, x0),
+            guard: Guard::default(),
+            observer: None,
+            samples: &[],
+            visitor: None,
+            events: [],
+            receiver: None,
+        }
+    }
+}
+
+impl<'a, R: Real, S: System<R, N> + ?Sized, const N: usize, const E: usize> Integration<'a, R, S, N, E> {
+    /// Shows each accepted step to `observer`, but not the start; when it breaks, the run ends with
+    /// [`Outcome::Stopped`].
+    #[must_use]
+    pub fn observe(self, observer: &'a mut dyn FnMut(R, &[R; N]) -> ControlFlow<()>) -> Self {
+        Self { observer: Some(observer), ..self }
+    }
+
+    /// Calls `visit` with the position, the time and the state at each of these times, which run in order from the
+    /// start to the end of the integration and may repeat. Those after a terminal event are not visited.
+    #[must_use]
+    pub fn sample(self, times: &'a [R], visit: &'a mut dyn FnMut(usize, R, &[R; N])) -> Self {
+        Self { samples: times, visitor: Some(visit), ..self }
+    }
+
+    /// Watches with these limits in place of the default ones.
+    #[must_use]
+    pub fn guard(self, guard: Guard) -> Self {
+        Self { guard, ..self }
+    }
+
+    /// Reports these events to `receive`; when it breaks, the run ends there with [`Outcome::Stopped`], and after a
+    /// terminal event with [`Outcome::Event`]. Where the run ends, everything that has happened by then is reported with the time
+    /// and the state of the end, in the order of declaration: bodies that land at the same instant are all told of.
+    ///
+    /// ```
+    /// use core::ops::ControlFlow;
+    /// use guen_runtime::from_fn;
+    /// use guen_runtime::steppers::{Dop853, Event, Integration};
+    ///
+    /// // Two stones, dropped from the same height.
+    /// let stones = from_fn(|_t: f64, &[_, _, v, w]: &[f64; 4]| [v, w, -9.81, -9.81]);
+    /// let heights = [|_t: f64, x: &[f64; 4]| x[0], |_t: f64, x: &[f64; 4]| x[1]];
+    /// let mut landed = [false; 2];
+    /// Integration::new(&stones, 0.0, &[1.0, 1.0, 0.0, 0.0])
+    ///     .events([0, 1].map(|i| Event::new(&heights[i]).terminal()), &mut |event| {
+    ///         landed[event.index] = true;
+    ///         ControlFlow::Continue(())
+    ///     })
+    ///     .run(&Dop853::new(1e-10, 1e-10), 100.0)
+    ///     .unwrap();
+    /// assert_eq!(landed, [true, true]);
+    /// ```
+    #[must_use]
+    pub fn events<const F: usize>(
+        self,
+        events: [Event<'a, R, N>; F],
+        receive: &'a mut dyn FnMut(&Occurrence<R, N>) -> ControlFlow<()>,
+    ) -> Integration<'a, R, S, N, F>
+    where
+        R: Ordered,
+    {
+        let Self { system, start, guard, observer, samples, visitor, .. } = self;
+        Integration { system, start, guard, observer, samples, visitor, events, receiver: Some(receive) }
+    }
+
+    /// Runs to time `t1`, forwards or backwards.
+    ///
+    /// # Errors
+    ///
+    /// Settings that make no sense, before anything is integrated; else what stopped the method or what the guard
+    /// found, with the last time and state that are known to be in order.
+    pub fn run<M>(mut self, method: &M, t1: R) -> Result<IntegrationResult<R, N>, IntegrationError<R, N>>
+    where
+        M: Method<R, S, N>,
+    {
+        self.check(t1).map_err(|cause| self.start.failed(cause))?;
+        let mut run = method.start(&self.start);
+        let mut watch = Watch::new::<M::Run<'_>, S>(self.guard, self.system, &self.start)
+            .map_err(|cause| self.start.failed(cause))?;
+        let mut trackers: [Tracker; E] =
+            entries(|i| Tracker::new(self.events[i].value(self.start.time, &self.start.state)));
+        let mut visited = 0;
+        let start = self.start;
+        while self.samples.get(visited) == Some(&start.time) {
+            self.visit(visited, start.time, &start.state);
+            visited += 1;
+        }
+        let (mut before, mut kept) = (start, false);
+        while run.checkpoint().time != t1 {
+            let dense = E > 0 || visited < self.samples.len();
+            kept = dense || watch.wants_before(run.is_last(t1));
+            if kept {
+                before = *run.checkpoint();
+            }
+            let from = run.checkpoint().statistics.accepted;
+            let made = if kept || self.observer.is_some() {
+                run.advance(self.system, t1, kept)
+            } else {
+                run.go_on(self.system, t1, watch.patience())
+            };
+            if let Err(cause) = made {
+                return Err(watch.stopped(self.system, &run, cause));
+            }
+            if let Err(cause) = watch.step(self.system, from, kept.then_some(&before), &run) {
+                return Err(watch.good(run.checkpoint()).failed(cause));
+            }
+            if dense {
+                let ended = self.within_step(&mut run, &before, &mut trackers, &mut visited);
+                if let Some(done) = ended.map_err(|cause| before.failed(cause))? {
+                    return finished(&mut watch, self.system, kept.then_some(&before), &run, done);
+                }
+            }
+            if let Some(observer) = &mut self.observer {
+                let reached = run.checkpoint();
+                if observer(reached.time, &reached.state).is_break() {
+                    let done = reached.done(Outcome::Stopped);
+                    return finished(&mut watch, self.system, kept.then_some(&before), &run, done);
+                }
+            }
+        }
+        let done = run.checkpoint().done(Outcome::Arrived);
+        finished(&mut watch, self.system, kept.then_some(&before), &run, done)
+    }
+
+    /// Refuses settings that make no sense.
+    fn check(&self, t1: R) -> Result<(), Cause> {
+        if !self.start.time.is_finite() || !t1.is_finite() {
+            return Err(Cause::Setting(Setting::Time));
+        }
+        if !self.events.iter().all(Event::is_valid) {
+            return Err(Cause::Setting(Setting::Event));
+        }
+        let forwards = (t1 - self.start.time).to_f64() >= 0.0;
+        let mut last = self.start.time;
+        for &time in self.samples.iter().chain([&t1]) {
+            let ahead = (time - last).to_f64();
+            if !(ahead == 0.0 || (ahead > 0.0) == forwards) || ahead.is_nan() {
+                return Err(Cause::Setting(Setting::Samples));
+            }
+            last = time;
+        }
+        Ok(())
+    }
+
+    fn visit(&mut self, index: usize, time: R, state: &[R; N]) {
+        if let Some(visitor) = &mut self.visitor {
+            visitor(index, time, state);
+        }
+    }
+}
+
+/// The result of a run, if the last look finds it in order.
+pub(in crate::steppers) fn finished<C, R: Real, S, const N: usize>(
+    watch: &mut Watch<R, N>,
+    system: &S,
+    before: Option<&Checkpoint<R, N>>,
+    run: &C,
+    done: IntegrationResult<R, N>,
+) -> Result<IntegrationResult<R, N>, IntegrationError<R, N>>
+where
+    C: StepperRun<R, S, N>,
+    S: System<R, N> + ?Sized,
+{
+    match watch.finish(system, before, run) {
+        Ok(()) => Ok(done),
+        Err(cause) => Err(watch.good(run.checkpoint()).failed(cause)),
+    }
+}

@@ -1,0 +1,10 @@
+//! From a method to a result: the run of a method, the loop that drives it, dense output, events and samples.
+
+pub(crate) mod crossing;
+pub(crate) mod dense;
+pub(crate) mod error;
+pub(crate) mod events;
+pub(crate) mod integration;
+pub(crate) mod run;
+pub(crate) mod stop_times;
+mod within_step;

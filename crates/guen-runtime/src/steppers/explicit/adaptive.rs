@@ -1,0 +1,290 @@
+//! The loop around an explicit formula with an error estimate: trial steps until one is good enough.
+
+use crate::numbers::real::{Ordered, Real};
+use crate::steppers::driver::dense::Dense;
+use crate::steppers::driver::error::{Cause, Setting};
+use crate::steppers::driver::run::{Checkpoint, StepperRun};
+use crate::steppers::entries;
+use crate::steppers::step_size::{self, Control, Margin, Tolerance};
+use crate::steppers::{all_finite, shifted};
+use crate::system::System;
+
+/// The settings that all adaptive methods share.
+#[derive(Clone, Copy, Debug)]
+pub struct Settings {
+    pub(in crate::steppers) tolerance: Tolerance,
+    pub(in crate::steppers) max_steps: u64,
+    pub(in crate::steppers) first_step: Option<f64>,
+}
+
+/// An explicit formula with an estimate of its error.
+pub trait Pair<R: Real, const N: usize> {
+    /// The slopes of a step, as far as dense output needs them.
+    type Stages: Copy;
+    /// What the error of a step is measured by.
+    type Errors;
+
+    /// Evaluations of a trial step, the slope at its beginning not counted.
+    const TRIAL: u64;
+    const CONTROL: Control;
+
+    /// A step on trial from `x` with the slope `k1`. The slope at the end is `Some` if the formula computes it.
+    fn attempt<S>(&self, system: &S, t: R, x: &[R; N], k1: &[R; N], h: R) -> Attempt<R, Self, N>
+    where
+        S: System<R, N> + ?Sized;
+
+    /// The error of a step of size `h` in units of the tolerance.
+    fn margin(&self, errors: &Self::Errors, h: f64, weights: &[f64; N]) -> Margin;
+
+    /// The polynomial over a step, with the slope at its end, and the evaluations that it took.
+    fn dense<S>(&self, system: &S, step: &Step<'_, R, Self::Stages, N>) -> (Dense<R, N>, u64)
+    where
+        S: System<R, N> + ?Sized;
+}
+
+/// A step on trial.
+pub struct Attempt<R: Real, P: Pair<R, N> + ?Sized, const N: usize> {
+    pub state: [R; N],
+    /// About that state, for the sizes of its entries: what is known of it early.
+    pub guess: [R; N],
+    pub stages: P::Stages,
+    pub errors: P::Errors,
+    pub end: Option<[R; N]>,
+}
+
+/// A step that was accepted.
+pub struct Step<'a, R, K, const N: usize> {
+    pub from: &'a Checkpoint<R, N>,
+    pub to: &'a Checkpoint<R, N>,
+    pub stages: &'a K,
+    pub end: &'a [R; N],
+    pub h: R,
+}
+
+/// A run of an adaptive explicit method.
+#[derive(Clone, Copy, Debug)]
+pub struct Adaptive<'a, P, K, R, const N: usize> {
+    pair: &'a P,
+    settings: Settings,
+    /// When the run began.
+    origin: R,
+    reached: Checkpoint<R, N>,
+    before: Checkpoint<R, N>,
+    /// What the next step starts with; absent before the first.
+    ready: Option<Ready<R, N>>,
+    stages: Option<K>,
+}
+
+/// The slope at the present state, which the step before computed, and the step to try.
+#[derive(Clone, Copy, Debug)]
+struct Ready<R, const N: usize> {
+    slope: [R; N],
+    step: f64,
+    /// How the step before did, independently of its size.
+    level: Option<f64>,
+}
+
+impl<'a, P, R, const N: usize> Adaptive<'a, P, P::Stages, R, N>
+where
+    P: Pair<R, N>,
+    R: Ordered,
+{
+    pub(in crate::steppers) fn new(pair: &'a P, settings: Settings, start: &Checkpoint<R, N>) -> Self {
+        let reached = *start;
+        Self { pair, settings, origin: start.time, reached, before: reached, ready: None, stages: None }
+    }
+
+    /// Checks the settings and finds the first slope and step.
+    fn start<S>(&mut self, system: &S, target: R) -> Result<Ready<R, N>, Cause>
+    where
+        S: System<R, N> + ?Sized,
+    {
+        let tolerance = self.settings.tolerance;
+        tolerance.check()?;
+        let Checkpoint { time, state, .. } = self.reached;
+        if !time.is_finite() || !all_finite(&state) {
+            return Err(Cause::NotFinite);
+        }
+        let slope = system.rhs(time, &state);
+        self.reached.statistics.evaluations += 1;
+        if !all_finite(&slope) {
+            return Err(Cause::NotFinite);
+        }
+        if let Some(step) = self.settings.first_step {
+            let valid = step > 0.0 && step.is_finite();
+            return if valid {
+                Ok(Ready { slope, step, level: None })
+            } else {
+                Err(Cause::Setting(Setting::Step))
+            };
+        }
+        let span = (target - time).to_f64();
+        let (guess, slope_size) = tolerance.first_guess(&state, &slope, span.abs());
+        let h = R::from_f64(guess.copysign(span));
+        let ahead = system.rhs(time + h, &shifted(&state, h, &slope));
+        self.reached.statistics.evaluations += 1;
+        let change: [R; N] = entries(|i| ahead[i] - slope[i]);
+        let step = if all_finite(&change) {
+            let change = step_size::size(&change, &tolerance.weights(&state, &state));
+            P::CONTROL.first_step(guess, slope_size, change, span.abs())
+        } else {
+            guess
+        };
+        Ok(Ready { slope, step, level: None })
+    }
+    /// Makes so many accepted steps, or fewer if it arrives.
+    fn steps<S>(&mut self, system: &S, target: R, dense: bool, steps: u32) -> Result<(), Cause>
+    where
+        S: System<R, N> + ?Sized,
+    {
+        let mut ready = match self.ready {
+            Some(ready) => ready,
+            None => self.start(system, target)?,
+        };
+        // Copies that nobody else knows of stay in registers from step to step. In memory, slopes are written one by one
+        // and read together, for which a processor waits until all that was written before is in its cache.
+        let mut reached = self.reached;
+        let mut made = Ok(());
+        for _ in 0..steps {
+            let from = reached;
+            let leg = (self.origin, target);
+            made = step(self.pair, self.settings, system, leg, &mut reached, &mut ready).map(|stages| {
+                if dense {
+                    self.before = from;
+                    self.stages = Some(stages);
+                }
+            });
+            if made.is_err() || reached.time == target {
+                break;
+            }
+        }
+        self.reached = reached;
+        self.ready = Some(ready);
+        made
+    }
+}
+
+/// Makes one accepted step of a run that began at `origin`.
+#[inline(always)]
+fn step<P, R, S, const N: usize>(
+    pair: &P,
+    Settings { tolerance, max_steps, .. }: Settings,
+    system: &S,
+    (origin, target): (R, R),
+    reached: &mut Checkpoint<R, N>,
+    ready: &mut Ready<R, N>,
+) -> Result<P::Stages, Cause>
+where
+    P: Pair<R, N>,
+    R: Ordered,
+    S: System<R, N> + ?Sized,
+{
+    let Ready { slope, step, level } = *ready;
+    let Checkpoint { time, time_rest, state, .. } = *reached;
+    let statistics = &mut reached.statistics;
+    let span = ((target - time) - time_rest).to_f64();
+    let shortest = step_size::shortest(time, origin);
+    let mut step = if step < shortest { shortest } else { step };
+    let mut rejected = false;
+    loop {
+        if statistics.accepted + statistics.rejected >= max_steps {
+            return Err(Cause::TooManySteps { limit: max_steps });
+        }
+        let landing = step_size::STRETCH * step > span.abs();
+        let next = if landing { target } else { time + R::from_f64(step.copysign(span)) };
+        // The distance that time really moves.
+        let h = (next - time) - time_rest;
+        let size = h.to_f64().abs();
+        // Known before the step is made, so that nothing waits for it afterwards.
+        let trend = P::CONTROL.trend(level, size);
+        let attempt = pair.attempt(system, time, &state, &slope, h);
+        statistics.evaluations += P::TRIAL;
+        let margin = pair.margin(&attempt.errors, size, &tolerance.weights(&state, &attempt.guess));
+        // An error beyond the range of doubles, in units of a tiny tolerance, is an error of a state that there is.
+        let mut defined = all_finite(&attempt.state);
+        let finite = defined && margin.is_finite();
+        if finite && margin.is_enough() {
+            let mut accepted = attempt.state;
+            system.restore(next, &mut accepted).map_err(|_| Cause::Positions)?;
+            let next_slope = match attempt.end {
+                // Of the very state that goes on: nothing was put back.
+                Some(end) if accepted == attempt.state => end,
+                _ => {
+                    statistics.evaluations += 1;
+                    system.rhs(next, &accepted)
+                }
+            };
+            defined = all_finite(&next_slope);
+            if defined {
+                let margin = margin.log2();
+                let mut next_step = size * P::CONTROL.factor_after_success(margin, trend);
+                if rejected {
+                    next_step = next_step.min(size);
+                }
+                // What was asked for beyond the landing has not become wrong by the landing.
+                if landing {
+                    next_step = next_step.max(step);
+                }
+                let level = Some(P::CONTROL.level(margin, size));
+                *ready = Ready { slope: next_slope, step: next_step, level };
+                statistics.accepted += 1;
+                reached.time = next;
+                reached.time_rest = R::zero();
+                reached.state = accepted;
+                return Ok(attempt.stages);
+            }
+        }
+        statistics.rejected += 1;
+        rejected = true;
+        let factor = if finite && defined {
+            P::CONTROL.factor_after_failure(margin.log2())
+        } else {
+            P::CONTROL.factor_out_of_domain()
+        };
+        if step <= shortest {
+            return Err(if defined { Cause::StepUnderflow } else { Cause::NotFinite });
+        }
+        step = f64::max(size * factor, shortest);
+        // A step of a few spacings of numbers that ends where the one before did would be refused for ever.
+        if time + R::from_f64(step.copysign(span)) == next {
+            step = shortest;
+        }
+    }
+}
+
+impl<P, R, S, const N: usize> StepperRun<R, S, N> for Adaptive<'_, P, P::Stages, R, N>
+where
+    P: Pair<R, N>,
+    R: Ordered,
+    S: System<R, N> + ?Sized,
+{
+    const EVALUATIONS: u32 = P::TRIAL as u32;
+
+    type Polynomial = Dense<R, N>;
+
+    fn checkpoint(&self) -> &Checkpoint<R, N> {
+        &self.reached
+    }
+
+    fn advance(&mut self, system: &S, target: R, dense: bool) -> Result<(), Cause> {
+        self.steps(system, target, dense, 1)
+    }
+
+    fn go_on(&mut self, system: &S, target: R, steps: u32) -> Result<(), Cause> {
+        self.steps(system, target, false, steps)
+    }
+
+    fn dense(&mut self, system: &S) -> Dense<R, N> {
+        let (from, to) = (&self.before, &self.reached);
+        let h = to.since(from);
+        let (Some(stages), Some(ready)) = (&self.stages, &self.ready) else {
+            // No step was made with `dense`: there is nothing to interpolate but the present state.
+            let zero = [R::zero(); N];
+            return Dense::cubic(to.time, R::one(), [to.state, zero, zero, zero]);
+        };
+        let step = Step { from, to, stages, end: &ready.slope, h };
+        let (dense, evaluations) = self.pair.dense(system, &step);
+        self.reached.statistics.evaluations += evaluations;
+        dense
+    }
+}

@@ -1,0 +1,91 @@
+//! The explicit method of Euler, with a fixed step.
+
+use crate::numbers::real::Real;
+use crate::steppers::driver::dense::Dense;
+use crate::steppers::driver::error::Cause;
+use crate::steppers::driver::run::{Checkpoint, Method, Statistics};
+use crate::steppers::driver::stop_times::short_ways;
+use crate::steppers::explicit::fixed::{Fixed, Formula, Slopes};
+use crate::steppers::guard::defect::quadrature;
+use crate::steppers::shifted;
+use crate::system::System;
+
+/// The explicit method of Euler with a fixed step.
+///
+/// ```text
+/// x(t + h) = x + h f(t, x) + O(h^2)
+/// ```
+///
+/// - Order 1: for comparisons, and for programs that have to be followed by hand; [`Rk4`](crate::steppers::Rk4) reaches any
+///   accuracy with less work.
+/// - Steps, demands and dense output as of [`Rk4`](crate::steppers::Rk4). One evaluation a step.
+/// - Source: L. Euler, *Institutionum calculi integralis*, volume 1, section 2, chapter 7 (1768).
+///
+/// ```
+/// use core::ops::ControlFlow;
+/// use guen_runtime::{from_fn, steppers::Euler};
+///
+/// let growth = from_fn(|_t: f64, &[x]: &[f64; 1]| [x]);
+/// let done = Euler { step: 1.0 / 32.0 }.integrate(&growth, 0.0, &[1.0], 1.0, |_, _| ControlFlow::Continue(()))?;
+/// assert!((done.state[0] - (33.0_f64 / 32.0).powi(32)).abs() < 1e-14);
+/// // A step of a half would miss by a sixth: that is an error, unless the guard is told otherwise.
+/// let coarse = Euler { step: 0.5 }.integrate(&growth, 0.0, &[1.0], 1.0, |_, _| ControlFlow::Continue(()));
+/// assert!(coarse.is_err());
+/// # Ok::<(), guen_runtime::IntegrationError<f64, 1>>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Euler<R = f64> {
+    /// The step, in units of time: positive and finite.
+    pub step: R,
+}
+
+impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Formula<R, S, N> for Euler<R> {
+    type Memory = Slopes<R, N>;
+    const EVALUATIONS: u32 = 1;
+
+    #[inline]
+    fn step(
+        &self,
+        system: &S,
+        slopes: &mut Self::Memory,
+        from: &Checkpoint<R, N>,
+        h: R,
+        _dense: bool,
+        statistics: &mut Statistics,
+    ) -> Result<[R; N], Cause> {
+        let slope = slopes.begin(system, from, statistics);
+        Ok(shifted(&from.state, h, &slope))
+    }
+
+    fn dense(
+        &self,
+        system: &S,
+        slopes: &mut Self::Memory,
+        from: &Checkpoint<R, N>,
+        to: &Checkpoint<R, N>,
+        h: R,
+        statistics: &mut Statistics,
+    ) -> Dense<R, N> {
+        slopes.hermite(system, from, to, h, statistics)
+    }
+
+    fn defect(
+        &self,
+        system: &S,
+        slopes: &Self::Memory,
+        from: &Checkpoint<R, N>,
+        to: &Checkpoint<R, N>,
+    ) -> [R; N] {
+        quadrature(system, &slopes.first, from, to)
+    }
+}
+
+impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Method<R, S, N> for Euler<R> {
+    type Run<'a> = Fixed<'a, Self, Slopes<R, N>, R, N>;
+
+    fn start(&self, start: &Checkpoint<R, N>) -> Self::Run<'_> {
+        Fixed::new(self, Slopes::new(), self.step, start)
+    }
+}
+
+short_ways!(Euler over Real, systems System);

@@ -1,0 +1,273 @@
+//! What methods with a fixed step share: where the steps begin and end, and the loop around a formula.
+
+use crate::numbers::real::Real;
+use crate::steppers::all_finite;
+use crate::steppers::driver::dense::Dense;
+use crate::steppers::driver::error::{Cause, Setting};
+use crate::steppers::driver::run::{Checkpoint, Statistics, StepperRun};
+use crate::system::System;
+
+/// A formula that makes one step.
+pub trait Formula<R: Real, S: ?Sized, const N: usize> {
+    /// What a step leaves for the next one and for dense output.
+    type Memory: Copy;
+
+    const EVALUATIONS: u32;
+
+    /// The state one step of size `h` further, `h` of either sign. Counts its work.
+    fn step(
+        &self,
+        system: &S,
+        memory: &mut Self::Memory,
+        from: &Checkpoint<R, N>,
+        h: R,
+        dense: bool,
+        statistics: &mut Statistics,
+    ) -> Result<[R; N], Cause>;
+
+    /// The polynomial over the step of size `h` that led from `from` to `to`.
+    fn dense(
+        &self,
+        system: &S,
+        memory: &mut Self::Memory,
+        from: &Checkpoint<R, N>,
+        to: &Checkpoint<R, N>,
+        h: R,
+        statistics: &mut Statistics,
+    ) -> Dense<R, N>;
+
+    /// The estimated error of the step from `from` to `to`, the one made last and with `dense`: see `Defects`. What it
+    /// evaluates is not counted.
+    fn defect(
+        &self,
+        system: &S,
+        memory: &Self::Memory,
+        from: &Checkpoint<R, N>,
+        to: &Checkpoint<R, N>,
+    ) -> [R; N];
+}
+
+/// A formula whose step is a change that is added to the state.
+pub trait Changes<R: Real, S: ?Sized, const N: usize>: Formula<R, S, N> {
+    /// The step size, and the memory at the beginning of a run.
+    fn begin(&self) -> (R, Self::Memory);
+
+    /// What [`Formula::step`] adds to the state.
+    fn change(
+        &self,
+        system: &S,
+        memory: &mut Self::Memory,
+        from: &Checkpoint<R, N>,
+        h: R,
+        dense: bool,
+        statistics: &mut Statistics,
+    ) -> [R; N];
+}
+
+/// A run with a fixed step, in legs between the times that it has to land on.
+#[derive(Clone, Copy, Debug)]
+pub struct Fixed<'a, F, M, R, const N: usize> {
+    formula: &'a F,
+    memory: M,
+    step: R,
+    reached: Checkpoint<R, N>,
+    before: Checkpoint<R, N>,
+    leg: Option<Leg<R>>,
+}
+
+impl<'a, F, M, R: Real, const N: usize> Fixed<'a, F, M, R, N> {
+    pub(in crate::steppers) fn new(formula: &'a F, memory: M, step: R, start: &Checkpoint<R, N>) -> Self {
+        Self { formula, memory, step, reached: *start, before: *start, leg: None }
+    }
+}
+
+impl<F, R, S, const N: usize> StepperRun<R, S, N> for Fixed<'_, F, F::Memory, R, N>
+where
+    F: Formula<R, S, N>,
+    R: Real,
+    S: System<R, N> + ?Sized,
+{
+    const EVALUATIONS: u32 = F::EVALUATIONS;
+    const JUDGED: bool = true;
+
+    type Polynomial = Dense<R, N>;
+
+    fn checkpoint(&self) -> &Checkpoint<R, N> {
+        &self.reached
+    }
+
+    #[inline]
+    fn is_last(&self, target: R) -> bool {
+        self.leg.is_some_and(|leg| leg.is_last() && leg.target == target)
+    }
+
+    #[inline]
+    fn advance(&mut self, system: &S, target: R, dense: bool) -> Result<(), Cause> {
+        let Checkpoint { time: now, time_rest, .. } = self.reached;
+        let leg = match &mut self.leg {
+            Some(leg) if leg.target == target && leg.index < leg.count => leg,
+            leg => leg.insert(Leg::new(now, target, self.step)?),
+        };
+        let next = leg.end();
+        if next == now {
+            return Err(Cause::StepUnderflow);
+        }
+        let h = (next - now) - time_rest;
+        let mut statistics = self.reached.statistics;
+        let made = self.formula.step(system, &mut self.memory, &self.reached, h, dense, &mut statistics);
+        self.reached.statistics = statistics;
+        let mut state = made?;
+        if !all_finite(&state) {
+            return Err(Cause::NotFinite);
+        }
+        system.restore(next, &mut state).map_err(|_| Cause::Positions)?;
+        if dense {
+            self.before = self.reached;
+        }
+        leg.index += 1;
+        self.reached.statistics.accepted += 1;
+        self.reached.time = next;
+        self.reached.time_rest = R::zero();
+        self.reached.state = state;
+        Ok(())
+    }
+
+    fn defect(&self, system: &S, before: &Checkpoint<R, N>) -> [R; N] {
+        self.formula.defect(system, &self.memory, before, &self.reached)
+    }
+
+    fn dense(&mut self, system: &S) -> Dense<R, N> {
+        let h = self.reached.since(&self.before);
+        let mut statistics = self.reached.statistics;
+        let dense =
+            self.formula.dense(system, &mut self.memory, &self.before, &self.reached, h, &mut statistics);
+        self.reached.statistics = statistics;
+        dense
+    }
+}
+
+/// The slopes that an explicit formula knows: at the beginning of its last step, and where it stands if somebody has
+/// asked for it already.
+#[derive(Clone, Copy, Debug)]
+pub struct Slopes<R, const N: usize> {
+    pub(in crate::steppers) first: [R; N],
+    pub(in crate::steppers) ahead: Option<[R; N]>,
+}
+
+impl<R: Real, const N: usize> Slopes<R, N> {
+    pub(in crate::steppers) fn new() -> Self {
+        Self { first: [R::zero(); N], ahead: None }
+    }
+
+    /// The slope where the next step begins, evaluated unless it is known.
+    #[inline]
+    pub(in crate::steppers) fn begin<S>(
+        &mut self,
+        system: &S,
+        from: &Checkpoint<R, N>,
+        statistics: &mut Statistics,
+    ) -> [R; N]
+    where
+        S: System<R, N> + ?Sized,
+    {
+        self.first = match self.ahead.take() {
+            Some(slope) => slope,
+            None => {
+                statistics.evaluations += 1;
+                system.rhs(from.time, &from.state)
+            }
+        };
+        self.first
+    }
+
+    /// The slope at the end of the last step, which the next one will begin with.
+    pub(in crate::steppers) fn end<S>(
+        &mut self,
+        system: &S,
+        to: &Checkpoint<R, N>,
+        statistics: &mut Statistics,
+    ) -> [R; N]
+    where
+        S: System<R, N> + ?Sized,
+    {
+        let slope = self.ahead.unwrap_or_else(|| {
+            statistics.evaluations += 1;
+            system.rhs(to.time, &to.state)
+        });
+        self.ahead = Some(slope);
+        slope
+    }
+
+    /// The cubic through both ends with their slopes.
+    pub(in crate::steppers) fn hermite<S>(
+        &mut self,
+        system: &S,
+        from: &Checkpoint<R, N>,
+        to: &Checkpoint<R, N>,
+        h: R,
+        statistics: &mut Statistics,
+    ) -> Dense<R, N>
+    where
+        S: System<R, N> + ?Sized,
+    {
+        let end = self.end(system, to, statistics);
+        Dense::hermite(from.time, h, &from.state, &self.first, &to.state, &end)
+    }
+}
+
+/// The steps from one time to another: to `origin + k h` for `k = 1 .. count - 1`, then to the target. These times are rounded,
+/// and a step is as long as their difference.
+#[derive(Clone, Copy, Debug)]
+pub struct Leg<R> {
+    origin: R,
+    target: R,
+    /// The step with its direction.
+    h: R,
+    /// Steps made.
+    index: i64,
+    /// Steps to make.
+    count: i64,
+}
+
+impl<R: Real> Leg<R> {
+    pub(in crate::steppers) fn new(origin: R, target: R, step: R) -> Result<Self, Cause> {
+        /// Beyond this many steps `f64` no longer counts them one by one.
+        const COUNTABLE: f64 = (1_u64 << 53) as f64;
+        /// Roundings by which a span may exceed a whole number of steps without being given a further one: those
+        /// of the span, of the quotient, and of the step as the user divided it.
+        const ROUNDINGS: f64 = 4.0;
+
+        let size = step.to_f64();
+        if !(step.is_finite() && size > 0.0) {
+            return Err(Cause::Setting(Setting::Step));
+        }
+        let span = (target - origin).to_f64();
+        let steps = (span / size).abs();
+        if steps >= COUNTABLE || steps.is_nan() {
+            return Err(Cause::StepUnderflow);
+        }
+        let slack = ROUNDINGS * f64::max(R::epsilon().to_f64(), f64::EPSILON);
+        let count = libm::ceil(steps * (1.0 - slack)).max(1.0) as i64;
+        Ok(Self { origin, target, h: if span < 0.0 { -step } else { step }, index: 0, count })
+    }
+
+    /// Whether the next step is the last.
+    #[inline(always)]
+    pub(in crate::steppers) fn is_last(&self) -> bool {
+        self.index + 1 == self.count
+    }
+
+    /// The end of the next step.
+    #[inline(always)]
+    fn end(&self) -> R {
+        let index = self.index + 1;
+        if index == self.count { self.target } else { self.origin + self.h * R::from_f64(index as f64) }
+    }
+
+    /// The end and the length of the next step, which is made.
+    pub(in crate::steppers) fn next(&mut self, now: R) -> Result<(R, R), Cause> {
+        let next = self.end();
+        self.index += 1;
+        if next == now { Err(Cause::StepUnderflow) } else { Ok((next, next - now)) }
+    }
+}

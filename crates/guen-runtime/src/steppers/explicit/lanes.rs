@@ -1,0 +1,460 @@
+//! Runs with a fixed step in lanes: as many trajectories as there are lanes, each with its own end.
+//!
+//! All lanes share their times, which are those of a run in plain `f64`, and so are the states, to the bit. A lane that
+//! fails is set aside with its error, and the others go on.
+
+use crate::numbers::lanes::{Lanes, Mask};
+use crate::steppers::driver::error::{Cause, IntegrationError, Setting};
+use crate::steppers::driver::run::{IntegrationResult, Outcome, Statistics};
+use crate::steppers::explicit::fixed::Leg;
+use crate::steppers::explicit::rk4::Rk4;
+use crate::steppers::explicit::rk8::Rk8;
+use crate::steppers::guard::Guard;
+use crate::steppers::guard::lanes::{Fault, LaneWatch, MOST, Moment};
+use crate::system::System;
+
+/// A formula that makes steps in lanes, of a method whose settings are those of all lanes.
+pub(in crate::steppers) trait LaneFormula<L: Lanes, S: ?Sized, const N: usize> {
+    /// What a step leaves for the estimate of its error.
+    type Memory;
+
+    /// The same formula for lanes.
+    type Ready;
+
+    /// Evaluations of the right-hand side in a step.
+    const EVALUATIONS: u32;
+
+    /// The formula with its numbers in lanes, the step, and an empty memory.
+    fn ready(&self) -> (Self::Ready, f64, Self::Memory);
+
+    /// The states one step further. With `keep` the memory is written.
+    fn step(
+        ready: &Self::Ready,
+        system: &S,
+        memory: &mut Self::Memory,
+        from: (L, &[L; N]),
+        h: L,
+        keep: bool,
+    ) -> [L; N];
+
+    /// The estimated errors of the step that was made last, and kept.
+    fn defect(
+        ready: &Self::Ready,
+        system: &S,
+        memory: &Self::Memory,
+        before: &Moment<L, N>,
+        now: &Moment<L, N>,
+    ) -> [L; N];
+}
+
+/// How the trajectories in lanes ended.
+#[derive(Clone, Debug, PartialEq)]
+pub struct InLanes<const N: usize> {
+    ends: [Option<Result<IntegrationResult<f64, N>, IntegrationError<f64, N>>>; MOST],
+}
+
+impl<const N: usize> InLanes<N> {
+    /// The end of the trajectory in a lane; none if there is no such lane.
+    pub fn lane(&self, lane: usize) -> Option<&Result<IntegrationResult<f64, N>, IntegrationError<f64, N>>> {
+        self.ends.get(lane)?.as_ref()
+    }
+
+    /// The lanes whose trajectory failed.
+    pub fn failed(&self) -> Mask {
+        let failed = |(lane, end): (usize, &Option<_>)| u32::from(matches!(end, Some(Err(_)))) << lane;
+        Mask::from_bits(self.ends.iter().enumerate().map(failed).sum())
+    }
+}
+
+impl<const N: usize> IntoIterator for InLanes<N> {
+    type Item = Result<IntegrationResult<f64, N>, IntegrationError<f64, N>>;
+    type IntoIter = core::iter::Flatten<core::array::IntoIter<Option<Self::Item>, MOST>>;
+
+    /// The ends, one for each lane.
+    fn into_iter(self) -> Self::IntoIter {
+        self.ends.into_iter().flatten()
+    }
+}
+
+/// A method that integrates in lanes: [`Rk4`] and [`Rk8`], for code that is generic in the method. Each has these functions by
+/// itself too.
+///
+/// ```
+/// use guen_runtime::steppers::{LaneMethod, Rk4, Rk8};
+///
+/// fn steps(method: &impl LaneMethod, span: f64) -> f64 {
+///     span / method.step()
+/// }
+/// assert_eq!((steps(&Rk4 { step: 0.25 }, 1.0), steps(&Rk8::new(0.5), 1.0)), (4.0, 2.0));
+/// ```
+pub trait LaneMethod {
+    /// The step, in units of time.
+    fn step(&self) -> f64;
+
+    /// Integrates the states in the lanes of `x0` from `t0` through the given times: see
+    /// [`Rk4::sample_in_lanes`].
+    fn sample_in_lanes<L, S, V, const N: usize>(
+        &self,
+        system: &S,
+        t0: f64,
+        x0: &[L; N],
+        times: &[f64],
+        visit: V,
+    ) -> InLanes<N>
+    where
+        L: Lanes,
+        S: System<L, N> + ?Sized,
+        V: FnMut(usize, f64, &[L; N], Mask);
+}
+
+/// The ways to run a method in lanes.
+macro_rules! ways_in_lanes {
+    ($(#[$example:meta])* $Method:ident) => {
+        impl $Method<f64> {
+            /// Integrates the states in the lanes of `x0`, all from `t0` through the given times, and calls `visit` with the
+            /// index, the time, the states and the lanes still going at each of them. In each lane the result is that of
+            #[doc = concat!("[`sample`](", stringify!($Method), "::sample)")]
+            /// for that lane alone, to the bit, errors included; lanes no longer going hold NaN.
+            ///
+            /// Call it in a [`LaneTask`](crate::numbers::lanes::LaneTask).
+            pub fn sample_in_lanes<L, S, V, const N: usize>(
+                &self,
+                system: &S,
+                t0: f64,
+                x0: &[L; N],
+                times: &[f64],
+                visit: V,
+            ) -> InLanes<N>
+            where
+                L: Lanes,
+                S: System<L, N> + ?Sized,
+                V: FnMut(usize, f64, &[L; N], Mask),
+            {
+                sample(self, system, t0, x0, times, Guard::default(), visit)
+            }
+
+            /// The same with limits in place of the default ones; in each lane the result is that of an
+            /// [`Integration`](crate::steppers::Integration) with this guard for that lane alone that lands on the same times.
+            ///
+            /// ```
+            /// use guen_runtime::lanes::{LaneTask, Lanes, Width, dispatch};
+            /// use guen_runtime::steppers::{Guard, InLanes, Rk4};
+            /// use guen_runtime::{Real, System};
+            ///
+            /// /// `x' = -50 x`
+            /// struct Decay;
+            /// impl<R: Real> System<R, 1> for Decay {
+            ///     fn rhs(&self, _t: R, &[x]: &[R; 1]) -> [R; 1] {
+            ///         [R::from_ratio(-50, 1) * x]
+            ///     }
+            /// }
+            ///
+            /// struct Run(Guard);
+            /// impl LaneTask for Run {
+            ///     type Output = InLanes<1>;
+            ///     fn run<L: Lanes>(self) -> InLanes<1> {
+            ///         let start = [L::from_fn(|i| 1.0 + i as f64)];
+            ///         Rk4 { step: 0.01 }.guarded_in_lanes(&Decay, (0.0, &start), &[1.0], self.0, |_, _, _, _| ())
+            ///     }
+            /// }
+            ///
+            /// assert!(dispatch(Width::Four, Run(Guard::default())).failed().is_empty());
+            /// let strict = Guard { step: 1e-6, ..Guard::default() };
+            /// assert_eq!(dispatch(Width::Four, Run(strict)).failed().lanes().count(), 4);
+            /// ```
+            pub fn guarded_in_lanes<L, S, V, const N: usize>(
+                &self,
+                system: &S,
+                (t0, x0): (f64, &[L; N]),
+                times: &[f64],
+                guard: Guard,
+                visit: V,
+            ) -> InLanes<N>
+            where
+                L: Lanes,
+                S: System<L, N> + ?Sized,
+                V: FnMut(usize, f64, &[L; N], Mask),
+            {
+                sample(self, system, t0, x0, times, guard, visit)
+            }
+
+            /// Integrates the states in the lanes of `x0` from `t0` to `t1`; in each lane as [`integrate`](Rk4::integrate).
+            ///
+            $(#[$example])*
+            pub fn integrate_in_lanes<L, S, const N: usize>(
+                &self,
+                system: &S,
+                t0: f64,
+                x0: &[L; N],
+                t1: f64,
+            ) -> InLanes<N>
+            where
+                L: Lanes,
+                S: System<L, N> + ?Sized,
+            {
+                sample(self, system, t0, x0, &[t1], Guard::default(), |_, _, _, _| ())
+            }
+        }
+
+        impl LaneMethod for $Method<f64> {
+            fn step(&self) -> f64 {
+                self.step
+            }
+
+            fn sample_in_lanes<L, S, V, const N: usize>(
+                &self,
+                system: &S,
+                t0: f64,
+                x0: &[L; N],
+                times: &[f64],
+                visit: V,
+            ) -> InLanes<N>
+            where
+                L: Lanes,
+                S: System<L, N> + ?Sized,
+                V: FnMut(usize, f64, &[L; N], Mask),
+            {
+                sample(self, system, t0, x0, times, Guard::default(), visit)
+            }
+        }
+    };
+}
+
+ways_in_lanes! {
+    /// ```
+    /// use guen_runtime::lanes::{LaneTask, Lanes, Width, dispatch};
+    /// use guen_runtime::steppers::{InLanes, Rk4};
+    /// use guen_runtime::{Real, System};
+    ///
+    /// /// `x' = 1 / x`: it fails where it starts at zero.
+    /// struct Root;
+    /// impl<R: Real> System<R, 1> for Root {
+    ///     fn rhs(&self, _t: R, &[x]: &[R; 1]) -> [R; 1] {
+    ///         [x.recip()]
+    ///     }
+    /// }
+    ///
+    /// struct Roots;
+    /// impl LaneTask for Roots {
+    ///     type Output = InLanes<1>;
+    ///     fn run<L: Lanes>(self) -> InLanes<1> {
+    ///         Rk4 { step: 0.01 }.integrate_in_lanes(&Root, 0.0, &[L::from_fn(|i| i as f64)], 1.5)
+    ///     }
+    /// }
+    ///
+    /// let ends = dispatch(Width::Four, Roots);
+    /// assert_eq!(ends.failed().lanes().collect::<Vec<_>>(), [0]);
+    /// // x^2 = x0^2 + 2 t
+    /// let one = ends.lane(1).unwrap().unwrap();
+    /// assert!((one.state[0] - 2.0).abs() < 1e-8);
+    /// ```
+    Rk4
+}
+ways_in_lanes! {
+    /// ```
+    /// use guen_runtime::lanes::{LaneTask, Lanes, Width, dispatch};
+    /// use guen_runtime::steppers::{InLanes, Rk8};
+    /// use guen_runtime::{Real, System};
+    ///
+    /// /// `x' = 1 / x`: it fails where it starts at zero.
+    /// struct Root;
+    /// impl<R: Real> System<R, 1> for Root {
+    ///     fn rhs(&self, _t: R, &[x]: &[R; 1]) -> [R; 1] {
+    ///         [x.recip()]
+    ///     }
+    /// }
+    ///
+    /// struct Roots;
+    /// impl LaneTask for Roots {
+    ///     type Output = InLanes<1>;
+    ///     fn run<L: Lanes>(self) -> InLanes<1> {
+    ///         Rk8::new(0.01).integrate_in_lanes(&Root, 0.0, &[L::from_fn(|i| i as f64)], 1.5)
+    ///     }
+    /// }
+    ///
+    /// let ends = dispatch(Width::Four, Roots);
+    /// assert_eq!(ends.failed().lanes().collect::<Vec<_>>(), [0]);
+    /// // x^2 = x0^2 + 2 t
+    /// let one = ends.lane(1).unwrap().unwrap();
+    /// assert!((one.state[0] - 2.0).abs() < 1e-12);
+    /// ```
+    Rk8
+}
+
+fn sample<M, L, S, V, const N: usize>(
+    method: &M,
+    system: &S,
+    t0: f64,
+    x0: &[L; N],
+    times: &[f64],
+    guard: Guard,
+    mut visit: V,
+) -> InLanes<N>
+where
+    M: LaneFormula<L, S, N>,
+    L: Lanes,
+    S: System<L, N> + ?Sized,
+    V: FnMut(usize, f64, &[L; N], Mask),
+{
+    const { assert!(L::COUNT <= MOST, "there is no room for the ends of so many lanes") };
+    let start = Moment { time: t0, state: *x0 };
+    let invalid = (!guard.is_valid()).then_some(Cause::Setting(Setting::Guard));
+    let (formula, step, memory) = method.ready();
+    let price = (system.check_cost(), system.singularity_check_cost());
+    let mut run: Run<'_, M, L, S, N> = Run {
+        system,
+        formula,
+        memory,
+        now: start,
+        before: start,
+        kept: false,
+        statistics: Statistics::default(),
+        going: Mask::all(L::COUNT),
+        ends: InLanes { ends: [const { None }; MOST] },
+        watch: LaneWatch::new(guard, M::EVALUATIONS, price, &start),
+    };
+    for (index, &time) in times.iter().enumerate() {
+        let none = (!t0.is_finite() || !time.is_finite()).then_some(Cause::Setting(Setting::Time));
+        if let Some(cause) = invalid.or(none) {
+            for lane in run.going.lanes() {
+                run.fail(lane, Fault::new(lane, cause, &run.now));
+            }
+        }
+        let outcome = L::vectorize(
+            #[inline(always)]
+            || run.go(time, step, index + 1 == times.len()),
+        );
+        if let Err(cause) = outcome {
+            run.stop(run.going, cause);
+        }
+        if run.going.is_empty() {
+            break;
+        }
+        visit(index, time, &run.now.state, run.going);
+    }
+    run.finish()
+}
+
+/// A run of all lanes.
+struct Run<'a, M: LaneFormula<L, S, N>, L: Lanes, S: ?Sized, const N: usize> {
+    system: &'a S,
+    formula: M::Ready,
+    memory: M::Memory,
+    now: Moment<L, N>,
+    /// Where the last step began, if it was `kept`.
+    before: Moment<L, N>,
+    kept: bool,
+    /// The work of each lane still going.
+    statistics: Statistics,
+    going: Mask,
+    ends: InLanes<N>,
+    watch: LaneWatch<L, N>,
+}
+
+impl<M, L, S, const N: usize> Run<'_, M, L, S, N>
+where
+    M: LaneFormula<L, S, N>,
+    L: Lanes,
+    S: System<L, N> + ?Sized,
+{
+    /// Goes to `target`, or until no lane is going.
+    #[inline(always)]
+    fn go(&mut self, target: f64, size: f64, last: bool) -> Result<(), Cause> {
+        if self.now.time == target || self.going.is_empty() {
+            return Ok(());
+        }
+        let mut leg = Leg::new(self.now.time, target, size)?;
+        while self.now.time != target && !self.going.is_empty() {
+            self.kept = last && leg.is_last() || self.watch.wants_before();
+            if self.kept {
+                self.before = self.now;
+            }
+            let (next, h) = leg.next(self.now.time)?;
+            let from = (L::from_f64(self.now.time), &self.now.state);
+            let mut state =
+                M::step(&self.formula, self.system, &mut self.memory, from, L::from_f64(h), self.kept);
+            self.statistics.evaluations += u64::from(M::EVALUATIONS);
+            let mut finite = self.going;
+            for entry in &state {
+                finite = finite & entry.finite();
+            }
+            let failed = self.going - finite;
+            if !failed.is_empty() {
+                self.stop(failed, Cause::NotFinite);
+                bury(&mut state, self.going);
+            }
+            self.system.restore(L::from_f64(next), &mut state).map_err(|_| Cause::Positions)?;
+            self.statistics.accepted += 1;
+            self.now = Moment { time: next, state };
+            if self.watch.counts() {
+                self.look();
+            }
+        }
+        Ok(())
+    }
+
+    #[inline(never)]
+    fn look(&mut self) {
+        let Self { system, formula, memory, now, before, going, watch, .. } = self;
+        let defects = || M::defect(formula, *system, memory, before, now);
+        watch.look(*system, before, now, defects, *going);
+        if !watch.faults.lanes.is_empty() {
+            self.set_aside();
+            bury(&mut self.now.state, self.going);
+        }
+    }
+
+    /// The ends of all lanes, once the last look has found them in order.
+    fn finish(mut self) -> InLanes<N> {
+        if !self.going.is_empty() {
+            let Self { system, formula, memory, now, before, kept, going, watch, .. } = &mut self;
+            let defects = || M::defect(formula, *system, memory, before, now);
+            watch.finish(*system, kept.then_some(&*before), now, defects, *going);
+            self.set_aside();
+        }
+        for lane in self.going.lanes() {
+            let done = IntegrationResult {
+                time: self.now.time,
+                state: self.now.alone(lane),
+                outcome: Outcome::Arrived,
+                statistics: self.statistics,
+            };
+            self.ends.ends[lane] = Some(Ok(done));
+        }
+        self.ends
+    }
+
+    /// Ends lanes that cannot go on from the last state that they accepted.
+    #[cold]
+    #[inline(never)]
+    fn stop(&mut self, stopped: Mask, cause: Cause) {
+        self.watch.stopped(self.system, &self.now, stopped, cause);
+        self.set_aside();
+    }
+
+    /// Ends the lanes in which the guard has found a fault.
+    #[cold]
+    fn set_aside(&mut self) {
+        for lane in self.watch.faults.lanes.lanes() {
+            if let Some(fault) = self.watch.faults.of[lane] {
+                self.fail(lane, fault);
+            }
+        }
+    }
+
+    fn fail(&mut self, lane: usize, Fault { cause, time, state }: Fault<N>) {
+        let error = IntegrationError { time, state, cause, statistics: self.statistics };
+        self.ends.ends[lane] = Some(Err(error));
+        self.going = self.going - Mask::from_bits(0).with(lane);
+    }
+}
+
+/// Makes NaN of lanes that are no longer going: of infinity and large numbers sine and cosine would take a longer path in every
+/// further step.
+#[cold]
+fn bury<L: Lanes, const N: usize>(state: &mut [L; N], going: Mask) {
+    for entry in state {
+        let all = *entry;
+        *entry = L::from_fn(|i| if going.contains(i) { all.lane(i) } else { f64::NAN });
+    }
+}

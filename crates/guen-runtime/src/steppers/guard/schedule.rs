@@ -1,0 +1,149 @@
+//! How often a guard looks: by what looks cost, so that they cost less than three hundredths of a run.
+
+/// A look is taken after at least so many right-hand sides,
+const EVALUATIONS_BETWEEN_LOOKS: u32 = 160;
+/// and after so many times what it costs: at 2.5 percent, the rest up to three is for what a step does for the guard.
+const COSTS_BETWEEN_LOOKS: f64 = 40.0;
+/// Looks at the edges alone may take a fiftieth,
+const COSTS_BETWEEN_EDGES: f64 = 50.0;
+/// and a hundred-and-sixtieth where steps are not fixed, as much as further looks on the way to an edge take there,
+const COSTS_BETWEEN_FREE_EDGES: f64 = 160.0;
+/// and both together so little.
+const COSTS_TOGETHER: f64 = 34.0;
+/// What is done further at a look at a fixed step, in right-hand sides: an estimate of its error, which takes three and sums over
+/// the state. At least so many, and at most, beside right-hand sides that are cheap for a state so long.
+const COST_OF_A_DEFECT: [f64; 2] = [4.0, 10.0];
+
+/// Steps from one look to the next.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::steppers) struct Schedule {
+    /// Steps after which the sizes of entries are known.
+    pub young: u32,
+    /// From one look at the edges alone to the next, at most; never where somebody has chosen how often to look.
+    pub edges: u32,
+    /// From one look at everything to the next.
+    pub every: u32,
+}
+
+impl Schedule {
+    /// Of a method that evaluates so often in a step, `fixed` if of a fixed length, and a system with these prices of looks:
+    /// [`check_cost`](crate::System::check_cost) and [`singularity_check_cost`](crate::System::singularity_check_cost). `chosen` is how often
+    /// somebody wants to look.
+    pub fn new(evaluations: u32, (look, edges): (u32, f64), fixed: bool, chosen: Option<u32>) -> Self {
+        let evaluations = evaluations.max(1);
+        let in_steps = |right_hand_sides: f64| (right_hand_sides / f64::from(evaluations)) as u32;
+        let young = (EVALUATIONS_BETWEEN_LOOKS / evaluations).max(1);
+        if let Some(chosen) = chosen {
+            return Self { young, edges: u32::MAX, every: chosen.max(1) };
+        }
+        if !fixed {
+            // Steps as long as the tolerance allows may lead through an edge and back in a few: each is looked at, if that is
+            // cheap enough.
+            let between = if edges > 0.0 { in_steps(COSTS_BETWEEN_FREE_EDGES * edges).max(1) } else { young };
+            let every = young.max(in_steps(COSTS_BETWEEN_LOOKS * f64::from(look)));
+            return Self { young, edges: between, every };
+        }
+        // Before the step and after it; NaN is no price.
+        let both = (2.0 * edges).max(0.0);
+        let between = young.max(in_steps(COSTS_BETWEEN_EDGES * both));
+        let spent = both / (f64::from(between) * f64::from(evaluations));
+        // What edges leave; of an infinite price a fiftieth is spent.
+        let left = (1.0 / COSTS_TOGETHER - spent).max(1.0 / COSTS_TOGETHER - 1.0 / COSTS_BETWEEN_EDGES);
+        let [least, most] = COST_OF_A_DEFECT.map(|estimate| f64::from(look) + estimate);
+        let every = f64::max(COSTS_BETWEEN_LOOKS * most, least / left);
+        let every = young.max(in_steps(every));
+        // At a look at everything edges are looked at anyway.
+        let every =
+            if both > 0.0 { every.checked_next_multiple_of(between).unwrap_or(u32::MAX) } else { every };
+        Self { young, edges: between, every }
+    }
+
+    /// In how many steps to look at the edges again, so many steps after everything was looked at, if that should be within
+    /// `soonest` steps: after a number of steps since then that is a multiple of `edges`, or of its half, or of the half of that. So
+    /// runs in lanes look at the same steps, wherever each of them is.
+    pub fn next(edges: u32, soonest: u32, since: u32) -> u32 {
+        let mut apart = edges.min(1 << 31);
+        while apart > soonest {
+            apart /= 2;
+        }
+        let apart = apart.max(1);
+        apart - since % apart
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Schedule;
+
+    #[test]
+    fn looks_take_less_than_three_hundredths_of_a_run() {
+        for evaluations in [1, 4, 12, 40] {
+            for look in [1, 5, 20, 300] {
+                for edges in [0.0, 0.1, 1.0, 2.5, 40.0] {
+                    let of = f64::from(evaluations);
+                    let Schedule { edges: between, every, young } =
+                        Schedule::new(evaluations, (look, edges), true, None);
+                    let (between, every) = (f64::from(between) * of, f64::from(every) * of);
+                    // RunningError down to whole steps, in the worst case a part of thirteen.
+                    let most = 1.08 / 34.0;
+                    let price = f64::from(look) + 4.0;
+                    assert!(price / every + 2.0 * edges / between < most, "{every} {between}");
+                    assert!((price + 6.0) / every < 1.08 / 40.0 && 2.0 * edges / between < 1.08 / 50.0);
+                    // Both meet.
+                    assert!(edges == 0.0 || every % between == 0.0, "{every} {between}");
+                    // Nothing is looked at more rarely than it has to be.
+                    assert!(between == f64::from(young) * of || 2.0 * edges / between > 1.0 / 51.0);
+                    let meeting = if edges > 0.0 { between } else { 0.0 };
+                    let alone = every - meeting;
+                    assert!(
+                        (price + 6.0) / alone > 0.9 / 40.0
+                            || price / alone + 2.0 * edges / between > 0.9 / 34.0
+                            || alone <= f64::from(young) * of
+                    );
+                    let free = Schedule::new(evaluations, (look, edges), false, None);
+                    assert!(f64::from(free.every) * of <= every);
+                    assert!(
+                        free.edges == 1 || edges / (f64::from(free.edges) * of) < 1.4 / 160.0 || edges == 0.0
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn edges_are_looked_at_in_time_and_together() {
+        for edges in [1, 13, 40, 200, u32::MAX] {
+            for soonest in [1, 2, 3, 7, 20, 39, 40, 1000, u32::MAX] {
+                for since in [0, 1, 5, 20, 39, 40, 123] {
+                    let next = Schedule::next(edges, soonest, since);
+                    assert!((1..=soonest.min(edges)).contains(&next), "{edges} {soonest} {since}: {next}");
+                    // Wherever a run is, it comes to the same steps.
+                    let apart = Schedule::next(edges, soonest, 0);
+                    assert!((since + next).is_multiple_of(apart), "{edges} {soonest} {since}: {next}");
+                }
+            }
+        }
+        // One that is near to an edge, one that is nearer and one that is far look at multiples of 10, 20 and 40 steps.
+        for (soonest, apart) in [(19, 10), (20, 20), (55, 40)] {
+            let mut since = 0;
+            while since < 120 {
+                since += Schedule::next(40, soonest, since);
+                assert_eq!(since % apart, 0);
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_chosen_is_done_and_no_price_breaks_it() {
+        let chosen = Schedule::new(4, (7, 2.0), true, Some(0));
+        assert_eq!(chosen, Schedule { young: 40, edges: u32::MAX, every: 1 });
+        // RK4 with a look of two right-hand sides: every 40 times twelve of them, edges every 160.
+        let usual = Schedule::new(4, (2, 0.0), true, None);
+        assert_eq!(usual, Schedule { young: 40, edges: 40, every: 120 });
+        for price in [f64::NAN, -1.0] {
+            assert_eq!(Schedule::new(4, (2, price), true, None), usual);
+        }
+        let dear = Schedule::new(0, (u32::MAX, f64::INFINITY), true, None);
+        assert_eq!((dear.edges, dear.every), (u32::MAX, u32::MAX));
+    }
+}

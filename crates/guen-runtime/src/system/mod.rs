@@ -1,0 +1,264 @@
+//! What a stepper integrates: a right-hand side over `N` reals, and what it may be asked to keep.
+
+pub(crate) mod auxiliary_states;
+pub(crate) mod bodies;
+pub(crate) mod bracket;
+pub(crate) mod classification;
+pub(crate) mod constants_error;
+pub(crate) mod differentiable;
+pub(crate) mod invariants;
+pub(crate) mod level;
+pub(crate) mod linearization;
+pub(crate) mod operator;
+pub(crate) mod positions;
+pub(crate) mod recast;
+pub(crate) mod series;
+
+use crate::numbers::lanes::Lanes;
+use crate::numbers::real::Real;
+use crate::numbers::running_error::RunningError;
+use crate::system::invariants::Invariants;
+use crate::system::positions::PositionsError;
+
+/// A system of `N` ordinary differential equations of first order over the real `R`.
+///
+/// ```text
+/// dx/dt = rhs(t, x)
+/// ```
+///
+/// - `t`: time; `x`: the state, for a generated system its coordinates and then its parameters (the
+///   quasi-velocities), in the order of their declaration.
+/// - The result holds the rates, in the same order.
+/// - Outside the domain of its chart the right-hand side is NaN or infinite. It does not panic; steppers test.
+/// - Inputs are constant during a step: an implementation for a driven system holds them.
+///
+/// A closure becomes a system with [`from_fn`], and a reference to a system is one.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no system of {N} equations over `{R}`",
+    note = "a prepared system is one over the real it was prepared in; a closure becomes one with `from_fn`"
+)]
+pub trait System<R: Real, const N: usize> {
+    /// The rate of change of the state at time `t`.
+    fn rhs(&self, t: R, state: &[R; N]) -> [R; N];
+
+    /// Puts the state at the end of a step back to where it belongs; steppers call it for every step that they
+    /// accept. Does nothing, unless the system is [`projected`](crate::projected).
+    ///
+    /// # Errors
+    ///
+    /// Whatever keeps the state from being put back; the state is unchanged then, and the integration ends.
+    #[inline]
+    fn restore(&self, _t: R, _state: &mut [R; N]) -> Result<(), PositionsError> {
+        Ok(())
+    }
+
+    /// Quantities that the exact motion keeps, for the [`Guard`](crate::steppers::Guard) of a stepper to look at now
+    /// and then. None, unless a system says more; generated systems do.
+    #[inline]
+    fn conserved(&self, _t: R, _state: &[R; N]) -> Invariants<R> {
+        Invariants::default()
+    }
+
+    /// Writes functions that must not vanish, since the system's chart or its equations end there, to the head of
+    /// `values`, and returns how many: none, unless a system says more. What does not fit is left out. Their distance
+    /// from vanishing is what is [`left`](RunningError::left) of them, given how uncertain time and state are. A guard
+    /// refuses to go on where one of them changes its sign or is closer than its limit, and calls this inside of
+    /// [`Real::vectorize`], which costs less than to do so here.
+    #[inline]
+    fn singularities(
+        &self,
+        _t: RunningError<R>,
+        _state: &[RunningError<R>; N],
+        _values: &mut [RunningError<R>],
+    ) -> usize {
+        0
+    }
+
+    /// How ill conditioned the equations for the accelerations are: one where they are not coupled, infinite where they
+    /// cannot be solved, whatever the units. Rounding errors of the accelerations are up to so many roundings.
+    ///
+    /// ```text
+    /// max_s M_ss (M^-1)_ss
+    /// ```
+    ///
+    /// with the mass matrix `M`: how much less inertia a parameter has while the others are free to move than while
+    /// they are held. The condition of `M`, scaled to a diagonal of ones, is at least this and at most `l^2` times
+    /// this, with `l` parameters. Of lanes that of each. One, unless a system says more; generated systems do.
+    #[inline]
+    fn condition(&self, _t: R, _state: &[R; N]) -> R {
+        R::one()
+    }
+
+    /// What [`conserved`](System::conserved), [`singularities`](System::singularities) and [`condition`](System::condition) of one state cost
+    /// together, in evaluations of the right-hand side: the dearer they are, the seldomer a guard asks for them. Two, unless
+    /// a system says more; generated systems count their operations.
+    #[inline]
+    fn check_cost(&self) -> u32 {
+        2
+    }
+
+    /// What [`singularities`](System::singularities) of one state cost, in evaluations of the right-hand side, with what a guard makes of them:
+    /// next to fixed steps it asks for them more often than for the rest. Nothing, unless a system says more; generated systems
+    /// count their operations.
+    #[inline]
+    fn singularity_check_cost(&self) -> f64 {
+        0.0
+    }
+}
+
+impl<R: Real, S: System<R, N> + ?Sized, const N: usize> System<R, N> for &S {
+    #[inline]
+    fn rhs(&self, t: R, state: &[R; N]) -> [R; N] {
+        (**self).rhs(t, state)
+    }
+
+    #[inline]
+    fn restore(&self, t: R, state: &mut [R; N]) -> Result<(), PositionsError> {
+        (**self).restore(t, state)
+    }
+
+    #[inline]
+    fn conserved(&self, t: R, state: &[R; N]) -> Invariants<R> {
+        (**self).conserved(t, state)
+    }
+
+    #[inline]
+    fn singularities(
+        &self,
+        t: RunningError<R>,
+        state: &[RunningError<R>; N],
+        values: &mut [RunningError<R>],
+    ) -> usize {
+        (**self).singularities(t, state, values)
+    }
+
+    #[inline]
+    fn condition(&self, t: R, state: &[R; N]) -> R {
+        (**self).condition(t, state)
+    }
+
+    #[inline]
+    fn check_cost(&self) -> u32 {
+        (**self).check_cost()
+    }
+
+    #[inline]
+    fn singularity_check_cost(&self) -> f64 {
+        (**self).singularity_check_cost()
+    }
+}
+
+/// A system over `f64` of which several, with constants of their own, can be put into lanes.
+///
+/// Generated systems are; so is one written by hand that is generic in its real:
+///
+/// ```
+/// use guen_runtime::lanes::Lanes;
+/// use guen_runtime::{Laned, Real, System};
+///
+/// struct Decay<R>(R);
+///
+/// impl<R: Real> System<R, 1> for Decay<R> {
+///     #[inline]
+///     fn rhs(&self, _t: R, &[x]: &[R; 1]) -> [R; 1] {
+///         R::vectorize(#[inline(always)] || [-self.0 * x])
+///     }
+/// }
+///
+/// impl Laned<1> for Decay<f64> {
+///     type In<L: Lanes> = Decay<L>;
+///
+///     fn gather<'a, L: Lanes>(member: impl Fn(usize) -> &'a Self) -> Decay<L> {
+///         Decay(L::from_fn(|lane| member(lane).0))
+///     }
+/// }
+/// # fn is_laned<S: Laned<1>>(_: S) {}
+/// # is_laned(Decay(0.5));
+/// ```
+pub trait Laned<const N: usize>: System<f64, N> {
+    /// The system over lanes.
+    type In<L: Lanes>: System<L, N>;
+
+    /// The systems `member(0) .. member(L::COUNT - 1)` side by side.
+    fn gather<'a, L: Lanes>(member: impl Fn(usize) -> &'a Self) -> Self::In<L>
+    where
+        Self: 'a;
+}
+
+impl<S: Laned<N>, const N: usize> Laned<N> for &S {
+    type In<L: Lanes> = S::In<L>;
+
+    fn gather<'a, L: Lanes>(member: impl Fn(usize) -> &'a Self) -> S::In<L>
+    where
+        Self: 'a,
+    {
+        S::gather(|lane| *member(lane))
+    }
+}
+
+/// A system with quantities that its exact solutions keep, for a monitor to watch.
+///
+/// The quantities are computed from the state alone, by other expressions than the right-hand side, so a change
+/// in them measures what the integration got wrong.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no energy to watch",
+    note = "a scene has one if it says `provide energy;`"
+)]
+pub trait Monitored<R: Real, const N: usize>: System<R, N> {
+    /// The energy integral at time `t`, in the units of the declared energies; a system that is
+    /// [`Conservative`](crate::Conservative) keeps it.
+    ///
+    /// ```text
+    /// h = sum_i x_i' dT/dx_i' - T - U
+    /// ```
+    ///
+    /// With `T` homogeneous of degree two in the velocities this is `T - U`, kinetic plus potential energy.
+    fn energy(&self, t: R, state: &[R; N]) -> R;
+
+    /// The largest absolute value among the left sides `f(t, x)` of the holonomic constraints `f = 0`, each in
+    /// its own unit; zero for a system without any.
+    fn residual(&self, t: R, state: &[R; N]) -> R;
+}
+
+impl<R: Real, S: Monitored<R, N> + ?Sized, const N: usize> Monitored<R, N> for &S {
+    #[inline]
+    fn energy(&self, t: R, state: &[R; N]) -> R {
+        (**self).energy(t, state)
+    }
+
+    #[inline]
+    fn residual(&self, t: R, state: &[R; N]) -> R {
+        (**self).residual(t, state)
+    }
+}
+
+/// A system made of a closure: see [`from_fn`].
+#[derive(Clone, Copy, Debug)]
+pub struct FromFn<F>(F);
+
+/// Turns a closure `(t, state) -> rates` into a [`System`].
+///
+/// ```
+/// use guen_runtime::{System, from_fn};
+///
+/// let oscillator = from_fn(|_t: f64, &[x, v]: &[f64; 2]| [v, -x]);
+/// assert_eq!(oscillator.rhs(0.0, &[1.0, 2.0]), [2.0, -1.0]);
+/// ```
+pub fn from_fn<R, F, const N: usize>(rhs: F) -> FromFn<F>
+where
+    R: Real,
+    F: Fn(R, &[R; N]) -> [R; N],
+{
+    FromFn(rhs)
+}
+
+impl<R, F, const N: usize> System<R, N> for FromFn<F>
+where
+    R: Real,
+    F: Fn(R, &[R; N]) -> [R; N],
+{
+    #[inline]
+    fn rhs(&self, t: R, state: &[R; N]) -> [R; N] {
+        (self.0)(t, state)
+    }
+}

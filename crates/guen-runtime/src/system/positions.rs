@@ -1,0 +1,448 @@
+//! Constraints on positions at run time: coordinates that fulfil them, and keeping them fulfilled on the way.
+//!
+//! The equations of motion know `f(t, x) = 0` by its rate alone, so rounding and the error of the method let `f`
+//! drift away from zero. What is here puts the coordinates back and leaves the parameters as they are: velocities
+//! `x' = xi_0 + sum_s eta_s xi_s` keep the rate of `f` zero wherever the coordinates are.
+
+use core::error::Error;
+use core::fmt;
+
+use crate::numbers::real::{Ordered, Real};
+use crate::numbers::running_error::RunningError;
+use crate::system::differentiable::Differentiable;
+use crate::system::invariants::Invariants;
+use crate::system::series::{Coefficients, TaylorSeries};
+use crate::system::{Monitored, System};
+
+/// A system with constraints on positions `f(t, x) = 0`: `H` of them, on `N` coordinates.
+pub trait Positions<R: Real, const N: usize, const H: usize> {
+    /// The left sides `f_1 .. f_H`, each in its own unit.
+    fn gaps(&self, t: R, coordinates: &[R; N]) -> [R; H];
+
+    /// The left sides, and beside them the derivatives `F_vi = d f_v / d x_i`, exact, a row for each constraint.
+    fn linearized(&self, t: R, coordinates: &[R; N]) -> ([R; H], [[R; N]; H]);
+
+    /// How far the coordinates are from further equations that follow from these wherever all hold, as a length: the largest left
+    /// side over the length of its gradient. They are not solved: their gradients depend on those of the others. Zero where there
+    /// are none.
+    fn surplus(&self, _t: R, _coordinates: &[R; N]) -> f64 {
+        0.0
+    }
+}
+
+impl<R: Real, S: Positions<R, N, H> + ?Sized, const N: usize, const H: usize> Positions<R, N, H> for &S {
+    #[inline]
+    fn gaps(&self, t: R, coordinates: &[R; N]) -> [R; H] {
+        (**self).gaps(t, coordinates)
+    }
+
+    #[inline]
+    fn linearized(&self, t: R, coordinates: &[R; N]) -> ([R; H], [[R; N]; H]) {
+        (**self).linearized(t, coordinates)
+    }
+
+    #[inline]
+    fn surplus(&self, t: R, coordinates: &[R; N]) -> f64 {
+        (**self).surplus(t, coordinates)
+    }
+}
+
+/// The largest of left sides over the lengths of their gradients; NaN and infinity count as infinite.
+#[doc(hidden)]
+pub fn furthest_surplus<R: Real, const N: usize>(equations: impl Iterator<Item = (R, [R; N])>) -> f64 {
+    let lengths = equations.map(|(gap, gradient)| match gap.to_f64().abs() {
+        0.0 => 0.0,
+        gap => gap / size(&gradient),
+    });
+    lengths.fold(0.0, |most, length| if length.is_nan() { f64::INFINITY } else { most.max(length) })
+}
+
+/// Why no coordinates were found that fulfil the constraints.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum PositionsError {
+    /// A name among the given ones is no coordinate of the system.
+    UnknownCoordinate {
+        /// The name.
+        name: &'static str,
+    },
+    /// So many coordinates are given that the others cannot fulfil all constraints.
+    TooManyGiven {
+        /// Coordinates that are not given.
+        left: usize,
+        /// Constraints that they have to fulfil.
+        constraints: usize,
+    },
+    /// The gradients of the constraints, by the coordinates that are not given, are dependent where the search
+    /// arrived: at a limit of the mechanism's reach, or at a position where it branches.
+    Singular {
+        /// The largest left side there.
+        residual: f64,
+    },
+    /// The search ended where no step makes the left sides smaller: there is no solution near the guess.
+    NotFound {
+        /// The largest left side there.
+        residual: f64,
+    },
+    /// A left side or a gradient is infinite or NaN.
+    NotFinite,
+}
+
+impl fmt::Display for PositionsError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::UnknownCoordinate { name } => write!(f, "`{name}` is not a coordinate of this system"),
+            Self::TooManyGiven { left, constraints } => {
+                write!(f, "{left} coordinates are left to fulfil {constraints} constraints on positions")
+            }
+            Self::Singular { residual } => {
+                write!(
+                    f,
+                    "the constraints on positions become dependent, {residual:e} away from being fulfilled"
+                )
+            }
+            Self::NotFound { residual } => {
+                write!(f, "no coordinates near the guess fulfil the constraints; {residual:e} is left")
+            }
+            Self::NotFinite => f.write_str("a constraint on positions is not finite"),
+        }
+    }
+}
+
+impl Error for PositionsError {}
+
+/// Coordinates that fulfil the constraints on positions, near a guess and with some of them as they are in it.
+///
+/// ```text
+/// dx = -F^T (F F^T)^-1 f,    F by the coordinates that are not given
+/// ```
+///
+/// - Newton's method, each step the shortest that fulfils the linearised constraints; steps are halved as long as
+///   the next one would not be shorter. Where fewer coordinates are given than there are degrees of freedom, the
+///   result is a point of the constraint set near the guess.
+/// - `names` are those of the coordinates, `given` some of them.
+/// - The lengths of steps add the squares of coordinates in their units.
+///
+/// # Errors
+///
+/// See [`PositionsError`]. The guess decides between the assemblies of a mechanism, and whether one is found.
+pub fn consistent<R, S, const N: usize, const H: usize>(
+    system: &S,
+    t: R,
+    guess: &[R; N],
+    names: &[&str; N],
+    given: &[&'static str],
+) -> Result<[R; N], PositionsError>
+where
+    R: Ordered,
+    S: Positions<R, N, H> + ?Sized,
+{
+    let mut free = [true; N];
+    for name in given {
+        let Some(i) = names.iter().position(|known| known == name) else {
+            return Err(PositionsError::UnknownCoordinate { name });
+        };
+        free[i] = false;
+    }
+    let left = free.iter().filter(|free| **free).count();
+    if left < H {
+        return Err(PositionsError::TooManyGiven { left, constraints: H });
+    }
+    let mut x = *guess;
+    search(system, t, &mut x, &free)?;
+    Ok(x)
+}
+
+/// Moves the coordinates at the head of a state onto the constraints, the shortest way, and leaves the parameters.
+/// Returns how far, the length of the correction in the units of the coordinates.
+///
+/// ```text
+/// dx = -F^T (F F^T)^-1 f
+/// ```
+///
+/// One evaluation of `f` and `F` and the solution of `H` equations where the state is off by what a step leaves;
+/// more only where that was much. No allocation.
+///
+/// ```
+/// use guen_runtime::{Positions, project};
+///
+/// /// A point on the unit circle.
+/// struct Circle;
+///
+/// impl Positions<f64, 2, 1> for Circle {
+///     fn gaps(&self, _t: f64, [x, y]: &[f64; 2]) -> [f64; 1] {
+///         [x * x + y * y - 1.0]
+///     }
+///     fn linearized(&self, t: f64, x: &[f64; 2]) -> ([f64; 1], [[f64; 2]; 1]) {
+///         (self.gaps(t, x), [x.map(|x| 2.0 * x)])
+///     }
+/// }
+///
+/// // Two coordinates and a velocity, which stays.
+/// let mut state = [0.9, 1.2, 5.0];
+/// assert!((project(&Circle, 0.0, &mut state).unwrap() - 0.5).abs() < 1e-14);
+/// assert!((state[0] - 0.6).abs() < 1e-14 && (state[1] - 0.8).abs() < 1e-14 && state[2] == 5.0);
+/// // In the middle of the circle no way is the shortest.
+/// assert!(project(&Circle, 0.0, &mut [0.0, 0.0, 5.0]).is_err());
+/// ```
+///
+/// # Errors
+///
+/// [`PositionsError`]; the state is unchanged then.
+pub fn project<R, S, const N: usize, const H: usize, const M: usize>(
+    system: &S,
+    t: R,
+    state: &mut [R; M],
+) -> Result<f64, PositionsError>
+where
+    R: Ordered,
+    S: Positions<R, N, H> + ?Sized,
+{
+    const { assert!(N <= M, "a state begins with its coordinates") }
+    let mut x: [R; N] = core::array::from_fn(|i| state[i]);
+    let moved = search(system, t, &mut x, &[true; N])?;
+    state[..N].copy_from_slice(&x);
+    Ok(moved)
+}
+
+/// Newton's method on the coordinates that are free; the distance to where it began.
+fn search<R, S, const N: usize, const H: usize>(
+    system: &S,
+    t: R,
+    x: &mut [R; N],
+    free: &[bool; N],
+) -> Result<f64, PositionsError>
+where
+    R: Ordered,
+    S: Positions<R, N, H> + ?Sized,
+{
+    /// Far more than a search takes that comes near a solution at all.
+    const STEPS: usize = 60;
+    /// The shortest part of a step that is tried.
+    const SHORTEST: f64 = 1e-4;
+
+    let begin = *x;
+    let precision = libm::sqrt(R::epsilon().to_f64());
+    let mut extent = x.iter().fold(0.0_f64, |most, x| most.max(x.to_f64().abs()));
+    for round in 0..STEPS {
+        let (f, gradients) = system.linearized(t, x);
+        if f.iter().all(|f| f.to_f64() == 0.0) {
+            return ended(system, t, x, &begin, precision * extent);
+        }
+        let factor = Factor::new(gradients, free, &f)?;
+        let step = factor.step(&f);
+        let length = size(&step);
+        if !length.is_finite() {
+            return Err(PositionsError::NotFinite);
+        }
+        if round == 0 {
+            extent = extent.max(length);
+        }
+        // What is left after a step is of the order of its square: this one is the last.
+        if length <= precision * extent {
+            *x = moved(x, &step, 1.0);
+            return ended(system, t, x, &begin, precision * extent);
+        }
+        let mut part = 1.0;
+        loop {
+            let trial = moved(x, &step, part);
+            let gaps = system.gaps(t, &trial);
+            // Measured by the step that they would ask for, whatever units the constraints have.
+            if size(&factor.step(&gaps)) <= (1.0 - part / 4.0) * length {
+                *x = trial;
+                break;
+            }
+            part /= 2.0;
+            if part < SHORTEST {
+                return Err(PositionsError::NotFound { residual: largest(&f) });
+            }
+        }
+    }
+    Err(PositionsError::NotFound { residual: largest(&system.gaps(t, x)) })
+}
+
+/// The distance from where a search began, if what follows from the equations holds where it ended: on another branch of the
+/// equations that were solved it may not.
+fn ended<R, S, const N: usize, const H: usize>(
+    system: &S,
+    t: R,
+    x: &[R; N],
+    begin: &[R; N],
+    near: f64,
+) -> Result<f64, PositionsError>
+where
+    R: Ordered,
+    S: Positions<R, N, H> + ?Sized,
+{
+    let surplus = system.surplus(t, x);
+    if surplus <= near { Ok(distance(x, begin)) } else { Err(PositionsError::NotFound { residual: surplus }) }
+}
+
+/// `F` with the factor `L` of `F F^T = L L^T`.
+struct Factor<R, const N: usize, const H: usize> {
+    gradients: [[R; N]; H],
+    lower: [[R; H]; H],
+}
+
+impl<R: Ordered, const N: usize, const H: usize> Factor<R, N, H> {
+    fn new(mut gradients: [[R; N]; H], free: &[bool; N], f: &[R; H]) -> Result<Self, PositionsError> {
+        /// A pivot that is this many roundings of its diagonal entry is none.
+        const ROUNDINGS: f64 = 64.0;
+
+        for row in &mut gradients {
+            for (entry, free) in row.iter_mut().zip(free) {
+                if !free {
+                    *entry = R::zero();
+                }
+            }
+        }
+        let mut lower = [[R::zero(); H]; H];
+        for v in 0..H {
+            for u in 0..=v {
+                let product = (0..N).fold(R::zero(), |sum, i| sum + gradients[v][i] * gradients[u][i]);
+                let known = (0..u).fold(R::zero(), |sum, k| sum + lower[v][k] * lower[u][k]);
+                let rest = product - known;
+                if u < v {
+                    lower[v][u] = rest / lower[u][u];
+                    continue;
+                }
+                let (pivot, whole) = (rest.to_f64(), product.to_f64());
+                if !whole.is_finite() {
+                    return Err(PositionsError::NotFinite);
+                }
+                if pivot <= ROUNDINGS * R::epsilon().to_f64() * whole {
+                    return Err(PositionsError::Singular { residual: largest(f) });
+                }
+                lower[v][v] = rest.sqrt();
+            }
+        }
+        Ok(Factor { gradients, lower })
+    }
+
+    /// `-F^T (F F^T)^-1 f`.
+    fn step(&self, f: &[R; H]) -> [R; N] {
+        let mut y = *f;
+        for v in 0..H {
+            let known = (0..v).fold(R::zero(), |sum, k| sum + self.lower[v][k] * y[k]);
+            y[v] = (y[v] - known) / self.lower[v][v];
+        }
+        for v in (0..H).rev() {
+            let known = (v + 1..H).fold(R::zero(), |sum, k| sum + self.lower[k][v] * y[k]);
+            y[v] = (y[v] - known) / self.lower[v][v];
+        }
+        core::array::from_fn(|i| -(0..H).fold(R::zero(), |sum, v| sum + self.gradients[v][i] * y[v]))
+    }
+}
+
+fn moved<R: Real, const N: usize>(x: &[R; N], step: &[R; N], part: f64) -> [R; N] {
+    let part = R::from_f64(part);
+    core::array::from_fn(|i| x[i] + part * step[i])
+}
+
+fn size<R: Real>(step: &[R]) -> f64 {
+    libm::sqrt(step.iter().map(|e| e.to_f64() * e.to_f64()).sum())
+}
+
+fn distance<R: Real, const N: usize>(a: &[R; N], b: &[R; N]) -> f64 {
+    size(&core::array::from_fn::<R, N, _>(|i| a[i] - b[i]))
+}
+
+fn largest<R: Real>(values: &[R]) -> f64 {
+    crate::generated::checks::largest(values).to_f64()
+}
+
+/// A system whose coordinates are put back onto its constraints after every step: see [`projected`].
+#[derive(Clone, Copy, Debug)]
+pub struct Projected<S, const N: usize, const H: usize>(S);
+
+/// The system, or a reference to it, for a stepper that restores `f(t, x) = 0` after each step by [`project`].
+///
+/// Without it the constraints drift by the error of the method, usually along with everything else; with it they
+/// hold to rounding, at the price that [`project`] names.
+pub fn projected<R, S, const N: usize, const H: usize>(system: S) -> Projected<S, N, H>
+where
+    R: Real,
+    S: Positions<R, N, H>,
+{
+    Projected(system)
+}
+
+impl<R, S, const N: usize, const H: usize, const M: usize> System<R, M> for Projected<S, N, H>
+where
+    R: Ordered,
+    S: System<R, M> + Positions<R, N, H>,
+{
+    #[inline]
+    fn rhs(&self, t: R, state: &[R; M]) -> [R; M] {
+        self.0.rhs(t, state)
+    }
+
+    fn restore(&self, t: R, state: &mut [R; M]) -> Result<(), PositionsError> {
+        project(&self.0, t, state).map(|_| ())
+    }
+
+    fn conserved(&self, t: R, state: &[R; M]) -> Invariants<R> {
+        self.0.conserved(t, state)
+    }
+
+    fn singularities(
+        &self,
+        t: RunningError<R>,
+        state: &[RunningError<R>; M],
+        values: &mut [RunningError<R>],
+    ) -> usize {
+        self.0.singularities(t, state, values)
+    }
+
+    fn condition(&self, t: R, state: &[R; M]) -> R {
+        self.0.condition(t, state)
+    }
+
+    fn check_cost(&self) -> u32 {
+        self.0.check_cost()
+    }
+
+    fn singularity_check_cost(&self) -> f64 {
+        self.0.singularity_check_cost()
+    }
+}
+
+impl<R, S, const N: usize, const H: usize, const M: usize> Differentiable<R, M> for Projected<S, N, H>
+where
+    R: Ordered,
+    S: Differentiable<R, M> + Positions<R, N, H>,
+{
+    fn jacobian(&self, t: R, state: &[R; M]) -> [[R; M]; M] {
+        self.0.jacobian(t, state)
+    }
+
+    fn along(&self, t: R, state: &[R; M], dt: R, dx: &[R; M]) -> [R; M] {
+        self.0.along(t, state, dt, dx)
+    }
+}
+
+impl<R, S, const N: usize, const H: usize, const M: usize> TaylorSeries<R, M> for Projected<S, N, H>
+where
+    R: Ordered,
+    S: TaylorSeries<R, M> + Positions<R, N, H>,
+{
+    const PRODUCTS: usize = S::PRODUCTS;
+
+    fn series(&self, t: R, state: &[R; M], scale: R, order: usize, coefficients: &mut Coefficients<R, M>) {
+        self.0.series(t, state, scale, order, coefficients);
+    }
+}
+
+impl<R, S, const N: usize, const H: usize, const M: usize> Monitored<R, M> for Projected<S, N, H>
+where
+    R: Ordered,
+    S: Monitored<R, M> + Positions<R, N, H>,
+{
+    fn energy(&self, t: R, state: &[R; M]) -> R {
+        self.0.energy(t, state)
+    }
+
+    fn residual(&self, t: R, state: &[R; M]) -> R {
+        self.0.residual(t, state)
+    }
+}
