@@ -45,6 +45,12 @@ impl Equations {
         rows.map(|(row, force)| row.iter().chain([force]).copied().collect()).collect()
     }
 
+    /// These equations and others behind them.
+    fn and(&self, others: &Equations) -> Self {
+        let mass = [&self.mass[..], &others.mass].concat();
+        Equations { mass, forces: [&self.forces[..], &others.forces].concat() }
+    }
+
     /// The equations with the generalised forces.
     pub(super) fn driven(mut self, bench: &mut Workbench, generalised_forces: &[ExprId]) -> Self {
         for (force, q) in self.forces.iter_mut().zip(generalised_forces) {
@@ -114,8 +120,19 @@ impl Stated {
             && definition.is(bench, (system, frame), &own, true)?
             && definition.is_solved_by(bench, (system, frame), &found.rates)?
         {
-            let of_bodies = (equations, found);
-            return Ok(Self::of_bodies(bench, system, frame, partials, terms, (definition, of_bodies)));
+            let constrained = constrained(bench, system, frame, partials, terms);
+            if !constrained.mass.is_empty() {
+                definition.is(bench, (system, frame), &own.and(&constrained), true)?;
+            }
+            return Ok(Stated {
+                definition,
+                multiplied: Vec::new(),
+                projected: None,
+                of_bodies: Some((equations, found)),
+                in_base: None,
+                in_own_axes: None,
+                constrained,
+            });
         }
         let l = system.forms.degrees;
         if terms.len() * l * l > MOST_PRODUCTS
@@ -124,8 +141,11 @@ impl Stated {
             let equations = in_base.equations(bench, system);
             affordable(bench)?;
             if definition.is(bench, (system, frame), &equations, true)? {
-                let equations = equations.driven(bench, generalised_forces);
                 let constrained = constrained(bench, system, frame, partials, terms);
+                if !constrained.mass.is_empty() {
+                    definition.is(bench, (system, frame), &equations.and(&constrained), true)?;
+                }
+                let equations = equations.driven(bench, generalised_forces);
                 return Ok(Stated {
                     definition,
                     multiplied: vec![equations],
@@ -138,27 +158,6 @@ impl Stated {
             }
         }
         Self::multiplied_out(bench, system, frame, partials, terms, definition)
-    }
-
-    /// The equations of bodies alone.
-    fn of_bodies(
-        bench: &mut Workbench,
-        system: &Mechanics,
-        frame: &mut Frame,
-        partials: &mut VelocityPartials,
-        terms: &[KineticTerm],
-        (definition, of_bodies): (Definition, (Equations, multibody::Found)),
-    ) -> Self {
-        let constrained = constrained(bench, system, frame, partials, terms);
-        Stated {
-            definition,
-            multiplied: Vec::new(),
-            projected: None,
-            of_bodies: Some(of_bodies),
-            in_base: None,
-            in_own_axes: None,
-            constrained,
-        }
     }
 
     fn multiplied_out(
@@ -177,7 +176,7 @@ impl Stated {
         let mut by_projection = projected.equations.clone();
         let constrained =
             Equations { mass: by_projection.mass.split_off(l), forces: by_projection.forces.split_off(l) };
-        definition.is(bench, (system, frame), &by_projection, false)?;
+        definition.is(bench, (system, frame), &projected.equations, false)?;
         let mut multiplied = forms(bench, system, &by_definition, &projected.equations);
         // On constraints on positions the axes of the bodies leave less than those of the world.
         let in_own_axes = match system.holonomic.is_empty() {

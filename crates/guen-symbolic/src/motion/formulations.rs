@@ -78,6 +78,8 @@ enum Rank {
     Other,
     /// So much shorter that no other formulation is worth a look, yet to be proved.
     Last(Solution),
+    /// The solution of the only equations that are stated, proved with them.
+    Only(Solution),
 }
 
 impl Outcome {
@@ -161,7 +163,7 @@ pub(super) fn walk(
                 declined.push((name, "it is not proved"));
                 continue;
             }
-            let is_last = matches!(rank, Rank::Last(_));
+            let is_last = matches!(rank, Rank::Last(_) | Rank::Only(_));
             if is_last {
                 // A program for what promises more would only cost time.
                 let least = weighted_cost(&bench.graph, &rates);
@@ -171,7 +173,7 @@ pub(super) fn walk(
                     !is_dearer
                 });
             }
-            if let Rank::Base(solution) | Rank::Last(solution) = rank {
+            if let Rank::Base(solution) | Rank::Last(solution) | Rank::Only(solution) = rank {
                 shown = Some((formulations.len(), solution));
             }
             formulations.push(Formulated { name, rates, is_by_spins });
@@ -269,7 +271,7 @@ fn of_bodies(bench: &mut Workbench, search: &mut Search<'_>) -> Result<Outcome, 
     if let Some((_, found)) = &search.stated.of_bodies {
         let accelerations = found.rates[search.frame.velocities.len()..].to_vec();
         let solution = Solution::of_pivots(bench, accelerations, &found.pivots);
-        let candidate = Candidate { rates: found.rates.clone(), rank: Rank::Last(solution) };
+        let candidate = Candidate { rates: found.rates.clone(), rank: Rank::Only(solution) };
         return Ok(Outcome::Found(vec![candidate]));
     }
     let Some(found) = search.bodies(bench) else {

@@ -1,7 +1,7 @@
 //! Lagrange's expressions at points modulo p, along all displacements at once: what equations of motion and rates are held against.
 //!
 //! With `L(t, x, x')` for `T° + U` with all `eta` written in the velocities, `E_i = d/dt dL/dx_i' - dL/dx_i` are numbers as soon as
-//! `x'` and `x''` are, by one pass back through what `L` is made of; and `sum_i xi_s^i E_i` is the left side of (2.7) for `s = 1..l` on
+//! `x'` and `x''` are, by one pass back through what `L` is made of; and `sum_i xi_s^i E_i` is the left side of (2.7) on
 //! every motion that the constraints allow: d'Alembert's principle in Lagrange's form. Operators are solved for as numbers, too; neither
 //! brackets nor momenta occur, so that the proof shares nothing with what it proves.
 
@@ -86,10 +86,10 @@ impl Point<'_> {
         self.moving.values(es)
     }
 
-    /// The left sides of (2.7) for these `eta_1'..eta_l'`.
+    /// The left sides of (2.7) for these `eta_1'..eta_l'`, those of the reactions included.
     pub(super) fn left_sides(&mut self, accelerations: &[u64]) -> Option<Vec<u64>> {
         let Point { lagrange, system, moving, inverse, velocities } = self;
-        let (forms, l) = (&system.forms, system.forms.degrees);
+        let forms = &system.forms;
         // A x'' = eta' - a_0' - A' x'
         let parts: Vec<u64> = forms
             .forms
@@ -134,7 +134,7 @@ impl Point<'_> {
         moving.go_back(0..lagrange.of_forms, &mut slopes)?;
         let along = forms.coordinates.iter().zip(&momenta);
         let along: Vec<u64> = along.map(|(x, momentum)| sub(momentum.rate, slopes.of(*x).value)).collect();
-        let left = (0..l).map(|s| {
+        let left = (0..forms.len()).map(|s| {
             let products = inverse.iter().zip(&along).map(|(row, e)| mul(row[s], *e));
             products.fold(0, add)
         });

@@ -51,8 +51,8 @@ impl Definition {
         self.written.get_or_insert_with(|| poincare::equations(bench, system, frame))
     }
 
-    /// Whether equations without generalised forces are these, everywhere or wherever constraints on positions hold, but for roots of
-    /// other sign. A proved difference is a mistake of ours.
+    /// Whether equations without generalised forces are these, with those of the reactions behind them or without, everywhere or
+    /// wherever constraints on positions hold, but for roots of other sign. A proved difference is a mistake of ours.
     pub(super) fn is(
         &mut self,
         bench: &mut Workbench,
@@ -198,7 +198,7 @@ mod tests {
     use super::*;
     use crate::algebra::{Graph, Node, Rational, Role};
     use crate::geometry::{Form, Forms, Operators};
-    use crate::motion::{Force, Holonomic, Solution};
+    use crate::motion::{Force, Holonomic, Solution, VelocityPartials, decompose, projection};
 
     /// The names of coordinates, forms, kinetic energy and force function of a system without forces.
     fn system(
@@ -334,6 +334,26 @@ mod tests {
                 other[place] = wrong;
                 assert!(definition.is_solved_by(&mut bench, (&sled, &mut frame), &other).is_err());
             }
+        }
+    }
+
+    #[test]
+    fn reactions_that_are_turned_are_refused() {
+        let mut bench = Workbench::new(Graph::new());
+        let sled = sled(&mut bench);
+        let (mut frame, _) = written(&mut bench, &sled);
+        let mut partials = VelocityPartials::of_system(&bench, &sled);
+        let symbols = [&sled.velocities[..], &sled.etas].concat();
+        let terms = decompose(&mut bench, &mut partials, &symbols, sled.kinetic_energy).ok().unwrap();
+        let own = projection::equations(&mut bench, &sled, &mut frame, &mut partials, &terms, 0..3).equations;
+        let (zero, u) = (bench.graph.zero(), sled.inputs[0]);
+        let mut definition = Definition::new(&mut bench, &sled, &[zero, u]);
+        assert_eq!(definition.is(&mut bench, (&sled, &mut frame), &own, false).ok(), Some(true));
+        for wrong in turned(&mut bench, own.forces[2]) {
+            let mut other = own.clone();
+            other.forces[2] = wrong;
+            let found = definition.is(&mut bench, (&sled, &mut frame), &other, false);
+            assert!(matches!(found, Err(DerivationError::RoutesDisagree { equation: 2 })));
         }
     }
 
