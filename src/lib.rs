@@ -134,9 +134,9 @@ macro_rules! mechanical_system {
 pub mod __private {
     pub use guen_macros::{mechanical_system, page};
     pub use guen_runtime::checks::{
-        check_finite, check_fixed, check_hoisted, check_inertia, check_limits, check_mass, check_nonnegative,
-        check_nonzero, check_pivot, check_positive, clamped, condition, drift, furthest, largest, placed,
-        rounded,
+        check_definite, check_finite, check_fixed, check_hoisted, check_inertia, check_limits, check_mass,
+        check_nonnegative, check_nonzero, check_pivot, check_positive, clamped, condition, drift, furthest,
+        largest, placed, rounded,
     };
     pub use guen_runtime::lanes::Lanes;
     pub use guen_runtime::{

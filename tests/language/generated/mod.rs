@@ -3,6 +3,7 @@
 mod classification;
 mod constants;
 mod expansion;
+mod indefinite;
 mod momenta;
 mod motion;
 mod operators;

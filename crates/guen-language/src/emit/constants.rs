@@ -5,7 +5,7 @@ use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
 use super::code::number;
-use super::{Layout, Subject, documentation, recast, tokens, variable_ident};
+use super::{Layout, Subject, documentation, physical, recast, tokens, variable_ident};
 use crate::derive::Level;
 use crate::model::{ConstantEntry, Model};
 use crate::report::Report;
@@ -135,6 +135,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, report: &Report)
             },
         }
     });
+    let definite = physical::definite(subject, layout);
     let recast = recast::items(layout, &names, marker_value.as_ref());
     let what = if layout.is_whole { "system" } else { "scene" };
     let prepared_docs = format!(
@@ -167,6 +168,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, report: &Report)
                 let hoisted = program::prepare(&constants);
                 let prepared = Prepared { constants, hoisted, #follows };
                 prepared.check_pivots()?;
+                #definite
                 ::core::result::Result::Ok(prepared)
             }
         }

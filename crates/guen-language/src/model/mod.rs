@@ -83,6 +83,22 @@ pub struct Identifiers {
 }
 
 impl Model<'_> {
+    /// A body whose mass or a moment of inertia is a negative number, or whose inertia in numbers no body can have.
+    pub(crate) fn suspicious_body(&self) -> Option<&str> {
+        let body = self.bodies.iter().find(|body| {
+            let moments = body.inertia.iter().flat_map(|entries| &entries[..3]);
+            body.is_impossible || body.mass.iter().chain(moments).any(|e| self.is_negative(*e))
+        });
+        let particle =
+            || self.particles.iter().any(|(mass, _)| self.is_negative(*mass)).then_some("particles");
+        body.map(|body| body.name.as_str()).or_else(particle)
+    }
+
+    /// Whether an expression is a negative number.
+    pub(crate) fn is_negative(&self, e: ExprId) -> bool {
+        self.bench.graph.as_number(e).is_some_and(|number| number.to_f64() < 0.0)
+    }
+
     /// The last operator whose brackets are derived.
     pub fn last_operator(&self) -> usize {
         if self.provides_operators { self.coordinates.len() } else { self.mechanics.forms.degrees }

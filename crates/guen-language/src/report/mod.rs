@@ -209,6 +209,11 @@ fn forms(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
             "the inertia of {name} is that of no body: a principal moment is negative, or exceeds the sum of the others"
         ));
     }
+    for body in
+        subject.model.bodies.iter().filter(|body| body.mass.is_some_and(|m| subject.model.is_negative(m)))
+    {
+        lines.section.text.push(format!("the mass of {} is negative", body.name));
+    }
     for redundant in &subject.model.redundant {
         let (name, others) = (&redundant.entry.name, beside(subject.model, redundant));
         lines.section.text.push(format!(

@@ -178,6 +178,62 @@ pub fn check_mass<R: Real>(mass: R, body: &'static str) -> Result<(), ConstantsE
     if mass.to_f64() < 0.0 { Err(ConstantsError::NotPhysical { body, fault }) } else { Ok(()) }
 }
 
+/// Refuses a mass matrix that has a negative direction at each of eight states: its inertia is that of a body whose negative mass
+/// nothing outweighs.
+///
+/// ```
+/// use guen_runtime::checks::check_definite;
+/// assert!(check_definite(|[x]: [f64; 1]| [[2.0, x], [x, 1.0]], "cut").is_ok());
+/// assert!(check_definite(|[x]: [f64; 1]| [[2.0, x], [x, -1.0]], "cut").is_err());
+/// ```
+///
+/// # Errors
+///
+/// [`ConstantsError::Indefinite`].
+pub fn check_definite<R: Real, const N: usize, const L: usize>(
+    mass: impl Fn([R; N]) -> [[R; L]; L],
+    body: &'static str,
+) -> Result<(), ConstantsError> {
+    const STATES: usize = 8;
+    /// Multiples of it fill an interval evenly.
+    const GOLDEN: f64 = 0.618_033_988_749_894_9;
+    for number in 0..STATES {
+        let mut state = [R::zero(); N];
+        for (i, entry) in state.iter_mut().enumerate() {
+            let drawn = (number * N + i + 1) as f64 * GOLDEN;
+            *entry = R::from_f64(2.0 * (drawn - libm::floor(drawn)) - 1.0);
+        }
+        if !has_negative_pivot(mass(state).map(|row| row.map(Real::to_f64))) {
+            return Ok(());
+        }
+    }
+    Err(ConstantsError::Indefinite { body })
+}
+
+/// Whether a symmetric matrix has a pivot that is negative beyond rounding, and none before that is next to zero.
+fn has_negative_pivot<const L: usize>(mut matrix: [[f64; L]; L]) -> bool {
+    /// A part of the diagonal entry.
+    const ROUNDING: f64 = 1e-9;
+    let sizes: [f64; L] = core::array::from_fn(|s| matrix[s][s].abs());
+    for s in 0..L {
+        let pivot = matrix[s][s];
+        if pivot < -ROUNDING * sizes[s] {
+            return true;
+        }
+        if pivot.is_nan() || pivot <= ROUNDING * sizes[s] {
+            return false;
+        }
+        let top = matrix[s];
+        for row in matrix.iter_mut().skip(s + 1) {
+            let part = row[s] / pivot;
+            for (entry, above) in row.iter_mut().zip(&top).skip(s + 1) {
+                *entry -= part * above;
+            }
+        }
+    }
+    false
+}
+
 /// Refuses an inertia, given by the matrix entries `xx, yy, zz, xy, yz, zx`, that no distribution of mass has.
 ///
 /// ```text

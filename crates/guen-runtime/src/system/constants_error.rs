@@ -49,6 +49,11 @@ pub enum ConstantsError {
         /// The upper limit.
         upper: f64,
     },
+    /// A negative mass or moment of inertia, written as a number, leaves directions in which the kinetic energy is negative.
+    Indefinite {
+        /// The body's name.
+        body: &'static str,
+    },
     /// A body that no distribution of mass has.
     NotPhysical {
         /// The body's name.
@@ -80,6 +85,9 @@ impl fmt::Display for ConstantsError {
             }
             Self::Limits { input, lower, upper } => {
                 write!(f, "the limits of input `{input}` leave no value: from {lower} to {upper}")
+            }
+            Self::Indefinite { body } => {
+                write!(f, "the mass or inertia of `{body}` is negative, and makes the mass matrix indefinite")
             }
             Self::NotPhysical { body, fault: BodyFault::NegativeMass } => {
                 write!(f, "body `{body}` has a negative mass")
