@@ -4,7 +4,7 @@
 //! cargo run --release --example balancing_robot
 //! ```
 //!
-//! The plant is declared once, in `crates/guen-bare/src/plant.rs`, and serves three times: as the simulated robot, as the
+//! The plant is declared once, in `workshop/guen-bare/src/plant.rs`, and serves three times: as the simulated robot, as the
 //! model that the controller is designed with, and inside the bare static library that would run on the robot.
 
 use std::error::Error;
@@ -16,11 +16,11 @@ use guen::prelude::*;
 use guen_study::{Plot, Recording, Shape, Table, Viewer};
 use nalgebra::{Matrix2, SMatrix};
 
-#[path = "../crates/guen-bare/src/controller.rs"]
+#[path = "../workshop/guen-bare/src/controller.rs"]
 mod controller;
 #[path = "common/folder.rs"]
 mod folder;
-#[path = "../crates/guen-bare/src/plant.rs"]
+#[path = "../workshop/guen-bare/src/plant.rs"]
 mod plant;
 
 use controller::{FED_BACK, Gain, OPERATIONS_PER_PERIOD, Reference};

@@ -7,7 +7,7 @@ use crate::jacobians::{check, numbers};
 use guen_study::Digits71;
 
 /// The plant of `balancing_robot` and of the bare library.
-#[path = "../../crates/guen-bare/src/plant.rs"]
+#[path = "../../workshop/guen-bare/src/plant.rs"]
 #[allow(dead_code, reason = "what controllers need beside the system")]
 mod plant;
 

@@ -1,7 +1,7 @@
 //! Texts that are compared with files: operations, Taylor series, messages. `GUEN_BLESS=1 cargo test -p guen-tests --test
 //! golden` writes the files anew.
 
-#[path = "../../crates/guen-measure/src/large.rs"]
+#[path = "../../workshop/guen-measure/src/large.rs"]
 #[allow(dead_code, reason = "the others belong to other tests")]
 mod large;
 

@@ -4,7 +4,7 @@
 //! GUEN_LATEX=/tmp/reports cargo test -p guen-tests --test language report       # writes the documents, for pdflatex
 //! ```
 
-#[path = "../../crates/guen-bare/src/plant.rs"]
+#[path = "../../workshop/guen-bare/src/plant.rs"]
 mod plant;
 
 use guen::Report;

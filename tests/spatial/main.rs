@@ -6,7 +6,7 @@
 extern crate guen_benchmarks;
 
 #[allow(dead_code, reason = "the examples use the rest")]
-#[path = "../../crates/guen-measure/src/large.rs"]
+#[path = "../../workshop/guen-measure/src/large.rs"]
 mod large;
 
 #[allow(dead_code, reason = "the paper's tests need all of it")]

@@ -1,4 +1,4 @@
-//! The controller of `crates/guen-bare` on a machine without operating system: the static library is built, linked to a
+//! The controller of `workshop/guen-bare` on a machine without operating system: the static library is built, linked to a
 //! C program, and its run compared with that of the same code here, bit for bit; what the program consists of is
 //! listed.
 
@@ -8,9 +8,9 @@ use std::process::Command;
 
 use crate::{commands, elf};
 
-#[path = "../../crates/guen-bare/src/controller.rs"]
+#[path = "../../workshop/guen-bare/src/controller.rs"]
 mod controller;
-#[path = "../../crates/guen-bare/src/plant.rs"]
+#[path = "../../workshop/guen-bare/src/plant.rs"]
 mod plant;
 
 use controller::{Gain, OPERATIONS_PER_PERIOD, Reference};
@@ -28,7 +28,7 @@ const LARGEST_STACK: usize = 4_096;
 /// The program in C, linked to the library.
 fn program(library: &Path) -> PathBuf {
     let program = commands::scratch("bare").join("robot");
-    let bare = commands::root().join("crates/guen-bare/include");
+    let bare = commands::root().join("workshop/guen-bare/include");
     let main = commands::root().join("tests/bare/main.c");
     commands::run(
         commands::cc().args(["-pthread", "-I"]).arg(bare).arg(main).arg(library).arg("-o").arg(&program),

@@ -1,7 +1,7 @@
 //! Right-hand sides as functions that can be found in the assembly by their names.
 
 #[macro_use]
-#[path = "../../../crates/guen-benchmarks/src/declarations.rs"]
+#[path = "../../../workshop/guen-benchmarks/src/declarations.rs"]
 mod declarations;
 
 hoop!(guen::mechanical_system);

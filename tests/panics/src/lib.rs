@@ -3,7 +3,7 @@
 #![no_std]
 
 #[macro_use]
-#[path = "../../../crates/guen-benchmarks/src/declarations.rs"]
+#[path = "../../../workshop/guen-benchmarks/src/declarations.rs"]
 mod declarations;
 mod paths;
 mod systems;

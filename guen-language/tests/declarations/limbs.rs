@@ -1,0 +1,129 @@
+//! Limbs on a floating body: the rate of each joint leaves the equations before the velocities of the link that carries it.
+
+use std::fmt::Write;
+
+use crate::common::{derived, evaluated};
+use guen_language::derive::{Derived, function};
+use guen_symbolic::{SymbolId, evaluate_f64};
+
+#[allow(dead_code, reason = "the others take too long here")]
+#[path = "../../../workshop/guen-benchmarks/src/robots.rs"]
+mod robots;
+
+/// A level's rates, put into its equations at a state.
+fn residual(derived: &Derived<'_>) -> f64 {
+    let level = &derived.system;
+    let graph = &derived.model.bench.graph;
+    let value = |symbol: SymbolId| {
+        let name = &graph.symbol_info(symbol).name;
+        let draw = (7.3 * (1.0 + name.bytes().fold(0.0, |sum, byte| 1.7 * sum + f64::from(byte)))).sin();
+        match name.as_bytes()[0] {
+            b'm' | b'I' => 1.5 + draw,
+            _ => 0.4 * draw,
+        }
+    };
+    let rates = evaluated(level, function::RHS, value).unwrap();
+    let equations = &level.derivation.equations;
+    let forces = evaluate_f64(graph, &equations.forces, &value);
+    let accelerations = &rates[rates.len() - forces.len()..];
+    let mut worst = 0.0_f64;
+    for (row, force) in equations.mass.iter().zip(&forces) {
+        let row = evaluate_f64(graph, row, &value);
+        let parts: Vec<f64> = row.iter().zip(accelerations).map(|(m, rate)| m * rate).collect();
+        let size: f64 = parts.iter().map(|part| part.abs()).sum();
+        worst = worst.max((parts.iter().sum::<f64>() - force).abs() / (1.0 + size + force.abs()));
+    }
+    worst
+}
+
+/// Joints about oblique axes; the tip of the last link is held by three equations.
+fn held(axes: &[&str]) -> String {
+    let names = |letter: char| {
+        let all: Vec<String> = (1..=axes.len()).map(|i| format!("{letter}{i}")).collect();
+        all.join(", ")
+    };
+    let mut text = format!(
+        "pub system Held {{ constants {{ g = 9.81, {} > 0, {} > 0, {} > 0 }} coordinates {{ {} }} let R0 = rot_z(0); let o0 = vec(0, 0, 0);\n",
+        names('l').replace(',', " > 0,"),
+        names('m').replace(',', " > 0,"),
+        names('I').replace(',', " > 0,"),
+        names('q'),
+    );
+    let mut bodies = String::new();
+    for (i, axis) in (1..).zip(axes) {
+        let old = i - 1;
+        let _ = writeln!(text, "let R{i} = R{old}*rot(unit(vec({axis})), q{i});");
+        let _ = writeln!(text, "let o{i} = o{old} + R{old}*vec(l{i}, 1/4, 1/3);");
+        let _ = writeln!(
+            bodies,
+            "B{i} {{ mass: m{i}, inertia: diag(I{i}, 2*I{i}, 3/2*I{i}), center: o{i} + R{i}*vec(1/2, 0, 1), orientation: R{i} }}"
+        );
+    }
+    let last = axes.len();
+    let _ = write!(
+        text,
+        "holonomic {{ tip: o{last} + R{last}*vec(1/2, 0, 1/3) = vec(3/2, 0, 0); }} bodies {{ {bodies} }} gravity = vec(0, 0, -g); parameters {{"
+    );
+    for i in 1..=last - 3 {
+        let _ = write!(text, "w{i} = dot(q{i});");
+    }
+    text + "} }"
+}
+
+#[test]
+fn a_held_chain_is_not_multiplied_out() {
+    let axes = ["0, 1, -1", "2, 1, -2", "1, 0, 1", "2, -2, 1", "1, 2, 2"];
+    derived(&held(&axes), |derived| {
+        let level = &derived.system;
+        let cost = level.program(function::RHS).unwrap().cost;
+        // 1,575 as this is written.
+        assert!(cost.operations() <= 1_700, "{}", cost.operations());
+        let much = ("multiplied out", "the equations of bodies are much shorter");
+        assert!(level.derivation.is_by("bodies") && level.derivation.declined.contains(&much));
+        assert!(residual(derived) < 1e-11);
+    });
+}
+
+/// The turn of a ball joint is declared in the world's axes: its spin is known, and the rates of its quaternion follow from that.
+#[test]
+fn spins_in_the_axes_of_the_world_are_those_of_bodies() {
+    let text = "pub system Ball {
+        constants { l > 0, m > 0, I > 0, J > 0, K > 0, g = 9.81 }
+        coordinates { q, s, a, b, c, d, u }
+        let R = rot_z(q);
+        let o = vec(0, l, 0) + s*R.z;
+        let Q = R*quaternion(a, b, c, d);
+        let p = o + R*vec(0, 1/2, 0);
+        let e = p + Q*vec(2/3, 0, 1/2) + u*Q*vec(4/5, 0, -3/5);
+        holonomic { length: a^2 + b^2 + c^2 + d^2 = 1; }
+        bodies {
+            mast { mass: m, inertia: diag(I, J, I), center: o + R*vec(l, 0, 1/2), orientation: R }
+            ball { mass: m, inertia: diag(I, J, K), center: p + Q*vec(0, l, 0), orientation: Q }
+            slide { mass: m, inertia: diag(I, J, I), center: e, orientation: Q }
+        }
+        parameters {
+            spin = angular_velocity(quaternion(a, b, c, d));
+            turn = dot(q); rise = dot(s); out = dot(u);
+        }
+        gravity = vec(0, 0, -g);
+    }";
+    derived(text, |derived| {
+        let level = &derived.system;
+        let cost = level.program(function::RHS).unwrap().cost;
+        assert!(level.derivation.is_by("bodies"), "{:?}", level.derivation.declined);
+        assert!(cost.operations() <= 1_000, "{}", cost.operations());
+    });
+}
+
+#[test]
+fn a_quadruped_costs_so_many_operations_and_solves_its_equations() {
+    let text = robots::quadruped();
+    derived(&text, |derived| {
+        let level = &derived.system;
+        let cost = level.program(function::RHS).unwrap().cost;
+        // 3,320 as this is written.
+        assert!(cost.operations() + cost.sines + cost.calls <= 3_500, "{}", cost.operations());
+        assert!(level.derivation.is_by("bodies"));
+        assert!(residual(derived) < 1e-11);
+    });
+}

@@ -1,0 +1,129 @@
+//! What the pages say of the code: files that they name are there, and those of `docs/theory.md` name the equation in turn.
+
+use std::path::{Path, PathBuf};
+
+use guen_doctests::{files, packages, pages, root};
+
+/// The files of the repository, from its root.
+fn repository() -> Vec<String> {
+    let mut found = Vec::new();
+    for folder in [".ci", "docs", "examples", "src", "tests", "workshop"] {
+        files(&root().join(folder), &mut found);
+    }
+    packages().iter().for_each(|package| files(package, &mut found));
+    let path = |path: PathBuf| {
+        path.strip_prefix(root()).expect("below the root").to_string_lossy().replace('\\', "/")
+    };
+    found.into_iter().map(path).filter(|path| !path.contains("/target/")).collect()
+}
+
+/// The paths in backticks of a text: with a folder and an extension.
+fn paths(text: &str) -> Vec<&str> {
+    let is_path = |code: &&str| {
+        let plain = code.chars().all(|c| c.is_ascii_alphanumeric() || "/._-".contains(c));
+        plain && code.contains('/') && Path::new(code).extension().is_some() && !code.starts_with("target/")
+    };
+    text.split('`').skip(1).step_by(2).filter(is_path).collect()
+}
+
+#[test]
+fn named_files_are_there() {
+    let repository = repository();
+    let mut count = 0;
+    for page in pages() {
+        for (line, text) in page.prose() {
+            for path in paths(text) {
+                count += 1;
+                let there = repository.iter().any(|file| file == path || file.ends_with(&format!("/{path}")));
+                assert!(there, "{}:{line}: there is no `{path}`", page.path);
+            }
+        }
+    }
+    assert!(count > 40, "only {count} paths were found");
+}
+
+/// The numbers of equations in a text, `(1.9)-(1.11)` with those between.
+fn equations(text: &str) -> Vec<(u32, u32)> {
+    let mut found: Vec<(u32, u32)> = Vec::new();
+    let mut range = false;
+    for part in text.split('(').skip(1) {
+        let number = part.split(')').next().and_then(|number| number.split_once('.'));
+        if let Some((Ok(section), Ok(item))) = number.map(|(a, b)| (a.parse(), b.parse())) {
+            match found.last().copied() {
+                Some((same, from)) if range && same == section => {
+                    found.extend((from + 1..=item).map(|item| (section, item)));
+                }
+                _ => found.push((section, item)),
+            }
+        }
+        range = part.ends_with(")-");
+    }
+    found
+}
+
+#[test]
+fn formulas_live_where_the_theory_says() {
+    let pages = pages();
+    let theory = pages.iter().find(|page| page.path == "docs/theory.md").expect("the page of formulas");
+    let mut rows = 0;
+    for (line, text) in theory.prose().filter(|(_, line)| line.starts_with("| (")) {
+        let cells: Vec<&str> = text.split(" | ").collect();
+        let numbers = equations(cells[0]);
+        assert!(!numbers.is_empty(), "docs/theory.md:{line}: no number in {}", cells[0]);
+        let mut named = Vec::new();
+        for path in cells[2..].iter().flat_map(|cell| paths(cell)) {
+            let near = root().join("guen-symbolic/src").join(path);
+            let file = if near.is_file() { near } else { root().join(path) };
+            let text =
+                std::fs::read_to_string(&file).unwrap_or_else(|_| panic!("docs/theory.md:{line}: no {path}"));
+            let known = equations(&text);
+            assert!(
+                numbers.iter().any(|n| known.contains(n)),
+                "docs/theory.md:{line}: {path} names none of {numbers:?}"
+            );
+            named.extend(known);
+            rows += 1;
+        }
+        // Numbers that stand alone are each named by a file, where there is one.
+        if !named.is_empty() && !cells[0].contains(")-(") {
+            assert!(
+                numbers.iter().all(|n| named.contains(n)),
+                "docs/theory.md:{line}: not all of {numbers:?} are named"
+            );
+        }
+    }
+    assert!(rows > 12, "only {rows} pointers were found");
+}
+
+#[test]
+fn numbers_of_equations_are_read() {
+    assert_eq!(equations("(1.9)-(1.11), (2.7)"), [(1, 9), (1, 10), (1, 11), (2, 7)]);
+    assert_eq!(equations("f(x), (1.14)"), [(1, 14)]);
+}
+
+/// The pieces of declarations in the gallery stand in the tests that it names, line by line.
+#[test]
+fn the_gallery_shows_what_is_tested() {
+    let pages = pages();
+    let gallery = pages.iter().find(|page| page.path == "docs/start/gallery.md").expect("the gallery");
+    let squeezed = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let shared: String = ["declarations.rs", "rolling.rs"]
+        .map(|file| root().join("workshop/guen-benchmarks/src").join(file))
+        .map(|file| std::fs::read_to_string(file).expect("the declarations that programs share"))
+        .concat();
+    let mut lines = 0;
+    for section in gallery.text.split("\n## ").skip(1) {
+        let title = section.lines().next().unwrap_or_default();
+        let prose: String = section.split("```").step_by(2).collect();
+        let named = prose.split('`').skip(1).step_by(2).find(|code| code.ends_with(".rs"));
+        let named = named.unwrap_or_else(|| panic!("{title}: no test is named"));
+        let test = std::fs::read_to_string(root().join("tests/spatial").join(named))
+            .expect("a test of tests/spatial");
+        let test = squeezed(&(test + &shared));
+        for line in section.split("```").skip(1).step_by(2).flat_map(|block| block.lines().skip(1)) {
+            lines += 1;
+            assert!(test.contains(&squeezed(line)), "{title}: this is not in {named}: {line}");
+        }
+    }
+    assert!(lines > 30, "only {lines} lines were found");
+}
