@@ -155,12 +155,12 @@ fn a_range_check_is_what_leads_to_an_elementary_function() {
         "mulsd %xmm0, %xmm0",
         "retq",
         ".L1:",
-        "callq _ZN12guen_runtime10elementary5large4slow17h0E",
+        "callq _ZN12guen_runtime7numbers10elementary5large4slow17h0E",
         "jmp .L2",
     ];
     let expected = [
         Turn::RangeCheck("jae .L1".into()),
-        Turn::Elementary("callq _ZN12guen_runtime10elementary5large4slow17h0E".into()),
+        Turn::Elementary("callq _ZN12guen_runtime7numbers10elementary5large4slow17h0E".into()),
         Turn::Return("jmp .L2".into()),
     ];
     assert_eq!(turns(&inlined), expected);

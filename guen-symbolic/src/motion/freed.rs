@@ -15,6 +15,7 @@ use super::{Equations, multibody};
 use crate::algebra::ExprId;
 use crate::program::weighted_cost;
 use crate::workbench::Workbench;
+use crate::zero::POINTS_WITH_ROOTS;
 
 impl Derivation {
     /// Takes the momenta and the reactions from the quadratic form of the bodies where they are long and that is shorter, and the
@@ -64,11 +65,13 @@ impl Derivation {
     }
 }
 
-/// Whether expressions have the same values at random points wherever the constraints on positions hold.
+/// Whether expressions have the same values at random points wherever the constraints on positions hold: at many, where signs may be
+/// right by chance.
 fn agree(bench: &mut Workbench, own: &[ExprId], other: &[ExprId]) -> bool {
     const POINTS: usize = 4;
     let differences: Vec<ExprId> = own.iter().zip(other).map(|(a, b)| bench.graph.sub(*a, *b)).collect();
-    (0..POINTS).all(|point| {
+    let signs = differences.iter().any(|e| bench.zero.has_signs(&bench.graph, *e));
+    (0..if signs { POINTS_WITH_ROOTS } else { POINTS }).all(|point| {
         let residues = bench.zero.residues(&mut bench.graph, point, &differences, true);
         residues.is_some_and(|residues| residues.iter().all(|residue| *residue == 0))
     })
