@@ -5,9 +5,9 @@
 //! and only brackets that enlarge the rank are carried on: dependent ones add nothing that
 //! `D_i + [D_1, D_i]` does not contain already.
 
+use super::adjugate;
 use super::{Brackets, Forms, Operators};
 use crate::algebra::{ExprId, Flow, Rational};
-use crate::geometry::inverse::adjugate;
 use crate::workbench::Workbench;
 
 /// Steps of building after which the brackets are not followed further: a classification is worth less than the

@@ -1,12 +1,18 @@
 //! From forms to operators, brackets and classification, (1.1)-(1.14).
 
+mod blocks;
 mod brackets;
 mod closure;
+mod dependence;
 mod forms;
-mod inverse;
+mod minors;
+mod operators;
 
 pub use brackets::Brackets;
 pub use closure::{Closure, Combination};
+pub use dependence::SingularForms;
+pub(crate) use dependence::dependence;
 pub use forms::{Form, Forms};
-pub(crate) use inverse::{MANY, adjugate, dependence, is_nested};
-pub use inverse::{Operators, SingularForms};
+pub(crate) use minors::adjugate;
+pub use operators::Operators;
+pub(crate) use operators::{MANY_COORDINATES, is_nested};

@@ -19,7 +19,7 @@ use core::ops::Range;
 use super::velocity_forms::VelocityPartials;
 use super::{Equations, Frame, KineticTerm, Mechanics, VelocityForm};
 use crate::algebra::{ExprId, FastMap, Flow, Graph, Node, Rational};
-use crate::geometry::{MANY, is_nested};
+use crate::geometry::{MANY_COORDINATES, is_nested};
 use crate::program::weighted_cost;
 use crate::workbench::Workbench;
 
@@ -307,7 +307,7 @@ fn measure(
         .map(|s| {
             let component = frame.component(bench, &form, s);
             // Those of the constraints are for reactions only.
-            let is_left = s > l && n > MANY && is_nested(bench, component);
+            let is_left = s > l && n > MANY_COORDINATES && is_nested(bench, component);
             let tidy = if is_left { component } else { bench.tidy(component) };
             bench.keep_large(tidy)
         })

@@ -8,15 +8,16 @@
 use std::collections::BTreeMap;
 
 use super::Forms;
-use crate::algebra::{ExprId, Graph, Node, Rational};
+use super::blocks::blocks;
+use super::dependence::{SingularForms, dependencies};
+use super::minors::{ADJUGATE_SIZE, adjugate};
+use crate::algebra::{ExprId, Graph, Node};
 use crate::workbench::Workbench;
 use crate::zero::Verdict;
 
-/// Blocks above this size are eliminated row by row, and the pivots join the domain of the chart.
-const ADJUGATE_SIZE: usize = 5;
-
-/// Of more coordinates than so many, entries that are made of others are not multiplied out: there are the square of their number.
-pub(crate) const MANY: usize = 24;
+/// With more coordinates than this, entries of the operators that are made of others stay factored: their number is the square of that
+/// of the coordinates.
+pub(crate) const MANY_COORDINATES: usize = 24;
 
 /// The operators `X_0..X_n` by their coefficients.
 #[derive(Clone, Debug)]
@@ -50,15 +51,6 @@ pub(crate) enum Step {
     },
     /// A coordinate from a form that was subtracted, with its entries for coordinates that are known.
     Back { form: usize, coordinate: usize, known: Vec<(usize, ExprId)> },
-}
-
-/// The forms are linearly dependent as functions.
-#[derive(Clone, Debug)]
-pub struct SingularForms {
-    /// Forms (by index) and coefficients of a combination whose velocities cancel; coefficients where they are known.
-    pub combination: Vec<(usize, Option<ExprId>)>,
-    /// What the combination leaves: `sum c_j a_j0`, where the coefficients are known.
-    pub rest: Option<ExprId>,
 }
 
 /// A linear equation `sum_c entries[c] x_c' = sum_j right[j] eta_j`, where `right[0]` goes with the number one.
@@ -141,7 +133,8 @@ impl Operators {
             equations.push(Some(Equation { form: j, entries, right }));
         }
         let (chart, constant_pivots, solved, steps) = Default::default();
-        let mut solver = Solver { bench, chart, constant_pivots, solved, steps, is_large: n > MANY };
+        let mut solver =
+            Solver { bench, chart, constant_pivots, solved, steps, is_large: n > MANY_COORDINATES };
         solver.eliminate(&mut equations, forms.degrees);
         let core: Vec<Equation> = equations.into_iter().flatten().collect();
         let mut values: Vec<Option<BTreeMap<usize, ExprId>>> = vec![None; n];
@@ -162,101 +155,6 @@ impl Operators {
             .collect();
         Ok(Operators { xi, chart, constant_pivots, steps })
     }
-}
-
-/// The combinations of rows that vanish, one for each row that depends on rows before it, by rank modulo p; their
-/// coefficients by elimination where rows are few.
-fn dependencies(bench: &mut Workbench, forms: &Forms) -> Vec<SingularForms> {
-    let rows: Vec<Vec<ExprId>> = forms.forms.iter().map(|form| form.row.clone()).collect();
-    let full = |bench: &mut Workbench, trial: &[Vec<ExprId>]| {
-        bench.zero.rank(&mut bench.graph, trial, true).map(|rank| rank == trial.len())
-    };
-    let mut found = Vec::new();
-    // `None` where no point of the manifold was found: then nothing is known to be dependent.
-    if full(bench, &rows) != Some(false) {
-        return found;
-    }
-    // Grow an independent set; a row that does not enlarge it is dependent on the ones before.
-    let mut independent: Vec<usize> = Vec::new();
-    for j in 0..rows.len() {
-        let mut trial: Vec<Vec<ExprId>> = independent.iter().map(|k| rows[*k].clone()).collect();
-        trial.push(rows[j].clone());
-        if full(bench, &trial) != Some(false) {
-            independent.push(j);
-            continue;
-        }
-        // Keep only the rows that the dependence needs.
-        let mut support = independent.clone();
-        for k in &independent {
-            let without: Vec<usize> = support.iter().copied().filter(|other| other != k).collect();
-            let mut trial: Vec<Vec<ExprId>> = without.iter().map(|k| rows[*k].clone()).collect();
-            trial.push(rows[j].clone());
-            if full(bench, &trial) == Some(false) {
-                support = without;
-            }
-        }
-        found.push(combination(bench, forms, &support, j));
-    }
-    found
-}
-
-/// The dependent row `j` with its coefficients on the rows of its support, and what their offsets leave.
-fn combination(bench: &mut Workbench, forms: &Forms, support: &[usize], j: usize) -> SingularForms {
-    let rows: Vec<&[ExprId]> = support.iter().map(|k| &forms.forms[*k].row[..]).collect();
-    let Some(coefficients) = dependence(bench, &rows, &forms.forms[j].row) else {
-        return SingularForms {
-            combination: support.iter().chain([&j]).map(|k| (*k, None)).collect(),
-            rest: None,
-        };
-    };
-    let mut combination = Vec::new();
-    let mut rest = bench.graph.neg(forms.forms[j].offset);
-    for (c, k) in coefficients.into_iter().zip(support) {
-        let share = bench.graph.mul(c, forms.forms[*k].offset);
-        rest = bench.graph.add(rest, share);
-        combination.push((*k, Some(c)));
-    }
-    combination.push((j, Some(bench.graph.number(Rational::MINUS_ONE))));
-    SingularForms { combination, rest: Some(bench.tidy(rest)) }
-}
-
-/// The coefficients of `target = sum c_k row_k` over independent rows, by Cramer's rule on columns where the rows
-/// are regular; none for many rows.
-pub(crate) fn dependence(
-    bench: &mut Workbench,
-    rows: &[&[ExprId]],
-    target: &[ExprId],
-) -> Option<Vec<ExprId>> {
-    if rows.len() > ADJUGATE_SIZE {
-        return None;
-    }
-    let mut columns: Vec<usize> = Vec::new();
-    for c in 0..target.len() {
-        let mut trial = columns.clone();
-        trial.push(c);
-        let minor: Vec<Vec<ExprId>> =
-            trial.iter().map(|c| rows.iter().map(|row| row[*c]).collect()).collect();
-        if bench.zero.rank(&mut bench.graph, &minor, true) == Some(trial.len()) {
-            columns = trial;
-        }
-    }
-    if columns.len() != rows.len() {
-        return None;
-    }
-    // B^T c = r with B the minor of the rows and r the target on the same columns.
-    let matrix: Vec<Vec<ExprId>> = columns.iter().map(|c| rows.iter().map(|row| row[*c]).collect()).collect();
-    let (adjugate, determinant) = adjugate(bench, &matrix);
-    let target: Vec<ExprId> = columns.iter().map(|c| target[*c]).collect();
-    Some(
-        adjugate
-            .iter()
-            .map(|row| {
-                let numerator = bench.dot(row, &target);
-                let quotient = bench.graph.div(numerator, determinant);
-                bench.tidy(quotient)
-            })
-            .collect(),
-    )
 }
 
 struct Solver<'a> {
@@ -351,7 +249,9 @@ impl Solver<'_> {
         values: &mut [Option<BTreeMap<usize, ExprId>>],
     ) -> Result<(), SingularForms> {
         let generic = || SingularForms { combination: Vec::new(), rest: None };
-        for (rows, columns) in blocks(&core).ok_or_else(generic)? {
+        let used: Vec<Vec<usize>> =
+            core.iter().map(|equation| equation.entries.keys().copied().collect()).collect();
+        for (rows, columns) in blocks(&used).ok_or_else(generic)? {
             let mut right: Vec<BTreeMap<usize, ExprId>> = Vec::new();
             let mut forms: Vec<(usize, Vec<(usize, ExprId)>)> = Vec::new();
             for r in &rows {
@@ -521,120 +421,4 @@ pub(crate) fn is_nested(bench: &Workbench, e: ExprId) -> bool {
         is_kept || graph.roles(id).is_constant()
     });
     found
-}
-
-/// Adjugate and determinant by minors, each minor once.
-pub(crate) fn adjugate(bench: &mut Workbench, matrix: &[Vec<ExprId>]) -> (Vec<Vec<ExprId>>, ExprId) {
-    let n = matrix.len();
-    let mut memo: BTreeMap<(u32, u32), ExprId> = BTreeMap::new();
-    let full = (1_u32 << n) - 1;
-    let determinant = minor(bench, matrix, full, full, &mut memo);
-    let mut adjugate = vec![vec![bench.graph.zero(); n]; n];
-    for (r, row) in (0..n).zip(0_u32..) {
-        for (c, column) in (0..n).zip(0_u32..) {
-            let m = minor(bench, matrix, full & !(1 << row), full & !(1 << column), &mut memo);
-            adjugate[c][r] = if (r + c) % 2 == 1 { bench.graph.neg(m) } else { m };
-        }
-    }
-    (adjugate, determinant)
-}
-
-fn minor(
-    bench: &mut Workbench,
-    matrix: &[Vec<ExprId>],
-    rows: u32,
-    columns: u32,
-    memo: &mut BTreeMap<(u32, u32), ExprId>,
-) -> ExprId {
-    if rows == 0 {
-        return bench.graph.one();
-    }
-    if let Some(known) = memo.get(&(rows, columns)) {
-        return *known;
-    }
-    // Laplace expansion along the first row.
-    let r = rows.trailing_zeros();
-    let mut terms = Vec::new();
-    let mut sign = Rational::ONE;
-    for c in (0..matrix.len() as u32).filter(|c| columns & (1 << c) != 0) {
-        let entry = matrix[r as usize][c as usize];
-        if !bench.graph.is_zero(entry) {
-            let rest = minor(bench, matrix, rows & !(1 << r), columns & !(1 << c), memo);
-            terms.push((bench.graph.mul(entry, rest), sign.clone()));
-        }
-        sign = -sign;
-    }
-    let sum = bench.graph.linear(&terms);
-    let sum = bench.tidy(sum);
-    memo.insert((rows, columns), sum);
-    sum
-}
-
-/// The block triangular form: rows and columns of each block, a block using only columns of itself and of earlier blocks.
-///
-/// A perfect matching of rows to columns by augmenting paths, then the strongly connected components of
-/// "the row uses the column that another row is matched to" , ordered by how much each needs.
-fn blocks(core: &[Equation]) -> Option<Vec<(Vec<usize>, Vec<usize>)>> {
-    let n = core.len();
-    let mut row_of: BTreeMap<usize, usize> = BTreeMap::new();
-    fn augment(
-        core: &[Equation],
-        r: usize,
-        seen: &mut Vec<usize>,
-        row_of: &mut BTreeMap<usize, usize>,
-    ) -> bool {
-        for c in core[r].entries.keys() {
-            if seen.contains(c) {
-                continue;
-            }
-            seen.push(*c);
-            let matched = row_of.get(c).copied();
-            if matched.is_none_or(|other| augment(core, other, seen, row_of)) {
-                row_of.insert(*c, r);
-                return true;
-            }
-        }
-        false
-    }
-    for r in 0..n {
-        if !augment(core, r, &mut Vec::new(), &mut row_of) {
-            return None;
-        }
-    }
-    let column_of: BTreeMap<usize, usize> = row_of.iter().map(|(c, r)| (*r, *c)).collect();
-    let uses =
-        |r: usize| core[r].entries.keys().map(|c| row_of[c]).filter(move |k| *k != r).collect::<Vec<_>>();
-    // Reachability is enough for cores of some tens of rows, and simpler than Tarjan's bookkeeping.
-    let mut reach = vec![vec![false; n]; n];
-    for (r, row) in reach.iter_mut().enumerate() {
-        let mut stack = vec![r];
-        while let Some(k) = stack.pop() {
-            if !row[k] {
-                row[k] = true;
-                stack.extend(uses(k));
-            }
-        }
-    }
-    let mut done = vec![false; n];
-    let mut found: Vec<(usize, Vec<usize>)> = Vec::new();
-    for r in 0..n {
-        if !done[r] {
-            let block: Vec<usize> = (0..n).filter(|k| reach[r][*k] && reach[*k][r]).collect();
-            for k in &block {
-                done[*k] = true;
-            }
-            // A block that reaches fewer rows is needed by those that reach more.
-            found.push((reach[r].iter().filter(|x| **x).count(), block));
-        }
-    }
-    found.sort();
-    Some(
-        found
-            .into_iter()
-            .map(|(_, rows)| {
-                let columns = rows.iter().map(|r| column_of[r]).collect();
-                (rows, columns)
-            })
-            .collect(),
-    )
 }
