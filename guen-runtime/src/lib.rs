@@ -72,7 +72,8 @@ pub use system::linearization::{Liftable, Linearizable, Linearization, OutputLin
 pub use system::operator::{Applied, Coordinate, Function, Operator};
 #[doc(hidden)]
 pub use system::positions::furthest_surplus;
-pub use system::positions::{Positions, PositionsError, Projected, consistent, project, projected};
+pub use system::positions::{Positions, Projected, consistent, project, projected};
+pub use system::positions_error::PositionsError;
 pub use system::recast::Recast;
 pub use system::series::{Coefficients, Convolutions, HIGHEST_ORDER, TaylorSeries};
 pub use system::{FromFn, Laned, Monitored, System, from_fn};
@@ -91,7 +92,7 @@ pub use serde;
 pub mod prelude {
     pub use crate::steppers::{
         Bounded, Direction, Dop853, Euler, Event, Gauss4, Gauss6, Guard, Integration, IntegrationResult,
-        Outcome, Radau5, Rk4, Rk8, Statistics, Taylor, Tsit5,
+        LaneMethod, Outcome, Radau5, Rk4, Rk8, Statistics, Taylor, Tsit5,
     };
     pub use crate::{
         Cause, Coordinate, Dual, Function, IntegrationError, Level, Lift, Monitored, Operator, Ordered, Real,

@@ -4,7 +4,7 @@ use crate::numbers::real::Real;
 use crate::numbers::running_error::RunningError;
 use crate::system::differentiable::Differentiable;
 use crate::system::invariants::Invariants;
-use crate::system::positions::PositionsError;
+use crate::system::positions_error::PositionsError;
 use crate::system::{Monitored, System};
 
 /// A system with elementary functions among its states, such as the sine and the cosine of an angle. The carried form of

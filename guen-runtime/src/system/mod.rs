@@ -11,6 +11,7 @@ pub(crate) mod level;
 pub(crate) mod linearization;
 pub(crate) mod operator;
 pub(crate) mod positions;
+pub(crate) mod positions_error;
 pub(crate) mod recast;
 pub(crate) mod series;
 
@@ -18,7 +19,7 @@ use crate::numbers::lanes::Lanes;
 use crate::numbers::real::Real;
 use crate::numbers::running_error::RunningError;
 use crate::system::invariants::Invariants;
-use crate::system::positions::PositionsError;
+use crate::system::positions_error::PositionsError;
 
 /// A system of `N` ordinary differential equations of first order over the real `R`.
 ///

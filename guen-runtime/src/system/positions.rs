@@ -4,13 +4,11 @@
 //! drift away from zero. What is here puts the coordinates back and leaves the parameters as they are: velocities
 //! `x' = xi_0 + sum_s eta_s xi_s` keep the rate of `f` zero wherever the coordinates are.
 
-use core::error::Error;
-use core::fmt;
-
 use crate::numbers::real::{Ordered, Real};
 use crate::numbers::running_error::RunningError;
 use crate::system::differentiable::Differentiable;
 use crate::system::invariants::Invariants;
+use crate::system::positions_error::PositionsError;
 use crate::system::series::{Coefficients, TaylorSeries};
 use crate::system::{Monitored, System};
 
@@ -56,60 +54,6 @@ pub fn furthest_surplus<R: Real, const N: usize>(equations: impl Iterator<Item =
     });
     lengths.fold(0.0, |most, length| if length.is_nan() { f64::INFINITY } else { most.max(length) })
 }
-
-/// Why no coordinates were found that fulfil the constraints.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum PositionsError {
-    /// A name among the given ones is no coordinate of the system.
-    UnknownCoordinate {
-        /// The name.
-        name: &'static str,
-    },
-    /// So many coordinates are given that the others cannot fulfil all constraints.
-    TooManyGiven {
-        /// Coordinates that are not given.
-        left: usize,
-        /// Constraints that they have to fulfil.
-        constraints: usize,
-    },
-    /// The gradients of the constraints, by the coordinates that are not given, are dependent where the search
-    /// arrived: at a limit of the mechanism's reach, or at a position where it branches.
-    Singular {
-        /// The largest left side there.
-        residual: f64,
-    },
-    /// The search ended where no step makes the left sides smaller: there is no solution near the guess.
-    NotFound {
-        /// The largest left side there.
-        residual: f64,
-    },
-    /// A left side or a gradient is infinite or NaN.
-    NotFinite,
-}
-
-impl fmt::Display for PositionsError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::UnknownCoordinate { name } => write!(f, "`{name}` is not a coordinate of this system"),
-            Self::TooManyGiven { left, constraints } => {
-                write!(f, "{left} coordinates are left to fulfil {constraints} constraints on positions")
-            }
-            Self::Singular { residual } => {
-                write!(
-                    f,
-                    "the constraints on positions become dependent, {residual:e} away from being fulfilled"
-                )
-            }
-            Self::NotFound { residual } => {
-                write!(f, "no coordinates near the guess fulfil the constraints; {residual:e} is left")
-            }
-            Self::NotFinite => f.write_str("a constraint on positions is not finite"),
-        }
-    }
-}
-
-impl Error for PositionsError {}
 
 /// Coordinates that fulfil the constraints on positions, near a guess and with some of them as they are in it.
 ///

@@ -4,7 +4,7 @@ use core::ops::ControlFlow;
 
 use guen_runtime::lanes::{LaneTask, Lanes, Width, dispatch};
 use guen_runtime::prelude::*;
-use guen_runtime::steppers::{Bounded, LaneMethod, Method};
+use guen_runtime::steppers::{Bounded, Method};
 use guen_runtime::{Cause, Generic, System, generic};
 
 use super::motions::{Driven, Oscillator, Series};

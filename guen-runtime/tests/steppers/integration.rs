@@ -310,3 +310,40 @@ fn compensated_steps_keep_what_rounding_takes() {
         assert!(between < 1e-13);
     }
 }
+
+/// Landing on given times is a way to run like any other: events, samples, an observer and a guard go on working.
+#[test]
+fn a_run_lands_on_given_times_with_everything_that_is_watched() {
+    let (fall, stops) = (from_fn(|_t: f64, &[_, v]: &[f64; 2]| [v, -10.0]), [0.25, 0.75, 3.0]);
+    let height = |_t: f64, x: &[f64; 2]| x[0];
+    let (mut landed, mut sampled, mut shown) = (vec![], vec![], vec![]);
+    let done = Integration::new(&fall, 0.0, &[5.0, 0.0])
+        .sample(&[0.1, 0.8, 2.0], &mut |_, t, _| sampled.push(t))
+        .events([Event::new(&height).terminal()], &mut |_| ControlFlow::Continue(()))
+        .observe(&mut |t, _| {
+            shown.push(t);
+            ControlFlow::Continue(())
+        })
+        .run_through(&Rk4 { step: 0.5 }, &stops, |index, t, _| landed.push((index, t)))
+        .unwrap();
+    // The stone arrives at one second, so that the last time is not reached.
+    assert_eq!((done.outcome, landed), (Outcome::Event(0), vec![(0, 0.25), (1, 0.75)]));
+    assert!((done.time - 1.0).abs() < 1e-12 && sampled == [0.1, 0.8]);
+    assert_eq!(shown, [0.25, 0.75, done.time]);
+    let strict = Guard { step: 1e-12, ..Guard::default() };
+    let run = |guard| {
+        Integration::new(&oscillator(), 0.0, &[0.0, 1.0]).guard(guard).run_through(
+            &Rk4 { step: 0.1 },
+            &[1.0, 0.5],
+            |_, _, _| (),
+        )
+    };
+    assert!(run(Guard::default()).is_ok() && matches!(run(strict).unwrap_err().cause, Cause::Step { .. }));
+    // Samples need an order, so these times may not turn back.
+    let back = Integration::new(&fall, 0.0, &[5.0, 0.0]).sample(&[0.5], &mut |_, _, _| ()).run_through(
+        &Rk4 { step: 0.5 },
+        &[1.0, 0.5],
+        |_, _, _| (),
+    );
+    assert_eq!(back.unwrap_err().cause, Cause::Setting(Setting::Samples));
+}

@@ -164,100 +164,137 @@ impl<'a, R: Real, S: System<R, N> + ?Sized, const N: usize, const E: usize> Inte
     ///
     /// Settings that make no sense, before anything is integrated; else what stopped the method or what the guard
     /// found, with the last time and state that are known to be in order.
-    pub fn run<M>(mut self, method: &M, t1: R) -> Result<IntegrationResult<R, N>, IntegrationError<R, N>>
+    pub fn run<M>(self, method: &M, t1: R) -> Result<IntegrationResult<R, N>, IntegrationError<R, N>>
     where
         M: Method<R, S, N>,
     {
-        self.check(t1).map_err(|cause| self.start.failed(cause))?;
-        let mut run = method.start(&self.start);
-        let mut watch = Watch::new::<M::Run<'_>, S>(self.guard, self.system, &self.start)
-            .map_err(|cause| self.start.failed(cause))?;
-        let mut trackers: [Tracker; E] =
-            entries(|i| Tracker::new(self.events[i].value(self.start.time, &self.start.state)));
-        let mut visited = 0;
+        self.run_through(method, &[t1], |_, _, _| ())
+    }
+
+    /// Runs through the given times, lands on each of them exactly, and calls `visit` there with the index, the time and the
+    /// state. The times may repeat, and turn back where nothing is [sampled](Integration::sample).
+    ///
+    /// ```
+    /// use guen_runtime::from_fn;
+    /// use guen_runtime::steppers::{Guard, Integration, Rk4};
+    ///
+    /// let growth = from_fn(|_t: f64, &[x]: &[f64; 1]| [x]);
+    /// let mut steps = Vec::new();
+    /// let done = Integration::new(&growth, 0.0, &[1.0])
+    ///     .observe(&mut |t, _x| {
+    ///         steps.push(t);
+    ///         std::ops::ControlFlow::Continue(())
+    ///     })
+    ///     .run_through(&Rk4 { step: 0.25 }, &[0.3, 1.0], |_k, t, x| assert!((x[0] - t.exp()).abs() < 1e-3))
+    ///     .unwrap();
+    /// assert_eq!(steps, [0.25, 0.3, 0.55, 0.8, 1.0]);
+    /// assert_eq!(done.time, 1.0);
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// Those of [`run`](Integration::run); times visited before stay visited.
+    pub fn run_through<M, V>(
+        mut self,
+        method: &M,
+        times: &[R],
+        mut visit: V,
+    ) -> Result<IntegrationResult<R, N>, IntegrationError<R, N>>
+    where
+        M: Method<R, S, N>,
+        V: FnMut(usize, R, &[R; N]),
+    {
         let start = self.start;
+        self.check(times).map_err(|cause| start.failed(cause))?;
+        let mut run = method.start(&start);
+        let mut watch = Watch::new::<M::Run<'_>, S>(self.guard, self.system, &start)
+            .map_err(|cause| start.failed(cause))?;
+        let mut trackers: [Tracker; E] =
+            entries(|i| Tracker::new(self.events[i].value(start.time, &start.state)));
+        let mut visited = 0;
         while self.samples.get(visited) == Some(&start.time) {
-            self.visit(visited, start.time, &start.state);
+            self.show(visited, start.time, &start.state);
             visited += 1;
         }
         let (mut before, mut kept) = (start, false);
-        while run.checkpoint().time != t1 {
-            let dense = E > 0 || visited < self.samples.len();
-            kept = dense || watch.wants_before(run.is_last(t1));
-            if kept {
-                before = *run.checkpoint();
+        let mut outcome = Outcome::Arrived;
+        'times: for (index, &time) in times.iter().enumerate() {
+            if !time.is_finite() {
+                return Err(run.checkpoint().failed(Cause::Setting(Setting::Time)));
             }
-            let from = run.checkpoint().statistics.accepted;
-            let made = if kept || self.observer.is_some() {
-                run.advance(self.system, t1, kept)
-            } else {
-                run.go_on(self.system, t1, watch.patience())
-            };
-            if let Err(cause) = made {
-                return Err(watch.stopped(self.system, &run, cause));
-            }
-            if let Err(cause) = watch.step(self.system, from, kept.then_some(&before), &run) {
-                return Err(watch.good(run.checkpoint()).failed(cause));
-            }
-            if dense {
-                let ended = self.within_step(&mut run, &before, &mut trackers, &mut visited);
-                if let Some(done) = ended.map_err(|cause| before.failed(cause))? {
-                    return finished(&mut watch, self.system, kept.then_some(&before), &run, done);
+            while run.checkpoint().time != time {
+                let dense = E > 0 || visited < self.samples.len();
+                kept = dense || watch.wants_before(index + 1 == times.len() && run.is_last(time));
+                if kept {
+                    before = *run.checkpoint();
+                }
+                let from = run.checkpoint().statistics.accepted;
+                let made = if kept || self.observer.is_some() {
+                    run.advance(self.system, time, kept)
+                } else {
+                    run.go_on(self.system, time, watch.patience())
+                };
+                if let Err(cause) = made {
+                    return Err(watch.stopped(self.system, &run, cause));
+                }
+                if let Err(cause) = watch.step(self.system, from, kept.then_some(&before), &run) {
+                    return Err(watch.good(run.checkpoint()).failed(cause));
+                }
+                if dense {
+                    let ended = self.within_step(&mut run, &before, &mut trackers, &mut visited);
+                    if let Some(done) = ended.map_err(|cause| before.failed(cause))? {
+                        return match watch.finish(self.system, Some(&before), &run) {
+                            Ok(()) => Ok(done),
+                            Err(cause) => Err(watch.good(run.checkpoint()).failed(cause)),
+                        };
+                    }
+                }
+                if let Some(observer) = &mut self.observer {
+                    let reached = run.checkpoint();
+                    if observer(reached.time, &reached.state).is_break() {
+                        outcome = Outcome::Stopped;
+                        break 'times;
+                    }
                 }
             }
-            if let Some(observer) = &mut self.observer {
-                let reached = run.checkpoint();
-                if observer(reached.time, &reached.state).is_break() {
-                    let done = reached.done(Outcome::Stopped);
-                    return finished(&mut watch, self.system, kept.then_some(&before), &run, done);
-                }
-            }
+            visit(index, time, &run.checkpoint().state);
         }
-        let done = run.checkpoint().done(Outcome::Arrived);
-        finished(&mut watch, self.system, kept.then_some(&before), &run, done)
+        match watch.finish(self.system, kept.then_some(&before), &run) {
+            Ok(()) => Ok(run.checkpoint().done(outcome)),
+            Err(cause) => Err(watch.good(run.checkpoint()).failed(cause)),
+        }
     }
 
     /// Refuses settings that make no sense.
-    fn check(&self, t1: R) -> Result<(), Cause> {
-        if !self.start.time.is_finite() || !t1.is_finite() {
+    fn check(&self, times: &[R]) -> Result<(), Cause> {
+        if !self.start.time.is_finite() || times.first().is_some_and(|time| !time.is_finite()) {
             return Err(Cause::Setting(Setting::Time));
         }
         if !self.events.iter().all(Event::is_valid) {
             return Err(Cause::Setting(Setting::Event));
         }
-        let forwards = (t1 - self.start.time).to_f64() >= 0.0;
-        let mut last = self.start.time;
-        for &time in self.samples.iter().chain([&t1]) {
-            let ahead = (time - last).to_f64();
-            if !(ahead == 0.0 || (ahead > 0.0) == forwards) || ahead.is_nan() {
-                return Err(Cause::Setting(Setting::Samples));
-            }
-            last = time;
+        let Some(&end) = times.last() else { return Ok(()) };
+        if self.samples.is_empty() {
+            return Ok(());
         }
-        Ok(())
+        let forwards = (end - self.start.time).to_f64() >= 0.0;
+        let in_order = |mut last: R, times: &[R]| {
+            times.iter().all(|&time| {
+                let ahead = (time - last).to_f64();
+                last = time;
+                ahead == 0.0 || ahead.abs() > 0.0 && (ahead > 0.0) == forwards
+            })
+        };
+        let last = self.samples.last().copied().unwrap_or(end);
+        let all = in_order(self.start.time, self.samples)
+            && in_order(last, &[end])
+            && in_order(self.start.time, times);
+        if all { Ok(()) } else { Err(Cause::Setting(Setting::Samples)) }
     }
 
-    fn visit(&mut self, index: usize, time: R, state: &[R; N]) {
+    fn show(&mut self, index: usize, time: R, state: &[R; N]) {
         if let Some(visitor) = &mut self.visitor {
             visitor(index, time, state);
         }
-    }
-}
-
-/// The result of a run, if the last look finds it in order.
-pub(in crate::steppers) fn finished<C, R: Real, S, const N: usize>(
-    watch: &mut Watch<R, N>,
-    system: &S,
-    before: Option<&Checkpoint<R, N>>,
-    run: &C,
-    done: IntegrationResult<R, N>,
-) -> Result<IntegrationResult<R, N>, IntegrationError<R, N>>
-where
-    C: StepperRun<R, S, N>,
-    S: System<R, N> + ?Sized,
-{
-    match watch.finish(system, before, run) {
-        Ok(()) => Ok(done),
-        Err(cause) => Err(watch.good(run.checkpoint()).failed(cause)),
     }
 }

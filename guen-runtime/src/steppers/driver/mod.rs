@@ -6,5 +6,5 @@ pub(crate) mod error;
 pub(crate) mod events;
 pub(crate) mod integration;
 pub(crate) mod run;
-pub(crate) mod stop_times;
+pub(crate) mod short_ways;
 mod within_step;

@@ -7,7 +7,6 @@ use crate::steppers::driver::dense::Dense;
 use crate::steppers::driver::error::{Cause, IntegrationError};
 use crate::steppers::driver::integration::Integration;
 use crate::steppers::driver::run::{Checkpoint, IntegrationResult, Method, Statistics};
-use crate::steppers::driver::stop_times::visit_times;
 use crate::steppers::explicit::fixed::{Changes, Fixed, Formula};
 use crate::system::System;
 
@@ -96,7 +95,7 @@ impl<F> Compensated<F> {
         Self: Method<R, S, N>,
         V: FnMut(usize, R, &[R; N]),
     {
-        visit_times(self, system, t0, x0, times, visit)
+        Integration::new(system, t0, x0).run_through(self, times, visit)
     }
 }
 

@@ -6,7 +6,7 @@ pub use crate::steppers::explicit::tableau::{Tableau, Trial};
 use crate::numbers::real::{Ordered, Real};
 use crate::steppers::driver::dense::Dense;
 use crate::steppers::driver::run::{Checkpoint, Method};
-use crate::steppers::driver::stop_times::short_ways;
+use crate::steppers::driver::short_ways::short_ways;
 use crate::steppers::explicit::adaptive::{Adaptive, Attempt, Pair, Settings, Step};
 use crate::steppers::explicit::tableau::{Made, Stages};
 use crate::steppers::step_size::{self, Control, Margin, Tolerance};

@@ -7,8 +7,6 @@ use crate::numbers::lanes::{Lanes, Mask};
 use crate::steppers::driver::error::{Cause, IntegrationError, Setting};
 use crate::steppers::driver::run::{IntegrationResult, Outcome, Statistics};
 use crate::steppers::explicit::fixed::Leg;
-use crate::steppers::explicit::rk4::Rk4;
-use crate::steppers::explicit::rk8::Rk8;
 use crate::steppers::guard::Guard;
 use crate::steppers::guard::lanes::{Fault, LaneWatch, MOST, Moment};
 use crate::system::System;
@@ -76,23 +74,66 @@ impl<const N: usize> IntoIterator for InLanes<N> {
     }
 }
 
-/// A method that integrates in lanes: [`Rk4`] and [`Rk8`], for code that is generic in the method. Each has these functions by
-/// itself too.
+/// A method that integrates in lanes: [`Rk4`](crate::steppers::Rk4) and [`Rk8`](crate::steppers::Rk8).
+///
+/// All lanes have the same times; in each the result is that of a run for that lane alone, to the bit, errors included. Call it
+/// in a [`LaneTask`](crate::numbers::lanes::LaneTask).
 ///
 /// ```
-/// use guen_runtime::steppers::{LaneMethod, Rk4, Rk8};
+/// use guen_runtime::lanes::{LaneTask, Lanes, Width, dispatch};
+/// use guen_runtime::steppers::{Guard, InLanes, LaneMethod, Rk4, Rk8};
+/// use guen_runtime::{Real, System};
 ///
-/// fn steps(method: &impl LaneMethod, span: f64) -> f64 {
-///     span / method.step()
+/// /// `x' = 1 / x`: it fails where it starts at zero.
+/// struct Root;
+/// impl<R: Real> System<R, 1> for Root {
+///     fn rhs(&self, _t: R, &[x]: &[R; 1]) -> [R; 1] {
+///         [x.recip()]
+///     }
 /// }
-/// assert_eq!((steps(&Rk4 { step: 0.25 }, 1.0), steps(&Rk8::new(0.5), 1.0)), (4.0, 2.0));
+///
+/// struct Roots<M>(M, Guard);
+/// impl<M: LaneMethod> LaneTask for Roots<M> {
+///     type Output = InLanes<1>;
+///     fn run<L: Lanes>(self) -> InLanes<1> {
+///         let start = [L::from_fn(|i| i as f64)];
+///         self.0.guarded_in_lanes(&Root, (0.0, &start), &[1.5], self.1, |_, _, _, _| ())
+///     }
+/// }
+///
+/// let ends = dispatch(Width::Four, Roots(Rk4 { step: 0.01 }, Guard::default()));
+/// assert_eq!(ends.failed().lanes().collect::<Vec<_>>(), [0]);
+/// // x^2 = x0^2 + 2 t
+/// assert!((ends.lane(1).unwrap().unwrap().state[0] - 2.0).abs() < 1e-8);
+///
+/// let ends = dispatch(Width::Four, Roots(Rk8::new(0.01), Guard::default()));
+/// assert!((ends.lane(1).unwrap().unwrap().state[0] - 2.0).abs() < 1e-12);
+///
+/// let strict = Guard { step: 1e-16, ..Guard::default() };
+/// assert_eq!(dispatch(Width::Four, Roots(Rk4 { step: 0.01 }, strict)).failed().lanes().count(), 4);
 /// ```
 pub trait LaneMethod {
     /// The step, in units of time.
     fn step(&self) -> f64;
 
-    /// Integrates the states in the lanes of `x0` from `t0` through the given times: see
-    /// [`Rk4::sample_in_lanes`].
+    /// Integrates the states in the lanes of `x0`, all from `t0` through the given times, and calls `visit` with the index, the
+    /// time, the states and the lanes still going at each of them. In each lane the result is that of an
+    /// [`Integration`](crate::steppers::Integration) with this guard that [lands](crate::steppers::Integration::run_through) on the
+    /// same times; lanes no longer going hold NaN.
+    fn guarded_in_lanes<L, S, V, const N: usize>(
+        &self,
+        system: &S,
+        start: (f64, &[L; N]),
+        times: &[f64],
+        guard: Guard,
+        visit: V,
+    ) -> InLanes<N>
+    where
+        L: Lanes,
+        S: System<L, N> + ?Sized,
+        V: FnMut(usize, f64, &[L; N], Mask);
+
+    /// Integrates through the given times with the default guard, as [`guarded_in_lanes`](LaneMethod::guarded_in_lanes).
     fn sample_in_lanes<L, S, V, const N: usize>(
         &self,
         system: &S,
@@ -104,188 +145,60 @@ pub trait LaneMethod {
     where
         L: Lanes,
         S: System<L, N> + ?Sized,
-        V: FnMut(usize, f64, &[L; N], Mask);
+        V: FnMut(usize, f64, &[L; N], Mask),
+    {
+        self.guarded_in_lanes(system, (t0, x0), times, Guard::default(), visit)
+    }
+
+    /// Integrates the states in the lanes of `x0` from `t0` to `t1` with the default guard.
+    fn integrate_in_lanes<L, S, const N: usize>(
+        &self,
+        system: &S,
+        t0: f64,
+        x0: &[L; N],
+        t1: f64,
+    ) -> InLanes<N>
+    where
+        L: Lanes,
+        S: System<L, N> + ?Sized,
+    {
+        self.sample_in_lanes(system, t0, x0, &[t1], |_, _, _, _| ())
+    }
 }
 
-/// The ways to run a method in lanes.
-macro_rules! ways_in_lanes {
-    ($(#[$example:meta])* $Method:ident) => {
-        impl $Method<f64> {
-            /// Integrates the states in the lanes of `x0`, all from `t0` through the given times, and calls `visit` with the
-            /// index, the time, the states and the lanes still going at each of them. In each lane the result is that of
-            #[doc = concat!("[`sample`](", stringify!($Method), "::sample)")]
-            /// for that lane alone, to the bit, errors included; lanes no longer going hold NaN.
-            ///
-            /// Call it in a [`LaneTask`](crate::numbers::lanes::LaneTask).
-            pub fn sample_in_lanes<L, S, V, const N: usize>(
-                &self,
-                system: &S,
-                t0: f64,
-                x0: &[L; N],
-                times: &[f64],
-                visit: V,
-            ) -> InLanes<N>
-            where
-                L: Lanes,
-                S: System<L, N> + ?Sized,
-                V: FnMut(usize, f64, &[L; N], Mask),
-            {
-                sample(self, system, t0, x0, times, Guard::default(), visit)
-            }
-
-            /// The same with limits in place of the default ones; in each lane the result is that of an
-            /// [`Integration`](crate::steppers::Integration) with this guard for that lane alone that lands on the same times.
-            ///
-            /// ```
-            /// use guen_runtime::lanes::{LaneTask, Lanes, Width, dispatch};
-            /// use guen_runtime::steppers::{Guard, InLanes, Rk4};
-            /// use guen_runtime::{Real, System};
-            ///
-            /// /// `x' = -50 x`
-            /// struct Decay;
-            /// impl<R: Real> System<R, 1> for Decay {
-            ///     fn rhs(&self, _t: R, &[x]: &[R; 1]) -> [R; 1] {
-            ///         [R::from_ratio(-50, 1) * x]
-            ///     }
-            /// }
-            ///
-            /// struct Run(Guard);
-            /// impl LaneTask for Run {
-            ///     type Output = InLanes<1>;
-            ///     fn run<L: Lanes>(self) -> InLanes<1> {
-            ///         let start = [L::from_fn(|i| 1.0 + i as f64)];
-            ///         Rk4 { step: 0.01 }.guarded_in_lanes(&Decay, (0.0, &start), &[1.0], self.0, |_, _, _, _| ())
-            ///     }
-            /// }
-            ///
-            /// assert!(dispatch(Width::Four, Run(Guard::default())).failed().is_empty());
-            /// let strict = Guard { step: 1e-6, ..Guard::default() };
-            /// assert_eq!(dispatch(Width::Four, Run(strict)).failed().lanes().count(), 4);
-            /// ```
-            pub fn guarded_in_lanes<L, S, V, const N: usize>(
-                &self,
-                system: &S,
-                (t0, x0): (f64, &[L; N]),
-                times: &[f64],
-                guard: Guard,
-                visit: V,
-            ) -> InLanes<N>
-            where
-                L: Lanes,
-                S: System<L, N> + ?Sized,
-                V: FnMut(usize, f64, &[L; N], Mask),
-            {
-                sample(self, system, t0, x0, times, guard, visit)
-            }
-
-            /// Integrates the states in the lanes of `x0` from `t0` to `t1`; in each lane as [`integrate`](Rk4::integrate).
-            ///
-            $(#[$example])*
-            pub fn integrate_in_lanes<L, S, const N: usize>(
-                &self,
-                system: &S,
-                t0: f64,
-                x0: &[L; N],
-                t1: f64,
-            ) -> InLanes<N>
-            where
-                L: Lanes,
-                S: System<L, N> + ?Sized,
-            {
-                sample(self, system, t0, x0, &[t1], Guard::default(), |_, _, _, _| ())
-            }
-        }
-
-        impl LaneMethod for $Method<f64> {
+/// Makes a method with a formula for lanes a [`LaneMethod`].
+macro_rules! in_lanes {
+    ($Method:ident) => {
+        impl $crate::steppers::LaneMethod for $Method {
             fn step(&self) -> f64 {
                 self.step
             }
 
-            fn sample_in_lanes<L, S, V, const N: usize>(
+            fn guarded_in_lanes<L, S, V, const N: usize>(
                 &self,
                 system: &S,
-                t0: f64,
-                x0: &[L; N],
+                start: (f64, &[L; N]),
                 times: &[f64],
+                guard: $crate::steppers::Guard,
                 visit: V,
-            ) -> InLanes<N>
+            ) -> $crate::steppers::InLanes<N>
             where
                 L: Lanes,
                 S: System<L, N> + ?Sized,
-                V: FnMut(usize, f64, &[L; N], Mask),
+                V: FnMut(usize, f64, &[L; N], $crate::numbers::lanes::Mask),
             {
-                sample(self, system, t0, x0, times, Guard::default(), visit)
+                $crate::steppers::explicit::lanes::run(self, system, start, times, guard, visit)
             }
         }
     };
 }
+pub(in crate::steppers) use in_lanes;
 
-ways_in_lanes! {
-    /// ```
-    /// use guen_runtime::lanes::{LaneTask, Lanes, Width, dispatch};
-    /// use guen_runtime::steppers::{InLanes, Rk4};
-    /// use guen_runtime::{Real, System};
-    ///
-    /// /// `x' = 1 / x`: it fails where it starts at zero.
-    /// struct Root;
-    /// impl<R: Real> System<R, 1> for Root {
-    ///     fn rhs(&self, _t: R, &[x]: &[R; 1]) -> [R; 1] {
-    ///         [x.recip()]
-    ///     }
-    /// }
-    ///
-    /// struct Roots;
-    /// impl LaneTask for Roots {
-    ///     type Output = InLanes<1>;
-    ///     fn run<L: Lanes>(self) -> InLanes<1> {
-    ///         Rk4 { step: 0.01 }.integrate_in_lanes(&Root, 0.0, &[L::from_fn(|i| i as f64)], 1.5)
-    ///     }
-    /// }
-    ///
-    /// let ends = dispatch(Width::Four, Roots);
-    /// assert_eq!(ends.failed().lanes().collect::<Vec<_>>(), [0]);
-    /// // x^2 = x0^2 + 2 t
-    /// let one = ends.lane(1).unwrap().unwrap();
-    /// assert!((one.state[0] - 2.0).abs() < 1e-8);
-    /// ```
-    Rk4
-}
-ways_in_lanes! {
-    /// ```
-    /// use guen_runtime::lanes::{LaneTask, Lanes, Width, dispatch};
-    /// use guen_runtime::steppers::{InLanes, Rk8};
-    /// use guen_runtime::{Real, System};
-    ///
-    /// /// `x' = 1 / x`: it fails where it starts at zero.
-    /// struct Root;
-    /// impl<R: Real> System<R, 1> for Root {
-    ///     fn rhs(&self, _t: R, &[x]: &[R; 1]) -> [R; 1] {
-    ///         [x.recip()]
-    ///     }
-    /// }
-    ///
-    /// struct Roots;
-    /// impl LaneTask for Roots {
-    ///     type Output = InLanes<1>;
-    ///     fn run<L: Lanes>(self) -> InLanes<1> {
-    ///         Rk8::new(0.01).integrate_in_lanes(&Root, 0.0, &[L::from_fn(|i| i as f64)], 1.5)
-    ///     }
-    /// }
-    ///
-    /// let ends = dispatch(Width::Four, Roots);
-    /// assert_eq!(ends.failed().lanes().collect::<Vec<_>>(), [0]);
-    /// // x^2 = x0^2 + 2 t
-    /// let one = ends.lane(1).unwrap().unwrap();
-    /// assert!((one.state[0] - 2.0).abs() < 1e-12);
-    /// ```
-    Rk8
-}
-
-fn sample<M, L, S, V, const N: usize>(
+/// Runs a method in lanes: see [`LaneMethod::guarded_in_lanes`].
+pub(in crate::steppers) fn run<M, L, S, V, const N: usize>(
     method: &M,
     system: &S,
-    t0: f64,
-    x0: &[L; N],
+    (t0, x0): (f64, &[L; N]),
     times: &[f64],
     guard: Guard,
     mut visit: V,

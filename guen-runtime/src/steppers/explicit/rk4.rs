@@ -6,10 +6,10 @@ use crate::numbers::real::Real;
 use crate::steppers::driver::dense::Dense;
 use crate::steppers::driver::error::Cause;
 use crate::steppers::driver::run::{Checkpoint, Method, Statistics};
-use crate::steppers::driver::stop_times::short_ways;
+use crate::steppers::driver::short_ways::short_ways;
 use crate::steppers::explicit::compensated::Compensated;
 use crate::steppers::explicit::fixed::{Changes, Fixed, Formula, Slopes};
-use crate::steppers::explicit::lanes::LaneFormula;
+use crate::steppers::explicit::lanes::{LaneFormula, in_lanes};
 use crate::steppers::guard::defect::quadrature;
 use crate::steppers::guard::lanes::Moment;
 use crate::steppers::moved;
@@ -220,6 +220,7 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Method<R, S, N> for Rk4<
 }
 
 short_ways!(Rk4 over Real, systems System);
+in_lanes!(Rk4);
 
 impl<L: Lanes, S: System<L, N> + ?Sized, const N: usize> LaneFormula<L, S, N> for Rk4 {
     /// The first slope.

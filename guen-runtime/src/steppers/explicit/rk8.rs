@@ -5,10 +5,10 @@ use crate::numbers::real::Real;
 use crate::steppers::driver::dense::Dense;
 use crate::steppers::driver::error::Cause;
 use crate::steppers::driver::run::{Checkpoint, Method, Statistics};
-use crate::steppers::driver::stop_times::short_ways;
+use crate::steppers::driver::short_ways::short_ways;
 use crate::steppers::explicit::compensated::Compensated;
 use crate::steppers::explicit::fixed::{Changes, Fixed, Formula, Slopes};
-use crate::steppers::explicit::lanes::LaneFormula;
+use crate::steppers::explicit::lanes::{LaneFormula, in_lanes};
 use crate::steppers::explicit::tableau::{Stages, Tableau};
 use crate::steppers::guard::lanes::Moment;
 use crate::steppers::scaled;
@@ -170,6 +170,7 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Method<R, S, N> for Rk8<
 }
 
 short_ways!(Rk8 over Real, systems System);
+in_lanes!(Rk8);
 
 impl<L: Lanes, S: System<L, N> + ?Sized, const N: usize> LaneFormula<L, S, N> for Rk8 {
     type Memory = Stages<L, N>;
@@ -192,7 +193,7 @@ impl<L: Lanes, S: System<L, N> + ?Sized, const N: usize> LaneFormula<L, S, N> fo
         L::vectorize(
             #[inline(always)]
             || {
-                let stages = tableau.step_here::<false, S, N>(system, t, x, &system.rhs(t, x), h).stages;
+                let stages = tableau.stepped::<false, S, N>(system, t, x, &system.rhs(t, x), h).stages;
                 if keep {
                     *memory = stages;
                 }

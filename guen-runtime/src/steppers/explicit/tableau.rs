@@ -199,22 +199,6 @@ impl<R: Real> Tableau<R> {
     where
         S: System<R, N> + ?Sized,
     {
-        self.step_here::<EARLY, S, N>(system, t, x, k1, h)
-    }
-
-    /// The same, inlined, as lanes need it.
-    #[inline(always)]
-    pub(in crate::steppers) fn step_here<const EARLY: bool, S, const N: usize>(
-        &self,
-        system: &S,
-        t: R,
-        x: &[R; N],
-        k1: &[R; N],
-        h: R,
-    ) -> Made<R, N>
-    where
-        S: System<R, N> + ?Sized,
-    {
         let c = &self.c;
         let at2 = shifted(x, h, &weighted(&self.a2, [k1]));
         let near3 = ahead::<EARLY, _, _, _>(x, h, &self.a3, [k1]);

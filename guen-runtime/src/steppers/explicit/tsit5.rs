@@ -4,7 +4,7 @@ use crate::numbers::decimal::reals;
 use crate::numbers::real::{Ordered, Real};
 use crate::steppers::driver::dense::Dense;
 use crate::steppers::driver::run::{Checkpoint, Method};
-use crate::steppers::driver::stop_times::short_ways;
+use crate::steppers::driver::short_ways::short_ways;
 use crate::steppers::explicit::adaptive::{Adaptive, Attempt, Pair, Settings, Step};
 use crate::steppers::explicit::tsit5_coefficients as published;
 use crate::steppers::scaled;

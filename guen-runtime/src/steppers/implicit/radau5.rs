@@ -7,7 +7,7 @@ use crate::steppers::all_finite;
 use crate::steppers::driver::dense::Dense;
 use crate::steppers::driver::error::{Cause, Setting};
 use crate::steppers::driver::run::{Checkpoint, Method, StepperRun};
-use crate::steppers::driver::stop_times::short_ways;
+use crate::steppers::driver::short_ways::short_ways;
 use crate::steppers::entries;
 use crate::steppers::implicit::collocation::{Collocation, Factors, combined};
 use crate::steppers::step_size::{self, Control, Margin, Tolerance};

@@ -7,7 +7,7 @@ mod series;
 use crate::numbers::real::Ordered;
 use crate::steppers::driver::error::{Cause, Setting};
 use crate::steppers::driver::run::{Checkpoint, Method};
-use crate::steppers::driver::stop_times::short_ways;
+use crate::steppers::driver::short_ways::short_ways;
 use crate::steppers::step_size::Tolerance;
 use crate::system::series::{HIGHEST_ORDER, TaylorSeries};
 use run::Run;

@@ -1,0 +1,58 @@
+//! What keeps coordinates from fulfilling constraints on positions.
+
+use core::error::Error;
+use core::fmt;
+
+/// Why no coordinates were found that fulfil the constraints.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum PositionsError {
+    /// A name among the given ones is no coordinate of the system.
+    UnknownCoordinate {
+        /// The name.
+        name: &'static str,
+    },
+    /// So many coordinates are given that the others cannot fulfil all constraints.
+    TooManyGiven {
+        /// Coordinates that are not given.
+        left: usize,
+        /// Constraints that they have to fulfil.
+        constraints: usize,
+    },
+    /// The gradients of the constraints, by the coordinates that are not given, are dependent where the search
+    /// arrived: at a limit of the mechanism's reach, or at a position where it branches.
+    Singular {
+        /// The largest left side there.
+        residual: f64,
+    },
+    /// The search ended where no step makes the left sides smaller: there is no solution near the guess.
+    NotFound {
+        /// The largest left side there.
+        residual: f64,
+    },
+    /// A left side or a gradient is infinite or NaN.
+    NotFinite,
+}
+
+impl fmt::Display for PositionsError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::UnknownCoordinate { name } => write!(f, "`{name}` is not a coordinate of this system"),
+            Self::TooManyGiven { left, constraints } => {
+                write!(f, "{left} coordinates are left to fulfil {constraints} constraints on positions")
+            }
+            Self::Singular { residual } => {
+                write!(
+                    f,
+                    "the constraints on positions become dependent, {residual:e} away from being fulfilled"
+                )
+            }
+            Self::NotFound { residual } => {
+                write!(f, "no coordinates near the guess fulfil the constraints; {residual:e} is left")
+            }
+            Self::NotFinite => f.write_str("a constraint on positions is not finite"),
+        }
+    }
+}
+
+impl Error for PositionsError {}
