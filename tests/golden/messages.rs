@@ -231,7 +231,7 @@ fn the_pages_of_errors_are_current() {
         themes.entry(case.theme.clone()).or_default().push(case);
     }
     let mut index = String::from(
-        "# Errors\n\nEvery mistake that the macro finds, with the line of a small example, the message and a repair. The pages are\nwritten by `GUEN_BLESS=1 cargo test -p guen-tests --test golden` from the cases under `tests/ui`, where each example is a whole\nfile, and the repairs are tried. `^` stands under the place that the compiler underlines.\n\nThe search of the book finds a message by any of its words.\n\n| page | about | errors |\n| --- | --- | --- |\n",
+        "# Errors\n\nFor those whose declaration was refused: every mistake that the macro finds, with the line of a small example, the message and a repair. The pages are\nwritten by `GUEN_BLESS=1 cargo test -p guen-tests --test golden` from the cases under `tests/ui`, where each example is a whole\nfile, and the repairs are tried. `^` stands under the place that the compiler underlines.\n\nThe search of the book finds a message by any of its words.\n\n| page | about | errors |\n| --- | --- | --- |\n",
     );
     let mut written = Vec::new();
     for (theme, cases) in themes {

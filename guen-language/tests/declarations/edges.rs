@@ -3,7 +3,7 @@
 //!
 //! There the mass matrix grows like the inverse square of the distance, and so would the errors of what is solved with it. The
 //! accelerations are to be as right as their own condition says, `8 u cond` in every entry, as if the mass matrix had none;
-//! velocities and reactions within the bound of `docs/extremes.md`. Programs run in doubles and in 71 digits.
+//! velocities and reactions within the bound of `docs/design/rounding.md`. Programs run in doubles and in 71 digits.
 
 use f256::f256;
 use guen_language::derive::{Derived, Level, function};

@@ -1,10 +1,10 @@
-//! The operations that the page on performance tells, against the golden counts.
+//! The operations in the tables of the pages, against the golden counts.
 
 use std::collections::BTreeMap;
 
-use guen_doctests::root;
+use guen_doctests::{pages, root};
 
-/// What the page calls the systems of `tests/costs.txt`; what they are compared with stands behind a comma, too.
+/// The names that pages give to the systems of `tests/costs.txt`; a program by hand that they are compared with stands behind a comma.
 const NAMES: [(&str, &str); 22] = [
     ("hoop", "hoop"),
     ("hoop, as in the paper", "hoop"),
@@ -45,11 +45,11 @@ fn golden() -> BTreeMap<String, u32> {
 }
 
 #[test]
-fn the_page_on_performance_tells_the_golden_counts() {
+fn tables_of_the_pages_have_the_golden_counts() {
     let golden = golden();
-    let page = std::fs::read_to_string(root().join("docs/performance.md")).expect("the page is there");
     let (mut tells, mut seen, mut wrong) = (false, 0, Vec::new());
-    for line in page.lines() {
+    let pages = pages();
+    for line in pages.iter().flat_map(|page| page.text.lines()) {
         let cells: Vec<&str> = line.trim_matches(['|', ' ']).split('|').map(str::trim).collect();
         let [label, said, ..] = cells[..] else {
             tells = false;

@@ -6,7 +6,7 @@
 //! cargo run --release -p guen-measure --bin extremes -- --system sled    # one system alone
 //! cargo run --release -p guen-measure --bin extremes -- --battery        # the battery alone
 //! cargo run --release -p guen-measure --bin extremes -- --bounds         # the errors of right-hand sides alone
-//! cargo run --release -p guen-measure --bin extremes -- --docs           # everything, and the tables of docs/extremes.md anew
+//! cargo run --release -p guen-measure --bin extremes -- --docs           # everything, and the tables of docs/design anew
 //! ```
 //!
 //! With `--battery` or `--bounds`, `--docs` writes that table alone.
@@ -31,7 +31,7 @@ The battery of extremes, and the errors of right-hand sides.
     --system NAME    the battery of one system alone; with --bounds the systems whose names have this in them
     --battery        the battery alone
     --bounds         the errors of right-hand sides, at 10,000 states of each system, alone
-    --docs           write the tables of what was asked into docs/extremes.md
+    --docs           write the tables of what was asked into docs/design
     --help           this text
 ";
 
@@ -106,13 +106,13 @@ fn main() -> ExitCode {
     }
     if arguments.bounds {
         let (table, all_hold) = errors(&arguments, threads);
-        tables.push(("errors", table));
+        tables.push(("rounding", table));
         in_order &= all_hold;
     }
     if arguments.docs
         && let Err(error) = write_docs(&tables)
     {
-        eprintln!("docs/extremes.md: {error}");
+        eprintln!("docs/design: {error}");
         return ExitCode::FAILURE;
     }
     if in_order { ExitCode::SUCCESS } else { ExitCode::FAILURE }
@@ -168,15 +168,16 @@ fn errors(arguments: &Arguments, threads: usize) -> (String, bool) {
     (table, found.iter().all(bounds::Found::holds) && as_expected)
 }
 
-/// Puts tables into the page, each between its marks.
+/// Puts each table into its page of `docs/design`, between its marks.
 fn write_docs(tables: &[(&str, String)]) -> Result<(), Box<dyn std::error::Error>> {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/extremes.md");
-    let mut page = std::fs::read_to_string(path)?;
     for (name, table) in tables {
+        let path = format!("{}/../../docs/design/{name}.md", env!("CARGO_MANIFEST_DIR"));
+        let page = std::fs::read_to_string(&path)?;
         let marks = [format!("<!-- {name} begins -->"), format!("<!-- {name} ends -->")];
         let (before, rest) = page.split_once(&marks[0]).ok_or("a mark is gone")?;
         let (_, after) = rest.split_once(&marks[1]).ok_or("a mark is gone")?;
-        page = format!("{before}{}\n\n{table}\n{}{after}", marks[0], marks[1]);
+        let page = format!("{before}{}\n\n{table}\n{}{after}", marks[0], marks[1]);
+        guen_study::replace_file(&path, |out| out.write_all(page.as_bytes()))?;
     }
-    Ok(guen_study::replace_file(path, |out| out.write_all(page.as_bytes()))?)
+    Ok(())
 }

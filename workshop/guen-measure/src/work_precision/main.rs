@@ -10,7 +10,7 @@
 //! The error is the largest difference between the end state and the reference, in any entry, in the units of the
 //! declaration. Each method has the cheapest setting that holds an accuracy, found by the same search for all (`search.rs`). Those
 //! are then timed in turn; a ratio is the median, with its quartiles, over the rounds. The tables at the end are Markdown, for
-//! `docs/integrators.md`. Ends with a nonzero status if a method does not reach an accuracy that it should.
+//! `docs/design/work-precision.md`. Ends with a nonzero status if a method does not reach an accuracy that it should.
 
 mod methods;
 mod references;

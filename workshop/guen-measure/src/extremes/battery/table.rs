@@ -1,4 +1,4 @@
-//! The lines as text: for a terminal, and as the table of `docs/extremes.md`.
+//! The lines as text: for a terminal, and as the table of `docs/design/battery.md`.
 
 use std::fmt::Write;
 
