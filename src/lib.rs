@@ -129,7 +129,7 @@ macro_rules! mechanical_system {
     ($($declaration:tt)*) => { $crate::__private::mechanical_system! { crate = $crate; $($declaration)* } };
 }
 
-/// What expansions refer to; no part of the public interface.
+/// The items that expansions refer to; no part of the public interface.
 #[doc(hidden)]
 pub mod __private {
     pub use guen_macros::{mechanical_system, page};

@@ -1,4 +1,5 @@
-//! What controllers take of a derived system, as expressions: the leaf, the equations apart, the covector of reactions.
+//! The parts of a derived system that controllers use, as expressions: the leaf, the equations apart, the covector of
+//! reactions.
 
 use guen_symbolic::{Derivation, ExprId, Role, Roles, Substitution, Workbench};
 

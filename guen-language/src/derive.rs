@@ -39,9 +39,9 @@ pub struct Derived<'a> {
 
 /// A level of detail: the system itself, or a scene.
 pub struct Level {
-    /// What it has of the model.
+    /// The parts of the model that the level has.
     pub selection: Selection,
-    /// What follows from the declaration, with the constants that a scene fixes at their values.
+    /// The derivation, with the constants that a scene fixes at their values.
     pub derivation: Rc<Derivation>,
     /// The brackets that do not vanish identically.
     pub brackets: Rc<Vec<Commutator>>,
@@ -71,9 +71,9 @@ pub struct Level {
     pub jacobians: Jacobians,
     /// How expressions are written in the report.
     pub shown: Contracted,
-    /// What there is to tell of a scene; none for the system itself.
+    /// The facts about a scene that its documentation tells; none for the system itself.
     pub scene: Option<SceneFacts>,
-    /// The same level with its elementary functions as states, if it is provided.
+    /// The level with its elementary functions as states, if that form is provided.
     pub carried: Option<Box<Level>>,
 }
 
@@ -150,7 +150,7 @@ pub mod function {
     pub const BRACKETS: &str = "brackets";
     /// The functions that are carried as states, at a state without them.
     pub const CARRY: &str = "carry";
-    /// What vanishes where carried functions are what they stand for.
+    /// Functions that vanish where carried functions have the values that they stand for.
     pub const INVARIANTS: &str = "invariants";
     /// Carried functions, closer to their relations.
     pub const RENORMALIZED: &str = "renormalized";

@@ -55,7 +55,7 @@ impl Fault {
         self.span
     }
 
-    /// What is wrong, in one line.
+    /// The message of the fault, in one line.
     pub fn message(&self) -> &str {
         &self.message
     }
@@ -143,7 +143,8 @@ impl Report {
         &self.faults
     }
 
-    /// What the compiler is to show for each fault, and where; the last one ends with [`POINTER`].
+    /// Returns the message and the place of each fault, as the compiler shows them; the last one ends with
+    /// [`POINTER`].
     pub fn errors(&self) -> impl Iterator<Item = (Span, String)> {
         let last = self.faults.len().saturating_sub(1);
         self.faults.iter().enumerate().map(move |(k, fault)| {

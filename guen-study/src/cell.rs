@@ -1,7 +1,7 @@
 //! Texts as cells of comma-separated values.
 
-/// What a spreadsheet takes for the beginning of a formula, the wide forms of East Asian keyboards among them; a tabulator or
-/// a carriage return may be skipped before it.
+/// Characters that a spreadsheet takes for the beginning of a formula, the wide forms of East Asian keyboards among
+/// them; a tabulator or a carriage return may be skipped before it.
 const FORMULA: [char; 10] = ['=', '+', '-', '@', '\t', '\r', '＝', '＋', '－', '＠'];
 
 /// A text as a cell (RFC 4180): in quotation marks where it has characters that could end a cell, and with an apostrophe

@@ -14,7 +14,7 @@ pub enum StudyError {
     Io {
         /// The file or folder.
         path: PathBuf,
-        /// What the operating system said.
+        /// The error of the operating system.
         source: io::Error,
     },
     /// A file could not be read, or is not what it should be.
@@ -22,7 +22,7 @@ pub enum StudyError {
     Read {
         /// The file.
         path: PathBuf,
-        /// What the operating system or the reader said.
+        /// The error of the operating system or of the reader.
         source: Box<dyn Error + Send + Sync>,
     },
     /// A picture has no curve with a finite point, or a page no motion of two samples.
@@ -66,7 +66,7 @@ pub enum StudyError {
     Drawing {
         /// The picture's title.
         title: String,
-        /// What the library said.
+        /// The error of the library.
         source: Box<dyn Error + Send + Sync>,
     },
 }

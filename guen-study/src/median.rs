@@ -1,4 +1,4 @@
-//! What repeated measurements say together.
+//! The median of repeated measurements, and how sure it is.
 
 /// The median, and the interval between order statistics that it lies in with 95 percent: of `n` values as many as the
 /// binomial distribution with `p = 1/2` has beyond 2.5 percent are left out on either side. With five values or fewer

@@ -29,7 +29,7 @@ pub struct InvariantErrors {
     pub samples: u64,
     /// The energy that all others are compared with: that of the first state.
     pub energy_start: f64,
-    /// What differences of energies are divided by.
+    /// The energy by which differences of energies are divided.
     pub energy_scale: f64,
     /// The largest relative error of the energy.
     pub energy_error: f64,
@@ -150,8 +150,8 @@ impl<S> Monitor<S> {
         Self { system, found }
     }
 
-    /// The same with an energy that is typical of the motion, for errors to be relative to. To be set before
-    /// further states are looked at.
+    /// Sets an energy that is typical of the motion, for errors to be relative to. To be set before further states
+    /// are looked at.
     pub fn with_scale(mut self, energy: f64) -> Self {
         self.found.energy_scale = energy.abs();
         self
@@ -165,7 +165,7 @@ impl<S> Monitor<S> {
         self.found.look(t, self.system.energy(t, state), self.system.residual(t, state));
     }
 
-    /// What was found so far.
+    /// Returns the largest errors found so far.
     pub fn invariants(&self) -> InvariantErrors {
         self.found
     }

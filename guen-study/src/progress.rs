@@ -138,7 +138,7 @@ fn part(from: f64, to: f64, t: f64) -> f64 {
     if part.is_nan() { 0.0 } else { part.clamp(0.0, 1.0) }
 }
 
-/// What the line says.
+/// Returns the text of the line.
 fn line(part: f64, elapsed: Duration) -> String {
     let full = (part * BAR as f64).floor() as usize;
     // RunningError down: a hundred means done.

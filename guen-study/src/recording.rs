@@ -1,4 +1,4 @@
-//! What happened during a run: its times and states, kept in memory that may be bounded, and written as CSV.
+//! Recordings of runs: times and states, kept in memory that may be bounded, and written as CSV.
 
 use std::io::{self, Write};
 use std::ops::ControlFlow;
@@ -60,7 +60,7 @@ impl<const N: usize> Recording<N> {
         Self { names, times: Vec::new(), states: Vec::new(), limit: usize::MAX, stride: 1, seen: 0 }
     }
 
-    /// The same with a largest number of samples; less than two are taken as two, the first and the newest.
+    /// Sets the largest number of samples; less than two are taken as two, the first and the newest.
     ///
     /// To be set before anything is recorded: later it bounds only what is still to come.
     pub fn with_limit(mut self, samples: usize) -> Self {

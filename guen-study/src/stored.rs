@@ -13,7 +13,7 @@ use crate::error::{StudyError, from_path};
 use crate::exact::Exact;
 use crate::file::replace_file;
 
-/// What is in a file: the names are text there, while those of a recording live as long as the program.
+/// A recording in a file: the names are text there, while those of a recording live as long as the program.
 #[derive(serde::Serialize, serde::Deserialize)]
 #[serde(rename = "Recording", deny_unknown_fields)]
 struct Stored<'a> {
@@ -68,8 +68,8 @@ pub struct StoredRecording<const N: usize> {
 }
 
 impl<const N: usize> Recording<N> {
-    /// What reads a recording from a file: its names have to be these, which is how a file of another system is told.
-    /// What was read can be recorded to further.
+    /// Returns a reader for recordings in files: their names have to be these, by which a file of another system is
+    /// recognised. A recording that was read can be continued.
     ///
     /// Every number comes back to the bit, NaN and infinities too: in formats for people those are texts, such as `"inf"`. Refused are
     /// other names, times that neither rise nor fall throughout (equal neighbours are allowed: a state may jump), and counts that do not

@@ -8,7 +8,7 @@ const DIGITS: usize = 6;
 const MOST_DIGITS: usize = 17;
 /// Decimal exponents from which on, and below which, a number is written with an exponent.
 const PLAIN: std::ops::Range<i32> = -4..6;
-/// What separates two columns.
+/// The space between two columns.
 const GAP: &str = "  ";
 
 /// A number with the given count of significant digits, between 1 and 17.
@@ -94,7 +94,7 @@ impl Table {
         Self { columns: names.iter().map(column).collect(), rows: 0 }
     }
 
-    /// The same with the given count of significant digits in every column, see [`significant`]; otherwise 6.
+    /// Sets the significant digits of every column, see [`significant`]; otherwise 6.
     pub fn digits(mut self, digits: usize) -> Self {
         for column in &mut self.columns {
             column.digits = digits;
@@ -102,7 +102,7 @@ impl Table {
         self
     }
 
-    /// The same with the given count of significant digits in one column.
+    /// Sets the significant digits of one column.
     ///
     /// # Panics
     ///

@@ -1,12 +1,12 @@
-//! What every stage of the derivation works with: the graph, the zero test, and tidying with a memory.
+//! The tools of every stage of the derivation: the graph, the zero test, and tidying with a memory.
 
 use crate::algebra::{BaseAngles, ExprId, FastMap, Flow, Graph, Node};
 use crate::normal::{Limits, normal_form};
 use crate::program::weighted_cost;
 use crate::zero::{Verdict, ZeroTest};
 
-/// What is tidied: coefficients and entries. Larger expressions stay as they are, before time is lost on them: of what takes
-/// more steps hardly anything gets shorter.
+/// The limits of tidying. Coefficients and entries are within them; a larger expression stays as it is, since more
+/// steps hardly ever make it shorter.
 const TIDYING: Limits = Limits { terms: 150, generators: 32, degree: 32, nodes: 400, steps: 2_600 };
 
 /// Steps of building ([`Graph::work`]) beyond which a derivation is given up: some seconds without optimisation,

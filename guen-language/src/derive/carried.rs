@@ -9,8 +9,8 @@ use crate::jacobians::Jacobians;
 use crate::model::Model;
 use crate::syntax::Name;
 
-/// What a further variable costs a stepper in each of its stages, in units of a multiplication: half of the coefficients
-/// of a stage, for methods of order 8.
+/// The cost of a further variable for a stepper in each of its stages, in units of a multiplication: half of the
+/// coefficients of a stage, for methods of order 8.
 const STEPPED: u64 = 6;
 
 /// The carried form of a level whose rates are given in several equal forms; what has none is reported at the word that

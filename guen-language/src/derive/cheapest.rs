@@ -72,8 +72,8 @@ pub(super) fn cheapest(
     }
 }
 
-/// What the whole system at some values divides by and the scene does not, with how it is told; `None` where it may divide by zero
-/// everywhere.
+/// Returns the divisors of the whole system at some values that the scene does not have, each with its text; `None`
+/// where one may be zero everywhere.
 fn further_divisors(
     model: &mut Model<'_>,
     whole: &Level,

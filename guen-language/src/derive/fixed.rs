@@ -162,7 +162,7 @@ pub(super) fn held(
     (faults.count() == before).then_some(held)
 }
 
-/// What the rate of every variable becomes when some are held.
+/// The rates of the variables when some are held.
 pub(super) struct Holding {
     substitution: Substitution,
 }

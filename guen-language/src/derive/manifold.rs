@@ -1,4 +1,4 @@
-//! What holonomic equations do for a scene: unit quaternions stay whole, and coordinates that a scene does not need are
+//! Uses holonomic equations for a scene: unit quaternions stay whole, and coordinates that a scene does not need are
 //! replaced by what the equations say of them.
 
 use guen_symbolic::{ExprId, Flow, Mechanics, Role, Substitution, Verdict, Workbench};
@@ -50,9 +50,9 @@ pub(super) struct Replacement {
 }
 
 impl Replacement {
-    /// What the equations offer, in their order: a coordinate that enters linearly with a number before it is solved for,
-    /// and a point of a unit sphere stands for all of them where nothing depends on which one it is. What is held is a
-    /// constant in the equations too.
+    /// Returns the replacements that the equations offer, in their order: a coordinate that enters linearly with a
+    /// number before it is solved for, and a point of a unit sphere stands for all of them where nothing depends on
+    /// which one it is. Variables that are held are constants in the equations, too.
     pub(super) fn all(bench: &mut Workbench, system: &Mechanics, holding: &mut Holding) -> Vec<Replacement> {
         let mut found = Vec::new();
         for holonomic in &system.holonomic {

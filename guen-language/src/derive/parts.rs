@@ -19,7 +19,7 @@ pub(super) struct Part {
 /// The functions of a scene.
 pub(super) struct Functions {
     pub(super) parts: Vec<Part>,
-    /// Those that must not vanish, and each of them in words.
+    /// The functions that must not vanish, and each of them in words.
     pub(super) domain: Vec<ExprId>,
     pub(super) domain_names: Vec<String>,
     /// Expressions of constants that must not vanish.
@@ -27,7 +27,7 @@ pub(super) struct Functions {
 }
 
 impl Functions {
-    /// What the functions compute if these must not vanish either.
+    /// Returns the quantities that the functions compute if these divisors must not vanish either.
     pub(super) fn with_divisors(&self, divisors: &[(ExprId, String)], graph: &Graph) -> Vec<Quantity> {
         let (constants, edges): (Vec<ExprId>, Vec<ExprId>) =
             divisors.iter().map(|(e, _)| *e).partition(|e| graph.roles(*e).is_constant());
@@ -72,7 +72,7 @@ impl View {
         replaced(&mut model.bench, &mut self.replacements, e)
     }
 
-    /// The same without what left.
+    /// Returns an expression without the variables that left.
     pub(super) fn of(&mut self, model: &mut Model<'_>, e: ExprId) -> ExprId {
         let e = self.replaced(model, e);
         self.dependence.without_idle(&mut model.bench, e, &self.idle)

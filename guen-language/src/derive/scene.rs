@@ -16,7 +16,7 @@ use crate::jacobians::Jacobians;
 use crate::model::{Model, SceneEntry};
 use crate::syntax::Name;
 
-/// What there is to tell of a scene beside its formulas.
+/// The facts about a scene that its documentation tells beside its formulas.
 pub struct SceneFacts {
     /// Its index in the model.
     pub index: usize,
@@ -273,7 +273,7 @@ fn is_output(model: &Model<'_>, name: &Name) -> bool {
     model.outputs.iter().any(|output| output.name.text == name.text)
 }
 
-/// What the scene says it provides; what the system does not have is reported.
+/// Returns the quantities that the scene says it provides; reports those that the system does not have.
 fn provided(
     model: &Model<'_>,
     derivation: &Derivation,
@@ -360,7 +360,7 @@ fn tracked(
     Some(tracked)
 }
 
-/// What is provided and depends on the state, by name, with accelerations as functions of the state.
+/// Returns the provided quantities that depend on the state, by name, with accelerations as functions of the state.
 fn wanted(
     model: &mut Model<'_>,
     derivation: &Derivation,

@@ -1,4 +1,4 @@
-//! What a level of detail has of the declared system: all of it, or what a scene keeps.
+//! The part of a declared system that a level of detail has: all of it, or what a scene keeps.
 
 use guen_symbolic::{CarriedFunction, ExprId};
 
@@ -16,7 +16,7 @@ pub struct Held {
     pub symbol: ExprId,
 }
 
-/// What a level of detail consists of, by indices into the model.
+/// The variables, constants and quantities of a level of detail, by indices into the model.
 #[derive(Clone, Debug, Default)]
 pub struct Selection {
     /// The variables of the state, in its order.

@@ -1,4 +1,4 @@
-//! What outputs may speak of beyond the state: accelerations and reactions.
+//! Accelerations and reactions in outputs: the only place where they may be named.
 //!
 //! In an output `dot(e)` of something with velocities or parameters is its rate along the motion, and `reaction(name)`
 //! the multiplier of a constraint. The model introduces symbols for them; the derivation, which knows the motion, puts
@@ -31,8 +31,8 @@ pub(super) struct MotionSymbols {
 }
 
 impl MotionSymbols {
-    /// What each symbol stands for; `etas` are the quasi-velocities in order. The rates of the first `degrees` of them
-    /// are known to the mechanics already.
+    /// Returns the meaning of each symbol; `etas` are the quasi-velocities in order. The rates of the first `degrees`
+    /// of them are known to the mechanics already.
     pub(super) fn meanings(&self, etas: &[ExprId], degrees: usize) -> Vec<(ExprId, MotionSymbol)> {
         let form = |eta: &ExprId| etas.iter().position(|known| known == eta);
         let rates = self.rates.iter().filter_map(|(of, rate)| {

@@ -14,7 +14,7 @@ use crate::diagnostics::{Fault, Faults, Reported};
 use crate::limits::{MAX_EXPONENT, MAX_FACTORS, MAX_NUMBER_BITS, MAX_TOTAL_DEPTH};
 use crate::syntax::{AddOperator, Expression, ExpressionKind, MultiplyOperator, Name};
 
-/// What evaluation needs at hand.
+/// The context of an evaluation.
 pub(super) struct Evaluator<'f> {
     /// The sink of this stage.
     pub(super) faults: &'f mut Faults,

@@ -395,7 +395,7 @@ fn shortened(text: &str) -> String {
     text.chars().take(LONGEST_NOTE).chain(['…']).collect()
 }
 
-/// What a form is called.
+/// Returns the word for a form of this kind.
 pub(super) fn noun(kind: FormKind) -> &'static str {
     match kind {
         FormKind::Parameter => "parameter",

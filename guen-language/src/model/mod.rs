@@ -164,7 +164,7 @@ pub struct RedundantEntry<'a> {
     pub beside: Vec<usize>,
 }
 
-/// What a body is made of.
+/// The mass, inertia, centre and orientation of a body.
 pub struct BodyEntry {
     /// Its name.
     pub name: String,
@@ -182,7 +182,7 @@ pub struct BodyEntry {
 
 /// A scene whose names are sound.
 pub struct SceneEntry<'a> {
-    /// What was written.
+    /// The scene as it was written.
     pub scene: &'a Scene,
     /// The constants that it fixes.
     pub fixes: Vec<FixedConstant<'a>>,

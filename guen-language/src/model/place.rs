@@ -1,4 +1,4 @@
-//! What may occur where: each place of a declaration with the kinds of symbol that it allows.
+//! The places of a declaration, each with the kinds of symbol that it allows.
 
 use guen_symbolic::{Role, Roles};
 
@@ -31,7 +31,7 @@ pub(super) enum Place {
     Position,
     /// A generalised force.
     Force,
-    /// What follows `along`.
+    /// The velocity form behind `along`.
     Direction,
     /// An output.
     Output,
@@ -64,7 +64,7 @@ impl Place {
         }
     }
 
-    /// What the place depends on, for a note.
+    /// The rule of the place, for a note.
     pub(super) fn rule(self) -> Option<&'static str> {
         Some(match self {
             Place::Default => "a default is a number, or made of constants declared before it",
@@ -95,7 +95,7 @@ impl Place {
     }
 }
 
-/// What a kind of symbol is called.
+/// Returns the words for a kind of symbol.
 pub(super) fn role_name(role: Role) -> &'static str {
     match role {
         Role::Time => "the time",

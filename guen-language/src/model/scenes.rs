@@ -14,7 +14,7 @@ use crate::emit::module_name;
 use crate::names;
 use crate::syntax::{Declaration, Fix, Item, Name, Provide, Scene};
 
-/// What a scene may provide beside outputs.
+/// The quantities that a scene may provide beside outputs.
 const QUANTITIES: [&str; 6] = ["energy", "reactions", "linearization", "operators", "carried", "taylor"];
 
 /// Whether a name is that of a carried form, and the declaration asks for one.

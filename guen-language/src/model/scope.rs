@@ -10,7 +10,7 @@ use crate::diagnostics::{Fault, Faults};
 use crate::names;
 use crate::syntax::Name;
 
-/// What a name was declared as.
+/// The category under which a name was declared.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Category {
     /// A physical constant.

@@ -32,7 +32,7 @@ pub(crate) fn docs(cursor: &mut Cursor, faults: &mut Faults) -> Result<Docs, Rep
     Ok(docs)
 }
 
-/// What one pair of brackets says.
+/// Reads one pair of brackets.
 fn attribute(group: &Group, docs: &mut Docs, faults: &mut Faults) {
     let mut inside = Cursor::inside(group);
     inside.open_invisible();

@@ -148,7 +148,7 @@ fn after_system(cursor: &mut Cursor, faults: &mut Faults) {
     }
 }
 
-/// What has been seen of a system while its sections are read.
+/// The items of a system that have been read so far.
 struct Progress {
     items: Vec<Item>,
     first: [Option<Span>; SectionKind::ALL.len()],

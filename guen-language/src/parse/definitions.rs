@@ -55,7 +55,7 @@ pub(crate) fn outputs(group: &Group, faults: &mut Faults) -> Vec<Definition> {
     })
 }
 
-/// What follows `let`.
+/// Reads the definition behind `let`.
 pub(crate) fn definition_of_let(
     cursor: &mut Cursor,
     faults: &mut Faults,

@@ -7,7 +7,7 @@ use super::punctuation::{equals, expression_to_semicolon};
 use crate::diagnostics::{Faults, Reported};
 use crate::syntax::{Docs, Expression, Quantity};
 
-/// What follows the word in front.
+/// Reads the expression behind the word in front.
 pub(crate) fn quantity(
     cursor: &mut Cursor,
     faults: &mut Faults,

@@ -26,7 +26,7 @@ pub(crate) fn whole(tokens: TokenStream, faults: &mut Faults) -> Expression {
     inside(Cursor::new(tokens, Span::call_site()), faults, 0, "the end")
 }
 
-/// What a cursor holds up to its end as one expression.
+/// Reads everything up to the end of a cursor as one expression.
 fn inside(mut cursor: Cursor, faults: &mut Faults, depth: usize, end: &str) -> Expression {
     let span = cursor.span();
     match sum(&mut cursor, faults, depth) {
@@ -175,7 +175,7 @@ fn postfix(cursor: &mut Cursor, faults: &mut Faults, depth: usize) -> Parsed {
     }
 }
 
-/// What follows a `.`.
+/// Reads a component or a method behind a `.`.
 fn member(cursor: &mut Cursor, faults: &mut Faults, depth: usize, base: Expression) -> Parsed {
     let span = cursor.span();
     let Some(TokenTree::Ident(ident)) = cursor.peek().cloned() else {
@@ -204,8 +204,8 @@ fn member(cursor: &mut Cursor, faults: &mut Faults, depth: usize, base: Expressi
     ))
 }
 
-/// What stands directly behind an operand although it begins another one. A name may end the expression and
-/// begin something else; parentheses and numbers cannot.
+/// Returns the token directly behind an operand that begins another one. A name may end the expression and begin
+/// something else; parentheses and numbers cannot.
 fn juxtaposed(cursor: &Cursor) -> Option<String> {
     match cursor.peek()? {
         TokenTree::Literal(_) => Some(cursor.found()),

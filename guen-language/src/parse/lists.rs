@@ -10,7 +10,7 @@ use crate::diagnostics::{Fault, Faults, Reported};
 use crate::limits::{MAX_COORDINATES, MAX_ENTRIES};
 use crate::syntax::{Expression, Plain};
 
-/// What an entry of `inputs` is, in messages.
+/// The name for an entry of `inputs` in messages.
 pub(crate) const INPUT: &str = "the name of an input";
 
 /// Entries that each take their `;`.

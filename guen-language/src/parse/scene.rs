@@ -13,7 +13,7 @@ use crate::limits::MAX_ENTRIES;
 use crate::names::{SCENE_STATEMENTS, nearest, quoted};
 use crate::syntax::{Docs, Fix, Provide, Scene};
 
-/// What follows `scene`.
+/// Reads a scene behind the word `scene`.
 pub(crate) fn scene(
     cursor: &mut Cursor,
     faults: &mut Faults,

@@ -1,4 +1,4 @@
-//! What was derived, in readable notation: the same lines as text and as LaTeX.
+//! The derivation in readable notation: the same lines as text and as LaTeX.
 
 mod mathml;
 mod pages;
@@ -16,7 +16,7 @@ use crate::model::{FormKind, Model, RedundantEntry};
 /// A heading with its lines: formulas, then words.
 #[derive(Clone)]
 pub struct Section {
-    /// What the lines are.
+    /// The heading of the lines.
     pub title: &'static str,
     /// The lines as text.
     pub text: Vec<String>,
@@ -44,9 +44,9 @@ pub struct Report {
 /// Coefficients with the names that they multiply.
 type Terms = Vec<(ExprId, String)>;
 
-/// What stands in place of a longer line.
+/// The text in place of a longer line.
 const TOO_LONG: &str = ".. (too long to print)";
-/// The same in a formula.
+/// The formula in place of a longer one.
 const LATEX_TOO_LONG: &str = r"\ldots";
 
 /// Lines longer than this are left to the programs.
@@ -409,7 +409,7 @@ fn energies(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
     lines.section
 }
 
-/// What must not vanish: formulas, then what is told in words.
+/// The functions that must not vanish: formulas, then those that are told in words.
 fn domain(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
     let (mut formulas, mut words) = (Vec::new(), Vec::new());
     for (e, name) in subject.level.domain.iter().zip(&subject.level.domain_names) {

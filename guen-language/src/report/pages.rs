@@ -1,4 +1,4 @@
-//! What was declared, in words, and how rustdoc shows the whole.
+//! The declaration in words, and the page of rustdoc.
 
 use super::mathml::paragraph;
 use super::{Report, Section};
@@ -24,7 +24,7 @@ pub(super) fn declared(subject: &Subject<'_, '_>) -> Vec<Section> {
     ]
 }
 
-/// What stands before and behind a formula that is a line of a page.
+/// The mark before and behind a formula that is a line of a page.
 const FORMULA: &str = "$$";
 
 /// A page with its formulas as MathML. That is made where rustdoc reads the page, and not where a system is expanded.

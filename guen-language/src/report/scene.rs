@@ -1,4 +1,4 @@
-//! What there is to tell of a scene: what it keeps and why, what left, and its rates.
+//! The report of a scene: what it keeps and why, what left, and its rates.
 
 use super::{Lines, Section, Writer, class_name, plural};
 use crate::derive::{Place, Reason, SceneFacts};
@@ -21,7 +21,7 @@ pub(super) fn summary(subject: &Subject<'_, '_>) -> String {
     )
 }
 
-/// What is kept, what left, what is fixed, each with its reason.
+/// Returns the sections on kept, dropped and fixed variables, each with its reason.
 pub(super) fn sections(subject: &Subject<'_, '_>) -> Vec<Section> {
     let Subject { model, level } = subject;
     let facts = facts(subject);

@@ -12,7 +12,7 @@ pub struct Expression {
     pub span: Span,
     /// The parentheses around the expression, where there are some.
     pub parentheses: Option<Span>,
-    /// What the expression is.
+    /// The kind of the expression.
     pub kind: ExpressionKind,
 }
 
@@ -36,16 +36,16 @@ pub enum ExpressionKind {
     },
     /// `base.name`.
     Field {
-        /// What stands before the point.
+        /// The operand before the point.
         base: Box<Expression>,
-        /// What stands after it.
+        /// The name behind the point.
         name: Name,
     },
     /// `base.name(arguments)`.
     Method {
-        /// What stands before the point.
+        /// The operand before the point.
         base: Box<Expression>,
-        /// What stands after it.
+        /// The name behind the point.
         name: Name,
         /// The arguments.
         arguments: Vec<Expression>,
@@ -70,7 +70,7 @@ pub enum ExpressionKind {
     },
     /// `base ^ exponent`.
     Power {
-        /// What is raised.
+        /// The base.
         base: Box<Expression>,
         /// To which power.
         exponent: Box<Expression>,

@@ -43,7 +43,7 @@ pub struct Docs {
     pub lines: Vec<String>,
 }
 
-/// Who may see the generated items.
+/// The visibility of the generated items.
 #[derive(Debug, Clone)]
 pub enum Visibility {
     /// Nothing written: the module around the invocation.
@@ -69,8 +69,8 @@ impl Visibility {
         }
     }
 
-    /// The same visibility for an item in a module that the expansion opens: paths that are relative to the
-    /// module around the invocation are one step longer there.
+    /// Returns the visibility for an item in a module that the expansion opens: paths that are relative to the module
+    /// around the invocation are one step longer there.
     pub fn inside(&self) -> TokenStream {
         match self {
             Visibility::Private => quote!(pub(super)),

@@ -137,7 +137,7 @@ pub struct Section<T> {
     pub docs: Docs,
     /// Place of the word that begins it.
     pub keyword: Span,
-    /// What it lists.
+    /// The entries of the section.
     pub entries: Vec<T>,
 }
 
@@ -165,7 +165,7 @@ pub struct Constant {
     pub default: Option<Expression>,
 }
 
-/// What is promised of a constant.
+/// The bound that is promised of a constant.
 #[derive(Debug, Clone, Copy)]
 pub struct Bound {
     /// Which promise.
@@ -192,7 +192,7 @@ pub struct Definition {
     pub docs: Docs,
     /// The name.
     pub name: Name,
-    /// What it stands for.
+    /// The expression that the name stands for.
     pub value: Expression,
 }
 
@@ -257,7 +257,7 @@ pub struct Body {
 pub struct BodyField<T> {
     /// Place of the field's name.
     pub keyword: Span,
-    /// What is given.
+    /// The value of the section.
     pub value: T,
 }
 
@@ -294,18 +294,18 @@ pub struct Scene {
     pub keyword: Span,
     /// The name.
     pub name: Name,
-    /// What the scene looks at, of all `track` statements in order.
+    /// The names that the scene tracks, of all `track` statements in order.
     pub tracks: Vec<Name>,
-    /// What the scene fixes, of all `fix` statements in order.
+    /// The names that the scene fixes, of all `fix` statements in order.
     pub fixes: Vec<Fix>,
-    /// What the scene provides beside the state, of all `provide` statements in order.
+    /// The quantities that the scene provides beside the state, of all `provide` statements in order.
     pub provides: Vec<Provide>,
 }
 
 /// `name = e` or `name` after `fix`.
 #[derive(Debug, Clone)]
 pub struct Fix {
-    /// What is fixed.
+    /// The constant, parameter or coordinate that is fixed.
     pub name: Name,
     /// The value of a constant; none for a parameter or coordinate that stays at its initial value.
     pub value: Option<Expression>,

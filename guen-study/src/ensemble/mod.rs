@@ -219,7 +219,7 @@ impl<S: Laned<N> + Sync, const N: usize, C: LaneScalar> Ensemble<S, N, C> {
     }
 }
 
-/// What is done with all members: `visit` is shown the states at the times.
+/// The task of integrating all members: `visit` is shown the states at the times.
 struct Task<'a, S, M, V, const N: usize, C> {
     ensemble: &'a Ensemble<S, N, C>,
     method: &'a M,

@@ -52,7 +52,8 @@ pub(super) fn in_turn<T: Send>(
     results.into_iter().flatten().collect()
 }
 
-/// What is locked stays whole when a thread panics: nothing of it is in between.
+/// Locks a mutex, poisoned or not: its content is whole even if a thread panicked, since no change to it is done by
+/// halves.
 fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

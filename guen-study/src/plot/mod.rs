@@ -1,4 +1,4 @@
-//! What a run looks like: curves on a pair of axes, as an SVG picture.
+//! Plots of runs: curves on a pair of axes, as an SVG picture.
 //!
 //! A picture is made in four steps, each in its file: `frame` finds ranges and margins, with the marks that `ticks`
 //! chooses for an axis; `thin` reduces a curve to what can be seen of it; `draw` hands lines and texts to plotters.
@@ -81,38 +81,37 @@ impl Plot {
         }
     }
 
-    /// The same with another size in pixels, from 240 by 180 to 20000 by 20000. A long legend needs more.
+    /// Sets the size in pixels, from 240 by 180 to 20000 by 20000. A long legend needs more.
     pub fn size(mut self, width: u32, height: u32) -> Self {
         (self.width, self.height) = (width, height);
         self
     }
 
-    /// The same with texts at the axes; an empty one takes no room.
+    /// Sets the texts at the axes; an empty one takes no room.
     pub fn axes(mut self, x: impl Into<String>, y: impl Into<String>) -> Self {
         (self.x_label, self.y_label) = (x.into(), y.into());
         self
     }
 
-    /// The same with a unit as long on one axis as on the other, or not: for tracks on a plane, so that a circle is
-    /// round.
+    /// Makes a unit as long on one axis as on the other, or not: for tracks on a plane, so that a circle is round.
     pub fn equal_scale(mut self, equal: bool) -> Self {
         self.equal_scale = equal;
         self
     }
 
-    /// The same with a ring where each curve starts and a dot where it ends, or without.
+    /// Marks where each curve starts with a ring and where it ends with a dot, or does not.
     pub fn mark_ends(mut self, mark: bool) -> Self {
         self.mark_ends = mark;
         self
     }
 
-    /// The same with a dot at every point of every curve, or without: for measurements.
+    /// Marks every point of every curve with a dot, or does not: for measurements.
     pub fn mark_points(mut self, mark: bool) -> Self {
         self.mark_points = mark;
         self
     }
 
-    /// The same with both axes logarithmic, or not. Points that are not positive are gaps then, and `equal_scale` means a
+    /// Makes both axes logarithmic, or not. Points that are not positive are gaps then, and `equal_scale` means a
     /// decade as long on one axis as on the other.
     ///
     /// ```
@@ -128,7 +127,7 @@ impl Plot {
         self
     }
 
-    /// The same with a broad grey line behind all curves, and its label.
+    /// Adds a broad grey line behind all curves, and its label.
     pub fn band(mut self, label: impl Into<String>, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
         self.band = Some(Curve { label: label.into(), points: points.into_iter().collect() });
         self
@@ -145,7 +144,7 @@ impl Plot {
         x.abs() <= FAR && y.abs() <= FAR && (!self.logarithmic || x > 0.0 && y > 0.0)
     }
 
-    /// The same with a further curve.
+    /// Adds a curve.
     pub fn line(mut self, label: impl Into<String>, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
         self.curves.push(Curve { label: label.into(), points: points.into_iter().collect() });
         self

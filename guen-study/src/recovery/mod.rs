@@ -1,4 +1,4 @@
-//! What a scene left out, recovered from a run of what it keeps.
+//! Recovers the variables that a scene left out from a run of those that it keeps.
 
 mod rule;
 
@@ -211,7 +211,7 @@ struct Path<'a, S, F, const FULL: usize> {
     rest: &'a [f64; FULL],
 }
 
-/// What was integrated.
+/// The integrals over a grid.
 struct Integrated<const FULL: usize> {
     /// The states of the system at the times of the grid.
     states: Vec<[f64; FULL]>,
@@ -231,7 +231,7 @@ impl<S, F, const FULL: usize> Path<'_, S, F, FULL> {
     {
         /// The part of the largest coefficient that the highest may be.
         const TAIL: f64 = 0.07;
-        /// What rounding may leave of a rate that is constant, as a part of its largest value.
+        /// The rounding that a constant rate may show, relative to its largest value.
         const ROUNDING: f64 = 1e-10;
 
         let largest = |values: &[f64]| values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));

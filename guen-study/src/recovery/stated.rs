@@ -62,7 +62,7 @@ impl Rate {
     }
 }
 
-/// What became of a run: the worst of what is off, as a multiple of what is stated; none where it was refused.
+/// Returns the largest error of a run as a multiple of the stated one; none where the run was refused.
 fn worst(draws: &mut Draws) -> (f64, Option<f64>) {
     let (f, g) = (Rate::new(draws), Rate::new(draws));
     let g = Rate { fastest: f.fastest * draws.next(), slower: f.slower * draws.next(), ..g };

@@ -58,7 +58,7 @@ fn layers_are_recovered_within_what_is_stated() {
     assert!(off(&recovered(80, 0.0), 2) < 1e-13 && recovered(80, 0.0).error(2) < 1e-6);
 }
 
-/// The same core where an equation says that `w = 2 x + t`, and `y' = w` follows.
+/// The core of the tests above where an equation says that `w = 2 x + t`, and `y' = w` follows.
 struct Bound;
 
 impl Level<f64, 2, 5> for Bound {

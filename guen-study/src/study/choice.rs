@@ -1,5 +1,5 @@
-//! What to choose of a report, and why there is nothing to choose: the one way to a choice, for reports of studies and for
-//! those that come back from files.
+//! Chooses a setting of a report, or says why there is none to choose: the one way to a choice, for reports of
+//! studies and for those that come back from files.
 
 use std::fmt;
 
@@ -36,7 +36,7 @@ pub struct Choice<'a> {
     pub ties: Vec<&'a Row>,
     /// A setting that is quicker and was passed over, because it errs too much from states nearby.
     pub passed_over: Option<&'a Row>,
-    /// What the study could not check; the promise does not cover it.
+    /// The questions that the study could not check; the promise does not cover them.
     pub caveats: Vec<Caveat>,
     unit: Unit,
 }
@@ -85,7 +85,7 @@ pub enum NoChoice {
     Unchecked,
     /// The reference and its check differ too much for the errors that were measured against them.
     ReferencesDisagree {
-        /// What they differ by, in the measure of the study.
+        /// The difference of the two, in the measure of the study.
         difference: f64,
     },
     /// No setting is that accurate; the most accurate one errs this much.
@@ -179,7 +179,7 @@ impl Report {
         .collect()
     }
 
-    /// What is wrong with the rows that would do if they were certain: the reason of the first of them.
+    /// Returns the reason why the rows that would do if they were certain are not: that of the first of them.
     fn doubts(&self, wanted: impl Fn(f64, f64) -> bool) -> Option<NoChoice> {
         let mut would = self
             .rows
@@ -265,7 +265,7 @@ impl Report {
         })
     }
 
-    /// What the study could not check of this row.
+    /// Returns the questions that the study could not check for this row.
     fn caveats(&self, row: &Row) -> Vec<Caveat> {
         let unseen = self.reference.is_some() && !self.is_scanned();
         let nearby = match row.nearby {

@@ -2,7 +2,7 @@
 
 use super::variant::Argument;
 
-/// What `system` is in the code.
+/// The origin of `system` in the code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Origin {
     /// The constants, or whatever else can be made anew over a real.

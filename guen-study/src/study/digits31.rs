@@ -34,7 +34,7 @@ fn two_sum(a: f64, b: f64) -> Digits31 {
     Digits31 { high, low: (a - (high - part)) + (b - part) }
 }
 
-/// The same where `a` is the larger one.
+/// The sum where `a` is the larger one.
 fn quick_two_sum(a: f64, b: f64) -> Digits31 {
     let high = a + b;
     Digits31 { high, low: b - (high - a) }
@@ -60,7 +60,7 @@ impl Digits31 {
         Self { high: value, low: 0.0 }
     }
 
-    /// The same number, exactly.
+    /// Returns the number in 71 digits, exactly.
     pub fn lengthened(self) -> Digits71 {
         Digits71::from_f64(self.high) + Digits71::from_f64(self.low)
     }
@@ -301,7 +301,7 @@ impl Real for Digits31 {
         value.times_power_of_two(half.exp2()).times_power_of_two((twos - half).exp2())
     }
 
-    /// That of the double, and a step of Newton's method.
+    /// The logarithm of the double, and a step of Newton's method.
     fn ln(self) -> Self {
         let rough = self.high.ln();
         if !rough.is_finite() {

@@ -17,7 +17,7 @@ const MOST_SHORT: u32 = 200;
 pub(super) enum Stop {
     /// The step no longer moves the time, or nothing finite was found however short it was.
     Underflow,
-    /// Who watched wanted no more.
+    /// The observer stopped the run.
     Cancelled,
 }
 

@@ -1,4 +1,4 @@
-//! What is worth choosing among errors and costs.
+//! The front: the settings worth choosing among errors and costs.
 
 /// The positions of the points `(error, cost)` that no other one beats: none is at most as large in both and smaller in
 /// one. In the order of falling errors, so of rising costs; of equal points the first. Points that are not finite are

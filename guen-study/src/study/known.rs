@@ -1,4 +1,4 @@
-//! What a study makes of a scan: where its references land, whether they agree with a motion that landed there, and what
+//! Uses a scan in a study: where its references land, whether they agree with a motion that landed there, and what
 //! the report says.
 
 use std::fmt;
@@ -25,7 +25,7 @@ const COARSER: f64 = 1e-11;
 const ROUNDING: f64 = 1e-10;
 const OF_JUMPS: f64 = 10.0;
 
-/// What was looked at for kicks and steep layers that a method might step over, and what was found.
+/// The search for kicks and steep layers that a method might step over, and what it found.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
@@ -34,7 +34,7 @@ pub struct ScanReport {
     /// not be followed, or not in time.
     #[cfg_attr(feature = "serde", serde(with = "crate::exact::option"))]
     pub width: Option<f64>,
-    /// The same for states nearby and for forecasts.
+    /// The width for states nearby and for forecasts.
     #[cfg_attr(feature = "serde", serde(with = "crate::exact::option"))]
     pub width_elsewhere: Option<f64>,
     /// Evaluations of the right-hand side.
@@ -63,7 +63,7 @@ fn places(count: usize) -> String {
     if count == 1 { "1 place".to_owned() } else { format!("{count} places") }
 }
 
-/// What is known of the motions from all initial states.
+/// The scanned motions from all initial states.
 pub(super) struct Known<const N: usize> {
     pub report: ScanReport,
     /// The evaluations of the rates along motions elsewhere.

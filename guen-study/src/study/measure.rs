@@ -1,4 +1,4 @@
-//! What counts as error.
+//! Measures of error.
 
 use std::rc::Rc;
 
@@ -9,10 +9,10 @@ use super::digits71::Digits71;
 /// A function of time and state.
 pub(super) type Output<const N: usize> = Rc<dyn Fn(f64, &[f64; N]) -> f64>;
 
-/// What a system tells of a state, in the long real.
+/// A function that returns the invariants of a state, in the long real.
 pub(super) type Tells<const N: usize> = Box<dyn Fn(Digits71, &[Digits71; N]) -> Invariants<Digits71>>;
 
-/// What counts as error: see the methods of [`Study`](super::Study) that set it.
+/// The measure of error: see the methods of [`Study`](super::Study) that set it.
 #[derive(Clone)]
 pub(super) enum Measure<const N: usize> {
     EndState,

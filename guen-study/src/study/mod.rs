@@ -113,7 +113,7 @@ pub struct Study<S, const N: usize> {
     check: Option<Named<N>>,
     /// The reference of states nearby and of trials.
     elsewhere: Named<N>,
-    /// What takes their place if they take too long.
+    /// The references in 31 digits, if those in 71 take too long.
     shorter: Option<References<N>>,
     tells: Tells<N>,
     /// DOP853 in doubles at a tolerance, for forecasts.
@@ -142,13 +142,13 @@ impl<S, const N: usize> std::fmt::Debug for Study<S, N> {
 }
 
 impl<S, const N: usize> Study<S, N> {
-    /// The same with a title for report and picture.
+    /// Sets the title of report and picture.
     #[must_use]
     pub fn title(self, title: impl Into<String>) -> Self {
         Self { title: title.into(), ..self }
     }
 
-    /// The same from these states besides. Errors are the largest, costs the mean.
+    /// Adds initial states. Errors are the largest over all of them, costs the mean.
     #[must_use]
     pub fn starts(mut self, starts: impl IntoIterator<Item = [f64; N]>) -> Self {
         self.starts.extend(starts);
@@ -191,7 +191,7 @@ impl<S, const N: usize> Study<S, N> {
         Self { measure: Measure::Residual, samples: samples.max(1), ..self }
     }
 
-    /// The same with errors of entries divided by these sizes in place of `max(1, |reference|)`; infinity leaves an
+    /// Sets the sizes by which errors of entries are divided in place of `max(1, |reference|)`; infinity leaves an
     /// entry out.
     #[must_use]
     pub fn scales(self, scales: [f64; N]) -> Self {
@@ -207,9 +207,8 @@ impl<S, const N: usize> Study<S, N> {
         self
     }
 
-    /// The same with a variant of the user's own: a method on any system in doubles, with its settings and the code that
-    /// the report shows for a setting. The system may be another one of the same state, such as a form that is
-    /// cheaper.
+    /// Adds a variant of the user's own: a method on any system in doubles, with its settings and the code that the
+    /// report shows for a setting. The system may be another one of the same state, such as a form that is cheaper.
     ///
     /// ```
     /// use guen_runtime::{from_fn, steppers::Rk4};
@@ -251,9 +250,9 @@ impl<S, const N: usize> Study<S, N> {
         self
     }
 
-    /// The same with the explicit methods on another form of the equations, whose state is another one: a system of `M`
-    /// variables with the way there and back, such as the carried form of a system that says `provide carried;`. Errors
-    /// are those of the state that comes back. The way there and back counts as the form's cost.
+    /// Adds the explicit methods on another form of the equations, whose state is another one: a system of `M`
+    /// variables with the way there and back, such as the carried form of a system that says `provide carried;`.
+    /// Errors are those of the state that comes back. The way there and back counts as the form's cost.
     ///
     /// ```
     /// use guen_runtime::from_fn;
@@ -300,15 +299,15 @@ impl<S, const N: usize> Study<S, N> {
         Self { unit: Unit::Evaluations, ..self }
     }
 
-    /// The same with another limit on the time of the whole study; a minute by default. The stages share it: 10 parts of
-    /// a hundred to look for kicks, 20 for the reference and 15 for one in 31 digits where that did not suffice, 15 to find errors,
-    /// 12 for states nearby, 28 for times, and what a stage leaves is the next one's.
+    /// Limits the time of the whole study; a minute by default. The stages share it: 10 parts of a hundred to look
+    /// for kicks, 20 for the reference and 15 for one in 31 digits where that did not suffice, 15 to find errors, 12
+    /// for states nearby, 28 for times, and what a stage leaves is the next one's.
     #[must_use]
     pub fn within(self, budget: Duration) -> Self {
         Self { budget, ..self }
     }
 
-    /// The same with a line on the terminal, once two seconds are over, that says how much is done and how much is left.
+    /// Shows a line on the terminal, once two seconds are over, that says how much is done and how much is left.
     #[must_use]
     pub fn show_progress(self) -> Self {
         Self { progress: true, ..self }
@@ -320,24 +319,25 @@ impl<S, const N: usize> Study<S, N> {
         Self { stop: Box::new(stop), ..self }
     }
 
-    /// The same with another clock.
+    /// Sets the clock.
     #[must_use]
     pub fn stopwatch(self, stopwatch: impl Stopwatch + 'static) -> Self {
         Self { stopwatch: Box::new(stopwatch), ..self }
     }
 
-    /// The same with so many states nearby, 20 by default, on which settings that may be chosen have to prove themselves;
-    /// none chooses by the initial states alone. An entry differs by at most `spread max(|x|, 1/3)`, with a spread of 0.4 by
-    /// default. States that violate the constraints on positions are replaced by others of the same motion.
+    /// Sets the number of states nearby, 20 by default, on which settings that may be chosen have to prove
+    /// themselves; none chooses by the initial states alone. An entry differs by at most `spread max(|x|, 1/3)`, with
+    /// a spread of 0.4 by default. States that violate the constraints on positions are replaced by others of the
+    /// same motion.
     #[must_use]
     pub fn probes(self, count: usize, spread: f64) -> Self {
         Self { probes: count, spread, ..self }
     }
 
-    /// The same with so many evaluations of the rates along each motion, 1,048,576 by default, to see kicks and steep layers that
-    /// methods would step over; a sixteenth of them for states nearby and forecasts. References land in what is found, and the
-    /// report says how long something has to last to be seen. A tenth of the study's time may go into it; what takes longer is looked
-    /// at less closely.
+    /// Sets the number of evaluations of the rates along each motion, 1,048,576 by default, to see kicks and steep
+    /// layers that methods would step over; a sixteenth of them for states nearby and forecasts. References land in
+    /// what is found, and the report says how long something has to last to be seen. A tenth of the study's time may
+    /// go into it; what takes longer is looked at less closely.
     #[must_use]
     pub fn scan(self, evaluations: usize) -> Self {
         Self { points: evaluations.max(1), ..self }
@@ -362,7 +362,7 @@ fn sample_times(t0: f64, t1: f64, samples: usize) -> Vec<f64> {
 }
 
 impl<S: Recast<N>, const N: usize> Study<S, N> {
-    /// The same with a variant of the user's own: a method on the system in doubles.
+    /// Adds a variant of the user's own: a method on the system in doubles.
     ///
     /// # Errors
     ///
@@ -396,7 +396,7 @@ impl<S: Recast<N>, const N: usize> Study<S, N> {
         Ok(self.with_method_on(system, [name, "f64", "declared"], settings, make, code))
     }
 
-    /// The same with Taylor series, of a system that says `provide taylor;`.
+    /// Adds Taylor series, of a system that says `provide taylor;`.
     ///
     /// # Errors
     ///
@@ -411,7 +411,7 @@ impl<S: Recast<N>, const N: usize> Study<S, N> {
         })
     }
 
-    /// The same with references by other methods, for systems that explicit ones are too slow for: the first is the
+    /// Sets other methods for references, for systems that explicit ones are too slow for: the first is the
     /// reference, the second its check.
     ///
     /// # Errors

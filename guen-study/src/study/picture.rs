@@ -21,7 +21,7 @@ impl Report {
         self.draw(&front, |row| row.real == "f64", Row::variant)
     }
 
-    /// The same of one method: a curve for each real, and the front of all variants.
+    /// Returns the picture of one method: a curve for each real, and the front of all variants.
     pub fn picture_of_reals(&self, method: &str) -> Plot {
         let front = self.front();
         self.draw(&front, |row| row.method == method && row.form == "declared", |row| row.real.clone())

@@ -15,9 +15,9 @@ type Long = Digits71;
 
 /// A real that references are computed in.
 pub(super) trait Extended: Ordered + 'static {
-    /// What a report says of it.
+    /// The name in a report.
     const NAME: &'static str;
-    /// The same number in the longest of them.
+    /// Returns the number in the longest of these reals.
     fn lengthened(self) -> Long;
 }
 
@@ -109,7 +109,7 @@ pub(super) const CANCELLED: &str = "it was cancelled, or took longer than the st
 
 /// The order of the reference is high, so that digits are cheap: 1e-24 is not twice the work of 1e-18.
 pub(super) const EXTRAPOLATION_TOLERANCE: f64 = 1e-24;
-/// That in 31 digits, of which the table of extrapolation leaves some 25.
+/// The tolerance of the reference in 31 digits, of which the table of extrapolation leaves some 25.
 pub(super) const SHORTER_TOLERANCE: f64 = 1e-20;
 /// Of states nearby: far below the rounding of doubles.
 const ELSEWHERE_TOLERANCE: f64 = 1e-18;
@@ -170,7 +170,7 @@ where
     Named { name, source }
 }
 
-/// What is said of the reference in a report.
+/// The reference, as a report tells it.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]

@@ -1,4 +1,4 @@
-//! What a study found: the rows, which of them are worth choosing, and what may be said of them.
+//! Reports of studies: the rows, which of them are worth choosing, and what may be said of them.
 
 use std::fmt;
 
@@ -8,7 +8,7 @@ use super::reference::ReferenceReport;
 use super::row::{Nearby, Row};
 use crate::significant;
 
-/// What costs are.
+/// The unit of costs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Unit {
@@ -42,21 +42,21 @@ pub enum Ending {
     Cancelled,
 }
 
-/// What a study found. Displays as a table of what is worth choosing, with everything that qualifies it;
+/// The result of a study. Displays as a table of the settings worth choosing, with everything that qualifies them;
 /// [`table`](Report::table) has every row.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Report {
-    /// What was studied.
+    /// The title of the study.
     pub title: String,
-    /// What counts as error.
+    /// The measure of error, in words.
     pub measure: String,
     /// Beginning and end of the span.
     pub span: (f64, f64),
     /// The number of initial states.
     pub starts: usize,
-    /// What costs are.
+    /// The unit of costs.
     pub unit: Unit,
     /// The reference; none where the measure needs none.
     pub reference: Option<ReferenceReport>,

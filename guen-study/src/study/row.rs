@@ -1,10 +1,10 @@
-//! What is known of one setting of one variant.
+//! Rows of a report: settings of variants, each with its error and cost.
 
 use guen_runtime::{Cause, ConstantsError};
 
 use super::timing::Cost;
 
-/// What the setting of a variant is.
+/// The quantity that a setting of a variant sets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Knob {
@@ -31,7 +31,7 @@ impl Knob {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Failure {
-    /// What kind of failure.
+    /// The kind of failure.
     pub kind: FailureKind,
     /// The time that the run had reached, if it had begun.
     #[cfg_attr(feature = "serde", serde(with = "crate::exact::option"))]
@@ -87,7 +87,7 @@ impl Failure {
     }
 }
 
-/// What a setting errs from states in the neighbourhood of those that the study was made for.
+/// The error of a setting from states in the neighbourhood of those that the study was made for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Nearby {
@@ -126,7 +126,7 @@ pub struct Row {
     pub real: String,
     /// The form of the right-hand side: `declared` unless the variant brings another one.
     pub form: String,
-    /// What the setting is.
+    /// The quantity that the setting sets.
     pub knob: Knob,
     /// The setting.
     #[cfg_attr(feature = "serde", serde(with = "crate::exact"))]
@@ -137,7 +137,7 @@ pub struct Row {
     /// Whether the error is so small that the reference's own error may be a tenth of it, or more. Such a row is not
     /// chosen, and nothing is promised of it.
     pub limited: bool,
-    /// What it errs from states nearby, for rows that may be chosen.
+    /// The error from states nearby, for rows that may be chosen.
     pub nearby: Option<Nearby>,
     /// Evaluations of the right-hand side, for one initial state in the mean.
     #[cfg_attr(feature = "serde", serde(with = "crate::exact"))]
@@ -145,7 +145,7 @@ pub struct Row {
     /// Evaluations of the Jacobian, likewise.
     #[cfg_attr(feature = "serde", serde(with = "crate::exact"))]
     pub jacobians: f64,
-    /// What it costs, for one initial state.
+    /// The cost, for one initial state.
     pub cost: Option<Cost>,
     /// Why there is no result.
     pub failure: Option<Failure>,

@@ -1,5 +1,5 @@
-//! What a study does, stage by stage: scan, reference, errors, states nearby, times. A stage that ends early leaves what it
-//! has, and the next ones work with that.
+//! Runs a study, stage by stage: scan, reference, errors, states nearby, times. A stage that ends early leaves what
+//! it has, and the next ones work with that.
 
 use std::rc::Rc;
 use std::time::{Duration, Instant};
@@ -27,7 +27,7 @@ const STAGNATION: u32 = 6;
 /// .. once it is this accurate, or when it is so many times as dear as another one that errs no more.
 const SETTLED: f64 = 1e-2;
 const HOPELESS: f64 = 60.0;
-/// What took less is run once more before it is judged.
+/// The seconds below which a run is repeated before it is judged.
 const AGAIN: f64 = 5e-3;
 /// A study that counts evaluations has no clock to tell it when a setting takes too long.
 const MOST_EVALUATIONS: f64 = 3e6;
@@ -487,7 +487,7 @@ fn along<S, const N: usize>(study: &Study<S, N>, deadline: Instant) -> Vec<[f64;
     states
 }
 
-/// What the figures depend on.
+/// Returns the conditions that the figures depend on.
 fn conditions() -> String {
     let threads = std::thread::available_parallelism().map_or(0, usize::from);
     let build = if cfg!(debug_assertions) { "a build with debug assertions" } else { "a release build" };

@@ -1,5 +1,5 @@
-//! What the references might step over: kicks and steep layers, looked for by evaluating the rates much more closely than
-//! any setting does.
+//! Looks for kicks and steep layers that the references might step over, by evaluating the rates much more closely
+//! than any setting does.
 //!
 //! A method that steps over a kick has nothing to show for it: neither its error estimate nor a second method does. So
 //! the motion is followed in doubles, and the rates are evaluated at up to a million equidistant times of it. Between
@@ -22,7 +22,7 @@ use guen_runtime::{Cause, System};
 
 use super::reference::Problem;
 
-/// What lasts so many intervals between evaluations is seen, wherever it lies.
+/// The number of intervals between evaluations that something has to last to be seen, wherever it lies.
 const INTERVALS_SEEN: f64 = 2.0;
 /// Steps of fewer intervals are not looked into: the nodes of DOP853 are no further apart than from 1/3 to 3/5, which is less than
 /// two intervals then.
@@ -48,7 +48,7 @@ const SHORT: f64 = 16.0;
 const LANDINGS: usize = 8;
 const BEGINNING: usize = 10;
 
-/// What lasts so long is seen, wherever it lies.
+/// Returns how long something has to last to be seen, wherever it lies.
 pub(super) fn width(span: f64, points: usize) -> f64 {
     INTERVALS_SEEN * span / points as f64
 }
@@ -62,7 +62,7 @@ pub(super) enum Look {
     Nowhere(f64),
 }
 
-/// What was seen.
+/// The result of a scan.
 pub(super) struct Seen<const N: usize> {
     /// The states at the times.
     pub states: Vec<[f64; N]>,
@@ -71,7 +71,7 @@ pub(super) struct Seen<const N: usize> {
     /// The number of places where a step in doubles went over something, and of jumps.
     pub abrupt: usize,
     pub evaluations: u64,
-    /// What jumps leave uncertain of a state, relative to the sizes of its entries.
+    /// The uncertainty of a state that jumps leave, relative to the sizes of its entries.
     pub uncertain: f64,
 }
 

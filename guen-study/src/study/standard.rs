@@ -137,8 +137,8 @@ where
         Ok(study)
     }
 
-    /// The same with RK4 and RK8 in lanes, in doubles and with the functions of `Approx7`: several initial states at once, on one
-    /// thread. Costs are for one state, so lanes are worth nothing for a single one.
+    /// Adds RK4 and RK8 in lanes, in doubles and with the functions of `Approx7`: several initial states at once, on
+    /// one thread. Costs are for one state, so lanes are worth nothing for a single one.
     ///
     /// # Errors
     ///

@@ -4,8 +4,8 @@ use std::time::{Duration, Instant};
 
 use crate::median::median_with_interval;
 
-/// What measures how long a run takes. The default is the machine's clock; another one makes a study repeatable, or
-/// tells it times that were recorded elsewhere.
+/// A clock that measures how long a run takes. The default is the machine's clock; another one makes a study
+/// repeatable, or tells it times that were recorded elsewhere.
 pub trait Stopwatch {
     /// Does the work, as often as it takes to tell how long it takes, and returns the seconds of doing it once. `row` is the
     /// position of the setting in the report.
@@ -14,7 +14,7 @@ pub trait Stopwatch {
 
 /// A timing lasts at least this long: some thousand times what reading the clock takes.
 const SHORTEST: Duration = Duration::from_micros(50);
-/// What takes this long is not repeated: it warms itself up.
+/// The time above which a run is not repeated: it warms itself up.
 const LONG: Duration = Duration::from_millis(1);
 
 /// The machine's clock.
@@ -48,7 +48,7 @@ impl Stopwatch for Wall {
     }
 }
 
-/// What a setting costs: the median over repetitions with its interval.
+/// The cost of a setting: the median over repetitions with its interval.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Cost {

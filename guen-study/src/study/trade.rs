@@ -14,14 +14,14 @@ use super::row::Failure;
 use super::variant::{Run, Task};
 use super::{lengthened, probes};
 
-/// What is promised of a choice elsewhere: at most so many times the error that was asked for.
+/// The factor of the promise: elsewhere a choice errs by at most so many times the error that was asked for.
 const PROMISE: f64 = 10.0;
 /// A forecast leaves a tenth of that to what it does not know.
 const CERTAIN: f64 = 0.9 * PROMISE;
 
 /// A finished study.
 pub struct Trade<const N: usize> {
-    /// What was found.
+    /// The report.
     pub report: Report,
     pub(super) means: Means<N>,
 }
@@ -32,7 +32,7 @@ impl<const N: usize> std::fmt::Debug for Trade<N> {
     }
 }
 
-/// What it takes to run settings again.
+/// The means to run settings again.
 pub(super) struct Means<const N: usize> {
     pub runs: Vec<Option<Rc<Run<N>>>>,
     pub samples: usize,
@@ -49,7 +49,7 @@ pub(super) struct Means<const N: usize> {
     pub check: Option<Named<N>>,
 }
 
-/// What is expected of a setting from another state or over another span.
+/// The expectation of a setting from another state or over another span.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Forecast {
@@ -57,7 +57,7 @@ pub enum Forecast {
     Holds {
         /// The estimate.
         estimate: f64,
-        /// What could not be checked, if anything.
+        /// The question that could not be checked, if any.
         caveat: Option<Caveat>,
     },
     /// It is not: the estimate, or the uncertainty of the estimate, is too large.
@@ -86,7 +86,7 @@ impl Forecast {
 pub struct Tried<const N: usize> {
     /// The state.
     pub start: [f64; N],
-    /// What was said before.
+    /// The forecast that was made before.
     pub forecast: Forecast,
     /// The error against a reference of its own; infinite if the run failed.
     pub error: f64,
@@ -104,11 +104,11 @@ fn judged(estimate: f64, uncertainty: f64, asked: f64) -> Forecast {
 }
 
 impl<const N: usize> Trade<N> {
-    /// What is to be expected of a row from another state or over another span, before it is relied upon: runs the
-    /// setting and compares with DOP853 in doubles at a tolerance of 1e-13, which looks for kicks and steep layers as the report's
-    /// [`scan`](Report::scan) says, and lands in those that the study found.
-    /// That run is compared with one at a hundredth of the error asked for, so that a motion is noticed whose errors grow beyond what
-    /// doubles can tell. The promise is made if estimate and uncertainty together are at most nine times what was asked for.
+    /// Forecasts the error of a row from another state or over another span, before it is relied upon: runs the
+    /// setting and compares with DOP853 in doubles at a tolerance of 1e-13, which looks for kicks and steep layers as
+    /// the report's [`scan`](Report::scan) says, and lands in those that the study found. That run is compared with
+    /// one at a hundredth of the error asked for, so that a motion is noticed whose errors grow beyond what doubles
+    /// can tell. The promise is made if estimate and uncertainty together are at most nine times what was asked for.
     ///
     /// Where these two cannot tell, two methods in extended precision decide, the reference of the study and its check, from this
     /// state.

@@ -1,4 +1,4 @@
-//! What a study can pull: a method over a real on a form of the equations, with a series of settings.
+//! One candidate of a study: integrator, scalar type and formulation, with a series of settings.
 
 use std::ops::ControlFlow;
 use std::rc::Rc;
@@ -10,7 +10,7 @@ use guen_runtime::{Ordered, Real, System};
 use super::code::Origin;
 use super::row::{Failure, Knob};
 
-/// What is integrated: all initial states, over the same span, and where to look at them.
+/// The task of a variant: all initial states, over the same span, and where to look at them.
 #[derive(Clone, Copy)]
 pub(super) struct Task<'a, const N: usize> {
     pub starts: &'a [[f64; N]],
@@ -40,7 +40,7 @@ pub enum Settings {
     Tolerances,
     /// Evaluations allowed: 24, 48, ..
     Evaluations,
-    /// These, from coarse to fine.
+    /// These values, from coarse to fine.
     List(Knob, Vec<f64>),
 }
 
@@ -85,7 +85,7 @@ pub(super) struct Variant<const N: usize> {
 }
 
 impl<const M: usize> Variant<M> {
-    /// The same variant for states that are carried there and back.
+    /// Returns the variant for states that are carried there and back.
     pub fn of_form<A, B, const N: usize>(self, form: &str, way: Rc<(A, B)>) -> Variant<N>
     where
         A: Fn(&[f64; N]) -> [f64; M] + 'static,
@@ -271,7 +271,7 @@ where
     ]
 }
 
-/// What a constructor takes.
+/// The argument of a constructor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Argument {
     /// `Method { step: .. }`.

@@ -114,7 +114,7 @@ struct Curve {
     values: Vec<f64>,
 }
 
-/// What the bodies move on.
+/// The ground that the bodies move on.
 #[derive(Clone, Debug)]
 enum Ground {
     Plane { point: [f64; 3], normal: [f64; 3] },
@@ -129,7 +129,7 @@ struct View {
     bare: bool,
 }
 
-/// What the description gets wrong; the page is refused with the first such thing.
+/// A fault of the description; the page is refused with the first one.
 #[derive(Clone, Debug)]
 enum Fault {
     NotDrawable { what: String, time: f64 },
@@ -153,7 +153,7 @@ impl<'a, const N: usize> Viewer<'a, N> {
         Self::thinned(title, recording, MOST_SAMPLES)
     }
 
-    /// The same with at most so many samples of the recording, evenly in time; at least two.
+    /// Makes a page with at most so many samples of the recording, evenly in time; at least two.
     pub fn thinned(title: impl Into<String>, recording: &'a Recording<N>, samples: usize) -> Self {
         let mut chosen: Vec<_> = if recording.len() <= samples {
             recording.iter().collect()

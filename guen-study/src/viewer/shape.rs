@@ -1,4 +1,4 @@
-//! What bodies look like, and where they are.
+//! Shapes of bodies, and their places.
 
 use super::is_drawable;
 use super::turn::{Turn, norm};
@@ -41,7 +41,7 @@ impl Pose {
         Self { place, turn: Turn::from_matrix(matrix) }
     }
 
-    /// The same, turned by an angle about an axis in its own axes.
+    /// Turns the shape by an angle about an axis in its own axes.
     pub fn turned(self, axis: [f64; 3], angle: f64) -> Self {
         Self { turn: self.turn.times(Turn::about(axis, angle)), ..self }
     }
@@ -89,7 +89,7 @@ pub(super) enum Kind {
 }
 
 impl Kind {
-    /// What the page calls it, and its lengths.
+    /// Returns the page's name for the shape, and its lengths.
     pub(super) fn parts(&self) -> (&'static str, &[f64]) {
         match self {
             Self::Ring(lengths) => ("ring", lengths),
@@ -143,22 +143,22 @@ impl Shape {
         Self { place: from, turn: Turn::from_z(along), ..Self::of(Kind::Arrow([norm(along), radius])) }
     }
 
-    /// The same with its centre at a point of the body; an arrow with its foot.
+    /// Moves the shape's centre to a point of the body; an arrow's foot.
     pub fn at(self, place: [f64; 3]) -> Self {
         Self { place, ..self }
     }
 
-    /// The same with its own `z` along a direction of the body.
+    /// Turns the shape's own `z` along a direction of the body.
     pub fn about(self, axis: [f64; 3]) -> Self {
         Self { turn: Turn::from_z(axis), ..self }
     }
 
-    /// The same turned by an angle about a direction of the body, where it is.
+    /// Turns the shape by an angle about a direction of the body, where it is.
     pub fn turned(self, axis: [f64; 3], angle: f64) -> Self {
         Self { turn: Turn::about(axis, angle).times(self.turn), ..self }
     }
 
-    /// The same in a colour `0xRRGGBB`; otherwise bodies take colours in turn.
+    /// Colours the shape `0xRRGGBB`; otherwise bodies take colours in turn.
     pub fn coloured(self, colour: u32) -> Self {
         Self { colour: Some(colour & 0xff_ffff), ..self }
     }

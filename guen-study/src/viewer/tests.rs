@@ -15,7 +15,7 @@ fn value<'p>(page: &'p str, key: &str) -> Vec<&'p str> {
     data.split(&format!("\"{key}\":\"")).skip(1).map(|rest| rest.split_once('"').unwrap().0).collect()
 }
 
-/// What the page's program does with samples.
+/// Decodes samples as the page's program does.
 fn decoded(text: &str) -> Vec<f32> {
     let letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     let bits: Vec<u32> =

@@ -54,7 +54,7 @@ impl Turn {
         }
     }
 
-    /// This one after another.
+    /// Returns this turn after another.
     pub(super) fn times(self, other: Self) -> Self {
         let ([a, b, c, d], [w, x, y, z]) = (self.0, other.0);
         Self([

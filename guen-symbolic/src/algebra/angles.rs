@@ -16,7 +16,7 @@ pub(crate) type AngleParts = Vec<(ExprId, Rational)>;
 /// Longer arguments are no base angles, and stay whole.
 const LONGEST: usize = 64;
 
-/// What arguments of sines and cosines are taken apart into.
+/// The base angles into which arguments of sines and cosines are taken apart.
 #[derive(Debug, Default)]
 pub(crate) struct BaseAngles {
     /// While a declaration is read: sums are not taken apart at all.

@@ -19,7 +19,7 @@ const MAX_NUMBER_BITS: u64 = 1330;
 /// The terms `c m sin(x)^2` and `c m cos(x)^2` of a sum, and the factors of `m`.
 type SquarePair = (ExprId, ExprId, Vec<(ExprId, i32)>);
 
-/// What all coefficients of a sum have in common, with the sign of the first.
+/// Returns the common factor of all coefficients of a sum, with the sign of the first.
 pub(super) fn content_of(constant: &Rational, terms: &[(ExprId, Rational)]) -> Rational {
     let mut content = constant.abs();
     let mut index = 0;

@@ -41,7 +41,7 @@ impl Flow {
         flow
     }
 
-    /// The same, and the derivative of what is kept whole is kept whole too: for results that others are built on.
+    /// Keeps the derivative of what is kept whole as a whole, too: for results that others are built on.
     pub(crate) fn keeping(self) -> Self {
         Flow { keeps: true, ..self }
     }

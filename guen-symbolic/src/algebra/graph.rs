@@ -257,7 +257,7 @@ impl Graph {
         node
     }
 
-    /// What is known of a symbol.
+    /// Returns the name, the role and the bound of a symbol.
     pub fn symbol_info(&self, symbol: SymbolId) -> &Symbol {
         &self.symbols[symbol.index()]
     }
@@ -300,7 +300,7 @@ impl Graph {
         }
     }
 
-    /// The same without a list.
+    /// Calls `visit` with each child, without making a list.
     pub(crate) fn visit_children(&self, id: ExprId, mut visit: impl FnMut(ExprId)) {
         match self.node(id) {
             Node::Number(_) | Node::Pi | Node::Symbol(_) | Node::Undefined => {}
@@ -452,7 +452,7 @@ impl Graph {
         self.flags[id.0 as usize] & PRIMITIVE != 0
     }
 
-    /// What is known of a sum or product by its looks: a set of the constants here.
+    /// Returns the flags of a sum or product: a set of the constants here.
     pub(super) fn looks(&self, id: ExprId) -> u8 {
         self.flags[id.0 as usize]
     }
@@ -462,7 +462,7 @@ impl Graph {
         self.place_in(list, id, Order::Ascending)
     }
 
-    /// The same for a list in that order or in the reverse.
+    /// Returns the place of an expression in a list that is sorted in this order, or where it belongs.
     pub(super) fn place_in<T>(&self, list: &[(ExprId, T)], id: ExprId, order: Order) -> Result<usize, usize> {
         let keys: &[u64] = &self.keys;
         let key = keys[id.0 as usize];

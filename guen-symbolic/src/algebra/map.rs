@@ -9,7 +9,7 @@ use std::ops::Index;
 
 use super::graph::{ExprId, SymbolId, mix};
 
-/// What a [`FastMap`] finds its entries by.
+/// A key of a [`FastMap`].
 pub(crate) trait Key: Eq {
     /// A fixed mixing of the key; the low bits choose the place.
     fn hash(&self) -> u32;
@@ -185,7 +185,7 @@ impl<K: Key, V> FastMap<K, V> {
         self.entries.iter().map(|entry| (&entry.key, &entry.value))
     }
 
-    /// The same with their contents.
+    /// Returns the entries with their keys and values, in the order of insertion.
     pub(crate) fn into_pairs(self) -> impl Iterator<Item = (K, V)> {
         self.entries.into_iter().map(|entry| (entry.key, entry.value))
     }
@@ -226,7 +226,7 @@ impl<K: fmt::Debug, V: fmt::Debug> fmt::Debug for FastMap<K, V> {
     }
 }
 
-/// What a [`SortedMap`] is sorted by.
+/// A key of a [`SortedMap`].
 pub(crate) trait Ordinal: Copy {
     /// The place in the order.
     fn ordinal(self) -> u32;
@@ -308,7 +308,7 @@ impl<K: Ordinal, V> SortedMap<K, V> {
         &self.0
     }
 
-    /// The same with their contents.
+    /// Returns the entries with their keys and values, in order.
     pub(crate) fn into_entries(self) -> Vec<(K, V)> {
         self.0
     }

@@ -39,7 +39,7 @@ fn gcd(a: u128, b: u128) -> u128 {
     a
 }
 
-/// The same where both fit a word: a division of wide integers is a call.
+/// The greatest common divisor of two words: a division of wide integers would be a call.
 fn gcd_of_words(a: u64, b: u64) -> u64 {
     let (mut a, mut b) = (a, b);
     while b != 0 {

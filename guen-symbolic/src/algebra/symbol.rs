@@ -1,6 +1,6 @@
 //! Symbols: what they stand for and what is promised about them.
 
-/// What a symbol stands for.
+/// The meaning of a symbol.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub enum Role {
     /// The time `t`.
@@ -53,7 +53,7 @@ impl Roles {
     }
 }
 
-/// What a declaration promises about a physical constant.
+/// The bound that a declaration promises for a physical constant.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
 pub enum Bound {
     /// Nothing.
@@ -76,7 +76,7 @@ pub enum Bound {
 pub struct Symbol {
     /// The name in the declaration.
     pub name: String,
-    /// What it stands for.
+    /// The meaning of the symbol.
     pub role: Role,
     /// The promise about its value.
     pub bound: Bound,

@@ -14,7 +14,7 @@ use crate::workbench::Workbench;
 /// equations that come after it.
 const WORK_LIMIT: u64 = 1_500_000;
 
-/// What the closure found.
+/// The result of closing the directions under brackets.
 #[derive(Clone, Debug)]
 pub struct Closure {
     /// Ranks less one of `D_1`, `D_2`, ... until they stay; the first is `l`.

@@ -10,7 +10,7 @@ use crate::workbench::Workbench;
 pub struct SingularForms {
     /// Forms (by index) and coefficients of a combination whose velocities cancel; coefficients where they are known.
     pub combination: Vec<(usize, Option<ExprId>)>,
-    /// What the combination leaves: `sum c_j a_j0`, where the coefficients are known.
+    /// The part of the combination without velocities, `sum c_j a_j0`, where the coefficients are known.
     pub rest: Option<ExprId>,
 }
 

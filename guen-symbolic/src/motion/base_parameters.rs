@@ -201,8 +201,8 @@ fn applied(bench: &mut Workbench, matrix: &Matrix, vector: &[ExprId]) -> Vec<Exp
         .collect()
 }
 
-/// The same, where each sum is what is short of it beyond one that was found before: no two of these have opposite signs where rows of
-/// the matrix grow by one entry each.
+/// Sums of the matrix times a vector, each computed from one that was found before and the terms that it has beyond
+/// it. No two of these have opposite signs where rows of the matrix grow by one entry each.
 fn accumulated(bench: &mut Workbench, matrix: &Matrix, vector: &[ExprId]) -> Vec<ExprId> {
     let count = |row: &[Rational]| row.iter().filter(|c| !c.is_zero()).count();
     let mut order: Vec<usize> = (0..matrix.len()).collect();

@@ -23,7 +23,7 @@ impl Between {
         Between { edges }
     }
 
-    /// The same with those angles only that are shorter than what they are between.
+    /// Drops the angles that are not shorter than those that they are between.
     pub(super) fn shorter(mut self, graph: &Graph) -> Self {
         let length = |angle: ExprId| graph.linear_parts(angle).len();
         self.edges.retain(|(a, b, angle)| length(*angle) < length(*a).max(length(*b)));

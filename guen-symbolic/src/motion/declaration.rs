@@ -23,7 +23,7 @@ pub struct Holonomic {
     pub equation: ExprId,
 }
 
-/// What a symbol in an output stands for. (The rates of the parameters have symbols of their own,
+/// The meaning of a symbol in an output. (The rates of the parameters have symbols of their own,
 /// [`Mechanics::accelerations`], and may occur in outputs too.)
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum MotionSymbol {
@@ -51,16 +51,16 @@ pub struct RigidBody {
     pub inertia: [ExprId; 6],
 }
 
-/// What `T°` and `U` are made of, where bodies were declared.
+/// The parts of `T°` and `U`, where bodies were declared.
 #[derive(Clone, Debug)]
 pub struct Multibody {
     /// Bodies and particles.
     pub bodies: Vec<RigidBody>,
     /// The acceleration of gravity, in the world's axes.
     pub gravity: [ExprId; 3],
-    /// What `T°` has beside the energies of the bodies.
+    /// The part of `T°` beside the energies of the bodies.
     pub other_energy: ExprId,
-    /// What `U` has beside the weight of the bodies.
+    /// The part of `U` beside the weight of the bodies.
     pub other_force_function: ExprId,
 }
 

@@ -45,7 +45,7 @@ impl Equations {
         rows.map(|(row, force)| row.iter().chain([force]).copied().collect()).collect()
     }
 
-    /// These equations and others behind them.
+    /// Appends other equations.
     fn and(&self, others: &Equations) -> Self {
         let mass = [&self.mass[..], &others.mass].concat();
         Equations { mass, forces: [&self.forces[..], &others.forces].concat() }
@@ -77,7 +77,7 @@ pub(super) struct Stated {
     pub(super) definition: Definition,
     /// Multiplied out, the form to show first; none where that is too much.
     pub(super) multiplied: Vec<Equations>,
-    /// What they were multiplied out from.
+    /// The projection that they were multiplied out from.
     pub(super) projected: Option<Projected>,
     /// The equations of bodies and their solution, where no others are multiplied out.
     pub(super) of_bodies: Option<(Equations, multibody::Found)>,

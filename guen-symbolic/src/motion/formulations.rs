@@ -22,7 +22,7 @@ const LARGEST_TRIED: u64 = 600;
 
 /// A way to the rates of the state.
 struct Formulation {
-    /// What it is called in [`Formulated::name`].
+    /// The name of the formulation, as in [`Formulated::name`].
     name: &'static str,
     /// As of [`Formulated::is_by_spins`].
     is_by_spins: bool,
@@ -54,7 +54,7 @@ pub struct Formulated {
     pub is_by_spins: bool,
 }
 
-/// What a formulation gives.
+/// The result of asking a formulation for rates.
 enum Outcome {
     Found(Vec<Candidate>),
     /// The reason why it has nothing to give.
@@ -68,7 +68,7 @@ struct Candidate {
     rank: Rank,
 }
 
-/// What rates are among others.
+/// The rank of a list of rates among the others.
 enum Rank {
     /// The equations as they are stated, solved: shown, with what was divided by, unless something is much shorter.
     Base(Solution),
@@ -76,7 +76,7 @@ enum Rank {
     Solved,
     /// One more way, yet to be proved.
     Other,
-    /// So much shorter that no other formulation is worth a look, yet to be proved.
+    /// Rates yet to be proved, so much shorter that no other formulation is tried.
     Last(Solution),
     /// The solution of the only equations that are stated, proved with them.
     Only(Solution),
@@ -88,7 +88,7 @@ impl Outcome {
     }
 }
 
-/// What the formulations stand on.
+/// The system, its frame and its equations, which all formulations use.
 struct Search<'a> {
     system: &'a Mechanics,
     frame: &'a mut Frame,
@@ -107,7 +107,7 @@ struct Search<'a> {
     shorter: Option<Equations>,
 }
 
-/// What the formulations lead to.
+/// The result of the walk through all formulations.
 pub(super) struct Found {
     /// The equations for `s = 1..l`, generalised forces included.
     pub(super) equations: Equations,
@@ -117,7 +117,7 @@ pub(super) struct Found {
     pub(super) formulations: Vec<Formulated>,
     /// The formulations that gave nothing, and why.
     pub(super) declined: Vec<(&'static str, &'static str)>,
-    /// What the equations do not depend on.
+    /// The directions along which the equations do not change.
     pub(super) symmetry: Symmetry,
 }
 

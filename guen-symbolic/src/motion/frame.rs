@@ -5,7 +5,7 @@ use crate::algebra::{ExprId, Flow, Substitution};
 use crate::geometry::{Brackets, Operators};
 use crate::workbench::Workbench;
 
-/// What both routes to the equations need, each piece computed once.
+/// The operators, brackets and velocities that both routes to the equations need, each computed once.
 pub struct Frame {
     /// The operators.
     pub operators: Operators,

@@ -21,7 +21,7 @@ impl Derivation {
     /// Takes the momenta and the reactions from the quadratic form of the bodies where they are long and that is shorter, and the
     /// equations where the rates shown are those of the bodies.
     pub fn restate_by_bodies(&mut self, bench: &mut Workbench) {
-        /// What costs less than this by the estimate stays as it is, and is shown so.
+        /// The estimated cost below which an expression stays as it is, and is shown so.
         const LONG: u64 = 600;
         let is_long = |bench: &Workbench, es: &[ExprId]| weighted_cost(&bench.graph, es) > LONG;
         let known: Vec<ExprId> = self.reactions.iter().flatten().copied().collect();

@@ -8,11 +8,11 @@ use crate::geometry::Operators;
 use crate::program::weighted_cost;
 use crate::workbench::Workbench;
 
-/// What is found without headings.
+/// The result of solving the equations without headings.
 pub(super) struct WithoutHeadings {
     /// The rates of the state, one list for each set of expressions that is worth a program.
     pub(super) rates: Vec<Vec<ExprId>>,
-    /// What the equations do not depend on.
+    /// The directions along which the equations do not change.
     pub(super) symmetry: Symmetry,
     /// The equations without that, generalised forces not included.
     pub(super) equations: Option<Equations>,

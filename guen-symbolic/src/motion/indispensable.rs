@@ -16,7 +16,7 @@ const MOST_VALUES: usize = 400_000;
 /// Points at which the mass matrix must be singular.
 const POINTS: u64 = 2;
 
-/// What the mass matrix is made of.
+/// The terms that the mass matrix is made of.
 struct Energy {
     /// Weights, with the places of their forms.
     terms: Vec<(ExprId, [usize; 2])>,

@@ -12,7 +12,7 @@ use crate::zero::Sample;
 use crate::zero::field::{add, eliminate, mul, sub};
 use crate::zero::jets::{Jet, Moving, Tape};
 
-/// What `L` and the forms are made of.
+/// The Lagrangian and the forms, as a tape that is differentiated at points.
 pub(super) struct Lagrange {
     tape: Tape,
     /// Nodes of the tape that belong to the forms; those of `L` follow.

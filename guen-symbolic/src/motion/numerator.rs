@@ -80,7 +80,8 @@ impl Product {
         (monomial, &(&content * &self.parts[k][i]) * &(&a.coefficient * &b.coefficient))
     }
 
-    /// What is left: for each part of the second sum that some monomials of the first have the sum of these.
+    /// Returns the sum that is left: each distinct part of the second sum times the sum of the monomials of the first
+    /// that have it.
     fn sum(&self, graph: &mut Graph) -> ExprId {
         let mut sums = Vec::new();
         let mut done = vec![false; self.parts.len()];
@@ -140,7 +141,7 @@ impl Sum {
         Some(Sum { terms, monomials })
     }
 
-    /// So much of each monomial; terms that are there as a whole stay as they are written.
+    /// Returns the given multiples of the monomials; terms that are there as a whole stay as they are written.
     fn part(&self, graph: &mut Graph, of: &[Rational]) -> ExprId {
         let mut left = Vec::new();
         for (term, whole) in self.terms.iter().enumerate() {

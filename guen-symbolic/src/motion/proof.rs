@@ -20,7 +20,7 @@ pub(super) struct Definition {
     generalised_forces: Vec<ExprId>,
 }
 
-/// What points say of equations.
+/// The verdict of points on equations.
 enum Seen {
     /// They hold.
     Holds,
@@ -119,8 +119,8 @@ impl Definition {
         Ok(false)
     }
 
-    /// What is seen at as many points as it takes: at many, where signs may be right by chance. Each is given the values of some
-    /// expressions, and says which row differs, if any.
+    /// Compares values at as many points as it takes: at many, where signs may be right by chance. `differs` is given
+    /// the values of some expressions, and returns the row that differs, if any.
     fn look(
         &self,
         bench: &mut Workbench,

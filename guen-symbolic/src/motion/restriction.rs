@@ -102,8 +102,8 @@ impl Restriction {
     }
 }
 
-/// What a polynomial is where `f = c`, with all its terms of one degree: each times a power of `f/c`, and no power of it in all.
-/// `None` where it is no such polynomial, or dearer so.
+/// Returns a polynomial as it is where `f = c`, with all its terms of one degree: each times a power of `f/c`, and no
+/// power of it in all. `None` where it is no such polynomial, or more expensive so.
 fn evened(bench: &mut Workbench, e: ExprId, (function, value): (ExprId, ExprId)) -> Option<ExprId> {
     let limits = Limits::default();
     let symbols = bench.graph.symbols_in(&[function]);

@@ -31,7 +31,7 @@ impl Solution {
         Self::of_blocks(bench, mass, forces, false)
     }
 
-    /// The same with what is solved first kept whole in small blocks too; `None` where there is nothing to share.
+    /// Solves with the first solutions kept whole in small blocks, too; `None` where there is nothing to share.
     pub(super) fn shared(bench: &mut Workbench, mass: &[Vec<ExprId>], forces: &[ExprId]) -> Option<Self> {
         let pairs = blocks(bench, mass).into_iter().filter(|block| block.len() == WRITTEN_OUT);
         let is_coupled = |block: Vec<usize>| !bench.graph.roles(mass[block[0]][block[1]]).is_constant();
@@ -172,7 +172,7 @@ impl Solution {
     }
 }
 
-/// What an elimination yields.
+/// The result of an elimination.
 pub(super) struct Elimination {
     /// The solution.
     pub(super) values: Vec<ExprId>,
@@ -185,7 +185,7 @@ pub(super) struct Elimination {
 pub(super) enum Naming {
     /// None: small blocks are written out, and simplify.
     Nothing,
-    /// What is solved first, which the others use.
+    /// The solutions that are computed first and that the others use.
     Values,
     /// All: in larger blocks every intermediate result has many users.
     Everything,

@@ -72,7 +72,7 @@ fn is_among(bench: &mut Workbench, e: ExprId, others: &[ExprId]) -> bool {
     })
 }
 
-/// What each parameter is in the other system.
+/// The place of a declared parameter in the system of spins.
 enum Parameter {
     /// As declared.
     Kept(usize),

@@ -1,4 +1,4 @@
-//! What of a system is without inertia.
+//! Finds the parameters and combinations without inertia.
 
 use super::fault::{DerivationError, affordable};
 use super::{Equations, Solution};

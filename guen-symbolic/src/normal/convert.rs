@@ -20,7 +20,7 @@ const MAX_SUMMANDS: usize = 4;
 pub(super) const MOTION: Roles =
     Roles::of(Role::Velocity).or(Roles::of(Role::QuasiVelocity)).or(Roles::of(Role::QuasiAcceleration));
 
-/// What a node is in the ring.
+/// The image of a node in the ring.
 #[derive(Clone, Debug)]
 enum Image {
     Generator,

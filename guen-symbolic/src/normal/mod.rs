@@ -17,7 +17,7 @@ use crate::algebra::{ExprId, Function, Graph, Node, Rational};
 use poly::{Exceeded, Mono, Poly, Result};
 use ring::{Fraction, Ring};
 
-/// What a normal form may cost. An expression beyond a limit has none.
+/// Limits on a normal form. An expression beyond a limit has none.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Limits {
     /// Terms of a polynomial.

@@ -9,7 +9,7 @@ use super::ring::{Angle, Denominator, Fraction, Ring};
 
 /// Coefficients with more terms than this are not searched for common factors.
 const FACTORED_TERMS: usize = 40;
-/// So many different sums are tried as factors of the others.
+/// The number of different sums that are tried as factors of the others.
 const CANDIDATES: usize = 8;
 /// Nesting `m*(x + y) + z` deeper than this helps nobody.
 const NESTING: u32 = 4;
@@ -217,8 +217,8 @@ fn fewest_squares(row: &[Rational]) -> Squares {
         .collect()
 }
 
-/// The same over `cos^2h` as a polynomial in the square of the tangent: with `w^j (w + v)^(h - j)` for `w^j`. `None` where
-/// the degree is larger, or nothing is divided by.
+/// Writes the polynomial over `cos^2h` in the square of the tangent: with `w^j (w + v)^(h - j)` for `w^j`. `None`
+/// where the degree is larger, or nothing is divided by.
 fn tangents(row: &[Rational], h: usize) -> Option<Squares> {
     if h == 0 || row.len() > h + 1 {
         return None;

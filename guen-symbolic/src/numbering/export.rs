@@ -4,7 +4,7 @@ use super::{Num, Numbering, Op};
 use crate::algebra::{ExprId, Graph};
 
 impl Numbering {
-    /// What is reached from some numbers, children first, and how often each is used; not below constants.
+    /// Returns the numbers below some numbers, children first, and how often each is used; not below constants.
     fn reached(&self, roots: &[Num]) -> (Vec<usize>, Vec<u32>) {
         let mut uses = vec![0_u32; self.ops.len()];
         let mut seen = vec![false; self.ops.len()];
@@ -33,7 +33,7 @@ impl Numbering {
         (order, uses)
     }
 
-    /// What some numbers take to compute, in multiplications, without what depends on constants alone.
+    /// Returns the multiplications that some numbers take to compute, without what depends on constants alone.
     pub(crate) fn cost(&self, roots: &[Num]) -> usize {
         let (order, _) = self.reached(roots);
         let weight = |index: &usize| match self.ops[*index] {

@@ -5,7 +5,7 @@ use crate::algebra::{ExprId, Function, Node, Rational, Role, Roles};
 use crate::workbench::Workbench;
 use crate::zero::field;
 
-/// What has no value of its own at a point, but the one that the motion gives it.
+/// The roles of symbols that have no value of their own at a point, but the one that the motion gives them.
 const MOVING: Roles = Roles::of(Role::Velocity).or(Roles::of(Role::QuasiAcceleration));
 
 impl Numbering {

@@ -46,7 +46,7 @@ impl Num {
         if self.is_zero() { self } else { Num(self.0 ^ 1) }
     }
 
-    /// The same without its sign.
+    /// Returns the number without its sign.
     pub(crate) fn abs(self) -> Num {
         Num(self.0 & !1)
     }
@@ -72,7 +72,7 @@ impl Key for Residue {
     }
 }
 
-/// What a numbered expression is.
+/// An operation, as an expression is numbered.
 #[derive(Clone, PartialEq, Debug)]
 enum Op {
     /// An expression of the graph that is not looked into.

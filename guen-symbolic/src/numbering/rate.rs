@@ -4,7 +4,7 @@ use super::{Num, Numbering, Op};
 use crate::algebra::{ExprId, Function, Node};
 use crate::workbench::Workbench;
 
-/// What moves: the symbols of time and coordinates with the numbers of their rates.
+/// The rates of a motion: the symbols of time and coordinates with the numbers of their rates.
 pub(crate) struct Rates {
     pub(crate) symbols: Vec<(ExprId, Num)>,
 }

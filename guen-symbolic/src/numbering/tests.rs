@@ -1,4 +1,4 @@
-//! What is found by value, what is handed back, and rates.
+//! Tests of finding by value, of export and of rates.
 
 use super::{Num, Numbering, Rates};
 use crate::algebra::{ExprId, Function, Graph, Role, SymbolId};

@@ -42,7 +42,7 @@ impl Contracted {
         contracted
     }
 
-    /// What to write for an expression.
+    /// Returns the expression to write in place of another one, equal to it.
     pub fn image(&self, e: ExprId) -> ExprId {
         self.images.get(&e).copied().unwrap_or(e)
     }

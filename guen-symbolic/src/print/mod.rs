@@ -142,7 +142,7 @@ impl<'g> Notation<'g> {
         self.combination(terms, None, |_| None)
     }
 
-    /// The same with an expression behind it, unless that is zero.
+    /// Writes a combination with an expression behind it, unless that is zero.
     pub fn affine(&mut self, terms: &[(ExprId, &str)], rest: ExprId) -> Option<String> {
         self.combination(terms, Some(rest), |_| None)
     }

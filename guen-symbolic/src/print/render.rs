@@ -23,7 +23,7 @@ pub(super) enum Level {
 pub(super) struct Piece {
     /// Whether the expression is the negative of `text`.
     pub(super) minus: bool,
-    /// What leads with a plus.
+    /// The text with a leading plus.
     pub(super) text: String,
     /// The expression itself, where it is a sum that leads with a minus: `-a + b`, while `text` is `a - b`.
     turned: Option<String>,
@@ -149,7 +149,8 @@ impl<'g> Printer<'g> {
         }
     }
 
-    /// What a function is written of, and whether the result is the negative then: `sin(-x + y)` is `-sin(x - y)`.
+    /// Returns the text of a function's argument, and whether the result has to be negated: `sin(-x + y)` is `-sin(x
+    /// - y)`.
     pub(super) fn argument(&self, function: Function, x: ExprId) -> (bool, String) {
         let piece = &self.pieces[&x];
         if piece.minus && (function.is_odd() || function.is_even()) {
@@ -227,7 +228,7 @@ impl<'g> Printer<'g> {
         (number, terms)
     }
 
-    /// What is inside of an expression that is kept whole.
+    /// Returns the expression inside one that is kept whole.
     pub(super) fn opened(&self, mut e: ExprId) -> ExprId {
         while let Node::Kept(x) = self.graph.node(e) {
             e = *x;

@@ -18,7 +18,7 @@ use crate::zero::evaluate;
 const POINTS: u64 = 4;
 /// Divisors that are made small, the first of each program.
 const POLES: usize = 4;
-/// What is left of such a divisor.
+/// The fraction to which such a divisor is reduced.
 const NEAR: f64 = 1e-5;
 /// Programs with more instructions are not analysed: expansion must stay quick.
 const LONGEST: usize = 3000;
@@ -142,12 +142,12 @@ impl Candidate {
         Candidate { code, prepared }
     }
 
-    /// What it costs.
+    /// The weighted operations of the program.
     pub(super) fn cost(&self) -> u64 {
         OperationCount::of(&self.code.instructions).weighted()
     }
 
-    /// What the program loads at a random point; symbols that move are none of its constants.
+    /// Returns the prepared values of the program at a random point; symbols that move are none of its constants.
     fn prepared(&self, graph: &Graph, point: &Point) -> Vec<f64> {
         evaluate(graph, &self.prepared.expressions, &|symbol| point.value(graph, symbol))
     }
@@ -230,7 +230,7 @@ pub(super) fn best(graph: &Graph, candidates: &[Candidate]) -> usize {
     chosen(graph, candidates, true).unwrap_or_else(|| cheapest(candidates))
 }
 
-/// The same, but of equally cheap ones the first: for programs that are not finished yet.
+/// Chooses as [`best`] does, but of equally cheap candidates the first: for programs that are not finished yet.
 pub(super) fn promising(graph: &Graph, candidates: &[Candidate]) -> usize {
     chosen(graph, candidates, false).unwrap_or_else(|| cheapest(candidates))
 }
@@ -260,7 +260,7 @@ fn chosen(graph: &Graph, codes: &[Candidate], accurate: bool) -> Option<usize> {
     }
 }
 
-/// What a program loses, over all points at which some program is defined.
+/// The digits that a program loses, over all points at which some program is defined.
 #[derive(Clone, Copy)]
 struct Losses {
     /// The largest.
@@ -269,7 +269,7 @@ struct Losses {
     excess: f64,
 }
 
-/// What each program loses.
+/// Returns the digits that each program loses.
 fn losses(graph: &Graph, codes: &[Candidate]) -> Vec<Losses> {
     let mut points: Vec<Point> = (0..POINTS).map(|seed| Point { seed, moved: None }).collect();
     // Equal programs lose as much, and no constant moves: each is looked at once.

@@ -19,7 +19,7 @@ use crate::algebra::{ExprId, FastMap, Graph, Node, Role, Substitution};
 pub struct Formulation {
     /// Symbols and what they stand for; a definition uses only symbols defined before it.
     pub definitions: Vec<(ExprId, ExprId)>,
-    /// What is computed.
+    /// The expressions to compute.
     pub outputs: Vec<ExprId>,
 }
 

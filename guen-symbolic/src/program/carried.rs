@@ -23,7 +23,7 @@ use crate::algebra::{ExprId, FastMap, Flow, Function, Graph, Node, Rational, Rol
 pub struct CarriedFunction {
     /// The symbol that stands for it; its name is a new one.
     pub symbol: ExprId,
-    /// What it stands for, of the variables.
+    /// The expression that the symbol stands for, in the variables.
     pub value: ExprId,
     /// Its rate, of the variables and of the symbols.
     pub rate: ExprId,
@@ -38,10 +38,10 @@ pub struct Carried {
     pub functions: Vec<CarriedFunction>,
     /// The rates of the variables, of the variables and of the symbols.
     pub rates: Vec<ExprId>,
-    /// What vanishes where the symbols are what they stand for: `sin^2 + cos^2 - 1`, `1 - (sinh^2 + 1)/cosh^2`,
-    /// `1 - u/root^q`; without units.
+    /// Expressions that vanish where the symbols have the values that they stand for: `sin^2 + cos^2 - 1`, `1 -
+    /// (sinh^2 + 1)/cosh^2`, `1 - u/root^q`; without units.
     pub invariants: Vec<ExprId>,
-    /// What must not vanish, beside what must not anyway: roots, arguments of logarithms, radii of `atan2`.
+    /// Further expressions that must not vanish: roots, arguments of logarithms, radii of `atan2`.
     pub edges: Vec<ExprId>,
 }
 
@@ -54,7 +54,7 @@ pub enum NotCarried {
     Input(ExprId),
 }
 
-/// What is carried together.
+/// Functions that are carried together.
 #[derive(Clone, Copy)]
 enum Group {
     /// Sine and cosine of an angle.

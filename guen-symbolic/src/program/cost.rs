@@ -1,4 +1,4 @@
-//! What operations cost: exact counts of programs, and a quick estimate for expressions.
+//! Costs of operations: exact counts of programs, and a quick estimate for expressions.
 
 use super::{Instruction, Operation};
 use crate::algebra::{ExprId, FastMap, Function, Graph, Node};

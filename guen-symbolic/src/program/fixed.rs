@@ -4,8 +4,8 @@ use super::{Instruction, Operation, OperationCount, Programs, Value};
 use crate::algebra::SymbolId;
 
 impl Programs {
-    /// The same programs, operation by operation, with symbols at values that depend on constants alone: the outputs of the
-    /// one function of `values`, in the order of the symbols.
+    /// Returns the programs, operation by operation, with symbols at values that depend on constants alone: the
+    /// outputs of the one function of `values`, in the order of the symbols.
     ///
     /// ```
     /// use guen_symbolic::{Graph, ProgramBuilder, Role};

@@ -19,7 +19,7 @@ impl Value {
     }
 }
 
-/// What an instruction does.
+/// The operation of an instruction.
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
 pub enum Operation {
     /// An exact number.
@@ -122,7 +122,7 @@ impl Key for Operation {
 pub struct Instruction {
     /// The value defined.
     pub result: Value,
-    /// What it is.
+    /// The operation.
     pub operation: Operation,
 }
 

@@ -39,7 +39,7 @@ impl Key for (ExprId, NetId) {
     }
 }
 
-/// What a node is.
+/// A node of a net.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(super) enum NetNode {
     /// A symbol of the state, or whatever else is an atom.
@@ -211,7 +211,7 @@ impl Net {
         self.plain_product(collected)
     }
 
-    /// The same, products among the nodes kept as they are.
+    /// Returns a product in which products among the nodes are kept as they are.
     pub(super) fn plain_product(&mut self, collected: Powers) -> NetId {
         let mut factors = collected.into_entries();
         let mut index = 0;
@@ -365,8 +365,8 @@ pub(super) fn constant_factors(graph: &mut Graph, k: ExprId) -> (Rational, Vec<(
     }
 }
 
-/// What all constants have as a factor in their written form, above or below, with the sign of the first. No
-/// division by something that may vanish is ever introduced: only what is there is taken out.
+/// Returns the common factor of constants in their written form, above or below, with the sign of the first. No
+/// division by something that may vanish is ever introduced: only written factors are taken out.
 fn common_factor(graph: &mut Graph, constants: &[ExprId]) -> ExprId {
     let (mut content, mut common) = constant_factors(graph, constants[0]);
     let negative = content.is_negative();

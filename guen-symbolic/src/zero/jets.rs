@@ -9,7 +9,7 @@ use super::sample::Sample;
 use super::table::Op;
 use crate::algebra::{ExprId, FastMap, Graph, Node, Role, Roles};
 
-/// What moves along a motion.
+/// The roles of symbols that change along a motion.
 const MOVING: Roles = Roles::of(Role::Time)
     .or(Roles::of(Role::Coordinate))
     .or(Roles::of(Role::Velocity))
@@ -63,7 +63,7 @@ impl Jet {
 /// Expressions that are differentiated at points.
 #[derive(Debug, Default)]
 pub(crate) struct Tape {
-    /// What moves of them, operands first.
+    /// The nodes that change along a motion, operands first.
     nodes: Vec<ExprId>,
     is_known: Vec<bool>,
     /// The slopes of the functions among the nodes.

@@ -45,7 +45,7 @@ pub(super) struct Manifold {
     /// In the order of solution; `None` if no order was found.
     blocks: Option<Vec<Block>>,
     equations: Vec<ExprId>,
-    /// What a real point may move along, and the equations' derivatives by it, row by row.
+    /// The symbols along which a real point may move, and the equations' derivatives by them, row by row.
     variables: Vec<SymbolId>,
     jacobian: Vec<ExprId>,
     /// Per node: whether a solved symbol occurs, and whether one occurs in a transcendental function.

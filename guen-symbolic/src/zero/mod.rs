@@ -39,7 +39,7 @@ pub enum Verdict {
 
 /// Points that must agree before an expression counts as zero.
 const POINTS: usize = 3;
-/// The same where each point may have a root's sign right by chance.
+/// Points that must agree where each may have a root's sign right by chance.
 pub(crate) const POINTS_WITH_ROOTS: usize = 64;
 /// Draws in vain, one after the other, before the real route is taken.
 pub(crate) const REDRAWS: usize = 64;
@@ -92,7 +92,7 @@ struct Domain {
     verdicts: FastMap<ExprId, Verdict>,
 }
 
-/// What the points modulo the prime say.
+/// The verdict of the points modulo the prime.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Residues {
     Vanish,
@@ -385,7 +385,8 @@ impl ZeroTest {
         }
     }
 
-    /// What points say; without an answer what is in the expression, and how many real points show nothing.
+    /// Returns the verdict of the points; without one, the flags of the expression and the number of real points that
+    /// showed no difference.
     fn sight(&mut self, g: &mut Graph, e: ExprId, on_manifold: bool) -> Result<Verdict, (u8, usize)> {
         self.table.scan(g);
         let mut flags = self.table.flags[e.index()];

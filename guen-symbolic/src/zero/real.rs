@@ -7,7 +7,7 @@ use f256::f256;
 use super::field::mix;
 use crate::algebra::{Bound, ExprId, FastMap, Function, Graph, Node, Rational, SymbolId};
 
-/// What evaluation needs of a kind of real number.
+/// The operations that evaluation needs of a kind of real number.
 pub trait Real:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
 {
@@ -148,7 +148,7 @@ pub fn evaluate<R: Real>(graph: &Graph, roots: &[ExprId], values: &dyn Fn(Symbol
     evaluate_in(graph, &order, roots, values)
 }
 
-/// The same, given all that the expressions are made of in an order in which it can be evaluated: for many evaluations.
+/// Evaluates expressions, given all their nodes in an order in which they can be evaluated: for many evaluations.
 pub(super) fn evaluate_in<R: Real>(
     graph: &Graph,
     order: &[ExprId],
@@ -231,7 +231,7 @@ impl Ball {
     }
 }
 
-/// What a real point says of a value.
+/// The verdict of a real point on a value.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Sighting {
     /// Clearly not zero.
@@ -291,7 +291,7 @@ impl RealPoint {
         if negative { -size } else { size }
     }
 
-    /// What this point says of an expression.
+    /// Returns the verdict of this point on an expression.
     pub(super) fn sight(&mut self, graph: &Graph, e: ExprId) -> Sighting {
         for id in graph.reachable(&[e], |id| self.memo.contains_key(&id)) {
             let ball = self.step(graph, id).filter(|ball| ball.value.is_finite() && !ball.error.is_nan());

@@ -39,7 +39,7 @@ const INDEPENDENT: f64 = 1e-4;
 const DEPENDENT: f64 = 1e-7;
 /// Newton's steps in 237 bits.
 const POLISH_STEPS: usize = 5;
-/// What is smaller in 237 bits is zero, as a power of two.
+/// The power of two below which a value in 237 bits counts as zero.
 const NOTHING: f64 = -180.0;
 
 /// The equations with their derivatives.
@@ -48,9 +48,9 @@ struct Equations<'a> {
     equations: &'a [ExprId],
     /// They, and their derivatives row by row.
     roots: Vec<ExprId>,
-    /// What these are made of.
+    /// The nodes of these, in an order in which they can be evaluated.
     order: Vec<ExprId>,
-    /// What a point may move along: coordinates and constants.
+    /// The symbols along which a point may move: coordinates and constants.
     variables: Vec<SymbolId>,
     /// Which of the variables are coordinates.
     moving: Vec<bool>,
@@ -287,7 +287,7 @@ fn independent(gradients: &[Vec<f64>]) -> Option<Vec<usize>> {
     }
 }
 
-/// What is left at least of a chosen row beside those before it.
+/// Returns the smallest remainder of a chosen row beside those before it.
 fn least(gradients: &[Vec<f64>], chosen: &[usize]) -> f64 {
     let mut rests = gradients.to_vec();
     let left = chosen.iter().map(|i| {

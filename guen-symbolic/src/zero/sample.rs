@@ -38,13 +38,13 @@ impl Sample {
         Sample { seed: mix(number), squares: number % 2 == 1, ..Sample::default() }
     }
 
-    /// The same point without values.
+    /// Returns the point without values.
     pub(crate) fn fresh(&self) -> Self {
         let Sample { seed, squares, ref fixed, .. } = *self;
         Sample { seed, squares, fixed: fixed.clone(), ..Sample::default() }
     }
 
-    /// The same point with a symbol at zero, given all nodes that depend on it.
+    /// Returns the point with a symbol at zero, given all nodes that depend on it.
     pub(crate) fn without(&self, symbol: SymbolId, dependent: &[ExprId]) -> Self {
         let mut sample = self.clone();
         sample.fixed.insert(symbol, 0);

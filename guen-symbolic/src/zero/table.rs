@@ -1,4 +1,5 @@
-//! What all sample points share: nodes with residues for coefficients, arguments of functions taken apart, and flags.
+//! The table that all sample points share: nodes with residues for coefficients, arguments of functions taken apart,
+//! and flags.
 //!
 //! The graph only grows, so a scan reads each node once. An argument of `sin`, `exp` and their kin is a
 //! rational combination of monomials; each monomial, divided by the lcm of all its denominators in the
@@ -9,7 +10,7 @@ use std::collections::BTreeMap;
 use super::field;
 use crate::algebra::{ExprId, FastMap, Function, Graph, Node, Rational, SymbolId};
 
-/// What a node below asks of a verdict; a set of the constants here.
+/// The flags of the nodes below an expression, by which a verdict is reached; a set of the constants here.
 pub(crate) type Flags = u8;
 /// Roots, absolute values, signs: a residue knows them up to a sign.
 pub(crate) const ROOT: Flags = 1;

@@ -512,7 +512,8 @@ fn evaluations_agree() {
     }
 }
 
-/// What points show, and nothing that they do not: neither what is zero nor what stays open is shown to differ.
+/// Points show that two expressions differ, and nothing else: neither what is zero nor what stays open is shown to
+/// differ.
 #[test]
 fn a_difference_is_shown_by_points_alone() {
     let mut b = Bench::new();

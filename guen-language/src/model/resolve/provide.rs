@@ -1,11 +1,11 @@
-//! What a system says that it provides: all of it but three things is there anyway.
+//! Reads what a system says that it provides: all but three quantities are there anyway.
 
 use super::Resolver;
 use crate::diagnostics::Fault;
 use crate::names::nearest;
 use crate::syntax::Provide;
 
-/// What is derived only when it is asked for.
+/// The quantities that are derived only when a system asks for them.
 const ASKED_FOR: [&str; 3] = ["operators", "taylor", "carried"];
 
 impl<'a> Resolver<'a, '_> {

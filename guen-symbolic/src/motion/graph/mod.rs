@@ -71,7 +71,7 @@ pub struct BodyNode {
     pub inertia: [ExprId; 6],
 }
 
-/// What a declaration says of the system's structure.
+/// The structure of a declared system: frames, bodies, particles, forms and loads.
 #[derive(Clone, Debug, Default)]
 pub struct SystemGraph {
     frames: Vec<FrameNode>,

@@ -122,7 +122,7 @@ impl Kinematics<'_> {
         Some(self.numbers.sub(sum, weight))
     }
 
-    /// What the axes do to the velocity of a point: `omega x v`.
+    /// Returns the part of a point's velocity rate that the turn of its axes makes, `omega x v`.
     pub(super) fn turning(&mut self, var: Var, axes: usize, q: usize) -> Num {
         let velocity = match self.variables.kind(var) {
             Kind::Velocity(point, _) => self.velocity(point),

@@ -220,7 +220,7 @@ impl<'a> Assembly<'a> {
         }
     }
 
-    /// What the energies beside those of the bodies have.
+    /// Adds the inertia and the forces of the energies beside those of the bodies.
     pub(super) fn beside(&mut self, rows: &[Row]) {
         let variables = self.kinematics.variables;
         for Row { coordinate: i, inertia, force } in rows {

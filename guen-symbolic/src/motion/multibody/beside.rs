@@ -11,7 +11,7 @@ use crate::motion::Mechanics;
 use crate::motion::velocity_forms::VelocityPartials;
 use crate::workbench::Workbench;
 
-/// What the rate of a coordinate has of the energies.
+/// The inertia and the force of the energies beside those of the bodies, for the rate of one coordinate.
 pub(super) struct Row {
     /// `i`.
     pub(super) coordinate: usize,

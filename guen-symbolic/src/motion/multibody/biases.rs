@@ -146,7 +146,7 @@ impl Kinematics<'_> {
         sum
     }
 
-    /// What the rate of a form has beside the accelerations of its variables.
+    /// Returns the rate of a form less the accelerations of its variables.
     pub(super) fn remainder(&mut self, row: &Functional) -> Num {
         let mut sum = Num::ZERO;
         for (part, direction, along) in &row.parts {

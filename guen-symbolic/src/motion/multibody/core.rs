@@ -29,9 +29,9 @@ pub(super) struct Core {
     steps: Vec<Step>,
     /// For each unknown its combination of parameters.
     pub(super) solutions: Vec<Linear>,
-    /// What each unknown is without parameters.
+    /// The value of each unknown where all parameters are zero.
     pub(super) offsets: Vec<Num>,
-    /// What was divided by.
+    /// The divisors of the elimination.
     pub(super) pivots: Vec<Num>,
 }
 

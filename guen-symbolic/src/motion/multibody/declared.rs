@@ -27,7 +27,7 @@ pub(super) struct Declared {
     pub(super) loads: Vec<Functional>,
 }
 
-/// What parts are made with.
+/// The context in which the parts of the declaration are made.
 struct Maker<'a> {
     bench: &'a mut Workbench,
     numbers: &'a mut Numbering,

@@ -14,7 +14,7 @@ pub(super) struct Form {
     forces: BTreeMap<Var, Num>,
     /// Variables that left by their own equations, with force over diagonal and row over diagonal.
     eliminated: Vec<(Var, Num, Linear)>,
-    /// What was divided by.
+    /// The divisors of the elimination.
     pub(super) pivots: Vec<Num>,
 }
 

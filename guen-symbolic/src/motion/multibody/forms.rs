@@ -39,7 +39,7 @@ pub(super) struct Functional {
     pub(super) directions: Vec<Direction>,
     /// Coefficients of the variables.
     pub(super) terms: Vec<(Var, Num)>,
-    /// What it is at rest.
+    /// The value of the form at rest.
     pub(super) offset: Num,
 }
 

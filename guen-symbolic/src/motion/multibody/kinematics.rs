@@ -212,8 +212,8 @@ impl<'a> Kinematics<'a> {
         }
     }
 
-    /// What moves: time, and coordinates with their rates; sines and cosines of joints, and the world's axes in all others, are
-    /// known to turn.
+    /// Returns the motion: time, and coordinates with their rates. Sines and cosines of joints, and the world's axes
+    /// in all others, are known to turn.
     pub(super) fn motion(&mut self) -> Rates {
         if let Some(motion) = &self.motion {
             return Rates { symbols: motion.symbols.clone() };

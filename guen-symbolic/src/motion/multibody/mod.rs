@@ -41,14 +41,14 @@ use crate::workbench::Workbench;
 /// Points of the zero test that are tried: not everywhere does every root exist.
 const POINTS: usize = 8;
 
-/// What a tree leads to.
+/// The result of deriving a tree of bodies.
 #[derive(Clone)]
 pub(super) struct Found {
     /// The rates of the state, velocities first.
     pub(super) rates: Vec<ExprId>,
     /// The pivots of the elimination.
     pub(super) pivots: Vec<ExprId>,
-    /// What was solved, generalised forces included; only where it was asked for.
+    /// The equations that were solved, generalised forces included; only where they were asked for.
     pub(super) equations: Option<Equations>,
 }
 

@@ -1,4 +1,4 @@
-//! What determines each velocity: kinematics outwards, constraints where they are met, and what is left as a small core.
+//! Plans the velocities: kinematics outwards, constraints where they are met, and the rest as a small core.
 //!
 //! A rate that nothing determines on the way from the root to the leaves is taken as an unknown; what is then left of the
 //! forms determines all of these. For a train each axle determines the turn of its own link and nothing is left; for a
@@ -15,7 +15,7 @@ use crate::numbering::{Num, Numbering};
 use crate::workbench::Workbench;
 use crate::zero::field;
 
-/// What determines a variable that stands for its class.
+/// The equation from which a variable that stands for its class is computed.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Def {
     /// It is a parameter.
@@ -24,9 +24,9 @@ pub(super) enum Def {
     Kinematic,
     /// A form, solved for it.
     Row(usize),
-    /// What another variable follows from, which is a multiple of a known one.
+    /// The kinematics of another variable, which is a multiple of a known one.
     Link(Var),
-    /// What is turned into this variable and others, turned back.
+    /// The turn of this variable and others into a known one, turned back.
     Back(Var),
     /// The core.
     Core(usize),
@@ -37,24 +37,24 @@ pub(super) enum Def {
 pub(super) enum Equation {
     /// A form.
     Row(usize),
-    /// What a variable follows from, without the variable.
+    /// The kinematics of a variable, without the variable.
     Link(Var),
 }
 
-/// What determines what.
+/// The order of elimination: the definition of each variable, and the core of equations that are left.
 #[derive(Clone)]
 pub(super) struct Plan {
     pub(super) defs: Vec<Option<Def>>,
     /// The forms, parameters subtracted.
     pub(super) rows: Vec<Functional>,
-    /// What the core is made of.
+    /// The equations of the core.
     pub(super) core: Vec<Equation>,
     /// The unknowns of the core.
     pub(super) unknowns: Vec<Var>,
     pub(super) used: Vec<bool>,
 }
 
-/// What a plan is made with.
+/// The context in which a plan is made.
 pub(super) struct Planner<'a> {
     pub(super) bench: &'a mut Workbench,
     pub(super) numbers: &'a mut Numbering,
@@ -163,7 +163,7 @@ impl Planner<'_> {
         }
     }
 
-    /// What some variables follow from, outwards, in the order of the list.
+    /// Returns all variables that some variables follow from, outwards, in the order of the list.
     fn closure(&mut self, mut stack: Vec<Var>) -> Vec<Var> {
         let mut seen = vec![false; self.variables.len()];
         while let Some(var) = stack.pop() {
@@ -270,7 +270,7 @@ impl Planner<'_> {
         false
     }
 
-    /// What the velocities follow from that vanish or are multiples of others: so many further equations.
+    /// Returns an equation for each velocity that vanishes or is a multiple of another one: its kinematics.
     fn links(&mut self) -> Vec<(Var, Linear)> {
         let mut found = Vec::new();
         for index in 0..self.variables.len() {
@@ -287,7 +287,7 @@ impl Planner<'_> {
         found
     }
 
-    /// What the velocities follow from that forms determine: equations that nothing has used.
+    /// Returns the kinematics of the velocities that forms determine: equations that nothing has used.
     fn determined_otherwise(&mut self, plan: &Plan) -> Vec<(Equation, Linear)> {
         let mut found = Vec::new();
         for index in 0..self.variables.len() {

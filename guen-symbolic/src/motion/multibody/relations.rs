@@ -23,8 +23,8 @@ pub(super) fn reduced(numbers: &mut Numbering, variables: &Variables, terms: &[(
     sum
 }
 
-/// What a variable follows from, and itself with the opposite sign, over the variables that stand for their classes: a
-/// combination that vanishes.
+/// Returns the kinematics of a variable as a combination that vanishes, over the variables that stand for their
+/// classes; the variable itself has the opposite sign.
 pub(super) fn link(
     numbers: &mut Numbering,
     tree: &Tree,

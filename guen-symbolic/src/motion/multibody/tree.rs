@@ -18,7 +18,7 @@ pub(super) type Mat3 = [Vec3; 3];
 pub(super) struct RateForm {
     /// Coordinates with coefficients.
     pub(super) terms: Vec<(usize, Num)>,
-    /// What it is at rest.
+    /// The value at rest.
     pub(super) offset: Option<Num>,
 }
 
@@ -54,7 +54,7 @@ pub(super) struct PointNode {
     pub(super) rate: Option<[RateForm; 3]>,
 }
 
-/// What moves with axes: about the origin of a point, or about any.
+/// The mass that moves with axes: about the origin of a point, or about any.
 #[derive(Clone, Debug)]
 pub(super) struct Content {
     pub(super) axes: usize,

@@ -14,7 +14,7 @@ use crate::zero::field;
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub(super) struct Var(pub(super) u32);
 
-/// What a variable is on the constraints.
+/// The value of a variable on the constraints: zero, or a multiple of the variable that stands for its class.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Class {
     Zero,
@@ -33,7 +33,7 @@ pub(super) struct Variables {
     pub(super) classes: Vec<Class>,
 }
 
-/// What a variable is a velocity of.
+/// The velocity that a variable is: of a parameter, a point, a spin.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Kind {
     /// A parameter.

@@ -29,7 +29,7 @@ struct Axle {
     angle: ExprId,
     /// The symbols of `u` and `w`.
     symbols: [ExprId; 2],
-    /// What they are by those of other axles.
+    /// `u` and `w` by those of other axles.
     values: [ExprId; 2],
 }
 

@@ -8,7 +8,7 @@ use crate::workbench::Workbench;
 /// One linear function of velocity forms: a component along an operator, or the value in a motion.
 pub(super) struct Component<'a> {
     sums: &'a FastMap<ExprId, Relative>,
-    /// What symbols stand for that have no value of their own.
+    /// The definitions of symbols that have no value of their own.
     definitions: &'a FastMap<ExprId, ExprId>,
     known: FastMap<ExprId, ExprId>,
     /// Whether what has no velocity in it counts.
@@ -35,14 +35,14 @@ impl<'a> Component<'a> {
         self.evaluate(bench, e, &mut hidden)
     }
 
-    /// The same with one velocity, of which nothing is known yet, at zero.
+    /// Evaluates with one velocity, of which nothing is known yet, at zero.
     pub(super) fn without(&mut self, bench: &mut Workbench, velocity: ExprId, e: ExprId) -> Option<ExprId> {
         let mut hidden = FastMap::default();
         hidden.insert(velocity, bench.graph.zero());
         self.evaluate(bench, e, &mut hidden)
     }
 
-    /// What depends on a hidden velocity is remembered beside it only.
+    /// Evaluates an expression, and remembers its parts: those that depend on a hidden velocity in `hidden` only.
     fn evaluate(
         &mut self,
         bench: &mut Workbench,
@@ -76,7 +76,7 @@ impl<'a> Component<'a> {
         Some(hidden.get(&e).copied().unwrap_or_else(|| self.known[&e]))
     }
 
-    /// What a value is made of; `None` for what is not affine as it is written.
+    /// Returns the operands of a value; `None` for an expression that is not affine as it is written.
     fn below(&self, bench: &Workbench, e: ExprId) -> Option<Vec<ExprId>> {
         let graph = &bench.graph;
         let moves = |e: &ExprId| graph.roles(*e).meets(VELOCITIES);

@@ -89,7 +89,7 @@ struct Assembled {
 /// The forms of a system over velocities, or over symbols for other ones.
 #[derive(Default)]
 struct Written {
-    /// What these symbols stand for.
+    /// The definitions of the symbols.
     definitions: FastMap<ExprId, ExprId>,
     /// The forms of the declaration.
     forms: Vec<ExprId>,
@@ -102,8 +102,8 @@ struct Written {
 /// A vector in axes at an angle.
 struct Point {
     angle: ExprId,
-    /// What the energy has for the velocities along the axes: the acceleration of a form belongs to its point, and two points
-    /// may have one of them in common.
+    /// The forms of the velocities along the axes in the energy: the acceleration of a form belongs to its point, and
+    /// two points may have one of them in common.
     forms: [ExprId; 2],
     velocities: [ExprId; 2],
 }

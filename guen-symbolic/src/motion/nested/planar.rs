@@ -14,7 +14,8 @@ use crate::algebra::{ExprId, Function, Graph, Node, Rational};
 use crate::motion::velocity_forms::VELOCITIES;
 use crate::workbench::Workbench;
 
-/// What an entry of a form belongs to: a velocity, none for what is there at rest, and an angle, none for the world's axes.
+/// The velocity and the angle that an entry of a form belongs to: no velocity for an entry at rest, no angle for the
+/// world's axes.
 type Key = (Option<ExprId>, Option<ExprId>);
 
 /// One form by velocities and by sines and cosines of single angles, in the order of these.
@@ -223,7 +224,8 @@ impl Planar {
         Some((factor, turned, Planar(parts)))
     }
 
-    /// What it has beyond another one whose velocities are among its own; `None` if that is not shorter.
+    /// Returns the parts that this vector has beyond another one whose velocities are among its own; `None` if they
+    /// are not fewer.
     pub(super) fn beyond(&self, bench: &mut Workbench, other: &Planar) -> Option<Vec<Part>> {
         let same = |a: &Part, b: &Part| a.velocity == b.velocity && a.angle == b.angle;
         let is_there =

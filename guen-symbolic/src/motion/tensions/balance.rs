@@ -19,11 +19,11 @@ pub(super) struct Balance {
     pub(super) inverse: Vec<Vector>,
     /// Columns `N_t` with `N^T B = 0`; with those of `P^T` a basis.
     pub(super) null: Vec<Vector>,
-    /// What was divided by.
+    /// The divisors of the elimination.
     pub(super) divisors: Vec<ExprId>,
 }
 
-/// What is known while the blocks are balanced.
+/// The state of balancing the blocks.
 struct Balancing<'a> {
     /// The rows of `B`.
     rows: &'a [Vector],
@@ -338,7 +338,7 @@ pub(super) fn divides_safely(bench: &Workbench, e: ExprId) -> bool {
     })
 }
 
-/// What products have in common: a factor of none of them is lost by dividing. Constants that might vanish are left.
+/// Returns a common factor of products that none of them loses by division. Constants that might vanish are left.
 fn factor_in_common(bench: &mut Workbench, es: &[ExprId]) -> ExprId {
     let graph = &mut bench.graph;
     let mut common: Option<Vec<(ExprId, i32)>> = None;

@@ -47,7 +47,7 @@ use tree::Edge;
 pub(super) struct Tensions {
     /// `eta_1'..eta_l'`.
     pub(super) accelerations: Vec<ExprId>,
-    /// What was divided by: it vanishes only where the mass matrix is singular.
+    /// The divisors of the elimination: they vanish only where the mass matrix is singular.
     pub(super) divisors: Vec<ExprId>,
     /// Whether the mass matrix would cost much more, judged by the patterns of both.
     pub(super) is_clear: bool,

@@ -1,4 +1,4 @@
-//! What an elimination costs, from the pattern of its matrix alone.
+//! Estimates the cost of an elimination from the pattern of its matrix alone.
 
 use super::sparse::Vector;
 use crate::algebra::ExprId;

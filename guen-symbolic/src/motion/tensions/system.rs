@@ -32,7 +32,7 @@ impl System {
         weighted_cost(&bench.graph, &all)
     }
 
-    /// The same in the angles between neighbours.
+    /// Rewrites the system in the angles between neighbours.
     pub(super) fn rewritten(&self, bench: &mut Workbench, between: &Between, etas: &[ExprId]) -> Self {
         let lists = |bench: &mut Workbench, lists: &[Vec<ExprId>]| -> Vec<Vec<ExprId>> {
             let sums = lists.iter().map(|list| {

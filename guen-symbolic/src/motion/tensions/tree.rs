@@ -19,7 +19,7 @@ struct Component {
     rest: ExprId,
 }
 
-/// What each form is taken relative to; `None` is rest.
+/// Returns the form that each form is taken relative to; `None` is rest.
 ///
 /// The tree has the fewest components in all differences together (Prim's algorithm from rest): each particle of a
 /// chain moves relative to the one before with the rate of one link.

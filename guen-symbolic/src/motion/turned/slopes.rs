@@ -9,7 +9,7 @@ use crate::normal::{Limits, normal_form};
 use crate::program::weighted_cost;
 use crate::workbench::Workbench;
 
-/// What a component in a body's axes may cost: the operators are multiplied out for it.
+/// The limits of a component in a body's axes: the operators are multiplied out for it.
 const COMPONENT: Limits = Limits { terms: 400, generators: 32, degree: 48, nodes: 800, steps: 60_000 };
 
 /// Components up to this size are written out; others are computed once, and their squares are not multiplied out.
@@ -109,7 +109,7 @@ fn shortest(
     Some((factor, best))
 }
 
-/// What is divided by.
+/// Returns the divisors of some expressions.
 pub(in crate::motion) fn divisors(graph: &Graph, es: &[ExprId]) -> Vec<ExprId> {
     let mut found = Vec::new();
     for id in graph.reachable(es, |_| false) {

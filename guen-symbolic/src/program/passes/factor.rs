@@ -15,7 +15,7 @@ struct Term {
     powers: Powers,
 }
 
-/// What several terms have in common.
+/// A factor that several terms have in common.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 enum Common {
     /// A power of a node, above or below.

@@ -27,11 +27,11 @@ pub(super) enum Pass {
     Expand,
     /// Sums as `x * (...) + rest`; products that are shared are not taken apart.
     FactorUnshared,
-    /// The same, whatever is shared.
+    /// Sums as `x * (...) + rest`, shared products included.
     FactorAll,
     /// Pairs of factors that several products have become one; a constant coefficient is one factor.
     Products,
-    /// The same with coefficients taken apart into their own factors first.
+    /// As `Products`, with coefficients taken apart into their own factors first.
     ProductsAndConstants,
     /// Pairs of terms that several sums have in the same ratio become one.
     Sums,

@@ -430,7 +430,7 @@ fn monomial(
     index
 }
 
-/// What is left of a monomial, as a coefficient and a node.
+/// Returns the rest of a monomial, as a coefficient and a node.
 fn finish(graph: &mut Graph, net: &mut Net, monomial: &[(Literal, u32)]) -> (ExprId, NetId) {
     let mut constants = Vec::new();
     let mut factors = Powers::with_capacity(monomial.len());
@@ -454,7 +454,7 @@ mod tests {
     use super::{Factor, Literal, Monomial, Net, NetNode, Powers, Search};
     use crate::algebra::{Graph, Role};
 
-    /// What a pair is joined into may be a factor already, of one monomial only.
+    /// A pair may be joined into a node that is a factor already, of one monomial only.
     #[test]
     fn products_that_are_factors() {
         let mut word = 1_u64;

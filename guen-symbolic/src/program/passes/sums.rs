@@ -191,7 +191,7 @@ impl Ratios {
         *self.quotients.or_insert_with((b, a), || graph.div(b, a))
     }
 
-    /// What a constant divides by and is not known to differ from zero.
+    /// Returns the divisors of a constant that are not known to differ from zero.
     fn denominators(&mut self, graph: &mut Graph, constant: ExprId) -> &[ExprId] {
         self.denominators.or_insert_with(constant, || {
             let (_, factors) = constant_factors(graph, constant);

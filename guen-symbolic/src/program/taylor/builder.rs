@@ -6,7 +6,7 @@ use super::super::{FunctionProgram, Operation, Value};
 use super::{NotAnalytic, SeriesProgram, SeriesStep, Source, Start};
 use crate::algebra::{Function, Rational, SymbolId};
 
-/// What makes equal steps one.
+/// The part of a step by which equal steps are found.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Kind {
     Time,

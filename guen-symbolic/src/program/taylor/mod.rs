@@ -25,10 +25,10 @@ mod builder;
 use super::{FunctionProgram, Operation, Value};
 use crate::algebra::{Function, SymbolId};
 
-/// What a symbol is during a step.
+/// The behaviour of a symbol during a step.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Source {
-    /// The same throughout: a physical constant, or an input that is held.
+    /// Constant: a physical constant, or an input that is held.
     Still,
     /// Time.
     Time,
@@ -36,10 +36,10 @@ pub enum Source {
     State(usize),
 }
 
-/// What a value of a series program is. Values are numbered by their place in [`SeriesProgram::steps`].
+/// A value of a series program. Values are numbered by their place in [`SeriesProgram::steps`].
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum SeriesStep {
-    /// The same throughout the step: an operation on such values alone, as it stands in a program.
+    /// Constant during the step: an operation on such values alone, as it stands in a program.
     Still(Operation),
     /// Time.
     Time,

@@ -235,7 +235,7 @@ fn solved(graph: &mut Graph, mut m: Vec<Vec<ExprId>>, mut f: Vec<ExprId>) -> Vec
     x
 }
 
-/// The same with a name for every entry of `M`, `f` and the factors.
+/// Returns the solution with a name for every entry of `M`, `f` and the factors.
 #[allow(clippy::needless_range_loop)]
 fn named(graph: &mut Graph, m: &[Vec<ExprId>], f: &[ExprId]) -> Formulation {
     let n = f.len();
