@@ -88,7 +88,7 @@ pub use nalgebra;
 #[cfg(feature = "serde")]
 pub use serde;
 
-/// What a program that integrates systems wants in scope.
+/// The items that a program needs in scope to integrate systems.
 pub mod prelude {
     pub use crate::steppers::{
         Bounded, Direction, Dop853, Euler, Event, Gauss4, Gauss6, Guard, Integration, IntegrationResult,

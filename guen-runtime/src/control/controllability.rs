@@ -1,4 +1,5 @@
-//! What the inputs of a linear model reach, and what nothing in it moves.
+//! Controllability: the directions that the inputs of a linear model reach, and the components that nothing in it
+//! moves.
 
 use core::error::Error;
 use core::fmt;
@@ -7,7 +8,7 @@ use crate::linear_algebra::dense::{Basis, apply, largest, length, transpose};
 use crate::numbers::real::Ordered;
 use crate::system::linearization::Linearization;
 
-/// What the inputs reach: see [`controllability`].
+/// The directions that the inputs reach: see [`controllability`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Controllability<R, const N: usize> {
     /// The rank of `[B, A B, .. A^(N-1) B]`: the dimension of what the inputs reach, at most `N`.

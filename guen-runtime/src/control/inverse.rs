@@ -17,7 +17,7 @@ use crate::numbers::real::Ordered;
 pub struct MassForm<R, const L: usize, const M: usize> {
     /// The mass matrix, symmetric, `L` by `L`.
     pub mass: [[R; L]; L],
-    /// What the forces are without inputs, with its sign turned.
+    /// The generalised forces without inputs, with their sign turned.
     pub bias: [R; L],
     /// `G`, the derivatives of the generalised forces by the inputs, `L` by `M`.
     pub input: [[R; M]; L],
@@ -114,8 +114,8 @@ pub fn inverse_dynamics<R: Ordered, const L: usize, const M: usize>(
     search(&form, accelerations, (0..STARTS).map(start)).map_err(Stuck::not_found)
 }
 
-/// The same from a given start: of several solutions the one that Newton's method leads to from there. Where the inputs are
-/// more than the forces they make and these are affine, it is the nearest to the start.
+/// Finds inputs from a given start: of several solutions the one that Newton's method leads to from there. Where the
+/// inputs are more than the forces they make and these are affine, it is the nearest to the start.
 ///
 /// ```
 /// use guen_runtime::control::{MassForm, inverse_dynamics_from};
@@ -135,7 +135,8 @@ pub fn inverse_dynamics_from<R: Ordered, const L: usize, const M: usize>(
     search(&form, accelerations, [*start].into_iter()).map_err(Stuck::not_found)
 }
 
-/// The same for equations that hold at all inputs, those of forces that are affine in them: what is not found is out of reach.
+/// Finds inputs for equations that hold at all inputs, those of forces that are affine in them: an acceleration that
+/// is not found is out of reach.
 ///
 /// ```
 /// use guen_runtime::control::{InverseDynamicsError, MassForm, affine_inverse_dynamics};
@@ -218,7 +219,7 @@ fn search<R: Ordered, const L: usize, const M: usize>(
     Err(best)
 }
 
-/// What is missing at trial inputs.
+/// The generalised forces that are missing at trial inputs.
 struct Gap<R, const L: usize, const M: usize> {
     /// `M eta' + bias - G u`
     gap: [R; L],

@@ -10,7 +10,7 @@ use crate::system::linearization::{Linearization, OutputLinearization};
 /// Four coordinates that are a unit quaternion, by their indices: `w, x, y, z`.
 pub type Quaternion = [usize; 4];
 
-/// What a component of a reduced basis is.
+/// The kind of a component of a reduced basis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Component {
@@ -102,7 +102,7 @@ pub struct Reduced<R, const S: usize, const M: usize, const Z: usize> {
     pub basis: [[R; Z]; S],
     /// `P`, `Z` by `S`: a left inverse of `E`.
     pub projection: [[R; S]; Z],
-    /// What each component is.
+    /// The kind of each component.
     pub components: [Component; Z],
 }
 

@@ -53,7 +53,7 @@ impl fmt::Display for SteadyError {
 
 impl Error for SteadyError {}
 
-/// What a search for a steady motion may do: see [`steady`].
+/// The settings of a search for a steady motion: see [`steady`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SteadyMotion<const N: usize, const M: usize> {
     /// States whose rate need not vanish, such as the place of a car that drives in a circle. They stay as in the guess.

@@ -54,7 +54,7 @@ impl<R> Derived<R> {
         matches!(self, Self::Follows)
     }
 
-    /// The same over another real: what follows goes on to do so.
+    /// Converts the value to another real; a value that follows from other constants goes on to follow from them.
     ///
     /// ```
     /// use guen_runtime::Derived;

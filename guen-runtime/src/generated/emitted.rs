@@ -1,5 +1,5 @@
-//! What is the same in every expansion, as macros that generated code calls: what the derivation of each system would
-//! write down token by token, the compiler copies.
+//! Code that is the same in every expansion, as macros that generated code calls: the compiler copies what the
+//! derivation of each system would write down token by token.
 //!
 //! They expand inside the module of a system, which defines `Prepared`, `Bracket` and the module `program`, and work
 //! without a prelude and from any crate name.

@@ -1,4 +1,5 @@
-//! What the code of an expansion calls, and the facts that it states: nothing here integrates or knows of a stepper.
+//! The functions that the code of an expansion calls, and the facts that it states: nothing here integrates or knows
+//! of a stepper.
 
 pub mod checks;
 mod condition;

@@ -95,7 +95,7 @@ impl<R: Ordered, const N: usize> Basis<R, N> {
         Basis { vectors: [[R::zero(); N]; N], count: 0 }
     }
 
-    /// What is left of a vector after its projection on the basis.
+    /// Returns the remainder of a vector after its projection on the basis.
     pub(crate) fn remainder(&self, vector: &[R; N]) -> [R; N] {
         let mut rest = *vector;
         for _ in 0..2 {

@@ -326,8 +326,9 @@ pub trait Real:
         self.to_f64()
     }
 
-    /// What a function makes of numbers in doubles, in every lane by itself, where the real consists of
-    /// [`Lanes`](crate::numbers::lanes::Lanes): it is given what takes the number of its lane out of a real.
+    /// Applies a function of doubles in every lane by itself, where the real consists of
+    /// [`Lanes`](crate::numbers::lanes::Lanes): it is given the function that takes the number of its lane out of a
+    /// real.
     ///
     /// ```
     /// use guen_runtime::Real;

@@ -1,4 +1,4 @@
-//! What numbers with something beside their value have in common: the rules of derivatives, and operators that assign.
+//! Rules that numbers with something beside their value share: the rules of derivatives, and operators that assign.
 
 /// Elementary functions of one argument by `chain(value, slope)`, for a type with the argument in `value`, each with an
 /// attribute that says how it is inlined.

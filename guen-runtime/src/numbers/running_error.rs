@@ -75,8 +75,8 @@ impl<R: Real> RunningError<R> {
         Self { value, error: value.abs() }
     }
 
-    /// What is left of the value: `|value| / error`, at most one for anything that was rounded; infinite for an exact
-    /// number that is not zero.
+    /// Returns how certain the value is: `|value| / error`, at most one for anything that was rounded; infinite for
+    /// an exact number that is not zero.
     #[inline(always)]
     pub fn left(self) -> R {
         self.value.abs() / self.error
@@ -144,7 +144,7 @@ impl<R: Real> Neg for RunningError<R> {
 
 assign_operators!(RunningError<R>, R: Real);
 
-/// What functions add to the error, in units of their values: see [`RunningError`].
+/// The errors that functions add, in units of their values: see [`RunningError`].
 mod own {
     pub const SINE: i64 = 2;
     pub const TANGENT: i64 = 6;

@@ -4,7 +4,7 @@ use core::fmt::{self, Write};
 
 use super::Report;
 
-/// What [`Report::latex`] displays.
+/// The document that [`Report::latex`] displays.
 #[derive(Clone, Copy, Debug)]
 pub struct LatexDocument<'r> {
     pub(super) report: &'r Report,

@@ -4,7 +4,7 @@ use core::fmt::{self, Write};
 
 use super::Report;
 
-/// What [`Report::markdown`] displays.
+/// The document that [`Report::markdown`] displays.
 #[derive(Clone, Copy, Debug)]
 pub struct MarkdownDocument<'r> {
     pub(super) report: &'r Report,

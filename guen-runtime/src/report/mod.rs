@@ -1,4 +1,4 @@
-//! What the macro derived, as constants of text, and written as text, Markdown or LaTeX.
+//! The derivation, as constants of text, and written as text, Markdown or LaTeX.
 
 mod latex;
 mod markdown;
@@ -40,7 +40,7 @@ pub struct Report {
 /// A heading and its lines: formulas first, then words.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ReportSection {
-    /// What the lines are.
+    /// The heading of the lines.
     pub title: &'static str,
     /// The lines.
     pub lines: &'static [&'static str],

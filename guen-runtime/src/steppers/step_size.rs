@@ -5,7 +5,7 @@
 //!
 //! Source: the program `dop853.f` named in the coefficients' module, with its default settings and without the
 //! stabilised control (`beta = 0`), from which two things differ. The explicit methods predict the error of the next step from
-//! that of two steps, and aim at a smaller part of the tolerance: `docs/integrators.md` has what that is worth. The other
+//! that of two steps, and aim at a smaller part of the tolerance: `docs/design/step-control.md` has what that is worth. The other
 //! methods differ in the constants that they give.
 
 use crate::numbers::real::Real;
@@ -50,8 +50,9 @@ impl Control {
         self.factor(margin + (margin + trend).min(0.0)).clamp(self.shorten, self.grow)
     }
 
-    /// What has to be added to the margin of a step of this size to have its change since the step before, of which the
-    /// [`level`](Control::level) is given, had that been of the same size. Zero if there was none: no change for the worse.
+    /// Returns the term that predicts the next error: added to the margin of a step of this size it gives the change
+    /// since the step before, of which the [`level`](Control::level) is given, had that been of the same size. Zero
+    /// if there was none: no change for the worse.
     #[inline]
     pub fn trend(&self, before: Option<f64>, size: f64) -> f64 {
         match before {
@@ -213,7 +214,7 @@ impl Tolerance {
         if valid { Ok(()) } else { Err(Cause::Setting(Setting::Tolerance)) }
     }
 
-    /// What an error in each entry is multiplied by, the larger of the entries of `x` and `y` counting.
+    /// Returns the weight of the error in each entry, by the larger of the entries of `x` and `y`.
     #[inline]
     pub fn weights<R: Real, const N: usize>(self, x: &[R; N], y: &[R; N]) -> [f64; N] {
         entries(|i| {

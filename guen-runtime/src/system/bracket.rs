@@ -5,7 +5,7 @@ use core::fmt;
 use crate::numbers::lift::Lift;
 use crate::numbers::real::Real;
 
-/// What the compiler knows of one structure coefficient.
+/// A structure coefficient, as far as it is known at compile time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Coefficient {
     /// Proved to vanish identically.
@@ -83,7 +83,7 @@ pub trait BracketCoefficients<B: Real, const N: usize> {
     /// The index of the second operator, from 0.
     const J: usize;
 
-    /// What is known of `C_IJ1 .. C_IJN`.
+    /// The coefficients `C_IJ1 .. C_IJN`, each with what the compiler proved.
     const COEFFICIENTS: [Coefficient; N];
 
     /// The values of `C_IJ1 .. C_IJN` at time `t` and position `x`.

@@ -1,5 +1,5 @@
-//! What the compiler proved about a system, as types: markers that an integrator can demand, and the class of
-//! its operators.
+//! The proved properties of a system, as types: markers that an integrator can demand, and the class of its
+//! operators.
 
 use core::fmt;
 

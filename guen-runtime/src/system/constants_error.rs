@@ -58,7 +58,7 @@ pub enum ConstantsError {
     NotPhysical {
         /// The body's name.
         body: &'static str,
-        /// What is wrong with it.
+        /// The fault of the body.
         fault: BodyFault,
     },
 }

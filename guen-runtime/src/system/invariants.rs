@@ -1,4 +1,4 @@
-//! What a system tells the guards of a stepper: quantities that its exact solutions keep.
+//! Invariants: the quantities that a system tells the guards of a stepper, and that its exact solutions keep.
 
 /// Quantities of one state that a guard compares with those of the start: see
 /// [`System::conserved`](crate::System::conserved).

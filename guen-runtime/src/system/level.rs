@@ -43,7 +43,7 @@ pub trait Level<R: Real, const N: usize, const FULL: usize> {
     /// Coordinates that the level leaves out and that holonomic equations say of what it keeps.
     const DETERMINED: &'static [usize] = &[];
 
-    /// What the level is called and what it costs.
+    /// The name and the cost of the level.
     const INFO: LevelInfo;
 
     /// Puts the variables that the level holds constant into a state of the system; does nothing where there are none.
@@ -90,7 +90,7 @@ impl<R: Real, S: Level<R, N, FULL>, const N: usize, const FULL: usize> Level<R, 
     }
 }
 
-/// What a level of detail costs, counted when it was generated.
+/// The cost of a level of detail, counted when it was generated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LevelInfo {
     /// The name of the system or of the scene.

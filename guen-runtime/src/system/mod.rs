@@ -1,4 +1,4 @@
-//! What a stepper integrates: a right-hand side over `N` reals, and what it may be asked to keep.
+//! Systems: a right-hand side over `N` reals, and the quantities that its motion keeps.
 
 pub(crate) mod auxiliary_states;
 pub(crate) mod bodies;
@@ -90,17 +90,17 @@ pub trait System<R: Real, const N: usize> {
         R::one()
     }
 
-    /// What [`conserved`](System::conserved), [`singularities`](System::singularities) and [`condition`](System::condition) of one state cost
-    /// together, in evaluations of the right-hand side: the dearer they are, the seldomer a guard asks for them. Two, unless
-    /// a system says more; generated systems count their operations.
+    /// The cost of [`conserved`](System::conserved), [`singularities`](System::singularities) and
+    /// [`condition`](System::condition) of one state together, in evaluations of the right-hand side. Guards check
+    /// expensive systems less often. Two, unless a system says more; generated systems count their operations.
     #[inline]
     fn check_cost(&self) -> u32 {
         2
     }
 
-    /// What [`singularities`](System::singularities) of one state cost, in evaluations of the right-hand side, with what a guard makes of them:
-    /// next to fixed steps it asks for them more often than for the rest. Nothing, unless a system says more; generated systems
-    /// count their operations.
+    /// The cost of [`singularities`](System::singularities) of one state, in evaluations of the right-hand side, with
+    /// what a guard makes of them: next to fixed steps it asks for them more often than for the rest. Nothing, unless
+    /// a system says more; generated systems count their operations.
     #[inline]
     fn singularity_check_cost(&self) -> f64 {
         0.0

@@ -1,4 +1,4 @@
-//! What keeps coordinates from fulfilling constraints on positions.
+//! The reasons why coordinates cannot fulfil constraints on positions.
 
 use core::error::Error;
 use core::fmt;
@@ -12,7 +12,7 @@ pub enum PositionsError {
         /// The name.
         name: &'static str,
     },
-    /// So many coordinates are given that the others cannot fulfil all constraints.
+    /// Too many coordinates are given: the others cannot fulfil all constraints.
     TooManyGiven {
         /// Coordinates that are not given.
         left: usize,

@@ -192,7 +192,7 @@ fn in_blocks<R: Real, const B: usize>(
     }
 }
 
-/// The same for exactly so many `j`: of long reals every product counts.
+/// Adds the products for exactly so many `j`: of long reals every product counts.
 fn one_by_one<R: Real>(
     factors: &[[R; KEPT]],
     sums: &mut [[R; SUMS]],

@@ -140,7 +140,8 @@ macro_rules! reduce {
     };
 }
 
-/// What analyses of the runtime take: rates and linearisation over arrays, with the inputs beside the state.
+/// Implements the traits of the runtime's analyses: rates and linearisation over arrays, with the inputs beside the
+/// state.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! linearizable {

@@ -141,7 +141,7 @@ impl Mask {
         Self(self.0 | other.0)
     }
 
-    /// The same set with one lane more, below 32.
+    /// Returns the set with one lane more, below 32.
     ///
     /// ```
     /// use guen_runtime::lanes::Mask;
@@ -206,7 +206,7 @@ impl Width {
     }
 }
 
-/// What lanes are made of.
+/// The registers that lanes are made of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Backend {
@@ -252,7 +252,7 @@ impl Backend {
 
 /// Something to do in lanes of whatever kind.
 pub trait LaneTask: Sized {
-    /// What comes out.
+    /// The result of the task.
     type Output;
 
     /// Does it. Mark it `#[inline(always)]` if it does more than to call functions that use

@@ -1,4 +1,4 @@
-//! What the processor does with several `f64` at once: the operations that lanes and elementary functions consist of.
+//! Registers of several `f64`: the operations that lanes and elementary functions consist of.
 //!
 //! In goes a register, out comes a register; [`Vector`] gives it operators. Everything is written for any register,
 //! and one number is a register too: that is how scalar code and lanes get the same bits. Only operations are here

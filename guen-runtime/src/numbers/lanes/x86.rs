@@ -30,7 +30,7 @@ pub(super) fn has_avx512() -> bool {
     has_avx2() && has_avx512_besides()
 }
 
-/// The same of a processor that has 256-bit registers.
+/// Returns `true` if a processor with 256-bit registers has 512-bit ones, too.
 #[inline]
 fn has_avx512_besides() -> bool {
     #[cfg(feature = "std")]
@@ -124,8 +124,8 @@ struct Avx512Half(__m256d);
 #[derive(Clone, Copy)]
 struct Avx512(__m512d);
 
-/// What one instruction does. SAFETY of all: a value of these types exists only where the processor has been asked, or
-/// need not be.
+/// Operations of one instruction. SAFETY of all: a value of these types exists only where the processor has been
+/// asked, or need not be.
 macro_rules! instructions {
     ($($method:ident: $instruction:ident;)*) => {
         $(

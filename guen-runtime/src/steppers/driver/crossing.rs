@@ -88,7 +88,7 @@ impl Tracker {
         self.side
     }
 
-    /// The same after a look at a value that is no crossing.
+    /// Updates the side by a value that is no crossing.
     pub fn at(self, value: f64) -> Self {
         if value.is_nan() { self } else { Self { side: sign(value), ..self } }
     }

@@ -70,8 +70,8 @@ impl<R: Real, const N: usize> Dense<R, N> {
         Self { start, step, terms, used: 4 }
     }
 
-    /// The same cubic with two more terms, so that the second derivatives are the given ones, too: a polynomial of
-    /// degree five, `O(h^6)`.
+    /// Adds two terms to the cubic, so that the second derivatives are the given ones, too: a polynomial of degree
+    /// five, `O(h^6)`.
     #[must_use]
     pub fn with_curvatures(mut self, curvature0: &[R; N], curvature1: &[R; N]) -> Self {
         let (two, four) = (R::from_ratio(2, 1), R::from_ratio(4, 1));
@@ -89,7 +89,7 @@ impl<R: Real, const N: usize> Dense<R, N> {
         self
     }
 
-    /// The same with further terms `r4 ..`, at most four.
+    /// Adds further terms `r4 ..`, at most four.
     pub(in crate::steppers) fn with_terms<const M: usize>(mut self, further: [[R; N]; M]) -> Self {
         const { assert!(M <= TERMS - 4, "a polynomial of degree seven at most") }
         self.terms[4..4 + M].copy_from_slice(&further);

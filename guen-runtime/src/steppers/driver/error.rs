@@ -63,9 +63,9 @@ pub enum Cause {
         found: f64,
         /// Which of the functions that must not vanish; a generated system has their formulas in `DOMAIN`.
         function: usize,
-        /// What is left of it there: its value relative to what a relative change of one in everything that enters
-        /// would make of it, with every entry of the state at the largest value it has had. Negative if the function
-        /// has changed its sign.
+        /// The certainty of the function there: its value relative to what a relative change of one in everything
+        /// that enters would make of it, with every entry of the state at the largest value it has had. Negative if
+        /// the function has changed its sign.
         distance: f64,
         /// The limit.
         limit: f64,

@@ -78,27 +78,27 @@ impl<'a, R: Ordered, const N: usize> Event<'a, R, N> {
         Self { function, direction: Direction::Any, terminal: false, tolerance: 0.0, checks: 1 }
     }
 
-    /// The same for crossings in this direction only.
+    /// Reports crossings in this direction only.
     #[must_use]
     pub fn direction(self, direction: Direction) -> Self {
         Self { direction, ..self }
     }
 
-    /// The same, ending the run.
+    /// Ends the run at the event.
     #[must_use]
     pub fn terminal(self) -> Self {
         Self { terminal: true, ..self }
     }
 
-    /// The same, located to this duration only. Below four roundings of the time it is those, and for terminal events in any
-    /// case, because the run goes on from there.
+    /// Locates the event to this duration only. Below four roundings of the time it is those, and for terminal events
+    /// in any case, because the run goes on from there.
     #[must_use]
     pub fn within(self, tolerance: f64) -> Self {
         Self { tolerance, ..self }
     }
 
-    /// The same, with the function evaluated at the ends of this many equal parts of every step, on the dense output:
-    /// crossings that lie closer together than a step are seen, at that price. Zero counts as one.
+    /// Evaluates the function at the ends of this many equal parts of every step, on the dense output: crossings that
+    /// lie closer together than a step are seen, at that price. Zero counts as one.
     #[must_use]
     pub fn with_checks(self, parts: u32) -> Self {
         Self { checks: parts.max(1), ..self }

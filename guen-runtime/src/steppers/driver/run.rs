@@ -1,4 +1,4 @@
-//! What a method is to a driver: something that starts a run, and a run that goes on step by step.
+//! The interface between a method and the driver: a method starts a run, and a run goes on step by step.
 
 use core::ops::AddAssign;
 

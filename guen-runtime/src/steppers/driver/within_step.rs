@@ -1,4 +1,4 @@
-//! What lies within one step of a run: samples and events, in the order of time, and the end of a run at an event.
+//! Samples and events within one step of a run, in the order of time, and the end of a run at an event.
 
 use crate::numbers::real::Real;
 use crate::steppers::driver::crossing::{Crossing, Looks, Tracker, earlier, sign};

@@ -21,7 +21,7 @@ pub struct Settings {
 pub trait Pair<R: Real, const N: usize> {
     /// The slopes of a step, as far as dense output needs them.
     type Stages: Copy;
-    /// What the error of a step is measured by.
+    /// The slopes or sums that the error of a step is measured by.
     type Errors;
 
     /// Evaluations of a trial step, the slope at its beginning not counted.
@@ -70,7 +70,7 @@ pub struct Adaptive<'a, P, K, R, const N: usize> {
     origin: R,
     reached: Checkpoint<R, N>,
     before: Checkpoint<R, N>,
-    /// What the next step starts with; absent before the first.
+    /// The slope and the size with which the next step starts; absent before the first.
     ready: Option<Ready<R, N>>,
     stages: Option<K>,
 }

@@ -23,7 +23,7 @@ use crate::system::System;
 ///   of eight kinds of systems 7,347 had a bound, and 30 of these were off by more than it, at most 4.3 times
 ///   (`cargo test --release -p guen-runtime --test steppers bounds_of_bounded -- --include-ignored --nocapture`).
 /// - A force that lasts less than a step and is over between two evaluations is not seen, and the bound does not hold then:
-///   `docs/extremes.md` has how narrow that is.
+///   `docs/design/unseen.md` has how narrow that is.
 /// - Whether that is good enough is the caller's decision: [`Bound::error`] is what to compare.
 /// - No guard looks at the run except that all states are finite.
 ///
@@ -50,7 +50,7 @@ enum Kind<R> {
     Tsit5(Formula<R>),
 }
 
-/// What a bounded run reached.
+/// The result of a bounded run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bound<R, const N: usize> {
     /// The state at the end of the span.
@@ -130,7 +130,7 @@ fn tsit5_error<R: Real, const N: usize>(errors: &[R; N], h: f64) -> [f64; N] {
     entries(|i| (h * errors[i].to_f64()).abs())
 }
 
-/// What is known of the error, step by step.
+/// The bound of the error, step by step.
 struct Known<const N: usize> {
     error: [f64; N],
     /// How far each entry has gone: `S`.

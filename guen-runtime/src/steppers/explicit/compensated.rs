@@ -24,7 +24,7 @@ use crate::system::System;
 ///   the real's digits too, always to the same side. It is proportional to the step. On simple oscillators with some 300 steps in a
 ///   period it is as large as what compensation saves after 1e6 steps.
 /// - Seven additions for each variable in a step. It pays where the error of the method is below rounding, on long runs:
-///   `docs/integrators.md` has the figures.
+///   `docs/design/sums.md` has the figures.
 /// - Everything else is as without it. A change of the state from outside, by [`System::restore`], keeps what was lost.
 ///
 /// ```
@@ -105,7 +105,7 @@ where
     S: System<R, N> + ?Sized,
     F: Changes<R, S, N>,
 {
-    /// What the formula remembers, and what was lost.
+    /// The memory of the formula, and the rounding that the sum lost.
     type Memory = (F::Memory, [R; N]);
     const EVALUATIONS: u32 = F::EVALUATIONS;
 

@@ -29,7 +29,7 @@ use crate::system::System;
 /// ```
 ///
 /// between a third and six times, and no longer than the present one after a rejection: if errors of steps of the same size
-/// grow, they are expected to go on to grow. `docs/integrators.md` has what that is worth.
+/// grow, they are expected to go on to grow. `docs/design/step-control.md` has what that is worth.
 ///
 /// - For smooth right-hand sides that are not stiff. Not symplectic.
 /// - Tolerances and steps are `f64` for every real; with duals the values alone decide the steps.
@@ -76,12 +76,12 @@ impl<R: Ordered> Dop853<R> {
         Self { rtol, atol, max_steps: Self::MAX_STEPS, first_step: None, tableau: Tableau::new() }
     }
 
-    /// The same with another limit on the number of trial steps.
+    /// Limits the number of trial steps.
     pub fn with_max_steps(self, max_steps: u64) -> Self {
         Self { max_steps, ..self }
     }
 
-    /// The same with a given first step.
+    /// Sets the first step.
     pub fn with_first_step(self, first_step: f64) -> Self {
         Self { first_step: Some(first_step), ..self }
     }

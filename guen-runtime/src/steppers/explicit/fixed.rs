@@ -1,4 +1,4 @@
-//! What methods with a fixed step share: where the steps begin and end, and the loop around a formula.
+//! The part that methods with a fixed step share: where the steps begin and end, and the loop around a formula.
 
 use crate::numbers::real::Real;
 use crate::steppers::all_finite;
@@ -9,7 +9,7 @@ use crate::system::System;
 
 /// A formula that makes one step.
 pub trait Formula<R: Real, S: ?Sized, const N: usize> {
-    /// What a step leaves for the next one and for dense output.
+    /// The memory of a step, for the next one and for dense output.
     type Memory: Copy;
 
     const EVALUATIONS: u32;
@@ -52,7 +52,7 @@ pub trait Changes<R: Real, S: ?Sized, const N: usize>: Formula<R, S, N> {
     /// The step size, and the memory at the beginning of a run.
     fn begin(&self) -> (R, Self::Memory);
 
-    /// What [`Formula::step`] adds to the state.
+    /// Returns the increment that [`Formula::step`] adds to the state.
     fn change(
         &self,
         system: &S,

@@ -13,10 +13,10 @@ use crate::system::System;
 
 /// A formula that makes steps in lanes, of a method whose settings are those of all lanes.
 pub(in crate::steppers) trait LaneFormula<L: Lanes, S: ?Sized, const N: usize> {
-    /// What a step leaves for the estimate of its error.
+    /// The memory of a step, for the estimate of its error.
     type Memory;
 
-    /// The same formula for lanes.
+    /// The formula over lanes.
     type Ready;
 
     /// Evaluations of the right-hand side in a step.

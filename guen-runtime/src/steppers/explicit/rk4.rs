@@ -56,7 +56,7 @@ where
     moved(x, h * R::from_ratio(1, 6), &sum_from(system, t, x, k1, h))
 }
 
-/// What the step adds to the state.
+/// Returns the increment of the state in a step.
 #[inline(always)]
 fn change_from<R, S, const N: usize>(system: &S, t: R, x: &[R; N], k1: &[R; N], h: R) -> [R; N]
 where

@@ -19,7 +19,7 @@ use crate::system::System;
 /// estimates.
 ///
 /// - Order 8, 12 evaluations a step; steps, demands and guarantees as of [`Rk4`](crate::steppers::Rk4). On smooth motions it is
-///   the cheapest fixed step at every accuracy; `docs/integrators.md` has the figures.
+///   the cheapest fixed step at every accuracy; `docs/design/work-precision.md` has the figures.
 /// - Works for every [`Real`]: lanes, which share their time, included.
 /// - Dense output is DOP853's, `O(h^8)`: three evaluations more on steps where it is asked for.
 /// - Source: that of [`Dop853`](crate::steppers::Dop853).

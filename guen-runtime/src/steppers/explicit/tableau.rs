@@ -249,7 +249,7 @@ impl<R: Real> Tableau<R> {
         Made { trial, guess: at12, stages: [*k1, k6, k7, k8, k9, k10, k11, k12] }
     }
 
-    /// What of the new state and of both errors is known two slopes before the end.
+    /// Returns the parts of the new state and of both errors that are known two slopes before the end.
     #[inline(always)]
     fn heads<const EARLY: bool, const N: usize>(
         &self,
@@ -344,7 +344,7 @@ fn head_apart<R: Real, const N: usize, const M: usize>(
     shifted(x, h, &leading(weights, slopes))
 }
 
-/// The same with one slope more.
+/// Adds one slope to the sums.
 #[inline(always)]
 fn further<const EARLY: bool, R: Real, const N: usize>(
     h: R,

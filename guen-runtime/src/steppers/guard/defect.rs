@@ -1,4 +1,4 @@
-//! What fixed steps got wrong, from estimates of single steps that the methods make: see `StepperRun::defect`.
+//! The errors of fixed steps, from estimates of single steps that the methods make: see `StepperRun::defect`.
 //!
 //! For explicit methods up to order four that is [`quadrature`],
 //!
@@ -53,7 +53,7 @@ impl<R: Real, const N: usize> Defects<R, N> {
         most
     }
 
-    /// What every entry was judged by last, in one lane.
+    /// Returns the value that every entry was judged by last, in one lane.
     pub fn judged(&self, alone: impl Fn(R) -> f64) -> [f64; N] {
         let mut judged = [0.0; N];
         for i in 0..N {
@@ -94,8 +94,8 @@ fn relative<R: Real, const N: usize>(defects: &[R; N], largest: &[R; N], negligi
     relative
 }
 
-/// What the change over a step differs from Gauss's rule with two nodes along the cubic through its ends, where the slopes
-/// are `first` and that at the end: three right-hand sides.
+/// Returns the difference between the change over a step and Gauss's rule with two nodes along the cubic through its
+/// ends, where the slopes are `first` and that at the end: three right-hand sides.
 #[inline(always)]
 pub(in crate::steppers) fn quadrature<R: Real, S, const N: usize>(
     system: &S,

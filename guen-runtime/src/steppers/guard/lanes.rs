@@ -85,24 +85,25 @@ pub(in crate::steppers) struct LaneWatch<L, const N: usize> {
     due: u32,
     /// For each lane, steps from when the guard did something last; where they are the same for all, none but `due`.
     until: Option<[u32; MOST]>,
-    /// The same until the next look, which all lanes have at once, and the steps between the last one and that.
+    /// The number of steps until the next check, which all lanes have at once, and the steps between the last one and
+    /// that.
     rest: u32,
     between: u32,
     /// Where the last look found everything in order, in lanes that are going.
     good: Moment<L, N>,
     known: Option<Known<L, N>>,
-    /// What the last call has found.
+    /// The faults that the last call has found.
     pub faults: Faults<N>,
 }
 
-/// What looks learn, the first one from the initial state.
+/// The values that checks remember, the first one from the initial state.
 #[derive(Clone, Copy)]
 struct Known<L, const N: usize> {
     energy: Option<L>,
     scale: L,
     /// How many functions there are that must not vanish.
     count: usize,
-    /// What they were at the start, are where they were looked at last, and were a step before that.
+    /// The functions at the start, at the last check, and a step before that.
     start: [L; MAX_SINGULARITIES],
     functions: [RunningError<L>; MAX_SINGULARITIES],
     before: [RunningError<L>; MAX_SINGULARITIES],

@@ -23,9 +23,9 @@ use crate::steppers::guard::schedule::Schedule;
 use crate::steppers::guard::singularities::{MAX_SINGULARITIES, distances, functions, paces, soonest};
 use crate::system::System;
 
-/// What a run must not violate. A stepper watches these by default, of whatever the system tells in
-/// [`System::conserved`], [`System::singularities`] and [`System::condition`], and methods with a fixed step by estimates of the errors of
-/// single steps.
+/// The limits that a run must not violate. A stepper checks these by default, on whatever the system tells in
+/// [`System::conserved`], [`System::singularities`] and [`System::condition`], and methods with a fixed step by
+/// estimates of the errors of single steps.
 ///
 /// Every accepted state is tested to be finite. After the first step, then every [`every`](Guard::every) steps, at the end
 /// of the run and before an error is returned, the guard looks at the rest; the first look looks at the start too. Where it
@@ -34,7 +34,7 @@ use crate::system::System;
 /// of such runs may take [`Guard::FINITE`], and guards of its own.
 ///
 /// With lanes as the real every lane is looked at, with limits relative to its own energy and its own largest values, and a fault
-/// of one ends the run of all; [`Rk4::integrate_in_lanes`](crate::steppers::Rk4::integrate_in_lanes) gives each lane an end of its own.
+/// of one ends the run of all; [`LaneMethod::integrate_in_lanes`](crate::steppers::LaneMethod::integrate_in_lanes) gives each lane an end of its own.
 ///
 /// ```
 /// use guen_runtime::steppers::Guard;
@@ -146,11 +146,11 @@ pub(super) struct Watch<R, const N: usize> {
     since_edges: u32,
     /// Where the last look found everything in order.
     good: Checkpoint<R, N>,
-    /// What the looks have learned so far.
+    /// The values that checks have remembered so far.
     known: Option<Known<R, N>>,
 }
 
-/// What looks learn, the first one from the initial state.
+/// The values that checks remember, the first one from the initial state.
 struct Known<R, const N: usize> {
     energy: Option<R>,
     scale: R,
@@ -158,7 +158,7 @@ struct Known<R, const N: usize> {
     count: usize,
     start: [R; MAX_SINGULARITIES],
     functions: [RunningError<R>; MAX_SINGULARITIES],
-    /// What the look before that has found.
+    /// The functions at the check before the last.
     earlier: [R; MAX_SINGULARITIES],
     /// The largest absolute value of each entry of the state.
     largest: [R; N],
@@ -444,7 +444,7 @@ impl<R: Real, const N: usize> Known<R, N> {
         self.distances(reached.time.to_f64(), limit)
     }
 
-    /// What the functions were at the last two looks.
+    /// Returns the functions at the last two checks.
     fn since_the_look_before(&self) -> impl Iterator<Item = (R, R)> {
         self.earlier
             .iter()

@@ -159,7 +159,7 @@ where
     })
 }
 
-/// What is known of the way back.
+/// The way back, as far as it is known.
 struct Back<const N: usize> {
     /// The largest entry of the start.
     start: f64,

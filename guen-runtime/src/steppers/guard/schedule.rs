@@ -10,8 +10,8 @@ const COSTS_BETWEEN_EDGES: f64 = 50.0;
 const COSTS_BETWEEN_FREE_EDGES: f64 = 160.0;
 /// and both together so little.
 const COSTS_TOGETHER: f64 = 34.0;
-/// What is done further at a look at a fixed step, in right-hand sides: an estimate of its error, which takes three and sums over
-/// the state. At least so many, and at most, beside right-hand sides that are cheap for a state so long.
+/// The further work of a check of a fixed step, in right-hand sides: an estimate of its error, which takes three and
+/// sums over the state. At least so many, and at most, beside right-hand sides that are cheap for a state so long.
 const COST_OF_A_DEFECT: [f64; 2] = [4.0, 10.0];
 
 /// Steps from one look to the next.

@@ -1,4 +1,4 @@
-//! What implicit methods of collocation share: their equations, and Newton's method for them.
+//! The part that implicit methods of collocation share: their equations, and Newton's method for them.
 //!
 //! With `Z_i = x(t + c_i h) - x(t)` the equations of a step are
 //!

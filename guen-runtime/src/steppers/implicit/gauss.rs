@@ -202,7 +202,7 @@ impl<R: Ordered> Gauss6<R> {
     }
 }
 
-/// What one step leaves for the next.
+/// The memory of one step for the next.
 #[derive(Clone, Copy, Debug)]
 pub struct Memory<R, const N: usize, const S: usize> {
     slopes: Slopes<R, N>,
@@ -320,9 +320,9 @@ where
     })
 }
 
-/// What the change over a step differs from the rule of order six with slopes and curvatures at its ends and the slope in the
-/// middle of the quintic through them. [`quadrature`] would be no estimate for order four: where the equations are linear its
-/// rule has the same rational function as the method.
+/// Returns the difference between the change over a step and the rule of order six with slopes and curvatures at its
+/// ends and the slope in the middle of the quintic through them. [`quadrature`] would be no estimate for order four:
+/// where the equations are linear its rule has the same rational function as the method.
 ///
 /// ```text
 /// d = x1 - x0 - h/30 (7 f0 + 16 f(t0 + h/2, m) + 7 f1) - h^2/60 (f0' - f1')

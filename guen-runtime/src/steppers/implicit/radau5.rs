@@ -104,12 +104,12 @@ impl<R: Ordered> Radau5<R> {
         Self { rtol, atol, max_steps: Self::MAX_STEPS, first_step: None, collocation, error }
     }
 
-    /// The same with another limit on the number of trial steps.
+    /// Limits the number of trial steps.
     pub fn with_max_steps(self, max_steps: u64) -> Self {
         Self { max_steps, ..self }
     }
 
-    /// The same with a given first step.
+    /// Sets the first step.
     pub fn with_first_step(self, first_step: f64) -> Self {
         Self { first_step: Some(first_step), ..self }
     }

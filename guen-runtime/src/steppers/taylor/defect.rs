@@ -1,4 +1,4 @@
-//! What the series does not satisfy of the equations of motion: its defect at a place within its step.
+//! The defect of the series: the difference between its rate and the rate of the system, at a place within its step.
 
 use super::super::entries;
 use super::Series;

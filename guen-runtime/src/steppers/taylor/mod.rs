@@ -35,7 +35,7 @@ pub use series::Series;
 /// - The rates of the system are compared with those of the series, `p' = f(t, p)`, at the end of each step and at 0.45 of it. A
 ///   force that is constant to rounding where the series was expanded, as `tanh` far from its zero, leaves no trace in the
 ///   coefficients; where it is another one further on, the step is halved until the rates agree, and the next ones
-///   grow by at most two. What leaves no trace in either place is not seen: `docs/extremes.md` has how narrow that is.
+///   grow by at most two. A change that leaves no trace in either place is not seen: `docs/design/unseen.md` has how narrow that is.
 /// - Trials that [`Statistics`](crate::steppers::Statistics) calls rejected are those steps, and expansions whose coefficients overflowed,
 ///   which are repeated with another scale. In a smooth motion there are none: the length is known before a step is made.
 /// - Of two steps one after the other the rates at the end of the first are the first coefficients of the second, so
@@ -111,23 +111,23 @@ impl<R: Ordered> Taylor<R> {
         }
     }
 
-    /// The same with another absolute tolerance.
+    /// Sets the absolute tolerance.
     pub fn absolute(self, atol: f64) -> Self {
         Self { atol, ..self }
     }
 
-    /// The same with a given order, 2 to 32.
+    /// Sets the order, 2 to 32.
     pub fn order(self, order: u32) -> Self {
         Self { order: Some(order), ..self }
     }
 
-    /// The same with another limit on the number of steps.
+    /// Limits the number of steps.
     pub fn with_max_steps(self, max_steps: u64) -> Self {
         Self { max_steps, ..self }
     }
 
-    /// The same method without the comparison of rates, to measure what it costs (`workshop/benches/guard_instructions.py`). A feature that
-    /// the coefficients do not show is then missed without an error.
+    /// Leaves out the comparison of rates, to measure what it costs (`workshop/benches/guard_instructions.py`). A
+    /// feature that the coefficients do not show is then missed without an error.
     #[doc(hidden)]
     pub fn without_comparison(self) -> Self {
         Self { compares: false, ..self }

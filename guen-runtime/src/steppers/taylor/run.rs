@@ -42,7 +42,7 @@ pub struct Run<'a, R, const N: usize> {
     /// When the run began.
     origin: R,
     reached: Checkpoint<R, N>,
-    /// What the state is short of, by less than half of its last digit.
+    /// The remainder that the state lacks, by less than half of its last digit.
     rest: [R; N],
     /// The series of the last step, and the one about the present state.
     series: [Series<R, N>; 2],
@@ -178,7 +178,7 @@ impl<'a, R: Ordered, const N: usize> Run<'a, R, N> {
         /// of what it is in a geometric series that falls to the tolerance: with few terms each has to fall further.
         const RATIO: f64 = 2.0;
         const PART: f64 = 0.7;
-        /// What it is more for those before, which are not to decide unless there is a gap.
+        /// The addition to the logarithm for earlier terms, which are not to decide unless there is a gap.
         const FURTHER: f64 = 0.6;
         /// How many are the last ones.
         const DECIDING: f64 = 4.0;
@@ -223,7 +223,7 @@ impl<'a, R: Ordered, const N: usize> Run<'a, R, N> {
         self.compare(system, HIGHEST_ORDER, h, weights, |defect, rates| defect.is_none(system, rates))
     }
 
-    /// What a judge says of the terms up to an order, within the step of length `h`.
+    /// Asks a judge about the terms up to an order, within the step of length `h`.
     #[inline(always)]
     fn compare<S>(
         &self,
