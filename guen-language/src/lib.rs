@@ -11,11 +11,9 @@
 
 extern crate proc_macro;
 
-mod control;
 pub mod derive;
 pub mod diagnostics;
 pub mod emit;
-pub mod jacobians;
 pub mod limits;
 pub mod model;
 pub mod names;

@@ -1,6 +1,8 @@
 //! Which words the language knows, in one place: functions, sections, reserved names, the keywords of Rust, and
 //! which known word an unknown one was probably meant to be.
 
+use proc_macro2::Ident;
+
 /// Functions of scalars.
 pub const SCALAR_FUNCTIONS: &[&str] = &[
     "sin", "cos", "tan", "cot", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh", "exp", "ln", "sqrt",
@@ -114,6 +116,9 @@ const GENERATED_ITEMS: &[&str] = &[
     "program",
 ];
 
+/// The struct and the module of a carried form; nothing else in the module of a level may have their names.
+pub(crate) const CARRIED_ITEMS: [&str; 2] = ["Carried", "carried"];
+
 /// Strict and reserved keywords of Rust in any edition.
 const RUST_KEYWORDS: &[&str] = &[
     "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "crate", "do", "dyn",
@@ -209,6 +214,37 @@ fn edits(from: &[char], to: &[char]) -> usize {
 /// A list of words for a message: `` `a`, `b`, `c` ``.
 pub fn quoted<'a>(words: impl IntoIterator<Item = &'a str>) -> String {
     words.into_iter().map(|word| format!("`{word}`")).collect::<Vec<_>>().join(", ")
+}
+
+/// The name of the module beside the struct: `RollingHoop` becomes `rolling_hoop`; where that is the name itself, what
+/// it is a module of (a system, a scene) is appended.
+pub(crate) fn module_name(system: &Ident, what: &str) -> Ident {
+    let text = system.to_string();
+    let text = text.strip_prefix("r#").unwrap_or(&text);
+    let letters: Vec<char> = text.chars().collect();
+    let mut name = String::new();
+    for (i, letter) in letters.iter().enumerate() {
+        let starts_word = letter.is_uppercase()
+            && i > 0
+            && (letters[i - 1].is_lowercase()
+                || letters[i - 1].is_numeric()
+                || letters.get(i + 1).is_some_and(|next| next.is_lowercase()));
+        if starts_word && letters[i - 1] != '_' {
+            name.push('_');
+        }
+        name.extend(letter.to_lowercase());
+    }
+    if name == text {
+        name.push('_');
+        name.push_str(what);
+    }
+    if is_rust_keyword(&name) {
+        if can_be_raw(&name) {
+            return Ident::new_raw(&name, system.span());
+        }
+        name.push('_');
+    }
+    Ident::new(&name, system.span())
 }
 
 #[cfg(test)]

@@ -2,10 +2,13 @@
 
 use guen_symbolic::{Carried, CarriedFunction, Contracted, ExprId, NotCarried, ProgramBuilder, Programs};
 
+use super::domain::written;
+use super::function;
+use super::jacobians::Jacobians;
+use super::level::Level;
+use super::programs::extend;
 use super::selection::Selection;
-use super::{Level, extend, function, written};
 use crate::diagnostics::{Fault, Faults};
-use crate::jacobians::Jacobians;
 use crate::model::Model;
 use crate::syntax::Name;
 

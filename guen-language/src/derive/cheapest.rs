@@ -7,9 +7,12 @@ use guen_symbolic::{
     evaluate_function, evaluate_prepare,
 };
 
+use super::domain::{Edge, constant_pivots, domain, written};
+use super::function;
+use super::level::Level;
 use super::parts::Functions;
+use super::programs::{extend, programs};
 use super::selection::Selection;
-use super::{Edge, Level, constant_pivots, domain, extend, function, programs, written};
 use crate::model::{FixedConstant, Model};
 
 /// The cheapest programs of a scene, and whether its right-hand side is a part of the whole system's.

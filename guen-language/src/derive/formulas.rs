@@ -2,8 +2,12 @@
 
 use guen_symbolic::{Derivation, ExprId};
 
-use super::{Commutator, Quantity, function};
+use super::function;
+use super::level::Commutator;
 use crate::model::Model;
+
+/// A function beside the right-hand side, by its name, and what it computes.
+pub(crate) type Quantity = (&'static str, Vec<ExprId>);
 
 /// The rates of the whole state in several equal forms: as shown, then as the optimiser may like them better. Where there are some
 /// by the spins of bodies, these alone: next to an edge of the parameters, or of their mass matrix, digits are lost by all

@@ -2,10 +2,13 @@
 
 use guen_symbolic::{Contracted, Dependence, Derivation, ExprId, Graph, Substitution, Workbench};
 
+use super::domain::{constant_pivots, domain, written};
 use super::fixed::Holding;
+use super::formulas::{self, Quantity};
+use super::function;
+use super::level::Commutator;
 use super::manifold::Replacement;
 use super::selection::Selection;
-use super::{Commutator, Quantity, constant_pivots, domain, formulas, function};
 use crate::model::Model;
 
 /// A function of a scene: its name, the places of its results in the function of the whole system if that has all of them, and
@@ -142,7 +145,7 @@ pub(super) fn parts(
             // The function of the scene differs from that of the whole system, whose formula mentions coordinates that the scene lacks.
             let text = match seen == edge.function {
                 true => edge.text,
-                false => super::written(model, seen, &edge.words),
+                false => written(model, seen, &edge.words),
             };
             domain_names.push(text);
         }

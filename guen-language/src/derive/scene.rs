@@ -5,35 +5,20 @@ use std::rc::Rc;
 use guen_symbolic::{Dependence, Derivation, ExprId, Substitution, Workbench};
 
 use super::cheapest::cheapest;
-use super::closure::{Flow, Quadrature, Reason};
+use super::closure::{Flow, Reason};
+use super::commutators::commutators;
+use super::facts::SceneFacts;
 use super::fixed::{self, Holding};
+use super::jacobians::Jacobians;
+use super::level::{Commutator, Level};
 use super::manifold::{Replacement, quaternions};
 use super::parts::{Functions, View, parts, replaced};
+use super::readable::{polish, shown};
 use super::selection::{Held, Place, Selection};
-use super::{Commutator, Level, carried, commutators, formulas, polish, series, shown};
+use super::{carried, formulas, series};
 use crate::diagnostics::{Fault, Faults};
-use crate::jacobians::Jacobians;
 use crate::model::{Model, SceneEntry};
 use crate::syntax::Name;
-
-/// The facts about a scene that its documentation tells beside its formulas.
-pub struct SceneFacts {
-    /// Its index in the model.
-    pub index: usize,
-    /// Why each variable is kept, by its place in the whole state; none for those that left.
-    pub reasons: Vec<Option<Reason>>,
-    /// Variables that left and are pure quadratures, in layers: the rates of each depend on what is kept and on the layers
-    /// before.
-    pub quadratures: Vec<Vec<Quadrature>>,
-    /// Coordinates that left and that holonomic equations say of what is kept, with what they say.
-    pub determined: Vec<(usize, ExprId)>,
-    /// Coordinates that holonomic equations eliminated.
-    pub eliminated: Vec<usize>,
-    /// The constants that are fixed, by index, and their values.
-    pub fixes: Vec<(usize, ExprId)>,
-    /// Whether the right-hand side is a part of the whole system's, operation by operation.
-    pub is_part: bool,
-}
 
 /// A derivation with its brackets, as scenes share it.
 type Shared = (Rc<Derivation>, Rc<Vec<Commutator>>);

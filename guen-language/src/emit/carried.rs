@@ -1,27 +1,14 @@
 //! The carried form of a level: a module with a state, a system and a program of its own.
 
 use guen_symbolic::{CarriedFunction, ExprId};
-use proc_macro2::{Ident, Span, TokenStream};
-use quote::{format_ident, quote};
+use proc_macro2::{Ident, TokenStream};
+use quote::quote;
 
-use super::classification::cost;
 use super::integrated::Looks;
-use super::motion::inputs;
-use super::{Layout, Subject, functions, integrated, lanes, records, serde};
-use crate::derive::function;
-use crate::model::Model;
-
-/// The names of the struct and of the module; nothing else in the module of a level may have them.
-pub(crate) const NAMES: [&str; 2] = ["Carried", "carried"];
-
-/// The field of a function that is carried.
-pub(super) fn ident(model: &Model<'_>, function: &CarriedFunction) -> Ident {
-    format_ident!("{}", name(model, function), span = Span::call_site())
-}
-
-fn name(model: &Model<'_>, function: &CarriedFunction) -> String {
-    model.bench.graph.text(function.symbol)
-}
+use super::layout::{Layout, carried_ident, carried_name, inputs};
+use super::text::cost;
+use super::{functions, integrated, lanes, records, serde};
+use crate::derive::{Subject, function};
 
 /// The module, and the methods of the level that lead there; nothing where it is not provided.
 pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
@@ -82,7 +69,10 @@ fn module(subject: &Subject<'_, '_>, layout: &Layout, base: &Layout, looks: Look
     };
     let carried = &level.selection.carried;
     let named = |e: fn(&CarriedFunction) -> ExprId, mark: &str| {
-        carried.iter().map(|f| format!("{}{mark} = {}", name(model, f), text(e(f)))).collect::<Vec<_>>()
+        carried
+            .iter()
+            .map(|f| format!("{}{mark} = {}", carried_name(model, f), text(e(f))))
+            .collect::<Vec<_>>()
     };
     let (values, rates) = (named(|f| f.value, ""), named(|f| f.rate, "'"));
     let table = format!(
@@ -122,7 +112,8 @@ fn module(subject: &Subject<'_, '_>, layout: &Layout, base: &Layout, looks: Look
 fn prepared(subject: &Subject<'_, '_>, layout: &Layout, base: &Layout, invariants: usize) -> TokenStream {
     let (size, hoisted, constants, variables) = (layout.size, layout.hoisted, layout.constants, base.size);
     let (parameter, argument) = inputs(layout);
-    let parts: Vec<Ident> = subject.level.selection.carried.iter().map(|f| ident(subject.model, f)).collect();
+    let parts: Vec<Ident> =
+        subject.level.selection.carried.iter().map(|f| carried_ident(subject.model, f)).collect();
     let (fields, indices) = (&base.state, 0..parts.len());
     let places = 0..variables;
     let given = (layout.inputs > 0).then(|| {

@@ -1,11 +1,12 @@
 //! Classification and costs as constants, and the marker traits.
 
-use guen_symbolic::{Class, OperationCount};
+use guen_symbolic::Class;
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
-use super::{Layout, Subject};
-use crate::derive::function;
+use super::layout::Layout;
+use super::text::cost;
+use crate::derive::{Subject, function};
 
 pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let derivation = &subject.level.derivation;
@@ -91,21 +92,5 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
         }
 
         #(#markers)*
-    }
-}
-
-pub(super) fn cost(count: &OperationCount) -> TokenStream {
-    let OperationCount { additions, negations, multiplications, divisions, roots, sines, calls } = *count;
-    // The runtime counts every elementary function as a call.
-    let calls = sines + calls;
-    quote! {
-        __guen::Cost {
-            additions: #additions,
-            negations: #negations,
-            multiplications: #multiplications,
-            divisions: #divisions,
-            roots: #roots,
-            calls: #calls,
-        }
     }
 }

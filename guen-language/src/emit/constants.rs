@@ -4,10 +4,11 @@ use guen_symbolic::ExprId;
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
-use super::code::number;
-use super::{Layout, Subject, documentation, physical, recast, tokens, variable_ident};
-use crate::derive::Level;
-use crate::model::{ConstantEntry, Model};
+use super::formula::default_text;
+use super::layout::{Layout, is_derived, variable_ident};
+use super::text::tokens;
+use super::{documentation, physical, recast};
+use crate::derive::Subject;
 use crate::report::Report;
 use crate::syntax::BoundKind;
 
@@ -21,46 +22,6 @@ struct Field {
     default: Option<ExprId>,
     /// Whether the default is made of other constants.
     is_derived: bool,
-}
-
-/// Whether a constant of the system follows others until it is set: its field is a `Derived<R>`, and no plain number.
-pub(super) fn is_derived(model: &Model<'_>, constant: &ConstantEntry<'_>) -> bool {
-    constant.default.is_some_and(|e| !model.bench.graph.symbols_in(&[e]).is_empty())
-}
-
-/// The constants of a level that follow others, by place, each behind those that its formula reads. In a scene one that
-/// another is fixed by is not among them if it would follow itself.
-pub(super) fn derived(model: &Model<'_>, level: &Level) -> Vec<usize> {
-    let given = &level.selection.constants;
-    let mut left: Vec<usize> =
-        (0..given.len()).filter(|i| is_derived(model, &model.constants[given[*i]])).collect();
-    let mut found = Vec::new();
-    loop {
-        let reads = |i: &usize| {
-            let mut read = Vec::new();
-            if let Some(default) = model.constants[given[*i]].default {
-                reads(model, level, default, &mut read);
-            }
-            read
-        };
-        let Some(next) = left.iter().position(|i| !reads(i).iter().any(|read| left.contains(read))) else {
-            return found;
-        };
-        found.push(left.remove(next));
-    }
-}
-
-/// The constants of a level that an expression reads, those that a scene fixes at their values.
-fn reads(model: &Model<'_>, level: &Level, e: ExprId, read: &mut Vec<usize>) {
-    let graph = &model.bench.graph;
-    for symbol in graph.symbols_in(&[e]) {
-        let is_it = |c: usize| graph.as_symbol(model.constants[c].symbol) == Some(symbol);
-        let fixes = level.scene.iter().flat_map(|facts| &facts.fixes);
-        match level.selection.constants.iter().position(|c| is_it(*c)) {
-            Some(i) => read.push(i),
-            None => fixes.filter(|(c, _)| is_it(*c)).for_each(|(_, value)| reads(model, level, *value, read)),
-        }
-    }
 }
 
 /// The values of the constants of a struct, where those that are derived are computed.
@@ -337,60 +298,5 @@ fn constructors(subject: &Subject<'_, '_>, layout: &Layout, fields: &[Field]) ->
             }
         }
         #default
-    }
-}
-
-/// An expression of constants as one of Rust over the locals `__guen_c0`, `__guen_c1`, .., one for each field; constants
-/// that a scene fixes are at their values.
-pub(super) fn default_text(subject: &Subject<'_, '_>, e: ExprId) -> String {
-    use guen_symbolic::Node;
-    let of = |e| default_text(subject, e);
-    let graph = &subject.model.bench.graph;
-    let constants = &subject.model.constants;
-    match graph.node(e) {
-        Node::Number(value) => number(value),
-        Node::Pi => "R::pi()".to_owned(),
-        Node::Symbol(symbol) => {
-            let is_it = |c: &usize| graph.as_symbol(constants[*c].symbol) == Some(*symbol);
-            let fixes = subject.scene().map_or(&[][..], |(_, facts)| &facts.fixes);
-            match subject.level.selection.constants.iter().position(is_it) {
-                Some(i) => format!("__guen_c{i}"),
-                None => {
-                    fixes.iter().find(|(c, _)| is_it(c)).map_or_else(String::new, |(_, value)| of(*value))
-                }
-            }
-        }
-        Node::Sum { constant, terms } => {
-            let mut parts = Vec::new();
-            if !constant.is_zero() {
-                parts.push(number(constant));
-            }
-            for (term, c) in terms {
-                parts.push(match c {
-                    c if c.is_one() => of(*term),
-                    c if c.is_minus_one() => format!("(-{})", of(*term)),
-                    c => format!("{} * {}", number(c), of(*term)),
-                });
-            }
-            format!("({})", parts.join(" + "))
-        }
-        Node::Product(factors) => {
-            let parts: Vec<String> = factors
-                .iter()
-                .map(|(base, e)| match e {
-                    1 => of(*base),
-                    e => format!("R::powi({}, {e}i32)", of(*base)),
-                })
-                .collect();
-            format!("({})", parts.join(" * "))
-        }
-        Node::Function(guen_symbolic::Function::Root(q), x) => {
-            format!("R::root({}, {q}u32)", of(*x))
-        }
-        Node::Function(function, x) => format!("R::{}({})", function.name(), of(*x)),
-        Node::Atan2(y, x) => format!("R::atan2({}, {})", of(*y), of(*x)),
-        Node::Kept(x) => of(*x),
-        // Divisions by zero are refused before.
-        Node::Undefined => "R::zero()".to_owned(),
     }
 }

@@ -4,10 +4,9 @@ use guen_symbolic::{Operation, Role};
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
-use super::motion::inputs;
-use super::{Layout, Subject};
-use crate::control::{has_covector, known_combinations};
-use crate::derive::function;
+use super::layout::{Layout, inputs};
+use crate::derive::{Subject, function};
+use crate::derive::{has_covector, known_combinations};
 
 pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     if !layout.is_whole {

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
-use super::tokens;
+use super::text::tokens;
 
 use crate::report::{Report, Section};
 use crate::syntax::Docs;

@@ -6,8 +6,9 @@ use guen_symbolic::{ExprId, Programs, SymbolId};
 use proc_macro2::TokenStream;
 
 use super::code::{Loads, body};
-use super::{Layout, Subject, tokens};
-use crate::derive::{Level, function};
+use super::layout::Layout;
+use super::text::tokens;
+use crate::derive::{Level, Subject, function};
 
 /// Where the values of symbols are: in the arrays that a function takes.
 pub(super) struct Places(Vec<String>);

@@ -4,8 +4,8 @@ use guen_symbolic::OperationCount;
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::{Layout, Subject};
-use crate::derive::function;
+use super::layout::Layout;
+use crate::derive::{Subject, function};
 
 /// The methods `conserved`, `singularities` and `condition` of the trait `System`, as far as the level has what they look at. `prepared` is the
 /// prepared system.

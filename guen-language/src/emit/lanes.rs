@@ -3,7 +3,7 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::Layout;
+use super::layout::Layout;
 
 /// How a prepared system is put together from those of the lanes.
 fn gathered(layout: &Layout, path: &TokenStream, of: &TokenStream) -> TokenStream {

@@ -3,10 +3,12 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
-use super::constants::{default_text, is_derived};
-use super::{Layout, Subject, module_name, tokens, variable_ident};
-use crate::derive::{Level, Place};
+use super::formula::default_text;
+use super::layout::{Layout, is_derived, variable_ident};
+use super::text::tokens;
+use crate::derive::{Level, Place, Subject};
 use crate::model::Model;
+use crate::names::module_name;
 
 /// `Level` for what steppers integrate; for a scene the conversions too.
 pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {

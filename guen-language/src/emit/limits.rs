@@ -3,8 +3,10 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
-use super::constants::default_text;
-use super::{Layout, Subject, tokens};
+use super::formula::default_text;
+use super::layout::Layout;
+use super::text::tokens;
+use crate::derive::Subject;
 use crate::model::SymbolEntry;
 
 /// The inputs of the level.

@@ -4,10 +4,9 @@ use guen_symbolic::Pattern;
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
-use super::classification::cost;
-use super::motion::inputs;
-use super::{Layout, Subject};
-use crate::derive::function;
+use super::layout::{Layout, inputs};
+use super::text::cost;
+use crate::derive::{Subject, function};
 
 pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let level = subject.level;

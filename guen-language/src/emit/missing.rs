@@ -4,8 +4,8 @@
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
-use super::motion::inputs;
-use super::{Layout, Subject};
+use super::layout::{Layout, inputs};
+use crate::derive::Subject;
 use crate::model::FormKind;
 
 /// A quantity that the system has and the scene has not.

@@ -3,8 +3,9 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
-use super::{Layout, Subject, integrated, limits};
-use crate::derive::function;
+use super::layout::{Layout, inputs};
+use super::{integrated, limits};
+use crate::derive::{Subject, function};
 use crate::model::FormKind;
 
 pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
@@ -27,15 +28,6 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
         }
         #state
         #systems
-    }
-}
-
-/// The parameter and the argument of inputs, where the system has some.
-pub(super) fn inputs(layout: &Layout) -> (TokenStream, TokenStream) {
-    if layout.inputs == 0 {
-        (quote!(), quote!(&[]))
-    } else {
-        (quote!(, inputs: &Inputs<R>), quote!(&::core::convert::From::from(*inputs)))
     }
 }
 

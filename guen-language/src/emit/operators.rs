@@ -5,7 +5,9 @@ use std::fmt::Write;
 use guen_symbolic::{ExprId, Graph, Role, Roles};
 use proc_macro2::TokenStream;
 
-use super::{Layout, Subject, tokens};
+use super::layout::Layout;
+use super::text::tokens;
+use crate::derive::Subject;
 
 pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     if !subject.level.selection.operators {

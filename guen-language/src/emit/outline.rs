@@ -11,8 +11,9 @@ mod scenes;
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
-use super::{facade, module_name};
+use super::layout::facade;
 use crate::model::is_carried_form;
+use crate::names::module_name;
 use crate::syntax::{Declaration, Definition, Item, Plain};
 use kinds::{Kind, Kinds};
 

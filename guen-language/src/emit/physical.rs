@@ -3,8 +3,10 @@
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
-use super::constants::default_text;
-use super::{Layout, Subject, tokens};
+use super::formula::default_text;
+use super::layout::Layout;
+use super::text::tokens;
+use crate::derive::Subject;
 
 pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let graph = &subject.model.bench.graph;

@@ -3,7 +3,8 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::{Layout, Subject};
+use super::layout::Layout;
+use crate::derive::Subject;
 
 pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let Subject { model, level } = subject;

@@ -3,7 +3,7 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
-use super::Layout;
+use super::layout::Layout;
 
 /// The trait `Recast` for the constants and the prepared system, or for the system with held inputs. `names` are the
 /// constants, `marker` the value of the field that a struct without constants has.

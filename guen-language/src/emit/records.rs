@@ -3,7 +3,9 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
-use super::{Layout, Subject, documentation, form_ident};
+use super::documentation;
+use super::layout::{Layout, form_ident};
+use crate::derive::Subject;
 use crate::syntax::Docs;
 
 /// A field of a record.

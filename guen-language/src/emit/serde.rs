@@ -3,7 +3,8 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
-use super::{Layout, Subject, variable_ident};
+use super::layout::{Layout, variable_ident};
+use crate::derive::Subject;
 
 pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let Subject { model, level } = subject;

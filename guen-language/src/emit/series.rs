@@ -11,7 +11,8 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::code::{Loads, call, number};
-use super::{Layout, Subject};
+use super::layout::Layout;
+use crate::derive::Subject;
 
 /// The trait `TaylorSeries` for what steppers integrate.
 pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {

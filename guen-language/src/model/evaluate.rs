@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use guen_symbolic::{ExprId, Flow, Node, PowerError, Rational, Role, Roles, Verdict, Workbench};
 use proc_macro2::Span;
 
-use super::accelerations::MotionSymbols;
+use super::motion_symbols::MotionSymbols;
 use super::place::{Place, ROLES, role_name};
 use super::scope::Scope;
 use super::shapes::Shapes;

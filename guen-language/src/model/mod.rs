@@ -8,6 +8,7 @@ mod bodies;
 mod evaluate;
 mod forms;
 mod functions;
+mod motion_symbols;
 mod place;
 mod quaternions;
 mod resolve;

@@ -86,7 +86,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
                 entry: None,
                 expansions: BTreeMap::new(),
                 left_out: Vec::new(),
-                motion: super::accelerations::MotionSymbols::default(),
+                motion: super::motion_symbols::MotionSymbols::default(),
                 quaternions: Vec::new(),
                 divisors: Vec::new(),
             },

@@ -10,8 +10,7 @@ use super::scope::Category;
 use super::value::Value;
 use super::{FixedConstant, SceneEntry};
 use crate::diagnostics::Fault;
-use crate::emit::module_name;
-use crate::names;
+use crate::names::{self, module_name};
 use crate::syntax::{Declaration, Fix, Item, Name, Provide, Scene};
 
 /// The quantities that a scene may provide beside outputs.
@@ -20,7 +19,7 @@ const QUANTITIES: [&str; 6] = ["energy", "reactions", "linearization", "operator
 /// Whether a name is that of a carried form, and the declaration asks for one.
 pub(crate) fn is_carried_form(name: &Name, declaration: &Declaration) -> bool {
     let asks = |provides: &[Provide]| provides.iter().any(|provide| provide.name.text == "carried");
-    crate::emit::carried::NAMES.contains(&name.text.as_str())
+    names::CARRIED_ITEMS.contains(&name.text.as_str())
         && declaration.items.iter().any(|item| match item {
             Item::Provide(section) => asks(&section.entries),
             Item::Scene(scene) => asks(&scene.provides),

@@ -4,9 +4,9 @@ use proc_macro2::{Group, TokenTree};
 
 use super::attributes::docs;
 use super::cursor::Cursor;
-use super::lists::entries;
+use super::lists::{entries, expression_to_semicolon};
 use super::names::name;
-use super::punctuation::{begins_definition, equals, expression_to_semicolon};
+use super::punctuation::{begins_definition, equals};
 use crate::diagnostics::{Fault, Faults, Reported};
 use crate::syntax::{Definition, Docs, Expression};
 

@@ -3,7 +3,8 @@
 use proc_macro2::{Delimiter, Span};
 
 use super::cursor::Cursor;
-use super::punctuation::{equals, expression_to_semicolon};
+use super::lists::expression_to_semicolon;
+use super::punctuation::equals;
 use crate::diagnostics::{Faults, Reported};
 use crate::syntax::{Docs, Expression, Quantity};
 

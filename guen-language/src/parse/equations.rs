@@ -5,9 +5,9 @@ use proc_macro2::{Group, Span};
 use super::attributes::docs;
 use super::cursor::Cursor;
 use super::expression::expression;
-use super::lists::entries;
+use super::lists::{entries, expression_to_semicolon};
 use super::names::name;
-use super::punctuation::{begins_equation, colon, expression_to_semicolon};
+use super::punctuation::{begins_equation, colon};
 use crate::diagnostics::{Fault, Faults, Reported};
 use crate::syntax::{Equation, Expression};
 

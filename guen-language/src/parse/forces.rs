@@ -4,8 +4,8 @@ use proc_macro2::Group;
 
 use super::attributes::docs;
 use super::expression::expression;
-use super::lists::entries;
-use super::punctuation::{begins_documentation, expression_to_semicolon, unexpected};
+use super::lists::{entries, expression_to_semicolon};
+use super::punctuation::{begins_documentation, unexpected};
 use crate::diagnostics::{Fault, Faults};
 use crate::syntax::Force;
 

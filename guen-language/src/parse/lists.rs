@@ -6,6 +6,7 @@ use super::attributes::docs;
 use super::cursor::Cursor;
 use super::expression::expression;
 use super::names::name;
+use super::punctuation::semicolon;
 use crate::diagnostics::{Fault, Faults, Reported};
 use crate::limits::{MAX_COORDINATES, MAX_ENTRIES};
 use crate::syntax::{Expression, Plain};
@@ -180,4 +181,23 @@ fn limits(cursor: &mut Cursor, faults: &mut Faults, role: &str) -> Option<Box<[E
 /// Whether what follows a name belongs to the list or to the next entry.
 fn ends_name(cursor: &Cursor) -> bool {
     cursor.is_punct(',') || cursor.is_punct(';') || cursor.is_punct('#')
+}
+
+/// An expression and the `;` after it. After a fault the entry is left and the expression is missing.
+pub(crate) fn expression_to_semicolon(
+    cursor: &mut Cursor,
+    faults: &mut Faults,
+    begins_entry: fn(&Cursor) -> bool,
+) -> Expression {
+    let span = cursor.span();
+    match expression(cursor, faults) {
+        Ok(value) => {
+            semicolon(cursor, faults, begins_entry);
+            value
+        }
+        Err(Reported { .. }) => {
+            cursor.recover();
+            Expression::missing(span)
+        }
+    }
 }

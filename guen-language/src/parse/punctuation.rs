@@ -3,9 +3,7 @@
 use proc_macro2::{Span, TokenTree};
 
 use super::cursor::Cursor;
-use super::expression;
 use crate::diagnostics::{Fault, Faults, Reported};
-use crate::syntax::Expression;
 
 /// The `=` between two parts. Other habits are reported and read as `=`.
 pub(crate) fn equals(
@@ -123,23 +121,4 @@ pub(crate) fn begins_equation(cursor: &Cursor) -> bool {
 /// Whether documentation begins here; for entries that begin with an expression.
 pub(crate) fn begins_documentation(cursor: &Cursor) -> bool {
     cursor.is_punct('#')
-}
-
-/// An expression and the `;` after it. After a fault the entry is left and the expression is missing.
-pub(crate) fn expression_to_semicolon(
-    cursor: &mut Cursor,
-    faults: &mut Faults,
-    begins_entry: fn(&Cursor) -> bool,
-) -> Expression {
-    let span = cursor.span();
-    match expression::expression(cursor, faults) {
-        Ok(value) => {
-            semicolon(cursor, faults, begins_entry);
-            value
-        }
-        Err(Reported { .. }) => {
-            cursor.recover();
-            Expression::missing(span)
-        }
-    }
 }

@@ -1,53 +1,19 @@
 //! The derivation in readable notation: the same lines as text and as LaTeX.
 
+mod lines;
 mod mathml;
 mod pages;
 mod reasons;
 mod scene;
 
+pub use lines::{Report, Section};
 pub use pages::set;
 
-use guen_symbolic::{Class, ExprId, Notation};
+use guen_symbolic::{ExprId, Notation};
 
-use crate::derive::{Level, function};
-use crate::emit::Subject;
+use crate::derive::{Level, Subject, function};
 use crate::model::{FormKind, Model, RedundantEntry};
-
-/// A heading with its lines: formulas, then words.
-#[derive(Clone)]
-pub struct Section {
-    /// The heading of the lines.
-    pub title: &'static str,
-    /// The lines as text.
-    pub text: Vec<String>,
-    /// The formulas as LaTeX: the first of these lines.
-    pub latex: Vec<String>,
-}
-
-impl Section {
-    /// Lines that are no formulas.
-    fn words(title: &'static str, text: Vec<String>) -> Self {
-        Section { title, text, latex: Vec::new() }
-    }
-}
-
-/// Everything that is told about a system.
-pub struct Report {
-    /// The system's name.
-    pub name: String,
-    /// One sentence.
-    pub summary: String,
-    /// The sections, in order.
-    pub sections: Vec<Section>,
-}
-
-/// Coefficients with the names that they multiply.
-type Terms = Vec<(ExprId, String)>;
-
-/// The text in place of a longer line.
-const TOO_LONG: &str = ".. (too long to print)";
-/// The formula in place of a longer one.
-const LATEX_TOO_LONG: &str = r"\ldots";
+use lines::{LATEX_TOO_LONG, Lines, TOO_LONG, Terms, Writer, class_name, plural};
 
 /// Lines longer than this are left to the programs.
 const LONGEST: usize = 3000;
@@ -110,51 +76,6 @@ impl Report {
             }
         }
         text
-    }
-}
-
-/// Both ways of writing.
-struct Writer<'g> {
-    text: Notation<'g>,
-    latex: Notation<'g>,
-}
-
-/// Lines that are formulas, written twice.
-struct Lines<'w, 'g> {
-    writer: &'w mut Writer<'g>,
-    section: Section,
-}
-
-impl<'w, 'g> Lines<'w, 'g> {
-    fn new(writer: &'w mut Writer<'g>, title: &'static str) -> Self {
-        Lines { writer, section: Section { title, text: Vec::new(), latex: Vec::new() } }
-    }
-
-    /// `name = right`, of a symbol or of its rate.
-    fn named(&mut self, name: &str, right: ExprId) {
-        let latex = self.writer.latex.name(name);
-        self.equation(name, &latex, right);
-    }
-
-    /// `left = right` with an expression on the right.
-    fn equation(&mut self, left: &str, left_latex: &str, right: ExprId) {
-        let text = self.writer.text.expression(right);
-        let latex = self.writer.latex.expression(right);
-        self.push(left, left_latex, text, latex);
-    }
-
-    /// `left = sum of coefficients times names`.
-    fn combination(&mut self, left: &str, left_latex: &str, terms: &[(ExprId, String)]) {
-        // Both sums take the plain names: LaTeX is made of them there.
-        let terms: Vec<_> = terms.iter().map(|(c, name)| (*c, name.as_str())).collect();
-        let text = self.writer.text.sum(&terms);
-        let latex = self.writer.latex.sum(&terms);
-        self.push(left, left_latex, text, latex);
-    }
-
-    fn push(&mut self, left: &str, left_latex: &str, text: Option<String>, latex: Option<String>) {
-        self.section.text.push(format!("{left} = {}", text.as_deref().unwrap_or(TOO_LONG)));
-        self.section.latex.push(format!("{left_latex} = {}", latex.as_deref().unwrap_or(LATEX_TOO_LONG)));
     }
 }
 
@@ -285,17 +206,6 @@ fn brackets(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
         }
     }
     lines.section
-}
-
-/// The class in words.
-pub(crate) fn class_name(class: Class) -> &'static str {
-    match class {
-        Class::LieGroup => "holonomic, a Lie group",
-        Class::Holonomic => "holonomic, with variable coefficients",
-        Class::IncompleteLieGroup => "nonholonomic, an incomplete Lie group",
-        Class::Nonholonomic => "nonholonomic, with variable coefficients",
-        Class::Undecided => "not classified",
-    }
 }
 
 fn classification(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
@@ -459,8 +369,4 @@ fn operations(count: &guen_symbolic::OperationCount) -> String {
     .collect();
     let all = plural((count.operations() + count.sines + count.calls) as usize, "operation");
     if parts.is_empty() { all } else { format!("{all}: {}", parts.join(", ")) }
-}
-
-fn plural(count: usize, noun: &str) -> String {
-    if count == 1 { format!("1 {noun}") } else { format!("{count} {noun}s") }
 }

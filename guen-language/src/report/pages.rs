@@ -1,8 +1,8 @@
 //! The declaration in words, and the page of rustdoc.
 
+use super::lines::{Report, Section};
 use super::mathml::paragraph;
-use super::{Report, Section};
-use crate::emit::Subject;
+use crate::derive::Subject;
 use crate::model::SymbolEntry;
 use crate::syntax::Docs;
 

@@ -1,6 +1,6 @@
 //! Why a system is called rheonomic, acatastatic or not conservative.
 
-use crate::emit::Subject;
+use crate::derive::Subject;
 use crate::names::quoted;
 
 /// A line for each of these properties that a system does not have.

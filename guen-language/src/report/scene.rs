@@ -1,8 +1,8 @@
 //! The report of a scene: what it keeps and why, what left, and its rates.
 
-use super::{Lines, Section, Writer, class_name, plural};
+use super::lines::{Lines, Section, Writer, class_name, plural};
+use crate::derive::Subject;
 use crate::derive::{Place, Reason, SceneFacts};
-use crate::emit::Subject;
 use crate::names::quoted;
 
 fn facts<'d>(subject: &Subject<'d, '_>) -> &'d SceneFacts {

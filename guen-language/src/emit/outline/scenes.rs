@@ -7,8 +7,8 @@ use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
 use super::{Names, carried, constants, levels, operators, prepared, push, records};
-use crate::emit::module_name;
 use crate::model::is_carried_form;
+use crate::names::module_name;
 use crate::syntax::{Declaration, Item, Scene};
 
 pub(super) fn items(declaration: &Declaration, names: &Names) -> TokenStream {

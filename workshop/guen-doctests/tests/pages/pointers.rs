@@ -11,6 +11,8 @@ fn repository() -> Vec<String> {
         files(&root().join(folder), &mut found);
     }
     packages().iter().for_each(|package| files(package, &mut found));
+    let top = std::fs::read_dir(root()).expect("the root").map(|entry| entry.expect("an entry").path());
+    found.extend(top.filter(|path| path.is_file()));
     let path = |path: PathBuf| {
         path.strip_prefix(root()).expect("below the root").to_string_lossy().replace('\\', "/")
     };
@@ -20,10 +22,56 @@ fn repository() -> Vec<String> {
 /// The paths in backticks of a text: with a folder and an extension.
 fn paths(text: &str) -> Vec<&str> {
     let is_path = |code: &&str| {
-        let plain = code.chars().all(|c| c.is_ascii_alphanumeric() || "/._-".contains(c));
-        plain && code.contains('/') && Path::new(code).extension().is_some() && !code.starts_with("target/")
+        code.contains('/') && Path::new(code).extension().is_some() && !code.starts_with("target/")
     };
-    text.split('`').skip(1).step_by(2).filter(is_path).collect()
+    plain(text).filter(is_path).collect()
+}
+
+/// The file names in backticks of a text: without a folder, and with an extension that files of the repository have.
+fn names(text: &str) -> Vec<&str> {
+    /// Names that files of every package have, whichever is meant.
+    const EVERYWHERE: [&str; 5] = ["Cargo.toml", "build.rs", "lib.rs", "main.rs", "mod.rs"];
+    let is_name = |code: &&str| {
+        let extension = Path::new(code).extension().and_then(|extension| extension.to_str());
+        matches!(extension, Some("rs" | "py" | "md" | "toml"))
+            && !code.contains('/')
+            && !EVERYWHERE.contains(code)
+    };
+    plain(text).filter(is_name).collect()
+}
+
+/// What stands in backticks and has only letters that a path has.
+fn plain(text: &str) -> impl Iterator<Item = &str> {
+    let is_plain = |code: &&str| code.chars().all(|c| c.is_ascii_alphanumeric() || "/._-".contains(c));
+    text.split('`').skip(1).step_by(2).filter(is_plain)
+}
+
+/// The names of files without a folder that are wrong: none has that name, or several have it and neither the section nor the
+/// beginning of the page has said before in which folder.
+fn misnamed(text: &[(usize, &str)], repository: &[String]) -> Vec<String> {
+    let (mut folders, mut found): (Vec<&str>, Vec<String>) = (Vec::new(), Vec::new());
+    let mut opening = None;
+    for (line, text) in text {
+        if text.starts_with("## ") {
+            folders.truncate(*opening.get_or_insert(folders.len()));
+        }
+        folders.extend(plain(text).map(|code| code.trim_end_matches('/')));
+        for name in names(text) {
+            let files: Vec<&String> =
+                repository.iter().filter(|file| file.rsplit('/').next() == Some(name)).collect();
+            let is_in = |folder: &&str| {
+                let folder = format!("/{folder}/");
+                files.iter().filter(|file| format!("/{file}").contains(&folder)).count() == 1
+            };
+            match files.len() {
+                0 => found.push(format!("{line}: there is no `{name}`")),
+                1 => {}
+                _ if folders.iter().any(is_in) => {}
+                _ => found.push(format!("{line}: which `{name}`? {files:?}")),
+            }
+        }
+    }
+    found
 }
 
 #[test]
@@ -40,6 +88,32 @@ fn named_files_are_there() {
         }
     }
     assert!(count > 40, "only {count} paths were found");
+}
+
+#[test]
+fn named_files_without_a_folder_are_there() {
+    let repository = repository();
+    let (mut faults, mut count) = (Vec::new(), 0);
+    for page in pages() {
+        let prose: Vec<(usize, &str)> = page.prose().collect();
+        count += prose.iter().map(|(_, text)| names(text).len()).sum::<usize>();
+        faults
+            .extend(misnamed(&prose, &repository).into_iter().map(|fault| format!("{}:{fault}", page.path)));
+    }
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+    assert!(count > 40, "only {count} names were found");
+}
+
+#[test]
+fn a_wrong_name_and_an_ambiguous_one_are_found() {
+    let repository = ["a/one.rs", "b/one.rs", "b/two.rs"].map(str::to_owned);
+    let faults = |text: &str| misnamed(&[(1, text)], &repository).len();
+    assert_eq!(faults("`two.rs` and `main.rs`"), 0);
+    assert_eq!(faults("`three.rs`"), 1);
+    assert_eq!(faults("`one.rs`"), 1);
+    assert_eq!(faults("in `b`: `one.rs`"), 0);
+    let next = [(1, "## First"), (2, "`b`: `one.rs`"), (3, "## Next"), (4, "`one.rs`")];
+    assert_eq!(misnamed(&next, &repository).len(), 1);
 }
 
 /// The numbers of equations in a text, `(1.9)-(1.11)` with those between.

@@ -2,7 +2,8 @@
 
 use guen_symbolic::{Pattern, Programs, Role, SymbolId};
 
-use crate::derive::{Selection, function};
+use super::function;
+use super::selection::Selection;
 use crate::model::Model;
 
 /// Where the outputs of the functions [`function::LINEARIZATION`] and [`function::OUTPUT_LINEARIZATION`] belong, in a

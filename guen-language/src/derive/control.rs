@@ -3,7 +3,8 @@
 
 use guen_symbolic::{Derivation, ExprId, Role, Roles, Substitution, Workbench};
 
-use crate::derive::{Quantity, function};
+use super::formulas::Quantity;
+use super::function;
 
 /// The integrable combinations of constraints whose coefficients are known, as places in the list of all.
 pub(crate) fn known_combinations(derivation: &Derivation) -> Vec<usize> {

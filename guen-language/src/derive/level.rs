@@ -1,0 +1,99 @@
+//! What a derivation consists of: the system and its scenes as levels of detail, each with its programs.
+
+use std::rc::Rc;
+
+use guen_symbolic::{Contracted, Derivation, ExprId, FunctionProgram, Programs, SeriesProgram};
+
+use super::facts::SceneFacts;
+use super::jacobians::Jacobians;
+use super::selection::Selection;
+use crate::model::Model;
+use crate::syntax::{Name, Scene};
+
+/// A derived system with its scenes.
+pub struct Derived<'a> {
+    /// The model.
+    pub model: Model<'a>,
+    /// The system itself.
+    pub system: Level,
+    /// Its scenes, in order.
+    pub scenes: Vec<Level>,
+}
+
+/// A level of detail: the system itself, or a scene.
+pub struct Level {
+    /// The parts of the model that the level has.
+    pub selection: Selection,
+    /// The derivation, with the constants that a scene fixes at their values.
+    pub derivation: Rc<Derivation>,
+    /// The brackets that do not vanish identically.
+    pub brackets: Rc<Vec<Commutator>>,
+    /// The rates of its variables.
+    pub rates: Vec<ExprId>,
+    /// The equations of motion (2.7) as expressions that vanish; only of the system itself.
+    pub equations: Vec<ExprId>,
+    /// The energy integral.
+    pub energy: ExprId,
+    /// The straight-line code.
+    pub programs: Programs,
+    /// Where the bodies of the system itself are, with a preparation of its own: nothing is prepared for programs that never
+    /// look.
+    pub placed: Option<Programs>,
+    /// Functions that must not vanish: the domain of the chart.
+    pub domain: Vec<ExprId>,
+    /// Each of them in words.
+    pub domain_names: Vec<String>,
+    /// How many of them, from the first, guards measure one by one; the others are determinants, and measured together
+    /// as the condition of the mass matrix.
+    pub edges: usize,
+    /// Expressions of constants that must not vanish.
+    pub constant_pivots: Vec<ExprId>,
+    /// The recurrences of its Taylor series, if it provides one.
+    pub series: Option<SeriesProgram>,
+    /// Where the derivatives belong that have code of their own.
+    pub jacobians: Jacobians,
+    /// How expressions are written in the report.
+    pub shown: Contracted,
+    /// The facts about a scene that its documentation tells; none for the system itself.
+    pub scene: Option<SceneFacts>,
+    /// The level with its elementary functions as states, if that form is provided.
+    pub carried: Option<Box<Level>>,
+}
+
+impl Level {
+    /// The program of a function, if it computes anything.
+    pub fn program(&self, name: &str) -> Option<&FunctionProgram> {
+        self.programs.functions.iter().find(|function| function.name == name)
+    }
+}
+
+/// A bracket `(X_r, X_s)`, `r < s`, that does not vanish identically.
+pub struct Commutator {
+    /// The first operator.
+    pub r: usize,
+    /// The second operator.
+    pub s: usize,
+    /// `C_rs1 .. C_rsn`.
+    pub coefficients: Vec<ExprId>,
+}
+
+/// A level of detail on its way to Rust items: the system itself, or one of its scenes. Report and emission read the same.
+pub(crate) struct Subject<'d, 'a> {
+    /// The model.
+    pub(crate) model: &'d Model<'a>,
+    /// The level.
+    pub(crate) level: &'d Level,
+}
+
+impl<'d, 'a> Subject<'d, 'a> {
+    /// The scene, unless it is the system itself.
+    pub(crate) fn scene(&self) -> Option<(&'d Scene, &'d SceneFacts)> {
+        let facts = self.level.scene.as_ref()?;
+        Some((self.model.scenes[facts.index].scene, facts))
+    }
+
+    /// The name of the struct.
+    pub(crate) fn name(&self) -> &'d Name {
+        self.scene().map_or(&self.model.declaration.name, |(scene, _)| &scene.name)
+    }
+}

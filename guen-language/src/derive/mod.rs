@@ -1,0 +1,138 @@
+//! From the model to what is emitted: the derivation, its faults in the user's names, and the programs.
+
+mod carried;
+mod cheapest;
+mod closure;
+mod commutators;
+mod control;
+mod domain;
+mod facts;
+mod faults;
+mod fixed;
+mod formulas;
+pub mod function;
+mod jacobians;
+mod level;
+mod manifold;
+mod parts;
+mod programs;
+mod readable;
+mod scene;
+mod selection;
+mod series;
+
+use std::rc::Rc;
+
+use guen_symbolic::{Derivation, ExprId};
+
+use crate::diagnostics::Faults;
+use crate::model::Model;
+use commutators::commutators;
+use domain::{constant_pivots, domain};
+use formulas::Quantity;
+use programs::{add_mass, extend, programs};
+use readable::{equations, polish, shown};
+
+pub use closure::{Quadrature, Reason};
+pub(crate) use control::{has_covector, known_combinations};
+pub use facts::SceneFacts;
+pub use jacobians::Jacobians;
+pub(crate) use level::Subject;
+pub use level::{Commutator, Derived, Level};
+pub use selection::{Held, Place, Selection};
+
+/// Derives a checked model and its scenes; a system without equations of motion is reported.
+pub fn derive<'a>(mut model: Model<'a>, faults: &mut Faults) -> Option<Derived<'a>> {
+    let before = faults.count();
+    let derivation = match Derivation::new(&mut model.bench, model.mechanics.clone()) {
+        Ok(derivation) => Some(derivation),
+        Err(error) => {
+            faults::report(&mut model, error, faults);
+            None
+        }
+    };
+    let mut derivation = derivation?;
+    faults::report_missing_momenta(&mut model, &mut derivation, faults);
+    faults::report_unknown_reactions(&model, &derivation, faults);
+    if faults.count() > before {
+        return None;
+    }
+    derivation.restate_by_bodies(&mut model.bench);
+    polish(&mut model.bench, &mut derivation);
+    let brackets = commutators(&mut model, &mut derivation);
+    let mut system = whole(&mut model, Rc::new(derivation), Rc::new(brackets), faults);
+    if let Some(word) = model.provides_taylor {
+        system.series = series::of(&model, &system.selection, &system.programs, word.span(), faults);
+    }
+    let scenes = scene::derive(&mut model, &system, faults);
+    (faults.count() == before).then_some(Derived { model, system, scenes })
+}
+
+/// The system itself, with everything that follows from its derivation.
+fn whole(
+    model: &mut Model<'_>,
+    derivation: Rc<Derivation>,
+    brackets: Rc<Vec<Commutator>>,
+    faults: &mut Faults,
+) -> Level {
+    let (n, size) = model.sizes();
+    let forms = 0..model.forms.len();
+    let selection = Selection {
+        variables: (0..size).collect(),
+        coordinates: (0..n).collect(),
+        parameters: (0..size - n).collect(),
+        constants: (0..model.constants.len()).collect(),
+        held: Vec::new(),
+        inputs: (0..model.inputs.len()).collect(),
+        holonomic: (0..derivation.system.holonomic.len()).collect(),
+        redundant: (0..derivation.system.redundant.len()).collect(),
+        momenta: forms.clone().filter(|j| derivation.known_momentum[*j]).collect(),
+        reactions: forms.skip(size - n).filter(|v| derivation.reactions[v + n - size].is_some()).collect(),
+        outputs: (0..model.outputs.len()).collect(),
+        energy: true,
+        linearization: true,
+        operators: true,
+        carried: Vec::new(),
+    };
+    let equations = equations(&mut model.bench, &derivation);
+    let shown = shown(model, &derivation, &brackets, &equations);
+    let edges = domain(model, &derivation, &shown).into_iter().map(|edge| (edge.function, edge.text));
+    let (domain, domain_names): (Vec<ExprId>, Vec<String>) = edges.unzip();
+    let constant_pivots = constant_pivots(&derivation);
+    let quantities = formulas::whole(model, &derivation, &brackets, domain.clone(), constant_pivots.clone());
+    let control = control::quantities(&mut model.bench, &derivation);
+    let quantities: Vec<Quantity> = quantities.into_iter().chain(control).collect();
+    let rates = derivation.formulations[0].rates.clone();
+    let mut lists = formulas::rates(&derivation);
+    extend(&mut model.bench, &mut lists);
+    let placed = formulas::placed(model);
+    let placed = (!placed.is_empty()).then(|| programs(&mut model.bench, &[], &[(function::BODIES, placed)]));
+    let mut programs = programs(&mut model.bench, &lists, &quantities);
+    add_mass(&mut programs, model, &derivation);
+    let edges = domain_names.len() - derivation.solution.determinants.len();
+    let jacobians = Jacobians::add(&mut programs, model, &selection);
+    let energy = derivation.energies.integral;
+    let mut level = Level {
+        selection,
+        derivation,
+        brackets,
+        rates,
+        equations,
+        energy,
+        programs,
+        placed,
+        domain,
+        domain_names,
+        edges,
+        constant_pivots,
+        series: None,
+        jacobians,
+        shown,
+        scene: None,
+        carried: None,
+    };
+    if let Some(word) = model.provides_carried {
+        level.carried = carried::derive(model, &level, &formulas::rates(&level.derivation), word, faults);
+    }
+    level
+}

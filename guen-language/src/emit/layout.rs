@@ -1,0 +1,133 @@
+//! Sizes, names and parameters that every part of the emission needs.
+
+use guen_symbolic::{CarriedFunction, ExprId};
+use proc_macro2::{Ident, Span, TokenStream};
+use quote::{format_ident, quote};
+
+use crate::derive::{Level, Place, Subject};
+use crate::model::{ConstantEntry, Model};
+use crate::syntax::Declaration;
+
+/// The path of the facade in the user's crate.
+pub(super) fn facade(declaration: &Declaration) -> TokenStream {
+    declaration.crate_path.clone().unwrap_or_else(|| quote!(::guen))
+}
+
+/// Sizes and names that every part of the emission needs.
+pub(super) struct Layout {
+    /// The name of the struct.
+    pub(super) system: Ident,
+    /// Numbers: coordinates, parameters and state of the level, coordinates of the whole system, constants, hoisted
+    /// values, inputs.
+    pub(super) n: usize,
+    pub(super) l: usize,
+    pub(super) size: usize,
+    pub(super) all: usize,
+    pub(super) constants: usize,
+    pub(super) hoisted: usize,
+    pub(super) inputs: usize,
+    /// The constants that follow others until they are set, each behind those that its formula reads.
+    pub(super) derived: Vec<usize>,
+    /// Fields of the state.
+    pub(super) state: Vec<Ident>,
+    /// Whether this is the system itself.
+    pub(super) is_whole: bool,
+}
+
+impl Layout {
+    pub(super) fn new(subject: &Subject<'_, '_>) -> Self {
+        let Subject { model, level } = subject;
+        let selection = &level.selection;
+        Layout {
+            system: subject.name().ident.clone(),
+            n: selection.coordinates.len(),
+            l: selection.parameters.len(),
+            size: selection.variables.len() + selection.carried.len(),
+            all: model.coordinates.len(),
+            constants: selection.constants.len() + selection.held.len(),
+            hoisted: level.programs.prepared.len(),
+            inputs: selection.inputs.len(),
+            derived: derived(model, level),
+            state: {
+                let variables = selection.variables.iter().map(|place| variable_ident(model, *place));
+                variables.chain(selection.carried.iter().map(|f| carried_ident(model, f))).collect()
+            },
+            is_whole: level.scene.is_none(),
+        }
+    }
+}
+
+/// The field of a variable.
+pub(super) fn variable_ident(model: &Model<'_>, place: Place) -> Ident {
+    match place.checked_sub(model.coordinates.len()) {
+        None => model.coordinates[place].name.ident.clone(),
+        Some(s) => form_ident(&model.forms[s]),
+    }
+}
+
+/// The field of a form: its name as written, with the component where a vector was written.
+pub(super) fn form_ident(form: &crate::model::FormEntry<'_>) -> Ident {
+    if form.name == form.written.text {
+        form.written.ident.clone()
+    } else {
+        format_ident!("{}", form.name, span = form.written.span())
+    }
+}
+
+/// The field of a function that is carried.
+pub(super) fn carried_ident(model: &Model<'_>, function: &CarriedFunction) -> Ident {
+    format_ident!("{}", carried_name(model, function), span = Span::call_site())
+}
+
+pub(super) fn carried_name(model: &Model<'_>, function: &CarriedFunction) -> String {
+    model.bench.graph.text(function.symbol)
+}
+
+/// The parameter and the argument of inputs, where the system has some.
+pub(super) fn inputs(layout: &Layout) -> (TokenStream, TokenStream) {
+    if layout.inputs == 0 {
+        (quote!(), quote!(&[]))
+    } else {
+        (quote!(, inputs: &Inputs<R>), quote!(&::core::convert::From::from(*inputs)))
+    }
+}
+
+/// Whether a constant of the system follows others until it is set: its field is a `Derived<R>`, and no plain number.
+pub(super) fn is_derived(model: &Model<'_>, constant: &ConstantEntry<'_>) -> bool {
+    constant.default.is_some_and(|e| !model.bench.graph.symbols_in(&[e]).is_empty())
+}
+
+/// The constants of a level that follow others, by place, each behind those that its formula reads. In a scene one that
+/// another is fixed by is not among them if it would follow itself.
+pub(super) fn derived(model: &Model<'_>, level: &Level) -> Vec<usize> {
+    let given = &level.selection.constants;
+    let mut left: Vec<usize> =
+        (0..given.len()).filter(|i| is_derived(model, &model.constants[given[*i]])).collect();
+    let mut found = Vec::new();
+    loop {
+        let reads = |i: &usize| {
+            let mut read = Vec::new();
+            if let Some(default) = model.constants[given[*i]].default {
+                reads(model, level, default, &mut read);
+            }
+            read
+        };
+        let Some(next) = left.iter().position(|i| !reads(i).iter().any(|read| left.contains(read))) else {
+            return found;
+        };
+        found.push(left.remove(next));
+    }
+}
+
+/// The constants of a level that an expression reads, those that a scene fixes at their values.
+fn reads(model: &Model<'_>, level: &Level, e: ExprId, read: &mut Vec<usize>) {
+    let graph = &model.bench.graph;
+    for symbol in graph.symbols_in(&[e]) {
+        let is_it = |c: usize| graph.as_symbol(model.constants[c].symbol) == Some(symbol);
+        let fixes = level.scene.iter().flat_map(|facts| &facts.fixes);
+        match level.selection.constants.iter().position(|c| is_it(*c)) {
+            Some(i) => read.push(i),
+            None => fixes.filter(|(c, _)| is_it(*c)).for_each(|(_, value)| reads(model, level, *value, read)),
+        }
+    }
+}

@@ -1,0 +1,38 @@
+//! Text and numbers as tokens.
+
+use guen_symbolic::OperationCount;
+use proc_macro2::TokenStream;
+use quote::quote;
+
+/// Text of Rust as tokens; what is written here is ours, so that a failure is a bug of ours.
+///
+/// In a compiler it is read by the compiler's lexer alone, which is optimised. `proc_macro2` would read it twice there,
+/// first with its own lexer to see whether it is Rust: a sixth of the hoop's expansion.
+pub(super) fn tokens(text: &str) -> TokenStream {
+    let read = if proc_macro::is_available() {
+        text.parse().ok().map(|tokens: proc_macro::TokenStream| tokens.into())
+    } else {
+        text.parse().ok()
+    };
+    read.unwrap_or_else(|| {
+        let message = "guen emitted text that is not Rust: this is a bug of guen";
+        quote!(::core::compile_error!(#message))
+    })
+}
+
+/// The operations of a program as the constant that states them.
+pub(super) fn cost(count: &OperationCount) -> TokenStream {
+    let OperationCount { additions, negations, multiplications, divisions, roots, sines, calls } = *count;
+    // The runtime counts every elementary function as a call.
+    let calls = sines + calls;
+    quote! {
+        __guen::Cost {
+            additions: #additions,
+            negations: #negations,
+            multiplications: #multiplications,
+            divisions: #divisions,
+            roots: #roots,
+            calls: #calls,
+        }
+    }
+}
