@@ -133,7 +133,7 @@ pub struct Report {
 }
 
 impl Report {
-    /// Whether nothing was wrong.
+    /// Returns `true` if no fault was reported.
     pub fn is_empty(&self) -> bool {
         self.faults.is_empty()
     }

@@ -185,7 +185,8 @@ struct Writer {
     text: String,
 }
 
-/// Longer expressions have a statement of their own, so that they nest a few levels deep.
+/// The most characters of an expression that is written in place. A longer one gets a statement of its own, so that
+/// expressions nest a few levels deep.
 const LONGEST_IN_PLACE: usize = 48;
 
 impl Writer {

@@ -190,7 +190,7 @@ fn resolution(subject: &Subject<'_, '_>, layout: &Layout, fields: &[Field]) -> O
     });
     Some(quote! {
         impl<R: __guen::Real> #system<R> {
-            /// The same constants, with every derived one set to its present value.
+            /// Returns the constants with every derived one set to its present value.
             pub fn resolved(&self) -> Self {
                 let values = self.__guen_values();
                 #system { #(#resolved),* }

@@ -130,7 +130,7 @@ impl Looks {
 
     /// Those of a carried form and of the level that it is a form of, which is given a state of its own.
     pub(super) fn and(self, below: Self) -> Self {
-        /// Of what is there besides operations: counted for the hoop.
+        /// The cost of checking a second system beside its operations, counted for the hoop.
         const ANOTHER: Looks = Looks { all: 150, edges: 40 };
         let edges = self.edges + below.edges;
         let another = if edges > 0 { ANOTHER.edges } else { 0 };

@@ -151,7 +151,7 @@ pub struct FormEntry<'a> {
     pub written: &'a Name,
     /// Documentation as written.
     pub docs: &'a Docs,
-    /// Which section it comes from.
+    /// The section that it comes from.
     pub kind: FormKind,
     /// Whether the kinetic energy mentions the name.
     pub mentioned_in_energy: bool,

@@ -248,7 +248,7 @@ impl Shapes {
         }
     }
 
-    /// `a + b` of scalars is `sum`.
+    /// Records that the scalar `sum` is `a + b`.
     pub(super) fn scalar_sum(&mut self, graph: &mut Graph, a: ExprId, b: ExprId, sum: ExprId) {
         if self.forms.contains_key(&a) || self.forms.contains_key(&b) {
             let shape = self.form_or_rest(a).plus(graph, &self.form_or_rest(b));

@@ -178,7 +178,7 @@ fn start<R: Ordered, const M: usize>(place: usize) -> [R; M] {
     })
 }
 
-/// Where Newton's method came closest.
+/// The result of Newton's method where it found no solution: the closest point that it reached.
 #[derive(Clone, Copy)]
 struct Stuck {
     /// Infinite where nothing was finite.

@@ -59,7 +59,7 @@ pub(crate) const fn decimal(text: &str) -> Parts {
     [(leading, REST as i32 - shift), (rest, -shift)]
 }
 
-/// Sign, digits as an integer, and how many of them stand after the point.
+/// Reads a literal: returns its sign, its digits as an integer, and how many of them stand after the point.
 const fn read(text: &[u8]) -> (bool, u128, i32) {
     let negative = text[0] == b'-';
     let mut at = if negative { 1 } else { 0 };

@@ -45,7 +45,7 @@ pub use taylor::{Series, Taylor};
 
 use crate::numbers::real::Real;
 
-/// An array, entry by entry.
+/// Returns the array with `entry(i)` in place `i`.
 // A loop, because the calls behind `core::array::from_fn` are not always inlined, and lanes need that. Each closure given to that
 // function makes five more to compile, too.
 #[inline(always)]

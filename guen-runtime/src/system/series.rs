@@ -104,7 +104,7 @@ pub struct Convolutions<R, const A: usize, const B: usize> {
 }
 
 impl<R: Real, const A: usize, const B: usize> Convolutions<R, A, B> {
-    /// For a series up to this order, at most [`HIGHEST_ORDER`].
+    /// Creates empty sums for a series up to this order, at most [`HIGHEST_ORDER`].
     #[inline(always)]
     pub fn new(order: usize) -> Self {
         Self {

@@ -7,7 +7,7 @@ use super::row::Row;
 use crate::error::StudyError;
 use crate::plot::Plot;
 
-/// As many timings make a point of a picture.
+/// The fewest timings of a setting that is shown in a picture.
 const ENOUGH: u32 = 3;
 /// Points whose interval is wider than they are high are left out.
 const NOISY: f64 = 0.5;

@@ -175,7 +175,7 @@ impl InBaseParameters {
         found.into_iter().map(back).collect()
     }
 
-    /// Back to the parameters as declared; each sum of them once.
+    /// Returns the rates of the state with the parameters as declared; each sum of parameters is computed once.
     fn turned_back(
         &self,
         bench: &mut Workbench,

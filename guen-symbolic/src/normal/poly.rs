@@ -217,7 +217,7 @@ impl Poly {
         if value.is_zero() { Poly::zero() } else { Poly { terms: vec![(mono, value)] } }
     }
 
-    /// From different monomials in any order, with coefficients that are not zero.
+    /// Builds a polynomial from different monomials in any order, with coefficients that are not zero.
     pub(super) fn from_unsorted(mut terms: Vec<(Mono, Rational)>) -> Self {
         const FEW: usize = 24;
         if terms.len() > FEW {

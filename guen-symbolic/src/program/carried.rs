@@ -45,7 +45,7 @@ pub struct Carried {
     pub edges: Vec<ExprId>,
 }
 
-/// Why rates cannot be without calls.
+/// The reason why rates have no carried form.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum NotCarried {
     /// There is no call of a function of the state.

@@ -4,7 +4,7 @@ use super::instruction::{Instruction, Operation, Value};
 use super::net::{Linear, Net, NetId, NetNode, split_sign};
 use crate::algebra::{ExprId, FastMap, Function, Graph, Node, Rational};
 
-/// Which functions of an angle are needed.
+/// Flags of the functions of an angle that are needed.
 const SINE: u8 = 1;
 const COSINE: u8 = 2;
 

@@ -79,7 +79,8 @@ pub struct Guard {
     /// is a pole, and the step is too long for the motion next to it. By default 2. Not watched where [`singularity`](Guard::singularity) is
     /// negative.
     pub approach: f64,
-    /// Look every so many steps, at least every one; chosen by the method's cost if absent.
+    /// The number of steps from one check to the next, at least one; if absent, chosen by the costs of a step and of
+    /// a check.
     pub every: Option<u32>,
 }
 

@@ -44,7 +44,7 @@ pub struct Component {
 pub struct FormShape {
     /// The components.
     pub components: Vec<Component>,
-    /// The rest.
+    /// The part that belongs to no velocity in space.
     pub rest: ExprId,
 }
 
@@ -55,7 +55,7 @@ impl Place {
         Place { terms: if vanishes { Vec::new() } else { vec![(frame, components)] } }
     }
 
-    /// The sum.
+    /// Returns the sum of two places.
     pub fn plus(&self, graph: &mut Graph, other: &Place) -> Place {
         let mut terms = self.terms.clone();
         for (frame, vector) in &other.terms {

@@ -1,4 +1,4 @@
-//! The equations with what the velocities have in common computed once, from the sums as they were written.
+//! Formulation "nested": velocities are computed one from another, from the sums as they were written.
 //!
 //! The axle of the last of ten trailers moves like the one before it, plus the turn of one link. Multiplied out into
 //! coefficients its velocity has eleven terms, on the constraints each of these is a long product, and a row of the

@@ -54,7 +54,7 @@ pub(super) const CANDIDATES: [&[Pass]; 5] = {
     ]
 };
 
-/// How many of the candidates are tried for a net of so many nodes: expansion must stay quick.
+/// Returns the number of candidates that are tried for a net of so many nodes: expansion must stay quick.
 pub(super) fn affordable(nodes: usize) -> usize {
     match nodes {
         0..=600 => CANDIDATES.len(),
