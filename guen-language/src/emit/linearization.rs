@@ -144,33 +144,29 @@ fn cells(pattern: &Pattern, rows: usize, size: usize, count: usize) -> TokenStre
     }
 }
 
-/// The matrices by two evaluations in duals.
+/// The matrices by one evaluation in duals, whose directions are the entries of the state and then the inputs: rustc compiles one
+/// more instance of the function, and the values beside the derivatives are computed once.
 fn by_duals(layout: &Layout, of: &Ident) -> (TokenStream, TokenStream) {
     let (size, count) = (layout.size, layout.inputs);
-    let (input_bound, held, by_input) = if count == 0 {
-        (quote!(), quote!(let inputs: [R; 0] = [];), quote!(let by_input = by_state.map(|_| []);))
-    } else {
-        (
-            quote!(__guen::Dual<R, #count>: __guen::Lift<R>,),
-            quote!(let inputs: [R; #count] = ::core::convert::From::from(*inputs);),
-            quote! {
-                let lifted: Prepared<__guen::Dual<R, #count>> = self.lift();
-                let by_input = program::#of(
-                    &lifted.constants, &lifted.hoisted, __guen::Dual::constant(t),
-                    &state.map(__guen::Dual::constant), &__guen::seeded(&inputs),
-                ).map(|value| value.tangent);
-            },
-        )
+    let dual = {
+        let directions = size + count;
+        quote!(__guen::Dual<R, #directions>)
+    };
+    let held = match count {
+        0 => quote!(let inputs: [R; 0] = [];),
+        _ => quote!(let inputs: [R; #count] = ::core::convert::From::from(*inputs);),
     };
     let body = quote! {
         let state: [R; #size] = ::core::convert::From::from(*state);
         #held
-        let lifted: Prepared<__guen::Dual<R, #size>> = self.lift();
-        let by_state = program::#of(
-            &lifted.constants, &lifted.hoisted, __guen::Dual::constant(t), &__guen::seeded(&state),
-            &inputs.map(__guen::Dual::constant),
-        ).map(|value| value.tangent);
-        #by_input
+        let lifted: Prepared<#dual> = self.lift();
+        let values = program::#of(
+            &lifted.constants, &lifted.hoisted, __guen::Dual::constant(t),
+            &::core::array::from_fn(|j| __guen::Dual::variable(state[j], j)),
+            &::core::array::from_fn(|j| __guen::Dual::variable(inputs[j], #size + j)),
+        );
+        let by_state = values.map(|value| ::core::array::from_fn(|j| value.tangent[j]));
+        let by_input = values.map(|value| ::core::array::from_fn(|j| value.tangent[#size + j]));
     };
-    (quote!(where __guen::Dual<R, #size>: __guen::Lift<R>, #input_bound), body)
+    (quote!(where #dual: __guen::Lift<R>), body)
 }

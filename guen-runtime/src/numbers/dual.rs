@@ -4,6 +4,7 @@
 //! own exact derivative, so what comes out is the derivative of the program to rounding, not a difference
 //! quotient. Duals are generic over the real beneath, hence nest: a dual of duals holds second derivatives.
 
+use core::array::from_fn;
 use core::cmp::Ordering;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -68,15 +69,38 @@ impl<R: Real, const N: usize> Dual<R, N> {
 
     /// `f(u) + f'(u) du`, from the value and the slope of `f` at `u`.
     #[inline]
-    fn chain(self, value: R, slope: R) -> Self {
-        Self { value, tangent: self.tangent.map(|du| slope * du) }
+    fn chain(&self, value: R, slope: R) -> Self {
+        whole(|| Self { value, tangent: self.tangent.map(|du| slope * du) })
     }
 
     /// The tangents of two duals, combined one by one.
     #[inline]
-    fn zip(self, other: Self, combine: impl Fn(R, R) -> R) -> [R; N] {
-        core::array::from_fn(|k| combine(self.tangent[k], other.tangent[k]))
+    fn zip(&self, other: &Self, combine: impl Fn(R, R) -> R) -> [R; N] {
+        from_fn(|k| combine(self.tangent[k], other.tangent[k]))
     }
+}
+
+/// A dual.
+///
+/// One with more than a few tangents is computed out of line, by one function for each kind of operation: where a long function is
+/// evaluated in duals, all tangents of all its operations in one block take rustc minutes.
+#[inline(always)]
+fn whole<R: Real, const N: usize>(compute: impl FnOnce() -> Dual<R, N>) -> Dual<R, N> {
+    /// A call costs some nanoseconds, as much as so many tangents.
+    const FEW: usize = 8;
+    if N > FEW { apart(compute) } else { compute() }
+}
+
+#[inline(never)]
+#[allow(
+    clippy::redundant_closure,
+    reason = "the closure around it is compiled with the instructions of the real"
+)]
+fn apart<R: Real, const N: usize>(compute: impl FnOnce() -> Dual<R, N>) -> Dual<R, N> {
+    R::vectorize(
+        #[inline(always)]
+        || compute(),
+    )
 }
 
 impl<R: Real, const N: usize> Default for Dual<R, N> {
@@ -92,7 +116,7 @@ impl<R: Real, const N: usize> Add for Dual<R, N> {
 
     #[inline]
     fn add(self, other: Self) -> Self {
-        Self { value: self.value + other.value, tangent: self.zip(other, |du, dv| du + dv) }
+        whole(|| Self { value: self.value + other.value, tangent: self.zip(&other, |du, dv| du + dv) })
     }
 }
 
@@ -101,7 +125,7 @@ impl<R: Real, const N: usize> Sub for Dual<R, N> {
 
     #[inline]
     fn sub(self, other: Self) -> Self {
-        Self { value: self.value - other.value, tangent: self.zip(other, |du, dv| du - dv) }
+        whole(|| Self { value: self.value - other.value, tangent: self.zip(&other, |du, dv| du - dv) })
     }
 }
 
@@ -112,8 +136,10 @@ impl<R: Real, const N: usize> Mul for Dual<R, N> {
     #[allow(clippy::suspicious_arithmetic_impl, reason = "the rule of products has other operators in it")]
     #[inline]
     fn mul(self, other: Self) -> Self {
-        let (u, v) = (self.value, other.value);
-        Self { value: u * v, tangent: self.zip(other, |du, dv| v.times_plus(du, u * dv)) }
+        whole(|| {
+            let (u, v) = (self.value, other.value);
+            Self { value: u * v, tangent: self.zip(&other, |du, dv| v.times_plus(du, u * dv)) }
+        })
     }
 }
 
@@ -124,8 +150,10 @@ impl<R: Real, const N: usize> Div for Dual<R, N> {
     #[allow(clippy::suspicious_arithmetic_impl, reason = "the rule of quotients has other operators in it")]
     #[inline]
     fn div(self, other: Self) -> Self {
-        let ratio = self.value / other.value;
-        Self { value: ratio, tangent: self.zip(other, |du, dv| (du - ratio * dv) / other.value) }
+        whole(|| {
+            let ratio = self.value / other.value;
+            Self { value: ratio, tangent: self.zip(&other, |du, dv| (du - ratio * dv) / other.value) }
+        })
     }
 }
 
@@ -134,7 +162,7 @@ impl<R: Real, const N: usize> Neg for Dual<R, N> {
 
     #[inline]
     fn neg(self) -> Self {
-        Self { value: -self.value, tangent: self.tangent.map(|du| -du) }
+        whole(|| Self { value: -self.value, tangent: self.tangent.map(|du| -du) })
     }
 }
 
@@ -187,26 +215,29 @@ impl<R: Real, const N: usize> Real for Dual<R, N> {
     // d(u v + w) = (v du + u dv) + dw
     #[inline]
     fn times_plus(self, b: Self, c: Self) -> Self {
-        let (u, v) = (self.value, b.value);
-        let product = self.zip(b, |du, dv| v.times_plus(du, u * dv));
-        let tangent = core::array::from_fn(|k| product[k] + c.tangent[k]);
-        Self { value: u.times_plus(v, c.value), tangent }
+        whole(|| {
+            let (u, v) = (self.value, b.value);
+            let product = |k: usize| v.times_plus(self.tangent[k], u * b.tangent[k]);
+            Self { value: u.times_plus(v, c.value), tangent: from_fn(|k| product(k) + c.tangent[k]) }
+        })
     }
 
     #[inline]
     fn times_minus(self, b: Self, c: Self) -> Self {
-        let (u, v) = (self.value, b.value);
-        let product = self.zip(b, |du, dv| v.times_plus(du, u * dv));
-        let tangent = core::array::from_fn(|k| product[k] - c.tangent[k]);
-        Self { value: u.times_minus(v, c.value), tangent }
+        whole(|| {
+            let (u, v) = (self.value, b.value);
+            let product = |k: usize| v.times_plus(self.tangent[k], u * b.tangent[k]);
+            Self { value: u.times_minus(v, c.value), tangent: from_fn(|k| product(k) - c.tangent[k]) }
+        })
     }
 
     #[inline]
     fn minus_times(self, b: Self, c: Self) -> Self {
-        let (u, v) = (b.value, c.value);
-        let product = b.zip(c, |du, dv| v.times_plus(du, u * dv));
-        let tangent = core::array::from_fn(|k| self.tangent[k] - product[k]);
-        Self { value: self.value.minus_times(u, v), tangent }
+        whole(|| {
+            let (u, v) = (b.value, c.value);
+            let product = |k: usize| v.times_plus(b.tangent[k], u * c.tangent[k]);
+            Self { value: self.value.minus_times(u, v), tangent: from_fn(|k| self.tangent[k] - product(k)) }
+        })
     }
 
     #[inline(always)]
@@ -256,7 +287,7 @@ impl<R: Real, const N: usize> Real for Dual<R, N> {
     fn atan2(self, x: Self) -> Self {
         let square = x.value * x.value + self.value * self.value;
         let (along_y, along_x) = (x.value / square, self.value / square);
-        Self { value: self.value.atan2(x.value), tangent: self.zip(x, |dy, dx| along_y * dy - along_x * dx) }
+        Self { value: self.value.atan2(x.value), tangent: self.zip(&x, |dy, dx| along_y * dy - along_x * dx) }
     }
 
     // |u|' = sign u
@@ -291,7 +322,7 @@ impl<R: Real, const N: usize> Real for Dual<R, N> {
     #[inline]
     fn where_above(self, limit: Self, above: Self, below: Self) -> Self {
         let choose = |above: R, below: R| self.value.where_above(limit.value, above, below);
-        Self { value: choose(above.value, below.value), tangent: above.zip(below, choose) }
+        Self { value: choose(above.value, below.value), tangent: above.zip(&below, choose) }
     }
 
     #[inline(always)]

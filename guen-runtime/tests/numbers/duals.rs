@@ -156,3 +156,27 @@ fn constants_are_lifted_to_any_depth() {
     assert_eq!(Second::from_parts(&[(3, -1)]), Second::from_f64(1.5));
     assert_eq!(Second::pi().value.value, std::f64::consts::PI);
 }
+
+/// Many tangents are computed out of line, few in line, and each is what it is alone.
+#[test]
+fn the_bits_of_a_tangent_do_not_depend_on_how_many_there_are() {
+    fn along<const N: usize>(first: usize) -> Vec<u64> {
+        let variable = |j: usize| {
+            let value = 0.3 + 0.17 * j as f64;
+            if (first..first + N).contains(&j) {
+                Dual::<f64, N>::variable(value, j - first)
+            } else {
+                Dual::constant(value)
+            }
+        };
+        let x: [_; 12] = core::array::from_fn(variable);
+        let (sin, cos) = (x[0] * x[1]).sin_cos();
+        let ((s, c), (t, d)) = Real::sin_cos_pair(x[2] / x[3], -x[4]);
+        let sum = sin.times_plus(x[5], cos).times_minus(x[6], x[7]).minus_times(x[8], x[9] - s * c);
+        let value = (sum + t.atan2(x[10]) * d).sqrt() + x[11].powi(3);
+        value.tangent.map(f64::to_bits).to_vec()
+    }
+    let together = along::<12>(0);
+    assert_eq!(together, [along::<4>(0), along::<4>(4), along::<4>(8)].concat());
+    assert!(together.iter().all(|bits| f64::from_bits(*bits) != 0.0));
+}
