@@ -50,7 +50,7 @@ impl Fault {
         self.note(format_args!("{what} at line {}", line_of(place)))
     }
 
-    /// Where the mistake is.
+    /// Returns the place of the mistake.
     pub fn span(&self) -> Span {
         self.span
     }

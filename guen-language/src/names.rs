@@ -1,5 +1,5 @@
-//! Which words the language knows, in one place: functions, sections, reserved names, the keywords of Rust, and
-//! which known word an unknown one was probably meant to be.
+//! The words that the language knows, in one place: functions, sections, reserved names, the keywords of Rust, and
+//! the known word that an unknown one was probably meant to be.
 
 use proc_macro2::Ident;
 

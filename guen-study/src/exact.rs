@@ -87,7 +87,7 @@ impl<'de> Deserialize<'de> for Exact {
     }
 }
 
-/// For fields with a number that may be missing: `#[serde(with = "crate::exact::option")]`.
+/// Serialises fields with a number that may be missing: `#[serde(with = "crate::exact::option")]`.
 #[cfg(feature = "study")]
 pub(crate) mod option {
     use super::{Deserialize, Deserializer, Exact, Serialize, Serializer};

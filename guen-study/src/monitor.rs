@@ -1,4 +1,5 @@
-//! How good a run is, judged by what its exact motion would keep: energy and holonomic constraints.
+//! Monitors of invariants: how well a run keeps the energy and the holonomic constraints that its exact motion would
+//! keep.
 
 use std::fmt;
 

@@ -1,4 +1,4 @@
-//! How far a long run has come: one line on the terminal, which comes late, changes seldom and leaves no trace.
+//! The progress of a long run: one line on the terminal, which comes late, changes seldom and leaves no trace.
 //!
 //! What the line says and when it is due are functions of plain numbers; only [`Progress`] knows clock and terminal.
 

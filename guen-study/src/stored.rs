@@ -159,8 +159,8 @@ impl<'de, const N: usize> DeserializeSeed<'de> for StoredRecording<N> {
     }
 }
 
-/// How many samples are kept of those seen: every one whose number the stride divides, and the newest. None if there is no
-/// such stride.
+/// Returns the number of samples that are kept of those seen: every one whose number the stride divides, and the
+/// newest. None if there is no such stride.
 fn expected(stride: u64, seen: u64) -> Option<u64> {
     if !stride.is_power_of_two() {
         return None;

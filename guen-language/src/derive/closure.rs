@@ -1,5 +1,5 @@
-//! Which variables a scene keeps: the least set that contains what is asked for and is closed under "the rate of a kept
-//! variable depends on it".
+//! Finds the variables that a scene keeps: the least set that contains those that are asked for and is closed under
+//! "the rate of a kept variable depends on it".
 
 use guen_symbolic::{Dependence, ExprId, Workbench};
 
@@ -14,7 +14,7 @@ pub enum Reason {
     Provided(String),
     /// The rate of this variable depends on it.
     Rate(Place),
-    /// It is part of a unit quaternion with this coordinate.
+    /// The variable is part of a unit quaternion with this coordinate.
     Whole(Place),
 }
 

@@ -6,13 +6,13 @@ use super::function;
 use super::selection::Selection;
 use crate::model::Model;
 
-/// Where the outputs of the functions [`function::LINEARIZATION`] and [`function::OUTPUT_LINEARIZATION`] belong, in a
+/// The place of each output of the functions [`function::LINEARIZATION`] and [`function::OUTPUT_LINEARIZATION`] in a
 /// matrix with a column for every coordinate, parameter and input; `None` where there is no such function.
 #[derive(Clone, Debug, Default)]
 pub struct Jacobians {
-    /// Of the rates of the state.
+    /// The derivatives of the rates of the state.
     pub rates: Option<Pattern>,
-    /// Of the outputs.
+    /// The derivatives of the outputs.
     pub outputs: Option<Pattern>,
 }
 

@@ -36,23 +36,23 @@ pub struct Level {
     pub energy: ExprId,
     /// The straight-line code.
     pub programs: Programs,
-    /// Where the bodies of the system itself are, with a preparation of its own: nothing is prepared for programs that never
-    /// look.
+    /// The program of the places of the bodies of the system itself, with a preparation of its own: nothing is
+    /// prepared for programs that never look.
     pub placed: Option<Programs>,
     /// Functions that must not vanish: the domain of the chart.
     pub domain: Vec<ExprId>,
     /// Each of them in words.
     pub domain_names: Vec<String>,
-    /// How many of them, from the first, guards measure one by one; the others are determinants, and measured together
-    /// as the condition of the mass matrix.
+    /// The number of them, from the first, that guards measure one by one; the others are determinants, and measured
+    /// together as the condition of the mass matrix.
     pub edges: usize,
     /// Expressions of constants that must not vanish.
     pub constant_pivots: Vec<ExprId>,
     /// The recurrences of its Taylor series, if it provides one.
     pub series: Option<SeriesProgram>,
-    /// Where the derivatives belong that have code of their own.
+    /// The places of the derivatives that have code of their own.
     pub jacobians: Jacobians,
-    /// How expressions are written in the report.
+    /// The notation of expressions in the report.
     pub shown: Contracted,
     /// The facts about a scene that its documentation tells; none for the system itself.
     pub scene: Option<SceneFacts>,

@@ -1,4 +1,4 @@
-//! From the model to what is emitted: the derivation, its faults in the user's names, and the programs.
+//! Derives a checked model: the derivation, its faults in the user's names, and the programs.
 
 mod carried;
 mod cheapest;

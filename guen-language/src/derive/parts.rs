@@ -69,7 +69,7 @@ pub(super) struct View {
 }
 
 impl View {
-    /// With what is held as a constant and what is eliminated replaced.
+    /// Returns an expression with held variables as constants and eliminated ones replaced.
     pub(super) fn replaced(&mut self, model: &mut Model<'_>, e: ExprId) -> ExprId {
         let e = self.holding.of(&mut model.bench, e);
         replaced(&mut model.bench, &mut self.replacements, e)

@@ -18,7 +18,7 @@ pub(super) fn equations(bench: &mut Workbench, derivation: &Derivation) -> Vec<E
     rows.collect()
 }
 
-/// How a derivation is written: what is shown of it, with sines and cosines of sums.
+/// Returns the notation of a derivation in the report, with sines and cosines of sums.
 pub(super) fn shown(
     model: &mut Model<'_>,
     derivation: &Derivation,

@@ -66,7 +66,7 @@ impl Evaluator<'_> {
         Ok(value)
     }
 
-    /// As [`Evaluator::at`], for places that take a scalar.
+    /// Evaluates as [`Evaluator::at`], for places that take a scalar.
     pub(super) fn scalar_at(&mut self, place: Place, e: &Expression) -> Evaluated<ExprId> {
         match self.at(place, e)? {
             Value::Scalar(value) => Ok(value),
@@ -77,7 +77,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// As [`Evaluator::at`], for places that take a vector.
+    /// Evaluates as [`Evaluator::at`], for places that take a vector.
     pub(super) fn vector_at(&mut self, place: Place, e: &Expression) -> Evaluated<Vector> {
         match self.at(place, e)? {
             Value::Vector(value) => Ok(value),
@@ -410,7 +410,7 @@ impl Evaluator<'_> {
             if factors.iter().any(|(_, k)| k.abs() > MAX_EXPONENT))
     }
 
-    /// As [`Evaluator::check_size`], for every component.
+    /// Checks the size of every component as [`Evaluator::check_size`].
     pub(super) fn checked_vector(&mut self, v: Vector, span: Span) -> Evaluated {
         for e in v {
             self.check_size(e, span)?;

@@ -460,7 +460,7 @@ fn function_synonym(text: &str) -> Option<&'static str> {
     })
 }
 
-/// How a function is called, where its arguments have an order that is worth saying.
+/// Returns the usage of a function whose arguments have an order that is worth saying.
 fn usage(text: &str) -> Option<&'static str> {
     Some(match text {
         "atan2" => "atan2(y, x)",

@@ -1,4 +1,4 @@
-//! From the syntax tree to a checked model: names, kinds, linear forms, energies; every fault collected.
+//! Checks the syntax tree and makes the model: names, kinds, linear forms, energies; every fault collected.
 //!
 //! What comes in was parsed without a fault. What goes out is a [`Model`] around a
 //! [`guen_symbolic::Mechanics`], in which every expression is an exact one over checked names.
@@ -132,7 +132,7 @@ pub struct SymbolEntry<'a> {
     pub limits: Option<[ExprId; 2]>,
 }
 
-/// Which section a form comes from.
+/// The section that a form comes from.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum FormKind {
     /// `parameters`.
@@ -159,7 +159,7 @@ pub struct FormEntry<'a> {
 
 /// A holonomic equation that follows from others wherever all hold, and is no form.
 pub struct RedundantEntry<'a> {
-    /// How it was declared.
+    /// The declaration of the equation.
     pub entry: FormEntry<'a>,
     /// The forms that it is dependent on, whose reactions it leaves undetermined.
     pub beside: Vec<usize>,

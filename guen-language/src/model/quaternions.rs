@@ -1,4 +1,4 @@
-//! Which coordinates are unit quaternions: reduced bases take rotation components in their place.
+//! Finds the coordinates that are unit quaternions: reduced bases take rotation components in their place.
 
 use guen_symbolic::{ExprId, Holonomic, Workbench};
 

@@ -170,7 +170,7 @@ impl Scope {
         None
     }
 
-    /// Where a name was declared, if it is a `let`.
+    /// Returns the place of the declaration of a name, if it is a `let`.
     pub(super) fn definition(&self, text: &str) -> Option<Span> {
         self.entries.get(text).filter(|entry| entry.category == Category::Let).map(|entry| entry.span)
     }

@@ -1,4 +1,4 @@
-//! From tokens to the syntax tree: what is written wrongly is reported here, what is meant wrongly later.
+//! Parses tokens into the syntax tree: faults of the grammar are reported here, faults of the meaning later.
 //!
 //! Every concept of the language has a file. A fault ends the entry in which it is, at its `;` or `,`; the next
 //! entry is parsed as if nothing had happened, so that several mistakes are reported together. Faults that leave

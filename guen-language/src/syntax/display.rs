@@ -232,7 +232,7 @@ impl Display for Declaration {
     }
 }
 
-/// How tightly the outermost operation of an expression binds.
+/// The precedence of the outermost operation of an expression: how tightly it binds.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Binding {
     Sum,

@@ -22,7 +22,7 @@ impl Name {
         Name { text, ident }
     }
 
-    /// Where the name stands.
+    /// Returns the place of the name.
     pub fn span(&self) -> Span {
         self.ident.span()
     }

@@ -168,7 +168,7 @@ pub struct Constant {
 /// The bound that is promised of a constant.
 #[derive(Debug, Clone, Copy)]
 pub struct Bound {
-    /// Which promise.
+    /// The kind of the bound.
     pub kind: BoundKind,
     /// Place of the comparison.
     pub span: Span,
@@ -321,7 +321,7 @@ pub struct Provide {
 }
 
 impl Item {
-    /// Which word begins the item.
+    /// Returns the word that begins the item.
     pub fn kind(&self) -> SectionKind {
         match self {
             Item::Constants(_) => SectionKind::Constants,

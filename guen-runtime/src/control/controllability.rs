@@ -45,7 +45,7 @@ pub struct Uncontrollable {
     pub states: usize,
     /// The dimension of what the inputs reach.
     pub rank: usize,
-    /// How many combinations of the state nothing in the linear model moves.
+    /// The number of combinations of the state that nothing in the linear model moves.
     pub zero_modes: usize,
 }
 

@@ -47,7 +47,8 @@ pub struct ZeroOrderHold<R, const N: usize, const M: usize> {
     pub phi: [[R; N]; N],
     /// `Gamma`, `N` by `M`.
     pub gamma: [[R; M]; N],
-    /// Where the linear model goes by itself in one period, from the point of linearisation; zero at equilibria.
+    /// The way that the linear model goes by itself in one period, from the point of linearisation; zero at
+    /// equilibria.
     pub offset: [R; N],
 }
 

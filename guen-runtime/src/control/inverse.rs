@@ -41,7 +41,8 @@ pub enum InverseDynamicsError {
         residual: f64,
         /// The rank of `G` there.
         rank: usize,
-        /// How many starts were tried: the given one alone, or zero and those that [`inverse_dynamics`] lists.
+        /// The number of starts that were tried: the given one alone, or zero and those that [`inverse_dynamics`]
+        /// lists.
         starts: usize,
         /// The one that came closest, counted from zero.
         closest: usize,
@@ -70,7 +71,7 @@ impl fmt::Display for InverseDynamicsError {
 
 impl Error for InverseDynamicsError {}
 
-/// How many starts [`inverse_dynamics`] tries.
+/// The number of starts that [`inverse_dynamics`] tries.
 const STARTS: usize = 17;
 
 /// The inputs that produce given accelerations.
@@ -283,7 +284,7 @@ fn newton<R: Ordered, const L: usize, const M: usize>(
 ) -> Result<[R; M], Stuck> {
     /// Newton's method doubles the digits; at a root where the derivative vanishes it halves the error.
     const STEPS: usize = 60;
-    /// How often a step is halved.
+    /// The number of times that a step is halved.
     const HALVINGS: u32 = 12;
 
     let mut inputs = start;

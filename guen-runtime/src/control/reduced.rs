@@ -291,7 +291,7 @@ impl<R: Ordered, const N: usize, const H: usize> Leaf<'_, R, N, H> {
         }
     }
 
-    /// Which slots depend on the others, and how.
+    /// Solves for the slots that depend on the others.
     fn solve(&self, slots: &[Component]) -> Result<Solved<R, N, H>, ReduceError> {
         /// An entry that is smaller than this beside the largest one is no pivot.
         const SMALLEST: f64 = 1e-10;

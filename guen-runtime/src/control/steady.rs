@@ -18,7 +18,7 @@ pub enum SteadyError {
     },
     /// The steady motions here are a family: so many further quantities have to be fixed.
     Family {
-        /// How many quantities are left open.
+        /// The number of quantities that are left open.
         dimension: usize,
     },
     /// No steady motion near the guess has the fixed quantities.

@@ -358,7 +358,7 @@ pub fn placed<R: Real, const N: usize>(
     written
 }
 
-/// How far carried functions are from their values: the largest `|w - f|/(1 + |f|)`.
+/// Returns the distance of carried functions from their values: the largest `|w - f|/(1 + |f|)`.
 ///
 /// ```
 /// assert_eq!(guen_runtime::checks::drift(&[1.0, 3.0], &[1.0, 5.0]), 0.5);

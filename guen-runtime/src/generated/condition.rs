@@ -1,4 +1,4 @@
-//! How ill conditioned a mass matrix is, whatever the units of its parameters.
+//! The condition of a mass matrix, whatever the units of its parameters.
 
 use crate::linear_algebra::Lu;
 use crate::numbers::real::Real;

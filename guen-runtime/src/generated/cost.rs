@@ -3,7 +3,7 @@
 use core::fmt;
 use core::ops::Add;
 
-/// How many operations one evaluation takes.
+/// The number of operations of one evaluation, by kind.
 ///
 /// The counts are those of the program as emitted; what rustc merges or reorders does not show here.
 ///

@@ -17,10 +17,10 @@ use crate::numbers::real::Real;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Derived<R = f64> {
-    /// It is what the declaration says of it.
+    /// The constant follows the declaration.
     #[default]
     Follows,
-    /// It has a value of its own.
+    /// The constant has a value of its own.
     Set(R),
 }
 
@@ -87,7 +87,7 @@ impl<R: Real> PartialEq<R> for Derived<R> {
 
 #[cfg(feature = "serde")]
 impl<R: serde::Serialize> serde::Serialize for Derived<R> {
-    /// As an option: nothing where it follows.
+    /// Serialises the value as an option: nothing where it follows.
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match self {
             Self::Follows => serializer.serialize_none(),

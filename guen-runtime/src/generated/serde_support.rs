@@ -175,7 +175,7 @@ mod with_serde {
     struct Fields<R, const N: usize> {
         name: &'static str,
         names: &'static [&'static str],
-        /// Which may be missing.
+        /// Tells for each constant whether it may be missing.
         derived: &'static [bool; N],
         real: PhantomData<R>,
     }

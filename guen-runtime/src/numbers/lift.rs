@@ -1,4 +1,4 @@
-//! Which reals contain which: the step from a base real into a real that was built over it.
+//! Steps from a base real into a real that was built over it.
 //!
 //! Prepared constants exist once, in the real that the system was prepared in. A derivative evaluates the same
 //! program in duals over that real, and needs the constants there. [`Lift`] is that embedding, and nothing else.

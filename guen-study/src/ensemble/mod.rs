@@ -73,7 +73,7 @@ pub struct Ensemble<S, const N: usize, C = PlainLanes> {
     /// One for each start, or one for all.
     systems: Vec<S>,
     starts: Vec<[f64; N]>,
-    /// As many as the machine has processors, if absent.
+    /// The number of threads; as many as the machine has processors, if absent.
     threads: Option<usize>,
     backend: Backend,
     width: Width,
@@ -206,7 +206,8 @@ impl<S: Laned<N> + Sync, const N: usize, C: LaneScalar> Ensemble<S, N, C> {
         [Width::One, Width::Four].into_iter().find(|width| width.lanes() >= wanted).unwrap_or(self.width)
     }
 
-    /// As many threads as were asked for, or as there are processors, unless the work is done before a second one begins.
+    /// Returns as many threads as were asked for, or as there are processors, unless the work is done before a second
+    /// one begins.
     fn threads_for<M: LaneMethod, V>(&self, task: &Task<'_, S, M, V, N, C>) -> usize {
         /// Entries of the state times steps of a group of lanes: some 17 ns each, so that they take as long as it takes to
         /// start a thread.

@@ -10,8 +10,8 @@ use crate::progress::Progress;
 /// Portions for each thread: enough for those that have light ones to help out at the end.
 const PORTIONS: usize = 16;
 
-/// As many threads as can run at once, one at least. Asked for once: the answer is read from several files, which takes as
-/// long as a short ensemble.
+/// Returns the number of threads that can run at once, one at least. Asked for once: the answer is read from several
+/// files, which takes as long as a short ensemble.
 pub(super) fn processors() -> usize {
     static FOUND: OnceLock<usize> = OnceLock::new();
     *FOUND.get_or_init(|| thread::available_parallelism().map_or(1, NonZero::get))

@@ -1,5 +1,5 @@
-//! Where things are in a picture: the ranges of the axes, their marks, the margins around them, and the map from
-//! values to the picture. Lengths are in pixels; nothing is drawn here.
+//! The layout of a picture: the ranges of the axes, their marks, the margins around them, and the map from values to
+//! the picture. Lengths are in pixels; nothing is drawn here.
 
 use super::Plot;
 use super::ticks::{Tick, decades, ticks};
@@ -138,7 +138,7 @@ impl Frame {
     }
 }
 
-/// How far the labels of the outermost marks of a horizontal axis reach beyond its ends.
+/// Returns the lengths by which the labels of the outermost marks of a horizontal axis reach beyond its ends.
 fn overhang(axis: &Axis) -> (f64, f64) {
     let half = |tick: &Tick| text_width(&tick.label, TICK_SIZE) / 2.0;
     let before = axis.ticks.first().map(|tick| half(tick) - (axis.at(tick.value) - axis.from));
@@ -146,7 +146,7 @@ fn overhang(axis: &Axis) -> (f64, f64) {
     (before.unwrap_or(0.0), after.unwrap_or(0.0))
 }
 
-/// As many marks as have room side by side.
+/// Returns as many marks as have room side by side.
 fn x_ticks(axis: &Axis) -> Vec<Tick> {
     /// The least distance between marks, and between their labels.
     const DISTANCE: f64 = 70.0;
@@ -189,7 +189,7 @@ fn ranges(plot: &Plot) -> Option<((f64, f64), (f64, f64))> {
 fn range(values: impl Iterator<Item = f64>, room: f64) -> Option<(f64, f64)> {
     /// The narrowest range over the size of its values: labels have ten digits then.
     const NARROW: f64 = 1e-9;
-    /// Where all values are zero, or so small that their differences have no digits.
+    /// The size up to which values count as zero: their differences have no digits.
     const TINY: f64 = 1e-300;
     let (low, high) = values.fold(None, |found: Option<(f64, f64)>, value| match found {
         None => Some((value, value)),

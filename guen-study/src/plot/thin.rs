@@ -1,7 +1,7 @@
 //! Reduces a curve in picture coordinates to what can be seen of it.
 
-/// Of successive points in one column of the given width, the first, the lowest, the highest and the last, in the
-/// order of the curve.
+/// Returns the first, the lowest, the highest and the last of successive points in one column of the given width, in
+/// the order of the curve.
 ///
 /// A dropped point lies between the lowest and the highest of its column, and the thinned line passes through
 /// every height between them without leaving the column: so neither line is farther than the width from the

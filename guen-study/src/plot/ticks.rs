@@ -1,4 +1,4 @@
-//! Where an axis has marks, and what is written there.
+//! Marks of axes, and their labels.
 
 /// A mark on an axis.
 #[derive(Clone, Debug, PartialEq)]

@@ -66,7 +66,7 @@ pub struct Recovered<const FULL: usize> {
     pub times: Vec<f64>,
     /// The states of the system at these times.
     pub states: Vec<[f64; FULL]>,
-    /// How far each entry may be off, for every time: see [`recover`]. Infinite for a variable that the run does not
+    /// The stated error of each entry, for every time: see [`recover`]. Infinite for a variable that the run does not
     /// determine; it has its initial value in `states`.
     pub errors: Vec<[f64; FULL]>,
 }

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 /// The points of the finer rule on an interval, both ends counted, less one. Every second one is a point of the coarser.
 pub(super) const FINE: usize = 8;
 
-/// Where the points of the finer rule are on `0..=1`: `(1 - cos(j pi/8))/2`.
+/// Returns the points of the finer rule on `0..=1`: `(1 - cos(j pi/8))/2`.
 pub(super) fn points() -> [f64; FINE + 1] {
     std::array::from_fn(|j| match j {
         0 => 0.0,
@@ -18,7 +18,7 @@ pub(super) fn points() -> [f64; FINE + 1] {
 /// The integrals of the polynomial through the values at `m + 1` points `(1 - cos(j pi/m))/2`: the last one is the
 /// rule of Clenshaw and Curtis (Numerische Mathematik 2, 1960, 197), exact for polynomials of degree `m`.
 pub(super) struct Rule {
-    /// How many points of the finer rule one of these is.
+    /// The number of points of the finer rule from one point of this rule to the next.
     pub(super) stride: usize,
     /// `weights[i][j]`: the share of value `j` in the integral from 0 to point `i`.
     pub(super) weights: Vec<Vec<f64>>,

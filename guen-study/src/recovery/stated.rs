@@ -1,4 +1,5 @@
-//! How often what [`recover`] states is too small: random rates on grids that are fine, coarse, and far too coarse.
+//! Tests how often the error that [`recover`] states is too small: random rates on grids that are fine, coarse, and
+//! far too coarse.
 
 use guen_runtime::{Cost, LevelInfo, from_fn};
 
@@ -95,8 +96,8 @@ fn worst(draws: &mut Draws) -> (f64, Option<f64>) {
 /// Below this phase no run is to be refused, but for a few.
 const SLOW: f64 = 6.0;
 
-/// Of so many runs: those accepted, those of them that are off by more than is stated, their worst multiple and slowest phase, and
-/// those refused although their phase is below [`SLOW`].
+/// Runs so many draws, and returns: those accepted, those of them that are off by more than is stated, their worst
+/// multiple and slowest phase, and those refused although their phase is below [`SLOW`].
 fn ask(runs: usize) -> (usize, usize, f64, f64, usize) {
     let mut draws = Draws(11);
     let (mut accepted, mut failed, mut most, mut slowest) = (0, 0, 0.0_f64, f64::INFINITY);

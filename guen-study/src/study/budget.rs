@@ -1,4 +1,4 @@
-//! How long a study may take, and how far it has come.
+//! The time of a study, and its progress.
 
 use std::time::{Duration, Instant};
 
@@ -61,7 +61,7 @@ impl Budget {
         !over && !self.cancelled
     }
 
-    /// When a stage has to be over.
+    /// Returns the instant at which a stage has to be over.
     pub fn deadline(&self, stage: Stage) -> Instant {
         self.started + self.whole.mul_f64(stage.part().1)
     }

@@ -57,7 +57,8 @@ pub enum Caveat {
     /// The setting was not tried from states nearby: none were asked for, there was no time, or the motion from them has no
     /// reference.
     NotTriedNearby,
-    /// From a state nearby the setting failed. Only where a cost was given: what is chosen for an error holds nearby.
+    /// The setting failed from a state nearby. Only where a cost was given: a setting that is chosen for an error
+    /// holds nearby.
     FailsNearby,
 }
 

@@ -113,14 +113,14 @@ pub(super) fn motion<const N: usize>(
 }
 
 impl<const N: usize> Known<N> {
-    /// Where nothing was looked at.
+    /// Returns the report of a search in which nothing was looked at.
     pub fn nothing(points: usize) -> Self {
         let report =
             ScanReport { width: None, width_elsewhere: None, evaluations: 0, abrupt: 0, landings: 0 };
         Self { report, points_elsewhere: elsewhere(points), motions: Vec::new() }
     }
 
-    /// Where references from the `k`th initial state land.
+    /// Returns the times at which references from the `k`th initial state land.
     pub fn landings(&self, k: usize) -> &[f64] {
         self.motions.get(k).map_or(&[], |motion| &motion.landings)
     }

@@ -444,14 +444,14 @@ where
 }
 
 impl<S, const N: usize> Study<S, N> {
-    /// With everything but variants.
+    /// Creates a study with everything but variants.
     fn bare<D, L>(system: S, doubles: &Rc<D>, long: &Rc<L>, start: [f64; N], span: Range<f64>) -> Self
     where
         D: System<f64, N> + 'static,
         L: System<Digits71, N> + 'static,
     {
         use guen_runtime::steppers::Dop853;
-        /// As many evaluations as the motion that is looked at closely may take: stiff ones take more.
+        /// The number of evaluations that a motion which is looked at closely may take: stiff ones take more.
         const STEPS: u64 = scan::MOST_STEPS;
         let (tight, scanned) = (Rc::clone(doubles), Rc::clone(doubles));
         let References { reference, check, elsewhere } =

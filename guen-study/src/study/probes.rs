@@ -42,8 +42,8 @@ pub(super) fn moved<const N: usize>(state: &[f64; N], spread: f64, draw: &mut Dr
     state.map(|x| x + spread * x.abs().max(SMALL) * draw.next())
 }
 
-/// As many states around the initial ones as asked for: moved ones, unless that violates a constraint on positions, and
-/// else states of the same motion, out of `along`.
+/// Returns as many states around the initial ones as asked for: moved ones, unless that violates a constraint on
+/// positions, and else states of the same motion, out of `along`.
 pub(super) fn states<const N: usize>(
     starts: &[[f64; N]],
     along: &[[f64; N]],

@@ -35,7 +35,7 @@ impl Extended for Digits31 {
     }
 }
 
-/// Where a reference is computed, and by what. `watch` is told the time reached, and says whether to go on.
+/// A function that computes a reference. `watch` is told the time reached, and says whether to go on.
 pub(super) type Source<const N: usize> =
     Box<dyn Fn(&Problem<'_, N>, &mut dyn FnMut(f64) -> bool) -> Result<Vec<[Long; N]>, String>>;
 
@@ -63,13 +63,13 @@ impl<const N: usize> Problem<'_, N> {
         stops
     }
 
-    /// How long the motion is.
+    /// Returns the length of the motion.
     pub fn span(&self) -> f64 {
         self.times.last().map_or(0.0, |end| (end - self.t0).abs())
     }
 }
 
-/// Of the states at all stops those that are wanted.
+/// Returns the wanted states among those at all stops.
 fn wanted<R: Extended, const N: usize>(stops: &[(f64, bool)], states: Vec<[R; N]>) -> Vec<[Long; N]> {
     let kept = stops.iter().zip(states).filter(|(stop, _)| stop.1);
     kept.map(|(_, state)| state.map(Extended::lengthened)).collect()
@@ -111,7 +111,7 @@ pub(super) const CANCELLED: &str = "it was cancelled, or took longer than the st
 pub(super) const EXTRAPOLATION_TOLERANCE: f64 = 1e-24;
 /// The tolerance of the reference in 31 digits, of which the table of extrapolation leaves some 25.
 pub(super) const SHORTER_TOLERANCE: f64 = 1e-20;
-/// Of states nearby: far below the rounding of doubles.
+/// The tolerance for states nearby: far below the rounding of doubles.
 const ELSEWHERE_TOLERANCE: f64 = 1e-18;
 /// The check is of order eight, where ten times the digits is twelve times the work: as tight as it has to be for
 /// differences below the rounding of doubles.
@@ -175,9 +175,9 @@ where
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct ReferenceReport {
-    /// How it was computed.
+    /// The method that computed it.
     pub method: String,
-    /// How it was checked.
+    /// The method that checked it.
     pub check: String,
     /// The largest difference between the two over all initial states, in the measure of the study, or, if that is larger, from a
     /// motion in doubles that lands in more places: the stated error. None if one of them failed.

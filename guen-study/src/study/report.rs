@@ -30,7 +30,7 @@ impl Unit {
     }
 }
 
-/// How a study ended.
+/// The end of a study.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Ending {
@@ -38,7 +38,7 @@ pub enum Ending {
     Complete,
     /// The time for the study was over: what was measured is there.
     OutOfTime,
-    /// It was cancelled: what was measured is there.
+    /// The study was cancelled: the rows that were measured are there.
     Cancelled,
 }
 
@@ -60,18 +60,18 @@ pub struct Report {
     pub unit: Unit,
     /// The reference; none where the measure needs none.
     pub reference: Option<ReferenceReport>,
-    /// How closely the motions were looked at for what methods might step over; none where the measure needs no reference.
+    /// The search for features that methods might step over; none where the measure needs no reference.
     pub scan: Option<ScanReport>,
     /// Every setting that was tried and is worth showing, in the order of the variants, from coarse to fine.
     pub rows: Vec<Row>,
-    /// How the study ended.
+    /// The end of the study.
     pub ending: Ending,
     /// The number of states nearby that settings were tried from.
     pub probes: usize,
     /// The median over the rows of half the interval of the median cost, relative.
     #[cfg_attr(feature = "serde", serde(with = "crate::exact"))]
     pub noise: f64,
-    /// How long the study took.
+    /// The seconds that the study took.
     #[cfg_attr(feature = "serde", serde(with = "crate::exact"))]
     pub seconds: f64,
     /// Machine and build, as far as they are known.

@@ -57,7 +57,7 @@ pub enum FailureKind {
     Setting,
     /// The constants cannot be prepared in this real.
     Constants,
-    /// It took longer than the study had for it.
+    /// The run took longer than the study had for it.
     OutOfTime,
 }
 

@@ -364,7 +364,7 @@ fn error_of<S, const N: usize>(
     largest
 }
 
-/// How far each row is from the front in rough cost: the factor to the cheapest row that errs no more.
+/// Returns the distance of each row from the front in rough cost: the factor to the cheapest row that errs no more.
 fn distances<const N: usize>(tried: &[Tried<N>]) -> Vec<f64> {
     let distance = |one: &Tried<N>| {
         let Some(error) = one.row.error else { return f64::INFINITY };

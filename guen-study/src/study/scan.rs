@@ -53,7 +53,7 @@ pub(super) fn width(span: f64, points: usize) -> f64 {
     INTERVALS_SEEN * span / points as f64
 }
 
-/// How closely to look.
+/// The closeness of a scan.
 #[derive(Clone, Copy)]
 pub(super) enum Look {
     /// At the rates, at so many equidistant times of the span.
@@ -66,7 +66,7 @@ pub(super) enum Look {
 pub(super) struct Seen<const N: usize> {
     /// The states at the times.
     pub states: Vec<[f64; N]>,
-    /// Where references have to land, because steps are short there.
+    /// The times at which references have to land, because steps are short there.
     pub landings: Vec<f64>,
     /// The number of places where a step in doubles went over something, and of jumps.
     pub abrupt: usize,
@@ -122,7 +122,7 @@ struct March<'a, S, const N: usize> {
     x: [f64; N],
     /// The ends of all steps.
     steps: Vec<f64>,
-    /// Of numbers at the largest time.
+    /// The spacing of numbers at the largest time.
     spacing: f64,
     /// Evaluations that there may be.
     most: u64,
@@ -321,7 +321,7 @@ impl<const N: usize> Points<N> {
         Some(Suspicion { begin: (self.times[from], self.states[from]), landings, claimed })
     }
 
-    /// How far the change of the state in an interval is from the integral of the rates.
+    /// Returns the difference between the change of the state in an interval and the integral of the rates.
     fn off(&self, k: usize, rates: &[[f64; N]]) -> f64 {
         /// The integral over the first, the second and the third of five intervals; the others are the mirrored ones.
         const WEIGHTS: [[f64; 6]; 3] = [

@@ -61,7 +61,7 @@ pub struct Cost {
     /// The upper end.
     #[cfg_attr(feature = "serde", serde(with = "crate::exact"))]
     pub high: f64,
-    /// How often it was measured.
+    /// The number of measurements.
     pub repetitions: u32,
 }
 

@@ -41,7 +41,7 @@ pub(super) struct Means<const N: usize> {
     pub tells: Tells<N>,
     pub tight: Rc<dyn Fn(f64) -> Run<N>>,
     pub scanner: Scanner<N>,
-    /// Where references land from the states that the study was made for.
+    /// The times at which references from the states of the study land.
     pub landings: Vec<f64>,
     /// The times at which a forecast looks at the rates.
     pub points: usize,
@@ -60,11 +60,11 @@ pub enum Forecast {
         /// The question that could not be checked, if any.
         caveat: Option<Caveat>,
     },
-    /// It is not: the estimate, or the uncertainty of the estimate, is too large.
+    /// The promise is not made: the estimate, or the uncertainty of the estimate, is too large.
     WillNot {
         /// The estimate.
         estimate: f64,
-        /// How far the run that the estimate was made with differs from a coarser one.
+        /// The difference between the run that the estimate was made with and a coarser one.
         uncertainty: f64,
     },
     /// Nothing is promised of this row: its error is not certain where it was measured.
@@ -173,7 +173,7 @@ impl<const N: usize> Trade<N> {
         certified.map_or(said, |(estimate, difference)| judged(estimate, difference))
     }
 
-    /// How far these states are from the reference of the study, and by how much its check differs from that.
+    /// Returns the difference of these states from the reference of the study, and that of its check.
     fn certified(&self, problem: &Problem<'_, N>, states: &[[f64; N]]) -> Option<(f64, f64)> {
         let Means { measure, scales, reference, check, .. } = &self.means;
         let run = |named: &Named<N>| (named.source)(problem, &mut |_| true).ok();

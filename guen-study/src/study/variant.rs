@@ -15,9 +15,9 @@ use super::row::{Failure, Knob};
 pub(super) struct Task<'a, const N: usize> {
     pub starts: &'a [[f64; N]],
     pub t0: f64,
-    /// In order; the last one is the end of the span.
+    /// The times in order; the last one is the end of the span.
     pub times: &'a [f64],
-    /// When to give up. Watching costs a little, so runs that are timed are not watched.
+    /// The instant at which to give up. Watching costs a little, so runs that are timed are not watched.
     pub deadline: Option<Instant>,
 }
 

@@ -1,4 +1,4 @@
-//! How a declared body draws itself: as the homogeneous solid that has its mass and its inertia.
+//! Draws a declared body by itself: as the homogeneous solid that has its mass and its inertia.
 
 use guen_runtime::Body;
 

@@ -397,14 +397,14 @@ impl<'a, const N: usize> Viewer<'a, N> {
         self
     }
 
-    /// Which direction is up in the picture; `z` unless told. The level ground is normal to it.
+    /// Sets the direction that is up in the picture; `z` unless told. The level ground is normal to it.
     pub fn upward(mut self, direction: [f64; 3]) -> Self {
         self.view.up = Some(direction);
         self.require(is_direction(direction), || "a direction of the view".to_owned());
         self
     }
 
-    /// From where it is seen at first: a direction from the motion to the eye.
+    /// Sets the direction from which the motion is seen at first: from the motion to the eye.
     pub fn seen_from(mut self, direction: [f64; 3]) -> Self {
         self.view.from = Some(direction);
         self.require(is_direction(direction), || "a direction of the view".to_owned());

@@ -145,7 +145,7 @@ fn motion<const N: usize>(viewer: &Viewer<'_, N>) -> String {
     json.into_text()
 }
 
-/// For each sample the place and the quaternion `x, y, z, w`, as the drawing library orders it.
+/// Returns for each sample the place and the quaternion `x, y, z, w`, as the drawing library orders it.
 fn poses(body: &MovingBody) -> impl Iterator<Item = f64> {
     body.poses.iter().flat_map(|pose| {
         let ([x, y, z], [w, i, j, k]) = (pose.place, pose.turn.normalized().0);

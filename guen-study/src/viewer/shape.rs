@@ -3,7 +3,7 @@
 use super::is_drawable;
 use super::turn::{Turn, norm};
 
-/// Where a body is at one moment: its place and its orientation in the world's axes.
+/// The place of a body at one moment and its orientation in the world's axes.
 ///
 /// Turns follow each other from left to right as in a product of rotations, each about the axes that those before have
 /// turned: `rot_z(psi)*rot_x(theta)` is `.turned([0, 0, 1], psi).turned([1, 0, 0], theta)`.

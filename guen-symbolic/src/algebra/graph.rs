@@ -213,7 +213,7 @@ impl Graph {
         (self.keys[id.index()], id)
     }
 
-    /// Which kinds of symbol occur in an expression.
+    /// Returns the kinds of symbol that occur in an expression.
     pub fn roles(&self, id: ExprId) -> Roles {
         self.roles[id.index()]
     }
@@ -457,7 +457,7 @@ impl Graph {
         self.flags[id.0 as usize]
     }
 
-    /// Where an expression stands in a list in the graph's order, or where it would have to be put.
+    /// Returns the place of an expression in a list in the graph's order, or the place where it would have to be put.
     pub(super) fn place_of<T>(&self, list: &[(ExprId, T)], id: ExprId) -> Result<usize, usize> {
         self.place_in(list, id, Order::Ascending)
     }

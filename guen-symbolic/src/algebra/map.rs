@@ -252,7 +252,7 @@ impl<K: Ordinal, V> SortedMap<K, V> {
         SortedMap(entries)
     }
 
-    /// Where a key is, or where it would have to be put.
+    /// Returns the place of a key, or the place where it would have to be put.
     fn place(&self, key: K) -> Result<usize, usize> {
         let entries: &[(K, V)] = &self.0;
         let ordinal = key.ordinal();

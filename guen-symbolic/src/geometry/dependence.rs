@@ -1,4 +1,4 @@
-//! Which forms are linear combinations of others, and of which.
+//! Finds the forms that are linear combinations of others, and the combinations.
 
 use super::Forms;
 use super::minors::{ADJUGATE_SIZE, adjugate};

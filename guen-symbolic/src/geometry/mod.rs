@@ -1,4 +1,4 @@
-//! From forms to operators, brackets and classification, (1.1)-(1.14).
+//! Geometry of the constraints: from forms to operators, brackets and classification, (1.1)-(1.14).
 
 mod blocks;
 mod brackets;

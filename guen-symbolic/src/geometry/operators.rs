@@ -15,8 +15,8 @@ use crate::algebra::{ExprId, Graph, Node};
 use crate::workbench::Workbench;
 use crate::zero::Verdict;
 
-/// With more coordinates than this, entries of the operators that are made of others stay factored: their number is the square of that
-/// of the coordinates.
+/// The number of coordinates above which entries of the operators that are made of others stay factored: their number
+/// is the square of that of the coordinates.
 pub(crate) const MANY_COORDINATES: usize = 24;
 
 /// The operators `X_0..X_n` by their coefficients.
@@ -28,7 +28,7 @@ pub struct Operators {
     pub chart: Vec<ExprId>,
     /// Functions of constants alone that must not vanish.
     pub constant_pivots: Vec<ExprId>,
-    /// How the forms were solved.
+    /// The steps of solving the forms.
     pub(crate) steps: Vec<Step>,
 }
 

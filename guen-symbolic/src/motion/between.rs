@@ -9,7 +9,7 @@ pub(super) struct Between {
 }
 
 impl Between {
-    /// From the expressions that depend on two base angles each.
+    /// Collects the angles between two base angles from expressions that depend on two of them each.
     pub(super) fn new(bench: &mut Workbench, entries: &[ExprId]) -> Self {
         let mut edges = Vec::new();
         let mut trees = Trees::default();
@@ -137,7 +137,7 @@ fn shorter(bench: &mut Workbench, e: ExprId, a: ExprId, b: ExprId) -> ExprId {
     if long < short { sum } else { difference }
 }
 
-/// How many different arguments the sines and cosines of an expression have.
+/// Returns the number of different arguments that the sines and cosines of an expression have.
 fn angles_in_written(graph: &Graph, e: ExprId) -> usize {
     let mut found: Vec<ExprId> = Vec::new();
     for id in graph.reachable(&[e], |id| graph.roles(id).is_constant()) {

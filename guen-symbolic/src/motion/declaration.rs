@@ -86,8 +86,8 @@ pub struct Mechanics {
     pub redundant: Vec<ExprId>,
     /// `T°(t, x, x', eta)`, with constraints dropped.
     pub kinetic_energy: ExprId,
-    /// For each form whether `T°` speaks of its momentum, so that one that vanishes is truly zero and not left out
-    /// because `T` was given on the constraints only.
+    /// Tells for each form whether `T°` speaks of its momentum, so that one that vanishes is truly zero and not left
+    /// out because `T` was given on the constraints only.
     pub stated: Vec<bool>,
     /// `U(t, x)`.
     pub force_function: ExprId,

@@ -1,4 +1,4 @@
-//! Which variables an expression depends on as a function, whatever it is written in.
+//! Finds the variables that an expression depends on as a function, whatever it is written in.
 
 use crate::algebra::{ExprId, FastMap, Node, Rational, Substitution};
 use crate::workbench::Workbench;

@@ -17,8 +17,8 @@ pub struct Energies {
 }
 
 impl Energies {
-    /// From the terms `w u v` of `T°`: `h = sum w (u v - u v_c - v u_c) - U`, where `u_c` is the part of `u` that
-    /// does not depend on `x'`.
+    /// Makes `h = sum w (u v - u v_c - v u_c) - U` from the terms `w u v` of `T°`, where `u_c` is the part of `u`
+    /// that does not depend on `x'`.
     pub fn new(
         bench: &mut Workbench,
         system: &Mechanics,

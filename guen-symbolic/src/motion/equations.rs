@@ -14,7 +14,7 @@ use crate::normal::{Limits, normal_coefficients};
 use crate::program::weighted_cost;
 use crate::workbench::Workbench;
 
-/// With so many parameters, and so many frames that turn, equations are not multiplied out.
+/// The number of parameters, and of frames that turn, from which on equations are not multiplied out.
 const MANY: usize = 6;
 
 /// Nor where the velocities alone cost more.
@@ -83,7 +83,7 @@ pub(super) struct Stated {
     pub(super) of_bodies: Option<(Equations, multibody::Found)>,
     /// The system in the rates of its base angles, where the equations come from there.
     pub(super) in_base: Option<InBaseParameters>,
-    /// In the axes of the bodies, where constraints on positions ask for them.
+    /// The equations in the axes of the bodies, where constraints on positions ask for them.
     pub(super) in_own_axes: Option<InOwnAxes>,
     /// The rows `s = l+1..n`, of the reactions, without the generalised forces.
     pub(super) constrained: Equations,

@@ -24,7 +24,7 @@ const LARGEST_TRIED: u64 = 600;
 struct Formulation {
     /// The name of the formulation, as in [`Formulated::name`].
     name: &'static str,
-    /// As of [`Formulated::is_by_spins`].
+    /// Whether it goes by spins: see [`Formulated::is_by_spins`].
     is_by_spins: bool,
     find: fn(&mut Workbench, &mut Search<'_>) -> Result<Outcome, DerivationError>,
 }
@@ -46,7 +46,7 @@ const FORMULATIONS: [Formulation; 10] = [
 /// The rates of the state by one formulation, proved to be those of (2.7).
 #[derive(Clone, Debug)]
 pub struct Formulated {
-    /// How the formulation is called.
+    /// The name of the formulation.
     pub name: &'static str,
     /// The rates, velocities first.
     pub rates: Vec<ExprId>,
@@ -224,7 +224,7 @@ impl Search<'_> {
     }
 }
 
-/// With the reactions between the velocity forms as unknowns.
+/// Finds rates with the reactions between the velocity forms as unknowns.
 fn by_tensions(bench: &mut Workbench, search: &mut Search<'_>) -> Result<Outcome, DerivationError> {
     search.in_base = match search.stated.in_base.take() {
         None if search.stated.projected.is_some() => {
@@ -352,7 +352,7 @@ fn by_spins(bench: &mut Workbench, search: &mut Search<'_>) -> Result<Outcome, D
     Ok(Outcome::found(lists, || Rank::Other))
 }
 
-/// In the rates of the base angles.
+/// Finds rates in the rates of the base angles.
 fn in_base_parameters(bench: &mut Workbench, search: &mut Search<'_>) -> Result<Outcome, DerivationError> {
     let Some(in_base) = &mut search.in_base else {
         return Ok(Outcome::Declined("the parameters are the rates of the base angles"));

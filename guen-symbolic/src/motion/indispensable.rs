@@ -20,7 +20,7 @@ const POINTS: u64 = 2;
 struct Energy {
     /// Weights, with the places of their forms.
     terms: Vec<(ExprId, [usize; 2])>,
-    /// For each form its coefficients by rates of coordinates and by parameters.
+    /// The coefficients of each form, by rates of coordinates and by parameters.
     forms: Vec<[Vec<(usize, ExprId)>; 2]>,
     /// `xi_s^i`, a row for each parameter.
     operators: Vec<Vec<ExprId>>,

@@ -1,4 +1,4 @@
-//! From operators and energies to the equations of motion, (2.1)-(2.10), by two independent routes.
+//! Derives the equations of motion from operators and energies, (2.1)-(2.10), by two independent routes.
 
 mod base_parameters;
 mod between;

@@ -51,7 +51,7 @@ pub(super) fn difference(graph: &mut Graph, [f, d]: [ExprId; 2], [m, g]: [ExprId
 struct Product {
     outer: Sum,
     inner: Sum,
-    /// How much of each product is left, by the monomials of the first sum and those of the second.
+    /// The remaining multiple of each product, by the monomials of the first sum and those of the second.
     parts: Vec<Vec<Rational>>,
 }
 

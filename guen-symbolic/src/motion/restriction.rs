@@ -324,7 +324,7 @@ mod tests {
         assert!((value(3.0) - 9.0 * value(1.0)).abs() < 1e-13, "of degree two, off the constraint too");
     }
 
-    /// Where what is constant is not one, its powers count: `l^2 - x^2` is `y^2`.
+    /// The powers of a constant count if it is not one: `l^2 - x^2` is `y^2`.
     #[test]
     fn radicands_become_homogeneous_on_a_circle_of_any_size() {
         let (mut bench, mut restriction, x) = sphere(&["x", "y"], |graph| {

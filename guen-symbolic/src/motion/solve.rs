@@ -180,7 +180,7 @@ pub(super) struct Elimination {
     pub(super) pivots: Vec<ExprId>,
 }
 
-/// Which results of an elimination are kept whole.
+/// The results of an elimination that are kept whole.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Naming {
     /// None: small blocks are written out, and simplify.

@@ -74,7 +74,7 @@ fn is_among(bench: &mut Workbench, e: ExprId, others: &[ExprId]) -> bool {
 
 /// The place of a declared parameter in the system of spins.
 enum Parameter {
-    /// As declared.
+    /// A declared parameter that stays.
     Kept(usize),
     Spin(Form),
 }

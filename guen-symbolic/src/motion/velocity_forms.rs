@@ -27,7 +27,7 @@ pub struct VelocityPartials {
 }
 
 impl VelocityPartials {
-    /// For the velocity symbols of a system.
+    /// Collects the partial derivatives by the velocity symbols of a system.
     pub fn new(bench: &Workbench, velocities: &[ExprId], etas: &[ExprId]) -> Self {
         let partials =
             |symbols: &[ExprId]| symbols.iter().map(|symbol| Flow::partial(&bench.graph, *symbol)).collect();
@@ -40,7 +40,7 @@ impl VelocityPartials {
         }
     }
 
-    /// For a declared system.
+    /// Collects them for a declared system.
     pub fn of_system(bench: &Workbench, system: &Mechanics) -> Self {
         Self::new(bench, &system.velocities, &system.etas)
     }

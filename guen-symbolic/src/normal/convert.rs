@@ -1,4 +1,4 @@
-//! From the graph into a ring: finding generators, then converting nodes, children first.
+//! Converts expressions into a ring: finds generators, then converts nodes, children first.
 
 use std::collections::BTreeMap;
 

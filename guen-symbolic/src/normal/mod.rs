@@ -40,7 +40,7 @@ impl Default for Limits {
 }
 
 impl Limits {
-    /// For expressions that should be simplified only if that is easy.
+    /// Returns the limits for expressions that should be simplified only if that is easy.
     pub fn small() -> Self {
         Limits { terms: 60, generators: 24, degree: 24, nodes: 300, steps: 2_000 }
     }

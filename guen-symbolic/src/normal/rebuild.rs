@@ -1,4 +1,4 @@
-//! From the ring back into the graph: the cheapest of a few readable forms.
+//! Converts polynomials back into expressions: the cheapest of a few readable forms.
 
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -131,7 +131,7 @@ fn pair(graph: &Graph, e: ExprId) -> Option<(usize, usize, Together)> {
     None
 }
 
-/// How many sines and cosines are factors of a term.
+/// Returns the number of sines and cosines among the factors of a term.
 fn circular(graph: &Graph, term: ExprId) -> i32 {
     let is_circular = |e: ExprId| matches!(graph.node(e), Node::Function(Function::Sin | Function::Cos, _));
     match graph.node(term) {

@@ -19,7 +19,7 @@ pub use names::{greek_letter, latex_name};
 /// Longer texts help no reader; [`Graph::text`] replaces them by a note.
 const LONGEST_TEXT: usize = 20_000;
 
-/// How an expression is written down.
+/// The notation of printed expressions.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Style {
     /// The grammar of the language.

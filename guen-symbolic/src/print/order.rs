@@ -10,7 +10,7 @@ const MOTION: Roles =
 /// More symbols than this do not enter the order of two functions; their text decides then.
 const SYMBOLS_COMPARED: usize = 8;
 
-/// Where a factor stands in a product.
+/// The place of a factor in a product.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(super) struct FactorKey {
     class: u8,
@@ -19,7 +19,7 @@ pub(super) struct FactorKey {
     text: String,
 }
 
-/// Where a term stands in a sum.
+/// The place of a term in a sum.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(super) struct TermKey {
     accelerations: Reverse<u32>,

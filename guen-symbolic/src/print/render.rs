@@ -9,7 +9,7 @@ use super::order::{FactorKey, TermKey, merge_symbols};
 /// All texts made on the way may be this many times as long as the result.
 const WORK_FACTOR: usize = 256;
 
-/// How tightly a text binds.
+/// The precedence of a text: how tightly it binds.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(super) enum Level {
     Sum,
@@ -48,7 +48,7 @@ impl Piece {
 
 /// A term of a sum on its way to a line.
 struct Summand {
-    /// Where it stands; a number stands last, or first before a minus.
+    /// The place in the sum; a number stands last, or first before a minus.
     key: Option<TermKey>,
     minus: bool,
     text: String,

@@ -1,4 +1,4 @@
-//! How many roundings equal programs lose: a running error analysis at random points and next to poles.
+//! Rounding errors of equal programs: a running error analysis at random points and next to poles.
 //!
 //! Every operation adds its own rounding to what it carries over of those before it (Wilkinson), in units of the unit
 //! roundoff; symbols are exact, so that what is left is what the program alone does. Points are drawn with a fixed seed.

@@ -23,7 +23,7 @@ pub struct Formulation {
     pub outputs: Vec<ExprId>,
 }
 
-/// How hard a function is optimised.
+/// The effort with which a function is optimised.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Effort {
     /// Every candidate that is affordable.
@@ -56,7 +56,7 @@ pub struct ProgramBuilder<'a> {
     names: FastMap<ExprId, ExprId>,
 }
 
-/// With more names than this only the first candidates are tried.
+/// The number of names above which only the first candidates are tried.
 const MANY_NAMES: usize = 150;
 
 /// Cold functions with fewer nodes are lowered as they are.
@@ -217,7 +217,8 @@ impl<'a> ProgramBuilder<'a> {
     }
 }
 
-/// Which of some programs may be the cheapest once all effort goes into them: the best one, and small ones that cost little more.
+/// Returns the programs that may be the cheapest once all effort goes into them: the best one, and small ones that
+/// cost little more.
 fn finalists(programs: &[Candidate], best: usize) -> Vec<usize> {
     let least = programs[best].cost();
     let mut found = vec![best];

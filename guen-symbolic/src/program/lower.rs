@@ -1,4 +1,4 @@
-//! From a net to instructions: one operation each, equal operations once, in the order of first use.
+//! Lowers a net to instructions: one operation each, equal operations once, in the order of first use.
 
 use super::instruction::{Instruction, Operation, Value};
 use super::net::{Linear, Net, NetId, NetNode, split_sign};
@@ -70,7 +70,7 @@ struct Lowering<'a> {
     net: &'a Net,
     prepared: &'a mut PreparedTable,
     uses: Vec<u32>,
-    /// How many products divide by a node.
+    /// The number of products that divide by each node.
     denominators: Vec<u32>,
     /// Whether sine and cosine of a node are needed.
     turned: Vec<u8>,

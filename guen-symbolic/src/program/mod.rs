@@ -1,4 +1,5 @@
-//! From expressions to straight-line code: what to compute once per system, and what in every state.
+//! Turns expressions into straight-line code: values to compute once per system, and values to compute in every
+//! state.
 //!
 //! What comes in are expressions over symbols; what goes out are [`Programs`]: a *prepare* stage that turns
 //! physical constants into prepared values, and functions of the state over those values. The stages are

@@ -390,7 +390,7 @@ fn common_factor(graph: &mut Graph, constants: &[ExprId]) -> ExprId {
     graph.mul(number, product)
 }
 
-/// Which expressions count as coefficients.
+/// The expressions that count as coefficients.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Field {
     /// Everything that depends on physical constants alone: for functions of the state.

@@ -20,7 +20,7 @@ const LARGEST_SEARCH: usize = 200;
 const REDRAWS: u64 = 64;
 /// Random points that are projected before there is no real point.
 const PROJECTIONS: u64 = 8;
-/// From one projection to the next: the signs stay, the sizes change.
+/// The step from one projection to the next: the signs stay, the sizes change.
 const STRIDE: u64 = 16;
 /// Newton's steps in double precision.
 const NEWTON_STEPS: usize = 60;
@@ -42,7 +42,7 @@ struct Block {
 /// The set where all equations hold.
 #[derive(Debug)]
 pub(super) struct Manifold {
-    /// In the order of solution; `None` if no order was found.
+    /// The blocks in the order of solution; `None` if no order was found.
     blocks: Option<Vec<Block>>,
     equations: Vec<ExprId>,
     /// The symbols along which a real point may move, and the equations' derivatives by them, row by row.

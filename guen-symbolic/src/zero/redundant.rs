@@ -31,7 +31,7 @@ const MOST_STARTS: usize = 40;
 const WORK: usize = 4_000_000;
 /// Steps of one search.
 const STEPS: usize = 120;
-/// With so much left beside those before it a gradient of length one is taken in its order.
+/// The remainder beside those before it from which on a gradient of length one is taken in its order.
 const CLEARLY: f64 = 0.02;
 /// A gradient of length one with so much left beside the others is independent of them.
 const INDEPENDENT: f64 = 1e-4;
@@ -52,7 +52,7 @@ struct Equations<'a> {
     order: Vec<ExprId>,
     /// The symbols along which a point may move: coordinates and constants.
     variables: Vec<SymbolId>,
-    /// Which of the variables are coordinates.
+    /// Tells for each variable whether it is a coordinate.
     moving: Vec<bool>,
 }
 

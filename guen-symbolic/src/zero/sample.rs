@@ -11,7 +11,7 @@ const OF_UNIT: u64 = 3;
 const OF_PI: u64 = 4;
 const OF_ATOM: u64 = 5;
 
-/// How values are stored: one not yet computed, one that does not exist, and residues from [`SET`] on.
+/// The encoding of stored values: one not yet computed, one that does not exist, and residues from [`SET`] on.
 const UNSET: u64 = 0;
 const POLE: u64 = 1;
 const SET: u64 = 2;

@@ -1,4 +1,4 @@
-//! As many forms as coordinates.
+//! Counts the forms: as many as coordinates.
 
 use guen_symbolic::{ExprId, Form, Role, Workbench};
 
@@ -110,7 +110,7 @@ pub(super) fn check(
 
 /// Constraints whose velocities are combinations of those of constraints before them, each with these.
 fn combinations(bench: &mut Workbench, forms: &[(Form, ExprId)], degrees: usize) -> Vec<(usize, Vec<usize>)> {
-    /// With more the message says less.
+    /// The number of forms above which the message says less.
     const MOST: usize = 24;
     let mut found = Vec::new();
     let mut independent: Vec<usize> = Vec::new();

@@ -58,7 +58,7 @@ use crate::numbers::real::Real;
 /// processor has its instructions. Arithmetic and functions are [`Real`]'s; [`Real::to_f64`] is the first lane,
 /// [`Real::is_finite`] asks all of them, equality compares all.
 pub trait Lanes: Real + Lift<f64> + Lift<Self> {
-    /// How many lanes: 1, 4 or 8.
+    /// The number of lanes: 1, 4 or 8.
     const COUNT: usize;
 
     /// A number for each lane, by its index.
@@ -184,7 +184,7 @@ impl core::ops::Sub for Mask {
     }
 }
 
-/// How many lanes to compute with.
+/// The number of lanes to compute with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Width {
     /// One: plain `f64`.
@@ -235,7 +235,7 @@ impl Backend {
         }
     }
 
-    /// How many lanes suit its registers, as measured by `workshop/benches/lanes.rs`.
+    /// Returns the number of lanes that suits its registers, as measured by `workshop/benches/lanes.rs`.
     pub fn width(self) -> Width {
         match self {
             Self::Portable | Self::Avx2 => Width::Four,

@@ -15,7 +15,7 @@ const SIGN: f64 = -0.0;
 /// Every method is always inlined: a register that needs certain instructions has to be used by functions that are
 /// compiled for them, never passed to one that is not.
 pub(crate) trait Register: Copy + 'static {
-    /// How many numbers.
+    /// The number of numbers in a register.
     const COUNT: usize;
 
     fn splat(x: f64) -> Self;
@@ -95,7 +95,7 @@ macro_rules! operators {
             }
         }
 
-        /// With the same number in all lanes.
+        /// Operators with the same number in all lanes.
         impl<V: Register> $trait<f64> for Vector<V> {
             type Output = Self;
 

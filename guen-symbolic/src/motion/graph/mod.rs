@@ -26,7 +26,7 @@ impl FrameId {
     }
 }
 
-/// How a frame is turned against its parent.
+/// The turn of a frame against its parent.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Turn {
     /// By an angle about a unit vector of constants in the axes of the parent.
@@ -38,7 +38,7 @@ pub enum Turn {
     },
     /// By any rotation.
     General {
-        /// From these axes to the parent's, row by row.
+        /// The rotation matrix from these axes to the parent's, row by row.
         matrix: [[ExprId; 3]; 3],
         /// The angular velocity against the parent, in these axes, linear in the velocities.
         spin: [ExprId; 3],
@@ -52,7 +52,7 @@ pub struct FrameNode {
     pub name: String,
     /// The frame on which it hangs; older.
     pub parent: FrameId,
-    /// How it is turned there. The world has a turn by no angle.
+    /// The turn against the parent. The world has a turn by no angle.
     pub turn: Turn,
 }
 

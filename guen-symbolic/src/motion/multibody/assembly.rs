@@ -13,7 +13,7 @@ use super::tree::{Content, Tree, Turn};
 use super::variables::{Class, Kind, Var, Variables};
 use crate::numbering::{Num, Numbering};
 
-/// Which velocities the energies of the bodies speak of.
+/// Returns the velocities that the energies of the bodies depend on.
 pub(super) fn needed(tree: &Tree, variables: &Variables) -> Vec<Var> {
     let mut found = Vec::new();
     for content in &tree.contents {
@@ -44,12 +44,12 @@ fn axial(tree: &Tree, content: &Content) -> Option<usize> {
     others.all(|e| e.is_zero()).then_some(axis)
 }
 
-/// When a parameter leaves the equations.
+/// The time at which a parameter leaves the equations.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Order {
     /// After all velocities: the mass matrix of the parameters is factored.
     AtTheRoot,
-    /// As soon as all that follows from it has left: the inertia of articulated bodies.
+    /// As soon as all velocities that follow from it have left: the inertia of articulated bodies.
     OnTheWay,
 }
 
@@ -59,7 +59,7 @@ struct Outwards<'a, 'b> {
     variables: &'a Variables,
     plan: &'a Plan,
     core: &'a Core,
-    /// Of the core's unknowns at resting parameters.
+    /// The accelerations of the core's unknowns at resting parameters.
     bias: &'a [Num],
     found: &'b BTreeMap<Var, Num>,
     known: &'b mut BTreeMap<Var, Num>,

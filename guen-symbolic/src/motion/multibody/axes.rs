@@ -12,14 +12,14 @@ use crate::workbench::Workbench;
 pub(super) type Vector = [ExprId; 3];
 pub(super) type Matrix = [Vector; 3];
 
-/// How axes are turned against their parent's.
+/// The turn of axes against their parent's.
 #[derive(Clone, Debug)]
 pub(super) enum Turned {
     /// Not at all: the world.
     World,
     /// About a coordinate axis.
     About {
-        /// Which axis: 0 is the first.
+        /// The axis of the turn; 0 is the first.
         axis: usize,
         /// Cosine and sine of the angle.
         turn: [ExprId; 2],
@@ -28,7 +28,7 @@ pub(super) enum Turned {
     },
     /// By any rotation.
     By {
-        /// From these axes to the parent's.
+        /// The rotation matrix from these axes to the parent's.
         matrix: Matrix,
         /// The angular velocity against the parent, in these axes, linear in the velocities.
         spin: Vector,
@@ -40,7 +40,7 @@ pub(super) enum Turned {
 pub(super) struct Axes {
     /// The axes in which these are turned; older.
     pub(super) parent: usize,
-    /// How.
+    /// The turn against the parent.
     pub(super) turned: Turned,
 }
 
@@ -48,7 +48,7 @@ pub(super) struct Axes {
 pub(super) struct AllAxes {
     /// The world's first.
     pub(super) list: Vec<Axes>,
-    /// For each frame its axes, and the constant matrix that leads from components in them to those in the frame.
+    /// The axes of each frame, and the constant matrix that leads from components in them to those in the frame.
     frames: Vec<(usize, Option<Matrix>)>,
 }
 

@@ -27,7 +27,7 @@ struct Step {
 #[derive(Default)]
 pub(super) struct Core {
     steps: Vec<Step>,
-    /// For each unknown its combination of parameters.
+    /// The combination of parameters of each unknown.
     pub(super) solutions: Vec<Linear>,
     /// The value of each unknown where all parameters are zero.
     pub(super) offsets: Vec<Num>,

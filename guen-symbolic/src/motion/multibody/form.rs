@@ -238,7 +238,7 @@ impl Form {
         self.eliminated.iter().any(|(other, ..)| *other == i)
     }
 
-    /// How many others a variable meets.
+    /// Returns the number of other variables that a variable meets.
     pub(super) fn neighbours(&self, i: Var) -> usize {
         self.rows.get(&i).map_or(0, BTreeMap::len)
     }

@@ -18,7 +18,7 @@ use crate::zero::field;
 /// The equation from which a variable that stands for its class is computed.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Def {
-    /// It is a parameter.
+    /// A parameter.
     Known,
     /// The variables from which it is one step outwards.
     Kinematic,
@@ -375,7 +375,8 @@ impl Planner<'_> {
         vector
     }
 
-    /// As many equations that determine the unknowns as there are unknowns: forms first, short ones before long ones.
+    /// Chooses as many equations as there are unknowns, which determine them: forms first, short ones before long
+    /// ones.
     fn choose_core(&mut self, plan: &mut Plan, links: &[(Var, Linear)]) -> Option<()> {
         let etas = self.variables.columns[0].len() - 1;
         let mut known = vec![None; self.variables.len()];

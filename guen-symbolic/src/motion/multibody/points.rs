@@ -15,7 +15,7 @@ pub(super) struct Point {
     pub(super) axes: usize,
     /// The point that it is seen from; older.
     pub(super) parent: usize,
-    /// Where it is there, in the axes of that point.
+    /// The place as seen from that point, in its axes.
     pub(super) offset: Vector,
     /// Whether that is no constant: then it has the axes of the point that it is seen from.
     pub(super) slides: bool,

@@ -1,4 +1,4 @@
-//! Which velocities follow from which: one step outwards, one step back, and forms solved for one of them.
+//! Steps between velocities: one step outwards, one step back, and forms solved for one of them.
 
 use super::plan::{Def, Plan};
 use super::tree::{RateForm, Tree, Turn};

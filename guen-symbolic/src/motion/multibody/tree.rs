@@ -22,7 +22,7 @@ pub(super) struct RateForm {
     pub(super) offset: Option<Num>,
 }
 
-/// How axes are turned against their parent's.
+/// The turn of axes against their parent's.
 #[derive(Clone, Debug)]
 pub(super) enum Turn {
     World,
@@ -48,7 +48,7 @@ pub(super) struct AxesNode {
 pub(super) struct PointNode {
     pub(super) axes: usize,
     pub(super) parent: usize,
-    /// In the axes of the parent.
+    /// The vector from the parent's origin, in the axes of the parent.
     pub(super) offset: Vec3,
     /// Its rate in these axes, where it is not constant.
     pub(super) rate: Option<[RateForm; 3]>,

@@ -53,7 +53,8 @@ pub(super) fn spanning(bench: &mut Workbench, rows: &[Vec<ExprId>]) -> Vec<Optio
     edges
 }
 
-/// How many components two forms have at the same places, how many of these are in one ratio, and this ratio.
+/// Returns the number of components that two forms have at the same places, the number of these in one ratio, and
+/// this ratio.
 fn in_common(own: &[(usize, Component)], other: &[(usize, Component)]) -> ((usize, usize), Rational) {
     let (mut i, mut j, mut both) = (0, 0, 0);
     let mut ratios: Vec<(Rational, usize)> = Vec::new();

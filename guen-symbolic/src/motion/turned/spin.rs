@@ -12,7 +12,7 @@ use crate::workbench::Workbench;
 pub(super) struct Triple {
     /// Along `X_0..X_l`.
     pub(super) along: Vec<[ExprId; 3]>,
-    /// In the motion.
+    /// The velocities in the motion.
     pub(super) values: [ExprId; 3],
     /// The rates of these at fixed `eta`.
     pub(super) rates: [ExprId; 3],
@@ -104,7 +104,7 @@ impl<'a> Flows<'a> {
 pub(super) struct Spin {
     /// Along `X_0..X_l`, in normal form: the poles of the angles are gone.
     pub(super) along: Vec<[ExprId; 3]>,
-    /// In the motion.
+    /// The angular velocity in the motion.
     pub(super) values: [ExprId; 3],
 }
 
@@ -160,7 +160,7 @@ impl Spin {
         })
     }
 
-    /// With its rates.
+    /// Returns the velocities with their rates.
     pub(super) fn triple(
         &self,
         bench: &mut Workbench,

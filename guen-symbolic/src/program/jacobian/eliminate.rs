@@ -10,12 +10,12 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::Pattern;
 use super::factors::{Code, Factor};
 
-/// In which order vertices go.
+/// The order in which vertices are eliminated.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Order {
     /// The one with the fewest products next.
     Markowitz,
-    /// As the program computes them.
+    /// The order in which the program computes them.
     Forward,
     /// Backwards.
     Reverse,

@@ -18,7 +18,7 @@ use crate::algebra::SymbolId;
 use eliminate::Order;
 use factors::Code;
 
-/// Where the outputs of a Jacobian's function belong: `(row, column)` of each, row by row. What is not listed is
+/// The place of each output of a Jacobian's function: `(row, column)`, row by row. An entry that is not listed is
 /// zero everywhere.
 pub type Pattern = Vec<(usize, usize)>;
 

@@ -5,7 +5,7 @@ use super::factors::{Code, Factor, Size};
 use crate::algebra::{Function, Rational, SymbolId};
 use crate::program::instruction::{FunctionProgram, Operation, Value};
 
-/// Where a value of the function stands in the new code, and which vertex carries its differential.
+/// The place of a value of the function in the new code, and the vertex that carries its differential.
 #[derive(Clone, Copy)]
 struct Place {
     size: Size,

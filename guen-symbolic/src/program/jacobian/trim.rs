@@ -13,7 +13,7 @@ pub(super) fn defined(instruction: &Instruction) -> impl Iterator<Item = Value> 
     std::iter::once(instruction.result).chain(second)
 }
 
-/// Which values the outputs depend on.
+/// Tells for each value whether the outputs depend on it.
 fn used(instructions: &[Instruction], outputs: &[Value]) -> Vec<bool> {
     let values = instructions.iter().flat_map(defined).map(|v| v.index() + 1).max().unwrap_or(0);
     let mut used = vec![false; values];

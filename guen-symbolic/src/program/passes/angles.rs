@@ -1,4 +1,4 @@
-//! Which sines and cosines are computed from those of base angles.
+//! Chooses the sines and cosines that are computed from those of base angles.
 //!
 //! `sin(2 theta)` and `cos(theta_1 - theta_2)` are a few multiplications where the sines and cosines of `theta`,
 //! `theta_1`, `theta_2` are there anyway. Base angles are those of the normal form: angles that the declaration uses,
@@ -25,7 +25,7 @@ pub(in super::super) struct Angles(FastMap<ExprId, Angle>);
 /// An argument as a combination of base angles.
 struct Argument {
     x: ExprId,
-    /// How many of sine and cosine are needed.
+    /// The number of sine and cosine that are needed.
     needed: usize,
     multiples: Vec<(ExprId, i64)>,
 }

@@ -31,7 +31,7 @@ pub(super) enum Pass {
     FactorAll,
     /// Pairs of factors that several products have become one; a constant coefficient is one factor.
     Products,
-    /// As `Products`, with coefficients taken apart into their own factors first.
+    /// Pairs of factors as in `Products`, with coefficients taken apart into their own factors first.
     ProductsAndConstants,
     /// Pairs of terms that several sums have in the same ratio become one.
     Sums,

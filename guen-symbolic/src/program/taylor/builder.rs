@@ -1,4 +1,5 @@
-//! From a program of rates to recurrences: which values move, which products are one, what is carried along.
+//! Turns a program of rates into recurrences: finds the values that move, the products that are one, and the
+//! functions that are carried along.
 
 use std::collections::BTreeMap;
 

@@ -85,7 +85,7 @@ pub struct SeriesProgram {
     pub steps: Vec<SeriesStep>,
     /// The rates of the variables: first those of the state, then those of the functions carried along.
     pub rates: Vec<Value>,
-    /// How the variables begin that are functions carried along, in the order of their rates.
+    /// The beginnings of the variables that are functions carried along, in the order of their rates.
     pub carried: Vec<Start>,
     /// The factors of each sum of products.
     pub sums: Vec<[Value; 2]>,
