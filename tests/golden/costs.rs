@@ -118,6 +118,7 @@ fn mechanisms() -> String {
         ("arm4", arms::declaration("Arm", &AXES[..4])),
         ("arm5", arms::declaration("Arm", &AXES[..5])),
         ("quadruped", robots::quadruped()),
+        ("biped-quat", robots::biped_on_quaternion()),
         ("bars2", bars::in_angles(2)),
         ("bars2-xy", bars::in_points(2)),
     ];
@@ -197,6 +198,7 @@ fn costs_of_large_systems_are_those_of_the_file() {
         ("arm8", arms::declaration("Arm", &AXES[..8])),
         ("arm9", arms::declaration("Arm", AXES)),
         ("humanoid", robots::declaration(&robots::HUMANOID)),
+        ("humanoid-quat", robots::on_quaternion(&robots::declaration(&robots::HUMANOID))),
         ("held7", robots::held()),
         ("joints40", declaration("Chain", 40, Angles::Relative)),
         ("joints40-0", declaration("Chain", 40, Angles::Relative).replace(" > 0", "")),

@@ -1,4 +1,12 @@
-//! An arm on a floating base, whose orientation is a quaternion or three angles: one motion in the same parameters.
+//! An arm on a floating base, whose orientation is a quaternion or three angles: one motion in the same parameters. The reaction of
+//! `|q| = 1` is held against Lagrange's expression of the energy as it is written, which knows lengths that are not one.
+
+use guen::{Dual, Real};
+
+use crate::by_hand::{
+    Vector, apply, by_quaternion, cross, inner, minus, moving, plus, product, rate, real, rot_x, rot_y,
+    rot_z, times, transposed,
+};
 
 macro_rules! floating {
     ($name:ident, [$($coordinate:ident),*], $orientation:expr, {$($holonomic:tt)*}) => {
@@ -35,10 +43,110 @@ floating!(InQuaternions, [q0, q1, q2, q3], quaternion(q0, q1, q2, q3), {
 });
 floating!(InAngles, [yaw, pitch, roll], rot_z(yaw) * rot_y(pitch) * rot_x(roll), {});
 
+const MASS: f64 = 1.5;
+const INERTIA: f64 = 0.2;
+const LENGTH: f64 = 0.7;
+const GRAVITY: f64 = 9.81;
+
+/// `T + U` with a quaternion of any length: coordinates in the order of the declaration, and their velocities.
+fn lagrangian<R: Real>(x: &[R; 10], v: &[R; 10]) -> R {
+    let vector = |v: [f64; 3]| v.map(real::<Dual<R, 1>>);
+    let (_, at) = moving(R::zero(), x, v);
+    let l = LENGTH;
+    let base = by_quaternion(&at[3..7]);
+    let turns = [rot_x(at[7]), rot_z(at[8]), rot_y(at[9])];
+    let one = product(&base, &turns[0]);
+    let two = product(&one, &turns[1]);
+    let three = product(&two, &turns[2]);
+    let place = [at[0], at[1], at[2]];
+    let elbow = plus(&place, &apply(&one, &vector([0.0, l / 3.0, l])));
+    let wrist = plus(&elbow, &apply(&two, &vector([l, 0.0, 0.0])));
+    let centers = [
+        plus(&place, &apply(&base, &vector([l / 9.0, 0.0, l / 8.0]))),
+        plus(&place, &apply(&one, &vector([0.0, 0.0, l / 2.0]))),
+        plus(&elbow, &apply(&two, &vector([l / 2.0, 0.0, 0.0]))),
+        plus(&wrist, &apply(&three, &vector([l / 2.0, l / 4.0, 0.0]))),
+    ];
+    // 2 q* q', and from joint to joint.
+    let (q, qd) = ([x[4], x[5], x[6]], [v[4], v[5], v[6]]);
+    let straight = minus(&times(x[3], &qd), &times(v[3], &q));
+    let mut spins = vec![times(real(2.0), &minus(&straight, &cross(&q, &qd)))];
+    for (joint, axis) in [0, 2, 1].into_iter().enumerate() {
+        let turn = turns[joint].map(|row| row.map(|e| e.value));
+        let mut spin = apply(&transposed(&turn), &spins[joint]);
+        spin[axis] += v[7 + joint];
+        spins.push(spin);
+    }
+    let i = INERTIA;
+    let inertias = [
+        [i, 2.0 * i, 1.5 * i, i / 5.0, 0.0, i / 7.0],
+        [i, i, i / 5.0, 0.0, 0.0, 0.0],
+        [i / 5.0, i, i, 0.0, 0.0, 0.0],
+        [i / 5.0, i, i / 2.0, 0.0, 0.0, 0.0],
+    ];
+    let masses = [3.0, 1.0, 1.0, 0.5].map(|m| m * MASS);
+    let mut sum = R::zero();
+    for (((mass, center), spin), inertia) in masses.into_iter().zip(centers).zip(&spins).zip(inertias) {
+        let velocity: Vector<R> = rate(&center);
+        let [xx, yy, zz, xy, yz, zx] = inertia.map(real::<R>);
+        let momentum = apply(&[[xx, xy, zx], [xy, yy, yz], [zx, yz, zz]], spin);
+        sum += real::<R>(0.5) * (real::<R>(mass) * inner(&velocity, &velocity) + inner(spin, &momentum));
+        sum += real::<R>(-mass * GRAVITY) * center[2].value;
+    }
+    sum
+}
+
+/// `d/dt (dL/dx' . X) - (X . dL/dx + X' . dL/dx')` for `X = q/2`, along which `|q|^2` grows by one and no parameter does.
+fn reaction_by_hand(x: &[f64; 10], v: &[f64; 10], a: &[f64; 10]) -> f64 {
+    type Jet = Dual<Dual<f64, 1>, 1>;
+    let stretched = |i: usize| if (3..7).contains(&i) { 0.5 } else { 0.0 };
+    let on_path = |x: f64, v: f64| Dual { value: x, tangent: [v] };
+    let still = |value: Dual<f64, 1>| -> Jet { Dual { value, tangent: [Dual::constant(0.0)] } };
+    let place: [Jet; 10] = std::array::from_fn(|i| still(on_path(x[i], v[i])));
+    let pushed: [Jet; 10] = std::array::from_fn(|i| Dual {
+        value: on_path(v[i], a[i]),
+        tangent: [on_path(stretched(i) * x[i], stretched(i) * v[i])],
+    });
+    let rate_of_momentum = lagrangian(&place, &pushed).tangent[0].tangent[0];
+    let beside = |x: &[f64; 10], v: &[f64; 10]| std::array::from_fn(|i| on_path(x[i], stretched(i) * v[i]));
+    rate_of_momentum - lagrangian(&beside(x, x), &beside(v, v)).tangent[0]
+}
+
+#[test]
+fn the_length_of_a_quaternion_reacts_as_the_energy_has_it() {
+    let system = InQuaternions { m: MASS, i: INERTIA, l: LENGTH, g: GRAVITY }.prepare().unwrap();
+    for k in 0..10 {
+        let part = |n: usize| 2.0 * (0.618 * f64::from(k) + 0.37 * n as f64).fract() - 1.0;
+        let mut state: [f64; 19] = std::array::from_fn(|n| 2.0 * part(n));
+        let length = state[3..7].iter().map(|q| q * q).sum::<f64>().sqrt();
+        state[3..7].iter_mut().for_each(|q| *q /= length);
+        let inputs = in_quaternions::Inputs { torque: 0.3 };
+        let rates: [f64; 19] = system.rhs(0.0, &state.into(), &inputs).into();
+        let found = system.reactions(0.0, &state.into(), &inputs).length;
+        let x: [f64; 10] = std::array::from_fn(|i| state[i]);
+        let v: [f64; 10] = std::array::from_fn(|i| rates[i]);
+        // q' = q (0, w)/2, along the motion once more.
+        let along = |i: usize| -> Dual<f64, 1> { Dual { value: state[i], tangent: [rates[i]] } };
+        let (w, q) = ([13, 14, 15].map(along), [4, 5, 6].map(along));
+        let half = Dual::constant(0.5);
+        let scalar = -half * inner(&q, &w);
+        let turned = times(half, &plus(&times(along(3), &w), &cross(&q, &w)));
+        assert!((scalar.value - v[3]).abs() < 1e-12 && (turned[2].value - v[6]).abs() < 1e-12);
+        let quaternion = [scalar, turned[0], turned[1], turned[2]].map(|e| e.tangent[0]);
+        let a: [f64; 10] = std::array::from_fn(|i| match i {
+            0..3 => rates[10 + i],
+            3..7 => quaternion[i - 3],
+            _ => rates[9 + i],
+        });
+        let expected = reaction_by_hand(&x, &v, &a);
+        assert!((found - expected).abs() < 1e-12 * (1.0 + expected.abs()), "{found}, not {expected}");
+    }
+}
+
 #[test]
 fn an_arm_on_a_quaternion_moves_as_on_angles() {
-    let quaternions = InQuaternions { m: 1.5, i: 0.2, l: 0.7, g: 9.81 }.prepare().unwrap();
-    let angles = InAngles { m: 1.5, i: 0.2, l: 0.7, g: 9.81 }.prepare().unwrap();
+    let quaternions = InQuaternions { m: MASS, i: INERTIA, l: LENGTH, g: GRAVITY }.prepare().unwrap();
+    let angles = InAngles { m: MASS, i: INERTIA, l: LENGTH, g: GRAVITY }.prepare().unwrap();
     for k in 0..20 {
         let part = |n: usize| 2.0 * (0.618 * f64::from(k) + 0.31 * n as f64).fract() - 1.0;
         let (yaw, pitch, roll) = (3.0 * part(1), part(2), 2.0 * part(3));

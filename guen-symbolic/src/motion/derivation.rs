@@ -67,6 +67,8 @@ pub struct Derivation {
     pub power: ExprId,
     /// The outputs on the constraints.
     pub outputs: Vec<ExprId>,
+    /// The equations with the constraints as parameters that stay zero, where they were needed so far.
+    pub(super) freed: Option<Equations>,
 }
 
 impl Derivation {
@@ -97,7 +99,7 @@ impl Derivation {
             &generalised_forces,
             &mut stated,
         )?;
-        let constrained = stated.constrained;
+        let (constrained, freed) = (stated.constrained, stated.freed);
         // What was taken to differ from zero is looked at when a system is prepared.
         solution.constant_pivots.extend(indispensable);
 
@@ -119,10 +121,9 @@ impl Derivation {
             .collect();
         let reactions: Vec<Option<ExprId>> = (l..n)
             .map(|v| {
-                // lambda_v = sum_t M_vt eta_t' - f_v - Q_v
+                // lambda_v = sum_t M_vt eta_t' - f_v
                 known_momentum[v].then(|| {
                     let mut parts = vec![bench.graph.neg(constrained.forces[v - l])];
-                    parts.push(bench.graph.neg(generalised_forces[v]));
                     for (mass, acceleration) in constrained.mass[v - l].iter().zip(&system.accelerations) {
                         let mass = bench.tidy(*mass);
                         parts.push(bench.graph.mul(mass, *acceleration));
@@ -165,6 +166,7 @@ impl Derivation {
             energies,
             power,
             outputs,
+            freed,
         })
     }
 

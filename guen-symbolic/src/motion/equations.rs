@@ -45,6 +45,11 @@ impl Equations {
         rows.map(|(row, force)| row.iter().chain([force]).copied().collect()).collect()
     }
 
+    /// Cuts off the rows from some place on.
+    fn split_off(&mut self, place: usize) -> Self {
+        Equations { mass: self.mass.split_off(place), forces: self.forces.split_off(place) }
+    }
+
     /// Appends other equations.
     fn and(&self, others: &Equations) -> Self {
         let mass = [&self.mass[..], &others.mass].concat();
@@ -81,11 +86,13 @@ pub(super) struct Stated {
     pub(super) projected: Option<Projected>,
     /// The equations of bodies and their solution, where no others are multiplied out.
     pub(super) of_bodies: Option<(Equations, multibody::Found)>,
+    /// With the constraints as parameters that stay zero, as of [`multibody::freed`], where it was looked for and proved.
+    pub(super) freed: Option<Equations>,
     /// The system in the rates of its base angles, where the equations come from there.
     pub(super) in_base: Option<InBaseParameters>,
     /// The equations in the axes of the bodies, where constraints on positions ask for them.
     pub(super) in_own_axes: Option<InOwnAxes>,
-    /// The rows `s = l+1..n`, of the reactions, without the generalised forces.
+    /// The rows `s = l+1..n`, of the reactions, with the generalised forces.
     pub(super) constrained: Equations,
 }
 
@@ -120,15 +127,25 @@ impl Stated {
             && definition.is(bench, (system, frame), &own, true)?
             && definition.is_solved_by(bench, (system, frame), &found.rates)?
         {
-            let constrained = constrained(bench, system, frame, partials, terms);
-            if !constrained.mass.is_empty() {
-                definition.is(bench, (system, frame), &own.and(&constrained), true)?;
-            }
+            let freed = match system.forms.len() > system.forms.degrees {
+                true => multibody::freed(bench, system, frame, partials),
+                false => None,
+            };
+            let freed = freed.filter(|freed| definition.has(bench, system, freed, generalised_forces));
+            let constrained = match &freed {
+                Some(freed) => freed.clone().split_off(system.forms.degrees),
+                None => {
+                    let rows = constrained(bench, system, frame, partials, terms);
+                    definition.is(bench, (system, frame), &own.and(&rows), true)?;
+                    rows.driven(bench, &generalised_forces[system.forms.degrees..])
+                }
+            };
             return Ok(Stated {
                 definition,
                 multiplied: Vec::new(),
                 projected: None,
                 of_bodies: Some((equations, found)),
+                freed,
                 in_base: None,
                 in_own_axes: None,
                 constrained,
@@ -145,19 +162,21 @@ impl Stated {
                 if !constrained.mass.is_empty() {
                     definition.is(bench, (system, frame), &equations.and(&constrained), true)?;
                 }
+                let constrained = constrained.driven(bench, &generalised_forces[l..]);
                 let equations = equations.driven(bench, generalised_forces);
                 return Ok(Stated {
                     definition,
                     multiplied: vec![equations],
                     projected: None,
                     of_bodies: None,
+                    freed: None,
                     in_base: Some(in_base),
                     in_own_axes: None,
                     constrained,
                 });
             }
         }
-        Self::multiplied_out(bench, system, frame, partials, terms, definition)
+        Self::multiplied_out(bench, system, frame, partials, terms, (definition, generalised_forces))
     }
 
     fn multiplied_out(
@@ -166,7 +185,7 @@ impl Stated {
         frame: &mut Frame,
         partials: &mut VelocityPartials,
         terms: &[KineticTerm],
-        mut definition: Definition,
+        (mut definition, generalised_forces): (Definition, &[ExprId]),
     ) -> Result<Self, DerivationError> {
         let (n, l) = (system.forms.len(), system.forms.degrees);
         let by_definition = definition.written(bench, system, frame).clone();
@@ -174,8 +193,7 @@ impl Stated {
         definition.is(bench, (system, frame), &by_definition, false)?;
         let projected = projection::equations(bench, system, frame, partials, terms, 0..n);
         let mut by_projection = projected.equations.clone();
-        let constrained =
-            Equations { mass: by_projection.mass.split_off(l), forces: by_projection.forces.split_off(l) };
+        let constrained = by_projection.split_off(l).driven(bench, &generalised_forces[l..]);
         definition.is(bench, (system, frame), &projected.equations, false)?;
         let mut multiplied = forms(bench, system, &by_definition, &projected.equations);
         // On constraints on positions the axes of the bodies leave less than those of the world.
@@ -190,7 +208,7 @@ impl Stated {
             multiplied.insert(0, own.equations.clone());
         }
         let multiplied = multiplied.into_iter().map(|equations| {
-            let equations = equations.driven(bench, definition.generalised_forces());
+            let equations = equations.driven(bench, generalised_forces);
             restriction::restricted(bench, system, equations)
         });
         let multiplied = multiplied.collect();
@@ -201,6 +219,7 @@ impl Stated {
             multiplied,
             projected,
             of_bodies: None,
+            freed: None,
             in_base: None,
             in_own_axes,
             constrained,

@@ -18,7 +18,7 @@ use crate::workbench::Workbench;
 use crate::zero::POINTS_WITH_ROOTS;
 
 impl Derivation {
-    /// Takes the momenta and the reactions from the quadratic form of the bodies where they are long and that is shorter, and the
+    /// Takes the momenta and the reactions from the quadratic form of the bodies where they are long and that is half as long, and the
     /// equations where the rates shown are those of the bodies.
     pub fn restate_by_bodies(&mut self, bench: &mut Workbench) {
         /// The estimated cost below which an expression stays as it is, and is shown so.
@@ -31,20 +31,23 @@ impl Derivation {
             return;
         }
         let mut partials = VelocityPartials::of_system(bench, &self.system);
-        let Some(freed) = multibody::freed(bench, &self.system, &self.frame, &mut partials) else { return };
+        let before = self.freed.take();
+        let freed = before.or_else(|| multibody::freed(bench, &self.system, &self.frame, &mut partials));
+        let Some(freed) = freed else { return };
         let l = self.system.forms.degrees;
-        let is_proved = |bench: &mut Workbench, own: &[ExprId], other: &[ExprId]| {
+        let is_proved = |bench: &mut Workbench, own: &[ExprId], other: &[ExprId], times: u64| {
             is_long(bench, own)
-                && weighted_cost(&bench.graph, other) < weighted_cost(&bench.graph, own)
+                && times * weighted_cost(&bench.graph, other) < weighted_cost(&bench.graph, own)
                 && agree(bench, own, other)
         };
         let rows = Equations { mass: freed.mass[..l].to_vec(), forces: freed.forces[..l].to_vec() };
-        if is_shown && is_proved(bench, &self.equations.entries(), &rows.entries()) {
+        if is_shown && is_proved(bench, &self.equations.entries(), &rows.entries(), 1) {
             self.equations = rows;
         }
+        // What is multiplied out becomes shorter when code is made of it than what bodies give: they must promise half.
         let momenta: Vec<ExprId> =
             freed.mass.iter().map(|row| bench.dot(row, &self.system.etas[..l])).collect();
-        if is_proved(bench, &self.energies.momenta, &momenta) {
+        if is_proved(bench, &self.energies.momenta, &momenta, 2) {
             self.energies.momenta = momenta;
         }
         let reactions: Vec<ExprId> = freed.mass[l..]
@@ -57,7 +60,7 @@ impl Derivation {
             .collect();
         let pairs = self.reactions.iter().zip(&reactions);
         let others: Vec<ExprId> = pairs.filter_map(|(own, other)| own.map(|_| *other)).collect();
-        if is_proved(bench, &known, &others) {
+        if is_proved(bench, &known, &others, 2) {
             for (own, other) in self.reactions.iter_mut().zip(reactions) {
                 *own = own.map(|_| other);
             }

@@ -36,11 +36,6 @@ impl Definition {
         Definition { at_points: Lagrange::new(bench, system), written: None, generalised_forces }
     }
 
-    /// `Q_1..Q_l`.
-    pub(super) fn generalised_forces(&self) -> &[ExprId] {
-        &self.generalised_forces
-    }
-
     /// The equations by definition, without the generalised forces.
     pub(super) fn written(
         &mut self,
@@ -80,6 +75,26 @@ impl Definition {
             }
         }
         Ok(false)
+    }
+
+    /// Whether rows, with the generalised forces and as many as there are forms, are these wherever constraints on positions hold.
+    pub(super) fn has(
+        &self,
+        bench: &mut Workbench,
+        system: &Mechanics,
+        rows: &Equations,
+        generalised_forces: &[ExprId],
+    ) -> bool {
+        let (n, l) = (system.forms.len(), system.forms.degrees);
+        let all = [&system.accelerations[..l], generalised_forces, &rows.rows().concat()].concat();
+        let seen = self.look(bench, system, (&all, true), |point, values| {
+            let (accelerations, values) = values.split_at(l);
+            let (forces, values) = values.split_at(n);
+            let left = point.left_sides(accelerations)?.into_iter().zip(forces).map(|(e, q)| sub(e, *q));
+            let right = values.chunks(l + 1).map(|row| sub(dot(&row[..l], accelerations), row[l]));
+            Some(left.zip(right).position(|(left, right)| left != right))
+        });
+        matches!(seen, Seen::Holds)
     }
 
     /// Whether rates of the state are those of the operators and solve the equations, wherever constraints on positions hold.

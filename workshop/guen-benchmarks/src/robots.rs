@@ -45,6 +45,23 @@ pub fn quadruped() -> String {
     declaration(&legs.collect::<Vec<_>>())
 }
 
+/// A trunk with two legs of three joints, its orientation a quaternion.
+pub fn biped_on_quaternion() -> String {
+    let legs = ["0, l/2, 0", "0, -l/2, 0"].iter().enumerate().flat_map(|(leg, corner)| {
+        let hip = 3 * leg + 1;
+        [(0, 'x', *corner), (hip, 'y', "0, l/4, 0"), (hip + 1, 'y', "0, 0, -l")]
+    });
+    on_quaternion(&declaration(&legs.collect::<Vec<_>>()))
+}
+
+/// A declaration with a quaternion for the angles of the first body.
+pub fn on_quaternion(declaration: &str) -> String {
+    let [orientation, angles] = ["rot_z(yaw)*rot_y(pitch)*rot_x(roll)", "yaw, pitch, roll"];
+    let text = declaration.replace(orientation, "quaternion(qw, qx, qy, qz)");
+    let text = text.replace(angles, "qw, qx, qy, qz");
+    text.replace("parameters {", "holonomic { length: qw^2 + qx^2 + qy^2 + qz^2 = 1; } parameters {")
+}
+
 /// Bodies of general inertia that hang on each other, the first of them floating.
 pub fn declaration(links: &[Link]) -> String {
     let constants = |b: usize| {

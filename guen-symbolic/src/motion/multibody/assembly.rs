@@ -100,7 +100,8 @@ impl<'a> Assembly<'a> {
         Assembly { kinematics, form: Form::default(), at_the_root: None }
     }
 
-    fn add(&mut self, i: Var, j: Var, e: Num) {
+    /// A product of two velocities in the energy.
+    pub(super) fn add(&mut self, i: Var, j: Var, e: Num) {
         let variables = self.kinematics.variables;
         self.form.add(self.kinematics.numbers, variables, i, j, e);
     }

@@ -183,8 +183,8 @@ impl Kinematics<'_> {
                     let turned = self.by_direction(row, *direction, *axes, along, vector);
                     self.numbers.add(own, turned)
                 }
-                // What stays in the world has no rate but that of the parameters.
-                Part::Known { .. } => Num::ZERO,
+                // What has no rate but that of the parameters.
+                Part::Known { .. } | Part::Strained { .. } => Num::ZERO,
                 Part::Plain { terms, offset } => {
                     let mut own = self.slope(*offset);
                     for (var, c) in terms {

@@ -1,6 +1,7 @@
 //! The declared forms and loads over the variables of a tree.
 
 use super::forms::{Direction, Functional, Part};
+use super::strain::Strain;
 use super::tree::{Tree, Turn, Vec3, plus};
 use super::variables::Variables;
 use crate::algebra::ExprId;
@@ -33,6 +34,7 @@ struct Maker<'a> {
     numbers: &'a mut Numbering,
     system: &'a Mechanics,
     tree: &'a mut Tree,
+    strains: &'a [Strain],
 }
 
 /// A form as parts, before variables have their numbers.
@@ -88,7 +90,7 @@ impl Maker<'_> {
             }
             match motion {
                 Motion::Rate(place) => {
-                    for part in self.rate(place, seen)? {
+                    for part in self.rate(place, seen)?.into_iter().chain(self.strained(place)) {
                         parts.push((factor, part));
                     }
                 }
@@ -143,6 +145,22 @@ impl Maker<'_> {
         Some(parts)
     }
 
+    /// What a place has beside turns.
+    fn strained(&mut self, place: &Place) -> Option<Part> {
+        if self.strains.is_empty() {
+            return None;
+        }
+        let terms = self.tree.terms(self.bench, self.numbers, place);
+        let axes = terms.iter().map(|(axes, _)| *axes).max().unwrap_or(0);
+        let mut vectors = Vec::new();
+        for strain in self.strains {
+            let strained: Vec<(usize, Vec3)> =
+                terms.iter().map(|(own, v)| (*own, strain.of(self.numbers, *own, v))).collect();
+            vectors.push((strain.form, self.sum_in(axes, &strained)));
+        }
+        Some(Part::Strained { axes, vectors })
+    }
+
     /// The axes in which a lever is short: those of the body, or of the carrier about whose axis it turns.
     fn axes_of_lever(&self, body: usize, terms: &[(usize, Vec3)]) -> usize {
         let node = &self.tree.axes[body];
@@ -162,9 +180,9 @@ pub(super) fn shapes(
     bench: &mut Workbench,
     numbers: &mut Numbering,
     system: &Mechanics,
-    tree: &mut Tree,
+    (tree, strains): (&mut Tree, &[Strain]),
 ) -> Option<Shapes> {
-    let mut maker = Maker { bench, numbers, system, tree };
+    let mut maker = Maker { bench, numbers, system, tree, strains };
     let structure = &system.structure;
     let mut taken = |shape: Option<&Option<FormShape>>, written: ExprId| {
         let made = shape.and_then(Option::as_ref).and_then(|shape| maker.shape(shape));

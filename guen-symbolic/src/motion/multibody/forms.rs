@@ -27,6 +27,8 @@ pub(super) enum Part {
     Given { axes: usize, vector: Vec3 },
     /// Parameters as the components of a vector along the axes of the world.
     Known { components: [Option<Var>; 3] },
+    /// What displacements along the operators of forms, counted from 0, do to a place beside their turns.
+    Strained { axes: usize, vectors: Vec<(usize, Vec3)> },
     /// A form in the rates of coordinates and the parameters.
     Plain { terms: Vec<(Var, Num)>, offset: Num },
 }
@@ -48,7 +50,10 @@ impl Part {
     pub(super) fn axes(&self, tree: &Tree) -> usize {
         match self {
             Part::Point { point } => tree.points[*point].axes,
-            Part::Arm { axes, .. } | Part::Spin { axes } | Part::Given { axes, .. } => *axes,
+            Part::Arm { axes, .. }
+            | Part::Spin { axes }
+            | Part::Given { axes, .. }
+            | Part::Strained { axes, .. } => *axes,
             Part::Plain { .. } | Part::Known { .. } => 0,
         }
     }
@@ -111,6 +116,12 @@ impl Functional {
                     if let Some(var) = component {
                         self.add_term(numbers, *var, *e);
                     }
+                }
+            }
+            Part::Strained { vectors, .. } => {
+                for (form, vector) in vectors {
+                    let coefficient = numbers.dot(vector, along);
+                    self.add_term(numbers, variables.eta(*form), coefficient);
                 }
             }
             Part::Plain { .. } => {}

@@ -21,6 +21,7 @@ mod plan;
 mod points;
 mod relations;
 mod safety;
+mod strain;
 mod tree;
 mod variables;
 
@@ -29,6 +30,7 @@ use self::core::Core;
 use self::declared::Declared;
 use self::kinematics::Kinematics;
 use self::plan::Planner;
+use self::strain::Strain;
 use self::tree::Tree;
 use self::variables::Variables;
 use super::graph::Turn;
@@ -108,19 +110,17 @@ pub(super) fn freed(
     frame: &Frame,
     partials: &mut VelocityPartials,
 ) -> Option<Equations> {
-    if system.structure.bodies.is_empty()
-        || !is_understood(bench, system)
-        || (has_general_turns(system) && !system.holonomic.is_empty())
-    {
+    if system.structure.bodies.is_empty() || !is_understood(bench, system) {
         return None;
     }
     let (n, l) = (system.forms.len(), system.forms.degrees);
+    let on_manifold = has_general_turns(system) && !system.holonomic.is_empty();
     let mut free = system.clone();
     free.forms.degrees = n;
     free.holonomic.clear();
     let mut attempt = |point| {
         let generation = bench.zero.generation();
-        let mut own = Numbering::new(&mut bench.graph, (point, false), generation);
+        let mut own = Numbering::new(&mut bench.graph, (point, on_manifold), generation);
         let (mass, forces) =
             assembled(bench, &mut own, (&free, l), frame, partials, |assembly, _| assembly.at_the_root())?;
         if !own.is_sound() {
@@ -149,7 +149,8 @@ fn assembled<T>(
         numbers.define(*eta, Num::ZERO);
     }
     let mut tree = Tree::new(bench, numbers, system, partials)?;
-    let shapes = declared::shapes(bench, numbers, system, &mut tree)?;
+    let strains = Strain::all(bench, numbers, (system, frame), &tree, moving..system.forms.degrees);
+    let shapes = declared::shapes(bench, numbers, system, (&mut tree, &strains))?;
     let variables = Variables::new(bench, numbers, system, &tree)?;
     let declared = Declared::new(bench, numbers, system, partials, (&tree, &variables), &shapes)?;
     tree.regroup(numbers, &variables);
@@ -157,7 +158,8 @@ fn assembled<T>(
     let beside = beside::rows(bench, system, partials)?;
     let moved = beside.iter().flat_map(|row| row.inertia.iter().map(|(j, _)| *j).chain([row.coordinate]));
     let needed = assembly::needed(&tree, &variables).into_iter();
-    let needed: Vec<_> = needed.chain(loads).chain(moved.map(|i| variables.rate(i))).collect();
+    let mut needed: Vec<_> = needed.chain(loads).chain(moved.map(|i| variables.rate(i))).collect();
+    needed.extend(strain::needed(&tree, &variables, &strains));
     let mut planner =
         Planner { bench, numbers, tree: &tree, variables: &variables, known: FastMap::default() };
     let plan = planner.plan(declared.rows, &declared.groups, &needed)?;
@@ -177,6 +179,9 @@ fn assembled<T>(
         assembly.load(load, magnitude);
     }
     assembly.beside(&beside);
+    for strain in &strains {
+        assembly.strained(partials, strain)?;
+    }
     then(&mut assembly, velocities)
 }
 

@@ -65,12 +65,24 @@ pub(super) struct Content {
     pub(super) inertia: [Num; 6],
 }
 
+/// A body or particle where it was declared, in its axes.
+pub(super) struct Seat {
+    pub(super) axes: usize,
+    pub(super) point: Option<usize>,
+    pub(super) mass: Num,
+    /// The mass centre, seen from the point.
+    pub(super) center: Vec3,
+    /// `xx, yy, zz, xy, yz, zx` about the mass centre.
+    pub(super) inertia: [Num; 6],
+}
+
 /// The tree.
 pub(super) struct Tree {
     pub(super) all: AllAxes,
     pub(super) origins: Points,
     pub(super) axes: Vec<AxesNode>,
     pub(super) points: Vec<PointNode>,
+    pub(super) seats: Vec<Seat>,
     pub(super) contents: Vec<Content>,
 }
 
@@ -100,6 +112,7 @@ impl Tree {
             origins: Points::new(bench),
             axes: Vec::new(),
             points: Vec::new(),
+            seats: Vec::new(),
             contents: Vec::new(),
         };
         let mut loaded = Vec::new();
@@ -179,17 +192,19 @@ impl Tree {
         mass: ExprId,
         tensor: &[ExprId; 6],
     ) {
-        let mut inertia = tensor.map(|e| numbers.import(bench, e));
-        let (mut point, mut moment, mut own) = (None, [Num::ZERO; 3], Num::ZERO);
-        if let Some((place, center)) = located {
-            own = numbers.import(bench, mass);
-            let center = center.map(|e| numbers.import(bench, e));
-            moment = center.map(|e| numbers.mul(own, e));
-            let steiner = about(numbers, &moment, &center);
-            inertia = [0, 1, 2, 3, 4, 5].map(|i| numbers.add(inertia[i], steiner[i]));
-            point = Some(place);
+        let own = tensor.map(|e| numbers.import(bench, e));
+        let mut seat = Seat { axes, point: None, mass: Num::ZERO, center: [Num::ZERO; 3], inertia: own };
+        if let Some((point, center)) = located {
+            seat.point = Some(point);
+            seat.mass = numbers.import(bench, mass);
+            seat.center = center.map(|e| numbers.import(bench, e));
         }
-        self.put(numbers, Content { axes, point, mass: own, moment, inertia });
+        let Seat { point, mass, center, inertia, .. } = &seat;
+        let moment = center.map(|e| numbers.mul(*mass, e));
+        let steiner = about(numbers, &moment, center);
+        let inertia = [0, 1, 2, 3, 4, 5].map(|i| numbers.add(inertia[i], steiner[i]));
+        self.put(numbers, Content { axes, point: *point, mass: *mass, moment, inertia });
+        self.seats.push(seat);
     }
 
     /// Adds to what a point carries.
