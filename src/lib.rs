@@ -135,8 +135,8 @@ pub mod __private {
     pub use guen_macros::{mechanical_system, page};
     pub use guen_runtime::checks::{
         check_definite, check_finite, check_fixed, check_hoisted, check_inertia, check_limits, check_mass,
-        check_nonnegative, check_nonzero, check_pivot, check_positive, clamped, condition, drift, furthest,
-        largest, placed, rounded,
+        check_nonnegative, check_nonzero, check_pivot, check_positive, clamped, condition, drift, first,
+        furthest, joined, largest, placed, rounded,
     };
     pub use guen_runtime::lanes::Lanes;
     pub use guen_runtime::{
@@ -145,10 +145,12 @@ pub mod __private {
         Holonomic, IncompleteLieGroup, Invariants, Laned, Level, LevelInfo, Levels, LieGroup, Lift, Liftable,
         Linearizable, Linearization, Monitored, Nonholonomic, Operator, Ordered, OutputLinearization,
         Positions, PositionsError, Real, Recast, Report, ReportSection, Rheonomic, RunningError, Scleronomic,
-        System, TaylorSeries, nalgebra_conversions, seeded, zero_bracket,
+        System, TaylorSeries, nalgebra_conversions, seeded,
     };
     pub use guen_runtime::{
-        bracket, cells, linearizable, mass_form, operator, program_functions, record, reduce, steady_motions,
+        cells, condition, differentiable, domain, energy, facts, laned, lift, linearizable, mass_form,
+        motion_of_system, operators, program_functions, rates, reaction_covector, reactions, record, reduce,
+        reported, state_of_system, steady_motions,
     };
     pub use guen_runtime::{consistent, control, furthest_surplus, serde_record};
 }

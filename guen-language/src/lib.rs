@@ -23,6 +23,7 @@ pub mod syntax;
 
 use proc_macro2::{Literal, TokenStream};
 use quote::ToTokens;
+use syn::parse::{ParseStream, Parser};
 
 use diagnostics::collect;
 
@@ -60,13 +61,38 @@ pub fn expand(tokens: TokenStream) -> TokenStream {
     }
 }
 
-/// Expands one invocation of `page!`, which expansions of [`expand`] have in their documentation for rustdoc: a literal with
-/// formulas in LaTeX becomes one with MathML.
+/// Expands one invocation of `page!`, which expansions of [`expand`] have in their documentation for rustdoc: the literals of a
+/// report, its summary and for each section the title, lines and formulas in LaTeX, become one literal with formulas in MathML.
 pub fn expand_page(tokens: TokenStream) -> TokenStream {
-    match syn::parse2::<syn::LitStr>(tokens) {
-        Ok(page) => Literal::string(&report::set(&page.value())).into_token_stream(),
+    match report_of.parse2(tokens) {
+        Ok((summary, sections)) => {
+            let sections = sections.iter();
+            let sections = sections.map(|(title, lines, formulas)| (&title[..], &lines[..], &formulas[..]));
+            Literal::string(&report::set(&report::page(&summary, sections))).into_token_stream()
+        }
         Err(error) => error.to_compile_error(),
     }
+}
+
+/// A summary and sections: title, lines and formulas.
+type Page = (String, Vec<(String, Vec<String>, Vec<String>)>);
+
+fn report_of(input: ParseStream<'_>) -> syn::Result<Page> {
+    let text = |input: ParseStream<'_>| syn::Result::Ok(input.parse::<syn::LitStr>()?.value());
+    let list = |input: ParseStream<'_>| {
+        let inside;
+        syn::bracketed!(inside in input);
+        let mut lines = Vec::new();
+        while !inside.is_empty() {
+            lines.push(text(&inside)?);
+        }
+        syn::Result::Ok(lines)
+    };
+    let (summary, mut sections) = (text(input)?, Vec::new());
+    while !input.is_empty() {
+        sections.push((text(input)?, list(input)?, list(input)?));
+    }
+    Ok((summary, sections))
 }
 
 fn with_outline(declaration: &syntax::Declaration, report: &diagnostics::Report) -> TokenStream {

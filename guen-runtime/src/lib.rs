@@ -66,6 +66,9 @@ pub use system::classification::{
 };
 pub use system::constants_error::{BodyFault, ConstantsError};
 pub use system::differentiable::{Differentiable, Equations, Generic, generic};
+pub use system::frame::Displacement;
+#[doc(hidden)]
+pub use system::frame::{Frame, bracket_values, known_bracket};
 pub use system::invariants::Invariants;
 pub use system::level::{Level, LevelInfo, Levels};
 pub use system::linearization::{Liftable, Linearizable, Linearization, OutputLinearization, seeded};

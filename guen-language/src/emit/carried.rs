@@ -287,7 +287,7 @@ fn systems(
         }
     });
     let prices = integrated::prices(subject, layout, &looks);
-    let differentiable = integrated::differentiable(layout, &owner, &prepared);
+    let differentiable = integrated::differentiable(layout);
     let lanes = lanes::carried(layout);
     quote! {
         #driven

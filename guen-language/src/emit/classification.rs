@@ -2,10 +2,10 @@
 
 use guen_symbolic::Class;
 use proc_macro2::TokenStream;
-use quote::{format_ident, quote};
 
 use super::layout::Layout;
-use super::text::cost;
+use super::text::counts;
+use super::text::tokens;
 use crate::derive::{Subject, function};
 
 pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
@@ -18,18 +18,16 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
         Class::Nonholonomic => "NonholonomicVariable",
         Class::Undecided => "Undecided",
     };
-    let class = format_ident!("{class}");
     let growth = &derivation.closure.growth;
     let steps = growth.len();
     let integrable = derivation.closure.integrable.len();
-    let unfinished = (!derivation.closure.complete).then(|| {
-        quote!(#[doc = " The brackets of this system were not followed to the end: this is what is known."])
-    });
+    let unfinished = (!derivation.closure.complete)
+        .then_some(" The brackets of this system were not followed to the end: this is what is known.");
     let complete = derivation.closure.complete;
     let (scleronomic, catastatic, conservative) =
         (derivation.scleronomic, derivation.catastatic, derivation.conservative);
     let rhs = subject.level.program(function::RHS).map(|f| f.cost).unwrap_or_default();
-    let (cost, prepare_cost) = (cost(&rhs), cost(&subject.level.programs.prepare_cost));
+    let (cost, prepare_cost) = (counts(&rhs), counts(&subject.level.programs.prepare_cost));
     let domain = &subject.level.domain_names;
     let domain_count = domain.len();
     let mut markers = Vec::new();
@@ -47,50 +45,17 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     if conservative {
         markers.push("Conservative");
     }
-    let markers = markers.into_iter().map(|marker| {
-        let marker = format_ident!("{marker}");
-        let driven = (layout.inputs > 0).then(|| quote!(impl<R> __guen::#marker for Driven<R> {}));
-        quote! {
-            impl<R> __guen::#marker for Prepared<R> {}
-            #driven
-        }
-    });
-    quote! {
-        /// The class of the forms as declared.
-        pub const CLASS: __guen::Class = __guen::Class::#class;
-        /// The growth vector: ranks less one of the distributions that iterated brackets of `X_0 .. X_l` span.
-        #unfinished
-        pub const GROWTH: [usize; #steps] = [#(#growth),*];
-        /// The number of independent integrable combinations of the constraints.
-        #unfinished
-        pub const INTEGRABLE: usize = #integrable;
-        /// Whether the brackets were followed to the end; if not, `GROWTH` is only its beginning and `INTEGRABLE` counts
-        /// nothing.
-        pub const GROWTH_IS_COMPLETE: bool = #complete;
-        /// Whether time occurs in neither the constraints nor the energies.
-        pub const SCLERONOMIC: bool = #scleronomic;
-        /// Whether the constraints have no terms without velocity.
-        pub const CATASTATIC: bool = #catastatic;
-        /// Whether the energy integral is constant along every motion.
-        pub const CONSERVATIVE: bool = #conservative;
-        /// The operations of one right-hand side.
-        pub const COST: __guen::Cost = #cost;
-        /// The operations that `prepare` does once.
-        pub const PREPARE_COST: __guen::Cost = #prepare_cost;
-        /// The functions that must not vanish, in the names of the declaration: the domain of the chart.
-        pub const DOMAIN: [&str; #domain_count] = [#(#domain),*];
-
-        impl #system<f64> {
-            /// The class of the forms as declared.
-            pub const CLASS: __guen::Class = CLASS;
-            /// The growth vector.
-            pub const GROWTH: &'static [usize] = &GROWTH;
-            /// The operations of one right-hand side.
-            pub const COST: __guen::Cost = COST;
-            /// The operations that `prepare` does once.
-            pub const PREPARE_COST: __guen::Cost = PREPARE_COST;
-        }
-
-        #(#markers)*
-    }
+    let owners: &[&str] = if layout.inputs > 0 { &["Prepared", "Driven"] } else { &["Prepared"] };
+    let owners: String = owners.iter().map(|owner| format!("[{}] {owner} ", markers.join(" "))).collect();
+    let list = |counts: &[u32]| counts.iter().map(ToString::to_string).collect::<Vec<_>>().join(" ");
+    let growth = growth.iter().map(ToString::to_string).collect::<Vec<_>>().join(" ");
+    let unfinished = unfinished.map(|note| format!("{note:?}")).unwrap_or_default();
+    let domain: Vec<String> = domain.iter().map(|function| format!("{function:?}")).collect();
+    tokens(&format!(
+        "__guen::facts! {{ {system} {class} [{growth}] {steps} {integrable} {complete} [{unfinished}] {scleronomic} {catastatic}
+        {conservative} [{}] [{}] [{}] {domain_count} {owners} }}",
+        list(&cost),
+        list(&prepare_cost),
+        domain.join(" "),
+    ))
 }

@@ -64,7 +64,6 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, report: &Report)
     let types =
         fields.iter().map(|field| if field.is_derived { quote!(__guen::Derived<R>) } else { quote!(R) });
     let written = subject.scene().map_or(&subject.model.declaration.docs, |(scene, _)| &scene.docs);
-    let head = documentation::system(report, written, layout.is_whole);
     let (count, hoisted) = (layout.constants, layout.hoisted);
     let checks = checks(subject, &fields);
     let constructors = constructors(subject, layout, &fields);
@@ -76,6 +75,16 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, report: &Report)
         }
     });
     let marker_value = (count == 0).then(|| quote!(__guen_real: ::core::marker::PhantomData,));
+    let structure = quote! {
+        #[::core::prelude::v1::derive(
+            ::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq
+        )]
+        pub struct #system<R = f64> {
+            #(#docs pub #names: #types,)*
+            #marker
+        }
+    };
+    let structure = documentation::reported(report, written, layout.is_whole, &structure);
     let values = values(layout, &names, &quote!(self));
     let resolution = resolution(subject, layout, &fields);
     let derived: Vec<&Ident> = layout.derived.iter().map(|i| &fields[*i].ident).collect();
@@ -84,7 +93,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, report: &Report)
         count => (
             Some(quote!(follows: [#(__guen::Derived::follows(&self.#derived)),*],)),
             Some(quote!(follows: [::core::primitive::bool; #count],)),
-            Some(quote!(follows: self.follows,)),
+            Some(quote!(follows)),
         ),
     };
     let given = (0..count).map(|i| {
@@ -103,14 +112,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, report: &Report)
         "The {what} [`{system}`] with its constants checked and everything that depends on them alone computed once. Immutable; it alone runs."
     );
     quote! {
-        #head
-        #[::core::prelude::v1::derive(
-            ::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq
-        )]
-        pub struct #system<R = f64> {
-            #(#docs pub #names: #types,)*
-            #marker
-        }
+        #structure
 
         #constructors
 
@@ -150,15 +152,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, report: &Report)
                 #system { #(#names: #given,)* #marker_value }
             }
 
-            /// The same system over a real that contains `R`, such as duals over it: every prepared value becomes
-            /// a constant there.
-            pub fn lift<S: __guen::Lift<R>>(&self) -> Prepared<S> {
-                Prepared {
-                    constants: self.constants.map(<S as __guen::Lift<R>>::lift),
-                    hoisted: self.hoisted.map(<S as __guen::Lift<R>>::lift),
-                    #lifted
-                }
-            }
+            __guen::lift!(#lifted);
         }
 
         #recast

@@ -4,7 +4,7 @@ use guen_symbolic::{Operation, Role};
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
-use super::layout::{Layout, inputs};
+use super::layout::{Layout, given, inputs};
 use crate::derive::{Subject, function};
 use crate::derive::{has_covector, known_combinations};
 
@@ -33,11 +33,6 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
         }
         #reactions
     }
-}
-
-/// `inputs` where a macro of the runtime asks whether there are some.
-fn given(layout: &Layout) -> TokenStream {
-    if layout.inputs == 0 { quote!() } else { quote!(, inputs) }
 }
 
 /// The equations apart.
@@ -140,21 +135,12 @@ fn reduce(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
 
 /// The covector of the reactions, and the forces of vector constraints.
 fn reactions(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
-    let (parameter, argument) = inputs(layout);
-    let (n, size) = (layout.n, layout.size);
-    let accelerations: Vec<usize> = (n..size).collect();
+    let Layout { n, size, .. } = layout;
+    let (l, given) = (size - n, given(layout));
     let covector = has_covector(&subject.level.derivation).then(|| {
         quote! {
             impl<R: __guen::Real> Prepared<R> {
-                /// The reactions of all constraints as one covector on the velocities, `R_i = sum_v lambda_v a_vi`: the
-                /// generalised force on every coordinate.
-                pub fn reaction_covector(&self, t: R, state: &State<R> #parameter) -> Coordinates<R> {
-                    let s: [R; #size] = ::core::convert::From::from(*state);
-                    let rates = program::rhs(&self.constants, &self.hoisted, t, &s, #argument);
-                    ::core::convert::From::from(program::reaction_covector(
-                        &self.constants, &self.hoisted, t, &s, #argument, &[#(rates[#accelerations]),*],
-                    ))
-                }
+                __guen::reaction_covector!(#n, #l, #size #given);
             }
         }
     });

@@ -20,25 +20,30 @@ pub(super) fn entry(docs: &Docs, fallback: &str) -> TokenStream {
     }
 }
 
-/// The documentation of the struct: the user's words, then everything that was derived.
-pub(super) fn system(report: &Report, docs: &Docs, is_whole: bool) -> TokenStream {
+/// The struct with its documentation, the user's words and then everything that was derived, and `REPORT` and `LATEX`.
+pub(super) fn reported(report: &Report, docs: &Docs, is_whole: bool, item: &TokenStream) -> TokenStream {
     let values = &docs.values;
     let blank = (!values.is_empty()).then(|| quote!(#[doc = ""]));
-    let blocks = report.to_blocks();
-    // Editors show the documentation as text, and it would be stored in the compiled crate; rustdoc sets formulas. Those of
-    // the system itself: with five scenes they would be a tenth of the expansion, and say little that is new.
-    let text = if is_whole {
-        let page = report.to_page();
-        format!("#[cfg_attr(not(doc), doc = {blocks:?})] #[cfg_attr(doc, doc = __guen::page!({page:?}))]")
-    } else {
-        format!("#[doc = {blocks:?}]")
-    };
-    let text = tokens(&text);
-    quote! {
-        #(#[doc = #values])*
-        #blank
-        #text
+    let Report { name, summary, sections } = report;
+    let (mut all, mut formulas) = (String::new(), String::new());
+    for (i, Section { title, text, latex }) in sections.iter().enumerate() {
+        let _ = write!(all, "{title:?}{}{}", list(text), list(latex));
+        if !latex.is_empty() {
+            let _ = write!(formulas, "{i} ");
+        }
     }
+    // Editors show the documentation as text, and it would be stored in the compiled crate; rustdoc sets formulas. Those of
+    // the system itself: of five scenes they would say little that is new.
+    let kind = tokens(if is_whole { "page" } else { "text" });
+    let blocks = report.to_blocks();
+    let report = tokens(&format!("{blocks:?} {name:?} {summary:?} {{ {all} }} [{formulas}]"));
+    quote!(__guen::reported! { #kind [#(#[doc = #values])* #blank] #report #item })
+}
+
+/// Lines as literals in brackets.
+fn list(lines: &[String]) -> String {
+    let lines: Vec<String> = lines.iter().map(|line| format!("{line:?}")).collect();
+    format!("[{}]", lines.join(" "))
 }
 
 /// The documentation of the module.
@@ -50,26 +55,4 @@ pub(super) fn module(report: &Report, system: &Ident, is_whole: bool) -> TokenSt
     };
     let text = format!("{what}\n\n{}", report.summary);
     quote!(#[doc = #text])
-}
-
-/// `REPORT` and `LATEX`.
-pub(super) fn constants(report: &Report) -> TokenStream {
-    let Report { name, summary, sections } = report;
-    let (mut all, mut formulas) = (String::new(), String::new());
-    for (i, Section { title, text, latex }) in sections.iter().enumerate() {
-        let _ = write!(
-            all,
-            "__guen::ReportSection {{ title: {title:?}, lines: &{text:?}, formulas: &{latex:?} }},"
-        );
-        // The formulas are written once.
-        if !latex.is_empty() {
-            let _ = write!(formulas, "REPORT.sections[{i}].of_formulas(),");
-        }
-    }
-    tokens(&format!(
-        "/// What was derived, as text: forms, operators, brackets, classification, equations of motion.
-        pub const REPORT: __guen::Report = __guen::Report {{ name: {name:?}, summary: {summary:?}, sections: &[{all}] }};
-        /// The formulas of [`REPORT`] as LaTeX.
-        pub const LATEX: __guen::Report = __guen::Report {{ name: {name:?}, summary: {summary:?}, sections: &[{formulas}] }};"
-    ))
 }

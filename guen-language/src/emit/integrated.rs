@@ -182,44 +182,9 @@ pub(super) fn rounded(
     }
 }
 
-/// The trait `Differentiable`, by dual numbers over the real. `owner` is the system, `held` the inputs as an
-/// expression of it over any real `T`.
-pub(super) fn differentiable(layout: &Layout, owner: &TokenStream, prepared: &TokenStream) -> TokenStream {
-    let size = layout.size;
-    let held = |real: TokenStream| {
-        if layout.inputs == 0 {
-            quote!(&[])
-        } else {
-            let inputs = layout.inputs;
-            quote! {
-                &<[R; #inputs] as ::core::convert::From<Inputs<R>>>::from(self.inputs).map(<#real>::constant)
-            }
-        }
-    };
-    let by_state = quote!(__guen::Dual<R, #size>);
-    let by_time = quote!(__guen::Dual<R, 1>);
-    let (held_by_state, held_by_time) = (held(by_state.clone()), held(by_time.clone()));
-    quote! {
-        impl<R: __guen::Real> __guen::Differentiable<R, #size> for #owner
-        where
-            #by_state: __guen::Lift<R>,
-            #by_time: __guen::Lift<R>,
-        {
-            fn jacobian(&self, t: R, state: &[R; #size]) -> [[R; #size]; #size] {
-                let lifted: Prepared<#by_state> = #prepared.lift();
-                let rates = program::rhs(
-                    &lifted.constants, &lifted.hoisted, <#by_state>::constant(t), &__guen::seeded(state), #held_by_state,
-                );
-                rates.map(|rate| rate.tangent)
-            }
-
-            fn along(&self, t: R, state: &[R; #size], dt: R, dx: &[R; #size]) -> [R; #size] {
-                let lifted: Prepared<#by_time> = #prepared.lift();
-                let time = __guen::Dual { value: t, tangent: [dt] };
-                let state = ::core::array::from_fn(|i| __guen::Dual { value: state[i], tangent: [dx[i]] });
-                let rates = program::rhs(&lifted.constants, &lifted.hoisted, time, &state, #held_by_time);
-                rates.map(|rate| rate.tangent[0])
-            }
-        }
-    }
+/// The trait `Differentiable`, by dual numbers over the real.
+pub(super) fn differentiable(layout: &Layout) -> TokenStream {
+    let Layout { size, inputs, .. } = layout;
+    let inputs = (*inputs > 0).then(|| quote!(, #inputs));
+    quote!(__guen::differentiable!(#size #inputs);)
 }

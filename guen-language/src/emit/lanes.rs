@@ -25,6 +25,10 @@ fn gathered(layout: &Layout, path: &TokenStream, of: &TokenStream) -> TokenStrea
 }
 
 pub(super) fn items(layout: &Layout) -> TokenStream {
+    if layout.inputs == 0 && layout.derived.is_empty() {
+        let size = layout.size;
+        return quote!(__guen::laned!(#size););
+    }
     laned(layout, &gathered(layout, &quote!(Prepared), &quote!()))
 }
 

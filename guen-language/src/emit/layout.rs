@@ -92,6 +92,17 @@ pub(super) fn inputs(layout: &Layout) -> (TokenStream, TokenStream) {
     }
 }
 
+/// `, inputs` where a macro of the runtime asks whether there are some.
+pub(super) fn given(layout: &Layout) -> TokenStream {
+    let inputs = given_alone(layout);
+    if layout.inputs == 0 { inputs } else { quote!(, #inputs) }
+}
+
+/// `inputs`, where the macro asks for nothing else.
+pub(super) fn given_alone(layout: &Layout) -> TokenStream {
+    if layout.inputs == 0 { quote!() } else { quote!(inputs) }
+}
+
 /// Whether a constant of the system follows others until it is set: its field is a `Derived<R>`, and no plain number.
 pub(super) fn is_derived(model: &Model<'_>, constant: &ConstantEntry<'_>) -> bool {
     constant.default.is_some_and(|e| !model.bench.graph.symbols_in(&[e]).is_empty())

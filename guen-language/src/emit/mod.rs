@@ -86,7 +86,6 @@ fn module(
         classification::items(subject, &layout),
         levels::items(subject, &layout),
         missing::items(subject, &layout),
-        documentation::constants(&report),
         functions::modules(subject, &layout),
         carried::items(subject, &layout),
     ];

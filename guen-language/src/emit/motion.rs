@@ -1,25 +1,25 @@
 //! What a prepared system computes: rates, energies, momenta, reactions, residuals, linearisation.
 
-use proc_macro2::{Ident, TokenStream};
-use quote::{format_ident, quote};
+use proc_macro2::TokenStream;
+use quote::quote;
 
-use super::layout::{Layout, inputs};
+use super::layout::{Layout, given, given_alone, inputs};
 use super::{integrated, limits};
 use crate::derive::{Subject, function};
 use crate::model::FormKind;
 
 pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
-    let rates = rates(layout);
+    let arguments = given_alone(layout);
     let whole = layout.is_whole.then(|| whole(layout));
     let chosen = chosen(subject, layout);
-    let domain = domain(subject);
+    let domain = domain(subject, layout);
     let residuals = residuals(subject, layout);
     let pivots = pivots(subject);
     let systems = systems(subject, layout);
     let state = layout.is_whole.then(|| state(subject, layout));
     quote! {
         impl<R: __guen::Real> Prepared<R> {
-            #rates
+            __guen::rates!(#arguments);
             #whole
             #chosen
             #domain
@@ -31,105 +31,22 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     }
 }
 
-/// A function of time and state with one result.
-fn scalar(name: &str, docs: &str) -> TokenStream {
-    let method = format_ident!("{name}");
-    quote! {
-        #[doc = #docs]
-        #[inline]
-        pub fn #method(&self, t: R, state: &State<R>) -> R {
-            let [value] = program::#method(&self.constants, &self.hoisted, t, &::core::convert::From::from(*state));
-            value
-        }
-    }
-}
-
-fn rates(layout: &Layout) -> TokenStream {
-    let (parameter, argument) = inputs(layout);
-    quote! {
-        /// The rates of the state: velocities by (1.8), accelerations by (2.7). No allocation, no branch.
-        #[inline]
-        pub fn rhs(&self, t: R, state: &State<R> #parameter) -> State<R> {
-            ::core::convert::From::from(program::rhs(
-                &self.constants, &self.hoisted, t, &::core::convert::From::from(*state), #argument,
-            ))
-        }
-    }
-}
-
 /// What only the system itself has, and no scene can choose.
 fn whole(layout: &Layout) -> TokenStream {
-    let (parameter, argument) = inputs(layout);
-    let (n, size) = (layout.n, layout.size);
-    let positions: Vec<usize> = (0..n).collect();
-    let accelerations: Vec<usize> = (n..size).collect();
-    let kinetic = scalar("kinetic_energy", "The kinetic energy `T` on the constraints.");
-    quote! {
-        /// The velocities `x' = xi_0 + sum_s eta_s xi_s` of a state, (1.8).
-        #[inline]
-        pub fn velocities(&self, t: R, state: &State<R>) -> Coordinates<R> {
-            ::core::convert::From::from(program::velocities(
-                &self.constants, &self.hoisted, t, &::core::convert::From::from(*state),
-            ))
-        }
-
-        #kinetic
-
-        /// The force function `U`.
-        #[inline]
-        pub fn force_function(&self, t: R, state: &State<R>) -> R {
-            let s: [R; #size] = ::core::convert::From::from(*state);
-            let [value] = program::force_function(&self.constants, &self.hoisted, t, &[#(s[#positions]),*]);
-            value
-        }
-
-        /// The momenta `dT/d eta_s`, and `(dT°/d eta_v)` for the constraints, (2.8).
-        #[inline]
-        pub fn momenta(&self, t: R, state: &State<R>) -> Momenta<R> {
-            ::core::convert::From::from(program::momenta(
-                &self.constants, &self.hoisted, t, &::core::convert::From::from(*state),
-            ))
-        }
-
-        /// The rate of [`energy`](Self::energy) along the motion, by forces, moving constraints and explicit time:
-        /// `h' = Q.x' - sum_v lambda_v a_v0 - d(T° + U)/dt`.
-        #[inline]
-        pub fn power(&self, t: R, state: &State<R> #parameter) -> R {
-            let s: [R; #size] = ::core::convert::From::from(*state);
-            let rates = program::rhs(&self.constants, &self.hoisted, t, &s, #argument);
-            let [value] = program::power(
-                &self.constants, &self.hoisted, t, &s, #argument, &[#(rates[#accelerations]),*],
-            );
-            value
-        }
-    }
+    let Layout { n, size, .. } = layout;
+    let (l, given) = (size - n, given(layout));
+    quote!(__guen::motion_of_system!(#n, #l, #size #given);)
 }
 
 /// Energy, reactions and outputs: what a scene has if it provides them.
 fn chosen(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let (parameter, argument) = inputs(layout);
-    let size = layout.size;
-    let accelerations: Vec<usize> = (layout.n..size).collect();
+    let Layout { n, size, .. } = layout;
+    let (l, given) = (size - n, given(layout));
     let selection = &subject.level.selection;
-    let energy = selection.energy.then(|| {
-        scalar(
-            "energy",
-            "The energy integral `h = sum x' dT°/dx' - T° - U`; kinetic plus potential energy where `T°` is homogeneous in the velocities.",
-        )
-    });
-    let reactions = (!selection.reactions.is_empty()).then(|| {
-        quote! {
-            /// The reactions at a state, from `lambda_v = d/dt (dT°/d eta_v) - X_v(T° + U) - ... - Q_v` on the motion.
-            #[inline]
-            pub fn reactions(&self, t: R, state: &State<R> #parameter) -> Reactions<R> {
-                let s: [R; #size] = ::core::convert::From::from(*state);
-                let rates = program::rhs(&self.constants, &self.hoisted, t, &s, #argument);
-                ::core::convert::From::from(program::reactions(
-                    &self.constants, &self.hoisted, t, &s, #argument, &[#(rates[#accelerations]),*],
-                ))
-            }
-        }
-    });
+    let energy = selection.energy.then(|| quote!(__guen::energy!();));
+    let reactions =
+        (!selection.reactions.is_empty()).then(|| quote!(__guen::reactions!(#n, #l, #size #given);));
     let outputs = (!selection.outputs.is_empty()).then(|| {
         quote! {
             /// The declared outputs at a state.
@@ -144,60 +61,15 @@ fn chosen(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     quote!(#energy #reactions #outputs)
 }
 
-/// The functions that must not vanish.
-fn domain(subject: &Subject<'_, '_>) -> TokenStream {
+/// The functions that must not vanish, and how far they and the mass matrix are from it.
+fn domain(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
+    let (size, given) = (layout.size, given(layout));
     let count = subject.level.domain_names.len();
-    let size = subject.level.selection.variables.len();
-    // Masses do not depend on inputs.
-    let system = if subject.level.selection.inputs.is_empty() {
-        quote!(self)
-    } else {
-        quote!(&self.driven(::core::default::Default::default()))
-    };
-    let condition = subject.level.scene.is_none().then(|| {
-        quote! {
-            /// How ill conditioned the equations for the accelerations are, whatever the units: one where parameters are
-            /// not coupled. See [`System::condition`](__guen::System::condition).
-            pub fn condition(&self, t: R, state: &State<R>) -> R {
-                __guen::System::<R, #size>::condition(#system, t, &::core::convert::From::from(*state))
-            }
-        }
-    });
-    let distances = match subject.level.program(function::DOMAIN) {
-        Some(_) => {
-            let state = quote!(&<[R; #size]>::from(*state).map(__guen::RunningError::once));
-            let domain = integrated::rounded(
-                &quote!(domain),
-                &quote!(self),
-                &quote!(__guen::RunningError::once(t)),
-                &state,
-            );
-            quote!(#domain.map(__guen::RunningError::left))
-        }
-        None => quote!([]),
-    };
-    let (inputs, values) = match subject.level.program(function::DOMAIN) {
-        Some(_) => (
-            quote!(t: R, state: &State<R>),
-            quote!(program::domain(&self.constants, &self.hoisted, t, &::core::convert::From::from(*state))),
-        ),
-        None => (quote!(_t: R, _state: &State<R>), quote!([])),
-    };
+    let has_any = subject.level.program(function::DOMAIN).is_some();
+    let count = has_any.then(|| quote!(, #count));
+    let condition = layout.is_whole.then(|| quote!(__guen::condition!(#size #given);));
     quote! {
-        /// Functions that must not vanish: where one of them is zero the declaration's chart ends. Their formulas
-        /// are in [`DOMAIN`].
-        #[inline]
-        pub fn domain(&self, #inputs) -> [R; #count] {
-            #values
-        }
-
-        /// How far the state is from the edge of the chart: of each function of [`DOMAIN`] what is left of it, from one
-        /// where it is as certain as what it is made of to zero where it vanishes. Times and states count as rounded
-        /// once; so do the constants. See [`RunningError`](__guen::RunningError).
-        pub fn distances(&self, #inputs) -> [R; #count] {
-            #distances
-        }
-
+        __guen::domain!(#size #count);
         #condition
     }
 }
@@ -283,40 +155,10 @@ fn pivots(subject: &Subject<'_, '_>) -> TokenStream {
 
 /// `State::from_velocities`.
 fn state(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
-    let (n, l) = (layout.n, layout.l);
+    let Layout { n, l, size, state, .. } = layout;
     let constraints = subject.model.forms.len() - l;
-    let parameters: Vec<usize> = (0..l).collect();
-    let rest: Vec<usize> = (l..subject.model.forms.len()).collect();
-    let positions: Vec<usize> = (0..n).collect();
-    let fields: Vec<&Ident> = layout.state[..n].iter().collect();
-    quote! {
-        impl<R: __guen::Real> State<R> {
-            /// The state at given coordinates and velocities: the quasi-velocities are `eta_s = sum_i a_si x_i' +
-            /// a_s0`, (1.6). Beside it the residuals `eta_v` of the constraints (their rates, where they are
-            /// holonomic): how far the velocities are from being possible.
-            pub fn from_velocities(
-                system: &Prepared<R>,
-                t: R,
-                coordinates: &Coordinates<R>,
-                velocities: &Coordinates<R>,
-            ) -> (Self, [R; #constraints]) {
-                let x: [R; #n] = ::core::convert::From::from(*coordinates);
-                let forms = program::forms(
-                    &system.constants, &system.hoisted, t, &x, &::core::convert::From::from(*velocities),
-                );
-                let _ = &forms;
-                (
-                    ::core::convert::From::from([#(x[#positions],)* #(forms[#parameters]),*]),
-                    [#(forms[#rest]),*],
-                )
-            }
-
-            /// The coordinates of the state.
-            pub fn coordinates(&self) -> Coordinates<R> {
-                Coordinates { #(#fields: self.#fields),* }
-            }
-        }
-    }
+    let fields = &state[..*n];
+    quote!(__guen::state_of_system!(#n, #l, #size, #constraints: #(#fields)*);)
 }
 
 /// The prepared system, or the system with held inputs, as something that steppers integrate.
@@ -358,7 +200,7 @@ fn systems(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     if layout.inputs == 0 {
         let (owner, prepared) = (quote!(Prepared<R>), quote!(self));
         let guarded = integrated::guarded(subject, layout, &prepared);
-        let differentiable = integrated::differentiable(layout, &owner, &prepared);
+        let differentiable = integrated::differentiable(layout);
         let monitored = monitored(owner, prepared);
         return quote! {
             impl<R: __guen::Real> __guen::System<R, #size> for Prepared<R> {
@@ -375,7 +217,7 @@ fn systems(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     }
     let (owner, prepared) = (quote!(Driven<R>), quote!(self.system));
     let guarded = integrated::guarded(subject, layout, &prepared);
-    let differentiable = integrated::differentiable(layout, &owner, &prepared);
+    let differentiable = integrated::differentiable(layout);
     let monitored = monitored(owner, prepared);
     quote! {
         /// A prepared system with inputs that are held: what steppers integrate during a step.

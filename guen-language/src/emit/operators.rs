@@ -14,18 +14,8 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
         return TokenStream::new();
     }
     let n = layout.all;
-    let mut text = String::new();
-    for j in 0..=n {
-        let docs = match j {
-            0 => "The operator `X_0 = d/dt + sum_i xi_0^i d/dx_i`: what happens by itself, (1.7).".to_owned(),
-            _ => format!("The operator `X_{j}` of the form `{}`, (1.4).", subject.model.forms[j - 1].name),
-        };
-        let (is_time, first) = (j == 0, j * n);
-        let _ = write!(text, "__guen::operator! {{ {docs:?} X{j} {n} {is_time} {first} }}");
-    }
     let last = subject.model.last_operator();
-    let _ = write!(
-        text,
+    let mut text = format!(
         "/// The commutator `(X_I, X_J) = sum_t C_IJt X_t`, (1.14), for `I` and `J` from 0 to {last}.
         ///
         /// What the derivation knows of each coefficient is in `COEFFICIENTS`, their values come from
@@ -34,40 +24,32 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
             ::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::default::Default,
             ::core::cmp::PartialEq, ::core::cmp::Eq
         )]
-        pub struct Bracket<const I: usize, const J: usize>;"
+        pub struct Bracket<const I: usize, const J: usize>;
+        __guen::operators! {{ {n} {last}"
     );
-    brackets(&mut text, subject, layout);
+    for j in 0..=n {
+        let docs = match j {
+            0 => "The operator `X_0 = d/dt + sum_i xi_0^i d/dx_i`: what happens by itself, (1.7).".to_owned(),
+            _ => format!("The operator `X_{j}` of the form `{}`, (1.4).", subject.model.forms[j - 1].name),
+        };
+        let _ = write!(text, "{docs:?} X{j} {j}");
+    }
+    text.push(';');
+    let graph = &subject.model.bench.graph;
+    for bracket in &*subject.level.brackets {
+        let known: Vec<String> = bracket.coefficients.iter().map(|c| knowledge(graph, *c)).collect();
+        let _ = write!(text, "{} {} [{}]", bracket.r, bracket.s, known.join(","));
+    }
+    text.push('}');
     tokens(&text)
 }
 
-fn brackets(text: &mut String, subject: &Subject<'_, '_>, layout: &Layout) {
-    let n = layout.all;
-    let last = subject.model.last_operator();
-    let graph = &subject.model.bench.graph;
-    for s in 0..=last {
-        for r in 0..=last {
-            let pair = (r.min(s), r.max(s));
-            let found = subject.level.brackets.iter().position(|known| (known.r, known.s) == pair);
-            let Some(place) = found else {
-                let _ = write!(text, "__guen::zero_bracket!({r}, {s}, {n});");
-                continue;
-            };
-            let coefficients = &subject.level.brackets[place].coefficients;
-            let known: Vec<String> = coefficients.iter().map(|c| knowledge(graph, *c, r > s)).collect();
-            let (first, known) = (place * n, known.join(", "));
-            let sign = if r > s { "-" } else { "" };
-            let _ = write!(text, "__guen::bracket! {{ {r} {s} {n} {first} [{known}] {sign} }}");
-        }
-    }
-}
-
-/// What is known of a coefficient, or of its negative, at compile time.
-fn knowledge(graph: &Graph, c: ExprId, negative: bool) -> String {
+/// What is known of a coefficient at compile time.
+fn knowledge(graph: &Graph, c: ExprId) -> String {
     if let Some(value) = graph.as_number(c) {
         if value.is_zero() {
             return "Zero".to_owned();
         }
-        let value = if negative { -value.clone() } else { value.clone() };
         if let Some((numerator, denominator)) = value.to_i64_pair() {
             return format!("Number {{ numerator: {numerator}, denominator: {denominator} }}");
         }

@@ -22,17 +22,13 @@ pub(super) fn tokens(text: &str) -> TokenStream {
 
 /// The operations of a program as the constant that states them.
 pub(super) fn cost(count: &OperationCount) -> TokenStream {
+    let counts = counts(count);
+    quote!(__guen::Cost::of([#(#counts),*]))
+}
+
+/// The counts of a program in the order in which the runtime has them.
+pub(super) fn counts(count: &OperationCount) -> [u32; 6] {
     let OperationCount { additions, negations, multiplications, divisions, roots, sines, calls } = *count;
     // The runtime counts every elementary function as a call.
-    let calls = sines + calls;
-    quote! {
-        __guen::Cost {
-            additions: #additions,
-            negations: #negations,
-            multiplications: #multiplications,
-            divisions: #divisions,
-            roots: #roots,
-            calls: #calls,
-        }
-    }
+    [additions, negations, multiplications, divisions, roots, sines + calls]
 }

@@ -7,6 +7,7 @@ mod reasons;
 mod scene;
 
 pub use lines::{Report, Section};
+pub(crate) use pages::page;
 pub use pages::set;
 
 use guen_symbolic::{ExprId, Notation};

@@ -53,25 +53,34 @@ impl Report {
     /// The whole as Markdown for rustdoc: formulas as LaTeX between `$$`, for [`set`] to set, and what is longer than a few
     /// lines as text.
     pub fn to_page(&self) -> String {
-        /// Formulas that are longer are left to the text: a page of one formula helps no reader.
-        const LONGEST: usize = 1500;
-        let mut text = format!("{}\n", self.summary);
-        for section in &self.sections {
-            text.push_str(&format!("\n# {}\n\n", section.title));
-            for (formula, plain) in section.latex.iter().zip(&section.text) {
-                if formula.len() <= LONGEST {
-                    text.push_str(&format!("{FORMULA}{formula}{FORMULA}\n\n"));
-                } else {
-                    text.push_str(&format!("```text\n{plain}\n```\n\n"));
-                }
-            }
-            for line in &section.text[section.latex.len()..] {
-                // What has operators of the language in it would be taken for Markdown.
-                text.push_str(&format!("- {}\n", escaped(line)));
+        let sections = self.sections.iter();
+        page(&self.summary, sections.map(|section| (section.title, &section.text[..], &section.latex[..])))
+    }
+}
+
+/// A page of a summary and sections: title, lines, formulas.
+pub(crate) fn page<'s>(
+    summary: &str,
+    sections: impl Iterator<Item = (&'s str, &'s [String], &'s [String])>,
+) -> String {
+    /// Formulas that are longer are left to the text: a page of one formula helps no reader.
+    const LONGEST: usize = 1500;
+    let mut text = format!("{summary}\n");
+    for (title, lines, formulas) in sections {
+        text.push_str(&format!("\n# {title}\n\n"));
+        for (formula, plain) in formulas.iter().zip(lines) {
+            if formula.len() <= LONGEST {
+                text.push_str(&format!("{FORMULA}{formula}{FORMULA}\n\n"));
+            } else {
+                text.push_str(&format!("```text\n{plain}\n```\n\n"));
             }
         }
-        text
+        for line in lines.iter().skip(formulas.len()) {
+            // What has operators of the language in it would be taken for Markdown.
+            text.push_str(&format!("- {}\n", escaped(line)));
+        }
     }
+    text
 }
 
 /// Words of a report as Markdown; what is between backticks stays code.

@@ -334,6 +334,34 @@ pub fn rounded<R: Real, const N: usize>(values: &[R; N]) -> [RunningError<R>; N]
     rounded
 }
 
+/// The first values of a list; zeros where there are no more.
+///
+/// ```
+/// assert_eq!(guen_runtime::checks::first::<f64, 2>(&[1.0, 2.0, 3.0]), [1.0, 2.0]);
+/// ```
+#[inline(always)]
+pub fn first<R: Real, const N: usize>(values: &[R]) -> [R; N] {
+    let mut first = [R::zero(); N];
+    for (first, value) in first.iter_mut().zip(values) {
+        *first = *value;
+    }
+    first
+}
+
+/// The values of a list, and behind them those of another as far as there is place.
+///
+/// ```
+/// assert_eq!(guen_runtime::checks::joined::<f64, 3>(&[1.0, 2.0], &[3.0, 4.0]), [1.0, 2.0, 3.0]);
+/// ```
+#[inline(always)]
+pub fn joined<R: Real, const N: usize>(head: &[R], tail: &[R]) -> [R; N] {
+    let mut joined = [R::zero(); N];
+    for (joined, value) in joined.iter_mut().zip(head.iter().chain(tail)) {
+        *joined = *value;
+    }
+    joined
+}
+
 /// Writes the first `count` functions that must not vanish to the head of `values`, as far as there is place for them, and
 /// returns how many: what [`System::singularities`](crate::System::singularities) does with them.
 ///

@@ -34,6 +34,12 @@ impl Cost {
     pub const ZERO: Self =
         Self { additions: 0, negations: 0, multiplications: 0, divisions: 0, roots: 0, calls: 0 };
 
+    /// The counts in the order of the fields, as generated code states them.
+    #[doc(hidden)]
+    pub const fn of([additions, negations, multiplications, divisions, roots, calls]: [u32; 6]) -> Self {
+        Self { additions, negations, multiplications, divisions, roots, calls }
+    }
+
     /// All operations, each counted once.
     pub const fn total(self) -> u32 {
         self.additions + self.negations + self.multiplications + self.divisions + self.roots + self.calls

@@ -4,7 +4,9 @@
 //! They expand inside the module of a system, which defines `Prepared`, `Bracket` and the module `program`, and work
 //! without a prelude and from any crate name.
 
+mod facts;
 mod methods;
+mod motion;
 
 /// Straight-line functions of a module, each as `name(prepared; time; given) -> results { .. }`: names and lengths of the
 /// arrays of prepared values, the name of the time if the function depends on it, and the arrays of the state and what
@@ -61,65 +63,79 @@ macro_rules! record {
     };
 }
 
-/// An operator of displacement: the type, the number of coordinates, whether it has `d/dt`, and where its coefficients
-/// begin among those of all operators.
+/// The operators of displacement and their brackets, with the number of coordinates and the highest index of an operator in a
+/// bracket: the names of the operators, each with its documentation, and the brackets `(X_r, X_s)`, `r < s`, that do not vanish,
+/// with what is known of their coefficients.
 #[doc(hidden)]
 #[macro_export]
-macro_rules! operator {
-    ($docs:literal $X:ident $n:literal $time:literal $first:literal) => {
-        #[doc = $docs]
-        #[::core::prelude::v1::derive(
-            ::core::clone::Clone,
-            ::core::marker::Copy,
-            ::core::fmt::Debug,
-            ::core::default::Default,
-            ::core::cmp::PartialEq,
-            ::core::cmp::Eq
-        )]
-        pub struct $X;
+macro_rules! operators {
+    (
+        $n:literal $last:literal
+        $($docs:literal $X:ident $j:literal)*;
+        $($r:literal $s:literal [$($known:tt)*])*
+    ) => {
+        impl $crate::Frame<$n> for Prepared<f64> {
+            type Over<B: $crate::Real> = Prepared<B>;
+            const LAST: usize = $last;
+            const BRACKETS: &'static [(usize, usize, [$crate::Coefficient; $n])] = {
+                #[allow(unused_imports, reason = "not every system has every kind of coefficient")]
+                use $crate::Coefficient::{Constant, Number, Variable, Zero};
+                &[$(($r, $s, [$($known)*])),*]
+            };
 
-        impl<B: $crate::Real> $crate::Operator<B, $n> for $X {
-            type Prepared = Prepared<B>;
-            const TIME: bool = $time;
-            fn coefficients<R: $crate::Real + $crate::Lift<B>>(
-                prepared: &Prepared<B>,
-                t: R,
-                x: &[R; $n],
+            #[inline]
+            fn operator<B: $crate::Real, R: $crate::Real + $crate::Lift<B>>(
+                prepared: &Prepared<B>, t: R, x: &[R; $n], index: usize,
             ) -> [R; $n] {
                 let lifted: Prepared<R> = prepared.lift();
                 let all = program::operators(&lifted.constants, &lifted.hoisted, t, x);
-                ::core::array::from_fn(|i| all[$first + i])
+                ::core::array::from_fn(|i| all[index * $n + i])
+            }
+
+            #[inline]
+            fn bracket<B: $crate::Real, R: $crate::Real + $crate::Lift<B>>(
+                prepared: &Prepared<B>, t: R, x: &[R; $n], place: usize,
+            ) -> [R; $n] {
+                $crate::values_of_brackets!(prepared, t, x, place, $n, $($r)*)
+            }
+        }
+
+        $(
+            #[doc = $docs]
+            pub type $X = $crate::Displacement<Prepared, $j>;
+            #[doc = $docs]
+            pub const $X: $X = $crate::Displacement::NEW;
+        )*
+
+        impl<B: $crate::Real, const I: usize, const J: usize> $crate::BracketCoefficients<B, $n> for Bracket<I, J> {
+            type Prepared = Prepared<B>;
+            const I: usize = I;
+            const J: usize = J;
+            const COEFFICIENTS: [$crate::Coefficient; $n] = $crate::known_bracket::<Prepared<f64>, $n>(I, J);
+
+            #[inline]
+            fn coefficients<R: $crate::Real + $crate::Lift<B>>(
+                prepared: &Prepared<B>, t: R, x: &[R; $n],
+            ) -> [R; $n] {
+                $crate::bracket_values::<Prepared<f64>, B, R, $n, I, J>(prepared, t, x)
             }
         }
     };
 }
 
-/// A bracket `(X_i, X_j)` that does not vanish: its indices, the number of coordinates, where its coefficients begin among
-/// those of all brackets, what is known of them, and a minus where they are those of `(X_j, X_i)`.
+/// The coefficients of a bracket out of those of all; where there are none there is no function.
 #[doc(hidden)]
 #[macro_export]
-macro_rules! bracket {
-    ($i:literal $j:literal $n:literal $first:literal [$($known:tt)*] $($minus:tt)?) => {
-        impl<B: $crate::Real> $crate::BracketCoefficients<B, $n> for Bracket<$i, $j> {
-            type Prepared = Prepared<B>;
-            const I: usize = $i;
-            const J: usize = $j;
-            const COEFFICIENTS: [$crate::Coefficient; $n] = {
-                #[allow(unused_imports, reason = "not every bracket has every kind of coefficient")]
-                use $crate::Coefficient::{Constant, Number, Variable, Zero};
-                [$($known)*]
-            };
-            fn coefficients<R: $crate::Real + $crate::Lift<B>>(
-                prepared: &Prepared<B>,
-                t: R,
-                x: &[R; $n],
-            ) -> [R; $n] {
-                let lifted: Prepared<R> = prepared.lift();
-                let all = program::brackets(&lifted.constants, &lifted.hoisted, t, x);
-                ::core::array::from_fn(|i| $($minus)? all[$first + i])
-            }
-        }
-    };
+macro_rules! values_of_brackets {
+    ($prepared:ident, $t:ident, $x:ident, $place:ident, $n:literal,) => {{
+        let _ = ($prepared, $t, $x, $place);
+        [<R as $crate::Real>::zero(); $n]
+    }};
+    ($prepared:ident, $t:ident, $x:ident, $place:ident, $n:literal, $($some:literal)+) => {{
+        let lifted: Prepared<R> = $prepared.lift();
+        let all = program::brackets(&lifted.constants, &lifted.hoisted, $t, $x);
+        ::core::array::from_fn(|i| all[$place * $n + i])
+    }};
 }
 
 #[cfg(test)]

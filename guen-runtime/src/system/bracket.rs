@@ -89,26 +89,3 @@ pub trait BracketCoefficients<B: Real, const N: usize> {
     /// The values of `C_IJ1 .. C_IJN` at time `t` and position `x`.
     fn coefficients<R: Real + Lift<B>>(prepared: &Self::Prepared, t: R, x: &[R; N]) -> [R; N];
 }
-
-/// Implements [`BracketCoefficients`] for a bracket that vanishes identically.
-///
-/// Called by generated code, inside a module that defines `Bracket` and `Prepared`.
-#[macro_export]
-macro_rules! zero_bracket {
-    ($i:literal, $j:literal, $n:literal) => {
-        impl<B: $crate::Real> $crate::BracketCoefficients<B, $n> for Bracket<$i, $j> {
-            type Prepared = Prepared<B>;
-            const I: usize = $i;
-            const J: usize = $j;
-            const COEFFICIENTS: [$crate::Coefficient; $n] = [$crate::Coefficient::Zero; $n];
-            #[inline]
-            fn coefficients<R: $crate::Real + $crate::Lift<B>>(
-                _: &Prepared<B>,
-                _: R,
-                _: &[R; $n],
-            ) -> [R; $n] {
-                [<R as $crate::Real>::zero(); $n]
-            }
-        }
-    };
-}

@@ -6,6 +6,7 @@ pub(crate) mod bracket;
 pub(crate) mod classification;
 pub(crate) mod constants_error;
 pub(crate) mod differentiable;
+pub(crate) mod frame;
 pub(crate) mod invariants;
 pub(crate) mod level;
 pub(crate) mod linearization;

@@ -1,0 +1,326 @@
+//! Methods and traits of a prepared system that its straight-line functions compute: the same for every system but for sizes.
+
+/// `rhs`.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! rates {
+    ($($inputs:ident)?) => {
+        /// The rates of the state: velocities by (1.8), accelerations by (2.7). No allocation, no branch.
+        #[inline]
+        pub fn rhs(&self, t: R, state: &State<R> $(, $inputs: &Inputs<R>)?) -> State<R> {
+            ::core::convert::From::from(program::rhs(
+                &self.constants,
+                &self.hoisted,
+                t,
+                &::core::convert::From::from(*state),
+                &$crate::array_of_inputs!($($inputs)?),
+            ))
+        }
+    };
+}
+
+/// A method of time and state with one result, by the function of its name.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! quantity {
+    ($(#[$($docs:tt)*])* $method:ident) => {
+        $(#[$($docs)*])*
+        #[inline]
+        pub fn $method(&self, t: R, state: &State<R>) -> R {
+            let [value] =
+                program::$method(&self.constants, &self.hoisted, t, &::core::convert::From::from(*state));
+            value
+        }
+    };
+}
+
+/// `energy`.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! energy {
+    () => {
+        $crate::quantity! {
+            /// The energy integral `h = sum x' dT°/dx' - T° - U`; kinetic plus potential energy where `T°` is homogeneous
+            /// in the velocities.
+            energy
+        }
+    };
+}
+
+/// What the system itself has and no scene can choose, with the numbers of coordinates, of parameters and of states.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! motion_of_system {
+    ($n:literal, $l:literal, $size:literal $(, $inputs:ident)?) => {
+        /// The velocities `x' = xi_0 + sum_s eta_s xi_s` of a state, (1.8).
+        #[inline]
+        pub fn velocities(&self, t: R, state: &State<R>) -> Coordinates<R> {
+            ::core::convert::From::from(program::velocities(
+                &self.constants,
+                &self.hoisted,
+                t,
+                &::core::convert::From::from(*state),
+            ))
+        }
+
+        $crate::quantity! {
+            /// The kinetic energy `T` on the constraints.
+            kinetic_energy
+        }
+
+        /// The force function `U`.
+        #[inline]
+        pub fn force_function(&self, t: R, state: &State<R>) -> R {
+            let s: [R; $size] = ::core::convert::From::from(*state);
+            let [value] =
+                program::force_function(&self.constants, &self.hoisted, t, &$crate::checks::first::<R, $n>(&s));
+            value
+        }
+
+        /// The momenta `dT/d eta_s`, and `(dT°/d eta_v)` for the constraints, (2.8).
+        #[inline]
+        pub fn momenta(&self, t: R, state: &State<R>) -> Momenta<R> {
+            ::core::convert::From::from(program::momenta(
+                &self.constants,
+                &self.hoisted,
+                t,
+                &::core::convert::From::from(*state),
+            ))
+        }
+
+        /// The rate of [`energy`](Self::energy) along the motion, by forces, moving constraints and explicit time:
+        /// `h' = Q.x' - sum_v lambda_v a_v0 - d(T° + U)/dt`.
+        #[inline]
+        pub fn power(&self, t: R, state: &State<R> $(, $inputs: &Inputs<R>)?) -> R {
+            let [value] = $crate::at_accelerations!(self, t, state, power, $n, $l, $size $(, $inputs)?);
+            value
+        }
+    };
+}
+
+/// A function of time, state, inputs and the accelerations there.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! at_accelerations {
+    ($self:ident, $t:ident, $state:ident, $of:ident, $n:literal, $l:literal, $size:literal $(, $inputs:ident)?) => {{
+        let s: [R; $size] = ::core::convert::From::from(*$state);
+        let given = &$crate::array_of_inputs!($($inputs)?);
+        let rates = program::rhs(&$self.constants, &$self.hoisted, $t, &s, given);
+        program::$of(
+            &$self.constants,
+            &$self.hoisted,
+            $t,
+            &s,
+            given,
+            &$crate::checks::first::<R, $l>(rates.split_at($n).1),
+        )
+    }};
+}
+
+/// `reactions`, and where all are known `reaction_covector`.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! reactions {
+    ($n:literal, $l:literal, $size:literal $(, $inputs:ident)?) => {
+        /// The reactions at a state, from `lambda_v = d/dt (dT°/d eta_v) - X_v(T° + U) - ... - Q_v` on the motion.
+        #[inline]
+        pub fn reactions(&self, t: R, state: &State<R> $(, $inputs: &Inputs<R>)?) -> Reactions<R> {
+            ::core::convert::From::from(
+                $crate::at_accelerations!(self, t, state, reactions, $n, $l, $size $(, $inputs)?)
+            )
+        }
+    };
+}
+
+/// `reaction_covector`.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! reaction_covector {
+    ($n:literal, $l:literal, $size:literal $(, $inputs:ident)?) => {
+        /// The reactions of all constraints as one covector on the velocities, `R_i = sum_v lambda_v a_vi`: the
+        /// generalised force on every coordinate.
+        pub fn reaction_covector(&self, t: R, state: &State<R> $(, $inputs: &Inputs<R>)?) -> Coordinates<R> {
+            ::core::convert::From::from(
+                $crate::at_accelerations!(self, t, state, reaction_covector, $n, $l, $size $(, $inputs)?)
+            )
+        }
+    };
+}
+
+/// `domain` and `distances`, with the numbers of functions and of states; of states alone where there is no function.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! domain {
+    ($size:literal) => {
+        /// Functions that must not vanish: where one of them is zero the declaration's chart ends. Their formulas
+        /// are in [`DOMAIN`].
+        #[inline]
+        pub fn domain(&self, _t: R, _state: &State<R>) -> [R; 0] {
+            []
+        }
+
+        /// How far the state is from the edge of the chart: of each function of [`DOMAIN`] what is left of it, from one
+        /// where it is as certain as what it is made of to zero where it vanishes. Times and states count as rounded
+        /// once; so do the constants. See [`RunningError`](__guen::RunningError).
+        pub fn distances(&self, _t: R, _state: &State<R>) -> [R; 0] {
+            []
+        }
+    };
+    ($size:literal, $count:literal) => {
+        /// Functions that must not vanish: where one of them is zero the declaration's chart ends. Their formulas
+        /// are in [`DOMAIN`].
+        #[inline]
+        pub fn domain(&self, t: R, state: &State<R>) -> [R; $count] {
+            program::domain(&self.constants, &self.hoisted, t, &::core::convert::From::from(*state))
+        }
+
+        /// How far the state is from the edge of the chart: of each function of [`DOMAIN`] what is left of it, from one
+        /// where it is as certain as what it is made of to zero where it vanishes. Times and states count as rounded
+        /// once; so do the constants. See [`RunningError`](__guen::RunningError).
+        pub fn distances(&self, t: R, state: &State<R>) -> [R; $count] {
+            program::domain(
+                &$crate::checks::rounded(&self.constants),
+                &$crate::checks::rounded(&self.hoisted),
+                $crate::RunningError::once(t),
+                &<[R; $size]>::from(*state).map($crate::RunningError::once),
+            )
+            .map($crate::RunningError::left)
+        }
+    };
+}
+
+/// `condition`, with the number of states.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! condition {
+    ($size:literal $(, $inputs:ident)?) => {
+        /// How ill conditioned the equations for the accelerations are, whatever the units: one where parameters are
+        /// not coupled. See [`System::condition`](__guen::System::condition).
+        pub fn condition(&self, t: R, state: &State<R>) -> R {
+            let system = self;
+            $(
+                // Masses do not depend on inputs.
+                let $inputs = ::core::default::Default::default();
+                let system = &system.driven($inputs);
+            )?
+            $crate::System::<R, $size>::condition(system, t, &::core::convert::From::from(*state))
+        }
+    };
+}
+
+/// `State::from_velocities` and `State::coordinates`, with the numbers of coordinates, of parameters, of states and of
+/// constraints, and the fields of the coordinates.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! state_of_system {
+    ($n:literal, $l:literal, $size:literal, $constraints:literal: $($field:ident)*) => {
+        impl<R: $crate::Real> State<R> {
+            /// The state at given coordinates and velocities: the quasi-velocities are `eta_s = sum_i a_si x_i' +
+            /// a_s0`, (1.6). Beside it the residuals `eta_v` of the constraints (their rates, where they are
+            /// holonomic): how far the velocities are from being possible.
+            pub fn from_velocities(
+                system: &Prepared<R>,
+                t: R,
+                coordinates: &Coordinates<R>,
+                velocities: &Coordinates<R>,
+            ) -> (Self, [R; $constraints]) {
+                let x: [R; $n] = ::core::convert::From::from(*coordinates);
+                let forms = program::forms(
+                    &system.constants,
+                    &system.hoisted,
+                    t,
+                    &x,
+                    &::core::convert::From::from(*velocities),
+                );
+                let state: [R; $size] = $crate::checks::joined(&x, &forms);
+                (::core::convert::From::from(state), $crate::checks::first(forms.split_at($l).1))
+            }
+
+            /// The coordinates of the state.
+            pub fn coordinates(&self) -> Coordinates<R> {
+                Coordinates { $($field: self.$field),* }
+            }
+        }
+    };
+}
+
+/// The trait `Differentiable`, by dual numbers over the real: of a prepared system with the number of states, or of a driven
+/// one with that of inputs, too.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! differentiable {
+    ($size:literal) => {
+        $crate::differentiable!(@ Prepared, $size, (self) => self, |_| []);
+    };
+    ($size:literal, $count:literal) => {
+        $crate::differentiable!(
+            @ Driven, $size, (self) => self.system, |held|
+            <[R; $count] as ::core::convert::From<Inputs<R>>>::from(self.inputs).map(held)
+        );
+    };
+    (@ $Owner:ident, $size:literal, ($self:ident) => $prepared:expr, $given:expr) => {
+        impl<R: $crate::Real> $crate::Differentiable<R, $size> for $Owner<R>
+        where
+            $crate::Dual<R, $size>: $crate::Lift<R>,
+            $crate::Dual<R, 1>: $crate::Lift<R>,
+        {
+            fn jacobian(&$self, t: R, state: &[R; $size]) -> [[R; $size]; $size] {
+                let lifted: Prepared<$crate::Dual<R, $size>> = $prepared.lift();
+                let rates = program::rhs(
+                    &lifted.constants,
+                    &lifted.hoisted,
+                    <$crate::Dual<R, $size>>::constant(t),
+                    &$crate::seeded(state),
+                    &($given)(<$crate::Dual<R, $size>>::constant),
+                );
+                rates.map(|rate| rate.tangent)
+            }
+
+            fn along(&$self, t: R, state: &[R; $size], dt: R, dx: &[R; $size]) -> [R; $size] {
+                let lifted: Prepared<$crate::Dual<R, 1>> = $prepared.lift();
+                let time = $crate::Dual { value: t, tangent: [dt] };
+                let state =
+                    ::core::array::from_fn(|i| $crate::Dual { value: state[i], tangent: [dx[i]] });
+                let rates = program::rhs(&lifted.constants, &lifted.hoisted, time, &state, &($given)(<$crate::Dual<R, 1>>::constant));
+                rates.map(|rate| rate.tangent[0])
+            }
+        }
+    };
+}
+
+/// The trait `Laned` of a prepared system without inputs and without constants that follow others.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! laned {
+    ($size:literal) => {
+        impl $crate::Laned<$size> for Prepared<f64> {
+            type In<L: $crate::lanes::Lanes> = Prepared<L>;
+
+            fn gather<'a, L: $crate::lanes::Lanes>(
+                member: impl ::core::ops::Fn(usize) -> &'a Self,
+            ) -> Prepared<L> {
+                Prepared {
+                    constants: ::core::array::from_fn(|k| L::from_fn(|lane| member(lane).constants[k])),
+                    hoisted: ::core::array::from_fn(|k| L::from_fn(|lane| member(lane).hoisted[k])),
+                }
+            }
+        }
+    };
+}
+
+/// `lift`, with the field that says which constants follow others, if there is one.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! lift {
+    ($($follows:ident)?) => {
+        /// The same system over a real that contains `R`, such as duals over it: every prepared value becomes
+        /// a constant there.
+        pub fn lift<S: $crate::Lift<R>>(&self) -> Prepared<S> {
+            Prepared {
+                constants: self.constants.map(S::lift),
+                hoisted: self.hoisted.map(S::lift),
+                $($follows: self.$follows,)?
+            }
+        }
+    };
+}
