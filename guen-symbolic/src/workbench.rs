@@ -70,7 +70,7 @@ impl Workbench {
         tidy
     }
 
-    /// Whether something in the expression has no normal form within the limits: then the whole has seldom one either.
+    /// Whether something in the expression has no normal form within the limits: then the whole rarely has one either.
     fn is_beyond(&mut self, e: ExprId) -> bool {
         if self.beyond.is_empty() {
             return false;

@@ -8,7 +8,7 @@ use super::formulas::Quantity;
 use super::function;
 use crate::model::Model;
 
-/// Adds further forms of the first list of rates, and drops those that are too dear to be looked at.
+/// Adds further forms of the first list of rates, and drops those that are too expensive to be looked at.
 pub(super) fn extend(bench: &mut Workbench, lists: &mut Vec<Vec<ExprId>>) {
     // Beyond this estimate normal forms run into their limits, and only cost time.
     const LARGEST_WRITTEN_OUT: u64 = 600;
@@ -21,7 +21,7 @@ pub(super) fn extend(bench: &mut Workbench, lists: &mut Vec<Vec<ExprId>>) {
         estimates.insert(1, weighted_cost(&bench.graph, &written_out));
         lists.insert(1, written_out);
     }
-    // A form may come out cheaper although it looks dearer, but hardly by more than half.
+    // A form may come out cheaper although it looks more expensive, but hardly by more than half.
     let most = 3 * estimates.iter().copied().min().unwrap_or_default() / 2;
     let mut estimate = estimates.into_iter();
     lists.retain(|_| estimate.next().is_some_and(|cost| cost <= most));

@@ -48,7 +48,7 @@ pub(super) fn shown(
 pub(super) fn polish(bench: &mut Workbench, derivation: &mut Derivation) {
     let system = &derivation.system;
     let variables: Vec<ExprId> = system.accelerations.iter().chain(&system.etas).copied().collect();
-    // What is larger is read by nobody, and seldom gets cheaper.
+    // A larger expression is read by nobody, and rarely gets cheaper.
     let limits = Limits { nodes: 400, steps: 6_000, ..Limits::default() };
     let in_angles = |graph: &mut Graph, e: ExprId| {
         let Some(coefficients) = normal_coefficients(graph, e, &variables, &limits) else { return e };

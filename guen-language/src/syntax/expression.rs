@@ -72,7 +72,7 @@ pub enum ExpressionKind {
     Power {
         /// The base.
         base: Box<Expression>,
-        /// To which power.
+        /// The exponent.
         exponent: Box<Expression>,
     },
 }

@@ -8,9 +8,9 @@ use super::row::{Nearby, Row};
 
 /// A setting may err this many times what was asked for from states nearby; ten times is what is promised.
 const NEARBY: f64 = 2.0;
-/// Settings are uncertain whose error is below so many times that of the reference ..
+/// The multiple of the reference's error below which the error of a setting is uncertain.
 const LIMITED: f64 = 10.0;
-/// .. unless the reference is right to a sixteenth of the rounding of doubles, which limits nothing.
+/// The error of a reference that limits nothing: a sixteenth of the rounding of doubles.
 const EXACT: f64 = f64::EPSILON / 32.0;
 
 /// The least error that can be told from that of the reference, whose stated error this is; infinite where it has none.

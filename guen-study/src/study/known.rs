@@ -12,16 +12,16 @@ use crate::significant;
 pub(super) type Scanner<const N: usize> =
     Rc<dyn Fn(&Problem<'_, N>, Look, &mut dyn FnMut() -> bool) -> Option<Seen<N>>>;
 
-/// The evaluations of the rates along a motion ..
+/// The evaluations of the rates along a motion in all.
 pub(super) const POINTS: usize = 1 << 20;
-/// .. at first, and by how much they grow while there is time.
+/// The evaluations in the first pass, and the factor by which they grow while there is time.
 const FIRST: usize = 1 << 12;
 const GROWTH: usize = 16;
 /// States nearby and forecasts have this part of them.
 const PART_ELSEWHERE: usize = 16;
-/// The tolerance of the motion that says how far the finer one, a hundred times as accurate, may be off ..
+/// The tolerance of the coarser motion, which tells the uncertainty of the finer one, a hundred times as accurate.
 const COARSER: f64 = 1e-11;
-/// .. beside this much, whatever they differ by, and ten times what jumps leave uncertain.
+/// The further uncertainty of the finer motion: this much in any case, and so many times what jumps leave uncertain.
 const ROUNDING: f64 = 1e-10;
 const OF_JUMPS: f64 = 10.0;
 
@@ -81,13 +81,13 @@ pub(super) struct Motion<const N: usize> {
 }
 
 impl<const N: usize> Motion<N> {
-    /// By how much the finer motion may be off, given its difference from the coarser one.
+    /// Returns the uncertainty of the finer motion, given its difference from the coarser one.
     pub fn uncertainty(&self, from_coarser: f64) -> f64 {
         from_coarser + OF_JUMPS * self.uncertain
     }
 
-    /// By how much a reference is off that this motion contradicts, given the differences of the finer motion from it and from the
-    /// coarser one: by nothing, where the motion may be off by as much.
+    /// Returns the error of a reference that this motion contradicts, given the differences of the finer motion from it and from the
+    /// coarser one: zero, where the motion may be off by as much.
     pub fn contradicts(&self, from_reference: f64, from_coarser: f64) -> f64 {
         let allowed = self.uncertainty(from_coarser) + ROUNDING;
         if from_reference <= allowed { 0.0 } else { from_reference }

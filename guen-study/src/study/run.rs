@@ -22,9 +22,10 @@ use super::{Stop, Study, lengthened};
 
 /// Settings that err more are not worth a row, unless all do: then the best of them is one.
 const USELESS: f64 = 0.5;
-/// A variant is given up when so many settings in a row gain less than a factor of two on the best so far ..
+/// The number of settings in a row that gain less than a factor of two on the best so far, after which a variant is given up.
 const STAGNATION: u32 = 6;
-/// .. once it is this accurate, or when it is so many times as dear as another one that errs no more.
+/// The error below which settings that gain little are counted, and the multiple of the cost of another setting, which errs no
+/// more, above which a setting is hopeless.
 const SETTLED: f64 = 1e-2;
 const HOPELESS: f64 = 60.0;
 /// The seconds below which a run is repeated before it is judged.

@@ -32,9 +32,9 @@ const INTERVALS_AT_ONCE: usize = 1 << 16;
 /// The tolerance of the motion.
 pub(super) const TOLERANCE: f64 = 1e-13;
 const EVALUATIONS_OF_STEP: u64 = 12;
-/// A change of the state that differs by more from the integral of the rates is looked at again ..
+/// The difference between a change of the state and the integral of the rates above which a step is made again.
 const SUSPECT: f64 = 2e-12;
-/// .. and where the landings change the state by more, something was stepped over.
+/// The change of the state by landings above which something was stepped over.
 const MISSED: f64 = 1e-11;
 /// Everything may take so many evaluations, and so many for each of the times. Beyond, rates vary too fast everywhere.
 const MOST: u64 = 2_000_000;

@@ -155,7 +155,7 @@ impl InBaseParameters {
         sums.into_iter().map(|e| bench.graph.keep(e)).collect()
     }
 
-    /// By tensions, in the parameters as declared.
+    /// Solves by tensions, and returns to the parameters as declared.
     pub(super) fn tensions(&mut self, bench: &mut Workbench, declared: &Mechanics) -> Option<Tensions> {
         let Restated { system, frame, forces, projected } = &mut self.restated;
         let (squares, etas) = (projected.squares.as_ref()?, &system.etas[..system.forms.degrees]);
@@ -164,7 +164,7 @@ impl InBaseParameters {
         Some(Tensions { accelerations, ..tensions })
     }
 
-    /// By the equations, in the parameters as declared.
+    /// Solves the equations, and returns to the parameters as declared.
     pub(super) fn rates(&mut self, bench: &mut Workbench, declared: &Mechanics) -> Vec<Vec<ExprId>> {
         let n = declared.velocities.len();
         let found = self.restated.rates(bench, &mut Symmetry::default());

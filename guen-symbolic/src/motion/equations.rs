@@ -17,11 +17,11 @@ use crate::workbench::Workbench;
 /// The number of parameters, and of frames that turn, from which on equations are not multiplied out.
 const MANY: usize = 6;
 
-/// Nor where the velocities alone cost more.
+/// The cost of the velocities above which equations are not multiplied out.
 const LARGEST_MULTIPLIED: u64 = 4000;
 
-/// Nor where so many products would be put up, one for each term of the energy in each entry of the mass matrix, and other parameters
-/// make them few.
+/// The number of products, one for each term of the energy in each entry of the mass matrix, above which equations are stated in
+/// the rates of the base angles, if there are any.
 const MOST_PRODUCTS: usize = 20_000;
 
 /// `sum_t M_st eta_t' = f_s`.

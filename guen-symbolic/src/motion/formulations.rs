@@ -246,7 +246,7 @@ fn by_tensions(bench: &mut Workbench, search: &mut Search<'_>) -> Result<Outcome
     let Some(found) = found else { return Ok(Outcome::Declined("the mass matrix promises less")) };
     let rates = search.rates(&found.accelerations);
     let cost = weighted_cost(&bench.graph, &rates);
-    // What the others solve is dearer before it is solved; bodies do not solve it.
+    // The equations that the others solve are more expensive before they are solved; bodies do not solve them.
     let is_least = found.is_clear
         && cost <= weighted_cost(&bench.graph, &multiplied[0].entries())
         && search.bodies(bench).is_none_or(|found| cost <= weighted_cost(&bench.graph, &found.rates));
@@ -344,7 +344,7 @@ fn in_own_axes(bench: &mut Workbench, search: &mut Search<'_>) -> Result<Outcome
     Ok(Outcome::found(lists, || Rank::Other))
 }
 
-/// By the spins of the bodies.
+/// Finds rates by the spins of the bodies.
 fn by_spins(bench: &mut Workbench, search: &mut Search<'_>) -> Result<Outcome, DerivationError> {
     let Some(lists) = spins::rates(bench, search.system, search.frame, search.partials) else {
         return Ok(Outcome::Declined("no body turns freely, or its spins have the edges of the parameters"));

@@ -46,7 +46,7 @@ const NOTHING: f64 = -180.0;
 struct Equations<'a> {
     graph: &'a Graph,
     equations: &'a [ExprId],
-    /// They, and their derivatives row by row.
+    /// The equations, and their derivatives row by row.
     roots: Vec<ExprId>,
     /// The nodes of these, in an order in which they can be evaluated.
     order: Vec<ExprId>,

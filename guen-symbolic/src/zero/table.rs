@@ -53,7 +53,7 @@ pub(crate) struct Argument {
 type Monomial = Box<[(ExprId, i32)]>;
 type Combination = BTreeMap<Monomial, Rational>;
 
-/// Halves, thirds and quarters are so common that monomials start with this denominator: it seldom grows.
+/// Halves, thirds and quarters are so common that monomials start with this denominator: it rarely grows.
 const FIRST_LCM: i64 = 12;
 /// Larger denominators make an argument opaque.
 const LARGEST_LCM: i64 = 1 << 50;

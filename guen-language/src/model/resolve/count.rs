@@ -130,7 +130,7 @@ fn combinations(bench: &mut Workbench, forms: &[(Form, ExprId)], degrees: usize)
                 beside = without;
             }
         }
-        // As many independent forms as there are coordinates span all forms: that one depends on them says nothing.
+        // Independent forms, as many as coordinates, span every form: then it is no fault that this one depends on them.
         if beside.len() < forms[form].0.row.len() {
             found.push((form, beside));
         }

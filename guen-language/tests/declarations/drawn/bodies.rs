@@ -24,7 +24,7 @@ const CLEAR: f64 = 1e5;
 /// States of each mechanism.
 const STATES: usize = 2;
 
-/// What came of some mechanisms.
+/// The outcomes of some mechanisms.
 #[derive(Default)]
 struct Seen {
     accepted: usize,
@@ -34,10 +34,11 @@ struct Seen {
     unseen: usize,
     worst: f64,
     compared: usize,
-    dearer: Vec<String>,
-    /// By more than one operation and two percent.
-    dearer_by_two_percent: usize,
-    /// The largest ratio of what more bounds and fewer cost, of those.
+    /// The mechanisms that cost more operations with more bounds on constants.
+    costlier: Vec<String>,
+    /// The number of these that cost more by at least two percent and more than one operation.
+    costlier_by_two_percent: usize,
+    /// The largest ratio of the operations with more bounds to those with fewer, among these.
     ratio: f64,
     faults: Vec<String>,
     /// First lines of errors.
@@ -52,8 +53,8 @@ impl Seen {
         self.unseen += other.unseen;
         self.worst = self.worst.max(other.worst);
         self.compared += other.compared;
-        self.dearer.extend(other.dearer);
-        self.dearer_by_two_percent += other.dearer_by_two_percent;
+        self.costlier.extend(other.costlier);
+        self.costlier_by_two_percent += other.costlier_by_two_percent;
         self.ratio = self.ratio.max(other.ratio);
         self.faults.extend(other.faults);
         self.messages.extend(other.messages);
@@ -194,15 +195,15 @@ fn looked_at(seed: u64) -> Seen {
             seen.compared += 1;
             let told =
                 format!("number {seed}: {without}, {partly}, {all} operations with more and more bounds");
-            let is_dearer = |more: u64, fewer: u64| more * 50 > fewer * 51 + 50;
+            let is_costlier = |more: u64, fewer: u64| more * 50 > fewer * 51 + 50;
             for (more, fewer) in [(all, partly), (partly, without), (all, without)] {
-                if is_dearer(more, fewer) {
-                    seen.dearer_by_two_percent = 1;
+                if is_costlier(more, fewer) {
+                    seen.costlier_by_two_percent = 1;
                     seen.ratio = seen.ratio.max(more as f64 / fewer as f64);
                 }
             }
             if all > partly || partly > without {
-                seen.dearer.push(told);
+                seen.costlier.push(told);
             }
         }
     }
@@ -235,20 +236,20 @@ fn mechanisms_end_with_the_right_rates_or_an_error() {
         all.refused,
         all.states,
         all.worst,
-        all.dearer.len(),
+        all.costlier.len(),
         all.compared,
-        all.dearer_by_two_percent,
+        all.costlier_by_two_percent,
         all.ratio
     );
     all.messages.sort();
-    for message in all.messages.iter().chain(&all.dearer).chain(&all.faults) {
+    for message in all.messages.iter().chain(&all.costlier).chain(&all.faults) {
         println!("{message}");
     }
     assert!(all.faults.is_empty(), "{} faults", all.faults.len());
     assert!(
-        40 * all.dearer_by_two_percent <= all.compared.max(40) && all.ratio <= 1.07,
+        40 * all.costlier_by_two_percent <= all.compared.max(40) && all.ratio <= 1.07,
         "bounds cost in {} of {}",
-        all.dearer_by_two_percent,
+        all.costlier_by_two_percent,
         all.compared
     );
     assert!(only.is_some() || 2 * all.accepted as u64 > rounds && all.states > all.accepted);

@@ -110,7 +110,7 @@ pub(super) fn solve(
     // Forms that no parameter moves take no part.
     let moving: Vec<usize> =
         (0..squares.masses.len()).filter(|k| squares.components[*k].iter().any(|e| *e != zero)).collect();
-    // Each tension is as dear as a parameter at least.
+    // Each tension costs as much as a parameter at least.
     if moving.len() > 4 * l || dense.cost() < pattern::LEAST {
         return None;
     }
@@ -130,7 +130,7 @@ pub(super) fn solve(
     let along: Vec<Vector> = inverse.iter().map(|y| stretched.of(bench, y)).collect();
     let tensions = Pattern::of_products(&across, &along);
     let (ours, theirs) = (tensions.cost(), dense.cost());
-    // An estimate: what is a little dearer by it may be cheaper.
+    // An estimate: a solution that it finds a little more expensive may be cheaper.
     if 4 * ours > 5 * theirs {
         return None;
     }
