@@ -1,4 +1,4 @@
-//! What the derivation found out about a scene.
+//! The facts about a scene that its documentation tells.
 
 use guen_symbolic::ExprId;
 

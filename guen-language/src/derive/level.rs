@@ -1,4 +1,4 @@
-//! What a derivation consists of: the system and its scenes as levels of detail, each with its programs.
+//! A derivation: the system and its scenes as levels of detail, each with its programs.
 
 use std::rc::Rc;
 

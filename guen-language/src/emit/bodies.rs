@@ -1,4 +1,4 @@
-//! Where the declared bodies and particles are, for pictures of a motion.
+//! The places of the declared bodies and particles, for pictures of a motion.
 
 use guen_symbolic::ExprId;
 use proc_macro2::TokenStream;

@@ -204,7 +204,7 @@ fn prepared(subject: &Subject<'_, '_>, layout: &Layout, base: &Layout, invariant
     }
 }
 
-/// What steppers ask for.
+/// Implements the traits of steppers.
 fn systems(
     subject: &Subject<'_, '_>,
     layout: &Layout,

@@ -7,7 +7,7 @@ use std::fmt::Write;
 
 use guen_symbolic::{Function, Instruction, Operation, Rational, SymbolId, Value};
 
-/// How a program finds the values of symbols: an expression of Rust for each.
+/// The values of symbols in a program: an expression of Rust for each.
 pub(super) trait Loads {
     /// The place of a symbol's value.
     fn symbol(&self, symbol: SymbolId) -> String;
@@ -80,7 +80,7 @@ pub(super) fn body(instructions: &[Instruction], outputs: &[Value], loads: &dyn 
     writer.text
 }
 
-/// How often each value is used.
+/// Returns the number of uses of each value.
 fn uses(instructions: &[Instruction], outputs: &[Value], values: usize) -> Vec<usize> {
     let mut uses = vec![0; values];
     for value in instructions.iter().flat_map(|i| i.operation.operands()).chain(outputs.iter().copied()) {
@@ -174,7 +174,7 @@ fn defined(instruction: &Instruction) -> impl Iterator<Item = Value> {
 }
 
 struct Writer {
-    /// How each value is written where it is used.
+    /// The text of each value where it is used.
     names: Vec<String>,
     /// Whether that is an operation, which stands in parentheses beside an operator.
     is_operation: Vec<bool>,

@@ -159,7 +159,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, report: &Report)
     }
 }
 
-/// How the constants that follow others become numbers; nothing where there are none.
+/// Returns the code that makes numbers of constants that follow others; nothing where there are none.
 fn resolution(subject: &Subject<'_, '_>, layout: &Layout, fields: &[Field]) -> Option<TokenStream> {
     if layout.derived.is_empty() {
         return None;

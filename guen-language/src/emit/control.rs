@@ -1,4 +1,4 @@
-//! What controllers ask of a prepared system, with the names of its declaration.
+//! Methods for controllers, with the names of the declaration.
 
 use guen_symbolic::{Operation, Role};
 use proc_macro2::{Ident, TokenStream};

@@ -10,7 +10,7 @@ use super::layout::Layout;
 use super::text::tokens;
 use crate::derive::{Level, Subject, function};
 
-/// Where the values of symbols are: in the arrays that a function takes.
+/// The places of the values of symbols, in the arrays that a function takes.
 pub(super) struct Places(Vec<String>);
 
 impl Loads for Places {
@@ -54,7 +54,7 @@ impl Places {
     }
 }
 
-/// What a function of the state is given.
+/// The arguments of a function of the state.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Signature {
     /// Prepared values alone.

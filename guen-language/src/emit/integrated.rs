@@ -1,4 +1,4 @@
-//! What steppers ask of a system besides its rates: quantities for guards, and derivatives for implicit methods.
+//! Methods for steppers besides the rates: quantities for guards, and derivatives for implicit methods.
 
 use guen_symbolic::OperationCount;
 use proc_macro2::TokenStream;
@@ -86,18 +86,18 @@ pub(super) fn guarded(subject: &Subject<'_, '_>, layout: &Layout, prepared: &Tok
 /// The operations of looks: an estimate from the counts of their programs.
 #[derive(Clone, Copy)]
 pub(super) struct Looks {
-    /// Of `conserved`, `singularities` and `condition` together.
+    /// The cost of `conserved`, `singularities` and `condition` together.
     pub(super) all: u64,
-    /// Of `singularities` alone.
+    /// The cost of `singularities` alone.
     pub(super) edges: u64,
 }
 
 impl Looks {
-    /// Those of a level by itself.
+    /// Returns the costs of a level by itself.
     pub(super) fn of(subject: &Subject<'_, '_>, layout: &Layout) -> Self {
-        /// Of an operation whose rounding is counted, and of a function.
+        /// The cost of an operation whose rounding is counted, and of a function.
         const ROUNDED: [u64; 2] = [4, 2];
-        /// Of the comparisons of a function that must not vanish, or of one that is carried.
+        /// The cost of the comparisons of a function that must not vanish, or of one that is carried.
         const COMPARED: u64 = 20;
         let level = subject.level;
         let cost = |names: &[&str]| -> u64 {
@@ -128,7 +128,7 @@ impl Looks {
         Self { all: energies + edges + condition + carried + others, edges }
     }
 
-    /// Those of a carried form and of the level that it is a form of, which is given a state of its own.
+    /// Returns the costs of a carried form and of the level that it is a form of, which is given a state of its own.
     pub(super) fn and(self, below: Self) -> Self {
         /// The cost of checking a second system beside its operations, counted for the hoop.
         const ANOTHER: Looks = Looks { all: 150, edges: 40 };
@@ -140,12 +140,13 @@ impl Looks {
 
 /// The methods `check_cost` and `singularity_check_cost`: operations of looks in right-hand sides with what a stepper does for each.
 pub(super) fn prices(subject: &Subject<'_, '_>, layout: &Layout, looks: &Looks) -> TokenStream {
-    /// Of a sum over stages, for each entry of the state.
+    /// The cost of a sum over stages, for each entry of the state.
     const STAGE: u64 = 4;
-    /// Of the calls, comparisons and copies of a look, whatever the system: counted for a particle without forces, whose
-    /// estimates of errors by RK8 have more operations than all of its right-hand sides.
+    /// The cost of the calls, comparisons and copies of a check, whatever the system: counted for a particle without
+    /// forces, whose estimates of errors by RK8 have more operations than all of its right-hand sides.
     const BESIDES: u64 = 200;
-    /// Of those of a look at edges alone: counted for Appell's system in lanes, which is the dearest beside its right-hand side.
+    /// The cost of those of a check of edges alone: counted for Appell's system in lanes, which is the most expensive
+    /// beside its right-hand side.
     const BESIDES_EDGES: u64 = 70;
     let rhs = subject.level.program(function::RHS).map_or(0, |program| program.cost.weighted());
     let one = (rhs + STAGE * layout.size as u64).max(1);

@@ -1,11 +1,11 @@
-//! How several prepared systems become one over lanes.
+//! Puts several prepared systems together into one over lanes.
 
 use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::layout::Layout;
 
-/// How a prepared system is put together from those of the lanes.
+/// Returns the code that puts a prepared system together from those of the lanes.
 fn gathered(layout: &Layout, path: &TokenStream, of: &TokenStream) -> TokenStream {
     // A derived constant follows in the whole only if it follows in every lane; otherwise it is set, lane by lane.
     let follows = (!layout.derived.is_empty()).then(|| {
@@ -32,7 +32,7 @@ pub(super) fn items(layout: &Layout) -> TokenStream {
     laned(layout, &gathered(layout, &quote!(Prepared), &quote!()))
 }
 
-/// The same for a carried form, which has the system inside.
+/// Emits the lanes of a carried form, which has the system inside.
 pub(super) fn carried(layout: &Layout) -> TokenStream {
     let system = gathered(layout, &quote!(super::Prepared), &quote!(.system));
     let prepared = quote! {

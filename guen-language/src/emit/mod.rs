@@ -1,4 +1,4 @@
-//! From a derived system to Rust items, one file for each kind of item.
+//! Emits Rust items for a derived system, one file for each kind of item.
 //!
 //! Two piles: what users name (the constants, the state, the operators, ...) carries their spans, visibility and
 //! documentation; straight-line code sits in the private module `program`, where lint allowances are.

@@ -1,4 +1,4 @@
-//! What a prepared system computes: rates, energies, momenta, reactions, residuals, linearisation.
+//! Methods of a prepared system: rates, energies, momenta, reactions, residuals, linearisation.
 
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -31,7 +31,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     }
 }
 
-/// What only the system itself has, and no scene can choose.
+/// Emits the items that only the system itself has, and no scene can choose.
 fn whole(layout: &Layout) -> TokenStream {
     let Layout { n, size, .. } = layout;
     let (l, given) = (size - n, given(layout));

@@ -44,7 +44,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     tokens(&text)
 }
 
-/// What is known of a coefficient at compile time.
+/// Returns a coefficient as far as it is known at compile time.
 fn knowledge(graph: &Graph, c: ExprId) -> String {
     if let Some(value) = graph.as_number(c) {
         if value.is_zero() {

@@ -1,4 +1,4 @@
-//! What a system with constraints on positions offers beside its motion.
+//! Methods of a system with constraints on positions, beside its motion.
 
 use proc_macro2::TokenStream;
 use quote::quote;

@@ -1,4 +1,4 @@
-//! How a system over `f64` is prepared anew over every other real.
+//! Prepares a system over `f64` anew over every other real.
 
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;

@@ -77,7 +77,7 @@ fn blocks(statements: &[Statement], needed: &[String]) -> String {
     text
 }
 
-/// What the loop needs of order zero.
+/// The values of order zero that the loop needs.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Kept {
     Value(Value),
@@ -230,7 +230,7 @@ impl Writer<'_> {
         Some(Statement { text: format!("let {name} = {text};"), uses, defines: vec![name] })
     }
 
-    /// How a function begins; sine and cosine of one angle together where both are there.
+    /// Returns the statement that starts a function; sine and cosine of one angle together where both are there.
     fn start(&self, v: Value, start: &Start) -> Statement {
         let name = format!("v{}", v.index());
         let uses: Vec<String> = start.operands().iter().map(|v| format!("v{}", v.index())).collect();

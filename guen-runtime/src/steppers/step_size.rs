@@ -12,7 +12,7 @@ use crate::numbers::real::Real;
 use crate::steppers::driver::error::{Cause, Setting};
 use crate::steppers::entries;
 
-/// How a method's step follows its error.
+/// The law by which a method's step follows its error.
 #[derive(Clone, Copy, Debug)]
 pub struct Control {
     /// The error of a step falls as this power of the step.
@@ -107,7 +107,7 @@ pub struct Margin {
 }
 
 impl Margin {
-    /// Of a mean of the squares of `N` weighted errors, the sum of which is given.
+    /// Creates the error from the sum of the squares of `N` weighted errors, of which it takes the mean.
     #[inline]
     pub fn of_mean<const N: usize>(squares: f64) -> Self {
         Self { allowed: N as f64, found: squares }

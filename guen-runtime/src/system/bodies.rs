@@ -1,4 +1,4 @@
-//! Where the declared bodies are: what a picture of a motion is drawn from.
+//! The places of the declared bodies, from which a picture of a motion is drawn.
 
 use crate::numbers::real::Real;
 

@@ -18,6 +18,6 @@ pub struct Invariants<R> {
     /// The largest left side of the constraints on positions, each relative to the size of its terms: in units of
     /// what a relative change of one in everything that enters would make of it. Zero without any.
     pub residual: R,
-    /// How far carried functions are from what they stand for, relative to one and their size; zero without any.
+    /// The distance of carried functions from their values, relative to one and their size; zero without any.
     pub carried: R,
 }

@@ -33,7 +33,7 @@ use crate::numbers::real::Real;
     note = "the levels of a system are it and its scenes, prepared"
 )]
 pub trait Level<R: Real, const N: usize, const FULL: usize> {
-    /// Where the variables of the level are in a state of the system, in their order.
+    /// The place of each variable of the level in a state of the system, in their order.
     const PLACES: [usize; N];
 
     /// Variables that the level leaves out and that are integrals of what it keeps: in layers, the rates of each depend

@@ -76,8 +76,8 @@ pub trait System<R: Real, const N: usize> {
         0
     }
 
-    /// How ill conditioned the equations for the accelerations are: one where they are not coupled, infinite where they
-    /// cannot be solved, whatever the units. Rounding errors of the accelerations are up to so many roundings.
+    /// Returns the condition of the equations for the accelerations: one where they are not coupled, infinite where
+    /// they cannot be solved, whatever the units. Rounding errors of the accelerations are up to so many roundings.
     ///
     /// ```text
     /// max_s M_ss (M^-1)_ss

@@ -20,9 +20,9 @@ pub trait Positions<R: Real, const N: usize, const H: usize> {
     /// The left sides, and beside them the derivatives `F_vi = d f_v / d x_i`, exact, a row for each constraint.
     fn linearized(&self, t: R, coordinates: &[R; N]) -> ([R; H], [[R; N]; H]);
 
-    /// How far the coordinates are from further equations that follow from these wherever all hold, as a length: the largest left
-    /// side over the length of its gradient. They are not solved: their gradients depend on those of the others. Zero where there
-    /// are none.
+    /// Returns the distance of the coordinates from further equations that follow from these wherever all hold, as a
+    /// length: the largest left side over the length of its gradient. They are not solved: their gradients depend on
+    /// those of the others. Zero where there are none.
     fn surplus(&self, _t: R, _coordinates: &[R; N]) -> f64 {
         0.0
     }

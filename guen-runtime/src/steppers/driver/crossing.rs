@@ -1,4 +1,4 @@
-//! How the crossings of an event within a step are found: by looks at the function's sign, then by a root finder.
+//! Finds the crossings of an event within a step: by checks of the function's sign, then by a root finder.
 
 use crate::numbers::real::Real;
 use crate::steppers::driver::events::Event;
@@ -44,7 +44,7 @@ pub(in crate::steppers) struct Looks<R> {
 }
 
 impl<R: Real> Looks<R> {
-    /// How many looks there are in so many parts.
+    /// Returns the number of checks in so many parts.
     fn count(&self, parts: u32) -> u32 {
         if self.close { parts.saturating_add(CLOSER) } else { parts }
     }
@@ -62,7 +62,7 @@ impl<R: Real> Looks<R> {
     }
 }
 
-/// How often the first part of the first step is divided by eight: `8^-17` is a rounding of `f64`.
+/// The number of times that the first part of the first step is divided by eight: `8^-17` is a rounding of `f64`.
 const CLOSER: u32 = 17;
 
 /// Follows the sign of one event's function.

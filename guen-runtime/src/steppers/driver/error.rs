@@ -61,7 +61,7 @@ pub enum Cause {
     ChartSingularity {
         /// The time at which it was found.
         found: f64,
-        /// Which of the functions that must not vanish; a generated system has their formulas in `DOMAIN`.
+        /// The index of the function that must not vanish; a generated system has the formulas in `DOMAIN`.
         function: usize,
         /// The certainty of the function there: its value relative to what a relative change of one in everything
         /// that enters would make of it, with every entry of the state at the largest value it has had. Negative if
@@ -76,7 +76,7 @@ pub enum Cause {
     ApproachingSingularity {
         /// The time at which it was found.
         found: f64,
-        /// Which of the functions that must not vanish; a generated system has their formulas in `DOMAIN`.
+        /// The index of the function that must not vanish; a generated system has the formulas in `DOMAIN`.
         function: usize,
         /// The factor by which it changed, above one.
         ratio: f64,
@@ -110,7 +110,7 @@ pub enum Cause {
     Irreversible {
         /// The time at which it was found.
         found: f64,
-        /// How much relative rounding errors grow on the way back.
+        /// The factor by which relative rounding errors grow on the way back.
         growth: f64,
         /// The limit, of roundings that have grown so, relative to the start.
         limit: f64,

@@ -2,7 +2,7 @@
 
 use crate::numbers::real::{Ordered, Real};
 
-/// Which crossings of zero count.
+/// The crossings of zero that count.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Direction {
     /// From below zero to above, in the order in which the run goes.
@@ -115,7 +115,7 @@ impl<R: Real, const N: usize> Event<'_, R, N> {
         self.tolerance >= 0.0 && self.tolerance.is_finite()
     }
 
-    /// In how many parts of a step it is looked at.
+    /// Returns the number of parts of a step in which it is checked.
     pub(in crate::steppers) fn parts(&self) -> u32 {
         self.checks
     }
@@ -140,8 +140,8 @@ impl<R: Real, const N: usize> Event<'_, R, N> {
         self.is_for_both() && (time - origin).to_f64().abs() <= self.returns_within(time)
     }
 
-    /// How long the way back takes at most: the way there took four roundings at most, and the way back is no faster than
-    /// a sixteenth of it.
+    /// Returns the longest time of the way back: the way there took four roundings at most, and the way back is no
+    /// faster than a sixteenth of it.
     pub(in crate::steppers) fn returns_within(&self, t: R) -> f64 {
         16.0 * roundings(t)
     }

@@ -1,4 +1,4 @@
-//! From a method to a result: the run of a method, the loop that drives it, dense output, events and samples.
+//! Drives a method to a result: the run of a method, the loop around it, dense output, events and samples.
 
 pub(crate) mod crossing;
 pub(crate) mod dense;

@@ -30,10 +30,10 @@ impl AddAssign for Statistics {
     }
 }
 
-/// How an integration that did not fail came to its end.
+/// The end of an integration that did not fail.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Outcome {
-    /// It arrived at the time asked for, exactly.
+    /// The run arrived at the time asked for, exactly.
     Arrived,
     /// The observer, or the receiver of events, stopped it.
     Stopped,
@@ -55,7 +55,7 @@ pub struct IntegrationResult<R, const N: usize> {
     pub statistics: Statistics,
 }
 
-/// Where a run stands: the last accepted time and state, and the work so far.
+/// The last accepted time and state of a run, and the work so far.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Checkpoint<R, const N: usize> {
     /// The time.
@@ -120,7 +120,7 @@ pub trait StepperRun<R: Real, S: ?Sized, const N: usize> {
     /// The motion over one step, as [`dense`](StepperRun::dense) returns it: for most methods a [`Dense`](crate::steppers::Dense).
     type Polynomial: Interpolant<R, N>;
 
-    /// Where the run stands.
+    /// Returns the last accepted time and state, and the work so far.
     fn checkpoint(&self) -> &Checkpoint<R, N>;
 
     /// Makes one accepted step towards `target`, which is not the present time. A step is as long as the difference of

@@ -30,7 +30,7 @@ impl<C: StepperRun<R, S, N>, R: Real, S: System<R, N> + ?Sized, const N: usize> 
     }
 }
 
-/// How far an event has been followed through a step.
+/// The progress of an event through a step.
 #[derive(Clone, Copy, Default)]
 struct Followed<R> {
     /// Up to where its crossings have been reported, and the tracker as it stood there.

@@ -66,7 +66,7 @@ pub struct Step<'a, R, K, const N: usize> {
 pub struct Adaptive<'a, P, K, R, const N: usize> {
     pair: &'a P,
     settings: Settings,
-    /// When the run began.
+    /// The time at which the run began.
     origin: R,
     reached: Checkpoint<R, N>,
     before: Checkpoint<R, N>,
@@ -80,7 +80,7 @@ pub struct Adaptive<'a, P, K, R, const N: usize> {
 struct Ready<R, const N: usize> {
     slope: [R; N],
     step: f64,
-    /// How the step before did, independently of its size.
+    /// The error of the step before, independently of its size.
     level: Option<f64>,
 }
 

@@ -133,7 +133,7 @@ fn tsit5_error<R: Real, const N: usize>(errors: &[R; N], h: f64) -> [f64; N] {
 /// The bound of the error, step by step.
 struct Known<const N: usize> {
     error: [f64; N],
-    /// How far each entry has gone: `S`.
+    /// The way that each entry has gone: `S`.
     way: [f64; N],
     /// The logarithm of what errors can have grown by.
     growth: f64,

@@ -19,11 +19,11 @@ const EVERY: u32 = 8;
 /// A run with its variational matrix.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reversible<R, const N: usize> {
-    /// How the run ended.
+    /// The end of the run.
     pub done: IntegrationResult<R, N>,
     /// `matrix[i][j]`: the derivative of entry `i` of the end by entry `j` of the start.
     pub matrix: [[R; N]; N],
-    /// How much relative rounding errors grow on the way back: `|Phi|`, the largest over the run.
+    /// The factor by which relative rounding errors grow on the way back: `|Phi|`, the largest over the run.
     ///
     /// ```text
     /// |Phi| = max_i sum_j |Phi_ij| x_j / max_i |x_i(t0)|

@@ -1,4 +1,5 @@
-//! How often a guard looks: by what looks cost, so that they cost less than three hundredths of a run.
+//! The schedule of a guard: checks are as far apart as their cost asks for, so that they take less than three
+//! hundredths of a run.
 
 /// A look is taken after at least so many right-hand sides,
 const EVALUATIONS_BETWEEN_LOOKS: u32 = 160;
@@ -19,16 +20,18 @@ const COST_OF_A_DEFECT: [f64; 2] = [4.0, 10.0];
 pub(in crate::steppers) struct Schedule {
     /// Steps after which the sizes of entries are known.
     pub young: u32,
-    /// From one look at the edges alone to the next, at most; never where somebody has chosen how often to look.
+    /// The steps from one check of the edges alone to the next, at most; never where somebody has chosen how often to
+    /// check.
     pub edges: u32,
-    /// From one look at everything to the next.
+    /// The steps from one check of everything to the next.
     pub every: u32,
 }
 
 impl Schedule {
-    /// Of a method that evaluates so often in a step, `fixed` if of a fixed length, and a system with these prices of looks:
-    /// [`check_cost`](crate::System::check_cost) and [`singularity_check_cost`](crate::System::singularity_check_cost). `chosen` is how often
-    /// somebody wants to look.
+    /// Creates the schedule of a method that evaluates so often in a step, `fixed` if of a fixed length, and a system
+    /// with these costs of checks: [`check_cost`](crate::System::check_cost) and
+    /// [`singularity_check_cost`](crate::System::singularity_check_cost). `chosen` is the number of steps between two
+    /// checks that somebody has set.
     pub fn new(evaluations: u32, (look, edges): (u32, f64), fixed: bool, chosen: Option<u32>) -> Self {
         let evaluations = evaluations.max(1);
         let in_steps = |right_hand_sides: f64| (right_hand_sides / f64::from(evaluations)) as u32;
@@ -58,9 +61,9 @@ impl Schedule {
         Self { young, edges: between, every }
     }
 
-    /// In how many steps to look at the edges again, so many steps after everything was looked at, if that should be within
-    /// `soonest` steps: after a number of steps since then that is a multiple of `edges`, or of its half, or of the half of that. So
-    /// runs in lanes look at the same steps, wherever each of them is.
+    /// Returns the number of steps until the next check of the edges, so many steps after everything was checked, if
+    /// that should be within `soonest` steps: a multiple of `edges`, or of its half, or of the half of that, counted
+    /// from that check. So runs in lanes check after the same steps, wherever each of them is.
     pub fn next(edges: u32, soonest: u32, since: u32) -> u32 {
         let mut apart = edges.min(1 << 31);
         while apart > soonest {

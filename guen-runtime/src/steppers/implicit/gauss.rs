@@ -231,7 +231,7 @@ where
     R: Ordered,
     S: Differentiable<R, N> + ?Sized,
 {
-    /// With more iterations than this a new Jacobian costs less than to go on with the old one.
+    /// The number of iterations from which on a new Jacobian costs less than to go on with the old one.
     const SLOW: u32 = 7;
     /// Steps that differ by less have the same factors: each iteration leaves so much of the error.
     const SAME: f64 = 1e-3;

@@ -143,7 +143,7 @@ short_ways!(Radau5 over Ordered, systems Differentiable);
 #[derive(Clone, Copy, Debug)]
 pub struct Run<'a, R, const N: usize> {
     method: &'a Radau5<R>,
-    /// When the run began.
+    /// The time at which the run began.
     origin: R,
     reached: Checkpoint<R, N>,
     before: Checkpoint<R, N>,
@@ -162,9 +162,9 @@ struct Ready<R, const N: usize> {
     step: f64,
 }
 
-/// How Newton's method ended.
+/// The end of Newton's method.
 enum Solved<R, const N: usize> {
-    /// With these stages, after so many iterations, of which the last reduced the step by this factor.
+    /// These stages, after so many iterations, of which the last reduced the step by this factor.
     Stages([[R; N]; 3], u32, f64),
     Diverged,
     NotFinite,

@@ -5,8 +5,8 @@ use super::Series;
 use crate::numbers::real::{Ordered, Real};
 use crate::system::series::TaylorSeries;
 
-/// Where the rates are compared beside the end of a step, as a part of it. Not the middle, where what is symmetric about it
-/// would vanish.
+/// The place within a step at which the rates are compared, as a part of it. Not the middle, where what is symmetric
+/// about it would vanish.
 pub(super) const INSIDE: f64 = 0.45;
 
 /// The order up to which the terms of a series of order `p` count there. If at the end of the step they fall to the tolerance like

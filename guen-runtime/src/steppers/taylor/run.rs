@@ -10,8 +10,8 @@ use crate::steppers::driver::run::{Checkpoint, Statistics, StepperRun};
 use crate::steppers::step_size;
 use crate::system::series::{HIGHEST_ORDER, TaylorSeries};
 
-/// How much shorter a step becomes whose rates are not those of its series, and how much longer at most the one after it
-/// is: what the coefficients did not see is near.
+/// The factor by which a step becomes shorter whose rates are not those of its series, and by which the one after it
+/// becomes longer at most: what the coefficients did not see is near.
 const SHORTER: f64 = 0.5;
 const LONGER: f64 = 2.0;
 
@@ -39,7 +39,7 @@ pub struct Run<'a, R, const N: usize> {
     method: &'a Taylor<R>,
     /// Known once the settings were found to be in order.
     orders: Option<Orders>,
-    /// When the run began.
+    /// The time at which the run began.
     origin: R,
     reached: Checkpoint<R, N>,
     /// The remainder that the state lacks, by less than half of its last digit.
@@ -132,7 +132,7 @@ impl<'a, R: Ordered, const N: usize> Run<'a, R, N> {
     where
         S: TaylorSeries<R, N> + ?Sized,
     {
-        /// How much shorter the scale becomes where coefficients overflow.
+        /// The factor by which the scale becomes shorter where coefficients overflow.
         const FINER: f64 = 1.0 / (1_u64 << 20) as f64;
         /// And how often.
         const ATTEMPTS: u32 = 6;
@@ -180,7 +180,7 @@ impl<'a, R: Ordered, const N: usize> Run<'a, R, N> {
         const PART: f64 = 0.7;
         /// The addition to the logarithm for earlier terms, which are not to decide unless there is a gap.
         const FURTHER: f64 = 0.6;
-        /// How many are the last ones.
+        /// The number of the last ones.
         const DECIDING: f64 = 4.0;
 
         let Series { order, coefficients, .. } = series;
