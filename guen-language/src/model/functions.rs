@@ -114,6 +114,9 @@ impl Evaluator<'_> {
         } else {
             let fault = Fault::new(function.span(), format!("unknown function `{text}`"));
             let all = names::SCALAR_FUNCTIONS.iter().chain(names::SPATIAL_FUNCTIONS).copied();
+            if let Some(instead) = instead_of(text) {
+                return self.fail(fault.help(instead));
+            }
             match function_synonym(text).or_else(|| names::nearest(text, all)) {
                 Some(near) => fault.help(format!("did you mean `{near}`?")),
                 None => fault.help(format!(
@@ -442,6 +445,20 @@ impl Evaluator<'_> {
     }
 }
 
+/// What to write for functions of other languages that this one has not.
+fn instead_of(text: &str) -> Option<&'static str> {
+    Some(match text {
+        "min" => "the smaller of two is `(a + b - abs(a - b))/2`",
+        "max" => "the larger of two is `(a + b + abs(a - b))/2`",
+        "sec" => "write `1/cos(x)`",
+        "csc" | "cosec" => "write `1/sin(x)`",
+        "pow" => "a power is written `x^2`",
+        "norm2" => "the square of a vector's length is `inner(v, v)`",
+        "diff" => "`dot(x)` is the rate of `x`; derivatives of the energies are the macro's work",
+        _ => return None,
+    })
+}
+
 /// Functions under the names of other languages.
 fn function_synonym(text: &str) -> Option<&'static str> {
     Some(match text {
@@ -452,7 +469,7 @@ fn function_synonym(text: &str) -> Option<&'static str> {
         "ctg" | "cotan" => "cot",
         "tg" => "tan",
         "sgn" | "signum" => "sign",
-        "diff" | "ddt" | "dt" => "dot",
+        "ddt" | "dt" => "dot",
         "vector" => "vec",
         "length" | "magnitude" => "norm",
         "normalize" => "unit",

@@ -7,6 +7,7 @@ mod corpus;
 mod damage;
 mod drawn;
 mod edges;
+mod hints;
 mod imports;
 mod limbs;
 mod poles;

@@ -40,6 +40,14 @@ pub trait Frame<const N: usize> {
 
 /// The operator of displacement `X_J` of the generated system `S`: the type of the constants `X0`, `X1`, .. of its module, which
 /// are its only values. See [`Operator`].
+///
+/// ```
+/// use guen_runtime::Displacement;
+/// // Of no system, to show the name; `hoop::X1` is one of the hoop.
+/// let operator = Displacement::<(), 1>::default();
+/// assert_eq!(format!("{operator:?}"), "X1");
+/// assert_eq!(size_of_val(&operator), 0);
+/// ```
 pub struct Displacement<S, const J: usize>(PhantomData<fn() -> S>);
 
 impl<S, const J: usize> Displacement<S, J> {
