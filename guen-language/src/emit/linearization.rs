@@ -148,10 +148,10 @@ fn cells(pattern: &Pattern, rows: usize, size: usize, count: usize) -> TokenStre
 /// more instance of the function, and the values beside the derivatives are computed once.
 fn by_duals(layout: &Layout, of: &Ident) -> (TokenStream, TokenStream) {
     let (size, count) = (layout.size, layout.inputs);
-    let dual = {
-        let directions = size + count;
-        quote!(__guen::Dual<R, #directions>)
-    };
+    // The function is long. With fewer directions its operations would be compiled in line, see `Dual`: minutes of rustc's time.
+    const FEWEST: usize = 9;
+    let directions = (size + count).max(FEWEST);
+    let dual = quote!(__guen::Dual<R, #directions>);
     let held = match count {
         0 => quote!(let inputs: [R; 0] = [];),
         _ => quote!(let inputs: [R; #count] = ::core::convert::From::from(*inputs);),

@@ -9,6 +9,8 @@ use std::collections::BTreeMap;
 use super::{Forms, Operators};
 use crate::algebra::{ExprId, Flow};
 use crate::workbench::Workbench;
+use crate::zero::field::{add, mul, sub};
+use crate::zero::jets::Moving;
 
 /// The brackets of the operators, computed on demand.
 pub struct Brackets {
@@ -90,6 +92,34 @@ impl Brackets {
         let coefficient = bench.tidy(sum);
         self.coefficients.insert((i, j, t), coefficient);
         coefficient
+    }
+
+    /// `C_rvw` for all constraints at a point, a row for each `w` with a column for each `v`, from the values of all `xi_j^p`.
+    pub(crate) fn values(&self, moving: &mut Moving<'_>, xi: &[Vec<u64>], r: usize) -> Option<Vec<Vec<u64>>> {
+        let component = |j: usize, p: usize| match (j, p) {
+            (0, 0) => 1,
+            (_, 0) => 0,
+            _ => xi[j][p - 1],
+        };
+        let first = self.degrees;
+        let mut rows = Vec::new();
+        for curl in &self.curls[first..] {
+            let mut row = vec![0; self.curls.len() - first];
+            for (p, q, e) in curl {
+                let (rp, rq) = (component(r, *p), component(r, *q));
+                if rp == 0 && rq == 0 {
+                    continue;
+                }
+                let e = moving.value(*e)?;
+                for (v, c) in row.iter_mut().enumerate() {
+                    let (vp, vq) = (component(first + 1 + v, *p), component(first + 1 + v, *q));
+                    let area = sub(mul(rq, vp), mul(rp, vq));
+                    *c = add(*c, mul(e, area));
+                }
+            }
+            rows.push(row);
+        }
+        Some(rows)
     }
 
     /// `C_0st + sum_{r<=l} eta_r C_rst`: how the form `t` turns along the motion against `X_s`.

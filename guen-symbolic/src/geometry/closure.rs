@@ -5,8 +5,8 @@
 //! and only brackets that enlarge the rank are carried on: dependent ones add nothing that
 //! `D_i + [D_1, D_i]` does not contain already.
 
-use super::adjugate;
 use super::{Brackets, Forms, Operators};
+use super::{adjugate, next_level};
 use crate::algebra::{ExprId, Flow, Rational};
 use crate::workbench::Workbench;
 
@@ -68,49 +68,44 @@ impl Closure {
                 }
             }
         }
-        let mut exhausted = false;
         while !fresh.is_empty() {
             growth.push(l + kept.len());
-            let mut next = Vec::new();
-            'level: for y in &fresh {
-                for (r, flow) in flows.iter_mut().enumerate() {
-                    if kept.len() == constraints {
-                        break 'level;
-                    }
-                    let mut bracket = Vec::with_capacity(constraints);
-                    for w in 0..constraints {
-                        if bench.graph.work() > start + WORK_LIMIT {
-                            exhausted = true;
-                            break 'level;
-                        }
-                        let mut terms = vec![flow.of(&mut bench.graph, y[w])];
-                        for (v, component) in y.iter().enumerate() {
-                            if !bench.graph.is_zero(*component) {
-                                let c = brackets.coefficient(bench, r, l + 1 + v, l + 1 + w);
-                                terms.push(bench.graph.mul(*component, c));
-                            }
-                        }
-                        let sum = bench.graph.sum(terms);
-                        // The next derivative shares what this one has found.
-                        bracket.push(bench.keep_large(sum));
-                    }
-                    if enlarges(bench, &mut kept, &bracket) {
-                        next.push(bracket);
-                    }
-                }
-            }
-            fresh = next;
-            if exhausted {
-                // Of this level not all is known.
+            let missing = constraints - kept.len();
+            if missing == 0 || !complete {
                 break;
             }
+            let found = next_level::enlarging(bench, (forms, operators, brackets), &fresh, &kept, missing);
+            let Some(found) = found else {
+                complete = false;
+                break;
+            };
+            if found.len() == missing {
+                // No constraint is left that could be integrable, and nothing looks at these brackets.
+                growth.push(n);
+                break;
+            }
+            let mut next = Vec::with_capacity(found.len());
+            for (y, r) in found {
+                let bracket = bracket(bench, brackets, &mut flows[r], (r, l), &fresh[y]);
+                if bench.graph.work() > start + WORK_LIMIT {
+                    complete = false;
+                    break;
+                }
+                next.push(bracket);
+            }
+            kept.extend(next.iter().cloned());
+            fresh = next;
         }
-        complete &= !exhausted;
-        // Ranks see through what vanishes; what is printed should not contain it.
-        for e in kept.iter_mut().flatten() {
-            *e = bench.dropped(*e);
-        }
-        let integrable = if complete { annihilator(bench, &kept, l, constraints) } else { Vec::new() };
+        let is_full = growth.last() == Some(&n);
+        let integrable = if complete && !is_full {
+            // Ranks see through what vanishes; what is printed should not contain it.
+            for e in kept.iter_mut().flatten() {
+                *e = bench.dropped(*e);
+            }
+            annihilator(bench, &kept, l, constraints)
+        } else {
+            Vec::new()
+        };
         Closure { growth, complete, integrable }
     }
 
@@ -118,6 +113,30 @@ impl Closure {
     pub fn is_holonomic(&self) -> bool {
         self.complete && self.growth.len() == 1
     }
+}
+
+/// `[X_r, Y]` modulo `D_1`.
+fn bracket(
+    bench: &mut Workbench,
+    brackets: &mut Brackets,
+    flow: &mut Flow,
+    (r, l): (usize, usize),
+    y: &[ExprId],
+) -> Vec<ExprId> {
+    let mut bracket = Vec::with_capacity(y.len());
+    for w in 0..y.len() {
+        let mut terms = vec![flow.of(&mut bench.graph, y[w])];
+        for (v, component) in y.iter().enumerate() {
+            if !bench.graph.is_zero(*component) {
+                let c = brackets.coefficient(bench, r, l + 1 + v, l + 1 + w);
+                terms.push(bench.graph.mul(*component, c));
+            }
+        }
+        let sum = bench.graph.sum(terms);
+        // The next derivative shares what this one has found.
+        bracket.push(bench.keep_large(sum));
+    }
+    bracket
 }
 
 /// `X_r` as a flow on functions of `t` and the coordinates, `r` from 0.

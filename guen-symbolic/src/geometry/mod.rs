@@ -6,6 +6,7 @@ mod closure;
 mod dependence;
 mod forms;
 mod minors;
+mod next_level;
 mod operators;
 
 pub use brackets::Brackets;
