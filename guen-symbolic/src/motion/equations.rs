@@ -128,7 +128,7 @@ impl Stated {
             && definition.is_solved_by(bench, (system, frame), &found.rates)?
         {
             let freed = match system.forms.len() > system.forms.degrees {
-                true => multibody::freed(bench, system, frame, partials),
+                true => multibody::freed(bench, system, frame, partials, generalised_forces),
                 false => None,
             };
             let freed = freed.filter(|freed| definition.has(bench, system, freed, generalised_forces));

@@ -31,8 +31,9 @@ impl Derivation {
             return;
         }
         let mut partials = VelocityPartials::of_system(bench, &self.system);
-        let before = self.freed.take();
-        let freed = before.or_else(|| multibody::freed(bench, &self.system, &self.frame, &mut partials));
+        let (before, forces) = (self.freed.take(), &self.generalised_forces);
+        let freed =
+            before.or_else(|| multibody::freed(bench, &self.system, &self.frame, &mut partials, forces));
         let Some(freed) = freed else { return };
         let l = self.system.forms.degrees;
         let is_proved = |bench: &mut Workbench, own: &[ExprId], other: &[ExprId], times: u64| {

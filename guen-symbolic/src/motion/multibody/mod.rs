@@ -109,6 +109,7 @@ pub(super) fn freed(
     system: &Mechanics,
     frame: &Frame,
     partials: &mut VelocityPartials,
+    generalised_forces: &[ExprId],
 ) -> Option<Equations> {
     if system.structure.bodies.is_empty() || !is_understood(bench, system) {
         return None;
@@ -118,11 +119,11 @@ pub(super) fn freed(
     let mut free = system.clone();
     free.forms.degrees = n;
     free.holonomic.clear();
-    let mut attempt = |point| {
+    let mut attempt = |free: &Mechanics, point| {
         let generation = bench.zero.generation();
         let mut own = Numbering::new(&mut bench.graph, (point, on_manifold), generation);
         let (mass, forces) =
-            assembled(bench, &mut own, (&free, l), frame, partials, |assembly, _| assembly.at_the_root())?;
+            assembled(bench, &mut own, (free, l), frame, partials, |assembly, _| assembly.at_the_root())?;
         if !own.is_sound() {
             return None;
         }
@@ -132,7 +133,17 @@ pub(super) fn freed(
         let forces = entries.split_off(n * l);
         Some(Equations { mass: (0..n).map(|j| entries[j * l..][..l].to_vec()).collect(), forces })
     };
-    (0..POINTS).find_map(&mut attempt)
+    if let Some(found) = (0..POINTS).find_map(|point| attempt(&free, point)) {
+        return Some(found);
+    }
+    if free.forces.is_empty() {
+        return None;
+    }
+    // Along a velocity that does not follow here forces are as the operators have them.
+    free.forces.clear();
+    free.structure.loads.clear();
+    let found = (0..POINTS).find_map(|point| attempt(&free, point))?;
+    Some(found.driven(bench, generalised_forces))
 }
 
 /// Puts up the equations of the bodies of a system, of whose parameters those from some place on are zero, and hands them on with the
