@@ -6,5 +6,6 @@
 mod large;
 
 mod costs;
+mod lines;
 mod messages;
 mod series;

@@ -294,7 +294,7 @@ fn by_three_rates_of_a_quaternion() {
 }
 
 #[test]
-#[ignore = "ten seconds: `cargo test -p guen-language --test declarations edges -- --ignored`"]
+#[ignore = "ten seconds without optimisation; `.ci/run` runs it in a release build"]
 fn by_any_three_rates_of_a_quaternion() {
     for body in [TOP, FLYING, BALL, HOOP, STONE] {
         (0..4).for_each(|left| by_three_rates(body, left));

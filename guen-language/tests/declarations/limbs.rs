@@ -3,12 +3,9 @@
 use std::fmt::Write;
 
 use crate::common::{derived, evaluated};
+use crate::families::robots;
 use guen_language::derive::{Derived, function};
 use guen_symbolic::{SymbolId, evaluate_f64};
-
-#[allow(dead_code, reason = "the others take too long here")]
-#[path = "../../../workshop/guen-benchmarks/src/robots.rs"]
-mod robots;
 
 /// A level's rates, put into its equations at a state.
 fn residual(derived: &Derived<'_>) -> f64 {

@@ -6,13 +6,8 @@ use guen_language::derive::{Derived, function};
 use guen_symbolic::SymbolId;
 use nalgebra::{DMatrix, DVector};
 
-#[path = "../../../workshop/guen-benchmarks/src/bars.rs"]
-mod bars;
-#[allow(dead_code, reason = "the rest is for programs that are compiled")]
-#[path = "../../../workshop/guen-benchmarks/src/chains.rs"]
-mod chains;
-
-use chains::Angles;
+use crate::families::bars;
+use crate::families::chains::{self, Angles};
 
 const G: f64 = 9.81;
 
@@ -196,7 +191,7 @@ fn loops_cost_each_what_the_others_do() {
 }
 
 #[test]
-#[ignore = "takes minutes: cargo test -p guen-language --test declarations rows_of_bars -- --ignored"]
+#[ignore = "takes minutes without optimisation; `.ci/run` runs it in a release build"]
 fn forty_loops_are_derived() {
     let [in_angles, in_points] = checked(40);
     // 2,634 and 5,357 as this is written.

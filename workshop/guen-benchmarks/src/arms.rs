@@ -4,6 +4,9 @@
 
 use std::fmt::Write;
 
+/// The joints of the longest arm, of which the others are the first ones.
+pub const AXES: &str = "zyyxyxyxy";
+
 /// The arms that are declared: axes from the base on, module.
 pub const DECLARED: [(&str, &str); 2] = [("zyx", "arm3"), ("zyyxyx", "arm6")];
 
