@@ -8,7 +8,7 @@ use super::projection::Projected;
 use super::proof::Definition;
 use super::turned::InOwnAxes;
 use super::velocity_forms::VelocityPartials;
-use super::{Frame, FrameNode, KineticTerm, Mechanics, multibody, projection, restriction, turned};
+use super::{Frame, FrameNode, KineticTerm, Mechanics, multibody, projection, restriction, spins, turned};
 use crate::algebra::ExprId;
 use crate::normal::{Limits, normal_coefficients};
 use crate::program::weighted_cost;
@@ -23,6 +23,12 @@ const LARGEST_MULTIPLIED: u64 = 4000;
 /// The number of products, one for each term of the energy in each entry of the mass matrix, above which equations are stated in
 /// the rates of the base angles, if there are any.
 const MOST_PRODUCTS: usize = 20_000;
+
+/// The estimate of rates by bodies up to which all ways to the rates are looked at.
+const SMALL: u64 = 150;
+
+/// The estimate of rates by bodies up to which others are looked at, unless these cannot promise less.
+pub(super) const LARGEST_TRIED: u64 = 600;
 
 /// `sum_t M_st eta_t' = f_s`.
 #[derive(Clone, Debug)]
@@ -84,8 +90,10 @@ pub(super) struct Stated {
     pub(super) multiplied: Vec<Equations>,
     /// The projection that they were multiplied out from.
     pub(super) projected: Option<Projected>,
-    /// The equations of bodies and their solution, where no others are multiplied out.
-    pub(super) of_bodies: Option<(Equations, multibody::Found)>,
+    /// The equations of bodies, where no others are multiplied out.
+    pub(super) of_bodies: Option<Equations>,
+    /// The rates by bodies, once they were looked for; proved where their equations are stated.
+    pub(super) bodies: Option<Option<multibody::Found>>,
     /// With the constraints as parameters that stay zero, as of [`multibody::freed`], where it was looked for and proved.
     pub(super) freed: Option<Equations>,
     /// The system in the rates of its base angles, where the equations come from there.
@@ -100,7 +108,7 @@ impl Stated {
     /// The equations to show, for `s = 1..l`.
     pub(super) fn shown(&self) -> &Equations {
         match &self.of_bodies {
-            Some((equations, _)) => equations,
+            Some(equations) => equations,
             None => &self.multiplied[0],
         }
     }
@@ -116,16 +124,25 @@ impl Stated {
         affordable(bench)?;
         let velocities = weighted_cost(&bench.graph, &frame.velocities);
         let is_large = is_large(bench, system) || velocities > LARGEST_MULTIPLIED;
-        let of_bodies = match is_large {
-            true => multibody::rates(bench, system, frame, partials, true),
-            false => None,
-        };
+        // Particles have a way of their own, and are looked at as bodies after it.
+        let turns = system.structure.frames().len() > 1;
+        let mut bodies = (is_large || turns).then(|| {
+            let least = if is_large { 0 } else { least(bench, system, frame) };
+            let is_stated = |cost: u64| is_large || promises_least(cost, least);
+            multibody::rates(bench, system, frame, partials, is_large, is_stated)
+        });
+        let found = bodies.as_mut().and_then(Option::as_mut);
+        let of_bodies = found.and_then(|found| Some((found.equations.take()?, found.rates.clone())));
+        let of_bodies = of_bodies.filter(|(_, rates)| {
+            is_large
+                || weighted_cost(&bench.graph, rates) > LARGEST_TRIED
+                || !spins::are_others(bench, system, partials)
+        });
         let mut definition = Definition::new(bench, system, generalised_forces);
-        if let Some(mut found) = of_bodies
-            && let Some(equations) = found.equations.take()
+        if let Some((equations, rates)) = of_bodies
             && let own = equations.undriven(bench, generalised_forces)
             && definition.is(bench, (system, frame), &own, true)?
-            && definition.is_solved_by(bench, (system, frame), &found.rates)?
+            && definition.is_solved_by(bench, (system, frame), &rates)?
         {
             let freed = match system.forms.len() > system.forms.degrees {
                 true => multibody::freed(bench, system, frame, partials, generalised_forces),
@@ -144,7 +161,8 @@ impl Stated {
                 definition,
                 multiplied: Vec::new(),
                 projected: None,
-                of_bodies: Some((equations, found)),
+                of_bodies: Some(equations),
+                bodies,
                 freed,
                 in_base: None,
                 in_own_axes: None,
@@ -169,6 +187,7 @@ impl Stated {
                     multiplied: vec![equations],
                     projected: None,
                     of_bodies: None,
+                    bodies,
                     freed: None,
                     in_base: Some(in_base),
                     in_own_axes: None,
@@ -176,7 +195,9 @@ impl Stated {
                 });
             }
         }
-        Self::multiplied_out(bench, system, frame, partials, terms, (definition, generalised_forces))
+        let stated =
+            Self::multiplied_out(bench, system, frame, partials, terms, (definition, generalised_forces))?;
+        Ok(Stated { bodies, ..stated })
     }
 
     fn multiplied_out(
@@ -219,6 +240,7 @@ impl Stated {
             multiplied,
             projected,
             of_bodies: None,
+            bodies: None,
             freed: None,
             in_base: None,
             in_own_axes,
@@ -240,6 +262,18 @@ fn constrained(
         return Equations { mass: Vec::new(), forces: Vec::new() };
     }
     projection::equations(bench, system, frame, partials, terms, l..n).equations
+}
+
+/// The estimate of the velocities and the energy, which equations that are multiplied out have in them beside their derivatives.
+fn least(bench: &mut Workbench, system: &Mechanics, frame: &mut Frame) -> u64 {
+    let energy = frame.constrain.of(&mut bench.graph, system.kinetic_energy);
+    weighted_cost(&bench.graph, &[&frame.velocities[..], &[energy]].concat())
+}
+
+/// Whether rates of this cost take less than what equations that are multiplied out have in them, of which the least is known. Of large
+/// systems the derivatives take several times the energy.
+fn promises_least(cost: u64, least: u64) -> bool {
+    cost > SMALL && cost <= least || cost > LARGEST_TRIED && 2 * cost <= 3 * least
 }
 
 /// Whether many frames turn, about several axes: multiplied out, each brings a factor.

@@ -5,20 +5,17 @@
 //! are stated cost, the others are not looked at.
 
 use super::base_parameters::InBaseParameters;
+use super::equations::{LARGEST_TRIED, Stated};
 use super::fault::{DerivationError, affordable};
 use super::symmetry::Symmetry;
 use super::velocity_forms::VelocityPartials;
 use super::weightless::solved;
 use super::{
-    Equations, Frame, KineticTerm, Mechanics, Solution, equations::Stated, headings, multibody, nested,
-    spins, tensions, turned,
+    Equations, Frame, KineticTerm, Mechanics, Solution, headings, multibody, nested, spins, tensions, turned,
 };
 use crate::algebra::ExprId;
 use crate::program::weighted_cost;
 use crate::workbench::Workbench;
-
-/// Rates up to this estimate are sought in all ways.
-const LARGEST_TRIED: u64 = 600;
 
 /// A way to the rates of the state.
 struct Formulation {
@@ -100,8 +97,6 @@ struct Search<'a> {
     in_base: Option<InBaseParameters>,
     /// The estimate of the rates by the equations as they are stated, once these are solved.
     least: u64,
-    /// The rates by bodies, once they were looked for beside others.
-    of_bodies: Option<Option<multibody::Found>>,
     symmetry: Symmetry,
     /// The equations without what they do not depend on.
     shorter: Option<Equations>,
@@ -140,7 +135,6 @@ pub(super) fn walk(
         generalised_forces,
         stated,
         in_base: None,
-        of_bodies: None,
         least: 0,
         symmetry,
         shorter,
@@ -210,9 +204,10 @@ impl Search<'_> {
     }
 
     /// The rates by bodies.
-    fn bodies(&mut self, bench: &mut Workbench) -> Option<multibody::Found> {
-        let Search { system, frame, partials, of_bodies, .. } = self;
-        of_bodies.get_or_insert_with(|| multibody::rates(bench, system, frame, partials, false)).clone()
+    fn bodies(&mut self, bench: &mut Workbench) -> Option<&multibody::Found> {
+        let Search { system, frame, partials, stated, .. } = self;
+        let find = || multibody::rates(bench, system, frame, partials, false, |_| false);
+        stated.bodies.get_or_insert_with(find).as_ref()
     }
 
     /// The equations as they are stated, solved: what is shown unless something is much shorter.
@@ -268,15 +263,15 @@ fn multiplied_out(bench: &mut Workbench, search: &mut Search<'_>) -> Result<Outc
 
 /// Bodies that hang on each other and roll, as they were declared.
 fn of_bodies(bench: &mut Workbench, search: &mut Search<'_>) -> Result<Outcome, DerivationError> {
-    if let Some((_, found)) = &search.stated.of_bodies {
-        let accelerations = found.rates[search.frame.velocities.len()..].to_vec();
-        let solution = Solution::of_pivots(bench, accelerations, &found.pivots);
-        let candidate = Candidate { rates: found.rates.clone(), rank: Rank::Only(solution) };
-        return Ok(Outcome::Found(vec![candidate]));
-    }
-    let Some(found) = search.bodies(bench) else {
+    let Some(found) = search.bodies(bench).cloned() else {
         return Ok(Outcome::Declined("the energy is not that of bodies, or their axes are not understood"));
     };
+    if search.stated.of_bodies.is_some() {
+        let accelerations = found.rates[search.frame.velocities.len()..].to_vec();
+        let solution = Solution::of_pivots(bench, accelerations, &found.pivots);
+        let candidate = Candidate { rates: found.rates, rank: Rank::Only(solution) };
+        return Ok(Outcome::Found(vec![candidate]));
+    }
     let cost = weighted_cost(&bench.graph, &found.rates);
     if cost >= search.least {
         return Ok(Outcome::Declined("the equations as stated promise less"));

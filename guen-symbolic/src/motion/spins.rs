@@ -55,6 +55,11 @@ pub(super) fn rates(
     Some(lists.into_iter().map(back).collect())
 }
 
+/// Whether a body turns freely whose spins are not among the parameters: it may have no edge where these have one.
+pub(super) fn are_others(bench: &mut Workbench, system: &Mechanics, partials: &mut VelocityPartials) -> bool {
+    Change::new(bench, system, partials).is_some()
+}
+
 /// The functions that must not vanish, without those that are constant wherever the constraints on positions hold.
 fn edges(bench: &mut Workbench, declared: &Mechanics, frame: &Frame, operators: &Operators) -> Vec<ExprId> {
     let mut restriction = Restriction::new(bench, declared);

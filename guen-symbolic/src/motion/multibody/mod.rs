@@ -38,6 +38,7 @@ use super::velocity_forms::VelocityPartials;
 use super::{Equations, Frame, Mechanics};
 use crate::algebra::{ExprId, FastMap};
 use crate::numbering::{Num, Numbering};
+use crate::program::weighted_cost;
 use crate::workbench::Workbench;
 
 /// Points of the zero test that are tried: not everywhere does every root exist.
@@ -54,13 +55,15 @@ pub(super) struct Found {
     pub(super) equations: Option<Equations>,
 }
 
-/// The rates of the state of a system of bodies; none where its energies or forms are beyond what is understood here.
+/// The rates of the state of a system of bodies; none where its energies or forms are beyond what is understood here. `is_alone` says
+/// that nothing else is derived, `is_stated` for which estimate of the rates the equations are asked for.
 pub(super) fn rates(
     bench: &mut Workbench,
     system: &Mechanics,
     frame: &Frame,
     partials: &mut VelocityPartials,
-    with_equations: bool,
+    is_alone: bool,
+    is_stated: impl Fn(u64) -> bool,
 ) -> Option<Found> {
     let structure = &system.structure;
     if structure.bodies.is_empty() || !is_understood(bench, system) {
@@ -71,11 +74,10 @@ pub(super) fn rates(
     // What rolls and is posed by a quaternion has no axes here in which its contact rests: entries that are small where others
     // are not would be differences of these. Where nothing else is derived that has to do.
     let rolls = system.holonomic.len() < system.forms.len() - system.forms.degrees;
-    if on_manifold && rolls && !with_equations {
+    if on_manifold && rolls && !is_alone {
         return None;
     }
-    (0..POINTS)
-        .find_map(|point| attempt(bench, system, frame, partials, (point, on_manifold), with_equations))
+    (0..POINTS).find_map(|point| attempt(bench, system, frame, partials, (point, on_manifold), &is_stated))
 }
 
 fn has_general_turns(system: &Mechanics) -> bool {
@@ -202,15 +204,14 @@ fn attempt(
     frame: &Frame,
     partials: &mut VelocityPartials,
     point: (usize, bool),
-    with_equations: bool,
+    is_stated: impl Fn(u64) -> bool,
 ) -> Option<Found> {
     let (n, l) = (system.forms.len(), system.forms.degrees);
     let generation = bench.zero.generation();
     let mut own = Numbering::new(&mut bench.graph, point, generation);
     let solved = assembled(bench, &mut own, (system, l), frame, partials, |assembly, velocities| {
         let (accelerations, pivots) = assembly.solve()?;
-        let at_the_root = assembly.at_the_root.take().filter(|_| with_equations);
-        Some((velocities, accelerations, pivots, at_the_root))
+        Some((velocities, accelerations, pivots, assembly.at_the_root.take()))
     });
     let (velocities, accelerations, pivots, at_the_root) = solved?;
     if !own.is_sound() {
@@ -219,7 +220,8 @@ fn attempt(
     let outputs: Vec<Num> = velocities.into_iter().chain(accelerations).chain(pivots).collect();
     let mut rates = own.export(&mut bench.graph, &outputs);
     let pivots = rates.split_off(n + l);
-    let equations = at_the_root.map(|(mass, forces)| {
+    let cost = weighted_cost(&bench.graph, &rates);
+    let equations = at_the_root.filter(|_| is_stated(cost)).map(|(mass, forces)| {
         let entries: Vec<Num> = mass.into_iter().flatten().chain(forces).collect();
         let mut entries = own.export(&mut bench.graph, &entries);
         let forces = entries.split_off(l * l);
