@@ -76,6 +76,14 @@ pub const BODY_FIELDS: &[&str] = &["mass", "inertia", "center", "orientation"];
 /// Words of neighbouring languages and the section that does their work here.
 const SECTION_SYNONYMS: &[(&str, &str)] = &[
     ("variables", "coordinates"),
+    ("vars", "coordinates"),
+    ("generalized_coordinates", "coordinates"),
+    ("generalised_coordinates", "coordinates"),
+    ("dofs", "coordinates"),
+    ("control", "inputs"),
+    ("const", "constants"),
+    ("t", "kinetic_energy"),
+    ("v", "potential_energy"),
     ("positions", "coordinates"),
     ("controls", "inputs"),
     ("quasi_velocities", "parameters"),
@@ -103,7 +111,6 @@ const GENERATED_ITEMS: &[&str] = &[
     "Outputs",
     "Driven",
     "Bracket",
-    "R",
     "f64",
     "f32",
     "usize",
@@ -114,6 +121,8 @@ const GENERATED_ITEMS: &[&str] = &[
     "i64",
     "u8",
     "program",
+    "placed",
+    "missing",
 ];
 
 /// The struct and the module of a carried form; nothing else in the module of a level may have their names.
@@ -142,6 +151,7 @@ pub fn is_reserved(word: &str) -> bool {
 pub fn is_generated_item(word: &str) -> bool {
     let number = word.strip_prefix('X');
     GENERATED_ITEMS.contains(&word)
+        || word.starts_with(RESERVED_PREFIX)
         || number.is_some_and(|n| !n.is_empty() && n.bytes().all(|b| b.is_ascii_digit()))
 }
 
@@ -161,6 +171,22 @@ pub fn is_rust_keyword(word: &str) -> bool {
 /// Whether a keyword of Rust may be written `r#word`.
 pub fn can_be_raw(word: &str) -> bool {
     !matches!(word, "self" | "Self" | "super" | "crate" | "_")
+}
+
+/// Returns what to write for a word that no single section stands for.
+pub fn instead_of_section(word: &str) -> Option<&'static str> {
+    Some(match word.to_lowercase().as_str() {
+        "params" | "param" | "parameter" => {
+            "physical constants stand in `constants`, quasi-velocities in `parameters`"
+        }
+        "lagrangian" | "l" | "energy" | "energies" => {
+            "write `kinetic_energy = e;` and `potential_energy = e;`: the equations follow from both"
+        }
+        "u" => "write `force_function = e;`, or its negative as `potential_energy = e;`",
+        "if" | "match" | "for" | "while" | "loop" => "there are no branches and no loops: write every entry",
+        "fn" => "an expression gets a name by `let name = e;`; there are no functions with arguments",
+        _ => return None,
+    })
 }
 
 /// The section that an unknown word was probably meant to be.

@@ -105,7 +105,7 @@ fn other_reals() {
         let expected: [f64; 4] = std::array::from_fn(|i| (ahead[i] - behind[i]) / (2.0 * H));
         assert_agree(&found, &expected, 1e-8, "derivative");
     }
-    let single = hoop::Numbers::<f32>::default();
+    let single = hoop::Numbers::with_defaults::<f32>();
     assert_eq!(single.system(), Hoop::<f32> { a: 0.5, A: 0.125, C: 0.25, g: 9.81 });
 }
 

@@ -5,7 +5,7 @@ use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
 use super::formula::default_text;
-use super::layout::{Layout, is_derived, variable_ident};
+use super::layout::{Layout, REAL, is_derived, variable_ident};
 use super::text::tokens;
 use super::{documentation, physical, recast};
 use crate::derive::Subject;
@@ -57,29 +57,34 @@ fn fields(subject: &Subject<'_, '_>, layout: &Layout) -> Vec<Field> {
 }
 
 pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, report: &Report) -> TokenStream {
-    let system = &layout.system;
+    let (system, declared) = (&layout.system, &layout.declared);
     let fields = fields(subject, layout);
     let names: Vec<&Ident> = fields.iter().map(|field| &field.ident).collect();
     let docs = fields.iter().map(|field| &field.docs);
-    let types =
-        fields.iter().map(|field| if field.is_derived { quote!(__guen::Derived<R>) } else { quote!(R) });
+    let real = format_ident!("{}", if system == declared { REAL } else { "Scalar" });
+    let types = fields
+        .iter()
+        .map(|field| if field.is_derived { quote!(__guen::Derived<#real>) } else { quote!(#real) });
     let written = subject.scene().map_or(&subject.model.declaration.docs, |(scene, _)| &scene.docs);
     let (count, hoisted) = (layout.constants, layout.hoisted);
     let checks = checks(subject, &fields);
     let constructors = constructors(subject, layout, &fields);
-    // A system without constants still has a type parameter to carry.
-    let marker = (count == 0).then(|| {
+    // A system without constants still has a type parameter to carry; its name is a value, as that of a unit struct.
+    let marker = (count == 0).then(|| quote!(real: ::core::marker::PhantomData<#real>,));
+    let marker_value = (count == 0).then(|| quote!(real: ::core::marker::PhantomData,));
+    let is_type_like = declared.to_string().starts_with(char::is_uppercase);
+    let unit = (count == 0 && is_type_like).then(|| {
+        let docs = format!("The system [`{declared}`](struct@{declared}): it has no constants.");
         quote! {
-            #[doc(hidden)]
-            pub __guen_real: ::core::marker::PhantomData<R>,
+            #[doc = #docs]
+            pub const #declared: #system = #system { #marker_value };
         }
     });
-    let marker_value = (count == 0).then(|| quote!(__guen_real: ::core::marker::PhantomData,));
     let structure = quote! {
         #[::core::prelude::v1::derive(
             ::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq
         )]
-        pub struct #system<R = f64> {
+        pub struct #declared<#real = f64> {
             #(#docs pub #names: #types,)*
             #marker
         }
@@ -109,10 +114,11 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, report: &Report)
     let recast = recast::items(layout, &names, marker_value.as_ref());
     let what = if layout.is_whole { "system" } else { "scene" };
     let prepared_docs = format!(
-        "The {what} [`{system}`] with its constants checked and everything that depends on them alone computed once. Immutable; it alone runs."
+        "The {what} [`{declared}`] with its constants checked and everything that depends on them alone computed once. Immutable; it alone runs."
     );
     quote! {
         #structure
+        #unit
 
         #constructors
 
@@ -267,22 +273,35 @@ fn constructors(subject: &Subject<'_, '_>, layout: &Layout, fields: &[Field]) ->
             }
         }
     });
-    let marker = (fields.is_empty()).then(|| quote!(__guen_real: ::core::marker::PhantomData,));
+    let marker = (fields.is_empty()).then(|| quote!(real: ::core::marker::PhantomData,));
     let docs = if required.is_empty() {
         "The system with its default constants.".to_owned()
     } else {
         let list: Vec<String> = required.iter().map(|name| format!("`{name}`")).collect();
         format!("The system with {}, and the defaults of all other constants.", list.join(", "))
     };
-    let default = required.is_empty().then(|| {
-        quote! {
-            impl<R: __guen::Real> ::core::default::Default for #system<R> {
+    if required.is_empty() {
+        // For one real, so that a call without arguments has a type.
+        return quote! {
+            impl #system<::core::primitive::f64> {
+                #[doc = #docs]
+                pub fn new() -> Self {
+                    Self::with_defaults()
+                }
+
+                /// [`new`](Self::new) over another real: `with_defaults::<f32>()`.
+                pub fn with_defaults<R: __guen::Real>() -> #system<R> {
+                    #system { #(#values,)* #marker }
+                }
+            }
+
+            impl ::core::default::Default for #system<::core::primitive::f64> {
                 fn default() -> Self {
                     Self::new()
                 }
             }
-        }
-    });
+        };
+    }
     quote! {
         impl<R: __guen::Real> #system<R> {
             #[doc = #docs]
@@ -291,6 +310,5 @@ fn constructors(subject: &Subject<'_, '_>, layout: &Layout, fields: &[Field]) ->
                 #system { #(#values,)* #marker }
             }
         }
-        #default
     }
 }

@@ -15,7 +15,9 @@ pub(super) fn facade(declaration: &Declaration) -> TokenStream {
 
 /// Sizes and names that every part of the emission needs.
 pub(super) struct Layout {
-    /// The name of the struct.
+    /// The name of the struct, as the user wrote it: where it is declared and spoken of.
+    pub(super) declared: Ident,
+    /// What code calls the struct: an alias where the name is that of the real in generic code.
     pub(super) system: Ident,
     /// Numbers: coordinates, parameters and state of the level, coordinates of the whole system, constants, hoisted
     /// values, inputs.
@@ -34,12 +36,18 @@ pub(super) struct Layout {
     pub(super) is_whole: bool,
 }
 
+/// The parameter of generic code, which hides a system of that name.
+pub(super) const REAL: &str = "R";
+
 impl Layout {
     pub(super) fn new(subject: &Subject<'_, '_>) -> Self {
         let Subject { model, level } = subject;
         let selection = &level.selection;
+        let declared = subject.name().ident.clone();
+        let system = if declared == REAL { format_ident!("__guen_system") } else { declared.clone() };
         Layout {
-            system: subject.name().ident.clone(),
+            declared,
+            system,
             n: selection.coordinates.len(),
             l: selection.parameters.len(),
             size: selection.variables.len() + selection.carried.len(),

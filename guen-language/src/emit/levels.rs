@@ -103,7 +103,7 @@ fn conversions(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let constants: Vec<&Ident> =
         selection.constants.iter().map(|c| &model.constants[*c].name.ident).collect();
     let held: Vec<Ident> = selection.held.iter().map(|held| variable_ident(model, held.place)).collect();
-    let marker = |is_empty: bool| is_empty.then(|| quote!(__guen_real: ::core::marker::PhantomData,));
+    let marker = |is_empty: bool| is_empty.then(|| quote!(real: ::core::marker::PhantomData,));
     let own_marker = marker(layout.constants == 0);
     let whole_marker = marker(model.constants.is_empty());
     let fixes = subject.scene().map_or(&[][..], |(_, facts)| &facts.fixes);

@@ -66,7 +66,12 @@ fn module(
     inner: &TokenStream,
 ) -> TokenStream {
     let layout = Layout::new(subject);
-    let system = &layout.system;
+    let system = &layout.declared;
+    let is_hidden = layout.system != layout.declared;
+    let alias_of_system = is_hidden.then(|| {
+        let alias = &layout.system;
+        quote!(use self::#system as #alias;)
+    });
     let module = module_name(system, if layout.is_whole { "system" } else { "scene" });
     let report = crate::report::Report::new(subject);
     let parts = [
@@ -98,6 +103,7 @@ fn module(
         #visibility mod #module {
             #[allow(unused_imports, reason = "small systems use few of its items")]
             use #private as #alias;
+            #alias_of_system
             #(#parts)*
             #inner
         }

@@ -11,7 +11,7 @@ mod scenes;
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
-use super::layout::facade;
+use super::layout::{self, facade};
 use crate::model::is_carried_form;
 use crate::names::module_name;
 use crate::syntax::{Declaration, Definition, Item, Plain};
@@ -21,8 +21,9 @@ use kinds::{Kind, Kinds};
 pub fn outline(declaration: &Declaration) -> TokenStream {
     let system = &declaration.name.ident;
     let name = &declaration.name;
-    if crate::names::is_generated_item(&name.text) || is_carried_form(name, declaration) {
-        // Two items of one name would be a second error.
+    let is_hidden = name.text == layout::REAL;
+    if crate::names::is_generated_item(&name.text) || is_hidden || is_carried_form(name, declaration) {
+        // Two items of one name would be a second error; generic code would not find a system behind its real.
         return TokenStream::new();
     }
     let names = Names::new(declaration);
@@ -177,19 +178,33 @@ fn constants(system: &Ident, names: &Names) -> TokenStream {
         true => quote!(__guen::Derived<R>),
         false => quote!(R),
     });
-    let marker = constants.is_empty().then(|| {
+    let is_unit = constants.is_empty() && system.to_string().starts_with(char::is_uppercase);
+    let marker = constants.is_empty().then(|| quote!(real: ::core::marker::PhantomData<R>,));
+    let unit = is_unit.then(|| {
         quote! {
-            #[doc(hidden)]
-            pub __guen_real: ::core::marker::PhantomData<R>,
+            /// The system.
+            pub const #system: #system = #system { real: ::core::marker::PhantomData };
         }
     });
-    let default = required.is_empty().then(|| {
-        quote! {
-            impl<R: __guen::Real> ::core::default::Default for #system<R> {
+    let new = match required.is_empty() {
+        true => quote! {
+            impl #system<::core::primitive::f64> {
+                /// The default constants.
+                pub fn new() -> Self { ::core::unreachable!() }
+                /// The default constants over another real.
+                pub fn with_defaults<R: __guen::Real>() -> #system<R> { ::core::unreachable!() }
+            }
+            impl ::core::default::Default for #system<::core::primitive::f64> {
                 fn default() -> Self { ::core::unreachable!() }
             }
-        }
-    });
+        },
+        false => quote! {
+            impl<R: __guen::Real> #system<R> {
+                /// The constants.
+                pub fn new(#(#required: R),*) -> Self { ::core::unreachable!() }
+            }
+        },
+    };
     quote! {
         /// The constants.
         #[::core::prelude::v1::derive(
@@ -200,14 +215,13 @@ fn constants(system: &Ident, names: &Names) -> TokenStream {
             #marker
         }
         impl<R: __guen::Real> #system<R> {
-            /// The constants.
-            pub fn new(#(#required: R),*) -> Self { ::core::unreachable!() }
             /// The prepared system.
             pub fn prepare(self) -> ::core::result::Result<Prepared<R>, __guen::ConstantsError> {
                 ::core::unreachable!()
             }
         }
-        #default
+        #unit
+        #new
     }
 }
 
@@ -495,7 +509,7 @@ fn operators(names: &Names) -> TokenStream {
         /// A bracket.
         #derives
         pub struct Bracket<const I: usize, const J: usize>;
-        impl<B: __guen::Real, const I: usize, const J: usize> __guen::BracketCoefficients<B, #n> for Bracket<I, J> {
+        impl<B: __guen::Real, const I: usize, const J: usize> __guen::BracketCoefficients<B, #n> for Bracket<{ I }, { J }> {
             type Prepared = Prepared<B>;
             const I: usize = I;
             const J: usize = J;

@@ -12,7 +12,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let given = selection.constants.iter().map(|c| model.constants[*c].name.ident.clone());
     let held = selection.held.iter().map(|held| variable_ident(model, held.place));
     let constants: Vec<Ident> = given.chain(held).collect();
-    let marker = constants.is_empty().then(|| quote!(__guen_real: ::core::marker::PhantomData,));
+    let marker = constants.is_empty().then(|| quote!(real: ::core::marker::PhantomData,));
     let constants = of_constants(layout, &constants, marker.as_ref());
     let has_coordinates = layout.n > 0 && (layout.is_whole || !selection.holonomic.is_empty());
     let coordinates = has_coordinates.then(|| record("Coordinates", layout.n));
@@ -34,7 +34,7 @@ fn record(name: &str, count: usize) -> TokenStream {
 
 fn of_constants(layout: &Layout, fields: &[Ident], marker: Option<&TokenStream>) -> TokenStream {
     let name = &layout.system;
-    let (text, count) = (name.to_string(), fields.len());
+    let (text, count) = (layout.declared.to_string(), fields.len());
     let names = fields.iter().map(|field| field.to_string().trim_start_matches("r#").to_owned());
     let locals: Vec<Ident> = (0..count).map(|i| format_ident!("__guen_{i}")).collect();
     if !layout.derived.is_empty() {

@@ -61,10 +61,12 @@ impl Evaluator<'_> {
     /// A scene becomes a struct and a module in the module of the system.
     fn scene_name(&mut self, name: &Name, declaration: &Declaration, earlier: &[&Scene]) {
         let module = module_name(&name.ident, "scene");
-        let taken = if names::is_generated_item(&name.text) || module == "program" {
+        let taken = if names::is_generated_item(&name.text) || names::is_generated_item(&module.to_string()) {
             Some(format!("the module of `{}` has an item of this name", declaration.name))
         } else if name.text == declaration.name.text {
             Some("this is the name of the system".to_owned())
+        } else if module == declaration.name.text {
+            Some("its module would have the name of the system".to_owned())
         } else if is_carried_form(name, declaration) {
             Some("a carried form has this name".to_owned())
         } else {

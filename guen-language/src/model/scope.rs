@@ -158,6 +158,10 @@ impl Scope {
             fault = Fault::new(name.span(), format!("`{}` is used before it is declared", name.text))
                 .note_place("declared", *later)
                 .help("move its declaration above this one");
+        } else if let Some(rate) = self.rate(&name.text) {
+            fault = fault.help(format!("the rate of `{rate}` is written `dot({rate})`"));
+            // `d/dt` is one mistake.
+            self.unknown.extend(["d", "dt"].map(String::from));
         } else if let Some(near) = names::nearest(&name.text, self.order.iter().map(String::as_str)) {
             fault = fault.help(format!("did you mean `{near}`?"));
         } else if !self.order.is_empty() {
@@ -168,6 +172,14 @@ impl Scope {
         }
         faults.report(fault);
         None
+    }
+
+    /// Returns of what an unknown name is probably meant to be the rate: `theta_dot`, `dx` of `dx/dt`, `d` of `d/dt`.
+    fn rate<'n>(&'n self, text: &'n str) -> Option<&'n str> {
+        let is_known = |word: &&str| self.entries.contains_key(*word);
+        let suffixes = ["_dot", "dot", "_rate"].into_iter().filter_map(|suffix| text.strip_suffix(suffix));
+        let of_known = suffixes.chain(text.strip_prefix('d')).find(is_known);
+        of_known.or_else(|| matches!(text, "d" | "dt").then_some("x"))
     }
 
     /// Returns the place of the declaration of a name, if it is a `let`.

@@ -9,7 +9,7 @@ use super::names::name;
 use super::{bodies, constants, definitions, energies, equations, forces, particles, scene};
 use crate::diagnostics::{Fault, Faults, Reported};
 use crate::limits::{MAX_COORDINATES, MAX_ENTRIES, MAX_SCENES, MAX_TOKENS};
-use crate::names::{SECTIONS, nearest_section, quoted};
+use crate::names::{SECTIONS, instead_of_section, nearest_section, quoted};
 use crate::syntax::{Declaration, Docs, Item, Name, Section, SectionKind, Visibility};
 
 const HELP_SYSTEM: &str = "a declaration reads `pub system Name { .. }`";
@@ -328,9 +328,10 @@ fn once(kind: SectionKind, keyword: Span, progress: &mut Progress, faults: &mut 
 /// Reports a word that begins no section, and passes what it was to begin.
 fn unknown(cursor: &mut Cursor, faults: &mut Faults, word: &str) {
     let fault = Fault::new(cursor.span(), format!("unknown section `{word}`"));
-    faults.report(match nearest_section(word) {
-        Some(near) => fault.help(format_args!("did you mean `{near}`?")),
-        None => fault.help(format_args!("the sections are {}", quoted(SECTIONS.iter().copied()))),
+    faults.report(match (instead_of_section(word), nearest_section(word)) {
+        (Some(instead), _) => fault.help(instead),
+        (None, Some(near)) => fault.help(format_args!("did you mean `{near}`?")),
+        (None, None) => fault.help(format_args!("the sections are {}", quoted(SECTIONS.iter().copied()))),
     });
     cursor.skip(1);
     if cursor.eat_group(Delimiter::Brace).is_some() {

@@ -274,7 +274,11 @@ fn keyword(ident: &proc_macro2::Ident, faults: &mut Faults, expected: &str) -> R
         return Ok(());
     }
     let fault = Fault::new(ident.span(), format!("expected {expected}, found keyword `{text}`"));
-    Err(faults.report(if can_be_raw(&text) {
+    Err(faults.report(if matches!(text.as_str(), "if" | "else" | "match") {
+        fault.help("an expression has no branches; `sign(x)` and `abs(x)` change where `x` is zero")
+    } else if matches!(text.as_str(), "for" | "while" | "loop") {
+        fault.help("there are no loops: write every term")
+    } else if can_be_raw(&text) {
         fault.help(format_args!("if this is the name of a variable, write `r#{text}`"))
     } else {
         fault

@@ -99,6 +99,9 @@ pub(crate) fn unexpected(cursor: &Cursor, faults: &mut Faults, expected: &str) -
             '=' => fault.help("an entry has one `=`"),
             '<' | '>' | '!' => fault.help("comparisons stand only in `constants`, as `m > 0`"),
             '%' => fault.help("there is no remainder of a division: use `sin` and `cos` of angles"),
+            '?' => {
+                fault.help("an expression has no branches; `sign(x)` and `abs(x)` change where `x` is zero")
+            }
             ':' => fault.help("the name of an entry stands at its beginning"),
             _ => fault,
         },

@@ -382,7 +382,7 @@ fn habits_in_sections() {
         ("scene A { fix a == 1; }", "= | found `==`"),
         ("scene A { track; }", "; | expected a name"),
         ("coordinate { x } ", "coordinate | did you mean `coordinates`?"),
-        ("lagrangian = 1;", "lagrangian | the sections are"),
+        ("lagrangian = 1;", "lagrangian | `kinetic_energy = e;`"),
         ("constants { a } constants { b }", "constants | given twice | first given at line 1"),
         ("force_function = 1; potential_energy = 2;", "potential_en | both given"),
         ("let a = 1;;", "; | ends nothing"),

@@ -18,9 +18,47 @@ fn a_missing_function_is_told_by_what_to_write() {
         ("pow(x, 2)", "a power is written `x^2`"),
         ("norm2(x)", "`inner(v, v)`"),
         ("diff(x)", "`dot(x)` is the rate of `x`"),
+        ("der(x)", "the rate of `x` is written `dot(x)`"),
+        ("square(x)", "a square is written `x^2`"),
+        ("heaviside(x)", "`(1 + sign(x))/2`"),
     ] {
         let message = message(call);
         assert!(message.contains(help), "{call}: {message}");
         assert!(!message.contains("did you mean"), "{call}: {message}");
+    }
+}
+
+#[test]
+fn a_derivative_in_other_notations_is_one_mistake() {
+    for call in ["d/dt(x)", "dx/dt", "xdot", "x_dot"] {
+        let message = message(call);
+        assert!(message.contains("the rate of `x` is written `dot(x)`"), "{call}: {message}");
+        assert!(!message.contains("did you mean `x`"), "{call}: {message}");
+    }
+    assert_eq!(message("dx/dt").matches("compile_error").count(), 1);
+}
+
+#[test]
+fn branches_are_not_taken_for_names() {
+    for call in ["if x > 0 { 1 } else { 2 }", "match x {}", "x ? 1 : 2"] {
+        let message = message(call);
+        assert!(message.contains("an expression has no branches"), "{call}: {message}");
+        assert!(!message.contains("r#"), "{call}: {message}");
+    }
+}
+
+#[test]
+fn a_missing_section_is_told_by_what_to_write() {
+    for (section, help) in [
+        ("params { a }", "physical constants stand in `constants`, quasi-velocities in `parameters`"),
+        ("vars { q }", "did you mean `coordinates`?"),
+        ("lagrangian = 1;", "`kinetic_energy = e;` and `potential_energy = e;`"),
+        ("if true {}", "no branches and no loops"),
+        ("fn f(x) = x;", "by `let name = e;`"),
+    ] {
+        let text = format!("pub system S {{ coordinates {{ x }} {section} kinetic_energy = dot(x)^2/2; }}");
+        let message = guen_language::expand(text.parse().unwrap()).to_string();
+        assert!(message.contains(help), "{section}: {message}");
+        assert!(!message.contains("the sections are"), "{section}: {message}");
     }
 }

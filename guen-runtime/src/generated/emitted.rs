@@ -107,7 +107,7 @@ macro_rules! operators {
             pub const $X: $X = $crate::Displacement::NEW;
         )*
 
-        impl<B: $crate::Real, const I: usize, const J: usize> $crate::BracketCoefficients<B, $n> for Bracket<I, J> {
+        impl<B: $crate::Real, const I: usize, const J: usize> $crate::BracketCoefficients<B, $n> for Bracket<{ I }, { J }> {
             type Prepared = Prepared<B>;
             const I: usize = I;
             const J: usize = J;
@@ -117,7 +117,7 @@ macro_rules! operators {
             fn coefficients<R: $crate::Real + $crate::Lift<B>>(
                 prepared: &Prepared<B>, t: R, x: &[R; $n],
             ) -> [R; $n] {
-                $crate::bracket_values::<Prepared<f64>, B, R, $n, I, J>(prepared, t, x)
+                $crate::bracket_values::<Prepared<f64>, B, R, $n, { I }, { J }>(prepared, t, x)
             }
         }
     };

@@ -69,7 +69,7 @@ fn one_coordinate_and_no_constants() {
     assert_eq!(Free::<f64>::default(), Free::new());
     assert_eq!(system.rhs(0.0, &free::State { x: 3.0, v: 2.0 }), free::State { x: 2.0, v: 0.0 });
     assert_eq!(free::COST.total(), 0);
-    let system: oscillator::Prepared<f32> = Oscillator::new().prepare().unwrap();
+    let system: oscillator::Prepared<f32> = Oscillator::with_defaults::<f32>().prepare().unwrap();
     let rate = system.rhs(0.0, &oscillator::State { q: 0.5, p: 6.0 });
     assert_eq!((rate.q, rate.p), (2.0, -6.0));
 }

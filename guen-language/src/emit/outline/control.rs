@@ -43,7 +43,7 @@ pub(super) fn items(sizes: &Sizes, constrained: bool, has_outputs: bool) -> Toke
             /// The linearisation of the outputs.
             pub fn linearize_outputs<const P: usize>(
                 &self, t: R, state: &State<R> #driven
-            ) -> __guen::OutputLinearization<R, #size, #inputs, P> {
+            ) -> __guen::OutputLinearization<R, #size, #inputs, { P }> {
                 ::core::unreachable!()
             }
         }
@@ -73,7 +73,7 @@ pub(super) fn items(sizes: &Sizes, constrained: bool, has_outputs: bool) -> Toke
             /// The linearisation on the leaf.
             pub fn reduce<const Z: usize>(
                 &self, t: R, state: &State<R> #driven, independent: &[&'static str],
-            ) -> ::core::result::Result<__guen::control::Reduced<R, #size, #inputs, Z>, __guen::control::ReduceError> {
+            ) -> ::core::result::Result<__guen::control::Reduced<R, #size, #inputs, { Z }>, __guen::control::ReduceError> {
                 ::core::unreachable!()
             }
             #inverse
