@@ -150,9 +150,8 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
         let inputs = Inputs { push: if PUSHED.contains(&t) { PUSH } else { 0.0 }, ..torques };
         record.push((t, state, inputs));
         let plant = robot.driven(inputs);
-        let end =
-            Rk4 { step: PERIOD / STEPS as f64 }
-                .integrate(&plant, t, &state.into(), t + PERIOD, |_, _| ControlFlow::Continue(()))?;
+        let end = Integration::new(&plant, t, &state.into())
+            .run(&Rk4 { step: PERIOD / STEPS as f64 }, t + PERIOD)?;
         state = end.state.into();
     }
 

@@ -147,13 +147,8 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
         let outputs = sled.outputs(t, &state, &inputs);
         let aim = demand(t).place;
         record.push((t, state, inputs, outputs, (state.x - aim[0]).hypot(state.y - aim[1])));
-        let end = Rk4 { step: PERIOD / 4.0 }.integrate(
-            &sled.driven(inputs),
-            t,
-            &state.into(),
-            t + PERIOD,
-            |_, _| ControlFlow::Continue(()),
-        )?;
+        let driven = sled.driven(inputs);
+        let end = Integration::new(&driven, t, &state.into()).run(&Rk4 { step: PERIOD / 4.0 }, t + PERIOD)?;
         state = end.state.into();
     }
 

@@ -179,8 +179,7 @@ fn car(path: &Path) -> Result<(), Box<dyn Error>> {
             steering: 60.0 * (25.0 * (aim - state.phi) - 10.0 * state.steer),
         };
         let driven = system.driven(inputs);
-        let end = Rk4 { step: (next - t) / 4.0 }
-            .integrate(&driven, t, &state.into(), next, |_, _| ControlFlow::Continue(()))?;
+        let end = Integration::new(&driven, t, &state.into()).run(&Rk4 { step: (next - t) / 4.0 }, next)?;
         state = end.state.into();
         recording.record(next, &state.into());
     }

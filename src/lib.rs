@@ -29,9 +29,8 @@
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! let system = Sled { m: 1.0, k: 0.5, alpha: 0.2, incline: 0.1, g: 9.81 }.prepare()?;
 //! let start = sled::State { turning: 1.0, ..Default::default() };
-//! let end = Dop853::new(1e-10, 1e-10).integrate(&system, 0.0, &start.into(), 2.0, |_, _| ControlFlow::Continue(()))?;
-//! let state = sled::State::from(end.state);
-//! assert!((system.energy(2.0, &state) - system.energy(0.0, &start)).abs() < 1e-8);
+//! let motion = system.simulate(&start, 0.0..2.0)?;
+//! assert!((system.energy(2.0, &motion.end()) - system.energy(0.0, &start)).abs() < 1e-7);
 //! assert!(!sled::CLASS.is_holonomic());
 //! # Ok(())
 //! # }
@@ -42,6 +41,7 @@
 //! | feature | default | what it brings |
 //! | --- | --- | --- |
 //! | `nalgebra` | yes | conversions between states and `nalgebra::SVector` |
+//! | `alloc` | with `std` | `simulate` and the `Trajectory` that it returns |
 //! | `std` | yes | `Std`, and lanes chosen at run time; recordings and pictures are in the crate `guen-study` |
 //! | `serde` | no | serde's traits for constants, states and inputs, and for reports of studies |
 //! | `study` | no | the module `study`: which method, real and step for which accuracy; recordings and pictures |
@@ -57,12 +57,14 @@ pub use guen_runtime::{
     Holonomic, IncompleteLieGroup, IntegrationError, Invariants, LaneScalar, Laned, LatexDocument, Level,
     LevelInfo, Levels, LieGroup, Lift, Linearization, Monitored, Nonholonomic, Operator, Ordered, Positions,
     PositionsError, Projected, Real, Recast, Renormalized, Report, ReportSection, Rheonomic, RunningError,
-    Scleronomic, Setting, System, WithFunctions, from_fn, generic, lanes, prelude, project, projected,
-    renormalized, steppers,
+    Scleronomic, Setting, Simulate, System, WithFunctions, from_fn, generic, lanes, prelude, project,
+    projected, renormalized, steppers,
 };
 pub use guen_runtime::{Coefficients, Convolutions, HIGHEST_ORDER, TaylorSeries};
 pub use guen_runtime::{Liftable, Linearizable, OutputLinearization, control, seeded};
 
+#[cfg(feature = "alloc")]
+pub use guen_runtime::{Happened, Quality, Simulation, SimulationError, Trajectory, Trigger};
 #[cfg(feature = "std")]
 pub use guen_runtime::{Std, StdFunctions};
 
@@ -145,7 +147,7 @@ pub mod __private {
         Holonomic, IncompleteLieGroup, Invariants, Laned, Level, LevelInfo, Levels, LieGroup, Lift, Liftable,
         Linearizable, Linearization, Monitored, Nonholonomic, Operator, Ordered, OutputLinearization,
         Positions, PositionsError, Real, Recast, Report, ReportSection, Rheonomic, RunningError, Scleronomic,
-        System, TaylorSeries, nalgebra_conversions, seeded,
+        Simulate, System, TaylorSeries, nalgebra_conversions, seeded,
     };
     pub use guen_runtime::{
         cells, condition, differentiable, domain, energy, facts, laned, lift, linearizable, mass_form,

@@ -24,12 +24,15 @@
 //!
 //! - `nalgebra`: re-exports that crate, and [`nalgebra_conversions!`] has an effect.
 //! - `serde`: re-exports that crate, and [`serde_record!`] has an effect.
-//! - `std`: [`Std`], the platform's elementary functions; [`lanes`] chosen at run time, and not by the target of the
+//! - `alloc`: [`Simulate::simulate`] and the [`Trajectory`] that it returns. Nothing else allocates.
+//! - `std`: `alloc`; [`Std`], the platform's elementary functions; [`lanes`] chosen at run time, and not by the target of the
 //!   build. Without it everything else gives the same bits.
 #![cfg_attr(docsrs, feature(doc_cfg))]
 #![no_std]
 #![deny(unsafe_code)]
 
+#[cfg(feature = "alloc")]
+extern crate alloc;
 #[cfg(feature = "std")]
 extern crate std;
 
@@ -38,6 +41,8 @@ mod generated;
 mod linear_algebra;
 mod numbers;
 mod report;
+#[cfg(feature = "alloc")]
+mod simulation;
 pub mod steppers;
 mod system;
 
@@ -56,6 +61,8 @@ pub use numbers::with_functions::{
 #[cfg(feature = "std")]
 pub use numbers::with_functions::{Std, StdFunctions};
 pub use report::{LatexDocument, MarkdownDocument, Report, ReportSection};
+#[cfg(feature = "alloc")]
+pub use simulation::{Happened, Quality, Simulation, SimulationError, Trajectory, Trigger};
 pub use steppers::{Cause, IntegrationError, Setting};
 pub use system::auxiliary_states::{AuxiliaryStates, Renormalized, renormalized};
 pub use system::bodies::{Bodies, Body};
@@ -79,6 +86,7 @@ pub use system::positions::{Positions, Projected, consistent, project, projected
 pub use system::positions_error::PositionsError;
 pub use system::recast::Recast;
 pub use system::series::{Coefficients, Convolutions, HIGHEST_ORDER, TaylorSeries};
+pub use system::simulate::Simulate;
 pub use system::{FromFn, Laned, Monitored, System, from_fn};
 
 #[cfg(feature = "serde")]
@@ -99,7 +107,9 @@ pub mod prelude {
     };
     pub use crate::{
         Cause, Coordinate, Dual, Function, IntegrationError, Level, Lift, Monitored, Operator, Ordered, Real,
-        System, from_fn,
+        Simulate, System, from_fn,
     };
+    #[cfg(feature = "alloc")]
+    pub use crate::{Simulation, SimulationError, Trajectory, Trigger};
     pub use core::ops::ControlFlow;
 }

@@ -14,5 +14,6 @@ mod published;
 mod recovery;
 mod reference;
 mod reversal;
+mod simulation;
 mod singular;
 mod taylor;

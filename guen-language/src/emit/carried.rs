@@ -288,6 +288,7 @@ fn systems(
     });
     let prices = integrated::prices(subject, layout, &looks);
     let differentiable = integrated::differentiable(layout);
+    let simulate = integrated::simulate(&owner, size);
     let lanes = lanes::carried(layout);
     quote! {
         #driven
@@ -328,6 +329,7 @@ fn systems(
             #prices
         }
         #differentiable
+        #simulate
         #monitored
         #renormalize
         #lanes

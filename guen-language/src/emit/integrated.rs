@@ -189,3 +189,12 @@ pub(super) fn differentiable(layout: &Layout) -> TokenStream {
     let inputs = (*inputs > 0).then(|| quote!(, #inputs));
     quote!(__guen::differentiable!(#size #inputs);)
 }
+
+/// The trait `Simulate` of what steppers integrate: its states have named fields.
+pub(super) fn simulate(owner: &TokenStream, size: usize) -> TokenStream {
+    quote! {
+        impl<R: __guen::Real> __guen::Simulate<R, #size> for #owner {
+            type State = State<R>;
+        }
+    }
+}

@@ -201,6 +201,7 @@ fn systems(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
         let (owner, prepared) = (quote!(Prepared<R>), quote!(self));
         let guarded = integrated::guarded(subject, layout, &prepared);
         let differentiable = integrated::differentiable(layout);
+        let simulate = integrated::simulate(&owner, size);
         let monitored = monitored(owner, prepared);
         return quote! {
             impl<R: __guen::Real> __guen::System<R, #size> for Prepared<R> {
@@ -213,11 +214,13 @@ fn systems(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
             }
             #differentiable
             #monitored
+            #simulate
         };
     }
     let (owner, prepared) = (quote!(Driven<R>), quote!(self.system));
     let guarded = integrated::guarded(subject, layout, &prepared);
     let differentiable = integrated::differentiable(layout);
+    let simulate = integrated::simulate(&owner, size);
     let monitored = monitored(owner, prepared);
     quote! {
         /// A prepared system with inputs that are held: what steppers integrate during a step.
@@ -250,5 +253,6 @@ fn systems(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
         }
         #differentiable
         #monitored
+        #simulate
     }
 }

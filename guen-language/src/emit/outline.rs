@@ -424,6 +424,9 @@ fn prepared(system: &Ident, names: &Names) -> TokenStream {
         impl<R: __guen::Real> __guen::System<R, #size> for #owner<R> {
             fn rhs(&self, _: R, _: &[R; #size]) -> [R; #size] { ::core::unreachable!() }
         }
+        impl<R: __guen::Real> __guen::Simulate<R, #size> for #owner<R> {
+            type State = State<R>;
+        }
         impl<R: __guen::Real> __guen::Monitored<R, #size> for #owner<R> {
             fn energy(&self, _: R, _: &[R; #size]) -> R { ::core::unreachable!() }
             fn residual(&self, _: R, _: &[R; #size]) -> R { ::core::unreachable!() }

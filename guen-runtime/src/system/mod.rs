@@ -15,6 +15,7 @@ pub(crate) mod positions;
 pub(crate) mod positions_error;
 pub(crate) mod recast;
 pub(crate) mod series;
+pub(crate) mod simulate;
 
 use crate::numbers::lanes::Lanes;
 use crate::numbers::real::Real;

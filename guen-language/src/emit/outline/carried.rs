@@ -63,6 +63,9 @@ pub(super) fn items(names: &Names, provides: &[&Provide]) -> TokenStream {
             impl<R: __guen::Real> __guen::System<R, #size> for #owner {
                 fn rhs(&self, _: R, _: &[R; #size]) -> [R; #size] { ::core::unreachable!() }
             }
+            impl<R: __guen::Real> __guen::Simulate<R, #size> for #owner {
+                type State = State<R>;
+            }
             impl<R: __guen::Real> __guen::Monitored<R, #size> for #owner {
                 fn energy(&self, _: R, _: &[R; #size]) -> R { ::core::unreachable!() }
                 fn residual(&self, _: R, _: &[R; #size]) -> R { ::core::unreachable!() }

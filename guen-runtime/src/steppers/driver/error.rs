@@ -115,6 +115,11 @@ pub enum Cause {
         /// The limit, of roundings that have grown so, relative to the start.
         limit: f64,
     },
+    /// The trajectory of a [`Simulation`](crate::Simulate::simulate) does not fit into the memory that it may take.
+    Memory {
+        /// The limit, in bytes.
+        limit: usize,
+    },
     /// A setting or an argument makes no sense: nothing was integrated with it.
     Setting(Setting),
 }
@@ -205,6 +210,7 @@ impl fmt::Display for Cause {
                 )?;
                 write!(f, "{defect:e} of its size, and {limit:e} is allowed")
             }
+            Self::Memory { limit } => write!(f, "the trajectory does not fit into {limit} bytes"),
             Self::Setting(Setting::Time) => f.write_str("a time to start from or to go to is not finite"),
             Self::Setting(Setting::Samples) => {
                 f.write_str("the times of samples do not run in order from the start to the end")

@@ -1,0 +1,86 @@
+//! Systems whose motions are asked for by one call, with states that have names.
+
+use crate::numbers::real::Real;
+use crate::system::positions::{Positions, Projected};
+use crate::system::{FromFn, System};
+#[cfg(feature = "alloc")]
+use {
+    crate::numbers::real::Ordered,
+    crate::simulation::{Simulation, SimulationError, Trajectory},
+    crate::steppers::Dop853,
+    core::ops::Range,
+};
+
+/// A system with a type for its states, whose motions can be simulated: with the feature `alloc` in two lines.
+///
+/// Prepared systems and scenes have their `State` with named fields, closures and what is written by hand an array.
+///
+/// ```
+/// # #[cfg(feature = "alloc")] {
+/// use guen_runtime::{Simulate, from_fn};
+///
+/// let oscillator = from_fn(|_t: f64, &[x, v]: &[f64; 2]| [v, -x]);
+/// let motion = oscillator.simulate(&[1.0, 0.0], 0.0..10.0).unwrap();
+/// assert!((motion.at(3.0)[0] - 3.0_f64.cos()).abs() < 1e-7);
+/// # }
+/// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no motions to simulate",
+    note = "constants become a system with `.prepare()?`, a system with inputs with `.driven(inputs)`, a closure with `from_fn`"
+)]
+pub trait Simulate<R: Real, const N: usize>: System<R, N> {
+    /// A state: what a simulation starts from, and what its trajectory returns.
+    type State: Copy + From<[R; N]> + Into<[R; N]>;
+
+    /// Simulates from a state over a span of time, forwards or backwards, and returns the whole motion.
+    ///
+    /// The method is [`Dop853`] with the tolerance 1e-9, relative and absolute; the default
+    /// [`Guard`](crate::steppers::Guard) looks after every step. [`simulation`](Self::simulation) has everything else.
+    ///
+    /// # Errors
+    ///
+    /// What stopped the method, or what the guard found, with the trajectory up to the last good time.
+    #[cfg(feature = "alloc")]
+    #[allow(clippy::type_complexity, reason = "the types of the simulation with its defaults")]
+    fn simulate(
+        &self,
+        start: &Self::State,
+        span: Range<R>,
+    ) -> Result<Trajectory<Self, N, R>, SimulationError<Self, N, R>>
+    where
+        R: Ordered,
+        Self: Clone,
+    {
+        self.simulation(start).run(span)
+    }
+
+    /// A simulation from a state, to be given a method, events or limits, and to be [run](Simulation::run).
+    #[cfg(feature = "alloc")]
+    fn simulation<'a>(&self, start: &Self::State) -> Simulation<'a, Self, N, R, Dop853<R>>
+    where
+        R: Ordered,
+        Self: Clone,
+    {
+        Simulation::new(self.clone(), start)
+    }
+}
+
+impl<R, F, const N: usize> Simulate<R, N> for FromFn<F>
+where
+    R: Real,
+    F: Fn(R, &[R; N]) -> [R; N],
+{
+    type State = [R; N];
+}
+
+impl<R: Real, S: Simulate<R, N> + ?Sized, const N: usize> Simulate<R, N> for &S {
+    type State = S::State;
+}
+
+impl<R, S, const N: usize, const H: usize, const M: usize> Simulate<R, M> for Projected<S, N, H>
+where
+    R: crate::numbers::real::Ordered,
+    S: Simulate<R, M> + Positions<R, N, H>,
+{
+    type State = S::State;
+}

@@ -1,0 +1,189 @@
+//! Simulations: what they return agrees with an integration of the same method, and with what is known of the motion.
+
+use guen::prelude::*;
+use guen::steppers::{Direction, Guard};
+use guen::{ConstantsError, Trigger};
+
+hoop!(guen::mechanical_system);
+
+guen::mechanical_system! {
+    pub system Lift {
+        constants { m > 0, g = 9.81 }
+        inputs { force }
+        coordinates { z }
+        parameters { w = dot(z); }
+        kinetic_energy = m/2*w^2;
+        potential_energy = m*g*z;
+        forces { force along w; }
+        provide taylor;
+    }
+}
+
+fn prepared() -> Result<hoop::Prepared, ConstantsError> {
+    Hoop { a: 1.0, A: 0.5, C: 1.0, g: 9.81 }.prepare()
+}
+
+const START: hoop::State = hoop::State {
+    theta: 1.2,
+    psi: 0.3,
+    phi: 0.0,
+    xi: 0.0,
+    eta: 0.0,
+    zeta: 0.932_039_085_967_226_3,
+    eta1: 0.1,
+    eta2: 0.4,
+    eta3: 5.0,
+};
+
+fn entries(state: hoop::State) -> [f64; 9] {
+    state.into()
+}
+
+#[test]
+fn a_trajectory_is_the_motion_of_an_integration() {
+    let hoop = prepared().unwrap();
+    let motion = hoop.simulate(&START, 0.0..6.0).unwrap();
+    let times = [0.0, 0.017, 1.3, 2.5, 5.9999, 6.0];
+    let mut samples = Vec::new();
+    let done = Integration::new(&hoop, 0.0, &entries(START))
+        .sample(&times, &mut |_, _, x| samples.push(*x))
+        .run(&Dop853::new(1e-9, 1e-9), 6.0)
+        .unwrap();
+    assert_eq!(entries(motion.end()), done.state);
+    for (t, sample) in times.into_iter().zip(samples) {
+        assert_eq!(entries(motion.at(t)), sample, "t = {t}");
+    }
+    assert_eq!((motion.start(), motion.start_time(), motion.end_time()), (START, 0.0, 6.0));
+    // Every step, from the start to the end, in order.
+    let steps: Vec<f64> = motion.times().collect();
+    assert_eq!(steps.len() as u64, done.statistics.accepted + 1);
+    assert!(steps[0] == 0.0 && steps.last() == Some(&6.0) && steps.is_sorted());
+    let quality = motion.statistics();
+    assert_eq!(quality.work.accepted, done.statistics.accepted);
+    assert!(quality.energy.is_some_and(|drift| drift > 0.0 && drift < 1e-8), "{quality:?}");
+    let energies: Vec<f64> = motion.energy().map(|(_, energy)| energy).collect();
+    assert!((energies[0] - energies[steps.len() - 1]).abs() < 1e-7);
+}
+
+#[test]
+fn times_outside_count_as_the_ends_and_nan_stays() {
+    let hoop = prepared().unwrap();
+    let motion = hoop.simulate(&START, 0.0..1.0).unwrap();
+    assert_eq!((motion.at(-1.0), motion.at(f64::INFINITY)), (START, motion.end()));
+    assert!(entries(motion.at(f64::NAN)).iter().all(|x| x.is_nan()));
+}
+
+#[test]
+fn samples_have_both_ends_once() {
+    let hoop = prepared().unwrap();
+    let motion = hoop.simulate(&START, 0.0..0.9).unwrap();
+    let times = |dt: f64| motion.sample(dt).map(|(t, _)| t).collect::<Vec<f64>>();
+    // 0.9/0.3 and 0.9/0.1 are not whole in binary.
+    assert_eq!(times(0.3), [0.0, 0.3, 0.6, 0.9]);
+    assert_eq!((times(0.1).len(), times(0.4).len(), times(5.0).len()), (10, 4, 2));
+    for nonsense in [0.0, f64::NAN, f64::INFINITY] {
+        assert_eq!(times(nonsense), [0.0, 0.9], "{nonsense}");
+    }
+    let still = hoop.simulate(&START, 2.0..2.0).unwrap();
+    assert_eq!((still.iter().count(), still.sample(0.1).count(), still.at(2.0)), (1, 1, START));
+}
+
+#[test]
+fn a_run_goes_on_and_back() {
+    let hoop = prepared().unwrap();
+    let there = hoop.simulation(&START).tolerance(1e-12).run(0.0..3.0).unwrap();
+    let back = hoop.simulation(&there.end()).tolerance(1e-12).run(3.0..0.0).unwrap();
+    assert!(back.times().is_sorted_by(|a, b| a > b));
+    for t in [0.0, 0.4, 1.7, 3.0] {
+        for (a, b) in entries(there.at(t)).into_iter().zip(entries(back.at(t))) {
+            assert!((a - b).abs() < 1e-8, "{t}: {a} {b}");
+        }
+    }
+    assert_eq!(back.sample(1.0).map(|(t, _)| t).collect::<Vec<_>>(), [3.0, 2.0, 1.0, 0.0]);
+    assert_eq!(back.sample(-1.0).count(), 4);
+}
+
+#[test]
+fn every_method_serves() {
+    let hoop = prepared().unwrap();
+    let exact = hoop.simulation(&START).tolerance(1e-12).run(0.0..1.0).unwrap();
+    macro_rules! check {
+        ($($method:expr, $tolerance:expr;)*) => {$(
+            let motion = hoop.simulation(&START).method($method).run(0.0..1.0).unwrap();
+            for t in [0.123, 0.5, 0.77, 1.0] {
+                for (a, b) in entries(exact.at(t)).into_iter().zip(entries(motion.at(t))) {
+                    assert!((a - b).abs() < $tolerance, "{} at {t}: {a} {b}", stringify!($method));
+                }
+            }
+        )*};
+    }
+    check! {
+        Rk4 { step: 0.01 }, 1e-5; Rk8::new(0.05), 1e-8; Tsit5::new(1e-9, 1e-9), 1e-6;
+        Radau5::new(1e-9, 1e-9), 1e-5; Gauss6::new(0.02), 1e-5;
+    }
+}
+
+#[test]
+fn events_end_a_run_and_are_kept() {
+    let hoop = prepared().unwrap();
+    let motion = hoop
+        .simulation(&START)
+        .events([
+            Trigger::new(|_, state: &hoop::State| state.phi - 2.0).terminal(),
+            Trigger::new(|t, _: &hoop::State| t - 0.1).direction(Direction::Rising),
+        ])
+        .run(0.0..100.0)
+        .unwrap();
+    assert!((motion.end().phi - 2.0).abs() < 1e-12);
+    assert_eq!(motion.outcome(), Some(Outcome::Event(0)));
+    assert_eq!(motion.events().iter().map(|event| event.index).collect::<Vec<_>>(), [1, 0]);
+    assert_eq!(motion.events()[1].state, motion.end());
+    let same = hoop.simulation(&START).stop_at(|_, state| state.phi - 2.0).run(0.0..100.0).unwrap();
+    assert_eq!((same.end_time(), same.times().last()), (motion.end_time(), Some(motion.end_time())));
+    assert!(same.times().all(|t| t <= same.end_time()));
+}
+
+#[test]
+fn held_inputs_and_an_observer() {
+    let lift = Lift::new(2.0).prepare().unwrap();
+    let start = lift::State { z: 1.0, w: 0.0 };
+    let lifted = lift.driven(lift::Inputs { force: 2.0 * (9.81 + 0.5) });
+    let motion = lifted.simulate(&start, 0.0..4.0).unwrap();
+    assert!((motion.end().z - 5.0).abs() < 1e-9);
+    let series = lifted.simulation(&start).method(Taylor::new(1e-12)).run(0.0..4.0).unwrap();
+    assert!((series.at(2.0).z - 2.0).abs() < 1e-12);
+    let outcome = lifted
+        .simulation(&start)
+        .method(Rk4 { step: 0.5 })
+        .observe(|t, _| if t >= 2.0 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) })
+        .run(0.0..4.0)
+        .unwrap();
+    assert_eq!((outcome.end_time(), outcome.outcome()), (2.0, Some(Outcome::Stopped)));
+}
+
+#[test]
+fn an_error_has_the_motion_until_then() {
+    let hoop = prepared().unwrap();
+    // A hoop that falls flat meets the edge of its chart.
+    let falling = hoop::State { eta1: 0.0, eta2: 0.0, eta3: 0.0, ..START };
+    let error = hoop.simulate(&falling, 0.0..10.0).unwrap_err();
+    let motion = &error.trajectory;
+    assert!(error.time > 0.5 && motion.end_time() == error.time && motion.outcome().is_none(), "{error:?}");
+    assert!(motion.times().all(|t| t <= error.time));
+    assert!(motion.iter().all(|(_, state)| state.theta > 0.0 && state.theta < 1.3));
+    assert!(error.to_string().starts_with("simulation stopped at t = "), "{error}");
+}
+
+#[test]
+fn memory_is_bounded() {
+    let hoop = prepared().unwrap();
+    let error = hoop.simulation(&START).memory(20_000).run(0.0..60.0).unwrap_err();
+    assert!(matches!(error.cause, Cause::Memory { limit: 20_000 }), "{error}");
+    let steps = error.trajectory.times().count();
+    assert!((20..40).contains(&steps), "{steps}");
+    assert_eq!(error.trajectory.end_time(), error.time);
+    // A guard with other limits still stands beside it.
+    let guard = Guard { energy: 1e-18, ..Guard::default() };
+    let error = hoop.simulation(&START).guard(guard).run(0.0..60.0).unwrap_err();
+    assert!(matches!(error.cause, Cause::Energy { .. }), "{error}");
+}
