@@ -11,10 +11,9 @@ use std::error::Error;
 use std::process::ExitCode;
 
 use guen::Linearization;
-use guen::control::{Component, ZeroOrderHold, controllability};
+use guen::control::{Component, c2d, controllability, diagonal, dlqr, poles};
 use guen::prelude::*;
 use guen_study::{Plot, Recording, Shape, Table, Viewer};
-use nalgebra::{Matrix2, SMatrix};
 
 #[path = "../workshop/guen-bare/src/controller.rs"]
 mod controller;
@@ -23,7 +22,7 @@ mod folder;
 #[path = "../workshop/guen-bare/src/plant.rs"]
 mod plant;
 
-use controller::{FED_BACK, Gain, OPERATIONS_PER_PERIOD, Reference};
+use controller::{Gain, OPERATIONS_PER_PERIOD, Reference};
 use plant::Robot;
 use plant::robot::{self, Inputs, State};
 
@@ -43,9 +42,6 @@ const PUSHED: std::ops::Range<f64> = 4.0..4.1;
 const LARGEST_TILT: f64 = 0.5;
 const SPEED_ERROR: f64 = 0.01;
 const HEADING_ERROR: f64 = 0.01;
-
-type Square = SMatrix<f64, FED_BACK, FED_BACK>;
-type Torques = SMatrix<f64, FED_BACK, 2>;
 
 fn main() -> Result<ExitCode, Box<dyn Error>> {
     let robot = Robot {
@@ -104,28 +100,17 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
     controllability(&linear, 1e-9).require()?;
 
     // 4. The gain: the discrete model over one period, and the Riccati equation for it.
-    let model = ZeroOrderHold::new(&linear, &[0.0; FED_BACK], PERIOD)?;
-    let a = Square::from_fn(|i, j| model.phi[i][j]);
-    let b = Torques::from_fn(|i, j| model.gamma[i][j]);
-    let weights = Square::from_diagonal(&[4.0, 20.0, 6.0, 0.5, 1.0].into());
-    let effort = Matrix2::identity() * 0.3;
-    let riccati = solve_riccati(a, b, weights, effort).ok_or("the Riccati equation has no solution")?;
-    let gain =
-        (effort + b.transpose() * riccati * b).try_inverse().ok_or("the Riccati equation is singular")?
-            * b.transpose()
-            * riccati
-            * a;
-    let residual = (a.transpose() * riccati * a + weights - a.transpose() * riccati * b * gain - riccati)
-        .amax()
-        / riccati.amax();
-    let slowest = (a - b * gain).complex_eigenvalues().iter().map(|z| z.norm()).fold(0.0, f64::max);
-    let gain: Gain = std::array::from_fn(|i| std::array::from_fn(|j| gain[(i, j)]));
+    let model = c2d(&linear, PERIOD)?;
+    let regulator = dlqr(&model, &diagonal([4.0, 20.0, 6.0, 0.5, 1.0]), &diagonal([0.3, 0.3]))?;
+    let slowest = poles(&regulator.closed_loop(&model)).ok_or("no poles")?.map(|pole| pole.magnitude());
+    let slowest = slowest.into_iter().fold(0.0, f64::max);
+    let gain: Gain = regulator.gain;
     let mut table = Table::new(&["heading", "tilt", "speed", "turn", "fall"]).digits(4);
     for row in &gain {
         table.row(row);
     }
     println!("\ngains of the two motors, in newton metres per radian, metre per second, ..\n{table}");
-    println!("residual of the Riccati equation {residual:.1e}, slowest pole {slowest:.4} per period");
+    println!("the slowest mode keeps {slowest:.4} of its size in a period");
     println!("one period: {OPERATIONS_PER_PERIOD}\n");
 
     // Friction in the motors asks for a torque while it drives: that of the steady motion at this speed.
@@ -180,26 +165,6 @@ fn reference(t: f64, holding: f64) -> Reference {
     let turning = t.clamp(6.0, 9.0);
     let turn = if turning == t { 0.5 } else { 0.0 };
     Reference { heading: 0.5 * (turning - 6.0), speed, turn, torque: holding * speed / CRUISE }
-}
-
-/// The stabilising solution of `P = A^T P A - A^T P B (R + B^T P B)^-1 B^T P A + Q`, by the doubling algorithm: after `k`
-/// steps it is the cost of `2^k` periods (Chu, Fan, Lin and Wang, 2004).
-fn solve_riccati(a: Square, b: Torques, q: Square, r: Matrix2<f64>) -> Option<Square> {
-    /// Cost of so many periods, `2^60`, is for ever.
-    const DOUBLINGS: usize = 60;
-    let (mut a, mut g, mut h) = (a, b * r.try_inverse()? * b.transpose(), q);
-    for _ in 0..DOUBLINGS {
-        let w = (Square::identity() + g * h).try_inverse()?;
-        let next = h + a.transpose() * h * w * a;
-        g += a * w * g * a.transpose();
-        a = a * w * a;
-        let change = (next - h).amax();
-        h = next;
-        if change <= 1e-14 * h.amax() {
-            return Some(h);
-        }
-    }
-    None
 }
 
 fn draw(record: &[(f64, State, Inputs)]) -> Result<(), Box<dyn Error>> {

@@ -130,6 +130,27 @@ impl<R: Ordered, const N: usize, const M: usize> ZeroOrderHold<R, N, M> {
     }
 }
 
+/// The discrete model of a continuous one with a zero-order hold: `a` is `Phi`, `b` is `Gamma` of [`ZeroOrderHold`], which has the
+/// equations, the cost, and the offset that a point beside an equilibrium brings with it.
+///
+/// ```
+/// use guen_runtime::{Linearization, control::c2d};
+/// let mass = Linearization { a: [[0.0, 1.0], [0.0, 0.0]], b: [[0.0], [1.0]] };
+/// let discrete = c2d(&mass, 0.5).unwrap();
+/// assert_eq!((discrete.a, discrete.b), ([[1.0, 0.5], [0.0, 1.0]], [[0.125], [0.5]]));
+/// ```
+///
+/// # Errors
+///
+/// [`DiscreteError::NotFinite`].
+pub fn c2d<R: Ordered, const N: usize, const M: usize>(
+    linear: &Linearization<R, N, M>,
+    period: R,
+) -> Result<Linearization<R, N, M>, DiscreteError> {
+    let ZeroOrderHold { phi, gamma, .. } = ZeroOrderHold::new(linear, &[R::zero(); N], period)?;
+    Ok(Linearization { a: phi, b: gamma })
+}
+
 /// One period of the system itself, inputs held, and the exact derivatives of what a fixed-step method makes of it.
 ///
 /// ```text

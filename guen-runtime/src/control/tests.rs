@@ -1,0 +1,240 @@
+//! Feedback and estimation against what they are defined by: the eigenvalues of the Hamiltonian and of the symplectic matrix, the
+//! equations themselves, costs that are summed along a motion, and closed forms.
+
+extern crate std;
+use std::vec::Vec;
+
+use super::*;
+use crate::linear_algebra::dense::{apply, dot, largest, product, solve, transpose, unit};
+use crate::system::linearization::Linearization;
+
+type Square<const N: usize> = [[f64; N]; N];
+
+/// A sequence of numbers between -1 and 1.
+struct Sequence(u64);
+
+impl Sequence {
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    }
+
+    fn matrix<const N: usize, const M: usize>(&mut self) -> [[f64; M]; N] {
+        core::array::from_fn(|_| core::array::from_fn(|_| self.next()))
+    }
+
+    /// `F F^T`, of rank `M`, and a little of the unit matrix.
+    fn weight<const N: usize, const M: usize>(&mut self, little: f64) -> Square<N> {
+        let f: [[f64; M]; N] = self.matrix();
+        let mut weight = product(&f, &transpose(&f));
+        (0..N).for_each(|i| weight[i][i] += little);
+        weight
+    }
+}
+
+/// The matrix of four blocks.
+fn of_blocks<const N: usize, const TWICE: usize>(blocks: [[Square<N>; 2]; 2]) -> Square<TWICE> {
+    core::array::from_fn(|i| core::array::from_fn(|j| blocks[i / N][j / N][i % N][j % N]))
+}
+
+fn linear_sum<const N: usize>(terms: &[(f64, Square<N>)]) -> Square<N> {
+    core::array::from_fn(|i| core::array::from_fn(|j| terms.iter().map(|(factor, m)| factor * m[i][j]).sum()))
+}
+
+/// `B R^-1 B^T`.
+fn effort<const N: usize, const M: usize>(b: &[[f64; M]; N], r: &Square<M>) -> Square<N> {
+    product(&product(b, &solve(r, &unit()).unwrap()), &transpose(b))
+}
+
+/// Each pole of `few` is among `many`, to so much.
+fn assert_among(few: &[Pole<f64>], many: &[Pole<f64>], most: f64) {
+    for pole in few {
+        let distance = |other: &Pole<f64>| (pole.re - other.re).hypot(pole.im - other.im);
+        let nearest = many.iter().map(distance).fold(f64::INFINITY, f64::min);
+        assert!(nearest < most * (1.0 + pole.magnitude()), "{pole:?} is {nearest:e} off {many:?}");
+    }
+}
+
+#[test]
+fn continuous_feedback_has_the_stable_poles_of_the_hamiltonian() {
+    let mut draw = Sequence(1);
+    for _ in 0..60 {
+        let (a, b): (Square<4>, [[f64; 2]; 4]) = (draw.matrix(), draw.matrix());
+        let (q, r) = (draw.weight::<4, 2>(1e-3), draw.weight::<2, 2>(0.1));
+        let linear = Linearization { a, b };
+        let regulator = lqr(&linear, &q, &r).unwrap();
+        let (p, g) = (regulator.cost, effort(&b, &r));
+        let (at_p, p_a, pgp) = (product(&transpose(&a), &p), product(&p, &a), product(&p, &product(&g, &p)));
+        let residual = linear_sum(&[(1.0, at_p), (1.0, p_a), (-1.0, pgp), (1.0, q)]);
+        let terms = largest(pgp.iter().chain(&p_a).chain(&q).flatten().copied());
+        let left = largest(residual.iter().flatten().copied());
+        assert!(left < 1e-13 * terms, "{left:e} of {terms:e}");
+        let minus = |m: Square<4>| m.map(|row| row.map(|x| -x));
+        let hamiltonian: Square<8> = of_blocks([[a, minus(g)], [minus(q), minus(transpose(&a))]]);
+        let closed = poles(&regulator.closed_loop(&linear)).unwrap();
+        assert!(closed[0].re < 0.0);
+        assert_among(&closed, &poles(&hamiltonian).unwrap(), 1e-7);
+    }
+}
+
+#[test]
+fn discrete_feedback_has_the_stable_poles_of_the_symplectic_matrix() {
+    let mut draw = Sequence(2);
+    for _ in 0..60 {
+        let (a, b): (Square<4>, [[f64; 2]; 4]) = (draw.matrix(), draw.matrix());
+        let (q, r) = (draw.weight::<4, 2>(1e-3), draw.weight::<2, 2>(0.1));
+        let linear = Linearization { a, b };
+        let regulator = dlqr(&linear, &q, &r).unwrap();
+        let closed = regulator.closed_loop(&linear);
+        let found = poles(&closed).unwrap();
+        assert!(found.iter().all(|pole| pole.magnitude() < 1.0));
+        let Some(inverse) = solve(&transpose(&a), &unit()) else { continue };
+        let (g, minus) = (effort(&b, &r), |m: Square<4>| m.map(|row| row.map(|x| -x)));
+        let corner = linear_sum(&[(1.0, a), (1.0, product(&g, &product(&inverse, &q)))]);
+        let symplectic: Square<8> =
+            of_blocks([[corner, minus(product(&g, &inverse))], [minus(product(&inverse, &q)), inverse]]);
+        assert_among(&found, &poles(&symplectic).unwrap(), 1e-6);
+        // What the motion from some deviation costs.
+        let start: [f64; 4] = core::array::from_fn(|_| draw.next());
+        let (mut x, mut cost) = (start, 0.0);
+        for _ in 0..5_000 {
+            let u = regulator.feedback(&x);
+            cost += dot(&x, &apply(&q, &x)) + dot(&u, &apply(&r, &u));
+            x = apply(&closed, &x);
+        }
+        let said = dot(&start, &apply(&regulator.cost, &start));
+        assert!((cost - said).abs() < 1e-11 * said, "{cost} {said}");
+    }
+}
+
+#[test]
+fn stiff_and_slow_models_keep_their_digits() {
+    // Two models that do not know of each other, with time constants 1e12 apart: k = a + sqrt(a^2 + q) each.
+    let (quick, slow) = (-1e8, 1e-4);
+    let linear = Linearization { a: diagonal([quick, slow]), b: unit::<f64, 2>() };
+    let regulator = lqr(&linear, &diagonal([1.0, 1e-6]), &unit()).unwrap();
+    let gain = |a: f64, q: f64| if a > 0.0 { a + (a * a + q).sqrt() } else { q / ((a * a + q).sqrt() - a) };
+    assert!((regulator.gain[0][0] / gain(quick, 1.0) - 1.0).abs() < 1e-13, "{regulator:?}");
+    assert!((regulator.gain[1][1] / gain(slow, 1e-6) - 1.0).abs() < 1e-9, "{regulator:?}");
+    // A mode that dies out by itself needs neither input nor weight.
+    let dying = Linearization { a: diagonal([1.0, -1e-6]), b: [[1.0], [0.0]] };
+    let regulator = lqr(&dying, &diagonal([0.1, 0.0]), &[[1.0]]).unwrap();
+    assert!((regulator.gain[0][0] - 1.0 - 1.1_f64.sqrt()).abs() < 1e-13 && regulator.gain[0][1] == 0.0);
+    // Nothing costs anything, and nothing has to be done.
+    assert_eq!(lqr(&dying_only(), &[[0.0]], &[[1.0]]).unwrap().gain, [[0.0]]);
+}
+
+fn dying_only() -> Linearization<f64, 1, 1> {
+    Linearization { a: [[-2.0]], b: [[1.0]] }
+}
+
+#[test]
+fn what_no_gain_stabilises_is_an_error() {
+    let both = |linear: &Linearization<f64, 2, 1>, q: Square<2>| {
+        [lqr(linear, &q, &[[1.0]]).map(|_| ()), dlqr(linear, &q, &[[1.0]]).map(|_| ())]
+    };
+    // Out of reach, and unstable as a continuous and as a discrete model.
+    let unreached = Linearization { a: diagonal([-0.5, 1.5]), b: [[1.0], [0.0]] };
+    assert_eq!(both(&unreached, unit()), [Err(RiccatiError::NotStabilizable); 2]);
+    // In reach and without weight.
+    let reached = Linearization { a: diagonal([-0.5, 1.5]), b: [[1.0], [1.0]] };
+    assert_eq!(both(&reached, diagonal([1.0, 0.0])), [Err(RiccatiError::NotStabilizable); 2]);
+    assert_eq!(both(&reached, unit()), [Ok(()); 2]);
+    // A nonholonomic robot at rest: sideways nothing moves.
+    let sideways = Linearization { a: [[0.0; 2]; 2], b: [[1.0], [0.0]] };
+    assert_eq!(lqr(&sideways, &unit(), &[[1.0]]), Err(RiccatiError::NotStabilizable));
+}
+
+#[test]
+fn weights_that_are_none_are_refused() {
+    let linear = Linearization { a: unit::<f64, 2>(), b: unit::<f64, 2>() };
+    let of =
+        |q: Square<2>, r: Square<2>| [lqr(&linear, &q, &r).unwrap_err(), dlqr(&linear, &q, &r).unwrap_err()];
+    assert_eq!(of(unit(), [[1.0, 0.0], [0.0, 0.0]]), [RiccatiError::NotDefinite; 2]);
+    assert_eq!(of(unit(), [[1.0, 2.0], [2.0, 1.0]]), [RiccatiError::NotDefinite; 2]);
+    assert_eq!(of(unit(), [[1.0, 0.5], [0.0, 1.0]]), [RiccatiError::NotDefinite; 2]);
+    assert_eq!(of(diagonal([1.0, -1.0]), unit()), [RiccatiError::NotSemidefinite; 2]);
+    assert_eq!(of([[1.0, 1.0], [0.0, 1.0]], unit()), [RiccatiError::NotSemidefinite; 2]);
+    assert_eq!(of(diagonal([f64::NAN, 1.0]), unit()), [RiccatiError::NotFinite; 2]);
+}
+
+#[test]
+fn filters_are_the_regulators_of_the_transposed_model() {
+    let mut draw = Sequence(3);
+    for _ in 0..50 {
+        let (a, c): (Square<3>, [[f64; 3]; 2]) = (draw.matrix(), draw.matrix());
+        let (w, v) = (draw.weight::<3, 1>(1e-2), draw.weight::<2, 2>(0.1));
+        let Observer { gain, covariance: p } = dkalman(&a, &c, &w, &v).unwrap();
+        // A correction and a prediction lead to the same covariance.
+        let corrected = linear_sum(&[(1.0, p), (-1.0, product(&gain, &product(&c, &p)))]);
+        let again =
+            linear_sum(&[(1.0, product(&a, &product(&corrected, &transpose(&a)))), (1.0, w), (-1.0, p)]);
+        assert!(largest(again.iter().flatten().copied()) < 1e-12 * largest(p.iter().flatten().copied()));
+        // The error of the estimate dies out.
+        let Observer { gain, .. } = kalman(&a, &c, &w, &v).unwrap();
+        let error = linear_sum(&[(1.0, a), (-1.0, product(&gain, &c))]);
+        assert!(poles(&error).unwrap()[0].re < 0.0);
+    }
+}
+
+#[test]
+fn poles_are_where_they_were_placed() {
+    let mut draw = Sequence(4);
+    for round in 0..200 {
+        let linear = Linearization::<f64, 5, 1> { a: draw.matrix(), b: draw.matrix() };
+        let [above, below] = Pole::oscillation(1.0 + draw.next().abs(), 0.5);
+        let real = || Pole::real(-1.0);
+        // Pairs apart from each other, and a double one.
+        let wanted = if round % 2 == 0 {
+            [above, Pole::real(-3.0), below, Pole::real(-2.0), real()]
+        } else {
+            [Pole::real(-2.0), real(), above, real(), below]
+        };
+        let Ok(gain) = place(&linear, &wanted) else { panic!("{linear:?}") };
+        let closed = Regulator { gain: [gain], cost: unit() }.closed_loop(&linear);
+        // The characteristic polynomial at points of the plane, by which double poles are no worse than single ones.
+        for z in [0.0, 0.7, 2.5] {
+            let value = determinant(linear_sum(&[(z, unit()), (-1.0, closed)]));
+            let product: f64 = wanted.iter().fold(1.0, |product, pole| match pole.im > 0.0 {
+                true => product * ((z - pole.re).powi(2) + pole.im * pole.im),
+                false if pole.im < 0.0 => product,
+                false => product * (z - pole.re),
+            });
+            let scale = 1.0 + largest(gain.iter().copied());
+            assert!((value - product).abs() < 1e-9 * scale * product, "{value} {product} {gain:?}");
+        }
+    }
+    let mass = Linearization { a: [[0.0, 1.0], [0.0, 0.0]], b: [[0.0], [1.0]] };
+    let [above, _] = Pole::oscillation(1.0, 0.5);
+    assert_eq!(place(&mass, &[Pole::real(-1.0), above]), Err(PlaceError::Unpaired { pole: 1 }));
+    assert_eq!(place(&mass, &[above, above]), Err(PlaceError::Unpaired { pole: 0 }));
+    assert_eq!(place(&mass, &[Pole::real(f64::NAN); 2]), Err(PlaceError::NotFinite));
+    let stuck = Linearization { a: unit::<f64, 2>(), b: [[1.0], [0.0]] };
+    assert!(matches!(place(&stuck, &[Pole::real(-1.0); 2]), Err(PlaceError::Uncontrollable(_))));
+}
+
+/// By elimination with row pivots.
+fn determinant<const N: usize>(mut m: Square<N>) -> f64 {
+    let mut value = 1.0;
+    for k in 0..N {
+        let pivot = (k..N).max_by(|i, j| m[*i][k].abs().total_cmp(&m[*j][k].abs())).unwrap();
+        if pivot != k {
+            m.swap(pivot, k);
+            value = -value;
+        }
+        value *= m[k][k];
+        for i in k + 1..N {
+            let factor = m[i][k] / m[k][k];
+            (k..N).for_each(|j| m[i][j] -= factor * m[k][j]);
+        }
+    }
+    value
+}
+
+#[test]
+fn poles_come_in_order() {
+    let a = diagonal([-3.0, 2.0, -1.0]);
+    let found: Vec<f64> = poles(&a).unwrap().iter().map(|pole| pole.re).collect();
+    assert_eq!(found, [2.0, -1.0, -3.0]);
+    assert_eq!(poles(&[[f64::NAN]]), None);
+}
