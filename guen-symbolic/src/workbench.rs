@@ -70,6 +70,20 @@ impl Workbench {
         tidy
     }
 
+    /// The same for one of several expressions that are alike: where one has no normal form within the limits, those that cost as
+    /// much are only asked whether they vanish. `least` keeps the least cost of such a one.
+    pub(crate) fn tidy_alike(&mut self, e: ExprId, least: &mut Option<u64>) -> ExprId {
+        let cost = weighted_cost(&self.graph, &[e]);
+        if least.is_some_and(|least| cost >= least) && !self.tidied.contains_key(&e) {
+            return self.dropped(e);
+        }
+        let tidy = self.tidy(e);
+        if self.beyond.contains_key(&e) {
+            *least = Some(least.map_or(cost, |least| least.min(cost)));
+        }
+        tidy
+    }
+
     /// Whether something in the expression has no normal form within the limits: then the whole rarely has one either.
     fn is_beyond(&mut self, e: ExprId) -> bool {
         if self.beyond.is_empty() {

@@ -19,6 +19,8 @@ pub struct Brackets {
     // For each form the components of its exterior derivative that are not zero, `p < q`.
     curls: Vec<Vec<(usize, usize, ExprId)>>,
     coefficients: BTreeMap<(usize, usize, usize), ExprId>,
+    // The least cost of a coefficient that has no normal form.
+    beyond: Option<u64>,
 }
 
 impl Brackets {
@@ -27,6 +29,7 @@ impl Brackets {
         let n = forms.len();
         let mut partials: Vec<Flow> =
             (0..=n).map(|p| Flow::partial(&bench.graph, forms.variable(p))).collect();
+        let mut beyond = None;
         let curls = (0..n)
             .map(|t| {
                 let mut curl: BTreeMap<(usize, usize), ExprId> = BTreeMap::new();
@@ -49,7 +52,7 @@ impl Brackets {
                 }
                 let zero = bench.graph.zero();
                 curl.into_iter()
-                    .map(|((p, q), e)| (p, q, bench.tidy(e)))
+                    .map(|((p, q), e)| (p, q, bench.tidy_alike(e, &mut beyond)))
                     .filter(|(_, _, e)| *e != zero)
                     .collect()
             })
@@ -59,6 +62,7 @@ impl Brackets {
             degrees: forms.degrees,
             curls,
             coefficients: BTreeMap::new(),
+            beyond: None,
         }
     }
 
@@ -89,7 +93,7 @@ impl Brackets {
         }
         let sum = bench.graph.sum(terms);
         let sum = bench.graph.neg(sum);
-        let coefficient = bench.tidy(sum);
+        let coefficient = bench.tidy_alike(sum, &mut self.beyond);
         self.coefficients.insert((i, j, t), coefficient);
         coefficient
     }

@@ -133,8 +133,8 @@ impl Operators {
             equations.push(Some(Equation { form: j, entries, right }));
         }
         let (chart, constant_pivots, solved, steps) = Default::default();
-        let mut solver =
-            Solver { bench, chart, constant_pivots, solved, steps, is_large: n > MANY_COORDINATES };
+        let is_large = n > MANY_COORDINATES;
+        let mut solver = Solver { bench, chart, constant_pivots, solved, steps, is_large, beyond: None };
         solver.eliminate(&mut equations, forms.degrees);
         let core: Vec<Equation> = equations.into_iter().flatten().collect();
         let mut values: Vec<Option<BTreeMap<usize, ExprId>>> = vec![None; n];
@@ -166,6 +166,8 @@ struct Solver<'a> {
     steps: Vec<Step>,
     /// There are many coordinates.
     is_large: bool,
+    /// The least cost of an entry that has no normal form.
+    beyond: Option<u64>,
 }
 
 impl Solver<'_> {
@@ -231,7 +233,8 @@ impl Solver<'_> {
                 let difference = bench.graph.sub(old, product);
                 // What is kept whole has nothing in common with others.
                 let is_kept = self.is_large && matches!(bench.graph.node(*value), Node::Kept(_));
-                let difference = if is_kept { difference } else { bench.tidy(difference) };
+                let difference =
+                    if is_kept { difference } else { bench.tidy_alike(difference, &mut self.beyond) };
                 if bench.graph.is_zero(difference) {
                     into.remove(c);
                 } else {
@@ -284,8 +287,8 @@ impl Solver<'_> {
                     }
                 }
                 for (j, e) in &mut value {
-                    let tidy =
-                        if *j > degrees && is_nested(self.bench, *e) { *e } else { self.bench.tidy(*e) };
+                    let is_whole = *j > degrees && is_nested(self.bench, *e);
+                    let tidy = if is_whole { *e } else { self.bench.tidy_alike(*e, &mut self.beyond) };
                     *e = self.bench.keep_large(tidy);
                 }
                 value.retain(|_, e| !self.bench.graph.is_zero(*e));
@@ -314,7 +317,7 @@ impl Solver<'_> {
         let divisor = self.bench.keep_large(determinant);
         for e in inverse.iter_mut().flatten() {
             let quotient = self.bench.graph.div(*e, divisor);
-            let tidy = self.bench.tidy(quotient);
+            let tidy = self.bench.tidy_alike(quotient, &mut self.beyond);
             *e = self.bench.keep_large(tidy);
         }
         Some(inverse)

@@ -245,7 +245,9 @@ fn classify(bench: &mut Workbench, system: &Mechanics, frame: &mut Frame, closur
         for r in 0..s {
             for t in 1..=n {
                 let c = frame.brackets.coefficient(bench, r, s, t);
-                if !is_constant(bench, c, &variables) && !rests(bench, system, frame, c) {
+                // Without constraints on positions nothing rests but constants.
+                let rests = !system.holonomic.is_empty() && rests(bench, system, frame, c);
+                if !rests && !is_constant(bench, c, &variables) {
                     constant = false;
                     break 'all;
                 }

@@ -156,22 +156,13 @@ impl<'a> Moving<'a> {
                     inner => mul(self.value(tape.slopes[id])?, inner),
                 },
                 Node::Product(factors) => {
-                    let mut sum = 0;
-                    for (moved, (base, e)) in factors.iter().enumerate() {
-                        let rate = self.rate(*base);
-                        if rate == 0 {
-                            continue;
+                    let mut product = Jet::ONE;
+                    if factors.iter().any(|(base, _)| self.rate(*base) != 0) {
+                        for (base, e) in factors {
+                            product = product.times(self.jet(*base)?.power(*e)?.0);
                         }
-                        let jet = Jet { value: self.value(*base)?, rate };
-                        let mut term = jet.power(*e)?.0.rate;
-                        for (other, (base, e)) in factors.iter().enumerate() {
-                            if other != moved {
-                                term = mul(term, self.jet(*base)?.power(*e)?.0.value);
-                            }
-                        }
-                        sum = add(sum, term);
                     }
-                    sum
+                    product.rate
                 }
                 Node::Atan2(y, x) => {
                     let (by_y, by_x) = self.slopes_of_angle(*y, *x)?;
@@ -212,14 +203,18 @@ impl<'a> Moving<'a> {
                     slopes.add(*x, own.times(slope));
                 }
                 Node::Product(factors) => {
-                    for (moved, (base, e)) in factors.iter().enumerate() {
+                    let mut powers = Vec::with_capacity(factors.len());
+                    for (base, e) in factors {
+                        powers.push(self.jet(*base)?.power(*e)?);
+                    }
+                    for (moved, (base, _)) in factors.iter().enumerate() {
                         if !graph.roles(*base).meets(MOVING) {
                             continue;
                         }
-                        let mut share = own.times(self.jet(*base)?.power(*e)?.1);
-                        for (other, (base, e)) in factors.iter().enumerate() {
+                        let mut share = own.times(powers[moved].1);
+                        for (other, (power, _)) in powers.iter().enumerate() {
                             if other != moved {
-                                share = share.times(self.jet(*base)?.power(*e)?.0);
+                                share = share.times(*power);
                             }
                         }
                         slopes.add(*base, share);
