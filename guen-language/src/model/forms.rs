@@ -60,6 +60,7 @@ impl Evaluator<'_> {
     /// `name: l = r;` in `holonomic`: the form is the rate of `l - r`.
     pub(super) fn holonomic<'a>(&mut self, equation: &'a Equation, forms: &mut Vec<RawForm<'a>>) {
         let position = self.difference(Place::Holonomic, equation);
+        let position = position.and_then(|position| self.somewhere(equation, position));
         let (value, position) = match position {
             Ok(Value::Scalar(f)) => {
                 let rate = self.total_rate(f);
@@ -79,6 +80,31 @@ impl Evaluator<'_> {
             sides,
             forms,
         );
+    }
+
+    /// The difference of the sides of an equation in positions, unless its sign shows that it vanishes nowhere.
+    fn somewhere(&mut self, equation: &Equation, position: Value) -> Evaluated {
+        for f in position.expressions() {
+            if !self.bench.graph.roles(f).has(Role::Coordinate) {
+                continue;
+            }
+            let opposite = self.bench.graph.neg(f);
+            let graph = &self.bench.graph;
+            let found = [f, opposite].into_iter().find(|f| graph.manifestly_positive(*f));
+            if found.is_none() && !graph.manifestly_nonzero(f) {
+                continue;
+            }
+            let name = &equation.name.text;
+            let fault =
+                Fault::new(equation.equals, format!("holonomic constraint `{name}` cannot be fulfilled"));
+            let text = graph.text_limited(found.unwrap_or(f), LONGEST_NOTE);
+            let says = if found.is_some() { "is above zero" } else { "differs from zero" };
+            return self.fail(match text {
+                Some(text) => fault.note(format!("`{text}` {says} at all positions")),
+                None => fault.note(format!("the difference of its sides {says} at all positions")),
+            });
+        }
+        Ok(position)
     }
 
     fn difference(&mut self, place: Place, equation: &Equation) -> Evaluated {

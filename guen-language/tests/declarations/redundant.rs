@@ -1,4 +1,5 @@
-//! Holonomic equations that follow from others wherever all hold: which they are, and what is said where the count is wrong.
+//! Holonomic equations that follow from others wherever all hold: which they are, and what is said where the count is wrong. Equations
+//! that hold nowhere.
 
 use guen_language::derive::{derive, function};
 use guen_language::diagnostics::collect;
@@ -165,4 +166,45 @@ fn where_loops_are_stretched_out_the_domain_ends_in_the_names_of_the_declaration
         assert_eq!(derived.system.domain_names[..2], ["-sin(a1 - b1)", "-sin(a2 - b2)"]);
         assert!(derived.model.redundant.is_empty());
     });
+}
+
+#[test]
+fn an_equation_that_holds_nowhere_is_refused_and_none_that_may_hold() {
+    let is_refused = |equation: &str| {
+        let text = format!(
+            "pub system Bead {{
+                constants {{ m > 0, a > 0, b >= 0, c, d != 0 }}
+                coordinates {{ x, y, z }}
+                parameters {{ u = dot(x); v = dot(y); }}
+                holonomic {{ on: {equation}; }}
+                kinetic_energy = m/2*(dot(x)^2 + dot(y)^2 + dot(z)^2);
+            }}"
+        );
+        guen_language::expand(text.parse().unwrap()).to_string().contains("`on` cannot be fulfilled")
+    };
+    for equation in [
+        "x^2 + y^2 + z^2 = -1",
+        "-a = x^2 + z^2",
+        "x^2 + z^2 = -d^2",
+        "a*exp(z) = -b",
+        "abs(z) + sqrt(x) + a = 0",
+        "cosh(z) + y^4 = -b",
+        "vec(z, 0, -z^2) = vec(x, 0, a)",
+    ] {
+        assert!(is_refused(equation), "{equation}");
+    }
+    for equation in [
+        "x^2 + y^2 + z^2 = 1",
+        "x^2 + z^2 = c",
+        "x^2 + z^2 = -c",
+        "x^2 + z^2 + b = 0",
+        "x^2 + z^2 = d",
+        "z^3 = -a",
+        "exp(z) = 1 + x^2",
+        "z*(1 + x^2) = 0",
+        "a*z + x^2 + 1 = 0",
+        "x^2 - 1 = -z^2",
+    ] {
+        assert!(!is_refused(equation), "{equation}");
+    }
 }
