@@ -129,18 +129,6 @@ impl Mask {
         lane < 32 && self.0 >> lane & 1 == 1
     }
 
-    /// The lanes in either.
-    ///
-    /// ```
-    /// use guen_runtime::lanes::Mask;
-    /// assert_eq!(Mask::from_bits(0b10).or(Mask::from_bits(0b100)), Mask::from_bits(0b110));
-    /// ```
-    #[inline(always)]
-    #[must_use]
-    pub fn or(self, other: Self) -> Self {
-        Self(self.0 | other.0)
-    }
-
     /// Returns the set with one lane more, below 32.
     ///
     /// ```

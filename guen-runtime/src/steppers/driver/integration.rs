@@ -8,7 +8,7 @@ use crate::steppers::driver::error::{Cause, IntegrationError, Setting};
 use crate::steppers::driver::events::{Event, Occurrence};
 use crate::steppers::driver::run::{Checkpoint, IntegrationResult, Method, Outcome, StepperRun};
 use crate::steppers::entries;
-use crate::steppers::guard::{Guard, Watch};
+use crate::steppers::guard::{Guard, One, Watch};
 use crate::system::System;
 
 type Observer<'a, R, const N: usize> = &'a mut dyn FnMut(R, &[R; N]) -> ControlFlow<()>;
@@ -207,7 +207,7 @@ impl<'a, R: Real, S: System<R, N> + ?Sized, const N: usize, const E: usize> Inte
         let start = self.start;
         self.check(times).map_err(|cause| start.failed(cause))?;
         let mut run = method.start(&start);
-        let mut watch = Watch::new::<M::Run<'_>, S>(self.guard, self.system, &start)
+        let mut watch = Watch::<R, One, N>::of_run::<M::Run<'_>, S>(self.guard, self.system, &start)
             .map_err(|cause| start.failed(cause))?;
         let mut trackers: [Tracker; E] =
             entries(|i| Tracker::new(self.events[i].value(start.time, &start.state)));
@@ -235,18 +235,15 @@ impl<'a, R: Real, S: System<R, N> + ?Sized, const N: usize, const E: usize> Inte
                     run.go_on(self.system, time, watch.patience())
                 };
                 if let Err(cause) = made {
-                    return Err(watch.stopped(self.system, &run, cause));
+                    return Err(watch.stop_run(self.system, &run, cause));
                 }
-                if let Err(cause) = watch.step(self.system, from, kept.then_some(&before), &run) {
-                    return Err(watch.good(run.checkpoint()).failed(cause));
-                }
+                watch
+                    .step(self.system, from, kept.then_some(&before), &run)
+                    .map_err(|cause| watch.failed(run.checkpoint(), cause))?;
                 if dense {
                     let ended = self.within_step(&mut run, &before, &mut trackers, &mut visited);
                     if let Some(done) = ended.map_err(|cause| before.failed(cause))? {
-                        return match watch.finish(self.system, Some(&before), &run) {
-                            Ok(()) => Ok(done),
-                            Err(cause) => Err(watch.good(run.checkpoint()).failed(cause)),
-                        };
+                        return watch.finish_run(self.system, Some(&before), &run).map(|()| done);
                     }
                 }
                 if let Some(observer) = &mut self.observer {
@@ -259,10 +256,8 @@ impl<'a, R: Real, S: System<R, N> + ?Sized, const N: usize, const E: usize> Inte
             }
             visit(index, time, &run.checkpoint().state);
         }
-        match watch.finish(self.system, kept.then_some(&before), &run) {
-            Ok(()) => Ok(run.checkpoint().done(outcome)),
-            Err(cause) => Err(watch.good(run.checkpoint()).failed(cause)),
-        }
+        watch.finish_run(self.system, kept.then_some(&before), &run)?;
+        Ok(run.checkpoint().done(outcome))
     }
 
     /// Refuses settings that make no sense.

@@ -5,11 +5,28 @@
 
 use crate::numbers::lanes::{Lanes, Mask};
 use crate::steppers::driver::error::{Cause, IntegrationError, Setting};
-use crate::steppers::driver::run::{IntegrationResult, Outcome, Statistics};
+use crate::steppers::driver::run::{Checkpoint, IntegrationResult, Outcome, Statistics};
+use crate::steppers::entries;
 use crate::steppers::explicit::fixed::Leg;
-use crate::steppers::guard::Guard;
-use crate::steppers::guard::lanes::{Fault, LaneWatch, MOST, Moment};
+use crate::steppers::guard::{Each, Guard, MOST, Place, Watch};
 use crate::system::System;
+
+/// A time and the states in all lanes.
+#[derive(Clone, Copy)]
+pub(in crate::steppers) struct Moment<L, const N: usize> {
+    pub time: f64,
+    pub state: [L; N],
+}
+
+impl<L: Lanes, const N: usize> Moment<L, N> {
+    pub fn checkpoint(&self) -> Checkpoint<L, N> {
+        Checkpoint::new(L::from_f64(self.time), &self.state)
+    }
+
+    fn place(&self) -> Place<'_, L, N> {
+        Place { time: L::from_f64(self.time), state: &self.state }
+    }
+}
 
 /// A formula that makes steps in lanes, of a method whose settings are those of all lanes.
 pub(in crate::steppers) trait LaneFormula<L: Lanes, S: ?Sized, const N: usize> {
@@ -52,6 +69,10 @@ pub struct InLanes<const N: usize> {
 }
 
 impl<const N: usize> InLanes<N> {
+    fn none() -> Self {
+        Self { ends: [const { None }; MOST] }
+    }
+
     /// The end of the trajectory in a lane; none if there is no such lane.
     pub fn lane(&self, lane: usize) -> Option<&Result<IntegrationResult<f64, N>, IntegrationError<f64, N>>> {
         self.ends.get(lane)?.as_ref()
@@ -211,41 +232,60 @@ where
 {
     const { assert!(L::COUNT <= MOST, "there is no room for the ends of so many lanes") };
     let start = Moment { time: t0, state: *x0 };
-    let invalid = (!guard.is_valid()).then_some(Cause::Setting(Setting::Guard));
-    let (formula, step, memory) = method.ready();
-    let price = (system.check_cost(), system.singularity_check_cost());
-    let mut run: Run<'_, M, L, S, N> = Run {
-        system,
-        formula,
-        memory,
-        now: start,
-        before: start,
-        kept: false,
-        statistics: Statistics::default(),
-        going: Mask::all(L::COUNT),
-        ends: InLanes { ends: [const { None }; MOST] },
-        watch: LaneWatch::new(guard, M::EVALUATIONS, price, &start),
+    let mut lanes =
+        Going { lanes: Mask::all(L::COUNT), statistics: Statistics::default(), ends: InLanes::none() };
+    let watch = match Watch::new(guard, system, M::EVALUATIONS, true, start.place()) {
+        Ok(watch) => watch,
+        Err(cause) => {
+            lanes.fail_all(cause, start.place());
+            return lanes.ends;
+        }
     };
+    let (formula, step, memory) = method.ready();
+    let mut run: Run<'_, M, L, S, N> =
+        Run { system, formula, memory, now: start, before: start, kept: false, lanes, watch };
     for (index, &time) in times.iter().enumerate() {
-        let none = (!t0.is_finite() || !time.is_finite()).then_some(Cause::Setting(Setting::Time));
-        if let Some(cause) = invalid.or(none) {
-            for lane in run.going.lanes() {
-                run.fail(lane, Fault::new(lane, cause, &run.now));
-            }
+        if !t0.is_finite() || !time.is_finite() {
+            run.lanes.fail_all(Cause::Setting(Setting::Time), run.now.place());
         }
         let outcome = L::vectorize(
             #[inline(always)]
             || run.go(time, step, index + 1 == times.len()),
         );
         if let Err(cause) = outcome {
-            run.stop(run.going, cause);
+            run.stop(run.lanes.lanes, cause);
         }
-        if run.going.is_empty() {
+        if run.lanes.lanes.is_empty() {
             break;
         }
-        visit(index, time, &run.now.state, run.going);
+        visit(index, time, &run.now.state, run.lanes.lanes);
     }
     run.finish()
+}
+
+/// The lanes that are going, and the ends of the others.
+struct Going<const N: usize> {
+    lanes: Mask,
+    /// The work of each of them.
+    statistics: Statistics,
+    ends: InLanes<N>,
+}
+
+impl<const N: usize> Going<N> {
+    /// Sets a lane aside, with the last place at which it was in order.
+    #[cold]
+    fn fail<L: Lanes>(&mut self, lane: usize, cause: Cause, good: Place<'_, L, N>) {
+        let state = entries(|i| good.state[i].lane(lane));
+        let error = IntegrationError { time: good.time.to_f64(), state, cause, statistics: self.statistics };
+        self.ends.ends[lane] = Some(Err(error));
+        self.lanes = self.lanes - Mask::from_bits(0).with(lane);
+    }
+
+    fn fail_all<L: Lanes>(&mut self, cause: Cause, good: Place<'_, L, N>) {
+        for lane in self.lanes.lanes() {
+            self.fail(lane, cause, good);
+        }
+    }
 }
 
 /// A run of all lanes.
@@ -257,11 +297,8 @@ struct Run<'a, M: LaneFormula<L, S, N>, L: Lanes, S: ?Sized, const N: usize> {
     /// Where the last step began, if it was `kept`.
     before: Moment<L, N>,
     kept: bool,
-    /// The work of each lane still going.
-    statistics: Statistics,
-    going: Mask,
-    ends: InLanes<N>,
-    watch: LaneWatch<L, N>,
+    lanes: Going<N>,
+    watch: Watch<L, Each, N>,
 }
 
 impl<M, L, S, const N: usize> Run<'_, M, L, S, N>
@@ -273,12 +310,12 @@ where
     /// Goes to `target`, or until no lane is going.
     #[inline(always)]
     fn go(&mut self, target: f64, size: f64, last: bool) -> Result<(), Cause> {
-        if self.now.time == target || self.going.is_empty() {
+        if self.now.time == target || self.lanes.lanes.is_empty() {
             return Ok(());
         }
         let mut leg = Leg::new(self.now.time, target, size)?;
-        while self.now.time != target && !self.going.is_empty() {
-            self.kept = last && leg.is_last() || self.watch.wants_before();
+        while self.now.time != target && !self.lanes.lanes.is_empty() {
+            self.kept = last && leg.is_last() || self.watch.is_next();
             if self.kept {
                 self.before = self.now;
             }
@@ -286,20 +323,20 @@ where
             let from = (L::from_f64(self.now.time), &self.now.state);
             let mut state =
                 M::step(&self.formula, self.system, &mut self.memory, from, L::from_f64(h), self.kept);
-            self.statistics.evaluations += u64::from(M::EVALUATIONS);
-            let mut finite = self.going;
+            self.lanes.statistics.evaluations += u64::from(M::EVALUATIONS);
+            let mut finite = self.lanes.lanes;
             for entry in &state {
                 finite = finite & entry.finite();
             }
-            let failed = self.going - finite;
+            let failed = self.lanes.lanes - finite;
             if !failed.is_empty() {
                 self.stop(failed, Cause::NotFinite);
-                bury(&mut state, self.going);
+                bury(&mut state, self.lanes.lanes);
             }
             self.system.restore(L::from_f64(next), &mut state).map_err(|_| Cause::Positions)?;
-            self.statistics.accepted += 1;
+            self.lanes.statistics.accepted += 1;
             self.now = Moment { time: next, state };
-            if self.watch.counts() {
+            if self.watch.counts(1) {
                 self.look();
             }
         }
@@ -308,57 +345,50 @@ where
 
     #[inline(never)]
     fn look(&mut self) {
-        let Self { system, formula, memory, now, before, going, watch, .. } = self;
+        let Self { system, formula, memory, now, before, lanes, watch, .. } = self;
+        let going = lanes.lanes;
         let defects = || M::defect(formula, *system, memory, before, now);
-        watch.look(*system, before, now, defects, *going);
-        if !watch.faults.lanes.is_empty() {
-            self.set_aside();
-            bury(&mut self.now.state, self.going);
+        let left = L::vectorize(
+            #[inline(always)]
+            || {
+                let (step, now) = ((Some(before.place()), defects), now.place());
+                watch.look(*system, step, now, going, |lane, cause, good| lanes.fail(lane, cause, good))
+            },
+        );
+        if left != going {
+            bury(&mut now.state, left);
         }
     }
 
     /// The ends of all lanes, once the last look has found them in order.
     fn finish(mut self) -> InLanes<N> {
-        if !self.going.is_empty() {
-            let Self { system, formula, memory, now, before, kept, going, watch, .. } = &mut self;
+        let Self { system, formula, memory, now, before, kept, lanes, watch } = &mut self;
+        let going = lanes.lanes;
+        if !going.is_empty() {
             let defects = || M::defect(formula, *system, memory, before, now);
-            watch.finish(*system, kept.then_some(&*before), now, defects, *going);
-            self.set_aside();
+            let step = (kept.then_some(before.place()), defects);
+            watch
+                .finish(*system, step, now.place(), going, |lane, cause, good| lanes.fail(lane, cause, good));
         }
-        for lane in self.going.lanes() {
+        for lane in lanes.lanes.lanes() {
             let done = IntegrationResult {
-                time: self.now.time,
-                state: self.now.alone(lane),
+                time: now.time,
+                state: entries(|i| now.state[i].lane(lane)),
                 outcome: Outcome::Arrived,
-                statistics: self.statistics,
+                statistics: lanes.statistics,
             };
-            self.ends.ends[lane] = Some(Ok(done));
+            lanes.ends.ends[lane] = Some(Ok(done));
         }
-        self.ends
+        self.lanes.ends
     }
 
     /// Ends lanes that cannot go on from the last state that they accepted.
     #[cold]
     #[inline(never)]
     fn stop(&mut self, stopped: Mask, cause: Cause) {
-        self.watch.stopped(self.system, &self.now, stopped, cause);
-        self.set_aside();
-    }
-
-    /// Ends the lanes in which the guard has found a fault.
-    #[cold]
-    fn set_aside(&mut self) {
-        for lane in self.watch.faults.lanes.lanes() {
-            if let Some(fault) = self.watch.faults.of[lane] {
-                self.fail(lane, fault);
-            }
-        }
-    }
-
-    fn fail(&mut self, lane: usize, Fault { cause, time, state }: Fault<N>) {
-        let error = IntegrationError { time, state, cause, statistics: self.statistics };
-        self.ends.ends[lane] = Some(Err(error));
-        self.going = self.going - Mask::from_bits(0).with(lane);
+        let Self { system, now, lanes, watch, .. } = self;
+        watch
+            .stopped(*system, now.place(), stopped, cause, |lane, cause, good| lanes.fail(lane, cause, good));
     }
 }
 

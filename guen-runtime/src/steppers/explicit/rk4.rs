@@ -9,9 +9,8 @@ use crate::steppers::driver::run::{Checkpoint, Method, Statistics};
 use crate::steppers::driver::short_ways::short_ways;
 use crate::steppers::explicit::compensated::Compensated;
 use crate::steppers::explicit::fixed::{Changes, Fixed, Formula, Slopes};
-use crate::steppers::explicit::lanes::{LaneFormula, in_lanes};
+use crate::steppers::explicit::lanes::{LaneFormula, Moment, in_lanes};
 use crate::steppers::guard::defect::quadrature;
-use crate::steppers::guard::lanes::Moment;
 use crate::steppers::moved;
 use crate::system::System;
 

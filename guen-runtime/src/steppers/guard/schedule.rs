@@ -64,6 +64,7 @@ impl Schedule {
     /// Returns the number of steps until the next check of the edges, so many steps after everything was checked, if
     /// that should be within `soonest` steps: a multiple of `edges`, or of its half, or of the half of that, counted
     /// from that check. So runs in lanes check after the same steps, wherever each of them is.
+    #[inline]
     pub fn next(edges: u32, soonest: u32, since: u32) -> u32 {
         let mut apart = edges.min(1 << 31);
         while apart > soonest {

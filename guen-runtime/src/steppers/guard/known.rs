@@ -1,0 +1,305 @@
+//! The values that a guard's checks remember of its runs, and the judgement of the runs by them.
+
+use core::ops::Range;
+
+use crate::numbers::lanes::Mask;
+use crate::numbers::real::Real;
+use crate::numbers::running_error::RunningError;
+use crate::steppers::driver::error::Cause;
+use crate::steppers::entries;
+use crate::steppers::guard::Guard;
+use crate::steppers::guard::defect::{Defects, Worst, worst};
+use crate::steppers::guard::runs::Runs;
+use crate::system::System;
+use crate::system::invariants::Invariants;
+
+/// As many functions that must not vanish are watched; further ones are not.
+const MAX_SINGULARITIES: usize = 16;
+
+/// A time and the state there.
+#[derive(Clone, Copy)]
+pub(in crate::steppers) struct Place<'a, R, const N: usize> {
+    pub time: R,
+    pub state: &'a [R; N],
+}
+
+/// The values that checks remember, the first one from the initial state.
+#[derive(Clone, Copy)]
+pub(super) struct Known<R, const N: usize> {
+    energy: Option<R>,
+    scale: R,
+    /// How many functions there are that must not vanish.
+    pub count: usize,
+    /// The functions at the start, at the last check, and before that: where the last step began, if it has a fixed length, else
+    /// at the check before.
+    start: [R; MAX_SINGULARITIES],
+    functions: [RunningError<R>; MAX_SINGULARITIES],
+    earlier: [RunningError<R>; MAX_SINGULARITIES],
+    /// The largest absolute value of each entry of the state.
+    largest: [R; N],
+    defects: Defects<R, N>,
+}
+
+/// The result of a check of everything.
+pub(super) struct Look<R> {
+    invariants: Invariants<R>,
+    condition: R,
+    /// The change of the energy, relative to its scale.
+    change: R,
+    /// The largest estimated error of an entry.
+    defect: R,
+}
+
+impl<R: Real, const N: usize> Known<R, N> {
+    /// Checks the start.
+    pub fn new<S>(system: &S, guard: &Guard, start: Place<'_, R, N>) -> (Self, Look<R>)
+    where
+        S: System<R, N> + ?Sized,
+    {
+        let invariants = system.conserved(start.time, start.state);
+        let condition = system.condition(start.time, start.state);
+        let nothing = [RunningError::exact(R::zero()); MAX_SINGULARITIES];
+        let mut known = Self {
+            energy: invariants.energy,
+            scale: invariants.scale,
+            count: 0,
+            start: [R::zero(); MAX_SINGULARITIES],
+            functions: nothing,
+            earlier: nothing,
+            largest: entries(|i| start.state[i].abs()),
+            defects: Defects::new(),
+        };
+        let count = functions(system, start, &known.largest, &mut known.functions);
+        known.start = entries(|i| known.functions[i].value);
+        known.count = if guard.singularity < 0.0 { 0 } else { count };
+        let (change, defect, carried) = (R::zero(), R::zero(), R::zero());
+        (known, Look { invariants: Invariants { carried, ..invariants }, condition, change, defect })
+    }
+
+    /// The functions that must not vanish. Zipped iterators with a count take forty instructions more in each check.
+    #[inline(always)]
+    fn watched(&self) -> Range<usize> {
+        0..self.count.min(MAX_SINGULARITIES)
+    }
+
+    /// Looks at everything but the functions that must not vanish. `defects` are the estimated errors of a step, taken for those of
+    /// `steps` of them.
+    #[inline(always)]
+    pub fn look<S>(
+        &mut self,
+        system: &S,
+        now: Place<'_, R, N>,
+        defects: Option<[R; N]>,
+        steps: u32,
+        negligible: f64,
+    ) -> Look<R>
+    where
+        S: System<R, N> + ?Sized,
+    {
+        let zero = R::zero();
+        let invariants = system.conserved(now.time, now.state);
+        let condition = system.condition(now.time, now.state);
+        let change = match (invariants.energy, self.energy) {
+            (Some(energy), Some(before)) => {
+                // With the scale of this state, for the start may have none: at rest, where the potential is zero. A state
+                // that blew up is no larger than its own energy, so that its change is about one.
+                self.scale = invariants.scale.where_above(self.scale, invariants.scale, self.scale);
+                // What does not change at all is no change even of nothing.
+                let change = (energy - before).abs();
+                change.where_above(zero, change / self.scale, zero)
+            }
+            _ => zero,
+        };
+        for (largest, entry) in self.largest.iter_mut().zip(now.state) {
+            let size = entry.abs();
+            *largest = size.where_above(*largest, size, *largest);
+        }
+        let defect = match &defects {
+            Some(found) => self.defects.add(found, steps, &self.largest, negligible),
+            None => zero,
+        };
+        Look { invariants, condition, change, defect }
+    }
+
+    /// The runs that may have a fault, by what a look has found.
+    #[inline(always)]
+    pub fn suspects<V: Runs<R>>(&self, guard: &Guard, look: &Look<R>) -> Mask {
+        if V::COUNT == 1 {
+            return Mask::all(1);
+        }
+        let Look { invariants, condition, change, defect } = look;
+        let sum = above(*change, guard.energy)
+            + above(invariants.residual, guard.residual)
+            + above(*condition, guard.condition)
+            + above(*defect, guard.step)
+            + above(invariants.carried, guard.carried);
+        Mask::all(V::COUNT) - V::finite(sum + self.close(guard.singularity))
+    }
+
+    /// Judges a run by what a look has found.
+    #[inline(always)]
+    pub fn judge<V: Runs<R>>(
+        &self,
+        guard: &Guard,
+        look: &Look<R>,
+        found: f64,
+        run: usize,
+    ) -> Result<(), Cause> {
+        let change = V::alone(look.change, run);
+        if exceeds(change, guard.energy) {
+            return Err(Cause::Energy { found, change, limit: guard.energy });
+        }
+        let residual = V::alone(look.invariants.residual, run);
+        if exceeds(residual, guard.residual) {
+            return Err(Cause::Residual { found, residual, limit: guard.residual });
+        }
+        let condition = V::alone(look.condition, run);
+        if exceeds(condition, guard.condition) {
+            return Err(Cause::Condition { found, condition, limit: guard.condition });
+        }
+        self.judge_distances::<V>(found, guard.singularity, run)?;
+        let limit = guard.step;
+        if exceeds(V::alone(look.defect, run), limit) {
+            let Worst { entry, defect } = worst(&self.defects.judged(|entry| V::alone(entry, run)));
+            return Err(Cause::Step { found, entry, defect, limit });
+        }
+        let (drift, limit) = (V::alone(look.invariants.carried, run), guard.carried);
+        if exceeds(drift, limit) { Err(Cause::Carried { found, drift, limit }) } else { Ok(()) }
+    }
+
+    /// Evaluates the functions that must not vanish.
+    #[inline(always)]
+    pub fn look_at_singularities<S>(&mut self, system: &S, now: Place<'_, R, N>)
+    where
+        S: System<R, N> + ?Sized,
+    {
+        functions(system, now, &self.largest, &mut self.functions);
+    }
+
+    /// Keeps their values for the next look to compare with.
+    #[inline(always)]
+    pub fn keep_singularities(&mut self) {
+        for function in self.watched() {
+            self.earlier[function] = self.functions[function];
+        }
+    }
+
+    /// Evaluates them where the last step began.
+    #[inline(always)]
+    pub fn look_back<S>(&mut self, system: &S, before: Place<'_, R, N>)
+    where
+        S: System<R, N> + ?Sized,
+    {
+        functions(system, before, &self.largest, &mut self.earlier);
+    }
+
+    /// NaN in the runs in which one may have come too close to zero, else zero.
+    #[inline(always)]
+    pub fn close(&self, limit: f64) -> R {
+        let (zero, nan) = (R::zero(), R::from_f64(f64::NAN));
+        let mut sum = zero;
+        for function in self.watched() {
+            let (now, start) = (&self.functions[function], self.start[function]);
+            let left = now.left();
+            // One that is exact is judged by itself as well, and so is one that is no number.
+            sum += left * zero
+                + left.where_above(R::from_f64(limit), zero, nan)
+                + (now.value * start).where_above(zero, zero, nan);
+        }
+        sum
+    }
+
+    /// Whether the functions of a run are on the same side as at the start, and further than the limit from zero.
+    #[inline(always)]
+    pub fn judge_distances<V: Runs<R>>(&self, found: f64, limit: f64, run: usize) -> Result<(), Cause> {
+        for function in self.watched() {
+            let near = nearness(&self.functions[function], self.start[function]);
+            let distance = -V::alone(near, run);
+            if distance <= limit || distance.is_nan() {
+                return Err(Cause::ChartSingularity { found, function, distance, limit });
+            }
+        }
+        Ok(())
+    }
+
+    /// The number of times of what lies between before and now after which to look at them again: half of what would lead the
+    /// nearest to zero at this pace. And what is NaN in the runs in which a function may have changed by more than a factor, else zero.
+    #[inline(always)]
+    pub fn paces(&self, limit: f64) -> (R, R) {
+        let mut sum = R::zero();
+        let mut soonest = R::from_f64(f64::from(u32::MAX));
+        for function in self.watched() {
+            let (from, to) = (self.earlier[function].value.abs(), self.functions[function].value.abs());
+            sum += above(from / to, limit) + above(to / from, limit);
+            soonest = sooner(from, to, soonest);
+        }
+        (soonest, sum)
+    }
+
+    /// The same for one run, if no function has changed by more than a factor: what divides by one that did is a pole that such
+    /// steps do not resolve.
+    #[inline(always)]
+    pub fn judge_pace<V: Runs<R>>(&self, found: f64, limit: f64, run: usize) -> Result<R, Cause> {
+        let mut soonest = R::from_f64(f64::from(u32::MAX));
+        for function in self.watched() {
+            let (from, to) = (self.earlier[function].value.abs(), self.functions[function].value.abs());
+            if limit < f64::INFINITY {
+                let (down, up) = (from / to, to / from);
+                let ratio = down.where_above(up, down, up);
+                // Of two zeros there is no ratio.
+                let ratio = V::alone((-ratio).where_above(R::zero(), R::zero(), ratio), run);
+                if ratio > limit {
+                    return Err(Cause::ApproachingSingularity { found, function, ratio, limit });
+                }
+            }
+            soonest = sooner(from, to, soonest);
+        }
+        Ok(soonest)
+    }
+}
+
+/// The sooner of a number of steps and half of those after which a function that went from one value to another is zero.
+#[inline(always)]
+fn sooner<R: Real>(from: R, to: R, soonest: R) -> R {
+    let steps = from.where_above(to, R::from_ratio(1, 2) * to / (from - to), soonest);
+    soonest.where_above(steps, steps, soonest)
+}
+
+/// The distance of a function from zero with the other sign, so that what is too close is above a limit: positive on the other side
+/// than at the start.
+#[inline(always)]
+fn nearness<R: Real>(now: &RunningError<R>, start: R) -> R {
+    let left = now.left();
+    let same = now.value.where_above(R::zero(), start, -start);
+    same.where_above(R::zero(), -left, left)
+}
+
+/// NaN where a value is above its limit or no number, zero elsewhere.
+#[inline(always)]
+fn above<R: Real>(value: R, limit: f64) -> R {
+    value.where_above(R::from_f64(limit), R::from_f64(f64::NAN), R::zero())
+}
+
+/// Writes the functions that must not vanish, where every entry is uncertain by a rounding of the largest value it has had, and
+/// returns how many they are. Inside of [`Real::vectorize`], please.
+#[inline(always)]
+fn functions<R: Real, S, const N: usize>(
+    system: &S,
+    place: Place<'_, R, N>,
+    largest: &[R; N],
+    into: &mut [RunningError<R>; MAX_SINGULARITIES],
+) -> usize
+where
+    S: System<R, N> + ?Sized,
+{
+    let mut rounded = [RunningError::exact(place.time); N];
+    for ((entry, value), error) in rounded.iter_mut().zip(place.state).zip(largest) {
+        *entry = RunningError { value: *value, error: *error };
+    }
+    system.singularities(RunningError::once(place.time), &rounded, into).min(MAX_SINGULARITIES)
+}
+
+/// Whether a value is above its limit, or none at all.
+fn exceeds(value: f64, limit: f64) -> bool {
+    value > limit || value.is_nan()
+}

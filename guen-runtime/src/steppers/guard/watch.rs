@@ -1,0 +1,443 @@
+//! A guard at work: the times of its checks, the runs that it checks, and the faults that it reports.
+
+use core::marker::PhantomData;
+
+use crate::numbers::lanes::Mask;
+use crate::numbers::real::Real;
+use crate::steppers::driver::error::{Cause, IntegrationError, Setting};
+use crate::steppers::driver::run::{Checkpoint, StepperRun};
+use crate::steppers::guard::Guard;
+use crate::steppers::guard::known::{Known, Place};
+use crate::steppers::guard::runs::{One, Runs};
+use crate::steppers::guard::schedule::Schedule;
+use crate::system::System;
+
+/// A guard at work on `V` runs that make their steps together. Each is judged as it would be alone: with the same limits, after the
+/// same steps and in the same order.
+pub(in crate::steppers) struct Watch<R: Real, V: Runs<R>, const N: usize> {
+    guard: Guard,
+    every: u32,
+    /// Whether steps have a fixed length.
+    fixed: bool,
+    /// Steps after which the sizes of entries are known, and the part of the largest entry that counts as zero then.
+    young: u32,
+    negligible: f64,
+    /// Steps until the functions that must not vanish are looked at, at most: they are cheaper than the rest.
+    until_singularities: u32,
+    /// Steps until the guard does something for one of the runs, and those that it was when it did something last.
+    left: u32,
+    planned: u32,
+    /// Steps from when it did something last to the next look at everything, which all runs have at once, and from the last one
+    /// to that.
+    rest: u32,
+    between: u32,
+    /// For each run the steps from when it did something last to its own turn, where they are not the same for all.
+    turns: Option<V::Steps>,
+    /// Where the last look found everything in order.
+    good: (R, [R; N]),
+    known: Option<Known<R, N>>,
+    runs: PhantomData<V>,
+}
+
+impl<R: Real, V: Runs<R>, const N: usize> Watch<R, V, N> {
+    /// For steps of so many evaluations, `fixed` or not.
+    pub fn new<S>(
+        guard: Guard,
+        system: &S,
+        evaluations: u32,
+        fixed: bool,
+        start: Place<'_, R, N>,
+    ) -> Result<Self, Cause>
+    where
+        S: System<R, N> + ?Sized,
+    {
+        if !guard.is_valid() {
+            return Err(Cause::Setting(Setting::Guard));
+        }
+        let price = (system.check_cost(), system.singularity_check_cost());
+        let Schedule { young, edges, every } = Schedule::new(evaluations, price, fixed, guard.every);
+        let first = if every == u32::MAX { every } else { 1 };
+        Ok(Self {
+            guard: guard.for_real::<R>(),
+            every,
+            fixed,
+            young,
+            negligible: libm::sqrt(R::epsilon().to_f64()),
+            until_singularities: edges,
+            left: first,
+            planned: first,
+            rest: first,
+            between: first,
+            turns: None,
+            good: (start.time, *start.state),
+            known: None,
+            runs: PhantomData,
+        })
+    }
+
+    /// Whether the guard will do something after the next step.
+    #[inline(always)]
+    pub fn is_next(&self) -> bool {
+        self.left == 1
+    }
+
+    /// Whether the guard will want to know where the next step began; `last` if it is the last one.
+    #[inline(always)]
+    pub fn wants_before(&self, last: bool) -> bool {
+        self.fixed && (last || self.is_next())
+    }
+
+    /// As many steps can be made before anything has to be told.
+    #[inline]
+    pub fn patience(&self) -> u32 {
+        if self.fixed { (self.left - 1).max(1) } else { self.left }
+    }
+
+    /// Counts steps, no more than [`patience`](Watch::patience) allowed, and says whether it is time for [`look`](Watch::look).
+    #[inline(always)]
+    pub fn counts(&mut self, made: u32) -> bool {
+        self.left = self.left.saturating_sub(made);
+        self.left == 0
+    }
+
+    /// Looks at what is due in the runs that are going. `before` is where the last step began, of methods with a fixed step, and
+    /// `defects` estimates its errors. `fail` is told of each run with a fault: the cause, and where the last look found none.
+    /// Returns the runs without one.
+    #[inline(never)]
+    pub fn look<S, D>(
+        &mut self,
+        system: &S,
+        (before, defects): (Option<Place<'_, R, N>>, D),
+        now: Place<'_, R, N>,
+        mut going: Mask,
+        mut fail: impl FnMut(usize, Cause, Place<'_, R, N>),
+    ) -> Mask
+    where
+        S: System<R, N> + ?Sized,
+        D: FnOnce() -> [R; N],
+    {
+        let made = self.planned;
+        self.rest -= made;
+        if V::COUNT > 1
+            && let Some(turns) = &mut self.turns
+        {
+            turns.as_mut().iter_mut().for_each(|steps| *steps = steps.saturating_sub(made));
+        }
+        let is_whole = self.rest == 0;
+        if is_whole {
+            let defects = before.is_some().then_some(defects);
+            self.whole(system, self.between, defects, now, &mut going, &mut fail);
+            (self.between, self.rest) = (self.every, self.every);
+            self.turns = None;
+        }
+        (self.planned, self.left) = (self.rest, self.rest);
+        if self.known.as_ref().is_some_and(|known| known.count > 0) && !going.is_empty() {
+            R::vectorize(
+                #[inline(always)]
+                || self.singularities(system, before, now, (is_whole, made), &mut going, &mut fail),
+            );
+        }
+        going
+    }
+
+    /// Looks at the functions that must not vanish, unless that was just done, and chooses when to do so again; `made` are the steps
+    /// since they were looked at.
+    #[inline(always)]
+    fn singularities<S>(
+        &mut self,
+        system: &S,
+        before: Option<Place<'_, R, N>>,
+        now: Place<'_, R, N>,
+        (is_done, made): (bool, u32),
+        going: &mut Mask,
+        fail: &mut impl FnMut(usize, Cause, Place<'_, R, N>),
+    ) where
+        S: System<R, N> + ?Sized,
+    {
+        let (rest, until, fixed, guard) = (self.rest, self.until_singularities, self.fixed, &self.guard);
+        let Some(known) = &mut self.known else { return };
+        let (found, good) = (now.time.to_f64(), Place { time: self.good.0, state: &self.good.1 });
+        let mut close = R::zero();
+        if !is_done {
+            if !fixed {
+                known.keep_singularities();
+            }
+            known.look_at_singularities(system, now);
+            if V::COUNT > 1 {
+                close = known.close(guard.singularity);
+            }
+        }
+        if let Some(before) = before {
+            known.look_back(system, before);
+        }
+        // A pace is that of a step of a fixed length, or of all steps since the look before, which may be long.
+        let has_pace = before.is_some() || !fixed && until < u32::MAX;
+        let limit = if fixed { guard.approach } else { f64::INFINITY };
+        let (soonest, abrupt) = if V::COUNT > 1 { known.paces(limit) } else { (R::zero(), R::zero()) };
+        let span = if fixed { 1.0 } else { f64::from(made) };
+        let since = self.between - rest;
+        let next = |soonest: u32| {
+            rest.min(if fixed { Schedule::next(until, soonest, since) } else { until.min(soonest) })
+        };
+        if V::COUNT > 1 {
+            // Where all may go on as long as that, none is asked by itself.
+            let least = R::from_f64(f64::from(until));
+            let hasty = least.where_above(soonest, R::from_f64(f64::NAN), abrupt + close);
+            let patient = V::finite(hasty);
+            let together = match &mut self.turns {
+                Some(turns) => turns.as_mut().iter().all(|steps| *steps == 0),
+                None => true,
+            };
+            if together && (*going - patient).is_empty() {
+                let steps = next(until);
+                (self.planned, self.left, self.turns) = (steps, steps, None);
+                return;
+            }
+        }
+        let suspects = |sum: R| Mask::all(V::COUNT) - V::finite(sum);
+        let (close, abrupt) = if V::COUNT > 1 {
+            (suspects(close), suspects(abrupt))
+        } else {
+            (Mask::all(usize::from(!is_done)), Mask::all(1))
+        };
+        let mut turns = if V::COUNT > 1 { self.turns.unwrap_or_default() } else { V::Steps::default() };
+        for (run, turn) in turns.as_mut().iter_mut().enumerate() {
+            if !going.contains(run) || *turn > 0 {
+                continue;
+            }
+            let judge = || {
+                if close.contains(run) {
+                    known.judge_distances::<V>(found, guard.singularity, run)?;
+                }
+                if !has_pace {
+                    return Ok(rest);
+                }
+                let abrupt = abrupt.contains(run);
+                let pace = if abrupt { known.judge_pace::<V>(found, limit, run)? } else { soonest };
+                // The least of several lanes; in the next step where that is no number.
+                Ok(next(((-V::alone(-pace, run) * span) as u32).max(1)))
+            };
+            match judge() {
+                Ok(steps) => *turn = steps,
+                Err(cause) => {
+                    *going = *going - Mask::from_bits(0).with(run);
+                    fail(run, cause, good);
+                }
+            }
+        }
+        let steps =
+            turns.as_mut().iter().filter(|turn| **turn > 0).fold(rest, |least, turn| least.min(*turn));
+        (self.planned, self.left) = (steps, steps);
+        if V::COUNT > 1 {
+            self.turns = Some(turns);
+        }
+    }
+
+    /// Looks at the end of runs, unless that was just done; `step` as of [`look`](Watch::look), if it was wanted.
+    #[inline(never)]
+    pub fn finish<S, D>(
+        &mut self,
+        system: &S,
+        (before, defects): (Option<Place<'_, R, N>>, D),
+        now: Place<'_, R, N>,
+        mut going: Mask,
+        mut fail: impl FnMut(usize, Cause, Place<'_, R, N>),
+    ) where
+        S: System<R, N> + ?Sized,
+        D: FnOnce() -> [R; N],
+    {
+        let steps = self.between - (self.rest - (self.planned - self.left));
+        if steps == 0 || self.every == u32::MAX {
+            return;
+        }
+        let defects = before.is_some().then_some(defects);
+        self.whole(system, steps, defects, now, &mut going, &mut fail);
+        let Self { guard, known: Some(known), good, .. } = self else { return };
+        let Some(before) = before.filter(|_| known.count > 0) else { return };
+        let (found, good) = (now.time.to_f64(), Place { time: good.0, state: &good.1 });
+        R::vectorize(
+            #[inline(always)]
+            || {
+                known.look_back(system, before);
+                let steady =
+                    if V::COUNT > 1 { V::finite(known.paces(guard.approach).1) } else { Mask::all(0) };
+                for run in (going - steady).lanes() {
+                    if let Err(cause) = known.judge_pace::<V>(found, guard.approach, run) {
+                        fail(run, cause, good);
+                    }
+                }
+            },
+        );
+    }
+
+    /// Tells the faults of runs that cannot go on from where they stand: the cause given, unless the steps since the last look went
+    /// wrong before. Of other runs nothing is learned.
+    #[cold]
+    #[inline(never)]
+    pub fn stopped<S>(
+        &mut self,
+        system: &S,
+        now: Place<'_, R, N>,
+        stopped: Mask,
+        cause: Cause,
+        mut fail: impl FnMut(usize, Cause, Place<'_, R, N>),
+    ) where
+        S: System<R, N> + ?Sized,
+    {
+        let mut rest = stopped;
+        if now.time != self.good.0 && self.every != u32::MAX {
+            let before = (self.known, self.good, self.young);
+            self.whole(system, 0, None::<fn() -> [R; N]>, now, &mut rest, &mut fail);
+            (self.known, self.good, self.young) = before;
+        }
+        for run in rest.lanes() {
+            fail(run, cause, now);
+        }
+    }
+
+    /// Looks at everything, for so many steps, and takes the runs with a fault out of `going`.
+    #[inline(never)]
+    fn whole<S, D>(
+        &mut self,
+        system: &S,
+        steps: u32,
+        defects: Option<D>,
+        now: Place<'_, R, N>,
+        going: &mut Mask,
+        fail: &mut impl FnMut(usize, Cause, Place<'_, R, N>),
+    ) where
+        S: System<R, N> + ?Sized,
+        D: FnOnce() -> [R; N],
+    {
+        let Self { guard, fixed, young, negligible, good, known, .. } = self;
+        *young = young.saturating_sub(steps);
+        // In the first steps an entry that was zero has no size yet.
+        let negligible = if *young > 0 { guard.step } else { *negligible };
+        R::vectorize(
+            #[inline(always)]
+            || {
+                let place = Place { time: good.0, state: &good.1 };
+                if known.is_none() {
+                    let (begun, look) = Known::new(system, guard, place);
+                    for run in (*going & begun.suspects::<V>(guard, &look)).lanes() {
+                        if let Err(cause) = begun.judge::<V>(guard, &look, place.time.to_f64(), run) {
+                            *going = *going - Mask::from_bits(0).with(run);
+                            fail(run, cause, place);
+                        }
+                    }
+                    *known = Some(begun);
+                }
+                let Some(known) = known else { return };
+                let defects = defects.filter(|_| guard.step < f64::INFINITY).map(|defects| defects());
+                let look = known.look(system, now, defects, steps, negligible);
+                if known.count > 0 {
+                    if !*fixed {
+                        known.keep_singularities();
+                    }
+                    known.look_at_singularities(system, now);
+                }
+                let suspects = *going & known.suspects::<V>(guard, &look);
+                for run in suspects.lanes() {
+                    if let Err(cause) = known.judge::<V>(guard, &look, now.time.to_f64(), run) {
+                        *going = *going - Mask::from_bits(0).with(run);
+                        fail(run, cause, place);
+                    }
+                }
+            },
+        );
+        if !going.is_empty() {
+            *good = (now.time, *now.state);
+        }
+    }
+}
+
+/// The place of a checkpoint.
+fn place<R: Real, const N: usize>(at: &Checkpoint<R, N>) -> Place<'_, R, N> {
+    Place { time: at.time, state: &at.state }
+}
+
+impl<R: Real, const N: usize> Watch<R, One, N> {
+    /// For one run of a method.
+    pub fn of_run<C, S>(guard: Guard, system: &S, start: &Checkpoint<R, N>) -> Result<Self, Cause>
+    where
+        C: StepperRun<R, S, N>,
+        S: System<R, N> + ?Sized,
+    {
+        Self::new(guard, system, C::EVALUATIONS, C::JUDGED, place(start))
+    }
+
+    /// Counts the steps since `from`, and looks if it is time to; `before` is where the last one began, if that was wanted.
+    #[inline]
+    pub fn step<C, S>(
+        &mut self,
+        system: &S,
+        from: u64,
+        before: Option<&Checkpoint<R, N>>,
+        run: &C,
+    ) -> Result<(), Cause>
+    where
+        C: StepperRun<R, S, N>,
+        S: System<R, N> + ?Sized,
+    {
+        let made = run.checkpoint().statistics.accepted.saturating_sub(from);
+        if !self.counts(u32::try_from(made).unwrap_or(u32::MAX)) {
+            return Ok(());
+        }
+        let mut fault = Cause::NotFinite;
+        let (step, now) = (last(system, before, run), place(run.checkpoint()));
+        let going = self.look(system, step, now, Mask::all(1), |_, cause, _| fault = cause);
+        if going.is_empty() { Err(fault) } else { Ok(()) }
+    }
+
+    /// Looks at the end of the run.
+    pub fn finish_run<C, S>(
+        &mut self,
+        system: &S,
+        before: Option<&Checkpoint<R, N>>,
+        run: &C,
+    ) -> Result<(), IntegrationError<R, N>>
+    where
+        C: StepperRun<R, S, N>,
+        S: System<R, N> + ?Sized,
+    {
+        let mut judged = Ok(());
+        let (step, now) = (last(system, before, run), place(run.checkpoint()));
+        self.finish(system, step, now, Mask::all(1), |_, cause, _| judged = Err(cause));
+        judged.map_err(|cause| self.failed(run.checkpoint(), cause))
+    }
+
+    /// The error of the run, which cannot go on from where it stands.
+    pub fn stop_run<C, S>(&mut self, system: &S, run: &C, cause: Cause) -> IntegrationError<R, N>
+    where
+        C: StepperRun<R, S, N>,
+        S: System<R, N> + ?Sized,
+    {
+        let mut error = run.checkpoint().failed(cause);
+        self.stopped(system, place(run.checkpoint()), Mask::all(1), cause, |_, cause, good| {
+            error = IntegrationError { time: good.time, state: *good.state, cause, ..error };
+        });
+        error
+    }
+
+    /// The error at the place that was found in order last, with the work done since then counted.
+    #[cold]
+    pub fn failed(&self, reached: &Checkpoint<R, N>, cause: Cause) -> IntegrationError<R, N> {
+        let (time, state) = self.good;
+        IntegrationError { time, state, cause, statistics: reached.statistics }
+    }
+}
+
+/// Where the last step of a method with a fixed step began, and the estimate of its errors.
+#[inline(always)]
+fn last<'a, R: Real, C, S, const N: usize>(
+    system: &'a S,
+    before: Option<&'a Checkpoint<R, N>>,
+    run: &'a C,
+) -> (Option<Place<'a, R, N>>, impl FnOnce() -> [R; N])
+where
+    C: StepperRun<R, S, N>,
+    S: System<R, N> + ?Sized,
+{
+    let before = before.filter(|_| C::JUDGED);
+    (before.map(place), move || before.map_or([R::zero(); N], |before| run.defect(system, before)))
+}
