@@ -23,7 +23,7 @@ use crate::numbers::rules::assign_operators;
 ///
 /// What a function adds, in units `u |f|`, for `f64`, `f32` and lanes. An error of one ulp, the spacing of numbers at the result, is
 /// at most two of these units. The last columns are the worst that were found over ten million arguments of each
-/// (`cargo test --release -p guen-runtime --test numbers rounded -- --include-ignored --nocapture`).
+/// (`cargo test --release -p guen-runtime --test numbers running_error -- --include-ignored --nocapture`).
 ///
 /// | functions | `c_f` | why | `f64` | `f32` |
 /// | --- | --- | --- | --- | --- |

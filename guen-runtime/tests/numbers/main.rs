@@ -5,6 +5,6 @@ mod duals;
 mod elementary;
 mod nalgebra;
 mod operators;
-mod rounded;
+mod running_error;
 mod scalar;
-mod tuned;
+mod with_functions;

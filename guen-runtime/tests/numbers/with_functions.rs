@@ -87,7 +87,7 @@ fn a_dual_fuses_what_its_real_fuses() {
 }
 
 #[test]
-fn steppers_take_tuned_reals() {
+fn steppers_take_reals_with_other_functions() {
     let pendulum = from_fn(|_t: Approx13, &[q, w]: &[Approx13; 2]| [w, -q.sin()]);
     let start = [1.0, 0.0].map(Approx13::new);
     let method = Rk4 { step: Approx13::new(0.01) };

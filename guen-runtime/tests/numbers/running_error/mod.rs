@@ -1,7 +1,7 @@
 //! `RunningError` is a bound: of each function for exact arguments, of ratios, and of programs.
 //!
 //! ```text
-//! cargo test --release -p guen-runtime --test numbers rounded -- --include-ignored --nocapture     # ten million of each
+//! cargo test --release -p guen-runtime --test numbers running_error -- --include-ignored --nocapture     # ten million of each
 //! ```
 
 mod pair;
