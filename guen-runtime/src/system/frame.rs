@@ -109,7 +109,7 @@ const fn place<S: Frame<N>, const N: usize>(i: usize, j: usize) -> Option<(usize
     None
 }
 
-/// What is known of the coefficients of the bracket `(X_i, X_j)`.
+/// The facts known of the coefficients of the bracket `(X_i, X_j)`.
 #[doc(hidden)]
 pub const fn known_bracket<S: Frame<N>, const N: usize>(i: usize, j: usize) -> [Coefficient; N] {
     let Some((place, reversed)) = place::<S, N>(i, j) else { return [Coefficient::Zero; N] };

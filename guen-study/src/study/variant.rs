@@ -40,7 +40,7 @@ pub enum Settings {
     Tolerances,
     /// Evaluations allowed: 24, 48, ..
     Evaluations,
-    /// These values, from coarse to fine.
+    /// The values given, from coarse to fine.
     List(Knob, Vec<f64>),
 }
 

@@ -11,7 +11,7 @@ use crate::zero::jets::{Moving, Tape};
 /// Points at which ranks are looked at; the largest counts.
 const POINTS: usize = 2;
 
-/// What is known of a level at one point.
+/// The values at one point of a level.
 struct Point {
     /// The values of the brackets that are kept.
     kept: Vec<Vec<u64>>,

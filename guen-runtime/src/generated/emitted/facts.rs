@@ -77,7 +77,7 @@ macro_rules! reported {
     (
         @ $name:literal $summary:tt { $($title:tt [$($line:tt)*] [$($formula:tt)*])* } [$($place:literal)*]
     ) => {
-        /// What was derived, as text: forms, operators, brackets, classification, equations of motion.
+        /// The derivation as text: forms, operators, brackets, classification, equations of motion.
         pub const REPORT: $crate::Report = $crate::Report {
             name: $name,
             summary: $summary,

@@ -47,7 +47,7 @@ macro_rules! energy {
     };
 }
 
-/// What the system itself has and no scene can choose, with the numbers of coordinates, of parameters and of states.
+/// The items of the system itself that no scene can choose, with the numbers of coordinates, of parameters and of states.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! motion_of_system {
@@ -313,7 +313,7 @@ macro_rules! laned {
 #[macro_export]
 macro_rules! lift {
     ($($follows:ident)?) => {
-        /// The same system over a real that contains `R`, such as duals over it: every prepared value becomes
+        /// The system over a real that contains `R`, such as duals over it: every prepared value becomes
         /// a constant there.
         pub fn lift<S: $crate::Lift<R>>(&self) -> Prepared<S> {
             Prepared {

@@ -30,34 +30,34 @@ impl<R> Crossing<R> {
     }
 }
 
-/// The times within a step at which a function is looked at, in the order in which the run goes.
+/// The times within a step at which a function is checked, in the order in which the run goes.
 #[derive(Clone, Copy, Default)]
-pub(in crate::steppers) struct Looks<R> {
+pub(in crate::steppers) struct Checks<R> {
     /// The beginning of the step.
     pub start: R,
     /// Its end.
     pub end: R,
-    /// Whether a run begins with the step near the function's surface. Then its first part is looked at after an eighth, a
+    /// Whether a run begins with the step near the function's surface. Then its first part is checked after an eighth, a
     /// 64th and so on as well, as far as the digits of a double go: what leaves the surface there may be back long before the
     /// part ends.
     pub close: bool,
 }
 
-impl<R: Real> Looks<R> {
+impl<R: Real> Checks<R> {
     /// Returns the number of checks in so many parts.
     fn count(&self, parts: u32) -> u32 {
         if self.close { parts.saturating_add(CLOSER) } else { parts }
     }
 
-    /// The time of a look, counted from one.
-    fn time(&self, look: u32, parts: u32) -> R {
+    /// The time of a check, counted from one.
+    fn time(&self, check: u32, parts: u32) -> R {
         let closer = if self.close { CLOSER } else { 0 };
-        let part = look.saturating_sub(closer);
+        let part = check.saturating_sub(closer);
         if part >= parts {
             return self.end;
         }
         let length = (self.end - self.start) * R::from_ratio(part.max(1).into(), parts.max(1).into());
-        let shorter = if part == 0 { libm::exp2(-3.0 * f64::from(CLOSER + 1 - look)) } else { 1.0 };
+        let shorter = if part == 0 { libm::exp2(-3.0 * f64::from(CLOSER + 1 - check)) } else { 1.0 };
         self.start + length * R::from_f64(shorter)
     }
 }
@@ -99,21 +99,21 @@ impl Tracker {
     pub fn next<R: Real, const N: usize>(
         &mut self,
         event: &Event<'_, R, N>,
-        looks: Looks<R>,
+        checks: Checks<R>,
         (origin, from): (R, R),
         end: f64,
         mut state: impl FnMut(R) -> Option<[R; N]>,
     ) -> Option<Crossing<R>> {
         let mut value = |t: R| state(t).map_or(f64::NAN, |x| event.value(t, &x));
-        let backwards = (looks.end - looks.start).to_f64() < 0.0;
+        let backwards = (checks.end - checks.start).to_f64() < 0.0;
         let mut before = from;
-        let count = looks.count(event.parts());
-        for look in 1..=count {
-            let after = looks.time(look, event.parts());
+        let count = checks.count(event.parts());
+        for check in 1..=count {
+            let after = checks.time(check, event.parts());
             if !earlier(before, after, backwards) {
                 continue;
             }
-            let found = if after == looks.end { end } else { value(after) };
+            let found = if after == checks.end { end } else { value(after) };
             if found.is_nan() {
                 continue;
             }

@@ -71,7 +71,7 @@ pub enum Cause {
         limit: f64,
     },
     /// A fixed step is too long next to the edge of the chart: over one step a function that must not vanish changed so much
-    /// that the pole of what divides by it is not resolved. The time and state beside this cause are the last look that
+    /// that the pole of what divides by it is not resolved. The time and state beside this cause are those of the last check that
     /// found no such step.
     ApproachingSingularity {
         /// The time at which it was found.

@@ -16,9 +16,9 @@ pub enum Direction {
 /// A function of the state whose crossing of zero is an event: an impact, a loss of contact, a switching surface.
 ///
 /// - A crossing is seen as a change of sign between the ends of a step, or between the ends of its parts where
-///   [`with_checks`](Event::with_checks) asks for some. Two crossings between two looks, such as a short contact or a
+///   [`with_checks`](Event::with_checks) asks for some. Two crossings between two checks, such as a short contact or a
 ///   function that only touches zero, are not seen, unless the run ends between them. A zero at the very end of a step counts
-///   as a crossing. In the first step of a run a function that begins near zero is also looked at after an eighth of a part, a
+///   as a crossing. In the first step of a run a function that begins near zero is also checked after an eighth of a part, a
 ///   64th and so on: a ball that bounces is seen to land again, however short its flight.
 /// - It is located on the method's dense output by bisection and regula falsi, until the bracket is no longer than the
 ///   tolerance, and reported at the end of the bracket that is past the crossing. The tolerance bounds the error of the

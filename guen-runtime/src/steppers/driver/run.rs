@@ -110,7 +110,7 @@ pub trait Method<R: Real, S: ?Sized, const N: usize> {
 
 /// A run of one method from one initial state.
 pub trait StepperRun<R: Real, S: ?Sized, const N: usize> {
-    /// Evaluations of the right-hand side in a usual step, by which a guard chooses how often to look.
+    /// Evaluations of the right-hand side in a usual step, by which a guard chooses how often to check.
     const EVALUATIONS: u32;
 
     /// Whether a guard judges single steps by [`defect`](StepperRun::defect): so with a fixed step, while a method that chooses

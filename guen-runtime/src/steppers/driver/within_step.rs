@@ -1,7 +1,7 @@
 //! Samples and events within one step of a run, in the order of time, and the end of a run at an event.
 
 use crate::numbers::real::Real;
-use crate::steppers::driver::crossing::{Crossing, Looks, Tracker, earlier, sign};
+use crate::steppers::driver::crossing::{Checks, Crossing, Tracker, earlier, sign};
 use crate::steppers::driver::dense::Interpolant;
 use crate::steppers::driver::error::Cause;
 use crate::steppers::driver::events::{Event, Occurrence};
@@ -36,7 +36,7 @@ struct Followed<R> {
     /// Up to where its crossings have been reported, and the tracker as it stood there.
     from: R,
     behind: Tracker,
-    looks: Looks<R>,
+    checks: Checks<R>,
     /// The function at the end of the step.
     end: f64,
     /// The next crossing, if there is one, and the tracker past it, or at the end of the step.
@@ -57,17 +57,17 @@ impl<R: Real> Followed<R> {
     {
         self.ahead = self.behind;
         self.crossing = None;
-        if event.parts() > 1 || self.looks.close || !self.behind.stays(self.end) {
+        if event.parts() > 1 || self.checks.close || !self.behind.stays(self.end) {
             let range = (origin, self.from);
-            self.crossing = self.ahead.next(event, self.looks, range, self.end, |t| motion.at(t).ok());
+            self.crossing = self.ahead.next(event, self.checks, range, self.end, |t| motion.at(t).ok());
         } else {
             self.ahead = self.behind.at(self.end);
         }
     }
 
-    /// Looks for a crossing before a time, at which the function has this value, that looks until now have not shown: since
+    /// Looks for a crossing before a time, at which the function has this value, that checks until now have not shown: since
     /// then the function has come back. Says whether there is one.
-    fn look_back<C, S, const N: usize>(
+    fn search_back<C, S, const N: usize>(
         &mut self,
         event: &Event<'_, R, N>,
         origin: R,
@@ -78,14 +78,14 @@ impl<R: Real> Followed<R> {
         C: StepperRun<R, S, N>,
         S: System<R, N> + ?Sized,
     {
-        let backwards = (self.looks.end - self.looks.start).to_f64() < 0.0;
+        let backwards = (self.checks.end - self.checks.start).to_f64() < 0.0;
         let known = self.crossing.is_some_and(|crossing| !earlier(time, crossing.after, backwards));
         if known || self.from == time {
             return false;
         }
         let mut tracker = self.behind;
-        let looks = Looks { end: time, ..self.looks };
-        let found = tracker.next(event, looks, (origin, self.from), value, |t| motion.at(t).ok());
+        let checks = Checks { end: time, ..self.checks };
+        let found = tracker.next(event, checks, (origin, self.from), value, |t| motion.at(t).ok());
         if found.is_some() {
             (self.crossing, self.ahead) = (found, tracker);
         }
@@ -95,7 +95,7 @@ impl<R: Real> Followed<R> {
     /// Whether an event has happened when a run ends at a time at which its function has this value, and if so, whether the
     /// function was rising.
     fn happened(&self, time: R, value: f64) -> Option<bool> {
-        let backwards = (self.looks.end - self.looks.start).to_f64() < 0.0;
+        let backwards = (self.checks.end - self.checks.start).to_f64() < 0.0;
         let crossing = self.crossing.filter(|crossing| !earlier(time, crossing.after, backwards))?;
         let past = !earlier(time, crossing.time, backwards);
         let crossed = !value.is_nan() && sign(value) != crossing.side();
@@ -130,9 +130,9 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize, const E: usize> Integrat
             let event = &events[i];
             let end = event.value(after.time, &after.state);
             let close = before.time == origin && is_near(event, before, end, &mut motion);
-            let looks = Looks { start: before.time, end: after.time, close };
+            let checks = Checks { start: before.time, end: after.time, close };
             let (behind, ahead) = (trackers[i], trackers[i]);
-            let mut followed = Followed { from: before.time, behind, looks, end, crossing: None, ahead };
+            let mut followed = Followed { from: before.time, behind, checks, end, crossing: None, ahead };
             followed.follow(event, origin, &mut motion);
             followed
         });
@@ -162,7 +162,7 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize, const E: usize> Integrat
                 let mut moved = false;
                 for (event, followed) in events.iter().zip(&mut followed) {
                     let value = event.value(until, &state);
-                    moved |= followed.look_back(event, origin, (until, value), &mut motion);
+                    moved |= followed.search_back(event, origin, (until, value), &mut motion);
                 }
                 if moved {
                     continue;
@@ -201,7 +201,7 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize, const E: usize> Integrat
             let mut happened = [None; E];
             for ((event, followed), happened) in events.iter().zip(&mut followed).zip(&mut happened) {
                 let value = event.value(until, &state);
-                followed.look_back(event, origin, (until, value), &mut motion);
+                followed.search_back(event, origin, (until, value), &mut motion);
                 *happened = followed.happened(until, value);
                 if happened.is_none() && followed.from != until && event.is_for_both() {
                     // A run that goes on from here takes what follows at once for a return.

@@ -337,14 +337,14 @@ where
             self.lanes.statistics.accepted += 1;
             self.now = Moment { time: next, state };
             if self.watch.counts(1) {
-                self.look();
+                self.check();
             }
         }
         Ok(())
     }
 
     #[inline(never)]
-    fn look(&mut self) {
+    fn check(&mut self) {
         let Self { system, formula, memory, now, before, lanes, watch, .. } = self;
         let going = lanes.lanes;
         let defects = || M::defect(formula, *system, memory, before, now);
@@ -352,7 +352,7 @@ where
             #[inline(always)]
             || {
                 let (step, now) = ((Some(before.place()), defects), now.place());
-                watch.look(*system, step, now, going, |lane, cause, good| lanes.fail(lane, cause, good))
+                watch.check(*system, step, now, going, |lane, cause, good| lanes.fail(lane, cause, good))
             },
         );
         if left != going {
@@ -360,7 +360,7 @@ where
         }
     }
 
-    /// The ends of all lanes, once the last look has found them in order.
+    /// The ends of all lanes, once the last check has found them in order.
     fn finish(mut self) -> InLanes<N> {
         let Self { system, formula, memory, now, before, kept, lanes, watch } = &mut self;
         let going = lanes.lanes;

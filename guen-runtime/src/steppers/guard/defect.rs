@@ -21,7 +21,7 @@ use crate::system::System;
 pub(in crate::steppers) struct Defects<R, const N: usize> {
     /// Estimated errors of all steps together.
     sum: [R; N],
-    /// The estimate of the look before.
+    /// The estimate of the check before.
     last: Option<[R; N]>,
 }
 

@@ -13,7 +13,7 @@ use crate::steppers::guard::runs::Runs;
 use crate::system::System;
 use crate::system::invariants::Invariants;
 
-/// As many functions that must not vanish are watched; further ones are not.
+/// The number of functions that are watched; further ones are not.
 const MAX_SINGULARITIES: usize = 16;
 
 /// A time and the state there.
@@ -28,7 +28,7 @@ pub(in crate::steppers) struct Place<'a, R, const N: usize> {
 pub(super) struct Known<R, const N: usize> {
     energy: Option<R>,
     scale: R,
-    /// How many functions there are that must not vanish.
+    /// The number of functions that must not vanish.
     pub count: usize,
     /// The functions at the start, at the last check, and before that: where the last step began, if it has a fixed length, else
     /// at the check before.
@@ -40,8 +40,8 @@ pub(super) struct Known<R, const N: usize> {
     defects: Defects<R, N>,
 }
 
-/// The result of a check of everything.
-pub(super) struct Look<R> {
+/// The result of a check.
+pub(super) struct Check<R> {
     invariants: Invariants<R>,
     condition: R,
     /// The change of the energy, relative to its scale.
@@ -51,8 +51,8 @@ pub(super) struct Look<R> {
 }
 
 impl<R: Real, const N: usize> Known<R, N> {
-    /// Checks the start.
-    pub fn new<S>(system: &S, guard: &Guard, start: Place<'_, R, N>) -> (Self, Look<R>)
+    /// Starts from a state, and returns what the first check finds there.
+    pub fn new<S>(system: &S, guard: &Guard, start: Place<'_, R, N>) -> (Self, Check<R>)
     where
         S: System<R, N> + ?Sized,
     {
@@ -73,7 +73,7 @@ impl<R: Real, const N: usize> Known<R, N> {
         known.start = entries(|i| known.functions[i].value);
         known.count = if guard.singularity < 0.0 { 0 } else { count };
         let (change, defect, carried) = (R::zero(), R::zero(), R::zero());
-        (known, Look { invariants: Invariants { carried, ..invariants }, condition, change, defect })
+        (known, Check { invariants: Invariants { carried, ..invariants }, condition, change, defect })
     }
 
     /// The functions that must not vanish. Zipped iterators with a count take forty instructions more in each check.
@@ -82,17 +82,17 @@ impl<R: Real, const N: usize> Known<R, N> {
         0..self.count.min(MAX_SINGULARITIES)
     }
 
-    /// Looks at everything but the functions that must not vanish. `defects` are the estimated errors of a step, taken for those of
+    /// Checks everything but the functions that must not vanish. `defects` are the estimated errors of a step, taken for those of
     /// `steps` of them.
     #[inline(always)]
-    pub fn look<S>(
+    pub fn check<S>(
         &mut self,
         system: &S,
         now: Place<'_, R, N>,
         defects: Option<[R; N]>,
         steps: u32,
         negligible: f64,
-    ) -> Look<R>
+    ) -> Check<R>
     where
         S: System<R, N> + ?Sized,
     {
@@ -118,16 +118,16 @@ impl<R: Real, const N: usize> Known<R, N> {
             Some(found) => self.defects.add(found, steps, &self.largest, negligible),
             None => zero,
         };
-        Look { invariants, condition, change, defect }
+        Check { invariants, condition, change, defect }
     }
 
-    /// The runs that may have a fault, by what a look has found.
+    /// The runs that may have a fault, by what a check has found.
     #[inline(always)]
-    pub fn suspects<V: Runs<R>>(&self, guard: &Guard, look: &Look<R>) -> Mask {
+    pub fn suspects<V: Runs<R>>(&self, guard: &Guard, check: &Check<R>) -> Mask {
         if V::COUNT == 1 {
             return Mask::all(1);
         }
-        let Look { invariants, condition, change, defect } = look;
+        let Check { invariants, condition, change, defect } = check;
         let sum = above(*change, guard.energy)
             + above(invariants.residual, guard.residual)
             + above(*condition, guard.condition)
@@ -136,47 +136,47 @@ impl<R: Real, const N: usize> Known<R, N> {
         Mask::all(V::COUNT) - V::finite(sum + self.close(guard.singularity))
     }
 
-    /// Judges a run by what a look has found.
+    /// Judges a run by what a check has found.
     #[inline(always)]
     pub fn judge<V: Runs<R>>(
         &self,
         guard: &Guard,
-        look: &Look<R>,
+        check: &Check<R>,
         found: f64,
         run: usize,
     ) -> Result<(), Cause> {
-        let change = V::alone(look.change, run);
+        let change = V::alone(check.change, run);
         if exceeds(change, guard.energy) {
             return Err(Cause::Energy { found, change, limit: guard.energy });
         }
-        let residual = V::alone(look.invariants.residual, run);
+        let residual = V::alone(check.invariants.residual, run);
         if exceeds(residual, guard.residual) {
             return Err(Cause::Residual { found, residual, limit: guard.residual });
         }
-        let condition = V::alone(look.condition, run);
+        let condition = V::alone(check.condition, run);
         if exceeds(condition, guard.condition) {
             return Err(Cause::Condition { found, condition, limit: guard.condition });
         }
         self.judge_distances::<V>(found, guard.singularity, run)?;
         let limit = guard.step;
-        if exceeds(V::alone(look.defect, run), limit) {
+        if exceeds(V::alone(check.defect, run), limit) {
             let Worst { entry, defect } = worst(&self.defects.judged(|entry| V::alone(entry, run)));
             return Err(Cause::Step { found, entry, defect, limit });
         }
-        let (drift, limit) = (V::alone(look.invariants.carried, run), guard.carried);
+        let (drift, limit) = (V::alone(check.invariants.carried, run), guard.carried);
         if exceeds(drift, limit) { Err(Cause::Carried { found, drift, limit }) } else { Ok(()) }
     }
 
     /// Evaluates the functions that must not vanish.
     #[inline(always)]
-    pub fn look_at_singularities<S>(&mut self, system: &S, now: Place<'_, R, N>)
+    pub fn evaluate_singularities<S>(&mut self, system: &S, now: Place<'_, R, N>)
     where
         S: System<R, N> + ?Sized,
     {
         functions(system, now, &self.largest, &mut self.functions);
     }
 
-    /// Keeps their values for the next look to compare with.
+    /// Keeps their values for the next check to compare with.
     #[inline(always)]
     pub fn keep_singularities(&mut self) {
         for function in self.watched() {
@@ -186,7 +186,7 @@ impl<R: Real, const N: usize> Known<R, N> {
 
     /// Evaluates them where the last step began.
     #[inline(always)]
-    pub fn look_back<S>(&mut self, system: &S, before: Place<'_, R, N>)
+    pub fn evaluate_before<S>(&mut self, system: &S, before: Place<'_, R, N>)
     where
         S: System<R, N> + ?Sized,
     {
@@ -222,7 +222,7 @@ impl<R: Real, const N: usize> Known<R, N> {
         Ok(())
     }
 
-    /// The number of times of what lies between before and now after which to look at them again: half of what would lead the
+    /// The number of times of what lies between before and now after which to check them again: half of what would lead the
     /// nearest to zero at this pace. And what is NaN in the runs in which a function may have changed by more than a factor, else zero.
     #[inline(always)]
     pub fn paces(&self, limit: f64) -> (R, R) {
@@ -236,8 +236,8 @@ impl<R: Real, const N: usize> Known<R, N> {
         (soonest, sum)
     }
 
-    /// The same for one run, if no function has changed by more than a factor: what divides by one that did is a pole that such
-    /// steps do not resolve.
+    /// The number of times until the next check of one run, as of [`paces`](Known::paces). An error where a function changed by more
+    /// than a factor: what divides by it is a pole that such steps do not resolve.
     #[inline(always)]
     pub fn judge_pace<V: Runs<R>>(&self, found: f64, limit: f64, run: usize) -> Result<R, Cause> {
         let mut soonest = R::from_f64(f64::from(u32::MAX));

@@ -1,10 +1,10 @@
 //! Guards: what is watched while a run goes on, besides that every state is finite.
 //!
-//! A look is taken after the first step, then every `k` steps, with a `k` that [`Schedule`](schedule::Schedule) chooses, and at the end; where a look
-//! finds a fault, the run goes back to the last look that did not, so that what it returns was seen to be in order.
+//! A check is made after the first step, then every `k` steps, with a `k` that [`Schedule`](schedule::Schedule) chooses, and at the end; where a check
+//! finds a fault, the run goes back to the last check that did not, so that what it returns was seen to be in order.
 //!
-//! An edge of the chart may be passed twice between two looks, and the functions that must not vanish are then on the side where they
-//! were. So they are looked at in between, as often as their price allows, and more often while they become smaller: after half of
+//! A singularity of the chart may be passed twice between two checks, and the functions that must not vanish are then on the side where they
+//! were. So they are checked in between, as often as their price allows, and more often while they become smaller: after half of
 //! the steps that would lead to zero at this pace, then after half of the rest.
 
 pub(crate) mod defect;
@@ -25,12 +25,12 @@ use crate::numbers::real::Real;
 /// estimates of the errors of single steps.
 ///
 /// Every accepted state is tested to be finite. After the first step, then every [`every`](Guard::every) steps, at the end
-/// of the run and before an error is returned, the guard looks at the rest; the first look looks at the start too. Where it
-/// finds a fault, the run ends with the cause, and with the time and state of the last look that found none; an observer
-/// has been shown the steps since then. So a run of one step is looked at twice, which can cost as much as the step: a loop
+/// of the run and before an error is returned, the guard checks the rest; the first check includes the start. Where it
+/// finds a fault, the run ends with the cause, and with the time and state of the last check that found none; an observer
+/// has been shown the steps since then. So a run of one step is checked twice, which can cost as much as the step: a loop
 /// of such runs may take [`Guard::FINITE`], and guards of its own.
 ///
-/// With lanes as the real every lane is looked at, with limits relative to its own energy and its own largest values, and a fault
+/// With lanes as the real every lane is checked, with limits relative to its own energy and its own largest values, and a fault
 /// of one ends the run of all; [`LaneMethod::integrate_in_lanes`](crate::steppers::LaneMethod::integrate_in_lanes) gives each lane an end of its own.
 ///
 /// ```
@@ -42,23 +42,23 @@ use crate::numbers::real::Real;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Guard {
     /// The largest change of the energy since the start, relative to the largest scale `|T| + |U|` at the start and at
-    /// the looks until now; for systems that keep their energy. By default 0.01: a run that is off by more is rarely one
+    /// the checks until now; for systems that keep their energy. By default 0.01: a run that is off by more is rarely one
     /// that somebody wants, whatever its accuracy was meant to be.
     pub energy: f64,
     /// The largest left side of a constraint on positions, relative to the size of its terms. By default 0.001: what
     /// is typed in with four digits passes.
     pub residual: f64,
-    /// How far functions that are carried as states may be from what they stand for: the largest of `|w - f|/(1 + |f|)`
+    /// The largest distance of functions that are carried as states from their values: the largest of `|w - f|/(1 + |f|)`
     /// and of what is left of `sin^2 + cos^2 - 1` and the like. By default 0.01, as for the energy.
     pub carried: f64,
-    /// The distance to the edge of the chart at which to stop: what is [`left`](crate::RunningError::left) of each function that
+    /// The distance to a singularity of the chart at which to stop: what is [`left`](crate::RunningError::left) of each function that
     /// must not vanish, given that every entry of the state is uncertain by a rounding of the largest value that it has
     /// had. By default `1e-8`, where a term with its square in the denominator has no digits left in `f64`; in another
     /// real the limit is multiplied by the root of the ratio of the roundings.
     ///
-    /// A look that finds another sign than at the start ends the run, whatever the limit. Two changes of sign between two looks
-    /// are not seen. An adaptive method looks at these functions as often as a 160th of the run pays for, which is after every step
-    /// where they cost little beside a right-hand side, and sooner while one becomes smaller. `every: Some(1)` looks after each step.
+    /// A check that finds another sign than at the start ends the run, whatever the limit. Two changes of sign between two checks
+    /// are not seen. An adaptive method checks these functions as often as a 160th of the run pays for, which is after every step
+    /// where they cost little beside a right-hand side, and sooner while one becomes smaller. `every: Some(1)` checks after each step.
     ///
     /// A negative limit watches none of it, and neither does [`approach`](Guard::approach) then: for a motion that is meant to pass
     /// such positions, as a linkage whose bars come to lie on one line, where the state at each side is as it should be. Everything else
@@ -67,8 +67,8 @@ pub struct Guard {
     /// The largest [`condition`](System::condition) of the mass matrix. By default `1e12`, where accelerations have
     /// four digits left in `f64`; in another real the limit is divided by the ratio of the roundings.
     pub condition: f64,
-    /// The largest error of methods with a fixed step, estimated at every look from one step, relative to the largest value
-    /// that an entry has had, and summed up as if it stood for all steps since the last look. By default 0.05.
+    /// The largest error of methods with a fixed step, estimated at every check from one step, relative to the largest value
+    /// that an entry has had, and summed up as if it stood for all steps since the last check. By default 0.05.
     /// `docs/integrators.md` has the estimate of each method. Within about 160 right-hand sides of the start what is
     /// below this part of the largest entry counts as nothing, since an entry that begins at zero has no size yet.
     pub step: f64,

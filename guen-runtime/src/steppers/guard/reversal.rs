@@ -13,7 +13,7 @@ use crate::steppers::guard::Guard;
 use crate::system::System;
 use crate::system::linearization::{Liftable, seeded};
 
-/// Looks at the way back are taken every so many steps: each inverts a matrix of the size of the state.
+/// The number of steps from one check of the way back to the next: each inverts a matrix of the size of the state.
 const EVERY: u32 = 8;
 
 /// A run with its variational matrix.
@@ -79,7 +79,7 @@ where
 /// // e^20 roundings are more than 1e-8 of the start.
 /// let error = reversible(&Decay, &[], &method, 0.0, &[1.0], 20.0, 1e-8).unwrap_err();
 /// assert!(matches!(error.cause, Cause::Irreversible { .. }), "{error}");
-/// // It looks every eight steps, and tells the last look that found it in order.
+/// // It checks every eight steps, and tells the last check that found it in order.
 /// assert!(error.time > 10.0 && error.time < 18.4, "{}", error.time);
 /// ```
 ///
@@ -106,15 +106,15 @@ where
     let mut back = Back::new(x0);
     let mut good = (t0, *x0);
     let mut fault = None;
-    let mut until_look = EVERY;
+    let mut until_check = EVERY;
     let unit = R::epsilon().to_f64() / 2.0;
-    let mut look = |time: Dual<R, N>, state: &[Dual<R, N>; N]| {
+    let mut check = |time: Dual<R, N>, state: &[Dual<R, N>; N]| {
         back.see(state);
-        until_look -= 1;
-        if until_look > 0 && time.value != t1 {
+        until_check -= 1;
+        if until_check > 0 && time.value != t1 {
             return ControlFlow::Continue(());
         }
-        until_look = EVERY;
+        until_check = EVERY;
         let growth = back.growth(state);
         // What is no number exceeds every limit.
         if (unit * growth).partial_cmp(&limit).is_none_or(core::cmp::Ordering::is_gt) {
@@ -127,7 +127,7 @@ where
     let run = if limit >= 0.0 {
         Integration::new(&varied, Dual::constant(t0), &seeded(x0))
             .guard(Guard::FINITE)
-            .observe(&mut look)
+            .observe(&mut check)
             .run(method, Dual::constant(t1))
     } else {
         Err(IntegrationError {

@@ -1,28 +1,28 @@
 //! The schedule of a guard: checks are as far apart as their cost asks for, so that they take less than three
 //! hundredths of a run.
 
-/// A look is taken after at least so many right-hand sides,
-const EVALUATIONS_BETWEEN_LOOKS: u32 = 160;
-/// and after so many times what it costs: at 2.5 percent, the rest up to three is for what a step does for the guard.
-const COSTS_BETWEEN_LOOKS: f64 = 40.0;
-/// Looks at the edges alone may take a fiftieth,
-const COSTS_BETWEEN_EDGES: f64 = 50.0;
-/// and a hundred-and-sixtieth where steps are not fixed, as much as further looks on the way to an edge take there,
-const COSTS_BETWEEN_FREE_EDGES: f64 = 160.0;
+/// The number of right-hand sides from one check to the next, at least,
+const EVALUATIONS_BETWEEN_CHECKS: u32 = 160;
+/// and that in costs of a check: at 2.5 percent, the rest up to three is for what a step does for the guard.
+const COSTS_BETWEEN_CHECKS: f64 = 40.0;
+/// Checks of the singularities alone may take a fiftieth,
+const COSTS_BETWEEN_SINGULARITIES: f64 = 50.0;
+/// and a hundred-and-sixtieth where steps are not fixed, as much as further checks on the way to a singularity take there,
+const COSTS_BETWEEN_FREE_SINGULARITIES: f64 = 160.0;
 /// and both together so little.
 const COSTS_TOGETHER: f64 = 34.0;
 /// The further work of a check of a fixed step, in right-hand sides: an estimate of its error, which takes three and
 /// sums over the state. At least so many, and at most, beside right-hand sides that are cheap for a state so long.
 const COST_OF_A_DEFECT: [f64; 2] = [4.0, 10.0];
 
-/// Steps from one look to the next.
+/// The steps between checks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::steppers) struct Schedule {
     /// Steps after which the sizes of entries are known.
     pub young: u32,
-    /// The steps from one check of the edges alone to the next, at most; never where somebody has chosen how often to
+    /// The steps from one check of the singularities alone to the next, at most; never where somebody has chosen how often to
     /// check.
-    pub edges: u32,
+    pub singularities: u32,
     /// The steps from one check of everything to the next.
     pub every: u32,
 }
@@ -32,41 +32,51 @@ impl Schedule {
     /// with these costs of checks: [`check_cost`](crate::System::check_cost) and
     /// [`singularity_check_cost`](crate::System::singularity_check_cost). `chosen` is the number of steps between two
     /// checks that somebody has set.
-    pub fn new(evaluations: u32, (look, edges): (u32, f64), fixed: bool, chosen: Option<u32>) -> Self {
+    pub fn new(
+        evaluations: u32,
+        (check, singularities): (u32, f64),
+        fixed: bool,
+        chosen: Option<u32>,
+    ) -> Self {
         let evaluations = evaluations.max(1);
         let in_steps = |right_hand_sides: f64| (right_hand_sides / f64::from(evaluations)) as u32;
-        let young = (EVALUATIONS_BETWEEN_LOOKS / evaluations).max(1);
+        let young = (EVALUATIONS_BETWEEN_CHECKS / evaluations).max(1);
         if let Some(chosen) = chosen {
-            return Self { young, edges: u32::MAX, every: chosen.max(1) };
+            return Self { young, singularities: u32::MAX, every: chosen.max(1) };
         }
         if !fixed {
-            // Steps as long as the tolerance allows may lead through an edge and back in a few: each is looked at, if that is
+            // Steps as long as the tolerance allows may lead through a singularity and back in a few: each is checked, if that is
             // cheap enough.
-            let between = if edges > 0.0 { in_steps(COSTS_BETWEEN_FREE_EDGES * edges).max(1) } else { young };
-            let every = young.max(in_steps(COSTS_BETWEEN_LOOKS * f64::from(look)));
-            return Self { young, edges: between, every };
+            let between = if singularities > 0.0 {
+                in_steps(COSTS_BETWEEN_FREE_SINGULARITIES * singularities).max(1)
+            } else {
+                young
+            };
+            let every = young.max(in_steps(COSTS_BETWEEN_CHECKS * f64::from(check)));
+            return Self { young, singularities: between, every };
         }
         // Before the step and after it; NaN is no price.
-        let both = (2.0 * edges).max(0.0);
-        let between = young.max(in_steps(COSTS_BETWEEN_EDGES * both));
+        let both = (2.0 * singularities).max(0.0);
+        let between = young.max(in_steps(COSTS_BETWEEN_SINGULARITIES * both));
         let spent = both / (f64::from(between) * f64::from(evaluations));
-        // What edges leave; of an infinite price a fiftieth is spent.
-        let left = (1.0 / COSTS_TOGETHER - spent).max(1.0 / COSTS_TOGETHER - 1.0 / COSTS_BETWEEN_EDGES);
-        let [least, most] = COST_OF_A_DEFECT.map(|estimate| f64::from(look) + estimate);
-        let every = f64::max(COSTS_BETWEEN_LOOKS * most, least / left);
+        // What singularities leave; of an infinite price a fiftieth is spent.
+        let left =
+            (1.0 / COSTS_TOGETHER - spent).max(1.0 / COSTS_TOGETHER - 1.0 / COSTS_BETWEEN_SINGULARITIES);
+        let [least, most] = COST_OF_A_DEFECT.map(|estimate| f64::from(check) + estimate);
+        let every = f64::max(COSTS_BETWEEN_CHECKS * most, least / left);
         let every = young.max(in_steps(every));
-        // At a look at everything edges are looked at anyway.
+        // A check of everything includes the singularities.
         let every =
             if both > 0.0 { every.checked_next_multiple_of(between).unwrap_or(u32::MAX) } else { every };
-        Self { young, edges: between, every }
+        Self { young, singularities: between, every }
     }
 
-    /// Returns the number of steps until the next check of the edges, so many steps after everything was checked, if
-    /// that should be within `soonest` steps: a multiple of `edges`, or of its half, or of the half of that, counted
+    /// Returns the number of steps until the next check of the singularities, so many steps after everything was checked, if
+    /// that should be within `soonest` steps: a multiple of `apart`, or of its half, or of the half of that, counted
     /// from that check. So runs in lanes check after the same steps, wherever each of them is.
     #[inline]
-    pub fn next(edges: u32, soonest: u32, since: u32) -> u32 {
-        let mut apart = edges.min(1 << 31);
+    pub fn next(apart: u32, soonest: u32, since: u32) -> u32 {
+        let mut apart = apart.min(1 << 31);
         while apart > soonest {
             apart /= 2;
         }
@@ -80,34 +90,38 @@ mod tests {
     use super::Schedule;
 
     #[test]
-    fn looks_take_less_than_three_hundredths_of_a_run() {
+    fn checks_take_less_than_three_hundredths_of_a_run() {
         for evaluations in [1, 4, 12, 40] {
-            for look in [1, 5, 20, 300] {
-                for edges in [0.0, 0.1, 1.0, 2.5, 40.0] {
+            for check in [1, 5, 20, 300] {
+                for singularities in [0.0, 0.1, 1.0, 2.5, 40.0] {
                     let of = f64::from(evaluations);
-                    let Schedule { edges: between, every, young } =
-                        Schedule::new(evaluations, (look, edges), true, None);
+                    let Schedule { singularities: between, every, young } =
+                        Schedule::new(evaluations, (check, singularities), true, None);
                     let (between, every) = (f64::from(between) * of, f64::from(every) * of);
-                    // RunningError down to whole steps, in the worst case a part of thirteen.
+                    // Rounded down to whole steps, in the worst case a part of thirteen.
                     let most = 1.08 / 34.0;
-                    let price = f64::from(look) + 4.0;
-                    assert!(price / every + 2.0 * edges / between < most, "{every} {between}");
-                    assert!((price + 6.0) / every < 1.08 / 40.0 && 2.0 * edges / between < 1.08 / 50.0);
+                    let price = f64::from(check) + 4.0;
+                    assert!(price / every + 2.0 * singularities / between < most, "{every} {between}");
+                    assert!(
+                        (price + 6.0) / every < 1.08 / 40.0 && 2.0 * singularities / between < 1.08 / 50.0
+                    );
                     // Both meet.
-                    assert!(edges == 0.0 || every % between == 0.0, "{every} {between}");
-                    // Nothing is looked at more rarely than it has to be.
-                    assert!(between == f64::from(young) * of || 2.0 * edges / between > 1.0 / 51.0);
-                    let meeting = if edges > 0.0 { between } else { 0.0 };
+                    assert!(singularities == 0.0 || every % between == 0.0, "{every} {between}");
+                    // Nothing is checked more rarely than it has to be.
+                    assert!(between == f64::from(young) * of || 2.0 * singularities / between > 1.0 / 51.0);
+                    let meeting = if singularities > 0.0 { between } else { 0.0 };
                     let alone = every - meeting;
                     assert!(
                         (price + 6.0) / alone > 0.9 / 40.0
-                            || price / alone + 2.0 * edges / between > 0.9 / 34.0
+                            || price / alone + 2.0 * singularities / between > 0.9 / 34.0
                             || alone <= f64::from(young) * of
                     );
-                    let free = Schedule::new(evaluations, (look, edges), false, None);
+                    let free = Schedule::new(evaluations, (check, singularities), false, None);
                     assert!(f64::from(free.every) * of <= every);
                     assert!(
-                        free.edges == 1 || edges / (f64::from(free.edges) * of) < 1.4 / 160.0 || edges == 0.0
+                        free.singularities == 1
+                            || singularities / (f64::from(free.singularities) * of) < 1.4 / 160.0
+                            || singularities == 0.0
                     );
                 }
             }
@@ -115,19 +129,25 @@ mod tests {
     }
 
     #[test]
-    fn edges_are_looked_at_in_time_and_together() {
-        for edges in [1, 13, 40, 200, u32::MAX] {
+    fn singularities_are_checked_in_time_and_together() {
+        for singularities in [1, 13, 40, 200, u32::MAX] {
             for soonest in [1, 2, 3, 7, 20, 39, 40, 1000, u32::MAX] {
                 for since in [0, 1, 5, 20, 39, 40, 123] {
-                    let next = Schedule::next(edges, soonest, since);
-                    assert!((1..=soonest.min(edges)).contains(&next), "{edges} {soonest} {since}: {next}");
+                    let next = Schedule::next(singularities, soonest, since);
+                    assert!(
+                        (1..=soonest.min(singularities)).contains(&next),
+                        "{singularities} {soonest} {since}: {next}"
+                    );
                     // Wherever a run is, it comes to the same steps.
-                    let apart = Schedule::next(edges, soonest, 0);
-                    assert!((since + next).is_multiple_of(apart), "{edges} {soonest} {since}: {next}");
+                    let apart = Schedule::next(singularities, soonest, 0);
+                    assert!(
+                        (since + next).is_multiple_of(apart),
+                        "{singularities} {soonest} {since}: {next}"
+                    );
                 }
             }
         }
-        // One that is near to an edge, one that is nearer and one that is far look at multiples of 10, 20 and 40 steps.
+        // One that is near to a singularity, one that is nearer and one that is far check at multiples of 10, 20 and 40 steps.
         for (soonest, apart) in [(19, 10), (20, 20), (55, 40)] {
             let mut since = 0;
             while since < 120 {
@@ -140,14 +160,14 @@ mod tests {
     #[test]
     fn what_is_chosen_is_done_and_no_price_breaks_it() {
         let chosen = Schedule::new(4, (7, 2.0), true, Some(0));
-        assert_eq!(chosen, Schedule { young: 40, edges: u32::MAX, every: 1 });
-        // RK4 with a look of two right-hand sides: every 40 times twelve of them, edges every 160.
+        assert_eq!(chosen, Schedule { young: 40, singularities: u32::MAX, every: 1 });
+        // RK4 with a check of two right-hand sides: every 40 times twelve of them, singularities every 160.
         let usual = Schedule::new(4, (2, 0.0), true, None);
-        assert_eq!(usual, Schedule { young: 40, edges: 40, every: 120 });
+        assert_eq!(usual, Schedule { young: 40, singularities: 40, every: 120 });
         for price in [f64::NAN, -1.0] {
             assert_eq!(Schedule::new(4, (2, price), true, None), usual);
         }
         let dear = Schedule::new(0, (u32::MAX, f64::INFINITY), true, None);
-        assert_eq!((dear.edges, dear.every), (u32::MAX, u32::MAX));
+        assert_eq!((dear.singularities, dear.every), (u32::MAX, u32::MAX));
     }
 }

@@ -22,18 +22,18 @@ pub(in crate::steppers) struct Watch<R: Real, V: Runs<R>, const N: usize> {
     /// Steps after which the sizes of entries are known, and the part of the largest entry that counts as zero then.
     young: u32,
     negligible: f64,
-    /// Steps until the functions that must not vanish are looked at, at most: they are cheaper than the rest.
+    /// Steps until the next check of the functions that must not vanish, at most: they are cheaper than the rest.
     until_singularities: u32,
     /// Steps until the guard does something for one of the runs, and those that it was when it did something last.
     left: u32,
     planned: u32,
-    /// Steps from when it did something last to the next look at everything, which all runs have at once, and from the last one
+    /// Steps from when it did something last to the next check of everything, which all runs have at once, and from the last one
     /// to that.
     rest: u32,
     between: u32,
     /// For each run the steps from when it did something last to its own turn, where they are not the same for all.
     turns: Option<V::Steps>,
-    /// Where the last look found everything in order.
+    /// The moment of the last check that found everything in order.
     good: (R, [R; N]),
     known: Option<Known<R, N>>,
     runs: PhantomData<V>,
@@ -55,7 +55,7 @@ impl<R: Real, V: Runs<R>, const N: usize> Watch<R, V, N> {
             return Err(Cause::Setting(Setting::Guard));
         }
         let price = (system.check_cost(), system.singularity_check_cost());
-        let Schedule { young, edges, every } = Schedule::new(evaluations, price, fixed, guard.every);
+        let Schedule { young, singularities, every } = Schedule::new(evaluations, price, fixed, guard.every);
         let first = if every == u32::MAX { every } else { 1 };
         Ok(Self {
             guard: guard.for_real::<R>(),
@@ -63,7 +63,7 @@ impl<R: Real, V: Runs<R>, const N: usize> Watch<R, V, N> {
             fixed,
             young,
             negligible: libm::sqrt(R::epsilon().to_f64()),
-            until_singularities: edges,
+            until_singularities: singularities,
             left: first,
             planned: first,
             rest: first,
@@ -87,24 +87,24 @@ impl<R: Real, V: Runs<R>, const N: usize> Watch<R, V, N> {
         self.fixed && (last || self.is_next())
     }
 
-    /// As many steps can be made before anything has to be told.
+    /// Returns the number of steps that can be made before the guard has to be told.
     #[inline]
     pub fn patience(&self) -> u32 {
         if self.fixed { (self.left - 1).max(1) } else { self.left }
     }
 
-    /// Counts steps, no more than [`patience`](Watch::patience) allowed, and says whether it is time for [`look`](Watch::look).
+    /// Counts steps, no more than [`patience`](Watch::patience) allowed, and says whether it is time for [`check`](Watch::check).
     #[inline(always)]
     pub fn counts(&mut self, made: u32) -> bool {
         self.left = self.left.saturating_sub(made);
         self.left == 0
     }
 
-    /// Looks at what is due in the runs that are going. `before` is where the last step began, of methods with a fixed step, and
-    /// `defects` estimates its errors. `fail` is told of each run with a fault: the cause, and where the last look found none.
+    /// Checks what is due in the runs that are going. `before` is where the last step began, of methods with a fixed step, and
+    /// `defects` estimates its errors. `fail` is told of each run with a fault: the cause, and the place where the last check found none.
     /// Returns the runs without one.
     #[inline(never)]
-    pub fn look<S, D>(
+    pub fn check<S, D>(
         &mut self,
         system: &S,
         (before, defects): (Option<Place<'_, R, N>>, D),
@@ -140,8 +140,8 @@ impl<R: Real, V: Runs<R>, const N: usize> Watch<R, V, N> {
         going
     }
 
-    /// Looks at the functions that must not vanish, unless that was just done, and chooses when to do so again; `made` are the steps
-    /// since they were looked at.
+    /// Checks the functions that must not vanish, unless that was just done, and chooses when to do so again; `made` are the steps
+    /// since their last check.
     #[inline(always)]
     fn singularities<S>(
         &mut self,
@@ -162,15 +162,15 @@ impl<R: Real, V: Runs<R>, const N: usize> Watch<R, V, N> {
             if !fixed {
                 known.keep_singularities();
             }
-            known.look_at_singularities(system, now);
+            known.evaluate_singularities(system, now);
             if V::COUNT > 1 {
                 close = known.close(guard.singularity);
             }
         }
         if let Some(before) = before {
-            known.look_back(system, before);
+            known.evaluate_before(system, before);
         }
-        // A pace is that of a step of a fixed length, or of all steps since the look before, which may be long.
+        // A pace is that of a step of a fixed length, or of all steps since the check before, which may be long.
         let has_pace = before.is_some() || !fixed && until < u32::MAX;
         let limit = if fixed { guard.approach } else { f64::INFINITY };
         let (soonest, abrupt) = if V::COUNT > 1 { known.paces(limit) } else { (R::zero(), R::zero()) };
@@ -233,7 +233,7 @@ impl<R: Real, V: Runs<R>, const N: usize> Watch<R, V, N> {
         }
     }
 
-    /// Looks at the end of runs, unless that was just done; `step` as of [`look`](Watch::look), if it was wanted.
+    /// Checks the end of runs, unless that was just done; `step` as of [`check`](Watch::check), if it was wanted.
     #[inline(never)]
     pub fn finish<S, D>(
         &mut self,
@@ -258,7 +258,7 @@ impl<R: Real, V: Runs<R>, const N: usize> Watch<R, V, N> {
         R::vectorize(
             #[inline(always)]
             || {
-                known.look_back(system, before);
+                known.evaluate_before(system, before);
                 let steady =
                     if V::COUNT > 1 { V::finite(known.paces(guard.approach).1) } else { Mask::all(0) };
                 for run in (going - steady).lanes() {
@@ -270,7 +270,7 @@ impl<R: Real, V: Runs<R>, const N: usize> Watch<R, V, N> {
         );
     }
 
-    /// Tells the faults of runs that cannot go on from where they stand: the cause given, unless the steps since the last look went
+    /// Tells the faults of runs that cannot go on from where they stand: the cause given, unless the steps since the last check went
     /// wrong before. Of other runs nothing is learned.
     #[cold]
     #[inline(never)]
@@ -295,7 +295,7 @@ impl<R: Real, V: Runs<R>, const N: usize> Watch<R, V, N> {
         }
     }
 
-    /// Looks at everything, for so many steps, and takes the runs with a fault out of `going`.
+    /// Checks everything, for so many steps, and takes the runs with a fault out of `going`.
     #[inline(never)]
     fn whole<S, D>(
         &mut self,
@@ -318,9 +318,9 @@ impl<R: Real, V: Runs<R>, const N: usize> Watch<R, V, N> {
             || {
                 let place = Place { time: good.0, state: &good.1 };
                 if known.is_none() {
-                    let (begun, look) = Known::new(system, guard, place);
-                    for run in (*going & begun.suspects::<V>(guard, &look)).lanes() {
-                        if let Err(cause) = begun.judge::<V>(guard, &look, place.time.to_f64(), run) {
+                    let (begun, check) = Known::new(system, guard, place);
+                    for run in (*going & begun.suspects::<V>(guard, &check)).lanes() {
+                        if let Err(cause) = begun.judge::<V>(guard, &check, place.time.to_f64(), run) {
                             *going = *going - Mask::from_bits(0).with(run);
                             fail(run, cause, place);
                         }
@@ -329,16 +329,16 @@ impl<R: Real, V: Runs<R>, const N: usize> Watch<R, V, N> {
                 }
                 let Some(known) = known else { return };
                 let defects = defects.filter(|_| guard.step < f64::INFINITY).map(|defects| defects());
-                let look = known.look(system, now, defects, steps, negligible);
+                let check = known.check(system, now, defects, steps, negligible);
                 if known.count > 0 {
                     if !*fixed {
                         known.keep_singularities();
                     }
-                    known.look_at_singularities(system, now);
+                    known.evaluate_singularities(system, now);
                 }
-                let suspects = *going & known.suspects::<V>(guard, &look);
+                let suspects = *going & known.suspects::<V>(guard, &check);
                 for run in suspects.lanes() {
-                    if let Err(cause) = known.judge::<V>(guard, &look, now.time.to_f64(), run) {
+                    if let Err(cause) = known.judge::<V>(guard, &check, now.time.to_f64(), run) {
                         *going = *going - Mask::from_bits(0).with(run);
                         fail(run, cause, place);
                     }
@@ -366,7 +366,7 @@ impl<R: Real, const N: usize> Watch<R, One, N> {
         Self::new(guard, system, C::EVALUATIONS, C::JUDGED, place(start))
     }
 
-    /// Counts the steps since `from`, and looks if it is time to; `before` is where the last one began, if that was wanted.
+    /// Counts the steps since `from`, and checks if it is time to; `before` is where the last one began, if that was wanted.
     #[inline]
     pub fn step<C, S>(
         &mut self,
@@ -385,11 +385,11 @@ impl<R: Real, const N: usize> Watch<R, One, N> {
         }
         let mut fault = Cause::NotFinite;
         let (step, now) = (last(system, before, run), place(run.checkpoint()));
-        let going = self.look(system, step, now, Mask::all(1), |_, cause, _| fault = cause);
+        let going = self.check(system, step, now, Mask::all(1), |_, cause, _| fault = cause);
         if going.is_empty() { Err(fault) } else { Ok(()) }
     }
 
-    /// Looks at the end of the run.
+    /// Checks the end of the run.
     pub fn finish_run<C, S>(
         &mut self,
         system: &S,

@@ -164,7 +164,7 @@ struct Ready<R, const N: usize> {
 
 /// The end of Newton's method.
 enum Solved<R, const N: usize> {
-    /// These stages, after so many iterations, of which the last reduced the step by this factor.
+    /// The stages, after so many iterations, of which the last reduced the step by this factor.
     Stages([[R; N]; 3], u32, f64),
     Diverged,
     NotFinite,

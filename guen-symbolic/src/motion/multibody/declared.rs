@@ -145,7 +145,7 @@ impl Maker<'_> {
         Some(parts)
     }
 
-    /// What a place has beside turns.
+    /// The part of a place that is not a turn.
     fn strained(&mut self, place: &Place) -> Option<Part> {
         if self.strains.is_empty() {
             return None;

@@ -27,7 +27,7 @@ pub(super) enum Part {
     Given { axes: usize, vector: Vec3 },
     /// Parameters as the components of a vector along the axes of the world.
     Known { components: [Option<Var>; 3] },
-    /// What displacements along the operators of forms, counted from 0, do to a place beside their turns.
+    /// The effect of displacements along the operators of forms, counted from 0, on a place beside their turns.
     Strained { axes: usize, vectors: Vec<(usize, Vec3)> },
     /// A form in the rates of coordinates and the parameters.
     Plain { terms: Vec<(Var, Num)>, offset: Num },

@@ -1,4 +1,4 @@
-//! What a displacement does to bodies where the matrix of a frame is a rotation on the constraints alone.
+//! The effect of a displacement on bodies where the matrix of a frame is a rotation on the constraints alone.
 //!
 //! A quaternion turns where its length is one, and the displacement along the operator of that constraint stretches. Along `X` a
 //! frame `B` has `B^T X(B) = [theta]x + e`, with the turn `theta` of its angular velocity. Beyond what a turn does, the places `s`,
