@@ -151,8 +151,8 @@ pub mod __private {
     };
     pub use guen_runtime::{
         cells, condition, differentiable, domain, energy, facts, laned, lift, linearizable, mass_form,
-        motion_of_system, operators, program_functions, rates, reaction_covector, reactions, record, reduce,
-        reported, state_of_system, steady_motions,
+        motion_of_system, operators, program_functions, rates, reaction_covector, reactions, recast, record,
+        reduce, reported, state_of_system, steady_motions,
     };
     pub use guen_runtime::{consistent, control, furthest_surplus, serde_record};
 }

@@ -324,3 +324,44 @@ macro_rules! lift {
         }
     };
 }
+
+/// `Recast`, from the constants over another real: of the constants and of the prepared system, or with inputs of the system that
+/// holds them.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! recast {
+    ($system:ident $size:literal, $constants:ident: $made:expr) => {
+        impl $crate::Recast<$size> for $system<f64> {
+            type In<R: $crate::Real> = Prepared<R>;
+
+            fn recast<R: $crate::Real>(&self) -> ::core::result::Result<Prepared<R>, $crate::ConstantsError> {
+                let $constants = self;
+                let _ = $constants;
+                $made.prepare()
+            }
+        }
+
+        impl $crate::Recast<$size> for Prepared<f64> {
+            type In<R: $crate::Real> = Prepared<R>;
+
+            fn recast<R: $crate::Real>(&self) -> ::core::result::Result<Prepared<R>, $crate::ConstantsError> {
+                $crate::Recast::recast(&self.constants())
+            }
+        }
+    };
+    ($system:ident $size:literal, $constants:ident: $made:expr, $inputs:literal) => {
+        impl $crate::Recast<$size> for Driven<f64> {
+            type In<R: $crate::Real> = Driven<R>;
+
+            fn recast<R: $crate::Real>(&self) -> ::core::result::Result<Driven<R>, $crate::ConstantsError> {
+                let $constants = self.system.constants();
+                let _ = &$constants;
+                let inputs: [f64; $inputs] = ::core::convert::From::from(self.inputs);
+                ::core::result::Result::Ok(Driven {
+                    system: $made.prepare()?,
+                    inputs: ::core::convert::From::from(inputs.map(R::from_f64)),
+                })
+            }
+        }
+    };
+}
