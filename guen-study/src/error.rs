@@ -55,6 +55,15 @@ pub enum StudyError {
         /// The name.
         name: String,
     },
+    /// A picture is to show an entry that the state does not have.
+    UnknownEntry {
+        /// The picture's title.
+        title: String,
+        /// The name.
+        name: String,
+        /// The names of the entries.
+        known: &'static [&'static str],
+    },
     /// The times of a recording neither rise nor fall throughout.
     Times {
         /// The page's title.
@@ -85,6 +94,9 @@ impl fmt::Display for StudyError {
                 write!(f, "page `{title}`: `{what}` cannot be drawn at t = {time}")
             }
             Self::UnknownBody { title, name } => write!(f, "page `{title}` has no body `{name}`"),
+            Self::UnknownEntry { title, name, known } => {
+                write!(f, "picture `{title}`: the state has no `{name}`, but {}", known.join(", "))
+            }
             Self::Times { title, time } => {
                 write!(f, "page `{title}`: the times neither rise nor fall throughout, first at t = {time}")
             }
@@ -104,6 +116,7 @@ impl Error for StudyError {
             | Self::Size { .. }
             | Self::NotDrawable { .. }
             | Self::UnknownBody { .. }
+            | Self::UnknownEntry { .. }
             | Self::Times { .. } => None,
         }
     }

@@ -5,6 +5,7 @@
 //! | question | answer |
 //! | --- | --- |
 //! | what happened? | [`Recording`]: times and states, in bounded memory if wanted, and CSV |
+//! | what becomes of a `Trajectory`? | [`Export`]: recordings, tables, plots and pages of it |
 //! | how long will it take? | [`Progress`]: a line on the terminal during long runs |
 //! | how good is it? | [`Monitor`] and its [`InvariantErrors`]; [`drift`] and [`residuals`] as curves |
 //! | what are the numbers? | [`Table`], aligned for a terminal; [`significant`] for one number |
@@ -49,6 +50,7 @@ mod ensemble;
 mod error;
 #[cfg(feature = "serde")]
 mod exact;
+mod export;
 mod file;
 mod median;
 mod monitor;
@@ -66,6 +68,7 @@ mod viewer;
 
 pub use ensemble::{End, Ensemble, Sampled};
 pub use error::StudyError;
+pub use export::Export;
 pub use file::replace_file;
 pub use median::median_with_interval;
 pub use monitor::{InvariantErrors, Monitor, drift, residuals};

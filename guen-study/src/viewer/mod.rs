@@ -22,7 +22,7 @@ use crate::recording::Recording;
 pub use shape::{Pose, Shape};
 
 /// The samples of a recording that are exported unless more are asked for: a minute at 60 pictures per second.
-const MOST_SAMPLES: usize = 3600;
+pub(crate) const MOST_SAMPLES: usize = 3600;
 
 /// Bodies without a size of their own, as a part of the space that their centres take up.
 const SMALL: f64 = 0.04;

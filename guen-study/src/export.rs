@@ -1,0 +1,133 @@
+//! What a trajectory is looked at as: a recording, a table, a plot, a page that plays.
+
+use std::path::Path;
+
+use guen_runtime::steppers::Interpolant;
+use guen_runtime::{Named, Simulate, Trajectory};
+
+use crate::error::StudyError;
+use crate::plot::Plot;
+use crate::recording::Recording;
+#[cfg(feature = "viewer")]
+use {
+    crate::viewer::{MOST_SAMPLES, Viewer},
+    guen_runtime::{Bodies, Monitored},
+};
+
+/// Parts of a plot's width between two points of a curve.
+const PLOT_POINTS: f64 = 1000.0;
+
+/// Pictures of a second on a page.
+#[cfg(feature = "viewer")]
+const RATE: f64 = 60.0;
+
+/// Recordings, tables, plots and pages of a trajectory, with the names of its state's entries.
+///
+/// ```
+/// use guen_runtime::{Named, Simulate, System};
+/// use guen_study::Export;
+///
+/// /// What the macro generates for a declared system.
+/// #[derive(Clone, Copy)]
+/// struct Oscillator;
+/// #[derive(Clone, Copy)]
+/// struct State([f64; 2]);
+/// # impl From<[f64; 2]> for State { fn from(x: [f64; 2]) -> Self { State(x) } }
+/// # impl From<State> for [f64; 2] { fn from(x: State) -> Self { x.0 } }
+/// # impl System<f64, 2> for Oscillator {
+/// #     fn rhs(&self, _t: f64, &[x, v]: &[f64; 2]) -> [f64; 2] { [v, -x] }
+/// # }
+/// # impl Simulate<f64, 2> for Oscillator { type State = State; }
+/// impl Named for State {
+///     const NAMES: &'static [&'static str] = &["x", "v"];
+/// }
+///
+/// let motion = Oscillator.simulate(&State([1.0, 0.0]), 0.0..10.0).unwrap();
+/// assert_eq!(motion.sampled(0.5).names(), ["x", "v"]);
+/// assert!(motion.plot("an oscillation", &["x"])?.to_svg()?.contains("an oscillation"));
+/// # Ok::<(), guen_study::StudyError>(())
+/// ```
+pub trait Export<S, const N: usize> {
+    /// The states at all accepted steps, start and end included.
+    fn recording(&self) -> Recording<N>;
+
+    /// The states at multiples of `dt` after the start, and at the end.
+    fn sampled(&self, dt: f64) -> Recording<N>;
+
+    /// Writes the states at multiples of `dt`, and at the end, as comma-separated values: a line with `t` and the names of the
+    /// entries, then a line for each time.
+    ///
+    /// # Errors
+    ///
+    /// [`StudyError::Io`] with the path.
+    fn save_csv(&self, dt: f64, path: impl AsRef<Path>) -> Result<(), StudyError> {
+        self.sampled(dt).save_csv(path)
+    }
+
+    /// A plot of these entries over time, to be given axes and more curves, and to be [saved](Plot::save).
+    ///
+    /// # Errors
+    ///
+    /// [`StudyError::UnknownEntry`] if a name is none of the state's.
+    fn plot(&self, title: &str, entries: &[&str]) -> Result<Plot, StudyError>;
+
+    /// Writes a page that plays the motion of the declared bodies, 60 pictures a second where that is at most 3600 in all, with panels
+    /// of the energy and of the constraints on positions. For other shapes, paths and panels make a [`Viewer`] of
+    /// [`sampled`](Self::sampled).
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Viewer::write`].
+    #[cfg(feature = "viewer")]
+    #[cfg_attr(docsrs, doc(cfg(feature = "viewer")))]
+    fn view<const B: usize>(&self, title: &str, path: impl AsRef<Path>) -> Result<(), StudyError>
+    where
+        S: Bodies<f64, N, B> + Monitored<f64, N>;
+}
+
+impl<S, P, const N: usize> Export<S, N> for Trajectory<S, N, f64, P>
+where
+    S: Simulate<f64, N>,
+    S::State: Named,
+    P: Interpolant<f64, N>,
+{
+    fn recording(&self) -> Recording<N> {
+        filled::<S, N>(self.iter())
+    }
+
+    fn sampled(&self, dt: f64) -> Recording<N> {
+        filled::<S, N>(self.sample(dt))
+    }
+
+    fn plot(&self, title: &str, entries: &[&str]) -> Result<Plot, StudyError> {
+        let recording = self.sampled((self.end_time() - self.start_time()).abs() / PLOT_POINTS);
+        entries.iter().try_fold(Plot::new(title).axes("t", ""), |plot, name| {
+            let place = recording.position(name).ok_or_else(|| StudyError::UnknownEntry {
+                title: title.to_owned(),
+                name: (*name).to_owned(),
+                known: recording.names(),
+            })?;
+            Ok(plot.line(*name, recording.curve(place)))
+        })
+    }
+
+    #[cfg(feature = "viewer")]
+    fn view<const B: usize>(&self, title: &str, path: impl AsRef<Path>) -> Result<(), StudyError>
+    where
+        S: Bodies<f64, N, B> + Monitored<f64, N>,
+    {
+        let span = (self.end_time() - self.start_time()).abs();
+        let recording = self.sampled((span / (MOST_SAMPLES - 1) as f64).max(RATE.recip()));
+        Viewer::new(title, &recording).bodies(self.system()).monitored(self.system()).write(path)
+    }
+}
+
+fn filled<S, const N: usize>(states: impl Iterator<Item = (f64, S::State)>) -> Recording<N>
+where
+    S: Simulate<f64, N>,
+    S::State: Named,
+{
+    let mut recording = Recording::new(S::State::NAMES);
+    states.for_each(|(t, state)| recording.record(t, &state.into()));
+    recording
+}
