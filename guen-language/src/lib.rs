@@ -5,7 +5,8 @@
 //!
 //! tokens -[`parse`]-> [`syntax`] -[`model`]-> checked model -[`mod@derive`]-> derivation and programs -[`emit`]-> Rust items
 //!
-//! Every stage reports what is wrong through [`diagnostics`]; [`report`] writes down what was derived.
+//! Every stage reports what is wrong through [`diagnostics`]; [`report`] writes down what was derived. For a declaration
+//! with faults the stages run once more on the sound one that [`outline`] puts in its place.
 #![cfg_attr(docsrs, feature(doc_cfg))]
 #![forbid(unsafe_code)]
 
@@ -17,6 +18,7 @@ pub mod emit;
 pub mod limits;
 pub mod model;
 pub mod names;
+pub mod outline;
 pub mod parse;
 pub mod report;
 pub mod syntax;
@@ -97,6 +99,17 @@ fn report_of(input: ParseStream<'_>) -> syn::Result<Page> {
 
 fn with_outline(declaration: &syntax::Declaration, report: &diagnostics::Report) -> TokenStream {
     let mut items = report.to_compile_errors();
-    items.extend(emit::outline(declaration));
+    items.extend(expand_outline(declaration));
     items
+}
+
+/// Expands a faulty declaration to the items that it would have, with the signatures of the real ones; nothing if its name
+/// is among the faults.
+pub fn expand_outline(declaration: &syntax::Declaration) -> TokenStream {
+    let sound = outline::sound(declaration);
+    let (derived, report) = collect(|faults| {
+        let model = model::resolve(&sound, faults)?;
+        derive::derive(model, faults)
+    });
+    derived.filter(|_| report.is_empty()).map(emit::outline).unwrap_or_default()
 }

@@ -244,7 +244,7 @@ pub fn quoted<'a>(words: impl IntoIterator<Item = &'a str>) -> String {
 
 /// The name of the module beside the struct: `RollingHoop` becomes `rolling_hoop`; where that is the name itself, what
 /// it is a module of (a system, a scene) is appended.
-pub(crate) fn module_name(system: &Ident, what: &str) -> Ident {
+pub fn module_name(system: &Ident, what: &str) -> Ident {
     let text = system.to_string();
     let text = text.strip_prefix("r#").unwrap_or(&text);
     let letters: Vec<char> = text.chars().collect();

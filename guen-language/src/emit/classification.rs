@@ -8,10 +8,23 @@ use super::text::counts;
 use super::text::tokens;
 use crate::derive::{Subject, function};
 
-pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
+/// The traits that mark classes and properties.
+const MARKERS: [&str; 8] = [
+    "Holonomic",
+    "LieGroup",
+    "Nonholonomic",
+    "IncompleteLieGroup",
+    "Scleronomic",
+    "Rheonomic",
+    "Catastatic",
+    "Conservative",
+];
+
+pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, is_outline: bool) -> TokenStream {
     let derivation = &subject.level.derivation;
     let system = &layout.system;
     let class = match derivation.class {
+        _ if is_outline => "Undecided",
         Class::LieGroup => "HolonomicConstant",
         Class::Holonomic => "HolonomicVariable",
         Class::IncompleteLieGroup => "NonholonomicConstant",
@@ -44,6 +57,9 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     }
     if conservative {
         markers.push("Conservative");
+    }
+    if is_outline {
+        markers = MARKERS.to_vec();
     }
     let owners: &[&str] = if layout.inputs > 0 { &["Prepared", "Driven"] } else { &["Prepared"] };
     let owners: String = owners.iter().map(|owner| format!("[{}] {owner} ", markers.join(" "))).collect();

@@ -21,7 +21,6 @@ mod linearization;
 mod missing;
 mod motion;
 mod operators;
-mod outline;
 mod physical;
 mod positions;
 mod recast;
@@ -36,26 +35,41 @@ use quote::quote;
 
 use crate::derive::{Derived, Subject};
 use crate::names::module_name;
+use crate::report::Report;
 use layout::{Layout, facade};
-
-pub use outline::outline;
 
 /// Emits a derived system with its scenes.
 pub fn emit(derived: Derived<'_>) -> TokenStream {
-    let Derived { model, system, scenes } = &derived;
+    items(&derived, false)
+}
+
+/// Emits the items of what stands in for a faulty declaration: without a report, and with every marker trait, because what
+/// is derived of it says nothing of the system that is meant.
+pub fn outline(derived: Derived<'_>) -> TokenStream {
+    items(&derived, true)
+}
+
+fn items(derived: &Derived<'_>, is_outline: bool) -> TokenStream {
+    let Derived { model, system, scenes } = derived;
     let facade = facade(model.declaration);
     let whole = Subject { model, level: system };
     let inner: Vec<TokenStream> = scenes
         .iter()
         .map(|scene| {
             let private = quote!(super::__guen);
-            module(&Subject { model, level: scene }, &private, &quote!(pub), &TokenStream::new())
+            module(&Subject { model, level: scene }, &private, &quote!(pub), &TokenStream::new(), is_outline)
         })
         .collect();
     let levels = levels::table(model, scenes);
-    let uses = uses::items(&model.identifiers);
+    let uses = (!is_outline).then(|| uses::items(&model.identifiers));
     let visibility = model.declaration.visibility.outside();
-    module(&whole, &quote!(#facade::__private), &quote!(#visibility), &quote!(#levels #uses #(#inner)*))
+    module(
+        &whole,
+        &quote!(#facade::__private),
+        &quote!(#visibility),
+        &quote!(#levels #uses #(#inner)*),
+        is_outline,
+    )
 }
 
 /// The module of a level, and the struct beside it.
@@ -64,6 +78,7 @@ fn module(
     private: &TokenStream,
     visibility: &TokenStream,
     inner: &TokenStream,
+    is_outline: bool,
 ) -> TokenStream {
     let layout = Layout::new(subject);
     let system = &layout.declared;
@@ -73,7 +88,7 @@ fn module(
         quote!(use self::#system as #alias;)
     });
     let module = module_name(system, if layout.is_whole { "system" } else { "scene" });
-    let report = crate::report::Report::new(subject);
+    let report = if is_outline { Report::stand_in(system) } else { Report::new(subject) };
     let parts = [
         constants::items(subject, &layout, &report),
         records::items(subject, &layout),
@@ -88,7 +103,7 @@ fn module(
         physical::items(subject, &layout),
         bodies::items(subject, &layout),
         operators::items(subject, &layout),
-        classification::items(subject, &layout),
+        classification::items(subject, &layout, is_outline),
         levels::items(subject, &layout),
         missing::items(subject, &layout),
         functions::modules(subject, &layout),

@@ -30,6 +30,14 @@ pub struct Report {
     pub sections: Vec<Section>,
 }
 
+impl Report {
+    /// The report of what stands in for a faulty declaration.
+    pub(crate) fn stand_in(system: &proc_macro2::Ident) -> Self {
+        let summary = "The declaration has faults: nothing was derived.".to_owned();
+        Report { name: system.to_string(), summary, sections: Vec::new() }
+    }
+}
+
 /// Coefficients with the names that they multiply.
 pub(super) type Terms = Vec<(ExprId, String)>;
 

@@ -11,6 +11,7 @@ mod hints;
 mod imports;
 mod large_costs;
 mod limbs;
+mod outline;
 mod poles;
 mod redundant;
 mod restricted;

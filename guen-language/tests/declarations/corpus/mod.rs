@@ -5,7 +5,9 @@ use std::collections::BTreeSet;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use guen_language::diagnostics::{Report, collect};
-use guen_language::{derive, emit, model, parse};
+use guen_language::names::is_generated_item;
+use guen_language::syntax::Declaration;
+use guen_language::{derive, emit, expand_outline, model, parse};
 use proc_macro2::{Delimiter, Group, Span, TokenStream, TokenTree};
 
 /// Sound declarations, small, with every section between them.
@@ -170,6 +172,12 @@ fn places(stream: TokenStream, found: &mut BTreeSet<Place>) {
     }
 }
 
+/// A faulty declaration has an outline unless the system's name is among the faults.
+fn outline(declaration: &Declaration) {
+    let is_empty = expand_outline(declaration).is_empty();
+    assert_eq!(is_empty, is_generated_item(&declaration.name.text), "outline of {declaration:?}");
+}
+
 /// What the whole pipeline makes of a stream: the reports, and the work where it came to its end.
 pub fn pipeline(stream: TokenStream) -> (Vec<Report>, u64) {
     let (declaration, report) = parse::parse(stream);
@@ -177,7 +185,7 @@ pub fn pipeline(stream: TokenStream) -> (Vec<Report>, u64) {
     let mut work = 0;
     let Some(declaration) = declaration else { return (reports, work) };
     if !reports[0].is_empty() {
-        drop(emit::outline(&declaration));
+        outline(&declaration);
         return (reports, work);
     }
     let (derived, report) = collect(|faults| {
@@ -192,7 +200,7 @@ pub fn pipeline(stream: TokenStream) -> (Vec<Report>, u64) {
         }
         _ => {
             assert!(!report.is_empty(), "a stage failed without a message");
-            drop(emit::outline(&declaration));
+            outline(&declaration);
         }
     }
     reports.push(report);

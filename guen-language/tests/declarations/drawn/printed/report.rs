@@ -6,7 +6,7 @@ use guen_language::derive::{Derived, Level, derive};
 use guen_language::diagnostics::collect;
 use guen_language::model::{FormKind, Model};
 use guen_language::report::{Report, Section};
-use guen_language::{model, parse};
+use guen_language::{emit, model, parse};
 use guen_symbolic::{ExprId, Role};
 
 use super::lines::{Format, Found, Line, check, long, same};
@@ -76,6 +76,12 @@ pub fn checked(text: &str) -> Option<Checked> {
             fault.insert_str(0, &format!("{}: ", declaration.name));
         }
         all.add(own);
+    }
+    // An outline has as many forms as coordinates: which constraints follow from others the derivation alone knows.
+    if model.redundant.is_empty() {
+        let items = emit::emit(Derived { model, system, scenes });
+        let missing = crate::outline::missing(&declaration, items).into_iter();
+        all.faults.extend(missing.map(|item| format!("{}: not in the outline: {item}", declaration.name)));
     }
     Some(all)
 }

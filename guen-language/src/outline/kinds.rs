@@ -1,15 +1,17 @@
-//! What a name stands for, guessed from how its definition is written: good enough for signatures, where nothing
-//! better is known because the declaration has faults.
+//! Kinds of values, guessed from how a definition is written: good enough for signatures, where nothing better is known
+//! because the declaration has faults.
 
 use std::collections::BTreeMap;
 
-use crate::syntax::{Definition, Expression, ExpressionKind, Name};
+use crate::syntax::{Declaration, Expression, ExpressionKind, Item};
 
 /// A kind of value.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Kind {
     Scalar,
     Rotation,
+    /// A vector in the plane: its third component vanishes.
+    Plane,
     Vector,
 }
 
@@ -20,23 +22,35 @@ impl Kind {
     }
 }
 
-/// The kinds of the names so far.
-#[derive(Default)]
+/// The kinds of the declared names; of a body the kind of its centre.
 pub(super) struct Kinds {
     names: BTreeMap<String, Kind>,
 }
 
 impl Kinds {
-    /// Notes a definition, and tells its kind.
-    pub(super) fn define(&mut self, definition: &Definition) -> Kind {
-        let kind = self.of(&definition.value);
-        self.names.insert(definition.name.text.clone(), kind);
-        kind
+    pub(super) fn new(declaration: &Declaration) -> Self {
+        let mut kinds = Kinds { names: BTreeMap::new() };
+        for item in &declaration.items {
+            match item {
+                Item::Let(definition) => kinds.define(&definition.name.text, &definition.value),
+                Item::Parameters(section) | Item::Outputs(section) => {
+                    section.entries.iter().for_each(|entry| kinds.define(&entry.name.text, &entry.value));
+                }
+                Item::Bodies(section) => {
+                    for body in &section.entries {
+                        if let Some(center) = &body.center {
+                            kinds.define(&body.name.text, &center.value);
+                        }
+                    }
+                }
+                _ => {}
+            }
+        }
+        kinds
     }
 
-    /// Notes a body: what is of interest are its fields.
-    pub(super) fn body(&mut self, name: &Name) {
-        self.names.insert(name.text.clone(), Kind::Scalar);
+    fn define(&mut self, name: &str, value: &Expression) {
+        self.names.insert(name.to_owned(), self.of(value));
     }
 
     /// The kind of an expression.
@@ -47,19 +61,22 @@ impl Kinds {
             }
             ExpressionKind::Name(name) => self.names.get(&name.text).copied().unwrap_or(Kind::Scalar),
             ExpressionKind::Call { function, arguments, .. } => match function.text.as_str() {
-                "vec" | "cross" | "unit" | "angular_velocity" | "angular_velocity_body" => Kind::Vector,
+                "vec" if arguments.len() == 2 => Kind::Plane,
+                "unit" => arguments.first().map_or(Kind::Vector, |argument| self.of(argument)),
+                "vec" | "cross" | "angular_velocity" | "angular_velocity_body" => Kind::Vector,
                 "rot" | "rot_x" | "rot_y" | "rot_z" | "quaternion" | "transpose" => Kind::Rotation,
                 "dot" => arguments.first().map_or(Kind::Scalar, |argument| self.of(argument)),
                 _ => Kind::Scalar,
             },
             ExpressionKind::Field { base, name } => match name.text.as_str() {
-                "center" | "angular_velocity" => Kind::Vector,
+                "center" => self.of(base),
+                "angular_velocity" => Kind::Vector,
                 "orientation" => Kind::Rotation,
                 // The axes of a rotation are vectors, the components of a vector scalars.
                 _ if self.of(base) == Kind::Rotation => Kind::Vector,
                 _ => Kind::Scalar,
             },
-            ExpressionKind::Method { name, .. } if name.text == "velocity_at" => Kind::Vector,
+            ExpressionKind::Method { base, name, .. } if name.text == "velocity_at" => self.of(base),
             ExpressionKind::Method { .. } => Kind::Scalar,
             ExpressionKind::Negation(operand) => self.of(operand),
             ExpressionKind::Sum { first, rest } => {

@@ -1,0 +1,63 @@
+//! Scenes: which variables one keeps is not known where the declaration has faults, so each keeps all that it does not
+//! hold, and provides everything.
+
+use proc_macro2::{Ident, Span};
+
+use super::expressions::number;
+use super::forms::Forms;
+use super::{Entries, push};
+use crate::names::module_name;
+use crate::syntax::{Declaration, Fix, Item, Name, Provide, Scene};
+
+/// The scenes but those whose name is among the faults.
+pub(super) fn items(declaration: &Declaration, entries: &Entries, forms: &Forms) -> Vec<Item> {
+    let mut scenes: Vec<Scene> = Vec::new();
+    for item in &declaration.items {
+        let Item::Scene(scene) = item else { continue };
+        let module = |scene: &Scene| module_name(&scene.name.ident, "scene");
+        let is_of_system = scene.name.text == declaration.name.text
+            || module(scene) == declaration.name.text
+            || crate::names::is_generated_item(&module(scene).to_string())
+            || crate::names::is_generated_item(&scene.name.text)
+            || crate::names::CARRIED_ITEMS.contains(&scene.name.text.as_str());
+        if !is_of_system && scenes.iter().all(|other| module(other) != module(scene)) {
+            scenes.push(sound(scene, entries, forms));
+        }
+    }
+    scenes.into_iter().map(Item::Scene).collect()
+}
+
+fn sound(scene: &Scene, entries: &Entries, forms: &Forms) -> Scene {
+    let mut fixes: Vec<Fix> = Vec::new();
+    for Fix { name, .. } in &scene.fixes {
+        let is_it = |other: &&Name| other.ident == name.ident;
+        let constant = entries.constants.iter().map(|constant| &constant.name).find(is_it);
+        let resting = forms.coordinates.iter().map(|x| &x.name).filter(|x| forms.resting.contains(&x.text));
+        let variable = forms.parameters.iter().map(|parameter| &parameter.name).chain(resting).find(is_it);
+        if let Some(known) = constant.or(variable) {
+            let new = || Fix { name: known.clone(), value: constant.map(|_| number(1)) };
+            push(&mut fixes, name, |fix| &fix.name, new);
+        }
+    }
+    let variables = forms.coordinates.iter().map(|coordinate| &coordinate.name);
+    let variables = variables.chain(forms.parameters.iter().map(|parameter| &parameter.name));
+    let tracks =
+        variables.filter(|name| fixes.iter().all(|fix| fix.name.text != name.text)).cloned().collect();
+    let words = ["energy", "linearization", "operators", "reactions"].into_iter();
+    let words = words.filter(|word| *word != "reactions" || !forms.constraints.is_empty());
+    let provided = words.map(|word| Name::new(Ident::new(word, Span::call_site())));
+    let outputs = entries.outputs.iter().map(|output| output.name.clone());
+    let mut provides: Vec<Provide> = provided.chain(outputs).map(|name| Provide { name, of: None }).collect();
+    for provide in &scene.provides {
+        let word = provide.name.text.as_str();
+        if word == "taylor" || (word == "carried" && forms.driven.is_some()) {
+            push(
+                &mut provides,
+                &provide.name,
+                |provide| &provide.name,
+                || Provide { of: None, ..provide.clone() },
+            );
+        }
+    }
+    Scene { tracks, fixes, provides, ..scene.clone() }
+}
