@@ -287,7 +287,7 @@ fn systems(
         }
     });
     let prices = integrated::prices(subject, layout, &looks);
-    let differentiable = integrated::differentiable(layout);
+    let differentiable = integrated::differentiable(layout, false);
     let simulate = integrated::simulate(&owner, size);
     let lanes = lanes::carried(layout);
     quote! {

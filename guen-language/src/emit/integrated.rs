@@ -183,11 +183,12 @@ pub(super) fn rounded(
     }
 }
 
-/// The trait `Differentiable`, by dual numbers over the real.
-pub(super) fn differentiable(layout: &Layout) -> TokenStream {
+/// The trait `Differentiable`, by dual numbers over the real; the Jacobian as `linearize` has it where that is code of its own.
+pub(super) fn differentiable(layout: &Layout, has_code: bool) -> TokenStream {
     let Layout { size, inputs, .. } = layout;
     let inputs = (*inputs > 0).then(|| quote!(, #inputs));
-    quote!(__guen::differentiable!(#size #inputs);)
+    let code = has_code.then(|| quote!(; code));
+    quote!(__guen::differentiable!(#size #inputs #code);)
 }
 
 /// The trait `Simulate` of what steppers integrate: its states have named fields.

@@ -200,7 +200,7 @@ fn systems(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     if layout.inputs == 0 {
         let (owner, prepared) = (quote!(Prepared<R>), quote!(self));
         let guarded = integrated::guarded(subject, layout, &prepared);
-        let differentiable = integrated::differentiable(layout);
+        let differentiable = integrated::differentiable(layout, subject.level.jacobians.rates.is_some());
         let simulate = integrated::simulate(&owner, size);
         let monitored = monitored(owner, prepared);
         return quote! {
@@ -219,7 +219,7 @@ fn systems(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     }
     let (owner, prepared) = (quote!(Driven<R>), quote!(self.system));
     let guarded = integrated::guarded(subject, layout, &prepared);
-    let differentiable = integrated::differentiable(layout);
+    let differentiable = integrated::differentiable(layout, subject.level.jacobians.rates.is_some());
     let simulate = integrated::simulate(&owner, size);
     let monitored = monitored(owner, prepared);
     quote! {

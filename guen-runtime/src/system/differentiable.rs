@@ -11,7 +11,7 @@ use crate::system::linearization::seeded;
 /// J_ij = d f_i / d x_j        along(tau, v) = f_t tau + J v
 /// ```
 ///
-/// Prepared systems implement it where their real lifts into duals; a right-hand side written by hand is one
+/// Prepared systems implement it where their real lifts into duals; where `linearize` is code of its own, `jacobian` is its `a`. A right-hand side written by hand is one
 /// through [`generic`].
 #[diagnostic::on_unimplemented(
     message = "`{Self}` offers no derivatives of its right-hand side",

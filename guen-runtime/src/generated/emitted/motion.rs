@@ -245,35 +245,45 @@ macro_rules! state_of_system {
 }
 
 /// The trait `Differentiable`, by dual numbers over the real: of a prepared system with the number of states, or of a driven
-/// one with that of inputs, too.
+/// one with that of inputs, too. After `; code` the Jacobian is that of `linearize`.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! differentiable {
-    ($size:literal) => {
-        $crate::differentiable!(@ Prepared, $size, (self) => self, |_| []);
-    };
-    ($size:literal, $count:literal) => {
+    ($size:literal $(; $code:ident)?) => {
         $crate::differentiable!(
-            @ Driven, $size, (self) => self.system, |held|
-            <[R; $count] as ::core::convert::From<Inputs<R>>>::from(self.inputs).map(held)
+            @ Prepared, $size, (self, t, state) => self, |_| []
+            $(; $code self.linearize(t, &::core::convert::From::from(*state)))?
         );
     };
-    (@ $Owner:ident, $size:literal, ($self:ident) => $prepared:expr, $given:expr) => {
+    ($size:literal, $count:literal $(; $code:ident)?) => {
+        $crate::differentiable!(
+            @ Driven, $size, (self, t, state) => self.system, |held|
+            <[R; $count] as ::core::convert::From<Inputs<R>>>::from(self.inputs).map(held)
+            $(; $code self.system.linearize(t, &::core::convert::From::from(*state), &self.inputs))?
+        );
+    };
+    (@ jacobian $size:literal, ($t:ident, $state:ident) => $prepared:expr, $given:expr) => {{
+        let lifted: Prepared<$crate::Dual<R, $size>> = $prepared.lift();
+        let rates = program::rhs(
+            &lifted.constants,
+            &lifted.hoisted,
+            <$crate::Dual<R, $size>>::constant($t),
+            &$crate::seeded($state),
+            &($given)(<$crate::Dual<R, $size>>::constant),
+        );
+        rates.map(|rate| rate.tangent)
+    }};
+    (@ jacobian $size:literal, ($t:ident, $state:ident) => $prepared:expr, $given:expr; code $linearized:expr) => {
+        $linearized.a
+    };
+    (@ $Owner:ident, $size:literal, ($self:ident, $t:ident, $state:ident) => $prepared:expr, $given:expr $(; $code:ident $linearized:expr)?) => {
         impl<R: $crate::Real> $crate::Differentiable<R, $size> for $Owner<R>
         where
             $crate::Dual<R, $size>: $crate::Lift<R>,
             $crate::Dual<R, 1>: $crate::Lift<R>,
         {
-            fn jacobian(&$self, t: R, state: &[R; $size]) -> [[R; $size]; $size] {
-                let lifted: Prepared<$crate::Dual<R, $size>> = $prepared.lift();
-                let rates = program::rhs(
-                    &lifted.constants,
-                    &lifted.hoisted,
-                    <$crate::Dual<R, $size>>::constant(t),
-                    &$crate::seeded(state),
-                    &($given)(<$crate::Dual<R, $size>>::constant),
-                );
-                rates.map(|rate| rate.tangent)
+            fn jacobian(&$self, $t: R, $state: &[R; $size]) -> [[R; $size]; $size] {
+                $crate::differentiable!(@ jacobian $size, ($t, $state) => $prepared, $given $(; $code $linearized)?)
             }
 
             fn along(&$self, t: R, state: &[R; $size], dt: R, dx: &[R; $size]) -> [R; $size] {
