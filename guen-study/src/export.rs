@@ -1,4 +1,4 @@
-//! What a trajectory is looked at as: a recording, a table, a plot, a page that plays.
+//! Forms in which a trajectory is looked at: a recording, a table, a plot, a page that plays.
 
 use std::path::Path;
 

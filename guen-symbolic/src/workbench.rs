@@ -70,7 +70,7 @@ impl Workbench {
         tidy
     }
 
-    /// The same for one of several expressions that are alike: where one has no normal form within the limits, those that cost as
+    /// Tidies one of several expressions that are alike: where one has no normal form within the limits, those that cost as
     /// much are only asked whether they vanish. `least` keeps the least cost of such a one.
     pub(crate) fn tidy_alike(&mut self, e: ExprId, least: &mut Option<u64>) -> ExprId {
         let cost = weighted_cost(&self.graph, &[e]);

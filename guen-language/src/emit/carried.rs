@@ -29,7 +29,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
         pub use carried::Prepared as Carried;
 
         impl<R: __guen::Real> Prepared<R> {
-            /// The same system with the elementary functions of its rates as states: no calls in its right-hand side.
+            /// Returns the system with the elementary functions of its rates as states: no calls in its right-hand side.
             ///
             /// # Errors
             ///
@@ -42,7 +42,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
         }
 
         impl<R: __guen::Real> State<R> {
-            /// This state with the functions that a carried form has as states, at time `t`.
+            /// Returns this state with the functions that a carried form has as states, at time `t`.
             pub fn carried(&self, system: &Carried<R>, t: R) -> carried::State<R> {
                 system.carry(t, self)
             }
@@ -100,7 +100,7 @@ fn module(subject: &Subject<'_, '_>, layout: &Layout, base: &Layout, looks: Look
         pub const COST: __guen::Cost = #cost;
         /// The operations that are done once.
         pub const PREPARE_COST: __guen::Cost = #prepare_cost;
-        /// What must not vanish beside the functions of `DOMAIN` of the system.
+        /// Functions that must not vanish beside those of `DOMAIN` of the system.
         pub const EDGES: [&str; #edges] = #edge_texts;
         #prepared
         #systems
@@ -123,7 +123,7 @@ fn prepared(subject: &Subject<'_, '_>, layout: &Layout, base: &Layout, invariant
     });
     let invariants = (invariants > 0).then(|| {
         quote! {
-            /// What vanishes where the functions are what they stand for: `sin^2 + cos^2 - 1`, `1 - (sinh^2 + 1)/cosh^2`,
+            /// Returns expressions that vanish where the functions have their values: `sin^2 + cos^2 - 1`, `1 - (sinh^2 + 1)/cosh^2`,
             /// `1 - u/root^q`. No calls, no units.
             pub fn invariants(&self, t: R, state: &State<R>) -> [R; #invariants] {
                 program::invariants(&self.constants, &self.hoisted, t, &::core::convert::From::from(*state))
@@ -188,7 +188,7 @@ fn prepared(subject: &Subject<'_, '_>, layout: &Layout, base: &Layout, invariant
 
             #invariants
 
-            /// The same as over the real that contains `R`.
+            /// Returns the form over a real that contains `R`.
             pub fn lift<S: __guen::Lift<R>>(&self) -> Prepared<S> {
                 Prepared {
                     system: self.system.lift(),

@@ -17,7 +17,7 @@ pub(super) fn facade(declaration: &Declaration) -> TokenStream {
 pub(super) struct Layout {
     /// The name of the struct, as the user wrote it: where it is declared and spoken of.
     pub(super) declared: Ident,
-    /// What code calls the struct: an alias where the name is that of the real in generic code.
+    /// The name of the struct in code: an alias where the name is that of the real in generic code.
     pub(super) system: Ident,
     /// Numbers: coordinates, parameters and state of the level, coordinates of the whole system, constants, hoisted
     /// values, inputs.

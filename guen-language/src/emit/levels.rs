@@ -62,7 +62,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let driven = (layout.inputs > 0).then(|| owner(quote!(Driven<R>), quote!(self.system)));
     let conversions = (!layout.is_whole).then(|| conversions(subject, layout));
     quote! {
-        /// What this level of detail costs.
+        /// The cost of this level of detail.
         pub const INFO: __guen::LevelInfo = __guen::LevelInfo {
             name: #name,
             variables: &State::<f64>::NAMES,
@@ -116,7 +116,7 @@ fn conversions(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let of_inputs = (!inputs.is_empty()).then(|| {
         quote! {
             impl<R> ::core::convert::From<super::Inputs<R>> for Inputs<R> {
-                /// Those inputs of the system that the scene has.
+                /// Returns the inputs of the system that the scene has.
                 #[inline]
                 fn from(inputs: super::Inputs<R>) -> Self {
                     Inputs { #(#inputs: inputs.#inputs),* }

@@ -1,4 +1,4 @@
-//! What a scene does not provide: methods that no call can satisfy, so that the compiler names the line to add. A bound
+//! Items that a scene does not provide: methods that no call can satisfy, so that the compiler names the line to add. A bound
 //! that nothing fulfils keeps them out of the program.
 
 use proc_macro2::TokenStream;
@@ -12,11 +12,11 @@ use crate::model::FormKind;
 struct Quantity {
     /// The method.
     method: &'static str,
-    /// What to do about it.
+    /// The line to add.
     note: String,
     /// Whether it takes the inputs.
     is_driven: bool,
-    /// What the system's method returns.
+    /// The type that the system's method returns.
     returns: TokenStream,
 }
 

@@ -85,7 +85,7 @@ fn residuals(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     if !layout.is_whole {
         return at_positions.map_or_else(TokenStream::new, |at_positions| {
             quote! {
-                /// What is left of the holonomic constraints at a state.
+                /// Returns the residuals of the holonomic constraints at a state.
                 pub fn residuals(&self, t: R, state: &State<R>) -> Residuals<R> {
                     let s: [R; #size] = ::core::convert::From::from(*state);
                     let x = [#(s[#positions]),*];
@@ -119,7 +119,7 @@ fn residuals(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
         quote!(positions[#i])
     }));
     quote! {
-        /// What is left of every constraint at a state.
+        /// Returns the residuals of all constraints at a state.
         pub fn residuals(&self, t: R, state: &State<R>) -> Residuals<R> {
             let s: [R; #size] = ::core::convert::From::from(*state);
             let x = [#(s[#positions]),*];

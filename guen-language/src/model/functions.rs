@@ -445,7 +445,7 @@ impl Evaluator<'_> {
     }
 }
 
-/// What to write for functions of other languages that this one has not.
+/// Returns what to write for a function of other languages that this one has not.
 fn instead_of(text: &str) -> Option<&'static str> {
     Some(match text {
         "min" => "the smaller of two is `(a + b - abs(a - b))/2`",

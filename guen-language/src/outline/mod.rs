@@ -82,7 +82,7 @@ fn push<T>(entries: &mut Vec<T>, name: &Name, of: impl Fn(&T) -> &Name, new: imp
     }
 }
 
-/// What is declared beside coordinates and forms.
+/// The entries beside coordinates and forms.
 #[derive(Default)]
 struct Entries {
     constants: Vec<Constant>,

@@ -26,7 +26,7 @@ const TOLERANCE: f64 = 1e-9;
 /// The memory that a trajectory may take unless another limit is set: 256 MiB.
 const MEMORY: usize = 1 << 28;
 
-/// What is called after every step.
+/// The function that is called after every step.
 type Observer<'a, R, X> = Box<dyn FnMut(R, &X) -> ControlFlow<()> + 'a>;
 
 /// A simulation that is being described: system and start are given, everything else has a default.

@@ -1,7 +1,8 @@
-//! What the pages say, against what is there: blocks, executables, links, pointers, tables of manifests, and the places of `unsafe`.
+//! What the pages say, against what is there: blocks, executables, links, pointers, tables of manifests, first lines of documentation, and the places of `unsafe`.
 
 mod blocks;
 mod executables;
+mod first_lines;
 mod links;
 mod manifests;
 mod operations;
