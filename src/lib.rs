@@ -51,14 +51,14 @@
 #![forbid(unsafe_code)]
 
 pub use guen_runtime::{
-    Approx7, Approx7Functions, Approx13, Approx13Functions, AuxiliaryStates, Bodies, Body, BodyFault,
-    BracketCoefficients, Catastatic, Cause, Class, Coefficient, Conservative, ConstantsError, Coordinate,
-    Cost, Derived, Differentiable, Dual, Equations, Function, Functions, Fused, FusedOperations, Generic,
-    Holonomic, IncompleteLieGroup, IntegrationError, Invariants, LaneScalar, Laned, LatexDocument, Level,
-    LevelInfo, Levels, LieGroup, Lift, Linearization, Monitored, Nonholonomic, Operator, Ordered, Positions,
-    PositionsError, Projected, Real, Recast, Renormalized, Report, ReportSection, Rheonomic, RunningError,
-    Scleronomic, Setting, Simulate, System, WithFunctions, from_fn, generic, lanes, prelude, project,
-    projected, renormalized, steppers,
+    Actuated, Approx7, Approx7Functions, Approx13, Approx13Functions, AuxiliaryStates, Bodies, Body,
+    BodyFault, BracketCoefficients, Catastatic, Cause, Class, Coefficient, Conservative, ConstantsError,
+    Coordinate, Cost, Derived, Differentiable, Dual, Equations, Function, Functions, Fused, FusedOperations,
+    Generic, Holonomic, IncompleteLieGroup, IntegrationError, Invariants, LaneScalar, Laned, LatexDocument,
+    Level, LevelInfo, Levels, LieGroup, Lift, Linearization, Monitored, Nonholonomic, Operator, Ordered,
+    Positions, PositionsError, Projected, Real, Recast, Renormalized, Report, ReportSection, Rheonomic,
+    RunningError, Scleronomic, Setting, Simulate, System, WithFunctions, WithInputs, from_fn, generic, lanes,
+    project, projected, renormalized, steppers,
 };
 pub use guen_runtime::{Coefficients, Convolutions, HIGHEST_ORDER, TaylorSeries};
 pub use guen_runtime::{Liftable, Linearizable, OutputLinearization, control, seeded};
@@ -131,6 +131,12 @@ macro_rules! mechanical_system {
     ($($declaration:tt)*) => { $crate::__private::mechanical_system! { crate = $crate; $($declaration)* } };
 }
 
+/// The items that a program needs in scope: the macro, and what integrates and simulates.
+pub mod prelude {
+    pub use crate::mechanical_system;
+    pub use guen_runtime::prelude::*;
+}
+
 /// The items that expansions refer to; no part of the public interface.
 #[doc(hidden)]
 pub mod __private {
@@ -142,12 +148,12 @@ pub mod __private {
     };
     pub use guen_runtime::lanes::Lanes;
     pub use guen_runtime::{
-        AuxiliaryStates, Bodies, Body, BracketCoefficients, Catastatic, Class, Coefficient, Coefficients,
-        Conservative, ConstantsError, Convolutions, Cost, Derived, Differentiable, Dual, HIGHEST_ORDER,
-        Holonomic, IncompleteLieGroup, Invariants, Laned, Level, LevelInfo, Levels, LieGroup, Lift, Liftable,
-        Linearizable, Linearization, Monitored, Nonholonomic, Operator, Ordered, OutputLinearization,
-        Positions, PositionsError, Real, Recast, Report, ReportSection, Rheonomic, RunningError, Scleronomic,
-        Simulate, System, TaylorSeries, nalgebra_conversions, seeded,
+        Actuated, AuxiliaryStates, Bodies, Body, BracketCoefficients, Catastatic, Class, Coefficient,
+        Coefficients, Conservative, ConstantsError, Convolutions, Cost, Derived, Differentiable, Dual,
+        HIGHEST_ORDER, Holonomic, IncompleteLieGroup, Invariants, Laned, Level, LevelInfo, Levels, LieGroup,
+        Lift, Liftable, Linearizable, Linearization, Monitored, Nonholonomic, Operator, Ordered,
+        OutputLinearization, Positions, PositionsError, Real, Recast, Report, ReportSection, Rheonomic,
+        RunningError, Scleronomic, Simulate, System, TaylorSeries, WithInputs, nalgebra_conversions, seeded,
     };
     pub use guen_runtime::{
         cells, condition, differentiable, domain, energy, facts, laned, lift, linearizable, mass_form,

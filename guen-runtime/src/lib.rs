@@ -64,6 +64,7 @@ pub use report::{LatexDocument, MarkdownDocument, Report, ReportSection};
 #[cfg(feature = "alloc")]
 pub use simulation::{Happened, Quality, Simulation, SimulationError, Trajectory, Trigger};
 pub use steppers::{Cause, IntegrationError, Setting};
+pub use system::actuated::{Actuated, WithInputs};
 pub use system::auxiliary_states::{AuxiliaryStates, Renormalized, renormalized};
 pub use system::bodies::{Bodies, Body};
 pub use system::bracket::{BracketCoefficients, Coefficient};
@@ -107,8 +108,8 @@ pub mod prelude {
         LaneMethod, Outcome, Radau5, Rk4, Rk8, Statistics, Taylor, Tsit5,
     };
     pub use crate::{
-        Cause, Coordinate, Dual, Function, IntegrationError, Level, Lift, Monitored, Operator, Ordered, Real,
-        Simulate, System, from_fn,
+        Actuated, Cause, Coordinate, Dual, Function, IntegrationError, Level, Lift, Monitored, Operator,
+        Ordered, Real, Simulate, System, from_fn,
     };
     #[cfg(feature = "alloc")]
     pub use crate::{Simulation, SimulationError, Trajectory, Trigger};

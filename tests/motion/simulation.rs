@@ -6,7 +6,8 @@ use guen::{ConstantsError, Trigger};
 
 hoop!(guen::mechanical_system);
 
-guen::mechanical_system! {
+// By the prelude's name.
+mechanical_system! {
     pub system Lift {
         constants { m > 0, g = 9.81 }
         inputs { force }
@@ -172,6 +173,51 @@ fn an_error_has_the_motion_until_then() {
     assert!(motion.times().all(|t| t <= error.time));
     assert!(motion.iter().all(|(_, state)| state.theta > 0.0 && state.theta < 1.3));
     assert!(error.to_string().starts_with("simulation stopped at t = "), "{error}");
+}
+
+#[test]
+fn inputs_are_functions_of_time_and_state() {
+    let lift = Lift::new(2.0).prepare().unwrap();
+    let start = lift::State { z: 1.0, w: 0.0 };
+    // Gravity is carried, and a spring of one newton per metre is added: x'' = -x/2.
+    let law = |_t: f64, state: &lift::State| lift::Inputs { force: 2.0 * 9.81 - state.z };
+    let held_up = lift.with_inputs(law);
+    let motion = held_up.simulate(&start, 0.0..5.0).unwrap();
+    for (t, state) in motion.sample(0.7) {
+        assert!((state.z - (t * 0.5_f64.sqrt()).cos()).abs() < 1e-7, "{t}");
+    }
+    assert_eq!(held_up.inputs(0.0, &start).force, 2.0 * 9.81 - 1.0);
+    // Where inputs are constant it is the system with inputs that are held, to the bit.
+    let inputs = lift::Inputs { force: 7.0 };
+    let (one, other) = (lift.driven(inputs), lift.with_inputs(|_, _: &lift::State| inputs));
+    let end = |motion: Result<lift::State, Cause>| motion.unwrap();
+    let one = end(one.simulate(&start, 0.0..3.0).map(|motion| motion.end()).map_err(|error| error.cause));
+    let other = end(other.simulate(&start, 0.0..3.0).map(|motion| motion.end()).map_err(|error| error.cause));
+    assert_eq!(one, other);
+}
+
+#[test]
+fn messages_name_what_vanishes_and_what_is_off() {
+    let hoop = prepared().unwrap();
+    // At the edge of its chart from the start: that, and not only "not finite".
+    let flat = hoop::State { theta: 0.0, zeta: 0.0, ..START };
+    let error = hoop.simulate(&flat, 0.0..1.0).unwrap_err();
+    assert!(matches!(error.cause, Cause::ChartSingularity { function: 0, .. }), "{error}");
+    let named = format!("`{}`, which must not vanish", hoop::DOMAIN[0]);
+    assert!(error.to_string().contains(&named), "{error}");
+    let error = Integration::new(&hoop, 0.0, &entries(flat)).run(&Rk4::new(0.01), 1.0).unwrap_err();
+    assert!(error.named(&hoop).to_string().contains(&named), "{}", error.named(&hoop));
+    assert!(error.to_string().contains("function 0"), "{error}");
+    // A step that is far too long for the spin.
+    let fast = hoop::State { eta3: 60.0, ..START };
+    let guard = Guard { energy: f64::INFINITY, approach: f64::INFINITY, ..Guard::default() };
+    let run = hoop.simulation(&fast).method(Rk4::new(0.05)).guard(guard).run(0.0..1.0);
+    let error = run.unwrap_err();
+    assert!(matches!(error.cause, Cause::Step { .. }), "{error}");
+    assert!(
+        hoop::State::NAMES.iter().any(|name| error.to_string().contains(&format!("`{name}` is off"))),
+        "{error}"
+    );
 }
 
 #[test]

@@ -192,10 +192,17 @@ pub(super) fn differentiable(layout: &Layout, has_code: bool) -> TokenStream {
 }
 
 /// The trait `Simulate` of what steppers integrate: its states have named fields.
-pub(super) fn simulate(owner: &TokenStream, size: usize) -> TokenStream {
+pub(super) fn simulate(owner: &TokenStream, size: usize, domain: bool) -> TokenStream {
+    let domain = domain.then(|| {
+        quote!(
+            const DOMAIN: &'static [&'static ::core::primitive::str] = &DOMAIN;
+        )
+    });
     quote! {
         impl<R: __guen::Real> __guen::Simulate<R, #size> for #owner {
             type State = State<R>;
+            const STATES: &'static [&'static ::core::primitive::str] = &State::<::core::primitive::f64>::NAMES;
+            #domain
         }
     }
 }

@@ -201,7 +201,7 @@ fn systems(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
         let (owner, prepared) = (quote!(Prepared<R>), quote!(self));
         let guarded = integrated::guarded(subject, layout, &prepared);
         let differentiable = integrated::differentiable(layout, subject.level.jacobians.rates.is_some());
-        let simulate = integrated::simulate(&owner, size);
+        let simulate = integrated::simulate(&owner, size, true);
         let monitored = monitored(owner, prepared);
         return quote! {
             impl<R: __guen::Real> __guen::System<R, #size> for Prepared<R> {
@@ -220,7 +220,7 @@ fn systems(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let (owner, prepared) = (quote!(Driven<R>), quote!(self.system));
     let guarded = integrated::guarded(subject, layout, &prepared);
     let differentiable = integrated::differentiable(layout, subject.level.jacobians.rates.is_some());
-    let simulate = integrated::simulate(&owner, size);
+    let simulate = integrated::simulate(&owner, size, true);
     let monitored = monitored(owner, prepared);
     quote! {
         /// A prepared system with inputs that are held: what steppers integrate during a step.
@@ -254,5 +254,15 @@ fn systems(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
         #differentiable
         #monitored
         #simulate
+
+        impl<R: __guen::Real> __guen::Actuated<R, #size> for Prepared<R> {
+            type Inputs = Inputs<R>;
+            type Driven = Driven<R>;
+
+            #[inline]
+            fn held(&self, inputs: Inputs<R>) -> Driven<R> {
+                self.driven(inputs)
+            }
+        }
     }
 }

@@ -5,7 +5,7 @@ use core::fmt;
 
 use crate::numbers::real::{Ordered, Real};
 use crate::simulation::trajectory::Trajectory;
-use crate::steppers::{Cause, Dense};
+use crate::steppers::{Cause, Dense, Names};
 use crate::system::simulate::Simulate;
 
 /// A failed simulation: why it stopped, and the motion until then.
@@ -43,7 +43,8 @@ impl<R: Real, S: Simulate<R, N>, P, const N: usize> fmt::Debug for SimulationErr
 
 impl<R: Real, S: Simulate<R, N>, P, const N: usize> fmt::Display for SimulationError<S, N, R, P> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "simulation stopped at t = {}: {}", self.time.to_f64(), self.cause)
+        write!(f, "simulation stopped at t = {}: ", self.time.to_f64())?;
+        self.cause.describe(f, Names::of::<R, S, N>())
     }
 }
 

@@ -25,6 +25,8 @@ mod step_size;
 mod taylor;
 
 pub use driver::dense::{Dense, Interpolant};
+#[cfg(feature = "alloc")]
+pub(crate) use driver::error::Names;
 pub use driver::error::{Cause, IntegrationError, Setting};
 pub use driver::events::{Direction, Event, Occurrence};
 pub use driver::integration::Integration;

@@ -1,5 +1,6 @@
 //! Systems: a right-hand side over `N` reals, and the quantities that its motion keeps.
 
+pub(crate) mod actuated;
 pub(crate) mod auxiliary_states;
 pub(crate) mod bodies;
 pub(crate) mod bracket;
@@ -39,7 +40,9 @@ use crate::system::positions_error::PositionsError;
 /// A closure becomes a system with [`from_fn`], and a reference to a system is one.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is no system of {N} equations over `{R}`",
-    note = "a prepared system is one over the real it was prepared in; a closure becomes one with `from_fn`"
+    note = "constants become a system with `.prepare()?`, over the real that they are given in",
+    note = "a prepared system with inputs becomes one with `.with_inputs(|t, state| ..)`, or with `.driven(inputs)` where they are held",
+    note = "a closure `(t, state) -> rates` becomes one with `from_fn`"
 )]
 pub trait System<R: Real, const N: usize> {
     /// The rate of change of the state at time `t`.

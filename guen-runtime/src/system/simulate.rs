@@ -1,6 +1,7 @@
 //! Systems whose motions are asked for by one call, with states that have names.
 
 use crate::numbers::real::Real;
+use crate::system::differentiable::{Equations, Generic};
 use crate::system::positions::{Positions, Projected};
 use crate::system::{FromFn, System};
 #[cfg(feature = "alloc")]
@@ -26,11 +27,18 @@ use {
 /// ```
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no motions to simulate",
-    note = "constants become a system with `.prepare()?`, a system with inputs with `.driven(inputs)`, a closure with `from_fn`"
+    note = "constants become a system with `.prepare()?`, a system with inputs with `.with_inputs(..)`, a closure with `from_fn`"
 )]
 pub trait Simulate<R: Real, const N: usize>: System<R, N> {
     /// A state: what a simulation starts from, and what its trajectory returns.
     type State: Copy + From<[R; N]> + Into<[R; N]>;
+
+    /// The names of the entries of a state, for messages; empty where they have none.
+    const STATES: &'static [&'static str] = &[];
+
+    /// The functions that must not vanish, in the order of [`singularities`](System::singularities), for messages; empty where
+    /// they have no names.
+    const DOMAIN: &'static [&'static str] = &[];
 
     /// Simulates from a state over a span of time, forwards or backwards, and returns the whole motion.
     ///
@@ -73,8 +81,14 @@ where
     type State = [R; N];
 }
 
+impl<R: Real, E: Equations<N>, const N: usize> Simulate<R, N> for Generic<E> {
+    type State = [R; N];
+}
+
 impl<R: Real, S: Simulate<R, N> + ?Sized, const N: usize> Simulate<R, N> for &S {
     type State = S::State;
+    const STATES: &'static [&'static str] = S::STATES;
+    const DOMAIN: &'static [&'static str] = S::DOMAIN;
 }
 
 impl<R, S, const N: usize, const H: usize, const M: usize> Simulate<R, M> for Projected<S, N, H>
@@ -83,4 +97,6 @@ where
     S: Simulate<R, M> + Positions<R, N, H>,
 {
     type State = S::State;
+    const STATES: &'static [&'static str] = S::STATES;
+    const DOMAIN: &'static [&'static str] = S::DOMAIN;
 }

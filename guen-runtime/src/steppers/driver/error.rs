@@ -5,6 +5,7 @@ use core::fmt;
 
 use super::run::Statistics;
 use crate::numbers::real::Real;
+use crate::system::simulate::Simulate;
 
 /// Why an integration could not go on.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -146,8 +147,45 @@ pub enum Setting {
     Order,
 }
 
+/// The names of a system for messages; empty where it has none.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Names {
+    /// The entries of a state.
+    pub states: &'static [&'static str],
+    /// The functions that must not vanish.
+    pub domain: &'static [&'static str],
+}
+
+impl Names {
+    /// The names of a system.
+    pub fn of<R: Real, S: Simulate<R, N> + ?Sized, const N: usize>() -> Self {
+        Self { states: S::STATES, domain: S::DOMAIN }
+    }
+
+    fn function(&self, f: &mut fmt::Formatter<'_>, function: usize) -> fmt::Result {
+        match self.domain.get(function) {
+            Some(formula) => write!(f, "`{formula}`, which must not vanish,"),
+            None => write!(f, "function {function} that must not vanish"),
+        }
+    }
+
+    fn entry(&self, f: &mut fmt::Formatter<'_>, entry: usize) -> fmt::Result {
+        match self.states.get(entry) {
+            Some(name) => write!(f, "`{name}`"),
+            None => write!(f, "entry {entry} of the state"),
+        }
+    }
+}
+
 impl fmt::Display for Cause {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.describe(f, Names::default())
+    }
+}
+
+impl Cause {
+    /// Writes the cause in the names of a system.
+    pub(crate) fn describe(&self, f: &mut fmt::Formatter<'_>, names: Names) -> fmt::Result {
         match self {
             Self::NotFinite => f.write_str("the state or its rate is not finite"),
             Self::StepUnderflow => f.write_str("the step is too small to move time"),
@@ -174,21 +212,17 @@ impl fmt::Display for Cause {
                 write!(f, "by t = {found} a carried function was off by {drift:e}, and {limit:e} is allowed")
             }
             Self::ChartSingularity { found, function, distance, limit } => {
-                write!(
-                    f,
-                    "by t = {found} the motion had come to the edge of the chart: of function {function} that must "
-                )?;
-                write!(f, "not vanish {distance:e} was left, and {limit:e} is the limit")
+                write!(f, "by t = {found} the motion had come to the edge of the chart: of ")?;
+                names.function(f, *function)?;
+                write!(f, " {distance:e} was left, and {limit:e} is the limit")
             }
             Self::ApproachingSingularity { found, function, ratio, limit } => {
                 write!(
                     f,
                     "by t = {found} a fixed step was too long for the edge of the chart that is near: it changed "
                 )?;
-                write!(
-                    f,
-                    "function {function} that must not vanish {ratio:e} times, and {limit:e} is allowed"
-                )
+                names.function(f, *function)?;
+                write!(f, " {ratio:e} times, and {limit:e} is allowed")
             }
             Self::Condition { found, condition, limit } => {
                 write!(
@@ -204,10 +238,9 @@ impl fmt::Display for Cause {
                 write!(f, "beyond {limit:e} of the start")
             }
             Self::Step { found, entry, defect, limit } => {
-                write!(
-                    f,
-                    "by t = {found} the fixed step was too long: entry {entry} of the state is off by about "
-                )?;
+                write!(f, "by t = {found} the fixed step was too long: ")?;
+                names.entry(f, *entry)?;
+                f.write_str(" is off by about ")?;
                 write!(f, "{defect:e} of its size, and {limit:e} is allowed")
             }
             Self::Memory { limit } => write!(f, "the trajectory does not fit into {limit} bytes"),
@@ -250,3 +283,43 @@ impl<R: Real, const N: usize> fmt::Display for IntegrationError<R, N> {
 }
 
 impl<R: Real, const N: usize> Error for IntegrationError<R, N> {}
+
+impl<R: Real, const N: usize> IntegrationError<R, N> {
+    /// The message in the names of the system: its variables and the functions that must not vanish, and not their numbers.
+    ///
+    /// ```
+    /// use guen_runtime::steppers::{Guard, Integration, Rk4};
+    /// use guen_runtime::{Simulate, System};
+    ///
+    /// struct Growth;
+    /// impl System<f64, 1> for Growth {
+    ///     fn rhs(&self, _t: f64, &[x]: &[f64; 1]) -> [f64; 1] {
+    ///         [100.0 * x]
+    ///     }
+    /// }
+    /// impl Simulate<f64, 1> for Growth {
+    ///     type State = [f64; 1];
+    ///     const STATES: &'static [&'static str] = &["size"];
+    /// }
+    ///
+    /// let error = Integration::new(&Growth, 0.0, &[1.0]).run(&Rk4 { step: 0.05 }, 10.0).unwrap_err();
+    /// assert!(error.named(&Growth).to_string().contains("`size` is off"));
+    /// ```
+    pub fn named<S: Simulate<R, N> + ?Sized>(&self, _system: &S) -> impl fmt::Display + use<R, S, N> {
+        NamedError { time: self.time.to_f64(), cause: self.cause, names: Names::of::<R, S, N>() }
+    }
+}
+
+/// An error of a run with the names of its system.
+struct NamedError {
+    time: f64,
+    cause: Cause,
+    names: Names,
+}
+
+impl fmt::Display for NamedError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "integration stopped at t = {}: ", self.time)?;
+        self.cause.describe(f, self.names)
+    }
+}

@@ -39,6 +39,13 @@ pub struct Euler<R = f64> {
     pub step: R,
 }
 
+impl<R: Real> Euler<R> {
+    /// The method with this step.
+    pub fn new(step: R) -> Self {
+        Self { step }
+    }
+}
+
 impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Formula<R, S, N> for Euler<R> {
     type Memory = Slopes<R, N>;
     const EVALUATIONS: u32 = 1;

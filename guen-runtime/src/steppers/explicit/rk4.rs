@@ -180,6 +180,11 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Formula<R, S, N> for Rk4
 }
 
 impl<R: Real> Rk4<R> {
+    /// The method with this step.
+    pub fn new(step: R) -> Self {
+        Self { step }
+    }
+
     /// The method with a sum of its steps that loses no digits: for long runs.
     pub fn compensated(self) -> Compensated<Self> {
         Compensated { method: self }

@@ -82,6 +82,11 @@ impl<R: Real, const N: usize> Known<R, N> {
         0..self.count.min(MAX_SINGULARITIES)
     }
 
+    /// Returns the first of the functions that must not vanish that is zero.
+    pub fn vanishing(&self) -> Option<usize> {
+        self.watched().find(|function| self.functions[*function].value.to_f64() == 0.0)
+    }
+
     /// Checks everything but the functions that must not vanish. `defects` are the estimated errors of a step, taken for those of
     /// `steps` of them.
     #[inline(always)]

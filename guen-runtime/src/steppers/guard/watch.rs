@@ -4,6 +4,7 @@ use core::marker::PhantomData;
 
 use crate::numbers::lanes::Mask;
 use crate::numbers::real::Real;
+use crate::steppers::all_finite;
 use crate::steppers::driver::error::{Cause, IntegrationError, Setting};
 use crate::steppers::driver::run::{Checkpoint, StepperRun};
 use crate::steppers::guard::Guard;
@@ -416,6 +417,14 @@ impl<R: Real, const N: usize> Watch<R, One, N> {
         self.stopped(system, place(run.checkpoint()), Mask::all(1), cause, |_, cause, good| {
             error = IntegrationError { time: good.time, state: *good.state, cause, ..error };
         });
+        if error.cause == Cause::NotFinite && error.statistics.accepted == 0 && all_finite(&error.state) {
+            // What is not finite at a start that is so, is so because of a function that vanishes there, if there is one.
+            let (known, _) = Known::new(system, &self.guard, place(run.checkpoint()));
+            if let Some(function) = known.vanishing() {
+                let (found, limit) = (error.time.to_f64(), self.guard.singularity);
+                error.cause = Cause::ChartSingularity { found, function, distance: 0.0, limit };
+            }
+        }
         error
     }
 

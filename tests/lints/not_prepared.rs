@@ -1,0 +1,21 @@
+//! What is handed to a stepper too early is told by the call that is missing.
+use guen::prelude::*;
+
+mechanical_system! {
+    pub system Lift {
+        constants { m > 0 }
+        inputs { force }
+        coordinates { z }
+        parameters { w = dot(z); }
+        kinetic_energy = m/2*w^2;
+        forces { force along w; }
+    }
+}
+
+fn main() {
+    let method = Dop853::new(1e-9, 1e-9);
+    let lift = Lift::new(1.0);
+    let _ = Integration::new(&lift, 0.0, &[0.0, 0.0]).run(&method, 1.0);
+    let prepared = lift.prepare().unwrap();
+    let _ = Integration::new(&prepared, 0.0, &[0.0, 0.0]).run(&method, 1.0);
+}
