@@ -53,12 +53,12 @@
 pub use guen_runtime::{
     Actuated, Approx7, Approx7Functions, Approx13, Approx13Functions, AuxiliaryStates, Bodies, Body,
     BodyFault, BracketCoefficients, Catastatic, Cause, Class, Coefficient, Conservative, ConstantsError,
-    Coordinate, Cost, Derived, Differentiable, Dual, Equations, Function, Functions, Fused, FusedOperations,
-    Generic, Holonomic, IncompleteLieGroup, IntegrationError, Invariants, LaneScalar, Laned, LatexDocument,
-    Level, LevelInfo, Levels, LieGroup, Lift, Linearization, Monitored, Nonholonomic, Operator, Ordered,
-    Positions, PositionsError, Projected, Real, Recast, Renormalized, Report, ReportSection, Rheonomic,
-    RunningError, Scleronomic, Setting, Simulate, System, WithFunctions, WithInputs, from_fn, generic, lanes,
-    project, projected, renormalized, steppers,
+    Coordinate, Cost, Derived, Differentiable, Displacement, Dual, Equations, Function, Functions, Fused,
+    FusedOperations, Generic, Holonomic, IncompleteLieGroup, IntegrationError, Invariants, LaneScalar, Laned,
+    LatexDocument, Level, LevelInfo, Levels, LieGroup, Lift, Linearization, Monitored, Nonholonomic,
+    Operator, Ordered, Positions, PositionsError, Projected, Real, Recast, Renormalized, Report,
+    ReportSection, Rheonomic, RunningError, Scleronomic, Setting, Simulate, System, WithFunctions,
+    WithInputs, from_fn, generic, lanes, project, projected, renormalized, steppers,
 };
 pub use guen_runtime::{Coefficients, Convolutions, HIGHEST_ORDER, TaylorSeries};
 pub use guen_runtime::{Liftable, Linearizable, OutputLinearization, control, seeded};
