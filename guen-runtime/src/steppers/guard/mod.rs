@@ -21,8 +21,8 @@ pub(in crate::steppers) use watch::Watch;
 use crate::numbers::real::Real;
 
 /// The limits that a run must not violate. A stepper checks these by default, on whatever the system tells in
-/// [`System::conserved`], [`System::singularities`] and [`System::condition`], and methods with a fixed step by
-/// estimates of the errors of single steps.
+/// [`conserved`](crate::System::conserved), [`singularities`](crate::System::singularities) and
+/// [`condition`](crate::System::condition), and methods with a fixed step by estimates of the errors of single steps.
 ///
 /// Every accepted state is tested to be finite. After the first step, then every [`every`](Guard::every) steps, at the end
 /// of the run and before an error is returned, the guard checks the rest; the first check includes the start. Where it
@@ -64,7 +64,7 @@ pub struct Guard {
     /// such positions, as a linkage whose bars come to lie on one line, where the state at each side is as it should be. Everything else
     /// is watched as before, the condition of the mass matrix included.
     pub singularity: f64,
-    /// The largest [`condition`](System::condition) of the mass matrix. By default `1e12`, where accelerations have
+    /// The largest [`condition`](crate::System::condition) of the mass matrix. By default `1e12`, where accelerations have
     /// four digits left in `f64`; in another real the limit is divided by the ratio of the roundings.
     pub condition: f64,
     /// The largest error of methods with a fixed step, estimated at every check from one step, relative to the largest value

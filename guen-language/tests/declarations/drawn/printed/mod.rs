@@ -63,7 +63,7 @@ fn reports_of_drawn_declarations_say_what_was_derived() {
     let mut all = Checked::default();
     let found = by_two_threads(&seeds, |seed| {
         let text = declaration(*seed);
-        report::checked(&text).unwrap_or_else(|| panic!("faults in\n{text}"))
+        report::checked(&text, false).unwrap_or_else(|| panic!("faults in\n{text}"))
     });
     found.into_iter().for_each(|found| all.add(found));
     println!("{all}");
@@ -78,7 +78,9 @@ fn reports_of_the_systems_of_the_repository_say_what_was_derived() {
     let mut all = Checked::default();
     let mut sound = 0;
     let looked_at: Vec<_> = systems.iter().filter(|(text, _)| systems::coordinates(text) <= most).collect();
-    let found = by_two_threads(&looked_at, |(text, _)| report::checked(text));
+    // Of large systems the derivation alone knows what is code and what dual numbers do, and which equations of a loop say nothing.
+    let outlined = |text: &str| systems::coordinates(text) <= 9;
+    let found = by_two_threads(&looked_at, |(text, _)| report::checked(text, outlined(text)));
     for ((text, file), found) in looked_at.iter().zip(found) {
         match found {
             Some(found) => {

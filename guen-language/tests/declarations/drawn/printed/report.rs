@@ -61,8 +61,9 @@ impl Display for Checked {
     }
 }
 
-/// Checks the reports of a declaration and of its scenes; none where something is wrong in it.
-pub fn checked(text: &str) -> Option<Checked> {
+/// Checks the reports of a declaration and of its scenes, and the signatures of its outline if asked for; none where something is
+/// wrong in it.
+pub fn checked(text: &str, with_outline: bool) -> Option<Checked> {
     let (declaration, faults) = parse::parse(text.parse().expect("tokens"));
     let declaration = declaration.filter(|_| faults.is_empty())?;
     let (derived, faults) = collect(|faults| derive(model::resolve(&declaration, faults)?, faults));
@@ -78,7 +79,7 @@ pub fn checked(text: &str) -> Option<Checked> {
         all.add(own);
     }
     // An outline has as many forms as coordinates: which constraints follow from others the derivation alone knows.
-    if model.redundant.is_empty() {
+    if with_outline && model.redundant.is_empty() {
         let items = emit::emit(Derived { model, system, scenes });
         let missing = crate::outline::missing(&declaration, items).into_iter();
         all.faults.extend(missing.map(|item| format!("{}: not in the outline: {item}", declaration.name)));
