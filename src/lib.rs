@@ -135,6 +135,8 @@ macro_rules! mechanical_system {
 pub mod prelude {
     pub use crate::mechanical_system;
     pub use guen_runtime::prelude::*;
+    #[cfg(feature = "study")]
+    pub use guen_study::Export;
 }
 
 /// The items that expansions refer to; no part of the public interface.

@@ -80,7 +80,6 @@ pub use system::frame::{Frame, bracket_values, known_bracket};
 pub use system::invariants::Invariants;
 pub use system::level::{Level, LevelInfo, Levels};
 pub use system::linearization::{Liftable, Linearizable, Linearization, OutputLinearization, seeded};
-pub use system::named::Named;
 pub use system::operator::{Applied, Coordinate, Function, Operator};
 #[doc(hidden)]
 pub use system::positions::furthest_surplus;

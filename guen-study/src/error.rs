@@ -95,7 +95,8 @@ impl fmt::Display for StudyError {
             }
             Self::UnknownBody { title, name } => write!(f, "page `{title}` has no body `{name}`"),
             Self::UnknownEntry { title, name, known } => {
-                write!(f, "picture `{title}`: the state has no `{name}`, but {}", known.join(", "))
+                write!(f, "picture `{title}`: the state has no `{name}`")?;
+                if known.is_empty() { Ok(()) } else { write!(f, ", but {}", known.join(", ")) }
             }
             Self::Times { title, time } => {
                 write!(f, "page `{title}`: the times neither rise nor fall throughout, first at t = {time}")

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use guen_runtime::steppers::Interpolant;
-use guen_runtime::{Named, Simulate, Trajectory};
+use guen_runtime::{Simulate, Trajectory};
 
 use crate::error::StudyError;
 use crate::plot::Plot;
@@ -21,28 +21,27 @@ const PLOT_POINTS: f64 = 1000.0;
 #[cfg(feature = "viewer")]
 const RATE: f64 = 60.0;
 
-/// Recordings, tables, plots and pages of a trajectory, with the names of its state's entries.
+/// Recordings, tables, plots and pages of a trajectory, with the names of its state's entries; entries without names, as of a closure, go
+/// by their numbers.
 ///
 /// ```
-/// use guen_runtime::{Named, Simulate, System};
+/// use guen_runtime::{Simulate, System};
 /// use guen_study::Export;
 ///
 /// /// What the macro generates for a declared system.
 /// #[derive(Clone, Copy)]
 /// struct Oscillator;
-/// #[derive(Clone, Copy)]
-/// struct State([f64; 2]);
-/// # impl From<[f64; 2]> for State { fn from(x: [f64; 2]) -> Self { State(x) } }
-/// # impl From<State> for [f64; 2] { fn from(x: State) -> Self { x.0 } }
-/// # impl System<f64, 2> for Oscillator {
-/// #     fn rhs(&self, _t: f64, &[x, v]: &[f64; 2]) -> [f64; 2] { [v, -x] }
-/// # }
-/// # impl Simulate<f64, 2> for Oscillator { type State = State; }
-/// impl Named for State {
-///     const NAMES: &'static [&'static str] = &["x", "v"];
+/// impl System<f64, 2> for Oscillator {
+///     fn rhs(&self, _t: f64, &[x, v]: &[f64; 2]) -> [f64; 2] {
+///         [v, -x]
+///     }
+/// }
+/// impl Simulate<f64, 2> for Oscillator {
+///     type State = [f64; 2];
+///     const STATES: &'static [&'static str] = &["x", "v"];
 /// }
 ///
-/// let motion = Oscillator.simulate(&State([1.0, 0.0]), 0.0..10.0).unwrap();
+/// let motion = Oscillator.simulate(&[1.0, 0.0], 0.0..10.0).unwrap();
 /// assert_eq!(motion.sampled(0.5).names(), ["x", "v"]);
 /// assert!(motion.plot("an oscillation", &["x"])?.to_svg()?.contains("an oscillation"));
 /// # Ok::<(), guen_study::StudyError>(())
@@ -88,7 +87,6 @@ pub trait Export<S, const N: usize> {
 impl<S, P, const N: usize> Export<S, N> for Trajectory<S, N, f64, P>
 where
     S: Simulate<f64, N>,
-    S::State: Named,
     P: Interpolant<f64, N>,
 {
     fn recording(&self) -> Recording<N> {
@@ -125,9 +123,27 @@ where
 fn filled<S, const N: usize>(states: impl Iterator<Item = (f64, S::State)>) -> Recording<N>
 where
     S: Simulate<f64, N>,
-    S::State: Named,
 {
-    let mut recording = Recording::new(S::State::NAMES);
+    let mut recording = Recording::new(S::STATES);
     states.for_each(|(t, state)| recording.record(t, &state.into()));
     recording
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use guen_runtime::from_fn;
+
+    #[test]
+    fn entries_without_names_go_by_their_numbers() {
+        let oscillator = from_fn(|_t: f64, &[x, v]: &[f64; 2]| [v, -x]);
+        let motion = oscillator.simulate(&[1.0, 0.0], 0.0..1.0).unwrap();
+        let mut text = Vec::new();
+        motion.sampled(1.0).write_csv(&mut text).unwrap();
+        let text = String::from_utf8(text).unwrap();
+        assert!(text.starts_with("t,0,1\n0.0,1.0,0.0\n1.0,") && text.lines().count() == 3, "{text}");
+        assert!(motion.plot("", &["1"]).is_ok());
+        let error = motion.plot("both", &["1", "2"]).unwrap_err();
+        assert_eq!(error.to_string(), "picture `both`: the state has no `2`");
+    }
 }

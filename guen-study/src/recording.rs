@@ -50,13 +50,14 @@ pub struct Recording<const N: usize> {
 }
 
 impl<const N: usize> Recording<N> {
-    /// An empty recording without a limit.
+    /// An empty recording without a limit. Entries without names go by their numbers, from zero on.
     ///
     /// # Panics
     ///
-    /// If there are not as many names as entries in a state.
+    /// If there are names, and not as many as entries in a state.
     pub fn new(names: &'static [&'static str]) -> Self {
-        assert_eq!(names.len(), N, "a recording needs one name for each entry of the state");
+        let fit = names.is_empty() || names.len() == N;
+        assert!(fit, "a recording needs one name for each entry of the state, or none");
         Self { names, times: Vec::new(), states: Vec::new(), limit: usize::MAX, stride: 1, seen: 0 }
     }
 
@@ -187,8 +188,11 @@ impl<const N: usize> Recording<N> {
         Some((*self.times.last()?, self.states.last()?))
     }
 
-    /// The position of the entry with this name.
+    /// The position of the entry with this name; where entries have no names, with this number.
     pub fn position(&self, name: &str) -> Option<usize> {
+        if self.names.is_empty() {
+            return name.parse().ok().filter(|number| *number < N);
+        }
         self.names.iter().position(|known| *known == name)
     }
 
@@ -267,6 +271,10 @@ impl<const N: usize> Recording<N> {
         write!(out, "t")?;
         for name in self.names {
             write!(out, ",{}", cell::text(name))?;
+        }
+        let unnamed = if self.names.is_empty() { 0..N } else { 0..0 };
+        for number in unnamed {
+            write!(out, ",{number}")?;
         }
         writeln!(out)?;
         for (t, state) in self.iter() {

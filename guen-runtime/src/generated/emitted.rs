@@ -47,10 +47,6 @@ macro_rules! record {
             pub const NAMES: [&'static str; $n] = [$($crate::checks::plain(::core::stringify!($field))),*];
         }
 
-        impl<R> $crate::Named for $Record<R> {
-            const NAMES: &'static [&'static str] = &$Record::<f64>::NAMES;
-        }
-
         impl<R> ::core::convert::From<[R; $n]> for $Record<R> {
             #[inline]
             fn from([$($local),*]: [R; $n]) -> Self {

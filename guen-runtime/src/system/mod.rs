@@ -11,7 +11,6 @@ pub(crate) mod frame;
 pub(crate) mod invariants;
 pub(crate) mod level;
 pub(crate) mod linearization;
-pub(crate) mod named;
 pub(crate) mod operator;
 pub(crate) mod positions;
 pub(crate) mod positions_error;

@@ -33,7 +33,7 @@ pub trait Simulate<R: Real, const N: usize>: System<R, N> {
     /// A state: what a simulation starts from, and what its trajectory returns.
     type State: Copy + From<[R; N]> + Into<[R; N]>;
 
-    /// The names of the entries of a state, for messages; empty where they have none.
+    /// The names of the entries of a state, for messages, tables and plots; empty where they have none.
     const STATES: &'static [&'static str] = &[];
 
     /// The functions that must not vanish, in the order of [`singularities`](System::singularities), for messages; empty where
