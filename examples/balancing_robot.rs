@@ -135,8 +135,8 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
         let inputs = Inputs { push: if PUSHED.contains(&t) { PUSH } else { 0.0 }, ..torques };
         record.push((t, state, inputs));
         let plant = robot.driven(inputs);
-        let end = Integration::new(&plant, t, &state.into())
-            .run(&Rk4 { step: PERIOD / STEPS as f64 }, t + PERIOD)?;
+        let end =
+            Integration::new(&plant, t, &state.into()).run(&Rk4::new(PERIOD / STEPS as f64), t + PERIOD)?;
         state = end.state.into();
     }
 

@@ -85,7 +85,7 @@ where
     let start = system.energy(0.0, begin);
     let (mut residual, mut energy, mut count) = (0.0_f64, 0.0_f64, 0);
     let clock = Instant::now();
-    Rk4 { step: STEP }.integrate(system, 0.0, begin, STEP * f64::from(steps), |t, x| {
+    Rk4::new(STEP).integrate(system, 0.0, begin, STEP * f64::from(steps), |t, x| {
         count += 1;
         if count % EVERY == 0 {
             residual = residual.max(system.residual(t, x));

@@ -77,7 +77,7 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
     // 2. Their motions, all at once.
     let times: Vec<f64> = (0..LOOKS).map(|k| UNTIL * k as f64 / (LOOKS - 1) as f64).collect();
     let begin = Instant::now();
-    let method = Rk4 { step: 2e-3 };
+    let method = Rk4::new(2e-3);
     let mut progress = Progress::new(0.0, count as f64);
     let mut motions = Vec::with_capacity(count);
     for part in hoops.chunks(HOOPS) {

@@ -148,7 +148,7 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
         let aim = demand(t).place;
         record.push((t, state, inputs, outputs, (state.x - aim[0]).hypot(state.y - aim[1])));
         let driven = sled.driven(inputs);
-        let end = Integration::new(&driven, t, &state.into()).run(&Rk4 { step: PERIOD / 4.0 }, t + PERIOD)?;
+        let end = Integration::new(&driven, t, &state.into()).run(&Rk4::new(PERIOD / 4.0), t + PERIOD)?;
         state = end.state.into();
     }
 

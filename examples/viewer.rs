@@ -179,7 +179,7 @@ fn car(path: &Path) -> Result<(), Box<dyn Error>> {
             steering: 60.0 * (25.0 * (aim - state.phi) - 10.0 * state.steer),
         };
         let driven = system.driven(inputs);
-        let end = Integration::new(&driven, t, &state.into()).run(&Rk4 { step: (next - t) / 4.0 }, next)?;
+        let end = Integration::new(&driven, t, &state.into()).run(&Rk4::new((next - t) / 4.0), next)?;
         state = end.state.into();
         recording.record(next, &state.into());
     }

@@ -114,7 +114,7 @@ impl fmt::Display for InvariantErrors {
 ///
 /// let start = [1.0, 0.0];
 /// let mut monitor = Monitor::new(&Oscillator, 0.0, &start);
-/// Rk4 { step: 0.01 }
+/// Rk4::new(0.01)
 ///     .integrate(&Oscillator, 0.0, &start, 10.0, |t, x| {
 ///         monitor.at(t, x);
 ///         ControlFlow::Continue(())

@@ -29,7 +29,7 @@ const ESTIMABLE: f64 = 1e-3;
 ///
 /// let decay = from_fn(|_t: f64, &[x]: &[f64; 1]| [-x]);
 /// let mut progress = Progress::new(0.0, 5.0);
-/// Rk4 { step: 1e-3 }
+/// Rk4::new(1e-3)
 ///     .integrate(&decay, 0.0, &[1.0], 5.0, |t, _x| {
 ///         progress.at(t);
 ///         ControlFlow::Continue(())
@@ -71,7 +71,7 @@ impl Progress {
     /// let mut recording = Recording::new(&["x"]);
     /// let mut progress = Progress::new(0.0, 5.0);
     /// let observer = progress.around(recording.observe());
-    /// Rk4 { step: 1e-2 }.integrate(&decay, 0.0, &[1.0], 5.0, observer).unwrap();
+    /// Rk4::new(1e-2).integrate(&decay, 0.0, &[1.0], 5.0, observer).unwrap();
     /// assert_eq!(recording.len(), 500);
     /// ```
     pub fn around<O, const N: usize>(

@@ -32,7 +32,7 @@ use crate::file::replace_file;
 /// let decay = from_fn(|_t: f64, &[x]: &[f64; 1]| [-x]);
 /// let mut recording = Recording::new(&["x"]).with_limit(1000);
 /// recording.record(0.0, &[1.0]);
-/// Rk4 { step: 1e-3 }.integrate(&decay, 0.0, &[1.0], 5.0, recording.observe()).unwrap();
+/// Rk4::new(1e-3).integrate(&decay, 0.0, &[1.0], 5.0, recording.observe()).unwrap();
 ///
 /// assert_eq!((recording.seen(), recording.stride()), (5001, 8));
 /// assert!(recording.len() <= 1000);
@@ -370,7 +370,7 @@ mod tests {
     fn both_steppers_take_both_kinds_of_observer() {
         let clock = from_fn(|_t: f64, _x: &[f64; 1]| [1.0]);
         let mut recording = Recording::new(&["x"]);
-        let fixed = Rk4 { step: 0.5 };
+        let fixed = Rk4::new(0.5);
         let adaptive = Dop853::new(1e-9, 1e-9);
         fixed.integrate(&clock, 0.0, &[0.0], 1.0, recording.observe()).unwrap();
         adaptive.integrate(&clock, 1.0, &[1.0], 2.0, recording.observe()).unwrap();

@@ -131,7 +131,7 @@ fn newton_and_euler_along_a_run() {
         steps += 1;
     };
     check(0.0, &start.into());
-    Rk4 { step: 0.002 }
+    Rk4::new(0.002)
         .integrate(&driven, 0.0, &start.into(), 0.8, |t, s| {
             check(t, s);
             ControlFlow::Continue(())
@@ -146,7 +146,7 @@ fn the_covector_of_a_rod() {
     let (m, l, g) = (1.3, 0.8, 9.81);
     let system = ParticlePendulum { m, l, g }.prepare().unwrap();
     let start = crate::jacobians::particle_pendulum::State { x: 0.8, y: 0.0, omega: 2.0 };
-    Rk4 { step: 0.001 }
+    Rk4::new(0.001)
         .integrate(&system, 0.0, &start.into(), 3.0, |t, s| {
             let state = crate::jacobians::particle_pendulum::State::from(*s);
             let force = system.reaction_covector(t, &state);

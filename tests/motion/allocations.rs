@@ -52,16 +52,16 @@ where
     S: System<f64, N> + Differentiable<f64, N> + TaylorSeries<f64, N>,
 {
     let arrived = [
-        run(&format!("{name}, Euler"), system, &Euler { step: 1e-3 }, start),
-        run(&format!("{name}, RK4"), system, &Rk4 { step: 1e-3 }, start),
-        run(&format!("{name}, RK4 compensated"), system, &Rk4 { step: 1e-3 }.compensated(), start),
+        run(&format!("{name}, Euler"), system, &Euler::new(1e-3), start),
+        run(&format!("{name}, RK4"), system, &Rk4::new(1e-3), start),
+        run(&format!("{name}, RK4 compensated"), system, &Rk4::new(1e-3).compensated(), start),
         run(&format!("{name}, RK8"), system, &Rk8::new(1e-3), start),
         run(&format!("{name}, Gauss 4"), system, &Gauss4::new(1e-3), start),
         run(&format!("{name}, Gauss 6"), system, &Gauss6::new(1e-3), start),
         run(&format!("{name}, Tsit5"), system, &Tsit5::new(1e-9, 1e-9), start),
         run(&format!("{name}, DOP853"), system, &Dop853::new(1e-9, 1e-9), start),
         run(&format!("{name}, Radau 5"), system, &Radau5::new(1e-9, 1e-9), start),
-        run(&format!("{name}, Taylor"), system, &Taylor::new(1e-9), start),
+        run(&format!("{name}, Taylor"), system, &Taylor::new(1e-9, 1e-9), start),
     ];
     assert_eq!(arrived, [true; 10], "{name}");
     count(&format!("{name}, right-hand side"), || {
@@ -121,7 +121,7 @@ fn nothing_is_allocated() {
     runs("robot", &robot, &robot::State { tilt: 0.1, speed: 0.5, ..Default::default() }.into());
     let carried = hoop.carried().unwrap();
     let start = START.carried(&carried, 0.0).into();
-    assert!(run("a carried form", &carried, &Rk4 { step: 1e-3 }, &start));
+    assert!(run("a carried form", &carried, &Rk4::new(1e-3), &start));
     assert!(run(
         "a carried form that is renormalized",
         &guen::renormalized(carried),
@@ -136,7 +136,7 @@ fn errors_are_not_allocated_either() {
     let hoop = HOOP.prepare().unwrap();
     let start = hoop::State { theta: 0.3, eta1: -1.0, eta2: 1e-9, zeta: 0.3, ..Default::default() }.into();
     count("an edge", || {
-        let error = Rk4 { step: 1e-2 }
+        let error = Rk4::new(1e-2)
             .integrate(&hoop, 0.0, black_box(&start), 10.0, |_, _| ControlFlow::Continue(()))
             .unwrap_err();
         black_box(error);

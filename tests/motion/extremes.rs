@@ -31,8 +31,8 @@ fn what_was_silent_is_refused() {
     let top = EulerTop { I1: 1.0, I2: 2.0, I3: 3.0 }.prepare().unwrap();
     let start = [0.0, 1e-9, 0.0, 0.2, 0.3, 1.0];
     let causes = [
-        cause(&Euler { step: 1e-4 }, &top, &start, 1.0),
-        cause(&Rk4 { step: 1e-3 }, &top, &start, 1.0),
+        cause(&Euler::new(1e-4), &top, &start, 1.0),
+        cause(&Rk4::new(1e-3), &top, &start, 1.0),
         cause(&Rk8::new(4e-3), &top, &start, 1.0),
     ];
     for cause in causes {
@@ -48,7 +48,7 @@ fn what_was_silent_is_refused() {
     let damped = Damped { m: 1.0, k: 1.0, c: 1e6 }.prepare().unwrap();
     let (start, step) = ([1.0, -1.0], 1e-3);
     let causes = [
-        cause(&Rk4 { step }, &damped, &start, 0.01),
+        cause(&Rk4::new(step), &damped, &start, 0.01),
         cause(&Rk8::new(step), &damped, &start, 0.01),
         cause(&Gauss4::new(step), &damped, &start, 0.01),
         cause(&Gauss6::new(step), &damped, &start, 0.01),

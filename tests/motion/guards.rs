@@ -99,8 +99,8 @@ fn fixed_steps_say_so_before_the_energy_is_lost() {
     }
     let mut stopped = 0;
     for step in [1e-2, 3e-3, 1e-3, 3e-4] {
-        stopped += u32::from(!check("Euler", &Euler { step }, step));
-        stopped += u32::from(!check("RK4", &Rk4 { step }, step));
+        stopped += u32::from(!check("Euler", &Euler::new(step), step));
+        stopped += u32::from(!check("RK4", &Rk4::new(step), step));
         stopped += u32::from(!check("RK8", &Rk8::new(step), step));
         stopped += u32::from(!check("Gauss 4", &Gauss4::new(step), step));
         stopped += u32::from(!check("Gauss 6", &Gauss6::new(step), step));
@@ -115,7 +115,7 @@ fn the_energy_limit_is_the_users() {
     let run = |energy: f64| {
         Integration::new(&system, 0.0, &start)
             .guard(Guard { energy, every: Some(1), ..Guard::default() })
-            .run(&Rk4 { step: 0.05 }, 0.5)
+            .run(&Rk4::new(0.05), 0.5)
     };
     assert!(run(1e-2).is_ok());
     let error = run(1e-9).unwrap_err();
@@ -140,7 +140,7 @@ fn stepping_over_the_edge_of_the_chart_is_refused() {
     assert!(distance < 0.0 && limit == 1e-8 && found > error.time);
     assert!(error.state[0] > 0.0, "the state returned is on this side");
     // With a fixed step the next step is seen to lead there, or beyond.
-    let error = Rk4 { step: 1e-3 }
+    let error = Rk4::new(1e-3)
         .integrate(&system, 0.0, &start.into(), 1.0, |_, _| ControlFlow::Continue(()))
         .unwrap_err();
     let Cause::ApproachingSingularity { found, function: 0, ratio, limit } = error.cause else {
@@ -162,7 +162,7 @@ fn stepping_over_the_edge_of_the_chart_is_refused() {
 fn what_the_observer_saw_before_a_failure_is_kept_and_in_order() {
     let (system, start) = (prepared(), falling()[0].1);
     let mut recording = guen_study::Recording::new(&hoop::State::<f64>::NAMES);
-    let error = Rk4 { step: 1e-3 }.integrate(&system, 0.0, &start, 1.0, recording.observe()).unwrap_err();
+    let error = Rk4::new(1e-3).integrate(&system, 0.0, &start, 1.0, recording.observe()).unwrap_err();
     let kept = recording.iter().filter(|(t, _)| *t <= error.time).count();
     assert!(kept > 700, "{kept}");
     assert_eq!(recording.iter().find(|(t, _)| *t == error.time).unwrap().1, &error.state);
@@ -185,7 +185,7 @@ fn a_residual_limit_is_watched() {
     let run = |residual: f64| {
         Integration::new(&system, 0.0, &[0.0, -1.0, 3.0])
             .guard(Guard { residual, every: Some(1), ..Guard::FINITE })
-            .run(&Rk4 { step: 0.1 }, 20.0)
+            .run(&Rk4::new(0.1), 20.0)
     };
     assert!(run(1.0).is_ok());
     let error = run(1e-4).unwrap_err();
@@ -199,7 +199,7 @@ fn a_residual_limit_is_watched() {
     assert!(
         Integration::new(&projected, 0.0, &[0.0, -1.0, 3.0])
             .guard(Guard { residual: 1e-12, every: Some(1), ..Guard::default() })
-            .run(&Rk4 { step: 0.1 }, 20.0)
+            .run(&Rk4::new(0.1), 20.0)
             .is_ok()
     );
 }
@@ -209,7 +209,7 @@ fn a_start_that_is_not_finite_is_called_that() {
     let system = prepared();
     for start in [[f64::NAN; 9], [f64::INFINITY; 9]] {
         let go_on = |_: f64, _: &[f64; 9]| ControlFlow::Continue(());
-        let fixed = Rk4 { step: 1e-3 }.integrate(&system, 2.0, &start, 3.0, go_on).unwrap_err();
+        let fixed = Rk4::new(1e-3).integrate(&system, 2.0, &start, 3.0, go_on).unwrap_err();
         let adaptive = Dop853::new(1e-9, 1e-9).integrate(&system, 2.0, &start, 3.0, go_on).unwrap_err();
         let implicit = Gauss6::new(1e-3).integrate(&system, 2.0, &start, 3.0, go_on).unwrap_err();
         let sampled = Rk8::new(1e-3).sample(&system, 2.0, &start, &[3.0], |_, _, _| ()).unwrap_err();

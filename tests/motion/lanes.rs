@@ -75,7 +75,7 @@ fn inputs_are_gathered_with_their_systems() {
             (cart.driven(inputs), cart::State { phi: part(i, 1), ..Default::default() })
         })
         .collect();
-    let method = Rk4 { step: 0.01 };
+    let method = Rk4::new(0.01);
     let ends = Ensemble::of_systems(carts.iter().copied()).integrate(&method, 0.0, 1.0);
     for ((cart, start), end) in carts.iter().zip(ends) {
         let alone = method.integrate(cart, 0.0, &(*start).into(), 1.0, |_, _| ControlFlow::Continue(()));
@@ -100,7 +100,7 @@ impl LaneTask for Rolling<'_> {
         let hoop = <hoop::Prepared as Laned<9>>::gather::<L>(|_| self.hoop);
         let ends = self.starts.chunks_exact(L::COUNT).flat_map(|starts| {
             let start = std::array::from_fn(|i| L::from_fn(|lane| starts[lane][i]));
-            let method = Rk4 { step: self.step };
+            let method = Rk4::new(self.step);
             method.guarded_in_lanes(&hoop, (0.0, &start), &[1.0], self.guard, |_, _, _, _| ())
         });
         ends.collect()
@@ -130,7 +130,7 @@ fn a_falling_hoop_ends_as_it_would_alone() {
         (1e-3, edges, &[2]),
     ] {
         let alone =
-            starts.map(|start| Integration::new(&hoop, 0.0, &start).guard(guard).run(&Rk4 { step }, 1.0));
+            starts.map(|start| Integration::new(&hoop, 0.0, &start).guard(guard).run(&Rk4::new(step), 1.0));
         for backend in Backend::ALL {
             for width in [Width::One, Width::Four, Width::Eight] {
                 let rolling = Rolling { hoop: &hoop, starts: &starts, step, guard };

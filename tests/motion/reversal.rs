@@ -138,7 +138,7 @@ fn every_method_returns_and_so_does_another_one() {
         S: System<f64, N> + Liftable<f64, N, 0> + guen::Differentiable<f64, N>,
     {
         let dop853 = Dop853::new(1e-15, 1e-16);
-        let (rk8, rk4, gauss) = (Rk8::new(5e-3), Rk4 { step: 1e-4 }, Gauss6::new(2e-3));
+        let (rk8, rk4, gauss) = (Rk8::new(5e-3), Rk4::new(1e-4), Gauss6::new(2e-3));
         let tsit5 = Tsit5::new(1e-14, 1e-15).with_max_steps(1_000_000);
         let on_duals = Dop853::new(1e-15, 1e-16).with_max_steps(1_000_000);
         assert!(there_and_back(system, ["DOP853", "RK8"], &on_duals, &rk8, start, span));
@@ -147,7 +147,7 @@ fn every_method_returns_and_so_does_another_one() {
         let on_duals = Rk8::new(Dual::constant(5e-3));
         assert!(there_and_back(system, ["RK8", "RK8"], &on_duals, &rk8, start, span));
         assert!(there_and_back(system, ["RK8", "DOP853"], &on_duals, &dop853, start, span));
-        let on_duals = Rk4 { step: Dual::constant(1e-4) };
+        let on_duals = Rk4::new(Dual::constant(1e-4));
         assert!(there_and_back(system, ["RK4", "RK4"], &on_duals, &rk4, start, span));
     }
     check(&rolling, &upright, 0.5);

@@ -119,7 +119,7 @@ fn every_method_serves() {
         )*};
     }
     check! {
-        Rk4 { step: 0.01 }, 1e-5; Rk8::new(0.05), 1e-8; Tsit5::new(1e-9, 1e-9), 1e-6;
+        Rk4::new(0.01), 1e-5; Rk8::new(0.05), 1e-8; Tsit5::new(1e-9, 1e-9), 1e-6;
         Radau5::new(1e-9, 1e-9), 1e-5; Gauss6::new(0.02), 1e-5;
     }
 }
@@ -151,11 +151,11 @@ fn held_inputs_and_an_observer() {
     let lifted = lift.driven(lift::Inputs { force: 2.0 * (9.81 + 0.5) });
     let motion = lifted.simulate(&start, 0.0..4.0).unwrap();
     assert!((motion.end().z - 5.0).abs() < 1e-9);
-    let series = lifted.simulation(&start).method(Taylor::new(1e-12)).run(0.0..4.0).unwrap();
+    let series = lifted.simulation(&start).method(Taylor::new(1e-12, 1e-12)).run(0.0..4.0).unwrap();
     assert!((series.at(2.0).z - 2.0).abs() < 1e-12);
     let outcome = lifted
         .simulation(&start)
-        .method(Rk4 { step: 0.5 })
+        .method(Rk4::new(0.5))
         .observe(|t, _| if t >= 2.0 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) })
         .run(0.0..4.0)
         .unwrap();

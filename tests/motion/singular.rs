@@ -40,12 +40,12 @@ fn closed(g: f64) -> Closed {
 /// Runs a check with methods that can be set to about 1e-6.
 macro_rules! with_methods {
     ($check:ident) => {
-        $check("RK4", &Rk4 { step: 0.01 });
+        $check("RK4", &Rk4::new(0.01));
         $check("RK8", &Rk8::new(0.04));
         $check("DOP853", &Dop853::new(1e-6, 1e-6));
         $check("DOP853, 1e-9", &Dop853::new(1e-9, 1e-9));
         $check("Tsit5", &Tsit5::new(1e-6, 1e-6));
-        $check("Taylor", &Taylor::new(1e-6));
+        $check("Taylor", &Taylor::new(1e-6, 1e-6));
     };
 }
 

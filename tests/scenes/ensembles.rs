@@ -11,9 +11,9 @@ use crate::models::{APPELL, HOOP, appell, hoop};
 fn many_states_of_one_scene() {
     let tilt = hoop::Tilt::from(HOOP).prepare().unwrap();
     let starts: Vec<[f64; 4]> = states(3, 21, 0.8, 1.4);
-    let ends = Ensemble::of_states(&tilt, starts.iter().copied()).integrate(&Rk4 { step: 0.01 }, 0.0, 0.2);
+    let ends = Ensemble::of_states(&tilt, starts.iter().copied()).integrate(&Rk4::new(0.01), 0.0, 0.2);
     for (start, end) in starts.iter().zip(ends) {
-        let alone = Rk4 { step: 0.01 }.integrate(&tilt, 0.0, start, 0.2, |_, _| ControlFlow::Continue(()));
+        let alone = Rk4::new(0.01).integrate(&tilt, 0.0, start, 0.2, |_, _| ControlFlow::Continue(()));
         assert_eq!(end.unwrap().state, alone.unwrap().state);
     }
 }
@@ -30,9 +30,9 @@ fn scenes_that_hold_different_values() {
             (scene, <[f64; 3]>::from(appell::rolling::State::from(&full)))
         })
         .collect();
-    let ends = Ensemble::of_systems(members.iter().copied()).integrate(&Rk4 { step: 0.01 }, 0.0, 0.2);
+    let ends = Ensemble::of_systems(members.iter().copied()).integrate(&Rk4::new(0.01), 0.0, 0.2);
     for ((scene, start), end) in members.iter().zip(ends) {
-        let alone = Rk4 { step: 0.01 }.integrate(scene, 0.0, start, 0.2, |_, _| ControlFlow::Continue(()));
+        let alone = Rk4::new(0.01).integrate(scene, 0.0, start, 0.2, |_, _| ControlFlow::Continue(()));
         assert_eq!(end.unwrap().state, alone.unwrap().state);
     }
 }

@@ -95,7 +95,7 @@ fn drift_does_not_accumulate() {
             most = most.max(driven.residual(t, x));
             ControlFlow::Continue(())
         };
-        let method = Rk4 { step: 0.02 };
+        let method = Rk4::new(0.02);
         if restored {
             method.integrate(&projected(&driven), 0.0, &start, 20.0, watch).unwrap();
         } else {

@@ -152,7 +152,7 @@ impl<S: Laned<N>, const N: usize> LaneTask for InLanes<'_, S, N> {
         let ends = if eight {
             Rk8::new(1e-2).guarded_in_lanes(&system, (0.0, &start), &[span], guard, |_, _, _, _| ())
         } else {
-            Rk4 { step: 1e-3 }.guarded_in_lanes(&system, (0.0, &start), &[span], guard, |_, _, _, _| ())
+            Rk4::new(1e-3).guarded_in_lanes(&system, (0.0, &start), &[span], guard, |_, _, _, _| ())
         };
         ends.failed().is_empty()
     }
@@ -185,8 +185,8 @@ where
     S: Laned<N> + Copy + 'static,
 {
     let mut pairs = vec![
-        pair(name, "euler", system, start, span / 4.0, Euler { step: 1e-5 }),
-        pair(name, "rk4", system, start, 4.0 * span, Rk4 { step: 1e-3 }),
+        pair(name, "euler", system, start, span / 4.0, Euler::new(1e-5)),
+        pair(name, "rk4", system, start, 4.0 * span, Rk4::new(1e-3)),
         pair(name, "rk8", system, start, 20.0 * span, Rk8::new(1e-2)),
     ];
     pairs.extend(in_lanes(name, system, start, 2.0 * span));
@@ -219,7 +219,7 @@ fn by_taylor<S, const N: usize>(name: &'static str, system: S, start: [f64; N], 
 where
     S: TaylorSeries<f64, N> + Copy + 'static,
 {
-    let method = Taylor::new(1e-12);
+    let method = Taylor::new(1e-12, 1e-12);
     [("taylor", method), ("taylor-blind", method.without_comparison())]
         .map(|(word, method)| pair(name, word, system, start, span, method))
 }
@@ -268,12 +268,12 @@ fn pairs() -> Vec<Pair> {
     pairs.extend(fixed("appell", crank, pushed, 1.0));
     pairs.extend(with_taylor("hoop", rolling, start, 5.0));
     // Not in lanes, whose starts would no longer be sines and cosines.
-    pairs.push(pair("hoop'", "euler", carried, lifted, 1.25, Euler { step: 1e-5 }));
-    pairs.push(pair("hoop'", "rk4", carried, lifted, 20.0, Rk4 { step: 1e-3 }));
+    pairs.push(pair("hoop'", "euler", carried, lifted, 1.25, Euler::new(1e-5)));
+    pairs.push(pair("hoop'", "rk4", carried, lifted, 20.0, Rk4::new(1e-3)));
     pairs.push(pair("hoop'", "rk8", carried, lifted, 100.0, Rk8::new(1e-2)));
     let short = start.map(|x| x as f32);
-    pairs.push(pair("hoop32", "euler", single, short, 1.0, Euler { step: 1e-4 }));
-    pairs.push(pair("hoop32", "rk4", single, short, 10.0, Rk4 { step: 1e-3 }));
+    pairs.push(pair("hoop32", "euler", single, short, 1.0, Euler::new(1e-4)));
+    pairs.push(pair("hoop32", "rk4", single, short, 10.0, Rk4::new(1e-3)));
     pairs.push(pair("hoop32", "rk8", single, short, 100.0, Rk8::new(1e-2)));
     pairs.extend(pairs_of("chain10", hanging, angles, 1.0));
     pairs.extend(fixed("chain20", long, bent, 1.0));

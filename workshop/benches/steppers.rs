@@ -119,11 +119,11 @@ fn main() {
     measure("DOP853 1e-9", &hoop, &start, &Dop853::new(1e-9, 1e-9));
     measure("DOP853 1e-12", &hoop, &start, &Dop853::new(1e-12, 1e-12));
     measure("Tsit5 1e-6", &hoop, &start, &Tsit5::new(1e-6, 1e-6));
-    measure("RK4 h = 0.01", &hoop, &start, &Rk4 { step: 0.01 });
+    measure("RK4 h = 0.01", &hoop, &start, &Rk4::new(0.01));
     measure("RK8 h = 0.1", &hoop, &start, &Rk8::new(0.1));
-    measure("Taylor 1e-6", &hoop, &start, &Taylor::new(1e-6));
-    measure("Taylor 1e-12", &hoop, &start, &Taylor::new(1e-12));
-    measure("Euler h = 0.0001", &hoop, &start, &Euler { step: 0.0001 });
+    measure("Taylor 1e-6", &hoop, &start, &Taylor::new(1e-6, 1e-6));
+    measure("Taylor 1e-12", &hoop, &start, &Taylor::new(1e-12, 1e-12));
+    measure("Euler h = 0.0001", &hoop, &start, &Euler::new(0.0001));
 
     // The observer's price: a closure that does next to nothing, called once in a step.
     let method = Dop853::new(1e-9, 1e-9);

@@ -16,6 +16,18 @@
 //! samples and [`Event`]s lie on the [`Dense`] output, a [`Guard`] watches what the system keeps. Each has the short ways
 //! `integrate`, with an observer, and `sample`, which lands on given times. Sizes are fixed at compile time and nothing
 //! is allocated. Every accepted state is finite, and a failure carries the last one that was in order.
+//!
+//! Methods with a fixed step are made by `new(step)`, those that choose it by `new(rtol, atol)`; `with_..` sets what else there is.
+//!
+//! ```
+//! use guen_runtime::steppers::{Dop853, Euler, Gauss4, Gauss6, Radau5, Rk4, Rk8, Taylor, Tsit5};
+//!
+//! let steps = [Euler::new(0.1).step, Rk4::new(0.1).step, Rk8::new(0.1).step, Gauss4::new(0.1).step, Gauss6::new(0.1).step];
+//! assert_eq!(steps, [0.1; 5]);
+//! let (a, b, c) = (Tsit5::<f64>::new(1e-6, 1e-9), Dop853::<f64>::new(1e-6, 1e-9), Radau5::<f64>::new(1e-6, 1e-9));
+//! let d = Taylor::<f64>::new(1e-6, 1e-9);
+//! assert_eq!([a.rtol, b.rtol, c.rtol, d.rtol, a.atol, b.atol, c.atol, d.atol], [1e-6, 1e-6, 1e-6, 1e-6, 1e-9, 1e-9, 1e-9, 1e-9]);
+//! ```
 
 mod driver;
 pub(crate) mod explicit;

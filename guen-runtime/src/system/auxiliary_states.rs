@@ -57,8 +57,8 @@ pub struct Renormalized<S>(S);
 ///
 /// let run = |end: IntegrationResult<f64, 2>| (end.state[0].powi(2) + end.state[1].powi(2) - 1.0).abs();
 /// let go_on = |_: f64, _: &[f64; 2]| ControlFlow::Continue(());
-/// let free = Rk4 { step: 0.1 }.integrate(&Clock, 0.0, &[0.0, 1.0], 100.0, go_on).unwrap();
-/// let held = Rk4 { step: 0.1 }.integrate(&renormalized(Clock), 0.0, &[0.0, 1.0], 100.0, go_on).unwrap();
+/// let free = Rk4::new(0.1).integrate(&Clock, 0.0, &[0.0, 1.0], 100.0, go_on).unwrap();
+/// let held = Rk4::new(0.1).integrate(&renormalized(Clock), 0.0, &[0.0, 1.0], 100.0, go_on).unwrap();
 /// assert!(run(free) > 1e-6 && run(held) < 1e-13);
 /// ```
 pub fn renormalized<S>(system: S) -> Renormalized<S> {

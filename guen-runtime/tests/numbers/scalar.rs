@@ -123,7 +123,7 @@ fn steppers_accept_any_real() {
     let go_on = |_: Plain, _: &[Plain; 1]| ControlFlow::Continue(());
     let done = Dop853::new(1e-12, 1e-12).integrate(&growth, t0, &[Plain(1.0)], t1, go_on).unwrap();
     assert!((done.state[0].0 - std::f64::consts::E).abs() < 1e-11);
-    let done = Rk4 { step: Plain(0.001) }.integrate(&growth, t0, &[Plain(1.0)], t1, go_on).unwrap();
+    let done = Rk4::new(Plain(0.001)).integrate(&growth, t0, &[Plain(1.0)], t1, go_on).unwrap();
     assert!((done.state[0].0 - std::f64::consts::E).abs() < 1e-12);
     assert_eq!(done.statistics.accepted, 1000);
 }

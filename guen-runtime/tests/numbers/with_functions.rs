@@ -90,12 +90,12 @@ fn a_dual_fuses_what_its_real_fuses() {
 fn steppers_take_reals_with_other_functions() {
     let pendulum = from_fn(|_t: Approx13, &[q, w]: &[Approx13; 2]| [w, -q.sin()]);
     let start = [1.0, 0.0].map(Approx13::new);
-    let method = Rk4 { step: Approx13::new(0.01) };
+    let method = Rk4::new(Approx13::new(0.01));
     let [zero, one] = [0.0, 1.0].map(Approx13::new);
     let done =
         method.integrate(&pendulum, zero, &start, one, |_, _| core::ops::ControlFlow::Continue(())).unwrap();
     let exact = from_fn(|_t: f64, &[q, w]: &[f64; 2]| [w, -Real::sin(q)]);
-    let reference = Rk4 { step: 0.01 }
+    let reference = Rk4::new(0.01)
         .integrate(&exact, 0.0, &[1.0, 0.0], 1.0, |_, _| core::ops::ControlFlow::Continue(()))
         .unwrap();
     assert!((done.state[0].value - reference.state[0]).abs() < 1e-13);

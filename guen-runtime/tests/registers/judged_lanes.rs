@@ -195,7 +195,7 @@ impl LaneTask for InEach<'_> {
                 let ends = if self.eight {
                     Rk8::new(*step).guarded_in_lanes(system, (0.0, &start), times, *guard, visit)
                 } else {
-                    Rk4 { step: *step }.guarded_in_lanes(system, (0.0, &start), times, *guard, visit)
+                    Rk4::new(*step).guarded_in_lanes(system, (0.0, &start), times, *guard, visit)
                 };
                 (ends, visits)
             })
@@ -231,7 +231,7 @@ fn compare(system: Fault, starts: &[[f64; 3]], step: f64, times: &[f64]) -> (usi
                 if eight {
                     Rk8::new(step).sample(&system, 0.0, start, times, visit)
                 } else {
-                    Rk4 { step }.sample(&system, 0.0, start, times, visit)
+                    Rk4::new(step).sample(&system, 0.0, start, times, visit)
                 }
             })
             .collect();
@@ -339,7 +339,7 @@ fn limits_are_those_of_the_guard() {
                 .iter()
                 .map(|start| {
                     let run = Integration::new(&system, 0.0, start).guard(guard);
-                    if eight { run.run(&Rk8::new(0.05), 2.0) } else { run.run(&Rk4 { step: 0.05 }, 2.0) }
+                    if eight { run.run(&Rk8::new(0.05), 2.0) } else { run.run(&Rk4::new(0.05), 2.0) }
                 })
                 .collect();
             for width in [Width::Four, Width::Eight] {
@@ -377,7 +377,7 @@ impl LaneTask for Together<'_> {
             let start = core::array::from_fn(|i| L::from_fn(|lane| group[lane][i]));
             let run = Integration::new(&system, L::zero(), &start);
             let (step, end) = (L::from_f64(step), L::from_f64(span));
-            let end = if eight { run.run(&Rk8::new(step), end) } else { run.run(&Rk4 { step }, end) };
+            let end = if eight { run.run(&Rk8::new(step), end) } else { run.run(&Rk4::new(step), end) };
             end.err().map(|error| (error.time.to_f64(), error.cause))
         });
         (L::COUNT, groups.collect())
@@ -392,7 +392,7 @@ fn compare_together(system: Fault, starts: &[[f64; 3]], step: f64, span: f64) ->
             .iter()
             .map(|start| {
                 let run = Integration::new(&system, 0.0, start);
-                let end = if eight { run.run(&Rk8::new(step), span) } else { run.run(&Rk4 { step }, span) };
+                let end = if eight { run.run(&Rk8::new(step), span) } else { run.run(&Rk4::new(step), span) };
                 end.err().map(|error| (error.time, error.cause))
             })
             .collect();

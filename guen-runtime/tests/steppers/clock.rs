@@ -78,9 +78,9 @@ where
 
 macro_rules! with_every_method {
     ($check:ident) => {
-        $check!("Euler", Euler { step: 1e-3 });
-        $check!("RK4", Rk4 { step: 0.01 });
-        $check!("RK4 in steps of 1 ms", Rk4 { step: 1e-3 });
+        $check!("Euler", Euler::new(1e-3));
+        $check!("RK4", Rk4::new(0.01));
+        $check!("RK4 in steps of 1 ms", Rk4::new(1e-3));
         $check!("RK8", Rk8::new(0.1));
         $check!("DOP853", Dop853::new(1e-12, 1e-12));
         $check!("DOP853 at 1e-6", Dop853::new(1e-6, 1e-6));
@@ -88,7 +88,7 @@ macro_rules! with_every_method {
         $check!("Gauss 4", Gauss4::new(0.02));
         $check!("Gauss 6", Gauss6::new(0.05));
         $check!("Radau 5", Radau5::new(1e-10, 1e-10));
-        $check!("Taylor", Taylor::new(1e-15));
+        $check!("Taylor", Taylor::new(1e-15, 1e-15));
     };
 }
 
@@ -179,7 +179,7 @@ fn control_periods_are_as_right_as_from_zero() {
             }
         };
     }
-    check!("RK4", integrate!(Rk4 { step: 0.003 }));
+    check!("RK4", integrate!(Rk4::new(0.003)));
     check!("RK8", integrate!(Rk8::new(0.01)));
     check!("DOP853", integrate!(Dop853::new(1e-9, 1e-9)));
     check!("Tsit5", integrate!(Tsit5::new(1e-9, 1e-9)));
@@ -226,7 +226,7 @@ fn lanes_are_as_right_as_from_zero() {
             }
         };
     }
-    check!("RK4", Rk4 { step: 0.01 });
+    check!("RK4", Rk4::new(0.01));
     check!("RK8", Rk8::new(0.1));
 }
 
@@ -253,8 +253,8 @@ fn rates_that_know_the_time_cost_its_rounding() {
             }
         };
     }
-    check!("Euler", Euler { step: 1e-3 });
-    check!("RK4", Rk4 { step: 0.01 });
+    check!("Euler", Euler::new(1e-3));
+    check!("RK4", Rk4::new(0.01));
     check!("RK8", Rk8::new(0.1));
     // Tolerances that are not below that: a step of a second errs by as much as rounding moves its rates.
     check!("DOP853", Dop853::new(1e-7, 1e-7));
@@ -311,7 +311,7 @@ fn a_span_of_a_few_spacings_is_no_underflow() {
                     };
                 }
                 with_every_method!(check);
-                check!("RK4, compensated", Rk4 { step: 0.01 }.compensated());
+                check!("RK4, compensated", Rk4::new(0.01).compensated());
                 for (name, work) in
                     [("bounded DOP853", Bounded::dop853(12)), ("bounded Tsit5", Bounded::tsit5(7))]
                 {
@@ -336,7 +336,7 @@ impl LaneTask for Ends {
     fn run<L: Lanes>(self) -> Self::Output {
         let Self(from, to) = self;
         let start = START.map(L::from_f64);
-        let four = Rk4 { step: 0.01 }.integrate_in_lanes(&generic(Oscillator), from, &start, to);
+        let four = Rk4::new(0.01).integrate_in_lanes(&generic(Oscillator), from, &start, to);
         let eight = Rk8::new(0.1).integrate_in_lanes(&generic(Oscillator), from, &start, to);
         [four, eight].map(|ends| ends.lane(0).unwrap().as_ref().unwrap().state)
     }

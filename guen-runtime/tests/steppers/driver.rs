@@ -26,8 +26,8 @@ fn go_on<T>(_: T) -> ControlFlow<()> {
 /// Runs a check with every method, each set so that its states are right to about 1e-6, dense output included.
 macro_rules! with_every_method {
     ($check:ident) => {
-        $check("Euler", &Euler { step: 2e-5 }, 1e-4);
-        $check("RK4", &Rk4 { step: 0.02 }, 1e-6);
+        $check("Euler", &Euler::new(2e-5), 1e-4);
+        $check("RK4", &Rk4::new(0.02), 1e-6);
         $check("RK8", &Rk8::new(0.1), 1e-6);
         $check("DOP853", &Dop853::new(1e-9, 1e-9), 1e-6);
         $check("Tsit5", &Tsit5::new(1e-9, 1e-9), 1e-6);
@@ -120,7 +120,7 @@ fn an_event_is_found_to_its_tolerance_and_past_the_crossing() {
     for tolerance in [1e-3, 1e-6, 1e-9, 0.0] {
         let done = Integration::new(&falling(), 0.0, &[1.0, 0.0])
             .events([Event::new(&height).terminal().within(tolerance)], &mut |event| go_on(event))
-            .run(&Rk4 { step: 0.1 }, 1.0)
+            .run(&Rk4::new(0.1), 1.0)
             .unwrap();
         let late = done.time - exact;
         assert!(late >= -2e-16 && late <= tolerance.max(1e-15), "{tolerance:e}: {late:e}");
@@ -153,7 +153,7 @@ fn samples_after_a_terminal_event_are_not_taken() {
     Integration::new(&falling(), 0.0, &[1.0, 0.0])
         .sample(&times, &mut |_, t, _| seen.push(t))
         .events([Event::new(&height).terminal()], &mut |event| go_on(event))
-        .run(&Rk4 { step: 1.0 }, 1.0)
+        .run(&Rk4::new(1.0), 1.0)
         .unwrap();
     assert_eq!(seen, [0.0, 0.2, 0.4]);
 }
@@ -185,7 +185,7 @@ fn crossings_within_a_step_are_seen_where_checks_are_asked_for() {
                 times.push(event.time);
                 go_on(event)
             })
-            .run(&Rk4 { step: 10.0 }, 10.0)
+            .run(&Rk4::new(10.0), 10.0)
             .unwrap();
         times
     };
@@ -209,7 +209,7 @@ fn touching_zero_is_no_event_unless_a_step_ends_there() {
                 count += 1;
                 go_on(event)
             })
-            .run(&Rk4 { step }, 2.0)
+            .run(&Rk4::new(step), 2.0)
             .unwrap();
         count
     };
@@ -284,7 +284,7 @@ fn evaluations_for_dense_output_are_counted() {
             .unwrap();
         assert_eq!(done.statistics.evaluations, system.0.get(), "{name}");
     }
-    check("RK4", &Rk4 { step: 0.02 }, 0.0);
+    check("RK4", &Rk4::new(0.02), 0.0);
     check("RK8", &Rk8::new(0.1), 0.0);
     check("DOP853", &Dop853::new(1e-9, 1e-9), 0.0);
     check("Tsit5", &Tsit5::new(1e-9, 1e-9), 0.0);
@@ -307,7 +307,7 @@ fn a_time_that_is_none_and_a_tolerance_that_cannot_be_met_are_called_that() {
     }
     with_every_method!(check);
     for t0 in [f64::NAN, f64::INFINITY] {
-        let run = Rk4 { step: 0.1 }.sample(&generic(Oscillator), t0, &START, &[1.0], |_, _, _| ());
+        let run = Rk4::new(0.1).sample(&generic(Oscillator), t0, &START, &[1.0], |_, _, _| ());
         assert_eq!(run.unwrap_err().cause, Cause::Setting(Setting::Time));
     }
     // In units of this tolerance an error is beyond the range of doubles, though everything is finite.

@@ -30,7 +30,7 @@ fn growth_and_oscillation_are_followed_to_tolerance() {
     assert!((done.state[0] / 5.0_f64.exp() - 1.0).abs() < 1e-12);
     let done = tight.integrate(&oscillator(), 0.0, &[0.0, 1.0], 100.0, go_on).unwrap();
     assert!((done.state[0] - 100.0_f64.sin()).abs() < 1e-11);
-    let done = Rk4 { step: 1e-3 }.integrate(&oscillator(), 0.0, &[0.0, 1.0], 10.0, go_on).unwrap();
+    let done = Rk4::new(1e-3).integrate(&oscillator(), 0.0, &[0.0, 1.0], 10.0, go_on).unwrap();
     assert!((done.state[0] - 10.0_f64.sin()).abs() < 1e-12);
 }
 
@@ -84,14 +84,14 @@ fn counted_evaluations_are_those_made() {
     count.set(0);
     // What a guard evaluates to judge a step is its own, and it would not be content with this one.
     let run = Integration::new(&counting, 0.0, &[0.0]).guard(Guard::FINITE);
-    let done = run.run(&Rk4 { step: 0.1 }, 1.0).unwrap();
+    let done = run.run(&Rk4::new(0.1), 1.0).unwrap();
     assert_eq!((done.statistics.evaluations, done.statistics.accepted), (count.get(), 10));
 }
 
 #[test]
 fn fixed_steps_do_not_drift() {
     let mut times = Vec::new();
-    let done = Rk4 { step: 0.1 }
+    let done = Rk4::new(0.1)
         .integrate(&growth(), 1.0, &[1.0], 2.05, |t, _| {
             times.push(t);
             ControlFlow::Continue(())
@@ -104,7 +104,7 @@ fn fixed_steps_do_not_drift() {
     assert_eq!((times[10], done.time), (2.05, 2.05));
     // A third of a span is three steps, though three thirds exceed or miss one by a rounding.
     for span in [1.0, 0.7, 0.1, 1e9, 3e-7] {
-        let done = Rk4 { step: span / 3.0 }.integrate(&oscillator(), 0.0, &[0.0, 0.0], span, go_on).unwrap();
+        let done = Rk4::new(span / 3.0).integrate(&oscillator(), 0.0, &[0.0, 0.0], span, go_on).unwrap();
         assert_eq!(done.statistics.accepted, 3);
     }
 }
@@ -116,7 +116,7 @@ fn a_run_backwards_returns() {
     let back = method.integrate(&oscillator(), 7.0, &there.state, 0.0, go_on).unwrap();
     assert_eq!(back.time, 0.0);
     assert!((back.state[0] - 0.3).abs() < 1e-11 && (back.state[1] - 0.8).abs() < 1e-11);
-    let back = Rk4 { step: 0.001 }.integrate(&oscillator(), 7.0, &there.state, 0.0, go_on).unwrap();
+    let back = Rk4::new(0.001).integrate(&oscillator(), 7.0, &there.state, 0.0, go_on).unwrap();
     assert!((back.state[0] - 0.3).abs() < 1e-11);
 }
 
@@ -126,7 +126,7 @@ fn a_span_of_zero_is_no_step() {
     let done = Dop853::new(1e-9, 1e-9).integrate(&growth(), 2.0, &[1.5], 2.0, watch).unwrap();
     assert_eq!((done.time, done.state, done.outcome), (2.0, [1.5], Outcome::Arrived));
     assert_eq!(done.statistics, Statistics::default());
-    let done = Rk4 { step: 0.1 }.integrate(&growth(), 2.0, &[1.5], 2.0, watch).unwrap();
+    let done = Rk4::new(0.1).integrate(&growth(), 2.0, &[1.5], 2.0, watch).unwrap();
     assert_eq!((done.time, done.state), (2.0, [1.5]));
 }
 
@@ -143,7 +143,7 @@ fn samples_are_taken_at_the_times_given() {
     assert_eq!(visited, times.into_iter().enumerate().collect::<Vec<_>>());
     assert_eq!(done.time, -1.0);
     let mut visited = 0;
-    let done = Rk4 { step: 0.001 }
+    let done = Rk4::new(0.001)
         .sample(&growth(), 0.0, &[1.0], &times, |index, t, x| {
             assert_eq!((index, t), (visited, times[visited]));
             assert!((x[0] - t.exp()).abs() < 1e-11, "{t}");
@@ -169,7 +169,7 @@ fn the_observer_can_stop() {
     let falling = from_fn(|_t: f64, &[_, v]: &[f64; 2]| [v, -9.81]);
     let stop =
         |_: f64, x: &[f64; 2]| if x[0] < 0.0 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
-    let done = Rk4 { step: 0.01 }.integrate(&falling, 0.0, &[1.0, 0.0], 10.0, stop).unwrap();
+    let done = Rk4::new(0.01).integrate(&falling, 0.0, &[1.0, 0.0], 10.0, stop).unwrap();
     assert_eq!(done.outcome, Outcome::Stopped);
     assert!(done.state[0] < 0.0 && (done.time - (2.0_f64 / 9.81).sqrt()).abs() < 0.011);
 }
@@ -204,7 +204,7 @@ fn the_end_of_a_domain_is_not_finite() {
     let error = Dop853::new(1e-10, 1e-10).integrate(&sinking, 0.0, &[1.0], 2.0, go_on).unwrap_err();
     assert_eq!(error.cause, Cause::NotFinite);
     assert!((error.time - 1.0).abs() < 1e-12 && error.state[0] >= 0.0);
-    let error = Rk4 { step: 0.3 }.integrate(&sinking, 0.0, &[1.0], 2.0, go_on).unwrap_err();
+    let error = Rk4::new(0.3).integrate(&sinking, 0.0, &[1.0], 2.0, go_on).unwrap_err();
     assert_eq!((error.cause, error.time), (Cause::NotFinite, 0.3 * 3.0));
     assert!((error.state[0] - 0.1).abs() < 1e-14);
 }
@@ -215,7 +215,7 @@ fn a_rate_without_value_is_reported_at_once() {
     let error = Dop853::new(1e-9, 1e-9).integrate(&broken, 3.0, &[1.0], 4.0, go_on).unwrap_err();
     assert_eq!((error.cause, error.time, error.state), (Cause::NotFinite, 3.0, [1.0]));
     assert_eq!(error.statistics.evaluations, 1);
-    let error = Rk4 { step: 0.1 }.integrate(&broken, 3.0, &[1.0], 4.0, go_on).unwrap_err();
+    let error = Rk4::new(0.1).integrate(&broken, 3.0, &[1.0], 4.0, go_on).unwrap_err();
     assert_eq!((error.cause, error.time, error.state), (Cause::NotFinite, 3.0, [1.0]));
     let error = Dop853::new(1e-9, 1e-9).integrate(&growth(), 0.0, &[f64::INFINITY], 1.0, go_on).unwrap_err();
     assert_eq!(error.cause, Cause::NotFinite);
@@ -237,18 +237,18 @@ fn senseless_settings_are_refused() {
         assert_eq!(error.cause, Cause::Setting(Setting::Tolerance));
     }
     for step in [0.0, -0.1, f64::NAN, f64::INFINITY] {
-        let error = Rk4 { step }.integrate(&growth(), 0.0, &[1.0], 1.0, go_on).unwrap_err();
+        let error = Rk4::new(step).integrate(&growth(), 0.0, &[1.0], 1.0, go_on).unwrap_err();
         assert_eq!(error.cause, Cause::Setting(Setting::Step));
         let method = Dop853::new(1e-9, 1e-9).with_first_step(step);
         let error = method.integrate(&growth(), 0.0, &[1.0], 1.0, go_on).unwrap_err();
         assert_eq!(error.cause, Cause::Setting(Setting::Step));
     }
-    let error = Rk4 { step: 0.1 }.integrate(&growth(), 0.0, &[1.0], f64::NAN, go_on).unwrap_err();
+    let error = Rk4::new(0.1).integrate(&growth(), 0.0, &[1.0], f64::NAN, go_on).unwrap_err();
     assert_eq!(error.cause, Cause::Setting(Setting::Time));
     // Steps that do not move time, and steps without number.
-    let error = Rk4 { step: 1e-10 }.integrate(&growth(), 1e12, &[1.0], 1e12 + 1.0, go_on).unwrap_err();
+    let error = Rk4::new(1e-10).integrate(&growth(), 1e12, &[1.0], 1e12 + 1.0, go_on).unwrap_err();
     assert_eq!(error.cause, Cause::StepUnderflow);
-    let error = Rk4 { step: 1e-300 }.integrate(&growth(), 0.0, &[1.0], 1.0, go_on).unwrap_err();
+    let error = Rk4::new(1e-300).integrate(&growth(), 0.0, &[1.0], 1.0, go_on).unwrap_err();
     assert_eq!(error.cause, Cause::StepUnderflow);
 }
 
@@ -257,7 +257,7 @@ fn single_precision_is_integrated_to_its_own_accuracy() {
     let oscillator = from_fn(|_t: f32, &[x, v]: &[f32; 2]| [v, -x]);
     let done = Dop853::new(1e-6, 1e-6).integrate(&oscillator, 0.0, &[0.0, 1.0], 10.0, go_on).unwrap();
     assert!((done.state[0] - 10.0_f32.sin()).abs() < 1e-4);
-    let done = Rk4 { step: 0.01_f32 }.integrate(&oscillator, 0.0, &[0.0, 1.0], 10.0, go_on).unwrap();
+    let done = Rk4::new(0.01_f32).integrate(&oscillator, 0.0, &[0.0, 1.0], 10.0, go_on).unwrap();
     assert_eq!(done.statistics.accepted, 1000);
     assert!((done.state[0] - 10.0_f32.sin()).abs() < 1e-4);
 }
@@ -287,7 +287,7 @@ fn compensated_steps_keep_what_rounding_takes() {
     let drip = from_fn(|_t: f64, _: &[f64; 2]| [(-60.0_f64).exp2(), (-9.0_f64).exp2()]);
     let steps = 1 << 16;
     let span = f64::from(steps);
-    let method = Rk4 { step: 1.0 };
+    let method = Rk4::new(1.0);
     let plain = Integration::new(&drip, 0.0, &[1.0, 0.0]).run(&method, span).unwrap();
     let done = Integration::new(&drip, 0.0, &[1.0, 0.0]).run(&method.compensated(), span).unwrap();
     assert_eq!((plain.state[0], done.state[0] - 1.0), (1.0, (-44.0_f64).exp2()));
@@ -324,7 +324,7 @@ fn a_run_lands_on_given_times_with_everything_that_is_watched() {
             shown.push(t);
             ControlFlow::Continue(())
         })
-        .run_through(&Rk4 { step: 0.5 }, &stops, |index, t, _| landed.push((index, t)))
+        .run_through(&Rk4::new(0.5), &stops, |index, t, _| landed.push((index, t)))
         .unwrap();
     // The stone arrives at one second, so that the last time is not reached.
     assert_eq!((done.outcome, landed), (Outcome::Event(0), vec![(0, 0.25), (1, 0.75)]));
@@ -333,7 +333,7 @@ fn a_run_lands_on_given_times_with_everything_that_is_watched() {
     let strict = Guard { step: 1e-12, ..Guard::default() };
     let run = |guard| {
         Integration::new(&oscillator(), 0.0, &[0.0, 1.0]).guard(guard).run_through(
-            &Rk4 { step: 0.1 },
+            &Rk4::new(0.1),
             &[1.0, 0.5],
             |_, _, _| (),
         )
@@ -341,7 +341,7 @@ fn a_run_lands_on_given_times_with_everything_that_is_watched() {
     assert!(run(Guard::default()).is_ok() && matches!(run(strict).unwrap_err().cause, Cause::Step { .. }));
     // Samples need an order, so these times may not turn back.
     let back = Integration::new(&fall, 0.0, &[5.0, 0.0]).sample(&[0.5], &mut |_, _, _| ()).run_through(
-        &Rk4 { step: 0.5 },
+        &Rk4::new(0.5),
         &[1.0, 0.5],
         |_, _, _| (),
     );

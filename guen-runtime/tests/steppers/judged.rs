@@ -55,9 +55,9 @@ fn estimates_follow_the_errors_of_every_method() {
         assert!(passes(most * off), "{name}: the estimate is above {most} times the error {off:.1e}");
         assert!(!passes(least * off), "{name}: the estimate is below {least} times the error {off:.1e}");
     }
-    check("Euler", &Euler { step: 0.003 }, 0.2, 3.0);
-    check("RK4", &Rk4 { step: 0.4 }, 0.3, 3.0);
-    check("RK4 compensated", &Rk4 { step: 0.4 }.compensated(), 0.3, 3.0);
+    check("Euler", &Euler::new(0.003), 0.2, 3.0);
+    check("RK4", &Rk4::new(0.4), 0.3, 3.0);
+    check("RK4 compensated", &Rk4::new(0.4).compensated(), 0.3, 3.0);
     check("RK8", &Rk8::new(2.0), 0.5, 5.0);
     check("Gauss 4", &Gauss4::new(0.7), 0.2, 3.0);
     // The formulas below order six are taken to that order by their ratio, which is too careful in smooth motions.
@@ -92,7 +92,7 @@ fn the_end_of_the_shortest_run_is_looked_at() {
     let system = generic(Damped);
     for steps in [1, 2, 5] {
         let span = 1e-3 * f64::from(steps);
-        let four = Rk4 { step: 1e-3 }.integrate(&system, 0.0, &[0.0, 2.0], span, go_on).unwrap_err();
+        let four = Rk4::new(1e-3).integrate(&system, 0.0, &[0.0, 2.0], span, go_on).unwrap_err();
         let eight = Rk8::new(1e-3).integrate(&system, 0.0, &[0.0, 2.0], span, go_on).unwrap_err();
         let short = Rk8::new(1e-3).sample(&system, 0.0, &[0.0, 2.0], &[span], |_, _, _| ()).unwrap_err();
         for error in [four, eight, short] {
@@ -102,7 +102,7 @@ fn the_end_of_the_shortest_run_is_looked_at() {
     }
     // An entry that begins at zero has no size in the first steps: what is small beside the others is no fault.
     let fall = from_fn(|_t: f64, &[_, v]: &[f64; 2]| [v, -9.81]);
-    let done = Euler { step: 0.01 }.integrate(&fall, 0.0, &[0.0, 1.0], 0.01, go_on).unwrap();
+    let done = Euler::new(0.01).integrate(&fall, 0.0, &[0.0, 1.0], 0.01, go_on).unwrap();
     assert_eq!(done.statistics.accepted, 1);
 }
 
@@ -139,7 +139,7 @@ fn passing_an_edge_between_two_looks_is_seen() {
             // Of a guard that looks rarely: after the first step, and at the end.
             let guard = Guard { every: Some(1000), step: f64::INFINITY, ..Guard::default() };
             let pole = Pole { offset };
-            let four = Integration::new(&pole, 0.0, &start).guard(guard).run(&Rk4 { step }, 2.0);
+            let four = Integration::new(&pole, 0.0, &start).guard(guard).run(&Rk4::new(step), 2.0);
             let eight = Integration::new(&pole, 0.0, &start).guard(guard).run(&Rk8::new(step), 2.0);
             for run in [four, eight] {
                 match run {

@@ -41,15 +41,15 @@ impl TaylorSeries<f64, 4> for Balls {
 
 macro_rules! with_every_method {
     ($check:ident, $($argument:expr),*) => {
-        $check("Euler", &Euler { step: 1e-3 }, $($argument),*);
-        $check("RK4", &Rk4 { step: 0.01 }, $($argument),*);
+        $check("Euler", &Euler::new(1e-3), $($argument),*);
+        $check("RK4", &Rk4::new(0.01), $($argument),*);
         $check("RK8", &Rk8::new(0.1), $($argument),*);
         $check("DOP853", &Dop853::new(1e-9, 1e-9), $($argument),*);
         $check("Tsit5", &Tsit5::new(1e-9, 1e-9), $($argument),*);
         $check("Gauss 4", &Gauss4::new(0.02), $($argument),*);
         $check("Gauss 6", &Gauss6::new(0.05), $($argument),*);
         $check("Radau 5", &Radau5::new(1e-9, 1e-9), $($argument),*);
-        $check("Taylor", &Taylor::new(1e-12), $($argument),*);
+        $check("Taylor", &Taylor::new(1e-12, 1e-12), $($argument),*);
     };
 }
 
@@ -279,7 +279,7 @@ fn thousands_of_events_at_one_instant_are_one_set() {
             reported.push((event.index, event.time));
             ControlFlow::Continue(())
         })
-        .run(&Rk4 { step: 0.3 }, 2.0)
+        .run(&Rk4::new(0.3), 2.0)
         .unwrap();
     assert_eq!(done.outcome, Outcome::Event(0));
     assert_eq!(reported, (0..E).step_by(3).map(|i| (i, done.time)).collect::<Vec<_>>());
@@ -295,7 +295,7 @@ fn a_receiver_that_stops_a_run_is_told_of_what_has_crossed_and_of_nothing_else()
             seen.push(event.index);
             ControlFlow::Break(())
         })
-        .run(&Rk4 { step: 0.7 }, 2.0)
+        .run(&Rk4::new(0.7), 2.0)
         .unwrap();
     assert_eq!((done.outcome, seen), (Outcome::Stopped, vec![2]));
     assert!((done.time - 1.0).abs() < 1e-15);
@@ -317,7 +317,7 @@ fn a_dip_between_two_looks_is_seen_where_a_run_ends_in_it() {
                     ControlFlow::Continue(())
                 },
             )
-            .run(&Rk4 { step: 2.0 }, 2.0)
+            .run(&Rk4::new(2.0), 2.0)
             .unwrap();
         if terminal {
             assert_eq!((done.outcome, &seen[..]), (Outcome::Event(1), &[(1, 9.0)][..]));
@@ -337,7 +337,7 @@ fn samples_at_the_instant_of_events_come_before_them_and_later_ones_not_at_all()
             log.borrow_mut().push(10 + event.index);
             ControlFlow::Continue(())
         })
-        .run(&Rk4 { step: 0.5 }, 2.0)
+        .run(&Rk4::new(0.5), 2.0)
         .unwrap();
     assert_eq!(*log.borrow(), [0, 1, 10, 11]);
 }
@@ -352,7 +352,7 @@ fn a_function_that_is_undefined_for_a_while_loses_no_crossing() {
             seen.push(event.time);
             ControlFlow::Continue(())
         })
-        .run(&Rk4 { step: 1.0 }, 1.0)
+        .run(&Rk4::new(1.0), 1.0)
         .unwrap();
     assert!(seen.len() == 1 && (seen[0] - 0.9).abs() < 1e-15, "{seen:?}");
 }

@@ -71,11 +71,11 @@ fn damping_of_a_million_is_stable_with_gauss() {
 #[test]
 fn explicit_methods_report_that_the_system_is_stiff() {
     let system = generic(Damped);
-    let error = Rk4 { step: 1e-3 }.integrate(&system, 0.0, &[0.0, 2.0], 10.0, go_on).unwrap_err();
+    let error = Rk4::new(1e-3).integrate(&system, 0.0, &[0.0, 2.0], 10.0, go_on).unwrap_err();
     assert!(matches!(error.cause, Cause::Step { .. }), "{error}");
     assert_eq!((error.time, error.state), (0.0, [0.0, 2.0]));
     let unguarded = Integration::new(&system, 0.0, &[0.0, 2.0]).guard(Guard::FINITE);
-    let error = unguarded.run(&Rk4 { step: 1e-3 }, 10.0).unwrap_err();
+    let error = unguarded.run(&Rk4::new(1e-3), 10.0).unwrap_err();
     assert_eq!(error.cause, Cause::NotFinite);
     assert!(error.time > 0.0 && error.state.iter().all(|x| x.is_finite()));
     let error = Dop853::new(1e-8, 1e-8).integrate(&system, 0.0, &[0.0, 2.0], 10.0, go_on).unwrap_err();
@@ -123,7 +123,7 @@ fn runs_go_back_to_where_they_came_from() {
         println!("{name}: {off:.1e}");
         assert!(back.time == 0.0 && off < bound, "{name}: {off:e}");
     }
-    check("RK4", &Rk4 { step: 0.01 }, 1e-7);
+    check("RK4", &Rk4::new(0.01), 1e-7);
     check("RK8", &Rk8::new(0.1), 1e-9);
     check("DOP853", &Dop853::new(1e-13, 1e-13), 1e-10);
     check("Tsit5", &Tsit5::new(1e-13, 1e-13), 1e-10);
@@ -149,7 +149,7 @@ fn gauss_keeps_quadratic_invariants_and_runge_and_kutta_do_not() {
     let drift = |end: [f64; 3]| (momentum(end) / momentum(start) - 1.0).abs();
     let four = Gauss4::new(0.2).integrate(&generic(Top), 0.0, &start, 1000.0, go_on).unwrap();
     let six = Gauss6::new(0.2).integrate(&generic(Top), 0.0, &start, 1000.0, go_on).unwrap();
-    let rk4 = Rk4 { step: 0.2 }.integrate(&generic(Top), 0.0, &start, 1000.0, go_on).unwrap();
+    let rk4 = Rk4::new(0.2).integrate(&generic(Top), 0.0, &start, 1000.0, go_on).unwrap();
     println!("{:.1e} {:.1e} {:.1e}", drift(four.state), drift(six.state), drift(rk4.state));
     assert!(drift(four.state) < 1e-12 && drift(six.state) < 1e-12);
     assert!(drift(rk4.state) > 1e-6, "the comparison says nothing");

@@ -60,12 +60,12 @@ pub struct Sampled<const N: usize> {
 ///
 /// // One system from many states; then many systems from one state each.
 /// let states = (0..100).map(|i| [i as f64]);
-/// let ends = Ensemble::of_states(&Decay(1.0), states).integrate(&Rk4 { step: 0.01 }, 0.0, 1.0);
+/// let ends = Ensemble::of_states(&Decay(1.0), states).integrate(&Rk4::new(0.01), 0.0, 1.0);
 /// let last = ends[99].as_ref().unwrap();
 /// assert!((last.state[0] - 99.0 * f64::exp(-1.0)).abs() < 1e-7);
 ///
 /// let systems = (0..100).map(|i| (Decay(i as f64 / 10.0), [1.0]));
-/// let ends = Ensemble::of_systems(systems).integrate(&Rk4 { step: 0.01 }, 0.0, 1.0);
+/// let ends = Ensemble::of_systems(systems).integrate(&Rk4::new(0.01), 0.0, 1.0);
 /// assert!((ends[10].as_ref().unwrap().state[0] - f64::exp(-1.0)).abs() < 1e-9);
 /// ```
 #[derive(Clone, Debug)]

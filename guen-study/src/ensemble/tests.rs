@@ -28,7 +28,7 @@ impl Laned<2> for Oscillator<f64> {
     }
 }
 
-const METHOD: Rk4 = Rk4 { step: 0.03 };
+const METHOD: Rk4 = Rk4::new(0.03);
 const TIMES: [f64; 4] = [0.0, 1.0, 2.5, 2.0];
 
 /// Members of which some fail, at different times.
@@ -99,7 +99,7 @@ fn bad_settings_are_errors_of_every_member() {
     for (step, t1, setting) in
         [(0.0, 1.0, Setting::Step), (f64::NAN, 1.0, Setting::Step), (0.1, f64::INFINITY, Setting::Time)]
     {
-        let ends = ensemble.integrate(&Rk4 { step }, 0.0, t1);
+        let ends = ensemble.integrate(&Rk4::new(step), 0.0, t1);
         assert_eq!(ends.len(), 5);
         for (i, end) in ends.into_iter().enumerate() {
             let error = end.unwrap_err();
@@ -119,7 +119,7 @@ fn nothing_to_do_is_done() {
 #[test]
 fn functions_are_exchanged_on_request() {
     // Steps so long that a rounding of the rate shows in the state.
-    let method = Rk4 { step: 0.5 };
+    let method = Rk4::new(0.5);
     let ensemble = Ensemble::of_states(Oscillator(1.1), (0..60).map(|i| [2.0 + 0.01 * f64::from(i), 1.0]));
     let own = ensemble.integrate(&method, 0.0, 3.0);
     let short = ensemble.clone().with_scalar::<Approx7Functions>().integrate(&method, 0.0, 3.0);

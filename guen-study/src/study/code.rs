@@ -36,10 +36,8 @@ pub(super) fn run(
     let own = if real.starts_with('f') { String::new() } else { format!("use guen::{real};\n") };
     let step = if real == "f64" { format!("{setting:?}") } else { format!("R::from_f64({setting:?})") };
     let made = match argument {
-        Argument::Field => format!("{method} {{ step: {step} }}"),
         Argument::Step => format!("{method}::new({step})"),
         Argument::Tolerances => format!("{method}::new({setting:?}, {setting:?})"),
-        Argument::Tolerance => format!("{method}::new({setting:?})"),
     };
     if real == "f64" {
         let system = origin.system();
@@ -72,8 +70,7 @@ pub(super) fn bounded(origin: Origin, constructor: &str, evaluations: f64, span:
 /// The code for lanes.
 pub(super) fn lanes(choice: &str, method: &str, step: f64, span: (f64, f64)) -> String {
     let (t0, t1) = span;
-    let method =
-        if method == "RK8" { format!("Rk8::new({step:?})") } else { format!("Rk4 {{ step: {step:?} }}") };
+    let method = if method == "RK8" { format!("Rk8::new({step:?})") } else { format!("Rk4::new({step:?})") };
     let choice =
         if choice == "f64" { String::new() } else { format!(".with_scalar::<guen::{choice}Functions>()") };
     format!(

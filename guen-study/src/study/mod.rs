@@ -221,8 +221,8 @@ impl<S, const N: usize> Study<S, N> {
     ///         by_hand,
     ///         ["RK4", "f64", "by hand"],
     ///         Settings::Steps,
-    ///         |step| Rk4 { step },
-    ///         |step| format!("Rk4 {{ step: {step} }} on `by_hand`"),
+    ///         Rk4::new,
+    ///         |step| format!("Rk4::new({step}) on `by_hand`"),
     ///     )
     /// }
     /// ```
@@ -406,8 +406,9 @@ impl<S: Recast<N>, const N: usize> Study<S, N> {
         S::In<f64>: TaylorSeries<f64, N>,
     {
         let span = self.span();
-        self.with_method("Taylor", Settings::Tolerances, Taylor::<f64>::new, move |tolerance| {
-            code::run(code::Origin::Recast, "f64", "Taylor", variant::Argument::Tolerance, tolerance, span)
+        let method = |tolerance| Taylor::<f64>::new(tolerance, tolerance);
+        self.with_method("Taylor", Settings::Tolerances, method, move |tolerance| {
+            code::run(code::Origin::Recast, "f64", "Taylor", variant::Argument::Tolerances, tolerance, span)
         })
     }
 

@@ -50,8 +50,8 @@ where
         ["Euler", real, "declared"],
         system,
         Settings::Steps,
-        |step| Euler { step },
-        move |h| code::run(origin, "f64", "Euler", Argument::Field, h, span),
+        Euler::new,
+        move |h| code::run(origin, "f64", "Euler", Argument::Step, h, span),
     ));
     let bounded = |name: &str, constructor: &'static str, formula: fn(u32) -> Bounded| {
         let system = Rc::clone(system);
@@ -149,7 +149,7 @@ where
     {
         let system = self.system.recast::<f64>()?;
         let span = self.span();
-        let four = |step| Rk4 { step };
+        let four = Rk4::new;
         let names = |method| [method, "f64 lanes", "f64"];
         self.variants.push(in_lanes::<_, guen_runtime::PlainLanes, _, N>(names("RK4"), &system, span, four));
         self.variants.push(in_lanes::<_, guen_runtime::PlainLanes, _, N>(

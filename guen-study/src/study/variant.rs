@@ -244,8 +244,8 @@ where
             names("RK4"),
             system,
             Settings::Steps,
-            move |h| Rk4 { step: step(h) },
-            code("Rk4", Argument::Field),
+            move |h| Rk4::new(step(h)),
+            code("Rk4", Argument::Step),
         ),
         variant::<R, S, _, N>(
             names("RK8"),
@@ -274,12 +274,8 @@ where
 /// The argument of a constructor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Argument {
-    /// `Method { step: .. }`.
-    Field,
     /// `Method::new(step)`.
     Step,
     /// `Method::new(rtol, atol)`.
     Tolerances,
-    /// `Method::new(tolerance)`.
-    Tolerance,
 }

@@ -33,7 +33,7 @@ fn spring() -> Study<guen_runtime::Generic<Planar>, 2> {
 /// References that are far from the truth, and from each other.
 fn disagreeing() -> Study<guen_runtime::Generic<Planar>, 2> {
     let step = |n| Digits71::from_ratio(n, 2);
-    spring().reference_by(["RK4", "RK8"], Rk4 { step: step(2) }, Rk8::new(step(5))).unwrap()
+    spring().reference_by(["RK4", "RK8"], Rk4::new(step(2)), Rk8::new(step(5))).unwrap()
 }
 
 /// Of a report in which nothing is certain: no choice, whatever is asked for, and the reason in words.
@@ -192,7 +192,7 @@ fn choices_and_forecasts_say_what_nobody_looked_at() {
 fn settings_that_are_all_useless_are_said_to_be() {
     let study = Study::new(generic(Scalar::Growing), [1.0], 0.0..4.0).unwrap();
     let steps = Settings::List(Knob::Step, vec![2.0, 1.0, 0.5]);
-    let study = study.keep(|_, _| false).with_method("RK4", steps, |step| Rk4 { step }, |_| String::new());
+    let study = study.keep(|_, _| false).with_method("RK4", steps, Rk4::new, |_| String::new());
     let report = study.unwrap().scales([1e3]).count_evaluations().scan(1 << 12).probes(0, 0.0).run().report;
     let [row] = &report.rows[..] else { panic!("{}", report.table()) };
     assert!(row.setting == 0.5 && row.error > Some(0.5), "{row:?}");

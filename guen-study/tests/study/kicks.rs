@@ -59,7 +59,7 @@ fn studied(system: Kicked, points: usize) -> Trade<2> {
         .with_method(
             "RK4",
             Settings::List(Knob::Step, (6..18).map(|k| SPAN * 0.5_f64.powi(k)).collect()),
-            |step| Rk4 { step },
+            Rk4::new,
             |_| String::new(),
         )
         .unwrap()
@@ -115,7 +115,7 @@ fn end(report: &Report, index: usize, system: Kicked, start: [f64; 2]) -> [f64; 
     let system = generic(Planar::Kicked(system));
     let run = Integration::new(&system, 0.0, &start);
     match row.method.as_str() {
-        "RK4" => run.run(&Rk4 { step: row.setting }, SPAN),
+        "RK4" => run.run(&Rk4::new(row.setting), SPAN),
         _ => run.run(&Dop853::new(row.setting, row.setting), SPAN),
     }
     .unwrap()
@@ -287,7 +287,7 @@ fn what_there_was_no_time_to_look_at_is_not_said_to_be_seen() {
 #[test]
 fn a_study_without_a_reference_that_counts_evaluations_ends() {
     // The reference has a step that it refuses.
-    let none = Rk4 { step: Digits71::zero() };
+    let none = Rk4::new(Digits71::zero());
     let system = Kicked { force: Force::Bell, at: 20.0, width: 8.0, strength: 1.0 };
     let study = Study::new(generic(Planar::Kicked(system)), START, 0.0..SPAN).unwrap().count_evaluations();
     let study = study.keep(|method, real| method == "RK4" && real == "f64").probes(0, 0.0).scan(1 << 12);

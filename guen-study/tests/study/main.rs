@@ -75,7 +75,7 @@ fn reported_errors_are_the_true_ones() {
     let truth = exact(SPAN.end);
     let mut compared = 0;
     for row in report.rows.iter().filter(|row| row.method == "RK4" && row.failure.is_none()) {
-        let method = Rk4 { step: row.setting };
+        let method = Rk4::new(row.setting);
         let go_on = |_, _: &[f64; 2]| std::ops::ControlFlow::Continue(());
         let end = method.integrate(&generic(Planar::Oscillator), 0.0, &START, SPAN.end, go_on).unwrap().state;
         let off = |i: usize| {
@@ -188,8 +188,7 @@ fn a_wrong_reference_is_noticed() {
     // are marked and not taken for what they seem.
     let step = |n: i64| Digits71::from_ratio(3, n);
     let study = oscillator().keep(|method, real| method == "DOP853" && real == "f64").probes(0, 0.0);
-    let trade =
-        study.reference_by(["RK4", "RK8"], Rk4 { step: step(100) }, Rk8::new(step(100))).unwrap().run();
+    let trade = study.reference_by(["RK4", "RK8"], Rk4::new(step(100)), Rk8::new(step(100))).unwrap().run();
     let reference = trade.report.reference.as_ref().unwrap();
     let stated = reference.error.unwrap();
     assert!(stated > 1e-8, "{stated:e}");

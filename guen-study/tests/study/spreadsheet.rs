@@ -15,7 +15,7 @@ fn names_and_failures_in_a_report_are_no_formulas() {
         from_fn(|_t: f64, &[x]: &[f64; 1]| [-x]),
         ["=HYPERLINK(\"http://x\")", "@real", "-form"],
         Settings::List(Knob::Step, vec![0.1, -0.1]),
-        |step| Rk4 { step },
+        Rk4::new,
         |_| "=code".to_owned(),
     );
     let csv = study.run().report.to_csv();

@@ -13,7 +13,7 @@ fn single_precision_runs() {
     let single = Hoop::<f32>::new(0.8, 0.5, 1.1).prepare().unwrap();
     let start = STATE.map(|x| x as f32);
     let mut end = start;
-    let done = Rk4 { step: 0.001_f32 }.integrate(&single, 0.0, &start, 1.0, |_, x| {
+    let done = Rk4::new(0.001_f32).integrate(&single, 0.0, &start, 1.0, |_, x| {
         end = *x;
         ControlFlow::Continue(())
     });

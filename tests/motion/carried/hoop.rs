@@ -80,13 +80,13 @@ fn every_stepper_takes_it() {
     let (t, expected) = reference.iter().find(|(t, _)| *t >= 1.0).copied().unwrap();
     let start = hoop::State::from(reference[0].1).carried(&carried, 0.0).into();
     let ends = [
-        ("Rk4", Rk4 { step: 1e-3 }.integrate(&carried, 0.0, &start, t, go_on).unwrap().state, 1e-8),
+        ("Rk4", Rk4::new(1e-3).integrate(&carried, 0.0, &start, t, go_on).unwrap().state, 1e-8),
         ("Rk8", Rk8::new(1e-2).integrate(&carried, 0.0, &start, t, go_on).unwrap().state, 1e-10),
         ("Tsit5", Tsit5::new(1e-10, 1e-10).integrate(&carried, 0.0, &start, t, go_on).unwrap().state, 1e-7),
         ("Gauss4", Gauss4::new(2e-3).integrate(&carried, 0.0, &start, t, go_on).unwrap().state, 1e-7),
         ("Gauss6", Gauss6::new(5e-3).integrate(&carried, 0.0, &start, t, go_on).unwrap().state, 1e-9),
         ("Radau5", Radau5::new(1e-9, 1e-9).integrate(&carried, 0.0, &start, t, go_on).unwrap().state, 1e-7),
-        ("Euler", Euler { step: 1e-5 }.integrate(&carried, 0.0, &start, t, go_on).unwrap().state, 1e-2),
+        ("Euler", Euler::new(1e-5).integrate(&carried, 0.0, &start, t, go_on).unwrap().state, 1e-2),
         (
             "Renormalized",
             Rk8::new(1e-2).integrate(&renormalized(carried), 0.0, &start, t, go_on).unwrap().state,
@@ -106,7 +106,7 @@ fn in_lanes_as_alone_and_in_single_precision() {
     let starts: Vec<[f64; 13]> = (0..13)
         .map(|k| hoop::State { eta3: start.eta3 + 0.1 * f64::from(k), ..start }.carried(&carried, 0.0).into())
         .collect();
-    let method = Rk4 { step: 2e-3 };
+    let method = Rk4::new(2e-3);
     let ends = guen_study::Ensemble::of_states(carried, starts.iter().copied()).integrate(&method, 0.0, 2.0);
     for (start, end) in starts.iter().zip(&ends) {
         let alone = method.integrate(&carried, 0.0, start, 2.0, go_on).unwrap().state;
@@ -114,7 +114,7 @@ fn in_lanes_as_alone_and_in_single_precision() {
     }
     let single = prepared::<f32>().carried().unwrap();
     let begin = hoop::State::from(reference()[0].1.map(|x| x as f32)).carried(&single, 0.0);
-    let end = Rk4 { step: 2e-3_f32 }.integrate(&single, 0.0, &begin.into(), 1.0, go_on).unwrap().state;
+    let end = Rk4::new(2e-3_f32).integrate(&single, 0.0, &begin.into(), 1.0, go_on).unwrap().state;
     let double = method.integrate(&carried, 0.0, &starts[0], 1.0, go_on).unwrap().state;
     assert!(distance(&end.map(f64::from), &double) < 1e-4);
 }
@@ -163,7 +163,7 @@ fn a_guard_sees_a_state_that_is_none() {
 fn renormalizing_keeps_the_circle() {
     let carried = prepared::<f64>().carried().unwrap();
     let start = hoop::State::from(reference()[0].1).carried(&carried, 0.0).into();
-    let method = Rk4 { step: 0.02 };
+    let method = Rk4::new(0.02);
     let left = |state: [f64; 13]| {
         let left = carried.invariants(0.0, &state.into());
         left.iter().fold(0.0_f64, |most, left| most.max(left.abs()))

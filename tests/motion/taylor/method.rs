@@ -40,7 +40,7 @@ fn the_hoop_is_where_the_reference_is() {
     for (tolerance, bound) in [(1e-4, 1e-2), (1e-8, 1e-6), (1e-12, 3e-11), (1e-15, 3e-14)] {
         // Landed on, and between the steps.
         let (mut landed, mut between) = (0.0_f64, 0.0_f64);
-        let method = Taylor::new(tolerance);
+        let method = Taylor::new(tolerance, tolerance);
         method
             .sample(&prepared(), 0.0, &reference[0].1, &times, |k, _, x| {
                 landed = landed.max(off(x, &reference[k].1));
@@ -58,7 +58,7 @@ fn the_hoop_is_where_the_reference_is() {
 #[test]
 fn forwards_and_back_again() {
     let start = reference()[0].1;
-    let method = Taylor::new(1e-15);
+    let method = Taylor::new(1e-15, 1e-15);
     let there = method.integrate(&prepared(), 0.0, &start, 3.0, |_, _| ControlFlow::Continue(())).unwrap();
     let back =
         method.integrate(&prepared(), 3.0, &there.state, 0.0, |_, _| ControlFlow::Continue(())).unwrap();
@@ -87,7 +87,7 @@ fn the_hoop_that_falls_nearly_flat() {
             lowest = lowest.min(x[0].sin());
             ControlFlow::Continue(())
         })
-        .run(&Taylor::new(1e-14), 1.0)
+        .run(&Taylor::new(1e-14, 1e-14), 1.0)
         .unwrap();
     println!("worst {worst:.1e} of the largest entry, lowest tilt of a step {lowest:.2e}");
     assert!(worst < 1e-12 && lowest < 6e-4, "{worst:e}, {lowest:e}");
@@ -103,8 +103,8 @@ fn the_energy_of_a_long_run_stays_at_rounding() {
     };
     let first = energy(0.0, &start);
     let (mut worst, mut steps) = (0.0_f64, 0);
-    Taylor::new(1e-16)
-        .order(24)
+    Taylor::new(1e-16, 1e-16)
+        .with_order(24)
         .integrate(&system, 0.0, &start, 300.0, |t, x| {
             steps += 1;
             if steps % 16 == 0 {
@@ -125,7 +125,7 @@ fn errors_fall_as_the_power_of_the_step() {
     let run = |tolerance: f64, order: u32| {
         let end = Digits71::from_ratio(3, 4);
         Integration::new(&system, Digits71::zero(), &start)
-            .run(&Taylor::new(tolerance).order(order), end)
+            .run(&Taylor::new(tolerance, tolerance).with_order(order), end)
             .unwrap()
     };
     let exact = run(1e-40, 32).state;
@@ -148,14 +148,15 @@ fn single_precision_and_duals() {
     let reference = reference();
     let single = Hoop::<f32> { a: 1.0, A: 0.5, C: 1.0, g: 9.81 }.prepare().unwrap();
     let start = reference[0].1.map(|x| x as f32);
-    let done =
-        Taylor::new(1e-6).integrate(&single, 0.0, &start, 10.0, |_, _| ControlFlow::Continue(())).unwrap();
+    let done = Taylor::new(1e-6, 1e-6)
+        .integrate(&single, 0.0, &start, 10.0, |_, _| ControlFlow::Continue(()))
+        .unwrap();
     let end = reference.iter().find(|(t, _)| *t == 10.0).unwrap().1;
     assert!(off(&done.state.map(f64::from), &end) < 1e-4, "{:e}", off(&done.state.map(f64::from), &end));
 
     // The derivative of the end by the initial spin, against a difference.
     type D = Dual<f64, 1>;
-    let method = Taylor::<D>::new(1e-13);
+    let method = Taylor::<D>::new(1e-13, 1e-13);
     let lifted: hoop::Prepared<D> = prepared::<f64>().lift();
     let mut begin = reference[0].1.map(<D as Lift<f64>>::lift);
     begin[8].tangent[0] = 1.0;
@@ -164,7 +165,7 @@ fn single_precision_and_duals() {
     let at = |spin: f64| {
         let mut begin = reference[0].1;
         begin[8] += spin;
-        Taylor::new(1e-14)
+        Taylor::new(1e-14, 1e-14)
             .integrate(&prepared(), 0.0, &begin, 1.0, |_, _| ControlFlow::Continue(()))
             .unwrap()
             .state
@@ -203,7 +204,7 @@ fn constraints_on_positions_are_put_back() {
             worst.set(worst.get().max(system.residual(t, x)));
             ControlFlow::Continue(())
         };
-        let method = Taylor::new(1e-5);
+        let method = Taylor::new(1e-5, 1e-5);
         if restored {
             method.integrate(&projected(&system), 0.0, &begin, 20.0, seen).unwrap();
         } else {
@@ -239,14 +240,15 @@ fn events_observers_and_motions_that_are_polynomials() {
             steps += 1;
             ControlFlow::Continue(())
         })
-        .run(&Taylor::new(1e-12), 100.0)
+        .run(&Taylor::new(1e-12, 1e-12), 100.0)
         .unwrap();
     assert_eq!((done.outcome, done.statistics.rejected), (Outcome::Event(0), 0));
     assert!(steps < 20, "{steps}");
     let landing = (10.0 + (100.0_f64 + 2.0 * 9.81).sqrt()) / 9.81;
     assert!((done.time - landing).abs() < 1e-13, "{} {landing}", done.time);
     // No span, no step.
-    let still = Taylor::new(1e-12).integrate(&stone, 1.0, &[0.0, 1.0], 1.0, |_, _| ControlFlow::Continue(()));
+    let still =
+        Taylor::new(1e-12, 1e-12).integrate(&stone, 1.0, &[0.0, 1.0], 1.0, |_, _| ControlFlow::Continue(()));
     assert_eq!(still.unwrap().statistics.accepted, 0);
 }
 
@@ -268,13 +270,13 @@ fn what_cannot_be_done_is_said() {
     let run = |method: Taylor, start: [f64; 4], end: f64| {
         method.integrate(&system, 0.0, &start, end, |_, _| ControlFlow::Continue(()))
     };
-    let fine = Taylor::new(1e-10);
+    let fine = Taylor::new(1e-10, 1e-10);
     let start = [1.0, 1.0, 0.0, 0.0];
     let cause = |method: Taylor, start: [f64; 4]| run(method, start, 2.0).unwrap_err().cause;
-    assert_eq!(cause(fine.order(1), start), Cause::Setting(Setting::Order));
-    assert_eq!(cause(fine.order(33), start), Cause::Setting(Setting::Order));
-    assert_eq!(cause(Taylor::new(0.0), start), Cause::Setting(Setting::Tolerance));
-    assert_eq!(cause(Taylor::new(f64::NAN), start), Cause::Setting(Setting::Tolerance));
+    assert_eq!(cause(fine.with_order(1), start), Cause::Setting(Setting::Order));
+    assert_eq!(cause(fine.with_order(33), start), Cause::Setting(Setting::Order));
+    assert_eq!(cause(Taylor::new(0.0, 0.0), start), Cause::Setting(Setting::Tolerance));
+    assert_eq!(cause(Taylor::new(f64::NAN, f64::NAN), start), Cause::Setting(Setting::Tolerance));
     assert_eq!(cause(fine.with_max_steps(3), start), Cause::TooManySteps { limit: 3 });
     assert_eq!(cause(fine, [f64::NAN, 1.0, 0.0, 0.0]), Cause::NotFinite);
     assert_eq!(cause(fine, [0.0, 1.0, 0.0, 0.0]), Cause::NotFinite);
@@ -309,7 +311,7 @@ fn series_with_gaps_are_no_polynomials() {
         let exact =
             Integration::new(&system, start, &[0.0, 0.0]).run(&Dop853::new(1e-14, 1e-14), 2.0).unwrap();
         for order in [16, 18, 20, 22, 24, 28] {
-            let error = off(&run(&Taylor::new(1e-12).order(order)), &exact.state);
+            let error = off(&run(&Taylor::new(1e-12, 1e-12).with_order(order)), &exact.state);
             assert!(error < 1e-10, "from {start}, order {order}: {error:e}");
         }
     }
@@ -320,7 +322,7 @@ fn scales_of_time_far_from_one() {
     // The same fall in units in which a second is 10^12 or 10^-12: coefficients would overflow without a scale.
     for unit in [1e12, 1e-12] {
         let system = Stone { g: 9.81 }.prepare().unwrap();
-        let done = Taylor::new(1e-12)
+        let done = Taylor::new(1e-12, 1e-12)
             .integrate(&system, 0.0, &[0.0, unit], unit, |_, _| ControlFlow::Continue(()))
             .unwrap();
         assert!((done.state[1] - (unit - 9.81 * unit)).abs() < 1e-14 * 10.0 * unit);
@@ -330,8 +332,8 @@ fn scales_of_time_far_from_one() {
         let start = hoop::State { theta: 1.2, eta3: spin, ..Default::default() };
         let span = 1.0 / f64::max(spin, 1.0);
         let run = |tolerance: f64, order: u32| {
-            Taylor::new(tolerance)
-                .order(order)
+            Taylor::new(tolerance, tolerance)
+                .with_order(order)
                 .integrate(&hoop, 0.0, &start.into(), span, |_, _| ControlFlow::Continue(()))
                 .unwrap()
                 .state

@@ -60,7 +60,9 @@ fn a_push_that_begins_on_the_way() {
         let system = Ramp { e }.prepare().unwrap();
         let exact = reference(&system, [0.2, 0.0], 3.0);
         for tolerance in [1e-6, 1e-10, 1e-15] {
-            let run = Integration::new(&system, 0.0, &[0.2, 0.0]).run(&Taylor::new(tolerance), 3.0).unwrap();
+            let run = Integration::new(&system, 0.0, &[0.2, 0.0])
+                .run(&Taylor::new(tolerance, tolerance), 3.0)
+                .unwrap();
             let error = off(&run.state, &exact);
             println!("{e} {tolerance:e}: {error:.1e}, {:?}", run.statistics);
             assert!(error < f64::max(300.0 * tolerance, 3e-12), "{e} {tolerance:e}: {error:e}");
@@ -73,7 +75,7 @@ fn a_ball_stays_above_its_floor() {
     let system = Ball { k: 1e4, e: 0.01, d: 1.0 }.prepare().unwrap();
     let exact = reference(&system, [1.0, 0.0], 1.5);
     for tolerance in [1e-8, 1e-12, 1e-15] {
-        let method = Taylor::new(tolerance);
+        let method = Taylor::new(tolerance, tolerance);
         let lowest = Cell::new(f64::INFINITY);
         let below = |_: f64, x: &[f64; 2]| x[0] + 0.5;
         let times: Vec<f64> = (0..=300).map(|k| 0.005 * f64::from(k)).collect();
@@ -102,7 +104,7 @@ fn a_pendulum_that_turns_back() {
         let system = Dry { c: 0.2 + number(), e: 0.01 }.prepare().unwrap();
         let start = [1.0 + number(), 4.0 * number() - 2.0];
         let exact = reference(&system, start, 2.0);
-        let run = Integration::new(&system, 0.0, &start).run(&Taylor::new(1e-15), 2.0).unwrap();
+        let run = Integration::new(&system, 0.0, &start).run(&Taylor::new(1e-15, 1e-15), 2.0).unwrap();
         worst = worst.max(off(&run.state, &exact));
     }
     println!("{worst:.1e}");

@@ -24,8 +24,8 @@ pub fn heading(seconds: f64) -> f64 {
     let rate = steered.rhs(0.0, &start.into());
     let adaptive = Dop853::new(1e-12, 1e-12)
         .integrate(&steered, 0.0, &start.into(), seconds, |_, _| ControlFlow::Continue(()));
-    let fixed = Rk4 { step: 0.001 }
-        .integrate(&steered, 0.0, &start.into(), seconds, |_, _| ControlFlow::Continue(()));
+    let fixed =
+        Rk4::new(0.001).integrate(&steered, 0.0, &start.into(), seconds, |_, _| ControlFlow::Continue(()));
     match (adaptive, fixed) {
         (Ok(one), Ok(other)) if (one.state[0] - other.state[0]).abs() < 1e-9 && rate[3] > 0.0 => one.state[0],
         _ => f64::NAN,

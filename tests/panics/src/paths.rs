@@ -94,9 +94,9 @@ pub fn landing<S: System<f64, N>, const N: usize>(
     times: &[f64],
 ) -> bool {
     let (mut sum, start) = (0.0, *state);
-    let run = Rk4 { step }.sample(system, t, &start, times, |_, _, x| sum += x[0]);
+    let run = Rk4::new(step).sample(system, t, &start, times, |_, _, x| sum += x[0]);
     state[0] = sum;
-    run.is_ok() && Rk4 { step }.integrate(system, t, &start, t + step, go_on).is_ok()
+    run.is_ok() && Rk4::new(step).integrate(system, t, &start, t + step, go_on).is_ok()
 }
 
 /// The Jacobian's first column.

@@ -40,15 +40,15 @@ macro_rules! all_paths {
         symbols! { $name [$size] |$constants: $count| $prepared;
             "rhs": |system, state, t, step, span| paths::rates(&system, state, t);
             "jacobian": |system, state, t, step, span| paths::slopes(&system, state, t);
-            "euler": |system, state, t, step, span| paths::run(&system, &Euler { step }, state, t, span);
-            "rk4": |system, state, t, step, span| paths::run(&system, &Rk4 { step }, state, t, span);
+            "euler": |system, state, t, step, span| paths::run(&system, &Euler::new(step), state, t, span);
+            "rk4": |system, state, t, step, span| paths::run(&system, &Rk4::new(step), state, t, span);
             "compensated": |system, state, t, step, span| {
-                paths::run(&system, &Rk4 { step }.compensated(), state, t, span)
+                paths::run(&system, &Rk4::new(step).compensated(), state, t, span)
             };
             "rk8": |system, state, t, step, span| paths::run(&system, &Rk8::new(step), state, t, span);
             "gauss4": |system, state, t, step, span| paths::run(&system, &Gauss4::new(step), state, t, span);
             "gauss6": |system, state, t, step, span| paths::run(&system, &Gauss6::new(step), state, t, span);
-            "watched": |system, state, t, step, span| paths::watched(&system, &Rk4 { step }, state, t, span);
+            "watched": |system, state, t, step, span| paths::watched(&system, &Rk4::new(step), state, t, span);
             "landing": |system, state, t, step, span| paths::landing(&system, state, t, step, &[t + step, t + span]);
             "period5": |system, state, t, step, span| paths::period(&system, &Bounded::tsit5(25), state, t, span);
             "period8": |system, state, t, step, span| paths::period(&system, &Bounded::dop853(48), state, t, span);
@@ -63,7 +63,7 @@ all_paths! { hoop [9] |c: 4| Hoop { a: c[0], A: c[1], C: c[2], g: c[3] }.prepare
     "dop853": |system, state, t, step, span| paths::run(&system, &Dop853::new(step, step), state, t, span);
     "tsit5": |system, state, t, step, span| paths::run(&system, &Tsit5::new(step, step), state, t, span);
     "radau5": |system, state, t, step, span| paths::run(&system, &Radau5::new(step, step), state, t, span);
-    "taylor": |system, state, t, step, span| paths::run(&system, &Taylor::new(step), state, t, span);
+    "taylor": |system, state, t, step, span| paths::run(&system, &Taylor::new(step, step), state, t, span);
 }
 // The state is that of the carried form.
 all_paths! { carried [13] |c: 4| Hoop { a: c[0], A: c[1], C: c[2], g: c[3] }.prepare().and_then(|hoop| hoop.carried()); }

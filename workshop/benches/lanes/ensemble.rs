@@ -39,7 +39,7 @@ fn calibration(threads: usize) -> f64 {
 /// Steps made in a nanosecond.
 fn steps(ensemble: &Ensemble<Prepared, 9>) -> f64 {
     let begin = Instant::now();
-    let ends = ensemble.integrate(&Rk4 { step: 1e-3 }, 0.0, 1e-3 * STEPS as f64);
+    let ends = ensemble.integrate(&Rk4::new(1e-3), 0.0, 1e-3 * STEPS as f64);
     let seconds = begin.elapsed().as_nanos() as f64;
     assert!(ends.iter().all(Result::is_ok));
     (HOOPS * STEPS) as f64 / seconds

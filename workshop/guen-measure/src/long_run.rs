@@ -144,7 +144,7 @@ fn candidates() -> Result<Vec<Candidate>, Box<dyn Error>> {
         candidate("RK8 compensated", 1, system, whole, Rk8::new(step).compensated())?,
         candidate("RK8 compensated, carried", 1, carried, lifted, Rk8::new(step).compensated())?,
         candidate("DOP853, 1e-14", 1, system, whole, Dop853::new(1e-14, 1e-14).with_max_steps(u64::MAX))?,
-        candidate("Taylor, 1e-19", 1, system, whole, Taylor::new(1e-19).with_max_steps(u64::MAX))?,
+        candidate("Taylor, 1e-19", 1, system, whole, Taylor::new(1e-19, 1e-19).with_max_steps(u64::MAX))?,
         candidate("Gauss 6", 100, system, whole, Gauss6::new(step))?,
     ])
 }
@@ -226,7 +226,7 @@ fn ten_thousand_seconds(span: f64) -> Result<f64, Box<dyn Error>> {
         worst = worst.max(error(&exact, before, state));
         ControlFlow::Continue(())
     };
-    let method = Taylor::new(1e-19).with_max_steps(u64::MAX);
+    let method = Taylor::new(1e-19, 1e-19).with_max_steps(u64::MAX);
     Integration::new(&system, 0.0, &begin).observe(&mut observer).run(&method, span)?;
     Ok(worst)
 }

@@ -63,7 +63,7 @@ fn walk<const N: usize>(
             Some(count)
         }
         "rk4" => {
-            let done = Rk4 { step: 1e-3 }.integrate(&system, 0.0, &states[0], end, on).ok()?;
+            let done = Rk4::new(1e-3).integrate(&system, 0.0, &states[0], end, on).ok()?;
             Some(done.statistics.accepted)
         }
         "dop853" => {

@@ -118,7 +118,7 @@ macro_rules! lines {
             line($name, &system, (compensated, &Rk8::new(step).compensated()), $start, energy, $marks);
         }
         for tolerance in [1e-15, 1e-18] {
-            let method = Taylor::new(tolerance).with_max_steps(u64::MAX);
+            let method = Taylor::new(tolerance, tolerance).with_max_steps(u64::MAX);
             line($name, &system, (format!("Taylor, {tolerance:e}"), &method), $start, energy, $marks);
         }
     }};

@@ -65,8 +65,9 @@ fn main() -> Result<(), Box<dyn error::Error>> {
                 text
             }
             ["run", tolerance, order] => {
-                let method = Taylor::new(tolerance.parse()?);
-                let method = if order == "default" { method } else { method.order(order.parse()?) };
+                let tolerance = tolerance.parse()?;
+                let method = Taylor::new(tolerance, tolerance);
+                let method = if order == "default" { method } else { method.with_order(order.parse()?) };
                 let run = || Integration::new(&hoop, 0.0, &begin).run(&method, SPAN);
                 let Ok(done) = run() else {
                     println!("inf 0 inf");

@@ -46,7 +46,7 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
     println!("| --- | --- | --- | --- | --- |");
     let mut finest = f64::NAN;
     for (order, tolerance) in [(15, 1e-12), (20, 1e-14), (24, 1e-16), (20, 1e-18), (16, 1e-18)] {
-        let method = Taylor::new(tolerance).order(order).with_max_steps(u64::MAX);
+        let method = Taylor::new(tolerance, tolerance).with_order(order).with_max_steps(u64::MAX);
         let (mut seen, mut steps) = (Vec::new(), 0);
         let clock = Instant::now();
         let done = method.integrate(&hoop, 0.0, &start, span, |t, x| {

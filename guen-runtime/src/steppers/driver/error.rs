@@ -302,7 +302,7 @@ impl<R: Real, const N: usize> IntegrationError<R, N> {
     ///     const STATES: &'static [&'static str] = &["size"];
     /// }
     ///
-    /// let error = Integration::new(&Growth, 0.0, &[1.0]).run(&Rk4 { step: 0.05 }, 10.0).unwrap_err();
+    /// let error = Integration::new(&Growth, 0.0, &[1.0]).run(&Rk4::new(0.05), 10.0).unwrap_err();
     /// assert!(error.named(&Growth).to_string().contains("`size` is off"));
     /// ```
     pub fn named<S: Simulate<R, N> + ?Sized>(&self, _system: &S) -> impl fmt::Display + use<R, S, N> {

@@ -185,7 +185,7 @@ impl<'a, R: Real, S: System<R, N> + ?Sized, const N: usize, const E: usize> Inte
     ///         steps.push(t);
     ///         std::ops::ControlFlow::Continue(())
     ///     })
-    ///     .run_through(&Rk4 { step: 0.25 }, &[0.3, 1.0], |_k, t, x| assert!((x[0] - t.exp()).abs() < 1e-3))
+    ///     .run_through(&Rk4::new(0.25), &[0.3, 1.0], |_k, t, x| assert!((x[0] - t.exp()).abs() < 1e-3))
     ///     .unwrap();
     /// assert_eq!(steps, [0.25, 0.3, 0.55, 0.8, 1.0]);
     /// assert_eq!(done.time, 1.0);

@@ -51,7 +51,7 @@ impl<F> Compensated<F> {
     ///
     /// let growth = from_fn(|_t: f64, &[x]: &[f64; 1]| [x]);
     /// let go_on = |_, _: &[f64; 1]| ControlFlow::Continue(());
-    /// let done = Rk4 { step: 0.01 }.compensated().integrate(&growth, 0.0, &[1.0], 1.0, go_on).unwrap();
+    /// let done = Rk4::new(0.01).compensated().integrate(&growth, 0.0, &[1.0], 1.0, go_on).unwrap();
     /// assert!((done.state[0] - 1.0_f64.exp()).abs() < 1e-9);
     /// ```
     ///

@@ -26,14 +26,15 @@ use crate::system::System;
 /// use guen_runtime::{from_fn, steppers::Euler};
 ///
 /// let growth = from_fn(|_t: f64, &[x]: &[f64; 1]| [x]);
-/// let done = Euler { step: 1.0 / 32.0 }.integrate(&growth, 0.0, &[1.0], 1.0, |_, _| ControlFlow::Continue(()))?;
+/// let done = Euler::new(1.0 / 32.0).integrate(&growth, 0.0, &[1.0], 1.0, |_, _| ControlFlow::Continue(()))?;
 /// assert!((done.state[0] - (33.0_f64 / 32.0).powi(32)).abs() < 1e-14);
 /// // A step of a half would miss by a sixth: that is an error, unless the guard is told otherwise.
-/// let coarse = Euler { step: 0.5 }.integrate(&growth, 0.0, &[1.0], 1.0, |_, _| ControlFlow::Continue(()));
+/// let coarse = Euler::new(0.5).integrate(&growth, 0.0, &[1.0], 1.0, |_, _| ControlFlow::Continue(()));
 /// assert!(coarse.is_err());
 /// # Ok::<(), guen_runtime::IntegrationError<f64, 1>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Euler<R = f64> {
     /// The step, in units of time: positive and finite.
     pub step: R,
@@ -41,7 +42,7 @@ pub struct Euler<R = f64> {
 
 impl<R: Real> Euler<R> {
     /// The method with this step.
-    pub fn new(step: R) -> Self {
+    pub const fn new(step: R) -> Self {
         Self { step }
     }
 }

@@ -122,7 +122,7 @@ impl<const N: usize> IntoIterator for InLanes<N> {
 ///     }
 /// }
 ///
-/// let ends = dispatch(Width::Four, Roots(Rk4 { step: 0.01 }, Guard::default()));
+/// let ends = dispatch(Width::Four, Roots(Rk4::new(0.01), Guard::default()));
 /// assert_eq!(ends.failed().lanes().collect::<Vec<_>>(), [0]);
 /// // x^2 = x0^2 + 2 t
 /// assert!((ends.lane(1).unwrap().unwrap().state[0] - 2.0).abs() < 1e-8);
@@ -131,7 +131,7 @@ impl<const N: usize> IntoIterator for InLanes<N> {
 /// assert!((ends.lane(1).unwrap().unwrap().state[0] - 2.0).abs() < 1e-12);
 ///
 /// let strict = Guard { step: 1e-16, ..Guard::default() };
-/// assert_eq!(dispatch(Width::Four, Roots(Rk4 { step: 0.01 }, strict)).failed().lanes().count(), 4);
+/// assert_eq!(dispatch(Width::Four, Roots(Rk4::new(0.01), strict)).failed().lanes().count(), 4);
 /// ```
 pub trait LaneMethod {
     /// The step, in units of time.

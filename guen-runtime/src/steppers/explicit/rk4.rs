@@ -118,7 +118,7 @@ pub const fn cost(rhs: Cost, n: u32) -> Cost {
 ///
 /// let oscillator = from_fn(|_t: f64, &[x, v]: &[f64; 2]| [v, -x]);
 /// let mut highest = 0.0_f64;
-/// let done = Rk4 { step: 0.01 }
+/// let done = Rk4::new(0.01)
 ///     .integrate(&oscillator, 0.0, &[0.0, 1.0], 2.0, |_t, x| {
 ///         highest = highest.max(x[0]);
 ///         ControlFlow::Continue(())
@@ -129,6 +129,7 @@ pub const fn cost(rhs: Cost, n: u32) -> Cost {
 /// assert!((highest - 1.0).abs() < 1e-4);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Rk4<R = f64> {
     /// The step, in units of time: positive and finite.
     pub step: R,
@@ -181,7 +182,7 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Formula<R, S, N> for Rk4
 
 impl<R: Real> Rk4<R> {
     /// The method with this step.
-    pub fn new(step: R) -> Self {
+    pub const fn new(step: R) -> Self {
         Self { step }
     }
 

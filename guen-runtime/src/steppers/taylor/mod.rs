@@ -75,7 +75,7 @@ pub use series::Series;
 ///     }
 /// }
 ///
-/// let done = Taylor::new(1e-15)
+/// let done = Taylor::new(1e-15, 1e-15)
 ///     .integrate(&Oscillator, 0.0, &[0.0, 1.0], 1000.0, |_t, _x| ControlFlow::Continue(()))
 ///     .unwrap();
 /// assert!((done.state[0] - 1000.0_f64.sin()).abs() < 1e-14);
@@ -99,11 +99,11 @@ impl<R: Ordered> Taylor<R> {
     /// The number of steps allowed unless another one is set.
     pub const MAX_STEPS: u64 = 100_000;
 
-    /// The method with this tolerance, relative and absolute.
-    pub fn new(tolerance: f64) -> Self {
+    /// The method with the given relative and absolute tolerances.
+    pub fn new(rtol: f64, atol: f64) -> Self {
         Self {
-            rtol: tolerance,
-            atol: tolerance,
+            rtol,
+            atol,
             order: None,
             max_steps: Self::MAX_STEPS,
             compares: true,
@@ -111,13 +111,8 @@ impl<R: Ordered> Taylor<R> {
         }
     }
 
-    /// Sets the absolute tolerance.
-    pub fn absolute(self, atol: f64) -> Self {
-        Self { atol, ..self }
-    }
-
     /// Sets the order, 2 to 32.
-    pub fn order(self, order: u32) -> Self {
+    pub fn with_order(self, order: u32) -> Self {
         Self { order: Some(order), ..self }
     }
 

@@ -61,11 +61,11 @@ impl LaneTask for InLanes {
         let ends = if eight {
             Rk8::new(step).integrate_in_lanes(&of, 0.0, &state, END)
         } else {
-            Rk4 { step }.integrate_in_lanes(&of, 0.0, &state, END)
+            Rk4::new(step).integrate_in_lanes(&of, 0.0, &state, END)
         };
         for lane in 0..L::COUNT {
             let run = Integration::new(&of, 0.0, &start(lane));
-            let alone = if eight { run.run(&Rk8::new(step), END) } else { run.run(&Rk4 { step }, END) };
+            let alone = if eight { run.run(&Rk8::new(step), END) } else { run.run(&Rk4::new(step), END) };
             match (ends.lane(lane).expect("a lane"), alone) {
                 (Ok(here), Ok(alone)) => assert_eq!(here.state, alone.state),
                 (Err(here), Err(alone)) => assert_eq!((here.cause, here.time), (alone.cause, alone.time)),
@@ -105,8 +105,8 @@ pub fn run(method: usize, system: &Expanded, exact: &[f64; 2]) -> Fate {
     let max = 20_000;
     let in_lanes = |eight| dispatch(Width::Four, InLanes { of: system.0, step, eight });
     let state = match name {
-        "euler" => end(&Euler { step }, system),
-        "rk4" => end(&Rk4 { step }, system),
+        "euler" => end(&Euler::new(step), system),
+        "rk4" => end(&Rk4::new(step), system),
         "rk4 in lanes" => in_lanes(false),
         "rk8" => end(&Rk8::new(step), system),
         "rk8 in lanes" => in_lanes(true),
@@ -116,8 +116,8 @@ pub fn run(method: usize, system: &Expanded, exact: &[f64; 2]) -> Fate {
         "tsit5 1e-9" => end(&Tsit5::new(1e-9, 1e-9).with_max_steps(max), system),
         "dop853 1e-9" => end(&Dop853::new(1e-9, 1e-9).with_max_steps(max), system),
         "radau5 1e-8" => end(&Radau5::new(1e-8, 1e-8).with_max_steps(max), system),
-        "taylor 1e-8" => end(&Taylor::new(1e-8).with_max_steps(max), system),
-        "taylor 1e-15" => end(&Taylor::new(1e-15).with_max_steps(max), system),
+        "taylor 1e-8" => end(&Taylor::new(1e-8, 1e-8).with_max_steps(max), system),
+        "taylor 1e-15" => end(&Taylor::new(1e-15, 1e-15).with_max_steps(max), system),
         // Ten steps, and four.
         "bounded tsit5" => return bounded(&Bounded::tsit5(61), system, exact, allowed),
         _ => return bounded(&Bounded::dop853(48), system, exact, allowed),

@@ -15,7 +15,7 @@ type Ends = Result<Vec<[f64; 2]>, Box<dyn Error>>;
 pub fn rk4(system: &Pendulum, start: [f64; 2]) -> End<2> {
     use guen::{Recast, prelude::*};
     let system = system.recast::<f64>()?;
-    let method = Rk4 { step: 0.125 };
+    let method = Rk4::new(0.125);
     let go_on = |_, _: &_| ControlFlow::Continue(());
     let end = method.integrate(&system, 0.0, &start, 1.0, go_on)?.state;
     Ok(end)
@@ -51,7 +51,7 @@ pub fn dop853(system: &Pendulum, start: [f64; 2]) -> End<2> {
 pub fn euler(system: &Pendulum, start: [f64; 2]) -> End<2> {
     use guen::{Recast, prelude::*};
     let system = system.recast::<f64>()?;
-    let method = Euler { step: 0.0013812154696132596 };
+    let method = Euler::new(0.0013812154696132596);
     let go_on = |_, _: &_| ControlFlow::Continue(());
     let end = method.integrate(&system, 0.0, &start, 1.0, go_on)?.state;
     Ok(end)
@@ -76,7 +76,7 @@ pub fn rk4_in_approx13(system: &Pendulum, start: [f64; 2]) -> End<2> {
     use guen::Approx13;
     type R = Approx13;
     let system = system.recast::<R>()?;
-    let method = Rk4 { step: R::from_f64(0.125) };
+    let method = Rk4::new(R::from_f64(0.125));
     let go_on = |_, _: &_| ControlFlow::Continue(());
     let (t0, t1) = (R::from_f64(0.0), R::from_f64(1.0));
     let end = method.integrate(&system, t0, &start.map(R::from_f64), t1, go_on)?.state.map(R::to_f64);
@@ -124,7 +124,7 @@ pub fn rk4_in_approx7(system: &Pendulum, start: [f64; 2]) -> End<2> {
     use guen::Approx7;
     type R = Approx7;
     let system = system.recast::<R>()?;
-    let method = Rk4 { step: R::from_f64(0.125) };
+    let method = Rk4::new(R::from_f64(0.125));
     let go_on = |_, _: &_| ControlFlow::Continue(());
     let (t0, t1) = (R::from_f64(0.0), R::from_f64(1.0));
     let end = method.integrate(&system, t0, &start.map(R::from_f64), t1, go_on)?.state.map(R::to_f64);
@@ -172,7 +172,7 @@ pub fn rk4_in_fused(system: &Pendulum, start: [f64; 2]) -> End<2> {
     use guen::Fused;
     type R = Fused;
     let system = system.recast::<R>()?;
-    let method = Rk4 { step: R::from_f64(0.125) };
+    let method = Rk4::new(R::from_f64(0.125));
     let go_on = |_, _: &_| ControlFlow::Continue(());
     let (t0, t1) = (R::from_f64(0.0), R::from_f64(1.0));
     let end = method.integrate(&system, t0, &start.map(R::from_f64), t1, go_on)?.state.map(R::to_f64);
@@ -220,7 +220,7 @@ pub fn rk4_in_std(system: &Pendulum, start: [f64; 2]) -> End<2> {
     use guen::Std;
     type R = Std;
     let system = system.recast::<R>()?;
-    let method = Rk4 { step: R::from_f64(0.125) };
+    let method = Rk4::new(R::from_f64(0.125));
     let go_on = |_, _: &_| ControlFlow::Continue(());
     let (t0, t1) = (R::from_f64(0.0), R::from_f64(1.0));
     let end = method.integrate(&system, t0, &start.map(R::from_f64), t1, go_on)?.state.map(R::to_f64);
@@ -267,7 +267,7 @@ pub fn rk4_in_f32(system: &Pendulum, start: [f64; 2]) -> End<2> {
     use guen::{Recast, prelude::*};
     type R = f32;
     let system = system.recast::<R>()?;
-    let method = Rk4 { step: R::from_f64(0.125) };
+    let method = Rk4::new(R::from_f64(0.125));
     let go_on = |_, _: &_| ControlFlow::Continue(());
     let (t0, t1) = (R::from_f64(0.0), R::from_f64(1.0));
     let end = method.integrate(&system, t0, &start.map(R::from_f64), t1, go_on)?.state.map(R::to_f64);
@@ -337,7 +337,7 @@ pub fn radau_5(system: &Pendulum, start: [f64; 2]) -> End<2> {
 pub fn taylor(system: &Pendulum, start: [f64; 2]) -> End<2> {
     use guen::{Recast, prelude::*};
     let system = system.recast::<f64>()?;
-    let method = Taylor::new(0.01);
+    let method = Taylor::new(0.01, 0.01);
     let go_on = |_, _: &_| ControlFlow::Continue(());
     let end = method.integrate(&system, 0.0, &start, 1.0, go_on)?.state;
     Ok(end)
@@ -347,7 +347,7 @@ pub fn rk4_in_f64_lanes(system: &Pendulum, starts: Vec<[f64; 2]>) -> Ends {
     use guen::{Recast, prelude::*, study::Ensemble};
     let system = system.recast::<f64>()?;
     let ensemble = Ensemble::of_states(system, starts);
-    let ends = ensemble.integrate(&Rk4 { step: 0.125 }, 0.0, 1.0);
+    let ends = ensemble.integrate(&Rk4::new(0.125), 0.0, 1.0);
     ends.into_iter().map(|end| Ok(end?.state)).collect()
 }
 
@@ -363,7 +363,7 @@ pub fn rk4_in_approx7_lanes(system: &Pendulum, starts: Vec<[f64; 2]>) -> Ends {
     use guen::{Recast, prelude::*, study::Ensemble};
     let system = system.recast::<f64>()?;
     let ensemble = Ensemble::of_states(system, starts).with_scalar::<guen::Approx7Functions>();
-    let ends = ensemble.integrate(&Rk4 { step: 0.125 }, 0.0, 1.0);
+    let ends = ensemble.integrate(&Rk4::new(0.125), 0.0, 1.0);
     ends.into_iter().map(|end| Ok(end?.state)).collect()
 }
 
@@ -378,7 +378,7 @@ pub fn rk8_in_approx7_lanes(system: &Pendulum, starts: Vec<[f64; 2]>) -> Ends {
 pub fn rk4_carried<S: System<f64, N>, const N: usize>(system: &S, start: [f64; N]) -> End<N> {
     // `system` and `start` are those of the form `carried`
     use guen::prelude::*;
-    let method = Rk4 { step: 0.125 };
+    let method = Rk4::new(0.125);
     let go_on = |_, _: &_| ControlFlow::Continue(());
     let end = method.integrate(&system, 0.0, &start, 1.0, go_on)?.state;
     Ok(end)
@@ -421,7 +421,7 @@ pub fn closures_dop853<S: System<f64, N>, const N: usize>(system: &S, start: [f6
 
 pub fn closures_euler<S: System<f64, N>, const N: usize>(system: &S, start: [f64; N]) -> End<N> {
     use guen::prelude::*;
-    let method = Euler { step: 0.0078125 };
+    let method = Euler::new(0.0078125);
     let go_on = |_, _: &_| ControlFlow::Continue(());
     let end = method.integrate(&system, 0.0, &start, 0.25, go_on)?.state;
     Ok(end)

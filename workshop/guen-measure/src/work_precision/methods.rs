@@ -90,7 +90,7 @@ where
         R: Ordered,
     {
         [
-            self.with(rk4, EXPLICIT, |step| Rk4 { step: R::from_f64(step) }),
+            self.with(rk4, EXPLICIT, |step| Rk4::new(R::from_f64(step))),
             self.with(rk8, EXPLICIT, |step| Rk8::new(R::from_f64(step))),
             self.with(tsit5, ADAPTIVE, |tolerance| Tsit5::new(tolerance, tolerance)),
             self.with(dop853, ADAPTIVE, |tolerance| Dop853::new(tolerance, tolerance)),
@@ -131,8 +131,8 @@ where
     F: System<Fused, M> + Clone + 'static,
 {
     let mut all = vec![
-        whole.with("Euler", EXPLICIT, |step| Euler { step }),
-        whole.with("Taylor", ADAPTIVE, Taylor::new),
+        whole.with("Euler", EXPLICIT, Euler::new),
+        whole.with("Taylor", ADAPTIVE, |tolerance| Taylor::new(tolerance, tolerance)),
         whole.with("Gauss 4", IMPLICIT, Gauss4::new),
         whole.with("Gauss 6", IMPLICIT, Gauss6::new),
         whole.with("Radau 5", ADAPTIVE, |tolerance| Radau5::new(tolerance, tolerance)),

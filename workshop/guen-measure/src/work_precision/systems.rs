@@ -41,7 +41,7 @@ fn rounding<S: TaylorSeries<f64, N>, const N: usize>(system: &S, case: &Case<N>)
     const SPACINGS: f64 = 1e4;
 
     let end = |start: &[f64; N]| {
-        let run = Integration::new(system, 0.0, start).run(&Taylor::new(1e-15), case.span);
+        let run = Integration::new(system, 0.0, start).run(&Taylor::new(1e-15, 1e-15), case.span);
         run.map_or([f64::NAN; N], |done| done.state)
     };
     let straight = end(&case.start);

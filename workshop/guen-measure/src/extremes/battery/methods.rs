@@ -45,8 +45,8 @@ where
     let Settings { step, relative, absolute } = settings;
     let h = R::from_f64(step);
     let adaptive = Promise::Adaptive(relative);
-    visitor.visit("Euler", Promise::Fixed, &Euler { step: h * R::from_ratio(1, 8) });
-    visitor.visit("RK4", Promise::Fixed, &Rk4 { step: h });
+    visitor.visit("Euler", Promise::Fixed, &Euler::new(h * R::from_ratio(1, 8)));
+    visitor.visit("RK4", Promise::Fixed, &Rk4::new(h));
     visitor.visit("RK8", Promise::Fixed, &Rk8::new(h * R::from_ratio(4, 1)));
     visitor.visit("Tsit5", adaptive, &Tsit5::new(relative, absolute));
     visitor.visit("DOP853", adaptive, &Dop853::new(relative, absolute));
@@ -62,7 +62,7 @@ where
     explicit(settings, visitor);
     let Settings { step, relative, absolute } = settings;
     let h = R::from_f64(step);
-    visitor.visit("Taylor", Promise::Adaptive(relative), &Taylor::new(relative).absolute(absolute));
+    visitor.visit("Taylor", Promise::Adaptive(relative), &Taylor::new(relative, absolute));
     visitor.visit("Gauss 4", Promise::Fixed, &Gauss4::new(h));
     visitor.visit("Gauss 6", Promise::Fixed, &Gauss6::new(h));
     // Of order five and implicit: a digit less keeps it affordable.

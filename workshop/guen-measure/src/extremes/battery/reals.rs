@@ -43,7 +43,7 @@ impl LaneTask for Hoops<'_> {
             .map(|group| {
                 let start =
                     std::array::from_fn(|i| L::from_fn(|lane| self.starts[group * L::COUNT + lane][i]));
-                Rk4 { step: 1e-3 }.integrate_in_lanes(&system, 0.0, &start, 1.0)
+                Rk4::new(1e-3).integrate_in_lanes(&system, 0.0, &start, 1.0)
             })
             .collect()
     }
@@ -59,9 +59,8 @@ fn lanes(asked: &str, width: Width, faulty: [f64; 9]) -> Line {
     starts[FAULTY] = faulty;
     let ends: Vec<_> =
         dispatch(width, Hoops { system: &system, starts: &starts }).into_iter().flatten().collect();
-    let alone = |k: usize| {
-        Rk4 { step: 1e-3 }.integrate(&system, 0.0, &starts[k], 1.0, |_, _| ControlFlow::Continue(()))
-    };
+    let alone =
+        |k: usize| Rk4::new(1e-3).integrate(&system, 0.0, &starts[k], 1.0, |_, _| ControlFlow::Continue(()));
     let mut others = 0.0_f64;
     for (k, end) in ends.iter().enumerate().filter(|(k, _)| *k != FAULTY) {
         let same = matches!((end, &alone(k)), (Ok(a), Ok(b)) if a.state == b.state);

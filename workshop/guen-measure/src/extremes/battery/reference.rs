@@ -34,7 +34,7 @@ impl<const N: usize> Reference<N> {
     where
         G: TaylorSeries<Digits71, N>,
     {
-        let taylor = Taylor::new(1e-20).absolute(1e-30).with_max_steps(MOST_STEPS);
+        let taylor = Taylor::new(1e-20, 1e-30).with_max_steps(MOST_STEPS);
         Self::by(&taylor, long, start, span, absolute)
     }
 

@@ -89,7 +89,7 @@ fn many_steps() -> Line {
         let reference = Reference::new(&long, &start, (0.0, 100.0), 1e-3)?;
         // Every step rounds every entry once or twice, and it grows.
         let allowed = 2e8 * 0.5 * f64::EPSILON * growth(&system, &reference)?;
-        let verdict = match Integration::new(&system, 0.0, &start).run(&Rk4 { step: 1e-6 }, 100.0) {
+        let verdict = match Integration::new(&system, 0.0, &start).run(&Rk4::new(1e-6), 100.0) {
             Ok(done) => Verdict::of(reference.error(&done.state), allowed),
             Err(error) => refusal(&error, true),
         };
