@@ -54,17 +54,21 @@ pub use guen_runtime::{
     Actuated, Approx7, Approx7Functions, Approx13, Approx13Functions, AuxiliaryStates, Bodies, Body,
     BodyFault, BracketCoefficients, Catastatic, Cause, Class, Coefficient, Conservative, ConstantsError,
     Coordinate, Cost, Derived, Differentiable, Displacement, Dual, Equations, Function, Functions, Fused,
-    FusedOperations, Generic, Holonomic, IncompleteLieGroup, IntegrationError, Invariants, LaneScalar, Laned,
-    LatexDocument, Level, LevelInfo, Levels, LieGroup, Lift, Linearization, Monitored, Nonholonomic,
-    Operator, Ordered, Positions, PositionsError, Projected, Real, Recast, Renormalized, Report,
-    ReportSection, Rheonomic, RunningError, Scleronomic, Setting, Simulate, System, WithFunctions,
-    WithInputs, from_fn, generic, lanes, project, projected, renormalized, steppers,
+    FusedOperations, Generic, Holonomic, IncompleteLieGroup, InputLaw, InputRecords, InputValues,
+    IntegrationError, Invariants, LaneScalar, Laned, LatexDocument, Level, LevelInfo, Levels, LieGroup, Lift,
+    Linearization, Monitored, Nonholonomic, Operator, Ordered, OutputMap, Positions, PositionsError,
+    Projected, Real, Recast, Renormalized, Report, ReportSection, Rheonomic, RunningError, Scleronomic,
+    Setting, Simulate, Smooth, System, WithFunctions, WithInputs, from_fn, generic, lanes, project,
+    projected, renormalized, steppers,
 };
 pub use guen_runtime::{Coefficients, Convolutions, HIGHEST_ORDER, TaylorSeries};
 pub use guen_runtime::{Liftable, Linearizable, OutputLinearization, control, seeded};
 
 #[cfg(feature = "alloc")]
-pub use guen_runtime::{Happened, Quality, Simulation, SimulationError, Trajectory, Trigger};
+pub use guen_runtime::{
+    Happened, InputSamples, Quality, Simulation, SimulationError, SimulationWithoutInputs, Trajectory,
+    Trigger,
+};
 #[cfg(feature = "std")]
 pub use guen_runtime::{Std, StdFunctions};
 
@@ -152,15 +156,16 @@ pub mod __private {
     pub use guen_runtime::{
         Actuated, AuxiliaryStates, Bodies, Body, BracketCoefficients, Catastatic, Class, Coefficient,
         Coefficients, Conservative, ConstantsError, Convolutions, Cost, Derived, Differentiable, Dual,
-        HIGHEST_ORDER, Holonomic, IncompleteLieGroup, Invariants, Laned, Level, LevelInfo, Levels, LieGroup,
-        Lift, Liftable, Linearizable, Linearization, Monitored, Nonholonomic, Operator, Ordered,
-        OutputLinearization, Positions, PositionsError, Real, Recast, Report, ReportSection, Rheonomic,
-        RunningError, Scleronomic, Simulate, System, TaylorSeries, WithInputs, nalgebra_conversions, seeded,
+        HIGHEST_ORDER, Holonomic, IncompleteLieGroup, InputRecords, Invariants, Laned, Level, LevelInfo,
+        Levels, LieGroup, Lift, Liftable, Linearizable, Linearization, Monitored, Nonholonomic, Operator,
+        Ordered, OutputLinearization, OutputMap, Positions, PositionsError, Real, Recast, Report,
+        ReportSection, Rheonomic, RunningError, Scleronomic, Simulate, System, TaylorSeries, WithInputs,
+        nalgebra_conversions, seeded,
     };
     pub use guen_runtime::{
         cells, condition, differentiable, domain, energy, facts, laned, lift, linearizable, mass_form,
-        motion_of_system, operators, program_functions, rates, reaction_covector, reactions, recast, record,
-        reduce, reported, state_of_system, steady_motions,
+        motion_of_system, operators, output_map, program_functions, rates, reaction_covector, reactions,
+        recast, record, reduce, reported, state_of_system, steady_motions,
     };
     pub use guen_runtime::{consistent, control, furthest_surplus, serde_record};
 }

@@ -62,7 +62,9 @@ pub use numbers::with_functions::{
 pub use numbers::with_functions::{Std, StdFunctions};
 pub use report::{LatexDocument, MarkdownDocument, Report, ReportSection};
 #[cfg(feature = "alloc")]
-pub use simulation::{Happened, Quality, Simulation, SimulationError, Trajectory, Trigger};
+pub use simulation::{
+    Happened, Quality, Simulation, SimulationError, SimulationWithoutInputs, Trajectory, Trigger,
+};
 pub use steppers::{Cause, IntegrationError, Setting};
 pub use system::actuated::{Actuated, WithInputs};
 pub use system::auxiliary_states::{AuxiliaryStates, Renormalized, renormalized};
@@ -77,10 +79,14 @@ pub use system::differentiable::{Differentiable, Equations, Generic, generic};
 pub use system::frame::Displacement;
 #[doc(hidden)]
 pub use system::frame::{Frame, bracket_values, known_bracket};
+#[cfg(feature = "alloc")]
+pub use system::input_law::InputSamples;
+pub use system::input_law::{InputLaw, InputRecords, InputValues, Smooth};
 pub use system::invariants::Invariants;
 pub use system::level::{Level, LevelInfo, Levels};
 pub use system::linearization::{Liftable, Linearizable, Linearization, OutputLinearization, seeded};
 pub use system::operator::{Applied, Coordinate, Function, Operator};
+pub use system::outputs::OutputMap;
 #[doc(hidden)]
 pub use system::positions::furthest_surplus;
 pub use system::positions::{Positions, Projected, consistent, project, projected};
@@ -107,8 +113,8 @@ pub mod prelude {
         LaneMethod, Outcome, Radau5, Rk4, Rk8, Statistics, Taylor, Tsit5,
     };
     pub use crate::{
-        Actuated, Cause, Coordinate, Dual, Function, IntegrationError, Level, Lift, Monitored, Operator,
-        Ordered, Real, Simulate, System, from_fn,
+        Actuated, Cause, Coordinate, Dual, Function, InputLaw, IntegrationError, Level, Lift, Monitored,
+        Operator, Ordered, Real, Simulate, System, from_fn,
     };
     #[cfg(feature = "alloc")]
     pub use crate::{Simulation, SimulationError, Trajectory, Trigger};

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use guen_runtime::steppers::Interpolant;
-use guen_runtime::{Simulate, Trajectory};
+use guen_runtime::{OutputMap, Simulate, Trajectory};
 
 use crate::error::StudyError;
 use crate::plot::Plot;
@@ -53,6 +53,11 @@ pub trait Export<S, const N: usize> {
     /// The states at multiples of `dt` after the start, and at the end.
     fn sampled(&self, dt: f64) -> Recording<N>;
 
+    /// The declared outputs at multiples of `dt` after the start, and at the end, by their names.
+    fn sampled_outputs<const K: usize>(&self, dt: f64) -> Recording<K>
+    where
+        S: OutputMap<f64, N, K>;
+
     /// Writes the states at multiples of `dt`, and at the end, as comma-separated values: a line with `t` and the names of the
     /// entries, then a line for each time.
     ///
@@ -95,6 +100,15 @@ where
 
     fn sampled(&self, dt: f64) -> Recording<N> {
         filled::<S, N>(self.sample(dt))
+    }
+
+    fn sampled_outputs<const K: usize>(&self, dt: f64) -> Recording<K>
+    where
+        S: OutputMap<f64, N, K>,
+    {
+        let mut recording = Recording::new(&S::OUTPUTS);
+        self.sample(dt).for_each(|(t, x)| recording.record(t, &self.system().output_values(t, &x.into())));
+        recording
     }
 
     fn plot(&self, title: &str, entries: &[&str]) -> Result<Plot, StudyError> {

@@ -8,6 +8,7 @@ mod by_hand;
 mod carried;
 mod extremes;
 mod guards;
+mod inputs;
 mod lanes;
 mod promise;
 mod published;

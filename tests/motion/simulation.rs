@@ -16,6 +16,7 @@ mechanical_system! {
         kinetic_energy = m/2*w^2;
         potential_energy = m*g*z;
         forces { force along w; }
+        outputs { power = force*w; place = vec(0, 1, z); }
         provide taylor;
     }
 }

@@ -264,5 +264,10 @@ fn systems(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
                 self.driven(inputs)
             }
         }
+
+        impl<R: __guen::Real> __guen::InputRecords for Prepared<R> {
+            type StateOver<S: __guen::Real> = State<S>;
+            type InputsOver<S: __guen::Real> = Inputs<S>;
+        }
     }
 }

@@ -96,7 +96,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let size = layout.size;
     items.push(quote!(__guen::nalgebra_conversions!(State, #size);));
     if !selection.outputs.is_empty() {
-        items.push(outputs(subject));
+        items.push(outputs(subject, layout));
     }
     quote!(#(#items)*)
 }
@@ -134,7 +134,7 @@ fn record(name: &str, docs: &str, fields: &[Field]) -> TokenStream {
 }
 
 /// Outputs: scalars are reals, vectors arrays of three.
-fn outputs(subject: &Subject<'_, '_>) -> TokenStream {
+fn outputs(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let outputs: Vec<_> =
         subject.level.selection.outputs.iter().map(|o| &subject.model.outputs[*o]).collect();
     let idents: Vec<&Ident> = outputs.iter().map(|o| &o.name.ident).collect();
@@ -154,7 +154,20 @@ fn outputs(subject: &Subject<'_, '_>) -> TokenStream {
             if parts.len() == 1 { quote!(#(#parts)*) } else { quote!([#(#parts),*]) }
         })
         .collect();
+    let names = outputs.iter().flat_map(|o| match o.components.len() {
+        1 => vec![o.name.text.clone()],
+        _ => ["x", "y", "z"].map(|axis| format!("{}.{axis}", o.name.text)).to_vec(),
+    });
+    let size = layout.size;
+    let owner = if layout.inputs == 0 {
+        quote!((self) => self, &[])
+    } else {
+        quote!((self) => self.system, &::core::convert::From::from(self.inputs))
+    };
+    let integrated = format_ident!("{}", if layout.inputs == 0 { "Prepared" } else { "Driven" });
     quote! {
+        __guen::output_map!(#integrated #size #count [#(#names)*] #owner);
+
         /// The declared outputs.
         #[::core::prelude::v1::derive(
             ::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq,

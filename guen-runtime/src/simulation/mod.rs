@@ -3,10 +3,13 @@
 //! The run is an [`Integration`](crate::steppers::Integration) of a method that keeps the polynomial of every step; what does
 //! not ask for a trajectory does not pay for one.
 
+mod drive;
 mod error;
+mod hold;
 mod recorder;
 mod trajectory;
 mod trigger;
+mod without_inputs;
 
 use alloc::boxed::Box;
 use core::ops::{ControlFlow, Range};
@@ -14,10 +17,11 @@ use core::ops::{ControlFlow, Range};
 pub use error::SimulationError;
 pub use trajectory::{Happened, Quality, Trajectory};
 pub use trigger::Trigger;
+pub use without_inputs::SimulationWithoutInputs;
 
 use crate::numbers::real::Ordered;
-use crate::simulation::recorder::Recorder;
-use crate::steppers::{Dop853, Event, Guard, Integration, Interpolant, Method, Occurrence, StepperRun};
+use crate::simulation::drive::{Direct, Drive};
+use crate::steppers::{Dop853, Event, Guard, Integration, Interpolant, Occurrence};
 use crate::system::simulate::Simulate;
 
 /// The tolerance of a simulation that nobody sets, relative and absolute.
@@ -29,6 +33,9 @@ const MEMORY: usize = 1 << 28;
 /// The function that is called after every step.
 type Observer<'a, R, X> = Box<dyn FnMut(R, &X) -> ControlFlow<()> + 'a>;
 
+/// The function that is told how far a run has come.
+type Progress<'a, R> = Box<dyn FnMut(R, f64) + 'a>;
+
 /// A simulation that is being described: system and start are given, everything else has a default.
 ///
 /// | setting | default |
@@ -36,7 +43,7 @@ type Observer<'a, R, X> = Box<dyn FnMut(R, &X) -> ControlFlow<()> + 'a>;
 /// | [`method`](Self::method), [`tolerance`](Self::tolerance) | [`Dop853`] with 1e-9, relative and absolute |
 /// | [`guard`](Self::guard) | the default [`Guard`], after every step |
 /// | [`stop_at`](Self::stop_at), [`events`](Self::events) | none |
-/// | [`observe`](Self::observe) | nobody |
+/// | [`observe`](Self::observe), [`progress`](Self::progress) | nobody |
 /// | [`memory`](Self::memory) | 256 MiB for the trajectory |
 ///
 /// ```
@@ -55,7 +62,7 @@ type Observer<'a, R, X> = Box<dyn FnMut(R, &X) -> ControlFlow<()> + 'a>;
 /// assert!((flight.at(1.0)[0] - (10.0 - 9.81 / 2.0)).abs() < 1e-12);
 /// ```
 #[must_use = "a simulation runs when `run` is called"]
-pub struct Simulation<'a, S, const N: usize, R = f64, M = Dop853<R>, const E: usize = 0>
+pub struct Simulation<'a, S, const N: usize, R = f64, M = Dop853<R>, const E: usize = 0, D = Direct>
 where
     R: Ordered,
     S: Simulate<R, N>,
@@ -67,9 +74,11 @@ where
     memory: usize,
     triggers: [Trigger<'a, R, S::State>; E],
     observer: Option<Observer<'a, R, S::State>>,
+    progress: Option<Progress<'a, R>>,
+    drive: D,
 }
 
-impl<S, const N: usize, R, M, const E: usize> core::fmt::Debug for Simulation<'_, S, N, R, M, E>
+impl<S, const N: usize, R, M, const E: usize, D> core::fmt::Debug for Simulation<'_, S, N, R, M, E, D>
 where
     R: Ordered,
     S: Simulate<R, N>,
@@ -86,6 +95,12 @@ where
 
 impl<R: Ordered, S: Simulate<R, N>, const N: usize> Simulation<'_, S, N, R> {
     pub(crate) fn new(system: S, start: &S::State) -> Self {
+        Self::driven_by(system, start, Direct)
+    }
+}
+
+impl<R: Ordered, S: Simulate<R, N>, D, const N: usize> Simulation<'_, S, N, R, Dop853<R>, 0, D> {
+    fn driven_by(system: S, start: &S::State, drive: D) -> Self {
         Self {
             system,
             start: *start,
@@ -94,6 +109,8 @@ impl<R: Ordered, S: Simulate<R, N>, const N: usize> Simulation<'_, S, N, R> {
             memory: MEMORY,
             triggers: [],
             observer: None,
+            progress: None,
+            drive,
         }
     }
 
@@ -103,9 +120,9 @@ impl<R: Ordered, S: Simulate<R, N>, const N: usize> Simulation<'_, S, N, R> {
     }
 }
 
-impl<'a, R: Ordered, S: Simulate<R, N>, M, const N: usize> Simulation<'a, S, N, R, M> {
+impl<'a, R: Ordered, S: Simulate<R, N>, M, D, const N: usize> Simulation<'a, S, N, R, M, 0, D> {
     /// Ends the run where this function of time and state crosses zero, in either direction; the trajectory ends there.
-    pub fn stop_at(self, function: impl Fn(R, &S::State) -> R + 'a) -> Simulation<'a, S, N, R, M, 1> {
+    pub fn stop_at(self, function: impl Fn(R, &S::State) -> R + 'a) -> Simulation<'a, S, N, R, M, 1, D> {
         self.events([Trigger::new(function).terminal()])
     }
 
@@ -130,17 +147,21 @@ impl<'a, R: Ordered, S: Simulate<R, N>, M, const N: usize> Simulation<'a, S, N, 
     pub fn events<const E: usize>(
         self,
         triggers: [Trigger<'a, R, S::State>; E],
-    ) -> Simulation<'a, S, N, R, M, E> {
-        let Self { system, start, method, guard, memory, observer, .. } = self;
-        Simulation { system, start, method, guard, memory, triggers, observer }
+    ) -> Simulation<'a, S, N, R, M, E, D> {
+        let Self { system, start, method, guard, memory, observer, progress, drive, .. } = self;
+        Simulation { system, start, method, guard, memory, triggers, observer, progress, drive }
     }
 }
 
-impl<'a, R: Ordered, S: Simulate<R, N>, M, const N: usize, const E: usize> Simulation<'a, S, N, R, M, E> {
+impl<'a, R, S, M, D, const N: usize, const E: usize> Simulation<'a, S, N, R, M, E, D>
+where
+    R: Ordered,
+    S: Simulate<R, N>,
+{
     /// Runs with this method.
-    pub fn method<T>(self, method: T) -> Simulation<'a, S, N, R, T, E> {
-        let Self { system, start, guard, memory, triggers, observer, .. } = self;
-        Simulation { system, start, method, guard, memory, triggers, observer }
+    pub fn method<T>(self, method: T) -> Simulation<'a, S, N, R, T, E, D> {
+        let Self { system, start, guard, memory, triggers, observer, progress, drive, .. } = self;
+        Simulation { system, start, method, guard, memory, triggers, observer, progress, drive }
     }
 
     /// Watches with these limits in place of the default ones.
@@ -159,6 +180,21 @@ impl<'a, R: Ordered, S: Simulate<R, N>, M, const N: usize, const E: usize> Simul
         Self { observer: Some(Box::new(observer)), ..self }
     }
 
+    /// Says after every accepted step at which time the run is, and which part of its span is done, from zero to one: for what a
+    /// user is shown. Costs a call for each step.
+    ///
+    /// ```
+    /// use guen_runtime::{Simulate, from_fn};
+    ///
+    /// let decay = from_fn(|_t: f64, &[x]: &[f64; 1]| [-x]);
+    /// let mut shown = Vec::new();
+    /// decay.simulation(&[1.0]).progress(|_t, part| shown.push(part)).run(0.0..4.0).unwrap();
+    /// assert!(shown.is_sorted() && shown.last() == Some(&1.0));
+    /// ```
+    pub fn progress(self, progress: impl FnMut(R, f64) + 'a) -> Self {
+        Self { progress: Some(Box::new(progress)), ..self }
+    }
+
     /// Runs from the start of the span to its end, forwards or backwards, and returns the motion.
     ///
     /// # Errors
@@ -169,12 +205,11 @@ impl<'a, R: Ordered, S: Simulate<R, N>, M, const N: usize, const E: usize> Simul
     pub fn run<P>(self, span: Range<R>) -> Result<Trajectory<S, N, R, P>, SimulationError<S, N, R, P>>
     where
         P: Interpolant<R, N>,
-        M: Method<R, S, N>,
-        for<'r> M::Run<'r>: StepperRun<R, S, N, Polynomial = P>,
+        D: Drive<R, S, M, P, N>,
     {
-        let Self { system, start, method, guard, memory, triggers, observer } = self;
+        let Self { system, start, method, guard, memory, triggers, mut observer, mut progress, mut drive } =
+            self;
         let start: [R; N] = start.into();
-        let recorder = Recorder::new(&method, memory);
         let functions = triggers.each_ref().map(|trigger| trigger.of_array());
         let events: [Event<'_, R, N>; E] = core::array::from_fn(|i| triggers[i].event(functions[i].as_ref()));
         let mut happened = alloc::vec::Vec::new();
@@ -187,22 +222,27 @@ impl<'a, R: Ordered, S: Simulate<R, N>, M, const N: usize, const E: usize> Simul
             });
             ControlFlow::Continue(())
         };
-        let mut observer = observer;
-        let mut observe = |t: R, x: &[R; N]| match &mut observer {
-            Some(observer) => observer(t, &S::State::from(*x)),
-            None => ControlFlow::Continue(()),
+        let duration = span.end - span.start;
+        let mut observe = |t: R, x: &[R; N]| {
+            if let Some(progress) = &mut progress {
+                progress(t, ((t - span.start) / duration).to_f64());
+            }
+            match &mut observer {
+                Some(observer) => observer(t, &S::State::from(*x)),
+                None => ControlFlow::Continue(()),
+            }
         };
-        let result = Integration::new(&system, span.start, &start)
+        let integration = Integration::new(&system, span.start, &start)
             .guard(guard)
             .observe(&mut observe)
-            .events(events, &mut receive)
-            .run(&recorder, span.end);
-        let steps = recorder.into_steps();
+            .events(events, &mut receive);
+        let (result, steps) = drive.run(integration, &method, span.end, memory);
         let (end, statistics, outcome, cause) = match result {
             Ok(done) => ((done.time, done.state), done.statistics, Some(done.outcome), None),
             Err(error) => ((error.time, error.state), error.statistics, None, Some(error.cause)),
         };
         drop(functions);
+        let system = drive.finished(system);
         let trajectory =
             Trajectory::new(system, (span.start, start), steps, end, happened, statistics, outcome);
         match cause {

@@ -10,7 +10,7 @@ use crate::system::System;
 
 /// A step of a run: where it began, and the motion from there on.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Step<R, P> {
+pub struct Step<R, P> {
     pub start: R,
     pub polynomial: P,
 }
@@ -40,8 +40,9 @@ pub(super) struct Recorder<'m, M, R, P> {
 }
 
 impl<'m, M, R, P> Recorder<'m, M, R, P> {
-    pub fn new(method: &'m M, memory: usize) -> Self {
-        let most = memory / size_of::<Step<R, P>>().max(1);
+    /// The method, with `beside` bytes of memory for each step that others take.
+    pub fn new(method: &'m M, memory: usize, beside: usize) -> Self {
+        let most = memory / (size_of::<Step<R, P>>() + beside).max(1);
         Self { method, log: RefCell::new(Log { steps: Vec::new(), most, memory }) }
     }
 

@@ -5,6 +5,7 @@ use alloc::vec::Vec;
 use crate::numbers::real::Real;
 use crate::simulation::recorder::Step;
 use crate::steppers::{Dense, Interpolant, Outcome, Statistics};
+use crate::system::outputs::OutputMap;
 use crate::system::simulate::Simulate;
 use crate::system::{Monitored, System};
 
@@ -218,6 +219,52 @@ where
         S: Monitored<R, N>,
     {
         self.times().map(|t| (t, self.system.energy(t, &self.array_at(t))))
+    }
+
+    /// The declared outputs at all accepted steps, start and end included.
+    pub fn outputs<const K: usize>(&self) -> impl Iterator<Item = (R, S::Outputs)> + '_
+    where
+        S: OutputMap<R, N, K>,
+    {
+        self.times().map(|t| (t, self.outputs_at(t)))
+    }
+
+    /// The declared outputs at time `t`, as those of the state [`at`](Self::at) that time.
+    ///
+    /// ```
+    /// use guen_runtime::{OutputMap, Simulate, System};
+    ///
+    /// /// What the macro generates for a declared system.
+    /// #[derive(Clone, Copy)]
+    /// struct Oscillator;
+    /// impl System<f64, 2> for Oscillator {
+    ///     fn rhs(&self, _t: f64, &[x, v]: &[f64; 2]) -> [f64; 2] {
+    ///         [v, -x]
+    ///     }
+    /// }
+    /// impl Simulate<f64, 2> for Oscillator {
+    ///     type State = [f64; 2];
+    /// }
+    /// impl OutputMap<f64, 2, 1> for Oscillator {
+    ///     type Outputs = f64;
+    ///     const OUTPUTS: [&'static str; 1] = ["radius"];
+    ///     fn output_values(&self, _t: f64, &[x, v]: &[f64; 2]) -> [f64; 1] {
+    ///         [x.hypot(v)]
+    ///     }
+    ///     fn named_outputs(values: &[f64; 1]) -> f64 {
+    ///         values[0]
+    ///     }
+    /// }
+    ///
+    /// let motion = Oscillator.simulate(&[2.0, 0.0], 0.0..5.0).unwrap();
+    /// assert!((motion.outputs_at(1.3) - 2.0).abs() < 1e-7);
+    /// assert_eq!(motion.outputs().count(), motion.times().count());
+    /// ```
+    pub fn outputs_at<const K: usize>(&self, t: R) -> S::Outputs
+    where
+        S: OutputMap<R, N, K>,
+    {
+        S::named_outputs(&self.system.output_values(t, &self.array_at(t)))
     }
 
     /// The work of the run, and the largest deviations from what the exact motion keeps. Evaluates the invariants at all

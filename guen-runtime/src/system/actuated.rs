@@ -2,12 +2,21 @@
 
 use core::marker::PhantomData;
 
+use crate::numbers::dual::Dual;
+use crate::numbers::lift::Lift;
 use crate::numbers::real::Real;
 use crate::numbers::running_error::RunningError;
+use crate::system::bodies::{Bodies, Body};
+use crate::system::differentiable::Differentiable;
+use crate::system::input_law::{InputLaw, InputRecords, InputValues, Smooth};
 use crate::system::invariants::Invariants;
+use crate::system::linearization::{Liftable, Linearizable, Linearization, seeded};
+use crate::system::outputs::OutputMap;
 use crate::system::positions_error::PositionsError;
 use crate::system::simulate::Simulate;
 use crate::system::{Monitored, System};
+#[cfg(feature = "alloc")]
+use {crate::numbers::real::Ordered, crate::simulation::SimulationWithoutInputs};
 
 /// A prepared system with inputs: with values for them it is something that steppers integrate. Generated systems are.
 pub trait Actuated<R: Real, const N: usize> {
@@ -22,9 +31,9 @@ pub trait Actuated<R: Real, const N: usize> {
 
     /// The system with inputs that are functions of time and state: `law` is evaluated in every right-hand side.
     ///
-    /// Every method serves that needs rates alone: `Dop853`, `Tsit5`, `Rk8`, `Rk4`, `Euler`. Implicit ones and Taylor series
-    /// would need derivatives of the law. Guards watch as they do with inputs held at the law's values. What is
-    /// constant over a period of time is [`held`](Self::held), which generated systems call `driven`.
+    /// A closure serves every method that needs rates alone: `Dop853`, `Tsit5`, `Rk8`, `Rk4`, `Euler`. Implicit ones need
+    /// derivatives of the law: [`with_law`](Self::with_law). Guards watch as they do with inputs held at the law's values. What
+    /// is constant over a period of time is [`held`](Self::held), which generated systems call `driven`.
     ///
     /// ```
     /// use guen_runtime::{Actuated, Simulate, System};
@@ -60,33 +69,69 @@ pub trait Actuated<R: Real, const N: usize> {
         Self: Sized,
         F: Fn(R, &<Self::Driven as Simulate<R, N>>::State) -> Self::Inputs,
     {
-        WithInputs { system: self, law, real: PhantomData }
+        WithInputs::new(self, law)
+    }
+
+    /// The system with inputs by an [`InputLaw`], which is written for every real: `Radau5`, `Gauss4`, `Gauss6` and
+    /// [`Linearizable`] see its derivatives. One law serves every method but `Taylor`; the series that a system provides hold
+    /// its inputs.
+    fn with_law<L, const M: usize>(self, law: L) -> WithInputs<Self, Smooth<L, Self, M>, R, N>
+    where
+        Self: Sized + InputRecords + Liftable<R, N, M>,
+        L: InputLaw<Self>,
+    {
+        WithInputs::new(self, Smooth::new(law))
+    }
+
+    /// A simulation from a state, which first needs inputs: [`inputs`](SimulationWithoutInputs::inputs) that are functions of
+    /// time and state, or those of a controller that [`hold`](SimulationWithoutInputs::hold)s them between its samples.
+    #[cfg(feature = "alloc")]
+    fn simulation(
+        &self,
+        start: &<Self::Driven as Simulate<R, N>>::State,
+    ) -> SimulationWithoutInputs<Self, R, N>
+    where
+        R: Ordered,
+        Self: Clone,
+    {
+        SimulationWithoutInputs::new(self.clone(), start)
     }
 }
 
 /// A system whose inputs are functions of time and state: see [`Actuated::with_inputs`].
 #[derive(Clone, Copy, Debug)]
 pub struct WithInputs<S, F, R, const N: usize> {
-    system: S,
-    law: F,
+    pub(crate) system: S,
+    pub(crate) law: F,
     real: PhantomData<R>,
+}
+
+impl<S, F, R, const N: usize> WithInputs<S, F, R, N> {
+    pub(crate) fn new(system: S, law: F) -> Self {
+        Self { system, law, real: PhantomData }
+    }
+
+    /// The law.
+    pub fn law(&self) -> &F {
+        &self.law
+    }
 }
 
 impl<S, F, R, const N: usize> WithInputs<S, F, R, N>
 where
     R: Real,
     S: Actuated<R, N>,
-    F: Fn(R, &<S::Driven as Simulate<R, N>>::State) -> S::Inputs,
+    F: InputValues<R, <S::Driven as Simulate<R, N>>::State, S::Inputs>,
 {
     /// The inputs at a time and state.
     pub fn inputs(&self, t: R, state: &<S::Driven as Simulate<R, N>>::State) -> S::Inputs {
-        (self.law)(t, state)
+        self.law.values(t, state)
     }
 
     /// The system with inputs held at what the law says at a time and state.
     #[inline]
     fn at(&self, t: R, state: &[R; N]) -> S::Driven {
-        self.system.held((self.law)(t, &(*state).into()))
+        self.system.held(self.law.values(t, &(*state).into()))
     }
 
     /// The system with whatever inputs, for what does not depend on them.
@@ -100,7 +145,7 @@ impl<S, F, R, const N: usize> System<R, N> for WithInputs<S, F, R, N>
 where
     R: Real,
     S: Actuated<R, N>,
-    F: Fn(R, &<S::Driven as Simulate<R, N>>::State) -> S::Inputs,
+    F: InputValues<R, <S::Driven as Simulate<R, N>>::State, S::Inputs>,
 {
     #[inline]
     fn rhs(&self, t: R, state: &[R; N]) -> [R; N] {
@@ -142,7 +187,7 @@ where
     R: Real,
     S: Actuated<R, N>,
     S::Driven: Monitored<R, N>,
-    F: Fn(R, &<S::Driven as Simulate<R, N>>::State) -> S::Inputs,
+    F: InputValues<R, <S::Driven as Simulate<R, N>>::State, S::Inputs>,
 {
     fn energy(&self, t: R, state: &[R; N]) -> R {
         self.at(t, state).energy(t, state)
@@ -157,9 +202,103 @@ impl<S, F, R, const N: usize> Simulate<R, N> for WithInputs<S, F, R, N>
 where
     R: Real,
     S: Actuated<R, N>,
-    F: Fn(R, &<S::Driven as Simulate<R, N>>::State) -> S::Inputs,
+    F: InputValues<R, <S::Driven as Simulate<R, N>>::State, S::Inputs>,
 {
     type State = <S::Driven as Simulate<R, N>>::State;
     const STATES: &'static [&'static str] = S::Driven::STATES;
     const DOMAIN: &'static [&'static str] = S::Driven::DOMAIN;
+}
+
+impl<S, F, R, const N: usize, const B: usize> Bodies<R, N, B> for WithInputs<S, F, R, N>
+where
+    R: Real,
+    S: Actuated<R, N>,
+    S::Driven: Bodies<R, N, B>,
+    F: InputValues<R, <S::Driven as Simulate<R, N>>::State, S::Inputs>,
+{
+    #[inline]
+    fn bodies(&self, t: R, state: &[R; N]) -> [Body<R>; B] {
+        self.anywhere().bodies(t, state)
+    }
+}
+
+impl<S, F, R, const N: usize, const K: usize> OutputMap<R, N, K> for WithInputs<S, F, R, N>
+where
+    R: Real,
+    S: Actuated<R, N>,
+    S::Driven: OutputMap<R, N, K>,
+    F: InputValues<R, <S::Driven as Simulate<R, N>>::State, S::Inputs>,
+{
+    type Outputs = <S::Driven as OutputMap<R, N, K>>::Outputs;
+    const OUTPUTS: [&'static str; K] = <S::Driven as OutputMap<R, N, K>>::OUTPUTS;
+
+    fn output_values(&self, t: R, state: &[R; N]) -> [R; K] {
+        self.at(t, state).output_values(t, state)
+    }
+
+    fn named_outputs(values: &[R; K]) -> Self::Outputs {
+        <S::Driven as OutputMap<R, N, K>>::named_outputs(values)
+    }
+}
+
+/// The law's derivatives by the state: of each input by each entry.
+fn slopes<L, S, R, const N: usize, const M: usize>(law: &L, t: R, state: &[R; N]) -> [Dual<R, N>; M]
+where
+    R: Real,
+    S: InputRecords,
+    L: InputLaw<S>,
+    S::StateOver<Dual<R, N>>: From<[Dual<R, N>; N]>,
+    S::InputsOver<Dual<R, N>>: Into<[Dual<R, N>; M]>,
+{
+    law.at(Dual::constant(t), &seeded(state).into()).into()
+}
+
+impl<S, L, R, const N: usize, const M: usize> Differentiable<R, N> for WithInputs<S, Smooth<L, S, M>, R, N>
+where
+    R: Real,
+    S: Actuated<R, N> + InputRecords + Linearizable<R, N, M> + Liftable<R, N, M>,
+    S::Inputs: Into<[R; M]>,
+    L: InputLaw<S>,
+    Smooth<L, S, M>: InputValues<R, <S::Driven as Simulate<R, N>>::State, S::Inputs>,
+    S::StateOver<Dual<R, N>>: From<[Dual<R, N>; N]>,
+    S::InputsOver<Dual<R, N>>: Into<[Dual<R, N>; M]>,
+    S::StateOver<Dual<R, 1>>: From<[Dual<R, 1>; N]>,
+    S::InputsOver<Dual<R, 1>>: Into<[Dual<R, 1>; M]>,
+    Dual<R, 1>: Lift<R>,
+{
+    /// `A + B K` with the system's own linearisation, and `K` of the law by dual numbers.
+    fn jacobian(&self, t: R, state: &[R; N]) -> [[R; N]; N] {
+        let inputs = self.inputs(t, &(*state).into()).into();
+        let Linearization { mut a, b } = self.system.linearization(t, state, &inputs);
+        let slopes: [Dual<R, N>; M] = slopes::<L, S, R, N, M>(&self.law.law, t, state);
+        for (row, by_inputs) in a.iter_mut().zip(&b) {
+            for (by_input, slope) in by_inputs.iter().zip(&slopes) {
+                for (entry, slope) in row.iter_mut().zip(&slope.tangent) {
+                    *entry += *by_input * *slope;
+                }
+            }
+        }
+        a
+    }
+
+    fn along(&self, t: R, state: &[R; N], dt: R, dx: &[R; N]) -> [R; N] {
+        let time = Dual { value: t, tangent: [dt] };
+        let state: [Dual<R, 1>; N] = core::array::from_fn(|i| Dual { value: state[i], tangent: [dx[i]] });
+        let inputs = self.law.law.at(time, &state.into()).into();
+        self.system.lifted_rates(time, &state, &inputs).map(|rate| rate.tangent[0])
+    }
+}
+
+impl<S, L, R, const N: usize, const M: usize> Linearizable<R, N, 0> for WithInputs<S, Smooth<L, S, M>, R, N>
+where
+    R: Real,
+    Self: Differentiable<R, N>,
+{
+    fn rates(&self, t: R, state: &[R; N], _inputs: &[R; 0]) -> [R; N] {
+        self.rhs(t, state)
+    }
+
+    fn linearization(&self, t: R, state: &[R; N], _inputs: &[R; 0]) -> Linearization<R, N, 0> {
+        Linearization { a: self.jacobian(t, state), b: [[]; N] }
+    }
 }

@@ -15,7 +15,8 @@ use crate::system::linearization::seeded;
 /// through [`generic`].
 #[diagnostic::on_unimplemented(
     message = "`{Self}` offers no derivatives of its right-hand side",
-    note = "implicit methods need them; write the right-hand side for every real as `Equations` and pass `generic(..)`"
+    note = "implicit methods need them; write the right-hand side for every real as `Equations` and pass `generic(..)`",
+    note = "inputs that are a closure have no derivatives; write them for every real as an `InputLaw` and pass them to `.with_law(..)`"
 )]
 pub trait Differentiable<R: Real, const N: usize>: System<R, N> {
     /// The Jacobian by the state at time `t`: row `i` holds the derivatives of rate `i`.

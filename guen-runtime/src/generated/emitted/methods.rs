@@ -13,6 +13,29 @@ macro_rules! array_of_inputs {
     };
 }
 
+/// The trait `OutputMap` of what steppers integrate, with the numbers of states and of outputs, the names of the outputs, and where
+/// the prepared values and the inputs are.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! output_map {
+    ($Owner:ident $size:literal $count:literal [$($name:literal)*] ($self:ident) => $prepared:expr, $given:expr) => {
+        impl<R: $crate::Real> $crate::OutputMap<R, $size, $count> for $Owner<R> {
+            type Outputs = Outputs<R>;
+            const OUTPUTS: [&'static ::core::primitive::str; $count] = [$($name),*];
+
+            #[inline]
+            fn output_values(&$self, t: R, state: &[R; $size]) -> [R; $count] {
+                program::outputs(&$prepared.constants, &$prepared.hoisted, t, state, $given)
+            }
+
+            #[inline]
+            fn named_outputs(values: &[R; $count]) -> Outputs<R> {
+                Outputs::from_values(values)
+            }
+        }
+    };
+}
+
 /// `mass_form`, with the numbers of parameters and of inputs, and where the bias and the matrix of the inputs begin.
 #[doc(hidden)]
 #[macro_export]

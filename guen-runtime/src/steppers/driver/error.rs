@@ -145,6 +145,10 @@ pub enum Setting {
     Budget,
     /// The order of the method is none that it has.
     Order,
+    /// The period of a controller is not positive and finite.
+    Period,
+    /// A run with a controller goes backwards in time.
+    Backwards,
 }
 
 /// The names of a system for messages; empty where it has none.
@@ -253,6 +257,12 @@ impl Cause {
             }
             Self::Setting(Setting::Guard) => f.write_str("a limit of the guard is not a nonnegative number"),
             Self::Setting(Setting::Order) => f.write_str("the order is not between 2 and 32"),
+            Self::Setting(Setting::Period) => {
+                f.write_str("the period of the controller is not a positive number")
+            }
+            Self::Setting(Setting::Backwards) => {
+                f.write_str("a controller that holds its inputs cannot run backwards in time")
+            }
             Self::Setting(Setting::Budget) => {
                 f.write_str("the number of evaluations is not enough for one step")
             }
