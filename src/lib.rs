@@ -159,8 +159,8 @@ pub mod __private {
         HIGHEST_ORDER, Holonomic, IncompleteLieGroup, InputRecords, Invariants, Laned, Level, LevelInfo,
         Levels, LieGroup, Lift, Liftable, Linearizable, Linearization, Monitored, Nonholonomic, Operator,
         Ordered, OutputLinearization, OutputMap, Positions, PositionsError, Real, Recast, Report,
-        ReportSection, Rheonomic, RunningError, Scleronomic, Simulate, System, TaylorSeries, WithInputs,
-        nalgebra_conversions, seeded,
+        ReportSection, Rheonomic, RunningError, Scleronomic, Simulate, System, TaylorSeries, Undriven,
+        Unprepared, WithInputs, nalgebra_conversions, seeded,
     };
     pub use guen_runtime::{
         cells, condition, differentiable, domain, energy, facts, laned, lift, linearizable, mass_form,

@@ -79,6 +79,8 @@ pub use system::differentiable::{Differentiable, Equations, Generic, generic};
 pub use system::frame::Displacement;
 #[doc(hidden)]
 pub use system::frame::{Frame, bracket_values, known_bracket};
+#[doc(hidden)]
+pub use system::hints::{Undriven, Unprepared};
 #[cfg(feature = "alloc")]
 pub use system::input_law::InputSamples;
 pub use system::input_law::{InputLaw, InputRecords, InputValues, Smooth};
@@ -118,5 +120,7 @@ pub mod prelude {
     };
     #[cfg(feature = "alloc")]
     pub use crate::{Simulation, SimulationError, Trajectory, Trigger};
+    #[doc(hidden)]
+    pub use crate::{Undriven as _, Unprepared as _};
     pub use core::ops::ControlFlow;
 }

@@ -124,6 +124,8 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, report: &Report)
 
         #resolution
 
+        impl<R> __guen::Unprepared for #system<R> {}
+
         impl<R: __guen::Real> #system<R> {
             /// Checks the constants and computes what depends on them alone.
             ///

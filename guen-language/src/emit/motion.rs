@@ -255,6 +255,8 @@ fn systems(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
         #monitored
         #simulate
 
+        impl<R> __guen::Undriven for Prepared<R> {}
+
         impl<R: __guen::Real> __guen::Actuated<R, #size> for Prepared<R> {
             type Inputs = Inputs<R>;
             type Driven = Driven<R>;

@@ -16,7 +16,8 @@ use crate::system::linearization::seeded;
 #[diagnostic::on_unimplemented(
     message = "`{Self}` offers no derivatives of its right-hand side",
     note = "implicit methods need them; write the right-hand side for every real as `Equations` and pass `generic(..)`",
-    note = "inputs that are a closure have no derivatives; write them for every real as an `InputLaw` and pass them to `.with_law(..)`"
+    note = "inputs that are a closure have no derivatives; write them for every real as an `InputLaw` and pass them to `.with_law(..)`",
+    note = "constants are prepared before, with `.prepare()?`; a prepared system with inputs gets them by `.with_law(..)` or `.driven(..)`"
 )]
 pub trait Differentiable<R: Real, const N: usize>: System<R, N> {
     /// The Jacobian by the state at time `t`: row `i` holds the derivatives of rate `i`.

@@ -8,6 +8,7 @@ pub(crate) mod classification;
 pub(crate) mod constants_error;
 pub(crate) mod differentiable;
 pub(crate) mod frame;
+pub(crate) mod hints;
 pub(crate) mod input_law;
 pub(crate) mod invariants;
 pub(crate) mod level;

@@ -54,7 +54,8 @@ pub type Coefficients<R, const N: usize> = [[R; N]; HIGHEST_ORDER + 1];
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no Taylor series",
     note = "a declared system or scene has one if it says `provide taylor;`",
-    note = "the recurrences of a series hold the inputs; where these are a law, take `Dop853`, or hold them: `.simulation(..).hold(period, controller)`"
+    note = "the recurrences of a series hold the inputs; where these are a law, take `Dop853`, or hold them: `.simulation(..).hold(period, controller)`",
+    note = "constants are prepared before, with `.prepare()?`; a prepared system with inputs gets them by `.driven(..)`"
 )]
 pub trait TaylorSeries<R: Real, const N: usize>: System<R, N> {
     /// The sums of products `sum_j a_j b_{k-j}` that a coefficient of order `k` takes: each is about `k` products, half as

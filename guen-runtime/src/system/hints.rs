@@ -1,0 +1,76 @@
+//! Messages for calls that come too early: constants that are not prepared, and prepared systems whose inputs nobody has set.
+//!
+//! What is no system has no method [`simulate`](crate::Simulate::simulate), and the compiler says no more than that. The traits of
+//! this module have methods of the same names for what comes before a system. They take `&mut self`, which the compiler tries after
+//! the `&self` of the true ones, and nothing fulfils their bounds, of which the messages are. Written out, because the compiler would
+//! show a macro around them.
+
+/// The constants of a system, before `prepare`.
+#[doc(hidden)]
+pub trait Unprepared {
+    /// Answers with the message of its bound.
+    fn simulate<Start, Span, Motion>(&mut self, _: Start, _: Span) -> Motion
+    where
+        Self: Preparation,
+    {
+        self.never()
+    }
+
+    /// Answers with the message of its bound.
+    fn simulation<Start, Simulation>(&mut self, _: Start) -> Simulation
+    where
+        Self: Preparation,
+    {
+        self.never()
+    }
+
+    /// Answers with the message of its bound.
+    fn with_inputs<Law, Driven>(&mut self, _: Law) -> Driven
+    where
+        Self: Preparation,
+    {
+        self.never()
+    }
+
+    /// Answers with the message of its bound.
+    fn with_law<Law, Driven>(&mut self, _: Law) -> Driven
+    where
+        Self: Preparation,
+    {
+        self.never()
+    }
+}
+
+/// A prepared system with inputs, before it has some.
+#[doc(hidden)]
+pub trait Undriven {
+    /// Answers with the message of its bound.
+    fn simulate<Start, Span, Motion>(&mut self, _: Start, _: Span) -> Motion
+    where
+        Self: Inputs,
+    {
+        self.never()
+    }
+}
+
+/// The bound of [`Unprepared`]: nothing implements it.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not prepared: constants become a system by `.prepare()?`",
+    label = "`.prepare()?` is missing before this call"
+)]
+#[doc(hidden)]
+pub trait Preparation {
+    /// The answer to a call that does not compile.
+    fn never<Answer>(&self) -> Answer;
+}
+
+/// The bound of [`Undriven`]: nothing implements it.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has inputs that nobody has set: `.with_inputs(|t, state| ..)` makes them functions, `.driven(inputs)` holds them",
+    label = "`.with_inputs(..)` is missing before this call"
+)]
+#[doc(hidden)]
+pub trait Inputs {
+    /// The answer to a call that does not compile.
+    fn never<Answer>(&self) -> Answer;
+}
