@@ -11,7 +11,7 @@ use std::error::Error;
 use std::process::ExitCode;
 
 use guen::Linearization;
-use guen::control::{Component, c2d, controllability, diagonal, dlqr, poles};
+use guen::control::{c2d, controllability, diagonal, dlqr, poles};
 use guen::prelude::*;
 use guen_study::{Plot, Recording, Shape, Table, Viewer};
 
@@ -85,14 +85,8 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
         Err(error) => println!("the whole leaf: {error}"),
     }
     // So the places and the wheels are left to whoever plans the path.
-    let fed_back = [
-        Component::Coordinate(2),
-        Component::Coordinate(3),
-        Component::Parameter(0),
-        Component::Parameter(1),
-        Component::Parameter(2),
-    ];
-    let rows = fed_back.map(|one| leaf.components.iter().position(|c| *c == one).unwrap_or(0));
+    let fed_back = ["heading", "tilt", "speed", "turn", "fall"];
+    let rows = fed_back.map(|name| leaf.place(name).unwrap_or(0));
     let linear = Linearization {
         a: rows.map(|i| rows.map(|j| leaf.linear.a[i][j])),
         b: rows.map(|i| [leaf.linear.b[i][0], leaf.linear.b[i][1]]),
@@ -105,7 +99,7 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
     let slowest = poles(&regulator.closed_loop(&model)).ok_or("no poles")?.map(|pole| pole.magnitude());
     let slowest = slowest.into_iter().fold(0.0, f64::max);
     let gain: Gain = regulator.gain;
-    let mut table = Table::new(&["heading", "tilt", "speed", "turn", "fall"]).digits(4);
+    let mut table = Table::new(&fed_back).digits(4);
     for row in &gain {
         table.row(row);
     }

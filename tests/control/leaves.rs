@@ -56,6 +56,8 @@ fn the_hoop_without_its_height() {
     state[5] = 0.7 * state[0].sin();
     let reduced = system.reduce(0.0, &state.into(), &["theta"]).unwrap();
     assert!(!reduced.components.contains(&Component::Coordinate(5)), "{:?}", reduced.components);
+    assert_eq!(reduced.names, ["theta", "psi", "phi", "xi", "eta", "eta1", "eta2", "eta3"]);
+    assert_eq!((reduced.place("eta2"), reduced.place("zeta")), (Some(6), None));
     let z = [0, 1, 2, 3, 4, 6, 7, 8];
     let rates = |z_values: &[f64; 8]| {
         let mut s = state;
@@ -123,6 +125,11 @@ fn a_top_in_quaternions() {
     let reduced = system.reduce(0.0, &state, &inputs, &[]).unwrap();
     let rotation = |axis| Component::Rotation { quaternion: 0, axis };
     assert_eq!(reduced.components[..3], [rotation(0), rotation(1), rotation(2)]);
+    assert_eq!(
+        reduced.names.map(|name| name.to_string())[..4],
+        ["rotation_x(w)", "rotation_y(w)", "rotation_z(w)", "spin_x"]
+    );
+    assert_eq!((reduced.place("rotation_y(w)"), reduced.place("rotation_y(i)")), (Some(1), None));
 
     let base: [f64; 4] = [s[0], s[1], s[2], s[3]];
     let product = |[a, b, c, d]: [f64; 4], [e, f, g, h]: [f64; 4]| {

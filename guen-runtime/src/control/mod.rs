@@ -33,6 +33,6 @@ pub use inverse::{
     InverseDynamicsError, MassForm, affine_inverse_dynamics, inverse_dynamics, inverse_dynamics_from,
 };
 pub use poles::{PlaceError, Pole, place, poles};
-pub use reduced::{Component, Leaf, Quaternion, ReduceError, Reduced, independent};
+pub use reduced::{Component, ComponentName, Leaf, Quaternion, ReduceError, Reduced, independent};
 pub use riccati::{Observer, Regulator, RiccatiError, diagonal, dkalman, dlqr, kalman, lqr};
 pub use steady::{SteadyError, SteadyMotion, named, steady};

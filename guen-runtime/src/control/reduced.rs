@@ -27,6 +27,71 @@ pub enum Component {
     Parameter(usize),
 }
 
+/// The name of a component of a reduced basis: that of a coordinate or of a quasi-velocity as it was declared, `theta`, or an axis and
+/// the first coordinate of the quaternion that turns about it, `rotation_x(w)`. Compares with text.
+///
+/// Costs nothing but its place: two words and a letter, no allocation.
+///
+/// ```
+/// use guen_runtime::{Linearization, control::Leaf};
+/// let linear = Linearization { a: [[0.0, 1.0], [-1.0, 0.0]], b: [[0.0], [1.0]] };
+/// let leaf = Leaf::<f64, 1, 0> {
+///     coordinates: [0.0], velocities: [0.0], rows: [], quaternions: &[], independent: [false], names: &["angle", "speed"],
+/// };
+/// let reduced = leaf.reduce::<2, 1, 2>(&linear, &[0.0; 2]).unwrap();
+/// assert_eq!(reduced.names, ["angle", "speed"]);
+/// assert_eq!(reduced.place("speed"), Some(1));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ComponentName {
+    of: &'static str,
+    /// The axis that a quaternion turns about.
+    axis: Option<char>,
+}
+
+impl ComponentName {
+    fn new(
+        component: Component,
+        coordinates: usize,
+        quaternions: &[Quaternion],
+        names: &[&'static str],
+    ) -> Self {
+        let of = |place: usize| names.get(place).copied().unwrap_or_default();
+        match component {
+            Component::Coordinate(i) => Self { of: of(i), axis: None },
+            Component::Parameter(s) => Self { of: of(coordinates + s), axis: None },
+            Component::Rotation { quaternion, axis } => {
+                let first = quaternions.get(quaternion).map_or("", |[w, ..]| of(*w));
+                Self { of: first, axis: Some(['x', 'y', 'z'][axis.min(2)]) }
+            }
+        }
+    }
+}
+
+impl fmt::Display for ComponentName {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.axis {
+            None => f.pad(self.of),
+            Some(axis) => write!(f, "rotation_{axis}({})", self.of),
+        }
+    }
+}
+
+impl PartialEq<str> for ComponentName {
+    fn eq(&self, other: &str) -> bool {
+        let Some(axis) = self.axis else { return self.of == other };
+        let turned = other.strip_prefix("rotation_").and_then(|rest| rest.strip_prefix(axis));
+        let of = turned.and_then(|rest| rest.strip_prefix('(')).and_then(|rest| rest.strip_suffix(')'));
+        of == Some(self.of)
+    }
+}
+
+impl PartialEq<&str> for ComponentName {
+    fn eq(&self, other: &&str) -> bool {
+        *self == **other
+    }
+}
+
 /// Why there is no reduced basis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
@@ -104,9 +169,16 @@ pub struct Reduced<R, const S: usize, const M: usize, const Z: usize> {
     pub projection: [[R; S]; Z],
     /// The kind of each component.
     pub components: [Component; Z],
+    /// The name of each component; empty where the system's states have none.
+    pub names: [ComponentName; Z],
 }
 
 impl<R: Real, const S: usize, const M: usize, const Z: usize> Reduced<R, S, M, Z> {
+    /// The place of the component with this name, if it is one of them.
+    pub fn place(&self, name: &str) -> Option<usize> {
+        self.names.iter().position(|known| *known == *name)
+    }
+
     /// The components of a small deviation of the state on the leaf.
     pub fn project(&self, deviation: &[R; S]) -> [R; Z] {
         apply(&self.projection, deviation)
@@ -139,6 +211,8 @@ pub struct Leaf<'a, R, const N: usize, const H: usize> {
     pub quaternions: &'a [Quaternion],
     /// Coordinates that are to stay independent; naming a component of a quaternion names its rotation.
     pub independent: [bool; N],
+    /// The names of the coordinates, then those of the quasi-velocities; may be empty.
+    pub names: &'a [&'static str],
 }
 
 impl<R: Ordered, const N: usize, const H: usize> Leaf<'_, R, N, H> {
@@ -158,9 +232,11 @@ impl<R: Ordered, const N: usize, const H: usize> Leaf<'_, R, N, H> {
     /// let linear = Linearization { a: [[0.0, 0.0, 1.0], [0.0, 0.0, 1.0], [0.0, 0.0, 0.0]], b: [[0.0], [0.0], [1.0]] };
     /// let leaf = Leaf {
     ///     coordinates: [0.0, 0.0], velocities: [0.0, 0.0], rows: [[1.0, -1.0]], quaternions: &[], independent: [false, true],
+    ///     names: &["x", "y", "v"],
     /// };
     /// let reduced = leaf.reduce::<3, 1, 2>(&linear, &[0.0; 3]).unwrap();
     /// assert_eq!(reduced.components, [Component::Coordinate(1), Component::Parameter(0)]);
+    /// assert_eq!(reduced.names, ["y", "v"]);
     /// assert_eq!(reduced.linear.a, [[0.0, 1.0], [0.0, 0.0]]);
     /// assert_eq!(reduced.lift(&[0.1, 0.0]), [0.1, 0.1, 0.0]);
     /// ```
@@ -212,7 +288,8 @@ impl<R: Ordered, const N: usize, const H: usize> Leaf<'_, R, N, H> {
         if !all.copied().all(Real::is_finite) {
             return Err(ReduceError::NotFinite);
         }
-        Ok(Reduced { linear, rates: apply(&projection, rates), basis, projection, components })
+        let names = components.map(|one| ComponentName::new(one, N, self.quaternions, self.names));
+        Ok(Reduced { linear, rates: apply(&projection, rates), basis, projection, components, names })
     }
 
     /// Coordinates that are no part of a quaternion as they are, and the rotations of the quaternions, in order.

@@ -133,7 +133,7 @@ macro_rules! reduce {
     ) => {
         /// The linearisation on the leaf of all integrable combinations of constraints: independent positions, then the
         /// parameters, [`REDUCED`] in all. Coordinates named in `independent` stay independent, the others are chosen by
-        /// pivots; of a quaternion its three rotation components are taken. Exact at equilibria and away from them.
+        /// pivots; of a quaternion its three rotation components are taken. `names` of the result has what they are called. Exact at equilibria and away from them.
         ///
         /// # Errors
         ///
@@ -155,6 +155,7 @@ macro_rules! reduce {
                 rows: ::core::array::from_fn(|row| ::core::array::from_fn(|i| entries[row * $n + i])),
                 quaternions: &[$($quaternion)*],
                 independent: $crate::control::independent(independent, &State::<f64>::NAMES)?,
+                names: &State::<f64>::NAMES,
             };
             let given = &$crate::array_of_inputs!($($inputs)?);
             let rates = program::rhs(&self.constants, &self.hoisted, t, &s, given);
