@@ -4,6 +4,7 @@
 extern crate guen_benchmarks;
 
 mod balance;
+mod dynamics;
 #[macro_use]
 mod jacobians;
 mod examples;

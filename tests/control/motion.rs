@@ -30,6 +30,7 @@ guen::mechanical_system! {
             jerk_free = dot(x*spin_y + t*dot(y));
             hold = reaction(roll_x);
             slip = dot(roll_y);
+            place = ball.center;
         }
     }
 }

@@ -269,7 +269,7 @@ fn formulas_are_there_once() {
     };
     let lines: Vec<&str> = hoop::LATEX.sections.iter().flat_map(|section| section.lines).copied().collect();
     assert_eq!(lines, formulas(&hoop::REPORT));
-    let pairs = hoop::REPORT.sections[1].formulas.iter().zip(hoop::LATEX.sections[0].lines);
+    let pairs = hoop::REPORT.sections[2].formulas.iter().zip(hoop::LATEX.sections[0].lines);
     assert!(pairs.clone().count() == 6 && pairs.into_iter().all(|(a, b)| std::ptr::eq(*a, *b)));
 }
 
@@ -303,6 +303,10 @@ fn properties_have_their_reasons() {
     assert!(hoop::REPORT.lines("Classification").iter().all(|line| !line.contains(": h changes")));
     assert_eq!(hoop::REPORT.lines("Coordinates"), ["theta", "psi", "phi", "xi", "eta", "zeta"]);
     assert_eq!(plant::robot::REPORT.lines("Coordinates")[0], "x: The middle of the axle.");
+    assert_eq!(hoop::REPORT.lines("Constants"), ["a > 0", "A > 0", "C > 0", "g = 9.81"]);
+    let constants = plant::robot::REPORT.lines("Constants");
+    assert!(constants.iter().any(|line| line.contains(" > 0: ")), "{constants:?}");
+    assert_eq!(cart::REPORT.lines("Constants")[3], "I > 0 = 1/3*m*l^2");
     assert_eq!(plant::robot::REPORT.lines("Inputs").len(), 3);
 }
 
@@ -319,4 +323,34 @@ fn edges_are_told() {
     assert_eq!(domain(&plant::robot::REPORT).last(), Some(&regular));
     let chain = guen_benchmarks::systems::chain5::REPORT.lines("Domain of the chart");
     assert_eq!(chain.last(), Some(&regular), "{chain:?}");
+}
+
+/// Where an edge comes from, and at which states it is.
+#[test]
+fn edges_have_reasons() {
+    let of_parameter = "the parameter eta2 does not determine a velocity where theta is a multiple of pi";
+    assert_eq!(hoop::DOMAIN_REASONS, [of_parameter]);
+    assert_eq!(hoop::REPORT.lines("Edges of the chart"), [format!("`sin(theta)`: {of_parameter}")]);
+    let told = |names: &'static [&'static str], reasons: &'static [&'static str]| -> Vec<String> {
+        names.iter().zip(reasons).map(|(name, reason)| format!("{name}: {reason}")).collect()
+    };
+    assert_eq!(
+        told(&turntable::DOMAIN, &turntable::DOMAIN_REASONS),
+        [
+            "sin(theta): the parameters eta1 and eta2 do not determine the velocities where theta is a multiple of pi"
+        ]
+    );
+    assert_eq!(
+        told(&particle_pendulum::DOMAIN, &particle_pendulum::DOMAIN_REASONS),
+        [
+            "x^2/l^4 + y^2/l^4: the parameter omega does not determine a velocity where x = 0 and y = 0",
+            "4*x^2 + 4*y^2: the constraint rod does not determine a velocity where x = 0 and y = 0"
+        ]
+    );
+    // Where a sum is zero is no news; what it is of is.
+    assert!(plant::robot::DOMAIN_REASONS[0].ends_with("the mass matrix is singular where it vanishes"));
+    use guen_benchmarks::systems::chain5;
+    let chain =
+        "det M[w1, w2, w3, w4, w5]: the mass matrix is singular in w1, w2, w3, w4 and w5 where it vanishes";
+    assert_eq!(told(&chain5::DOMAIN, &chain5::DOMAIN_REASONS), [chain]);
 }

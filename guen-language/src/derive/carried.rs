@@ -72,6 +72,7 @@ pub(super) fn derive(
         edges: domain_names.len(),
         domain: carried.edges,
         domain_names,
+        domain_reasons: Vec::new(),
         constant_pivots: Vec::new(),
         jacobians: Jacobians::default(),
         shown: Contracted::default(),

@@ -7,7 +7,7 @@ use guen_symbolic::{
     evaluate_function, evaluate_prepare,
 };
 
-use super::domain::{Edge, constant_pivots, domain, written};
+use super::domain::{Edge, constant_pivots, domain, reason, written};
 use super::function;
 use super::level::Level;
 use super::parts::Functions;
@@ -86,7 +86,7 @@ fn further_divisors(
     let divisors = |model: &Model<'_>, derivation: &Derivation| -> Vec<Edge> {
         let constants = constant_pivots(derivation).into_iter().map(|function| {
             let (text, words) = Default::default();
-            Edge { function, text, words, is_determinant: false }
+            Edge { function, text, words, origin: String::new(), is_determinant: false }
         });
         domain(model, derivation, &whole.shown).into_iter().chain(constants).collect()
     };
@@ -161,6 +161,8 @@ fn at_values(
                 } else {
                     functions.domain.push(e);
                     functions.domain_names.push(told);
+                    let origin = "the rates of the whole system are not finite";
+                    functions.domain_reasons.push(reason(&model.bench.graph, e, origin));
                 }
             }
             return Some(found);

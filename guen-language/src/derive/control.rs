@@ -21,8 +21,11 @@ pub(crate) fn has_covector(derivation: &Derivation) -> bool {
 
 /// The functions and what they compute.
 pub(crate) fn quantities(bench: &mut Workbench, derivation: &Derivation) -> Vec<Quantity> {
-    let mut found =
-        vec![(function::LEAF, leaf(bench, derivation)), (function::MASS_FORM, mass_form(bench, derivation))];
+    let MassForm { entries, applied } = mass_form(bench, derivation);
+    let mut found = vec![(function::LEAF, leaf(bench, derivation)), (function::MASS_FORM, entries)];
+    if applied.iter().any(|force| !bench.graph.is_zero(*force)) {
+        found.push((function::APPLIED, applied));
+    }
     if has_covector(derivation) {
         found.push((function::REACTION_COVECTOR, covector(bench, derivation)));
     }
@@ -45,8 +48,15 @@ fn leaf(bench: &mut Workbench, derivation: &Derivation) -> Vec<ExprId> {
     rows
 }
 
-/// The lower triangle of `M`, row by row, then the bias, then `G`, for `M eta' + bias = G u`.
-fn mass_form(bench: &mut Workbench, derivation: &Derivation) -> Vec<ExprId> {
+/// The equations apart, `M eta' + bias = G u`.
+struct MassForm {
+    /// The lower triangle of `M`, row by row, then the bias, then `G`.
+    entries: Vec<ExprId>,
+    /// The part of the bias that is forces: with their sign turned as there, what is prepared serves both.
+    applied: Vec<ExprId>,
+}
+
+fn mass_form(bench: &mut Workbench, derivation: &Derivation) -> MassForm {
     let equations = &derivation.equations;
     let inputs = &derivation.system.inputs;
     let mut list: Vec<ExprId> =
@@ -60,19 +70,28 @@ fn mass_form(bench: &mut Workbench, derivation: &Derivation) -> Vec<ExprId> {
     let is_affine = !slopes.iter().flatten().any(|slope| bench.graph.roles(*slope).meets(driven));
     let zero = bench.graph.zero();
     let mut idle = Substitution::new(inputs.iter().map(|input| (*input, zero)));
-    for (force, slopes) in equations.forces.iter().zip(&slopes) {
-        let bias = if is_affine {
-            let free = idle.of(&mut bench.graph, *force);
-            bench.graph.neg(free)
+    let mut without_inputs = |bench: &mut Workbench, force: ExprId, slopes: &[ExprId]| {
+        if is_affine {
+            idle.of(&mut bench.graph, force)
         } else {
-            // Exact at these inputs: G u - f.
+            // Exact at these inputs: f - G u.
             let made = bench.dot(slopes, inputs);
-            bench.graph.sub(made, *force)
-        };
-        list.push(bias);
+            bench.graph.sub(force, made)
+        }
+    };
+    for (force, slopes) in equations.forces.iter().zip(&slopes) {
+        let free = without_inputs(bench, *force, slopes);
+        list.push(bench.graph.neg(free));
     }
+    let generalised = derivation.generalised_forces.iter().zip(&slopes);
+    let applied = generalised
+        .map(|(force, slopes)| {
+            let free = without_inputs(bench, *force, slopes);
+            bench.graph.neg(free)
+        })
+        .collect();
     list.extend(slopes.into_iter().flatten());
-    list
+    MassForm { entries: list, applied }
 }
 
 /// `R_i = sum_v lambda_v a_vi`.

@@ -43,6 +43,8 @@ pub struct Level {
     pub domain: Vec<ExprId>,
     /// Each of them in words.
     pub domain_names: Vec<String>,
+    /// The reason for each of them: what degenerates where it vanishes, and at which states; empty of a carried form.
+    pub domain_reasons: Vec<String>,
     /// The number of them, from the first, that guards measure one by one; the others are determinants, and measured
     /// together as the condition of the mass matrix.
     pub edges: usize,

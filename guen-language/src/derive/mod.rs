@@ -28,7 +28,7 @@ use guen_symbolic::{Derivation, ExprId};
 use crate::diagnostics::Faults;
 use crate::model::Model;
 use commutators::commutators;
-use domain::{constant_pivots, domain};
+use domain::{constant_pivots, domain, reason};
 use formulas::Quantity;
 use programs::{add_mass, extend, programs};
 use readable::{equations, polish, shown};
@@ -96,7 +96,11 @@ fn whole(
     };
     let equations = equations(&mut model.bench, &derivation);
     let shown = shown(model, &derivation, &brackets, &equations);
-    let edges = domain(model, &derivation, &shown).into_iter().map(|edge| (edge.function, edge.text));
+    let edges = domain(model, &derivation, &shown);
+    let reasons =
+        edges.iter().map(|edge| reason(&model.bench.graph, shown.image(edge.function), &edge.origin));
+    let domain_reasons = reasons.collect();
+    let edges = edges.into_iter().map(|edge| (edge.function, edge.text));
     let (domain, domain_names): (Vec<ExprId>, Vec<String>) = edges.unzip();
     let constant_pivots = constant_pivots(&derivation);
     let quantities = formulas::whole(model, &derivation, &brackets, domain.clone(), constant_pivots.clone());
@@ -123,6 +127,7 @@ fn whole(
         placed,
         domain,
         domain_names,
+        domain_reasons,
         edges,
         constant_pivots,
         series: None,

@@ -2,7 +2,7 @@
 
 use guen_symbolic::{Contracted, Dependence, Derivation, ExprId, Graph, Substitution, Workbench};
 
-use super::domain::{constant_pivots, domain, written};
+use super::domain::{constant_pivots, domain, reason, written};
 use super::fixed::Holding;
 use super::formulas::{self, Quantity};
 use super::function;
@@ -25,6 +25,8 @@ pub(super) struct Functions {
     /// The functions that must not vanish, and each of them in words.
     pub(super) domain: Vec<ExprId>,
     pub(super) domain_names: Vec<String>,
+    /// The reason for each of them: what degenerates where it vanishes, and at which states.
+    pub(super) domain_reasons: Vec<String>,
     /// Expressions of constants that must not vanish.
     pub(super) constant_pivots: Vec<ExprId>,
 }
@@ -126,7 +128,8 @@ pub(super) fn parts(
     push(model, view, function::GRADIENTS, [equations, rows].concat());
 
     // Of the chart's functions those that the scene's variables determine; what became constant is a pivot.
-    let (mut determined, mut domain, mut domain_names) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut determined, mut domain) = (Vec::new(), Vec::new());
+    let (mut domain_names, mut domain_reasons) = (Vec::new(), Vec::new());
     let mut constants: Vec<(Option<usize>, ExprId)> = Vec::new();
     for (place, pivot) in pivots.iter().enumerate() {
         constants.push((Some(place), view.holding.of(&mut model.bench, *pivot)));
@@ -148,6 +151,7 @@ pub(super) fn parts(
                 false => written(model, seen, &edge.words),
             };
             domain_names.push(text);
+            domain_reasons.push(reason(&model.bench.graph, shown.image(seen), &edge.origin));
         }
     }
     push(model, view, function::DOMAIN, determined);
@@ -179,7 +183,7 @@ pub(super) fn parts(
         let outputs = coordinates.iter().map(|(_, e)| view.of(model, *e)).collect();
         parts.push(Part { name: function::DETERMINED, places: None, outputs });
     }
-    Functions { parts, domain, domain_names, constant_pivots }
+    Functions { parts, domain, domain_names, domain_reasons, constant_pivots }
 }
 
 /// A reaction with the accelerations of the kept parameters as they are computed, and the others written out.

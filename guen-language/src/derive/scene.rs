@@ -169,7 +169,7 @@ fn level(
     let forms = carries.map(|_| kept.clone()).unwrap_or_default();
     let (mut programs, is_part) =
         cheapest(model, (system, &derivation), &selection, &scene.fixes, lists, kept, &mut functions);
-    let Functions { domain, domain_names, constant_pivots, .. } = functions;
+    let Functions { domain, domain_names, domain_reasons, constant_pivots, .. } = functions;
     let jacobians = Jacobians::add(&mut programs, model, &selection);
     let series = expands.and_then(|word| series::of(model, &selection, &programs, word.span(), faults));
     let fixes = scene
@@ -202,6 +202,7 @@ fn level(
         placed: None,
         domain,
         domain_names,
+        domain_reasons,
         constant_pivots,
         series,
         jacobians,

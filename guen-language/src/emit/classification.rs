@@ -66,12 +66,14 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, is_outline: bool
     let list = |counts: &[u32]| counts.iter().map(ToString::to_string).collect::<Vec<_>>().join(" ");
     let growth = growth.iter().map(ToString::to_string).collect::<Vec<_>>().join(" ");
     let unfinished = unfinished.map(|note| format!("{note:?}")).unwrap_or_default();
-    let domain: Vec<String> = domain.iter().map(|function| format!("{function:?}")).collect();
+    let literals =
+        |texts: &[String]| texts.iter().map(|text| format!("{text:?}")).collect::<Vec<_>>().join(" ");
     tokens(&format!(
         "__guen::facts! {{ {system} {class} [{growth}] {steps} {integrable} {complete} [{unfinished}] {scleronomic} {catastatic}
-        {conservative} [{}] [{}] [{}] {domain_count} {owners} }}",
+        {conservative} [{}] [{}] [{}] [{}] {domain_count} {owners} }}",
         list(&cost),
         list(&prepare_cost),
-        domain.join(" "),
+        literals(domain),
+        literals(&subject.level.domain_reasons),
     ))
 }

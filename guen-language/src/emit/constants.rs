@@ -239,12 +239,12 @@ fn checks(subject: &Subject<'_, '_>, fields: &[Field]) -> TokenStream {
 }
 
 fn check_bound(name: &str, bound: BoundKind, value: &TokenStream) -> TokenStream {
-    let (relation, check) = match bound {
-        BoundKind::Positive => ("> 0", quote!(check_positive)),
-        BoundKind::Nonnegative => (">= 0", quote!(check_nonnegative)),
-        BoundKind::Nonzero => ("!= 0", quote!(check_nonzero)),
+    let check = match bound {
+        BoundKind::Positive => quote!(check_positive),
+        BoundKind::Nonnegative => quote!(check_nonnegative),
+        BoundKind::Nonzero => quote!(check_nonzero),
     };
-    let text = format!("{name} {relation}");
+    let text = format!("{name} {}", bound.relation());
     quote!(__guen::#check(#value, #name, #text)?;)
 }
 

@@ -13,6 +13,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
         return TokenStream::new();
     }
     let mass_form = mass_form(layout);
+    let dynamics = dynamics(subject, layout);
     let inverse = (layout.inputs > 0).then(|| inverse_dynamics(subject, layout));
     let reduce = reduce(subject, layout);
     let reactions = reactions(subject, layout);
@@ -26,6 +27,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
         impl<R: __guen::Real> Prepared<R> {
             #mass_form
         }
+        #dynamics
         impl<R: __guen::Ordered + __guen::Lift<R>> Prepared<R> {
             #inverse
             __guen::steady_motions!(#size, #count #given);
@@ -50,6 +52,24 @@ fn mass_form(layout: &Layout) -> TokenStream {
         };
     }
     quote!(__guen::mass_form!(#l, #count, #bias, #input #given);)
+}
+
+/// The parts of the equations, and the Jacobians of outputs.
+fn dynamics(subject: &Subject<'_, '_>, layout: &Layout) -> Option<TokenStream> {
+    let (n, size, count) = (layout.n, layout.size, layout.inputs);
+    let l = size - n;
+    let has = |name: &str| subject.level.program(name).is_some().then(|| format_ident!("{name}"));
+    let (mass, applied) = (has(function::MASS), has(function::APPLIED));
+    let has_outputs = !subject.level.selection.outputs.is_empty();
+    let jacobians = has_outputs.then(|| quote!(__guen::jacobians!(#n, #l, #size, #count);));
+    (l > 0).then(|| {
+        quote! {
+            impl<R: __guen::Real + __guen::Lift<R>> Prepared<R> {
+                __guen::dynamics!(#n, #l, #size, #count, [#mass], [#applied]);
+                #jacobians
+            }
+        }
+    })
 }
 
 /// Whether the forces are affine in the inputs: then neither the bias nor the matrix of the inputs reads them.

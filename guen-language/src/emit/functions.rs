@@ -81,6 +81,7 @@ pub(super) fn signature(name: &str) -> Signature {
         function::RHS
         | function::OUTPUTS
         | function::MASS_FORM
+        | function::APPLIED
         | function::LINEARIZATION
         | function::OUTPUT_LINEARIZATION => Signature::Driven,
         function::REACTIONS | function::REACTION_COVECTOR | function::POWER => Signature::Accelerated,

@@ -61,6 +61,7 @@ impl Report {
             sections.push(energies(subject, writer));
         }
         sections.push(domain(subject, writer));
+        sections.push(edges(subject));
         sections.push(cost(subject));
         let summary = if subject.level.scene.is_some() { scene::summary(subject) } else { summary(subject) };
         let name = subject.name().text.clone();
@@ -343,6 +344,12 @@ fn domain(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
         );
     }
     section
+}
+
+/// Where each of these functions comes from, and at which states it vanishes.
+fn edges(subject: &Subject<'_, '_>) -> Section {
+    let edges = subject.level.domain_names.iter().zip(&subject.level.domain_reasons);
+    Section::words("Edges of the chart", edges.map(|(name, reason)| format!("`{name}`: {reason}")).collect())
 }
 
 fn cost(subject: &Subject<'_, '_>) -> Section {

@@ -4,9 +4,9 @@ use super::lines::{Report, Section};
 use super::mathml::paragraph;
 use crate::derive::Subject;
 use crate::model::SymbolEntry;
-use crate::syntax::Docs;
+use crate::syntax::{Docs, Item};
 
-/// Coordinates and inputs, each with the first line of its documentation.
+/// Constants as they are declared, coordinates and inputs, each with the first line of its documentation.
 pub(super) fn declared(subject: &Subject<'_, '_>) -> Vec<Section> {
     let line = |name: &str, docs: &Docs| {
         // Documentation that a macro writes is not known here.
@@ -18,7 +18,21 @@ pub(super) fn declared(subject: &Subject<'_, '_>) -> Vec<Section> {
         entries.iter().map(|entry| line(&entry.name.text, entry.docs)).collect()
     };
     let model = subject.model;
+    let constants = model.declaration.items.iter().flat_map(|item| match item {
+        Item::Constants(section) => &section.entries[..],
+        _ => &[],
+    });
+    let constants = constants.zip(&model.constants).map(|(declared, known)| {
+        let bound = known.bound.map_or(String::new(), |bound| format!(" {}", bound.relation()));
+        // A number as it was written; with operations the sum and product that were read.
+        let written = declared.default.as_ref().map(ToString::to_string).filter(|text| !text.contains('('));
+        let default = written.or_else(|| known.default.map(|e| model.bench.graph.text(e)));
+        let default = default.map_or(String::new(), |text| format!(" = {text}"));
+        line(&format!("{}{bound}{default}", known.name.text), known.docs)
+    });
+    let constants = constants.collect();
     vec![
+        Section::words("Constants", constants),
         Section::words("Coordinates", symbols(&model.coordinates)),
         Section::words("Inputs", symbols(&model.inputs)),
     ]

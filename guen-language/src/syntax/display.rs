@@ -77,11 +77,7 @@ impl Display for Constant {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         write!(f, "{}", self.name.ident)?;
         if let Some(bound) = self.bound {
-            f.write_str(match bound.kind {
-                BoundKind::Positive => " > 0",
-                BoundKind::Nonnegative => " >= 0",
-                BoundKind::Nonzero => " != 0",
-            })?;
+            write!(f, " {}", bound.kind.relation())?;
         }
         self.default.iter().try_for_each(|default| write!(f, " = {default}"))
     }

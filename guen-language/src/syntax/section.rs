@@ -185,6 +185,17 @@ pub enum BoundKind {
     Nonzero,
 }
 
+impl BoundKind {
+    /// The bound as it is written.
+    pub fn relation(self) -> &'static str {
+        match self {
+            Self::Positive => "> 0",
+            Self::Nonnegative => ">= 0",
+            Self::Nonzero => "!= 0",
+        }
+    }
+}
+
 /// `name = e`.
 #[derive(Debug, Clone)]
 pub struct Definition {

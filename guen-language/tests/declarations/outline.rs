@@ -42,7 +42,7 @@ fn is_value(head: &[TokenTree]) -> bool {
 }
 
 /// Macros of the runtime that take what was derived beside sizes and names.
-const OF_DERIVATION: [&str; 5] = ["facts", "reported", "operators", "reduce", "domain"];
+const OF_DERIVATION: [&str; 6] = ["facts", "reported", "operators", "reduce", "domain", "dynamics"];
 
 /// A scope of items: the path of modules and impls, and whether it is a scene or a carried form, whose variables and
 /// sizes are known by the derivation alone.

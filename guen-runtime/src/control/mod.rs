@@ -14,11 +14,13 @@
 //! | is it stable, how quick, how damped? | [`poles`] |
 //! | which feedback? | [`lqr`], [`dlqr`], of a single input [`place`] |
 //! | which estimate of the state? | [`kalman`], [`dkalman`] |
+//! | what does a point feel like? | [`operational_inertia`] |
 //! | which inputs give these accelerations? | [`MassForm`], [`inverse_dynamics`], [`affine_inverse_dynamics`] |
 
 mod controllability;
 mod discrete;
 mod inverse;
+mod operational;
 mod poles;
 mod reduced;
 mod riccati;
@@ -32,6 +34,7 @@ pub use discrete::{DiscreteError, FlowMap, ZeroOrderHold, c2d};
 pub use inverse::{
     InverseDynamicsError, MassForm, affine_inverse_dynamics, inverse_dynamics, inverse_dynamics_from,
 };
+pub use operational::operational_inertia;
 pub use poles::{PlaceError, Pole, place, poles};
 pub use reduced::{Component, ComponentName, Leaf, Quaternion, ReduceError, Reduced, independent};
 pub use riccati::{Observer, Regulator, RiccatiError, diagonal, dkalman, dlqr, kalman, lqr};

@@ -334,6 +334,22 @@ pub fn rounded<R: Real, const N: usize>(values: &[R; N]) -> [RunningError<R>; N]
     rounded
 }
 
+/// A symmetric matrix from its lower triangle, row by row, at the head of a list that may go on; zeros where it ends before.
+///
+/// ```
+/// assert_eq!(guen_runtime::checks::symmetric::<f64, 2>(&[1.0, 2.0, 3.0, 9.0]), [[1.0, 2.0], [2.0, 3.0]]);
+/// ```
+#[inline(always)]
+pub fn symmetric<R: Real, const N: usize>(triangle: &[R]) -> [[R; N]; N] {
+    let mut matrix = [[R::zero(); N]; N];
+    let places = (0..N).flat_map(|s| (0..=s).map(move |k| (s, k)));
+    for ((s, k), value) in places.zip(triangle) {
+        matrix[s][k] = *value;
+        matrix[k][s] = *value;
+    }
+    matrix
+}
+
 /// The first values of a list; zeros where there are no more.
 ///
 /// ```

@@ -26,6 +26,8 @@ pub struct Operators {
     pub xi: Vec<Vec<ExprId>>,
     /// Functions of `t, x` that must not vanish: the factors of `det A` that are not constants.
     pub chart: Vec<ExprId>,
+    /// The forms that are dependent where each of them vanishes, counted from 0.
+    pub chart_forms: Vec<Vec<usize>>,
     /// Functions of constants alone that must not vanish.
     pub constant_pivots: Vec<ExprId>,
     /// The steps of solving the forms.
@@ -132,15 +134,16 @@ impl Operators {
             }
             equations.push(Some(Equation { form: j, entries, right }));
         }
-        let (chart, constant_pivots, solved, steps) = Default::default();
+        let (chart, chart_forms, constant_pivots, solved, steps) = Default::default();
         let is_large = n > MANY_COORDINATES;
-        let mut solver = Solver { bench, chart, constant_pivots, solved, steps, is_large, beyond: None };
+        let mut solver =
+            Solver { bench, chart, chart_forms, constant_pivots, solved, steps, is_large, beyond: None };
         solver.eliminate(&mut equations, forms.degrees);
         let core: Vec<Equation> = equations.into_iter().flatten().collect();
         let mut values: Vec<Option<BTreeMap<usize, ExprId>>> = vec![None; n];
         solver.solve_core(core, forms.degrees, &mut values).map_err(|singular| vec![singular])?;
         solver.substitute_back(&mut values);
-        let Solver { chart, constant_pivots, steps, .. } = solver;
+        let Solver { chart, chart_forms, constant_pivots, steps, .. } = solver;
         let zero = bench.graph.zero();
         let xi = (0..=n)
             .map(|j| {
@@ -153,13 +156,14 @@ impl Operators {
                     .collect()
             })
             .collect();
-        Ok(Operators { xi, chart, constant_pivots, steps })
+        Ok(Operators { xi, chart, chart_forms, constant_pivots, steps })
     }
 }
 
 struct Solver<'a> {
     bench: &'a mut Workbench,
     chart: Vec<ExprId>,
+    chart_forms: Vec<Vec<usize>>,
     constant_pivots: Vec<ExprId>,
     // Columns with the equations that give them, in the order of elimination.
     solved: Vec<(usize, Equation)>,
@@ -276,7 +280,8 @@ impl Solver<'_> {
                 .iter()
                 .map(|r| columns.iter().map(|c| core[*r].entries.get(c).copied().unwrap_or(zero)).collect())
                 .collect();
-            let inverse = self.inverse(&matrix).ok_or_else(generic)?;
+            let of: Vec<usize> = forms.iter().map(|(form, _)| *form).collect();
+            let inverse = self.inverse(&matrix, &of).ok_or_else(generic)?;
             for (i, c) in columns.iter().enumerate() {
                 let mut value: BTreeMap<usize, ExprId> = BTreeMap::new();
                 for (k, right) in right.iter().enumerate() {
@@ -299,21 +304,22 @@ impl Solver<'_> {
         Ok(())
     }
 
-    fn inverse(&mut self, matrix: &[Vec<ExprId>]) -> Option<Vec<Vec<ExprId>>> {
+    /// Inverts what is left of some forms.
+    fn inverse(&mut self, matrix: &[Vec<ExprId>], forms: &[usize]) -> Option<Vec<Vec<ExprId>>> {
         let n = matrix.len();
         if n > 1
-            && let Some(inverse) = self.orthogonal_inverse(matrix)
+            && let Some(inverse) = self.orthogonal_inverse(matrix, forms)
         {
             return Some(inverse);
         }
         if n > ADJUGATE_SIZE {
-            return self.eliminated_inverse(matrix);
+            return self.eliminated_inverse(matrix, forms);
         }
         let (mut inverse, determinant) = adjugate(self.bench, matrix);
         if self.bench.verdict_on_manifold(determinant) == Verdict::Zero {
             return None;
         }
-        self.require(determinant);
+        self.require(determinant, forms);
         let divisor = self.bench.keep_large(determinant);
         for e in inverse.iter_mut().flatten() {
             let quotient = self.bench.graph.div(*e, divisor);
@@ -324,7 +330,7 @@ impl Solver<'_> {
     }
 
     /// `K^-1 = K^T D^-1` for orthogonal rows, `D` the squares of their lengths.
-    fn orthogonal_inverse(&mut self, matrix: &[Vec<ExprId>]) -> Option<Vec<Vec<ExprId>>> {
+    fn orthogonal_inverse(&mut self, matrix: &[Vec<ExprId>], forms: &[usize]) -> Option<Vec<Vec<ExprId>>> {
         let n = matrix.len();
         for i in 0..n {
             for k in 0..i {
@@ -338,7 +344,7 @@ impl Solver<'_> {
         for (k, row) in matrix.iter().enumerate() {
             let square = self.bench.dot(row, row);
             let square = self.bench.tidy(square);
-            self.require(square);
+            self.require(square, &forms[k..=k]);
             for (i, e) in row.iter().enumerate() {
                 let quotient = self.bench.graph.div(*e, square);
                 let tidy = self.bench.tidy(quotient);
@@ -349,7 +355,7 @@ impl Solver<'_> {
     }
 
     /// Gauss-Jordan elimination on pivots that are not identically zero; they join the chart's domain.
-    fn eliminated_inverse(&mut self, matrix: &[Vec<ExprId>]) -> Option<Vec<Vec<ExprId>>> {
+    fn eliminated_inverse(&mut self, matrix: &[Vec<ExprId>], forms: &[usize]) -> Option<Vec<Vec<ExprId>>> {
         let n = matrix.len();
         let (zero, one) = (self.bench.graph.zero(), self.bench.graph.one());
         let mut rows: Vec<Vec<ExprId>> = matrix
@@ -366,7 +372,7 @@ impl Solver<'_> {
             let r = c + first(Verdict::Nonzero).or_else(|| first(Verdict::Unknown))?;
             rows.swap(c, r);
             let pivot = rows[c][c];
-            self.require(pivot);
+            self.require(pivot, forms);
             for e in &mut rows[c] {
                 *e = self.bench.graph.div(*e, pivot);
             }
@@ -383,15 +389,23 @@ impl Solver<'_> {
         Some(rows.into_iter().map(|row| row[n..].to_vec()).collect())
     }
 
-    /// Notes that an expression must not vanish, unless that is manifest.
-    fn require(&mut self, e: ExprId) {
+    /// Notes that an expression must not vanish, unless that is manifest: where it does some forms are dependent.
+    fn require(&mut self, e: ExprId, forms: &[usize]) {
         if self.bench.graph.manifestly_nonzero(e) {
             return;
         }
-        let list =
-            if self.bench.graph.roles(e).is_constant() { &mut self.constant_pivots } else { &mut self.chart };
-        if !list.contains(&e) {
-            list.push(e);
+        if self.bench.graph.roles(e).is_constant() {
+            if !self.constant_pivots.contains(&e) {
+                self.constant_pivots.push(e);
+            }
+        } else if let Some(place) = self.chart.iter().position(|known| *known == e) {
+            let known = &mut self.chart_forms[place];
+            known.extend(forms);
+            known.sort_unstable();
+            known.dedup();
+        } else {
+            self.chart.push(e);
+            self.chart_forms.push(forms.to_vec());
         }
     }
 

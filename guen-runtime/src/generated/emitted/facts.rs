@@ -2,14 +2,14 @@
 
 /// Classification, costs and domain: the struct of constants, the class, the growth vector with its length, the number of
 /// integrable combinations with whether the brackets were followed to the end, a note where they were not, three properties, the
-/// counts of both costs, the domain with its length, and the traits that the prepared systems have.
+/// counts of both costs, the domain, what degenerates where each of its functions vanishes, their number, and the traits that the prepared systems have.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! facts {
     (
         $System:ident $Class:ident [$($growth:literal)*] $steps:literal $integrable:literal $complete:literal [$($unfinished:literal)?]
         $scleronomic:literal $catastatic:literal $conservative:literal [$($cost:literal)*] [$($prepare:literal)*]
-        [$($domain:literal)*] $count:literal $([$($Marker:ident)*] $Owner:ident)*
+        [$($domain:literal)*] [$($reason:literal)*] $count:literal $([$($Marker:ident)*] $Owner:ident)*
     ) => {
         /// The class of the forms as declared.
         pub const CLASS: $crate::Class = $crate::Class::$Class;
@@ -34,6 +34,9 @@ macro_rules! facts {
         pub const PREPARE_COST: $crate::Cost = $crate::Cost::of([$($prepare),*]);
         /// The functions that must not vanish, in the names of the declaration: the domain of the chart.
         pub const DOMAIN: [&str; $count] = [$($domain),*];
+        /// Reasons for the functions of [`DOMAIN`]: what degenerates where each of them vanishes, and at which states that is, as far as
+        /// it is known.
+        pub const DOMAIN_REASONS: [&str; $count] = [$($reason),*];
 
         impl $System<f64> {
             /// The class of the forms as declared.

@@ -50,14 +50,126 @@ macro_rules! mass_form {
             let state = &::core::convert::From::from(*state);
             let given = &$crate::array_of_inputs!($($inputs)?);
             let entries = program::mass_form(&self.constants, &self.hoisted, t, state, given);
-            let entry = |s: usize, k: usize| {
-                if s < k { entries[k * (k + 1) / 2 + s] } else { entries[s * (s + 1) / 2 + k] }
-            };
             $crate::control::MassForm {
-                mass: ::core::array::from_fn(|s| ::core::array::from_fn(|k| entry(s, k))),
+                mass: $crate::checks::symmetric(&entries),
                 bias: ::core::array::from_fn(|s| entries[$bias + s]),
                 input: ::core::array::from_fn(|s| ::core::array::from_fn(|j| entries[$input + s * $count + j])),
             }
+        }
+    };
+}
+
+/// `mass_matrix`, `coriolis_and_gravity` and `gravity`, with the numbers of coordinates, of parameters, of states and of inputs, and the
+/// programs of a mass matrix that is not diagonal and of forces besides those of the inputs, where there are some.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! dynamics {
+    (@ $self:ident, $t:ident, $state:ident, $n:literal, $count:literal, []) => {
+        program::mass_form(&$self.constants, &$self.hoisted, $t, &$state, &[R::zero(); $count])
+    };
+    (@ $self:ident, $t:ident, $state:ident, $n:literal, $count:literal, [$mass:ident]) => {
+        program::$mass(&$self.constants, &$self.hoisted, $t, &$crate::checks::first::<R, $n>(&$state))
+    };
+    ($n:literal, $l:literal, $size:literal, $count:literal, [$($mass:ident)?], [$($applied:ident)?]) => {
+        /// The mass matrix `M`, symmetric: `M eta' + coriolis_and_gravity = forces`.
+        pub fn mass_matrix(&self, t: R, state: &State<R>) -> [[R; $l]; $l] {
+            let state: [R; $size] = ::core::convert::From::from(*state);
+            $crate::checks::symmetric(&$crate::dynamics!(@ self, t, state, $n, $count, [$($mass)?]))
+        }
+
+        /// The generalised forces that inertia and the force function ask for at these velocities, `M eta' + coriolis_and_gravity =
+        /// forces`: Coriolis and centrifugal terms, moving constraints, and [`gravity`](Self::gravity). Declared `forces` are none of
+        /// it, whatever they depend on. Takes an evaluation of [`mass_form`](Self::mass_form).
+        pub fn coriolis_and_gravity(&self, t: R, state: &State<R>) -> [R; $l] {
+            let state = &::core::convert::From::from(*state);
+            let idle = &[R::zero(); $count];
+            let entries = program::mass_form(&self.constants, &self.hoisted, t, state, idle);
+            let bias: [R; $l] = ::core::array::from_fn(|s| entries[$l * ($l + 1) / 2 + s]);
+            $(
+                let applied = program::$applied(&self.constants, &self.hoisted, t, state, idle);
+                let bias = ::core::array::from_fn(|s| bias[s] - applied[s]);
+            )?
+            bias
+        }
+
+        /// The generalised forces that balance the force function, `-X_s(U)`: gravity, and springs that are declared as a
+        /// potential. Takes the operators and an evaluation of the force function in duals.
+        pub fn gravity(&self, t: R, state: &State<R>) -> [R; $l] {
+            let lifted: Prepared<$crate::Dual<R, $l>> = self.lift();
+            let [value] = program::force_function(
+                &lifted.constants, &lifted.hoisted, $crate::Dual::constant(t), &self.__guen_displaced(t, state),
+            );
+            value.tangent.map(|slope| -slope)
+        }
+
+        /// The coordinates with their displacements along the operators `X_1 .. X_l`.
+        fn __guen_displaced(&self, t: R, state: &State<R>) -> [$crate::Dual<R, $l>; $n] {
+            let state: [R; $size] = ::core::convert::From::from(*state);
+            let x = $crate::checks::first::<R, $n>(&state);
+            let operators = program::operators(&self.constants, &self.hoisted, t, &x);
+            ::core::array::from_fn(|i| $crate::Dual {
+                value: x[i],
+                tangent: ::core::array::from_fn(|s| operators[(s + 1) * $n + i]),
+            })
+        }
+    };
+}
+
+/// `jacobian` and `bias_acceleration` of outputs, with the numbers of coordinates, of parameters, of states and of inputs.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! jacobians {
+    ($n:literal, $l:literal, $size:literal, $count:literal) => {
+        /// The Jacobian of outputs that are places or angles, by the quasi-velocities: `J_ks = X_s(y_k)`, so that `y' = J eta`, and what
+        /// time adds. `of` chooses a vector, `|outputs| outputs.tip`, or as many scalars as it likes. An output that depends on
+        /// velocities is taken at these. Exact; takes the operators and an evaluation of the outputs in duals.
+        pub fn jacobian<const K: usize>(
+            &self,
+            t: R,
+            state: &State<R>,
+            of: impl ::core::ops::Fn(&Outputs<$crate::Dual<R, $l>>) -> [$crate::Dual<R, $l>; K],
+        ) -> [[R; $l]; K] {
+            let s: [R; $size] = ::core::convert::From::from(*state);
+            let displaced = self.__guen_displaced(t, state);
+            let moved: [$crate::Dual<R, $l>; $size] =
+                ::core::array::from_fn(|i| if i < $n { displaced[i] } else { $crate::Dual::constant(s[i]) });
+            let lifted: Prepared<$crate::Dual<R, $l>> = self.lift();
+            let idle = &[<$crate::Dual<R, $l> as $crate::Real>::zero(); $count];
+            let outputs =
+                program::outputs(&lifted.constants, &lifted.hoisted, $crate::Dual::constant(t), &moved, idle);
+            of(&Outputs::from_values(&outputs)).map(|value| value.tangent)
+        }
+
+        /// The accelerations of outputs that are places or angles while no quasi-velocity changes, `J' eta` and what time adds: with
+        /// [`jacobian`](Self::jacobian) `y'' = J eta' + bias_acceleration`. `of` as there. Exact; takes the velocities in duals, and the
+        /// outputs in duals over duals.
+        pub fn bias_acceleration<const K: usize>(
+            &self,
+            t: R,
+            state: &State<R>,
+            of: impl ::core::ops::Fn(
+                &Outputs<$crate::Dual<$crate::Dual<R, 1>, 1>>,
+            ) -> [$crate::Dual<$crate::Dual<R, 1>, 1>; K],
+        ) -> [R; K] {
+            let (zero, one) = (R::zero(), R::one());
+            let s: [R; $size] = ::core::convert::From::from(*state);
+            let velocities = program::velocities(&self.constants, &self.hoisted, t, &s);
+            let inner: Prepared<$crate::Dual<R, 1>> = self.lift();
+            let along: [$crate::Dual<R, 1>; $size] = ::core::array::from_fn(|i| $crate::Dual {
+                value: s[i],
+                tangent: [if i < $n { velocities[i] } else { zero }],
+            });
+            let time = $crate::Dual { value: t, tangent: [one] };
+            let rates = program::velocities(&inner.constants, &inner.hoisted, time, &along);
+            let moved = ::core::array::from_fn(|i| $crate::Dual {
+                value: along[i],
+                tangent: [if i < $n { rates[i] } else { $crate::Dual::constant(zero) }],
+            });
+            let lifted: Prepared<$crate::Dual<$crate::Dual<R, 1>, 1>> = self.lift();
+            let time = $crate::Dual { value: time, tangent: [$crate::Dual::constant(one)] };
+            let idle = &[$crate::Dual::constant($crate::Dual::constant(zero)); $count];
+            let outputs = program::outputs(&lifted.constants, &lifted.hoisted, time, &moved, idle);
+            of(&Outputs::from_values(&outputs)).map(|value| value.tangent[0].tangent[0])
         }
     };
 }
