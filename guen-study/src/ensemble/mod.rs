@@ -9,7 +9,7 @@ use std::marker::PhantomData;
 
 use guen_runtime::lanes::{Backend, LaneTask, Lanes, Width, dispatch_on};
 use guen_runtime::steppers::{IntegrationResult, LaneMethod};
-use guen_runtime::{IntegrationError, LaneScalar, Laned, PlainLanes};
+use guen_runtime::{IntegrationError, LaneScalar, Laned, PlainLanes, Simulate, Simulation};
 
 use threads::{in_turn, processors};
 
@@ -135,20 +135,16 @@ impl<S, const N: usize, C> Ensemble<S, N, C> {
     }
 
     /// Does something with every member, one by one on several threads: what no method in lanes can do, such as a step
-    /// that follows the error, or a recording.
+    /// that follows the error, or a recording. For simulations there is [`simulate`](Self::simulate).
     ///
     /// ```
-    /// use guen_runtime::{from_fn, steppers::Dop853};
+    /// use guen_runtime::{System, from_fn};
     /// use guen_study::Ensemble;
-    /// use std::ops::ControlFlow;
     ///
     /// let pendulum = from_fn(|_t: f64, &[q, w]: &[f64; 2]| [w, -q.sin()]);
-    /// let ensemble = Ensemble::of_states(pendulum, (1..10).map(|i| [0.3 * i as f64, 0.0]));
-    /// let steps = ensemble.each(|pendulum, start| {
-    ///     let go_on = |_, _: &[f64; 2]| ControlFlow::Continue(());
-    ///     Dop853::new(1e-9, 1e-9).integrate(pendulum, 0.0, start, 20.0, go_on).unwrap().statistics.accepted
-    /// });
-    /// assert!(steps[8] > steps[0]);
+    /// let ensemble = Ensemble::of_states(pendulum, (1..10).map(|i| [0.1 * f64::from(i), 0.0]));
+    /// let pulls = ensemble.each(|pendulum, start| pendulum.rhs(0.0, start)[1]);
+    /// assert!(pulls.is_sorted_by(|a, b| a > b));
     /// ```
     pub fn each<T: Send>(&self, work: impl Fn(&S, &[f64; N]) -> T + Sync) -> Vec<T>
     where
@@ -157,6 +153,35 @@ impl<S, const N: usize, C> Ensemble<S, N, C> {
         in_turn(self.len(), 1, self.threads.unwrap_or_else(processors), |range| {
             range.map(|i| work(self.system(i), &self.starts[i])).collect()
         })
+    }
+}
+
+impl<S: Simulate<f64, N> + Clone + Sync, const N: usize, C> Ensemble<S, N, C> {
+    /// Simulates every member on all threads. The closure gives each simulation its method, events and limits, runs it, and says
+    /// what is kept of it, in the order of the members: its trajectory, its end or a number.
+    ///
+    /// Each result is that of the member's own simulation, to the bit. A member that fails fails alone: its error has its motion
+    /// until then. A trajectory takes `8 (8 N + 3)` bytes for every step of [`Dop853`](guen_runtime::steppers::Dop853); where the
+    /// closure returns less than that, there is one in memory for each thread at a time, of at most the simulation's own
+    /// [`memory`](Simulation::memory). Of fixed steps, [`integrate`](Self::integrate) makes several at once in lanes, for ends alone.
+    ///
+    /// ```
+    /// use guen_runtime::{Simulate, from_fn};
+    /// use guen_study::Ensemble;
+    ///
+    /// let pendulum = from_fn(|_t: f64, &[q, w]: &[f64; 2]| [w, -q.sin()]);
+    /// let ensemble = Ensemble::of_states(pendulum, (1..10).map(|i| [0.3 * f64::from(i), 0.0]));
+    /// // Whole motions.
+    /// let motions = ensemble.simulate(|simulation| simulation.run(0.0..20.0));
+    /// assert!(motions.iter().all(|motion| motion.is_ok()));
+    /// // The time at which each passes its lowest point: a quarter of its period.
+    /// let quarters = ensemble.simulate(|simulation| {
+    ///     simulation.stop_at(|_t, &[q, _]| q).run(0.0..20.0).map(|motion| motion.end_time()).ok()
+    /// });
+    /// assert!(quarters.is_sorted_by(|a, b| a < b));
+    /// ```
+    pub fn simulate<T: Send>(&self, run: impl Fn(Simulation<'_, S, N>) -> T + Sync) -> Vec<T> {
+        self.each(|system, start| run(system.simulation(&(*start).into())))
     }
 }
 

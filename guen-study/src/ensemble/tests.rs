@@ -2,7 +2,10 @@ use std::ops::ControlFlow;
 
 use guen_runtime::lanes::{Backend, Lanes, Width};
 use guen_runtime::steppers::{Rk4, Rk8};
-use guen_runtime::{Approx7Functions, Cause, FusedOperations, Laned, Real, Setting, System};
+use guen_runtime::{
+    Approx7Functions, Cause, FusedOperations, Laned, Real, Setting, Simulate, SimulationError, System,
+    Trajectory, Trigger,
+};
 
 use super::{End, Ensemble};
 
@@ -18,6 +21,10 @@ impl<R: Real> System<R, 2> for Oscillator<R> {
             || [w, (q * q - R::one()).sqrt().minus_times(self.0, q.sin())],
         )
     }
+}
+
+impl Simulate<f64, 2> for Oscillator<f64> {
+    type State = [f64; 2];
 }
 
 impl Laned<2> for Oscillator<f64> {
@@ -63,6 +70,30 @@ fn ends_are_those_of_single_runs_whatever_the_lanes_and_threads() {
     }
     assert_eq!(ensemble.integrate(&METHOD, 0.0, 2.5), expected);
     assert_eq!(ensemble.each(|system, start| alone(system, start, 2.5)), expected);
+}
+
+#[test]
+fn simulations_are_those_of_single_members() {
+    let kept = |run: Result<Trajectory<Oscillator<f64>, 2>, SimulationError<Oscillator<f64>, 2>>| match run {
+        Ok(motion) => (motion.end_time(), motion.end(), motion.at(0.4), motion.events().len()),
+        // The motion until then is there as well.
+        Err(error) => (error.time, error.trajectory.end(), error.trajectory.at(0.4), usize::MAX),
+    };
+    let passes = |_: f64, &[_, w]: &[f64; 2]| w;
+    let expected: Vec<_> = members(23)
+        .map(|(system, start)| kept(system.simulation(&start).events([Trigger::new(passes)]).run(0.0..2.5)))
+        .collect();
+    let failed = expected.iter().filter(|end| end.3 == usize::MAX).count();
+    assert!(failed > 2 && failed < 20, "{failed} of 23 fail");
+    for threads in [1, 3] {
+        let ensemble = Ensemble::of_systems(members(23)).with_threads(threads);
+        let found =
+            ensemble.simulate(|simulation| kept(simulation.events([Trigger::new(passes)]).run(0.0..2.5)));
+        assert_eq!(found, expected, "{threads}");
+        let whole = ensemble.simulate(|simulation| simulation.run(0.0..2.5));
+        let ends = whole.into_iter().map(kept).map(|(time, end, ..)| (time, end));
+        assert!(ends.eq(expected.iter().map(|(time, end, ..)| (*time, *end))), "{threads}");
+    }
 }
 
 #[test]
