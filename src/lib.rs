@@ -164,8 +164,9 @@ pub mod __private {
     };
     pub use guen_runtime::{
         cells, condition, differentiable, domain, dynamics, energy, facts, jacobians, laned, lift,
-        linearizable, mass_form, motion_of_system, operators, output_map, program_functions, rates,
-        reaction_covector, reactions, recast, record, reduce, reported, state_of_system, steady_motions,
+        linearizable, mass_form, motion_of_system, onto_constraints, operators, output_map,
+        program_functions, rates, reaction_covector, reactions, recast, record, reduce, reported,
+        state_of_system, steady_motions,
     };
     pub use guen_runtime::{consistent, control, furthest_surplus, serde_record};
 }

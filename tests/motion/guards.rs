@@ -4,6 +4,8 @@
 #![allow(clippy::result_large_err, reason = "an error keeps the state that was reached")]
 
 use guen::prelude::*;
+
+use crate::simulation::{Circle, circle};
 use guen::steppers::Method;
 
 hoop!(guen::mechanical_system);
@@ -171,17 +173,7 @@ fn what_the_observer_saw_before_a_failure_is_kept_and_in_order() {
 #[test]
 fn a_residual_limit_is_watched() {
     // A start off the constraint, by less than the limit and by more.
-    guen::mechanical_system! {
-        pub system Circle {
-            constants { m > 0, l > 0, g = 9.81 }
-            coordinates { x, y }
-            particles { m at vec(x, y); }
-            gravity = vec(0, -g);
-            parameters { omega = (x*dot(y) - y*dot(x))/l^2; }
-            holonomic { rod: x^2 + y^2 = l^2; }
-        }
-    }
-    let system = Circle { m: 1.0, l: 1.0, g: 9.81 }.prepare().unwrap();
+    let system = Circle::new(1.0, 1.0).prepare().unwrap().driven(circle::Inputs::default());
     let run = |residual: f64| {
         Integration::new(&system, 0.0, &[0.0, -1.0, 3.0])
             .guard(Guard { residual, every: Some(1), ..Guard::FINITE })

@@ -2,7 +2,7 @@
 
 use guen::prelude::*;
 use guen::steppers::{Direction, Guard};
-use guen::{ConstantsError, Trigger};
+use guen::{ConstantsError, Trigger, projected};
 
 hoop!(guen::mechanical_system);
 
@@ -17,6 +17,21 @@ mechanical_system! {
         potential_energy = m*g*z;
         forces { force along w; }
         outputs { power = force*w; place = vec(0, 1, z); }
+        provide taylor;
+    }
+}
+
+mechanical_system! {
+    /// A point on a circle, in Cartesian coordinates.
+    pub system Circle {
+        constants { m > 0, l > 0, g = 9.81 }
+        inputs { push }
+        coordinates { x, y }
+        particles { m at vec(x, y); }
+        gravity = vec(0, -g);
+        parameters { omega = (x*dot(y) - y*dot(x))/l^2; }
+        holonomic { rod: x^2 + y^2 = l^2; }
+        forces { push along omega; }
         provide taylor;
     }
 }
@@ -219,6 +234,39 @@ fn messages_name_what_vanishes_and_what_is_off() {
         hoop::State::NAMES.iter().any(|name| error.to_string().contains(&format!("`{name}` is off"))),
         "{error}"
     );
+}
+
+#[test]
+fn constraints_on_positions_hold_to_rounding() {
+    let circle = Circle::new(1.0, 1.0).prepare().unwrap();
+    let start = circle::State { x: 0.6, y: -0.8, omega: 2.0 };
+    let pushed = circle.driven(circle::Inputs { push: 0.3 });
+    fn worst<P: guen::steppers::Interpolant<f64, 3>, S>(motion: &Trajectory<S, 3, f64, P>) -> f64
+    where
+        S: Simulate<f64, 3, State = circle::State>,
+    {
+        let gaps = motion.sample(0.03).map(|(_, s)| (s.x * s.x + s.y * s.y - 1.0).abs());
+        gaps.fold(motion.statistics().residual, f64::max)
+    }
+    let motion = pushed.simulate(&start, 0.0..6.0).unwrap();
+    assert!(worst(&motion) < 1e-15, "{}", worst(&motion));
+    // It is the motion of the projected system, to the bit; without that, constraints drift with the error of the method.
+    let wrapped = projected(pushed).simulate(&start, 0.0..6.0).unwrap();
+    assert!(motion.iter().eq(wrapped.iter()));
+    let drifting = pushed.simulation(&start).without_projection().run(0.0..6.0).unwrap();
+    assert!(worst(&drifting) > 1e-11 && worst(&drifting) < 1e-7, "{}", worst(&drifting));
+    assert!((motion.end().omega - drifting.end().omega).abs() < 1e-6);
+    macro_rules! check {
+        ($($method:expr;)*) => {$(
+            let motion = pushed.simulation(&start).method($method).run(0.0..1.0).unwrap();
+            assert!(worst(&motion) < 1e-15, "{} {}", stringify!($method), worst(&motion));
+        )*};
+    }
+    check! { Rk4::new(0.02); Tsit5::new(1e-7, 1e-7); Gauss6::new(0.05); Radau5::new(1e-7, 1e-7); Taylor::new(1e-9, 1e-9); }
+    let law = |_: f64, state: &circle::State| circle::Inputs { push: -state.omega };
+    let braked = circle.simulation(&start).inputs(law).run(0.0..6.0).unwrap();
+    let sampled = circle.simulation(&start).hold(0.1, law).run(0.0..6.0).unwrap();
+    assert!(worst(&braked) < 1e-15 && worst(&sampled) < 1e-15);
 }
 
 #[test]

@@ -288,7 +288,7 @@ fn systems(
     });
     let prices = integrated::prices(subject, layout, &looks);
     let differentiable = integrated::differentiable(layout, false);
-    let simulate = integrated::simulate(&owner, size, false);
+    let simulate = integrated::simulate(&owner, size, false, false);
     let lanes = lanes::carried(layout);
     quote! {
         #driven

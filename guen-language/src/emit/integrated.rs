@@ -192,7 +192,8 @@ pub(super) fn differentiable(layout: &Layout, has_code: bool) -> TokenStream {
 }
 
 /// The trait `Simulate` of what steppers integrate: its states have named fields.
-pub(super) fn simulate(owner: &TokenStream, size: usize, domain: bool) -> TokenStream {
+pub(super) fn simulate(owner: &TokenStream, size: usize, domain: bool, positions: bool) -> TokenStream {
+    let positions = positions.then(|| quote!(__guen::onto_constraints!(#size);));
     let domain = domain.then(|| {
         quote!(
             const DOMAIN: &'static [&'static ::core::primitive::str] = &DOMAIN;
@@ -203,6 +204,7 @@ pub(super) fn simulate(owner: &TokenStream, size: usize, domain: bool) -> TokenS
             type State = State<R>;
             const STATES: &'static [&'static ::core::primitive::str] = &State::<::core::primitive::f64>::NAMES;
             #domain
+            #positions
         }
     }
 }

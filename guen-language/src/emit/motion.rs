@@ -201,7 +201,7 @@ fn systems(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
         let (owner, prepared) = (quote!(Prepared<R>), quote!(self));
         let guarded = integrated::guarded(subject, layout, &prepared);
         let differentiable = integrated::differentiable(layout, subject.level.jacobians.rates.is_some());
-        let simulate = integrated::simulate(&owner, size, true);
+        let simulate = integrated::simulate(&owner, size, true, !selection.holonomic.is_empty());
         let monitored = monitored(owner, prepared);
         return quote! {
             impl<R: __guen::Real> __guen::System<R, #size> for Prepared<R> {
@@ -220,7 +220,7 @@ fn systems(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let (owner, prepared) = (quote!(Driven<R>), quote!(self.system));
     let guarded = integrated::guarded(subject, layout, &prepared);
     let differentiable = integrated::differentiable(layout, subject.level.jacobians.rates.is_some());
-    let simulate = integrated::simulate(&owner, size, true);
+    let simulate = integrated::simulate(&owner, size, true, !selection.holonomic.is_empty());
     let monitored = monitored(owner, prepared);
     quote! {
         /// A prepared system with inputs that are held: what steppers integrate during a step.

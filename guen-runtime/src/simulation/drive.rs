@@ -4,8 +4,9 @@ use alloc::vec::Vec;
 
 use crate::numbers::real::Ordered;
 use crate::simulation::recorder::{Recorder, Step};
+use crate::simulation::settled::Settled;
 use crate::steppers::{Integration, IntegrationError, IntegrationResult, Interpolant, Method, StepperRun};
-use crate::system::System;
+use crate::system::simulate::Simulate;
 
 /// The result of a run, and its steps.
 pub type Steps<R, P, const N: usize> =
@@ -16,7 +17,7 @@ pub trait Drive<R, S, M, P, const N: usize> {
     /// Runs to a time, with no more memory for the steps than is given.
     fn run<const E: usize>(
         &mut self,
-        integration: Integration<'_, R, S, N, E>,
+        integration: Integration<'_, R, Settled<S>, N, E>,
         method: &M,
         end: R,
         memory: usize,
@@ -33,14 +34,14 @@ pub struct Direct;
 impl<R, S, M, P, const N: usize> Drive<R, S, M, P, N> for Direct
 where
     R: Ordered,
-    S: System<R, N>,
+    S: Simulate<R, N>,
     P: Interpolant<R, N>,
-    M: Method<R, S, N>,
-    for<'r> M::Run<'r>: StepperRun<R, S, N, Polynomial = P>,
+    M: Method<R, Settled<S>, N>,
+    for<'r> M::Run<'r>: StepperRun<R, Settled<S>, N, Polynomial = P>,
 {
     fn run<const E: usize>(
         &mut self,
-        integration: Integration<'_, R, S, N, E>,
+        integration: Integration<'_, R, Settled<S>, N, E>,
         method: &M,
         end: R,
         memory: usize,

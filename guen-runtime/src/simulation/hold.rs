@@ -7,6 +7,7 @@ use core::cell::RefCell;
 use crate::numbers::real::{Ordered, Real};
 use crate::simulation::drive::{Drive, Steps};
 use crate::simulation::recorder::Recorder;
+use crate::simulation::settled::Settled;
 use crate::steppers::{Cause, Checkpoint, Integration, Interpolant, Method, Setting, Statistics, StepperRun};
 use crate::system::actuated::{Actuated, WithInputs};
 use crate::system::input_law::InputSamples;
@@ -56,12 +57,12 @@ where
     R: Ordered,
     S: Actuated<R, N>,
     P: Interpolant<R, N>,
-    M: Method<R, S::Driven, N>,
-    for<'r> M::Run<'r>: StepperRun<R, S::Driven, N, Polynomial = P>,
+    M: Method<R, Settled<S::Driven>, N>,
+    for<'r> M::Run<'r>: StepperRun<R, Settled<S::Driven>, N, Polynomial = P>,
 {
     fn run<const E: usize>(
         &mut self,
-        integration: Integration<'_, R, Sampled<S, R, N>, N, E>,
+        integration: Integration<'_, R, Settled<Sampled<S, R, N>>, N, E>,
         method: &M,
         end: R,
         memory: usize,
@@ -82,11 +83,11 @@ struct Holding<'h, 'a, S: Actuated<R, N>, M, R: Real, const N: usize> {
     hold: RefCell<&'h mut Hold<'a, S, R, N>>,
 }
 
-impl<'h, 'a, S, M, R, const N: usize> Method<R, Sampled<S, R, N>, N> for Holding<'h, 'a, S, M, R, N>
+impl<'h, 'a, S, M, R, const N: usize> Method<R, Settled<Sampled<S, R, N>>, N> for Holding<'h, 'a, S, M, R, N>
 where
     R: Ordered,
     S: Actuated<R, N>,
-    M: Method<R, S::Driven, N>,
+    M: Method<R, Settled<S::Driven>, N>,
 {
     type Run<'r>
         = Held<'r, 'h, 'a, S, M, M::Run<'r>, R, N>
@@ -108,6 +109,15 @@ where
     }
 }
 
+/// The system with these inputs held.
+fn held<S, R, const N: usize>(system: &Settled<Sampled<S, R, N>>, inputs: S::Inputs) -> Settled<S::Driven>
+where
+    R: Real,
+    S: Actuated<R, N>,
+{
+    Settled { system: system.system.system.held(inputs), projects: system.projects }
+}
+
 /// A run whose inputs are held from sample to sample.
 struct Held<'r, 'h, 'a, S: Actuated<R, N>, M, C, R: Real, const N: usize> {
     method: &'r M,
@@ -115,7 +125,7 @@ struct Held<'r, 'h, 'a, S: Actuated<R, N>, M, C, R: Real, const N: usize> {
     /// The run since the last sample.
     run: C,
     /// The system with the inputs of the last sample; none before the first.
-    system: Option<S::Driven>,
+    system: Option<Settled<S::Driven>>,
     origin: R,
     samples: u64,
     /// The time of the next sample.
@@ -129,10 +139,10 @@ impl<S, M, C, R, const N: usize> Held<'_, '_, '_, S, M, C, R, N>
 where
     R: Ordered,
     S: Actuated<R, N>,
-    C: StepperRun<R, S::Driven, N>,
+    C: StepperRun<R, Settled<S::Driven>, N>,
 {
     /// Takes a sample where the run stands, on the way to a time.
-    fn sample(&mut self, system: &Sampled<S, R, N>, target: R) -> Result<(), Cause> {
+    fn sample(&mut self, system: &Settled<Sampled<S, R, N>>, target: R) -> Result<(), Cause> {
         /// Roundings of a span within which a sample is at its end.
         const ROUNDINGS: f64 = 4.0;
 
@@ -154,7 +164,7 @@ where
         let slack = ROUNDINGS * R::epsilon().to_f64() * f64::max(target.to_f64().abs(), next.to_f64().abs());
         self.next = if rest > 0.0 && rest <= slack { target } else { next };
         self.samples += 1;
-        self.system = Some(system.system.held(inputs));
+        self.system = Some(held(system, inputs));
         Ok(())
     }
 
@@ -165,12 +175,13 @@ where
     }
 }
 
-impl<'r, S, M, C, R, const N: usize> StepperRun<R, Sampled<S, R, N>, N> for Held<'r, '_, '_, S, M, C, R, N>
+impl<'r, S, M, C, R, const N: usize> StepperRun<R, Settled<Sampled<S, R, N>>, N>
+    for Held<'r, '_, '_, S, M, C, R, N>
 where
     R: Ordered,
     S: Actuated<R, N>,
-    M: Method<R, S::Driven, N, Run<'r> = C>,
-    C: StepperRun<R, S::Driven, N>,
+    M: Method<R, Settled<S::Driven>, N, Run<'r> = C>,
+    C: StepperRun<R, Settled<S::Driven>, N>,
 {
     const EVALUATIONS: u32 = C::EVALUATIONS;
     const JUDGED: bool = C::JUDGED;
@@ -180,7 +191,7 @@ where
         &self.reached
     }
 
-    fn advance(&mut self, system: &Sampled<S, R, N>, target: R, dense: bool) -> Result<(), Cause> {
+    fn advance(&mut self, system: &Settled<Sampled<S, R, N>>, target: R, dense: bool) -> Result<(), Cause> {
         if self.system.is_none() || self.reached.time == self.next {
             self.sample(system, target)?;
             self.before = self.reached.statistics;
@@ -197,17 +208,17 @@ where
         (target - self.next).to_f64() <= 0.0 && self.run.is_last(target)
     }
 
-    fn defect(&self, system: &Sampled<S, R, N>, before: &Checkpoint<R, N>) -> [R; N] {
+    fn defect(&self, system: &Settled<Sampled<S, R, N>>, before: &Checkpoint<R, N>) -> [R; N] {
         match &self.system {
-            Some(held) => self.run.defect(held, before),
-            None => self.run.defect(&system.system.held(S::Inputs::default()), before),
+            Some(system) => self.run.defect(system, before),
+            None => self.run.defect(&held(system, S::Inputs::default()), before),
         }
     }
 
-    fn dense(&mut self, system: &Sampled<S, R, N>) -> C::Polynomial {
+    fn dense(&mut self, system: &Settled<Sampled<S, R, N>>) -> C::Polynomial {
         let polynomial = match &self.system {
-            Some(held) => self.run.dense(held),
-            None => self.run.dense(&system.system.held(S::Inputs::default())),
+            Some(system) => self.run.dense(system),
+            None => self.run.dense(&held(system, S::Inputs::default())),
         };
         self.stand();
         polynomial

@@ -7,6 +7,7 @@ mod drive;
 mod error;
 mod hold;
 mod recorder;
+mod settled;
 mod trajectory;
 mod trigger;
 mod without_inputs;
@@ -21,6 +22,7 @@ pub use without_inputs::SimulationWithoutInputs;
 
 use crate::numbers::real::Ordered;
 use crate::simulation::drive::{Direct, Drive};
+use crate::simulation::settled::Settled;
 use crate::steppers::{Dop853, Event, Guard, Integration, Interpolant, Occurrence};
 use crate::system::simulate::Simulate;
 
@@ -45,6 +47,7 @@ type Progress<'a, R> = Box<dyn FnMut(R, f64) + 'a>;
 /// | [`stop_at`](Self::stop_at), [`events`](Self::events) | none |
 /// | [`observe`](Self::observe), [`progress`](Self::progress) | nobody |
 /// | [`memory`](Self::memory) | 256 MiB for the trajectory |
+/// | constraints on positions | put back after every step; not [`without_projection`](Self::without_projection) |
 ///
 /// ```
 /// use guen_runtime::steppers::Rk8;
@@ -72,6 +75,7 @@ where
     method: M,
     guard: Guard,
     memory: usize,
+    projects: bool,
     triggers: [Trigger<'a, R, S::State>; E],
     observer: Option<Observer<'a, R, S::State>>,
     progress: Option<Progress<'a, R>>,
@@ -107,6 +111,7 @@ impl<R: Ordered, S: Simulate<R, N>, D, const N: usize> Simulation<'_, S, N, R, D
             method: Dop853::new(TOLERANCE, TOLERANCE),
             guard: Guard { every: Some(1), ..Guard::default() },
             memory: MEMORY,
+            projects: true,
             triggers: [],
             observer: None,
             progress: None,
@@ -148,8 +153,8 @@ impl<'a, R: Ordered, S: Simulate<R, N>, M, D, const N: usize> Simulation<'a, S, 
         self,
         triggers: [Trigger<'a, R, S::State>; E],
     ) -> Simulation<'a, S, N, R, M, E, D> {
-        let Self { system, start, method, guard, memory, observer, progress, drive, .. } = self;
-        Simulation { system, start, method, guard, memory, triggers, observer, progress, drive }
+        let Self { system, start, method, guard, memory, projects, observer, progress, drive, .. } = self;
+        Simulation { system, start, method, guard, memory, projects, triggers, observer, progress, drive }
     }
 }
 
@@ -160,8 +165,8 @@ where
 {
     /// Runs with this method.
     pub fn method<T>(self, method: T) -> Simulation<'a, S, N, R, T, E, D> {
-        let Self { system, start, guard, memory, triggers, observer, progress, drive, .. } = self;
-        Simulation { system, start, method, guard, memory, triggers, observer, progress, drive }
+        let Self { system, start, guard, memory, projects, triggers, observer, progress, drive, .. } = self;
+        Simulation { system, start, method, guard, memory, projects, triggers, observer, progress, drive }
     }
 
     /// Watches with these limits in place of the default ones.
@@ -173,6 +178,14 @@ where
     /// needs more ends with [`Cause::Memory`](crate::Cause::Memory), and the error has the trajectory up to there.
     pub fn memory(self, bytes: usize) -> Self {
         Self { memory: bytes, ..self }
+    }
+
+    /// Leaves the coordinates where the method puts them. Otherwise a declared system with constraints on positions `f(t, x) = 0` is
+    /// put back onto them after every step, by [`project`](crate::project), and so are the states between steps; a state that
+    /// cannot be ends the run with [`Cause::Positions`](crate::Cause::Positions). Without it `f` drifts by the error of the method,
+    /// and a step takes a tenth to a sixth less of the time.
+    pub fn without_projection(self) -> Self {
+        Self { projects: false, ..self }
     }
 
     /// Shows every accepted step; when the observer breaks, the run ends there.
@@ -207,8 +220,18 @@ where
         P: Interpolant<R, N>,
         D: Drive<R, S, M, P, N>,
     {
-        let Self { system, start, method, guard, memory, triggers, mut observer, mut progress, mut drive } =
-            self;
+        let Self {
+            system,
+            start,
+            method,
+            guard,
+            memory,
+            projects,
+            triggers,
+            mut observer,
+            mut progress,
+            mut drive,
+        } = self;
         let start: [R; N] = start.into();
         let functions = triggers.each_ref().map(|trigger| trigger.of_array());
         let events: [Event<'_, R, N>; E] = core::array::from_fn(|i| triggers[i].event(functions[i].as_ref()));
@@ -232,6 +255,7 @@ where
                 None => ControlFlow::Continue(()),
             }
         };
+        let system = Settled { system, projects };
         let integration = Integration::new(&system, span.start, &start)
             .guard(guard)
             .observe(&mut observe)
@@ -242,7 +266,7 @@ where
             Err(error) => ((error.time, error.state), error.statistics, None, Some(error.cause)),
         };
         drop(functions);
-        let system = drive.finished(system);
+        let system = Settled { system: drive.finished(system.system), projects };
         let trajectory =
             Trajectory::new(system, (span.start, start), steps, end, happened, statistics, outcome);
         match cause {

@@ -2,8 +2,9 @@
 
 use alloc::vec::Vec;
 
-use crate::numbers::real::Real;
+use crate::numbers::real::{Ordered, Real};
 use crate::simulation::recorder::Step;
+use crate::simulation::settled::Settled;
 use crate::steppers::{Dense, Interpolant, Outcome, Statistics};
 use crate::system::outputs::OutputMap;
 use crate::system::simulate::Simulate;
@@ -41,7 +42,7 @@ pub struct Quality {
 ///
 /// It owns a copy of the system and the polynomial of every step, in `8 (8 N + 3)` bytes for each step of
 /// [`Dop853`](crate::steppers::Dop853). A call of [`at`](Self::at) takes a search among the steps and about `24 N` operations;
-/// states of a [`projected`](crate::projected) system are put back onto their constraints, as those of steps are.
+/// its states are put back onto the constraints on positions, as those of steps are.
 ///
 /// ```
 /// use guen_runtime::{Simulate, from_fn};
@@ -62,7 +63,7 @@ where
     R: Real,
     S: Simulate<R, N>,
 {
-    system: S,
+    system: Settled<S>,
     start: (R, [R; N]),
     steps: Vec<Step<R, P>>,
     end: (R, [R; N]),
@@ -86,7 +87,7 @@ impl<R: Real, S: Simulate<R, N>, P, const N: usize> core::fmt::Debug for Traject
 impl<R: Real, S: Simulate<R, N>, P, const N: usize> Trajectory<S, N, R, P> {
     /// The trajectory of the steps that begin before its end.
     pub(super) fn new(
-        system: S,
+        system: Settled<S>,
         start: (R, [R; N]),
         mut steps: Vec<Step<R, P>>,
         end: (R, [R; N]),
@@ -105,7 +106,7 @@ impl<R: Real, S: Simulate<R, N>, P, const N: usize> Trajectory<S, N, R, P> {
 
     /// The system that moves.
     pub fn system(&self) -> &S {
-        &self.system
+        &self.system.system
     }
 
     /// The state at the beginning.
@@ -157,7 +158,7 @@ impl<R: Real, S: Simulate<R, N>, P, const N: usize> Trajectory<S, N, R, P> {
 
 impl<R, S, P, const N: usize> Trajectory<S, N, R, P>
 where
-    R: Real,
+    R: Ordered,
     S: Simulate<R, N>,
     P: Interpolant<R, N>,
 {
@@ -218,7 +219,7 @@ where
     where
         S: Monitored<R, N>,
     {
-        self.times().map(|t| (t, self.system.energy(t, &self.array_at(t))))
+        self.times().map(|t| (t, self.system().energy(t, &self.array_at(t))))
     }
 
     /// The declared outputs at all accepted steps, start and end included.
@@ -264,7 +265,7 @@ where
     where
         S: OutputMap<R, N, K>,
     {
-        S::named_outputs(&self.system.output_values(t, &self.array_at(t)))
+        S::named_outputs(&self.system().output_values(t, &self.array_at(t)))
     }
 
     /// The work of the run, and the largest deviations from what the exact motion keeps. Evaluates the invariants at all

@@ -4,8 +4,10 @@ use core::marker::PhantomData;
 
 use crate::numbers::dual::Dual;
 use crate::numbers::lift::Lift;
-use crate::numbers::real::Real;
+use crate::numbers::real::{Ordered, Real};
 use crate::numbers::running_error::RunningError;
+#[cfg(feature = "alloc")]
+use crate::simulation::SimulationWithoutInputs;
 use crate::system::bodies::{Bodies, Body};
 use crate::system::differentiable::Differentiable;
 use crate::system::input_law::{InputLaw, InputRecords, InputValues, Smooth};
@@ -15,8 +17,6 @@ use crate::system::outputs::OutputMap;
 use crate::system::positions_error::PositionsError;
 use crate::system::simulate::Simulate;
 use crate::system::{Monitored, System};
-#[cfg(feature = "alloc")]
-use {crate::numbers::real::Ordered, crate::simulation::SimulationWithoutInputs};
 
 /// A prepared system with inputs: with values for them it is something that steppers integrate. Generated systems are.
 pub trait Actuated<R: Real, const N: usize> {
@@ -207,6 +207,13 @@ where
     type State = <S::Driven as Simulate<R, N>>::State;
     const STATES: &'static [&'static str] = S::Driven::STATES;
     const DOMAIN: &'static [&'static str] = S::Driven::DOMAIN;
+
+    fn onto_constraints(&self, t: R, state: &mut [R; N]) -> Result<(), PositionsError>
+    where
+        R: Ordered,
+    {
+        self.anywhere().onto_constraints(t, state)
+    }
 }
 
 impl<S, F, R, const N: usize, const B: usize> Bodies<R, N, B> for WithInputs<S, F, R, N>

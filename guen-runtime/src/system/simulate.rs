@@ -1,12 +1,12 @@
 //! Systems whose motions are asked for by one call, with states that have names.
 
-use crate::numbers::real::Real;
+use crate::numbers::real::{Ordered, Real};
 use crate::system::differentiable::{Equations, Generic};
 use crate::system::positions::{Positions, Projected};
+use crate::system::positions_error::PositionsError;
 use crate::system::{FromFn, System};
 #[cfg(feature = "alloc")]
 use {
-    crate::numbers::real::Ordered,
     crate::simulation::{Simulation, SimulationError, Trajectory},
     crate::steppers::Dop853,
     core::ops::Range,
@@ -40,10 +40,24 @@ pub trait Simulate<R: Real, const N: usize>: System<R, N> {
     /// they have no names.
     const DOMAIN: &'static [&'static str] = &[];
 
+    /// Moves a state onto the constraints on positions, as simulations do after every step: by [`project`](crate::project) in
+    /// declared systems that have some. What [`restore`](System::restore) does, unless a system says more.
+    ///
+    /// # Errors
+    ///
+    /// [`PositionsError`]; the state is unchanged then.
+    #[inline]
+    fn onto_constraints(&self, t: R, state: &mut [R; N]) -> Result<(), PositionsError>
+    where
+        R: Ordered,
+    {
+        self.restore(t, state)
+    }
+
     /// Simulates from a state over a span of time, forwards or backwards, and returns the whole motion.
     ///
     /// The method is [`Dop853`] with the tolerance 1e-9, relative and absolute; the default
-    /// [`Guard`](crate::steppers::Guard) looks after every step. [`simulation`](Self::simulation) has everything else.
+    /// [`Guard`](crate::steppers::Guard) looks after every step, and constraints on positions hold to rounding. [`simulation`](Self::simulation) has everything else.
     ///
     /// # Errors
     ///
@@ -89,6 +103,13 @@ impl<R: Real, S: Simulate<R, N> + ?Sized, const N: usize> Simulate<R, N> for &S 
     type State = S::State;
     const STATES: &'static [&'static str] = S::STATES;
     const DOMAIN: &'static [&'static str] = S::DOMAIN;
+
+    fn onto_constraints(&self, t: R, state: &mut [R; N]) -> Result<(), PositionsError>
+    where
+        R: Ordered,
+    {
+        (**self).onto_constraints(t, state)
+    }
 }
 
 impl<R, S, const N: usize, const H: usize, const M: usize> Simulate<R, M> for Projected<S, N, H>

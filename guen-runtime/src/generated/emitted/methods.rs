@@ -13,6 +13,25 @@ macro_rules! array_of_inputs {
     };
 }
 
+/// `Simulate::onto_constraints` of a system with constraints on positions, with the number of states.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! onto_constraints {
+    ($size:literal) => {
+        #[inline]
+        fn onto_constraints(
+            &self,
+            t: R,
+            state: &mut [R; $size],
+        ) -> ::core::result::Result<(), $crate::PositionsError>
+        where
+            R: $crate::Ordered,
+        {
+            $crate::project(self, t, state).map(|_| ())
+        }
+    };
+}
+
 /// The trait `OutputMap` of what steppers integrate, with the numbers of states and of outputs, the names of the outputs, and where
 /// the prepared values and the inputs are.
 #[doc(hidden)]
