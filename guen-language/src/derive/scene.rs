@@ -204,6 +204,7 @@ fn level(
         domain_names,
         domain_reasons,
         constant_pivots,
+        promise: None,
         series,
         jacobians,
         shown,

@@ -452,6 +452,16 @@ fn instead_of(text: &str) -> Option<&'static str> {
         "max" => "the larger of two is `(a + b + abs(a - b))/2`",
         "sec" => "write `1/cos(x)`",
         "csc" | "cosec" => "write `1/sin(x)`",
+        "sech" => "write `1/cosh(x)`",
+        "csch" => "write `1/sinh(x)`",
+        "coth" => "write `1/tanh(x)`",
+        "asinh" | "arcsinh" | "arsinh" => "write `ln(x + sqrt(x^2 + 1))`",
+        "acosh" | "arccosh" | "arcosh" => "write `ln(x + sqrt(x^2 - 1))`",
+        "atanh" | "arctanh" | "artanh" => "write `ln((1 + x)/(1 - x))/2`",
+        "acot" | "arccot" => "write `pi/2 - atan(x)`",
+        "round" | "floor" | "ceil" | "trunc" | "fract" | "rem" => {
+            "there are no functions with steps but `sign(x)` and, with an edge, `abs(x)`"
+        }
         "pow" | "powf" | "powi" => "a power is written `x^2`",
         "square" | "sqr" => "a square is written `x^2`",
         "cbrt" => "a cube root is written `x^(1/3)`",

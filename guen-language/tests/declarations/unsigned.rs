@@ -3,6 +3,7 @@
 
 use crate::common::{derived, evaluated};
 use guen_language::derive::{Derived, function};
+use guen_language::report::Report;
 use guen_symbolic::{SymbolId, evaluate_f64};
 
 /// Particles on massless links, in absolute angles.
@@ -110,4 +111,53 @@ fn what_has_inertia_otherwise_is_no_divisor() {
         parameters { w = dot(phi); }
     }";
     derived(text, |derived| assert_eq!(pivots(derived), ["I + m*l^2"]));
+}
+
+/// Where a bound would save operations the report says which, and how many: as many as the declaration with that bound has less.
+#[test]
+fn a_bound_that_saves_operations_is_told() {
+    let car = |constants: &str| {
+        format!(
+            "pub system CarWithTrailer {{
+                constants   {{ {constants} }}
+                inputs      {{ push, steering }}
+                coordinates {{ x, y, theta, beta, phi }}
+                let C = rot_z(theta);
+                let T = rot_z(beta);
+                let F = C*rot_z(phi);
+                let rear = vec(x, y);
+                let axle = rear - k*C.x - d*T.x;
+                bodies {{
+                    car     {{ mass: m, inertia: diag(0, 0, I), center: rear + l/2*C.x, orientation: C }}
+                    wheels  {{ inertia: diag(0, 0, I/20), orientation: F }}
+                    trailer {{ mass: m/2, inertia: diag(0, 0, I/2), center: axle, orientation: T }}
+                }}
+                parameters {{ speed = inner(C.x, dot(rear)); steer = dot(phi); }}
+                constraints {{
+                    rear_axle:    inner(C.y, car.velocity_at(rear)) = 0;
+                    front_axle:   inner(F.y, car.velocity_at(rear + l*C.x)) = 0;
+                    trailer_axle: inner(T.y, trailer.velocity_at(axle)) = 0;
+                }}
+                forces {{ push along speed; vec(0, 0, steering) along wheels.angular_velocity - car.angular_velocity; }}
+            }}"
+        )
+    };
+    let costs = |constants: &str| {
+        derived(&car(constants), |derived| {
+            let report = Report::of(&derived.model, &derived.system);
+            let lines = report.sections.into_iter().find(|section| section.title == "Cost").unwrap().text;
+            (lines.iter().any(|line| line.starts_with("declare")), lines)
+        })
+    };
+    let all = |constants: &str| {
+        let (_, lines) = costs(constants);
+        let count = lines[0].strip_prefix("right-hand side: ").unwrap().split(' ').next().unwrap();
+        count.parse::<u32>().unwrap()
+    };
+    let (is_told, lines) = costs("m > 0, I > 0, l > 0, d, k > 0");
+    let saved = all("m > 0, I > 0, l > 0, d, k > 0") - all("m > 0, I > 0, l > 0, d != 0, k > 0");
+    assert!(is_told && saved > 50, "{lines:?}");
+    assert_eq!(lines.last().unwrap(), &format!("declare `d != 0`: {saved} operations less"));
+    // Nothing is said of others, which cost as much without a bound, nor of a bound that is there.
+    assert!(!costs("m, I, l, d > 0, k").0);
 }

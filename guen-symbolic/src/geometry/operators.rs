@@ -30,6 +30,8 @@ pub struct Operators {
     pub chart_forms: Vec<Vec<usize>>,
     /// Functions of constants alone that must not vanish.
     pub constant_pivots: Vec<ExprId>,
+    /// Entries made of constants alone that would be divided by if it were promised that they do not vanish.
+    pub unpromised: Vec<ExprId>,
     /// The steps of solving the forms.
     pub(crate) steps: Vec<Step>,
 }
@@ -140,6 +142,11 @@ impl Operators {
             Solver { bench, chart, chart_forms, constant_pivots, solved, steps, is_large, beyond: None };
         solver.eliminate(&mut equations, forms.degrees);
         let core: Vec<Equation> = equations.into_iter().flatten().collect();
+        let entries = core.iter().flat_map(|equation| equation.entries.values());
+        let mut unpromised: Vec<ExprId> =
+            entries.copied().filter(|e| solver.bench.graph.roles(*e).is_constant()).collect();
+        unpromised.sort_unstable();
+        unpromised.dedup();
         let mut values: Vec<Option<BTreeMap<usize, ExprId>>> = vec![None; n];
         solver.solve_core(core, forms.degrees, &mut values).map_err(|singular| vec![singular])?;
         solver.substitute_back(&mut values);
@@ -156,7 +163,7 @@ impl Operators {
                     .collect()
             })
             .collect();
-        Ok(Operators { xi, chart, chart_forms, constant_pivots, steps })
+        Ok(Operators { xi, chart, chart_forms, constant_pivots, unpromised, steps })
     }
 }
 

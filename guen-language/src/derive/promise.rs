@@ -1,0 +1,64 @@
+//! Bounds that are not declared and would save operations: forms are solved without dividing by a constant of which nothing is promised.
+
+use guen_symbolic::{Derivation, MAX_WORK, Programs};
+
+use super::programs::{extend, programs};
+use super::{formulas, function};
+use crate::diagnostics::collect;
+use crate::model::{self, Model};
+use crate::syntax::{Bound, BoundKind, Item};
+
+/// A promise that the declaration does not make.
+pub struct Promise {
+    /// The constants that would have to differ from zero.
+    pub constants: Vec<String>,
+    /// The operations of a right-hand side that are saved; none where a second derivation would be too much work.
+    pub saved: Option<u32>,
+}
+
+/// Returns the promise that would save operations. Only where a form has an entry that nothing but the missing promise keeps from being
+/// divided by, the system is derived once more, with it.
+pub(super) fn promise(model: &Model<'_>, derivation: &Derivation, own: &Programs) -> Option<Promise> {
+    /// The work of a derivation above which there is no second one.
+    const LARGEST_REPEATED: u64 = MAX_WORK / 4;
+    let graph = &model.bench.graph;
+    let symbols = graph.symbols_in(&derivation.frame.operators.unpromised);
+    let missing = model.constants.iter().filter(|constant| {
+        constant.bound.is_none() && graph.as_symbol(constant.symbol).is_some_and(|s| symbols.contains(&s))
+    });
+    let constants: Vec<String> = missing.map(|constant| constant.name.text.clone()).collect();
+    if constants.is_empty() {
+        return None;
+    }
+    if graph.work() > LARGEST_REPEATED {
+        return Some(Promise { constants, saved: None });
+    }
+    let saved = operations(own)?.checked_sub(with(model, &constants)?).filter(|saved| *saved > 0)?;
+    Some(Promise { constants, saved: Some(saved) })
+}
+
+/// The operations of a right-hand side.
+fn operations(programs: &Programs) -> Option<u32> {
+    let rhs = programs.functions.iter().find(|program| program.name == function::RHS)?;
+    Some(rhs.cost.operations() + rhs.cost.sines + rhs.cost.calls)
+}
+
+/// The operations of a right-hand side where these constants are promised to differ from zero.
+fn with(model: &Model<'_>, constants: &[String]) -> Option<u32> {
+    let mut declaration = model.declaration.clone();
+    declaration.items.retain(|item| !matches!(item, Item::Scene(_)));
+    for item in &mut declaration.items {
+        let Item::Constants(section) = item else { continue };
+        for constant in section.entries.iter_mut().filter(|c| constants.contains(&c.name.text)) {
+            constant.bound = Some(Bound { kind: BoundKind::Nonzero, span: constant.name.span() });
+        }
+    }
+    let (found, report) = collect(|faults| {
+        let mut model = model::resolve(&declaration, faults)?;
+        let derivation = Derivation::new(&mut model.bench, model.mechanics.clone()).ok()?;
+        let mut lists = formulas::rates(&derivation);
+        extend(&mut model.bench, &mut lists);
+        operations(&programs(&mut model.bench, &lists, &[]))
+    });
+    found.filter(|_| report.is_empty())
+}
