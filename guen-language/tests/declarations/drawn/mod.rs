@@ -101,6 +101,7 @@ fn difference(text: &str, derived: &Derived<'_>, seed: u64) -> (f64, usize) {
             };
             evaluated(&derived.system, name, value)
         };
+        equations_apart(text, derived, &values, &declared.generalised_forces(&point), unit);
         let meaning = declared.meaning(&point);
         let mut compare = |what: &str, found: Option<Vec<f64>>, expected: Vec<f64>, unit: f64| {
             let found = found.unwrap_or_default();
@@ -136,6 +137,50 @@ fn difference(text: &str, derived: &Derived<'_>, seed: u64) -> (f64, usize) {
         }
     }
     (worst, states)
+}
+
+/// The equations apart at the accelerations of a state: nothing is left of them, and the forces in them are those that are declared,
+/// `by_velocities`, along the displacements.
+fn equations_apart(
+    text: &str,
+    derived: &Derived<'_>,
+    values: &[(SymbolId, f64)],
+    by_velocities: &[f64],
+    unit: f64,
+) {
+    let model = &derived.model;
+    let symbol = |e: ExprId| model.bench.graph.as_symbol(e).expect("a symbol");
+    let at = |s: SymbolId| values.iter().find(|(known, _)| *known == s).map_or(f64::NAN, |(_, value)| *value);
+    let mechanics = &model.mechanics;
+    let l = mechanics.forms.degrees;
+    let inputs: Vec<f64> = model.inputs.iter().map(|input| at(symbol(input.symbol))).collect();
+    let accelerations: Vec<f64> = mechanics.accelerations[..l].iter().map(|e| at(symbol(*e))).collect();
+    let form = evaluated(&derived.system, function::MASS_FORM, at).unwrap_or_default();
+    let applied = evaluated(&derived.system, function::APPLIED, at).unwrap_or_else(|| vec![0.0; l]);
+    let (triangle, rest) = form.split_at(l * (l + 1) / 2);
+    let (bias, input) = rest.split_at(l);
+    let velocities = |moved: Option<usize>| {
+        let one = moved.map(|s| symbol(mechanics.etas[s]));
+        evaluated(&derived.system, function::VELOCITIES, |s| at(s) + f64::from(u8::from(one == Some(s))))
+            .expect("velocities")
+    };
+    let still = velocities(None);
+    for s in 0..l {
+        let entry = |k: usize| triangle[s.max(k) * (s.max(k) + 1) / 2 + s.min(k)];
+        let inertia: f64 = (0..l).map(|k| entry(k) * accelerations[k]).sum();
+        let row = &input[s * inputs.len()..][..inputs.len()];
+        let made: f64 = row.iter().zip(&inputs).map(|(slope, input)| slope * input).sum();
+        let displaced = velocities(Some(s)).into_iter().zip(&still).map(|(moved, still)| moved - still);
+        let force: f64 = displaced.zip(by_velocities).map(|(xi, force)| xi * force).sum();
+        let largest = (0..l).fold(1.0_f64, |most, k| most.max(entry(k).abs()));
+        let unit = unit * largest * (1.0 + force.abs() + bias[s].abs());
+        for (what, left) in [
+            ("an equation of motion", inertia + bias[s] - made),
+            ("a generalised force", made - applied[s] - force),
+        ] {
+            assert!(left.abs() <= ROUNDING * unit, "{what}: {left:e} is left in row {s} of\n{text}");
+        }
+    }
 }
 
 #[test]
