@@ -66,8 +66,8 @@ fn declarations(tokens: TokenStream, found: &mut dyn FnMut(TokenStream)) {
     let trees: Vec<TokenTree> = tokens.into_iter().collect();
     for (place, tree) in trees.iter().enumerate() {
         match (tree, trees.get(place + 1), trees.get(place + 2)) {
-            (TokenTree::Ident(word), Some(TokenTree::Ident(_)), Some(TokenTree::Group(body)))
-                if word == "system" && body.delimiter() == Delimiter::Brace =>
+            (TokenTree::Ident(word), Some(TokenTree::Ident(name)), Some(TokenTree::Group(body)))
+                if word == "system" && name != "else" && body.delimiter() == Delimiter::Brace =>
             {
                 let body = Group::new(Delimiter::Brace, without_repetitions(body.stream()));
                 found(trees[place..place + 2].iter().cloned().chain([body.into()]).collect());
