@@ -1,8 +1,9 @@
 //! The time of a study, and its progress.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use super::Stop;
+use super::timing::{Deadline, Stopwatch};
 use crate::Progress;
 
 /// The parts of a study, with the part of the whole that each begins and ends at.
@@ -32,7 +33,9 @@ impl Stage {
 
 /// The time of a study, its progress, and whether it was cancelled.
 pub(super) struct Budget {
-    started: Instant,
+    /// The clock, which also says how long a run takes.
+    pub clock: Box<dyn Stopwatch>,
+    started: Duration,
     whole: Duration,
     progress: Option<Progress>,
     stop: Stop,
@@ -41,9 +44,10 @@ pub(super) struct Budget {
 }
 
 impl Budget {
-    pub fn new(whole: Duration, show: bool, stop: Stop) -> Self {
+    pub fn new(whole: Duration, show: bool, stop: Stop, clock: Box<dyn Stopwatch>) -> Self {
         let progress = show.then(|| Progress::new(0.0, 1.0));
-        Self { started: Instant::now(), whole, progress, stop, cancelled: false, late: false }
+        let started = clock.now();
+        Self { clock, started, whole, progress, stop, cancelled: false, late: false }
     }
 
     /// Shows how far a stage has come, and says whether to go on. A stage may use the time up to its own end and what
@@ -55,15 +59,20 @@ impl Budget {
             progress.at(done);
         }
         self.cancelled |= (self.stop)(done);
-        let over = Instant::now() >= self.deadline(stage);
+        let over = self.deadline(stage).is_over();
         // Of a scan that ends early the report says what it saw, and another reference takes the place of one that does.
         self.late |= over && !matches!(stage, Stage::Scan | Stage::Reference);
         !over && !self.cancelled
     }
 
-    /// Returns the instant at which a stage has to be over.
-    pub fn deadline(&self, stage: Stage) -> Instant {
-        self.started + self.whole.mul_f64(stage.part().1)
+    /// Returns the time at which a stage has to be over.
+    pub fn deadline(&self, stage: Stage) -> Deadline<'_> {
+        Deadline { clock: &*self.clock, at: self.started + self.whole.mul_f64(stage.part().1) }
+    }
+
+    /// Returns the time that is so far from now.
+    pub fn after(&self, time: Duration) -> Deadline<'_> {
+        Deadline { clock: &*self.clock, at: self.clock.now() + time }
     }
 
     pub fn share(&self, stage: Stage) -> Duration {
@@ -72,7 +81,7 @@ impl Budget {
     }
 
     pub fn seconds(&self) -> f64 {
-        self.started.elapsed().as_secs_f64()
+        (self.clock.now() - self.started).as_secs_f64()
     }
 
     pub fn is_cancelled(&self) -> bool {

@@ -2,7 +2,7 @@
 //! it has, and the next ones work with that.
 
 use std::rc::Rc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use guen_runtime::steppers::Statistics;
 
@@ -15,7 +15,7 @@ use super::probes::{self, Probe};
 use super::reference::{CANCELLED, Named, Problem, ReferenceReport, References};
 use super::report::{Ending, Report, Unit};
 use super::row::{FailureKind, Nearby, Row};
-use super::timing::Cost;
+use super::timing::{Cost, Deadline, Wall};
 use super::trade::{Means, Trade};
 use super::variant::{Run, Task, Variant};
 use super::{Stop, Study, lengthened};
@@ -48,7 +48,8 @@ struct Tried<const N: usize> {
 
 pub(super) fn run<S, const N: usize>(mut study: Study<S, N>) -> Trade<N> {
     let stop = std::mem::replace(&mut study.stop, Box::new(|_| false) as Stop);
-    let mut budget = Budget::new(study.budget, study.progress, stop);
+    let clock = std::mem::replace(&mut study.stopwatch, Box::new(Wall));
+    let mut budget = Budget::new(study.budget, study.progress, stop, clock);
     let times = study.times();
 
     let known = known(&study, &times, &mut budget);
@@ -247,18 +248,21 @@ fn errors<S, const N: usize>(
         let mut shown = false;
         for setting in variant.settings.values(study.t1 - study.t0) {
             let run = make(setting);
-            let begun = Instant::now();
-            let deadline =
-                if study.unit == Unit::Seconds { begun + patience } else { budget.deadline(Stage::Accuracy) };
+            let begun = budget.seconds();
+            let deadline = if study.unit == Unit::Seconds {
+                budget.after(patience)
+            } else {
+                budget.deadline(Stage::Accuracy)
+            };
             let task = Task { starts: &study.starts, t0: study.t0, times, deadline: Some(deadline) };
             let mut states = Vec::new();
             let outcome = run(&task, &mut states);
-            let mut seconds = begun.elapsed().as_secs_f64();
+            let mut seconds = budget.seconds() - begun;
             if outcome.is_ok() && seconds < AGAIN && study.unit == Unit::Seconds {
                 // The first run may have found nothing where it is needed.
-                let begun = Instant::now();
+                let begun = budget.seconds();
                 let _ = std::hint::black_box(run(&task, &mut Vec::new()));
-                seconds = seconds.min(begun.elapsed().as_secs_f64());
+                seconds = seconds.min(budget.seconds() - begun);
             }
             let mut row = blank(variant, setting);
             let statistics = match outcome {
@@ -406,7 +410,7 @@ fn costs<S, const N: usize>(
             if !budget.goes_on(Stage::Timing, part) {
                 break 'rounds;
             }
-            let taken = study.stopwatch.seconds(k, &mut || {
+            let taken = budget.clock.seconds(k, &mut || {
                 states.clear();
                 let _ = std::hint::black_box(run(&task, &mut states));
             });
@@ -437,8 +441,8 @@ fn nearby<S, const N: usize>(
     let along = along(study, budget.deadline(Stage::Nearby));
     let states = probes::states(&study.starts, &along, study.t0, &study.tells, (study.probes, study.spread));
     // References take their time; half of the stage is for trying.
-    let now = Instant::now();
-    let halfway = now + budget.deadline(Stage::Nearby).saturating_duration_since(now) / 2;
+    let now = budget.clock.now();
+    let halfway = now + budget.deadline(Stage::Nearby).at.saturating_sub(now) / 2;
     let mut computed = 0.0;
     let probes = probes::with_references(
         states,
@@ -448,7 +452,7 @@ fn nearby<S, const N: usize>(
         (&study.scanner, known.landings(0), known.points_elsewhere, known.report.width.is_some()),
         &mut || {
             computed += 1e-5;
-            budget.goes_on(Stage::Nearby, f64::min(computed, 0.5)) && Instant::now() < halfway
+            budget.goes_on(Stage::Nearby, f64::min(computed, 0.5)) && budget.clock.now() < halfway
         },
     );
     let distances = distances(tried);
@@ -478,7 +482,7 @@ fn try_at<S, const N: usize>(study: &Study<S, N>, run: &Run<N>, probe: &Probe<N>
 }
 
 /// States of the motions themselves, by the tight method in doubles.
-fn along<S, const N: usize>(study: &Study<S, N>, deadline: Instant) -> Vec<[f64; N]> {
+fn along<S, const N: usize>(study: &Study<S, N>, deadline: Deadline<'_>) -> Vec<[f64; N]> {
     const COUNT: usize = 16;
     let times = super::sample_times(study.t0, study.t1, COUNT);
     let task = Task { starts: &study.starts, t0: study.t0, times: &times, deadline: Some(deadline) };

@@ -1,5 +1,6 @@
 //! Times on a machine that has other work to do: medians, their intervals, and when two of them are a tie.
 
+use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
 use crate::median::median_with_interval;
@@ -10,6 +11,26 @@ pub trait Stopwatch {
     /// Does the work, as often as it takes to tell how long it takes, and returns the seconds of doing it once. `row` is the
     /// position of the setting in the report.
     fn seconds(&mut self, row: usize, work: &mut dyn FnMut()) -> f64;
+
+    /// The time by which the limits of the study are kept, from whatever beginning: the machine's, unless a clock says
+    /// otherwise.
+    fn now(&self) -> Duration {
+        static FIRST: OnceLock<Instant> = OnceLock::new();
+        FIRST.get_or_init(Instant::now).elapsed()
+    }
+}
+
+/// A time at which to give up, by the clock of a study.
+#[derive(Clone, Copy)]
+pub(super) struct Deadline<'a> {
+    pub clock: &'a dyn Stopwatch,
+    pub at: Duration,
+}
+
+impl Deadline<'_> {
+    pub fn is_over(self) -> bool {
+        self.clock.now() >= self.at
+    }
 }
 
 /// A timing lasts at least this long: some thousand times what reading the clock takes.

@@ -2,13 +2,13 @@
 
 use std::ops::ControlFlow;
 use std::rc::Rc;
-use std::time::Instant;
 
 use guen_runtime::steppers::{Bounded, Integration, Method, Outcome, Statistics};
 use guen_runtime::{Ordered, Real, System};
 
 use super::code::Origin;
 use super::row::{Failure, Knob};
+use super::timing::Deadline;
 
 /// The task of a variant: all initial states, over the same span, and where to look at them.
 #[derive(Clone, Copy)]
@@ -18,7 +18,7 @@ pub(super) struct Task<'a, const N: usize> {
     /// The times in order; the last one is the end of the span.
     pub times: &'a [f64],
     /// The instant at which to give up. Watching costs a little, so runs that are timed are not watched.
-    pub deadline: Option<Instant>,
+    pub deadline: Option<Deadline<'a>>,
 }
 
 impl<const N: usize> Task<'_, N> {
@@ -137,8 +137,8 @@ where
         let mut steps = 0_u32;
         let mut look = |_: R, _: &[R; N]| {
             steps = steps.wrapping_add(1);
-            let late = steps.is_multiple_of(STEPS_BETWEEN_LOOKS)
-                && task.deadline.is_some_and(|deadline| Instant::now() >= deadline);
+            let late =
+                steps.is_multiple_of(STEPS_BETWEEN_LOOKS) && task.deadline.is_some_and(Deadline::is_over);
             if late { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         };
         let mut integration = Integration::new(system, R::from_f64(task.t0), &start.map(R::from_f64));
@@ -188,7 +188,7 @@ where
         for start in task.starts {
             let (mut t, mut x) = (task.t0, *start);
             for &next in task.times {
-                if task.deadline.is_some_and(|deadline| Instant::now() >= deadline) {
+                if task.deadline.is_some_and(Deadline::is_over) {
                     return Err(Failure::out_of_time(Some(t)));
                 }
                 let bound = method

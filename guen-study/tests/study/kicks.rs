@@ -1,10 +1,13 @@
 //! Kicks and steep layers that are narrower than any step: whatever a study chooses keeps its promise, where what is narrow
 //! is as wide as the report says that it would have seen.
 
+use std::time::Duration;
+
 use guen_runtime::steppers::{Dop853, Integration, Rk4};
 use guen_runtime::{Equations, Generic, Real, generic};
 use guen_study::{Digits71, Ending, Knob, Report, Row, Settings, Study, Trade};
 
+use crate::budget;
 use crate::systems::Planar;
 
 const SPAN: f64 = 50.0;
@@ -66,7 +69,7 @@ fn studied(system: Kicked, points: usize) -> Trade<2> {
         .probes(0, 0.0)
         .scan(points)
         // Nothing may depend on how busy the machine is.
-        .within(std::time::Duration::from_secs(3600))
+        .within(Duration::from_secs(3600))
         .run()
 }
 
@@ -244,7 +247,7 @@ fn smooth() -> Study<Generic<Planar>, 2> {
         .probes(0, 0.0)
         .scan(1 << 16)
         // Nothing may depend on how busy the machine is.
-        .within(std::time::Duration::from_secs(3600))
+        .within(Duration::from_secs(3600))
 }
 
 #[test]
@@ -263,17 +266,17 @@ fn what_there_was_no_time_to_look_at_is_not_said_to_be_seen() {
     /// Of the budget, in seconds: a scan has a tenth, and each evaluation takes a twentieth of a millisecond.
     const BUDGET: u64 = 10;
     let slow = |_: f64, &[x, v]: &[f64; 2]| {
-        let begun = std::time::Instant::now();
-        while begun.elapsed() < std::time::Duration::from_micros(50) {}
+        budget::pass(Duration::from_micros(50));
         [v, -x]
     };
     let study = |points| {
         Study::of_closures(slow, |_, &[x, v]: &[Digits71; 2]| [v, -x], START, 0.0..5.0)
             .count_evaluations()
+            .stopwatch(budget::Told)
             .keep(|method, _| method == "DOP853")
             .probes(0, 0.0)
             .scan(points)
-            .within(std::time::Duration::from_secs(BUDGET))
+            .within(Duration::from_secs(BUDGET))
             .run()
             .report
     };

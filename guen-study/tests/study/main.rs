@@ -2,7 +2,6 @@
 
 #![cfg(feature = "study")]
 
-// Its name has the test begin among the first: it sleeps, and at the end nothing would run beside it.
 mod budget;
 #[path = "../files/cells.rs"]
 mod cells;
