@@ -94,7 +94,7 @@ impl Tracker {
     }
 
     /// The next crossing of a step that lies after `from`, where the function has been followed to, of a run that began at
-    /// `origin`. `state` gives the states of the step, `end` is the function's value at its end. The tracker then stands
+    /// `origin`. `value` is the function within the step, NaN where there is no state, and `end` its value at the end. The tracker then stands
     /// past the crossing, or at the end of the step.
     pub fn next<R: Real, const N: usize>(
         &mut self,
@@ -102,9 +102,8 @@ impl Tracker {
         checks: Checks<R>,
         (origin, from): (R, R),
         end: f64,
-        mut state: impl FnMut(R) -> Option<[R; N]>,
+        value: &mut dyn FnMut(R) -> f64,
     ) -> Option<Crossing<R>> {
-        let mut value = |t: R| state(t).map_or(f64::NAN, |x| event.value(t, &x));
         let backwards = (checks.end - checks.start).to_f64() < 0.0;
         let mut before = from;
         let count = checks.count(event.parts());
@@ -127,7 +126,7 @@ impl Tracker {
                     let crossing = if new == 0 {
                         Crossing { after, time: after, rising }
                     } else {
-                        root(event, (before, after), found, old, &mut value)
+                        root(event, (before, after), found, old, value)
                     };
                     let returns = first && event.may_return(crossing.time, origin);
                     if !returns {
@@ -152,7 +151,7 @@ fn root<R: Real, const N: usize>(
     (mut a, mut b): (R, R),
     mut fb: f64,
     old: i8,
-    mut value: impl FnMut(R) -> f64,
+    value: &mut dyn FnMut(R) -> f64,
 ) -> Crossing<R> {
     /// Enough to halve a bracket from one end of the exponents to the other.
     const LIMIT: u32 = 10_000;

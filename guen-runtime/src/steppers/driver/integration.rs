@@ -3,17 +3,14 @@
 use core::ops::ControlFlow;
 
 use crate::numbers::real::{Ordered, Real};
-use crate::steppers::driver::crossing::Tracker;
-use crate::steppers::driver::error::{Cause, IntegrationError, Setting};
+use crate::steppers::driver::any_run::Joined;
+use crate::steppers::driver::drive::{Drive, Observer, Receiver, Visitor};
+use crate::steppers::driver::error::IntegrationError;
 use crate::steppers::driver::events::{Event, Occurrence};
-use crate::steppers::driver::run::{Checkpoint, IntegrationResult, Method, Outcome, StepperRun};
-use crate::steppers::entries;
-use crate::steppers::guard::{Guard, One, Watch};
+use crate::steppers::driver::followed::Followed;
+use crate::steppers::driver::run::{Checkpoint, IntegrationResult, Method};
+use crate::steppers::guard::Guard;
 use crate::system::System;
-
-type Observer<'a, R, const N: usize> = &'a mut dyn FnMut(R, &[R; N]) -> ControlFlow<()>;
-type Visitor<'a, R, const N: usize> = &'a mut dyn FnMut(usize, R, &[R; N]);
-type Receiver<'a, R, const N: usize> = &'a mut dyn FnMut(&Occurrence<R, N>) -> ControlFlow<()>;
 
 /// An integration of a system from a state: what to look at on the way, to be run by any method.
 ///
@@ -65,14 +62,14 @@ type Receiver<'a, R, const N: usize> = &'a mut dyn FnMut(&Occurrence<R, N>) -> C
 /// assert!((samples[1] - (5.0 - 9.81 / 8.0)).abs() < 1e-12);
 /// ```
 pub struct Integration<'a, R, S: ?Sized, const N: usize, const E: usize = 0> {
-    pub(in crate::steppers) system: &'a S,
-    pub(in crate::steppers) start: Checkpoint<R, N>,
+    system: &'a S,
+    start: Checkpoint<R, N>,
     guard: Guard,
-    pub(in crate::steppers) observer: Option<Observer<'a, R, N>>,
-    pub(in crate::steppers) samples: &'a [R],
-    pub(in crate::steppers) visitor: Option<Visitor<'a, R, N>>,
-    pub(in crate::steppers) events: [Event<'a, R, N>; E],
-    pub(in crate::steppers) receiver: Option<Receiver<'a, R, N>>,
+    observer: Option<Observer<'a, R, N>>,
+    samples: &'a [R],
+    visitor: Option<Visitor<'a, R, N>>,
+    events: [Event<'a, R, N>; E],
+    receiver: Option<Receiver<'a, R, N>>,
 }
 
 impl<R: Real, S: ?Sized, const N: usize, const E: usize> core::fmt::Debug for Integration<'_, R, S, N, E> {
@@ -104,7 +101,7 @@ impl<'a, R: Real, S: System<R, N> + ?Sized, const N: usize> Integration<'a, R, S
 
 impl<'a, R: Real, S: System<R, N> + ?Sized, const N: usize, const E: usize> Integration<'a, R, S, N, E> {
     /// Shows each accepted step to `observer`, but not the start; when it breaks, the run ends with
-    /// [`Outcome::Stopped`].
+    /// [`Outcome::Stopped`](crate::steppers::Outcome::Stopped).
     #[must_use]
     pub fn observe(self, observer: &'a mut dyn FnMut(R, &[R; N]) -> ControlFlow<()>) -> Self {
         Self { observer: Some(observer), ..self }
@@ -123,8 +120,8 @@ impl<'a, R: Real, S: System<R, N> + ?Sized, const N: usize, const E: usize> Inte
         Self { guard, ..self }
     }
 
-    /// Reports these events to `receive`; when it breaks, the run ends there with [`Outcome::Stopped`], and after a
-    /// terminal event with [`Outcome::Event`]. Where the run ends, everything that has happened by then is reported with the time
+    /// Reports these events to `receive`; when it breaks, the run ends there with [`Outcome::Stopped`](crate::steppers::Outcome::Stopped), and after a
+    /// terminal event with [`Outcome::Event`](crate::steppers::Outcome::Event). Where the run ends, everything that has happened by then is reported with the time
     /// and the state of the end, in the order of declaration: bodies that land at the same instant are all told of.
     ///
     /// ```
@@ -195,7 +192,7 @@ impl<'a, R: Real, S: System<R, N> + ?Sized, const N: usize, const E: usize> Inte
     ///
     /// Those of [`run`](Integration::run); times visited before stay visited.
     pub fn run_through<M, V>(
-        mut self,
+        self,
         method: &M,
         times: &[R],
         mut visit: V,
@@ -204,92 +201,10 @@ impl<'a, R: Real, S: System<R, N> + ?Sized, const N: usize, const E: usize> Inte
         M: Method<R, S, N>,
         V: FnMut(usize, R, &[R; N]),
     {
-        let start = self.start;
-        self.check(times).map_err(|cause| start.failed(cause))?;
-        let mut run = method.start(&start);
-        let mut watch = Watch::<R, One, N>::of_run::<M::Run<'_>, S>(self.guard, self.system, &start)
-            .map_err(|cause| start.failed(cause))?;
-        let mut trackers: [Tracker; E] =
-            entries(|i| Tracker::new(self.events[i].value(start.time, &start.state)));
-        let mut visited = 0;
-        while self.samples.get(visited) == Some(&start.time) {
-            self.show(visited, start.time, &start.state);
-            visited += 1;
-        }
-        let (mut before, mut kept) = (start, false);
-        let mut outcome = Outcome::Arrived;
-        'times: for (index, &time) in times.iter().enumerate() {
-            if !time.is_finite() {
-                return Err(run.checkpoint().failed(Cause::Setting(Setting::Time)));
-            }
-            while run.checkpoint().time != time {
-                let dense = E > 0 || visited < self.samples.len();
-                kept = dense || watch.wants_before(index + 1 == times.len() && run.is_last(time));
-                if kept {
-                    before = *run.checkpoint();
-                }
-                let from = run.checkpoint().statistics.accepted;
-                let made = if kept || self.observer.is_some() {
-                    run.advance(self.system, time, kept)
-                } else {
-                    run.go_on(self.system, time, watch.patience())
-                };
-                if let Err(cause) = made {
-                    return Err(watch.stop_run(self.system, &run, cause));
-                }
-                watch
-                    .step(self.system, from, kept.then_some(&before), &run)
-                    .map_err(|cause| watch.failed(run.checkpoint(), cause))?;
-                if dense {
-                    let ended = self.within_step(&mut run, &before, &mut trackers, &mut visited);
-                    if let Some(done) = ended.map_err(|cause| before.failed(cause))? {
-                        return watch.finish_run(self.system, Some(&before), &run).map(|()| done);
-                    }
-                }
-                if let Some(observer) = &mut self.observer {
-                    let reached = run.checkpoint();
-                    if observer(reached.time, &reached.state).is_break() {
-                        outcome = Outcome::Stopped;
-                        break 'times;
-                    }
-                }
-            }
-            visit(index, time, &run.checkpoint().state);
-        }
-        watch.finish_run(self.system, kept.then_some(&before), &run)?;
-        Ok(run.checkpoint().done(outcome))
-    }
-
-    /// Refuses settings that make no sense.
-    fn check(&self, times: &[R]) -> Result<(), Cause> {
-        if !self.start.time.is_finite() || times.first().is_some_and(|time| !time.is_finite()) {
-            return Err(Cause::Setting(Setting::Time));
-        }
-        if !self.events.iter().all(Event::is_valid) {
-            return Err(Cause::Setting(Setting::Event));
-        }
-        let Some(&end) = times.last() else { return Ok(()) };
-        if self.samples.is_empty() {
-            return Ok(());
-        }
-        let forwards = (end - self.start.time).to_f64() >= 0.0;
-        let in_order = |mut last: R, times: &[R]| {
-            times.iter().all(|&time| {
-                let ahead = (time - last).to_f64();
-                last = time;
-                ahead == 0.0 || ahead.abs() > 0.0 && (ahead > 0.0) == forwards
-            })
-        };
-        let last = self.samples.last().copied().unwrap_or(end);
-        let all = in_order(self.start.time, self.samples)
-            && in_order(last, &[end])
-            && in_order(self.start.time, times);
-        if all { Ok(()) } else { Err(Cause::Setting(Setting::Samples)) }
-    }
-
-    fn show(&mut self, index: usize, time: R, state: &[R; N]) {
-        if let Some(visitor) = &mut self.visitor {
-            visitor(index, time, state);
-        }
+        let Self { system, start, guard, observer, samples, visitor, events, receiver } = self;
+        let mut events: [Followed<'_, R, N>; E] = events.map(Followed::new);
+        let events = &mut events;
+        let drive = Drive { start, guard, observer, samples, visited: 0, visitor, events, receiver };
+        drive.through(&mut Joined::new(method.start(&start), system), times, &mut visit)
     }
 }

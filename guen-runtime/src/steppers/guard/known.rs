@@ -23,6 +23,63 @@ pub(in crate::steppers) struct Place<'a, R, const N: usize> {
     pub state: &'a [R; N],
 }
 
+/// The functions that must not vanish.
+type Functions<R> = [RunningError<R>; MAX_SINGULARITIES];
+
+/// A system as a guard asks it: all at once, so that expressions that a check has in common are computed once, however the system is
+/// referred to.
+pub(in crate::steppers) trait Watched<R: Real, const N: usize> {
+    /// The prices of a check of everything and of one of the functions that must not vanish.
+    fn prices(&self) -> (u32, f64);
+
+    /// The invariants and the condition, and the functions that must not vanish as of [`functions`](Watched::functions), with their number.
+    fn everything(&self, place: Place<'_, R, N>, largest: &[R; N], into: &mut Functions<R>) -> Found<R>;
+
+    /// Writes the functions that must not vanish, where every entry is uncertain by a rounding of the largest value it has had, and
+    /// returns how many they are.
+    fn functions(&self, place: Place<'_, R, N>, largest: &[R; N], into: &mut Functions<R>) -> usize;
+}
+
+/// The answer of a system.
+pub(in crate::steppers) struct Found<R> {
+    invariants: Invariants<R>,
+    condition: R,
+    /// The number of functions that must not vanish.
+    count: usize,
+}
+
+impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Watched<R, N> for S {
+    fn prices(&self) -> (u32, f64) {
+        (self.check_cost(), self.singularity_check_cost())
+    }
+
+    #[inline]
+    fn everything(&self, place: Place<'_, R, N>, largest: &[R; N], into: &mut Functions<R>) -> Found<R> {
+        R::vectorize(
+            #[inline(always)]
+            || {
+                let invariants = self.conserved(place.time, place.state);
+                let condition = self.condition(place.time, place.state);
+                Found { invariants, condition, count: self.functions(place, largest, into) }
+            },
+        )
+    }
+
+    #[inline]
+    fn functions(&self, place: Place<'_, R, N>, largest: &[R; N], into: &mut Functions<R>) -> usize {
+        R::vectorize(
+            #[inline(always)]
+            || {
+                let mut rounded = [RunningError::exact(place.time); N];
+                for ((entry, value), error) in rounded.iter_mut().zip(place.state).zip(largest) {
+                    *entry = RunningError { value: *value, error: *error };
+                }
+                self.singularities(RunningError::once(place.time), &rounded, into).min(MAX_SINGULARITIES)
+            },
+        )
+    }
+}
+
 /// The values that checks remember, the first one from the initial state.
 #[derive(Clone, Copy)]
 pub(super) struct Known<R, const N: usize> {
@@ -33,8 +90,8 @@ pub(super) struct Known<R, const N: usize> {
     /// The functions at the start, at the last check, and before that: where the last step began, if it has a fixed length, else
     /// at the check before.
     start: [R; MAX_SINGULARITIES],
-    functions: [RunningError<R>; MAX_SINGULARITIES],
-    earlier: [RunningError<R>; MAX_SINGULARITIES],
+    functions: Functions<R>,
+    earlier: Functions<R>,
     /// The largest absolute value of each entry of the state.
     largest: [R; N],
     defects: Defects<R, N>,
@@ -54,24 +111,22 @@ impl<R: Real, const N: usize> Known<R, N> {
     /// Starts from a state, and returns what the first check finds there.
     pub fn new<S>(system: &S, guard: &Guard, start: Place<'_, R, N>) -> (Self, Check<R>)
     where
-        S: System<R, N> + ?Sized,
+        S: Watched<R, N> + ?Sized,
     {
-        let invariants = system.conserved(start.time, start.state);
-        let condition = system.condition(start.time, start.state);
         let nothing = [RunningError::exact(R::zero()); MAX_SINGULARITIES];
-        let mut known = Self {
+        let mut functions = nothing;
+        let largest = entries(|i| start.state[i].abs());
+        let Found { invariants, condition, count } = system.everything(start, &largest, &mut functions);
+        let known = Self {
             energy: invariants.energy,
             scale: invariants.scale,
-            count: 0,
-            start: [R::zero(); MAX_SINGULARITIES],
-            functions: nothing,
+            count: if guard.singularity < 0.0 { 0 } else { count },
+            start: entries(|i| functions[i].value),
+            functions,
             earlier: nothing,
-            largest: entries(|i| start.state[i].abs()),
+            largest,
             defects: Defects::new(),
         };
-        let count = functions(system, start, &known.largest, &mut known.functions);
-        known.start = entries(|i| known.functions[i].value);
-        known.count = if guard.singularity < 0.0 { 0 } else { count };
         let (change, defect, carried) = (R::zero(), R::zero(), R::zero());
         (known, Check { invariants: Invariants { carried, ..invariants }, condition, change, defect })
     }
@@ -87,8 +142,8 @@ impl<R: Real, const N: usize> Known<R, N> {
         self.watched().find(|function| self.functions[*function].value.to_f64() == 0.0)
     }
 
-    /// Checks everything but the functions that must not vanish. `defects` are the estimated errors of a step, taken for those of
-    /// `steps` of them.
+    /// Checks everything, the functions that must not vanish for [`close`](Known::close) and others to judge. `defects` are the
+    /// estimated errors of a step, taken for those of `steps` of them.
     #[inline(always)]
     pub fn check<S>(
         &mut self,
@@ -99,11 +154,14 @@ impl<R: Real, const N: usize> Known<R, N> {
         negligible: f64,
     ) -> Check<R>
     where
-        S: System<R, N> + ?Sized,
+        S: Watched<R, N> + ?Sized,
     {
         let zero = R::zero();
-        let invariants = system.conserved(now.time, now.state);
-        let condition = system.condition(now.time, now.state);
+        for (largest, entry) in self.largest.iter_mut().zip(now.state) {
+            let size = entry.abs();
+            *largest = size.where_above(*largest, size, *largest);
+        }
+        let Found { invariants, condition, .. } = system.everything(now, &self.largest, &mut self.functions);
         let change = match (invariants.energy, self.energy) {
             (Some(energy), Some(before)) => {
                 // With the scale of this state, for the start may have none: at rest, where the potential is zero. A state
@@ -115,10 +173,6 @@ impl<R: Real, const N: usize> Known<R, N> {
             }
             _ => zero,
         };
-        for (largest, entry) in self.largest.iter_mut().zip(now.state) {
-            let size = entry.abs();
-            *largest = size.where_above(*largest, size, *largest);
-        }
         let defect = match &defects {
             Some(found) => self.defects.add(found, steps, &self.largest, negligible),
             None => zero,
@@ -176,9 +230,9 @@ impl<R: Real, const N: usize> Known<R, N> {
     #[inline(always)]
     pub fn evaluate_singularities<S>(&mut self, system: &S, now: Place<'_, R, N>)
     where
-        S: System<R, N> + ?Sized,
+        S: Watched<R, N> + ?Sized,
     {
-        functions(system, now, &self.largest, &mut self.functions);
+        system.functions(now, &self.largest, &mut self.functions);
     }
 
     /// Keeps their values for the next check to compare with.
@@ -193,9 +247,9 @@ impl<R: Real, const N: usize> Known<R, N> {
     #[inline(always)]
     pub fn evaluate_before<S>(&mut self, system: &S, before: Place<'_, R, N>)
     where
-        S: System<R, N> + ?Sized,
+        S: Watched<R, N> + ?Sized,
     {
-        functions(system, before, &self.largest, &mut self.earlier);
+        system.functions(before, &self.largest, &mut self.earlier);
     }
 
     /// NaN in the runs in which one may have come too close to zero, else zero.
@@ -283,25 +337,6 @@ fn nearness<R: Real>(now: &RunningError<R>, start: R) -> R {
 #[inline(always)]
 fn above<R: Real>(value: R, limit: f64) -> R {
     value.where_above(R::from_f64(limit), R::from_f64(f64::NAN), R::zero())
-}
-
-/// Writes the functions that must not vanish, where every entry is uncertain by a rounding of the largest value it has had, and
-/// returns how many they are. Inside of [`Real::vectorize`], please.
-#[inline(always)]
-fn functions<R: Real, S, const N: usize>(
-    system: &S,
-    place: Place<'_, R, N>,
-    largest: &[R; N],
-    into: &mut [RunningError<R>; MAX_SINGULARITIES],
-) -> usize
-where
-    S: System<R, N> + ?Sized,
-{
-    let mut rounded = [RunningError::exact(place.time); N];
-    for ((entry, value), error) in rounded.iter_mut().zip(place.state).zip(largest) {
-        *entry = RunningError { value: *value, error: *error };
-    }
-    system.singularities(RunningError::once(place.time), &rounded, into).min(MAX_SINGULARITIES)
 }
 
 /// Whether a value is above its limit, or none at all.

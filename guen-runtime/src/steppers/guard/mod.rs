@@ -14,8 +14,8 @@ mod runs;
 mod schedule;
 mod watch;
 
-pub(in crate::steppers) use known::Place;
-pub(in crate::steppers) use runs::{Each, MOST, One};
+pub(in crate::steppers) use known::{Place, Watched};
+pub(in crate::steppers) use runs::{Each, MOST};
 pub(in crate::steppers) use watch::Watch;
 
 use crate::numbers::real::Real;

@@ -1,9 +1,12 @@
 //! The schedule of a guard: checks are as far apart as their cost asks for, so that they take less than three
 //! hundredths of a run.
 
-/// The number of right-hand sides from one check to the next, at least,
-const EVALUATIONS_BETWEEN_CHECKS: u32 = 160;
-/// and that in costs of a check: at 2.5 percent, the rest up to three is for what a step does for the guard.
+/// The number of right-hand sides until the sizes of entries are known.
+const EVALUATIONS_UNTIL_SIZES: u32 = 160;
+/// The number of right-hand sides of fixed steps from one check to the next, at least: beside rates that are cheap, what is done for
+/// the sake of a check costs as much as one of them.
+const EVALUATIONS_BETWEEN_CHECKS: f64 = 192.0;
+/// The costs of a check from one to the next, at least: at 2.5 percent, the rest up to three is for what a step does for the guard.
 const COSTS_BETWEEN_CHECKS: f64 = 40.0;
 /// Checks of the singularities alone may take a fiftieth,
 const COSTS_BETWEEN_SINGULARITIES: f64 = 50.0;
@@ -40,7 +43,7 @@ impl Schedule {
     ) -> Self {
         let evaluations = evaluations.max(1);
         let in_steps = |right_hand_sides: f64| (right_hand_sides / f64::from(evaluations)) as u32;
-        let young = (EVALUATIONS_BETWEEN_CHECKS / evaluations).max(1);
+        let young = (EVALUATIONS_UNTIL_SIZES / evaluations).max(1);
         if let Some(chosen) = chosen {
             return Self { young, singularities: u32::MAX, every: chosen.max(1) };
         }
@@ -57,14 +60,15 @@ impl Schedule {
         }
         // Before the step and after it; NaN is no price.
         let both = (2.0 * singularities).max(0.0);
-        let between = young.max(in_steps(COSTS_BETWEEN_SINGULARITIES * both));
+        let between =
+            in_steps(f64::max(EVALUATIONS_BETWEEN_CHECKS, COSTS_BETWEEN_SINGULARITIES * both)).max(1);
         let spent = both / (f64::from(between) * f64::from(evaluations));
         // What singularities leave; of an infinite price a fiftieth is spent.
         let left =
             (1.0 / COSTS_TOGETHER - spent).max(1.0 / COSTS_TOGETHER - 1.0 / COSTS_BETWEEN_SINGULARITIES);
         let [least, most] = COST_OF_A_DEFECT.map(|estimate| f64::from(check) + estimate);
         let every = f64::max(COSTS_BETWEEN_CHECKS * most, least / left);
-        let every = young.max(in_steps(every));
+        let every = between.max(in_steps(every));
         // A check of everything includes the singularities.
         let every =
             if both > 0.0 { every.checked_next_multiple_of(between).unwrap_or(u32::MAX) } else { every };
@@ -95,7 +99,7 @@ mod tests {
             for check in [1, 5, 20, 300] {
                 for singularities in [0.0, 0.1, 1.0, 2.5, 40.0] {
                     let of = f64::from(evaluations);
-                    let Schedule { singularities: between, every, young } =
+                    let Schedule { singularities: between, every, .. } =
                         Schedule::new(evaluations, (check, singularities), true, None);
                     let (between, every) = (f64::from(between) * of, f64::from(every) * of);
                     // Rounded down to whole steps, in the worst case a part of thirteen.
@@ -108,13 +112,14 @@ mod tests {
                     // Both meet.
                     assert!(singularities == 0.0 || every % between == 0.0, "{every} {between}");
                     // Nothing is checked more rarely than it has to be.
-                    assert!(between == f64::from(young) * of || 2.0 * singularities / between > 1.0 / 51.0);
+                    let least = f64::from((192 / evaluations).max(1)) * of;
+                    assert!(between == least || 2.0 * singularities / between > 1.0 / 51.0);
                     let meeting = if singularities > 0.0 { between } else { 0.0 };
                     let alone = every - meeting;
                     assert!(
                         (price + 6.0) / alone > 0.9 / 40.0
                             || price / alone + 2.0 * singularities / between > 0.9 / 34.0
-                            || alone <= f64::from(young) * of
+                            || alone <= least
                     );
                     let free = Schedule::new(evaluations, (check, singularities), false, None);
                     assert!(f64::from(free.every) * of <= every);
@@ -161,9 +166,9 @@ mod tests {
     fn what_is_chosen_is_done_and_no_price_breaks_it() {
         let chosen = Schedule::new(4, (7, 2.0), true, Some(0));
         assert_eq!(chosen, Schedule { young: 40, singularities: u32::MAX, every: 1 });
-        // RK4 with a check of two right-hand sides: every 40 times twelve of them, singularities every 160.
+        // RK4 with a check of two right-hand sides: every 40 times twelve of them, singularities every 192.
         let usual = Schedule::new(4, (2, 0.0), true, None);
-        assert_eq!(usual, Schedule { young: 40, singularities: 40, every: 120 });
+        assert_eq!(usual, Schedule { young: 40, singularities: 48, every: 120 });
         for price in [f64::NAN, -1.0] {
             assert_eq!(Schedule::new(4, (2, price), true, None), usual);
         }

@@ -5,13 +5,13 @@ use core::marker::PhantomData;
 use crate::numbers::lanes::Mask;
 use crate::numbers::real::Real;
 use crate::steppers::all_finite;
+use crate::steppers::driver::any_run::AnyRun;
 use crate::steppers::driver::error::{Cause, IntegrationError, Setting};
-use crate::steppers::driver::run::{Checkpoint, StepperRun};
+use crate::steppers::driver::run::Checkpoint;
 use crate::steppers::guard::Guard;
-use crate::steppers::guard::known::{Known, Place};
+use crate::steppers::guard::known::{Known, Place, Watched};
 use crate::steppers::guard::runs::{One, Runs};
 use crate::steppers::guard::schedule::Schedule;
-use crate::system::System;
 
 /// A guard at work on `V` runs that make their steps together. Each is judged as it would be alone: with the same limits, after the
 /// same steps and in the same order.
@@ -50,13 +50,13 @@ impl<R: Real, V: Runs<R>, const N: usize> Watch<R, V, N> {
         start: Place<'_, R, N>,
     ) -> Result<Self, Cause>
     where
-        S: System<R, N> + ?Sized,
+        S: Watched<R, N> + ?Sized,
     {
         if !guard.is_valid() {
             return Err(Cause::Setting(Setting::Guard));
         }
-        let price = (system.check_cost(), system.singularity_check_cost());
-        let Schedule { young, singularities, every } = Schedule::new(evaluations, price, fixed, guard.every);
+        let Schedule { young, singularities, every } =
+            Schedule::new(evaluations, system.prices(), fixed, guard.every);
         let first = if every == u32::MAX { every } else { 1 };
         Ok(Self {
             guard: guard.for_real::<R>(),
@@ -114,7 +114,7 @@ impl<R: Real, V: Runs<R>, const N: usize> Watch<R, V, N> {
         mut fail: impl FnMut(usize, Cause, Place<'_, R, N>),
     ) -> Mask
     where
-        S: System<R, N> + ?Sized,
+        S: Watched<R, N> + ?Sized,
         D: FnOnce() -> [R; N],
     {
         let made = self.planned;
@@ -153,7 +153,7 @@ impl<R: Real, V: Runs<R>, const N: usize> Watch<R, V, N> {
         going: &mut Mask,
         fail: &mut impl FnMut(usize, Cause, Place<'_, R, N>),
     ) where
-        S: System<R, N> + ?Sized,
+        S: Watched<R, N> + ?Sized,
     {
         let (rest, until, fixed, guard) = (self.rest, self.until_singularities, self.fixed, &self.guard);
         let Some(known) = &mut self.known else { return };
@@ -244,7 +244,7 @@ impl<R: Real, V: Runs<R>, const N: usize> Watch<R, V, N> {
         mut going: Mask,
         mut fail: impl FnMut(usize, Cause, Place<'_, R, N>),
     ) where
-        S: System<R, N> + ?Sized,
+        S: Watched<R, N> + ?Sized,
         D: FnOnce() -> [R; N],
     {
         let steps = self.between - (self.rest - (self.planned - self.left));
@@ -283,7 +283,7 @@ impl<R: Real, V: Runs<R>, const N: usize> Watch<R, V, N> {
         cause: Cause,
         mut fail: impl FnMut(usize, Cause, Place<'_, R, N>),
     ) where
-        S: System<R, N> + ?Sized,
+        S: Watched<R, N> + ?Sized,
     {
         let mut rest = stopped;
         if now.time != self.good.0 && self.every != u32::MAX {
@@ -307,7 +307,7 @@ impl<R: Real, V: Runs<R>, const N: usize> Watch<R, V, N> {
         going: &mut Mask,
         fail: &mut impl FnMut(usize, Cause, Place<'_, R, N>),
     ) where
-        S: System<R, N> + ?Sized,
+        S: Watched<R, N> + ?Sized,
         D: FnOnce() -> [R; N],
     {
         let Self { guard, fixed, young, negligible, good, known, .. } = self;
@@ -330,13 +330,10 @@ impl<R: Real, V: Runs<R>, const N: usize> Watch<R, V, N> {
                 }
                 let Some(known) = known else { return };
                 let defects = defects.filter(|_| guard.step < f64::INFINITY).map(|defects| defects());
-                let check = known.check(system, now, defects, steps, negligible);
-                if known.count > 0 {
-                    if !*fixed {
-                        known.keep_singularities();
-                    }
-                    known.evaluate_singularities(system, now);
+                if !*fixed {
+                    known.keep_singularities();
                 }
+                let check = known.check(system, now, defects, steps, negligible);
                 let suspects = *going & known.suspects::<V>(guard, &check);
                 for run in suspects.lanes() {
                     if let Err(cause) = known.judge::<V>(guard, &check, now.time.to_f64(), run) {
@@ -359,67 +356,51 @@ fn place<R: Real, const N: usize>(at: &Checkpoint<R, N>) -> Place<'_, R, N> {
 
 impl<R: Real, const N: usize> Watch<R, One, N> {
     /// For one run of a method.
-    pub fn of_run<C, S>(guard: Guard, system: &S, start: &Checkpoint<R, N>) -> Result<Self, Cause>
-    where
-        C: StepperRun<R, S, N>,
-        S: System<R, N> + ?Sized,
-    {
-        Self::new(guard, system, C::EVALUATIONS, C::JUDGED, place(start))
+    pub fn of_run(guard: Guard, run: &dyn AnyRun<R, N>) -> Result<Self, Cause> {
+        Self::new(guard, run.system(), run.evaluations(), run.is_judged(), place(run.checkpoint()))
     }
 
     /// Counts the steps since `from`, and checks if it is time to; `before` is where the last one began, if that was wanted.
     #[inline]
-    pub fn step<C, S>(
+    pub fn step(
         &mut self,
-        system: &S,
         from: u64,
         before: Option<&Checkpoint<R, N>>,
-        run: &C,
-    ) -> Result<(), Cause>
-    where
-        C: StepperRun<R, S, N>,
-        S: System<R, N> + ?Sized,
-    {
-        let made = run.checkpoint().statistics.accepted.saturating_sub(from);
+        run: &dyn AnyRun<R, N>,
+    ) -> Result<(), Cause> {
+        let reached = run.checkpoint();
+        let made = reached.statistics.accepted.saturating_sub(from);
         if !self.counts(u32::try_from(made).unwrap_or(u32::MAX)) {
             return Ok(());
         }
         let mut fault = Cause::NotFinite;
-        let (step, now) = (last(system, before, run), place(run.checkpoint()));
-        let going = self.check(system, step, now, Mask::all(1), |_, cause, _| fault = cause);
+        let (step, now) = (last(before.filter(|_| self.fixed), run), place(reached));
+        let going = self.check(run.system(), step, now, Mask::all(1), |_, cause, _| fault = cause);
         if going.is_empty() { Err(fault) } else { Ok(()) }
     }
 
     /// Checks the end of the run.
-    pub fn finish_run<C, S>(
+    pub fn finish_run(
         &mut self,
-        system: &S,
         before: Option<&Checkpoint<R, N>>,
-        run: &C,
-    ) -> Result<(), IntegrationError<R, N>>
-    where
-        C: StepperRun<R, S, N>,
-        S: System<R, N> + ?Sized,
-    {
+        run: &dyn AnyRun<R, N>,
+    ) -> Result<(), IntegrationError<R, N>> {
         let mut judged = Ok(());
-        let (step, now) = (last(system, before, run), place(run.checkpoint()));
-        self.finish(system, step, now, Mask::all(1), |_, cause, _| judged = Err(cause));
+        let (step, now) = (last(before.filter(|_| self.fixed), run), place(run.checkpoint()));
+        self.finish(run.system(), step, now, Mask::all(1), |_, cause, _| judged = Err(cause));
         judged.map_err(|cause| self.failed(run.checkpoint(), cause))
     }
 
     /// The error of the run, which cannot go on from where it stands.
-    pub fn stop_run<C, S>(&mut self, system: &S, run: &C, cause: Cause) -> IntegrationError<R, N>
-    where
-        C: StepperRun<R, S, N>,
-        S: System<R, N> + ?Sized,
-    {
+    pub fn stop_run(&mut self, run: &dyn AnyRun<R, N>, cause: Cause) -> IntegrationError<R, N> {
+        let (system, now) = (run.system(), place(run.checkpoint()));
         let mut error = run.checkpoint().failed(cause);
-        self.stopped(system, place(run.checkpoint()), Mask::all(1), cause, |_, cause, good| {
+        self.stopped(system, now, Mask::all(1), cause, |_, cause, good| {
             error = IntegrationError { time: good.time, state: *good.state, cause, ..error };
         });
         if error.cause == Cause::NotFinite && error.statistics.accepted == 0 && all_finite(&error.state) {
             // What is not finite at a start that is so, is so because of a function that vanishes there, if there is one.
-            let (known, _) = Known::new(system, &self.guard, place(run.checkpoint()));
+            let (known, _) = Known::new(system, &self.guard, now);
             if let Some(function) = known.vanishing() {
                 let (found, limit) = (error.time.to_f64(), self.guard.singularity);
                 error.cause = Cause::ChartSingularity { found, function, distance: 0.0, limit };
@@ -436,17 +417,11 @@ impl<R: Real, const N: usize> Watch<R, One, N> {
     }
 }
 
-/// Where the last step of a method with a fixed step began, and the estimate of its errors.
+/// Where the last step began, and the estimate of its errors.
 #[inline(always)]
-fn last<'a, R: Real, C, S, const N: usize>(
-    system: &'a S,
+fn last<'a, R: Real, const N: usize>(
     before: Option<&'a Checkpoint<R, N>>,
-    run: &'a C,
-) -> (Option<Place<'a, R, N>>, impl FnOnce() -> [R; N])
-where
-    C: StepperRun<R, S, N>,
-    S: System<R, N> + ?Sized,
-{
-    let before = before.filter(|_| C::JUDGED);
-    (before.map(place), move || before.map_or([R::zero(); N], |before| run.defect(system, before)))
+    run: &'a dyn AnyRun<R, N>,
+) -> (Option<Place<'a, R, N>>, impl FnOnce() -> [R; N]) {
+    (before.map(place), move || before.map_or([R::zero(); N], |before| run.defect(before)))
 }

@@ -1,0 +1,137 @@
+//! The loop around a run: steps from the start to one time after the other, and what is looked at on the way.
+
+use core::ops::ControlFlow;
+
+use crate::numbers::real::Real;
+use crate::steppers::driver::any_run::AnyRun;
+use crate::steppers::driver::error::{Cause, IntegrationError, Setting};
+use crate::steppers::driver::events::Occurrence;
+use crate::steppers::driver::followed::Followed;
+use crate::steppers::driver::run::{Checkpoint, IntegrationResult, Outcome};
+use crate::steppers::guard::{Guard, Watch};
+
+/// Is shown every accepted step; ends the run when it breaks.
+pub(super) type Observer<'a, R, const N: usize> = &'a mut dyn FnMut(R, &[R; N]) -> ControlFlow<()>;
+/// Is shown each sample, with its position, time and state.
+pub(super) type Visitor<'a, R, const N: usize> = &'a mut dyn FnMut(usize, R, &[R; N]);
+/// Is told of each event; ends the run when it breaks.
+pub(super) type Receiver<'a, R, const N: usize> = &'a mut dyn FnMut(&Occurrence<R, N>) -> ControlFlow<()>;
+
+/// All that is looked at on the way of a run.
+pub(super) struct Drive<'a, 'e, R, const N: usize> {
+    pub start: Checkpoint<R, N>,
+    pub guard: Guard,
+    pub observer: Option<Observer<'a, R, N>>,
+    pub samples: &'a [R],
+    /// How many of the samples have been visited.
+    pub visited: usize,
+    pub visitor: Option<Visitor<'a, R, N>>,
+    pub events: &'e mut [Followed<'a, R, N>],
+    pub receiver: Option<Receiver<'a, R, N>>,
+}
+
+impl<R: Real, const N: usize> Drive<'_, '_, R, N> {
+    /// Takes the run through all times, and calls `visit` at each of them.
+    pub fn through(
+        mut self,
+        run: &mut dyn AnyRun<R, N>,
+        times: &[R],
+        visit: Visitor<'_, R, N>,
+    ) -> Result<IntegrationResult<R, N>, IntegrationError<R, N>> {
+        let start = self.start;
+        self.check(times).map_err(|cause| start.failed(cause))?;
+        let mut watch = Watch::of_run(self.guard, run).map_err(|cause| start.failed(cause))?;
+        for followed in self.events.iter_mut() {
+            followed.begin(start.time, &start.state);
+        }
+        while self.samples.get(self.visited) == Some(&start.time) {
+            self.visit(start.time, &start.state);
+        }
+        let (mut before, mut kept) = (start, false);
+        let mut outcome = Outcome::Arrived;
+        'times: for (index, &time) in times.iter().enumerate() {
+            if !time.is_finite() {
+                return Err(run.checkpoint().failed(Cause::Setting(Setting::Time)));
+            }
+            loop {
+                let here = run.checkpoint();
+                if here.time == time {
+                    break;
+                }
+                let dense = !self.events.is_empty() || self.visited < self.samples.len();
+                kept = dense || watch.wants_before(index + 1 == times.len() && run.is_last(time));
+                if kept {
+                    before = *here;
+                }
+                let from = here.statistics.accepted;
+                let made = if kept || self.observer.is_some() {
+                    run.advance(time, kept)
+                } else {
+                    run.go_on(time, watch.patience())
+                };
+                if let Err(cause) = made {
+                    return Err(watch.stop_run(run, cause));
+                }
+                watch
+                    .step(from, kept.then_some(&before), run)
+                    .map_err(|cause| watch.failed(run.checkpoint(), cause))?;
+                if dense {
+                    let ended = self.within_step(run, &before);
+                    if let Some(done) = ended.map_err(|cause| before.failed(cause))? {
+                        return watch.finish_run(Some(&before), run).map(|()| done);
+                    }
+                }
+                if let Some(observer) = &mut self.observer {
+                    let reached = run.checkpoint();
+                    if observer(reached.time, &reached.state).is_break() {
+                        outcome = Outcome::Stopped;
+                        break 'times;
+                    }
+                }
+            }
+            visit(index, time, &run.checkpoint().state);
+        }
+        watch.finish_run(kept.then_some(&before), run)?;
+        Ok(run.checkpoint().done(outcome))
+    }
+
+    /// Refuses settings that make no sense.
+    fn check(&self, times: &[R]) -> Result<(), Cause> {
+        if !self.start.time.is_finite() || times.first().is_some_and(|time| !time.is_finite()) {
+            return Err(Cause::Setting(Setting::Time));
+        }
+        if !self.events.iter().all(|followed| followed.event.is_valid()) {
+            return Err(Cause::Setting(Setting::Event));
+        }
+        let Some(&end) = times.last() else { return Ok(()) };
+        if self.samples.is_empty() {
+            return Ok(());
+        }
+        let forwards = (end - self.start.time).to_f64() >= 0.0;
+        let in_order = |mut last: R, times: &[R]| {
+            times.iter().all(|&time| {
+                let ahead = (time - last).to_f64();
+                last = time;
+                ahead == 0.0 || ahead.abs() > 0.0 && (ahead > 0.0) == forwards
+            })
+        };
+        let last = self.samples.last().copied().unwrap_or(end);
+        let all = in_order(self.start.time, self.samples)
+            && in_order(last, &[end])
+            && in_order(self.start.time, times);
+        if all { Ok(()) } else { Err(Cause::Setting(Setting::Samples)) }
+    }
+
+    /// Shows the next sample.
+    pub fn visit(&mut self, time: R, state: &[R; N]) {
+        if let Some(visitor) = &mut self.visitor {
+            visitor(self.visited, time, state);
+        }
+        self.visited += 1;
+    }
+
+    /// Tells of an event, and says whether the run is to end.
+    pub fn report(&mut self, event: &Occurrence<R, N>) -> bool {
+        self.receiver.as_mut().is_some_and(|receiver| receiver(event).is_break())
+    }
+}
