@@ -26,9 +26,7 @@ fn the_frozen_pair_solves_the_linear_model() {
                 rates[i] + free + (0..2).map(|j| linear.b[i][j] * du[j]).sum::<f64>()
             })
         });
-        let end = Dop853::new(1e-13, 1e-13)
-            .integrate(&model, 0.0, &ds, h, |_, _| ControlFlow::Continue(()))
-            .unwrap();
+        let end = Integration::new(&model, 0.0, &ds).run(&Dop853::new(1e-13, 1e-13), h).unwrap();
         for i in 0..4 {
             let free: f64 = (0..4).map(|j| pair.phi[i][j] * ds[j]).sum();
             let found = pair.offset[i] + free + (0..2).map(|j| pair.gamma[i][j] * du[j]).sum::<f64>();
@@ -131,9 +129,7 @@ fn the_circle_of_a_hoop() {
     assert!((left - 0.7 * 9.81 * 1.2_f64.cos()).abs() < 1e-12, "{left}");
     // One turn of psi later it is where it was.
     let turn = 2.0 * std::f64::consts::PI / system.velocities(0.0, &state).psi.abs();
-    let end = Dop853::new(1e-12, 1e-12)
-        .integrate(&system, 0.0, &state.into(), turn, |_, _| ControlFlow::Continue(()))
-        .unwrap();
+    let end = Integration::new(&system, 0.0, &state.into()).run(&Dop853::new(1e-12, 1e-12), turn).unwrap();
     let end = hoop::State::from(end.state);
     assert!(end.xi.abs() < 1e-8 && end.eta.abs() < 1e-8 && (end.theta - 1.2).abs() < 1e-8, "{end:?}");
 }

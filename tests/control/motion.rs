@@ -46,7 +46,7 @@ fn accelerations_are_rates_along_the_motion() {
     let t = 0.4;
     let driven = system.driven(inputs);
     let at = |time: f64| {
-        let end = Dop853::new(1e-13, 1e-13).integrate(&driven, t, &s, time, |_, _| ControlFlow::Continue(()));
+        let end = Integration::new(&driven, t, &s).run(&Dop853::new(1e-13, 1e-13), time);
         roller::State::from(end.unwrap().state)
     };
     let h = 1e-4;

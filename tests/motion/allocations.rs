@@ -136,9 +136,7 @@ fn errors_are_not_allocated_either() {
     let hoop = HOOP.prepare().unwrap();
     let start = hoop::State { theta: 0.3, eta1: -1.0, eta2: 1e-9, zeta: 0.3, ..Default::default() }.into();
     count("an edge", || {
-        let error = Rk4::new(1e-2)
-            .integrate(&hoop, 0.0, black_box(&start), 10.0, |_, _| ControlFlow::Continue(()))
-            .unwrap_err();
+        let error = Integration::new(&hoop, 0.0, black_box(&start)).run(&Rk4::new(1e-2), 10.0).unwrap_err();
         black_box(error);
     });
     count("constants", || {

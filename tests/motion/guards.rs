@@ -132,9 +132,7 @@ fn stepping_over_the_edge_of_the_chart_is_refused() {
     // Without a turn about the vertical the hoop falls flat, through the edge of the chart, and every rate stays finite.
     let system = prepared();
     let start = hoop::State { theta: 0.5, zeta: 0.5_f64.sin(), ..Default::default() };
-    let error = Dop853::new(1e-9, 1e-9)
-        .integrate(&system, 0.0, &start.into(), 1.0, |_, _| ControlFlow::Continue(()))
-        .unwrap_err();
+    let error = Integration::new(&system, 0.0, &start.into()).run(&Dop853::new(1e-9, 1e-9), 1.0).unwrap_err();
     let Cause::ChartSingularity { found, function, distance, limit } = error.cause else {
         panic!("{:?}", error.cause)
     };
@@ -142,9 +140,7 @@ fn stepping_over_the_edge_of_the_chart_is_refused() {
     assert!(distance < 0.0 && limit == 1e-8 && found > error.time);
     assert!(error.state[0] > 0.0, "the state returned is on this side");
     // With a fixed step the next step is seen to lead there, or beyond.
-    let error = Rk4::new(1e-3)
-        .integrate(&system, 0.0, &start.into(), 1.0, |_, _| ControlFlow::Continue(()))
-        .unwrap_err();
+    let error = Integration::new(&system, 0.0, &start.into()).run(&Rk4::new(1e-3), 1.0).unwrap_err();
     let Cause::ApproachingSingularity { found, function: 0, ratio, limit } = error.cause else {
         panic!("{:?}", error.cause)
     };

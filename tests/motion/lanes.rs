@@ -78,7 +78,7 @@ fn inputs_are_gathered_with_their_systems() {
     let method = Rk4::new(0.01);
     let ends = Ensemble::of_systems(carts.iter().copied()).integrate(&method, 0.0, 1.0);
     for ((cart, start), end) in carts.iter().zip(ends) {
-        let alone = method.integrate(cart, 0.0, &(*start).into(), 1.0, |_, _| ControlFlow::Continue(()));
+        let alone = Integration::new(cart, 0.0, &(*start).into()).run(&method, 1.0);
         assert_eq!(end, alone);
         assert!(alone.is_ok());
     }

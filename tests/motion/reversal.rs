@@ -32,17 +32,14 @@ fn there_and_back_returns_within_a_hundred_roundings_of_the_growth() {
             hoop::State { theta, zeta: theta.sin(), eta1: 0.1, eta2: 1.5, eta3: 2.0, ..Default::default() }
                 .into();
         let there = reversible(&system, &[], &tight(), 0.0, &start, span, LIMIT).unwrap();
-        let back = Dop853::new(1e-15, 1e-16)
-            .integrate(&system, span, &there.done.state, 0.0, |_, _| ControlFlow::Continue(()))
-            .unwrap();
+        let back =
+            Integration::new(&system, span, &there.done.state).run(&Dop853::new(1e-15, 1e-16), 0.0).unwrap();
         let (found, allowed) = (off(&back.state, &start), FACTOR * UNIT * there.growth);
         println!("hoop, {span} s: off by {found:.1e}, {allowed:.1e} allowed; growth {:.1e}", there.growth);
         assert!(found <= allowed);
         // The matrix against a difference of runs.
         let moved: [f64; 9] = std::array::from_fn(|i| start[i] + if i == 0 { 1e-6 } else { 0.0 });
-        let end = Dop853::new(1e-15, 1e-16)
-            .integrate(&system, 0.0, &moved, span, |_, _| ControlFlow::Continue(()))
-            .unwrap();
+        let end = Integration::new(&system, 0.0, &moved).run(&Dop853::new(1e-15, 1e-16), span).unwrap();
         for i in 0..9 {
             let slope = (end.state[i] - there.done.state[i]) / 1e-6;
             assert!((slope - there.matrix[i][0]).abs() < 1e-3 * there.growth, "entry {i}");
@@ -56,8 +53,7 @@ fn the_sled_on_an_incline_says_when_it_cannot_be_undone() {
     let start: [f64; 5] = sled::State { phi: 0.3, eta1: 0.7, eta2: 0.5, ..Default::default() }.into();
     let method = Dop853::<Dual<f64, 5>>::new(1e-15, 1e-16).with_max_steps(1_000_000);
     let back = |from: f64, state: &[f64; 5]| {
-        let run =
-            Dop853::new(1e-15, 1e-16).integrate(&system, from, state, 0.0, |_, _| ControlFlow::Continue(()));
+        let run = Integration::new(&system, from, state).run(&Dop853::new(1e-15, 1e-16), 0.0);
         run.map_or(f64::INFINITY, |done| off(&done.state, &start))
     };
     let mut refused = 0;

@@ -1,8 +1,7 @@
 //! Ensembles of scenes: lanes and threads compute the same bits as one run after another.
 
-use guen::steppers::Rk4;
+use guen::steppers::{Integration, Rk4};
 use guen_study::Ensemble;
-use std::ops::ControlFlow;
 
 use crate::compare::states;
 use crate::models::{APPELL, HOOP, appell, hoop};
@@ -13,7 +12,7 @@ fn many_states_of_one_scene() {
     let starts: Vec<[f64; 4]> = states(3, 21, 0.8, 1.4);
     let ends = Ensemble::of_states(&tilt, starts.iter().copied()).integrate(&Rk4::new(0.01), 0.0, 0.2);
     for (start, end) in starts.iter().zip(ends) {
-        let alone = Rk4::new(0.01).integrate(&tilt, 0.0, start, 0.2, |_, _| ControlFlow::Continue(()));
+        let alone = Integration::new(&tilt, 0.0, start).run(&Rk4::new(0.01), 0.2);
         assert_eq!(end.unwrap().state, alone.unwrap().state);
     }
 }
@@ -32,7 +31,7 @@ fn scenes_that_hold_different_values() {
         .collect();
     let ends = Ensemble::of_systems(members.iter().copied()).integrate(&Rk4::new(0.01), 0.0, 0.2);
     for ((scene, start), end) in members.iter().zip(ends) {
-        let alone = Rk4::new(0.01).integrate(scene, 0.0, start, 0.2, |_, _| ControlFlow::Continue(()));
+        let alone = Integration::new(scene, 0.0, start).run(&Rk4::new(0.01), 0.2);
         assert_eq!(end.unwrap().state, alone.unwrap().state);
     }
 }

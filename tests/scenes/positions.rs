@@ -108,8 +108,8 @@ fn a_run_that_is_put_back() {
     let start = closed_states()[3];
     let linkage = four_bar::Linkage::from(BARS).prepare().unwrap();
     let scene = linkage.driven(four_bar::linkage::Inputs { motor: 0.5 });
-    let end = Dop853::new(1e-8, 1e-8)
-        .integrate(&projected(scene), 0.0, &scene.project(&start), 5.0, |_, _| ControlFlow::Continue(()))
+    let end = Integration::new(&projected(scene), 0.0, &scene.project(&start))
+        .run(&Dop853::new(1e-8, 1e-8), 5.0)
         .unwrap();
     let residuals: [f64; 2] = linkage.residuals(5.0, &end.state.into()).into();
     assert_agree(&residuals, &[0.0; 2], 1e-12, "residuals");

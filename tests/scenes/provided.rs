@@ -160,8 +160,6 @@ fn energy_to_watch() {
         assert_agree(&[found[0].value], &[expected[0].value], NEAR, "edges");
     }
     let start = [1.1, 0.2, 0.4, 2.0];
-    let end = Dop853::new(1e-11, 1e-11)
-        .integrate(&unit, 0.0, &start, 10.0, |_, _| ControlFlow::Continue(()))
-        .unwrap();
+    let end = Integration::new(&unit, 0.0, &start).run(&Dop853::new(1e-11, 1e-11), 10.0).unwrap();
     assert_agree(&[watched(&unit, &end.state)], &[watched(&unit, &start)], 1e-9, "energy at the end");
 }

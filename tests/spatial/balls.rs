@@ -131,9 +131,7 @@ fn the_ball_on_the_table_goes_in_circles() {
         table_ball::State { w: 1.0, x: 0.5, omega_x: 0.3, omega_y: -1.0, omega_z: 2.0, ..Default::default() };
     let rate = 2.0 / 7.0 * 1.7;
     let first = table.velocities(0.0, &start);
-    let end = Dop853::new(1e-13, 1e-13)
-        .integrate(&table, 0.0, &start.into(), 20.0, |_, _| ControlFlow::Continue(()))
-        .unwrap();
+    let end = Integration::new(&table, 0.0, &start.into()).run(&Dop853::new(1e-13, 1e-13), 20.0).unwrap();
     let end = table_ball::State::from(end.state);
     let (s, c) = f64::sin_cos(rate * 20.0);
     let x = start.x + (s * first.x - (1.0 - c) * first.y) / rate;
@@ -203,7 +201,7 @@ fn quaternions_pass_where_angles_end() {
         spin_y: middle.state[7],
         spin_z: middle.state[8],
     };
-    let end = method.integrate(&angles, 0.5, &state.into(), 2.0, |_, _| ControlFlow::Continue(())).unwrap();
+    let end = Integration::new(&angles, 0.5, &state.into()).run(&method, 2.0).unwrap();
     for i in 0..5 {
         assert!((end.state[3 + i] - last.state[4 + i]).abs() < 1e-9, "entry {i}");
     }

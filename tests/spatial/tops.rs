@@ -140,7 +140,7 @@ fn the_top_passes_where_angles_end() {
         middle.state[5],
         middle.state[6],
     ];
-    let end = method.integrate(&angles, 0.5, &state, 1.5, |_, _| ControlFlow::Continue(())).unwrap().state;
+    let end = Integration::new(&angles, 0.5, &state).run(&method, 1.5).unwrap().state;
     assert!((0..3).all(|i| (end[3 + i] - last.state[4 + i]).abs() < 1e-10));
     let other = product(&product(&rot_z(end[0]), &rot_x(end[1])), &rot_z(end[2]));
     let same = by_quaternion(&last.state[..4]);

@@ -76,10 +76,8 @@ fn ask(runs: usize) -> (usize, usize, f64) {
         let Ok(found) = method.advance(&system, 0.0, &start, 1.0) else { continue };
         let Some(error) = found.error else { continue };
         bounds += 1;
-        let exact = Dop853::new(1e-14, 1e-14)
-            .integrate(&system, 0.0, &start, 1.0, |_, _| std::ops::ControlFlow::Continue(()))
-            .unwrap()
-            .state;
+        let exact =
+            Integration::new(&system, 0.0, &start).run(&Dop853::new(1e-14, 1e-14), 1.0).unwrap().state;
         let mut most = 0.0_f64;
         for ((x, exact), error) in found.state.iter().zip(exact).zip(error) {
             // Of roundings, here and in the reference, the bound does not tell.

@@ -174,7 +174,7 @@ fn control_periods_are_as_right_as_from_zero() {
     macro_rules! integrate {
         ($method:expr) => {
             |t0: f64, t1: f64, x: [f64; 2], force: f64| {
-                let run = $method.integrate(&forced(force), t0, &x, t1, |_, _| ControlFlow::Continue(()));
+                let run = Integration::new(&forced(force), t0, &x).run(&$method, t1);
                 run.unwrap().state
             }
         };
@@ -235,8 +235,7 @@ fn lanes_are_as_right_as_from_zero() {
 fn rates_that_know_the_time_cost_its_rounding() {
     let mut verdict = Verdict::default();
     let driven = |since| generic(Driven { since });
-    let reference =
-        Rk8::new(1e-3).integrate(&driven(0.0), 0.0, &START, SPAN, |_, _| ControlFlow::Continue(()));
+    let reference = Integration::new(&driven(0.0), 0.0, &START).run(&Rk8::new(1e-3), SPAN);
     let reference = reference.unwrap().state;
     macro_rules! check {
         ($name:literal, $method:expr) => {

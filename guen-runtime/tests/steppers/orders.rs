@@ -1,7 +1,5 @@
 //! Measured orders of convergence, of the methods and of the estimates.
 
-use core::ops::ControlFlow;
-
 use guen_runtime::steppers::dop853::Tableau;
 use guen_runtime::steppers::{
     Dop853, Euler, Gauss4, Gauss6, Guard, Integration, Method, Radau5, Rk4, Rk8, Tsit5, rk4,
@@ -31,9 +29,7 @@ fn order(coarse: f64, fine: f64) -> f64 {
 #[test]
 fn rk4_has_order_four() {
     let error = |steps: f64| {
-        let done = Rk4::new(2.0 / steps)
-            .integrate(&problem(), 0.0, &exact(0.0), 2.0, |_, _| ControlFlow::Continue(()))
-            .unwrap();
+        let done = Integration::new(&problem(), 0.0, &exact(0.0)).run(&Rk4::new(2.0 / steps), 2.0).unwrap();
         assert_eq!(done.statistics.accepted, steps as u64);
         distance(&done.state, &exact(2.0))
     };

@@ -1,7 +1,5 @@
-use std::ops::ControlFlow;
-
 use guen_runtime::lanes::{Backend, Lanes, Width};
-use guen_runtime::steppers::{Rk4, Rk8};
+use guen_runtime::steppers::{Integration, Rk4, Rk8};
 use guen_runtime::{
     Approx7Functions, Cause, FusedOperations, Laned, Real, Setting, Simulate, SimulationError, System,
     Trajectory, Trigger,
@@ -47,7 +45,7 @@ fn members(count: usize) -> impl Iterator<Item = (Oscillator<f64>, [f64; 2])> {
 }
 
 fn alone(system: &Oscillator<f64>, start: &[f64; 2], t1: f64) -> End<2> {
-    METHOD.integrate(system, 0.0, start, t1, |_, _| ControlFlow::Continue(()))
+    Integration::new(system, 0.0, start).run(&METHOD, t1)
 }
 
 #[test]
@@ -101,7 +99,7 @@ fn rk8_in_lanes_is_that_alone() {
     let method = Rk8::new(0.1);
     let ends = Ensemble::of_systems(members(35)).integrate(&method, 0.0, 2.5);
     for ((system, start), end) in members(35).zip(&ends) {
-        let alone = method.integrate(&system, 0.0, &start, 2.5, |_, _| ControlFlow::Continue(()));
+        let alone = Integration::new(&system, 0.0, &start).run(&method, 2.5);
         assert_eq!(*end, alone);
     }
     let failed = ends.iter().filter(|end| end.is_err()).count();

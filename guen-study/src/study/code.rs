@@ -43,8 +43,7 @@ pub(super) fn run(
         let system = origin.system();
         return format!(
             "{system}let method = {made};\n\
-             let go_on = |_, _: &_| ControlFlow::Continue(());\n\
-             let end = method.integrate(&system, {t0:?}, &start, {t1:?}, go_on)?.state;\n"
+             let end = Integration::new(&system, {t0:?}, &start).run(&method, {t1:?})?.state;\n"
         );
     }
     format!(
@@ -53,9 +52,9 @@ pub(super) fn run(
          type R = {real};\n\
          let system = system.recast::<R>()?;\n\
          let method = {made};\n\
-         let go_on = |_, _: &_| ControlFlow::Continue(());\n\
          let (t0, t1) = (R::from_f64({t0:?}), R::from_f64({t1:?}));\n\
-         let end = method.integrate(&system, t0, &start.map(R::from_f64), t1, go_on)?.state.map(R::to_f64);\n"
+         let start = start.map(R::from_f64);\n\
+         let end = Integration::new(&system, t0, &start).run(&method, t1)?.state.map(R::to_f64);\n"
     )
 }
 

@@ -20,10 +20,7 @@ fn balance<const N: usize, const M: usize>(
         std::array::from_fn(|i| if i < N { rates[i] } else { power })
     });
     let begin: [f64; M] = std::array::from_fn(|i| if i < N { start[i] } else { 0.0 });
-    let end = Dop853::new(1e-13, 1e-13)
-        .integrate(&both, 0.0, &begin, until, |_, _| ControlFlow::Continue(()))
-        .unwrap()
-        .state;
+    let end = Integration::new(&both, 0.0, &begin).run(&Dop853::new(1e-13, 1e-13), until).unwrap().state;
     (energy(until, &head(&end)) - energy(0.0, &start), end[N])
 }
 

@@ -18,10 +18,7 @@ fn single_precision_runs() {
         ControlFlow::Continue(())
     });
     assert!(done.is_ok());
-    let expected = Dop853::new(1e-12, 1e-12)
-        .integrate(&double, 0.0, &STATE, 1.0, |_, _| ControlFlow::Continue(()))
-        .unwrap()
-        .state;
+    let expected = Integration::new(&double, 0.0, &STATE).run(&Dop853::new(1e-12, 1e-12), 1.0).unwrap().state;
     for (x, y) in end.iter().zip(&expected) {
         assert!((f64::from(*x) - y).abs() < 2e-4 * (1.0 + y.abs()), "{x} and {y}");
     }

@@ -120,9 +120,7 @@ fn ball_on_a_turntable_conserves_no_energy() {
         eta2: -0.9,
         eta3: 0.5,
     };
-    let end = Dop853::new(1e-12, 1e-12)
-        .integrate(&system, 0.0, &start.into(), 2.0, |_, _| ControlFlow::Continue(()))
-        .unwrap();
+    let end = Integration::new(&system, 0.0, &start.into()).run(&Dop853::new(1e-12, 1e-12), 2.0).unwrap();
     let change = system.energy(2.0, &end.state.into()) - system.energy(0.0, &start);
     assert!(change.abs() > 1e-3, "{change}");
 }

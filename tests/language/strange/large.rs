@@ -93,9 +93,6 @@ fn sixfold_pendulum() {
     for i in 0..6 {
         assert_near(rates[6 + i], expected[i], 1e-11);
     }
-    let end = Dop853::new(1e-11, 1e-11)
-        .integrate(&system, 0.0, &state, 1.0, |_, _| ControlFlow::Continue(()))
-        .unwrap()
-        .state;
+    let end = Integration::new(&system, 0.0, &state).run(&Dop853::new(1e-11, 1e-11), 1.0).unwrap().state;
     assert_near(system.energy(1.0, &end.into()), system.energy(0.0, &state.into()), 1e-9);
 }

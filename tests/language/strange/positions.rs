@@ -36,10 +36,7 @@ fn growing_circle() {
     let system = Growing::new(m).prepare().unwrap();
     let (t, c) = (2.0, 1.4);
     let start = growing::State { x: 1.0, y: 0.0, areal: c };
-    let end = Dop853::new(1e-13, 1e-13)
-        .integrate(&system, 0.0, &start.into(), t, |_, _| ControlFlow::Continue(()))
-        .unwrap()
-        .state;
+    let end = Integration::new(&system, 0.0, &start.into()).run(&Dop853::new(1e-13, 1e-13), t).unwrap().state;
     let (sin, cos) = (c * (1.0 - 1.0 / (1.0 + t))).sin_cos();
     assert_near(end[0], (1.0 + t) * cos, 1e-12);
     assert_near(end[1], (1.0 + t) * sin, 1e-12);

@@ -54,10 +54,7 @@ fn no_degree_of_freedom() {
     assert_eq!(system.linearize(t, &state).a, [[0.0, 0.0], [2.0 * t, 0.0]]);
     assert_eq!(prescribed::GROWTH, [0]);
     assert_eq!(prescribed::INTEGRABLE, 2);
-    let end = Dop853::new(1e-13, 1e-13)
-        .integrate(&system, 0.0, &[0.0, 0.0], 2.0, |_, _| ControlFlow::Continue(()))
-        .unwrap()
-        .state;
+    let end = Integration::new(&system, 0.0, &[0.0, 0.0]).run(&Dop853::new(1e-13, 1e-13), 2.0).unwrap().state;
     assert_near(end[0], 2.0_f64.sin(), 1e-12);
     // The integral of 2 t sin(t).
     assert_near(end[1], 2.0 * (2.0_f64.sin() - 2.0 * 2.0_f64.cos()), 1e-12);

@@ -13,8 +13,7 @@ fn chaplygin_s_sleigh_turns_into_its_direction() {
     let system =
         Sled { m, alpha: a, beta: 0.0, k: (inertia / m).sqrt(), incline: 0.0, g: 9.81 }.prepare().unwrap();
     let start = sled::State { eta1: 2.0, eta2: 0.2, ..Default::default() };
-    let end = Dop853::new(1e-14, 1e-14)
-        .integrate(&system, 0.0, &start.into(), 5.0, |_, _| ControlFlow::Continue(()));
+    let end = Integration::new(&system, 0.0, &start.into()).run(&Dop853::new(1e-14, 1e-14), 5.0);
     let end: sled::State = end.unwrap().state.into();
     let expected = [1.54828719514878, 0.068972622157847, 3.602793198588515];
     close("v, omega, heading", &[end.eta2, end.eta1, end.phi], &expected, 1.0, 1e-13);
@@ -37,8 +36,7 @@ guen::mechanical_system! {
 fn suslov_s_body_comes_to_its_steady_turning() {
     let system = Suslov { A: 1.0, B: 2.0, C: 2.5, D: -0.4, E: 0.3 }.prepare().unwrap();
     let start = suslov::State { w: 1.0, p: 1.0, q: 0.5, ..Default::default() };
-    let end = Dop853::new(1e-14, 1e-14)
-        .integrate(&projected(&system), 0.0, &start.into(), 8.0, |_, _| ControlFlow::Continue(()));
+    let end = Integration::new(&projected(&system), 0.0, &start.into()).run(&Dop853::new(1e-14, 1e-14), 8.0);
     let end: suslov::State = end.unwrap().state.into();
     close("p, q", &[end.p, end.q], &[0.8503546007023, 0.6232563890825], 1.0, 1e-12);
 }
@@ -58,8 +56,7 @@ guen::mechanical_system! {
 fn pendulum_from_the_horizontal_is_where_jacobi_s_functions_say() {
     let system = Pendulum::default().prepare().unwrap();
     let start = pendulum::State { angle: -std::f64::consts::PI, speed: 0.0 };
-    let end = Dop853::new(1e-14, 1e-14)
-        .integrate(&system, 0.0, &start.into(), 10.0, |_, _| ControlFlow::Continue(()));
+    let end = Integration::new(&system, 0.0, &start.into()).run(&Dop853::new(1e-14, 1e-14), 10.0);
     let end: pendulum::State = end.unwrap().state.into();
     let expected = [-0.275087462576117, -0.961419205099125];
     close("place", &[end.angle.cos(), end.angle.sin()], &expected, 1.0, 1e-12);
@@ -80,8 +77,7 @@ fn ball_on_a_turntable_runs_in_a_circle_at_two_sevenths_of_its_speed() {
         ..Default::default()
     };
     let period = 2.0 * std::f64::consts::PI / (2.0 / 7.0 * rate);
-    let end = Dop853::new(1e-14, 1e-14)
-        .integrate(&system, 0.0, &start.into(), period, |_, _| ControlFlow::Continue(()));
+    let end = Integration::new(&system, 0.0, &start.into()).run(&Dop853::new(1e-14, 1e-14), period);
     let end: even_turntable::State = end.unwrap().state.into();
     close("place", &[end.x, end.y], &[start.x, start.y], 1.0, 1e-12);
     close("spin", &[end.eta1, end.eta2, end.eta3], &[start.eta1, start.eta2, start.eta3], 1.0, 1e-12);

@@ -66,8 +66,8 @@ fn andrews_squeezer_ends_where_it_is_published_to() {
     close("start", &<[f64; 7]>::from(start), &published, 1.0, 1e-15);
     let mut state = [0.0; 8];
     state[..7].copy_from_slice(&<[f64; 7]>::from(start));
-    let end = Dop853::new(1e-13, 1e-13)
-        .integrate(&projected(&system), 0.0, &state, 0.03, |_, _| ControlFlow::Continue(()))
+    let end = Integration::new(&projected(&system), 0.0, &state)
+        .run(&Dop853::new(1e-13, 1e-13), 0.03)
         .unwrap()
         .state;
     let positions = [
@@ -80,8 +80,8 @@ fn andrews_squeezer_ends_where_it_is_published_to() {
         1.048080741042263,
     ];
     close("positions", &end[..7], &positions, 1.0, 2e-10);
-    let other = Radau5::new(1e-11, 1e-11)
-        .integrate(&projected(&system), 0.0, &state, 0.03, |_, _| ControlFlow::Continue(()))
+    let other = Integration::new(&projected(&system), 0.0, &state)
+        .run(&Radau5::new(1e-11, 1e-11), 0.03)
         .unwrap()
         .state;
     close("another method", &end, &other, 1.0, 5e-12);
@@ -135,8 +135,8 @@ fn car_axis_ends_where_it_is_published_to() {
     let start = car_axis::State { yl: 0.5, xr: 1.0, yr: 0.5, ..Default::default() };
     let thrown: [f64; 4] = system.velocities(0.0, &start).into();
     close("start", &thrown, &[-0.5, 0.0, -0.5, 0.0], 1.0, 1e-15);
-    let end = Dop853::new(1e-13, 1e-13)
-        .integrate(&projected(&system), 0.0, &start.into(), 3.0, |_, _| ControlFlow::Continue(()))
+    let end = Integration::new(&projected(&system), 0.0, &start.into())
+        .run(&Dop853::new(1e-13, 1e-13), 3.0)
         .unwrap()
         .state;
     let positions = [0.04934557842755629, 0.4969894602303324, 1.041742524885400, 0.3739110272652214];

@@ -24,8 +24,7 @@ fn rattleback_turns_back_as_computed_from_its_vector_equations() {
     let half_degree = 0.5_f64.to_radians();
     let start =
         rattleback::State { roll: half_degree, pitch: half_degree, spin_z: -5.0, ..Default::default() };
-    let end = Dop853::new(1e-13, 1e-13)
-        .integrate(&system, 0.0, &start.into(), 5.0, |_, _| ControlFlow::Continue(()));
+    let end = Integration::new(&system, 0.0, &start.into()).run(&Dop853::new(1e-13, 1e-13), 5.0);
     let end: rattleback::State = end.unwrap().state.into();
     let angles = [-0.0469311349, 0.0144529744, -2.7501613135];
     close("angles", &[end.roll, end.pitch, end.yaw], &angles, 1.0, 2e-9);

@@ -22,8 +22,8 @@ guen::mechanical_system! {
 fn heavy_top_turns_as_it_is_published_to() {
     let system = HeavyTop::default().prepare().unwrap();
     let start = heavy_top::State { w: 1.0, spin_y: 150.0, spin_z: -4.61538, ..Default::default() };
-    let end = Dop853::new(1e-13, 1e-13)
-        .integrate(&projected(&system), 0.0, &start.into(), 0.2, |_, _| ControlFlow::Continue(()))
+    let end = Integration::new(&projected(&system), 0.0, &start.into())
+        .run(&Dop853::new(1e-13, 1e-13), 0.2)
         .unwrap()
         .state;
     let quaternion = [-0.708279152974, 0.438781088127, 0.545728396145, 0.089399752824];
@@ -37,8 +37,7 @@ fn euler_top_follows_jacobi_s_functions() {
     let system = EulerTop { I1: a, I2: b, I3: c }.prepare().unwrap();
     let (sin, cos) = 1.1_f64.sin_cos();
     let start = euler_top::State { theta: 1.0, p: cos / a, r: sin / c, ..Default::default() };
-    let end = Dop853::new(1e-13, 1e-13)
-        .integrate(&system, 0.0, &start.into(), 10.0, |_, _| ControlFlow::Continue(()));
+    let end = Integration::new(&system, 0.0, &start.into()).run(&Dop853::new(1e-13, 1e-13), 10.0);
     let end: euler_top::State = end.unwrap().state.into();
     let momentum = [a * end.p, b * end.q, c * end.r];
     close("momentum", &momentum, &[0.4070661365880408, 0.2830074268128441, 0.8684491676615616], 1.0, 1e-11);

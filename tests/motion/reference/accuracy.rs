@@ -95,9 +95,8 @@ where
     assert_eq!(M, N + constants);
     let seeds: [Dual<f64, M>; N] = std::array::from_fn(|i| Dual::variable(state[i], i));
     // The growth is asked for to a few digits: it weighs errors.
-    let end = Dop853::new(1e-7, 1e-9)
-        .with_max_steps(1_000_000)
-        .integrate(varied, Dual::constant(t), &seeds, Dual::constant(to), |_, _| ControlFlow::Continue(()))
+    let end = Integration::new(varied, Dual::constant(t), &seeds)
+        .run(&Dop853::new(1e-7, 1e-9).with_max_steps(1_000_000), Dual::constant(to))
         .unwrap()
         .state;
     let growth = end.map(|x| std::array::from_fn(|j| x.tangent[j]));

@@ -59,9 +59,8 @@ fn the_hoop_is_where_the_reference_is() {
 fn forwards_and_back_again() {
     let start = reference()[0].1;
     let method = Taylor::new(1e-15, 1e-15);
-    let there = method.integrate(&prepared(), 0.0, &start, 3.0, |_, _| ControlFlow::Continue(())).unwrap();
-    let back =
-        method.integrate(&prepared(), 3.0, &there.state, 0.0, |_, _| ControlFlow::Continue(())).unwrap();
+    let there = Integration::new(&prepared(), 0.0, &start).run(&method, 3.0).unwrap();
+    let back = Integration::new(&prepared(), 3.0, &there.state).run(&method, 0.0).unwrap();
     assert!(off(&back.state, &start) < 1e-13, "{:e}", off(&back.state, &start));
 }
 
@@ -148,9 +147,7 @@ fn single_precision_and_duals() {
     let reference = reference();
     let single = Hoop::<f32> { a: 1.0, A: 0.5, C: 1.0, g: 9.81 }.prepare().unwrap();
     let start = reference[0].1.map(|x| x as f32);
-    let done = Taylor::new(1e-6, 1e-6)
-        .integrate(&single, 0.0, &start, 10.0, |_, _| ControlFlow::Continue(()))
-        .unwrap();
+    let done = Integration::new(&single, 0.0, &start).run(&Taylor::new(1e-6, 1e-6), 10.0).unwrap();
     let end = reference.iter().find(|(t, _)| *t == 10.0).unwrap().1;
     assert!(off(&done.state.map(f64::from), &end) < 1e-4, "{:e}", off(&done.state.map(f64::from), &end));
 
@@ -160,15 +157,11 @@ fn single_precision_and_duals() {
     let lifted: hoop::Prepared<D> = prepared::<f64>().lift();
     let mut begin = reference[0].1.map(<D as Lift<f64>>::lift);
     begin[8].tangent[0] = 1.0;
-    let done =
-        method.integrate(&lifted, D::zero(), &begin, D::one(), |_, _| ControlFlow::Continue(())).unwrap();
+    let done = Integration::new(&lifted, D::zero(), &begin).run(&method, D::one()).unwrap();
     let at = |spin: f64| {
         let mut begin = reference[0].1;
         begin[8] += spin;
-        Taylor::new(1e-14, 1e-14)
-            .integrate(&prepared(), 0.0, &begin, 1.0, |_, _| ControlFlow::Continue(()))
-            .unwrap()
-            .state
+        Integration::new(&prepared(), 0.0, &begin).run(&Taylor::new(1e-14, 1e-14), 1.0).unwrap().state
     };
     let (ahead, behind) = (at(1e-5), at(-1e-5));
     for i in 0..9 {
@@ -247,8 +240,7 @@ fn events_observers_and_motions_that_are_polynomials() {
     let landing = (10.0 + (100.0_f64 + 2.0 * 9.81).sqrt()) / 9.81;
     assert!((done.time - landing).abs() < 1e-13, "{} {landing}", done.time);
     // No span, no step.
-    let still =
-        Taylor::new(1e-12, 1e-12).integrate(&stone, 1.0, &[0.0, 1.0], 1.0, |_, _| ControlFlow::Continue(()));
+    let still = Integration::new(&stone, 1.0, &[0.0, 1.0]).run(&Taylor::new(1e-12, 1e-12), 1.0);
     assert_eq!(still.unwrap().statistics.accepted, 0);
 }
 
@@ -267,9 +259,8 @@ mechanical_system! {
 #[test]
 fn what_cannot_be_done_is_said() {
     let system = Edges { k: 0.0 }.prepare().unwrap();
-    let run = |method: Taylor, start: [f64; 4], end: f64| {
-        method.integrate(&system, 0.0, &start, end, |_, _| ControlFlow::Continue(()))
-    };
+    let run =
+        |method: Taylor, start: [f64; 4], end: f64| Integration::new(&system, 0.0, &start).run(&method, end);
     let fine = Taylor::new(1e-10, 1e-10);
     let start = [1.0, 1.0, 0.0, 0.0];
     let cause = |method: Taylor, start: [f64; 4]| run(method, start, 2.0).unwrap_err().cause;
@@ -322,9 +313,8 @@ fn scales_of_time_far_from_one() {
     // The same fall in units in which a second is 10^12 or 10^-12: coefficients would overflow without a scale.
     for unit in [1e12, 1e-12] {
         let system = Stone { g: 9.81 }.prepare().unwrap();
-        let done = Taylor::new(1e-12, 1e-12)
-            .integrate(&system, 0.0, &[0.0, unit], unit, |_, _| ControlFlow::Continue(()))
-            .unwrap();
+        let done =
+            Integration::new(&system, 0.0, &[0.0, unit]).run(&Taylor::new(1e-12, 1e-12), unit).unwrap();
         assert!((done.state[1] - (unit - 9.81 * unit)).abs() < 1e-14 * 10.0 * unit);
     }
     let hoop = prepared::<f64>();
@@ -332,9 +322,8 @@ fn scales_of_time_far_from_one() {
         let start = hoop::State { theta: 1.2, eta3: spin, ..Default::default() };
         let span = 1.0 / f64::max(spin, 1.0);
         let run = |tolerance: f64, order: u32| {
-            Taylor::new(tolerance, tolerance)
-                .with_order(order)
-                .integrate(&hoop, 0.0, &start.into(), span, |_, _| ControlFlow::Continue(()))
+            Integration::new(&hoop, 0.0, &start.into())
+                .run(&Taylor::new(tolerance, tolerance).with_order(order), span)
                 .unwrap()
                 .state
         };

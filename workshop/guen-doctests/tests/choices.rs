@@ -175,7 +175,7 @@ fn the_code_ends_where_the_motion_does() {
     let prepared = PENDULUM.prepare().unwrap();
     let end = |start: &[f64; 2], t1: f64| {
         let method = Dop853::new(1e-13, 1e-13);
-        method.integrate(&prepared, 0.0, start, t1, |_, _| ControlFlow::Continue(())).unwrap().state
+        Integration::new(&prepared, 0.0, start).run(&method, t1).unwrap().state
     };
     let near = |name: &str, found: &[f64], expected: &[f64; 2]| {
         for (found, expected) in found.iter().zip(expected) {

@@ -108,7 +108,7 @@ fn reference(system: &Expanded, end: f64) -> [f64; 2] {
         step = if held { HELD } else { step };
         let next = if t + 1.01 * step > end { end } else { t + step };
         state = if held {
-            stiff.integrate(system, t, &state, next, |_, _| ControlFlow::Continue(())).expect("stiff").state
+            Integration::new(system, t, &state).run(&stiff, next).expect("stiff").state
         } else {
             by.advance(system, t, &state, next).expect("a short step").state
         };

@@ -16,8 +16,7 @@ pub fn rk4(system: &Pendulum, start: [f64; 2]) -> End<2> {
     use guen::{Recast, prelude::*};
     let system = system.recast::<f64>()?;
     let method = Rk4::new(0.125);
-    let go_on = |_, _: &_| ControlFlow::Continue(());
-    let end = method.integrate(&system, 0.0, &start, 1.0, go_on)?.state;
+    let end = Integration::new(&system, 0.0, &start).run(&method, 1.0)?.state;
     Ok(end)
 }
 
@@ -25,8 +24,7 @@ pub fn rk8(system: &Pendulum, start: [f64; 2]) -> End<2> {
     use guen::{Recast, prelude::*};
     let system = system.recast::<f64>()?;
     let method = Rk8::new(0.125);
-    let go_on = |_, _: &_| ControlFlow::Continue(());
-    let end = method.integrate(&system, 0.0, &start, 1.0, go_on)?.state;
+    let end = Integration::new(&system, 0.0, &start).run(&method, 1.0)?.state;
     Ok(end)
 }
 
@@ -34,8 +32,7 @@ pub fn tsit5(system: &Pendulum, start: [f64; 2]) -> End<2> {
     use guen::{Recast, prelude::*};
     let system = system.recast::<f64>()?;
     let method = Tsit5::new(0.001, 0.001);
-    let go_on = |_, _: &_| ControlFlow::Continue(());
-    let end = method.integrate(&system, 0.0, &start, 1.0, go_on)?.state;
+    let end = Integration::new(&system, 0.0, &start).run(&method, 1.0)?.state;
     Ok(end)
 }
 
@@ -43,8 +40,7 @@ pub fn dop853(system: &Pendulum, start: [f64; 2]) -> End<2> {
     use guen::{Recast, prelude::*};
     let system = system.recast::<f64>()?;
     let method = Dop853::new(0.01, 0.01);
-    let go_on = |_, _: &_| ControlFlow::Continue(());
-    let end = method.integrate(&system, 0.0, &start, 1.0, go_on)?.state;
+    let end = Integration::new(&system, 0.0, &start).run(&method, 1.0)?.state;
     Ok(end)
 }
 
@@ -52,8 +48,7 @@ pub fn euler(system: &Pendulum, start: [f64; 2]) -> End<2> {
     use guen::{Recast, prelude::*};
     let system = system.recast::<f64>()?;
     let method = Euler::new(0.0013812154696132596);
-    let go_on = |_, _: &_| ControlFlow::Continue(());
-    let end = method.integrate(&system, 0.0, &start, 1.0, go_on)?.state;
+    let end = Integration::new(&system, 0.0, &start).run(&method, 1.0)?.state;
     Ok(end)
 }
 
@@ -77,9 +72,9 @@ pub fn rk4_in_approx13(system: &Pendulum, start: [f64; 2]) -> End<2> {
     type R = Approx13;
     let system = system.recast::<R>()?;
     let method = Rk4::new(R::from_f64(0.125));
-    let go_on = |_, _: &_| ControlFlow::Continue(());
     let (t0, t1) = (R::from_f64(0.0), R::from_f64(1.0));
-    let end = method.integrate(&system, t0, &start.map(R::from_f64), t1, go_on)?.state.map(R::to_f64);
+    let start = start.map(R::from_f64);
+    let end = Integration::new(&system, t0, &start).run(&method, t1)?.state.map(R::to_f64);
     Ok(end)
 }
 
@@ -89,9 +84,9 @@ pub fn rk8_in_approx13(system: &Pendulum, start: [f64; 2]) -> End<2> {
     type R = Approx13;
     let system = system.recast::<R>()?;
     let method = Rk8::new(R::from_f64(0.125));
-    let go_on = |_, _: &_| ControlFlow::Continue(());
     let (t0, t1) = (R::from_f64(0.0), R::from_f64(1.0));
-    let end = method.integrate(&system, t0, &start.map(R::from_f64), t1, go_on)?.state.map(R::to_f64);
+    let start = start.map(R::from_f64);
+    let end = Integration::new(&system, t0, &start).run(&method, t1)?.state.map(R::to_f64);
     Ok(end)
 }
 
@@ -101,9 +96,9 @@ pub fn tsit5_in_approx13(system: &Pendulum, start: [f64; 2]) -> End<2> {
     type R = Approx13;
     let system = system.recast::<R>()?;
     let method = Tsit5::new(0.001, 0.001);
-    let go_on = |_, _: &_| ControlFlow::Continue(());
     let (t0, t1) = (R::from_f64(0.0), R::from_f64(1.0));
-    let end = method.integrate(&system, t0, &start.map(R::from_f64), t1, go_on)?.state.map(R::to_f64);
+    let start = start.map(R::from_f64);
+    let end = Integration::new(&system, t0, &start).run(&method, t1)?.state.map(R::to_f64);
     Ok(end)
 }
 
@@ -113,9 +108,9 @@ pub fn dop853_in_approx13(system: &Pendulum, start: [f64; 2]) -> End<2> {
     type R = Approx13;
     let system = system.recast::<R>()?;
     let method = Dop853::new(0.01, 0.01);
-    let go_on = |_, _: &_| ControlFlow::Continue(());
     let (t0, t1) = (R::from_f64(0.0), R::from_f64(1.0));
-    let end = method.integrate(&system, t0, &start.map(R::from_f64), t1, go_on)?.state.map(R::to_f64);
+    let start = start.map(R::from_f64);
+    let end = Integration::new(&system, t0, &start).run(&method, t1)?.state.map(R::to_f64);
     Ok(end)
 }
 
@@ -125,9 +120,9 @@ pub fn rk4_in_approx7(system: &Pendulum, start: [f64; 2]) -> End<2> {
     type R = Approx7;
     let system = system.recast::<R>()?;
     let method = Rk4::new(R::from_f64(0.125));
-    let go_on = |_, _: &_| ControlFlow::Continue(());
     let (t0, t1) = (R::from_f64(0.0), R::from_f64(1.0));
-    let end = method.integrate(&system, t0, &start.map(R::from_f64), t1, go_on)?.state.map(R::to_f64);
+    let start = start.map(R::from_f64);
+    let end = Integration::new(&system, t0, &start).run(&method, t1)?.state.map(R::to_f64);
     Ok(end)
 }
 
@@ -137,9 +132,9 @@ pub fn rk8_in_approx7(system: &Pendulum, start: [f64; 2]) -> End<2> {
     type R = Approx7;
     let system = system.recast::<R>()?;
     let method = Rk8::new(R::from_f64(0.125));
-    let go_on = |_, _: &_| ControlFlow::Continue(());
     let (t0, t1) = (R::from_f64(0.0), R::from_f64(1.0));
-    let end = method.integrate(&system, t0, &start.map(R::from_f64), t1, go_on)?.state.map(R::to_f64);
+    let start = start.map(R::from_f64);
+    let end = Integration::new(&system, t0, &start).run(&method, t1)?.state.map(R::to_f64);
     Ok(end)
 }
 
@@ -149,9 +144,9 @@ pub fn tsit5_in_approx7(system: &Pendulum, start: [f64; 2]) -> End<2> {
     type R = Approx7;
     let system = system.recast::<R>()?;
     let method = Tsit5::new(0.001, 0.001);
-    let go_on = |_, _: &_| ControlFlow::Continue(());
     let (t0, t1) = (R::from_f64(0.0), R::from_f64(1.0));
-    let end = method.integrate(&system, t0, &start.map(R::from_f64), t1, go_on)?.state.map(R::to_f64);
+    let start = start.map(R::from_f64);
+    let end = Integration::new(&system, t0, &start).run(&method, t1)?.state.map(R::to_f64);
     Ok(end)
 }
 
@@ -161,9 +156,9 @@ pub fn dop853_in_approx7(system: &Pendulum, start: [f64; 2]) -> End<2> {
     type R = Approx7;
     let system = system.recast::<R>()?;
     let method = Dop853::new(0.01, 0.01);
-    let go_on = |_, _: &_| ControlFlow::Continue(());
     let (t0, t1) = (R::from_f64(0.0), R::from_f64(1.0));
-    let end = method.integrate(&system, t0, &start.map(R::from_f64), t1, go_on)?.state.map(R::to_f64);
+    let start = start.map(R::from_f64);
+    let end = Integration::new(&system, t0, &start).run(&method, t1)?.state.map(R::to_f64);
     Ok(end)
 }
 
@@ -173,9 +168,9 @@ pub fn rk4_in_fused(system: &Pendulum, start: [f64; 2]) -> End<2> {
     type R = Fused;
     let system = system.recast::<R>()?;
     let method = Rk4::new(R::from_f64(0.125));
-    let go_on = |_, _: &_| ControlFlow::Continue(());
     let (t0, t1) = (R::from_f64(0.0), R::from_f64(1.0));
-    let end = method.integrate(&system, t0, &start.map(R::from_f64), t1, go_on)?.state.map(R::to_f64);
+    let start = start.map(R::from_f64);
+    let end = Integration::new(&system, t0, &start).run(&method, t1)?.state.map(R::to_f64);
     Ok(end)
 }
 
@@ -185,9 +180,9 @@ pub fn rk8_in_fused(system: &Pendulum, start: [f64; 2]) -> End<2> {
     type R = Fused;
     let system = system.recast::<R>()?;
     let method = Rk8::new(R::from_f64(0.125));
-    let go_on = |_, _: &_| ControlFlow::Continue(());
     let (t0, t1) = (R::from_f64(0.0), R::from_f64(1.0));
-    let end = method.integrate(&system, t0, &start.map(R::from_f64), t1, go_on)?.state.map(R::to_f64);
+    let start = start.map(R::from_f64);
+    let end = Integration::new(&system, t0, &start).run(&method, t1)?.state.map(R::to_f64);
     Ok(end)
 }
 
@@ -197,9 +192,9 @@ pub fn tsit5_in_fused(system: &Pendulum, start: [f64; 2]) -> End<2> {
     type R = Fused;
     let system = system.recast::<R>()?;
     let method = Tsit5::new(0.001, 0.001);
-    let go_on = |_, _: &_| ControlFlow::Continue(());
     let (t0, t1) = (R::from_f64(0.0), R::from_f64(1.0));
-    let end = method.integrate(&system, t0, &start.map(R::from_f64), t1, go_on)?.state.map(R::to_f64);
+    let start = start.map(R::from_f64);
+    let end = Integration::new(&system, t0, &start).run(&method, t1)?.state.map(R::to_f64);
     Ok(end)
 }
 
@@ -209,9 +204,9 @@ pub fn dop853_in_fused(system: &Pendulum, start: [f64; 2]) -> End<2> {
     type R = Fused;
     let system = system.recast::<R>()?;
     let method = Dop853::new(0.01, 0.01);
-    let go_on = |_, _: &_| ControlFlow::Continue(());
     let (t0, t1) = (R::from_f64(0.0), R::from_f64(1.0));
-    let end = method.integrate(&system, t0, &start.map(R::from_f64), t1, go_on)?.state.map(R::to_f64);
+    let start = start.map(R::from_f64);
+    let end = Integration::new(&system, t0, &start).run(&method, t1)?.state.map(R::to_f64);
     Ok(end)
 }
 
@@ -221,9 +216,9 @@ pub fn rk4_in_std(system: &Pendulum, start: [f64; 2]) -> End<2> {
     type R = Std;
     let system = system.recast::<R>()?;
     let method = Rk4::new(R::from_f64(0.125));
-    let go_on = |_, _: &_| ControlFlow::Continue(());
     let (t0, t1) = (R::from_f64(0.0), R::from_f64(1.0));
-    let end = method.integrate(&system, t0, &start.map(R::from_f64), t1, go_on)?.state.map(R::to_f64);
+    let start = start.map(R::from_f64);
+    let end = Integration::new(&system, t0, &start).run(&method, t1)?.state.map(R::to_f64);
     Ok(end)
 }
 
@@ -233,9 +228,9 @@ pub fn rk8_in_std(system: &Pendulum, start: [f64; 2]) -> End<2> {
     type R = Std;
     let system = system.recast::<R>()?;
     let method = Rk8::new(R::from_f64(0.125));
-    let go_on = |_, _: &_| ControlFlow::Continue(());
     let (t0, t1) = (R::from_f64(0.0), R::from_f64(1.0));
-    let end = method.integrate(&system, t0, &start.map(R::from_f64), t1, go_on)?.state.map(R::to_f64);
+    let start = start.map(R::from_f64);
+    let end = Integration::new(&system, t0, &start).run(&method, t1)?.state.map(R::to_f64);
     Ok(end)
 }
 
@@ -245,9 +240,9 @@ pub fn tsit5_in_std(system: &Pendulum, start: [f64; 2]) -> End<2> {
     type R = Std;
     let system = system.recast::<R>()?;
     let method = Tsit5::new(0.001, 0.001);
-    let go_on = |_, _: &_| ControlFlow::Continue(());
     let (t0, t1) = (R::from_f64(0.0), R::from_f64(1.0));
-    let end = method.integrate(&system, t0, &start.map(R::from_f64), t1, go_on)?.state.map(R::to_f64);
+    let start = start.map(R::from_f64);
+    let end = Integration::new(&system, t0, &start).run(&method, t1)?.state.map(R::to_f64);
     Ok(end)
 }
 
@@ -257,9 +252,9 @@ pub fn dop853_in_std(system: &Pendulum, start: [f64; 2]) -> End<2> {
     type R = Std;
     let system = system.recast::<R>()?;
     let method = Dop853::new(0.01, 0.01);
-    let go_on = |_, _: &_| ControlFlow::Continue(());
     let (t0, t1) = (R::from_f64(0.0), R::from_f64(1.0));
-    let end = method.integrate(&system, t0, &start.map(R::from_f64), t1, go_on)?.state.map(R::to_f64);
+    let start = start.map(R::from_f64);
+    let end = Integration::new(&system, t0, &start).run(&method, t1)?.state.map(R::to_f64);
     Ok(end)
 }
 
@@ -268,9 +263,9 @@ pub fn rk4_in_f32(system: &Pendulum, start: [f64; 2]) -> End<2> {
     type R = f32;
     let system = system.recast::<R>()?;
     let method = Rk4::new(R::from_f64(0.125));
-    let go_on = |_, _: &_| ControlFlow::Continue(());
     let (t0, t1) = (R::from_f64(0.0), R::from_f64(1.0));
-    let end = method.integrate(&system, t0, &start.map(R::from_f64), t1, go_on)?.state.map(R::to_f64);
+    let start = start.map(R::from_f64);
+    let end = Integration::new(&system, t0, &start).run(&method, t1)?.state.map(R::to_f64);
     Ok(end)
 }
 
@@ -279,9 +274,9 @@ pub fn rk8_in_f32(system: &Pendulum, start: [f64; 2]) -> End<2> {
     type R = f32;
     let system = system.recast::<R>()?;
     let method = Rk8::new(R::from_f64(0.125));
-    let go_on = |_, _: &_| ControlFlow::Continue(());
     let (t0, t1) = (R::from_f64(0.0), R::from_f64(1.0));
-    let end = method.integrate(&system, t0, &start.map(R::from_f64), t1, go_on)?.state.map(R::to_f64);
+    let start = start.map(R::from_f64);
+    let end = Integration::new(&system, t0, &start).run(&method, t1)?.state.map(R::to_f64);
     Ok(end)
 }
 
@@ -290,9 +285,9 @@ pub fn tsit5_in_f32(system: &Pendulum, start: [f64; 2]) -> End<2> {
     type R = f32;
     let system = system.recast::<R>()?;
     let method = Tsit5::new(0.001, 0.001);
-    let go_on = |_, _: &_| ControlFlow::Continue(());
     let (t0, t1) = (R::from_f64(0.0), R::from_f64(1.0));
-    let end = method.integrate(&system, t0, &start.map(R::from_f64), t1, go_on)?.state.map(R::to_f64);
+    let start = start.map(R::from_f64);
+    let end = Integration::new(&system, t0, &start).run(&method, t1)?.state.map(R::to_f64);
     Ok(end)
 }
 
@@ -301,9 +296,9 @@ pub fn dop853_in_f32(system: &Pendulum, start: [f64; 2]) -> End<2> {
     type R = f32;
     let system = system.recast::<R>()?;
     let method = Dop853::new(0.01, 0.01);
-    let go_on = |_, _: &_| ControlFlow::Continue(());
     let (t0, t1) = (R::from_f64(0.0), R::from_f64(1.0));
-    let end = method.integrate(&system, t0, &start.map(R::from_f64), t1, go_on)?.state.map(R::to_f64);
+    let start = start.map(R::from_f64);
+    let end = Integration::new(&system, t0, &start).run(&method, t1)?.state.map(R::to_f64);
     Ok(end)
 }
 
@@ -311,8 +306,7 @@ pub fn gauss_4(system: &Pendulum, start: [f64; 2]) -> End<2> {
     use guen::{Recast, prelude::*};
     let system = system.recast::<f64>()?;
     let method = Gauss4::new(0.125);
-    let go_on = |_, _: &_| ControlFlow::Continue(());
-    let end = method.integrate(&system, 0.0, &start, 1.0, go_on)?.state;
+    let end = Integration::new(&system, 0.0, &start).run(&method, 1.0)?.state;
     Ok(end)
 }
 
@@ -320,8 +314,7 @@ pub fn gauss_6(system: &Pendulum, start: [f64; 2]) -> End<2> {
     use guen::{Recast, prelude::*};
     let system = system.recast::<f64>()?;
     let method = Gauss6::new(0.125);
-    let go_on = |_, _: &_| ControlFlow::Continue(());
-    let end = method.integrate(&system, 0.0, &start, 1.0, go_on)?.state;
+    let end = Integration::new(&system, 0.0, &start).run(&method, 1.0)?.state;
     Ok(end)
 }
 
@@ -329,8 +322,7 @@ pub fn radau_5(system: &Pendulum, start: [f64; 2]) -> End<2> {
     use guen::{Recast, prelude::*};
     let system = system.recast::<f64>()?;
     let method = Radau5::new(0.01, 0.01);
-    let go_on = |_, _: &_| ControlFlow::Continue(());
-    let end = method.integrate(&system, 0.0, &start, 1.0, go_on)?.state;
+    let end = Integration::new(&system, 0.0, &start).run(&method, 1.0)?.state;
     Ok(end)
 }
 
@@ -338,8 +330,7 @@ pub fn taylor(system: &Pendulum, start: [f64; 2]) -> End<2> {
     use guen::{Recast, prelude::*};
     let system = system.recast::<f64>()?;
     let method = Taylor::new(0.01, 0.01);
-    let go_on = |_, _: &_| ControlFlow::Continue(());
-    let end = method.integrate(&system, 0.0, &start, 1.0, go_on)?.state;
+    let end = Integration::new(&system, 0.0, &start).run(&method, 1.0)?.state;
     Ok(end)
 }
 
@@ -379,8 +370,7 @@ pub fn rk4_carried<S: System<f64, N>, const N: usize>(system: &S, start: [f64; N
     // `system` and `start` are those of the form `carried`
     use guen::prelude::*;
     let method = Rk4::new(0.125);
-    let go_on = |_, _: &_| ControlFlow::Continue(());
-    let end = method.integrate(&system, 0.0, &start, 1.0, go_on)?.state;
+    let end = Integration::new(&system, 0.0, &start).run(&method, 1.0)?.state;
     Ok(end)
 }
 
@@ -388,8 +378,7 @@ pub fn rk8_carried<S: System<f64, N>, const N: usize>(system: &S, start: [f64; N
     // `system` and `start` are those of the form `carried`
     use guen::prelude::*;
     let method = Rk8::new(0.125);
-    let go_on = |_, _: &_| ControlFlow::Continue(());
-    let end = method.integrate(&system, 0.0, &start, 1.0, go_on)?.state;
+    let end = Integration::new(&system, 0.0, &start).run(&method, 1.0)?.state;
     Ok(end)
 }
 
@@ -397,8 +386,7 @@ pub fn tsit5_carried<S: System<f64, N>, const N: usize>(system: &S, start: [f64;
     // `system` and `start` are those of the form `carried`
     use guen::prelude::*;
     let method = Tsit5::new(0.001, 0.001);
-    let go_on = |_, _: &_| ControlFlow::Continue(());
-    let end = method.integrate(&system, 0.0, &start, 1.0, go_on)?.state;
+    let end = Integration::new(&system, 0.0, &start).run(&method, 1.0)?.state;
     Ok(end)
 }
 
@@ -406,24 +394,21 @@ pub fn dop853_carried<S: System<f64, N>, const N: usize>(system: &S, start: [f64
     // `system` and `start` are those of the form `carried`
     use guen::prelude::*;
     let method = Dop853::new(0.01, 0.01);
-    let go_on = |_, _: &_| ControlFlow::Continue(());
-    let end = method.integrate(&system, 0.0, &start, 1.0, go_on)?.state;
+    let end = Integration::new(&system, 0.0, &start).run(&method, 1.0)?.state;
     Ok(end)
 }
 
 pub fn closures_dop853<S: System<f64, N>, const N: usize>(system: &S, start: [f64; N]) -> End<N> {
     use guen::prelude::*;
     let method = Dop853::new(0.01, 0.01);
-    let go_on = |_, _: &_| ControlFlow::Continue(());
-    let end = method.integrate(&system, 0.0, &start, 0.25, go_on)?.state;
+    let end = Integration::new(&system, 0.0, &start).run(&method, 0.25)?.state;
     Ok(end)
 }
 
 pub fn closures_euler<S: System<f64, N>, const N: usize>(system: &S, start: [f64; N]) -> End<N> {
     use guen::prelude::*;
     let method = Euler::new(0.0078125);
-    let go_on = |_, _: &_| ControlFlow::Continue(());
-    let end = method.integrate(&system, 0.0, &start, 0.25, go_on)?.state;
+    let end = Integration::new(&system, 0.0, &start).run(&method, 0.25)?.state;
     Ok(end)
 }
 

@@ -59,8 +59,7 @@ fn lanes(asked: &str, width: Width, faulty: [f64; 9]) -> Line {
     starts[FAULTY] = faulty;
     let ends: Vec<_> =
         dispatch(width, Hoops { system: &system, starts: &starts }).into_iter().flatten().collect();
-    let alone =
-        |k: usize| Rk4::new(1e-3).integrate(&system, 0.0, &starts[k], 1.0, |_, _| ControlFlow::Continue(()));
+    let alone = |k: usize| Integration::new(&system, 0.0, &starts[k]).run(&Rk4::new(1e-3), 1.0);
     let mut others = 0.0_f64;
     for (k, end) in ends.iter().enumerate().filter(|(k, _)| *k != FAULTY) {
         let same = matches!((end, &alone(k)), (Ok(a), Ok(b)) if a.state == b.state);
