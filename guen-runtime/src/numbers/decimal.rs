@@ -27,24 +27,24 @@ const REST: u32 = 62;
 pub(crate) const fn decimal(text: &str) -> Parts {
     let (negative, digits, places) = read(text.as_bytes());
     assert!(places >= 0 && places <= 36, "a decimal outside the range of this reader");
-    let mut denominator = 1_u128;
-    let mut place = 0;
-    while place < places {
-        denominator *= 10;
-        place += 1;
-    }
     if digits == 0 {
         return [(0, 0), (0, 0)];
     }
-    // Long division in binary: quotient 2^-shift, until it has all the bits wanted.
+    let denominator = 10_u128.pow(places as u32);
+    // Long division in binary: quotient 2^-shift, until it has all the bits wanted; as many bits at a time as the remainder has
+    // room for, because every crate that names a coefficient evaluates this anew.
     let mut quotient = digits / denominator;
     let mut remainder = digits % denominator;
     let mut shift = 0;
-    while quotient < 1 << (LEADING + REST - 1) {
-        remainder *= 2;
-        quotient = quotient * 2 + remainder / denominator;
+    let mut missing = (LEADING + REST).saturating_sub(u128::BITS - quotient.leading_zeros());
+    while missing > 0 {
+        let room = denominator.leading_zeros();
+        let bits = if missing < room { missing } else { room };
+        remainder <<= bits;
+        quotient = (quotient << bits) + remainder / denominator;
         remainder %= denominator;
-        shift += 1;
+        shift += bits as i32;
+        missing = (LEADING + REST).saturating_sub(u128::BITS - quotient.leading_zeros());
     }
     let mut leading = (quotient >> REST) as i64;
     let mut rest = (quotient & ((1 << REST) - 1)) as i64;
@@ -60,35 +60,46 @@ pub(crate) const fn decimal(text: &str) -> Parts {
 }
 
 /// Reads a literal: returns its sign, its digits as an integer, and how many of them stand after the point.
-const fn read(text: &[u8]) -> (bool, u128, i32) {
-    let negative = text[0] == b'-';
-    let mut at = if negative { 1 } else { 0 };
+const fn read(mut text: &[u8]) -> (bool, u128, i32) {
+    let negative = matches!(text, [b'-', ..]);
+    if let [b'-', rest @ ..] = text {
+        text = rest;
+    }
     let mut digits = 0_u128;
     let mut places = 0;
     let mut after_point = 0;
-    while at < text.len() && text[at] != b'e' {
-        if text[at] == b'.' {
-            after_point = 1;
-        } else {
-            assert!(text[at].is_ascii_digit(), "a decimal has digits, a point and an exponent");
-            digits = digits * 10 + (text[at] - b'0') as u128;
-            places += after_point;
+    while let [byte, rest @ ..] = text {
+        text = rest;
+        match byte {
+            b'0'..=b'9' => {
+                digits = digits * 10 + (*byte - b'0') as u128;
+                places += after_point;
+            }
+            b'.' => after_point = 1,
+            b'e' => {
+                places -= exponent(text);
+                break;
+            }
+            _ => panic!("a decimal has digits, a point and an exponent"),
         }
-        at += 1;
-    }
-    if at < text.len() {
-        let below_one = text[at + 1] == b'-';
-        at += if below_one { 2 } else { 1 };
-        let mut exponent = 0;
-        while at < text.len() {
-            assert!(text[at].is_ascii_digit(), "an exponent has digits");
-            exponent = exponent * 10 + (text[at] - b'0') as i32;
-            at += 1;
-        }
-        places += if below_one { exponent } else { -exponent };
     }
     assert!(digits < 1_u128 << 120, "a decimal with too many digits for this reader");
     (negative, digits, places)
+}
+
+/// Reads an exponent.
+const fn exponent(mut text: &[u8]) -> i32 {
+    let below_one = matches!(text, [b'-', ..]);
+    if let [b'-' | b'+', rest @ ..] = text {
+        text = rest;
+    }
+    let mut exponent = 0;
+    while let [digit, rest @ ..] = text {
+        assert!(digit.is_ascii_digit(), "an exponent has digits");
+        exponent = exponent * 10 + (*digit - b'0') as i32;
+        text = rest;
+    }
+    if below_one { -exponent } else { exponent }
 }
 
 #[cfg(test)]
