@@ -148,9 +148,9 @@ pub mod prelude {
 pub mod __private {
     pub use guen_macros::{mechanical_system, page};
     pub use guen_runtime::checks::{
-        check_definite, check_finite, check_fixed, check_hoisted, check_inertia, check_limits, check_mass,
-        check_nonnegative, check_nonzero, check_pivot, check_positive, clamped, condition, drift, first,
-        furthest, joined, largest, placed, rounded,
+        Bound, check_constants, check_definite, check_fixed, check_hoisted, check_inertia, check_limits,
+        check_mass, check_nonnegative, check_nonzero, check_pivot, check_positive, clamped, condition, drift,
+        first, furthest, head, joined, largest, placed, rounded,
     };
     pub use guen_runtime::lanes::Lanes;
     pub use guen_runtime::{
@@ -163,10 +163,10 @@ pub mod __private {
         Unprepared, WithInputs, nalgebra_conversions, seeded,
     };
     pub use guen_runtime::{
-        cells, condition, differentiable, domain, dynamics, energy, facts, jacobians, laned, lift,
-        linearizable, mass_form, motion_of_system, onto_constraints, operators, output_map,
-        program_functions, rates, reaction_covector, reactions, recast, record, reduce, reported,
-        state_of_system, steady_motions,
+        condition, conserved, differentiable, domain, dynamics, energy, facts, jacobians, laned, level_info,
+        levels, linearizable, mass_form, monitored, motion_of_system, onto_constraints, operators,
+        output_map, prepare, prepared, program_functions, rates, reaction_covector, reactions, recast,
+        record, reduce, reported, simulated, singularities, state_of_system, steady_motions, uses,
     };
     pub use guen_runtime::{consistent, control, furthest_surplus, serde_record};
 }

@@ -86,7 +86,9 @@ pub use system::input_law::InputSamples;
 pub use system::input_law::{InputLaw, InputRecords, InputValues, Smooth};
 pub use system::invariants::Invariants;
 pub use system::level::{Level, LevelInfo, Levels};
-pub use system::linearization::{Liftable, Linearizable, Linearization, OutputLinearization, seeded};
+pub use system::linearization::{
+    Liftable, Linearizable, Linearization, OutputLinearization, moving, seeded, slopes, tangents,
+};
 pub use system::operator::{Applied, Coordinate, Function, Operator};
 pub use system::outputs::OutputMap;
 #[doc(hidden)]

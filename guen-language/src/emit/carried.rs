@@ -155,10 +155,7 @@ fn prepared(subject: &Subject<'_, '_>, layout: &Layout, base: &Layout, invariant
             }
 
             pub(super) fn check(&self) -> ::core::result::Result<(), __guen::ConstantsError> {
-                for value in &self.hoisted {
-                    __guen::check_hoisted(*value)?;
-                }
-                ::core::result::Result::Ok(())
+                __guen::check_hoisted(&self.hoisted)
             }
 
             /// The rates of the state: those of the system's variables, then those of the functions. No elementary
@@ -288,7 +285,7 @@ fn systems(
     });
     let prices = integrated::prices(subject, layout, &looks);
     let differentiable = integrated::differentiable(layout, false);
-    let simulate = integrated::simulate(&owner, size, false, false);
+    let simulate = integrated::simulate(layout, false, false);
     let lanes = lanes::carried(layout);
     quote! {
         #driven

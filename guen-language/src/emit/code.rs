@@ -386,8 +386,8 @@ mod tests {
     fn rates(declaration: &str) -> String {
         let text = crate::expand(declaration.parse().unwrap()).to_string();
         let text: String = text.split_whitespace().collect();
-        let from = text.find("rhs(c").unwrap();
-        let to = from + text[from..].find("velocities(c").unwrap();
+        let from = text.find("rhs(t;").unwrap();
+        let to = from + text[from..].find("velocities(t;").unwrap();
         text[from..to].replace("R::", "")
     }
 

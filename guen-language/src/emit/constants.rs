@@ -7,7 +7,7 @@ use quote::{format_ident, quote};
 use super::formula::default_text;
 use super::layout::{Layout, REAL, is_derived, variable_ident};
 use super::text::tokens;
-use super::{documentation, physical, recast};
+use super::{documentation, limits, motion, physical, recast};
 use crate::derive::Subject;
 use crate::report::Report;
 use crate::syntax::BoundKind;
@@ -93,12 +93,11 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, report: &Report)
     let values = values(layout, &names, &quote!(self));
     let resolution = resolution(subject, layout, &fields);
     let derived: Vec<&Ident> = layout.derived.iter().map(|i| &fields[*i].ident).collect();
-    let (follows, follows_field, lifted) = match derived.len() {
-        0 => (None, None, None),
+    let (follows, follows_field) = match derived.len() {
+        0 => (None, None),
         count => (
             Some(quote!(follows: [#(__guen::Derived::follows(&self.#derived)),*],)),
-            Some(quote!(follows: [::core::primitive::bool; #count],)),
-            Some(quote!(follows)),
+            Some(quote!(follows #count)),
         ),
     };
     let given = (0..count).map(|i| {
@@ -111,6 +110,8 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, report: &Report)
         }
     });
     let definite = physical::definite(subject, layout);
+    let pivots = motion::pivots(subject);
+    let limits = limits::has_any(subject).then(|| quote!(prepared.check_limits()?;));
     let recast = recast::items(layout, &names, marker_value.as_ref());
     let what = if layout.is_whole { "system" } else { "scene" };
     let prepared_docs = format!(
@@ -126,41 +127,17 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, report: &Report)
 
         impl<R> __guen::Unprepared for #system<R> {}
 
-        impl<R: __guen::Real> #system<R> {
-            /// Checks the constants and computes what depends on them alone.
-            ///
-            /// # Errors
-            ///
-            /// A constant that is not finite or outside of its bound, or constants that make something vanish
-            /// which the equations divide by.
-            pub fn prepare(self) -> ::core::result::Result<Prepared<R>, __guen::ConstantsError> {
-                let constants: [R; #count] = #values;
-                #checks
-                let hoisted = program::prepare(&constants);
-                let prepared = Prepared { constants, hoisted, #follows };
-                prepared.check_pivots()?;
-                #definite
-                ::core::result::Result::Ok(prepared)
-            }
-        }
+        __guen::prepare!(
+            self constants hoisted prepared; #system #count, #values, { #checks } { #pivots } { #follows } { #limits } { #definite }
+        );
 
-        #[doc = #prepared_docs]
-        #[::core::prelude::v1::derive(
-            ::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq
-        )]
-        pub struct Prepared<R = f64> {
-            constants: [R; #count],
-            hoisted: [R; #hoisted],
-            #follows_field
-        }
+        __guen::prepared!(#prepared_docs #count #hoisted #follows_field);
 
         impl<R: __guen::Real> Prepared<R> {
             /// The constants that the system was prepared from.
             pub fn constants(&self) -> #system<R> {
                 #system { #(#names: #given,)* #marker_value }
             }
-
-            __guen::lift!(#lifted);
         }
 
         #recast
@@ -210,12 +187,18 @@ fn resolution(subject: &Subject<'_, '_>, layout: &Layout, fields: &[Field]) -> O
 
 /// Finite, and inside the bound, each constant.
 fn checks(subject: &Subject<'_, '_>, fields: &[Field]) -> TokenStream {
-    let given = fields.iter().enumerate().map(|(i, field)| {
+    let bounds = fields.iter().map(|field| {
         let name = &field.name;
-        let finite = quote!(__guen::check_finite(constants[#i], #name)?;);
-        let bound = field.bound.map(|bound| check_bound(name, bound, &quote!(constants[#i])));
-        quote!(#finite #bound)
+        let bound = match field.bound {
+            None => quote!(None),
+            Some(bound) => {
+                let (words, kind, _) = words(name, bound);
+                quote!(#kind(#words))
+            }
+        };
+        quote!((#name, __guen::Bound::#bound))
     });
+    let given = quote!(__guen::check_constants(&constants, &[#(#bounds),*])?;);
     // A constant that is fixed to a number was checked when it was declared; one that is made of others is checked here.
     let graph = &subject.model.bench.graph;
     let fixes = subject.scene().map_or(&[][..], |(_, facts)| &facts.fixes);
@@ -235,17 +218,22 @@ fn checks(subject: &Subject<'_, '_>, fields: &[Field]) -> TokenStream {
             let [#(#locals),*] = constants;
         }
     });
-    quote!(#(#given)* #locals #(#fixed)*)
+    quote!(#given #locals #(#fixed)*)
 }
 
 fn check_bound(name: &str, bound: BoundKind, value: &TokenStream) -> TokenStream {
-    let check = match bound {
-        BoundKind::Positive => quote!(check_positive),
-        BoundKind::Nonnegative => quote!(check_nonnegative),
-        BoundKind::Nonzero => quote!(check_nonzero),
+    let (words, _, check) = words(name, bound);
+    quote!(__guen::#check(#value, #name, #words)?;)
+}
+
+/// A bound in words, its variant of `Bound`, and the function that checks it.
+fn words(name: &str, bound: BoundKind) -> (String, TokenStream, TokenStream) {
+    let (kind, check) = match bound {
+        BoundKind::Positive => (quote!(Positive), quote!(check_positive)),
+        BoundKind::Nonnegative => (quote!(Nonnegative), quote!(check_nonnegative)),
+        BoundKind::Nonzero => (quote!(Nonzero), quote!(check_nonzero)),
     };
-    let text = format!("{name} {}", bound.relation());
-    quote!(__guen::#check(#value, #name, #text)?;)
+    (format!("{name} {}", bound.relation()), kind, check)
 }
 
 /// `new` with the constants that have no default, and `Default` if all have one.

@@ -41,8 +41,6 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
 fn mass_form(layout: &Layout) -> TokenStream {
     let (parameter, given) = (inputs(layout).0, given(layout));
     let (l, count) = (layout.size - layout.n, layout.inputs);
-    let bias = l * (l + 1) / 2;
-    let input = bias + l;
     if l == 0 {
         return quote! {
             /// The equations of motion apart: there are none.
@@ -51,7 +49,7 @@ fn mass_form(layout: &Layout) -> TokenStream {
             }
         };
     }
-    quote!(__guen::mass_form!(#l, #count, #bias, #input #given);)
+    quote!(__guen::mass_form!(#l, #count #given);)
 }
 
 /// The parts of the equations, and the Jacobians of outputs.

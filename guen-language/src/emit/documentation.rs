@@ -35,8 +35,7 @@ pub(super) fn reported(report: &Report, docs: &Docs, is_whole: bool, item: &Toke
     // Editors show the documentation as text, and it would be stored in the compiled crate; rustdoc sets formulas. Those of
     // the system itself: of five scenes they would say little that is new.
     let kind = tokens(if is_whole { "page" } else { "text" });
-    let blocks = report.to_blocks();
-    let report = tokens(&format!("{blocks:?} {name:?} {summary:?} {{ {all} }} [{formulas}]"));
+    let report = tokens(&format!("{name:?} {summary:?} {{ {all} }} [{formulas}]"));
     quote!(__guen::reported! { #kind [#(#[doc = #values])* #blank] #report #item })
 }
 

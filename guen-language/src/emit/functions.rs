@@ -122,25 +122,28 @@ fn module(name: &str, programs: &Programs, more: &str, subject: &Subject<'_, '_>
     );
     let _ = write!(
         text,
-        "#[inline] pub(super) fn prepare<R: __guen::Real>(c: &[R; {constants}]) -> [R; {hoisted}] {{ {} }}",
+        "#[inline] pub(super) fn prepare<R: __guen::Real>(c: &c<R>) -> k<R> {{ {} }}",
         body(&programs.prepare, &programs.prepared, &places),
     );
-    text.push_str("__guen::program_functions! {");
+    let _ = write!(
+        text,
+        "__guen::program_functions! {{ c {constants} k {hoisted} s {size} x {n} y {all} w {n} u {inputs} a {l};"
+    );
     for program in &programs.functions {
         let signature = signature(&program.name);
         let places = if signature == Signature::Everywhere { &everywhere } else { &places };
         let given = match signature {
-            Signature::Constants => ";".to_owned(),
-            Signature::Position => format!("t; s {n}"),
-            Signature::Everywhere => format!("t; s {all}"),
-            Signature::Velocities => format!("t; s {n}, w {n}"),
-            Signature::State => format!("t; s {size}"),
-            Signature::Driven => format!("t; s {size}, u {inputs}"),
-            Signature::Accelerated => format!("t; s {size}, u {inputs}, a {l}"),
+            Signature::Constants => ";",
+            Signature::Position => "t; s x",
+            Signature::Everywhere => "t; s y",
+            Signature::Velocities => "t; s x w w",
+            Signature::State => "t; s s",
+            Signature::Driven => "t; s s u u",
+            Signature::Accelerated => "t; s s u u a a",
         };
         let _ = write!(
             text,
-            "{}(c {constants}, k {hoisted}; {given}) -> {} {{ {} }}",
+            "{}({given}) -> {} {{ {} }}",
             program.name,
             program.outputs.len(),
             body(&program.instructions, &program.outputs, places),

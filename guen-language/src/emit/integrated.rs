@@ -12,44 +12,13 @@ use crate::derive::{Subject, function};
 pub(super) fn guarded(subject: &Subject<'_, '_>, layout: &Layout, prepared: &TokenStream) -> TokenStream {
     let level = subject.level;
     let (size, n) = (layout.size, layout.n);
-    let positions: Vec<usize> = (0..n).collect();
     let program = |name: TokenStream, state: TokenStream| quote!(program::#name(&#prepared.constants, &#prepared.hoisted, t, #state));
-    let (energy, kinetic) =
-        (program(quote!(energy), quote!(state)), program(quote!(kinetic_energy), quote!(state)));
-    let potential = program(quote!(force_function), quote!(&x));
     // Only an energy that is kept is worth its price.
-    let (measured, energy, scale) = if layout.is_whole && level.derivation.conservative {
-        (
-            quote! {
-                let ([energy], [kinetic], [potential]) = (#energy, #kinetic, #potential);
-            },
-            quote!(::core::option::Option::Some(energy)),
-            quote!(__guen::Real::abs(kinetic) + __guen::Real::abs(potential)),
-        )
-    } else {
-        (quote!(), quote!(::core::option::Option::None), quote!(R::zero()))
-    };
-    let residual = if level.selection.holonomic.is_empty() {
-        quote!(R::zero())
-    } else {
-        let positions = rounded(
-            &quote!(positions),
-            prepared,
-            &quote!(__guen::RunningError::once(t)),
-            &quote!(&x.map(__guen::RunningError::once)),
-        );
-        quote!(__guen::furthest(&#positions))
-    };
+    let kept = (layout.is_whole && level.derivation.conservative).then(|| quote!(kept));
+    let held = (!level.selection.holonomic.is_empty()).then(|| quote!(positions));
     let edges = (level.edges > 0).then(|| {
         let count = level.edges;
-        let domain = rounded(&quote!(domain), prepared, &quote!(t), &quote!(state));
-        quote! {
-            #[inline]
-            fn singularities(&self, t: __guen::RunningError<R>, state: &[__guen::RunningError<R>; #size], values: &mut [__guen::RunningError<R>],
-            ) -> usize {
-                __guen::placed(values, &#domain, #count)
-            }
-        }
+        quote!(__guen::singularities!(#prepared; #size #count);)
     });
     let condition = level.program(function::MASS).map(|_| {
         let l = layout.l;
@@ -57,7 +26,7 @@ pub(super) fn guarded(subject: &Subject<'_, '_>, layout: &Layout, prepared: &Tok
         quote! {
             fn condition(&self, t: R, state: &[R; #size]) -> R {
                 <R as __guen::Real>::vectorize(#[inline(always)] || {
-                    let x: [R; #n] = [#(state[#positions]),*];
+                    let x: [R; #n] = __guen::head(state);
                     __guen::condition::<R, #l>(&#mass)
                 })
             }
@@ -65,17 +34,7 @@ pub(super) fn guarded(subject: &Subject<'_, '_>, layout: &Layout, prepared: &Tok
     });
     let prices = prices(subject, layout, &Looks::of(subject, layout));
     quote! {
-        fn conserved(&self, t: R, state: &[R; #size]) -> __guen::Invariants<R> {
-            <R as __guen::Real>::vectorize(#[inline(always)] || {
-                let x: [R; #n] = [#(state[#positions]),*];
-                let _ = (t, &x);
-                #measured
-                __guen::Invariants {
-                    energy: #energy, scale: #scale, residual: #residual, carried: R::zero(),
-                }
-            })
-        }
-
+        __guen::conserved!(#prepared; #n #size [#kept] [#held]);
         #edges
 
         #condition
@@ -192,19 +151,14 @@ pub(super) fn differentiable(layout: &Layout, has_code: bool) -> TokenStream {
 }
 
 /// The trait `Simulate` of what steppers integrate: its states have named fields.
-pub(super) fn simulate(owner: &TokenStream, size: usize, domain: bool, positions: bool) -> TokenStream {
+pub(super) fn simulate(layout: &Layout, domain: bool, positions: bool) -> TokenStream {
+    let (owner, size) = (owner(layout), layout.size);
+    let domain = domain.then(|| quote!(DOMAIN));
     let positions = positions.then(|| quote!(__guen::onto_constraints!(#size);));
-    let domain = domain.then(|| {
-        quote!(
-            const DOMAIN: &'static [&'static ::core::primitive::str] = &DOMAIN;
-        )
-    });
-    quote! {
-        impl<R: __guen::Real> __guen::Simulate<R, #size> for #owner {
-            type State = State<R>;
-            const STATES: &'static [&'static ::core::primitive::str] = &State::<::core::primitive::f64>::NAMES;
-            #domain
-            #positions
-        }
-    }
+    quote!(__guen::simulated! { #owner #size [#domain] #positions })
+}
+
+/// The name of what steppers integrate.
+pub(super) fn owner(layout: &Layout) -> TokenStream {
+    if layout.inputs == 0 { quote!(Prepared) } else { quote!(Driven) }
 }

@@ -48,10 +48,15 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
                 }
             }
         });
-        quote! {
-            impl<R: __guen::Real> __guen::Level<R, #size, #full> for #owner {
+        let of_scene = (!layout.is_whole).then(|| {
+            quote! {
                 const PLACES: [usize; #size] = [#(#places),*];
                 const QUADRATURES: &'static [&'static [usize]] = &[#(#layers),*];
+            }
+        });
+        quote! {
+            impl<R: __guen::Real> __guen::Level<R, #size, #full> for #owner {
+                #of_scene
                 const INFO: __guen::LevelInfo = INFO;
                 #hold
                 #determine
@@ -62,13 +67,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let driven = (layout.inputs > 0).then(|| owner(quote!(Driven<R>), quote!(self.system)));
     let conversions = (!layout.is_whole).then(|| conversions(subject, layout));
     quote! {
-        /// The cost of this level of detail.
-        pub const INFO: __guen::LevelInfo = __guen::LevelInfo {
-            name: #name,
-            variables: &State::<f64>::NAMES,
-            cost: COST,
-            prepare_cost: PREPARE_COST,
-        };
+        __guen::level_info!(#name);
         #prepared
         #driven
         #conversions
@@ -83,15 +82,7 @@ pub(super) fn table(model: &Model<'_>, scenes: &[Level]) -> TokenStream {
         .map(|facts| module_name(&model.scenes[facts.index].scene.name.ident, "scene"))
         .collect();
     let count = 1 + modules.len();
-    quote! {
-        /// The system and its scenes, in the order of the declaration: what each costs.
-        pub const LEVELS: [__guen::LevelInfo; #count] = [INFO, #(#modules::INFO),*];
-
-        /// The system and its scenes side by side, as a table to print.
-        pub const fn levels() -> __guen::Levels {
-            __guen::Levels(&LEVELS)
-        }
-    }
+    quote!(__guen::levels!(#count #(#modules)*);)
 }
 
 fn conversions(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {

@@ -1,11 +1,14 @@
 //! The exact linearisations of rates and outputs: by code of their own, or by dual numbers where that would be long.
 
+use std::fmt::Write;
+use std::ops::Range;
+
 use guen_symbolic::Pattern;
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
 use super::layout::{Layout, inputs};
-use super::text::cost;
+use super::text::{cost, tokens};
 use crate::derive::{Subject, function};
 
 pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
@@ -95,10 +98,8 @@ impl Target<'_> {
             Some(pattern) => {
                 let cells = cells(pattern, rows, size, count);
                 let body = quote! {
-                    let entries = program::#code(
-                        &self.constants, &self.hoisted, t, &::core::convert::From::from(*state), #argument,
-                    );
-                    let _ = &entries;
+                    let e = program::#code(&self.constants, &self.hoisted, t, &state.__guen_array(), #argument);
+                    let _ = &e;
                     #cells
                 };
                 (quote!(), body)
@@ -121,27 +122,28 @@ fn ident(name: &str) -> Ident {
 
 /// The matrices from the entries that do not vanish.
 fn cells(pattern: &Pattern, rows: usize, size: usize, count: usize) -> TokenStream {
-    let (mut by_state, mut by_input) = (Vec::new(), Vec::new());
+    let mut places = vec![vec![None; size + count]; rows];
     for (k, (row, column)) in pattern.iter().enumerate() {
-        if *column < size {
-            by_state.push(quote!(#row #column #k));
-        } else {
-            let column = column - size;
-            by_input.push(quote!(#row #column #k));
+        places[*row][*column] = Some(k);
+    }
+    // As text, which is quicker than tokens: a literal of arrays, which the compiler checks quicker than assignments.
+    let matrix = |name: &str, columns: Range<usize>| {
+        let mut text = format!("let {name} = [");
+        for row in &places {
+            text.push('[');
+            for place in &row[columns.clone()] {
+                let _ = match place {
+                    Some(k) => write!(text, "e[{k}],"),
+                    None => write!(text, "z,"),
+                };
+            }
+            text.push_str("],");
         }
-    }
-    let declared = |name: &str, columns: usize, none: bool| {
-        let name = ident(name);
-        let mutable = (!none).then(|| quote!(mut));
-        quote!(let #mutable #name = [[R::zero(); #columns]; #rows];)
+        text.push_str("];");
+        text
     };
-    let state = declared("by_state", size, by_state.is_empty());
-    let input = declared("by_input", count, by_input.is_empty());
-    quote! {
-        #state #input
-        __guen::cells!(by_state, entries: #(#by_state),*);
-        __guen::cells!(by_input, entries: #(#by_input),*);
-    }
+    let (state, input) = (matrix("by_state", 0..size), matrix("by_input", size..size + count));
+    tokens(&format!("let z = R::zero(); let _ = z; {state} {input}"))
 }
 
 /// The matrices by one evaluation in duals, whose directions are the entries of the state and then the inputs: rustc compiles one

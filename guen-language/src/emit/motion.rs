@@ -3,8 +3,8 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
+use super::integrated;
 use super::layout::{Layout, given, given_alone, inputs};
-use super::{integrated, limits};
 use crate::derive::{Subject, function};
 use crate::model::FormKind;
 
@@ -14,7 +14,6 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let chosen = chosen(subject, layout);
     let domain = domain(subject, layout);
     let residuals = residuals(subject, layout);
-    let pivots = pivots(subject);
     let systems = systems(subject, layout);
     let state = layout.is_whole.then(|| state(subject, layout));
     quote! {
@@ -24,7 +23,6 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
             #chosen
             #domain
             #residuals
-            #pivots
         }
         #state
         #systems
@@ -78,8 +76,6 @@ fn domain(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
 /// of the holonomic ones whose coordinates it has.
 fn residuals(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let holonomic = &subject.level.selection.holonomic;
-    let (n, size) = (layout.n, layout.size);
-    let positions: Vec<usize> = (0..n).collect();
     let at_positions = (!holonomic.is_empty())
         .then(|| quote!(let positions = program::positions(&self.constants, &self.hoisted, t, &x);));
     if !layout.is_whole {
@@ -87,8 +83,7 @@ fn residuals(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
             quote! {
                 /// Returns the residuals of the holonomic constraints at a state.
                 pub fn residuals(&self, t: R, state: &State<R>) -> Residuals<R> {
-                    let s: [R; #size] = ::core::convert::From::from(*state);
-                    let x = [#(s[#positions]),*];
+                    let x = __guen::first(&state.__guen_array());
                     #at_positions
                     ::core::convert::From::from(positions)
                 }
@@ -121,8 +116,8 @@ fn residuals(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     quote! {
         /// Returns the residuals of all constraints at a state.
         pub fn residuals(&self, t: R, state: &State<R>) -> Residuals<R> {
-            let s: [R; #size] = ::core::convert::From::from(*state);
-            let x = [#(s[#positions]),*];
+            let s = state.__guen_array();
+            let x = __guen::first(&s);
             let velocities = program::velocities(&self.constants, &self.hoisted, t, &s);
             let forms = program::forms(&self.constants, &self.hoisted, t, &x, &velocities);
             #at_positions
@@ -132,77 +127,39 @@ fn residuals(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     }
 }
 
-/// Pivots that depend on constants alone.
-fn pivots(subject: &Subject<'_, '_>) -> TokenStream {
+/// The checks of pivots that depend on constants alone, where `constants` and `hoisted` are at hand.
+pub(super) fn pivots(subject: &Subject<'_, '_>) -> Option<TokenStream> {
     let Subject { model, level } = subject;
     let texts: Vec<String> = level.constant_pivots.iter().map(|e| model.bench.graph.text(*e)).collect();
     let indices = 0..texts.len();
-    let limits = limits::has_any(subject).then(|| quote!(self.check_limits()?;));
-    let values =
-        (!texts.is_empty()).then(|| quote!(let pivots = program::pivots(&self.constants, &self.hoisted);));
-    quote! {
-        fn check_pivots(&self) -> ::core::result::Result<(), __guen::ConstantsError> {
-            #values
+    (!texts.is_empty()).then(|| {
+        quote! {
+            let pivots = program::pivots(&constants, &hoisted);
             #(__guen::check_pivot(pivots[#indices], #texts)?;)*
-            #limits
-            for value in &self.hoisted {
-                __guen::check_hoisted(*value)?;
-            }
-            ::core::result::Result::Ok(())
         }
-    }
+    })
 }
 
 /// `State::from_velocities`.
 fn state(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
-    let Layout { n, l, size, state, .. } = layout;
+    let Layout { n, l, size, .. } = layout;
     let constraints = subject.model.forms.len() - l;
-    let fields = &state[..*n];
-    quote!(__guen::state_of_system!(#n, #l, #size, #constraints: #(#fields)*);)
+    quote!(__guen::state_of_system!(#n, #l, #size, #constraints);)
 }
 
 /// The prepared system, or the system with held inputs, as something that steppers integrate.
 fn systems(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let (size, n) = (layout.size, layout.n);
-    let positions: Vec<usize> = (0..n).collect();
     let selection = &subject.level.selection;
-    let residual = |prepared: &TokenStream| {
-        if selection.holonomic.is_empty() {
-            return quote! {
-                fn residual(&self, _t: R, _state: &[R; #size]) -> R {
-                    R::zero()
-                }
-            };
-        }
-        quote! {
-            fn residual(&self, t: R, state: &[R; #size]) -> R {
-                let x = [#(state[#positions]),*];
-                __guen::largest(&program::positions(&#prepared.constants, &#prepared.hoisted, t, &x))
-            }
-        }
-    };
-    let monitored = |owner: TokenStream, prepared: TokenStream| {
-        if !selection.energy {
-            return TokenStream::new();
-        }
-        let residual = residual(&prepared);
-        quote! {
-            impl<R: __guen::Real> __guen::Monitored<R, #size> for #owner {
-                fn energy(&self, t: R, state: &[R; #size]) -> R {
-                    let [value] = program::energy(&#prepared.constants, &#prepared.hoisted, t, state);
-                    value
-                }
-
-                #residual
-            }
-        }
-    };
+    let monitored = selection.energy.then(|| {
+        let (owner, inner) = (integrated::owner(layout), (layout.inputs > 0).then(|| quote!(.system)));
+        let positions = (!selection.holonomic.is_empty()).then(|| quote!(, #n));
+        quote!(__guen::monitored!(#owner, |owner| owner #inner, #size #positions);)
+    });
     if layout.inputs == 0 {
-        let (owner, prepared) = (quote!(Prepared<R>), quote!(self));
-        let guarded = integrated::guarded(subject, layout, &prepared);
+        let guarded = integrated::guarded(subject, layout, &quote!(self));
         let differentiable = integrated::differentiable(layout, subject.level.jacobians.rates.is_some());
-        let simulate = integrated::simulate(&owner, size, true, !selection.holonomic.is_empty());
-        let monitored = monitored(owner, prepared);
+        let simulate = integrated::simulate(layout, true, !selection.holonomic.is_empty());
         return quote! {
             impl<R: __guen::Real> __guen::System<R, #size> for Prepared<R> {
                 #[inline]
@@ -217,11 +174,9 @@ fn systems(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
             #simulate
         };
     }
-    let (owner, prepared) = (quote!(Driven<R>), quote!(self.system));
-    let guarded = integrated::guarded(subject, layout, &prepared);
+    let guarded = integrated::guarded(subject, layout, &quote!(self.system));
     let differentiable = integrated::differentiable(layout, subject.level.jacobians.rates.is_some());
-    let simulate = integrated::simulate(&owner, size, true, !selection.holonomic.is_empty());
-    let monitored = monitored(owner, prepared);
+    let simulate = integrated::simulate(layout, true, !selection.holonomic.is_empty());
     quote! {
         /// A prepared system with inputs that are held: what steppers integrate during a step.
         #[::core::prelude::v1::derive(

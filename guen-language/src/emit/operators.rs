@@ -15,18 +15,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     }
     let n = layout.all;
     let last = subject.model.last_operator();
-    let mut text = format!(
-        "/// The commutator `(X_I, X_J) = sum_t C_IJt X_t`, (1.14), for `I` and `J` from 0 to {last}.
-        ///
-        /// What the derivation knows of each coefficient is in `COEFFICIENTS`, their values come from
-        /// `coefficients`.
-        #[::core::prelude::v1::derive(
-            ::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::default::Default,
-            ::core::cmp::PartialEq, ::core::cmp::Eq
-        )]
-        pub struct Bracket<const I: usize, const J: usize>;
-        __guen::operators! {{ {n} {last}"
-    );
+    let mut text = format!("__guen::operators! {{ {n} {last}");
     for j in 0..=n {
         let docs = match j {
             0 => "The operator `X_0 = d/dt + sum_i xi_0^i d/dx_i`: what happens by itself, (1.7).".to_owned(),

@@ -13,16 +13,16 @@ use crate::model::Identifiers;
 
 pub(super) fn items(identifiers: &Identifiers) -> TokenStream {
     let Identifiers { declared, used, unused } = identifiers;
-    let count = used.len();
+    let unused = (!unused.is_empty()).then(|| {
+        quote! {
+            #[allow(dead_code, reason = "for the compiler's lint: it is never called")]
+            fn __guen_nothing_is_ignored_in_silence() {
+                #(let #unused = ();)*
+            }
+        }
+    });
     quote! {
-        #[allow(dead_code, reason = "for editors: it is never called")]
-        fn __guen_uses_lead_to_declarations() {
-            #(static #declared: () = ();)*
-            let _: [(); #count] = [#(#used),*];
-        }
-        #[allow(dead_code, reason = "for the compiler's lint: it is never called")]
-        fn __guen_nothing_is_ignored_in_silence() {
-            #(let #unused = ();)*
-        }
+        __guen::uses!(#(#declared)*; #(#used)*);
+        #unused
     }
 }

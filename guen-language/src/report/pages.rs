@@ -55,15 +55,6 @@ pub fn set(page: &str) -> String {
 }
 
 impl Report {
-    /// The whole as Markdown for editors, which show text as it is.
-    pub fn to_blocks(&self) -> String {
-        let mut text = format!("{}\n", self.summary);
-        for section in &self.sections {
-            text.push_str(&format!("\n# {}\n\n```text\n{}\n```\n", section.title, section.text.join("\n")));
-        }
-        text
-    }
-
     /// The whole as Markdown for rustdoc: formulas as LaTeX between `$$`, for [`set`] to set, and what is longer than a few
     /// lines as text.
     pub fn to_page(&self) -> String {

@@ -4,7 +4,7 @@ use core::error::Error;
 use core::fmt;
 
 use crate::linear_algebra::dense::{Basis, apply, dot, largest, length, transpose};
-use crate::numbers::real::Ordered;
+use crate::numbers::real::{Ordered, Real};
 
 /// The equations of motion as controllers use them:
 ///
@@ -21,6 +21,30 @@ pub struct MassForm<R, const L: usize, const M: usize> {
     pub bias: [R; L],
     /// `G`, the derivatives of the generalised forces by the inputs, `L` by `M`.
     pub input: [[R; M]; L],
+}
+
+impl<R: Real, const L: usize, const M: usize> MassForm<R, L, M> {
+    /// Reads the lower triangle of the mass matrix row by row, the bias, and the matrix of the inputs row by row.
+    ///
+    /// ```
+    /// use guen_runtime::control::MassForm;
+    /// let form = MassForm::<f64, 2, 1>::unpacked(&[2.0, 0.5, 3.0, 0.0, 9.81, 1.0, 0.0]);
+    /// assert_eq!(form.mass, [[2.0, 0.5], [0.5, 3.0]]);
+    /// assert_eq!((form.bias, form.input), ([0.0, 9.81], [[1.0], [0.0]]));
+    /// ```
+    ///
+    /// Zeros stand where the list ends before.
+    pub fn unpacked(entries: &[R]) -> Self {
+        let (bias, input) = (L * (L + 1) / 2, L * (L + 1) / 2 + L);
+        let at = |i: usize| entries.get(i).copied().unwrap_or_else(R::zero);
+        let entry =
+            |s: usize, k: usize| if s < k { at(k * (k + 1) / 2 + s) } else { at(s * (s + 1) / 2 + k) };
+        Self {
+            mass: core::array::from_fn(|s| core::array::from_fn(|k| entry(s, k))),
+            bias: core::array::from_fn(|s| at(bias + s)),
+            input: core::array::from_fn(|s| core::array::from_fn(|j| at(input + s * M + j))),
+        }
+    }
 }
 
 /// Why there are no inputs that produce the accelerations, or none were found.

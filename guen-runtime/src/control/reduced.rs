@@ -215,7 +215,30 @@ pub struct Leaf<'a, R, const N: usize, const H: usize> {
     pub names: &'a [&'static str],
 }
 
-impl<R: Ordered, const N: usize, const H: usize> Leaf<'_, R, N, H> {
+impl<'a, R: Ordered, const N: usize, const H: usize> Leaf<'a, R, N, H> {
+    /// The leaf of a state, whose first entries are the coordinates, with the differentials row by row.
+    ///
+    /// ```
+    /// use guen_runtime::control::Leaf;
+    /// let leaf = Leaf::<f64, 2, 1>::at(&[1.0, 2.0, 0.5], [0.5, 0.0], &[0.0, 1.0], &[], [false; 2], &[]);
+    /// assert_eq!((leaf.coordinates, leaf.rows), ([1.0, 2.0], [[0.0, 1.0]]));
+    /// ```
+    ///
+    /// Zeros stand where a list ends before.
+    pub fn at(
+        state: &[R],
+        velocities: [R; N],
+        differentials: &[R],
+        quaternions: &'a [Quaternion],
+        independent: [bool; N],
+        names: &'a [&'static str],
+    ) -> Self {
+        let of = |list: &[R], i: usize| list.get(i).copied().unwrap_or_else(R::zero);
+        let rows = core::array::from_fn(|row| core::array::from_fn(|i| of(differentials, row * N + i)));
+        let coordinates = core::array::from_fn(|i| of(state, i));
+        Self { coordinates, velocities, rows, quaternions, independent, names }
+    }
+
     /// The linear model in a basis of the leaf.
     ///
     /// ```text

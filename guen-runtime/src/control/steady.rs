@@ -64,6 +64,32 @@ pub struct SteadyMotion<const N: usize, const M: usize> {
     pub fixed_inputs: [bool; M],
 }
 
+impl<const N: usize, const M: usize> SteadyMotion<N, M> {
+    /// Names what drifts and what stays, out of the names of the state and of the inputs.
+    ///
+    /// ```
+    /// use guen_runtime::control::{SteadyError, SteadyMotion};
+    /// let held = SteadyMotion::of_names(&["x"], &["f"], &["x", "v"], &["f"]).unwrap();
+    /// assert_eq!(held.drifting, [true, false]);
+    /// assert_eq!((held.fixed_states, held.fixed_inputs), ([false, false], [true]));
+    /// assert_eq!(SteadyMotion::of_names(&["f"], &[], &["x"], &["f"]), Err(SteadyError::UnknownName { name: "f" }));
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// [`SteadyError::UnknownName`].
+    pub fn of_names(
+        drifting: &[&'static str],
+        fixed: &[&'static str],
+        states: &[&'static str; N],
+        inputs: &[&'static str; M],
+    ) -> Result<Self, SteadyError> {
+        let (drifting, _) = named(drifting, states, &[])?;
+        let (fixed_states, fixed_inputs) = named(fixed, states, inputs)?;
+        Ok(Self { drifting, fixed_states, fixed_inputs })
+    }
+}
+
 /// Finds names among those of the state and of the inputs.
 ///
 /// # Errors

@@ -1,20 +1,68 @@
 //! Checks that generated code calls, out of line.
 
+use core::fmt;
+
 pub use crate::generated::condition::condition;
 use crate::system::constants_error::BodyFault;
 use crate::{ConstantsError, Ordered, Real, RunningError};
 
-/// The name of a field without the `r#` of one that is a keyword.
+/// The names of fields without the `r#` of those that are keywords.
 ///
 /// ```
-/// assert_eq!(guen_runtime::checks::plain("r#type"), "type");
-/// assert_eq!(guen_runtime::checks::plain("theta"), "theta");
+/// assert_eq!(guen_runtime::checks::plain(["r#type", "theta"]), ["type", "theta"]);
 /// ```
-pub const fn plain(field: &'static str) -> &'static str {
-    match field.as_bytes() {
-        [b'r', b'#', ..] => field.split_at(2).1,
-        _ => field,
+pub const fn plain<const N: usize>(mut fields: [&'static str; N]) -> [&'static str; N] {
+    let mut i = 0;
+    while i < N {
+        if let [b'r', b'#', ..] = fields[i].as_bytes() {
+            fields[i] = fields[i].split_at(2).1;
+        }
+        i += 1;
     }
+    fields
+}
+
+/// Writes a struct of reals as `derive(Debug)` does.
+///
+/// ```
+/// use core::fmt;
+/// use guen_runtime::checks::show;
+///
+/// struct Point([f64; 2]);
+/// impl fmt::Debug for Point {
+///     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+///         show(f, "Point", &["x", "y"], &self.0)
+///     }
+/// }
+/// assert_eq!(format!("{:?}", Point([1.0, 2.5])), "Point { x: 1.0, y: 2.5 }");
+/// ```
+///
+/// # Errors
+///
+/// Those of the formatter.
+pub fn show<R: fmt::Debug>(
+    f: &mut fmt::Formatter<'_>,
+    name: &str,
+    fields: &[&str],
+    values: &[R],
+) -> fmt::Result {
+    let mut all = f.debug_struct(name);
+    for (field, value) in fields.iter().zip(values) {
+        all.field(field, value);
+    }
+    all.finish()
+}
+
+/// Whether each entry equals its counterpart, as in the `==` of arrays.
+///
+/// ```
+/// use guen_runtime::checks::equal;
+/// assert!(equal(&[1.0, 2.0], &[1.0, 2.0]));
+/// assert!(!equal(&[1.0, f64::NAN], &[1.0, f64::NAN]));
+/// ```
+#[inline]
+pub fn equal<R: PartialEq, const N: usize>(a: &[R; N], b: &[R; N]) -> bool {
+    a == b
 }
 
 /// Refuses a constant that is not finite.
@@ -95,6 +143,48 @@ fn bounded<R: Real>(
     if holds(value) { Ok(()) } else { Err(ConstantsError::OutOfBound { name, bound, value }) }
 }
 
+/// The bound of a constant, with its words.
+///
+/// ```
+/// use guen_runtime::checks::{Bound, check_constants};
+/// let bounds = [("a", Bound::Positive("a > 0")), ("g", Bound::None)];
+/// assert!(check_constants(&[1.0, -9.81], &bounds).is_ok());
+/// assert!(check_constants(&[0.0, -9.81], &bounds).is_err());
+/// assert!(check_constants(&[1.0, f64::NAN], &bounds).is_err());
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Bound {
+    /// Any number.
+    None,
+    /// A number above zero.
+    Positive(&'static str),
+    /// Zero, or a number above it.
+    Nonnegative(&'static str),
+    /// Any number but zero.
+    Nonzero(&'static str),
+}
+
+/// Refuses constants that are not finite or outside of their bounds; each has its name and bound.
+///
+/// # Errors
+///
+/// [`ConstantsError::NotFinite`] or [`ConstantsError::OutOfBound`] of the first of them.
+pub fn check_constants<R: Real, const N: usize>(
+    values: &[R; N],
+    bounds: &[(&'static str, Bound); N],
+) -> Result<(), ConstantsError> {
+    for (value, (name, bound)) in values.iter().zip(bounds) {
+        check_finite(*value, name)?;
+        match bound {
+            Bound::None => {}
+            Bound::Positive(words) => check_positive(*value, name, words)?,
+            Bound::Nonnegative(words) => check_nonnegative(*value, name, words)?,
+            Bound::Nonzero(words) => check_nonzero(*value, name, words)?,
+        }
+    }
+    Ok(())
+}
+
 /// Refuses a pivot of constants that is zero or not finite.
 ///
 /// ```
@@ -112,20 +202,23 @@ pub fn check_pivot<R: Real>(value: R, what: &'static str) -> Result<(), Constant
     Ok(())
 }
 
-/// Refuses a prepared value that is not finite.
+/// Refuses prepared values of which one is not finite.
 ///
 /// ```
-/// assert!(guen_runtime::checks::check_hoisted(f64::INFINITY).is_err());
+/// assert!(guen_runtime::checks::check_hoisted(&[1.0, f64::INFINITY]).is_err());
 /// ```
 ///
 /// # Errors
 ///
 /// [`ConstantsError::SingularPivot`]: constants are finite, so only a division can have made it so.
-pub fn check_hoisted<R: Real>(value: R) -> Result<(), ConstantsError> {
-    if value.is_finite() {
-        return Ok(());
+pub fn check_hoisted<R: Real, const N: usize>(values: &[R; N]) -> Result<(), ConstantsError> {
+    match values.iter().find(|value| !value.is_finite()) {
+        None => Ok(()),
+        Some(value) => Err(ConstantsError::SingularPivot {
+            what: "an expression of the constants",
+            value: value.to_f64(),
+        }),
     }
-    Err(ConstantsError::SingularPivot { what: "an expression of the constants", value: value.to_f64() })
 }
 
 /// Refuses a constant of a system that is not what a scene fixes it at.
@@ -350,6 +443,39 @@ pub fn symmetric<R: Real, const N: usize>(triangle: &[R]) -> [[R; N]; N] {
     matrix
 }
 
+/// Values of a state, rounded once.
+///
+/// ```
+/// use guen_runtime::{RunningError, checks::rounded_once};
+/// assert_eq!(rounded_once([1.5])[0], RunningError::once(1.5));
+/// ```
+#[inline]
+pub fn rounded_once<R: Real, const N: usize>(values: [R; N]) -> [RunningError<R>; N] {
+    values.map(RunningError::once)
+}
+
+/// Returns what is left of each value beside its rounding.
+///
+/// ```
+/// use guen_runtime::{RunningError, checks::left};
+/// let value = RunningError::once(2.0);
+/// assert_eq!(left([value]), [value.left()]);
+/// ```
+#[inline]
+pub fn left<R: Real, const N: usize>(values: [RunningError<R>; N]) -> [R; N] {
+    values.map(RunningError::left)
+}
+
+/// A row of a matrix that is stored row by row; zeros where it ends before.
+///
+/// ```
+/// assert_eq!(guen_runtime::checks::row::<f64, 2>(&[1.0, 2.0, 3.0, 4.0], 1), [3.0, 4.0]);
+/// ```
+#[inline]
+pub fn row<R: Real, const N: usize>(matrix: &[R], index: usize) -> [R; N] {
+    core::array::from_fn(|i| matrix.get(index * N + i).copied().unwrap_or_else(R::zero))
+}
+
 /// The first values of a list; zeros where there are no more.
 ///
 /// ```
@@ -362,6 +488,20 @@ pub fn first<R: Real, const N: usize>(values: &[R]) -> [R; N] {
         *first = *value;
     }
     first
+}
+
+/// The first values of an array, of which there are at least so many.
+///
+/// ```
+/// assert_eq!(guen_runtime::checks::head::<f64, 3, 2>(&[1.0, 2.0, 3.0]), [1.0, 2.0]);
+/// ```
+// Without a loop, in which guards would spend more than in what they check: the length is known when it is compiled.
+#[inline(always)]
+pub fn head<R: Real, const N: usize, const K: usize>(values: &[R; N]) -> [R; K] {
+    match values.first_chunk() {
+        Some(head) => *head,
+        None => first(values),
+    }
 }
 
 /// The values of a list, and behind them those of another as far as there is place.

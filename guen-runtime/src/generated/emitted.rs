@@ -8,23 +8,28 @@ mod facts;
 mod methods;
 mod motion;
 
-/// Straight-line functions of a module, each as `name(prepared; time; given) -> results { .. }`: names and lengths of the
-/// arrays of prepared values, the name of the time if the function depends on it, and the arrays of the state and what
-/// comes with it. The real is `R` in their bodies.
+/// Straight-line functions of a module: the arrays that they take with their lengths, the constants and the prepared values first,
+/// then each function as `name(time; given) -> results { .. }`, with the name of the time if the function depends on it, and the
+/// arrays of the state and what comes with it, a name and the array that it is. The real is `R` in their bodies.
+// A type for each array: a length in brackets would be a constant to check wherever it stands.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! program_functions {
-    ($(
-        $name:ident($($prepared:ident $p:literal),*; $($t:ident)?; $($given:ident $g:literal),*) -> $n:literal $body:tt
-    )*) => {$(
-        #[inline]
-        pub(super) fn $name<R: $crate::Real>(
-            $($prepared: &[R; $p],)* $($t: R,)? $($given: &[R; $g],)*
-        ) -> [R; $n] {
-            // The closure is compiled with the instructions of the real.
-            <R as $crate::Real>::vectorize(#[inline(always)] || $body)
-        }
-    )*};
+    (
+        $c:ident $constants:literal $k:ident $hoisted:literal $($array:ident $length:literal)*;
+        $($name:ident($($t:ident)?; $($given:ident $kind:ident)*) -> $n:literal $body:tt)*
+    ) => {
+        type $c<R> = [R; $constants];
+        type $k<R> = [R; $hoisted];
+        $(#[allow(dead_code, reason = "small systems use few of them")] type $array<R> = [R; $length];)*
+        $(
+            #[inline]
+            pub(super) fn $name<R: $crate::Real>($c: &$c<R>, $k: &$k<R>, $($t: R,)? $($given: &$kind<R>,)*) -> [R; $n] {
+                // The closure is compiled with the instructions of the real.
+                <R as $crate::Real>::vectorize(#[inline(always)] || $body)
+            }
+        )*
+    };
 }
 
 /// A struct of reals with conversions from and to an array, and the names of its fields: each field with its documentation
@@ -34,17 +39,36 @@ macro_rules! program_functions {
 macro_rules! record {
     ($(#[$($docs:tt)*])* $Record:ident $n:literal $($(#[$($doc:tt)*])* $field:ident $local:ident,)*) => {
         $(#[$($docs)*])*
-        #[::core::prelude::v1::derive(
-            ::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq,
-            ::core::default::Default
-        )]
+        #[::core::prelude::v1::derive(::core::clone::Clone, ::core::marker::Copy, ::core::default::Default)]
         pub struct $Record<R = f64> {
             $($(#[$($doc)*])* pub $field: R,)*
         }
 
         impl $Record<f64> {
             /// The names of the fields, in order.
-            pub const NAMES: [&'static str; $n] = [$($crate::checks::plain(::core::stringify!($field))),*];
+            pub const NAMES: [&'static str; $n] = $crate::checks::plain([$(::core::stringify!($field)),*]);
+        }
+
+        impl<R> $Record<R> {
+            #[inline]
+            fn __guen_array(self) -> [R; $n] {
+                [$(self.$field),*]
+            }
+        }
+
+        // By way of an array: the compiler has less to check than in what it would derive.
+        impl<R: ::core::fmt::Debug> ::core::fmt::Debug for $Record<R> {
+            fn fmt(&self, f: &mut ::core::fmt::Formatter<'_>) -> ::core::fmt::Result {
+                let values = [$(&self.$field),*];
+                $crate::checks::show(f, ::core::stringify!($Record), &$Record::<f64>::NAMES, &values)
+            }
+        }
+
+        impl<R: ::core::cmp::PartialEq> ::core::cmp::PartialEq for $Record<R> {
+            #[inline]
+            fn eq(&self, other: &Self) -> bool {
+                $crate::checks::equal(&[$(&self.$field),*], &[$(&other.$field),*])
+            }
         }
 
         impl<R> ::core::convert::From<[R; $n]> for $Record<R> {
@@ -57,7 +81,7 @@ macro_rules! record {
         impl<R> ::core::convert::From<$Record<R>> for [R; $n] {
             #[inline]
             fn from(record: $Record<R>) -> Self {
-                [$(record.$field),*]
+                record.__guen_array()
             }
         }
     };
@@ -74,6 +98,18 @@ macro_rules! operators {
         $($docs:literal $X:ident $j:literal)*;
         $($r:literal $s:literal [$($known:tt)*])*
     ) => {
+        #[doc = ::core::concat!(
+            "The commutator `(X_I, X_J) = sum_t C_IJt X_t`, (1.14), for `I` and `J` from 0 to ", $last, "."
+        )]
+        ///
+        /// What the derivation knows of each coefficient is in `COEFFICIENTS`, their values come from
+        /// `coefficients`.
+        #[::core::prelude::v1::derive(
+            ::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::default::Default,
+            ::core::cmp::PartialEq, ::core::cmp::Eq
+        )]
+        pub struct Bracket<const I: usize, const J: usize>;
+
         impl $crate::Frame<$n> for Prepared<f64> {
             type Over<B: $crate::Real> = Prepared<B>;
             const LAST: usize = $last;
@@ -88,8 +124,7 @@ macro_rules! operators {
                 prepared: &Prepared<B>, t: R, x: &[R; $n], index: usize,
             ) -> [R; $n] {
                 let lifted: Prepared<R> = prepared.lift();
-                let all = program::operators(&lifted.constants, &lifted.hoisted, t, x);
-                ::core::array::from_fn(|i| all[index * $n + i])
+                $crate::checks::row(&program::operators(&lifted.constants, &lifted.hoisted, t, x), index)
             }
 
             #[inline]
@@ -133,8 +168,7 @@ macro_rules! values_of_brackets {
     }};
     ($prepared:ident, $t:ident, $x:ident, $place:ident, $n:literal, $($some:literal)+) => {{
         let lifted: Prepared<R> = $prepared.lift();
-        let all = program::brackets(&lifted.constants, &lifted.hoisted, $t, $x);
-        ::core::array::from_fn(|i| all[$place * $n + i])
+        $crate::checks::row::<_, $n>(&program::brackets(&lifted.constants, &lifted.hoisted, $t, $x), $place)
     }};
 }
 

@@ -49,12 +49,6 @@ pub struct ReportSection {
 }
 
 impl ReportSection {
-    /// The section with its formulas as its lines.
-    #[doc(hidden)]
-    pub const fn of_formulas(&self) -> Self {
-        Self { lines: self.formulas, ..*self }
-    }
-
     /// The lines that are no formulas.
     fn words(&self) -> &'static [&'static str] {
         self.lines.get(self.formulas.len()..).unwrap_or(&[])
@@ -62,6 +56,19 @@ impl ReportSection {
 }
 
 impl Report {
+    /// The sections at these places, with their formulas as their lines.
+    #[doc(hidden)]
+    pub const fn of_formulas<const N: usize>(&self, places: [usize; N]) -> [ReportSection; N] {
+        let mut sections = [ReportSection { title: "", lines: &[], formulas: &[] }; N];
+        let mut i = 0;
+        while i < N {
+            let section = self.sections[places[i]];
+            sections[i] = ReportSection { lines: section.formulas, ..section };
+            i += 1;
+        }
+        sections
+    }
+
     /// The lines of the first section whose title begins with these words; none if there is no such section.
     pub fn lines(&self, title: &str) -> &'static [&'static str] {
         self.sections

@@ -33,12 +33,12 @@ use crate::numbers::real::Real;
     note = "the levels of a system are it and its scenes, prepared"
 )]
 pub trait Level<R: Real, const N: usize, const FULL: usize> {
-    /// The place of each variable of the level in a state of the system, in their order.
-    const PLACES: [usize; N];
+    /// The place of each variable of the level in a state of the system, in their order; of the system itself each its own.
+    const PLACES: [usize; N] = own_places();
 
     /// Variables that the level leaves out and that are integrals of what it keeps: in layers, the rates of each depend
     /// on time, on what is kept and on the layers before. They can be recovered from a recorded run.
-    const QUADRATURES: &'static [&'static [usize]];
+    const QUADRATURES: &'static [&'static [usize]] = &[];
 
     /// Coordinates that the level leaves out and that holonomic equations say of what it keeps.
     const DETERMINED: &'static [usize] = &[];
@@ -88,6 +88,17 @@ impl<R: Real, S: Level<R, N, FULL>, const N: usize, const FULL: usize> Level<R, 
     fn determine(&self, t: R, state: &[R; N], full: &mut [R; FULL]) {
         (**self).determine(t, state, full);
     }
+}
+
+/// The place of each variable in a state that has it at its own.
+const fn own_places<const N: usize>() -> [usize; N] {
+    let mut places = [0; N];
+    let mut i = 0;
+    while i < N {
+        places[i] = i;
+        i += 1;
+    }
+    places
 }
 
 /// The cost of a level of detail, counted when it was generated.

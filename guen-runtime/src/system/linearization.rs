@@ -102,3 +102,40 @@ pub trait Liftable<B: Real, const N: usize, const M: usize> {
 pub fn seeded<R: Real, const N: usize>(values: &[R; N]) -> [Dual<R, N>; N] {
     core::array::from_fn(|i| Dual::variable(values[i], i))
 }
+
+/// The time and the state as duals, with the rates at which they change.
+///
+/// ```
+/// use guen_runtime::moving;
+/// let (t, [x]) = moving(0.5, &[2.0], 1.0, &[3.0]);
+/// assert_eq!((t * x).tangent, [3.5]);
+/// ```
+pub fn moving<R: Real, const N: usize>(
+    t: R,
+    state: &[R; N],
+    dt: R,
+    dx: &[R; N],
+) -> (Dual<R, 1>, [Dual<R, 1>; N]) {
+    let state = core::array::from_fn(|i| Dual { value: state[i], tangent: [dx[i]] });
+    (Dual { value: t, tangent: [dt] }, state)
+}
+
+/// The rates of change of duals with one direction.
+///
+/// ```
+/// use guen_runtime::{Dual, slopes};
+/// assert_eq!(slopes([Dual { value: 2.0, tangent: [3.0] }]), [3.0]);
+/// ```
+pub fn slopes<R: Real, const N: usize>(values: [Dual<R, 1>; N]) -> [R; N] {
+    values.map(|value| value.tangent[0])
+}
+
+/// The tangents of duals, a row for each.
+///
+/// ```
+/// use guen_runtime::{Dual, tangents};
+/// assert_eq!(tangents([Dual { value: 2.0, tangent: [3.0, 4.0] }]), [[3.0, 4.0]]);
+/// ```
+pub fn tangents<R: Real, const N: usize, const D: usize>(values: [Dual<R, D>; N]) -> [[R; D]; N] {
+    values.map(|value| value.tangent)
+}

@@ -226,7 +226,9 @@ pub trait Monitored<R: Real, const N: usize>: System<R, N> {
 
     /// The largest absolute value among the left sides `f(t, x)` of the holonomic constraints `f = 0`, each in
     /// its own unit; zero for a system without any.
-    fn residual(&self, t: R, state: &[R; N]) -> R;
+    fn residual(&self, _t: R, _state: &[R; N]) -> R {
+        R::zero()
+    }
 }
 
 impl<R: Real, S: Monitored<R, N> + ?Sized, const N: usize> Monitored<R, N> for &S {

@@ -54,28 +54,28 @@ macro_rules! facts {
 }
 
 /// A struct with its documentation, and `REPORT` and `LATEX`: the report once, from which rustdoc's page is made, too. The user's
-/// own documentation, the text for editors, name, summary, sections, the places of those with formulas, and the struct.
+/// own documentation, name, summary, sections, the places of those with formulas, and the struct.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! reported {
     (
-        page [$($docs:tt)*] $text:literal $name:literal $summary:tt
+        page [$($docs:tt)*] $name:literal $summary:tt
         { $($title:tt [$($line:tt)*] [$($formula:tt)*])* } [$($place:literal)*] $($item:tt)*
     ) => {
         $($docs)*
-        #[cfg_attr(not(doc), doc = $text)]
+        #[cfg_attr(not(doc), doc = $crate::text_of_report!($summary $($title [$($line)*])*))]
         #[cfg_attr(doc, doc = __guen::page!($summary $($title [$($line)*] [$($formula)*])*))]
         $($item)*
         $crate::reported! { @ $name $summary { $($title [$($line)*] [$($formula)*])* } [$($place)*] }
     };
     (
-        text [$($docs:tt)*] $text:literal $name:literal $summary:tt
-        { $($sections:tt)* } [$($place:literal)*] $($item:tt)*
+        text [$($docs:tt)*] $name:literal $summary:tt
+        { $($title:tt [$($line:tt)*] [$($formula:tt)*])* } [$($place:literal)*] $($item:tt)*
     ) => {
         $($docs)*
-        #[doc = $text]
+        #[doc = $crate::text_of_report!($summary $($title [$($line)*])*)]
         $($item)*
-        $crate::reported! { @ $name $summary { $($sections)* } [$($place)*] }
+        $crate::reported! { @ $name $summary { $($title [$($line)*] [$($formula)*])* } [$($place)*] }
     };
     (
         @ $name:literal $summary:tt { $($title:tt [$($line:tt)*] [$($formula:tt)*])* } [$($place:literal)*]
@@ -92,7 +92,109 @@ macro_rules! reported {
         pub const LATEX: $crate::Report = $crate::Report {
             name: $name,
             summary: $summary,
-            sections: &[$(REPORT.sections[$place].of_formulas()),*],
+            sections: &REPORT.of_formulas([$($place),*]),
         };
     };
+}
+
+/// The report as Markdown for editors, which show text as it is: the summary, and the title and lines of each section.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! text_of_report {
+    ($summary:tt $($title:tt [$($line:tt)*])*) => {
+        ::core::concat!($summary, "\n" $(, "\n# ", $title, "\n\n```text\n" $(, $line, "\n")*, "```\n")*)
+    };
+}
+
+/// A function that is never called, in which names refer to statics at their declarations: for editors.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! uses {
+    ($($declared:ident)*; $($used:ident)*) => {
+        #[allow(dead_code, reason = "for editors: it is never called")]
+        fn __guen_uses_lead_to_declarations() {
+            $(static $declared: () = ();)*
+            let _ = [$($used),*];
+        }
+    };
+}
+
+/// The trait `Simulate` of what steppers integrate: its states have named fields. With the number of states, and the names of the
+/// functions that must not vanish where there are some, and what leads back onto constraints on positions.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! simulated {
+    ($Owner:ident $size:literal [$($domain:ident)?] $($positions:tt)*) => {
+        impl<R: $crate::Real> $crate::Simulate<R, $size> for $Owner<R> {
+            type State = State<R>;
+            const STATES: &'static [&'static str] = &State::<f64>::NAMES;
+            $(const DOMAIN: &'static [&'static str] = &$domain;)?
+            $($positions)*
+        }
+    };
+}
+
+/// The trait `Monitored`: the owner and the path to its prepared system, the number of states, and that of coordinates where there are
+/// holonomic constraints.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! monitored {
+    ($Owner:ident, |$prepared:ident| $path:expr, $size:literal $(, $n:literal)?) => {
+        impl<R: $crate::Real> $crate::Monitored<R, $size> for $Owner<R> {
+            fn energy(&self, t: R, state: &[R; $size]) -> R {
+                let $prepared = self;
+                let [value] = program::energy(&$path.constants, &$path.hoisted, t, state);
+                value
+            }
+
+            $(fn residual(&self, t: R, state: &[R; $size]) -> R {
+                let $prepared = self;
+                let x: [R; $n] = $crate::checks::first(state);
+                $crate::checks::largest(&program::positions(&$path.constants, &$path.hoisted, t, &x))
+            })?
+        }
+    };
+}
+
+/// The cost of a level of detail: its name.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! level_info {
+    ($name:literal) => {
+        /// The cost of this level of detail.
+        pub const INFO: $crate::LevelInfo = $crate::LevelInfo {
+            name: $name,
+            variables: &State::<f64>::NAMES,
+            cost: COST,
+            prepare_cost: PREPARE_COST,
+        };
+    };
+}
+
+/// The table of all levels, by the modules of the scenes.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! levels {
+    ($count:literal $($module:ident)*) => {
+        /// The system and its scenes, in the order of the declaration: what each costs.
+        pub const LEVELS: [$crate::LevelInfo; $count] = [INFO $(, $module::INFO)*];
+
+        /// The system and its scenes side by side, as a table to print.
+        pub const fn levels() -> $crate::Levels {
+            $crate::Levels(&LEVELS)
+        }
+    };
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn a_report_is_text_for_editors() {
+        let text =
+            text_of_report!("One coordinate." "Coordinates" ["x"] "Forms (1.1), (1.6)" ["u = dot(x)" "v"]);
+        assert_eq!(
+            text,
+            "One coordinate.\n\n# Coordinates\n\n```text\nx\n```\n\n# Forms (1.1), (1.6)\n\n```text\nu = dot(x)\nv\n```\n"
+        );
+    }
 }

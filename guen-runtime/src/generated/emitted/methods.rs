@@ -55,25 +55,21 @@ macro_rules! output_map {
     };
 }
 
-/// `mass_form`, with the numbers of parameters and of inputs, and where the bias and the matrix of the inputs begin.
+/// `mass_form`, with the numbers of parameters and of inputs.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! mass_form {
-    ($l:literal, $count:literal, $bias:literal, $input:literal $(, $inputs:ident)?) => {
+    ($l:literal, $count:literal $(, $inputs:ident)?) => {
         /// The equations of motion apart, `M eta' + bias = G u`: the mass matrix, what the forces are without inputs
         /// with its sign turned, and the matrix of the inputs. Where forces are not affine in the inputs, `G` holds
         /// their derivatives, and the equation is exact at these inputs.
         pub fn mass_form(
             &self, t: R, state: &State<R> $(, $inputs: &Inputs<R>)?
         ) -> $crate::control::MassForm<R, $l, $count> {
-            let state = &::core::convert::From::from(*state);
             let given = &$crate::array_of_inputs!($($inputs)?);
-            let entries = program::mass_form(&self.constants, &self.hoisted, t, state, given);
-            $crate::control::MassForm {
-                mass: $crate::checks::symmetric(&entries),
-                bias: ::core::array::from_fn(|s| entries[$bias + s]),
-                input: ::core::array::from_fn(|s| ::core::array::from_fn(|j| entries[$input + s * $count + j])),
-            }
+            $crate::control::MassForm::unpacked(
+                &program::mass_form(&self.constants, &self.hoisted, t, &state.__guen_array(), given)
+            )
         }
     };
 }
@@ -226,13 +222,10 @@ macro_rules! steady_motions {
         pub fn steady_motion(
             &self, t: R, state: &State<R> $(, $inputs: &Inputs<R>)?, drifting: &[&'static str], fixed: &[&'static str],
         ) -> ::core::result::Result<$Motion, $crate::control::SteadyError> {
-            let states = State::<f64>::NAMES;
-            let names: [&'static str; $count] = $names;
-            let (drifting, _) = $crate::control::named(drifting, &states, &[])?;
-            let (fixed_states, fixed_inputs) = $crate::control::named(fixed, &states, &names)?;
-            let request = $crate::control::SteadyMotion::<$size, $count> { drifting, fixed_states, fixed_inputs };
-            let start: [R; $size] = ::core::convert::From::from(*state);
-            let $found = $crate::control::steady(self, t, &start, &$held, &request)?;
+            let request = $crate::control::SteadyMotion::<$size, $count>::of_names(
+                drifting, fixed, &State::<f64>::NAMES, &$names,
+            )?;
+            let $found = $crate::control::steady(self, t, &state.__guen_array(), &$held, &request)?;
             ::core::result::Result::Ok($motion)
         }
 
@@ -275,19 +268,18 @@ macro_rules! reduce {
             $crate::control::Reduced<R, $size, $count, $reduced>,
             $crate::control::ReduceError,
         > {
-            let s: [R; $size] = ::core::convert::From::from(*state);
-            let coordinates: [R; $n] = ::core::array::from_fn(|i| s[i]);
-            let entries: [R; 0] = [];
+            let s = state.__guen_array();
+            let entries: &[R] = &[];
+            $(let entries = &program::$leaf(&self.constants, &self.hoisted, t, &$crate::checks::first(&s));)?
             let _ = entries;
-            $(let entries = program::$leaf(&self.constants, &self.hoisted, t, &coordinates);)?
-            let leaf = $crate::control::Leaf::<R, $n, $combinations> {
-                coordinates,
-                velocities: program::velocities(&self.constants, &self.hoisted, t, &s),
-                rows: ::core::array::from_fn(|row| ::core::array::from_fn(|i| entries[row * $n + i])),
-                quaternions: &[$($quaternion)*],
-                independent: $crate::control::independent(independent, &State::<f64>::NAMES)?,
-                names: &State::<f64>::NAMES,
-            };
+            let leaf = $crate::control::Leaf::<R, $n, $combinations>::at(
+                &s,
+                program::velocities(&self.constants, &self.hoisted, t, &s),
+                entries,
+                &[$($quaternion)*],
+                $crate::control::independent(independent, &State::<f64>::NAMES)?,
+                &State::<f64>::NAMES,
+            );
             let given = &$crate::array_of_inputs!($($inputs)?);
             let rates = program::rhs(&self.constants, &self.hoisted, t, &s, given);
             leaf.reduce(&self.linearize(t, state $(, $inputs)?), &rates)
@@ -335,14 +327,5 @@ macro_rules! linearizable {
                 self.linearize(t, &::core::convert::From::from(*state) $(, $inputs)?)
             }
         }
-    };
-}
-
-/// Entries of a matrix from a list: row, column and place of each.
-#[doc(hidden)]
-#[macro_export]
-macro_rules! cells {
-    ($matrix:ident, $entries:ident: $($row:literal $column:literal $place:literal),*) => {
-        $($matrix[$row][$column] = $entries[$place];)*
     };
 }

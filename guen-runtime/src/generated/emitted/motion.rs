@@ -12,7 +12,7 @@ macro_rules! rates {
                 &self.constants,
                 &self.hoisted,
                 t,
-                &::core::convert::From::from(*state),
+                &state.__guen_array(),
                 &$crate::array_of_inputs!($($inputs)?),
             ))
         }
@@ -28,7 +28,7 @@ macro_rules! quantity {
         #[inline]
         pub fn $method(&self, t: R, state: &State<R>) -> R {
             let [value] =
-                program::$method(&self.constants, &self.hoisted, t, &::core::convert::From::from(*state));
+                program::$method(&self.constants, &self.hoisted, t, &state.__guen_array());
             value
         }
     };
@@ -59,7 +59,7 @@ macro_rules! motion_of_system {
                 &self.constants,
                 &self.hoisted,
                 t,
-                &::core::convert::From::from(*state),
+                &state.__guen_array(),
             ))
         }
 
@@ -71,7 +71,7 @@ macro_rules! motion_of_system {
         /// The force function `U`.
         #[inline]
         pub fn force_function(&self, t: R, state: &State<R>) -> R {
-            let s: [R; $size] = ::core::convert::From::from(*state);
+            let s = state.__guen_array();
             let [value] =
                 program::force_function(&self.constants, &self.hoisted, t, &$crate::checks::first::<R, $n>(&s));
             value
@@ -84,7 +84,7 @@ macro_rules! motion_of_system {
                 &self.constants,
                 &self.hoisted,
                 t,
-                &::core::convert::From::from(*state),
+                &state.__guen_array(),
             ))
         }
 
@@ -103,7 +103,7 @@ macro_rules! motion_of_system {
 #[macro_export]
 macro_rules! at_accelerations {
     ($self:ident, $t:ident, $state:ident, $of:ident, $n:literal, $l:literal, $size:literal $(, $inputs:ident)?) => {{
-        let s: [R; $size] = ::core::convert::From::from(*$state);
+        let s = $state.__guen_array();
         let given = &$crate::array_of_inputs!($($inputs)?);
         let rates = program::rhs(&$self.constants, &$self.hoisted, $t, &s, given);
         program::$of(
@@ -171,20 +171,19 @@ macro_rules! domain {
         /// are in [`DOMAIN`].
         #[inline]
         pub fn domain(&self, t: R, state: &State<R>) -> [R; $count] {
-            program::domain(&self.constants, &self.hoisted, t, &::core::convert::From::from(*state))
+            program::domain(&self.constants, &self.hoisted, t, &state.__guen_array())
         }
 
         /// How far the state is from the edge of the chart: of each function of [`DOMAIN`] what is left of it, from one
         /// where it is as certain as what it is made of to zero where it vanishes. Times and states count as rounded
         /// once; so do the constants. See [`RunningError`](__guen::RunningError).
         pub fn distances(&self, t: R, state: &State<R>) -> [R; $count] {
-            program::domain(
+            $crate::checks::left(program::domain(
                 &$crate::checks::rounded(&self.constants),
                 &$crate::checks::rounded(&self.hoisted),
                 $crate::RunningError::once(t),
-                &<[R; $size]>::from(*state).map($crate::RunningError::once),
-            )
-            .map($crate::RunningError::left)
+                &$crate::checks::rounded_once(state.__guen_array()),
+            ))
         }
     };
 }
@@ -203,17 +202,17 @@ macro_rules! condition {
                 let $inputs = ::core::default::Default::default();
                 let system = &system.driven($inputs);
             )?
-            $crate::System::<R, $size>::condition(system, t, &::core::convert::From::from(*state))
+            $crate::System::<R, $size>::condition(system, t, &state.__guen_array())
         }
     };
 }
 
 /// `State::from_velocities` and `State::coordinates`, with the numbers of coordinates, of parameters, of states and of
-/// constraints, and the fields of the coordinates.
+/// constraints.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! state_of_system {
-    ($n:literal, $l:literal, $size:literal, $constraints:literal: $($field:ident)*) => {
+    ($n:literal, $l:literal, $size:literal, $constraints:literal) => {
         impl<R: $crate::Real> State<R> {
             /// The state at given coordinates and velocities: the quasi-velocities are `eta_s = sum_i a_si x_i' +
             /// a_s0`, (1.6). Beside it the residuals `eta_v` of the constraints (their rates, where they are
@@ -224,21 +223,16 @@ macro_rules! state_of_system {
                 coordinates: &Coordinates<R>,
                 velocities: &Coordinates<R>,
             ) -> (Self, [R; $constraints]) {
-                let x: [R; $n] = ::core::convert::From::from(*coordinates);
-                let forms = program::forms(
-                    &system.constants,
-                    &system.hoisted,
-                    t,
-                    &x,
-                    &::core::convert::From::from(*velocities),
-                );
+                let x = coordinates.__guen_array();
+                let w = velocities.__guen_array();
+                let forms = program::forms(&system.constants, &system.hoisted, t, &x, &w);
                 let state: [R; $size] = $crate::checks::joined(&x, &forms);
                 (::core::convert::From::from(state), $crate::checks::first(forms.split_at($l).1))
             }
 
             /// The coordinates of the state.
             pub fn coordinates(&self) -> Coordinates<R> {
-                Coordinates { $($field: self.$field),* }
+                ::core::convert::From::from($crate::checks::first::<R, $n>(&self.__guen_array()))
             }
         }
     };
@@ -262,6 +256,19 @@ macro_rules! differentiable {
             $(; $code self.system.linearize(t, &::core::convert::From::from(*state), &self.inputs))?
         );
     };
+    (@ implementation [] $Owner:ident, $size:literal $methods:tt) => {
+        impl<R: $crate::Real> $crate::Differentiable<R, $size> for $Owner<R>
+        where
+            $crate::Dual<R, $size>: $crate::Lift<R>,
+            $crate::Dual<R, 1>: $crate::Lift<R>,
+        $methods
+    };
+    (@ implementation [$code:ident] $Owner:ident, $size:literal $methods:tt) => {
+        impl<R: $crate::Real> $crate::Differentiable<R, $size> for $Owner<R>
+        where
+            $crate::Dual<R, 1>: $crate::Lift<R>,
+        $methods
+    };
     (@ jacobian $size:literal, ($t:ident, $state:ident) => $prepared:expr, $given:expr) => {{
         let lifted: Prepared<$crate::Dual<R, $size>> = $prepared.lift();
         let rates = program::rhs(
@@ -271,28 +278,24 @@ macro_rules! differentiable {
             &$crate::seeded($state),
             &($given)(<$crate::Dual<R, $size>>::constant),
         );
-        rates.map(|rate| rate.tangent)
+        $crate::tangents(rates)
     }};
     (@ jacobian $size:literal, ($t:ident, $state:ident) => $prepared:expr, $given:expr; code $linearized:expr) => {
         $linearized.a
     };
     (@ $Owner:ident, $size:literal, ($self:ident, $t:ident, $state:ident) => $prepared:expr, $given:expr $(; $code:ident $linearized:expr)?) => {
-        impl<R: $crate::Real> $crate::Differentiable<R, $size> for $Owner<R>
-        where
-            $crate::Dual<R, $size>: $crate::Lift<R>,
-            $crate::Dual<R, 1>: $crate::Lift<R>,
-        {
+        $crate::differentiable! {
+            @ implementation [$($code)?] $Owner, $size {
             fn jacobian(&$self, $t: R, $state: &[R; $size]) -> [[R; $size]; $size] {
                 $crate::differentiable!(@ jacobian $size, ($t, $state) => $prepared, $given $(; $code $linearized)?)
             }
 
             fn along(&$self, t: R, state: &[R; $size], dt: R, dx: &[R; $size]) -> [R; $size] {
                 let lifted: Prepared<$crate::Dual<R, 1>> = $prepared.lift();
-                let time = $crate::Dual { value: t, tangent: [dt] };
-                let state =
-                    ::core::array::from_fn(|i| $crate::Dual { value: state[i], tangent: [dx[i]] });
-                let rates = program::rhs(&lifted.constants, &lifted.hoisted, time, &state, &($given)(<$crate::Dual<R, 1>>::constant));
-                rates.map(|rate| rate.tangent[0])
+                let (time, state) = $crate::moving(t, state, dt, dx);
+                let given = &($given)(<$crate::Dual<R, 1>>::constant);
+                $crate::slopes(program::rhs(&lifted.constants, &lifted.hoisted, time, &state, given))
+            }
             }
         }
     };
@@ -310,26 +313,39 @@ macro_rules! laned {
                 member: impl ::core::ops::Fn(usize) -> &'a Self,
             ) -> Prepared<L> {
                 Prepared {
-                    constants: ::core::array::from_fn(|k| L::from_fn(|lane| member(lane).constants[k])),
-                    hoisted: ::core::array::from_fn(|k| L::from_fn(|lane| member(lane).hoisted[k])),
+                    constants: $crate::lanes::gathered(|lane| &member(lane).constants),
+                    hoisted: $crate::lanes::gathered(|lane| &member(lane).hoisted),
                 }
             }
         }
     };
 }
 
-/// `lift`, with the field that says which constants follow others, if there is one.
+/// The prepared system: its documentation, the numbers of constants and of prepared values, and where constants follow others the
+/// field that says which, with their number.
 #[doc(hidden)]
 #[macro_export]
-macro_rules! lift {
-    ($($follows:ident)?) => {
-        /// The system over a real that contains `R`, such as duals over it: every prepared value becomes
-        /// a constant there.
-        pub fn lift<S: $crate::Lift<R>>(&self) -> Prepared<S> {
-            Prepared {
-                constants: self.constants.map(S::lift),
-                hoisted: self.hoisted.map(S::lift),
-                $($follows: self.$follows,)?
+macro_rules! prepared {
+    ($docs:literal $count:literal $hoisted:literal $($follows:ident $derived:literal)?) => {
+        #[doc = $docs]
+        #[::core::prelude::v1::derive(
+            ::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq
+        )]
+        pub struct Prepared<R = f64> {
+            constants: [R; $count],
+            hoisted: [R; $hoisted],
+            $($follows: [bool; $derived],)?
+        }
+
+        impl<R: $crate::Real> Prepared<R> {
+            /// The system over a real that contains `R`, such as duals over it: every prepared value becomes
+            /// a constant there.
+            pub fn lift<S: $crate::Lift<R>>(&self) -> Prepared<S> {
+                Prepared {
+                    constants: self.constants.map(S::lift),
+                    hoisted: self.hoisted.map(S::lift),
+                    $($follows: self.$follows,)?
+                }
             }
         }
     };
@@ -371,6 +387,96 @@ macro_rules! recast {
                     system: $made.prepare()?,
                     inputs: ::core::convert::From::from(inputs.map(R::from_f64)),
                 })
+            }
+        }
+    };
+}
+
+/// `conserved` of the trait `System`: the path to the prepared system, the numbers of coordinates and of states, `kept` where the energy
+/// is constant, `positions` where there are holonomic constraints.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! conserved {
+    ($self:ident $(. $inner:ident)?; $n:literal $size:literal [$($kept:ident)?] [$($positions:ident)?]) => {
+        fn conserved(&$self, t: R, state: &[R; $size]) -> $crate::Invariants<R> {
+            <R as $crate::Real>::vectorize(#[inline(always)] || {
+                let prepared = &$self $(.$inner)?;
+                let x: [R; $n] = $crate::checks::head(state);
+                let _ = (prepared, t, &x);
+                let (energy, scale) = $crate::conserved!(@ energy [$($kept)?] prepared t state x);
+                let residual = $crate::conserved!(@ residual [$($positions)?] prepared t x);
+                $crate::Invariants { energy, scale, residual, carried: R::zero() }
+            })
+        }
+    };
+    (@ energy [] $prepared:ident $t:ident $state:ident $x:ident) => {
+        (::core::option::Option::None, R::zero())
+    };
+    (@ energy [kept] $prepared:ident $t:ident $state:ident $x:ident) => {{
+        let [energy] = program::energy(&$prepared.constants, &$prepared.hoisted, $t, $state);
+        let [kinetic] = program::kinetic_energy(&$prepared.constants, &$prepared.hoisted, $t, $state);
+        let [potential] = program::force_function(&$prepared.constants, &$prepared.hoisted, $t, &$x);
+        let scale = $crate::Real::abs(kinetic) + $crate::Real::abs(potential);
+        (::core::option::Option::Some(energy), scale)
+    }};
+    (@ residual [] $prepared:ident $t:ident $x:ident) => {
+        R::zero()
+    };
+    (@ residual [positions] $prepared:ident $t:ident $x:ident) => {
+        $crate::checks::furthest(&program::positions(
+            &$crate::checks::rounded(&$prepared.constants),
+            &$crate::checks::rounded(&$prepared.hoisted),
+            $crate::RunningError::once($t),
+            &$x.map($crate::RunningError::once),
+        ))
+    };
+}
+
+/// `singularities` of the trait `System`: the path to the prepared system, the numbers of states and of functions.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! singularities {
+    ($self:ident $(. $inner:ident)?; $size:literal $count:literal) => {
+        #[inline]
+        fn singularities(
+            &$self,
+            t: $crate::RunningError<R>,
+            state: &[$crate::RunningError<R>; $size],
+            values: &mut [$crate::RunningError<R>],
+        ) -> usize {
+            let prepared = &$self $(.$inner)?;
+            let (constants, hoisted) =
+                (&$crate::checks::rounded(&prepared.constants), &$crate::checks::rounded(&prepared.hoisted));
+            $crate::checks::placed(values, &program::domain(constants, hoisted, t, state), $count)
+        }
+    };
+}
+
+/// `prepare` of the constants: the struct, their number, their values, the checks of them, and those of the prepared system.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! prepare {
+    (
+        $self:ident $constants:ident $hoisted:ident $prepared:ident; $System:ident $count:literal, $values:expr,
+        { $($checks:tt)* } { $($pivots:tt)* } { $($follows:tt)* } { $($limits:tt)* } { $($further:tt)* }
+    ) => {
+        impl<R: $crate::Real> $System<R> {
+            /// Checks the constants and computes what depends on them alone.
+            ///
+            /// # Errors
+            ///
+            /// A constant that is not finite or outside of its bound, or constants that make something vanish
+            /// which the equations divide by.
+            pub fn prepare($self) -> ::core::result::Result<Prepared<R>, $crate::ConstantsError> {
+                let $constants: [R; $count] = $values;
+                $($checks)*
+                let $hoisted = program::prepare(&$constants);
+                $($pivots)*
+                let $prepared = Prepared { constants: $constants, hoisted: $hoisted, $($follows)* };
+                $($limits)*
+                $crate::checks::check_hoisted(&$prepared.hoisted)?;
+                $($further)*
+                ::core::result::Result::Ok($prepared)
             }
         }
     };

@@ -87,6 +87,17 @@ pub trait Lanes: Real + Lift<f64> + Lift<Self> {
     fn vectorize_fused<T>(function: impl FnOnce() -> T) -> T;
 }
 
+/// Arrays of numbers put together, one in each lane: `of(lane)` is that of a lane.
+///
+/// ```
+/// use guen_runtime::lanes::{Lanes, gathered};
+/// let [mass] = gathered::<f64, 1>(|_lane| &[2.0]);
+/// assert_eq!(mass.lane(0), 2.0);
+/// ```
+pub fn gathered<'a, L: Lanes, const N: usize>(of: impl Fn(usize) -> &'a [f64; N]) -> [L; N] {
+    core::array::from_fn(|k| L::from_fn(|lane| of(lane)[k]))
+}
+
 /// A set of lanes.
 ///
 /// ```
