@@ -129,8 +129,13 @@ fn told(message: &Value, path: &str, depth: usize) -> String {
         }
         text.push('\n');
     }
-    // Where the compiler has put the whole name of a type is a place of this machine.
-    let elsewhere = |text: &str| text.contains("the full name for the type") || text.contains("`--verbose`");
+    // Where the compiler has put the whole name of a type is a place of this machine; which types implement a trait changes with
+    // the library.
+    let elsewhere = |text: &str| {
+        text.contains("the full name for the type")
+            || text.contains("`--verbose`")
+            || text.starts_with("the following other types implement")
+    };
     let children = message["children"].as_array().unwrap().iter();
     for child in children.filter(|child| !elsewhere(&word(&child["message"]))) {
         text += &told(child, path, depth + 1);
