@@ -1,0 +1,179 @@
+//! The end of the pass over the items: the model is put together.
+
+use super::*;
+
+impl<'a> Resolver<'a, '_> {
+    /// Puts the model together, out of what the items left.
+    pub(super) fn finish(mut self) -> Option<Model<'a>> {
+        let failed = self.eval.faults.count() > 0;
+        let velocities = self.velocities.clone();
+        let degrees = self.parameters.len();
+        let has_energy = self.energy.is_some() || self.has_masses;
+        let mut raw: Vec<RawForm<'a>> = self.parameters;
+        raw.extend(self.constraints);
+        let mut redundant = Vec::new();
+        if !failed && raw.iter().any(|form| form.position.is_some()) {
+            let coordinates: Vec<ExprId> = self.coordinates.iter().map(|c| c.symbol).collect();
+            redundant = redundant::taken(&mut self.eval, &mut raw, &coordinates, degrees);
+            self.eval.check_divisors_on_manifold();
+        }
+        let (forms, idle) = self.eval.linear_forms(&raw, &velocities);
+        if !failed {
+            // Counts, unused names and idle sections mean something only where everything else was understood.
+            let keyword = |kind: SectionKind| {
+                self.declaration.items.iter().find_map(|item| match item {
+                    Item::Parameters(section) if kind == SectionKind::Parameters => Some(section.keyword),
+                    Item::Coordinates(section) if kind == SectionKind::Coordinates => Some(section.keyword),
+                    _ => None,
+                })
+            };
+            let place = keyword(SectionKind::Parameters)
+                .or(keyword(SectionKind::Coordinates))
+                .unwrap_or(self.declaration.name.span());
+            count::check(&mut self.eval, &raw, forms.as_deref(), &redundant, &velocities, idle, place);
+            self.eval.scope.report_unused(self.eval.faults);
+            if self.gravity.is_some() && self.weights.is_empty() {
+                report_idle_gravity(self.declaration, self.eval.faults);
+            }
+        }
+        let (forms, written): (Vec<_>, Vec<_>) = forms?.into_iter().unzip();
+        if forms.len() != self.coordinates.len() || !has_energy {
+            return None;
+        }
+        let bench = &mut self.eval.bench;
+        let mut force_function: Vec<ExprId> = self.force_function.into_iter().collect();
+        if let Some(gravity) = self.gravity {
+            for (mass, position) in &self.weights {
+                let height = inner(bench, &gravity, position);
+                force_function.push(bench.graph.mul(*mass, height));
+            }
+        }
+        let force_function = bench.graph.sum(force_function);
+        let mut kinetic_energy = bench.graph.sum(self.kinetic);
+        let mut in_velocities = Substitution::new(redundant.iter().map(|taken| taken.rate));
+        let mut written_out = |e: &mut ExprId| *e = in_velocities.of(&mut bench.graph, *e);
+        written_out(&mut kinetic_energy);
+        self.written_energy.iter_mut().for_each(&mut written_out);
+        self.output_values.iter_mut().for_each(&mut written_out);
+        self.forces
+            .iter_mut()
+            .flat_map(|force| [&mut force.magnitude, &mut force.along])
+            .for_each(&mut written_out);
+        let (redundant, further): (Vec<_>, Vec<_>) =
+            redundant.into_iter().map(|taken| (taken.entry, taken.equation)).unzip();
+        let zero = bench.graph.zero();
+        let mut structure = self.eval.shapes.system;
+        structure.gravity = self.gravity;
+        // Constraints come after the parameters.
+        let place = |own: usize, parameters: bool| if parameters { own } else { own + degrees };
+        let vectors = self.eval.vectors.iter();
+        structure.vectors = vectors
+            .map(|(parameters, places)| places.map(|own| own.map(|own| place(own, *parameters))))
+            .collect();
+        structure.forms = raw.iter().map(|form| form.shape.clone()).collect();
+        let structure = structure.pruned();
+        let multibody = self.has_masses.then(|| Multibody {
+            bodies: self.rigid_bodies,
+            gravity: self.gravity.unwrap_or([zero; 3]),
+            other_energy: self.written_energy.unwrap_or(zero),
+            other_force_function: self.force_function.unwrap_or(zero),
+        });
+        let accelerations = raw[..degrees]
+            .iter()
+            .map(|form| {
+                // Outputs may have asked for it.
+                let known = self.eval.motion.rates.get(&form.symbol).copied();
+                let name = || format!("{}'", form.entry.name);
+                known.unwrap_or_else(|| bench.graph.symbol(&name(), Role::QuasiAcceleration))
+            })
+            .collect();
+        let holonomic: Vec<Holonomic> = raw
+            .iter()
+            .enumerate()
+            .filter_map(|(form, raw)| raw.position.map(|equation| Holonomic { form, equation }))
+            .collect();
+        // Written in velocities, or with bodies, the energy speaks of every momentum; written in the parameters alone it
+        // is given on the constraints.
+        let in_velocities = self.has_masses || bench.graph.roles(kinetic_energy).has(Role::Velocity);
+        let stated = raw.iter().map(|form| in_velocities || form.entry.mentioned_in_energy).collect();
+        let etas: Vec<ExprId> = raw.iter().map(|form| form.symbol).collect();
+        let motion_symbols = self.eval.motion.meanings(&etas, degrees);
+        let reactions = self
+            .eval
+            .motion
+            .reactions
+            .iter()
+            .filter_map(|(eta, _, span)| Some((etas.iter().position(|known| known == eta)?, *span)))
+            .collect();
+        let coordinates: Vec<ExprId> = self.coordinates.iter().map(|c| c.symbol).collect();
+        let quaternions = crate::model::quaternions::unit_quaternions(
+            bench,
+            &self.eval.quaternions,
+            &coordinates,
+            &holonomic,
+        );
+        let mechanics = Mechanics {
+            forms: Forms {
+                time: self.eval.time,
+                coordinates: self.coordinates.iter().map(|c| c.symbol).collect(),
+                forms,
+                degrees,
+            },
+            written,
+            velocities,
+            etas,
+            accelerations,
+            inputs: self.inputs.iter().map(|input| input.symbol).collect(),
+            holonomic,
+            redundant: further,
+            kinetic_energy,
+            stated,
+            force_function,
+            multibody,
+            structure,
+            forces: self.forces,
+            outputs: self.output_values,
+            motion_symbols,
+        };
+        let provides = self.scenes.iter().flat_map(|entry| &entry.scene.provides);
+        let provides_operators =
+            self.provides_operators || provides.into_iter().any(|provide| provide.name.text == "operators");
+        Some(Model {
+            identifiers: self.eval.scope.into_identifiers(),
+            declaration: self.declaration,
+            bench: self.eval.bench,
+            constants: self.constants,
+            inputs: self.inputs,
+            coordinates: self.coordinates,
+            forms: raw.into_iter().map(|form| form.entry).collect(),
+            redundant,
+            bodies: self.bodies,
+            particles: self.particles,
+            outputs: self.outputs,
+            quaternions,
+            reactions,
+            scenes: self.scenes,
+            left_out: self.eval.left_out,
+            provides_operators,
+            provides_taylor: self.provides_taylor,
+            provides_carried: self.provides_carried,
+            mechanics,
+            has_masses: self.has_masses,
+            kinetic_energy_span: self.energy.map(|energy| energy.keyword),
+        })
+    }
+}
+
+/// Gravity without anything that has a mass would be ignored: it is refused instead.
+fn report_idle_gravity(declaration: &Declaration, faults: &mut Faults) {
+    let place = declaration.items.iter().find_map(|item| match item {
+        Item::Gravity(quantity) => Some(quantity.keyword),
+        _ => None,
+    });
+    if let Some(place) = place {
+        faults.report(
+            Fault::new(place, "`gravity` acts on particles and on bodies with a mass, and there are none")
+                .help("write the force function instead: `force_function = e;`"),
+        );
+    }
+}
