@@ -90,12 +90,14 @@ fn quantities(subject: &Subject<'_, '_>, layout: &Layout) -> Vec<Quantity> {
     let no_outputs = outputs.is_empty() || !selection.outputs.is_empty();
     add(no_outputs, "outputs", line(&outputs.join(", ")), true, quote!(super::Outputs<R>));
     let linearization = quote!(__guen::Linearization<R, #size, #inputs>);
-    add(selection.linearization, "linearize", line("linearization"), true, linearization.clone());
+    add(selection.linearization, "linearize", line("linearization"), true, linearization);
     let mut wanted = if selection.outputs.is_empty() { outputs.clone() } else { Vec::new() };
     if !selection.linearization {
         wanted.push("linearization");
     }
     let is_there = outputs.is_empty() || wanted.is_empty();
+    let rows: usize = model.outputs.iter().map(|output| output.components.len()).sum();
+    let linearization = quote!(__guen::OutputLinearization<R, #size, #inputs, #rows>);
     add(is_there, "linearize_outputs", line(&wanted.join(", ")), true, linearization);
     let is_position = |form: &crate::model::FormEntry<'_>| form.kind == FormKind::Holonomic;
     if selection.holonomic.is_empty() && model.forms.iter().any(is_position) {
@@ -115,4 +117,36 @@ fn quantities(subject: &Subject<'_, '_>, layout: &Layout) -> Vec<Quantity> {
     add(false, "momenta", whole.clone(), false, quote!(super::Momenta<R>));
     add(false, "power", whole, true, quote!(R));
     found
+}
+
+#[cfg(test)]
+mod tests {
+    /// The types that the system's methods return.
+    #[test]
+    fn missing_methods_return_what_the_systems_return() {
+        let text = crate::expand(
+            "pub system S {
+                constants { m > 0 } coordinates { x, y } parameters { u = dot(x); v = dot(y); }
+                kinetic_energy = m*(u^2 + v^2)/2;
+                outputs { place = vec(x, y); speed = u; }
+                scene Bare { track x; }
+             }"
+            .parse()
+            .unwrap(),
+        );
+        let text: String = text.to_string().split_whitespace().collect();
+        let of_scene = &text[text.find("modmissing").unwrap()..];
+        for (method, returns) in [
+            ("energy", "R"),
+            ("outputs", "super::Outputs<R>"),
+            ("linearize", "__guen::Linearization<R,2usize,0usize>"),
+            ("linearize_outputs", "__guen::OutputLinearization<R,2usize,0usize,4usize>"),
+            ("velocities", "super::Coordinates<R>"),
+            ("momenta", "super::Momenta<R>"),
+            ("power", "R"),
+        ] {
+            let signature = format!("pubfn{method}(&self,_t:R,_state:&State<R>)->{returns}where");
+            assert!(of_scene.contains(&signature), "{signature} in {of_scene}");
+        }
+    }
 }
