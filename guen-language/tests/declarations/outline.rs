@@ -42,7 +42,8 @@ fn is_value(head: &[TokenTree]) -> bool {
 }
 
 /// Macros of the runtime that take what was derived beside sizes and names.
-const OF_DERIVATION: [&str; 6] = ["facts", "reported", "operators", "reduce", "domain", "dynamics"];
+const OF_DERIVATION: [&str; 8] =
+    ["facts", "reported", "operators", "reduce", "domain", "dynamics", "prepare", "prepared"];
 
 /// A scope of items: the path of modules and impls, and whether it is a scene or a carried form, whose variables and
 /// sizes are known by the derivation alone.
@@ -66,6 +67,10 @@ impl Scope {
         let path = &self.path;
         if let Some(place) = head.iter().position(|tree| is_mark(tree, '!')) {
             let name = &head[..place];
+            // The places of names are no items.
+            if name.last().is_some_and(|word| is_word(word, "uses")) {
+                return;
+            }
             let is_of_derivation =
                 name.iter().any(|word| OF_DERIVATION.iter().any(|known| is_word(word, known)));
             let mut arguments = body.unwrap_or_else(|| head[place + 1..].iter().cloned().collect());
