@@ -103,10 +103,10 @@ pub(super) fn prices(subject: &Subject<'_, '_>, layout: &Layout, looks: &Looks) 
     const STAGE: u64 = 4;
     /// The cost of the calls, comparisons and copies of a check, whatever the system: counted for a particle without
     /// forces, whose estimates of errors by RK8 have more operations than all of its right-hand sides.
-    const BESIDES: u64 = 200;
+    const BESIDES: u64 = 240;
     /// The cost of those of a check of edges alone: counted for Appell's system in lanes, which is the most expensive
     /// beside its right-hand side.
-    const BESIDES_EDGES: u64 = 70;
+    const BESIDES_EDGES: u64 = 120;
     let rhs = subject.level.program(function::RHS).map_or(0, |program| program.cost.weighted());
     let one = (rhs + STAGE * layout.size as u64).max(1);
     let look = u32::try_from((looks.all + BESIDES).div_ceil(one)).unwrap_or(u32::MAX);

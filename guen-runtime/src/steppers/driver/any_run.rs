@@ -1,12 +1,17 @@
 //! A run of any method on any system, behind one reference: what the driver and the guard ask is compiled once for a real and a
 //! size of the state.
 
+use core::ops::ControlFlow;
+
 use crate::numbers::real::Real;
 use crate::steppers::driver::dense::Interpolant;
 use crate::steppers::driver::error::Cause;
 use crate::steppers::driver::run::{Checkpoint, StepperRun};
 use crate::steppers::guard::Watched;
 use crate::system::System;
+
+/// Is shown every accepted step; ends the run when it breaks.
+pub(super) type Observer<'a, R, const N: usize> = &'a mut dyn FnMut(R, &[R; N]) -> ControlFlow<()>;
 
 /// A run with its system, as the driver and the guard see it. Steps are made many at a time where nobody looks between them, so
 /// that a call through the reference costs nothing beside them.
@@ -25,8 +30,9 @@ pub(in crate::steppers) trait AnyRun<R: Real, const N: usize> {
     /// See [`StepperRun::advance`].
     fn advance(&mut self, target: R, dense: bool) -> Result<(), Cause>;
 
-    /// See [`StepperRun::go_on`].
-    fn go_on(&mut self, target: R, steps: u32) -> Result<(), Cause>;
+    /// Makes so many steps, or fewer where [`StepperRun::go_on`] does, and shows each but the last to the observer. Says whether it
+    /// broke.
+    fn go_on(&mut self, target: R, steps: u32, observer: Option<Observer<'_, R, N>>) -> Result<bool, Cause>;
 
     /// See [`StepperRun::is_last`].
     fn is_last(&self, target: R) -> bool;
@@ -78,9 +84,24 @@ where
         self.run.advance(self.system, target, dense)
     }
 
-    fn go_on(&mut self, target: R, steps: u32) -> Result<(), Cause> {
+    fn go_on(&mut self, target: R, steps: u32, observer: Option<Observer<'_, R, N>>) -> Result<bool, Cause> {
         self.polynomial = None;
-        self.run.go_on(self.system, target, steps)
+        let Some(observer) = observer else {
+            return self.run.go_on(self.system, target, steps).map(|()| false);
+        };
+        for made in 0..steps.max(1) {
+            if made > 0 {
+                let reached = self.run.checkpoint();
+                if reached.time == target || self.run.is_last(target) {
+                    break;
+                }
+                if observer(reached.time, &reached.state).is_break() {
+                    return Ok(true);
+                }
+            }
+            self.run.advance(self.system, target, false)?;
+        }
+        Ok(false)
     }
 
     fn is_last(&self, target: R) -> bool {

@@ -3,15 +3,13 @@
 use core::ops::ControlFlow;
 
 use crate::numbers::real::Real;
-use crate::steppers::driver::any_run::AnyRun;
+use crate::steppers::driver::any_run::{AnyRun, Observer};
 use crate::steppers::driver::error::{Cause, IntegrationError, Setting};
 use crate::steppers::driver::events::Occurrence;
 use crate::steppers::driver::followed::Followed;
 use crate::steppers::driver::run::{Checkpoint, IntegrationResult, Outcome};
 use crate::steppers::guard::{Guard, Watch};
 
-/// Is shown every accepted step; ends the run when it breaks.
-pub(super) type Observer<'a, R, const N: usize> = &'a mut dyn FnMut(R, &[R; N]) -> ControlFlow<()>;
 /// Is shown each sample, with its position, time and state.
 pub(super) type Visitor<'a, R, const N: usize> = &'a mut dyn FnMut(usize, R, &[R; N]);
 /// Is told of each event; ends the run when it breaks.
@@ -64,14 +62,16 @@ impl<R: Real, const N: usize> Drive<'_, '_, R, N> {
                     before = *here;
                 }
                 let from = here.statistics.accepted;
-                let made = if kept || self.observer.is_some() {
-                    run.advance(time, kept)
+                let observer = self.observer.as_mut().map(|observer| &mut **observer as Observer<'_, R, N>);
+                let made = if kept {
+                    run.advance(time, true).map(|()| false)
                 } else {
-                    run.go_on(time, watch.patience())
+                    run.go_on(time, watch.patience(), observer)
                 };
-                if let Err(cause) = made {
-                    return Err(watch.stop_run(run, cause));
-                }
+                let broken = match made {
+                    Ok(broken) => broken,
+                    Err(cause) => return Err(watch.stop_run(run, cause)),
+                };
                 watch
                     .step(from, kept.then_some(&before), run)
                     .map_err(|cause| watch.failed(run.checkpoint(), cause))?;
@@ -81,12 +81,10 @@ impl<R: Real, const N: usize> Drive<'_, '_, R, N> {
                         return watch.finish_run(Some(&before), run).map(|()| done);
                     }
                 }
-                if let Some(observer) = &mut self.observer {
-                    let reached = run.checkpoint();
-                    if observer(reached.time, &reached.state).is_break() {
-                        outcome = Outcome::Stopped;
-                        break 'times;
-                    }
+                let reached = run.checkpoint();
+                if broken || self.show(reached.time, &reached.state) {
+                    outcome = Outcome::Stopped;
+                    break 'times;
                 }
             }
             visit(index, time, &run.checkpoint().state);
@@ -120,6 +118,11 @@ impl<R: Real, const N: usize> Drive<'_, '_, R, N> {
             && in_order(last, &[end])
             && in_order(self.start.time, times);
         if all { Ok(()) } else { Err(Cause::Setting(Setting::Samples)) }
+    }
+
+    /// Shows a step, and says whether the run is to end.
+    fn show(&mut self, time: R, state: &[R; N]) -> bool {
+        self.observer.as_mut().is_some_and(|observer| observer(time, state).is_break())
     }
 
     /// Shows the next sample.

@@ -3,8 +3,8 @@
 use core::ops::ControlFlow;
 
 use crate::numbers::real::{Ordered, Real};
-use crate::steppers::driver::any_run::Joined;
-use crate::steppers::driver::drive::{Drive, Observer, Receiver, Visitor};
+use crate::steppers::driver::any_run::{Joined, Observer};
+use crate::steppers::driver::drive::{Drive, Receiver, Visitor};
 use crate::steppers::driver::error::IntegrationError;
 use crate::steppers::driver::events::{Event, Occurrence};
 use crate::steppers::driver::followed::Followed;
