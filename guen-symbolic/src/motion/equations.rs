@@ -10,25 +10,12 @@ use super::turned::InOwnAxes;
 use super::velocity_forms::VelocityPartials;
 use super::{Frame, FrameNode, KineticTerm, Mechanics, multibody, projection, restriction, spins, turned};
 use crate::algebra::ExprId;
+use crate::motion::thresholds::{
+    ALL_WAYS, FURTHER_FORMS, MASS_PRODUCTS, MULTIPLIED_PARAMETERS, MULTIPLIED_VELOCITIES, OTHER_WAYS,
+};
 use crate::normal::{Limits, normal_coefficients};
 use crate::program::weighted_cost;
 use crate::workbench::Workbench;
-
-/// The number of parameters, and of frames that turn, from which on equations are not multiplied out.
-const MANY: usize = 6;
-
-/// The cost of the velocities above which equations are not multiplied out.
-const LARGEST_MULTIPLIED: u64 = 4000;
-
-/// The number of products, one for each term of the energy in each entry of the mass matrix, above which equations are stated in
-/// the rates of the base angles, if there are any.
-const MOST_PRODUCTS: usize = 20_000;
-
-/// The estimate of rates by bodies up to which all ways to the rates are looked at.
-const SMALL: u64 = 150;
-
-/// The estimate of rates by bodies up to which others are looked at, unless these cannot promise less.
-pub(super) const LARGEST_TRIED: u64 = 600;
 
 /// `sum_t M_st eta_t' = f_s`.
 #[derive(Clone, Debug)]
@@ -123,7 +110,7 @@ impl Stated {
     ) -> Result<Self, DerivationError> {
         affordable(bench)?;
         let velocities = weighted_cost(&bench.graph, &frame.velocities);
-        let is_large = is_large(bench, system) || velocities > LARGEST_MULTIPLIED;
+        let is_large = is_large(bench, system) || velocities > MULTIPLIED_VELOCITIES;
         // Particles have a way of their own, and are looked at as bodies after it.
         let turns = system.structure.frames().len() > 1;
         let mut bodies = (is_large || turns).then(|| {
@@ -135,7 +122,7 @@ impl Stated {
         let of_bodies = found.and_then(|found| Some((found.equations.take()?, found.rates.clone())));
         let of_bodies = of_bodies.filter(|(_, rates)| {
             is_large
-                || weighted_cost(&bench.graph, rates) > LARGEST_TRIED
+                || weighted_cost(&bench.graph, rates) > OTHER_WAYS
                 || !spins::are_others(bench, system, partials)
         });
         let mut definition = Definition::new(bench, system, generalised_forces);
@@ -170,7 +157,7 @@ impl Stated {
             });
         }
         let l = system.forms.degrees;
-        if terms.len() * l * l > MOST_PRODUCTS
+        if terms.len() * l * l > MASS_PRODUCTS
             && let Some(in_base) = InBaseParameters::new(bench, system, frame)
         {
             let equations = in_base.equations(bench, system);
@@ -273,7 +260,7 @@ fn least(bench: &mut Workbench, system: &Mechanics, frame: &mut Frame) -> u64 {
 /// Whether rates of this cost take less than what equations that are multiplied out have in them, of which the least is known. Of large
 /// systems the derivatives take several times the energy.
 fn promises_least(cost: u64, least: u64) -> bool {
-    cost > SMALL && cost <= least || cost > LARGEST_TRIED && 2 * cost <= 3 * least
+    cost > ALL_WAYS && cost <= least || cost > OTHER_WAYS && 2 * cost <= 3 * least
 }
 
 /// Whether many frames turn, about several axes: multiplied out, each brings a factor.
@@ -294,7 +281,8 @@ fn is_large(bench: &Workbench, system: &Mechanics) -> bool {
         })
         .collect();
     axes.dedup();
-    (axes.len() > 1 || axes.contains(&None)) && system.forms.degrees.min(joints.count()) >= MANY
+    (axes.len() > 1 || axes.contains(&None))
+        && system.forms.degrees.min(joints.count()) >= MULTIPLIED_PARAMETERS
 }
 
 /// The equations in several forms, the one to show first: normal forms where they are small, then the projection as it
@@ -305,8 +293,6 @@ pub(super) fn forms(
     by_definition: &Equations,
     by_projection: &Equations,
 ) -> Vec<Equations> {
-    /// The estimate above which a further form is not worth the time to optimise it.
-    const WORTH: u64 = 1000;
     let l = system.forms.degrees;
     let mut entry = |s: usize, t: usize| {
         // Both routes give the same function.
@@ -320,7 +306,7 @@ pub(super) fn forms(
     let sources = [&by_projection.forces[..l], &by_definition.forces[..l]];
     let mut lists: Vec<Vec<ExprId>> = Vec::new();
     lists.extend(sources.iter().find_map(|forces| normal_forces(bench, system, forces)));
-    if lists.is_empty() || weighted_cost(&bench.graph, sources[0]) <= WORTH {
+    if lists.is_empty() || weighted_cost(&bench.graph, sources[0]) <= FURTHER_FORMS {
         lists.push(sources[0].to_vec());
     }
     lists.into_iter().map(|forces| Equations { mass: mass.clone(), forces }).collect()

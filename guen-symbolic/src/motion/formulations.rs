@@ -5,9 +5,10 @@
 //! are stated cost, the others are not looked at.
 
 use super::base_parameters::InBaseParameters;
-use super::equations::{LARGEST_TRIED, Stated};
+use super::equations::Stated;
 use super::fault::{DerivationError, affordable};
 use super::symmetry::Symmetry;
+use super::thresholds::OTHER_WAYS;
 use super::velocity_forms::VelocityPartials;
 use super::weightless::solved;
 use super::{
@@ -276,7 +277,7 @@ fn of_bodies(bench: &mut Workbench, search: &mut Search<'_>) -> Result<Outcome, 
     if cost >= search.least {
         return Ok(Outcome::Declined("the equations as stated promise less"));
     }
-    let is_half = cost > LARGEST_TRIED && 2 * cost <= search.least;
+    let is_half = cost > OTHER_WAYS && 2 * cost <= search.least;
     let rank = if is_half {
         let accelerations = found.rates[search.frame.velocities.len()..].to_vec();
         Rank::Last(Solution::of_pivots(bench, accelerations, &found.pivots))

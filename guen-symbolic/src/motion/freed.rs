@@ -13,6 +13,7 @@ use super::derivation::Derivation;
 use super::velocity_forms::VelocityPartials;
 use super::{Equations, multibody};
 use crate::algebra::ExprId;
+use crate::motion::thresholds::RESTATED;
 use crate::program::weighted_cost;
 use crate::workbench::Workbench;
 use crate::zero::POINTS_WITH_ROOTS;
@@ -21,9 +22,7 @@ impl Derivation {
     /// Takes the momenta and the reactions from the quadratic form of the bodies where they are long and that is half as long, and the
     /// equations where the rates shown are those of the bodies.
     pub fn restate_by_bodies(&mut self, bench: &mut Workbench) {
-        /// The estimated cost below which an expression stays as it is, and is shown so.
-        const LONG: u64 = 600;
-        let is_long = |bench: &Workbench, es: &[ExprId]| weighted_cost(&bench.graph, es) > LONG;
+        let is_long = |bench: &Workbench, es: &[ExprId]| weighted_cost(&bench.graph, es) > RESTATED;
         let known: Vec<ExprId> = self.reactions.iter().flatten().copied().collect();
         let is_shown = self.formulations.first().is_some_and(|first| first.name == "bodies");
         let is_asked = is_shown || is_long(bench, &known) || is_long(bench, &self.energies.momenta);

@@ -1,7 +1,8 @@
 //! The equations of motion without coordinates that they do not depend on, where that makes them shorter: see `symmetry`.
 
-use super::restated::{Restated, SMALL, flattened, forms, solutions, unflattened};
+use super::restated::{Restated, flattened, forms, solutions, unflattened};
 use super::symmetry::Symmetry;
+use super::thresholds::ALL_FORMS;
 use super::{Equations, Frame, Mechanics};
 use crate::algebra::ExprId;
 use crate::geometry::Operators;
@@ -43,7 +44,7 @@ pub(super) fn without(
     if let Some(mut restated) = restated {
         rates.extend(restated.rates(bench, &mut symmetry));
     }
-    if sums && rates.iter().all(|rates| weighted_cost(&bench.graph, rates) <= SMALL) {
+    if sums && rates.iter().all(|rates| weighted_cost(&bench.graph, rates) <= ALL_FORMS) {
         bench.choose_base_angles(&[], &system.expressions());
     }
     Some(WithoutHeadings { rates, symmetry, equations })

@@ -7,11 +7,9 @@
 use super::velocity_forms::VelocityPartials;
 use super::{Frame, KineticTerm, Mechanics};
 use crate::algebra::{Bound, ExprId, FastMap, Node, Role, SymbolId};
+use crate::motion::thresholds::VALUES_AT_POINTS;
 use crate::workbench::Workbench;
 use crate::zero::{Sample, field};
-
-/// Values at points beyond which no constant is tried: each may take one of every expression of the energy.
-const MOST_VALUES: usize = 400_000;
 
 /// Points at which the mass matrix must be singular.
 const POINTS: u64 = 2;
@@ -56,7 +54,7 @@ pub(super) fn find(
     };
     let symbols = graph.symbols_in(&all);
     let mut open: Vec<SymbolId> = symbols.iter().copied().filter(is_open).collect();
-    open.truncate(MOST_VALUES / reachable.len().max(1));
+    open.truncate(VALUES_AT_POINTS / reachable.len().max(1));
     let dependents = dependents(bench, &reachable, &open);
     let mut points: Vec<Option<At>> = Vec::new();
     for (symbol, dependent) in open.into_iter().zip(&dependents) {

@@ -29,6 +29,7 @@ mod solve;
 mod spins;
 mod symmetry;
 mod tensions;
+mod thresholds;
 mod turned;
 mod velocity_forms;
 mod weightless;

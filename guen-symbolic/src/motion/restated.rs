@@ -6,11 +6,9 @@ use super::velocity_forms::VelocityPartials;
 use super::{Equations, Frame, Mechanics, Solution, decompose, equations, forces, poincare, projection};
 use crate::algebra::ExprId;
 use crate::geometry::Operators;
+use crate::motion::thresholds::ALL_FORMS;
 use crate::program::weighted_cost;
 use crate::workbench::Workbench;
-
-/// Up to this estimate all forms are tried.
-pub(super) const SMALL: u64 = 600;
 
 /// A system derived once more.
 pub(super) struct Restated {
@@ -36,7 +34,7 @@ impl Restated {
     pub(super) fn rates(&mut self, bench: &mut Workbench, symmetry: &mut Symmetry) -> Vec<Vec<ExprId>> {
         let l = self.system.forms.degrees;
         let list = flattened(&self.projected.equations, l);
-        let definition = (weighted_cost(&bench.graph, &list) <= SMALL)
+        let definition = (weighted_cost(&bench.graph, &list) <= ALL_FORMS)
             .then(|| flattened(&poincare::equations(bench, &self.system, &mut self.frame), l));
         let reduced = unflattened(symmetry.reduced(bench, &list), l);
         let definition = definition.map(|list| unflattened(symmetry.reduced(bench, &list), l));
@@ -56,7 +54,7 @@ pub(super) fn forms(
 ) -> Vec<Equations> {
     let mut found = equations::forms(bench, system, definition, reduced);
     let entries = reduced.entries();
-    if weighted_cost(&bench.graph, &entries) > SMALL {
+    if weighted_cost(&bench.graph, &entries) > ALL_FORMS {
         return found;
     }
     let opened = bench.graph.opened(&entries);

@@ -3,14 +3,9 @@
 use super::numerator;
 use crate::algebra::ExprId;
 use crate::geometry::adjugate;
+use crate::motion::thresholds::{ADJUGATE_BLOCK, BLOCK_WRITTEN_OUT};
 use crate::workbench::Workbench;
 use crate::zero::Verdict;
-
-/// Blocks up to this size are solved without names for intermediate results.
-const WRITTEN_OUT: usize = 2;
-
-/// Blocks without a usable pivot on the diagonal are inverted by their adjugate, up to this size.
-const ADJUGATE_SIZE: usize = 5;
 
 /// The solved accelerations.
 #[derive(Clone, Debug)]
@@ -33,7 +28,7 @@ impl Solution {
 
     /// Solves with the first solutions kept whole in small blocks, too; `None` where there is nothing to share.
     pub(super) fn shared(bench: &mut Workbench, mass: &[Vec<ExprId>], forces: &[ExprId]) -> Option<Self> {
-        let pairs = blocks(bench, mass).into_iter().filter(|block| block.len() == WRITTEN_OUT);
+        let pairs = blocks(bench, mass).into_iter().filter(|block| block.len() == BLOCK_WRITTEN_OUT);
         let is_coupled = |block: Vec<usize>| !bench.graph.roles(mass[block[0]][block[1]]).is_constant();
         if !pairs.into_iter().any(is_coupled) {
             return None;
@@ -106,8 +101,8 @@ impl Solution {
     ) -> Option<Vec<ExprId>> {
         let n = m.len();
         let naming = match n {
-            0..=WRITTEN_OUT if share => Naming::Values,
-            0..=WRITTEN_OUT => Naming::Nothing,
+            0..=BLOCK_WRITTEN_OUT if share => Naming::Values,
+            0..=BLOCK_WRITTEN_OUT => Naming::Nothing,
             _ => Naming::Everything,
         };
         let Some(Elimination { mut values, pivots }) =
@@ -120,7 +115,7 @@ impl Solution {
             let uncancelled = put_back(bench, &m, &f, first, pivots[1]);
             values[first] = uncancelled.unwrap_or(values[first]);
         }
-        if n > WRITTEN_OUT {
+        if n > BLOCK_WRITTEN_OUT {
             let factors: Vec<_> = pivots.iter().map(|pivot| (*pivot, 1)).collect();
             let determinant = bench.graph.product(&factors);
             if bench.graph.roles(determinant).is_constant() {
@@ -140,7 +135,7 @@ impl Solution {
         m: &[Vec<ExprId>],
         f: &[ExprId],
     ) -> Option<Vec<ExprId>> {
-        if m.len() > ADJUGATE_SIZE {
+        if m.len() > ADJUGATE_BLOCK {
             return None;
         }
         let (adjugate, determinant) = adjugate(bench, m);

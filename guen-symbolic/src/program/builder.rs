@@ -1,5 +1,8 @@
 //! Running the stages: every function by itself, what they share in *prepare*.
 
+use crate::program::thresholds::{
+    COLD_NODES, FINALIST_COST, FINALISTS, NAMES_WITH_CANDIDATES, OPTIMISED_WITHOUT_NAMES,
+};
 use std::collections::BTreeMap;
 
 use super::accuracy::{self, Candidate};
@@ -56,19 +59,6 @@ pub struct ProgramBuilder<'a> {
     names: FastMap<ExprId, ExprId>,
 }
 
-/// The number of names above which only the first candidates are tried.
-const MANY_NAMES: usize = 150;
-
-/// Cold functions with fewer nodes are lowered as they are.
-const SMALL: usize = 60;
-
-/// Beyond this estimate a function is optimised only with names for what is kept whole.
-const LARGEST_UNNAMED: u64 = 400;
-
-/// Up to this cost all effort goes into so many formulations that are nearly as cheap.
-const SMALL_FINALIST: u64 = 300;
-const FINALISTS: usize = 3;
-
 impl<'a> ProgramBuilder<'a> {
     /// A builder without functions.
     pub fn new(graph: &'a mut Graph) -> Self {
@@ -102,7 +92,8 @@ impl<'a> ProgramBuilder<'a> {
         let mut origin = Vec::new();
         for (index, outputs) in lists.iter().enumerate() {
             let named = self.named(outputs);
-            let plain = named.as_ref().is_none_or(|_| weighted_cost(self.graph, outputs) <= LARGEST_UNNAMED);
+            let plain =
+                named.as_ref().is_none_or(|_| weighted_cost(self.graph, outputs) <= OPTIMISED_WITHOUT_NAMES);
             if plain {
                 formulations.push(Formulation { definitions: Vec::new(), outputs: outputs.clone() });
                 origin.push(index);
@@ -223,7 +214,7 @@ fn finalists(programs: &[Candidate], best: usize) -> Vec<usize> {
     let least = programs[best].cost();
     let mut found = vec![best];
     for (place, program) in programs.iter().enumerate() {
-        let is_near = least <= SMALL_FINALIST && 16 * program.cost() <= 17 * least;
+        let is_near = least <= FINALIST_COST && 16 * program.cost() <= 17 * least;
         if found.len() < FINALISTS && is_near && !found.iter().any(|other| program.equals(&programs[*other]))
         {
             found.push(place);
@@ -278,7 +269,7 @@ fn staged(graph: &mut Graph, net: &mut Net, formulation: &Formulation, effort: E
     for level in levels {
         let expressions: Vec<ExprId> = level.iter().map(|(_, e)| *e).collect();
         let roots = Conversion::roots(graph, net, Field::Constants, &expressions);
-        let most = if all > MANY_NAMES { 2 } else { CANDIDATES.len() };
+        let most = if all > NAMES_WITH_CANDIDATES { 2 } else { CANDIDATES.len() };
         let best = cheapest(graph, net, roots, effort, most);
         for ((symbol, _), root) in level.iter().zip(&best) {
             if let Some(symbol) = symbol {
@@ -300,7 +291,7 @@ fn cheapest(graph: &mut Graph, net: &mut Net, roots: Vec<NetId>, effort: Effort,
     let tried = match effort {
         Effort::Hot | Effort::Brief => affordable(nodes),
         // Small functions have little to share beyond equal nodes, which are one already.
-        Effort::Cold if nodes < SMALL => 0,
+        Effort::Cold if nodes < COLD_NODES => 0,
         Effort::Cold => affordable(nodes).min(1),
     };
     let tried = if effort == Effort::Brief { tried.min(1) } else { tried.min(most) };

@@ -22,11 +22,13 @@ mod taylor;
 mod terms;
 #[cfg(test)]
 mod tests;
+mod thresholds;
 
 pub use builder::{Formulation, ProgramBuilder};
 pub use carried::{Carried, CarriedFunction, NotCarried};
 pub use cost::{OperationCount, weighted_cost};
 pub use evaluate::{Arithmetic, evaluate_function, evaluate_prepare};
 pub use instruction::{FunctionProgram, Instruction, Operation, Programs, Value};
-pub use jacobian::{LARGEST_DIFFERENTIATED, LARGEST_JACOBIAN, Pattern};
+pub use jacobian::Pattern;
 pub use taylor::{NotAnalytic, SeriesProgram, SeriesStep, Source, Start};
+pub use thresholds::{LARGEST_DIFFERENTIATED, LARGEST_JACOBIAN};

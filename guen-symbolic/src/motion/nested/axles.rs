@@ -16,12 +16,10 @@ use super::unknowns::Unknowns;
 use super::{Point, Written};
 use crate::algebra::{ExprId, Function, Graph, Node, Rational, Role};
 use crate::motion::projection::MeasuredForms;
+use crate::motion::thresholds::PRODUCTS_OF_AN_ANGLE;
 use crate::motion::velocity_forms::VELOCITIES;
 use crate::motion::{KineticTerm, Mechanics};
 use crate::workbench::Workbench;
-
-/// Forms that have so many products for every one of their angles are not looked at.
-const MANY: usize = 400;
 
 /// A vector that a form takes apart.
 struct Axle {
@@ -188,7 +186,7 @@ fn contact(bench: &mut Workbench, form: usize, e: ExprId) -> Option<Contact> {
             }
         }
     }
-    if angles.len() * terms.len() > MANY {
+    if angles.len() * terms.len() > PRODUCTS_OF_AN_ANGLE {
         return None;
     }
     let contacts: Vec<Contact> =

@@ -24,15 +24,9 @@ use super::between::Between;
 use super::projection::{self, Measured, MeasuredForms};
 use super::{Equations, Frame, KineticTerm, Mechanics, Solution};
 use crate::algebra::{ExprId, FastMap, Flow};
+use crate::motion::thresholds::{CLOSE_PROMISE, VELOCITY_WEIGHT};
 use crate::program::weighted_cost;
 use crate::workbench::Workbench;
-
-/// Velocities on the constraints up to this weight stay as the operators have them.
-const LIGHT: u64 = 4;
-
-/// Equations that promise no more than so many times the cost of the shortest are left to the optimiser, as a fraction: a program
-/// for each is most of the work.
-const CLOSE: (u64, u64) = (5, 4);
 
 /// The rates of the state, velocities first; none where nothing is in common, or nothing is seen to be, or where equations
 /// promise no less than `most`.
@@ -70,7 +64,7 @@ fn found(
         }
     }
     let least = found.iter().map(|(cost, _)| *cost).min()?;
-    found.retain(|(cost, _)| *cost < most && CLOSE.1 * cost <= CLOSE.0 * least);
+    found.retain(|(cost, _)| *cost < most && CLOSE_PROMISE.1 * cost <= CLOSE_PROMISE.0 * least);
     let mut lists = Vec::new();
     for (_, Assembled { velocities, equations: Equations { mass, forces } }) in found {
         let solutions = [Solution::new(bench, &mass, &forces).ok(), Solution::shared(bench, &mass, &forces)];
@@ -185,7 +179,7 @@ impl<'a> Velocities<'a> {
         for (i, symbol) in system.velocities.iter().enumerate() {
             let known: Vec<ExprId> =
                 (0..=l).map(|s| unknowns.unknown(bench, i, &frame.operators.xi[s])).collect();
-            if weighted_cost(&bench.graph, &known) > LIGHT {
+            if weighted_cost(&bench.graph, &known) > VELOCITY_WEIGHT {
                 heavy.push(i);
             } else {
                 along.iter_mut().zip(known).for_each(|(component, value)| component.set(*symbol, value));

@@ -1,11 +1,9 @@
 //! Sums of velocities as differences from each other.
 
 use crate::algebra::{ExprId, FastMap, Node, Rational};
+use crate::motion::thresholds::COMPARED_SUMS;
 use crate::motion::velocity_forms::VELOCITIES;
 use crate::workbench::Workbench;
-
-/// More sums than this are not compared with each other.
-const MANY: usize = 400;
 
 /// `S = multiple*parent + rest`, a sum by another one that has many of its terms.
 pub(super) struct Relative {
@@ -26,7 +24,7 @@ pub(super) fn relatives(bench: &Workbench, roots: &[ExprId]) -> Option<FastMap<E
                 && graph.roles(*e).meets(VELOCITIES)
         })
         .collect();
-    if sums.len() > MANY {
+    if sums.len() > COMPARED_SUMS {
         return None;
     }
     let length = |e: &ExprId| match graph.node(*e) {

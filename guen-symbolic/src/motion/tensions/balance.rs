@@ -9,10 +9,8 @@
 
 use super::sparse::Vector;
 use crate::algebra::{ExprId, Node};
+use crate::motion::thresholds::BALANCED_PARAMETERS;
 use crate::workbench::Workbench;
-
-/// Blocks of more parameters are not balanced.
-const LARGEST_BLOCK: usize = 2;
 
 pub(super) struct Balance {
     /// Rows `P_s` with `P B = 1`, over the differences.
@@ -110,7 +108,7 @@ impl Balancing<'_> {
     /// Balances one block.
     fn block(&mut self, bench: &mut Workbench, members: &[usize], unknown: &[usize]) -> Option<()> {
         let one = bench.graph.one();
-        if unknown.len() > LARGEST_BLOCK {
+        if unknown.len() > BALANCED_PARAMETERS {
             return None;
         }
         // Differences that are constant multiples of another one: particles on the same link.

@@ -35,6 +35,7 @@ use super::between::Between;
 use super::projection::Squares;
 use super::{Equations, Frame};
 use crate::algebra::ExprId;
+use crate::motion::thresholds::TENSIONS_MASSES;
 use crate::workbench::Workbench;
 
 use balance::{Balance, balance};
@@ -111,7 +112,7 @@ pub(super) fn solve(
     let moving: Vec<usize> =
         (0..squares.masses.len()).filter(|k| squares.components[*k].iter().any(|e| *e != zero)).collect();
     // Each tension costs as much as a parameter at least.
-    if moving.len() > 4 * l || dense.cost() < pattern::LEAST {
+    if moving.len() > 4 * l || dense.cost() < TENSIONS_MASSES {
         return None;
     }
     let components: Vec<Vec<ExprId>> = moving.iter().map(|k| squares.components[*k].clone()).collect();

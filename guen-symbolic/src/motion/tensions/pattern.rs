@@ -4,9 +4,6 @@ use super::sparse::Vector;
 use crate::algebra::ExprId;
 use crate::workbench::Workbench;
 
-/// A mass matrix that costs less is left alone.
-pub(super) const LEAST: usize = 12;
-
 /// Operations for an entry that depends on the state, and for a division.
 const ENTRY: usize = 3;
 const DIVISION: usize = 4;

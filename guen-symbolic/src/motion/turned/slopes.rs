@@ -5,6 +5,7 @@
 
 use crate::algebra::{ExprId, Graph, Node};
 use crate::motion::restriction::{Restriction, written_out};
+use crate::motion::thresholds::{COMPONENT_TERMS, COMPONENTS_DIFFERENTIATED};
 use crate::normal::{Limits, normal_form};
 use crate::program::weighted_cost;
 use crate::workbench::Workbench;
@@ -12,18 +13,12 @@ use crate::workbench::Workbench;
 /// The limits of a component in a body's axes: the operators are multiplied out for it.
 const COMPONENT: Limits = Limits { terms: 400, generators: 32, degree: 48, nodes: 800, steps: 60_000 };
 
-/// Components up to this size are written out; others are computed once, and their squares are not multiplied out.
-const SMALL: usize = 5;
-
-/// The estimate of all components beyond which their derivatives are not multiplied out: that only costs time.
-const LARGE: u64 = 300;
-
 /// A component in normal form, nothing in it kept whole; `None` beyond the limits.
 pub(super) fn normal(bench: &mut Workbench, restriction: &mut Restriction, e: ExprId) -> Option<ExprId> {
     let normal = normal_written_out(bench, restriction, e)?;
     // The sign stays outside, so that a component and its negative are computed once.
     let (coefficient, component) = bench.graph.split_coefficient(normal);
-    let kept = bench.keep_above(component, SMALL);
+    let kept = bench.keep_above(component, COMPONENT_TERMS);
     Some(bench.graph.scale(kept, &coefficient))
 }
 
@@ -42,7 +37,7 @@ pub(super) fn rates_of(
     weights: &[ExprId],
     mut slopes: impl FnMut(&mut Workbench, ExprId) -> Vec<ExprId>,
 ) -> Option<Vec<ExprId>> {
-    if weighted_cost(&bench.graph, entries) > LARGE {
+    if weighted_cost(&bench.graph, entries) > COMPONENTS_DIFFERENTIATED {
         return None;
     }
     let mut components: Vec<ExprId> = Vec::new();
@@ -61,7 +56,7 @@ pub(super) fn rates_of(
         let terms: Vec<ExprId> = terms.collect();
         let rate = bench.graph.sum(terms.into_iter().chain([quotients[0]]));
         let (content, rate) = bench.graph.split_content(rate);
-        let rate = bench.keep_above(rate, SMALL);
+        let rate = bench.keep_above(rate, COMPONENT_TERMS);
         let rate = bench.graph.scale(rate, &content);
         rates.push(bench.graph.mul(rate, factor));
     }

@@ -15,21 +15,13 @@ mod trim;
 use super::cost::OperationCount;
 use super::instruction::{FunctionProgram, Programs};
 use crate::algebra::SymbolId;
+use crate::program::thresholds::{LARGEST_DIFFERENTIATED, LARGEST_JACOBIAN, ORDERED_INSTRUCTIONS};
 use eliminate::Order;
 use factors::Code;
 
 /// The place of each output of a Jacobian's function: `(row, column)`, row by row. An entry that is not listed is
 /// zero everywhere.
 pub type Pattern = Vec<(usize, usize)>;
-
-/// Functions with more instructions are not differentiated: see [`Programs::add_jacobian`].
-pub const LARGEST_DIFFERENTIATED: usize = 2_000;
-
-/// Jacobians with more operations are not kept: the user's compiler reads every one of them.
-pub const LARGEST_JACOBIAN: u32 = 6_000;
-
-/// Below so many instructions every order of elimination is tried.
-const SMALL: usize = 250;
 
 impl Programs {
     /// Adds a function of the partial derivatives of another one by some symbols, and tells where they belong.
@@ -54,7 +46,7 @@ impl Programs {
         if count > LARGEST_DIFFERENTIATED {
             return None;
         }
-        let orders = if count <= SMALL { &Order::ALL[..] } else { &[Order::Markowitz] };
+        let orders = if count <= ORDERED_INSTRUCTIONS { &Order::ALL[..] } else { &[Order::Markowitz] };
         let mut best: Option<(u64, Code, FunctionProgram, Pattern)> = None;
         for order in orders {
             let mut code = Code::new(&self.prepare, &self.prepared, self.prepare_values);

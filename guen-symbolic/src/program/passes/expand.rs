@@ -4,15 +4,7 @@ use super::super::net::{Linear, Net, NetId, NetNode};
 use super::super::terms::{Terms, add_term, nonzero};
 use super::Changes;
 use crate::algebra::{ExprId, FastMap, Graph};
-
-/// A sum used by two products may have this many terms: a rotation does.
-const SHARED_TERMS: usize = 2;
-/// A sum used by one product may have this many terms.
-const SINGLE_TERMS: usize = 12;
-/// No sum grows beyond this.
-const LARGEST_SUM: usize = 100;
-/// Sums in sums in sums: deeper ones stay.
-const DEPTH: usize = 3;
+use crate::program::thresholds::{EXPANDED_DEPTH, EXPANDED_TERMS, SHARED_TERMS, SINGLE_TERMS};
 
 pub(super) fn changes(graph: &mut Graph, net: &mut Net, roots: &[NetId]) -> Changes {
     let (nodes, uses) = net.reachable(roots);
@@ -25,7 +17,7 @@ pub(super) fn changes(graph: &mut Graph, net: &mut Net, roots: &[NetId]) -> Chan
         let NetNode::Sum(linear) = net.node(id) else { continue };
         let mut linear = linear.clone();
         let mut changed = false;
-        for _ in 0..DEPTH {
+        for _ in 0..EXPANDED_DEPTH {
             let mut progress = false;
             let mut constant = linear.constant;
             let mut collected = Terms::with_capacity(linear.terms.len());
@@ -39,7 +31,7 @@ pub(super) fn changes(graph: &mut Graph, net: &mut Net, roots: &[NetId]) -> Chan
                 };
                 let NetNode::Sum(inner) = net.node(factor).clone() else { unreachable!("only sums expand") };
                 size += inner.terms.len();
-                if size > LARGEST_SUM {
+                if size > EXPANDED_TERMS {
                     add(graph, *node, *k);
                     continue;
                 }

@@ -4,9 +4,7 @@ use super::super::net::{Linear, Net, NetId, NetNode, split_sign};
 use super::super::terms::{Powers, Terms, add_term, nonzero};
 use super::Changes;
 use crate::algebra::{ExprId, FastMap, Graph, Key, spread};
-
-/// Sums with more terms stay as they are.
-const LARGEST_SUM: usize = 400;
+use crate::program::thresholds::FACTORED_TERMS;
 
 /// One term: coefficient and powers.
 #[derive(Clone, Debug)]
@@ -38,7 +36,7 @@ pub(super) fn changes(graph: &mut Graph, net: &mut Net, roots: &[NetId], open_sh
     let mut changes = Changes::default();
     for id in nodes {
         let NetNode::Sum(linear) = net.node(id) else { continue };
-        if linear.terms.len() < 2 || linear.terms.len() > LARGEST_SUM {
+        if linear.terms.len() < 2 || linear.terms.len() > FACTORED_TERMS {
             continue;
         }
         let linear = linear.clone();

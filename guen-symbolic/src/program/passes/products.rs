@@ -7,11 +7,7 @@ use super::super::net::{Linear, Net, NetId, NetNode, constant_factors, split_sig
 use super::super::terms::{Powers, Terms, add_term};
 use super::Changes;
 use crate::algebra::{ExprId, FastMap, Graph, Key, Rational, spread};
-
-/// More monomials than this stay as they are.
-const LARGEST_PROBLEM: usize = 20_000;
-/// Monomials of more different factors do not take part: pairs grow with the square.
-const LONGEST_MONOMIAL: usize = 24;
+use crate::program::thresholds::{MONOMIAL_FACTORS, MONOMIALS};
 
 /// A factor that pairs are made of, in one word: comparing and hashing pairs is most of the work.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
@@ -147,7 +143,7 @@ impl Search {
     fn count_all(&mut self) {
         let mut shared: Monomial = Vec::new();
         for monomial in &self.monomials {
-            if monomial.len() > LONGEST_MONOMIAL {
+            if monomial.len() > MONOMIAL_FACTORS {
                 continue;
             }
             shared.clear();
@@ -226,7 +222,7 @@ impl Search {
         .clone();
         for index in users {
             let monomial = &self.monomials[index as usize];
-            if monomial.len() > LONGEST_MONOMIAL {
+            if monomial.len() > MONOMIAL_FACTORS {
                 continue;
             }
             let (na, nb) = (power(monomial, a), power(monomial, b));
@@ -355,7 +351,7 @@ pub(super) fn changes(graph: &mut Graph, net: &mut Net, roots: &[NetId], split_c
             inner_products.push((id, index));
         }
     }
-    if search.monomials.len() > LARGEST_PROBLEM {
+    if search.monomials.len() > MONOMIALS {
         return changes;
     }
     if !search.run(graph, net) {

@@ -6,11 +6,7 @@
 use super::super::net::{Linear, Net, NetId, NetNode, split_sign};
 use super::Changes;
 use crate::algebra::{ExprId, FastMap, Graph};
-
-/// Sums that only subtract beyond this number stay as they are.
-const LARGEST_PROBLEM: usize = 1_000;
-/// A factor with more users than this keeps its sign.
-const MOST_USERS: usize = 64;
+use crate::program::thresholds::{SUBTRACTING_SUMS, USERS_OF_A_SIGN};
 
 pub(super) fn changes(graph: &mut Graph, net: &mut Net, roots: &[NetId]) -> Changes {
     let (nodes, _) = net.reachable(roots);
@@ -30,7 +26,7 @@ pub(super) fn changes(graph: &mut Graph, net: &mut Net, roots: &[NetId]) -> Chan
         .filter(|id| turning.sums.get(id).is_some_and(|sum| needs_negation(graph, sum)))
         .collect();
     let mut changed: Vec<NetId> = Vec::new();
-    for id in bad.into_iter().take(LARGEST_PROBLEM) {
+    for id in bad.into_iter().take(SUBTRACTING_SUMS) {
         if !needs_negation(graph, &turning.sums[&id]) {
             continue;
         }
@@ -87,7 +83,7 @@ impl Turning<'_> {
         while let Some(node) = stack.pop() {
             for parent in self.parents.get(&node).into_iter().flatten() {
                 users += 1;
-                let parent = (*parent).filter(|_| users <= MOST_USERS)?;
+                let parent = (*parent).filter(|_| users <= USERS_OF_A_SIGN)?;
                 match self.net.node(parent) {
                     NetNode::Sum(_) => {
                         let position = match touched.iter().position(|(sum, _)| *sum == parent) {

@@ -7,11 +7,7 @@ use super::super::net::{Linear, Net, NetId, NetNode, constant_factors};
 use super::super::terms::{Terms, nonzero};
 use super::{Changes, is_unit};
 use crate::algebra::{ExprId, FastMap, Graph};
-
-/// Sums with more terms that occur elsewhere take no part: pairs grow with the square.
-const LONGEST_SUM: usize = 40;
-/// The number of pairs that is looked at.
-const LARGEST_PROBLEM: usize = 6_000;
+use crate::program::thresholds::{SUM_PAIRS, SUM_TERMS};
 
 struct Row {
     id: NetId,
@@ -107,7 +103,7 @@ fn shared_pairs(graph: &mut Graph, rows: &[Row], known: &mut Ratios) -> Vec<Shar
                 shared.push(*term);
             }
         }
-        if shared.len() > LONGEST_SUM {
+        if shared.len() > SUM_TERMS {
             continue;
         }
         let shared: &[(NetId, ExprId)] = &shared;
@@ -123,7 +119,7 @@ fn shared_pairs(graph: &mut Graph, rows: &[Row], known: &mut Ratios) -> Vec<Shar
                 if first.0 != index {
                     more.push(user);
                 }
-                if pairs.len() > LARGEST_PROBLEM {
+                if pairs.len() > SUM_PAIRS {
                     break 'rows;
                 }
                 k += 1;

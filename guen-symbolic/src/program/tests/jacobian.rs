@@ -1,6 +1,6 @@
 //! Jacobians of programs against the derivatives of their expressions.
 
-use super::super::jacobian::LARGEST_DIFFERENTIATED;
+use super::super::thresholds::LARGEST_DIFFERENTIATED;
 use super::{Dice, direct, programs, random_system};
 use crate::algebra::{ExprId, Flow, Function, Graph, Role, SymbolId};
 use crate::program::{Programs, evaluate_function, evaluate_prepare};

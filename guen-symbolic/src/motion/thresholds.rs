@@ -1,0 +1,65 @@
+//! Thresholds of cost and of size on the way to the rates, to be tuned in one place. Each is where the golden costs
+//! (`tests/costs.txt`) and the steps of expansions are best together; `docs/design/formulations.md` and `docs/design/expansion-time.md`
+//! have the figures.
+
+/// The number of parameters, and of frames that turn, from which on equations are not multiplied out.
+pub(in crate::motion) const MULTIPLIED_PARAMETERS: usize = 6;
+
+/// The cost of the velocities above which equations are not multiplied out.
+pub(in crate::motion) const MULTIPLIED_VELOCITIES: u64 = 4000;
+
+/// The number of products, one for each term of the energy in each entry of the mass matrix, above which equations are stated in
+/// the rates of the base angles, if there are any.
+pub(in crate::motion) const MASS_PRODUCTS: usize = 20_000;
+
+/// The estimate of rates by bodies up to which all ways to the rates are looked at.
+pub(in crate::motion) const ALL_WAYS: u64 = 150;
+
+/// The estimate of rates by bodies up to which others are looked at, unless these cannot promise less.
+pub(in crate::motion) const OTHER_WAYS: u64 = 600;
+
+/// The estimate above which a further form of equations is not worth the time to optimise it.
+pub(in crate::motion) const FURTHER_FORMS: u64 = 1000;
+
+/// The estimate up to which all forms of equations are tried.
+pub(in crate::motion) const ALL_FORMS: u64 = 600;
+
+/// The estimated cost below which momenta, reactions and the equations shown stay as they are.
+pub(in crate::motion) const RESTATED: u64 = 600;
+
+/// The number of products above which a numerator is not multiplied out.
+pub(in crate::motion) const NUMERATOR_PRODUCTS: usize = 1000;
+
+/// The weight up to which velocities on the constraints stay as the operators have them.
+pub(in crate::motion) const VELOCITY_WEIGHT: u64 = 4;
+
+/// Equations that promise no more than so many times the cost of the shortest are left to the optimiser, as a fraction: a program
+/// for each is most of the work.
+pub(in crate::motion) const CLOSE_PROMISE: (u64, u64) = (5, 4);
+
+/// The number of sums above which they are not compared with each other.
+pub(in crate::motion) const COMPARED_SUMS: usize = 400;
+
+/// The number of products for every angle of a form from which on it is not looked at.
+pub(in crate::motion) const PRODUCTS_OF_AN_ANGLE: usize = 400;
+
+/// The cost of a mass matrix below which it is left alone by tensions.
+pub(in crate::motion) const TENSIONS_MASSES: usize = 12;
+
+/// The number of parameters of a block above which it is not balanced.
+pub(in crate::motion) const BALANCED_PARAMETERS: usize = 2;
+
+/// The size up to which components in a body's axes are written out; others are computed once, and their squares are not multiplied out.
+pub(in crate::motion) const COMPONENT_TERMS: usize = 5;
+
+/// The estimate of all components beyond which their derivatives are not multiplied out: that only costs time.
+pub(in crate::motion) const COMPONENTS_DIFFERENTIATED: u64 = 300;
+
+/// The size up to which blocks are solved without names for intermediate results.
+pub(in crate::motion) const BLOCK_WRITTEN_OUT: usize = 2;
+
+/// The size up to which blocks without a usable pivot on the diagonal are inverted by their adjugate.
+pub(in crate::motion) const ADJUGATE_BLOCK: usize = 5;
+
+/// The number of values at points beyond which no constant is tried: each may take one of every expression of the energy.
+pub(in crate::motion) const VALUES_AT_POINTS: usize = 400_000;
