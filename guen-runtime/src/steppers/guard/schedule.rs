@@ -5,7 +5,7 @@
 const EVALUATIONS_UNTIL_SIZES: u32 = 160;
 /// The number of right-hand sides of fixed steps from one check to the next, at least: beside rates that are cheap, what is done for
 /// the sake of a check costs as much as one of them.
-const EVALUATIONS_BETWEEN_CHECKS: f64 = 192.0;
+const EVALUATIONS_BETWEEN_CHECKS: f64 = 224.0;
 /// The costs of a check from one to the next, at least: at 2.5 percent, the rest up to three is for what a step does for the guard.
 const COSTS_BETWEEN_CHECKS: f64 = 40.0;
 /// Checks of the singularities alone may take a fiftieth,
@@ -112,7 +112,7 @@ mod tests {
                     // Both meet.
                     assert!(singularities == 0.0 || every % between == 0.0, "{every} {between}");
                     // Nothing is checked more rarely than it has to be.
-                    let least = f64::from((192 / evaluations).max(1)) * of;
+                    let least = f64::from((224 / evaluations).max(1)) * of;
                     assert!(between == least || 2.0 * singularities / between > 1.0 / 51.0);
                     let meeting = if singularities > 0.0 { between } else { 0.0 };
                     let alone = every - meeting;
@@ -166,9 +166,9 @@ mod tests {
     fn what_is_chosen_is_done_and_no_price_breaks_it() {
         let chosen = Schedule::new(4, (7, 2.0), true, Some(0));
         assert_eq!(chosen, Schedule { young: 40, singularities: u32::MAX, every: 1 });
-        // RK4 with a check of two right-hand sides: every 40 times twelve of them, singularities every 192.
+        // RK4 with a check of two right-hand sides: every 40 times twelve of them, singularities every 224.
         let usual = Schedule::new(4, (2, 0.0), true, None);
-        assert_eq!(usual, Schedule { young: 40, singularities: 48, every: 120 });
+        assert_eq!(usual, Schedule { young: 40, singularities: 56, every: 120 });
         for price in [f64::NAN, -1.0] {
             assert_eq!(Schedule::new(4, (2, price), true, None), usual);
         }

@@ -166,14 +166,6 @@ impl<'a> Kinematics<'a> {
         [0, 1, 2].map(|q| self.value(self.variables.before(point, q)))
     }
 
-    /// Whether the rates in a form are found without the operators.
-    pub(super) fn is_defined(&self, form: &RateForm) -> bool {
-        form.terms.iter().all(|(i, _)| match self.variables.class(self.variables.rate(*i)) {
-            Class::Zero => true,
-            Class::Of(representative, _) => self.plan.def(representative).is_some(),
-        })
-    }
-
     pub(super) fn form(&mut self, form: &RateForm) -> Num {
         let mut sum = form.offset.unwrap_or(Num::ZERO);
         for (i, c) in &form.terms {
@@ -189,21 +181,14 @@ impl<'a> Kinematics<'a> {
         let node = &self.tree.axes[axes];
         match &node.turn {
             Turn::World => [Num::ZERO; 3],
-            Turn::About { axis, rate, .. } => {
+            Turn::About { axis, .. } => {
                 let mut spin = [Num::ZERO; 3];
-                spin[*axis] = if self.is_defined(rate) {
-                    self.form(rate)
-                } else {
-                    let own = self.value(self.variables.spin(axes, *axis));
-                    let parent = self.value(self.variables.spin(node.parent, *axis));
-                    self.numbers.sub(own, parent)
-                };
+                let own = self.value(self.variables.spin(axes, *axis));
+                let parent = self.value(self.variables.spin(node.parent, *axis));
+                spin[*axis] = self.numbers.sub(own, parent);
                 spin
             }
-            Turn::By { spin, .. } => {
-                if spin.iter().all(|form| self.is_defined(form)) {
-                    return [0, 1, 2].map(|q| self.form(&spin[q]));
-                }
+            Turn::By { .. } => {
                 let parent = self.spin(node.parent);
                 let seen = self.tree.outwards(self.numbers, axes, &parent);
                 let own = self.spin(axes);
