@@ -5,16 +5,12 @@ use alloc::vec::Vec;
 use core::cell::RefCell;
 
 use crate::numbers::real::{Ordered, Real};
-use crate::simulation::drive::{Drive, Steps};
+use crate::simulation::optional_projection::OptionalProjection;
 use crate::simulation::recorder::Recorder;
-use crate::simulation::settled::Settled;
-use crate::steppers::{Cause, Checkpoint, Integration, Interpolant, Method, Setting, Statistics, StepperRun};
-use crate::system::actuated::{Actuated, WithInputs};
+use crate::simulation::sampling::Sampling;
+use crate::steppers::{Cause, Checkpoint, Interpolant, Method, Setting, Statistics, StepperRun};
+use crate::system::actuated::{Actuated, StateOf, WithInputs};
 use crate::system::input_law::InputSamples;
-use crate::system::simulate::Simulate;
-
-/// A state of a system with inputs.
-pub(super) type StateOf<S, R, const N: usize> = <<S as Actuated<R, N>>::Driven as Simulate<R, N>>::State;
 
 /// A function of time and state that may have a memory of its own.
 type Controller<'a, S, R, const N: usize> =
@@ -49,27 +45,26 @@ impl<'a, S: Actuated<R, N>, R: Real, const N: usize> Hold<'a, S, R, N> {
 }
 
 /// A system whose inputs were held.
-pub(super) type Sampled<S, R, const N: usize> =
-    WithInputs<S, InputSamples<R, <S as Actuated<R, N>>::Inputs>, R, N>;
+pub type Sampled<S, R, const N: usize> = WithInputs<S, InputSamples<R, <S as Actuated<R, N>>::Inputs>, R, N>;
 
-impl<S, R, M, P, const N: usize> Drive<R, Sampled<S, R, N>, M, P, N> for Hold<'_, S, R, N>
+impl<'a, S, R, M, P, const N: usize> Sampling<R, Sampled<S, R, N>, M, P, N> for Hold<'a, S, R, N>
 where
     R: Ordered,
     S: Actuated<R, N>,
     P: Interpolant<R, N>,
-    M: Method<R, Settled<S::Driven>, N>,
-    for<'r> M::Run<'r>: StepperRun<R, Settled<S::Driven>, N, Polynomial = P>,
+    M: Method<R, OptionalProjection<S::Driven>, N>,
+    for<'r> M::Run<'r>: StepperRun<R, OptionalProjection<S::Driven>, N, Polynomial = P>,
 {
-    fn run<const E: usize>(
-        &mut self,
-        integration: Integration<'_, R, Settled<Sampled<S, R, N>>, N, E>,
-        method: &M,
-        end: R,
-        memory: usize,
-    ) -> Steps<R, P, N> {
-        let recorder = Recorder::new(method, memory, size_of::<(R, S::Inputs)>());
-        let result = integration.run(&Holding { method: &recorder, hold: RefCell::new(self) }, end);
-        (result, recorder.into_steps())
+    const MEMORY: usize = size_of::<(R, S::Inputs)>();
+    type Method<'m>
+        = Holding<'m, 'a, S, Recorder<'m, M, R, P>, R, N>
+    where
+        Self: 'm,
+        M: 'm,
+        P: 'm;
+
+    fn method<'m>(&'m mut self, recorder: &'m Recorder<'m, M, R, P>) -> Self::Method<'m> {
+        Holding { method: recorder, hold: RefCell::new(self) }
     }
 
     fn finished(self, system: Sampled<S, R, N>) -> Sampled<S, R, N> {
@@ -78,16 +73,17 @@ where
 }
 
 /// The method, begun anew at every sample.
-struct Holding<'h, 'a, S: Actuated<R, N>, M, R: Real, const N: usize> {
+pub struct Holding<'h, 'a, S: Actuated<R, N>, M, R: Real, const N: usize> {
     method: &'h M,
     hold: RefCell<&'h mut Hold<'a, S, R, N>>,
 }
 
-impl<'h, 'a, S, M, R, const N: usize> Method<R, Settled<Sampled<S, R, N>>, N> for Holding<'h, 'a, S, M, R, N>
+impl<'h, 'a, S, M, R, const N: usize> Method<R, OptionalProjection<Sampled<S, R, N>>, N>
+    for Holding<'h, 'a, S, M, R, N>
 where
     R: Ordered,
     S: Actuated<R, N>,
-    M: Method<R, Settled<S::Driven>, N>,
+    M: Method<R, OptionalProjection<S::Driven>, N>,
 {
     type Run<'r>
         = Held<'r, 'h, 'a, S, M, M::Run<'r>, R, N>
@@ -110,22 +106,25 @@ where
 }
 
 /// The system with these inputs held.
-fn held<S, R, const N: usize>(system: &Settled<Sampled<S, R, N>>, inputs: S::Inputs) -> Settled<S::Driven>
+fn held<S, R, const N: usize>(
+    system: &OptionalProjection<Sampled<S, R, N>>,
+    inputs: S::Inputs,
+) -> OptionalProjection<S::Driven>
 where
     R: Real,
     S: Actuated<R, N>,
 {
-    Settled { system: system.system.system.held(inputs), projects: system.projects }
+    OptionalProjection { system: system.system.system.held(inputs), projects: system.projects }
 }
 
 /// A run whose inputs are held from sample to sample.
-struct Held<'r, 'h, 'a, S: Actuated<R, N>, M, C, R: Real, const N: usize> {
+pub struct Held<'r, 'h, 'a, S: Actuated<R, N>, M, C, R: Real, const N: usize> {
     method: &'r M,
     hold: &'r RefCell<&'h mut Hold<'a, S, R, N>>,
     /// The run since the last sample.
     run: C,
     /// The system with the inputs of the last sample; none before the first.
-    system: Option<Settled<S::Driven>>,
+    system: Option<OptionalProjection<S::Driven>>,
     origin: R,
     samples: u64,
     /// The time of the next sample.
@@ -139,10 +138,10 @@ impl<S, M, C, R, const N: usize> Held<'_, '_, '_, S, M, C, R, N>
 where
     R: Ordered,
     S: Actuated<R, N>,
-    C: StepperRun<R, Settled<S::Driven>, N>,
+    C: StepperRun<R, OptionalProjection<S::Driven>, N>,
 {
     /// Takes a sample where the run stands, on the way to a time.
-    fn sample(&mut self, system: &Settled<Sampled<S, R, N>>, target: R) -> Result<(), Cause> {
+    fn sample(&mut self, system: &OptionalProjection<Sampled<S, R, N>>, target: R) -> Result<(), Cause> {
         /// Roundings of a span within which a sample is at its end.
         const ROUNDINGS: f64 = 4.0;
 
@@ -175,13 +174,13 @@ where
     }
 }
 
-impl<'r, S, M, C, R, const N: usize> StepperRun<R, Settled<Sampled<S, R, N>>, N>
+impl<'r, S, M, C, R, const N: usize> StepperRun<R, OptionalProjection<Sampled<S, R, N>>, N>
     for Held<'r, '_, '_, S, M, C, R, N>
 where
     R: Ordered,
     S: Actuated<R, N>,
-    M: Method<R, Settled<S::Driven>, N, Run<'r> = C>,
-    C: StepperRun<R, Settled<S::Driven>, N>,
+    M: Method<R, OptionalProjection<S::Driven>, N, Run<'r> = C>,
+    C: StepperRun<R, OptionalProjection<S::Driven>, N>,
 {
     const EVALUATIONS: u32 = C::EVALUATIONS;
     const JUDGED: bool = C::JUDGED;
@@ -191,7 +190,12 @@ where
         &self.reached
     }
 
-    fn advance(&mut self, system: &Settled<Sampled<S, R, N>>, target: R, dense: bool) -> Result<(), Cause> {
+    fn advance(
+        &mut self,
+        system: &OptionalProjection<Sampled<S, R, N>>,
+        target: R,
+        dense: bool,
+    ) -> Result<(), Cause> {
         if self.system.is_none() || self.reached.time == self.next {
             self.sample(system, target)?;
             self.before = self.reached.statistics;
@@ -208,14 +212,14 @@ where
         (target - self.next).to_f64() <= 0.0 && self.run.is_last(target)
     }
 
-    fn defect(&self, system: &Settled<Sampled<S, R, N>>, before: &Checkpoint<R, N>) -> [R; N] {
+    fn defect(&self, system: &OptionalProjection<Sampled<S, R, N>>, before: &Checkpoint<R, N>) -> [R; N] {
         match &self.system {
             Some(system) => self.run.defect(system, before),
             None => self.run.defect(&held(system, S::Inputs::default()), before),
         }
     }
 
-    fn dense(&mut self, system: &Settled<Sampled<S, R, N>>) -> C::Polynomial {
+    fn dense(&mut self, system: &OptionalProjection<Sampled<S, R, N>>) -> C::Polynomial {
         let polynomial = match &self.system {
             Some(system) => self.run.dense(system),
             None => self.run.dense(&held(system, S::Inputs::default())),

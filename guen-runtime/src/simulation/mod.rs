@@ -3,11 +3,11 @@
 //! The run is an [`Integration`](crate::steppers::Integration) of a method that keeps the polynomial of every step; what does
 //! not ask for a trajectory does not pay for one.
 
-mod drive;
 mod error;
 mod hold;
+mod optional_projection;
 mod recorder;
-mod settled;
+mod sampling;
 mod trajectory;
 mod trigger;
 mod without_inputs;
@@ -21,8 +21,9 @@ pub use trigger::Trigger;
 pub use without_inputs::SimulationWithoutInputs;
 
 use crate::numbers::real::Ordered;
-use crate::simulation::drive::{Direct, Drive};
-use crate::simulation::settled::Settled;
+use crate::simulation::optional_projection::OptionalProjection;
+use crate::simulation::recorder::Recorder;
+use crate::simulation::sampling::{Continuous, Sampling};
 use crate::steppers::{Dop853, Event, Guard, Integration, Interpolant, Occurrence};
 use crate::system::simulate::Simulate;
 
@@ -65,7 +66,7 @@ type Progress<'a, R> = Box<dyn FnMut(R, f64) + 'a>;
 /// assert!((flight.at(1.0)[0] - (10.0 - 9.81 / 2.0)).abs() < 1e-12);
 /// ```
 #[must_use = "a simulation runs when `run` is called"]
-pub struct Simulation<'a, S, const N: usize, R = f64, M = Dop853<R>, const E: usize = 0, D = Direct>
+pub struct Simulation<'a, S, const N: usize, R = f64, M = Dop853<R>, const E: usize = 0, D = Continuous>
 where
     R: Ordered,
     S: Simulate<R, N>,
@@ -79,7 +80,7 @@ where
     triggers: [Trigger<'a, R, S::State>; E],
     observer: Option<Observer<'a, R, S::State>>,
     progress: Option<Progress<'a, R>>,
-    drive: D,
+    sampling: D,
 }
 
 impl<S, const N: usize, R, M, const E: usize, D> core::fmt::Debug for Simulation<'_, S, N, R, M, E, D>
@@ -99,12 +100,12 @@ where
 
 impl<R: Ordered, S: Simulate<R, N>, const N: usize> Simulation<'_, S, N, R> {
     pub(crate) fn new(system: S, start: &S::State) -> Self {
-        Self::driven_by(system, start, Direct)
+        Self::sampled_by(system, start, Continuous)
     }
 }
 
 impl<R: Ordered, S: Simulate<R, N>, D, const N: usize> Simulation<'_, S, N, R, Dop853<R>, 0, D> {
-    fn driven_by(system: S, start: &S::State, drive: D) -> Self {
+    fn sampled_by(system: S, start: &S::State, sampling: D) -> Self {
         Self {
             system,
             start: *start,
@@ -115,7 +116,7 @@ impl<R: Ordered, S: Simulate<R, N>, D, const N: usize> Simulation<'_, S, N, R, D
             triggers: [],
             observer: None,
             progress: None,
-            drive,
+            sampling,
         }
     }
 
@@ -153,8 +154,8 @@ impl<'a, R: Ordered, S: Simulate<R, N>, M, D, const N: usize> Simulation<'a, S, 
         self,
         triggers: [Trigger<'a, R, S::State>; E],
     ) -> Simulation<'a, S, N, R, M, E, D> {
-        let Self { system, start, method, guard, memory, projects, observer, progress, drive, .. } = self;
-        Simulation { system, start, method, guard, memory, projects, triggers, observer, progress, drive }
+        let Self { system, start, method, guard, memory, projects, observer, progress, sampling, .. } = self;
+        Simulation { system, start, method, guard, memory, projects, triggers, observer, progress, sampling }
     }
 }
 
@@ -165,8 +166,9 @@ where
 {
     /// Runs with this method.
     pub fn method<T>(self, method: T) -> Simulation<'a, S, N, R, T, E, D> {
-        let Self { system, start, guard, memory, projects, triggers, observer, progress, drive, .. } = self;
-        Simulation { system, start, method, guard, memory, projects, triggers, observer, progress, drive }
+        let Self { system, start, guard, memory, projects, triggers, observer, progress, sampling, .. } =
+            self;
+        Simulation { system, start, method, guard, memory, projects, triggers, observer, progress, sampling }
     }
 
     /// Watches with these limits in place of the default ones.
@@ -218,7 +220,7 @@ where
     pub fn run<P>(self, span: Range<R>) -> Result<Trajectory<S, N, R, P>, SimulationError<S, N, R, P>>
     where
         P: Interpolant<R, N>,
-        D: Drive<R, S, M, P, N>,
+        D: Sampling<R, S, M, P, N>,
     {
         let Self {
             system,
@@ -230,7 +232,7 @@ where
             triggers,
             mut observer,
             mut progress,
-            mut drive,
+            mut sampling,
         } = self;
         let start: [R; N] = start.into();
         let functions = triggers.each_ref().map(|trigger| trigger.of_array());
@@ -255,18 +257,20 @@ where
                 None => ControlFlow::Continue(()),
             }
         };
-        let system = Settled { system, projects };
+        let system = OptionalProjection { system, projects };
         let integration = Integration::new(&system, span.start, &start)
             .guard(guard)
             .observe(&mut observe)
             .events(events, &mut receive);
-        let (result, steps) = drive.run(integration, &method, span.end, memory);
+        let recorder = Recorder::new(&method, memory, D::MEMORY);
+        let result = integration.run(&sampling.method(&recorder), span.end);
+        let steps = recorder.into_steps();
         let (end, statistics, outcome, cause) = match result {
             Ok(done) => ((done.time, done.state), done.statistics, Some(done.outcome), None),
             Err(error) => ((error.time, error.state), error.statistics, None, Some(error.cause)),
         };
         drop(functions);
-        let system = Settled { system: drive.finished(system.system), projects };
+        let system = OptionalProjection { system: sampling.finished(system.system), projects };
         let trajectory =
             Trajectory::new(system, (span.start, start), steps, end, happened, statistics, outcome);
         match cause {

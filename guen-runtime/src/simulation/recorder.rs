@@ -34,7 +34,7 @@ impl<R, P> Log<R, P> {
 }
 
 /// The method with its log.
-pub(super) struct Recorder<'m, M, R, P> {
+pub struct Recorder<'m, M, R, P> {
     method: &'m M,
     log: RefCell<Log<R, P>>,
 }
@@ -70,7 +70,7 @@ where
 }
 
 /// A run of the method.
-pub(super) struct Recorded<'a, C, R, P, const N: usize> {
+pub struct Recorded<'a, C, R, P, const N: usize> {
     run: C,
     log: &'a RefCell<Log<R, P>>,
     last: Option<P>,

@@ -3,8 +3,8 @@
 use alloc::vec::Vec;
 
 use crate::numbers::real::{Ordered, Real};
+use crate::simulation::optional_projection::OptionalProjection;
 use crate::simulation::recorder::Step;
-use crate::simulation::settled::Settled;
 use crate::steppers::{Dense, Interpolant, Outcome, Statistics};
 use crate::system::outputs::OutputMap;
 use crate::system::simulate::Simulate;
@@ -63,7 +63,7 @@ where
     R: Real,
     S: Simulate<R, N>,
 {
-    system: Settled<S>,
+    system: OptionalProjection<S>,
     start: (R, [R; N]),
     steps: Vec<Step<R, P>>,
     end: (R, [R; N]),
@@ -87,7 +87,7 @@ impl<R: Real, S: Simulate<R, N>, P, const N: usize> core::fmt::Debug for Traject
 impl<R: Real, S: Simulate<R, N>, P, const N: usize> Trajectory<S, N, R, P> {
     /// The trajectory of the steps that begin before its end.
     pub(super) fn new(
-        system: Settled<S>,
+        system: OptionalProjection<S>,
         start: (R, [R; N]),
         mut steps: Vec<Step<R, P>>,
         end: (R, [R; N]),

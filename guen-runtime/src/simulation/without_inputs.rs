@@ -2,9 +2,9 @@
 
 use crate::numbers::real::Ordered;
 use crate::simulation::Simulation;
-use crate::simulation::hold::{Hold, Sampled, StateOf};
+use crate::simulation::hold::{Hold, Sampled};
 use crate::steppers::Dop853;
-use crate::system::actuated::{Actuated, WithInputs};
+use crate::system::actuated::{Actuated, StateOf, WithInputs};
 use crate::system::input_law::{InputLaw, InputRecords, InputSamples, Smooth};
 use crate::system::linearization::Liftable;
 
@@ -110,6 +110,6 @@ impl<S: Actuated<R, N>, R: Ordered, const N: usize> SimulationWithoutInputs<S, R
     ) -> Simulation<'a, Sampled<S, R, N>, N, R, Dop853<R>, 0, Hold<'a, S, R, N>> {
         let Self { system, start } = self;
         let system = WithInputs::new(system, InputSamples::new());
-        Simulation::driven_by(system, &start, Hold::new(period, controller))
+        Simulation::sampled_by(system, &start, Hold::new(period, controller))
     }
 }

@@ -5,18 +5,20 @@ use core::marker::PhantomData;
 use crate::numbers::dual::Dual;
 use crate::numbers::lift::Lift;
 use crate::numbers::real::{Ordered, Real};
-use crate::numbers::running_error::RunningError;
 #[cfg(feature = "alloc")]
 use crate::simulation::SimulationWithoutInputs;
 use crate::system::bodies::{Bodies, Body};
 use crate::system::differentiable::Differentiable;
+use crate::system::forward::forward;
 use crate::system::input_law::{InputLaw, InputRecords, InputValues, Smooth};
-use crate::system::invariants::Invariants;
 use crate::system::linearization::{Liftable, Linearizable, Linearization, seeded};
 use crate::system::outputs::OutputMap;
 use crate::system::positions_error::PositionsError;
 use crate::system::simulate::Simulate;
 use crate::system::{Monitored, System};
+
+/// A state of the system `S` with inputs.
+pub(crate) type StateOf<S, R, const N: usize> = <<S as Actuated<R, N>>::Driven as Simulate<R, N>>::State;
 
 /// A prepared system with inputs: with values for them it is something that steppers integrate. Generated systems are.
 pub trait Actuated<R: Real, const N: usize> {
@@ -67,7 +69,7 @@ pub trait Actuated<R: Real, const N: usize> {
     fn with_inputs<F>(self, law: F) -> WithInputs<Self, F, R, N>
     where
         Self: Sized,
-        F: Fn(R, &<Self::Driven as Simulate<R, N>>::State) -> Self::Inputs,
+        F: Fn(R, &StateOf<Self, R, N>) -> Self::Inputs,
     {
         WithInputs::new(self, law)
     }
@@ -86,10 +88,7 @@ pub trait Actuated<R: Real, const N: usize> {
     /// A simulation from a state, which first needs inputs: [`inputs`](SimulationWithoutInputs::inputs) that are functions of
     /// time and state, or those of a controller that [`hold`](SimulationWithoutInputs::hold)s them between its samples.
     #[cfg(feature = "alloc")]
-    fn simulation(
-        &self,
-        start: &<Self::Driven as Simulate<R, N>>::State,
-    ) -> SimulationWithoutInputs<Self, R, N>
+    fn simulation(&self, start: &StateOf<Self, R, N>) -> SimulationWithoutInputs<Self, R, N>
     where
         R: Ordered,
         Self: Clone,
@@ -121,10 +120,10 @@ impl<S, F, R, const N: usize> WithInputs<S, F, R, N>
 where
     R: Real,
     S: Actuated<R, N>,
-    F: InputValues<R, <S::Driven as Simulate<R, N>>::State, S::Inputs>,
+    F: InputValues<S, R, N>,
 {
     /// The inputs at a time and state.
-    pub fn inputs(&self, t: R, state: &<S::Driven as Simulate<R, N>>::State) -> S::Inputs {
+    pub fn inputs(&self, t: R, state: &StateOf<S, R, N>) -> S::Inputs {
         self.law.values(t, state)
     }
 
@@ -145,41 +144,9 @@ impl<S, F, R, const N: usize> System<R, N> for WithInputs<S, F, R, N>
 where
     R: Real,
     S: Actuated<R, N>,
-    F: InputValues<R, <S::Driven as Simulate<R, N>>::State, S::Inputs>,
+    F: InputValues<S, R, N>,
 {
-    #[inline]
-    fn rhs(&self, t: R, state: &[R; N]) -> [R; N] {
-        self.at(t, state).rhs(t, state)
-    }
-
-    fn restore(&self, t: R, state: &mut [R; N]) -> Result<(), PositionsError> {
-        self.anywhere().restore(t, state)
-    }
-
-    fn conserved(&self, t: R, state: &[R; N]) -> Invariants<R> {
-        self.at(t, state).conserved(t, state)
-    }
-
-    fn singularities(
-        &self,
-        t: RunningError<R>,
-        state: &[RunningError<R>; N],
-        values: &mut [RunningError<R>],
-    ) -> usize {
-        self.anywhere().singularities(t, state, values)
-    }
-
-    fn condition(&self, t: R, state: &[R; N]) -> R {
-        self.anywhere().condition(t, state)
-    }
-
-    fn check_cost(&self) -> u32 {
-        self.anywhere().check_cost()
-    }
-
-    fn singularity_check_cost(&self) -> f64 {
-        self.anywhere().singularity_check_cost()
-    }
+    forward!(self -> self.anywhere(), |t, state| self.at(t, state); System<R, N>, restore);
 }
 
 impl<S, F, R, const N: usize> Monitored<R, N> for WithInputs<S, F, R, N>
@@ -187,22 +154,16 @@ where
     R: Real,
     S: Actuated<R, N>,
     S::Driven: Monitored<R, N>,
-    F: InputValues<R, <S::Driven as Simulate<R, N>>::State, S::Inputs>,
+    F: InputValues<S, R, N>,
 {
-    fn energy(&self, t: R, state: &[R; N]) -> R {
-        self.at(t, state).energy(t, state)
-    }
-
-    fn residual(&self, t: R, state: &[R; N]) -> R {
-        self.anywhere().residual(t, state)
-    }
+    forward!(self -> self.anywhere(), |t, state| self.at(t, state); Monitored<R, N>);
 }
 
 impl<S, F, R, const N: usize> Simulate<R, N> for WithInputs<S, F, R, N>
 where
     R: Real,
     S: Actuated<R, N>,
-    F: InputValues<R, <S::Driven as Simulate<R, N>>::State, S::Inputs>,
+    F: InputValues<S, R, N>,
 {
     type State = <S::Driven as Simulate<R, N>>::State;
     const STATES: &'static [&'static str] = S::Driven::STATES;
@@ -221,7 +182,7 @@ where
     R: Real,
     S: Actuated<R, N>,
     S::Driven: Bodies<R, N, B>,
-    F: InputValues<R, <S::Driven as Simulate<R, N>>::State, S::Inputs>,
+    F: InputValues<S, R, N>,
 {
     #[inline]
     fn bodies(&self, t: R, state: &[R; N]) -> [Body<R>; B] {
@@ -234,7 +195,7 @@ where
     R: Real,
     S: Actuated<R, N>,
     S::Driven: OutputMap<R, N, K>,
-    F: InputValues<R, <S::Driven as Simulate<R, N>>::State, S::Inputs>,
+    F: InputValues<S, R, N>,
 {
     type Outputs = <S::Driven as OutputMap<R, N, K>>::Outputs;
     const OUTPUTS: [&'static str; K] = <S::Driven as OutputMap<R, N, K>>::OUTPUTS;
@@ -266,7 +227,7 @@ where
     S: Actuated<R, N> + InputRecords + Linearizable<R, N, M> + Liftable<R, N, M>,
     S::Inputs: Into<[R; M]>,
     L: InputLaw<S>,
-    Smooth<L, S, M>: InputValues<R, <S::Driven as Simulate<R, N>>::State, S::Inputs>,
+    Smooth<L, S, M>: InputValues<S, R, N>,
     S::StateOver<Dual<R, N>>: From<[Dual<R, N>; N]>,
     S::InputsOver<Dual<R, N>>: Into<[Dual<R, N>; M]>,
     S::StateOver<Dual<R, 1>>: From<[Dual<R, 1>; N]>,

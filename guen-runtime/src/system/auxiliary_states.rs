@@ -1,9 +1,8 @@
 //! Systems that carry elementary functions as states, and keeping these on their relations.
 
 use crate::numbers::real::Real;
-use crate::numbers::running_error::RunningError;
 use crate::system::differentiable::Differentiable;
-use crate::system::invariants::Invariants;
+use crate::system::forward::forward;
 use crate::system::positions_error::PositionsError;
 use crate::system::{Monitored, System};
 
@@ -66,63 +65,23 @@ pub fn renormalized<S>(system: S) -> Renormalized<S> {
 }
 
 impl<R: Real, S: AuxiliaryStates<R, N>, const N: usize> System<R, N> for Renormalized<S> {
-    #[inline]
-    fn rhs(&self, t: R, state: &[R; N]) -> [R; N] {
-        self.0.rhs(t, state)
-    }
+    forward!(self -> self.0; System<R, N>);
 
     #[inline]
     fn restore(&self, t: R, state: &mut [R; N]) -> Result<(), PositionsError> {
         self.0.renormalize(t, state);
         self.0.restore(t, state)
     }
-
-    fn conserved(&self, t: R, state: &[R; N]) -> Invariants<R> {
-        self.0.conserved(t, state)
-    }
-
-    fn singularities(
-        &self,
-        t: RunningError<R>,
-        state: &[RunningError<R>; N],
-        values: &mut [RunningError<R>],
-    ) -> usize {
-        self.0.singularities(t, state, values)
-    }
-
-    fn condition(&self, t: R, state: &[R; N]) -> R {
-        self.0.condition(t, state)
-    }
-
-    fn check_cost(&self) -> u32 {
-        self.0.check_cost()
-    }
-
-    fn singularity_check_cost(&self) -> f64 {
-        self.0.singularity_check_cost()
-    }
 }
 
 impl<R: Real, S: AuxiliaryStates<R, N> + Differentiable<R, N>, const N: usize> Differentiable<R, N>
     for Renormalized<S>
 {
-    fn jacobian(&self, t: R, state: &[R; N]) -> [[R; N]; N] {
-        self.0.jacobian(t, state)
-    }
-
-    fn along(&self, t: R, state: &[R; N], dt: R, dx: &[R; N]) -> [R; N] {
-        self.0.along(t, state, dt, dx)
-    }
+    forward!(self -> self.0; Differentiable<R, N>);
 }
 
 impl<R: Real, S: AuxiliaryStates<R, N> + Monitored<R, N>, const N: usize> Monitored<R, N>
     for Renormalized<S>
 {
-    fn energy(&self, t: R, state: &[R; N]) -> R {
-        self.0.energy(t, state)
-    }
-
-    fn residual(&self, t: R, state: &[R; N]) -> R {
-        self.0.residual(t, state)
-    }
+    forward!(self -> self.0; Monitored<R, N>);
 }

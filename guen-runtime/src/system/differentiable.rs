@@ -3,6 +3,7 @@
 use crate::numbers::dual::Dual;
 use crate::numbers::real::Real;
 use crate::system::System;
+use crate::system::forward::forward;
 use crate::system::linearization::seeded;
 
 /// A system that knows the derivatives of its right-hand side.
@@ -29,15 +30,7 @@ pub trait Differentiable<R: Real, const N: usize>: System<R, N> {
 }
 
 impl<R: Real, S: Differentiable<R, N> + ?Sized, const N: usize> Differentiable<R, N> for &S {
-    #[inline]
-    fn jacobian(&self, t: R, state: &[R; N]) -> [[R; N]; N] {
-        (**self).jacobian(t, state)
-    }
-
-    #[inline]
-    fn along(&self, t: R, state: &[R; N], dt: R, dx: &[R; N]) -> [R; N] {
-        (**self).along(t, state, dt, dx)
-    }
+    forward!(self -> (**self); Differentiable<R, N>);
 }
 
 /// A right-hand side written once for every real.

@@ -3,6 +3,7 @@
 use core::marker::PhantomData;
 
 use crate::numbers::real::Real;
+use crate::system::actuated::{Actuated, StateOf};
 #[cfg(feature = "alloc")]
 use alloc::vec::Vec;
 
@@ -59,16 +60,21 @@ impl<P: InputRecords, L: InputLaw<P> + ?Sized> InputLaw<P> for &L {
     }
 }
 
-/// The inputs `U` as values over one real, at a time and a state `X`: a closure, an [`InputLaw`] in [`Smooth`], or what a
-/// controller has held.
-pub trait InputValues<R, X, U> {
+/// The inputs of the system `S` as values over one real, at a time and a state: a closure, an [`InputLaw`] in [`Smooth`], or
+/// what a controller has held.
+pub trait InputValues<S: Actuated<R, N>, R: Real, const N: usize> {
     /// The inputs at a time and state.
-    fn values(&self, t: R, state: &X) -> U;
+    fn values(&self, t: R, state: &StateOf<S, R, N>) -> S::Inputs;
 }
 
-impl<F: Fn(R, &X) -> U, R, X, U> InputValues<R, X, U> for F {
+impl<F, S, R, const N: usize> InputValues<S, R, N> for F
+where
+    F: Fn(R, &StateOf<S, R, N>) -> S::Inputs,
+    S: Actuated<R, N>,
+    R: Real,
+{
     #[inline]
-    fn values(&self, t: R, state: &X) -> U {
+    fn values(&self, t: R, state: &StateOf<S, R, N>) -> S::Inputs {
         self(t, state)
     }
 }
@@ -94,14 +100,14 @@ impl<L: Clone, P, const M: usize> Clone for Smooth<L, P, M> {
 
 impl<L: Copy, P, const M: usize> Copy for Smooth<L, P, M> {}
 
-impl<R, L, P, const M: usize> InputValues<R, P::StateOver<R>, P::InputsOver<R>> for Smooth<L, P, M>
+impl<L, S, R, const N: usize, const M: usize> InputValues<S, R, N> for Smooth<L, S, M>
 where
+    L: InputLaw<S>,
+    S: Actuated<R, N> + InputRecords<StateOver<R> = StateOf<S, R, N>, InputsOver<R> = S::Inputs>,
     R: Real,
-    P: InputRecords,
-    L: InputLaw<P>,
 {
     #[inline]
-    fn values(&self, t: R, state: &P::StateOver<R>) -> P::InputsOver<R> {
+    fn values(&self, t: R, state: &StateOf<S, R, N>) -> S::Inputs {
         self.law.at(t, state)
     }
 }
@@ -130,11 +136,11 @@ impl<R, U> InputSamples<R, U> {
 }
 
 #[cfg(feature = "alloc")]
-impl<R: Real, X, U: Copy + Default> InputValues<R, X, U> for InputSamples<R, U> {
+impl<S: Actuated<R, N>, R: Real, const N: usize> InputValues<S, R, N> for InputSamples<R, S::Inputs> {
     /// The inputs of the last sample at this time or before; before the first one those of the first.
-    fn values(&self, t: R, _state: &X) -> U {
+    fn values(&self, t: R, _state: &StateOf<S, R, N>) -> S::Inputs {
         let next = self.samples.partition_point(|(time, _)| (*time - t).to_f64() <= 0.0);
         let place = next.saturating_sub(1);
-        self.samples.get(place).map_or_else(U::default, |(_, inputs)| *inputs)
+        self.samples.get(place).map_or_else(S::Inputs::default, |(_, inputs)| *inputs)
     }
 }

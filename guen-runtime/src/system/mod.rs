@@ -7,6 +7,7 @@ pub(crate) mod bracket;
 pub(crate) mod classification;
 pub(crate) mod constants_error;
 pub(crate) mod differentiable;
+pub(crate) mod forward;
 pub(crate) mod frame;
 pub(crate) mod hints;
 pub(crate) mod input_law;
@@ -24,6 +25,7 @@ pub(crate) mod simulate;
 use crate::numbers::lanes::Lanes;
 use crate::numbers::real::Real;
 use crate::numbers::running_error::RunningError;
+use crate::system::forward::forward;
 use crate::system::invariants::Invariants;
 use crate::system::positions_error::PositionsError;
 
@@ -116,45 +118,7 @@ pub trait System<R: Real, const N: usize> {
 }
 
 impl<R: Real, S: System<R, N> + ?Sized, const N: usize> System<R, N> for &S {
-    #[inline]
-    fn rhs(&self, t: R, state: &[R; N]) -> [R; N] {
-        (**self).rhs(t, state)
-    }
-
-    #[inline]
-    fn restore(&self, t: R, state: &mut [R; N]) -> Result<(), PositionsError> {
-        (**self).restore(t, state)
-    }
-
-    #[inline]
-    fn conserved(&self, t: R, state: &[R; N]) -> Invariants<R> {
-        (**self).conserved(t, state)
-    }
-
-    #[inline]
-    fn singularities(
-        &self,
-        t: RunningError<R>,
-        state: &[RunningError<R>; N],
-        values: &mut [RunningError<R>],
-    ) -> usize {
-        (**self).singularities(t, state, values)
-    }
-
-    #[inline]
-    fn condition(&self, t: R, state: &[R; N]) -> R {
-        (**self).condition(t, state)
-    }
-
-    #[inline]
-    fn check_cost(&self) -> u32 {
-        (**self).check_cost()
-    }
-
-    #[inline]
-    fn singularity_check_cost(&self) -> f64 {
-        (**self).singularity_check_cost()
-    }
+    forward!(self -> (**self); System<R, N>, restore);
 }
 
 /// A system over `f64` of which several, with constants of their own, can be put into lanes.
@@ -232,15 +196,7 @@ pub trait Monitored<R: Real, const N: usize>: System<R, N> {
 }
 
 impl<R: Real, S: Monitored<R, N> + ?Sized, const N: usize> Monitored<R, N> for &S {
-    #[inline]
-    fn energy(&self, t: R, state: &[R; N]) -> R {
-        (**self).energy(t, state)
-    }
-
-    #[inline]
-    fn residual(&self, t: R, state: &[R; N]) -> R {
-        (**self).residual(t, state)
-    }
+    forward!(self -> (**self); Monitored<R, N>);
 }
 
 /// A system made of a closure: see [`from_fn`].

@@ -5,11 +5,10 @@
 //! `x' = xi_0 + sum_s eta_s xi_s` keep the rate of `f` zero wherever the coordinates are.
 
 use crate::numbers::real::{Ordered, Real};
-use crate::numbers::running_error::RunningError;
 use crate::system::differentiable::Differentiable;
-use crate::system::invariants::Invariants;
+use crate::system::forward::forward;
 use crate::system::positions_error::PositionsError;
-use crate::system::series::{Coefficients, TaylorSeries};
+use crate::system::series::TaylorSeries;
 use crate::system::{Monitored, System};
 
 /// A system with constraints on positions `f(t, x) = 0`: `H` of them, on `N` coordinates.
@@ -316,38 +315,10 @@ where
     R: Ordered,
     S: System<R, M> + Positions<R, N, H>,
 {
-    #[inline]
-    fn rhs(&self, t: R, state: &[R; M]) -> [R; M] {
-        self.0.rhs(t, state)
-    }
+    forward!(self -> self.0; System<R, M>);
 
     fn restore(&self, t: R, state: &mut [R; M]) -> Result<(), PositionsError> {
         project(&self.0, t, state).map(|_| ())
-    }
-
-    fn conserved(&self, t: R, state: &[R; M]) -> Invariants<R> {
-        self.0.conserved(t, state)
-    }
-
-    fn singularities(
-        &self,
-        t: RunningError<R>,
-        state: &[RunningError<R>; M],
-        values: &mut [RunningError<R>],
-    ) -> usize {
-        self.0.singularities(t, state, values)
-    }
-
-    fn condition(&self, t: R, state: &[R; M]) -> R {
-        self.0.condition(t, state)
-    }
-
-    fn check_cost(&self) -> u32 {
-        self.0.check_cost()
-    }
-
-    fn singularity_check_cost(&self) -> f64 {
-        self.0.singularity_check_cost()
     }
 }
 
@@ -356,13 +327,7 @@ where
     R: Ordered,
     S: Differentiable<R, M> + Positions<R, N, H>,
 {
-    fn jacobian(&self, t: R, state: &[R; M]) -> [[R; M]; M] {
-        self.0.jacobian(t, state)
-    }
-
-    fn along(&self, t: R, state: &[R; M], dt: R, dx: &[R; M]) -> [R; M] {
-        self.0.along(t, state, dt, dx)
-    }
+    forward!(self -> self.0; Differentiable<R, M>);
 }
 
 impl<R, S, const N: usize, const H: usize, const M: usize> TaylorSeries<R, M> for Projected<S, N, H>
@@ -370,11 +335,7 @@ where
     R: Ordered,
     S: TaylorSeries<R, M> + Positions<R, N, H>,
 {
-    const PRODUCTS: usize = S::PRODUCTS;
-
-    fn series(&self, t: R, state: &[R; M], scale: R, order: usize, coefficients: &mut Coefficients<R, M>) {
-        self.0.series(t, state, scale, order, coefficients);
-    }
+    forward!(self -> self.0; TaylorSeries<R, M>);
 }
 
 impl<R, S, const N: usize, const H: usize, const M: usize> Monitored<R, M> for Projected<S, N, H>
@@ -382,11 +343,5 @@ where
     R: Ordered,
     S: Monitored<R, M> + Positions<R, N, H>,
 {
-    fn energy(&self, t: R, state: &[R; M]) -> R {
-        self.0.energy(t, state)
-    }
-
-    fn residual(&self, t: R, state: &[R; M]) -> R {
-        self.0.residual(t, state)
-    }
+    forward!(self -> self.0; Monitored<R, M>);
 }

@@ -2,6 +2,7 @@
 
 use crate::numbers::real::Real;
 use crate::system::System;
+use crate::system::forward::forward;
 
 /// The highest order of a Taylor series.
 ///
@@ -76,12 +77,7 @@ pub trait TaylorSeries<R: Real, const N: usize>: System<R, N> {
 }
 
 impl<R: Real, S: TaylorSeries<R, N> + ?Sized, const N: usize> TaylorSeries<R, N> for &S {
-    const PRODUCTS: usize = S::PRODUCTS;
-
-    #[inline]
-    fn series(&self, t: R, state: &[R; N], scale: R, order: usize, coefficients: &mut Coefficients<R, N>) {
-        (**self).series(t, state, scale, order, coefficients);
-    }
+    forward!(self -> (**self); TaylorSeries<R, N>);
 }
 
 /// Numbers that are added to at once.

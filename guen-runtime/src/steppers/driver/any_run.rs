@@ -45,19 +45,19 @@ pub(in crate::steppers) trait AnyRun<R: Real, const N: usize> {
 }
 
 /// A run, its system, and the polynomial of its last step once somebody has asked for it.
-pub(in crate::steppers) struct Joined<'a, C: StepperRun<R, S, N>, R: Real, S: ?Sized, const N: usize> {
+pub(in crate::steppers) struct SystemRun<'a, C: StepperRun<R, S, N>, R: Real, S: ?Sized, const N: usize> {
     run: C,
     system: &'a S,
     polynomial: Option<C::Polynomial>,
 }
 
-impl<'a, C: StepperRun<R, S, N>, R: Real, S: ?Sized, const N: usize> Joined<'a, C, R, S, N> {
+impl<'a, C: StepperRun<R, S, N>, R: Real, S: ?Sized, const N: usize> SystemRun<'a, C, R, S, N> {
     pub fn new(run: C, system: &'a S) -> Self {
         Self { run, system, polynomial: None }
     }
 }
 
-impl<C, R, S, const N: usize> AnyRun<R, N> for Joined<'_, C, R, S, N>
+impl<C, R, S, const N: usize> AnyRun<R, N> for SystemRun<'_, C, R, S, N>
 where
     C: StepperRun<R, S, N>,
     R: Real,

@@ -3,8 +3,8 @@
 use core::ops::ControlFlow;
 
 use crate::numbers::real::{Ordered, Real};
-use crate::steppers::driver::any_run::{Joined, Observer};
-use crate::steppers::driver::drive::{Drive, Receiver, Visitor};
+use crate::steppers::driver::any_run::{Observer, SystemRun};
+use crate::steppers::driver::drive_loop::{DriveLoop, Receiver, Visitor};
 use crate::steppers::driver::error::IntegrationError;
 use crate::steppers::driver::events::{Event, Occurrence};
 use crate::steppers::driver::followed::Followed;
@@ -204,7 +204,7 @@ impl<'a, R: Real, S: System<R, N> + ?Sized, const N: usize, const E: usize> Inte
         let Self { system, start, guard, observer, samples, visitor, events, receiver } = self;
         let mut events: [Followed<'_, R, N>; E] = events.map(Followed::new);
         let events = &mut events;
-        let drive = Drive { start, guard, observer, samples, visited: 0, visitor, events, receiver };
-        drive.through(&mut Joined::new(method.start(&start), system), times, &mut visit)
+        let drive_loop = DriveLoop { start, guard, observer, samples, visited: 0, visitor, events, receiver };
+        drive_loop.through(&mut SystemRun::new(method.start(&start), system), times, &mut visit)
     }
 }

@@ -3,7 +3,7 @@
 pub(crate) mod any_run;
 pub(crate) mod crossing;
 pub(crate) mod dense;
-mod drive;
+mod drive_loop;
 pub(crate) mod error;
 pub(crate) mod events;
 mod followed;

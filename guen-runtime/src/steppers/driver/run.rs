@@ -108,6 +108,17 @@ pub trait Method<R: Real, S: ?Sized, const N: usize> {
     fn start(&self, start: &Checkpoint<R, N>) -> Self::Run<'_>;
 }
 
+impl<R: Real, S: ?Sized, M: Method<R, S, N>, const N: usize> Method<R, S, N> for &M {
+    type Run<'a>
+        = M::Run<'a>
+    where
+        Self: 'a;
+
+    fn start(&self, start: &Checkpoint<R, N>) -> Self::Run<'_> {
+        (**self).start(start)
+    }
+}
+
 /// A run of one method from one initial state.
 pub trait StepperRun<R: Real, S: ?Sized, const N: usize> {
     /// Evaluations of the right-hand side in a usual step, by which a guard chooses how often to check.

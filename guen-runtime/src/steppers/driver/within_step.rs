@@ -3,13 +3,13 @@
 use crate::numbers::real::Real;
 use crate::steppers::driver::any_run::AnyRun;
 use crate::steppers::driver::crossing::{Crossing, earlier};
-use crate::steppers::driver::drive::Drive;
+use crate::steppers::driver::drive_loop::DriveLoop;
 use crate::steppers::driver::error::Cause;
 use crate::steppers::driver::events::Occurrence;
 use crate::steppers::driver::followed::Followed;
 use crate::steppers::driver::run::{Checkpoint, IntegrationResult, Outcome};
 
-impl<R: Real, const N: usize> Drive<'_, '_, R, N> {
+impl<R: Real, const N: usize> DriveLoop<'_, '_, R, N> {
     /// Samples and events of the step from `before` to where the run stands. Answers with the end of the run, if
     /// one of them ended it.
     pub(super) fn within_step(

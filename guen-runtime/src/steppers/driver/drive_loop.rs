@@ -16,7 +16,7 @@ pub(super) type Visitor<'a, R, const N: usize> = &'a mut dyn FnMut(usize, R, &[R
 pub(super) type Receiver<'a, R, const N: usize> = &'a mut dyn FnMut(&Occurrence<R, N>) -> ControlFlow<()>;
 
 /// All that is looked at on the way of a run.
-pub(super) struct Drive<'a, 'e, R, const N: usize> {
+pub(super) struct DriveLoop<'a, 'e, R, const N: usize> {
     pub start: Checkpoint<R, N>,
     pub guard: Guard,
     pub observer: Option<Observer<'a, R, N>>,
@@ -28,7 +28,7 @@ pub(super) struct Drive<'a, 'e, R, const N: usize> {
     pub receiver: Option<Receiver<'a, R, N>>,
 }
 
-impl<R: Real, const N: usize> Drive<'_, '_, R, N> {
+impl<R: Real, const N: usize> DriveLoop<'_, '_, R, N> {
     /// Takes the run through all times, and calls `visit` at each of them.
     pub fn through(
         mut self,
