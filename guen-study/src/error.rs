@@ -55,6 +55,15 @@ pub enum StudyError {
         /// The name.
         name: String,
     },
+    /// A page does not fit the size that was asked for.
+    TooLarge {
+        /// The page's title.
+        title: String,
+        /// The bytes that it needs at least, as far as that is known.
+        bytes: usize,
+        /// The bytes that it may have.
+        limit: usize,
+    },
     /// A picture is to show an entry that the state does not have.
     UnknownEntry {
         /// The picture's title.
@@ -94,6 +103,12 @@ impl fmt::Display for StudyError {
                 write!(f, "page `{title}`: `{what}` cannot be drawn at t = {time}")
             }
             Self::UnknownBody { title, name } => write!(f, "page `{title}` has no body `{name}`"),
+            Self::TooLarge { title, bytes, limit } => {
+                write!(
+                    f,
+                    "page `{title}` needs {bytes} bytes or more, but may have {limit}: show fewer samples or things, or allow more by `within_bytes`"
+                )
+            }
             Self::UnknownEntry { title, name, known } => {
                 write!(f, "picture `{title}`: the state has no `{name}`")?;
                 if known.is_empty() { Ok(()) } else { write!(f, ", but {}", known.join(", ")) }
@@ -118,6 +133,7 @@ impl Error for StudyError {
             | Self::NotDrawable { .. }
             | Self::UnknownBody { .. }
             | Self::UnknownEntry { .. }
+            | Self::TooLarge { .. }
             | Self::Times { .. } => None,
         }
     }

@@ -10,7 +10,7 @@ use crate::plot::Plot;
 use crate::recording::Recording;
 #[cfg(feature = "viewer")]
 use {
-    crate::viewer::{MOST_SAMPLES, Viewer},
+    crate::viewer::Viewer,
     guen_runtime::{Bodies, Monitored},
 };
 
@@ -20,6 +20,14 @@ const PLOT_POINTS: f64 = 1000.0;
 /// Pictures of a second on a page.
 #[cfg(feature = "viewer")]
 const RATE: f64 = 60.0;
+
+/// The fewest and the most samples that a page is made of.
+#[cfg(feature = "viewer")]
+const SAMPLES: [f64; 2] = [600.0, 1e6];
+
+/// Samples of a step of the method, for what happens within it.
+#[cfg(feature = "viewer")]
+const PER_STEP: f64 = 4.0;
 
 /// Recordings, tables, plots and pages of a trajectory, with the names of its state's entries; entries without names, as of a closure, go
 /// by their numbers.
@@ -75,8 +83,9 @@ pub trait Export<S, const N: usize> {
     /// [`StudyError::UnknownEntry`] if a name is none of the state's.
     fn plot(&self, title: &str, entries: &[&str]) -> Result<Plot, StudyError>;
 
-    /// Writes a page that plays the motion of the declared bodies, 60 pictures a second where that is at most 3600 in all, with panels
-    /// of the energy and of the constraints on positions. For other shapes, paths and panels make a [`Viewer`] of
+    /// Writes a page that plays the motion of the declared bodies, with panels of the energy and of the constraints on
+    /// positions. It is made of 60 samples a second or four a step of the method, whichever are more, but of 600 at least and of
+    /// a million at most; the page chooses among them. For other shapes, paths and panels make a [`Viewer`] of
     /// [`sampled`](Self::sampled).
     ///
     /// # Errors
@@ -129,7 +138,9 @@ where
         S: Bodies<f64, N, B> + Monitored<f64, N>,
     {
         let span = (self.end_time() - self.start_time()).abs();
-        let recording = self.sampled((span / (MOST_SAMPLES - 1) as f64).max(RATE.recip()));
+        let [fewest, most] = SAMPLES;
+        let wanted = (RATE * span).max(PER_STEP * self.iter().count() as f64).clamp(fewest, most);
+        let recording = self.sampled(span / wanted.floor());
         Viewer::new(title, &recording).bodies(self.system()).monitored(self.system()).write(path)
     }
 }
@@ -147,6 +158,52 @@ where
 mod tests {
     use super::*;
     use guen_runtime::from_fn;
+
+    #[cfg(feature = "viewer")]
+    mod pages {
+        use super::*;
+        use guen_runtime::{Body, System};
+
+        /// A bead that swings fast, many times in a hundredth of a millisecond.
+        #[derive(Clone, Copy)]
+        struct Bead;
+
+        const RATE: f64 = 1e7;
+
+        impl System<f64, 2> for Bead {
+            fn rhs(&self, _t: f64, &[x, v]: &[f64; 2]) -> [f64; 2] {
+                [RATE * v, -RATE * x]
+            }
+        }
+        impl Simulate<f64, 2> for Bead {
+            type State = [f64; 2];
+            const STATES: &'static [&'static str] = &["x", "v"];
+        }
+        impl Monitored<f64, 2> for Bead {
+            fn energy(&self, _t: f64, &[x, v]: &[f64; 2]) -> f64 {
+                (x * x + v * v) / 2.0
+            }
+        }
+        impl Bodies<f64, 2, 1> for Bead {
+            fn bodies(&self, _t: f64, &[x, _]: &[f64; 2]) -> [Body; 1] {
+                let center = Some([x, 0.0, 0.0]);
+                [Body { name: "bead", mass: Some(1.0), inertia: None, center, orientation: None }]
+            }
+        }
+
+        #[test]
+        fn short_runs_have_samples() {
+            let path = std::env::temp_dir().join(format!("guen-study-short-{}.html", std::process::id()));
+            let motion = Bead.simulate(&[1.0, 0.0], 0.0..1e-5).unwrap();
+            motion.view("short", &path).unwrap();
+            let page = std::fs::read_to_string(&path).unwrap();
+            std::fs::remove_file(&path).unwrap();
+            // Sixteen swings, in base64 of doubles.
+            let (_, times) = page.split_once("\"times\":\"").unwrap();
+            let samples = times.split_once('"').unwrap().0.len() * 3 / 4 / 8;
+            assert!((601..3000).contains(&samples), "{samples}");
+        }
+    }
 
     #[test]
     fn entries_without_names_go_by_their_numbers() {

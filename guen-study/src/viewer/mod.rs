@@ -1,28 +1,50 @@
 //! A recorded run as one HTML file that plays it: bodies in space, their paths, and curves beside them.
 //!
-//! `shape` says what a body looks like and where it is, `equivalent` draws declared bodies by their inertia, `data` writes
-//! numbers, `page` puts the file together from `page/` and from the drawing library in `vendor/`.
+//! `shape` says what a body looks like and where it is, `equivalent` draws declared bodies by their inertia. `samples` makes
+//! `track`s of a recording, of which `thin` chooses what is shown and `fit` makes the file as small as it has to be. `data`
+//! writes numbers, `notes` says what was left out, `page` puts the file together from `page/` and from the drawing library in
+//! `vendor/`.
 
 mod data;
 mod equivalent;
+mod fit;
+mod notes;
 mod page;
+mod samples;
 mod shape;
 #[cfg(test)]
 mod tests;
+mod thin;
+mod track;
 mod turn;
 
 use std::path::Path;
 
-use guen_runtime::{Bodies, Monitored};
+use guen_runtime::{Bodies, Body, Monitored};
 
 use crate::error::StudyError;
 use crate::file::replace_file;
 use crate::recording::Recording;
 
+use samples::Samples;
+use track::{Shown, Track};
+
 pub use shape::{Pose, Shape};
 
-/// The samples of a recording that are exported unless more are asked for: a minute at 60 pictures per second.
+/// Recordings with at most so many samples are shown as they are: a minute at 60 pictures per second.
 pub(crate) const MOST_SAMPLES: usize = 3600;
+
+/// The most samples of a body, path or curve that are kept of a longer recording.
+const MOST_KEPT: usize = 1 << 16;
+
+/// The size of a file, in bytes, unless another one is asked for.
+const MOST_BYTES: usize = 16_000_000;
+
+/// The size of a file with all samples, in bytes, unless another one is asked for: what browsers open.
+const MOST_BYTES_COMPLETE: usize = 1_000_000_000;
+
+/// Memory for the places of declared bodies at all samples, of so many bodies at a time as it allows.
+const BODIES_AT_ONCE: usize = 1 << 29;
 
 /// Bodies without a size of their own, as a part of the space that their centres take up.
 const SMALL: f64 = 0.04;
@@ -61,15 +83,36 @@ const SMALL: f64 = 0.04;
 /// Space bar or button plays and pauses; the slider, a click into a curve and the arrow keys set the time; the mouse or
 /// one finger turns the view, the wheel or two fingers come nearer. `1 x` is the motion's own pace.
 ///
+/// # Which samples are shown
+///
+/// All of them, of a recording with at most 3600. Of a longer one, however long, each body, path and curve keeps those that the
+/// eye needs:
+///
+/// - a body or path those without which it would be drawn elsewhere by more than 1/4000 of its way, or turned by more than
+///   0.01 rad;
+/// - a curve every minimum and maximum, and what lies between to 1/2000 of its range; if it has more than 65,536 of them, the
+///   least and the greatest value of each of 16,384 equal parts of the time.
+///
+/// The page says how many of how many samples are shown, and how near they are. [`thinned`](Viewer::thinned) keeps fewer,
+/// [`complete`](Viewer::complete) keeps all.
+///
 /// # Size
 ///
-/// 0.6 MB of drawing library (three.js), and for each sample 37 bytes a body, 16 a path and 6 a curve. Of a recording with
-/// more than 3600 samples as many are taken, evenly in time; [`thinned`](Viewer::thinned) chooses another number.
+/// At most 16 MB, or what [`within_bytes`](Viewer::within_bytes) says: where the samples above need more, fewer are kept.
+/// 0.6 MB of it are the drawing library (three.js). A sample takes 37 bytes for a body, 16 for a path and 6 for a curve, and 11
+/// more for its time if the recording is a long one.
+///
+/// # Precision
+///
+/// Numbers are in single precision on the page, times in double. Where a motion is so far from the origin that single
+/// precision would show, an origin in its middle is subtracted before rounding, and the page says which.
 #[derive(Clone, Debug)]
 #[must_use = "a viewer is a description: `write` or `to_html` makes the page"]
 pub struct Viewer<'a, const N: usize> {
     title: String,
-    samples: Vec<(f64, &'a [f64; N])>,
+    samples: Samples<'a, N>,
+    /// The largest size of the file.
+    limit: usize,
     bodies: Vec<MovingBody>,
     paths: Vec<MovingPoint>,
     links: Vec<Link>,
@@ -84,13 +127,15 @@ pub struct Viewer<'a, const N: usize> {
 struct MovingBody {
     name: String,
     shapes: Vec<Shape>,
-    poses: Vec<Pose>,
+    poses: Track<Pose>,
+    /// The largest turn between successive samples of the recording.
+    largest_turn: f64,
 }
 
 #[derive(Clone, Debug)]
 struct MovingPoint {
     name: String,
-    points: Vec<[f64; 3]>,
+    points: Track<[f64; 3]>,
 }
 
 /// Something straight between two moving points.
@@ -99,7 +144,7 @@ struct Link {
     name: String,
     is_arrow: bool,
     radius: f64,
-    ends: Vec<[[f64; 3]; 2]>,
+    ends: Track<[[f64; 3]; 2]>,
 }
 
 #[derive(Clone, Debug)]
@@ -111,7 +156,7 @@ struct Panel {
 #[derive(Clone, Debug)]
 struct Curve {
     name: String,
-    values: Vec<f64>,
+    values: Track<f64>,
 }
 
 /// The ground that the bodies move on.
@@ -134,6 +179,7 @@ struct View {
 enum Fault {
     NotDrawable { what: String, time: f64 },
     UnknownBody { name: String },
+    TooLarge { bytes: usize },
 }
 
 /// Single precision and the squares of lengths have to hold it.
@@ -150,25 +196,42 @@ fn is_direction(vector: [f64; 3]) -> bool {
 impl<'a, const N: usize> Viewer<'a, N> {
     /// A page with a title for a recorded run, with nothing to see yet.
     pub fn new(title: impl Into<String>, recording: &'a Recording<N>) -> Self {
-        Self::thinned(title, recording, MOST_SAMPLES)
+        let bounds = (MOST_SAMPLES, MOST_KEPT);
+        Self::of(title.into(), Samples::new(recording, Some(bounds)), MOST_BYTES)
     }
 
-    /// Makes a page with at most so many samples of the recording, evenly in time; at least two.
+    /// Makes a page with at most so many samples of each body, path and curve; at least four. The samples are those that the
+    /// eye needs most, not the same for all.
     pub fn thinned(title: impl Into<String>, recording: &'a Recording<N>, samples: usize) -> Self {
-        let mut chosen: Vec<_> = if recording.len() <= samples {
-            recording.iter().collect()
-        } else {
-            recording.spread(samples.max(2)).collect()
-        };
-        // A run backwards in time is shown forwards.
-        if let ([(first, _), ..], [.., (last, _)]) = (&chosen[..], &chosen[..])
-            && last < first
-        {
-            chosen.reverse();
-        }
+        let bounds = (samples.max(4), samples.max(4));
+        Self::of(title.into(), Samples::new(recording, Some(bounds)), MOST_BYTES)
+    }
+
+    /// Makes a page with every sample of the recording, as binary data that a browser reads in seconds: a million samples of
+    /// a body have 37 MB. At most 1 GB, or what [`within_bytes`](Viewer::within_bytes) says right after this call.
+    ///
+    /// ```
+    /// use guen_study::{Recording, Viewer};
+    ///
+    /// let mut recording = Recording::new(&["x"]);
+    /// for k in 0..20_000 {
+    ///     recording.record(f64::from(k), &[f64::from(k * k % 1999)]);
+    /// }
+    /// let all = Viewer::complete("All", &recording).curve("x", |_, x| x[0]).to_html()?;
+    /// let few = Viewer::thinned("Few", &recording, 1000).curve("x", |_, x| x[0]).to_html()?;
+    /// assert!(few.contains("of 20000 samples") && !all.contains("of 20000 samples"));
+    /// assert!(all.len() > few.len() + 80_000);
+    /// # Ok::<(), guen_study::StudyError>(())
+    /// ```
+    pub fn complete(title: impl Into<String>, recording: &'a Recording<N>) -> Self {
+        Self::of(title.into(), Samples::new(recording, None), MOST_BYTES_COMPLETE)
+    }
+
+    fn of(title: String, samples: Samples<'a, N>, limit: usize) -> Self {
         Self {
-            title: title.into(),
-            samples: chosen,
+            title,
+            samples,
+            limit,
             bodies: Vec::new(),
             paths: Vec::new(),
             links: Vec::new(),
@@ -179,25 +242,65 @@ impl<'a, const N: usize> Viewer<'a, N> {
         }
     }
 
-    /// Values at all samples; the first one that cannot be drawn is remembered.
-    fn sampled<T>(
+    /// Sets the largest size of the file, in place of 16 MB. Fewer samples are shown where it is small; a size that does not
+    /// even hold the page without them is an error when the page is made.
+    ///
+    /// ```
+    /// use guen_study::{Recording, StudyError, Viewer};
+    ///
+    /// let mut recording = Recording::new(&["x"]);
+    /// for k in 0..200_000 {
+    ///     recording.record(f64::from(k), &[f64::from(k * 7 % 1999)]);
+    /// }
+    /// let page = Viewer::new("Small", &recording).curve("x", |_, x| x[0]).within_bytes(700_000);
+    /// assert!(page.to_html()?.len() <= 700_000);
+    /// assert!(matches!(page.within_bytes(1000).to_html(), Err(StudyError::TooLarge { .. })));
+    /// # Ok::<(), guen_study::StudyError>(())
+    /// ```
+    pub fn within_bytes(mut self, bytes: usize) -> Self {
+        self.limit = bytes;
+        self
+    }
+
+    /// Whether values are of use: the page is refused for its times or for its size otherwise.
+    fn is_evaluated<T: Shown>(&mut self) -> bool {
+        if self.samples.len() < 2 || self.samples.disorder.is_some() {
+            return false;
+        }
+        let more = self.samples.len().saturating_mul(4 * T::WIDTH).saturating_mul(4) / 3;
+        let bytes = fit::data_bytes(self).saturating_add(more);
+        let fits = self.samples.most.is_some() || self.samples.len() <= MOST_SAMPLES || bytes <= self.limit;
+        if !fits {
+            self.fault.get_or_insert(Fault::TooLarge { bytes });
+        }
+        fits
+    }
+
+    /// A track of values at all samples; the first one that cannot be drawn is remembered.
+    fn sampled<T: Shown + Default + Clone>(
         &mut self,
         what: &str,
         mut value: impl FnMut(f64, &[f64; N]) -> T,
         is_sound: impl Fn(&T) -> bool,
-    ) -> Vec<T> {
-        let values: Vec<T> = self.samples.iter().map(|(t, state)| value(*t, state)).collect();
-        if let Some(k) = values.iter().position(|value| !is_sound(value)) {
-            let time = self.samples[k].0;
-            self.fault.get_or_insert_with(|| Fault::NotDrawable { what: what.to_owned(), time });
+    ) -> Track<T> {
+        if !self.is_evaluated::<T>() {
+            return Track::default();
         }
-        values
+        let values: Vec<T> = self.samples.iter().map(|(t, state)| value(t, state)).collect();
+        self.kept(what, values, is_sound)
+    }
+
+    fn kept<T: Shown>(&mut self, what: &str, values: Vec<T>, is_sound: impl Fn(&T) -> bool) -> Track<T> {
+        self.samples.track(values, is_sound).unwrap_or_else(|time| {
+            self.fault.get_or_insert_with(|| Fault::NotDrawable { what: what.to_owned(), time });
+            Track::whole(Vec::new())
+        })
     }
 
     /// Remembers what is wrong from the start.
     fn require(&mut self, holds: bool, what: impl FnOnce() -> String) {
         if !holds {
-            let time = self.samples.first().map_or(0.0, |(t, _)| *t);
+            let time = self.samples.start;
             self.fault.get_or_insert_with(|| Fault::NotDrawable { what: what(), time });
         }
     }
@@ -213,12 +316,23 @@ impl<'a, const N: usize> Viewer<'a, N> {
         shapes: impl IntoIterator<Item = Shape>,
         pose: impl FnMut(f64, &[f64; N]) -> Pose,
     ) -> Self {
-        let name = name.into();
-        let poses = self.sampled(&name, pose, Pose::is_drawable);
-        let shapes: Vec<Shape> = shapes.into_iter().collect();
-        self.check_shapes(&name, &shapes);
-        self.bodies.push(MovingBody { name, shapes, poses });
+        let values: Vec<Pose> = if self.is_evaluated::<Pose>() {
+            let mut pose = pose;
+            self.samples.iter().map(|(t, state)| pose(t, state)).collect()
+        } else {
+            Vec::new()
+        };
+        self.add_body(name.into(), shapes.into_iter().collect(), values);
         self
+    }
+
+    /// A body with its poses at all samples.
+    fn add_body(&mut self, name: String, shapes: Vec<Shape>, poses: Vec<Pose>) {
+        let largest_turn = poses.windows(2).map(|pair| pair[0].turn.angle(pair[1].turn)).fold(0.0, f64::max);
+        let poses = self.kept(&name, poses, Pose::is_drawable);
+        self.check_shapes(&name, &shapes);
+        self.bodies.push(MovingBody { name, shapes, poses, largest_turn });
+        fit::relieve(self);
     }
 
     fn check_shapes(&mut self, name: &str, shapes: &[Shape]) {
@@ -256,25 +370,28 @@ impl<'a, const N: usize> Viewer<'a, N> {
     where
         S: Bodies<f64, N, B> + ?Sized,
     {
-        let all: Vec<_> = self.samples.iter().map(|(t, state)| system.bodies(*t, state)).collect();
-        let Some(first) = all.first() else { return self };
-        let small = SMALL * extent(all.iter().flatten().filter_map(|body| body.center));
+        let Some((t, state)) = self.samples.first() else { return self };
+        let first = system.bodies(t, state);
+        let all = || self.samples.iter().map(|(t, state)| system.bodies(t, state));
+        let size = extent(all().flat_map(|bodies| bodies.into_iter().filter_map(|body| body.center)));
         let placed = first.iter().any(|body| body.center.is_some());
-        for (i, body) in first.iter().enumerate() {
-            if body.center.is_none() && (placed || body.orientation.is_none()) {
-                continue;
-            }
-            let shape = equivalent::drawing(body, small);
-            let mut moments = all.iter().map(|bodies| &bodies[i]);
-            let pose = |_t: f64, _: &[f64; N]| {
-                let body = moments.next().unwrap_or(&first[i]);
-                let center = body.center.unwrap_or_default();
-                match &body.orientation {
-                    Some(matrix) => Pose::oriented(center, matrix),
-                    None => Pose::at(center),
+        let shown = |body: &Body| body.center.is_some() || !placed && body.orientation.is_some();
+        let shown: Vec<usize> = (0..B).filter(|&i| shown(&first[i])).collect();
+        let at_once = (BODIES_AT_ONCE / size_of::<Pose>() / self.samples.len().max(1)).max(1);
+        for group in shown.chunks(at_once) {
+            let evaluated = self.is_evaluated::<Pose>();
+            let mut poses =
+                vec![Vec::with_capacity(if evaluated { self.samples.len() } else { 0 }); group.len()];
+            for (t, state) in self.samples.iter().take_while(|_| evaluated) {
+                let bodies = system.bodies(t, state);
+                for (poses, &i) in poses.iter_mut().zip(group) {
+                    poses.push(pose_of(&bodies[i]));
                 }
-            };
-            self = self.body(body.name, [shape], pose);
+            }
+            for (poses, &i) in poses.into_iter().zip(group) {
+                let shape = equivalent::drawing(&first[i], SMALL * size);
+                self.add_body(first[i].name.to_owned(), vec![shape], poses);
+            }
         }
         self
     }
@@ -300,6 +417,7 @@ impl<'a, const N: usize> Viewer<'a, N> {
         let name = name.into();
         let points = self.sampled(&name, point, |point| is_drawable(point));
         self.paths.push(MovingPoint { name, points });
+        fit::relieve(&mut self);
         self
     }
 
@@ -336,6 +454,7 @@ impl<'a, const N: usize> Viewer<'a, N> {
         let ends = self.sampled(&name, ends, |ends| is_drawable(ends.as_flattened()));
         self.require(is_drawable(&[radius]), || format!("the radius of {name}"));
         self.links.push(Link { name, is_arrow, radius, ends });
+        fit::relieve(&mut self);
         self
     }
 
@@ -355,6 +474,7 @@ impl<'a, const N: usize> Viewer<'a, N> {
         if let Some(panel) = self.panels.last_mut() {
             panel.curves.push(Curve { name, values });
         }
+        fit::relieve(&mut self);
         self
     }
 
@@ -364,7 +484,7 @@ impl<'a, const N: usize> Viewer<'a, N> {
     where
         S: Monitored<f64, N> + ?Sized,
     {
-        let start = self.samples.first().map_or(0.0, |(t, state)| system.energy(*t, state));
+        let start = self.samples.first().map_or(0.0, |(t, state)| system.energy(t, state));
         self.panel("energy")
             .curve("h", |t, state| system.energy(t, state))
             .panel("energy since the start")
@@ -428,9 +548,10 @@ impl<'a, const N: usize> Viewer<'a, N> {
     /// [`NothingToDraw`](StudyError::NothingToDraw) for fewer than two samples, or without body, path, link or curve;
     /// [`Times`](StudyError::Times) if the times do not rise or fall throughout; [`NotDrawable`](StudyError::NotDrawable)
     /// with what it was and when, for a value that is not finite or beyond `1e18`, or an orientation that is none;
-    /// [`UnknownBody`](StudyError::UnknownBody) for a name that no body has.
+    /// [`UnknownBody`](StudyError::UnknownBody) for a name that no body has; [`TooLarge`](StudyError::TooLarge) if the page
+    /// does not fit the size that was asked for.
     pub fn to_html(&self) -> Result<String, StudyError> {
-        page::html(self)
+        fit::fitting(self)
     }
 
     /// Writes the page to a file, whole or not at all: see [`replace_file`].
@@ -444,12 +565,17 @@ impl<'a, const N: usize> Viewer<'a, N> {
     }
 }
 
+fn pose_of(body: &Body) -> Pose {
+    let center = body.center.unwrap_or_default();
+    match &body.orientation {
+        Some(matrix) => Pose::oriented(center, matrix),
+        None => Pose::at(center),
+    }
+}
+
 /// The longest side of the box that points take up; one if there is none.
 fn extent(points: impl Iterator<Item = [f64; 3]>) -> f64 {
-    let none = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-    let (least, most) = points.fold(none, |(least, most), p| {
-        (std::array::from_fn(|i| f64::min(least[i], p[i])), std::array::from_fn(|i| f64::max(most[i], p[i])))
-    });
+    let (least, most) = track::bounds(points);
     let longest = shape::difference(most, least).into_iter().fold(0.0, f64::max);
     if longest > 0.0 && longest.is_finite() { longest } else { 1.0 }
 }

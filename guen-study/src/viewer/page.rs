@@ -1,8 +1,10 @@
 //! The HTML file: its parts in order, with the motion as data.
 
 use super::data::{Json, escaped};
-use super::turn::Turn;
-use super::{Fault, Ground, MovingBody, Viewer, is_drawable};
+use super::shape::{Pose, difference};
+use super::track::{Shown, Track, bounds, range};
+use super::turn::norm;
+use super::{Fault, Ground, Viewer, notes};
 use crate::error::StudyError;
 
 /// Points of a surface in each direction.
@@ -28,11 +30,25 @@ const PROGRAM: [&str; 7] = [
 const POLICY: &str =
     "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:";
 
-pub(super) fn html<const N: usize>(viewer: &Viewer<'_, N>) -> Result<String, StudyError> {
-    check(viewer)?;
+/// Bytes of a page without a motion.
+pub(super) fn own_bytes() -> usize {
+    LIBRARY.len() + STYLE.len() + BODY.len() + PROGRAM.iter().map(|part| part.len()).sum::<usize>()
+}
+
+/// The page of a description that was checked.
+pub(super) fn html<const N: usize>(viewer: &Viewer<'_, N>) -> String {
     let title = escaped(&viewer.title);
-    let motion = motion(viewer);
-    Ok([
+    let (motion, parts) = motion(viewer);
+    let parts = parts.iter().enumerate().flat_map(|(k, part)| {
+        [
+            "<script type=\"text/plain\" id=\"part-".to_owned(),
+            format!("{k}\">"),
+            part.clone(),
+            "</script>\n".to_owned(),
+        ]
+    });
+    let parts: String = parts.collect();
+    [
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n",
         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n",
         "<meta name=\"color-scheme\" content=\"light dark\">\n",
@@ -47,27 +63,26 @@ pub(super) fn html<const N: usize>(viewer: &Viewer<'_, N>) -> Result<String, Stu
         BODY,
         "<script type=\"application/json\" id=\"motion\">",
         &motion,
-        "</script>\n<script>\n",
+        "</script>\n",
+        &parts,
+        "<script>\n",
         LIBRARY,
         "</script>\n<script>\n\"use strict\";\n(() => {\n",
         &PROGRAM.concat(),
         "})();\n</script>\n</body>\n</html>\n",
     ]
-    .concat())
+    .concat()
 }
 
-fn check<const N: usize>(viewer: &Viewer<'_, N>) -> Result<(), StudyError> {
+/// What keeps a description from becoming a page.
+pub(super) fn check<const N: usize>(viewer: &Viewer<'_, N>) -> Result<(), StudyError> {
     let title = || viewer.title.clone();
     let curves = viewer.panels.iter().map(|panel| panel.curves.len()).sum::<usize>();
     let things = viewer.bodies.len() + viewer.paths.len() + viewer.links.len() + curves;
     if viewer.samples.len() < 2 || things == 0 {
         return Err(StudyError::NothingToDraw { title: title() });
     }
-    let times = || viewer.samples.iter().map(|(t, _)| *t);
-    if let Some(time) = times().find(|t| !is_drawable(&[*t])) {
-        return Err(StudyError::Times { title: title(), time });
-    }
-    if let Some((_, time)) = times().zip(times().skip(1)).find(|(before, after)| after <= before) {
+    if let Some(time) = viewer.samples.disorder {
         return Err(StudyError::Times { title: title(), time });
     }
     match viewer.fault.clone() {
@@ -76,18 +91,26 @@ fn check<const N: usize>(viewer: &Viewer<'_, N>) -> Result<(), StudyError> {
             Err(StudyError::NotDrawable { title: title(), what, time })
         }
         Some(Fault::UnknownBody { name }) => Err(StudyError::UnknownBody { title: title(), name }),
+        Some(Fault::TooLarge { bytes }) => {
+            Err(StudyError::TooLarge { title: title(), bytes, limit: viewer.limit })
+        }
     }
 }
 
 /// Everything that the page shows, as JSON; `page/motion.js` reads it.
-fn motion<const N: usize>(viewer: &Viewer<'_, N>) -> String {
+fn motion<const N: usize>(viewer: &Viewer<'_, N>) -> (String, Vec<String>) {
     let mut json = Json::default();
-    let start = viewer.samples[0].0;
+    let space = Space::of(viewer);
+    let origin = space.origin.unwrap_or_default();
+    let placed = |place: [f64; 3]| difference(place, origin);
     json.object(|json| {
         json.text("title", &viewer.title);
-        json.number("start", start);
-        json.samples("times", viewer.samples.iter().map(|(t, _)| t - start));
-        json.number("largestTurn", viewer.bodies.iter().map(largest_turn).fold(0.0, f64::max));
+        json.number("start", viewer.samples.start);
+        json.doubles("times", &viewer.samples.steps);
+        json.objects("notes", &notes::of(viewer, &space), |json, note| json.text("text", note));
+        if let Some(origin) = &space.origin {
+            json.numbers("origin", origin);
+        }
         json.objects("bodies", &viewer.bodies, |json, body| {
             json.text("name", &body.name);
             json.objects("shapes", &body.shapes, |json, shape| {
@@ -100,40 +123,49 @@ fn motion<const N: usize>(viewer: &Viewer<'_, N>) -> String {
                     json.number("colour", f64::from(colour));
                 }
             });
-            json.samples("poses", poses(body));
+            own_times(json, &body.poses);
+            json.samples("poses", body.poses.values.iter().flat_map(|pose| reals(pose, placed)));
         });
         json.objects("paths", &viewer.paths, |json, path| {
             json.text("name", &path.name);
-            json.samples("points", path.points.iter().flatten().copied());
+            own_times(json, &path.points);
+            json.samples("points", path.points.values.iter().flat_map(|point| placed(*point)));
         });
         json.objects("links", &viewer.links, |json, link| {
             json.text("name", &link.name);
             json.text("kind", if link.is_arrow { "arrow" } else { "rod" });
             json.number("radius", link.radius);
-            json.samples("ends", link.ends.iter().flatten().flatten().copied());
+            own_times(json, &link.ends);
+            json.samples("ends", link.ends.values.iter().flatten().flat_map(|end| placed(*end)));
         });
         json.objects("panels", &viewer.panels, |json, panel| {
             json.text("name", &panel.name);
             json.objects("curves", &panel.curves, |json, curve| {
                 json.text("name", &curve.name);
-                json.samples("values", curve.values.iter().copied());
+                own_times(json, &curve.values);
+                let base = base(&curve.values.values);
+                if base != 0.0 {
+                    json.number("base", base);
+                }
+                json.samples("values", curve.values.values.iter().map(|value| value - base));
             });
         });
         json.objects("grounds", &viewer.grounds, |json, ground| match ground {
             Ground::Plane { point, normal } => {
                 json.text("kind", "plane");
-                json.numbers("point", point);
+                json.numbers("point", &placed(*point));
                 json.numbers("normal", normal);
             }
             Ground::Surface { x, y, heights } => {
                 json.text("kind", "surface");
-                json.numbers("x", x);
-                json.numbers("y", y);
+                json.numbers("x", &x.map(|x| x - origin[0]));
+                json.numbers("y", &y.map(|y| y - origin[1]));
                 json.number("mesh", MESH as f64);
-                json.samples("heights", heights.iter().copied());
+                json.samples("heights", heights.iter().map(|height| height - origin[2]));
             }
         });
-        json.number("bare", f64::from(u8::from(viewer.view.bare)));
+        // The level ground at height zero is out of sight of what is far from it.
+        json.number("bare", f64::from(u8::from(viewer.view.bare || space.origin.is_some())));
         json.numbers("up", &viewer.view.up.unwrap_or([0.0, 0.0, 1.0]));
         if let Some(from) = viewer.view.from {
             json.numbers("from", &from);
@@ -142,20 +174,53 @@ fn motion<const N: usize>(viewer: &Viewer<'_, N>) -> String {
             json.text("follow", name);
         }
     });
-    json.into_text()
+    json.into_texts()
 }
 
-/// Returns for each sample the place and the quaternion `x, y, z, w`, as the drawing library orders it.
-fn poses(body: &MovingBody) -> impl Iterator<Item = f64> {
-    body.poses.iter().flat_map(|pose| {
-        let ([x, y, z], [w, i, j, k]) = (pose.place, pose.turn.normalized().0);
-        [x, y, z, i, j, k, w]
-    })
+/// The times of a track that has its own.
+fn own_times<T>(json: &mut Json, track: &Track<T>) {
+    if let Some(times) = &track.times {
+        json.doubles("times", times);
+    }
 }
 
-/// The largest angle between successive samples, as far as they tell.
-fn largest_turn(body: &MovingBody) -> f64 {
-    let turns = body.poses.iter().map(|pose| pose.turn.normalized());
-    let next = turns.clone().skip(1);
-    turns.zip(next).map(|(a, b): (Turn, Turn)| 2.0 * a.nearness(b).min(1.0).acos()).fold(0.0, f64::max)
+/// The place and the quaternion `x, y, z, w`, as the drawing library orders it.
+fn reals(pose: &Pose, placed: impl Fn([f64; 3]) -> [f64; 3]) -> [f64; 7] {
+    let ([x, y, z], [w, i, j, k]) = (placed(pose.place), pose.turn.normalized().0);
+    [x, y, z, i, j, k, w]
+}
+
+/// Numbers as many times larger than what they differ by lose it in single precision, which has 1.7e7 parts.
+const FAR_OFF: f64 = 1000.0;
+
+/// What a curve's values have in common, if single precision would not hold what they differ by.
+fn base(values: &[f64]) -> f64 {
+    let (low, high) = range(values);
+    let middle = low + (high - low) / 2.0;
+    if middle.abs() > FAR_OFF * (high - low) && high > low { middle } else { 0.0 }
+}
+
+/// Where the motion is.
+pub(super) struct Space {
+    /// What is subtracted from all places, if single precision would not hold their differences.
+    pub(super) origin: Option<[f64; 3]>,
+}
+
+impl Space {
+    fn of<const N: usize>(viewer: &Viewer<'_, N>) -> Self {
+        fn places<T: Shown>(track: &Track<T>) -> impl Iterator<Item = [f64; 3]> {
+            track.values.iter().flat_map(Shown::places)
+        }
+        let bodies = viewer.bodies.iter().flat_map(|body| places(&body.poses));
+        let paths = viewer.paths.iter().flat_map(|path| places(&path.points));
+        let links = viewer.links.iter().flat_map(|link| places(&link.ends));
+        let (least, most) = bounds(bodies.chain(paths).chain(links));
+        let size = norm(difference(most, least));
+        let is_far = (0..3).any(|i| least[i].abs().max(most[i].abs()) > FAR_OFF * size) && size > 0.0;
+        // A number that can be read: to the power of ten below the size of the motion.
+        let step = 10.0_f64.powf(size.log10().floor());
+        let middle = |i: usize| ((least[i] + (most[i] - least[i]) / 2.0) / step).round() * step;
+        let origin = (is_far && size.is_finite()).then(|| std::array::from_fn(middle));
+        Self { origin }
+    }
 }

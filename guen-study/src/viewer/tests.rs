@@ -15,8 +15,8 @@ fn value<'p>(page: &'p str, key: &str) -> Vec<&'p str> {
     data.split(&format!("\"{key}\":\"")).skip(1).map(|rest| rest.split_once('"').unwrap().0).collect()
 }
 
-/// Decodes samples as the page's program does.
-fn decoded(text: &str) -> Vec<f32> {
+/// Decodes base64 as the page's program does.
+fn bytes_of(text: &str) -> Vec<u8> {
     let letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     let bits: Vec<u32> =
         text.chars().filter(|c| *c != '=').map(|c| letters.find(c).unwrap() as u32).collect();
@@ -27,7 +27,17 @@ fn decoded(text: &str) -> Vec<f32> {
             word.to_be_bytes()[1..four.len()].to_vec()
         })
         .collect();
-    bytes.chunks_exact(4).map(|four| f32::from_le_bytes(four.try_into().unwrap())).collect()
+    bytes
+}
+
+/// Decodes samples in single precision.
+fn decoded(text: &str) -> Vec<f32> {
+    bytes_of(text).chunks_exact(4).map(|four| f32::from_le_bytes(four.try_into().unwrap())).collect()
+}
+
+/// Decodes times.
+fn doubles(text: &str) -> Vec<f64> {
+    bytes_of(text).chunks_exact(8).map(|eight| f64::from_le_bytes(eight.try_into().unwrap())).collect()
 }
 
 #[test]
@@ -42,8 +52,7 @@ fn numbers_come_back_as_they_went() {
         .to_html()
         .unwrap();
     let samples = |key: &str, which: usize| decoded(value(&page, key)[which]);
-    let expected: Vec<f32> = recording.times().iter().map(|t| *t as f32).collect();
-    assert_eq!(samples("times", 0), expected);
+    assert_eq!(doubles(value(&page, "times")[0]), recording.times());
     let poses = samples("poses", 0);
     assert_eq!(poses.len(), 7 * 50);
     for (k, (t, [x, v])) in recording.iter().enumerate() {
@@ -139,35 +148,137 @@ fn a_run_backwards_is_shown_forwards() {
         recording.record(t, &[10.0 * t]);
     }
     let page = Viewer::new("v", &recording).curve("c", |_, s| s[0]).to_html().unwrap();
-    assert_eq!(decoded(value(&page, "times")[0]), [0.0, 1.0, 2.0]);
+    assert_eq!(doubles(value(&page, "times")[0]), [0.0, 1.0, 2.0]);
     assert_eq!(decoded(value(&page, "values")[0]), [10.0, 20.0, 30.0]);
     assert!(page.contains("\"start\":1,"));
 }
 
+/// The sentences that the page says about its data.
+fn notes(page: &str) -> String {
+    let (_, rest) = page.split_once("\"notes\":[").unwrap();
+    rest.split_once(']').unwrap().0.to_owned()
+}
+
 #[test]
-fn long_recordings_are_thinned() {
-    let recording = recorded(100_000);
-    let page = |viewer: Viewer<'_, 2>| viewer.curve("c", |_, s| s[0]).to_html().unwrap();
-    let count = |page: &str| decoded(value(page, "times")[0]).len();
+fn long_recordings_keep_every_extremum() {
+    // A slow swing, and in it one pulse of a single sample that even choices miss.
+    let mut recording = Recording::new(&["x"]);
+    for k in 0..100_000 {
+        let t = 1e-3 * f64::from(k);
+        recording.record(t, &[t.sin() + if k == 54_321 { 3.0 } else { 0.0 }]);
+    }
+    let page = |viewer: Viewer<'_, 1>| {
+        viewer.curve("c", |_, s| s[0]).path("p", |t, s| [t, s[0], 0.0]).to_html().unwrap()
+    };
     let standard = page(Viewer::new("v", &recording));
-    assert_eq!(count(&standard), MOST_SAMPLES);
-    assert_eq!(count(&page(Viewer::thinned("v", &recording, 100))), 100);
-    let times = decoded(value(&standard, "times")[0]);
-    assert_eq!(f64::from(times[MOST_SAMPLES - 1]), recording.last().unwrap().0 as f32 as f64);
-    assert!(standard.len() < 700_000, "{} bytes", standard.len());
+    let values = decoded(value(&standard, "values")[0]);
+    let times = doubles(value(&standard, "times")[2]);
+    assert_eq!(values.len(), times.len());
+    let pulse = times.iter().position(|t| *t == 54.321).unwrap();
+    assert_eq!(values[pulse], ((54.321_f64).sin() + 3.0) as f32);
+    // Every extremum of the data is there.
+    let all: Vec<f64> = recording.column(0).collect();
+    let is_extremum = |k: usize| (all[k] - all[k - 1]) * (all[k + 1] - all[k]) < 0.0;
+    let extrema: Vec<usize> = (1..all.len() - 1).filter(|&k| is_extremum(k)).collect();
+    assert!(extrema.len() > 30 && extrema.iter().all(|&k| times.contains(&recording.times()[k])));
+    // What lies between is followed, with few samples.
+    for (t, x) in recording.curve(0) {
+        let k = times.partition_point(|s| *s <= t).clamp(1, times.len() - 1) - 1;
+        let part = (t - times[k]) / (times[k + 1] - times[k]);
+        let shown = f64::from(values[k]) * (1.0 - part) + f64::from(values[k + 1]) * part;
+        assert!((shown - x).abs() < 5.0 / 2000.0, "at {t}");
+    }
+    assert!(values.len() < 4000 && standard.len() < 750_000, "{} and {}", values.len(), standard.len());
+    let told = notes(&standard);
+    assert!(told.contains("of 100000 samples") && told.contains("each of their minima and maxima"), "{told}");
+    // Fewer on request; the first and the last are always there.
+    let few = page(Viewer::thinned("v", &recording, 100));
+    let times = doubles(value(&few, "times")[2]);
+    assert!(times.len() <= 100 && (times[0], times[times.len() - 1]) == (0.0, recording.times()[99_999]));
+    assert_eq!(doubles(value(&few, "times")[0]).len(), 100);
+}
+
+#[test]
+fn what_keeps_all_samples_says_nothing() {
+    let recording = recorded(MOST_SAMPLES as u32);
+    let page = Viewer::new("v", &recording).curve("c", |_, s| s[0]).to_html().unwrap();
+    assert_eq!((notes(&page).as_str(), value(&page, "times").len()), ("", 1));
+    assert_eq!(decoded(value(&page, "values")[0]).len(), MOST_SAMPLES);
+    // A recording that dropped samples itself is told.
+    let mut short = Recording::new(&["x"]).with_limit(100);
+    (0..1000).for_each(|k| short.record(f64::from(k), &[0.0]));
+    let page = Viewer::new("v", &short).curve("c", |_, s| s[0]).to_html().unwrap();
+    assert!(notes(&page).contains("of the 1000 samples of the run"), "{}", notes(&page));
+}
+
+#[test]
+fn all_samples_on_request_in_parts() {
+    let recording = recorded(1_000_000);
+    let page = Viewer::complete("v", &recording).curve("c", |_, s| s[0]).to_html().unwrap();
+    assert_eq!(notes(&page), "");
+    assert!(page.contains(r#""values":{"bytes":4000000,"from":1,"to":2}"#));
+    let (_, part) = page.split_once("id=\"part-1\">").unwrap();
+    let values = decoded(part.split_once('<').unwrap().0);
+    assert_eq!(values.len(), 1_000_000);
+    assert!(recording.column(0).zip(&values).all(|(x, shown)| x as f32 == *shown));
+    // What no browser opens is refused before it takes the memory.
+    let huge = Viewer::complete("v", &recording).within_bytes(20_000_000);
+    let refused = (0..9).fold(huge, |page, k| page.body(format!("b{k}"), [], |_, _| Pose::at([0.0; 3])));
+    assert!(matches!(refused.to_html(), Err(StudyError::TooLarge { limit: 20_000_000, .. })));
+}
+
+#[test]
+fn a_thousand_bodies_fit() {
+    let recording = recorded(500);
+    let page = (0..1000_u32).fold(Viewer::new("v", &recording), |page, k| {
+        let phase = f64::from(k);
+        page.body(format!("b{k}"), [Shape::sphere(0.1)], move |t, _| {
+            Pose::at([phase, (t + phase).sin(), 0.0])
+        })
+    });
+    let text = page.within_bytes(2_500_000).to_html().unwrap();
+    assert!(text.len() <= 2_500_000 && text.len() > 1_500_000, "{}", text.len());
+    assert!(notes(&text).contains("of 500 samples. Places are drawn within"), "{}", notes(&text));
+    assert_eq!(value(&text, "poses").len(), 1000);
+}
+
+#[test]
+fn far_from_the_origin_a_track_is_no_staircase() {
+    let radius = 6.4e6;
+    let mut recording = Recording::new(&["x"]);
+    (0..200).for_each(|k| recording.record(f64::from(k), &[radius + 0.25 + 0.01 * f64::from(k)]));
+    let page = Viewer::new("v", &recording)
+        .path("p", |_, s| [s[0], 0.0, 0.0])
+        .plane([radius, 0.0, 0.0], [0.0, 0.0, 1.0])
+        .curve("c", |_, s| s[0])
+        .to_html()
+        .unwrap();
+    let points = decoded(value(&page, "points")[0]);
+    for (step, k) in points.windows(4).step_by(3).map(|four| f64::from(four[3] - four[0])).zip(0..) {
+        assert!((step - 0.01).abs() < 1e-6, "{step} at {k}");
+    }
+    assert!(notes(&page).contains("Places are relative to (6400001, 0, 0)."), "{}", notes(&page));
+    assert!(page.contains(r#""origin":[6400001,0,0]"#) && page.contains(r#""point":[-1,0,0]"#));
+    let (_, base) = page.split_once("\"base\":").unwrap();
+    let base: f64 = base.split_once(',').unwrap().0.parse().unwrap();
+    let values = decoded(value(&page, "values")[0]);
+    for (value, x) in values.iter().zip(recording.column(0)) {
+        assert!((base + f64::from(*value) - x).abs() < 1e-6, "{value} for {x}");
+    }
+    // Near the origin nothing is moved.
+    let near = Viewer::new("v", &recording).path("p", |t, _| [t + 100.0, 0.0, 0.0]).to_html().unwrap();
+    assert!(!near.contains("\"origin\"") && !notes(&near).contains("relative"));
 }
 
 #[test]
 fn samples_too_far_apart_are_told() {
     let recording = recorded(20);
-    let largest = |rate: f64| {
+    let told = |rate: f64| {
         let turning = |t: f64, _: &[f64; 2]| Pose::at([0.0; 3]).turned([1.0, 0.0, 0.0], rate * t);
-        let page = Viewer::new("v", &recording).body("b", [Shape::sphere(1.0)], turning).to_html().unwrap();
-        let (_, rest) = page.split_once("\"largestTurn\":").unwrap();
-        rest.split_once(',').unwrap().0.parse::<f64>().unwrap()
+        notes(&Viewer::new("v", &recording).body("b", [Shape::sphere(1.0)], turning).to_html().unwrap())
     };
-    assert!((largest(4.0) - 0.5).abs() < 1e-9);
-    assert!((largest(20.0) - 2.5).abs() < 1e-9);
+    assert_eq!(told(4.0), "");
+    assert!(told(20.0).contains("turns by 143° or more"), "{}", told(20.0));
 }
 
 /// A turning ball, a body without a place, and a particle.

@@ -71,8 +71,16 @@ impl Turn {
     }
 
     /// The cosine of half the angle between two turns.
+    #[cfg(test)]
     pub(super) fn nearness(self, other: Self) -> f64 {
         self.0.iter().zip(other.0).map(|(a, b)| a * b).sum::<f64>().abs()
+    }
+
+    /// The angle between two turns, to first order where it is small.
+    pub(super) fn angle(self, other: Self) -> f64 {
+        // 1 - cos(angle/2) is half the square of the chord, without the loss of digits of an arc cosine near one.
+        let chord = |sign: f64| self.0.iter().zip(other.0).map(|(a, b)| (a - sign * b).powi(2)).sum::<f64>();
+        4.0 * (chord(1.0).min(chord(-1.0)).sqrt() / 2.0).min(1.0).asin()
     }
 
     pub(super) fn is_finite(self) -> bool {

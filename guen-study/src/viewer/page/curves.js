@@ -20,6 +20,27 @@ function labels(values) {
   return { texts, power };
 }
 
+/**
+ * Draws a curve through those of its points that make the same picture: of each column of pixels the first, the least, the
+ * greatest and the last.
+ */
+function trace({ times, values, base }, column, draw) {
+  const point = (k) => draw(times[k], base + values[k]);
+  let k = 0;
+  while (k < values.length) {
+    const here = column(times[k]);
+    let [low, high, to] = [k, k, k];
+    while (to < values.length && column(times[to]) === here) {
+      if (values[to] < values[low]) low = to;
+      if (values[to] > values[high]) high = to;
+      to += 1;
+    }
+    const four = new Set([k, Math.min(low, high), Math.max(low, high), to - 1]);
+    four.forEach(point);
+    k = to;
+  }
+}
+
 function makePanel(panel, parent, onPick) {
   const figure = document.createElement("figure");
   const caption = document.createElement("figcaption");
@@ -41,15 +62,15 @@ function makePanel(panel, parent, onPick) {
   parent.append(figure);
 
   let [low, high] = [Infinity, -Infinity];
-  for (const { values } of panel.curves) {
+  for (const { values, base } of panel.curves) {
     for (const value of values) {
-      low = Math.min(low, value);
-      high = Math.max(high, value);
+      low = Math.min(low, base + value);
+      high = Math.max(high, base + value);
     }
   }
-  // What is constant to single precision is drawn so.
+  // What is constant to single precision is drawn so; what has a base has more digits.
   const size = Math.max(Math.abs(low), Math.abs(high));
-  const least = size > 0 ? size * 1e-5 : 1;
+  const least = size > 0 ? size * (panel.curves.some(({ base }) => base !== 0) ? 1e-13 : 1e-5) : 1;
   if (high - low < least) [low, high] = [(low + high - least) / 2, (low + high + least) / 2];
   const room = (high - low) * 0.06;
   [low, high] = [low - room, high + room];
@@ -99,10 +120,10 @@ function makePanel(panel, parent, onPick) {
     pen.stroke();
     pen.lineWidth = 1.6;
     pen.lineJoin = "round";
-    panel.curves.forEach(({ values }, i) => {
+    panel.curves.forEach((curve, i) => {
       pen.strokeStyle = readings[i].style.getPropertyValue("--mark");
       pen.beginPath();
-      for (let k = 0; k < values.length; k += 1) pen.lineTo(x(motion.times[k]), y(values[k]));
+      trace(curve, (t) => Math.round(x(t) * ratio), (t, v) => pen.lineTo(x(t), y(v)));
       pen.stroke();
     });
   }
@@ -115,7 +136,6 @@ function makePanel(panel, parent, onPick) {
       if (w > 0 && h > 0) paintLayer();
     }
     if (w === 0 || h === 0) return;
-    const at = locate(time);
     const pen = canvas.getContext("2d");
     pen.setTransform(1, 0, 0, 1, 0, 0);
     pen.clearRect(0, 0, canvas.width, canvas.height);
@@ -127,13 +147,13 @@ function makePanel(panel, parent, onPick) {
     pen.moveTo(x(time), top);
     pen.lineTo(x(time), height - bottom);
     pen.stroke();
-    panel.curves.forEach(({ name, values }, i) => {
-      const value = between(values, 1, 0, at);
+    panel.curves.forEach((curve, i) => {
+      const value = valueAt(curve, time);
       pen.fillStyle = readings[i].style.getPropertyValue("--mark");
       pen.beginPath();
       pen.arc(x(time), y(value), 3.5, 0, 2 * Math.PI);
       pen.fill();
-      readings[i].textContent = `${name} ${short(value)}`;
+      readings[i].textContent = `${curve.name} ${short(value)}`;
     });
   }
 

@@ -1,24 +1,59 @@
 // What is shown, out of the JSON that the exporter writes: typed arrays, and values between samples.
 
-/** Little-endian 32-bit floats, whatever the machine's order is. */
-function decode(text) {
-  const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
-  const view = new DataView(bytes.buffer);
-  return Float32Array.from({ length: bytes.length / 4 }, (_, k) => view.getFloat32(4 * k, true));
+/** Bytes out of base64. */
+function bytesOf(text) {
+  if (Uint8Array.fromBase64) return Uint8Array.fromBase64(text);
+  const letters = atob(text);
+  const bytes = new Uint8Array(letters.length);
+  for (let k = 0; k < letters.length; k += 1) bytes[k] = letters.charCodeAt(k);
+  return bytes;
+}
+
+/** Samples: base64, or what names the parts of the page where they are. */
+function unpack(stored) {
+  if (typeof stored === "string") return bytesOf(stored);
+  const all = new Uint8Array(stored.bytes);
+  let at = 0;
+  for (let k = stored.from; k < stored.to; k += 1) {
+    const element = document.getElementById(`part-${k}`);
+    const part = bytesOf(element.textContent);
+    // The text is not needed any more.
+    element.remove();
+    all.set(part, at);
+    at += part.length;
+  }
+  return all;
+}
+
+/** Whether this machine orders bytes as the file does: the least significant one first. */
+const littleEndian = new Uint8Array(new Uint16Array([1]).buffer)[0] === 1;
+
+/** Numbers of `size` bytes each. */
+function decode(stored, size = 4) {
+  const bytes = unpack(stored);
+  if (!littleEndian) for (let k = 0; k < bytes.length; k += size) bytes.subarray(k, k + size).reverse();
+  return size === 8 ? new Float64Array(bytes.buffer) : new Float32Array(bytes.buffer);
 }
 
 const motion = JSON.parse(document.getElementById("motion").textContent);
-motion.times = decode(motion.times);
+motion.times = decode(motion.times, 8);
+motion.curves = motion.panels.flatMap((panel) => panel.curves);
+/** What moves and what is drawn over time has times of its own, or those of the page. */
+for (const track of [...motion.bodies, ...motion.paths, ...motion.links, ...motion.curves]) {
+  track.times = track.times === undefined ? motion.times : decode(track.times, 8);
+}
 for (const body of motion.bodies) body.poses = decode(body.poses);
 for (const path of motion.paths) path.points = decode(path.points);
 for (const link of motion.links) link.ends = decode(link.ends);
-for (const panel of motion.panels) for (const curve of panel.curves) curve.values = decode(curve.values);
+for (const curve of motion.curves) {
+  curve.values = decode(curve.values);
+  curve.base ??= 0;
+}
 for (const ground of motion.grounds) if (ground.heights) ground.heights = decode(ground.heights);
 motion.end = motion.times[motion.times.length - 1];
 
-/** The last sample not after a time, and how far it is to the next one, from 0 to 1. */
-function locate(time) {
-  const { times } = motion;
+/** The last of the times not after a time, and how far it is to the next one, from 0 to 1. */
+function locate(time, times = motion.times) {
   let low = 0;
   let high = times.length - 1;
   while (high - low > 1) {
@@ -27,10 +62,13 @@ function locate(time) {
     else high = middle;
   }
   const length = times[high] - times[low];
-  // Times that single precision cannot tell apart make no step.
+  // Times that even double precision cannot tell apart make no step.
   const part = length > 0 ? Math.min(Math.max((time - times[low]) / length, 0), 1) : 1;
   return { k: low, part };
 }
+
+/** A curve's value at a time. */
+const valueAt = (curve, time) => curve.base + between(curve.values, 1, 0, locate(time, curve.times));
 
 /** Entry `i` of `width` numbers a sample, between samples on a straight line. */
 function between(values, width, i, { k, part }) {

@@ -63,14 +63,15 @@ function makeStage() {
   const zAxis = new THREE.Vector3(0, 0, 1);
   /** Puts everything where it is at a time. */
   function place(time) {
-    const at = locate(time);
-    for (const { body: { poses }, group } of movers) {
+    for (const { body: { poses, times }, group } of movers) {
+      const at = locate(time, times);
       group.position.set(between(poses, 7, 0, at), between(poses, 7, 1, at), between(poses, 7, 2, at));
       p.fromArray(poses, 7 * at.k + 3);
       q.fromArray(poses, 7 * at.k + 10);
       group.quaternion.slerpQuaternions(p, q, at.part);
     }
-    for (const { link: { ends }, group } of links) {
+    for (const { link: { ends, times }, group } of links) {
+      const at = locate(time, times);
       a.set(between(ends, 6, 0, at), between(ends, 6, 1, at), between(ends, 6, 2, at));
       b.set(between(ends, 6, 3, at), between(ends, 6, 4, at), between(ends, 6, 5, at)).sub(a);
       group.position.copy(a);
@@ -78,7 +79,7 @@ function makeStage() {
       if (length > 0) group.quaternion.setFromUnitVectors(zAxis, b.divideScalar(length));
       group.userData.stretch(length);
     }
-    for (const path of paths) path.until(at);
+    for (const path of paths) path.until(time);
     if (following) {
       a.copy(focus()).sub(last);
       camera.position.add(a);
@@ -139,7 +140,8 @@ function makePath(scene, path, colour) {
   scene.add(faint, strong);
   let moved = 0;
   return {
-    until(at) {
+    until(time) {
+      const at = locate(time, path.times);
       const { position } = done.attributes;
       // The vertex after the last whole sample stands where the point is; the one before goes back.
       position.array.set(path.points.subarray(3 * moved, 3 * moved + 3), 3 * moved);

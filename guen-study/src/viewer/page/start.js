@@ -3,9 +3,7 @@
 const byId = (id) => document.getElementById(id);
 byId("title").textContent = motion.title;
 
-const notes = [];
-const degrees = Math.round((motion.largestTurn * 180) / Math.PI);
-if (degrees > 90) notes.push(`Samples are far apart: a body turns by ${degrees}° or more between two of them.`);
+const notes = motion.notes.map((note) => note.text);
 
 let stage = null;
 try {

@@ -1,0 +1,285 @@
+//! Tracks: what one thing on the page shows over time, at those samples that are kept.
+
+use super::shape::Pose;
+use super::thin::{Chosen, extrema, refined};
+use super::turn::{Turn, norm};
+
+/// A place is drawn within this part of the track's own size: half a pixel where it fills 2000 of them.
+pub(super) const PLACE: f64 = 1.0 / 4000.0;
+
+/// An orientation is drawn within this angle, in radians.
+pub(super) const ANGLE: f64 = 0.01;
+
+/// A curve is drawn within this part of its range.
+const VALUE: f64 = 1.0 / 2000.0;
+
+/// What is nearer than this part of a number is its rounding, and no motion.
+const ROUNDING: f64 = 1e-12;
+
+/// Values over time.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Track<T> {
+    /// The times of the values, since the first; nothing if these are the page's own.
+    pub(super) times: Option<Vec<f64>>,
+    pub(super) values: Vec<T>,
+    /// The largest deviation of what is left out, in units of its tolerance.
+    pub(super) miss: f64,
+    /// Whether only the envelope of a curve is here, and not each of its extrema.
+    pub(super) is_envelope: bool,
+}
+
+/// What a track consists of.
+pub(super) trait Shown: Copy {
+    /// The reals on the page.
+    const WIDTH: usize;
+
+    /// The places in it.
+    fn places(&self) -> impl Iterator<Item = [f64; 3]>;
+
+    /// The numbers of the samples to keep.
+    fn chosen(times: &[f64], values: &[Self], most: usize) -> (Chosen, bool);
+}
+
+/// Deviations of all samples between two from what is drawn between these.
+fn worst_between<T: Copy>(
+    times: &[f64],
+    values: &[T],
+    (a, b): (usize, usize),
+    mut miss: impl FnMut(f64, T) -> f64,
+) -> (usize, f64) {
+    let span = times[b] - times[a];
+    let mut worst = (a + 1, 0.0);
+    for k in a + 1..b {
+        let found = miss((times[k] - times[a]) / span, values[k]);
+        if found > worst.1 {
+            worst = (k, found);
+        }
+    }
+    worst
+}
+
+fn between(a: [f64; 3], b: [f64; 3], part: f64) -> [f64; 3] {
+    std::array::from_fn(|i| a[i] + (b[i] - a[i]) * part)
+}
+
+fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
+    let [x, y, z] = super::shape::difference(a, b);
+    (x * x + y * y + z * z).sqrt()
+}
+
+/// How near a track's places have to be drawn.
+fn tolerance(places: impl Iterator<Item = [f64; 3]>) -> f64 {
+    let (least, most) = bounds(places);
+    let size = norm(super::shape::difference(most, least));
+    let far = least.into_iter().chain(most).map(f64::abs).fold(0.0, f64::max);
+    (PLACE * size).max(ROUNDING * far).max(f64::MIN_POSITIVE)
+}
+
+/// The box around points: its corners, which are infinite if there is no point.
+pub(super) fn bounds(points: impl Iterator<Item = [f64; 3]>) -> ([f64; 3], [f64; 3]) {
+    points.fold(([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]), |(least, most), p| {
+        (std::array::from_fn(|i| f64::min(least[i], p[i])), std::array::from_fn(|i| f64::max(most[i], p[i])))
+    })
+}
+
+impl Shown for Pose {
+    const WIDTH: usize = 7;
+
+    fn places(&self) -> impl Iterator<Item = [f64; 3]> {
+        [self.place].into_iter()
+    }
+
+    fn chosen(times: &[f64], values: &[Self], most: usize) -> (Chosen, bool) {
+        let near = tolerance(values.iter().map(|pose| pose.place));
+        let worst = |a: usize, b: usize| {
+            let (from, to) = (values[a], values[b]);
+            let turn = Turning::new(from.turn, to.turn);
+            worst_between(times, values, (a, b), |part, pose| {
+                let place = distance(between(from.place, to.place, part), pose.place) / near;
+                let angle = turn.at(part).angle(pose.turn) / ANGLE;
+                place.max(angle)
+            })
+        };
+        (refined(values.len(), [], most, worst), false)
+    }
+}
+
+/// The shortest turn from one orientation to another, as the page makes it.
+struct Turning {
+    from: Turn,
+    to: Turn,
+    angle: f64,
+}
+
+impl Turning {
+    fn new(from: Turn, to: Turn) -> Self {
+        let cosine: f64 = from.0.iter().zip(to.0).map(|(a, b)| a * b).sum();
+        let to = if cosine < 0.0 { Turn(to.0.map(|e| -e)) } else { to };
+        Self { from, to, angle: cosine.abs().min(1.0).acos() }
+    }
+
+    fn at(&self, part: f64) -> Turn {
+        let whole = self.angle.sin();
+        let (a, b) = if whole < 1e-6 {
+            (1.0 - part, part)
+        } else {
+            (((1.0 - part) * self.angle).sin() / whole, (part * self.angle).sin() / whole)
+        };
+        Turn(std::array::from_fn(|i| a * self.from.0[i] + b * self.to.0[i]))
+    }
+}
+
+impl Shown for [f64; 3] {
+    const WIDTH: usize = 3;
+
+    fn places(&self) -> impl Iterator<Item = [f64; 3]> {
+        [*self].into_iter()
+    }
+
+    fn chosen(times: &[f64], values: &[Self], most: usize) -> (Chosen, bool) {
+        let near = tolerance(values.iter().copied());
+        let worst = |a: usize, b: usize| {
+            let (from, to) = (values[a], values[b]);
+            worst_between(times, values, (a, b), |part, place| {
+                distance(between(from, to, part), place) / near
+            })
+        };
+        (refined(values.len(), [], most, worst), false)
+    }
+}
+
+impl Shown for [[f64; 3]; 2] {
+    const WIDTH: usize = 6;
+
+    fn places(&self) -> impl Iterator<Item = [f64; 3]> {
+        (*self).into_iter()
+    }
+
+    fn chosen(times: &[f64], values: &[Self], most: usize) -> (Chosen, bool) {
+        let near = [0, 1].map(|end| tolerance(values.iter().map(|ends| ends[end])));
+        let worst = |a: usize, b: usize| {
+            let (from, to) = (values[a], values[b]);
+            worst_between(times, values, (a, b), |part, ends| {
+                let miss = |end: usize| distance(between(from[end], to[end], part), ends[end]) / near[end];
+                miss(0).max(miss(1))
+            })
+        };
+        (refined(values.len(), [], most, worst), false)
+    }
+}
+
+impl Shown for f64 {
+    const WIDTH: usize = 1;
+
+    fn places(&self) -> impl Iterator<Item = [f64; 3]> {
+        [].into_iter()
+    }
+
+    fn chosen(times: &[f64], values: &[Self], most: usize) -> (Chosen, bool) {
+        let (low, high) = range(values);
+        let near = (VALUE * (high - low)).max(ROUNDING * low.abs().max(high.abs())).max(f64::MIN_POSITIVE);
+        let (required, all) = extrema(times, values, most);
+        let worst = |a: usize, b: usize| {
+            let (from, to) = (values[a], values[b]);
+            worst_between(times, values, (a, b), |part, value| {
+                (from + (to - from) * part - value).abs() / near
+            })
+        };
+        // Inside the parts of an envelope the curve is not followed.
+        let most = if all { most } else { required.len() };
+        (refined(values.len(), required, most, worst), !all)
+    }
+}
+
+/// The least and the greatest of numbers.
+pub(super) fn range(values: &[f64]) -> (f64, f64) {
+    values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(*v), high.max(*v)))
+}
+
+impl<T: Shown> Track<T> {
+    /// Every value, at the page's own times.
+    pub(super) fn whole(values: Vec<T>) -> Self {
+        Self { times: None, values, miss: 0.0, is_envelope: false }
+    }
+
+    /// At most `most` of values, with times of their own.
+    pub(super) fn thinned(times: &[f64], values: &[T], most: usize) -> Self {
+        let (Chosen { kept, miss }, is_envelope) = T::chosen(times, values, most);
+        Self {
+            times: Some(kept.iter().map(|k| times[*k]).collect()),
+            values: kept.iter().map(|k| values[*k]).collect(),
+            miss,
+            is_envelope,
+        }
+    }
+
+    /// Bytes of a value in the file: single precision, a time in double where it has its own, three bytes as four letters.
+    pub(super) fn bytes_each(&self) -> usize {
+        (4 * T::WIDTH + if self.times.is_some() { 8 } else { 0 }) * 4 / 3
+    }
+
+    /// Leaves at most `most` values; what was left out before stays so.
+    pub(super) fn shrink(&mut self, most: usize, own: &[f64]) {
+        if self.values.len() > most {
+            let times = self.times.as_deref().unwrap_or(own);
+            let less = Self::thinned(times, &self.values, most);
+            *self = Self {
+                miss: self.miss + less.miss,
+                is_envelope: self.is_envelope || less.is_envelope,
+                ..less
+            };
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The pose that the page shows at a time.
+    fn shown(track: &Track<Pose>, time: f64) -> Pose {
+        let times = track.times.as_ref().unwrap();
+        let k = times.partition_point(|t| *t <= time).clamp(1, times.len() - 1) - 1;
+        let part = (time - times[k]) / (times[k + 1] - times[k]);
+        let (a, b) = (track.values[k], track.values[k + 1]);
+        Pose { place: between(a.place, b.place, part), turn: Turning::new(a.turn, b.turn).at(part) }
+    }
+
+    #[test]
+    fn a_fast_wheel_on_a_long_way_turns_as_it_does() {
+        let times: Vec<f64> = (0..200_000).map(|k| 1e-4 * f64::from(k)).collect();
+        // The whole way takes 20 s; the wheel turns at 300 rad/s, and stops for a moment.
+        let at = |t: f64| {
+            let angle = 300.0 * t + 100.0 * (t - 10.0).tanh();
+            Pose::at([t, t.sin(), 0.0]).turned([0.0, 1.0, 0.0], angle)
+        };
+        let poses: Vec<Pose> = times.iter().map(|t| at(*t)).collect();
+        let track = Track::thinned(&times, &poses, 20_000);
+        assert!(track.miss <= 1.0 && track.values.len() < 5000, "{} {}", track.miss, track.values.len());
+        for (t, pose) in times.iter().zip(&poses) {
+            let shown = shown(&track, *t);
+            assert!(shown.turn.angle(pose.turn) <= 1.001 * ANGLE, "at {t}");
+            assert!(distance(shown.place, pose.place) < 20.1 * PLACE, "at {t}");
+        }
+    }
+
+    #[test]
+    fn a_track_at_rest_far_away_needs_two_samples_of_its_own() {
+        let times: Vec<f64> = (0..10_000).map(f64::from).collect();
+        let noise: Vec<[f64; 3]> = times.iter().map(|t| [6.4e6 + 1e-9 * (t * t).sin(), 0.0, 0.0]).collect();
+        let track = Track::thinned(&times, &noise, 5000);
+        assert!(track.values.len() <= 257, "{}", track.values.len());
+    }
+
+    #[test]
+    fn what_was_kept_can_be_thinned_again() {
+        let times: Vec<f64> = (0..50_000).map(f64::from).collect();
+        let values: Vec<f64> = times.iter().map(|t| (t * 0.7).sin() + 1e-4 * t).collect();
+        let mut track = Track::thinned(&times, &values, 8000);
+        assert!(track.is_envelope && track.values.len() <= 8000);
+        track.shrink(400, &[]);
+        assert!(track.values.len() <= 400);
+        let (low, high) = range(&track.values);
+        assert_eq!((low, high), range(&values));
+    }
+}
