@@ -9,3 +9,4 @@ mod costs;
 mod lines;
 mod messages;
 mod series;
+mod signatures;

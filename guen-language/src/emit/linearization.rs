@@ -8,6 +8,7 @@ use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
 use super::layout::{Layout, inputs};
+use super::signatures::{self, Signature};
 use super::text::{cost, tokens};
 use crate::derive::{Subject, function};
 
@@ -18,7 +19,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     }
     let jacobians = &level.jacobians;
     let rates = Target {
-        method: "linearize",
+        signature: signatures::LINEARIZE,
         docs: "The exact linearisation of [`rhs`](Self::rhs), `d(state)' = A d(state) + B d(inputs)`: `a[i][j]` and \
                `b[i][j]` are the derivatives of the rate `i` by the state `j` and by the input `j`.",
         code: function::LINEARIZATION,
@@ -30,7 +31,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     };
     let outputs = level.program(function::OUTPUTS).map_or(0, |program| program.outputs.len());
     let outputs = (outputs > 0).then_some(Target {
-        method: "linearize_outputs",
+        signature: signatures::linearize_outputs(outputs),
         docs: "The exact linearisation of [`outputs`](Self::outputs), `d(outputs) = C d(state) + D d(inputs)`: a row for \
                each scalar output, three for a vector, in the order of the declaration.",
         code: function::OUTPUT_LINEARIZATION,
@@ -63,7 +64,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
 
 /// A function that is linearised.
 struct Target<'a> {
-    method: &'static str,
+    signature: Signature,
     docs: &'static str,
     /// The function of the derivatives, and the function itself.
     code: &'static str,
@@ -77,9 +78,9 @@ struct Target<'a> {
 
 impl Target<'_> {
     fn method(&self, layout: &Layout) -> TokenStream {
-        let (parameter, argument) = inputs(layout);
+        let (_, argument) = inputs(layout);
         let (size, count, rows) = (layout.size, layout.inputs, self.rows);
-        let [method, code, of, record] = [self.method, self.code, self.of, self.record].map(ident);
+        let [code, of, record] = [self.code, self.of, self.record].map(ident);
         let [by_state, by_input] = self.fields.map(ident);
         let docs = match self.pattern {
             Some(pattern) => format!(
@@ -90,10 +91,7 @@ impl Target<'_> {
             ),
             None => format!("{} Computed by dual numbers.", self.docs),
         };
-        let types = match self.record {
-            "Linearization" => quote!(__guen::#record<R, #size, #count>),
-            _ => quote!(__guen::#record<R, #size, #count, #rows>),
-        };
+        let head = self.signature.head(layout, &quote!());
         let (bounds, body) = match self.pattern {
             Some(pattern) => {
                 let cells = cells(pattern, rows, size, count);
@@ -108,7 +106,7 @@ impl Target<'_> {
         };
         quote! {
             #[doc = #docs]
-            pub fn #method(&self, t: R, state: &State<R> #parameter) -> #types #bounds {
+            #head #bounds {
                 #body
                 __guen::#record { #by_state: by_state, #by_input: by_input }
             }

@@ -27,6 +27,7 @@ mod recast;
 mod records;
 mod serde;
 mod series;
+mod signatures;
 mod text;
 mod uses;
 

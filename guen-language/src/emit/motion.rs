@@ -3,8 +3,8 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::integrated;
 use super::layout::{Layout, given, given_alone, inputs};
+use super::{integrated, signatures};
 use crate::derive::{Subject, function};
 use crate::model::FormKind;
 
@@ -38,7 +38,7 @@ fn whole(layout: &Layout) -> TokenStream {
 
 /// Energy, reactions and outputs: what a scene has if it provides them.
 fn chosen(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
-    let (parameter, argument) = inputs(layout);
+    let (_, argument) = inputs(layout);
     let Layout { n, size, .. } = layout;
     let (l, given) = (size - n, given(layout));
     let selection = &subject.level.selection;
@@ -46,10 +46,11 @@ fn chosen(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let reactions =
         (!selection.reactions.is_empty()).then(|| quote!(__guen::reactions!(#n, #l, #size #given);));
     let outputs = (!selection.outputs.is_empty()).then(|| {
+        let head = signatures::OUTPUTS.head(layout, &quote!());
         quote! {
             /// The declared outputs at a state.
             #[inline]
-            pub fn outputs(&self, t: R, state: &State<R> #parameter) -> Outputs<R> {
+            #head {
                 Outputs::from_values(&program::outputs(
                     &self.constants, &self.hoisted, t, &::core::convert::From::from(*state), #argument,
                 ))
@@ -78,11 +79,12 @@ fn residuals(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let holonomic = &subject.level.selection.holonomic;
     let at_positions = (!holonomic.is_empty())
         .then(|| quote!(let positions = program::positions(&self.constants, &self.hoisted, t, &x);));
+    let head = signatures::RESIDUALS.head(layout, &quote!());
     if !layout.is_whole {
         return at_positions.map_or_else(TokenStream::new, |at_positions| {
             quote! {
                 /// Returns the residuals of the holonomic constraints at a state.
-                pub fn residuals(&self, t: R, state: &State<R>) -> Residuals<R> {
+                #head {
                     let x = __guen::first(&state.__guen_array());
                     #at_positions
                     ::core::convert::From::from(positions)
@@ -115,7 +117,7 @@ fn residuals(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     }));
     quote! {
         /// Returns the residuals of all constraints at a state.
-        pub fn residuals(&self, t: R, state: &State<R>) -> Residuals<R> {
+        #head {
             let s = state.__guen_array();
             let x = __guen::first(&s);
             let velocities = program::velocities(&self.constants, &self.hoisted, t, &s);
