@@ -61,8 +61,8 @@ pub use guen_runtime::{
     Setting, Simulate, Smooth, System, WithFunctions, WithInputs, from_fn, generic, lanes, project,
     projected, renormalized, steppers,
 };
-pub use guen_runtime::{Coefficients, Convolutions, HIGHEST_ORDER, TaylorSeries};
-pub use guen_runtime::{Liftable, Linearizable, OutputLinearization, control, seeded};
+pub use guen_runtime::{Coefficients, Convolutions, DrivenSeries, HIGHEST_ORDER, PowerSeries, TaylorSeries};
+pub use guen_runtime::{Liftable, Linearizable, OutputLinearization, control, linearized, seeded};
 
 #[cfg(feature = "alloc")]
 pub use guen_runtime::{
@@ -155,18 +155,18 @@ pub mod __private {
     pub use guen_runtime::lanes::Lanes;
     pub use guen_runtime::{
         Actuated, AuxiliaryStates, Bodies, Body, BracketCoefficients, Catastatic, Class, Coefficient,
-        Coefficients, Conservative, ConstantsError, Convolutions, Cost, Derived, Differentiable, Dual,
-        HIGHEST_ORDER, Holonomic, IncompleteLieGroup, InputRecords, Invariants, Laned, Level, LevelInfo,
-        Levels, LieGroup, Lift, Liftable, Linearizable, Linearization, Monitored, Nonholonomic, Operator,
-        Ordered, OutputLinearization, OutputMap, Positions, PositionsError, Real, Recast, Report,
-        ReportSection, Rheonomic, RunningError, Scleronomic, Simulate, System, TaylorSeries, Undriven,
-        Unprepared, WithInputs, nalgebra_conversions, seeded,
+        Coefficients, Conservative, ConstantsError, Convolutions, Cost, Derived, Differentiable,
+        DrivenSeries, Dual, HIGHEST_ORDER, Holonomic, IncompleteLieGroup, InputRecords, Invariants, Laned,
+        Level, LevelInfo, Levels, LieGroup, Lift, Liftable, Linearizable, Linearization, Monitored,
+        Nonholonomic, Operator, Ordered, OutputLinearization, OutputMap, Positions, PositionsError, Real,
+        Recast, Report, ReportSection, Rheonomic, RunningError, Scleronomic, Simulate, System, TaylorSeries,
+        Undriven, Unprepared, WithInputs, linearized, nalgebra_conversions, seeded,
     };
     pub use guen_runtime::{
-        condition, conserved, differentiable, domain, dynamics, energy, facts, jacobians, laned, level_info,
-        levels, linearizable, mass_form, monitored, motion_of_system, onto_constraints, operators,
-        output_map, prepare, prepared, program_functions, rates, reaction_covector, reactions, recast,
-        record, reduce, reported, simulated, singularities, state_of_system, steady_motions, uses,
+        actuated, condition, conserved, differentiable, domain, dynamics, energy, facts, jacobians, laned,
+        level_info, levels, linearizable, mass_form, monitored, motion_of_system, onto_constraints,
+        operators, output_map, prepare, prepared, program_functions, rates, reaction_covector, reactions,
+        recast, record, reduce, reported, simulated, singularities, state_of_system, steady_motions, uses,
     };
     pub use guen_runtime::{consistent, control, furthest_surplus, serde_record};
 }

@@ -52,6 +52,7 @@ pub use generated::derived::Derived;
 pub use numbers::dual::Dual;
 pub use numbers::lanes;
 pub use numbers::lift::Lift;
+pub use numbers::power_series::{HIGHEST_ORDER, PowerSeries};
 pub use numbers::real::{Ordered, Real};
 pub use numbers::running_error::RunningError;
 pub use numbers::with_functions::{
@@ -87,7 +88,7 @@ pub use system::input_law::{InputLaw, InputRecords, InputValues, Smooth};
 pub use system::invariants::Invariants;
 pub use system::level::{Level, LevelInfo, Levels};
 pub use system::linearization::{
-    Liftable, Linearizable, Linearization, OutputLinearization, moving, seeded, slopes, tangents,
+    Liftable, Linearizable, Linearization, OutputLinearization, linearized, moving, seeded, slopes, tangents,
 };
 pub use system::operator::{Applied, Coordinate, Function, Operator};
 pub use system::outputs::OutputMap;
@@ -96,7 +97,7 @@ pub use system::positions::furthest_surplus;
 pub use system::positions::{Positions, Projected, consistent, project, projected};
 pub use system::positions_error::PositionsError;
 pub use system::recast::Recast;
-pub use system::series::{Coefficients, Convolutions, HIGHEST_ORDER, TaylorSeries};
+pub use system::series::{Coefficients, Convolutions, DrivenSeries, TaylorSeries};
 pub use system::simulate::Simulate;
 pub use system::{FromFn, Laned, Monitored, System, from_fn};
 

@@ -31,7 +31,7 @@ fn series(declaration: &str) -> SeriesProgram {
     assert!(report.is_empty(), "{report}");
     let (derived, report) = collect(|faults| derive::derive(model.unwrap(), faults));
     assert!(report.is_empty(), "{report}");
-    derived.unwrap().system.series.unwrap()
+    derived.unwrap().system.series.unwrap().held
 }
 
 fn counts(series: &SeriesProgram) -> String {

@@ -35,14 +35,16 @@ fn a_law_serves_as_its_closure_does() {
 }
 
 #[test]
-fn implicit_methods_see_through_a_law() {
+fn methods_that_need_derivatives_see_through_a_law() {
     let pulled = prepared().with_law(Pull);
     let exact = pulled.simulation(&START).tolerance(1e-12).run(0.0..3.0).unwrap();
     let radau = pulled.simulation(&START).method(Radau5::new(1e-10, 1e-10)).run(0.0..3.0).unwrap();
     let gauss = pulled.simulation(&START).method(Gauss6::new(0.02)).run(0.0..3.0).unwrap();
+    let taylor = pulled.simulation(&START).method(Taylor::new(1e-14, 1e-14)).run(0.0..3.0).unwrap();
     for t in [0.7, 1.9, 3.0] {
         assert!((exact.at(t).z - radau.at(t).z).abs() < 1e-7, "{t}");
         assert!((exact.at(t).z - gauss.at(t).z).abs() < 1e-7, "{t}");
+        assert!((exact.at(t).z - taylor.at(t).z).abs() < 1e-11, "{t}");
     }
     // z'' = (cos t - w - 3 sin z)/2
     let (t, state) = (0.4, [0.8, -0.3]);

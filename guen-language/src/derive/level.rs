@@ -54,7 +54,7 @@ pub struct Level {
     /// The promise that would save operations; of the system itself.
     pub promise: Option<Promise>,
     /// The recurrences of its Taylor series, if it provides one.
-    pub series: Option<SeriesProgram>,
+    pub series: Option<Series>,
     /// The places of the derivatives that have code of their own.
     pub jacobians: Jacobians,
     /// The notation of expressions in the report.
@@ -70,6 +70,14 @@ impl Level {
     pub fn program(&self, name: &str) -> Option<&FunctionProgram> {
         self.programs.functions.iter().find(|function| function.name == name)
     }
+}
+
+/// The recurrences of a level's Taylor series.
+pub struct Series {
+    /// With inputs that are held.
+    pub held: SeriesProgram,
+    /// With inputs that have series of their own, if there are inputs and the motion is analytic in them.
+    pub along_inputs: Option<SeriesProgram>,
 }
 
 /// A bracket `(X_r, X_s)`, `r < s`, that does not vanish identically.

@@ -39,7 +39,7 @@ pub(crate) use control::{has_covector, known_combinations};
 pub use facts::SceneFacts;
 pub use jacobians::Jacobians;
 pub(crate) use level::Subject;
-pub use level::{Commutator, Derived, Level};
+pub use level::{Commutator, Derived, Level, Series};
 pub use promise::Promise;
 pub use selection::{Held, Place, Selection};
 

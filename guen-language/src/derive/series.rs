@@ -4,31 +4,36 @@ use guen_symbolic::{Programs, SeriesProgram, Source, SymbolId};
 use proc_macro2::Span;
 
 use super::function;
+use super::level::Series;
 use super::selection::Selection;
 use crate::diagnostics::{Fault, Faults};
 use crate::limits::MAX_SERIES_SUMS;
 use crate::model::Model;
 
 /// The recurrences of the rates of what a level keeps. What has no series is reported at the word `taylor`.
+///
+/// Where a rate has a kink in an input, or the sums along inputs are too many, there are those with inputs held alone.
 pub(super) fn of(
     model: &Model<'_>,
     selection: &Selection,
     programs: &Programs,
     word: Span,
     faults: &mut Faults,
-) -> Option<SeriesProgram> {
+) -> Option<Series> {
     let rates = programs.functions.iter().find(|known| known.name == function::RHS)?;
     let graph = &model.bench.graph;
     let time = graph.as_symbol(model.mechanics.forms.time);
     let variables: Vec<Option<SymbolId>> =
         selection.variables.iter().map(|place| graph.as_symbol(model.variable(*place))).collect();
+    let place =
+        |symbols: &[Option<SymbolId>], symbol| symbols.iter().position(|known| *known == Some(symbol));
     let source = |symbol: SymbolId| {
         if Some(symbol) == time {
             return Source::Time;
         }
-        variables.iter().position(|known| *known == Some(symbol)).map_or(Source::Still, Source::State)
+        place(&variables, symbol).map_or(Source::Still, Source::State)
     };
-    let series = match SeriesProgram::new(rates, source) {
+    let held = match SeriesProgram::new(rates, source) {
         Ok(series) => series,
         Err(refused) => {
             let function = refused.function.name();
@@ -43,10 +48,10 @@ pub(super) fn of(
             return None;
         }
     };
-    if series.sums.len() > MAX_SERIES_SUMS {
+    if held.sums.len() > MAX_SERIES_SUMS {
         let text = format!(
             "the Taylor series needs {} sums of products, and {MAX_SERIES_SUMS} are allowed",
-            series.sums.len()
+            held.sums.len()
         );
         faults.report(
             Fault::new(word, text)
@@ -55,5 +60,12 @@ pub(super) fn of(
         );
         return None;
     }
-    Some(series)
+    let inputs: Vec<Option<SymbolId>> =
+        selection.inputs.iter().map(|u| graph.as_symbol(model.mechanics.inputs[*u])).collect();
+    let moving = |symbol| place(&inputs, symbol).map_or_else(|| source(symbol), Source::Input);
+    let along_inputs = (!inputs.is_empty())
+        .then(|| SeriesProgram::new(rates, moving).ok())
+        .flatten()
+        .filter(|series| series.sums.len() <= MAX_SERIES_SUMS);
+    Some(Series { held, along_inputs })
 }

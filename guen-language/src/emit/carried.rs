@@ -237,28 +237,7 @@ fn systems(
             quote!(&::core::convert::From::from(self.inputs)),
         )
     };
-    let driven = (count > 0).then(|| {
-        quote! {
-            /// A carried form with inputs that are held: what steppers integrate during a step.
-            #[::core::prelude::v1::derive(
-                ::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq
-            )]
-            pub struct Driven<R = f64> {
-                /// The carried form.
-                pub system: Prepared<R>,
-                /// The inputs that are held.
-                pub inputs: Inputs<R>,
-            }
-
-            impl<R: __guen::Real> Prepared<R> {
-                /// The system with these inputs held.
-                #[inline]
-                pub fn driven(&self, inputs: Inputs<R>) -> Driven<R> {
-                    Driven { system: *self, inputs }
-                }
-            }
-        }
-    });
+    let driven = (count > 0).then(|| quote!(__guen::actuated!(#size, "carried form");));
     let monitored = subject.level.selection.energy.then(|| {
         quote! {
             impl<R: __guen::Real> __guen::Monitored<R, #size> for #owner {
@@ -326,6 +305,7 @@ fn systems(
             #prices
         }
         #differentiable
+        __guen::linearizable!(#size, #count; by duals);
         #simulate
         #monitored
         #renormalize

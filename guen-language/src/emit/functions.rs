@@ -102,7 +102,7 @@ pub(super) fn signature(name: &str) -> Signature {
 pub(super) fn modules(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let Level { programs, placed, series, .. } = subject.level;
     let places = Places::new(subject, false);
-    let series = series.as_ref().map(|series| super::series::function(series, &places, layout));
+    let series = series.as_ref().map(|series| super::series::functions(series, &places, layout));
     let mut text = module("program", programs, &series.unwrap_or_default(), subject, layout);
     if let Some(placed) = placed {
         text.push_str(&module("placed", placed, "", subject, layout));

@@ -180,24 +180,7 @@ fn systems(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let differentiable = integrated::differentiable(layout, subject.level.jacobians.rates.is_some());
     let simulate = integrated::simulate(layout, true, !selection.holonomic.is_empty());
     quote! {
-        /// A prepared system with inputs that are held: what steppers integrate during a step.
-        #[::core::prelude::v1::derive(
-            ::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq
-        )]
-        pub struct Driven<R = f64> {
-            /// The system.
-            pub system: Prepared<R>,
-            /// The inputs that are held.
-            pub inputs: Inputs<R>,
-        }
-
-        impl<R: __guen::Real> Prepared<R> {
-            /// The system with these inputs held.
-            #[inline]
-            pub fn driven(&self, inputs: Inputs<R>) -> Driven<R> {
-                Driven { system: *self, inputs }
-            }
-        }
+        __guen::actuated!(#size, "system");
 
         impl<R: __guen::Real> __guen::System<R, #size> for Driven<R> {
             #[inline]
@@ -211,22 +194,5 @@ fn systems(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
         #differentiable
         #monitored
         #simulate
-
-        impl<R> __guen::Undriven for Prepared<R> {}
-
-        impl<R: __guen::Real> __guen::Actuated<R, #size> for Prepared<R> {
-            type Inputs = Inputs<R>;
-            type Driven = Driven<R>;
-
-            #[inline]
-            fn held(&self, inputs: Inputs<R>) -> Driven<R> {
-                self.driven(inputs)
-            }
-        }
-
-        impl<R: __guen::Real> __guen::InputRecords for Prepared<R> {
-            type StateOver<S: __guen::Real> = State<S>;
-            type InputsOver<S: __guen::Real> = Inputs<S>;
-        }
     }
 }

@@ -12,18 +12,38 @@ use quote::quote;
 
 use super::code::{Loads, call, number};
 use super::layout::Layout;
-use crate::derive::Subject;
+use crate::derive::{Series, Subject};
 
 /// The trait `TaylorSeries` for what steppers integrate.
 pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
-    let Some(series) = &subject.level.series else { return TokenStream::new() };
-    let (size, products) = (layout.size, series.sums.len());
+    let Some(Series { held, along_inputs }) = &subject.level.series else { return TokenStream::new() };
+    let (size, products) = (layout.size, held.sums.len());
     let (owner, prepared, inputs) = if layout.inputs == 0 {
         (quote!(Prepared<R>), quote!(self), quote!(&[]))
     } else {
         (quote!(Driven<R>), quote!(self.system), quote!(&::core::convert::From::from(self.inputs)))
     };
+    let along_inputs = along_inputs.as_ref().map(|series| {
+        let (count, products) = (layout.inputs, series.sums.len());
+        quote! {
+            impl<R: __guen::Real> __guen::DrivenSeries<R, #size, #count> for Prepared<R> {
+                const PRODUCTS: usize = #products;
+
+                fn series_along(
+                    &self, t: R, state: &[R; #size], inputs: &mut dyn ::core::ops::FnMut(usize, &__guen::Coefficients<R, #size>) -> [R; #count],
+                    scale: R, order: usize, coefficients: &mut __guen::Coefficients<R, #size>,
+                ) {
+                    <R as __guen::Real>::wide(
+                        #[inline(always)]
+                        || program::series_along(&self.constants, &self.hoisted, t, state, inputs, scale, order, coefficients)
+                    )
+                }
+            }
+        }
+    });
     quote! {
+        #along_inputs
+
         impl<R: __guen::Real> __guen::TaylorSeries<R, #size> for #owner {
             const PRODUCTS: usize = #products;
 
@@ -95,8 +115,17 @@ struct Writer<'a> {
     kept: BTreeMap<Kept, usize>,
 }
 
-/// The function `series`, whose parameters are those of a right-hand side and the request.
-pub(super) fn function(series: &SeriesProgram, loads: &dyn Loads, layout: &Layout) -> String {
+/// The functions `series` and `series_along`, whose parameters are those of a right-hand side and the request.
+pub(super) fn functions(series: &Series, loads: &dyn Loads, layout: &Layout) -> String {
+    let mut text = function(&series.held, false, loads, layout);
+    if let Some(series) = &series.along_inputs {
+        text.push_str(&function(series, true, loads, layout));
+    }
+    text
+}
+
+/// One of them. Where inputs have series, `u` gives their coefficients, order by order: `g` of order zero, `y` of order `m`.
+fn function(series: &SeriesProgram, along_inputs: bool, loads: &dyn Loads, layout: &Layout) -> String {
     let Layout { size, constants, hoisted, inputs, .. } = layout;
     let mut writer = Writer { series, loads, states: *size, kept: BTreeMap::new() };
     let values = || (0..series.steps.len()).map(value);
@@ -140,18 +169,25 @@ pub(super) fn function(series: &SeriesProgram, loads: &dyn Loads, layout: &Layou
     let variables = rates.len();
     let (list, sums, count) = (factors.len(), series.sums.len(), kept.len());
     let (rates, kept, now) = (rates.join(","), kept.join(","), now.join(","));
+    let (name, given, first, further) = if along_inputs {
+        let given = format!("&mut dyn FnMut(usize, &__guen::Coefficients<R, {size}>) -> [R; {inputs}]");
+        ("series_along", given, "let g = u(0, out);", "let y = u(m, out);")
+    } else {
+        ("series", format!("&[R; {inputs}]"), "", "")
+    };
     let (begin, next, next_rates) = (blocks(&begin, &begun), blocks(&next, &used), next_rates.join(","));
     format!(
-        "#[inline(always)] pub(super) fn series<R: __guen::Real>(
-            c: &[R; {constants}], k: &[R; {hoisted}], t: R, s: &[R; {size}], u: &[R; {inputs}],
+        "#[inline(always)] pub(super) fn {name}<R: __guen::Real>(
+            c: &[R; {constants}], k: &[R; {hoisted}], t: R, s: &[R; {size}], u: {given},
             scale: R, order: usize, out: &mut __guen::Coefficients<R, {size}>,
         ) {{
             const PAIRS: [[u16; 2]; {sums}] = [{pairs}];
             let order = if order > __guen::HIGHEST_ORDER {{ __guen::HIGHEST_ORDER }} else {{ order }};
+            out[0] = *s;
+            {first}
             {begin}
             let mut f: [R; {variables}] = [{rates}];
             let z: [R; {count}] = [{kept}];
-            out[0] = *s;
             let mut w = __guen::Convolutions::<R, {list}, {sums}>::new(order);
             let mut m = 1_usize;
             while m <= order {{
@@ -164,6 +200,7 @@ pub(super) fn function(series: &SeriesProgram, loads: &dyn Loads, layout: &Layou
                 i = 0;
                 while i < {size} {{ out[m][i] = x[i]; i += 1; }}
                 if m == order {{ break; }}
+                {further}
                 {next}
                 f = [{next_rates}];
                 w.push(&PAIRS, &[{now}], m);
@@ -210,6 +247,7 @@ impl Writer<'_> {
                 Operation::SinCos { .. } => return None,
             },
             SeriesStep::Time => "t".to_owned(),
+            SeriesStep::Input(i) => format!("g[{i}]"),
             SeriesStep::Variable(i) => match i.checked_sub(self.states) {
                 None => format!("s[{i}]"),
                 Some(place) => return Some(start(&self.series.carried[place])),
@@ -278,6 +316,7 @@ impl Writer<'_> {
             SeriesStep::Still(_) => return None,
             SeriesStep::Time => "if m == 1 { scale } else { R::zero() }".to_owned(),
             SeriesStep::Variable(i) => format!("x[{i}]"),
+            SeriesStep::Input(i) => format!("y[{i}]"),
             SeriesStep::Add(a, b) if still(a) => at(b),
             SeriesStep::Add(a, b) if still(b) => at(a),
             SeriesStep::Add(a, b) => format!("{} + {}", at(a), at(b)),

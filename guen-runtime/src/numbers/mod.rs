@@ -5,6 +5,7 @@
 //! | `real` | [`Real`](real::Real), [`Ordered`](real::Ordered) |
 //! | `float`, `elementary` | `f32`, `f64` and their sines, cosines and roots |
 //! | `dual`, `running_error` | a value with derivatives, a value with a bound of its rounding error |
+//! | `power_series` | a value with its Taylor coefficients |
 //! | `with_functions` | a real with exchanged elementary functions |
 //! | `lanes` | several reals in the registers of the processor |
 //! | `lift` | from a real to those built over it |
@@ -16,6 +17,7 @@ pub(crate) mod elementary;
 mod float;
 pub mod lanes;
 pub(crate) mod lift;
+pub(crate) mod power_series;
 pub(crate) mod real;
 mod rules;
 pub(crate) mod running_error;

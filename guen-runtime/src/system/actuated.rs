@@ -4,9 +4,11 @@ use core::marker::PhantomData;
 
 use crate::numbers::dual::Dual;
 use crate::numbers::lift::Lift;
+use crate::numbers::power_series::PowerSeries;
 use crate::numbers::real::{Ordered, Real};
 #[cfg(feature = "alloc")]
 use crate::simulation::SimulationWithoutInputs;
+use crate::system::auxiliary_states::AuxiliaryStates;
 use crate::system::bodies::{Bodies, Body};
 use crate::system::differentiable::Differentiable;
 use crate::system::forward::forward;
@@ -14,6 +16,7 @@ use crate::system::input_law::{InputLaw, InputRecords, InputValues, Smooth};
 use crate::system::linearization::{Liftable, Linearizable, Linearization, seeded};
 use crate::system::outputs::OutputMap;
 use crate::system::positions_error::PositionsError;
+use crate::system::series::{Coefficients, DrivenSeries, TaylorSeries};
 use crate::system::simulate::Simulate;
 use crate::system::{Monitored, System};
 
@@ -75,8 +78,7 @@ pub trait Actuated<R: Real, const N: usize> {
     }
 
     /// The system with inputs by an [`InputLaw`], which is written for every real: `Radau5`, `Gauss4`, `Gauss6` and
-    /// [`Linearizable`] see its derivatives. One law serves every method but `Taylor`; the series that a system provides hold
-    /// its inputs.
+    /// [`Linearizable`] see its derivatives, and `Taylor` its series where the system provides one. One law serves every method.
     fn with_law<L, const M: usize>(self, law: L) -> WithInputs<Self, Smooth<L, Self, M>, R, N>
     where
         Self: Sized + InputRecords + Liftable<R, N, M>,
@@ -147,6 +149,18 @@ where
     F: InputValues<S, R, N>,
 {
     forward!(self -> self.anywhere(), |t, state| self.at(t, state); System<R, N>, restore);
+}
+
+impl<S, F, R, const N: usize> AuxiliaryStates<R, N> for WithInputs<S, F, R, N>
+where
+    R: Real,
+    S: Actuated<R, N>,
+    S::Driven: AuxiliaryStates<R, N>,
+    F: InputValues<S, R, N>,
+{
+    fn renormalize(&self, t: R, state: &mut [R; N]) {
+        self.anywhere().renormalize(t, state);
+    }
 }
 
 impl<S, F, R, const N: usize> Monitored<R, N> for WithInputs<S, F, R, N>
@@ -254,6 +268,32 @@ where
         let state: [Dual<R, 1>; N] = core::array::from_fn(|i| Dual { value: state[i], tangent: [dx[i]] });
         let inputs = self.law.law.at(time, &state.into()).into();
         self.system.lifted_rates(time, &state, &inputs).map(|rate| rate.tangent[0])
+    }
+}
+
+/// The recurrences of the system along the law's own series, which the law is asked for in [`PowerSeries`], order by order: with
+/// `p` orders, a product of the law takes some `p^3/6` products for each step.
+impl<S, L, R, const N: usize, const M: usize> TaylorSeries<R, N> for WithInputs<S, Smooth<L, S, M>, R, N>
+where
+    R: Real,
+    S: Actuated<R, N> + InputRecords + DrivenSeries<R, N, M>,
+    L: InputLaw<S>,
+    Smooth<L, S, M>: InputValues<S, R, N>,
+    S::StateOver<PowerSeries<R>>: From<[PowerSeries<R>; N]>,
+    S::InputsOver<PowerSeries<R>>: Into<[PowerSeries<R>; M]>,
+{
+    const PRODUCTS: usize = S::PRODUCTS;
+
+    fn series(&self, t: R, state: &[R; N], scale: R, order: usize, coefficients: &mut Coefficients<R, N>) {
+        let time = PowerSeries::line(t, scale);
+        let mut known = state.map(PowerSeries::constant);
+        let mut inputs = |k: usize, motion: &Coefficients<R, N>| {
+            for (series, coefficient) in known.iter_mut().zip(motion.get(k).into_iter().flatten()) {
+                series.know(k, *coefficient);
+            }
+            self.law.law.at(time, &known.into()).into().map(|input| input.coefficient(k))
+        };
+        self.system.series_along(t, state, &mut inputs, scale, order, coefficients);
     }
 }
 

@@ -92,6 +92,32 @@ pub trait Liftable<B: Real, const N: usize, const M: usize> {
     fn lifted_rates<S: Real + Lift<B>>(&self, t: S, state: &[S; N], inputs: &[S; M]) -> [S; N];
 }
 
+/// The linearisation of a system by duals: one evaluation of its rates with `N` tangents, and one with `M`.
+///
+/// ```
+/// use guen_runtime::{Lift, Liftable, Real, linearized};
+///
+/// /// `x' = u sin(x)`.
+/// struct Turn;
+/// impl Liftable<f64, 1, 1> for Turn {
+///     fn lifted_rates<S: Real + Lift<f64>>(&self, _t: S, [x]: &[S; 1], [u]: &[S; 1]) -> [S; 1] {
+///         [*u * x.sin()]
+///     }
+/// }
+/// let found = linearized(&Turn, 0.0, &[0.0], &[3.0]);
+/// assert_eq!((found.a, found.b), ([[3.0]], [[0.0]]));
+/// ```
+pub fn linearized<R: Lift<R>, S: Liftable<R, N, M> + ?Sized, const N: usize, const M: usize>(
+    system: &S,
+    t: R,
+    state: &[R; N],
+    inputs: &[R; M],
+) -> Linearization<R, N, M> {
+    let by_state = system.lifted_rates(Dual::constant(t), &seeded(state), &inputs.map(Dual::constant));
+    let by_inputs = system.lifted_rates(Dual::constant(t), &state.map(Dual::constant), &seeded(inputs));
+    Linearization { a: tangents::<R, N, N>(by_state), b: tangents::<R, N, M>(by_inputs) }
+}
+
 /// Each value as the variable with its own index: the duals whose tangents are derivatives by all of them.
 ///
 /// ```

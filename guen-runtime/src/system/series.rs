@@ -1,16 +1,9 @@
 //! Taylor series of motions: what a generated system offers, and the sums of products that its recurrences consist of.
 
+use crate::numbers::power_series::HIGHEST_ORDER;
 use crate::numbers::real::Real;
 use crate::system::System;
 use crate::system::forward::forward;
-
-/// The highest order of a Taylor series.
-///
-/// ```
-/// use guen_runtime::{Coefficients, HIGHEST_ORDER};
-/// assert_eq!(core::mem::size_of::<Coefficients<f64, 9>>(), 8 * 9 * (HIGHEST_ORDER + 1));
-/// ```
-pub const HIGHEST_ORDER: usize = 32;
 
 /// The coefficients of a series by their order, `coefficients[k][i]` of the variable `i`: see
 /// [`TaylorSeries::series`].
@@ -55,7 +48,7 @@ pub type Coefficients<R, const N: usize> = [[R; N]; HIGHEST_ORDER + 1];
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no Taylor series",
     note = "a declared system or scene has one if it says `provide taylor;`",
-    note = "the recurrences of a series hold the inputs; where these are a law, take `Dop853`, or hold them: `.simulation(..).hold(period, controller)`",
+    note = "inputs that are a closure have none: write them as an `InputLaw`, `.law(..)`, or hold them, `.hold(period, controller)`",
     note = "constants are prepared before, with `.prepare()?`; a prepared system with inputs gets them by `.driven(..)`"
 )]
 pub trait TaylorSeries<R: Real, const N: usize>: System<R, N> {
@@ -78,6 +71,58 @@ pub trait TaylorSeries<R: Real, const N: usize>: System<R, N> {
 
 impl<R: Real, S: TaylorSeries<R, N> + ?Sized, const N: usize> TaylorSeries<R, N> for &S {
     forward!(self -> (**self); TaylorSeries<R, N>);
+}
+
+/// A system with `M` inputs that expands its motion into a Taylor series along series of its inputs: with an
+/// [`InputLaw`](crate::InputLaw) it is a [`TaylorSeries`].
+///
+/// A declared system or scene is one that has inputs and says `provide taylor;`, unless a rate has `abs` or `sign` of an input.
+///
+/// ```
+/// use guen_runtime::{Coefficients, DrivenSeries, HIGHEST_ORDER};
+///
+/// /// `x' = u`, written by hand.
+/// struct Sum;
+/// impl DrivenSeries<f64, 1, 1> for Sum {
+///     const PRODUCTS: usize = 0;
+///     fn series_along(
+///         &self, _t: f64, state: &[f64; 1], inputs: &mut dyn FnMut(usize, &Coefficients<f64, 1>) -> [f64; 1], scale: f64,
+///         order: usize, to: &mut Coefficients<f64, 1>,
+///     ) {
+///         to[0] = *state;
+///         for k in 1..=order {
+///             let [u] = inputs(k - 1, to);
+///             to[k] = [u * scale / k as f64];
+///         }
+///     }
+/// }
+///
+/// // x' = -x
+/// let mut coefficients = [[0.0]; HIGHEST_ORDER + 1];
+/// Sum.series_along(0.0, &[1.0], &mut |k, x| [-x[k][0]], 1.0, 3, &mut coefficients);
+/// assert_eq!(coefficients[3], [-1.0 / 6.0]);
+/// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no Taylor series along series of its inputs",
+    note = "a declared system or scene with inputs has one if it says `provide taylor;` and none of its rates has `abs` or `sign` of an input"
+)]
+pub trait DrivenSeries<R: Real, const N: usize, const M: usize> {
+    /// The sums of products that a coefficient takes: see [`TaylorSeries::PRODUCTS`].
+    const PRODUCTS: usize;
+
+    /// The coefficients of the motion through a state, as [`TaylorSeries::series`] gives them.
+    ///
+    /// - `inputs`: called with `k = 0, 1, .. order - 1`, in order, and the coefficients of the motion, of which those up to `k`
+    ///   are known; returns the coefficients of order `k` of the inputs, with the same `scale`.
+    fn series_along(
+        &self,
+        t: R,
+        state: &[R; N],
+        inputs: &mut dyn FnMut(usize, &Coefficients<R, N>) -> [R; M],
+        scale: R,
+        order: usize,
+        coefficients: &mut Coefficients<R, N>,
+    );
 }
 
 /// Numbers that are added to at once.

@@ -6,10 +6,13 @@
 mod threads;
 
 use std::marker::PhantomData;
+use std::ops::Range;
 
 use guen_runtime::lanes::{Backend, LaneTask, Lanes, Width, dispatch_on};
 use guen_runtime::steppers::{IntegrationResult, LaneMethod};
-use guen_runtime::{IntegrationError, LaneScalar, Laned, PlainLanes, Simulate, Simulation};
+use guen_runtime::{
+    IntegrationError, LaneScalar, Laned, PlainLanes, Simulate, Simulation, SimulationError, Trajectory,
+};
 
 use threads::{in_turn, processors};
 
@@ -157,7 +160,27 @@ impl<S, const N: usize, C> Ensemble<S, N, C> {
 }
 
 impl<S: Simulate<f64, N> + Clone + Sync, const N: usize, C> Ensemble<S, N, C> {
-    /// Simulates every member on all threads. The closure gives each simulation its method, events and limits, runs it, and says
+    /// Simulates every member over a span of time on all threads: whole motions, by the method and the tolerance of
+    /// [`Simulate::simulate`]. Each motion is that of the member alone, to the bit; one that fails fails alone.
+    ///
+    /// ```
+    /// use guen_runtime::from_fn;
+    /// use guen_study::Ensemble;
+    ///
+    /// let pendulum = from_fn(|_t: f64, &[q, w]: &[f64; 2]| [w, -q.sin()]);
+    /// let starts = (1..10).map(|i| [0.3 * f64::from(i), 0.0]);
+    /// let motions = Ensemble::of_states(pendulum, starts).simulate(0.0..20.0);
+    /// assert!(motions.iter().all(|motion| motion.is_ok()));
+    /// ```
+    pub fn simulate(&self, span: Range<f64>) -> Vec<Result<Trajectory<S, N>, SimulationError<S, N>>>
+    where
+        S: Send,
+        S::State: Send,
+    {
+        self.simulations(|simulation| simulation.run(span.clone()))
+    }
+
+    /// Runs a simulation of every member on all threads. The closure gives each simulation its method, events and limits, runs it, and says
     /// what is kept of it, in the order of the members: its trajectory, its end or a number.
     ///
     /// Each result is that of the member's own simulation, to the bit. A member that fails fails alone: its error has its motion
@@ -171,16 +194,13 @@ impl<S: Simulate<f64, N> + Clone + Sync, const N: usize, C> Ensemble<S, N, C> {
     ///
     /// let pendulum = from_fn(|_t: f64, &[q, w]: &[f64; 2]| [w, -q.sin()]);
     /// let ensemble = Ensemble::of_states(pendulum, (1..10).map(|i| [0.3 * f64::from(i), 0.0]));
-    /// // Whole motions.
-    /// let motions = ensemble.simulate(|simulation| simulation.run(0.0..20.0));
-    /// assert!(motions.iter().all(|motion| motion.is_ok()));
     /// // The time at which each passes its lowest point: a quarter of its period.
-    /// let quarters = ensemble.simulate(|simulation| {
+    /// let quarters = ensemble.simulations(|simulation| {
     ///     simulation.stop_at(|_t, &[q, _]| q).run(0.0..20.0).map(|motion| motion.end_time()).ok()
     /// });
     /// assert!(quarters.is_sorted_by(|a, b| a < b));
     /// ```
-    pub fn simulate<T: Send>(&self, run: impl Fn(Simulation<'_, S, N>) -> T + Sync) -> Vec<T> {
+    pub fn simulations<T: Send>(&self, run: impl Fn(Simulation<'_, S, N>) -> T + Sync) -> Vec<T> {
         self.each(|system, start| run(system.simulation(&(*start).into())))
     }
 }

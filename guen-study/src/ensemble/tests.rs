@@ -86,9 +86,9 @@ fn simulations_are_those_of_single_members() {
     for threads in [1, 3] {
         let ensemble = Ensemble::of_systems(members(23)).with_threads(threads);
         let found =
-            ensemble.simulate(|simulation| kept(simulation.events([Trigger::new(passes)]).run(0.0..2.5)));
+            ensemble.simulations(|simulation| kept(simulation.events([Trigger::new(passes)]).run(0.0..2.5)));
         assert_eq!(found, expected, "{threads}");
-        let whole = ensemble.simulate(|simulation| simulation.run(0.0..2.5));
+        let whole = ensemble.simulate(0.0..2.5);
         let ends = whole.into_iter().map(kept).map(|(time, end, ..)| (time, end));
         assert!(ends.eq(expected.iter().map(|(time, end, ..)| (*time, *end))), "{threads}");
     }

@@ -105,3 +105,50 @@ fn constraints_on_positions_and_energies_are_still_watched() {
     let full = Dop853::new(1e-11, 1e-11).integrate(&prepared, 0.0, &start.into(), 1.0, go_on).unwrap().state;
     assert!(end.iter().zip(&full).all(|(x, y)| (x - y).abs() < 1e-9));
 }
+
+/// Pulls back, by the carried functions too.
+#[derive(Clone, Copy)]
+struct Back;
+
+impl InputLaw<bead::carried::Prepared> for Back {
+    fn at<R: Real>(&self, t: R, s: &bead::carried::State<R>) -> bead::Inputs<R> {
+        bead::Inputs { push: R::from_f64(-0.5) * s.u + (t - s.x).sin() }
+    }
+}
+
+impl InputLaw<bead::Prepared> for Back {
+    fn at<R: Real>(&self, t: R, s: &bead::State<R>) -> bead::Inputs<R> {
+        bead::Inputs { push: R::from_f64(-0.5) * s.u + (t - s.x).sin() }
+    }
+}
+
+#[test]
+fn inputs_are_those_of_the_system() {
+    let prepared = Bead::new(1.2, 2.0, 1.7, 0.5).prepare().unwrap();
+    let carried = prepared.carried().unwrap();
+    let start = START.carried(&carried, 0.0);
+    let exact = prepared.simulation(&START).law(Back).tolerance(1e-12).run(0.0..3.0).unwrap();
+    let closure = |t: f64, s: &bead::carried::State| InputLaw::<bead::carried::Prepared>::at(&Back, t, s);
+    let near = |name: &str, end: bead::carried::State| {
+        let off = f64::max((end.x - exact.end().x).abs(), (end.v - exact.end().v).abs());
+        assert!(off < 1e-7, "{name}: {off:e}");
+    };
+    near("closure", carried.simulation(&start).inputs(closure).run(0.0..3.0).unwrap().end());
+    let radau = Radau5::new(1e-10, 1e-10);
+    near("law", carried.simulation(&start).law(Back).method(radau).run(0.0..3.0).unwrap().end());
+    let renormalized = guen::renormalized(carried.with_law(Back));
+    let rk8 = Rk8::new(0.01).integrate(&renormalized, 0.0, &start.into(), 3.0, go_on).unwrap();
+    near("renormalized", rk8.state.into());
+    let held = |t: f64, s: &bead::carried::State| bead::Inputs { push: (t - s.x).sin() };
+    let by_system = |t: f64, s: &bead::State| bead::Inputs { push: (t - s.x).sin() };
+    let motion = carried.simulation(&start).hold(0.25, held).tolerance(1e-11).run(0.0..3.0).unwrap();
+    let same = prepared.simulation(&START).hold(0.25, by_system).tolerance(1e-11).run(0.0..3.0).unwrap();
+    assert!((motion.end().x - same.end().x).abs() < 1e-8);
+    // The derivatives are those of an own system, and those of its driven form.
+    let (state, inputs) = (start.into(), bead::Inputs { push: 0.3 });
+    let found = guen::Linearizable::linearization(&carried, 0.5, &state, &[0.3]);
+    assert_eq!(found.a, guen::Differentiable::jacobian(&carried.driven(inputs), 0.5, &state));
+    let (u, by_push) = (START.u, 1.0 / 1.2);
+    assert_eq!(bead::carried::State::NAMES[2], "u");
+    assert!((found.b[2][0] - by_push).abs() < 1e-15 && u == start.u);
+}

@@ -292,7 +292,17 @@ macro_rules! reduce {
 #[doc(hidden)]
 #[macro_export]
 macro_rules! linearizable {
+    ($size:literal, $count:literal; by duals) => {
+        $crate::linearizable!(@ rates $size, $count, [$crate::linearized(self, t, state, given)] (self, t, state, given));
+    };
     ($size:literal, $count:literal $(, $inputs:ident)?) => {
+        $crate::linearizable!(@ rates $size, $count, [{
+            let _ = given;
+            $(let $inputs = &::core::convert::From::from(*given);)?
+            self.linearize(t, &::core::convert::From::from(*state) $(, $inputs)?)
+        }] (self, t, state, given));
+    };
+    (@ rates $size:literal, $count:literal, [$linearization:expr] ($self:ident, $t:ident, $state:ident, $given:ident)) => {
         impl<R: $crate::Real> $crate::Liftable<R, $size, $count> for Prepared<R> {
             #[inline]
             fn lifted_rates<S: $crate::Real + $crate::Lift<R>>(
@@ -317,15 +327,56 @@ macro_rules! linearizable {
 
             #[inline]
             fn linearization(
-                &self,
-                t: R,
-                state: &[R; $size],
-                given: &[R; $count],
+                &$self,
+                $t: R,
+                $state: &[R; $size],
+                $given: &[R; $count],
             ) -> $crate::Linearization<R, $size, $count> {
-                let _ = given;
-                $(let $inputs = &::core::convert::From::from(*given);)?
-                self.linearize(t, &::core::convert::From::from(*state) $(, $inputs)?)
+                $linearization
             }
+        }
+    };
+}
+
+/// A system with inputs and what steppers integrate of it, with the number of states and what it is called.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! actuated {
+    ($size:literal, $what:literal) => {
+        #[doc = ::core::concat!("A ", $what, ", prepared, with inputs that are held: what steppers integrate during a step.")]
+        #[::core::prelude::v1::derive(
+            ::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq
+        )]
+        pub struct Driven<R = f64> {
+            #[doc = ::core::concat!("The ", $what, ".")]
+            pub system: Prepared<R>,
+            /// The inputs that are held.
+            pub inputs: Inputs<R>,
+        }
+
+        impl<R: $crate::Real> Prepared<R> {
+            #[doc = ::core::concat!("The ", $what, " with these inputs held.")]
+            #[inline]
+            pub fn driven(&self, inputs: Inputs<R>) -> Driven<R> {
+                Driven { system: *self, inputs }
+            }
+        }
+
+        impl<R> $crate::Undriven for Prepared<R> {}
+
+        impl<R: $crate::Real> $crate::Actuated<R, $size> for Prepared<R> {
+            type Inputs = Inputs<R>;
+            type Driven = Driven<R>;
+
+            #[inline]
+            fn held(&self, inputs: Inputs<R>) -> Driven<R> {
+                self.driven(inputs)
+            }
+        }
+
+        impl<R: $crate::Real> $crate::InputRecords for Prepared<R> {
+            type StateOver<S: $crate::Real> = State<S>;
+            type InputsOver<S: $crate::Real> = Inputs<S>;
         }
     };
 }

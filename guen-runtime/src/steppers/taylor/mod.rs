@@ -4,12 +4,13 @@ mod defect;
 mod run;
 mod series;
 
+use crate::numbers::power_series::HIGHEST_ORDER;
 use crate::numbers::real::Ordered;
 use crate::steppers::driver::error::{Cause, Setting};
 use crate::steppers::driver::run::{Checkpoint, Method};
 use crate::steppers::driver::short_ways::short_ways;
 use crate::steppers::step_size::Tolerance;
-use crate::system::series::{HIGHEST_ORDER, TaylorSeries};
+use crate::system::series::TaylorSeries;
 use run::Run;
 pub use series::Series;
 

@@ -4,11 +4,12 @@ use super::super::all_finite;
 use super::super::scaled;
 use super::defect::{self, Defect};
 use super::{Series, Taylor};
+use crate::numbers::power_series::HIGHEST_ORDER;
 use crate::numbers::real::{Ordered, Real};
 use crate::steppers::driver::error::Cause;
 use crate::steppers::driver::run::{Checkpoint, Statistics, StepperRun};
 use crate::steppers::step_size;
-use crate::system::series::{HIGHEST_ORDER, TaylorSeries};
+use crate::system::series::TaylorSeries;
 
 /// The factor by which a step becomes shorter whose rates are not those of its series, and by which the one after it
 /// becomes longer at most: what the coefficients did not see is near.

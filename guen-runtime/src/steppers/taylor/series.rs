@@ -2,9 +2,10 @@
 
 use super::super::entries;
 use super::super::scaled;
+use crate::numbers::power_series::HIGHEST_ORDER;
 use crate::numbers::real::Real;
 use crate::steppers::driver::dense::Interpolant;
-use crate::system::series::{Coefficients, HIGHEST_ORDER};
+use crate::system::series::Coefficients;
 
 /// The motion over one step of [`Taylor`](crate::steppers::Taylor): its series about the beginning, an [`Interpolant`].
 #[derive(Clone, Copy, Debug)]

@@ -12,6 +12,7 @@ use crate::algebra::{Function, Rational, SymbolId};
 enum Kind {
     Time,
     State,
+    Input,
     StillAdd,
     StillSub,
     StillNeg,
@@ -76,6 +77,7 @@ pub(super) fn build(
             Operation::Symbol(symbol) => match source(*symbol) {
                 Source::Still => builder.push(SeriesStep::Still(instruction.operation.clone())),
                 Source::Time => builder.once((Kind::Time, 0, 0), SeriesStep::Time),
+                Source::Input(i) => builder.once((Kind::Input, i as u32, 0), SeriesStep::Input(i)),
                 Source::State(i) => builder.once((Kind::State, i as u32, 0), SeriesStep::Variable(i)),
             },
             Operation::Number(_) | Operation::Pi | Operation::Prepared(_) => {
@@ -485,6 +487,7 @@ impl Builder {
             kept.push(match step {
                 SeriesStep::Still(operation) => SeriesStep::Still(renamed(operation, &at)),
                 SeriesStep::Time => SeriesStep::Time,
+                SeriesStep::Input(i) => SeriesStep::Input(*i),
                 SeriesStep::Variable(i) => SeriesStep::Variable(match i.checked_sub(states) {
                     None => *i,
                     Some(place) => states + used.iter().position(|known| *known == place).unwrap_or_default(),

@@ -30,6 +30,8 @@ use crate::algebra::{Function, SymbolId};
 pub enum Source {
     /// Constant: a physical constant, or an input that is held.
     Still,
+    /// An input that has a series of its own, by its place.
+    Input(usize),
     /// Time.
     Time,
     /// A variable of the state, by its place; the program's output of that place is its rate.
@@ -46,6 +48,8 @@ pub enum SeriesStep {
     /// A variable whose rate is the entry of [`SeriesProgram::rates`] at this place. It begins with the state, or with a
     /// [`Start`] where it is a function carried along.
     Variable(usize),
+    /// An input, by its place: its coefficients come from outside.
+    Input(usize),
     /// `a + b`, one of which may be still.
     Add(Value, Value),
     /// `a - b`, one of which may be still.
@@ -130,7 +134,7 @@ impl SeriesStep {
     pub fn operands(&self) -> Vec<Value> {
         match self {
             Self::Still(operation) => operation.operands().collect(),
-            Self::Time | Self::Variable(_) => Vec::new(),
+            Self::Time | Self::Variable(_) | Self::Input(_) => Vec::new(),
             Self::Neg(a) | Self::Derivative(a) | Self::SquareRoot(a, _) => vec![*a],
             Self::Add(a, b)
             | Self::Sub(a, b)
