@@ -176,9 +176,11 @@ class Browser:
             "Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=scale, mobile=mobile
         )
 
-    def scheme(self, name):
-        """`light` or `dark`."""
-        self.devtools("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": name}])
+    def scheme(self, name, media="", **others):
+        """`light` or `dark`; `media="print"` is paper, others are features such as `forced_colors="active"`."""
+        features = {"prefers-color-scheme": name, **{key.replace("_", "-"): value for key, value in others.items()}}
+        pairs = [{"name": key, "value": value} for key, value in features.items()]
+        self.devtools("Emulation.setEmulatedMedia", media=media, features=pairs)
 
     def picture(self, clip=None):
         """A screenshot as PNG; `clip` is left, top, width, height."""

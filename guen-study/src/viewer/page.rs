@@ -16,13 +16,16 @@ const LIBRARY: &str = include_str!("vendor/three.min.js");
 /// The page's own style and program, in the order in which they are needed.
 const STYLE: &str = include_str!("page/style.css");
 const BODY: &str = include_str!("page/body.html");
-const PROGRAM: [&str; 7] = [
+const PROGRAM: [&str; 10] = [
     include_str!("page/motion.js"),
+    include_str!("page/colours.js"),
     include_str!("page/solids.js"),
     include_str!("page/ground.js"),
     include_str!("page/stage.js"),
     include_str!("page/curves.js"),
     include_str!("page/player.js"),
+    include_str!("page/bodies.js"),
+    include_str!("page/keys.js"),
     include_str!("page/start.js"),
 ];
 

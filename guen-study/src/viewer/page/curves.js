@@ -41,6 +41,18 @@ function trace({ times, values, base }, column, draw) {
   }
 }
 
+/** The mark of a curve in a legend: its colour, with the gaps of its dashes. */
+function markOf(slot) {
+  const [ink, dash] = [inkOf(slot), dashOf(slot)];
+  if (dash.length === 0) return ink;
+  let at = 0;
+  const stops = dash.map((length, i) => `${i % 2 ? "transparent" : ink} ${at}px ${(at += length)}px`);
+  return `repeating-linear-gradient(90deg, ${stops.join(", ")})`;
+}
+
+// Width, height and pixels to a unit of a panel that is printed.
+const PAPER_SIZE = [680, 150, 3];
+
 function makePanel(panel, parent, onPick) {
   const figure = document.createElement("figure");
   const caption = document.createElement("figcaption");
@@ -49,15 +61,17 @@ function makePanel(panel, parent, onPick) {
   caption.append(heading);
   const readings = panel.curves.map((curve, i) => {
     const reading = document.createElement("span");
-    reading.style.setProperty("--mark", `#${PALETTE[i % PALETTE.length].toString(16).padStart(6, "0")}`);
+    const mark = document.createElement("i");
+    painted(() => mark.style.setProperty("background", markOf(i)));
+    const text = document.createTextNode(curve.name);
+    reading.append(mark, text);
     caption.append(reading);
-    return reading;
+    return text;
   });
   const factor = document.createElement("small");
   caption.append(factor);
   const canvas = document.createElement("canvas");
   canvas.setAttribute("role", "img");
-  canvas.setAttribute("aria-label", `${panel.name} over time`);
   figure.append(caption, canvas);
   parent.append(figure);
 
@@ -68,6 +82,7 @@ function makePanel(panel, parent, onPick) {
       high = Math.max(high, base + value);
     }
   }
+  canvas.setAttribute("aria-label", `${panel.name} over time: ${panel.curves.map((curve) => curve.name).join(", ")}; from ${short(low)} to ${short(high)}`);
   // What is constant to single precision is drawn so; what has a base has more digits.
   const size = Math.max(Math.abs(low), Math.abs(high));
   const least = size > 0 ? size * (panel.curves.some(({ base }) => base !== 0) ? 1e-13 : 1e-5) : 1;
@@ -84,8 +99,7 @@ function makePanel(panel, parent, onPick) {
 
   /** Axes and curves, once for each size and theme. */
   function paintLayer() {
-    const style = getComputedStyle(document.documentElement);
-    const [ink, line] = [style.getPropertyValue("--faint"), style.getPropertyValue("--line")];
+    const [ink, line] = ["--faint", "--line"].map(pageInk);
     [layer.width, layer.height] = [width * ratio, height * ratio];
     const pen = layer.getContext("2d");
     pen.scale(ratio, ratio);
@@ -121,15 +135,17 @@ function makePanel(panel, parent, onPick) {
     pen.lineWidth = 1.6;
     pen.lineJoin = "round";
     panel.curves.forEach((curve, i) => {
-      pen.strokeStyle = readings[i].style.getPropertyValue("--mark");
+      pen.strokeStyle = inkOf(i);
+      pen.setLineDash(dashOf(i));
       pen.beginPath();
       trace(curve, (t) => Math.round(x(t) * ratio), (t, v) => pen.lineTo(x(t), y(v)));
       pen.stroke();
     });
+    pen.setLineDash([]);
   }
 
   function draw(time, force) {
-    const [w, h, r] = [canvas.clientWidth, canvas.clientHeight, window.devicePixelRatio];
+    const [w, h, r] = look.printing ? PAPER_SIZE : [canvas.clientWidth, canvas.clientHeight, window.devicePixelRatio];
     if (force || w !== width || h !== height || r !== ratio) {
       [width, height, ratio] = [w, h, r];
       [canvas.width, canvas.height] = [w * r, h * r];
@@ -141,7 +157,7 @@ function makePanel(panel, parent, onPick) {
     pen.clearRect(0, 0, canvas.width, canvas.height);
     pen.drawImage(layer, 0, 0);
     pen.setTransform(ratio, 0, 0, ratio, 0, 0);
-    pen.strokeStyle = getComputedStyle(document.documentElement).getPropertyValue("--accent");
+    pen.strokeStyle = pageInk("--accent");
     pen.lineWidth = 1;
     pen.beginPath();
     pen.moveTo(x(time), top);
@@ -149,11 +165,11 @@ function makePanel(panel, parent, onPick) {
     pen.stroke();
     panel.curves.forEach((curve, i) => {
       const value = valueAt(curve, time);
-      pen.fillStyle = readings[i].style.getPropertyValue("--mark");
+      pen.fillStyle = inkOf(i);
       pen.beginPath();
       pen.arc(x(time), y(value), 3.5, 0, 2 * Math.PI);
       pen.fill();
-      readings[i].textContent = `${curve.name} ${short(value)}`;
+      readings[i].data = `${curve.name} ${short(value)}`;
     });
   }
 

@@ -6,17 +6,31 @@ function roundLength(length) {
   return [5, 2, 1].find((digit) => digit * power <= length) * power;
 }
 
+// Sides of a surface, as the drawing library numbers them.
+const [FRONT, BACK] = [0, 1];
+
+/** How many of the moving points lie below a plane, farther than a part of the motion's size; `on` is a point of it. */
+function isBelow(on, normal, least, most, radius) {
+  const lowest = [0, 1, 2].reduce((sum, i) => sum + normal.getComponent(i) * ((normal.getComponent(i) > 0 ? least : most).getComponent(i) - on.getComponent(i)), 0);
+  return lowest < -0.02 * radius;
+}
+
 function makeGround(scene, { up, center, radius, least, most }) {
-  const materials = [];
-  const painted = (light, dark, make) => {
-    const material = make();
-    materials.push({ material, light, dark });
-    return material;
+  const all = new THREE.Group();
+  scene.add(all);
+  const material = (make, light, dark) => {
+    const made = make();
+    painted(() => made.color.set(look.dark ? dark : light));
+    return made;
   };
-  const surfaceMaterial = () =>
-    painted(0xe3e7ea, 0x2a3037, () => new THREE.MeshStandardMaterial({ roughness: 0.95, side: THREE.DoubleSide }));
-  const lineMaterial = () =>
-    painted(0xb3bcc5, 0x4a545f, () => new THREE.LineBasicMaterial({ transparent: true, opacity: 0.8 }));
+  /** One side of a surface: see-through from behind, and in front where something moves behind it. */
+  function face(geometry, side, seeThrough) {
+    const glass = seeThrough ? { transparent: true, opacity: side === BACK ? 0.16 : 0.45, depthWrite: false } : {};
+    const made = new THREE.Mesh(geometry, material(() => new THREE.MeshStandardMaterial({ roughness: 0.95, side, ...glass }), 0xe3e7ea, 0x2a3037));
+    made.receiveShadow = side === FRONT;
+    return made;
+  }
+  const lineMaterial = () => material(() => new THREE.LineBasicMaterial({ transparent: true, opacity: 0.8 }), 0xb3bcc5, 0x4a545f);
 
   function plane(point, normal) {
     const half = radius * 1.5;
@@ -24,10 +38,13 @@ function makeGround(scene, { up, center, radius, least, most }) {
     const count = Math.ceil(half / square);
     const group = new THREE.Group();
     const size = 2 * count * square;
-    const floor = new THREE.Mesh(new THREE.PlaneGeometry(size, size), surfaceMaterial());
-    floor.receiveShadow = true;
+    const direction = new THREE.Vector3(...normal).normalize();
+    const base = new THREE.Vector3(...point);
+    const glass = isBelow(base, direction, least, most, radius);
+    const geometry = new THREE.PlaneGeometry(size, size);
+    const sides = [face(geometry, FRONT, glass), face(geometry, BACK, true)];
     // Below the lines, and below what touches it.
-    floor.position.z = -radius * 6e-4;
+    for (const floor of sides) floor.position.z = -radius * 6e-4;
     const points = [];
     for (let k = -count; k <= count; k += 1) {
       points.push(k * square, -size / 2, 0, k * square, size / 2, 0, -size / 2, k * square, 0, size / 2, k * square, 0);
@@ -36,16 +53,14 @@ function makeGround(scene, { up, center, radius, least, most }) {
     lines.setAttribute("position", new THREE.Float32BufferAttribute(points, 3));
     const grid = new THREE.LineSegments(lines, lineMaterial());
     grid.position.z = -radius * 3e-4;
-    group.add(floor, grid);
-    const direction = new THREE.Vector3(...normal).normalize();
+    group.add(...sides, grid);
     group.quaternion.setFromUnitVectors(new THREE.Vector3(0, 0, 1), direction);
     // Below the middle of the motion, on whole squares of the plane.
-    const base = new THREE.Vector3(...point);
     const local = center.clone().sub(base).applyQuaternion(group.quaternion.clone().invert());
     const snapped = new THREE.Vector3(Math.round(local.x / square) * square, Math.round(local.y / square) * square, 0);
     group.position.copy(base).add(snapped.applyQuaternion(group.quaternion));
-    scene.add(group);
-    return square;
+    all.add(group);
+    return { square, glass };
   }
 
   function surface({ x, y, mesh: count, heights }) {
@@ -61,25 +76,31 @@ function makeGround(scene, { up, center, radius, least, most }) {
       for (let i = 0; i + 1 < count; i += 1) lines.push(...at(i, j), ...at(i + 1, j), ...at(j, i), ...at(j, i + 1));
     }
     geometry.computeVertexNormals();
-    const made = new THREE.Mesh(geometry, surfaceMaterial());
-    made.receiveShadow = true;
+    const made = new THREE.Group();
+    made.add(face(geometry, FRONT, false), face(geometry, BACK, true));
     const grid = new THREE.BufferGeometry();
     grid.setAttribute("position", new THREE.Float32BufferAttribute(lines, 3));
     made.position.copy(up).multiplyScalar(-radius * 6e-4);
-    scene.add(made, new THREE.LineSegments(grid, lineMaterial()));
+    all.add(made, new THREE.LineSegments(grid, lineMaterial()));
   }
 
-  let square = null;
+  let found = null;
   for (const ground of motion.grounds) {
-    if (ground.kind === "plane") square = plane(ground.point, ground.normal);
+    if (ground.kind === "plane") found = plane(ground.point, ground.normal);
     else surface(ground);
   }
-  if (motion.grounds.length === 0 && !motion.bare) square = plane([0, 0, 0], motion.up);
-  motion.square = square;
+  // A scene without a ground of its own stands on the level one, unless it goes below it: then there is none.
+  const level = new THREE.Vector3(0, 0, 0);
+  const stands = motion.grounds.length === 0 && !motion.bare && !isBelow(level, up, least, most, radius);
+  if (stands) found = plane([0, 0, 0], motion.up);
+  motion.square = found?.square ?? null;
+  // For programs that test the page.
+  motion.ground = { shown: all.children.length > 0, glass: found?.glass ?? false };
 
   return {
-    theme(dark) {
-      for (const { material, light, dark: night } of materials) material.color.set(dark ? night : light);
+    has: all.children.length > 0,
+    show(on) {
+      all.visible = on;
     },
   };
 }

@@ -2,7 +2,7 @@
 
 function makePlayer(show) {
   const element = (id) => document.getElementById(id);
-  const [play, slider, output, speed] = ["play", "slider", "time", "speed"].map(element);
+  const [play, slider, output, speed, loop, said] = ["play", "slider", "time", "speed", "loop", "said"].map(element);
   const TRIANGLE = "M5 3 L17 10 L5 17 Z";
   const BARS = "M4 3 H8 V17 H4 Z M12 3 H16 V17 H12 Z";
   const digits = Math.max(0, Math.min(6, 3 - Math.floor(Math.log10(motion.end))));
@@ -27,19 +27,23 @@ function makePlayer(show) {
       last = now;
       state.time += passed * Number(speed.value);
       if (state.time >= motion.end) {
-        state.time = motion.end;
-        setPlaying(false);
+        const again = loop.getAttribute("aria-pressed") === "true";
+        state.time = again ? state.time % motion.end : motion.end;
+        if (!again) setPlaying(false);
       }
       request();
     }
     slider.value = String(state.time);
     const [at, end] = [motion.start + state.time, motion.start + motion.end].map((t) => t.toFixed(digits));
     output.textContent = `t = ${at} / ${end}`;
-    slider.setAttribute("aria-valuetext", `t = ${at}`);
+    // Not in every frame: somebody listens to it.
+    if (!state.playing) slider.setAttribute("aria-valuetext", `t = ${at}`);
+    element("paper-time").textContent = `t = ${at}`;
     show(state.time);
   }
   function setPlaying(on) {
     if (on && state.time >= motion.end) state.time = 0;
+    if (state.playing !== on) said.textContent = on ? "plays" : "pauses";
     state.playing = on;
     last = null;
     play.setAttribute("aria-label", on ? "pause" : "play");
@@ -55,25 +59,22 @@ function makePlayer(show) {
 
   play.addEventListener("click", () => setPlaying(!state.playing));
   slider.addEventListener("input", () => setTime(Number(slider.value)));
-  window.addEventListener("keydown", (event) => {
-    const { key, target } = event;
-    if (event.ctrlKey || event.metaKey || event.altKey) return;
-    const step = motion.end / 200;
-    // A focused button would take the space bar a second time, a focused list its arrows.
-    if (key === " ") {
-      setPlaying(!state.playing);
-    } else if (key === "ArrowRight" && target !== speed) setTime(state.time + step);
-    else if (key === "ArrowLeft" && target !== speed) setTime(state.time - step);
-    else if (key === "Home") setTime(0);
-    else if (key === "End") setTime(motion.end);
-    else if (key === "f") element("follow").click();
-    else if (key === "r") element("reset").click();
-    else return;
-    event.preventDefault();
-  });
-  window.addEventListener("keyup", (event) => {
-    if (event.key === " ") event.preventDefault();
-  });
+  /** To another sample: the next one in a direction. */
+  function toSample(by) {
+    setPlaying(false);
+    const { k } = locate(state.time);
+    const { times } = motion;
+    // Between samples, and at the last one, the sample before is the one back.
+    const near = 1e-9 * motion.end;
+    let to = k;
+    while (by > 0 && to < times.length - 1 && times[to] <= state.time + near) to += 1;
+    if (by < 0) for (to = Math.min(k + 1, times.length - 1); to > 0 && times[to] >= state.time - near;) to -= 1;
+    setTime(times[to]);
+  }
+  element("back").addEventListener("click", () => toSample(-1));
+  element("forth").addEventListener("click", () => toSample(1));
+  loop.addEventListener("click", () => loop.setAttribute("aria-pressed", String(loop.getAttribute("aria-pressed") !== "true")));
   setPlaying(false);
-  return { setTime, setPlaying, request, state };
+  said.textContent = "";
+  return { setTime, setPlaying, toSample, request, state };
 }

@@ -1,18 +1,17 @@
 // Bodies as meshes. Everything round carries marks in a second tone, so that one sees it turn.
 
-// Okabe and Ito's palette, which stays apart for the common kinds of colour blindness; without black and yellow, which one
-// of the two backgrounds would swallow.
-const PALETTE = [0x0072b2, 0xd55e00, 0x009e73, 0xcc79a7, 0xe69f00, 0x56b4e9];
-
-/** A colour in another tone, which wins over the plain one where both are drawn. */
-const paint = (colour, tone = 0) => {
-  const shade = new THREE.Color(colour);
-  if (tone) shade.offsetHSL(0, 0, tone);
-  return new THREE.MeshStandardMaterial({ color: shade, roughness: 0.55, metalness: 0.05, side: THREE.DoubleSide, polygonOffset: tone !== 0, polygonOffsetFactor: -4, polygonOffsetUnits: -4 });
+/** A colour in another tone, which wins over the plain one where both are drawn; `ink` gives the colour. */
+const paint = (ink, tone = false) => {
+  const material = new THREE.MeshStandardMaterial({ roughness: 0.55, metalness: 0.05, side: THREE.DoubleSide, polygonOffset: tone, polygonOffsetFactor: -4, polygonOffsetUnits: -4 });
+  painted(() => {
+    material.color.copy(ink());
+    if (tone) material.color.offsetHSL(0, 0, otherTone(material.color));
+  });
+  return material;
 };
 
 /** The other tone: lighter on dark colours, darker on light ones. */
-const otherTone = (colour) => (new THREE.Color(colour).getHSL({}).l > 0.55 ? -0.24 : 0.28);
+const otherTone = (colour) => (colour.getHSL({}).l > 0.5 ? -0.24 : 0.28);
 
 function mesh(geometry, material) {
   const made = new THREE.Mesh(geometry, material);
@@ -22,9 +21,9 @@ function mesh(geometry, material) {
 }
 
 /** A hoop about z in twelve arcs, every third in the second tone. */
-function ring([radius, thickness], colour) {
+function ring([radius, thickness], ink) {
   const group = new THREE.Group();
-  const tones = [paint(colour), paint(colour, otherTone(colour))];
+  const tones = [paint(ink), paint(ink, true)];
   for (let k = 0; k < 12; k += 1) {
     const arc = new THREE.TorusGeometry(radius, thickness / 2, 16, 10, Math.PI / 6 + 1e-3);
     const part = mesh(arc, tones[k % 3 === 0 ? 1 : 0]);
@@ -35,12 +34,12 @@ function ring([radius, thickness], colour) {
 }
 
 /** A cylinder about z. On its ends are four sectors and a hub; a long one has a stripe. */
-function cylinder([radius, length], colour) {
+function cylinder([radius, length], ink) {
   const group = new THREE.Group();
-  const body = mesh(new THREE.CylinderGeometry(radius, radius, length, 48, 1), paint(colour));
+  const body = mesh(new THREE.CylinderGeometry(radius, radius, length, 48, 1), paint(ink));
   body.rotation.x = Math.PI / 2;
   group.add(body);
-  const light = paint(colour, otherTone(colour));
+  const light = paint(ink, true);
   const lift = radius * 2e-3;
   for (const side of [1, -1]) {
     const z = side * (length / 2 + lift);
@@ -59,9 +58,9 @@ function cylinder([radius, length], colour) {
 }
 
 /** A ball of eight octants in two tones. */
-function sphere([radius], colour) {
+function sphere([radius], ink) {
   const group = new THREE.Group();
-  const tones = [paint(colour), paint(colour, otherTone(colour))];
+  const tones = [paint(ink), paint(ink, true)];
   for (let i = 0; i < 4; i += 1) {
     for (let j = 0; j < 2; j += 1) {
       const octant = new THREE.SphereGeometry(radius, 14, 14, (i * Math.PI) / 2, Math.PI / 2, (j * Math.PI) / 2, Math.PI / 2);
@@ -72,20 +71,21 @@ function sphere([radius], colour) {
 }
 
 /** A box with its edges drawn, and a face in the second tone where its own x points. */
-function cuboid([a, b, c], colour) {
-  const [plain, light] = [paint(colour), paint(colour, otherTone(colour))];
+function cuboid([a, b, c], ink) {
+  const [plain, light] = [paint(ink), paint(ink, true)];
   const geometry = new THREE.BoxGeometry(a, b, c);
   const group = new THREE.Group();
   group.add(mesh(geometry, [light, plain, plain, plain, plain, plain]));
-  const line = new THREE.LineBasicMaterial({ color: new THREE.Color(colour).offsetHSL(0, 0, -0.2) });
+  const line = new THREE.LineBasicMaterial();
+  painted(() => line.color.copy(ink()).offsetHSL(0, 0, -0.2));
   group.add(new THREE.LineSegments(new THREE.EdgesGeometry(geometry), line));
   return group;
 }
 
 /** An arrow of unit length along z, to be stretched; its parts are kept for that. */
-function arrow([length, radius], colour) {
+function arrow([length, radius], ink) {
   const group = new THREE.Group();
-  const material = paint(colour);
+  const material = paint(ink);
   const shaft = mesh(new THREE.CylinderGeometry(radius, radius, 1, 20), material);
   const head = mesh(new THREE.ConeGeometry(radius * 2.6, radius * 7, 24), material);
   shaft.rotation.x = Math.PI / 2;
@@ -105,9 +105,9 @@ function arrow([length, radius], colour) {
 }
 
 /** A bar of unit length along z, to be stretched. */
-function rod(radius, colour) {
+function rod(radius, ink) {
   const group = new THREE.Group();
-  const shaft = mesh(new THREE.CylinderGeometry(radius, radius, 1, 20), paint(colour));
+  const shaft = mesh(new THREE.CylinderGeometry(radius, radius, 1, 20), paint(ink));
   shaft.rotation.x = Math.PI / 2;
   shaft.position.z = 0.5;
   group.add(shaft);
@@ -118,10 +118,10 @@ function rod(radius, colour) {
 const SOLIDS = { ring, cylinder, sphere, cuboid, arrow };
 
 /** A body with all its shapes, in its own axes. */
-function solid(body, colour) {
+function solid(body, slot) {
   const group = new THREE.Group();
   for (const shape of body.shapes) {
-    const part = SOLIDS[shape.kind](shape.lengths, shape.colour ?? colour);
+    const part = SOLIDS[shape.kind](shape.lengths, () => shade(shape.colour, slot));
     const [w, x, y, z] = shape.turn;
     part.position.set(...shape.place);
     part.quaternion.set(x, y, z, w);

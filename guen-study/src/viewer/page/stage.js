@@ -24,38 +24,88 @@ function makeStage() {
   const ground = makeGround(scene, { up, center, radius, least, most });
 
   const movers = motion.bodies.map((body, i) => {
-    const group = solid(body, PALETTE[i % PALETTE.length]);
+    const group = solid(body, i);
     scene.add(group);
-    return { body, group };
+    return { body, group, size: Math.max(radius / 60, ...body.shapes.map(reach)) };
   });
   const links = motion.links.map((link, i) => {
-    const colour = PALETTE[(motion.bodies.length + i) % PALETTE.length];
-    const group = link.kind === "arrow" ? arrow([1, link.radius], colour) : rod(link.radius, colour);
-    scene.add(group);
-    return { link, group };
+    const ink = () => solidInk(slots.link(i));
+    const group = link.kind === "arrow" ? arrow([1, link.radius], ink) : rod(link.radius, ink);
+    const holder = new THREE.Group();
+    holder.add(group);
+    scene.add(holder);
+    return { link, group, holder };
   });
-  const paths = motion.paths.map((path, i) => makePath(scene, path, pathColour(i)));
+  const paths = motion.paths.map((path, i) => makePath(scene, path, () => solidInk(slots.path(i))));
 
   const camera = new THREE.PerspectiveCamera(38, 1, radius / 500, radius * 60);
   camera.up.copy(up);
   const controls = new THREE.OrbitControls(camera, canvas);
   controls.enableDamping = false;
-  const followed = Math.max(0, motion.bodies.findIndex((body) => body.name === motion.follow));
+  let followed = Math.max(0, motion.bodies.findIndex((body) => body.name === motion.follow));
   let following = false;
   const last = new THREE.Vector3();
 
   const focus = () => (following && movers[followed] ? movers[followed].group.position : center);
-  function distance() {
-    const narrow = Math.min(1, camera.aspect);
-    const size = following ? Math.max(bodySize * 2.2, radius / 40) : radius;
-    return (size * 0.84) / Math.sin((camera.fov * Math.PI) / 360) / narrow;
-  }
-  function look() {
-    const from = motion.from ? new THREE.Vector3(...motion.from) : new THREE.Vector3(-0.75, -1.25, 0.8).applyQuaternion(level);
-    controls.target.copy(focus());
-    camera.position.copy(controls.target).addScaledVector(from.normalize(), distance());
-    last.copy(controls.target);
+  /** How far the eye is from something of this size that fills the picture. */
+  const away = (size) => (size * 0.84) / Math.sin((camera.fov * Math.PI) / 360) / Math.min(1, camera.aspect);
+  const directions = {
+    first: () => (motion.from ? new THREE.Vector3(...motion.from) : new THREE.Vector3(-0.75, -1.25, 0.8).applyQuaternion(level)),
+    above: () => new THREE.Vector3(0, -1e-3, 1).applyQuaternion(level),
+    front: () => new THREE.Vector3(0, -1, 0).applyQuaternion(level),
+    side: () => new THREE.Vector3(1, 0, 0).applyQuaternion(level),
+    below: () => new THREE.Vector3(-0.5, -0.8, -0.6).applyQuaternion(level),
+  };
+  function lookFrom(direction, target, distance) {
+    if (direction.lengthSq() === 0) direction = directions.first();
+    controls.target.copy(target);
+    camera.position.copy(target).addScaledVector(direction.normalize(), distance);
+    last.copy(target);
     controls.update();
+  }
+  /** The view with this name. */
+  function lookAt(name) {
+    lookFrom(directions[name](), focus(), away(following ? Math.max(bodySize * 2.2, radius / 40) : radius));
+  }
+  /** Everything, from where the eye looks. */
+  function fit() {
+    lookFrom(camera.position.clone().sub(controls.target), center, away(radius));
+  }
+  /** Turns the view by angles about the upward direction and towards it. */
+  function turn(about, towards) {
+    const offset = camera.position.clone().sub(controls.target);
+    offset.applyQuaternion(new THREE.Quaternion().setFromAxisAngle(up, about));
+    const angle = offset.angleTo(up);
+    const to = Math.min(Math.max(angle - towards, 1e-3), Math.PI - 1e-3);
+    const axis = new THREE.Vector3().crossVectors(up, offset).normalize();
+    offset.applyQuaternion(new THREE.Quaternion().setFromAxisAngle(axis, to - angle));
+    camera.position.copy(controls.target).add(offset);
+    controls.update();
+  }
+  /** Comes nearer or goes farther. */
+  function zoom(factor) {
+    const offset = camera.position.clone().sub(controls.target);
+    const distance = Math.min(Math.max(offset.length() * factor, controls.minDistance), controls.maxDistance);
+    camera.position.copy(controls.target).addScaledVector(offset.normalize(), distance);
+    controls.update();
+  }
+  /** Limits: nobody gets lost far away, inside of a body, or beside everything. */
+  function bound() {
+    controls.minDistance = Math.min(bodySize > 0 ? bodySize : radius / 100, radius);
+    controls.maxDistance = 8 * away(radius);
+    const strayed = controls.target.clone().sub(center);
+    const over = strayed.length() - 2 * radius;
+    if (over > 0) {
+      strayed.setLength(over);
+      controls.target.sub(strayed);
+      camera.position.sub(strayed);
+    }
+    const offset = camera.position.clone().sub(controls.target);
+    const distance = Math.min(Math.max(offset.length(), controls.minDistance), controls.maxDistance);
+    camera.position.copy(controls.target).addScaledVector(offset.normalize(), distance);
+    camera.near = distance / 100;
+    camera.far = distance + 8 * radius;
+    camera.updateProjectionMatrix();
   }
 
   const [a, b] = [new THREE.Vector3(), new THREE.Vector3()];
@@ -101,45 +151,113 @@ function makeStage() {
     }
   }
 
-  let [width, height] = [0, 0];
+  let [width, height, opened] = [0, 0, false];
   function draw() {
     const [w, h] = [canvas.clientWidth, canvas.clientHeight];
+    if (w === 0 || h === 0) return;
     if (w !== width || h !== height) {
-      const first = width === 0;
+      const first = !opened;
       [width, height] = [w, h];
       renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
       renderer.setSize(w, h, false);
-      camera.aspect = w / Math.max(h, 1);
-      camera.updateProjectionMatrix();
-      if (first) look();
+      camera.aspect = w / h;
+      opened = true;
+      if (first) lookAt("first");
     }
+    bound();
     renderer.render(scene, camera);
   }
 
-  function setFollowing(on) {
+  /** The picture as it is, drawn anew for paper: light, and with its own sides. */
+  function print(paper) {
+    const unseen = width <= 0;
+    const [w, h] = unseen ? [800, 500] : [width, height];
+    if (unseen) {
+      camera.aspect = w / h;
+      camera.updateProjectionMatrix();
+      lookAt("first");
+      bound();
+    }
+    renderer.setPixelRatio(1600 / w);
+    renderer.setSize(w, h, false);
+    renderer.render(scene, camera);
+    [paper.width, paper.height] = [canvas.width, canvas.height];
+    paper.getContext("2d").drawImage(canvas, 0, 0);
+    [width, height] = [-1, -1];
+  }
+
+  function setFollowing(on, which = followed) {
+    followed = which;
     following = on && movers.length > 0;
-    look();
+    const direction = camera.position.clone().sub(controls.target);
+    lookFrom(direction, focus(), away(following ? Math.max(bodySize * 2.2, radius / 40) : radius));
     return following;
   }
 
-  return { place, draw, look, setFollowing, theme: ground.theme, controls, canFollow: movers.length > 0 };
+  /** Where a point of space is in the picture, in pixels from its left upper corner; `null` behind the eye. */
+  function onScreen(point) {
+    const seen = point.clone().project(camera);
+    return seen.z < 1 ? [((seen.x + 1) / 2) * width, ((1 - seen.y) / 2) * height] : null;
+  }
+  /** The number of the body under a pixel, of several the smallest one; -1 if there is none. */
+  function bodyAt(x, y) {
+    const ray = new THREE.Vector3((2 * x) / width - 1, 1 - (2 * y) / height, 0.5).unproject(camera).sub(camera.position).normalize();
+    let [found, least] = [-1, Infinity];
+    movers.forEach(({ group, size }, i) => {
+      const to = group.position.clone().sub(camera.position);
+      const along = to.dot(ray);
+      if (group.visible && along > 0 && size < least && to.addScaledVector(ray, -along).length() < size) [found, least] = [i, size];
+    });
+    return found;
+  }
+
+  /** Where a body is at the two samples around a time, and their times. */
+  function around(i, time, before, after) {
+    const { poses, times } = motion.bodies[i];
+    const at = locate(time, times);
+    [before, after].forEach((point, next) => {
+      const from = { k: at.k, part: next };
+      point.set(...[0, 1, 2].map((n) => between(poses, 7, n, from)));
+    });
+    return [times[at.k], times[at.k + 1]];
+  }
+
+  const shown = { body: (i, on) => (movers[i].group.visible = on), link: (i, on) => (links[i].holder.visible = on), path: (i, on) => paths[i].show(on) };
+  return {
+    place, draw, print, around, look: lookAt, fit, turn, zoom, setFollowing, onScreen, bodyAt, shown, ground, controls, camera, movers,
+    radius, center, canFollow: movers.length > 0,
+  };
 }
 
-const pathColour = (i) => [0xd55e00, 0x009e73, 0xcc79a7, 0x0072b2][i % 4];
+/** Numbers in the list of colours: bodies first, what links points, then paths, so that none has the colour of a body. */
+const slots = {
+  body: (i) => i,
+  link: (i) => motion.bodies.length + i,
+  path: (i) => {
+    const before = motion.bodies.length + motion.links.length;
+    // Where the hues have just begun again, the first path would have the first body's.
+    return before + (before > 0 && before % INKS.length === 0 ? 1 : 0) + i;
+  },
+};
 
 /** A track: faint as a whole, strong up to the time that is shown. */
-function makePath(scene, path, colour) {
+function makePath(scene, path, ink) {
   const whole = new THREE.BufferGeometry();
   whole.setAttribute("position", new THREE.BufferAttribute(path.points, 3));
-  const faint = new THREE.Line(whole, new THREE.LineBasicMaterial({ color: colour, transparent: true, opacity: 0.28 }));
+  const faint = new THREE.Line(whole, new THREE.LineBasicMaterial({ transparent: true, opacity: 0.4 }));
   const done = new THREE.BufferGeometry();
   done.setAttribute("position", new THREE.BufferAttribute(path.points.slice(), 3).setUsage(THREE.DynamicDrawUsage));
-  const strong = new THREE.Line(done, new THREE.LineBasicMaterial({ color: colour }));
+  const strong = new THREE.Line(done, new THREE.LineBasicMaterial());
+  painted(() => [faint, strong].forEach((line) => line.material.color.copy(ink())));
   faint.frustumCulled = false;
   strong.frustumCulled = false;
   scene.add(faint, strong);
   let moved = 0;
   return {
+    show(on) {
+      faint.visible = on;
+      strong.visible = on;
+    },
     until(time) {
       const at = locate(time, path.times);
       const { position } = done.attributes;

@@ -5,9 +5,11 @@ byId("title").textContent = motion.title;
 
 const notes = motion.notes.map((note) => note.text);
 
+lookAgain();
+const things = motion.bodies.length + motion.links.length + motion.paths.length;
 let stage = null;
 try {
-  stage = makeStage();
+  if (things > 0) stage = makeStage();
   if (motion.square) notes.push(`The squares of the ground have sides of ${short(motion.square)}.`);
 } catch (error) {
   const trouble = byId("trouble");
@@ -17,52 +19,69 @@ try {
 byId("note").textContent = notes.join(" ");
 byId("note").hidden = notes.length === 0;
 
-const legend = byId("legend");
-function explain(name, colour, kind) {
-  const item = document.createElement("li");
-  const mark = document.createElement("i");
-  mark.className = kind;
-  mark.style.background = `#${new THREE.Color(colour).getHexString()}`;
-  item.append(mark, document.createTextNode(name));
-  legend.append(item);
-}
-motion.bodies.forEach((body, i) => {
-  if (body.shapes.length > 0) explain(body.name, body.shapes[0].colour ?? PALETTE[i % PALETTE.length], "body");
-});
-motion.links.forEach((link, i) => explain(link.name, PALETTE[(motion.bodies.length + i) % PALETTE.length], "body"));
-motion.paths.forEach((path, i) => explain(path.name, pathColour(i), "path"));
-
 const panels = motion.panels
   .filter((panel) => panel.curves.length > 0)
   .map((panel) => makePanel(panel, byId("panels"), (time) => player.setTime(time)));
 if (panels.length === 0) {
   byId("panels").hidden = true;
-  document.querySelector("main").style.gridTemplateColumns = "minmax(0, 1fr)";
+  document.querySelector("main").classList.add("alone");
+} else if (things === 0) {
+  byId("stage").hidden = true;
+  document.querySelector("main").classList.add("flat");
 }
 
 let repaint = true;
 const player = makePlayer((time) => {
-  if (stage) {
+  // What is printed is drawn once.
+  if (stage && !look.printing) {
     stage.place(time);
     stage.draw();
+    card.draw(time);
   }
   for (const panel of panels) panel.draw(time, repaint);
   repaint = false;
 });
+const redraw = player.request;
 
-const night = window.matchMedia("(prefers-color-scheme: dark)");
+const card = stage && makeCard(stage, { follow: (i) => setFollowing(true, i), hide: (i) => legend.hide(i), redraw });
+const legend = makeLegend(stage, { choose: (i) => card.choose(i), redraw });
+
+// Light, dark, colours that are forced, paper.
 function theme() {
-  if (stage) stage.theme(night.matches);
+  lookAgain();
   repaint = true;
-  player.request();
+  byId("paper").hidden = !look.printing || !stage;
+  if (look.printing) {
+    if (stage) {
+      stage.place(player.state.time);
+      stage.print(byId("paper"));
+    }
+    for (const panel of panels) panel.draw(player.state.time, true);
+    byId("legend").open = true;
+  }
+  redraw();
 }
-night.addEventListener("change", theme);
+for (const query of ["(prefers-color-scheme: dark)", "(forced-colors: active)", "print"]) window.matchMedia(query).addEventListener("change", theme);
+window.addEventListener("beforeprint", () => {
+  look.toPaper = true;
+  theme();
+});
+window.addEventListener("afterprint", () => {
+  look.toPaper = false;
+  theme();
+});
 theme();
 
 const follow = byId("follow");
-function setFollowing(on) {
-  follow.setAttribute("aria-pressed", String(stage.setFollowing(on)));
-  player.request();
+function setFollowing(on, which) {
+  follow.setAttribute("aria-pressed", String(stage.setFollowing(on, which)));
+  redraw();
+}
+const view = byId("view");
+function setView(name) {
+  view.value = name;
+  stage.look(name);
+  redraw();
 }
 if (stage && stage.canFollow) {
   follow.addEventListener("click", () => setFollowing(follow.getAttribute("aria-pressed") !== "true"));
@@ -71,15 +90,32 @@ if (stage && stage.canFollow) {
   follow.hidden = true;
 }
 if (stage) {
-  stage.controls.addEventListener("change", player.request);
-  byId("reset").addEventListener("click", () => {
-    stage.look();
-    player.request();
+  // What the mouse has turned is none of the views in the list.
+  stage.controls.addEventListener("start", () => (view.value = "own"));
+  stage.controls.addEventListener("change", redraw);
+  byId("reset").addEventListener("click", () => setView("first"));
+  byId("fit").addEventListener("click", () => {
+    if (follow.getAttribute("aria-pressed") === "true") setFollowing(false);
+    stage.fit();
+    redraw();
+  });
+  view.addEventListener("change", () => setView(view.value));
+  // The keyboard alone gives the space its arrows; after the mouse they still set the time.
+  byId("space").addEventListener("mousedown", (event) => event.preventDefault());
+  // A click that turns nothing chooses the body below it.
+  let pressed = null;
+  byId("space").addEventListener("pointerdown", (event) => (pressed = [event.clientX, event.clientY]));
+  byId("space").addEventListener("click", (event) => {
+    if (!pressed || Math.hypot(event.clientX - pressed[0], event.clientY - pressed[1]) > 4) return;
+    const bounds = byId("space").getBoundingClientRect();
+    const found = stage.bodyAt(event.clientX - bounds.left, event.clientY - bounds.top);
+    if (found >= 0) card.choose(found);
   });
 } else {
-  byId("reset").hidden = true;
+  for (const id of ["reset", "fit", "view", "space"]) byId(id).hidden = true;
 }
-new ResizeObserver(player.request).observe(document.querySelector("main"));
+listenToKeys({ player, stage, setView, redraw });
+new ResizeObserver(redraw).observe(document.querySelector("main"));
 // For programs that test the page.
-window.guen = { motion, player };
+window.guen = { motion, player, stage, look };
 document.documentElement.dataset.ready = "true";

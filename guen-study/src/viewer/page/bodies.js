@@ -1,0 +1,125 @@
+// What can be done to bodies, paths and curves: shown or hidden, chosen, followed, labelled, read.
+
+/** The list of everything in space, with its colour. */
+function makeLegend(stage, { choose, redraw }) {
+  const legend = document.getElementById("legend");
+  const list = legend.querySelector("ul");
+  function entry(name, kind, i, own) {
+    const item = document.createElement("li");
+    const label = document.createElement("label");
+    const box = document.createElement("input");
+    const mark = document.createElement("i");
+    box.type = "checkbox";
+    box.checked = true;
+    box.setAttribute("aria-label", `show ${name}`);
+    mark.className = kind;
+    painted(() => mark.style.setProperty("--mark", `#${shade(own, slots[kind](i)).getHexString()}`));
+    label.append(box, mark);
+    item.append(label);
+    box.addEventListener("change", () => {
+      stage.shown[kind](i, box.checked);
+      redraw();
+    });
+    if (kind === "body") {
+      const button = document.createElement("button");
+      button.type = "button";
+      button.textContent = name;
+      button.title = "place, velocity, and what can be done";
+      button.addEventListener("click", () => choose(i));
+      item.append(button);
+    } else {
+      label.append(document.createTextNode(name));
+    }
+    item.dir = "auto";
+    list.append(item);
+    return box;
+  }
+  const boxes = motion.bodies.map((body, i) => body.shapes.length > 0 && entry(body.name, "body", i, body.shapes[0].colour));
+  motion.links.forEach((link, i) => entry(link.name, "link", i));
+  motion.paths.forEach((path, i) => entry(path.name, "path", i));
+  const count = list.children.length;
+  legend.querySelector("summary").textContent = count > 12 ? `bodies and paths (${count})` : "bodies and paths";
+  legend.hidden = count === 0 || !stage;
+  // A long list would hide what it explains.
+  legend.open = count <= (window.innerWidth > 760 ? 12 : 4);
+  return { hide: (i) => boxes[i] && boxes[i].click() };
+}
+
+/** The chosen body: its place and velocity, and buttons. */
+function makeCard(stage, { follow, hide, redraw }) {
+  const card = document.getElementById("card");
+  const labels = document.getElementById("labels");
+  const labelled = new Map();
+  let chosen = -1;
+  const rows = {};
+  const element = (tag, text, className) => {
+    const made = document.createElement(tag);
+    made.textContent = text;
+    if (className) made.className = className;
+    return made;
+  };
+  function row(name) {
+    rows[name] = element("dd", "");
+    card.append(element("dt", name), rows[name]);
+  }
+  function button(text, does) {
+    const made = element("button", text);
+    made.type = "button";
+    made.addEventListener("click", () => {
+      does();
+      redraw();
+    });
+    return made;
+  }
+  const heading = element("dd", "", "name");
+  heading.dir = "auto";
+  card.append(heading);
+  ["place", "velocity", "speed", "turned"].forEach(row);
+  const tools = element("dd", "", "does");
+  tools.append(
+    button("follow", () => follow(chosen)),
+    button("hide", () => hide(chosen)),
+    button("label", () => label(chosen)),
+    button("close", () => choose(-1)),
+  );
+  card.append(tools);
+
+  function choose(i) {
+    chosen = i;
+    card.hidden = i < 0;
+    if (i >= 0) heading.textContent = motion.bodies[i].name;
+    redraw();
+  }
+  function label(i) {
+    if (labelled.has(i)) {
+      labelled.get(i).remove();
+      labelled.delete(i);
+      return;
+    }
+    const text = element("span", motion.bodies[i].name);
+    labels.append(text);
+    labelled.set(i, text);
+  }
+  const three = (vector) => vector.toArray().map(short).join(", ");
+  const [before, after] = [new THREE.Vector3(), new THREE.Vector3()];
+  function draw(time) {
+    for (const [i, text] of labelled) {
+      const at = stage.onScreen(stage.movers[i].group.position);
+      text.hidden = at === null || !stage.movers[i].group.visible;
+      if (at) text.style.transform = `translate(${Math.round(at[0])}px, ${Math.round(at[1] + 8)}px)`;
+    }
+    if (chosen < 0) return;
+    const { group } = stage.movers[chosen];
+    const place = group.position.clone().add(new THREE.Vector3(...(motion.origin ?? [0, 0, 0])));
+    const { x, y, z, w } = group.quaternion;
+    // The quotient of differences over the samples around the time.
+    const [from, to] = stage.around(chosen, time, before, after);
+    const velocity = after.clone().sub(before).divideScalar(to - from || 1);
+    rows.place.textContent = three(place);
+    rows.velocity.textContent = three(velocity);
+    rows.speed.textContent = short(velocity.length());
+    const angle = 2 * Math.atan2(Math.hypot(x, y, z), Math.abs(w));
+    rows.turned.textContent = `${((angle * 180) / Math.PI).toFixed(1)}°`;
+  }
+  return { choose, draw, label };
+}
