@@ -25,4 +25,6 @@ fn main() {
     let _ = Radau5::new(1e-6, 1e-6).integrate(&lift, 0.0, &[0.0, 1.0], 1.0, |_, _| ControlFlow::Continue(()));
     let scene = lift::Height::new(1.0);
     let _ = scene.simulate(&lift::height::State { z: 0.0, w: 1.0 }, 0.0..1.0);
+    let _ = lift.energy(0.0, &start);
+    let _ = scene.rhs(0.0, &lift::height::State { z: 0.0, w: 1.0 });
 }

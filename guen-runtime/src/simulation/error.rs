@@ -34,10 +34,8 @@ where
 
 impl<R: Real, S: Simulate<R, N>, P, const N: usize> fmt::Debug for SimulationError<S, N, R, P> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("SimulationError")
-            .field("time", &self.time)
-            .field("cause", &self.cause)
-            .finish_non_exhaustive()
+        // The message, because `main` and `unwrap` show an error so; the motion until then would hide it.
+        write!(f, "SimulationError({self})")
     }
 }
 

@@ -39,6 +39,22 @@ pub trait Unprepared {
     {
         self.never()
     }
+
+    /// Answers with the message of its bound.
+    fn rhs<Time, State, Rates>(&mut self, _: Time, _: State) -> Rates
+    where
+        Self: Preparation,
+    {
+        self.never()
+    }
+
+    /// Answers with the message of its bound.
+    fn energy<Time, State, Energy>(&mut self, _: Time, _: State) -> Energy
+    where
+        Self: Preparation,
+    {
+        self.never()
+    }
 }
 
 /// A prepared system with inputs, before it has some.

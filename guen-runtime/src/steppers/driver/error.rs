@@ -168,8 +168,8 @@ impl Names {
 
     fn function(&self, f: &mut fmt::Formatter<'_>, function: usize) -> fmt::Result {
         match self.domain.get(function) {
-            Some(formula) => write!(f, "`{formula}`, which must not vanish,"),
-            None => write!(f, "function {function} that must not vanish"),
+            Some(formula) => write!(f, "`{formula}`"),
+            None => write!(f, "function {function} of the domain"),
         }
     }
 
@@ -216,17 +216,17 @@ impl Cause {
                 write!(f, "by t = {found} a carried function was off by {drift:e}, and {limit:e} is allowed")
             }
             Self::ChartSingularity { found, function, distance, limit } => {
-                write!(f, "by t = {found} the motion had come to the edge of the chart: of ")?;
+                write!(f, "by t = {found} the motion had come to the edge of the chart: ")?;
                 names.function(f, *function)?;
-                write!(f, " {distance:e} was left, and {limit:e} is the limit")
+                write!(f, " must not vanish, and was {distance:e} of its terms; the limit is {limit:e}")
             }
             Self::ApproachingSingularity { found, function, ratio, limit } => {
+                write!(f, "by t = {found} a fixed step was too long this close to the edge of the chart: ")?;
+                names.function(f, *function)?;
                 write!(
                     f,
-                    "by t = {found} a fixed step was too long for the edge of the chart that is near: it changed "
-                )?;
-                names.function(f, *function)?;
-                write!(f, " {ratio:e} times, and {limit:e} is allowed")
+                    " must not vanish, and one step changed it by a factor of {ratio:e}; {limit:e} is allowed"
+                )
             }
             Self::Condition { found, condition, limit } => {
                 write!(
