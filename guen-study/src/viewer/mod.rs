@@ -38,7 +38,7 @@ pub(crate) const MOST_SAMPLES: usize = 3600;
 const MOST_KEPT: usize = 1 << 16;
 
 /// The size of a file, in bytes, unless another one is asked for.
-const MOST_BYTES: usize = 16_000_000;
+const MOST_BYTES: usize = 64_000_000;
 
 /// The size of a file with all samples, in bytes, unless another one is asked for: what browsers open.
 const MOST_BYTES_COMPLETE: usize = 1_000_000_000;
@@ -81,7 +81,8 @@ const SMALL: f64 = 0.04;
 /// # The page
 ///
 /// Space bar or button plays and pauses; the slider, a click into a curve and the arrow keys set the time; the mouse or
-/// one finger turns the view, the wheel or two fingers come nearer. `1 x` is the motion's own pace.
+/// one finger turns the view, the wheel or two fingers come nearer. A motion of 1 to 600 s is played at its own pace, `1 x`; what is
+/// shorter or longer takes 20 to 50 seconds.
 ///
 /// # Which samples are shown
 ///
@@ -98,7 +99,7 @@ const SMALL: f64 = 0.04;
 ///
 /// # Size
 ///
-/// At most 16 MB, or what [`within_bytes`](Viewer::within_bytes) says: where the samples above need more, fewer are kept.
+/// At most 64 MB, or what [`within_bytes`](Viewer::within_bytes) says: where the samples above need more, fewer are kept.
 /// 0.6 MB of it are the drawing library (three.js). A sample takes 37 bytes for a body, 16 for a path and 6 for a curve, and 11
 /// more for its time if the recording is a long one.
 ///
@@ -172,6 +173,7 @@ struct View {
     from: Option<[f64; 3]>,
     follow: Option<String>,
     bare: bool,
+    time_unit: Option<String>,
 }
 
 /// A fault of the description; the page is refused with the first one.
@@ -242,7 +244,7 @@ impl<'a, const N: usize> Viewer<'a, N> {
         }
     }
 
-    /// Sets the largest size of the file, in place of 16 MB. Fewer samples are shown where it is small; a size that does not
+    /// Sets the largest size of the file, in place of 64 MB. Fewer samples are shown where it is small; a size that does not
     /// even hold the page without them is an error when the page is made.
     ///
     /// ```
@@ -508,6 +510,12 @@ impl<'a, const N: usize> Viewer<'a, N> {
             .collect();
         self.require([&heights[..], &x, &y].into_iter().all(is_drawable), || "the ground".to_owned());
         self.grounds.push(Ground::Surface { x, y, heights });
+        self
+    }
+
+    /// Sets the unit of time that the page writes, `s` unless told. Short times in seconds are written in `ms`, `µs` and so on.
+    pub fn time_unit(mut self, unit: impl Into<String>) -> Self {
+        self.view.time_unit = Some(unit.into());
         self
     }
 

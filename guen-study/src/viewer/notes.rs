@@ -39,7 +39,7 @@ fn thinned<const N: usize>(viewer: &Viewer<'_, N>) -> Option<String> {
         text += &format!(
             " Places are drawn within {} % of their track's size and turns within {}° of all samples.",
             digits(100.0 * PLACE * told.miss.max(1.0)),
-            digits((ANGLE * told.miss.max(1.0)).to_degrees())
+            digits((ANGLE * told.miss.max(1.0)).to_degrees().min(180.0))
         );
     }
     if told.has_curves {

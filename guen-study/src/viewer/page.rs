@@ -16,8 +16,9 @@ const LIBRARY: &str = include_str!("vendor/three.min.js");
 /// The page's own style and program, in the order in which they are needed.
 const STYLE: &str = include_str!("page/style.css");
 const BODY: &str = include_str!("page/body.html");
-const PROGRAM: [&str; 10] = [
+const PROGRAM: [&str; 11] = [
     include_str!("page/motion.js"),
+    include_str!("page/clock.js"),
     include_str!("page/colours.js"),
     include_str!("page/solids.js"),
     include_str!("page/ground.js"),
@@ -109,6 +110,7 @@ fn motion<const N: usize>(viewer: &Viewer<'_, N>) -> (String, Vec<String>) {
     json.object(|json| {
         json.text("title", &viewer.title);
         json.number("start", viewer.samples.start);
+        json.text("timeUnit", viewer.view.time_unit.as_deref().unwrap_or("s"));
         json.doubles("times", &viewer.samples.steps);
         json.objects("notes", &notes::of(viewer, &space), |json, note| json.text("text", note));
         if let Some(origin) = &space.origin {

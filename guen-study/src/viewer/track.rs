@@ -96,7 +96,7 @@ impl Shown for Pose {
             let turn = Turning::new(from.turn, to.turn);
             worst_between(times, values, (a, b), |part, pose| {
                 let place = distance(between(from.place, to.place, part), pose.place) / near;
-                let angle = turn.at(part).angle(pose.turn) / ANGLE;
+                let angle = 2.0 * turn.at(part).chord(pose.turn) / ANGLE;
                 place.max(angle)
             })
         };

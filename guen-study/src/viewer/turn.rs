@@ -76,11 +76,16 @@ impl Turn {
         self.0.iter().zip(other.0).map(|(a, b)| a * b).sum::<f64>().abs()
     }
 
-    /// The angle between two turns, to first order where it is small.
+    /// The angle between two turns.
     pub(super) fn angle(self, other: Self) -> f64 {
-        // 1 - cos(angle/2) is half the square of the chord, without the loss of digits of an arc cosine near one.
-        let chord = |sign: f64| self.0.iter().zip(other.0).map(|(a, b)| (a - sign * b).powi(2)).sum::<f64>();
-        4.0 * (chord(1.0).min(chord(-1.0)).sqrt() / 2.0).min(1.0).asin()
+        // Without the loss of digits of an arc cosine near one.
+        4.0 * (self.chord(other) / 2.0).min(1.0).asin()
+    }
+
+    /// The distance of two turns as quaternions: half the angle between them where that is small.
+    pub(super) fn chord(self, other: Self) -> f64 {
+        let square = |sign: f64| self.0.iter().zip(other.0).map(|(a, b)| (a - sign * b).powi(2)).sum::<f64>();
+        square(1.0).min(square(-1.0)).sqrt()
     }
 
     pub(super) fn is_finite(self) -> bool {

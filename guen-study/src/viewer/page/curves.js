@@ -122,10 +122,11 @@ function makePanel(panel, parent, onPick) {
     factor.textContent = power === 0 ? "" : `values / 1e${power}`.replace("-", "−");
     pen.textAlign = "center";
     pen.textBaseline = "alphabetic";
-    const moments = ticks(motion.start, motion.start + motion.end, Math.max(2, Math.floor(width / 80)));
-    const times = moments.map((tick) => short(tick));
+    const moments = ticks(motion.start, motion.start + motion.end, Math.max(2, Math.floor(width / 80))).map((tick) => tick - motion.start);
+    const times = clock.texts(moments);
+    if (times.length > 0) times[times.length - 1] += ` ${clock.unit}`;
     moments.forEach((tick, i) => {
-      const at = x(tick - motion.start);
+      const at = x(tick);
       pen.moveTo(Math.round(at) + 0.5, height - bottom);
       pen.lineTo(Math.round(at) + 0.5, height - bottom + 4);
       const half = pen.measureText(times[i]).width / 2;

@@ -36,6 +36,13 @@ function decode(stored, size = 4) {
 }
 
 const motion = JSON.parse(document.getElementById("motion").textContent);
+/** A name that may be written from right to left, or says so, in marks that keep its direction from what stands beside it. */
+const isolated = (name) => (/[\u0590-\u08ff\u200e\u200f\u202a-\u202e\u2066-\u2069\ufb1d-\ufdff\ufe70-\ufefc]|[\ud802-\ud803\ud83a-\ud83b]/.test(name) ? `\u2068${name}\u2069` : name);
+motion.title = isolated(motion.title);
+if (motion.follow !== undefined) motion.follow = isolated(motion.follow);
+for (const thing of [...motion.bodies, ...motion.paths, ...motion.links, ...motion.panels, ...motion.panels.flatMap((panel) => panel.curves)]) {
+  thing.name = isolated(thing.name);
+}
 motion.times = decode(motion.times, 8);
 motion.curves = motion.panels.flatMap((panel) => panel.curves);
 /** What moves and what is drawn over time has times of its own, or those of the page. */

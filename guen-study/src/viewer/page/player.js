@@ -5,7 +5,7 @@ function makePlayer(show) {
   const [play, slider, output, speed, loop, said] = ["play", "slider", "time", "speed", "loop", "said"].map(element);
   const TRIANGLE = "M5 3 L17 10 L5 17 Z";
   const BARS = "M4 3 H8 V17 H4 Z M12 3 H16 V17 H12 Z";
-  const digits = Math.max(0, Math.min(6, 3 - Math.floor(Math.log10(motion.end))));
+  offerPaces(speed);
   const state = { time: 0, playing: false };
   let last = null;
   let wanted = false;
@@ -34,11 +34,11 @@ function makePlayer(show) {
       request();
     }
     slider.value = String(state.time);
-    const [at, end] = [motion.start + state.time, motion.start + motion.end].map((t) => t.toFixed(digits));
-    output.textContent = `t = ${at} / ${end}`;
+    const [at, end] = [state.time, motion.end].map(clock.text);
+    output.textContent = `t = ${at} / ${end} ${clock.unit}`;
     // Not in every frame: somebody listens to it.
-    if (!state.playing) slider.setAttribute("aria-valuetext", `t = ${at}`);
-    element("paper-time").textContent = `t = ${at}`;
+    if (!state.playing) slider.setAttribute("aria-valuetext", `t = ${at} ${clock.unit}`);
+    element("paper-time").textContent = `t = ${at} ${clock.unit}`;
     show(state.time);
   }
   function setPlaying(on) {
