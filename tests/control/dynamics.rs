@@ -1,4 +1,5 @@
-//! The equations taken apart, Jacobians and operational inertia: against closed forms, and against what holds for every system.
+//! Mass matrix, Coriolis and gravity forces, Jacobians and operational inertia: compared with closed forms, and with identities that
+//! hold for every system.
 
 use guen::control::operational_inertia;
 

@@ -1,4 +1,4 @@
-//! What is handed to a stepper too early is told by the call that is missing.
+//! Integrating constants, or a system without its inputs: the message names the call that is missing.
 use guen::prelude::*;
 
 mechanical_system! {

@@ -1,4 +1,4 @@
-//! What is asked for a motion too early is told by the call that is missing.
+//! Simulating constants, or a system without its inputs: the message names the call that is missing.
 use guen::prelude::*;
 
 mechanical_system! {

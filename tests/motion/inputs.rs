@@ -69,7 +69,7 @@ fn servo() -> impl FnMut(f64, &lift::State) -> lift::Inputs {
 }
 
 #[test]
-fn a_held_input_is_a_run_for_every_period_to_the_bit() {
+fn holding_inputs_gives_the_bits_of_a_separate_run_for_every_period() {
     let lift = prepared();
     // The end is no multiple of the period.
     let (period, end) = (0.1, 0.95);

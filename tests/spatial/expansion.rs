@@ -37,8 +37,8 @@ fn every_system_expands_in_seconds() {
     });
 }
 
-/// What every system has is generic code of the runtime. Half of the 46,760 bytes that the hoop's expansion once had; 6,800 are its program, as
-/// many its report.
+/// The hoop's expansion once had 46,760 bytes; half of that is allowed, because code that is the same for every system is in the runtime.
+/// 6,800 bytes are the hoop's program, and as many its report.
 #[test]
 fn the_expansion_of_a_hoop_is_short() {
     const MOST: usize = 23_380;

@@ -15,7 +15,7 @@ pub(super) struct Signature {
     returns: Returns,
 }
 
-/// What a method returns.
+/// The type that a method returns.
 #[derive(Clone, Copy)]
 enum Returns {
     Real,

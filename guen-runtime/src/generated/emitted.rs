@@ -102,8 +102,8 @@ macro_rules! operators {
             "The commutator `(X_I, X_J) = sum_t C_IJt X_t`, (1.14), for `I` and `J` from 0 to ", $last, "."
         )]
         ///
-        /// What the derivation knows of each coefficient is in `COEFFICIENTS`, their values come from
-        /// `coefficients`.
+        /// `COEFFICIENTS` says of each coefficient whether it is zero, a number, constant or variable;
+        /// `coefficients` computes their values at a time and state.
         #[::core::prelude::v1::derive(
             ::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::default::Default,
             ::core::cmp::PartialEq, ::core::cmp::Eq

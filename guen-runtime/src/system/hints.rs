@@ -1,9 +1,9 @@
 //! Messages for calls that come too early: constants that are not prepared, and prepared systems whose inputs nobody has set.
 //!
-//! What is no system has no method [`simulate`](crate::Simulate::simulate), and the compiler says no more than that. The traits of
-//! this module have methods of the same names for what comes before a system. They take `&mut self`, which the compiler tries after
-//! the `&self` of the true ones, and nothing fulfils their bounds, of which the messages are. Written out, because the compiler would
-//! show a macro around them.
+//! Constants have no method [`simulate`](crate::Simulate::simulate), and without this module the compiler would say only that. The
+//! traits here give them methods of the same names with a bound that no type fulfils: the error for that bound is our message.
+//! The methods take `&mut self`, which the compiler tries after the `&self` of the real ones. They are written out and not made by a
+//! macro, because the compiler would show the macro in its message.
 
 /// The constants of a system, before `prepare`.
 #[doc(hidden)]

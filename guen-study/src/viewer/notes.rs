@@ -1,4 +1,4 @@
-//! What the page says about its data: what was left out, by which rule, and how near the rest is.
+//! Notes of a page about its data: what was left out, by which rule, and how near the rest is.
 
 use super::Viewer;
 use super::page::Space;
@@ -12,7 +12,7 @@ pub(super) fn of<const N: usize>(viewer: &Viewer<'_, N>, space: &Space) -> Vec<S
     [lost(viewer), thinned(viewer), turns(viewer), moved(space)].into_iter().flatten().collect()
 }
 
-/// What the recording itself did not keep.
+/// The number of samples that the recording itself did not keep.
 fn lost<const N: usize>(viewer: &Viewer<'_, N>) -> Option<String> {
     let (kept, seen) = (viewer.samples.len(), viewer.samples.seen());
     (seen > kept as u64).then(|| format!("The recording kept {kept} of the {seen} samples of the run."))

@@ -78,7 +78,7 @@ pub(super) fn html<const N: usize>(viewer: &Viewer<'_, N>) -> String {
     .concat()
 }
 
-/// What keeps a description from becoming a page.
+/// A fault that keeps a description from becoming a page.
 pub(super) fn check<const N: usize>(viewer: &Viewer<'_, N>) -> Result<(), StudyError> {
     let title = || viewer.title.clone();
     let curves = viewer.panels.iter().map(|panel| panel.curves.len()).sum::<usize>();
@@ -198,7 +198,7 @@ fn reals(pose: &Pose, placed: impl Fn([f64; 3]) -> [f64; 3]) -> [f64; 7] {
 /// Numbers as many times larger than what they differ by lose it in single precision, which has 1.7e7 parts.
 const FAR_OFF: f64 = 1000.0;
 
-/// What a curve's values have in common, if single precision would not hold what they differ by.
+/// The common part of a curve's values, if single precision would not hold their differences.
 fn base(values: &[f64]) -> f64 {
     let (low, high) = range(values);
     let middle = low + (high - low) / 2.0;
@@ -207,7 +207,7 @@ fn base(values: &[f64]) -> f64 {
 
 /// Where the motion is.
 pub(super) struct Space {
-    /// What is subtracted from all places, if single precision would not hold their differences.
+    /// The place that is subtracted from all places, if single precision would not hold their differences.
     pub(super) origin: Option<[f64; 3]>,
 }
 

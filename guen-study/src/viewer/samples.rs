@@ -13,7 +13,7 @@ pub(super) struct Samples<'a, const N: usize> {
     pub(super) start: f64,
     /// All times, since the first.
     pub(super) times: Vec<f64>,
-    /// Those that the page steps through.
+    /// The times that the page steps through.
     pub(super) steps: Vec<f64>,
     /// The most values of a track; nothing if all are to be kept.
     pub(super) most: Option<usize>,

@@ -13,7 +13,7 @@ pub(super) const ANGLE: f64 = 0.01;
 /// A curve is drawn within this part of its range.
 const VALUE: f64 = 1.0 / 2000.0;
 
-/// What is nearer than this part of a number is its rounding, and no motion.
+/// The part of a number within which a difference is rounding, and no motion.
 const ROUNDING: f64 = 1e-12;
 
 /// Values over time.
@@ -28,7 +28,7 @@ pub(super) struct Track<T> {
     pub(super) is_envelope: bool,
 }
 
-/// What a track consists of.
+/// A value of a track, as the page holds it.
 pub(super) trait Shown: Copy {
     /// The reals on the page.
     const WIDTH: usize;
