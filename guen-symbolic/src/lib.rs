@@ -8,6 +8,7 @@
 //! -> `geometry` (forms, operators, brackets, class) -> `motion` (equations) -> `program` (straight-line code).
 #![cfg_attr(docsrs, feature(doc_cfg))]
 #![forbid(unsafe_code)]
+#![warn(unreachable_pub)]
 
 mod algebra;
 mod geometry;

@@ -122,7 +122,7 @@ impl Workbench {
 
     /// Whether more was built than a compiler should spend. From then on questions about expressions stay open, so
     /// that whoever is at work comes to an end soon; the result is given up.
-    pub fn is_exhausted(&self) -> bool {
+    pub(crate) fn is_exhausted(&self) -> bool {
         self.graph.work() - self.before > MAX_WORK
     }
 
@@ -138,7 +138,7 @@ impl Workbench {
     }
 
     /// An expression of more than so many nodes kept whole.
-    pub fn keep_above(&mut self, e: ExprId, small: usize) -> ExprId {
+    pub(crate) fn keep_above(&mut self, e: ExprId, small: usize) -> ExprId {
         let graph = &self.graph;
         let stop = |id| graph.roles(id).is_constant();
         let mut size = 0;
@@ -160,7 +160,7 @@ impl Workbench {
 
     /// Chooses base angles for some expressions, see [`Graph::choose_base_angles`]. What was tidied before may be
     /// tidied again.
-    pub fn choose_base_angles(&mut self, given: &[ExprId], roots: &[ExprId]) {
+    pub(crate) fn choose_base_angles(&mut self, given: &[ExprId], roots: &[ExprId]) {
         self.graph.choose_base_angles(given, roots);
         self.tidied = FastMap::default();
         self.beyond = FastMap::default();

@@ -8,7 +8,7 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 use crate::numbers::real::Real;
 
 /// The operations on numbers that elimination needs.
-pub trait Field:
+pub(crate) trait Field:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
 {
     /// A size, for the choice of pivots.
@@ -24,7 +24,7 @@ impl<R: Real> Field for R {
 
 /// `re + i im`
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Complex<R> {
+pub(crate) struct Complex<R> {
     pub re: R,
     pub im: R,
 }
@@ -87,7 +87,7 @@ impl<R: Real> Field for Complex<R> {
 
 /// `P A = L U`, with `L` below the diagonal and `U` from it on, in one matrix.
 #[derive(Clone, Copy, Debug)]
-pub struct Lu<F, const N: usize> {
+pub(crate) struct Lu<F, const N: usize> {
     entries: [[F; N]; N],
     /// The row exchanged with row `k` in step `k`.
     exchanged: [usize; N],
@@ -95,7 +95,7 @@ pub struct Lu<F, const N: usize> {
 
 impl<F: Field, const N: usize> Lu<F, N> {
     /// Factors `a` with partial pivoting; `None` where it is singular or not finite. `2/3 N^3` operations.
-    pub fn new(mut a: [[F; N]; N]) -> Option<Self> {
+    pub(crate) fn new(mut a: [[F; N]; N]) -> Option<Self> {
         let mut exchanged = [0; N];
         for k in 0..N {
             let (mut pivot, mut size) = (k, a[k][k].size());
@@ -129,7 +129,7 @@ impl<F: Field, const N: usize> Lu<F, N> {
     }
 
     /// The solution of `A x = b`.
-    pub fn solve(&self, mut b: [F; N]) -> [F; N] {
+    pub(crate) fn solve(&self, mut b: [F; N]) -> [F; N] {
         // Rows were exchanged as a whole, with what stood left of the pivot: all exchanges come first.
         for (k, row) in self.exchanged.into_iter().enumerate() {
             b.swap(k, Self::row(row));

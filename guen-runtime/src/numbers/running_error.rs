@@ -146,14 +146,14 @@ assign_operators!(RunningError<R>, R: Real);
 
 /// The errors that functions add, in units of their values: see [`RunningError`].
 mod own {
-    pub const SINE: i64 = 2;
-    pub const TANGENT: i64 = 6;
-    pub const EXPONENTIAL: i64 = 2;
-    pub const ARC_TANGENT: i64 = 3;
-    pub const ANGLE: i64 = 5;
-    pub const INVERSE: i64 = 4;
-    pub const HYPERBOLIC: i64 = 5;
-    pub const ROOT: i64 = 3;
+    pub(super) const SINE: i64 = 2;
+    pub(super) const TANGENT: i64 = 6;
+    pub(super) const EXPONENTIAL: i64 = 2;
+    pub(super) const ARC_TANGENT: i64 = 3;
+    pub(super) const ANGLE: i64 = 5;
+    pub(super) const INVERSE: i64 = 4;
+    pub(super) const HYPERBOLIC: i64 = 5;
+    pub(super) const ROOT: i64 = 3;
 }
 
 /// Whether a ratio is a number of at most 24 bits, as every real keeps it.

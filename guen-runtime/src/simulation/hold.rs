@@ -45,7 +45,8 @@ impl<'a, S: Actuated<R, N>, R: Real, const N: usize> Hold<'a, S, R, N> {
 }
 
 /// A system whose inputs were held.
-pub type Sampled<S, R, const N: usize> = WithInputs<S, InputSamples<R, <S as Actuated<R, N>>::Inputs>, R, N>;
+pub(super) type Sampled<S, R, const N: usize> =
+    WithInputs<S, InputSamples<R, <S as Actuated<R, N>>::Inputs>, R, N>;
 
 impl<'a, S, R, M, P, const N: usize> Sampling<R, Sampled<S, R, N>, M, P, N> for Hold<'a, S, R, N>
 where

@@ -10,7 +10,7 @@ use crate::system::System;
 
 /// A step of a run: where it began, and the motion from there on.
 #[derive(Clone, Copy, Debug)]
-pub struct Step<R, P> {
+pub(crate) struct Step<R, P> {
     pub start: R,
     pub polynomial: P,
 }
@@ -46,7 +46,7 @@ impl<'m, M, R, P> Recorder<'m, M, R, P> {
         Self { method, log: RefCell::new(Log { steps: Vec::new(), most, memory }) }
     }
 
-    pub fn into_steps(self) -> Vec<Step<R, P>> {
+    pub(crate) fn into_steps(self) -> Vec<Step<R, P>> {
         self.log.into_inner().steps
     }
 }

@@ -46,7 +46,7 @@ impl Control {
     /// Transactions on Mathematical Software 20 (1994) 496-517, whose prediction it is; the smaller of both is taken by the
     /// program `radau5.f` of E. Hairer and G. Wanner.
     #[inline]
-    pub fn factor_after_success(&self, margin: f64, trend: f64) -> f64 {
+    pub(crate) fn factor_after_success(&self, margin: f64, trend: f64) -> f64 {
         self.factor(margin + (margin + trend).min(0.0)).clamp(self.shorten, self.grow)
     }
 
@@ -54,7 +54,7 @@ impl Control {
     /// since the step before, of which the [`level`](Control::level) is given, had that been of the same size. Zero
     /// if there was none: no change for the worse.
     #[inline]
-    pub fn trend(&self, before: Option<f64>, size: f64) -> f64 {
+    pub(crate) fn trend(&self, before: Option<f64>, size: f64) -> f64 {
         match before {
             Some(level) if self.predict => self.scale(size) - level,
             _ => 0.0,
@@ -63,7 +63,7 @@ impl Control {
 
     /// The margin that a step of size one would have had in the place of one of this size and with this margin.
     #[inline]
-    pub fn level(&self, margin: f64, size: f64) -> f64 {
+    pub(crate) fn level(&self, margin: f64, size: f64) -> f64 {
         /// The margin of an error of `1e-4`: a smaller error says nothing about the next.
         const LARGEST: f64 = 26.6;
         margin.min(LARGEST) + self.scale(size)
@@ -75,18 +75,18 @@ impl Control {
     }
 
     /// The factor to the repeated step after a rejected step.
-    pub fn factor_after_failure(&self, margin: f64) -> f64 {
+    pub(crate) fn factor_after_failure(&self, margin: f64) -> f64 {
         f64::max(self.shorten, self.factor(margin))
     }
 
     /// The factor to the repeated step after one that was not finite, about whose error nothing is known.
-    pub fn factor_out_of_domain(&self) -> f64 {
+    pub(crate) fn factor_out_of_domain(&self) -> f64 {
         self.shorten
     }
 
     /// The first step, from the guess `h`, the size of the slope and its change over the guess:
     /// `step^power max(|x'|, |x''|) = 1/100`, at most a hundred times the guess.
-    pub fn first_step(&self, h: f64, slope_size: f64, change_size: f64, longest: f64) -> f64 {
+    pub(crate) fn first_step(&self, h: f64, slope_size: f64, change_size: f64, longest: f64) -> f64 {
         /// Below this, neither slope nor curvature limits the step.
         const STILL: f64 = 1e-15;
 
@@ -109,24 +109,24 @@ pub struct Margin {
 impl Margin {
     /// Creates the error from the sum of the squares of `N` weighted errors, of which it takes the mean.
     #[inline]
-    pub fn of_mean<const N: usize>(squares: f64) -> Self {
+    pub(crate) fn of_mean<const N: usize>(squares: f64) -> Self {
         Self { allowed: N as f64, found: squares }
     }
 
     #[inline]
-    pub fn is_finite(self) -> bool {
+    pub(crate) fn is_finite(self) -> bool {
         self.found < f64::INFINITY && self.allowed < f64::INFINITY
     }
 
     /// Whether the error is within the tolerance.
     #[inline]
-    pub fn is_enough(self) -> bool {
+    pub(crate) fn is_enough(self) -> bool {
         self.found <= self.allowed
     }
 
     /// `-2 log2(err)` to almost four digits after the point; large without any error.
     #[inline]
-    pub fn log2(self) -> f64 {
+    pub(crate) fn log2(self) -> f64 {
         rough_log2(self.allowed) - rough_log2(self.found)
     }
 }
@@ -206,7 +206,7 @@ pub(in crate::steppers) struct Tolerance {
 }
 
 impl Tolerance {
-    pub fn check(self) -> Result<(), Cause> {
+    pub(super) fn check(self) -> Result<(), Cause> {
         let valid = self.relative >= 0.0
             && self.relative.is_finite()
             && self.absolute > 0.0
@@ -216,7 +216,7 @@ impl Tolerance {
 
     /// Returns the weight of the error in each entry, by the larger of the entries of `x` and `y`.
     #[inline]
-    pub fn weights<R: Real, const N: usize>(self, x: &[R; N], y: &[R; N]) -> [f64; N] {
+    pub(super) fn weights<R: Real, const N: usize>(self, x: &[R; N], y: &[R; N]) -> [f64; N] {
         entries(|i| {
             let (a, b) = (x[i].to_f64().abs(), y[i].to_f64().abs());
             1.0 / (self.absolute + self.relative * if a > b { a } else { b })
@@ -224,7 +224,7 @@ impl Tolerance {
     }
 
     /// A guess for the first step that moves the state by about a hundredth of its size, and the size of the slope.
-    pub fn first_guess<R: Real, const N: usize>(
+    pub(super) fn first_guess<R: Real, const N: usize>(
         self,
         x: &[R; N],
         slope: &[R; N],

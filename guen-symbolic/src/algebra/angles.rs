@@ -36,7 +36,7 @@ impl Graph {
     }
 
     /// The base angles that were chosen.
-    pub fn base_angles(&self) -> &[ExprId] {
+    pub(crate) fn base_angles(&self) -> &[ExprId] {
         &self.base_angles.base
     }
 
@@ -54,7 +54,7 @@ impl Graph {
     }
 
     /// Chooses base angles for the sines and cosines among some expressions; given ones come first.
-    pub fn choose_base_angles(&mut self, given: &[ExprId], roots: &[ExprId]) {
+    pub(crate) fn choose_base_angles(&mut self, given: &[ExprId], roots: &[ExprId]) {
         let arguments = self.reachable(roots, |id| self.roles(id).is_constant()).into_iter();
         let mut arguments: Vec<ExprId> = arguments
             .filter_map(|id| match self.node(id) {

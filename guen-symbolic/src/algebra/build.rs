@@ -457,7 +457,7 @@ impl Graph {
     }
 
     /// A term's coefficient and monomial: `3*x` is `(3, x)`, a number is itself times one.
-    pub fn split_coefficient(&mut self, id: ExprId) -> (Rational, ExprId) {
+    pub(crate) fn split_coefficient(&mut self, id: ExprId) -> (Rational, ExprId) {
         match self.node(id) {
             Node::Number(value) => (value.clone(), self.one()),
             Node::Sum { constant, terms } if constant.is_zero() && terms.len() == 1 => {
@@ -528,10 +528,5 @@ impl Graph {
             Node::Sum { .. } | Node::Atan2(..) => false,
             _ => true,
         }
-    }
-
-    /// Whether a number is beyond what declarations may contain.
-    pub fn number_overflows(&self, id: ExprId) -> bool {
-        self.as_number(id).is_some_and(|value| value.bits() > MAX_NUMBER_BITS)
     }
 }

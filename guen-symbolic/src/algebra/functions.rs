@@ -199,7 +199,7 @@ impl Graph {
     }
 
     /// Sine and cosine of a sum from those of its parts.
-    pub fn rotate(&mut self, a: (ExprId, ExprId), b: (ExprId, ExprId)) -> (ExprId, ExprId) {
+    pub(crate) fn rotate(&mut self, a: (ExprId, ExprId), b: (ExprId, ExprId)) -> (ExprId, ExprId) {
         let (ss, cc) = (self.mul(a.0, b.0), self.mul(a.1, b.1));
         let (sc, cs) = (self.mul(a.0, b.1), self.mul(a.1, b.0));
         (self.add(sc, cs), self.sub(cc, ss))

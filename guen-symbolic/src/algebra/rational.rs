@@ -67,7 +67,7 @@ impl Rational {
     }
 
     /// The ratio of two big integers.
-    pub fn from_big(numerator: BigInt, denominator: BigInt) -> Self {
+    pub(crate) fn from_big(numerator: BigInt, denominator: BigInt) -> Self {
         Self::from_ratio(BigRational::new(numerator, denominator))
     }
 
@@ -146,7 +146,7 @@ impl Rational {
     }
 
     /// Whether the denominator is one.
-    pub fn is_integer(&self) -> bool {
+    pub(crate) fn is_integer(&self) -> bool {
         match &self.0 {
             Small(_, d) => *d == 1,
             Big(value) => value.is_integer(),
@@ -238,7 +238,7 @@ impl Rational {
     }
 
     /// The greatest common divisor in the sense of contents: gcd of numerators over lcm of denominators, not negative.
-    pub fn content_gcd(&self, other: &Self) -> Self {
+    pub(crate) fn content_gcd(&self, other: &Self) -> Self {
         use num_integer::Integer;
         if let (Small(a, b), Small(c, d)) = (&self.0, &other.0) {
             if *b == 1 && *d == 1 && (a.unsigned_abs() == 1 || c.unsigned_abs() == 1) {
@@ -257,7 +257,7 @@ impl Rational {
     }
 
     /// `r` with `r^q` the value, if the value is an exact `q`-th power of a rational number.
-    pub fn exact_root(&self, q: u32) -> Option<Self> {
+    pub(crate) fn exact_root(&self, q: u32) -> Option<Self> {
         if self.is_negative() && q.is_multiple_of(2) {
             return None;
         }

@@ -67,7 +67,7 @@ impl Brackets {
     }
 
     /// Whether the form `eta_{t+1}` is closed, so that none of its coefficients differs from zero.
-    pub fn is_closed(&self, t: usize) -> bool {
+    pub(crate) fn is_closed(&self, t: usize) -> bool {
         self.curls[t].is_empty()
     }
 
@@ -127,7 +127,13 @@ impl Brackets {
     }
 
     /// `C_0st + sum_{r<=l} eta_r C_rst`: how the form `t` turns along the motion against `X_s`.
-    pub fn along_motion(&mut self, bench: &mut Workbench, etas: &[ExprId], s: usize, t: usize) -> ExprId {
+    pub(crate) fn along_motion(
+        &mut self,
+        bench: &mut Workbench,
+        etas: &[ExprId],
+        s: usize,
+        t: usize,
+    ) -> ExprId {
         if self.is_closed(t - 1) {
             return bench.graph.zero();
         }

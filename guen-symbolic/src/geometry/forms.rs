@@ -56,7 +56,7 @@ impl Forms {
     }
 
     /// Whether every constraint lacks its term `a_v0`: the constraints are catastatic.
-    pub fn is_catastatic(&self, graph: &Graph) -> bool {
+    pub(crate) fn is_catastatic(&self, graph: &Graph) -> bool {
         self.forms[self.degrees..].iter().all(|form| graph.is_zero(form.offset))
     }
 }

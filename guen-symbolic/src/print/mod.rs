@@ -63,25 +63,6 @@ impl Graph {
         Printer::new(self, Style::Latex, max_chars).expression(e)
     }
 
-    /// A linear combination of named things, `-cot(theta) X2 + X3`; what has a zero coefficient is left out.
-    pub fn text_sum(&self, terms: &[(ExprId, &str)]) -> String {
-        self.named_sum(terms, Style::Text)
-    }
-
-    /// A linear combination in LaTeX; names like `X2` and `d/dtheta` are set as mathematics.
-    pub fn latex_sum(&self, terms: &[(ExprId, &str)]) -> String {
-        self.named_sum(terms, Style::Latex)
-    }
-
-    fn named_sum(&self, terms: &[(ExprId, &str)], style: Style) -> String {
-        let note = |e: ExprId| {
-            let note = self.note(e);
-            if style == Style::Latex { format!("\\text{{{note}}}") } else { note }
-        };
-        let mut notation = Notation { printer: Printer::new(self, style, LONGEST_TEXT), style, images: None };
-        notation.combination(terms, None, |e| Some(note(e))).unwrap_or_default()
-    }
-
     fn note(&self, e: ExprId) -> String {
         format!("(an expression of {} parts, too long to show)", self.reachable(&[e], |_| false).len())
     }
@@ -139,29 +120,21 @@ impl<'g> Notation<'g> {
 
     /// A linear combination of named things, or `None` if a coefficient is too long; zero coefficients are left out.
     pub fn sum(&mut self, terms: &[(ExprId, &str)]) -> Option<String> {
-        self.combination(terms, None, |_| None)
+        self.combination(terms, None)
     }
 
     /// Writes a combination with an expression behind it, unless that is zero.
     pub fn affine(&mut self, terms: &[(ExprId, &str)], rest: ExprId) -> Option<String> {
-        self.combination(terms, Some(rest), |_| None)
+        self.combination(terms, Some(rest))
     }
 
-    fn combination(
-        &mut self,
-        terms: &[(ExprId, &str)],
-        rest: Option<ExprId>,
-        otherwise: impl Fn(ExprId) -> Option<String>,
-    ) -> Option<String> {
+    fn combination(&mut self, terms: &[(ExprId, &str)], rest: Option<ExprId>) -> Option<String> {
         let mut line = String::new();
         for (coefficient, name) in terms {
             if self.printer.graph.is_zero(*coefficient) {
                 continue;
             }
-            let (minus, text) = match self.printer.coefficient(self.image(*coefficient)) {
-                Some(written) => written,
-                None => (false, otherwise(*coefficient)?),
-            };
+            let (minus, text) = self.printer.coefficient(self.image(*coefficient))?;
             line.push_str(sign(&line, minus));
             if text != "1" {
                 line.push_str(&text);

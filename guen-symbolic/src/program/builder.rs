@@ -28,7 +28,7 @@ pub struct Formulation {
 
 /// The effort with which a function is optimised.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Effort {
+pub(super) enum Effort {
     /// Every candidate that is affordable.
     Hot,
     /// The first candidate alone, to rank formulations.
@@ -140,11 +140,7 @@ impl<'a> ProgramBuilder<'a> {
     }
 
     /// Adds a function in the cheapest of several formulations, the first of equals; returns which one that is.
-    pub fn add_cheapest(&mut self, name: &str, formulations: &[Formulation]) -> usize {
-        self.add(name, formulations, Effort::Hot)
-    }
-
-    fn add(&mut self, name: &str, formulations: &[Formulation], effort: Effort) -> usize {
+    pub(super) fn add(&mut self, name: &str, formulations: &[Formulation], effort: Effort) -> usize {
         if let [only] = formulations {
             let mut net = Net::default();
             let roots = staged(self.graph, &mut net, only, effort);

@@ -117,11 +117,6 @@ impl ZeroTest {
         self.verdict(g, e) == Verdict::Zero
     }
 
-    /// Whether an expression is proved not to vanish identically.
-    pub fn is_nonzero(&mut self, g: &mut Graph, e: ExprId) -> bool {
-        self.verdict(g, e) == Verdict::Nonzero
-    }
-
     /// Declares the manifold by the functions that vanish on it, of time, coordinates and constants.
     pub fn set_manifold(&mut self, g: &mut Graph, equations: &[ExprId]) {
         self.bound = Domain::default();
@@ -130,7 +125,7 @@ impl ZeroTest {
     }
 
     /// Whether the manifold's points can be found, so that verdicts on it are possible.
-    pub fn manifold_is_solved(&self) -> bool {
+    pub(crate) fn manifold_is_solved(&self) -> bool {
         self.manifold.as_ref().is_none_or(Manifold::is_solved)
     }
 
@@ -145,7 +140,7 @@ impl ZeroTest {
 
     /// Whether a point shows that an expression does not vanish, on the manifold or anywhere: no more is asked where what is
     /// not shown is left alone. It takes the work of evaluations, and no derivatives, which may be many times as large.
-    pub fn is_shown_nonzero(&mut self, g: &mut Graph, e: ExprId, on_manifold: bool) -> bool {
+    pub(crate) fn is_shown_nonzero(&mut self, g: &mut Graph, e: ExprId, on_manifold: bool) -> bool {
         match g.node(e) {
             Node::Number(value) => !value.is_zero(),
             Node::Undefined => false,

@@ -52,7 +52,7 @@ pub(in crate::steppers) struct SystemRun<'a, C: StepperRun<R, S, N>, R: Real, S:
 }
 
 impl<'a, C: StepperRun<R, S, N>, R: Real, S: ?Sized, const N: usize> SystemRun<'a, C, R, S, N> {
-    pub fn new(run: C, system: &'a S) -> Self {
+    pub(crate) fn new(run: C, system: &'a S) -> Self {
         Self { run, system, polynomial: None }
     }
 }

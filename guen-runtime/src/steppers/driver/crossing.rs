@@ -25,7 +25,7 @@ pub(in crate::steppers) struct Crossing<R> {
 
 impl<R> Crossing<R> {
     /// The side on which the function was before.
-    pub fn side(&self) -> i8 {
+    pub(crate) fn side(&self) -> i8 {
         if self.rising { -1 } else { 1 }
     }
 }
@@ -75,28 +75,28 @@ pub(in crate::steppers) struct Tracker {
 }
 
 impl Tracker {
-    pub fn new(value: f64) -> Self {
+    pub(crate) fn new(value: f64) -> Self {
         Self { side: sign(value), crossed: false }
     }
 
     /// Whether a step that ends with this value has no change of sign between its ends.
-    pub fn stays(self, value: f64) -> bool {
+    pub(crate) fn stays(self, value: f64) -> bool {
         self.side == 0 || self.side == sign(value) || value.is_nan()
     }
 
-    pub fn side(self) -> i8 {
+    pub(crate) fn side(self) -> i8 {
         self.side
     }
 
     /// Updates the side by a value that is no crossing.
-    pub fn at(self, value: f64) -> Self {
+    pub(crate) fn at(self, value: f64) -> Self {
         if value.is_nan() { self } else { Self { side: sign(value), ..self } }
     }
 
     /// The next crossing of a step that lies after `from`, where the function has been followed to, of a run that began at
     /// `origin`. `value` is the function within the step, NaN where there is no state, and `end` its value at the end. The tracker then stands
     /// past the crossing, or at the end of the step.
-    pub fn next<R: Real, const N: usize>(
+    pub(crate) fn next<R: Real, const N: usize>(
         &mut self,
         event: &Event<'_, R, N>,
         checks: Checks<R>,

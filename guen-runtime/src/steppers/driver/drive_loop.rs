@@ -30,7 +30,7 @@ pub(super) struct DriveLoop<'a, 'e, R, const N: usize> {
 
 impl<R: Real, const N: usize> DriveLoop<'_, '_, R, N> {
     /// Takes the run through all times, and calls `visit` at each of them.
-    pub fn through(
+    pub(super) fn through(
         mut self,
         run: &mut dyn AnyRun<R, N>,
         times: &[R],
@@ -126,7 +126,7 @@ impl<R: Real, const N: usize> DriveLoop<'_, '_, R, N> {
     }
 
     /// Shows the next sample.
-    pub fn visit(&mut self, time: R, state: &[R; N]) {
+    pub(super) fn visit(&mut self, time: R, state: &[R; N]) {
         if let Some(visitor) = &mut self.visitor {
             visitor(self.visited, time, state);
         }
@@ -134,7 +134,7 @@ impl<R: Real, const N: usize> DriveLoop<'_, '_, R, N> {
     }
 
     /// Tells of an event, and says whether the run is to end.
-    pub fn report(&mut self, event: &Occurrence<R, N>) -> bool {
+    pub(super) fn report(&mut self, event: &Occurrence<R, N>) -> bool {
         self.receiver.as_mut().is_some_and(|receiver| receiver(event).is_break())
     }
 }

@@ -162,7 +162,7 @@ pub(crate) struct Names {
 
 impl Names {
     /// The names of a system.
-    pub fn of<R: Real, S: Simulate<R, N> + ?Sized, const N: usize>() -> Self {
+    pub(crate) fn of<R: Real, S: Simulate<R, N> + ?Sized, const N: usize>() -> Self {
         Self { states: S::STATES, domain: S::DOMAIN }
     }
 

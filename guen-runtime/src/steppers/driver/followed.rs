@@ -25,14 +25,14 @@ pub(super) struct Followed<'a, R, const N: usize> {
 
 impl<'a, R: Real, const N: usize> Followed<'a, R, N> {
     /// An event that is not followed yet.
-    pub fn new(event: Event<'a, R, N>) -> Self {
+    pub(super) fn new(event: Event<'a, R, N>) -> Self {
         let (behind, ahead) = (Tracker::default(), Tracker::default());
         let (from, checks) = (R::zero(), Checks::default());
         Self { event, from, behind, checks, end: 0.0, crossing: None, ahead, happened: None }
     }
 
     /// Begins at the start of a run.
-    pub fn begin(&mut self, time: R, state: &[R; N]) {
+    pub(super) fn begin(&mut self, time: R, state: &[R; N]) {
         self.ahead = Tracker::new(self.event.value(time, state));
     }
 
@@ -42,7 +42,7 @@ impl<'a, R: Real, const N: usize> Followed<'a, R, N> {
     }
 
     /// Looks for the first crossing of a new step.
-    pub fn enter(&mut self, origin: R, before: &Checkpoint<R, N>, run: &mut dyn AnyRun<R, N>) {
+    pub(super) fn enter(&mut self, origin: R, before: &Checkpoint<R, N>, run: &mut dyn AnyRun<R, N>) {
         let after = *run.checkpoint();
         self.from = before.time;
         self.behind = self.ahead;
@@ -53,7 +53,7 @@ impl<'a, R: Real, const N: usize> Followed<'a, R, N> {
     }
 
     /// Goes on from a crossing that has been reported.
-    pub fn pass(&mut self, origin: R, time: R, run: &mut dyn AnyRun<R, N>) {
+    pub(super) fn pass(&mut self, origin: R, time: R, run: &mut dyn AnyRun<R, N>) {
         (self.from, self.behind) = (time, self.ahead);
         self.follow(origin, run);
     }
@@ -74,7 +74,12 @@ impl<'a, R: Real, const N: usize> Followed<'a, R, N> {
 
     /// Looks for a crossing before a time, at which the function has this value, that checks until now have not shown: since
     /// then the function has come back. Says whether there is one.
-    pub fn search_back(&mut self, origin: R, (time, value): (R, f64), run: &mut dyn AnyRun<R, N>) -> bool {
+    pub(super) fn search_back(
+        &mut self,
+        origin: R,
+        (time, value): (R, f64),
+        run: &mut dyn AnyRun<R, N>,
+    ) -> bool {
         let known = self.crossing.is_some_and(|crossing| !earlier(time, crossing.after, self.backwards()));
         if known || self.from == time {
             return false;
@@ -90,7 +95,7 @@ impl<'a, R: Real, const N: usize> Followed<'a, R, N> {
     }
 
     /// Settles whether it has happened when the run ends at this time and state.
-    pub fn settle(&mut self, origin: R, time: R, state: &[R; N], run: &mut dyn AnyRun<R, N>) {
+    pub(super) fn settle(&mut self, origin: R, time: R, state: &[R; N], run: &mut dyn AnyRun<R, N>) {
         let event = self.event;
         let value = event.value(time, state);
         self.search_back(origin, (time, value), run);

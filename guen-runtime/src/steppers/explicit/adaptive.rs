@@ -11,7 +11,7 @@ use crate::system::System;
 
 /// The settings that all adaptive methods share.
 #[derive(Clone, Copy, Debug)]
-pub struct Settings {
+pub(crate) struct Settings {
     pub(in crate::steppers) tolerance: Tolerance,
     pub(in crate::steppers) max_steps: u64,
     pub(in crate::steppers) first_step: Option<f64>,

@@ -218,7 +218,7 @@ impl<R: Real, const N: usize> Slopes<R, N> {
 /// The steps from one time to another: to `origin + k h` for `k = 1 .. count - 1`, then to the target. These times are rounded,
 /// and a step is as long as their difference.
 #[derive(Clone, Copy, Debug)]
-pub struct Leg<R> {
+pub(crate) struct Leg<R> {
     origin: R,
     target: R,
     /// The step with its direction.

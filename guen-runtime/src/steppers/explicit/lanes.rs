@@ -19,7 +19,7 @@ pub(in crate::steppers) struct Moment<L, const N: usize> {
 }
 
 impl<L: Lanes, const N: usize> Moment<L, N> {
-    pub fn checkpoint(&self) -> Checkpoint<L, N> {
+    pub(crate) fn checkpoint(&self) -> Checkpoint<L, N> {
         Checkpoint::new(L::from_f64(self.time), &self.state)
     }
 

@@ -49,7 +49,7 @@ pub struct Trial<R, const N: usize> {
 }
 
 /// The slopes of stages 1 and 6 to 12, which weights and interpolant are made of.
-pub type Stages<R, const N: usize> = [[R; N]; 8];
+pub(crate) type Stages<R, const N: usize> = [[R; N]; 8];
 
 /// A step with what it was made of.
 pub(in crate::steppers) struct Made<R, const N: usize> {

@@ -95,7 +95,7 @@ pub struct Formula<R> {
 }
 
 /// The slopes of all seven stages.
-pub type Stages<R, const N: usize> = [[R; N]; 7];
+pub(crate) type Stages<R, const N: usize> = [[R; N]; 7];
 
 impl<R: Real> Formula<R> {
     pub(in crate::steppers) fn new() -> Self {

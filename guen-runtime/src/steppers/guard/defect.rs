@@ -32,14 +32,14 @@ pub(in crate::steppers) struct Worst {
 }
 
 impl<R: Real, const N: usize> Defects<R, N> {
-    pub fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self { sum: [R::zero(); N], last: None }
     }
 
     /// Takes the estimated errors of a step for those of `steps` of them, and returns the largest of what every entry is
     /// [`judged`](Defects::judged) by; `negligible` is the part of the largest entry that counts as zero.
     #[inline(always)]
-    pub fn add(&mut self, found: &[R; N], steps: u32, largest: &[R; N], negligible: f64) -> R {
+    pub(crate) fn add(&mut self, found: &[R; N], steps: u32, largest: &[R; N], negligible: f64) -> R {
         let defects = relative(found, largest, negligible);
         let last = self.last.replace(defects).unwrap_or(defects);
         let mut most = R::zero();
@@ -54,7 +54,7 @@ impl<R: Real, const N: usize> Defects<R, N> {
     }
 
     /// Returns the value that every entry was judged by last, in one lane.
-    pub fn judged(&self, alone: impl Fn(R) -> f64) -> [f64; N] {
+    pub(crate) fn judged(&self, alone: impl Fn(R) -> f64) -> [f64; N] {
         let mut judged = [0.0; N];
         for i in 0..N {
             let (sum, last) = (alone(self.sum[i]), self.last.map_or(0.0, |last| alone(last[i])));

@@ -109,7 +109,7 @@ pub(super) struct Check<R> {
 
 impl<R: Real, const N: usize> Known<R, N> {
     /// Starts from a state, and returns what the first check finds there.
-    pub fn new<S>(system: &S, guard: &Guard, start: Place<'_, R, N>) -> (Self, Check<R>)
+    pub(super) fn new<S>(system: &S, guard: &Guard, start: Place<'_, R, N>) -> (Self, Check<R>)
     where
         S: Watched<R, N> + ?Sized,
     {
@@ -138,14 +138,14 @@ impl<R: Real, const N: usize> Known<R, N> {
     }
 
     /// Returns the first of the functions that must not vanish that is zero.
-    pub fn vanishing(&self) -> Option<usize> {
+    pub(super) fn vanishing(&self) -> Option<usize> {
         self.watched().find(|function| self.functions[*function].value.to_f64() == 0.0)
     }
 
     /// Checks everything, the functions that must not vanish for [`close`](Known::close) and others to judge. `defects` are the
     /// estimated errors of a step, taken for those of `steps` of them.
     #[inline(always)]
-    pub fn check<S>(
+    pub(super) fn check<S>(
         &mut self,
         system: &S,
         now: Place<'_, R, N>,
@@ -182,7 +182,7 @@ impl<R: Real, const N: usize> Known<R, N> {
 
     /// The runs that may have a fault, by what a check has found.
     #[inline(always)]
-    pub fn suspects<V: Runs<R>>(&self, guard: &Guard, check: &Check<R>) -> Mask {
+    pub(super) fn suspects<V: Runs<R>>(&self, guard: &Guard, check: &Check<R>) -> Mask {
         if V::COUNT == 1 {
             return Mask::all(1);
         }
@@ -197,7 +197,7 @@ impl<R: Real, const N: usize> Known<R, N> {
 
     /// Judges a run by what a check has found.
     #[inline(always)]
-    pub fn judge<V: Runs<R>>(
+    pub(super) fn judge<V: Runs<R>>(
         &self,
         guard: &Guard,
         check: &Check<R>,
@@ -228,7 +228,7 @@ impl<R: Real, const N: usize> Known<R, N> {
 
     /// Evaluates the functions that must not vanish.
     #[inline(always)]
-    pub fn evaluate_singularities<S>(&mut self, system: &S, now: Place<'_, R, N>)
+    pub(super) fn evaluate_singularities<S>(&mut self, system: &S, now: Place<'_, R, N>)
     where
         S: Watched<R, N> + ?Sized,
     {
@@ -237,7 +237,7 @@ impl<R: Real, const N: usize> Known<R, N> {
 
     /// Keeps their values for the next check to compare with.
     #[inline(always)]
-    pub fn keep_singularities(&mut self) {
+    pub(super) fn keep_singularities(&mut self) {
         for function in self.watched() {
             self.earlier[function] = self.functions[function];
         }
@@ -245,7 +245,7 @@ impl<R: Real, const N: usize> Known<R, N> {
 
     /// Evaluates them where the last step began.
     #[inline(always)]
-    pub fn evaluate_before<S>(&mut self, system: &S, before: Place<'_, R, N>)
+    pub(super) fn evaluate_before<S>(&mut self, system: &S, before: Place<'_, R, N>)
     where
         S: Watched<R, N> + ?Sized,
     {
@@ -254,7 +254,7 @@ impl<R: Real, const N: usize> Known<R, N> {
 
     /// NaN in the runs in which one may have come too close to zero, else zero.
     #[inline(always)]
-    pub fn close(&self, limit: f64) -> R {
+    pub(super) fn close(&self, limit: f64) -> R {
         let (zero, nan) = (R::zero(), R::from_f64(f64::NAN));
         let mut sum = zero;
         for function in self.watched() {
@@ -270,7 +270,12 @@ impl<R: Real, const N: usize> Known<R, N> {
 
     /// Whether the functions of a run are on the same side as at the start, and further than the limit from zero.
     #[inline(always)]
-    pub fn judge_distances<V: Runs<R>>(&self, found: f64, limit: f64, run: usize) -> Result<(), Cause> {
+    pub(super) fn judge_distances<V: Runs<R>>(
+        &self,
+        found: f64,
+        limit: f64,
+        run: usize,
+    ) -> Result<(), Cause> {
         for function in self.watched() {
             let near = nearness(&self.functions[function], self.start[function]);
             let distance = -V::alone(near, run);
@@ -284,7 +289,7 @@ impl<R: Real, const N: usize> Known<R, N> {
     /// The number of times of what lies between before and now after which to check them again: half of what would lead the
     /// nearest to zero at this pace. And what is NaN in the runs in which a function may have changed by more than a factor, else zero.
     #[inline(always)]
-    pub fn paces(&self, limit: f64) -> (R, R) {
+    pub(super) fn paces(&self, limit: f64) -> (R, R) {
         let mut sum = R::zero();
         let mut soonest = R::from_f64(f64::from(u32::MAX));
         for function in self.watched() {
@@ -298,7 +303,7 @@ impl<R: Real, const N: usize> Known<R, N> {
     /// The number of times until the next check of one run, as of [`paces`](Known::paces). An error where a function changed by more
     /// than a factor: what divides by it is a pole that such steps do not resolve.
     #[inline(always)]
-    pub fn judge_pace<V: Runs<R>>(&self, found: f64, limit: f64, run: usize) -> Result<R, Cause> {
+    pub(super) fn judge_pace<V: Runs<R>>(&self, found: f64, limit: f64, run: usize) -> Result<R, Cause> {
         let mut soonest = R::from_f64(f64::from(u32::MAX));
         for function in self.watched() {
             let (from, to) = (self.earlier[function].value.abs(), self.functions[function].value.abs());

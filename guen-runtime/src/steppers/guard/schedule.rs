@@ -35,7 +35,7 @@ impl Schedule {
     /// with these costs of checks: [`check_cost`](crate::System::check_cost) and
     /// [`singularity_check_cost`](crate::System::singularity_check_cost). `chosen` is the number of steps between two
     /// checks that somebody has set.
-    pub fn new(
+    pub(super) fn new(
         evaluations: u32,
         (check, singularities): (u32, f64),
         fixed: bool,
@@ -79,7 +79,7 @@ impl Schedule {
     /// that should be within `soonest` steps: a multiple of `apart`, or of its half, or of the half of that, counted
     /// from that check. So runs in lanes check after the same steps, wherever each of them is.
     #[inline]
-    pub fn next(apart: u32, soonest: u32, since: u32) -> u32 {
+    pub(super) fn next(apart: u32, soonest: u32, since: u32) -> u32 {
         let mut apart = apart.min(1 << 31);
         while apart > soonest {
             apart /= 2;

@@ -42,7 +42,7 @@ pub(in crate::steppers) struct Watch<R: Real, V: Runs<R>, const N: usize> {
 
 impl<R: Real, V: Runs<R>, const N: usize> Watch<R, V, N> {
     /// For steps of so many evaluations, `fixed` or not.
-    pub fn new<S>(
+    pub(crate) fn new<S>(
         guard: Guard,
         system: &S,
         evaluations: u32,
@@ -78,25 +78,25 @@ impl<R: Real, V: Runs<R>, const N: usize> Watch<R, V, N> {
 
     /// Whether the guard will do something after the next step.
     #[inline(always)]
-    pub fn is_next(&self) -> bool {
+    pub(crate) fn is_next(&self) -> bool {
         self.left == 1
     }
 
     /// Whether the guard will want to know where the next step began; `last` if it is the last one.
     #[inline(always)]
-    pub fn wants_before(&self, last: bool) -> bool {
+    pub(crate) fn wants_before(&self, last: bool) -> bool {
         self.fixed && (last || self.is_next())
     }
 
     /// Returns the number of steps that can be made before the guard has to be told.
     #[inline]
-    pub fn patience(&self) -> u32 {
+    pub(crate) fn patience(&self) -> u32 {
         if self.fixed { (self.left - 1).max(1) } else { self.left }
     }
 
     /// Counts steps, no more than [`patience`](Watch::patience) allowed, and says whether it is time for [`check`](Watch::check).
     #[inline(always)]
-    pub fn counts(&mut self, made: u32) -> bool {
+    pub(crate) fn counts(&mut self, made: u32) -> bool {
         self.left = self.left.saturating_sub(made);
         self.left == 0
     }
@@ -105,7 +105,7 @@ impl<R: Real, V: Runs<R>, const N: usize> Watch<R, V, N> {
     /// `defects` estimates its errors. `fail` is told of each run with a fault: the cause, and the place where the last check found none.
     /// Returns the runs without one.
     #[inline(never)]
-    pub fn check<S, D>(
+    pub(crate) fn check<S, D>(
         &mut self,
         system: &S,
         (before, defects): (Option<Place<'_, R, N>>, D),
@@ -236,7 +236,7 @@ impl<R: Real, V: Runs<R>, const N: usize> Watch<R, V, N> {
 
     /// Checks the end of runs, unless that was just done; `step` as of [`check`](Watch::check), if it was wanted.
     #[inline(never)]
-    pub fn finish<S, D>(
+    pub(crate) fn finish<S, D>(
         &mut self,
         system: &S,
         (before, defects): (Option<Place<'_, R, N>>, D),
@@ -275,7 +275,7 @@ impl<R: Real, V: Runs<R>, const N: usize> Watch<R, V, N> {
     /// wrong before. Of other runs nothing is learned.
     #[cold]
     #[inline(never)]
-    pub fn stopped<S>(
+    pub(crate) fn stopped<S>(
         &mut self,
         system: &S,
         now: Place<'_, R, N>,
@@ -356,13 +356,13 @@ fn place<R: Real, const N: usize>(at: &Checkpoint<R, N>) -> Place<'_, R, N> {
 
 impl<R: Real, const N: usize> Watch<R, One, N> {
     /// For one run of a method.
-    pub fn of_run(guard: Guard, run: &dyn AnyRun<R, N>) -> Result<Self, Cause> {
+    pub(crate) fn of_run(guard: Guard, run: &dyn AnyRun<R, N>) -> Result<Self, Cause> {
         Self::new(guard, run.system(), run.evaluations(), run.is_judged(), place(run.checkpoint()))
     }
 
     /// Counts the steps since `from`, and checks if it is time to; `before` is where the last one began, if that was wanted.
     #[inline]
-    pub fn step(
+    pub(crate) fn step(
         &mut self,
         from: u64,
         before: Option<&Checkpoint<R, N>>,
@@ -380,7 +380,7 @@ impl<R: Real, const N: usize> Watch<R, One, N> {
     }
 
     /// Checks the end of the run.
-    pub fn finish_run(
+    pub(crate) fn finish_run(
         &mut self,
         before: Option<&Checkpoint<R, N>>,
         run: &dyn AnyRun<R, N>,
@@ -392,7 +392,7 @@ impl<R: Real, const N: usize> Watch<R, One, N> {
     }
 
     /// The error of the run, which cannot go on from where it stands.
-    pub fn stop_run(&mut self, run: &dyn AnyRun<R, N>, cause: Cause) -> IntegrationError<R, N> {
+    pub(crate) fn stop_run(&mut self, run: &dyn AnyRun<R, N>, cause: Cause) -> IntegrationError<R, N> {
         let (system, now) = (run.system(), place(run.checkpoint()));
         let mut error = run.checkpoint().failed(cause);
         self.stopped(system, now, Mask::all(1), cause, |_, cause, good| {
@@ -411,7 +411,7 @@ impl<R: Real, const N: usize> Watch<R, One, N> {
 
     /// The error at the place that was found in order last, with the work done since then counted.
     #[cold]
-    pub fn failed(&self, reached: &Checkpoint<R, N>, cause: Cause) -> IntegrationError<R, N> {
+    pub(crate) fn failed(&self, reached: &Checkpoint<R, N>, cause: Cause) -> IntegrationError<R, N> {
         let (time, state) = self.good;
         IntegrationError { time, state, cause, statistics: reached.statistics }
     }

@@ -21,7 +21,7 @@ use crate::system::System;
 
 /// A method of collocation with `S` stages, two or three.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Collocation<R, const S: usize> {
+pub(crate) struct Collocation<R, const S: usize> {
     /// The nodes.
     pub c: [R; S],
     /// `A^-1`.
@@ -39,7 +39,13 @@ pub struct Collocation<R, const S: usize> {
 
 impl<R: Real, const S: usize> Collocation<R, S> {
     /// The method with nodes `c`, matrix `a` and weights `b`; the eigenvalues of `A^-1` as far as they are known.
-    pub fn new(c: [R; S], a: [[R; S]; S], b: [R; S], real: Option<R>, pair: Complex<R>) -> Option<Self> {
+    pub(crate) fn new(
+        c: [R; S],
+        a: [[R; S]; S],
+        b: [R; S],
+        real: Option<R>,
+        pair: Complex<R>,
+    ) -> Option<Self> {
         let inverse = inverse(a)?;
         let d = entries(|j| (0..S).fold(R::zero(), |sum, i| sum + b[i] * inverse[i][j]));
         let mut columns = [[R::zero(); S]; S];
@@ -54,7 +60,7 @@ impl<R: Real, const S: usize> Collocation<R, S> {
     }
 
     /// The factors of both systems at the step `h`; `None` where one is singular or not finite.
-    pub fn factor<const N: usize>(&self, jacobian: &[[R; N]; N], h: R) -> Option<Factors<R, N>> {
+    pub(crate) fn factor<const N: usize>(&self, jacobian: &[[R; N]; N], h: R) -> Option<Factors<R, N>> {
         let real = match self.real {
             Some(real) => Some(Lu::new(shifted(jacobian, real / h))?),
             None => None,
@@ -71,7 +77,7 @@ impl<R: Real, const S: usize> Collocation<R, S> {
     }
 
     /// The step of Newton's method from `z`, with the factors for `h`. `S` evaluations.
-    pub fn newton<F, const N: usize>(
+    pub(crate) fn newton<F, const N: usize>(
         &self,
         system: &F,
         factors: &Factors<R, N>,
@@ -104,7 +110,7 @@ impl<R: Real, const S: usize> Collocation<R, S> {
 
     /// The stages of a step that is `ratio` times as long as the one before it, whose stages were `z`, on the
     /// polynomial of the latter.
-    pub fn predicted<const N: usize>(&self, z: &[[R; N]; S], ratio: R) -> [[R; N]; S] {
+    pub(crate) fn predicted<const N: usize>(&self, z: &[[R; N]; S], ratio: R) -> [[R; N]; S] {
         // Values of the polynomial through (0, 0) and (c_j, Z_j) at s.
         let value = |s: R| -> [R; N] {
             let weights: [R; S] = entries(|j| {
@@ -126,7 +132,7 @@ impl<R: Real, const S: usize> Collocation<R, S> {
     }
 
     /// The slope with which the polynomial of a step begins.
-    pub fn first_slope<const N: usize>(&self, z: &[[R; N]; S], h: R) -> [R; N] {
+    pub(crate) fn first_slope<const N: usize>(&self, z: &[[R; N]; S], h: R) -> [R; N] {
         // Of the polynomial through the slopes h^-1 (A^-1 Z)_j at c_j, at zero.
         let weights: [R; S] = entries(|j| {
             (0..S)
@@ -138,20 +144,20 @@ impl<R: Real, const S: usize> Collocation<R, S> {
     }
 
     /// The end of the step less its beginning.
-    pub fn change<const N: usize>(&self, z: &[[R; N]; S]) -> [R; N] {
+    pub(crate) fn change<const N: usize>(&self, z: &[[R; N]; S]) -> [R; N] {
         combined(&self.d, z)
     }
 }
 
 /// The factors of `h^-1 lambda - J` for the eigenvalues of `A^-1`.
 #[derive(Clone, Copy, Debug)]
-pub struct Factors<R, const N: usize> {
+pub(crate) struct Factors<R, const N: usize> {
     pub real: Option<Lu<R, N>>,
     pair: Lu<Complex<R>, N>,
 }
 
 /// `sum_j w_j z_j`
-pub fn combined<R: Real, const N: usize, const S: usize>(weights: &[R; S], z: &[[R; N]; S]) -> [R; N] {
+pub(super) fn combined<R: Real, const N: usize, const S: usize>(weights: &[R; S], z: &[[R; N]; S]) -> [R; N] {
     entries(|k| (0..S).fold(R::zero(), |sum, j| sum + weights[j] * z[j][k]))
 }
 
@@ -165,7 +171,7 @@ fn products<R: Real, const N: usize, const S: usize>(matrix: &[[R; S]; S], z: &[
 }
 
 /// `lambda - J`
-pub fn shifted<R: Real, const N: usize>(jacobian: &[[R; N]; N], lambda: R) -> [[R; N]; N] {
+pub(super) fn shifted<R: Real, const N: usize>(jacobian: &[[R; N]; N], lambda: R) -> [[R; N]; N] {
     core::array::from_fn(|i| entries(|j| if i == j { lambda - jacobian[i][j] } else { -jacobian[i][j] }))
 }
 

@@ -50,7 +50,7 @@ pub(super) struct Defect<'a, R, const N: usize> {
 impl<R: Ordered, const N: usize> Defect<'_, R, N> {
     /// Whether the defect is within the tolerance, or no more than the rounding of the rates. `rates` are `f` at the place.
     #[inline]
-    pub fn is_none<S>(&self, system: &S, rates: &[R; N]) -> bool
+    pub(super) fn is_none<S>(&self, system: &S, rates: &[R; N]) -> bool
     where
         S: TaylorSeries<R, N> + ?Sized,
     {
@@ -59,7 +59,7 @@ impl<R: Ordered, const N: usize> Defect<'_, R, N> {
 
     /// Whether the defect is within the tolerance.
     #[inline(always)]
-    pub fn is_small(&self, rates: &[R; N]) -> bool {
+    pub(super) fn is_small(&self, rates: &[R; N]) -> bool {
         // All of them, without a branch in between.
         let mut small = true;
         for ((slope, rate), weight) in self.slope.iter().zip(rates).zip(self.weights) {

@@ -158,15 +158,6 @@ impl SystemGraph {
         })
     }
 
-    /// Whether a frame is another one or hangs on it.
-    pub fn hangs_on(&self, id: FrameId, other: FrameId) -> bool {
-        let mut place = id;
-        while place > other {
-            place = self.frame(place).parent;
-        }
-        place == other
-    }
-
     /// The graph without frames of which nothing speaks and on which nothing hangs.
     pub fn pruned(mut self) -> SystemGraph {
         let mut used = vec![false; self.frames.len()];

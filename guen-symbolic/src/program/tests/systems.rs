@@ -1,5 +1,6 @@
 //! Operation counts of known systems: golden values.
 
+use super::super::builder::Effort;
 use super::super::{Formulation, ProgramBuilder, Programs};
 use super::{Dice, agree, check};
 use crate::algebra::{ExprId, Graph, Role};
@@ -302,7 +303,7 @@ fn chain_counts() {
         for (formulation, expected) in [(plain, whole), (entries, with_names)] {
             let start = std::time::Instant::now();
             let mut builder = ProgramBuilder::new(&mut graph);
-            builder.add_cheapest("rates", &[formulation]);
+            builder.add("rates", &[formulation], Effort::Hot);
             let programs = builder.finish();
             report(&format!("chain of {n} in {:?}", start.elapsed()), &programs);
             agree(&graph, &outputs, &programs, &mut Dice(7));
@@ -320,7 +321,7 @@ fn the_cheapest_formulation_is_taken() {
     let plain = Formulation { definitions: Vec::new(), outputs: plain };
     let entries = named(&mut graph, &mass, &forces);
     let mut builder = ProgramBuilder::new(&mut graph);
-    assert_eq!(builder.add_cheapest("accelerations", &[plain, entries]), 1);
+    assert_eq!(builder.add("accelerations", &[plain, entries], Effort::Hot), 1);
     builder.add_function("rates", &rates);
     let programs = builder.finish();
     assert_eq!(programs.functions[0].outputs.len(), 5);
