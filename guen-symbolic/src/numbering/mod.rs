@@ -99,6 +99,7 @@ impl Op {
 }
 
 /// The table of numbered expressions.
+#[derive(Clone)]
 pub(crate) struct Numbering {
     ops: Vec<Op>,
     residues: Vec<u64>,

@@ -93,11 +93,13 @@ pub(super) struct Assembly<'a> {
     form: Form,
     /// The mass matrix of the parameters and their forces, once they were solved for at the root.
     pub(super) at_the_root: Option<(Vec<Vec<Num>>, Vec<Num>)>,
+    /// The numbering of these, where the rates have another one.
+    pub(super) table_of_root: Option<Numbering>,
 }
 
 impl<'a> Assembly<'a> {
     pub(super) fn new(kinematics: Kinematics<'a>) -> Self {
-        Assembly { kinematics, form: Form::default(), at_the_root: None }
+        Assembly { kinematics, form: Form::default(), at_the_root: None, table_of_root: None }
     }
 
     /// A product of two velocities in the energy.
@@ -244,15 +246,24 @@ impl<'a> Assembly<'a> {
     }
 
     /// Takes everything back to the parameters, and solves: the rates of the parameters, and what was divided by. The cheaper
-    /// of two orders.
+    /// of two orders, each in a numbering of its own: both have the same values, and the second would find the first's.
     pub(super) fn solve(&mut self) -> Option<(Vec<Num>, Vec<Num>)> {
         let bias = self.core_bias();
         let form = self.form.clone();
+        let table = self.kinematics.numbers.clone();
         let at_the_root = self.solved_in(&bias, Order::AtTheRoot)?;
         self.form = form;
-        let Some(on_the_way) = self.solved_in(&bias, Order::OnTheWay) else { return Some(at_the_root) };
-        let cost = |(rates, _): &(Vec<Num>, Vec<Num>)| self.kinematics.numbers.cost(rates);
-        Some(if cost(&on_the_way) < cost(&at_the_root) { on_the_way } else { at_the_root })
+        let table = std::mem::replace(self.kinematics.numbers, table);
+        let on_the_way =
+            self.solved_in(&bias, Order::OnTheWay).filter(|_| self.kinematics.numbers.is_sound());
+        if let Some(on_the_way) = on_the_way
+            && self.kinematics.numbers.cost(&on_the_way.0) < table.cost(&at_the_root.0)
+        {
+            self.table_of_root = Some(table);
+            return Some(on_the_way);
+        }
+        *self.kinematics.numbers = table;
+        Some(at_the_root)
     }
 
     /// The mass matrix of the parameters and their forces, at the root.
@@ -271,7 +282,7 @@ impl<'a> Assembly<'a> {
     /// Substitutes everything by the parameters, which it returns.
     fn reach_parameters(&mut self, bias: &[Num], order: Order) -> Option<Vec<Var>> {
         let (variables, plan) = (self.kinematics.variables, self.kinematics.plan);
-        self.inwards(order)?;
+        self.inwards(order, bias)?;
         for (index, var) in plan.unknowns.iter().enumerate().rev() {
             let solution = self.kinematics.core.solutions[index].clone();
             self.form.substitute(self.kinematics.numbers, *var, &solution, bias[index]);
@@ -332,7 +343,7 @@ impl<'a> Assembly<'a> {
     }
 
     /// Substitutes every velocity by those from which it follows, the youngest first; pairs are turned together.
-    fn inwards(&mut self, when: Order) -> Option<()> {
+    fn inwards(&mut self, when: Order, bias: &[Num]) -> Option<()> {
         let (tree, variables, plan) = (self.kinematics.tree, self.kinematics.variables, self.kinematics.plan);
         let roots = self.form.variables();
         let order = order(self.kinematics.numbers, tree, variables, plan, &roots);
@@ -340,29 +351,37 @@ impl<'a> Assembly<'a> {
         let mut users: BTreeMap<Var, usize> = BTreeMap::new();
         let mut definitions: BTreeMap<Var, (Vec<(Var, Num)>, Num)> = BTreeMap::new();
         for var in &order {
-            if let Some(found) = definition(self.kinematics.numbers, tree, variables, plan, *var) {
+            let found = match plan.def(*var) {
+                // An unknown leaves as soon as nothing follows from it.
+                Some(Def::Core(index)) if when == Order::OnTheWay => {
+                    Some((self.kinematics.core.solutions[index].clone(), bias[index]))
+                }
+                Some(Def::Core(_)) => None,
+                _ => {
+                    let found = definition(self.kinematics.numbers, tree, variables, plan, *var);
+                    found.map(|(terms, _)| (terms, Num::ZERO))
+                }
+            };
+            if let Some(found) = found {
                 found.0.iter().for_each(|(other, _)| *users.entry(*other).or_default() += 1);
                 definitions.insert(*var, found);
             } else if !matches!(plan.def(*var), Some(Def::Known | Def::Core(_))) {
                 return None;
             }
         }
-        // What the core is made of is needed until its unknowns leave.
-        for (eta, _) in self.kinematics.core.solutions.iter().flatten() {
-            *users.entry(*eta).or_default() += 1;
-        }
+        let etas: Vec<Var> = (0..self.kinematics.system.forms.degrees).map(|s| variables.eta(s)).collect();
         let mut left: Vec<Var> = order.iter().copied().filter(|var| definitions.contains_key(var)).collect();
         while !left.is_empty() {
             if when == Order::OnTheWay {
-                self.eliminate_free(&order, &users);
+                self.eliminate_free(&etas, &users);
             }
             let is_ready = |var: &Var| users.get(var).copied().unwrap_or(0) == 0;
             let plainly = left.iter().rposition(|var| is_ready(var) && self.pair(*var, &left).is_none());
             let mut gone: Vec<Var> = Vec::new();
             if let Some(place) = plainly {
                 let var = left[place];
-                let terms = definitions[&var].0.clone();
-                self.form.substitute(self.kinematics.numbers, var, &terms, Num::ZERO);
+                let (terms, bias) = definitions[&var].clone();
+                self.form.substitute(self.kinematics.numbers, var, &terms, bias);
                 gone.push(var);
             } else {
                 // All ready pairs of the youngest axes.
@@ -380,8 +399,8 @@ impl<'a> Assembly<'a> {
                     // A pair one of which is still in use: each by itself.
                     let place = left.iter().rposition(is_ready)?;
                     let var = left[place];
-                    let terms = definitions[&var].0.clone();
-                    self.form.substitute(self.kinematics.numbers, var, &terms, Num::ZERO);
+                    let (terms, bias) = definitions[&var].clone();
+                    self.form.substitute(self.kinematics.numbers, var, &terms, bias);
                     left.remove(place);
                     for (other, _) in &definitions[&var].0 {
                         *users.get_mut(other)? -= 1;

@@ -211,9 +211,9 @@ fn attempt(
     let mut own = Numbering::new(&mut bench.graph, point, generation);
     let solved = assembled(bench, &mut own, (system, l), frame, partials, |assembly, velocities| {
         let (accelerations, pivots) = assembly.solve()?;
-        Some((velocities, accelerations, pivots, assembly.at_the_root.take()))
+        Some((velocities, accelerations, pivots, assembly.at_the_root.take(), assembly.table_of_root.take()))
     });
-    let (velocities, accelerations, pivots, at_the_root) = solved?;
+    let (velocities, accelerations, pivots, at_the_root, table_of_root) = solved?;
     if !own.is_sound() {
         return None;
     }
@@ -223,7 +223,7 @@ fn attempt(
     let cost = weighted_cost(&bench.graph, &rates);
     let equations = at_the_root.filter(|_| is_stated(cost)).map(|(mass, forces)| {
         let entries: Vec<Num> = mass.into_iter().flatten().chain(forces).collect();
-        let mut entries = own.export(&mut bench.graph, &entries);
+        let mut entries = table_of_root.as_ref().unwrap_or(&own).export(&mut bench.graph, &entries);
         let forces = entries.split_off(l * l);
         Equations { mass: (0..l).map(|s| entries[s * l..][..l].to_vec()).collect(), forces }
     });
