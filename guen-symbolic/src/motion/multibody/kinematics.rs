@@ -367,7 +367,10 @@ impl<'a> Kinematics<'a> {
                 let parent = [0, 1, 2].map(|r| self.rate(self.variables.spin(node.parent, r)));
                 let column = [matrix[0][q], matrix[1][q], matrix[2][q]];
                 let carried = self.numbers.dot(&column, &parent);
-                let own = self.form_rate(&spin[q]);
+                let own = match self.variables.of_joint(axes, q) {
+                    Some(_) => Num::ZERO,
+                    None => self.form_rate(&spin[q]),
+                };
                 let relative = self.relative_spin(axes);
                 let whole = self.spin(axes);
                 let turning = cross(self.numbers, &whole, &relative)[q];

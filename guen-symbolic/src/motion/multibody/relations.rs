@@ -91,6 +91,10 @@ pub(super) fn back(
             let mut terms: Linear = (0..3).map(|q| (images[q], matrix[place][q])).collect();
             if matches!(variables.kind(image), Kind::Spin(..)) {
                 for q in 0..3 {
+                    if let Some((var, c)) = variables.of_joint(axes, q) {
+                        terms.push((var, numbers.mul(matrix[place][q], c).neg()));
+                        continue;
+                    }
                     for (i, c) in &spin[q].terms {
                         terms.push((variables.rate(*i), numbers.mul(matrix[place][q], *c).neg()));
                     }
@@ -143,7 +147,10 @@ pub(super) fn raw_kinematic(tree: &Tree, variables: &Variables, var: Var) -> Opt
                 }
                 Turn::By { matrix, spin } => {
                     terms.extend((0..3).map(|r| (parent(r), matrix[r][q])));
-                    form(&mut terms, &mut offset, &spin[q]);
+                    match variables.of_joint(axes, q) {
+                        Some(own) => terms.push(own),
+                        None => form(&mut terms, &mut offset, &spin[q]),
+                    }
                 }
             }
         }

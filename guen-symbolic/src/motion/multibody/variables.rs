@@ -31,6 +31,8 @@ pub(super) struct Variables {
     /// Combinations of the parameters, the last entry for what is there without them.
     pub(super) columns: Vec<Vec<u64>>,
     pub(super) classes: Vec<Class>,
+    /// Components of the spin of axes against their parent that are multiples of a parameter.
+    joints: Vec<[Option<(Var, Num)>; 3]>,
 }
 
 /// The velocity that a variable is: of a parameter, a point, a spin.
@@ -111,6 +113,7 @@ impl Variables {
             points: tree.points.len(),
             columns: Vec::new(),
             classes: Vec::new(),
+            joints: Vec::new(),
         };
         all.columns = vec![vec![0; l + 1]; all.len()];
         for s in 0..l {
@@ -119,9 +122,28 @@ impl Variables {
         for (i, rate) in rates.into_iter().enumerate() {
             all.columns[l + i] = rate;
         }
+        all.joints = tree.axes.iter().map(|node| all.joint(numbers, &node.turn)).collect();
         all.fill(numbers, tree);
         all.classify(numbers, tree);
         Some(all)
+    }
+
+    /// A component of the spin of axes against their parent, where that is a multiple of a parameter: that of a ball joint
+    /// is, and the rates of its quaternion need not be known. None where the whole spin is known: then these follow from it.
+    pub(super) fn of_joint(&self, axes: usize, q: usize) -> Option<(Var, Num)> {
+        let var = self.spin(axes, q);
+        self.joints[axes][q].filter(|_| self.class(var) == Class::Of(var, Num::ONE))
+    }
+
+    fn joint(&self, numbers: &Numbering, turn: &Turn) -> [Option<(Var, Num)>; 3] {
+        let Turn::By { spin, .. } = turn else { return [None; 3] };
+        [0, 1, 2].map(|q| {
+            let column = self.form(numbers, &spin[q]);
+            let mut nonzero = (0..).zip(&column).filter(|(_, entry)| **entry != 0);
+            let (Some((place, factor)), None) = (nonzero.next(), nonzero.next()) else { return None };
+            let factor = numbers.with_residue(*factor).filter(|factor| numbers.is_constant(*factor))?;
+            (place < self.etas).then(|| (self.eta(place), factor))
+        })
     }
 
     /// Whether a velocity vanishes or is a multiple of a parameter.
