@@ -164,6 +164,12 @@ impl Kinematics<'_> {
             return self.numbers.sub(rate, weight);
         }
         let parent = self.acceleration(node.parent, q);
+        if let Some(arm) = &node.arm {
+            let gradient = self.gradient(arm.axes);
+            let own = gradient.map(|row| self.numbers.dot(&row, &arm.vector));
+            let carried = self.tree.seen_in(self.numbers, axes, arm.axes, &own)[q];
+            return self.numbers.add(parent, carried);
+        }
         let gradient = self.gradient(axes);
         let carried = self.numbers.dot(&gradient[q], &node.offset);
         let mut sum = self.numbers.add(parent, carried);

@@ -19,6 +19,8 @@ pub(super) struct Point {
     pub(super) offset: Vector,
     /// Whether that is no constant: then it has the axes of the point that it is seen from.
     pub(super) slides: bool,
+    /// The axes in which it is constant nevertheless, and what it is there: axes that hang on those of the point.
+    pub(super) arm: Option<(usize, Vector)>,
 }
 
 /// A place by the axes of its terms, in ascending order.
@@ -32,7 +34,7 @@ pub(super) struct Points {
 impl Points {
     pub(super) fn new(bench: &Workbench) -> Self {
         let offset = [bench.graph.zero(); 3];
-        Points { list: vec![Point { axes: 0, parent: 0, offset, slides: false }] }
+        Points { list: vec![Point { axes: 0, parent: 0, offset, slides: false, arm: None }] }
     }
 
     fn push(&mut self, point: Point) -> usize {
@@ -53,16 +55,24 @@ impl Points {
     ) -> (usize, Vector) {
         // What hangs elsewhere is seen in the axes where the ways part.
         let mut own = [bench.graph.zero(); 3];
-        let mut rest = Terms::new();
+        let (mut rest, mut arms) = (Terms::new(), Vec::new());
         for (place, vector) in terms {
             if *place == axes || !all.hangs_on(axes, *place) && self.parts_at(all, axes, *place) == axes {
                 let seen = all.seen_from(bench, axes, *place, vector);
-                own = [0, 1, 2].map(|i| bench.graph.add(own[i], seen[i]));
+                if *place != axes && vector.iter().all(|e| bench.graph.roles(*e).is_constant()) {
+                    arms.push((seen, (*place, *vector)));
+                } else {
+                    own = [0, 1, 2].map(|i| bench.graph.add(own[i], seen[i]));
+                }
             } else {
                 rest.push((*place, *vector));
             }
         }
-        let (base, ahead) = self.origin(bench, all, axes, &rest);
+        let (mut base, ahead) = self.origin(bench, all, axes, &rest);
+        // One after the other, so that what hangs further out is seen from the same points.
+        for (offset, arm) in arms {
+            base = self.push(Point { axes, parent: base, offset, slides: true, arm: Some(arm) });
+        }
         if let Turned::About { axis, .. } = all.list[axes].turned {
             own[axis] = bench.graph.add(own[axis], ahead);
         }
@@ -73,7 +83,7 @@ impl Points {
         if moving == [zero; 3] {
             return (base, fixed);
         }
-        (self.push(Point { axes, parent: base, offset: moving, slides: true }), fixed)
+        (self.push(Point { axes, parent: base, offset: moving, slides: true, arm: None }), fixed)
     }
 
     /// The origin of axes whose place has these terms, none of them in the axes themselves, and how far that place is from it
@@ -87,7 +97,7 @@ impl Points {
         if let Turned::About { axis, .. } = all.list[axes].turned {
             ahead = core::mem::replace(&mut offset[axis], ahead);
         }
-        (self.push(Point { axes, parent, offset, slides: false }), ahead)
+        (self.push(Point { axes, parent, offset, slides: false, arm: None }), ahead)
     }
 
     /// The youngest axes on which both hang.

@@ -162,6 +162,11 @@ pub(super) fn raw_kinematic(tree: &Tree, variables: &Variables, var: Var) -> Opt
             let axes = tree.points[node.parent].axes;
             let (j, k) = ((q + 1) % 3, (q + 2) % 3);
             terms.push((variables.velocity(node.parent, q), Num::ONE));
+            if let Some(arm) = &node.arm {
+                terms.extend((0..3).map(|r| (variables.spin(arm.axes, r), arm.by_spin[q][r])));
+                terms.retain(|(_, c)| !c.is_zero());
+                return Some((terms, offset));
+            }
             terms.push((variables.spin(axes, j), node.offset[k]));
             terms.push((variables.spin(axes, k), node.offset[j].neg()));
             if let Some(rate) = &node.rate {

@@ -52,6 +52,16 @@ pub(super) struct PointNode {
     pub(super) offset: Vec3,
     /// Its rate in these axes, where it is not constant.
     pub(super) rate: Option<[RateForm; 3]>,
+    /// What turns it, where that is all that it does.
+    pub(super) arm: Option<Arm>,
+}
+
+/// A vector that is constant in axes which hang on those of a point.
+pub(super) struct Arm {
+    pub(super) axes: usize,
+    pub(super) vector: Vec3,
+    /// Its rate in space by the spin of the axes, along those of the point.
+    pub(super) by_spin: Mat3,
 }
 
 /// The mass that moves with axes: about the origin of a point, or about any.
@@ -163,7 +173,18 @@ impl Tree {
         for point in &self.origins.list[self.points.len()..] {
             let offset = point.offset.map(|e| numbers.import(bench, e));
             let rate = point.slides.then(|| point.offset.map(|e| rate_of(bench, numbers, system, e)));
-            self.points.push(PointNode { axes: point.axes, parent: point.parent, offset, rate });
+            let arm = point.arm.map(|(axes, vector)| {
+                let vector = vector.map(|e| numbers.import(bench, e));
+                let mut columns = [[Num::ZERO; 3]; 3];
+                for (r, column) in columns.iter_mut().enumerate() {
+                    let mut unit = [Num::ZERO; 3];
+                    unit[r] = Num::ONE;
+                    let turned = cross(numbers, &unit, &vector);
+                    *column = self.seen_in(numbers, point.axes, axes, &turned);
+                }
+                Arm { axes, vector, by_spin: [0, 1, 2].map(|q| columns.map(|column| column[q])) }
+            });
+            self.points.push(PointNode { axes: point.axes, parent: point.parent, offset, rate, arm });
         }
     }
 
