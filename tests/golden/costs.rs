@@ -95,6 +95,9 @@ fn mechanisms() -> String {
         ("arm5", arms::declaration("Arm", &arms::AXES[..5])),
         ("quadruped", robots::quadruped()),
         ("biped-quat", robots::biped_on_quaternion()),
+        ("rods2", robots::rods(2, false)),
+        ("rods4", robots::rods(4, false)),
+        ("rods4-rel", robots::rods(4, true)),
         ("bars2", bars::in_angles(2)),
         ("bars2-xy", bars::in_points(2)),
     ];

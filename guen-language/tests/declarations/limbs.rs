@@ -4,8 +4,8 @@ use std::fmt::Write;
 
 use crate::common::{derived, evaluated};
 use crate::families::robots;
-use guen_language::derive::{Derived, function};
-use guen_symbolic::{SymbolId, evaluate_f64};
+use guen_language::derive::{Derived, Level, function};
+use guen_symbolic::{Graph, SymbolId, evaluate_f64};
 
 /// A level's rates, put into its equations at a state.
 fn residual(derived: &Derived<'_>) -> f64 {
@@ -19,13 +19,18 @@ fn residual(derived: &Derived<'_>) -> f64 {
             _ => 0.4 * draw,
         }
     };
+    left(level, graph, &value)
+}
+
+/// What is left of the equations with a level's rates, relative to what is in them.
+fn left(level: &Level, graph: &Graph, value: &impl Fn(SymbolId) -> f64) -> f64 {
     let rates = evaluated(level, function::RHS, value).unwrap();
     let equations = &level.derivation.equations;
-    let forces = evaluate_f64(graph, &equations.forces, &value);
+    let forces = evaluate_f64(graph, &equations.forces, value);
     let accelerations = &rates[rates.len() - forces.len()..];
     let mut worst = 0.0_f64;
     for (row, force) in equations.mass.iter().zip(&forces) {
-        let row = evaluate_f64(graph, row, &value);
+        let row = evaluate_f64(graph, row, value);
         let parts: Vec<f64> = row.iter().zip(accelerations).map(|(m, rate)| m * rate).collect();
         let size: f64 = parts.iter().map(|part| part.abs()).sum();
         worst = worst.max((parts.iter().sum::<f64>() - force).abs() / (1.0 + size + force.abs()));
@@ -155,4 +160,39 @@ fn a_quadruped_costs_so_many_operations_and_solves_its_equations() {
         assert!(level.derivation.is_by("bodies"));
         assert!(residual(derived) < 1e-11);
     });
+}
+
+/// The quaternions are of length one: elsewhere nothing is promised of what moves on the constraints.
+fn residual_on_quaternions(derived: &Derived<'_>) -> f64 {
+    let level = &derived.system;
+    let graph = &derived.model.bench.graph;
+    let draw =
+        |name: &str| (7.3 * (1.0 + name.bytes().fold(0.0, |sum, byte| 1.7 * sum + f64::from(byte)))).sin();
+    let value = |symbol: SymbolId| {
+        let name = &graph.symbol_info(symbol).name;
+        let entry = |letter: char| draw(&format!("{letter}{}", &name[1..]));
+        match name.as_bytes()[0] {
+            b'w' | b'x' | b'y' | b'z' => {
+                let length = ['w', 'x', 'y', 'z'].map(|letter| entry(letter).powi(2)).iter().sum::<f64>();
+                draw(name) / length.sqrt()
+            }
+            b'l' | b'm' | b'I' | b'J' => 1.5 + draw(name),
+            _ => 2.0 * draw(name),
+        }
+    };
+    left(level, graph, &value)
+}
+
+#[test]
+fn a_further_rod_on_a_ball_joint_costs_so_many_operations() {
+    for (is_relative, most) in [(false, [45, 320, 640, 1_080]), (true, [45, 320, 700, 1_180])] {
+        for (count, most) in (1..).zip(most) {
+            derived(&robots::rods(count, is_relative), |derived| {
+                let cost = derived.system.program(function::RHS).unwrap().cost;
+                assert!(cost.operations() <= most, "{count}: {}", cost.operations());
+                assert!(derived.system.derivation.is_by("bodies"));
+                assert!(residual_on_quaternions(derived) < 1e-11, "{}", residual_on_quaternions(derived));
+            });
+        }
+    }
 }

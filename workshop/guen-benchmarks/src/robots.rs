@@ -54,6 +54,32 @@ pub fn biped_on_quaternion() -> String {
     on_quaternion(&declaration(&legs.collect::<Vec<_>>()))
 }
 
+/// Rods on ball joints, the first one on the ground: each with a quaternion of its own, in the world or in the rod before.
+pub fn rods(count: usize, is_relative: bool) -> String {
+    let list = |entry: &dyn Fn(usize) -> String| (1..=count).map(entry).collect::<Vec<_>>();
+    let turn = |i: usize| format!("quaternion(w{i}, x{i}, y{i}, z{i})");
+    let lets = list(&|i| {
+        let (old, turn) = (i - 1, turn(i));
+        let before = if is_relative { format!("R{old}*") } else { String::new() };
+        format!(
+            "let R{i} = {before}{turn}; let c{i} = e{old} + l{i}/2*R{i}.x; let e{i} = e{old} + l{i}*R{i}.x;"
+        )
+    });
+    format!(
+        "pub system Rods {{ constants {{ g = 9.81, {} }} coordinates {{ {} }} let R0 = rot_z(0); let e0 = vec(0, 0, 0); {} \
+         holonomic {{ {} }} bodies {{ {} }} parameters {{ {} }} gravity = vec(0, 0, -g); }}",
+        list(&|i| format!("l{i} > 0, m{i} > 0, I{i} > 0, J{i} > 0")).join(", "),
+        list(&|i| format!("w{i}, x{i}, y{i}, z{i}")).join(", "),
+        lets.join(" "),
+        list(&|i| format!("unit{i}: w{i}^2 + x{i}^2 + y{i}^2 + z{i}^2 = 1;")).join(" "),
+        list(&|i| format!(
+            "B{i} {{ mass: m{i}, inertia: diag(J{i}, I{i}, I{i}), center: c{i}, orientation: R{i} }}"
+        ))
+        .join(" "),
+        list(&|i| format!("spin{i} = angular_velocity_body({});", turn(i))).join(" "),
+    )
+}
+
 /// A declaration with a quaternion for the angles of the first body.
 pub fn on_quaternion(declaration: &str) -> String {
     let [orientation, angles] = ["rot_z(yaw)*rot_y(pitch)*rot_x(roll)", "yaw, pitch, roll"];
