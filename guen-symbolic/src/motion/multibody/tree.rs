@@ -52,7 +52,7 @@ pub(super) struct PointNode {
     pub(super) offset: Vec3,
     /// Its rate in these axes, where it is not constant.
     pub(super) rate: Option<[RateForm; 3]>,
-    /// What turns it, where that is all that it does.
+    /// The vector that turns, where the place moves by that alone.
     pub(super) arm: Option<Arm>,
 }
 
