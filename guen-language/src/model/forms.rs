@@ -82,7 +82,7 @@ impl Evaluator<'_> {
         );
     }
 
-    /// The difference of the sides of an equation in positions, unless its sign shows that it vanishes nowhere.
+    /// The difference of the sides of an equation in positions, unless its range shows that it vanishes nowhere.
     fn somewhere(&mut self, equation: &Equation, position: Value) -> Evaluated {
         for f in position.expressions() {
             if !self.bench.graph.roles(f).has(Role::Coordinate) {
@@ -90,8 +90,8 @@ impl Evaluator<'_> {
             }
             let opposite = self.bench.graph.neg(f);
             let graph = &self.bench.graph;
-            let found = [f, opposite].into_iter().find(|f| graph.manifestly_positive(*f));
-            if found.is_none() && !graph.manifestly_nonzero(f) {
+            let found = [f, opposite].into_iter().find(|f| graph.is_above_zero(*f));
+            if found.is_none() && !graph.vanishes_nowhere(f) {
                 continue;
             }
             let name = &equation.name.text;

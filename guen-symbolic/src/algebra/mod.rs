@@ -10,6 +10,7 @@ mod derivative;
 mod functions;
 mod graph;
 mod map;
+mod ranges;
 mod rational;
 mod search;
 mod substitute;
