@@ -190,20 +190,22 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
     Plot::new("The hoop's centre from above")
         .equal_scale(true)
         .axes("xi in m", "eta in m")
-        .line("measured", record.iter().map(|(_, _, _, m, _)| (m[0], m[1])))
-        .line("true", record.iter().map(|(_, s, ..)| (s.xi, s.eta)))
+        .faint("measured", record.iter().map(|(_, _, _, m, _)| (m[0], m[1])))
+        // Broad and behind: the estimate lies on it.
+        .band("true", record.iter().map(|(_, s, ..)| (s.xi, s.eta)))
         .line("estimated", record.iter().map(|(_, _, e, ..)| (e.xi, e.eta)))
         .save(pictures.join("track.svg"))?;
     let sigma = |k: usize| record.iter().map(move |(t, _, _, _, p)| (*t, 2.0 * p[(k, k)].sqrt()));
+    // What is no number is a gap: one curve above, and below.
+    let gap = [(f64::NAN, f64::NAN)];
     Plot::new("The error of the tilt, and two standard deviations of the filter")
         .axes("t in s", "rad")
         .line("error", record.iter().map(|(t, s, e, ..)| (*t, e.theta - s.theta)))
-        .line("bound", sigma(0))
-        .line("", sigma(0).map(|(t, s)| (t, -s)))
+        .line("two standard deviations", sigma(0).chain(gap).chain(sigma(0).map(|(t, s)| (t, -s))))
         .save(pictures.join("tilt.svg"))?;
     Plot::new("What is not measured: the turning eta2")
         .axes("t in s", "rad/s")
-        .line("true", record.iter().map(|(t, s, ..)| (*t, s.eta2)))
+        .band("true", record.iter().map(|(t, s, ..)| (*t, s.eta2)))
         .line("estimated", record.iter().map(|(t, _, e, ..)| (*t, e.eta2)))
         .save(pictures.join("turning.svg"))?;
     println!("pictures: track.svg, tilt.svg and turning.svg in {}", pictures.display());

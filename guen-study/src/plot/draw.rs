@@ -9,6 +9,7 @@ use plotters::element::{Circle, DashedPathElement, PathElement, Text};
 use plotters::prelude::{Color, FontTransform, IntoFont, RGBColor, ShapeStyle, WHITE};
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
+use super::ends::beside;
 use super::frame::{
     ENDS, Entry, Frame, MARGIN, SAMPLE, SAMPLE_GAP, TEXT_SIZE, TICK_GAP, TICK_SIZE, TITLE_SIZE, text_width,
 };
@@ -26,29 +27,33 @@ const HEIGHTS: std::ops::RangeInclusive<u32> = 180..=20_000;
 const MANY: usize = 4000;
 const COLUMN: f64 = 0.25;
 
-/// The colours of Okabe and Ito without their yellow, which is too faint for a line on white.
-const PALETTE: [RGBColor; 7] = [
-    RGBColor(0x00, 0x72, 0xb2), // blue
-    RGBColor(0xd5, 0x5e, 0x00), // vermilion
-    RGBColor(0x00, 0x9e, 0x73), // bluish green
-    RGBColor(0xcc, 0x79, 0xa7), // reddish purple
-    RGBColor(0xe6, 0x9f, 0x00), // orange
-    RGBColor(0x56, 0xb4, 0xe9), // sky blue
-    RGBColor(0x00, 0x00, 0x00),
+/// Hues that stay apart for the common kinds of colour blindness, each in a tone for white and in one for a dark
+/// background; either has a contrast of at least 3:1 there. The viewer has the same.
+const PALETTE: [[RGBColor; 2]; 6] = [
+    [RGBColor(0x00, 0x72, 0xb2), RGBColor(0x56, 0xb4, 0xe9)], // blue
+    [RGBColor(0xc2, 0x4a, 0x00), RGBColor(0xf0, 0x88, 0x3e)], // vermilion
+    [RGBColor(0x00, 0x7a, 0x58), RGBColor(0x2f, 0xc7, 0x9a)], // bluish green
+    [RGBColor(0xa8, 0x3f, 0x80), RGBColor(0xe5, 0x9a, 0xc5)], // reddish purple
+    [RGBColor(0x8a, 0x64, 0x00), RGBColor(0xe8, 0xb6, 0x4a)], // ochre
+    [RGBColor(0x4d, 0x56, 0x61), RGBColor(0xb9, 0xc2, 0xcc)], // grey
 ];
-const INK: RGBColor = RGBColor(0x22, 0x22, 0x22);
-const AXIS: RGBColor = RGBColor(0x66, 0x66, 0x66);
-const GRID: RGBColor = RGBColor(0xe6, 0xe6, 0xe6);
-const ZERO: RGBColor = RGBColor(0xb8, 0xb8, 0xb8);
-const BAND: RGBColor = RGBColor(0xd2, 0xd2, 0xd2);
+const PAPER: [RGBColor; 2] = [WHITE, RGBColor(0x1b, 0x1f, 0x24)];
+const INK: [RGBColor; 2] = [RGBColor(0x22, 0x22, 0x22), RGBColor(0xe8, 0xea, 0xed)];
+const AXIS: [RGBColor; 2] = [RGBColor(0x66, 0x66, 0x66), RGBColor(0x9a, 0xa3, 0xac)];
+const GRID: [RGBColor; 2] = [RGBColor(0xe6, 0xe6, 0xe6), RGBColor(0x34, 0x3b, 0x43)];
+const ZERO: [RGBColor; 2] = [RGBColor(0xb8, 0xb8, 0xb8), RGBColor(0x5a, 0x65, 0x70)];
+const BAND: [RGBColor; 2] = [RGBColor(0xd2, 0xd2, 0xd2), RGBColor(0x4a, 0x50, 0x57)];
 
 /// Widths of strokes, the radius of a mark at an end, and the dash with its gap, in pixels.
 const CURVE_STROKE: f64 = 1.6;
+/// Letters of labels at the ends of faint curves.
+const END_SIZE: f64 = 11.0;
 const LINE_STROKE: f64 = 1.0;
 const END_RADIUS: f64 = 4.0;
 const POINT_RADIUS: f64 = 2.2;
 const BAND_STROKE: f64 = 9.0;
-const DASH: (f64, f64) = (7.0, 4.0);
+/// From the seventh curve on, from the thirteenth on, from the nineteenth on.
+const DASHES: [(f64, f64); 3] = [(7.0, 4.0), (2.0, 3.0), (14.0, 4.0)];
 
 type Canvas<'a> = DrawingArea<SVGBackend<'a>, plotters::coord::Shift>;
 type Drawn = Result<(), DrawingAreaErrorKind<std::io::Error>>;
@@ -77,7 +82,40 @@ pub(super) fn draw(plot: &Plot) -> Result<String, StudyError> {
         "<svg width=\"{}\" height=\"{}\" stroke-linejoin=\"round\" stroke-linecap=\"round\" ",
         plot.width, plot.height
     );
-    Ok(text.replacen(&drawn, &shown, 1))
+    let text = text.replacen(&drawn, &shown, 1);
+    // The first tag is that of the picture.
+    let (head, rest) = text.split_at(text.find('>').map_or(0, |end| end + 1));
+    Ok([head, "\n", &described(plot), &dark_style(), rest.trim_start_matches('\n')].concat())
+}
+
+/// Title and description, which browsers and screen readers tell.
+fn described(plot: &Plot) -> String {
+    let escaped = |text: &str| text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
+    let labels: Vec<_> =
+        plot.drawn().map(|curve| escaped(&curve.label)).filter(|label| !label.is_empty()).collect();
+    let title = if plot.title.is_empty() { labels.join(", ") } else { escaped(&plot.title) };
+    let axes: Vec<_> = [&plot.x_label, &plot.y_label]
+        .map(|label| escaped(label))
+        .into_iter()
+        .filter(|label| !label.is_empty())
+        .collect();
+    let axes = if axes.is_empty() { String::new() } else { format!(" on axes {}", axes.join(" and ")) };
+    let mut text = format!("<title>{title}</title>\n");
+    if !labels.is_empty() {
+        text += &format!("<desc>Curves{axes}: {}</desc>\n", labels.join(", "));
+    }
+    text
+}
+
+/// Other colours for readers whose system is dark: rules of a style win over the colours of the elements.
+fn dark_style() -> String {
+    let code = |RGBColor(r, g, b): RGBColor| format!("#{r:02X}{g:02X}{b:02X}");
+    let colors = PALETTE.iter().chain([&PAPER, &INK, &AXIS, &GRID, &ZERO, &BAND]);
+    let rules = colors.map(|&[light, dark]| {
+        let (light, dark) = (code(light), code(dark));
+        format!("[fill=\"{light}\"]{{fill:{dark}}}[stroke=\"{light}\"]{{stroke:{dark}}}")
+    });
+    format!("<style>@media (prefers-color-scheme:dark){{{}}}</style>\n", rules.collect::<String>())
 }
 
 struct Painter<'a> {
@@ -94,16 +132,21 @@ fn stroke(color: RGBColor, width: f64) -> ShapeStyle {
 }
 
 fn color_of(curve: usize) -> RGBColor {
-    PALETTE[curve % PALETTE.len()]
+    PALETTE[curve % PALETTE.len()][0]
 }
 
 impl Painter<'_> {
     fn picture(self, plot: &Plot, frame: &Frame) -> Drawn {
-        self.canvas.fill(&WHITE)?;
+        self.canvas.fill(&PAPER[0])?;
         self.grid(frame)?;
         if let Some(band) = &plot.band {
             for piece in pieces(plot, band, frame) {
-                self.canvas.draw(&PathElement::new(piece, stroke(BAND, BAND_STROKE)))?;
+                self.canvas.draw(&PathElement::new(piece, stroke(BAND[0], BAND_STROKE)))?;
+            }
+        }
+        for curve in &plot.faint {
+            for piece in pieces(plot, curve, frame) {
+                self.canvas.draw(&PathElement::new(piece, stroke(ZERO[0], LINE_STROKE)))?;
             }
         }
         for (index, curve) in plot.curves.iter().enumerate() {
@@ -126,14 +169,34 @@ impl Painter<'_> {
                 }
             }
         }
+        self.at_ends(plot, frame)?;
         self.labels(plot, frame)?;
         self.legend(plot, frame)?;
         self.canvas.present()
     }
 
+    /// The labels of faint curves.
+    fn at_ends(&self, plot: &Plot, frame: &Frame) -> Drawn {
+        let last = |curve: &Curve| curve.points.iter().rfind(|point| plot.can_draw(point)).copied();
+        let (points, texts): (Vec<_>, Vec<_>) = plot
+            .faint
+            .iter()
+            .filter_map(|curve| Some((last(curve)?, curve.label.as_str())))
+            .map(|((x, y), label)| ((frame.x.at(x), frame.y.at(y)), label))
+            .unzip();
+        let labels = beside(&points, &texts, END_SIZE, frame.x.to, [frame.y.to, frame.y.from]);
+        for (label, text) in labels.into_iter().zip(texts) {
+            if let Some(label) = label {
+                let at = (label.left, label.middle);
+                self.text(text, at, END_SIZE, Pos::new(HPos::Left, VPos::Center), FontTransform::None)?;
+            }
+        }
+        Ok(())
+    }
+
     fn grid(&self, frame: &Frame) -> Drawn {
         let (x, y) = (&frame.x, &frame.y);
-        let color = |value: f64| if value == 0.0 { ZERO } else { GRID };
+        let color = |value: f64| if value == 0.0 { ZERO[0] } else { GRID[0] };
         // The lines through zero come last, to lie above the others where they cross.
         for zero in [false, true] {
             for tick in x.ticks.iter().filter(|tick| (tick.value == 0.0) == zero) {
@@ -145,7 +208,7 @@ impl Painter<'_> {
                 self.line(&[(x.from, at), (x.to, at)], color(tick.value))?;
             }
         }
-        self.line(&[(x.from, y.to), (x.from, y.from), (x.to, y.from)], AXIS)
+        self.line(&[(x.from, y.to), (x.from, y.from), (x.to, y.from)], AXIS[0])
     }
 
     fn labels(&self, plot: &Plot, frame: &Frame) -> Drawn {
@@ -184,7 +247,7 @@ impl Painter<'_> {
         if let (Some(entry), Some(band)) = (&frame.band, &plot.band) {
             let sample = [(entry.left, entry.middle), (entry.left + SAMPLE, entry.middle)];
             let sample = sample.map(fine).to_vec();
-            self.canvas.draw(&PathElement::new(sample, stroke(BAND, BAND_STROKE)))?;
+            self.canvas.draw(&PathElement::new(sample, stroke(BAND[0], BAND_STROKE)))?;
             let at = (entry.left + SAMPLE + SAMPLE_GAP, entry.middle);
             self.text(&band.label, at, TEXT_SIZE, beside, FontTransform::None)?;
         }
@@ -194,9 +257,9 @@ impl Painter<'_> {
             for (text, left) in [(start, left), (end, second)] {
                 let at = (left + SAMPLE - END_RADIUS, middle);
                 if text == start {
-                    self.ring(at, AXIS)?
+                    self.ring(at, AXIS[0])?
                 } else {
-                    self.dot(at, AXIS)?
+                    self.dot(at, AXIS[0])?
                 }
                 self.text(
                     text,
@@ -219,7 +282,8 @@ impl Painter<'_> {
                 self.canvas.draw(&PathElement::new(points, stroke(color, CURVE_STROKE)))
             }
             _ => {
-                let (dash, gap) = ((DASH.0 * FINE) as i32, (DASH.1 * FINE) as i32);
+                let (dash, gap) = DASHES[(index / PALETTE.len() - 1) % DASHES.len()];
+                let (dash, gap) = ((dash * FINE) as i32, (gap * FINE) as i32);
                 self.canvas.draw(&DashedPathElement::new(points, dash, gap, stroke(color, CURVE_STROKE)))
             }
         }
@@ -227,7 +291,7 @@ impl Painter<'_> {
 
     fn ring(&self, at: (f64, f64), color: RGBColor) -> Drawn {
         let radius = (END_RADIUS * FINE) as i32;
-        self.canvas.draw(&Circle::new(fine(at), radius, WHITE.filled()))?;
+        self.canvas.draw(&Circle::new(fine(at), radius, PAPER[0].filled()))?;
         self.canvas.draw(&Circle::new(fine(at), radius, stroke(color, CURVE_STROKE)))
     }
 
@@ -251,7 +315,7 @@ impl Painter<'_> {
             return Ok(());
         }
         let font = ("sans-serif", size * FINE * EM).into_font().transform(transform);
-        self.canvas.draw(&Text::new(text, fine(at), font.color(&INK).pos(pos)))
+        self.canvas.draw(&Text::new(text, fine(at), font.color(&INK[0]).pos(pos)))
     }
 }
 

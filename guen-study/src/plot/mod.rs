@@ -4,6 +4,7 @@
 //! chooses for an axis; `thin` reduces a curve to what can be seen of it; `draw` hands lines and texts to plotters.
 
 mod draw;
+mod ends;
 mod frame;
 mod thin;
 mod ticks;
@@ -15,8 +16,9 @@ use crate::file::replace_file;
 
 /// Curves on a pair of axes, drawn as SVG.
 ///
-/// - Colours are those of Okabe and Ito's palette, which stay apart for the common kinds of colour blindness; from
-///   the eighth curve on they repeat, dashed.
+/// - Colours stay apart for the common kinds of colour blindness and have a contrast of at least 3:1; from the seventh
+///   curve on they repeat, dashed. Where the reader's system is dark, so is the picture.
+/// - The file begins with the title and what its curves are, for browsers and screen readers.
 /// - The legend stands above the axes, so it hides no curve; curves with an empty label are not in it.
 /// - A point that is not finite, or beyond `1e300`, is a gap in its curve.
 /// - Where values differ by less than `1e-9` of their size, the axis does not magnify further and the curve looks
@@ -54,6 +56,7 @@ pub struct Plot {
     mark_points: bool,
     logarithmic: bool,
     curves: Vec<Curve>,
+    faint: Vec<Curve>,
     band: Option<Curve>,
 }
 
@@ -77,6 +80,7 @@ impl Plot {
             mark_points: false,
             logarithmic: false,
             curves: Vec::new(),
+            faint: Vec::new(),
             band: None,
         }
     }
@@ -133,9 +137,25 @@ impl Plot {
         self
     }
 
-    /// The curves, the band first.
+    /// Adds a thin grey line behind the curves, with its label at its last point: for what the curves are compared with.
+    ///
+    /// ```
+    /// use guen_study::Plot;
+    ///
+    /// let power = |n: i32| (1..=8).map(move |k| 0.5_f64.powi(k)).map(move |h| (h, h.powi(n)));
+    /// let orders = (1..=5).fold(Plot::new("orders").logarithmic(true), |plot, n| plot.faint(format!("h^{n}"), power(n)));
+    /// let text = orders.line("measured", power(3)).to_svg()?;
+    /// assert!(text.contains("h^5"));
+    /// # Ok::<(), guen_study::StudyError>(())
+    /// ```
+    pub fn faint(mut self, label: impl Into<String>, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
+        self.faint.push(Curve { label: label.into(), points: points.into_iter().collect() });
+        self
+    }
+
+    /// Everything in the order in which it is drawn: the band first.
     fn drawn(&self) -> impl Iterator<Item = &Curve> {
-        self.band.iter().chain(&self.curves)
+        self.band.iter().chain(&self.faint).chain(&self.curves)
     }
 
     /// Whether a point can be drawn. The bound keeps differences of coordinates finite.
@@ -210,6 +230,45 @@ mod tests {
         assert!(
             text.contains("a &lt; b &amp; c") && text.contains("&lt;x&gt;") && text.contains("p &amp; q")
         );
+    }
+
+    #[test]
+    fn titles_are_told_and_dark_readers_have_their_colours() {
+        let text =
+            Plot::new("a < b").axes("t in s", "").line("p", sine(10)).line("q", sine(5)).to_svg().unwrap();
+        let (_, rest) = text.split_once(">\n").unwrap();
+        assert!(
+            rest.starts_with("<title>a &lt; b</title>\n<desc>Curves on axes t in s: p, q</desc>"),
+            "{rest}"
+        );
+        // Every colour that is drawn has a rule of its own, so nothing stays light in the dark.
+        let (style, drawn) = text.split_once("</style>").unwrap();
+        for part in drawn.split("=\"#").skip(1) {
+            assert!(style.contains(&format!("=\"#{}\"]", &part[..6])), "{}", &part[..6]);
+        }
+        let untitled = Plot::new("").line("p & q", sine(10)).to_svg().unwrap();
+        assert!(untitled.contains("<title>p &amp; q</title>"));
+    }
+
+    #[test]
+    fn colours_of_lines_are_seen() {
+        let luminance = |hex: &str| {
+            let part = |k: usize| f64::from(u8::from_str_radix(&hex[k..k + 2], 16).unwrap()) / 255.0;
+            let linear = |c: f64| if c <= 0.04045 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) };
+            0.2126 * linear(part(0)) + 0.7152 * linear(part(2)) + 0.0722 * linear(part(4))
+        };
+        let text =
+            (0..6).fold(Plot::new("t"), |plot, k| plot.line(format!("{k}"), sine(3 + k))).to_svg().unwrap();
+        let (style, _) = text.split_once("</style>").unwrap();
+        let contrast = |a: f64, b: f64| (f64::max(a, b) + 0.05) / (f64::min(a, b) + 0.05);
+        let mut seen = 0;
+        for rule in style.split("[stroke=\"#").skip(1).take(6) {
+            let (light, dark) = (&rule[..6], &rule.split_once(":#").unwrap().1[..6]);
+            assert!(contrast(luminance(light), 1.0) >= 3.0, "{light}");
+            assert!(contrast(luminance(dark), luminance("1B1F24")) >= 3.0, "{dark}");
+            seen += 1;
+        }
+        assert_eq!(seen, 6);
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! Work against precision as a picture.
 
+use std::collections::BTreeSet;
 use std::path::Path;
 
 use super::report::{Report, Unit};
@@ -13,8 +14,8 @@ const ENOUGH: u32 = 3;
 const NOISY: f64 = 0.5;
 
 impl Report {
-    /// Work against precision: cost over error, both axes logarithmic, a curve for each method over doubles, and the
-    /// front of all variants as a grey band. Rows that failed, or were timed fewer than three
+    /// Work against precision: cost over error, both axes logarithmic, a curve for each method over doubles on the
+    /// front of all variants, which is a grey band; the other methods are thin grey lines with their names at their ends. Rows that failed, or were timed fewer than three
     /// times, or whose interval is wider than the cost itself, are not there.
     pub fn picture(&self) -> Plot {
         let front = self.front();
@@ -46,6 +47,8 @@ impl Report {
                 None => curves.push((label, vec![point])),
             }
         }
+        // What is worth choosing stands out; the rest is there to be compared with.
+        let best: BTreeSet<String> = front.iter().filter(|row| wanted(row)).map(|row| label(row)).collect();
         let front = front.iter().filter_map(|row| row.measured());
         let front: Vec<(f64, f64)> = front.map(|(error, cost)| (error, factor * cost.median)).collect();
         let mut plot = Plot::new(self.title.clone())
@@ -54,7 +57,7 @@ impl Report {
             .logarithmic(true)
             .band("not beaten by any variant", front);
         for (label, points) in curves {
-            plot = plot.line(label, points);
+            plot = if best.contains(&label) { plot.line(label, points) } else { plot.faint(label, points) };
         }
         plot.mark_points(true)
     }
