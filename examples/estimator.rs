@@ -190,7 +190,7 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
     Plot::new("The hoop's centre from above")
         .equal_scale(true)
         .axes("xi in m", "eta in m")
-        .faint("measured", record.iter().map(|(_, _, _, m, _)| (m[0], m[1])))
+        .line("measured", record.iter().map(|(_, _, _, m, _)| (m[0], m[1])))
         // Broad and behind: the estimate lies on it.
         .band("true", record.iter().map(|(_, s, ..)| (s.xi, s.eta)))
         .line("estimated", record.iter().map(|(_, _, e, ..)| (e.xi, e.eta)))

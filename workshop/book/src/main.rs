@@ -1,4 +1,4 @@
-//! Builds the book of guen into `target/book` and checks what it built.
+//! Builds the book of guen into `target/book`, or `book` in the folder CARGO_TARGET_DIR, and checks what it built.
 //!
 //! ```text
 //! cargo run --manifest-path workshop/book/Cargo.toml              # from anywhere in the repository
@@ -10,6 +10,7 @@
 //! a page would load something from a network.
 
 mod check;
+mod formulas;
 #[path = "../../../examples/common/open.rs"]
 mod open;
 
@@ -21,7 +22,7 @@ use std::time::Instant;
 use mdbook_driver::MDBook;
 
 const USAGE: &str = "\
-Builds the book of guen from docs/ into target/book and checks its links.
+Builds the book of guen from docs/ into target/book and checks its links and formulas. CARGO_TARGET_DIR, if set, takes the place of target.
 
 usage: cargo run --manifest-path workshop/book/Cargo.toml -- [--open]
 
@@ -44,11 +45,16 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
         }
     }
     let begin = Instant::now();
-    let book = MDBook::load(Path::new(env!("CARGO_MANIFEST_DIR")))?;
+    let mut book = MDBook::load(Path::new(env!("CARGO_MANIFEST_DIR")))?;
+    // Relative to where the user is, as cargo takes it.
+    if let Some(target) = std::env::var_os("CARGO_TARGET_DIR").filter(|target| !target.is_empty()) {
+        book.config.build.build_dir = std::env::current_dir()?.join(target).join("book");
+    }
+    let mistaken = formulas::set(&mut book);
     book.build()?;
     let folder = book.build_dir_for("html").canonicalize()?;
     let found = check::check(&folder)?;
-    for fault in &found.faults {
+    for fault in mistaken.iter().chain(&found.faults) {
         eprintln!("{fault}");
     }
     println!(
@@ -58,6 +64,10 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
         begin.elapsed().as_secs_f64(),
         folder.join("index.html").display()
     );
+    if !mistaken.is_empty() {
+        eprintln!("{} formulas are none", mistaken.len());
+        return Ok(ExitCode::FAILURE);
+    }
     if !found.faults.is_empty() {
         eprintln!("{} of the links lead nowhere or out of the book", found.faults.len());
         return Ok(ExitCode::FAILURE);
