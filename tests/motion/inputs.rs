@@ -77,7 +77,7 @@ fn holding_inputs_gives_the_bits_of_a_separate_run_for_every_period() {
         ($($method:expr;)*) => {$(
             let motion =
                 lift.simulation(&START).hold(period, servo()).method($method).run(0.0..end).unwrap();
-            let (mut controller, mut state) = (servo(), START);
+            let (mut controller, mut state, mut steps) = (servo(), START, 0);
             for k in 0..10 {
                 let (from, to) = (f64::from(k) * period, f64::min(f64::from(k + 1) * period, end));
                 let inputs = controller(from, &state);
@@ -87,10 +87,12 @@ fn holding_inputs_gives_the_bits_of_a_separate_run_for_every_period() {
                 let middle = (from + to) / 2.0;
                 assert_eq!(motion.at(middle), part.at(middle), "{name} at {middle}");
                 state = part.end();
+                steps += part.statistics().work.accepted;
                 assert_eq!(motion.at(to), state, "{name} at {to}");
                 assert!(motion.times().any(|t| t == to), "{name}: no step ends at {to}");
             }
             assert_eq!((motion.end(), motion.system().law().as_slice().len()), (state, 10));
+            assert_eq!(motion.statistics().work.accepted, steps, "{}", stringify!($method));
         )*};
     }
     check! {
@@ -141,6 +143,9 @@ fn periods_that_make_no_sense_are_refused() {
     assert!(error.to_string().contains("backwards"), "{error}");
     let error = lift.simulation(&START).hold(1e-20, servo()).run(1.0..2.0).unwrap_err();
     assert_eq!(error.cause, Cause::StepUnderflow);
+    // 3 * 0.3 is below 0.9.
+    let motion = lift.simulation(&START).hold(0.3, servo()).run(0.0..0.9).unwrap();
+    assert_eq!((motion.system().law().as_slice().len(), motion.end_time()), (3, 0.9));
     // 7 * 0.1 is not 0.7: no sample a rounding before the end, or after it.
     for k in 1..40 {
         let motion = lift.simulation(&START).hold(0.1, servo()).run(0.0..0.1 * f64::from(k)).unwrap();

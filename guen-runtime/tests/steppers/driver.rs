@@ -174,6 +174,23 @@ fn the_receiver_of_events_can_stop_the_run() {
 }
 
 #[test]
+fn an_observer_that_breaks_once_ends_the_run_and_is_not_asked_again() {
+    fn check<M: Method<f64, Turning, 2>>(name: &str, method: &M, _: f64) {
+        let mut seen = Vec::new();
+        let done = Integration::new(&generic(Oscillator), 0.0, &START)
+            .observe(&mut |t, x| {
+                seen.push((t, *x));
+                if seen.len() == 3 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            })
+            .run(method, 100.0)
+            .unwrap();
+        assert_eq!(done.outcome, Outcome::Stopped, "{name}");
+        assert_eq!((seen.len(), seen[2]), (3, (done.time, done.state)), "{name}");
+    }
+    with_every_method!(check);
+}
+
+#[test]
 fn crossings_within_a_step_are_seen_where_checks_are_asked_for() {
     // The clock's step is 10; its hand crosses zero eleven times in it: sin(pi (t + 1/2)) changes at every t = k + 1/2.
     let clock = from_fn(|_t: f64, _: &[f64; 1]| [1.0]);

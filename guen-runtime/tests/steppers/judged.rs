@@ -106,6 +106,22 @@ fn the_end_of_the_shortest_run_is_looked_at() {
     assert_eq!(done.statistics.accepted, 1);
 }
 
+#[test]
+fn a_last_step_that_is_too_long_is_seen_with_an_observer_and_without() {
+    let late = from_fn(|t: f64, &[v]: &[f64; 1]| [if t > 0.91 { -25.0 * v } else { 0.0 }]);
+    let run = Integration::new(&late, 0.0, &[1.0]).run(&Rk4::new(0.1), 1.0).unwrap_err();
+    let mut seen = 0;
+    let mut count = |_: f64, _: &[f64; 1]| {
+        seen += 1;
+        ControlFlow::Continue(())
+    };
+    let observed = Integration::new(&late, 0.0, &[1.0]).observe(&mut count).run(&Rk4::new(0.1), 1.0);
+    let observed = observed.unwrap_err();
+    assert!(matches!(run.cause, Cause::Step { .. }), "{run}");
+    assert_eq!((observed.cause, observed.time, observed.state), (run.cause, run.time, run.state));
+    assert_eq!((seen, run.state), (10, [1.0]));
+}
+
 /// `x' = -v`, `y' = b v/x^2`: a function that must not vanish, `x`, and a pole of the rates there.
 struct Pole {
     offset: f64,
@@ -162,4 +178,32 @@ fn passing_an_edge_between_two_looks_is_seen() {
         }
     }
     assert!(counts.0 >= 12 && counts.1 >= 18, "{counts:?}");
+}
+
+/// A system that keeps the bound of the time's rounding error with which its functions were asked.
+struct Asked(core::cell::Cell<f64>);
+
+impl System<f64, 1> for Asked {
+    fn rhs(&self, _t: f64, _: &[f64; 1]) -> [f64; 1] {
+        [0.0]
+    }
+
+    fn singularities(
+        &self,
+        t: RunningError<f64>,
+        _: &[RunningError<f64>; 1],
+        values: &mut [RunningError<f64>],
+    ) -> usize {
+        self.0.set(t.error / t.value);
+        values[0] = RunningError::exact(1.0);
+        1
+    }
+}
+
+#[test]
+fn a_time_is_known_to_one_rounding() {
+    let system = Asked(core::cell::Cell::new(0.0));
+    Rk4::new(0.5).integrate(&system, 1e6, &[0.0], 1e6 + 2.0, go_on).unwrap();
+    // In units of the real's epsilon.
+    assert_eq!(system.0.get(), 1.0);
 }
