@@ -8,7 +8,7 @@ fn all_rust_is_run() {
     for page in pages() {
         for (line, words) in page.fences() {
             // An unnamed block is Rust to rustdoc, and no language to mdBook: say which.
-            let known = ["rust", "text", "toml", "sh", "console", "c"].contains(&words);
+            let known = ["rust", "text", "math", "toml", "sh", "console", "c"].contains(&words);
             assert!(known, "{}:{line}: a block of `{words}`", page.path);
             rust += usize::from(words == "rust");
         }
