@@ -52,14 +52,14 @@
 
 pub use guen_runtime::{
     Actuated, Approx7, Approx7Functions, Approx13, Approx13Functions, AuxiliaryStates, Bodies, Body,
-    BodyFault, BracketCoefficients, Catastatic, Cause, Class, Coefficient, Conservative, ConstantsError,
-    Coordinate, Cost, Derived, Differentiable, Displacement, Dual, Equations, Function, Functions, Fused,
-    FusedOperations, Generic, Holonomic, IncompleteLieGroup, InputLaw, InputRecords, InputValues,
-    IntegrationError, Invariants, LaneScalar, Laned, LatexDocument, Level, LevelInfo, Levels, LieGroup, Lift,
-    Linearization, Monitored, Nonholonomic, Operator, Ordered, OutputMap, Positions, PositionsError,
-    Projected, Real, Recast, Renormalized, Report, ReportSection, Rheonomic, RunningError, Scleronomic,
-    Setting, Simulate, Smooth, System, WithFunctions, WithInputs, from_fn, generic, lanes, project,
-    projected, renormalized, steppers,
+    BodyFault, BracketCoefficients, Catastatic, Cause, Class, Coefficient, Commutator, Conservative,
+    ConstantsError, Coordinate, Cost, Derived, Differentiable, Displacement, Dual, Equations, Function,
+    Functions, Fused, FusedOperations, Generic, Holonomic, IncompleteLieGroup, InputLaw, InputRecords,
+    InputValues, IntegrationError, Invariants, LaneScalar, Laned, LatexDocument, Level, LevelInfo, Levels,
+    LieGroup, Lift, Linearization, Monitored, Nonholonomic, Operator, Ordered, OutputMap, Positions,
+    PositionsError, Projected, Real, Recast, Renormalized, Report, ReportSection, Rheonomic, RunningError,
+    Scleronomic, Setting, Simulate, Smooth, System, WithFunctions, WithInputs, from_fn, generic, lanes,
+    project, projected, renormalized, steppers,
 };
 pub use guen_runtime::{Coefficients, Convolutions, DrivenSeries, HIGHEST_ORDER, PowerSeries, TaylorSeries};
 pub use guen_runtime::{Liftable, Linearizable, OutputLinearization, control, linearized, seeded};

@@ -78,9 +78,9 @@ pub use system::classification::{
 };
 pub use system::constants_error::{BodyFault, ConstantsError};
 pub use system::differentiable::{Differentiable, Equations, Generic, generic};
-pub use system::frame::Displacement;
 #[doc(hidden)]
-pub use system::frame::{Frame, bracket_values, known_bracket};
+pub use system::frame::Frame;
+pub use system::frame::{Commutator, Displacement};
 #[doc(hidden)]
 pub use system::hints::{Undriven, Unprepared};
 #[cfg(feature = "alloc")]

@@ -173,14 +173,14 @@ fn at_values(
 
 /// Whether a program has the values of expressions at some points, to rounding.
 fn agrees(bench: &Workbench, found: &Programs, expected: &[ExprId]) -> bool {
-    const CLOSE: f64 = 1e-9;
+    const AGREEMENT: f64 = 1e-9;
     (1..=4).all(|round| {
         let value =
             |symbol: SymbolId| 0.3 + f64::from(round) * (symbol.index() as f64 * 2.3).sin().abs() / 3.0;
         let wanted = evaluate_f64(&bench.graph, expected, &value);
         let values = evaluate_function(found, 0, &evaluate_prepare(found, value), value);
         let mut pairs = values.iter().zip(&wanted);
-        pairs.all(|(value, wanted)| (value - wanted).abs() <= CLOSE * (1.0 + wanted.abs()))
+        pairs.all(|(value, wanted)| (value - wanted).abs() <= AGREEMENT * (1.0 + wanted.abs()))
     })
 }
 

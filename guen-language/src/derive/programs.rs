@@ -30,11 +30,12 @@ pub(super) fn extend(bench: &mut Workbench, lists: &mut Vec<Vec<ExprId>>) {
 /// The code of the rates, given in several equal forms, and of everything else.
 pub(super) fn programs(bench: &mut Workbench, rates: &[Vec<ExprId>], quantities: &[Quantity]) -> Programs {
     /// Reactions beyond this estimate get no program of their own.
-    const LARGE: u64 = 1000;
+    const SHARED_REACTIONS: u64 = 1000;
     let quantity =
         |name: &str| quantities.iter().find(|(known, _)| *known == name).map(|(_, outputs)| outputs);
     // The covector is the reactions times the rows of their constraints: where they are large one program is made, and divided.
-    let reactions = quantity(function::REACTIONS).filter(|list| weighted_cost(&bench.graph, list) > LARGE);
+    let reactions =
+        quantity(function::REACTIONS).filter(|list| weighted_cost(&bench.graph, list) > SHARED_REACTIONS);
     let both = reactions.zip(quantity(function::REACTION_COVECTOR));
     let mut builder = ProgramBuilder::new(&mut bench.graph);
     if !rates.is_empty() {

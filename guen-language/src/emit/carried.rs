@@ -4,7 +4,7 @@ use guen_symbolic::{CarriedFunction, ExprId};
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
-use super::integrated::Looks;
+use super::integrated::CheckOperations;
 use super::layout::{Layout, carried_ident, carried_name, inputs};
 use super::text::cost;
 use super::{functions, integrated, lanes, records, serde};
@@ -15,8 +15,8 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let Some(level) = &subject.level.carried else { return TokenStream::new() };
     let carried = Subject { model: subject.model, level };
     let own = Layout { is_whole: false, ..Layout::new(&carried) };
-    let looks = Looks::of(&carried, &own).and(Looks::of(subject, layout));
-    let module = module(&carried, &own, layout, looks);
+    let checks = CheckOperations::of(&carried, &own).and(CheckOperations::of(subject, layout));
+    let module = module(&carried, &own, layout, checks);
     let (size, fields) = (layout.size, &layout.state);
     quote! {
         #[doc = " What belongs to the carried form, [`Carried`]: its state, and which functions it carries."]
@@ -60,7 +60,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     }
 }
 
-fn module(subject: &Subject<'_, '_>, layout: &Layout, base: &Layout, looks: Looks) -> TokenStream {
+fn module(subject: &Subject<'_, '_>, layout: &Layout, base: &Layout, checks: CheckOperations) -> TokenStream {
     let Subject { model, level } = subject;
     let text = |e: ExprId| model.bench.graph.text_limited(e, 400).unwrap_or_else(|| "(long)".to_owned());
     let lines = |texts: Vec<String>| {
@@ -89,7 +89,7 @@ fn module(subject: &Subject<'_, '_>, layout: &Layout, base: &Layout, looks: Look
     let state = records::carried(subject, layout);
     let serde = serde::state(layout);
     let prepared = prepared(subject, layout, base, invariants);
-    let systems = systems(subject, layout, base, (invariants, edges), looks);
+    let systems = systems(subject, layout, base, (invariants, edges), checks);
     let code = functions::modules(subject, layout);
     quote! {
         #state
@@ -207,7 +207,7 @@ fn systems(
     layout: &Layout,
     base: &Layout,
     (invariants, edges): (usize, usize),
-    looks: Looks,
+    checks: CheckOperations,
 ) -> TokenStream {
     let (size, count, variables) = (layout.size, layout.inputs, base.size);
     let renormalized =
@@ -262,7 +262,7 @@ fn systems(
             }
         }
     });
-    let prices = integrated::prices(subject, layout, &looks);
+    let prices = integrated::prices(subject, layout, &checks);
     let differentiable = integrated::differentiable(layout, false);
     let simulate = integrated::simulate(layout, false, false);
     let lanes = lanes::carried(layout);

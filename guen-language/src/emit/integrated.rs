@@ -32,7 +32,7 @@ pub(super) fn guarded(subject: &Subject<'_, '_>, layout: &Layout, prepared: &Tok
             }
         }
     });
-    let prices = prices(subject, layout, &Looks::of(subject, layout));
+    let prices = prices(subject, layout, &CheckOperations::of(subject, layout));
     quote! {
         __guen::conserved!(#prepared; #n #size [#kept] [#held]);
         #edges
@@ -42,16 +42,16 @@ pub(super) fn guarded(subject: &Subject<'_, '_>, layout: &Layout, prepared: &Tok
     }
 }
 
-/// The operations of looks: an estimate from the counts of their programs.
+/// The operations of checks: an estimate from the counts of their programs.
 #[derive(Clone, Copy)]
-pub(super) struct Looks {
+pub(super) struct CheckOperations {
     /// The cost of `conserved`, `singularities` and `condition` together.
     pub(super) all: u64,
     /// The cost of `singularities` alone.
     pub(super) edges: u64,
 }
 
-impl Looks {
+impl CheckOperations {
     /// Returns the costs of a level by itself.
     pub(super) fn of(subject: &Subject<'_, '_>, layout: &Layout) -> Self {
         /// The cost of an operation whose rounding is counted, and of a function.
@@ -90,29 +90,29 @@ impl Looks {
     /// Returns the costs of a carried form and of the level that it is a form of, which is given a state of its own.
     pub(super) fn and(self, below: Self) -> Self {
         /// The cost of checking a second system beside its operations, counted for the hoop.
-        const ANOTHER: Looks = Looks { all: 150, edges: 40 };
+        const ANOTHER: CheckOperations = CheckOperations { all: 150, edges: 40 };
         let edges = self.edges + below.edges;
         let another = if edges > 0 { ANOTHER.edges } else { 0 };
         Self { all: self.all + below.all + ANOTHER.all, edges: edges + another }
     }
 }
 
-/// The methods `check_cost` and `singularity_check_cost`: operations of looks in right-hand sides with what a stepper does for each.
-pub(super) fn prices(subject: &Subject<'_, '_>, layout: &Layout, looks: &Looks) -> TokenStream {
+/// The methods `check_cost` and `singularity_check_cost`: operations of checks in right-hand sides with what a stepper does for each.
+pub(super) fn prices(subject: &Subject<'_, '_>, layout: &Layout, checks: &CheckOperations) -> TokenStream {
     /// The cost of a sum over stages, for each entry of the state.
     const STAGE: u64 = 4;
     /// The cost of the calls, comparisons and copies of a check, whatever the system: counted for a particle without
     /// forces, whose estimates of errors by RK8 have more operations than all of its right-hand sides.
     const BESIDES: u64 = 240;
-    /// The cost of those of a check of edges alone: counted for Appell's system in lanes, which is the most expensive
+    /// The costs beside a check of singularities alone: counted for Appell's system in lanes, which is the most expensive
     /// beside its right-hand side.
     const BESIDES_EDGES: u64 = 120;
     let rhs = subject.level.program(function::RHS).map_or(0, |program| program.cost.weighted());
     let one = (rhs + STAGE * layout.size as u64).max(1);
-    let look = u32::try_from((looks.all + BESIDES).div_ceil(one)).unwrap_or(u32::MAX);
-    let edges = (looks.edges > 0).then(|| {
+    let check = u32::try_from((checks.all + BESIDES).div_ceil(one)).unwrap_or(u32::MAX);
+    let edges = (checks.edges > 0).then(|| {
         // In hundredths, which are enough and read well.
-        let price = ((looks.edges + BESIDES_EDGES) * 100).div_ceil(one) as f64 / 100.0;
+        let price = ((checks.edges + BESIDES_EDGES) * 100).div_ceil(one) as f64 / 100.0;
         quote! {
             fn singularity_check_cost(&self) -> f64 {
                 #price
@@ -121,7 +121,7 @@ pub(super) fn prices(subject: &Subject<'_, '_>, layout: &Layout, looks: &Looks) 
     });
     quote! {
         fn check_cost(&self) -> u32 {
-            #look
+            #check
         }
 
         #edges

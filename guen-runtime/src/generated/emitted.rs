@@ -1,7 +1,7 @@
 //! Code that is the same in every expansion, as macros that generated code calls: the compiler copies what the
 //! derivation of each system would write down token by token.
 //!
-//! They expand inside the module of a system, which defines `Prepared`, `Bracket` and the module `program`, and work
+//! They expand inside the module of a system, which defines `Prepared` and the module `program`, and work
 //! without a prelude and from any crate name.
 
 mod facts;
@@ -104,11 +104,7 @@ macro_rules! operators {
         ///
         /// `COEFFICIENTS` says of each coefficient whether it is zero, a number, constant or variable;
         /// `coefficients` computes their values at a time and state.
-        #[::core::prelude::v1::derive(
-            ::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::default::Default,
-            ::core::cmp::PartialEq, ::core::cmp::Eq
-        )]
-        pub struct Bracket<const I: usize, const J: usize>;
+        pub type Bracket<const I: usize, const J: usize> = $crate::Commutator<Prepared, I, J>;
 
         impl $crate::Frame<$n> for Prepared<f64> {
             type Over<B: $crate::Real> = Prepared<B>;
@@ -141,20 +137,6 @@ macro_rules! operators {
             #[doc = $docs]
             pub const $X: $X = $crate::Displacement::NEW;
         )*
-
-        impl<B: $crate::Real, const I: usize, const J: usize> $crate::BracketCoefficients<B, $n> for Bracket<{ I }, { J }> {
-            type Prepared = Prepared<B>;
-            const I: usize = I;
-            const J: usize = J;
-            const COEFFICIENTS: [$crate::Coefficient; $n] = $crate::known_bracket::<Prepared<f64>, $n>(I, J);
-
-            #[inline]
-            fn coefficients<R: $crate::Real + $crate::Lift<B>>(
-                prepared: &Prepared<B>, t: R, x: &[R; $n],
-            ) -> [R; $n] {
-                $crate::bracket_values::<Prepared<f64>, B, R, $n, { I }, { J }>(prepared, t, x)
-            }
-        }
     };
 }
 

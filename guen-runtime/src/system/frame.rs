@@ -5,7 +5,7 @@ use core::marker::PhantomData;
 
 use crate::numbers::lift::Lift;
 use crate::numbers::real::Real;
-use crate::system::bracket::Coefficient;
+use crate::system::bracket::{BracketCoefficients, Coefficient};
 use crate::system::operator::Operator;
 
 /// The operators of a generated system and their brackets: the description from which [`Displacement`] and the brackets of its
@@ -109,9 +109,31 @@ const fn place<S: Frame<N>, const N: usize>(i: usize, j: usize) -> Option<(usize
     None
 }
 
+/// The commutator `(X_I, X_J)` of operators of the generated system `S`: the type behind `Bracket` of its module. It has no values;
+/// see [`BracketCoefficients`].
+#[derive(Debug)]
+pub struct Commutator<S, const I: usize, const J: usize>(PhantomData<fn() -> S>);
+
+impl<B: Real, S: Frame<N>, const I: usize, const J: usize, const N: usize> BracketCoefficients<B, N>
+    for Commutator<S, I, J>
+{
+    type Prepared = S::Over<B>;
+    const I: usize = I;
+    const J: usize = J;
+    const COEFFICIENTS: [Coefficient; N] = known::<S, N>(I, J);
+
+    #[inline]
+    fn coefficients<R: Real + Lift<B>>(prepared: &S::Over<B>, t: R, x: &[R; N]) -> [R; N] {
+        match const { place::<S, N>(I, J) } {
+            None => [R::zero(); N],
+            Some((place, false)) => S::bracket(prepared, t, x, place),
+            Some((place, true)) => S::bracket(prepared, t, x, place).map(|c| -c),
+        }
+    }
+}
+
 /// The facts known of the coefficients of the bracket `(X_i, X_j)`.
-#[doc(hidden)]
-pub const fn known_bracket<S: Frame<N>, const N: usize>(i: usize, j: usize) -> [Coefficient; N] {
+const fn known<S: Frame<N>, const N: usize>(i: usize, j: usize) -> [Coefficient; N] {
     let Some((place, reversed)) = place::<S, N>(i, j) else { return [Coefficient::Zero; N] };
     let mut known = S::BRACKETS[place].2;
     let mut t = 0;
@@ -122,26 +144,4 @@ pub const fn known_bracket<S: Frame<N>, const N: usize>(i: usize, j: usize) -> [
         t += 1;
     }
     known
-}
-
-/// The values of the coefficients of the bracket `(X_I, X_J)`.
-#[doc(hidden)]
-#[inline]
-pub fn bracket_values<
-    S: Frame<N>,
-    B: Real,
-    R: Real + Lift<B>,
-    const N: usize,
-    const I: usize,
-    const J: usize,
->(
-    prepared: &S::Over<B>,
-    t: R,
-    x: &[R; N],
-) -> [R; N] {
-    match const { place::<S, N>(I, J) } {
-        None => [R::zero(); N],
-        Some((place, false)) => S::bracket(prepared, t, x, place),
-        Some((place, true)) => S::bracket(prepared, t, x, place).map(|c| -c),
-    }
 }

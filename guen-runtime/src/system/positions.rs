@@ -1,7 +1,7 @@
 //! Constraints on positions at run time: coordinates that fulfil them, and keeping them fulfilled on the way.
 //!
 //! The equations of motion know `f(t, x) = 0` by its rate alone, so rounding and the error of the method let `f`
-//! drift away from zero. What is here puts the coordinates back and leaves the parameters as they are: velocities
+//! drift away from zero. This module puts the coordinates back and leaves the parameters as they are: velocities
 //! `x' = xi_0 + sum_s eta_s xi_s` keep the rate of `f` zero wherever the coordinates are.
 
 use crate::numbers::real::{Ordered, Real};

@@ -137,7 +137,7 @@ impl<S, const N: usize, C> Ensemble<S, N, C> {
         &self.systems[if self.systems.len() == 1 { 0 } else { index }]
     }
 
-    /// Does something with every member, one by one on several threads: what no method in lanes can do, such as a step
+    /// Calls a function for every member, one by one on several threads: for what no method in lanes can do, such as a step
     /// that follows the error, or a recording. For simulations there is [`simulate`](Self::simulate).
     ///
     /// ```

@@ -343,7 +343,7 @@ impl<const N: usize> Points<N> {
     }
 }
 
-/// Times in the rows of steps that are much shorter than those that half of the motion is made of.
+/// Times within runs of short steps: much shorter than the length up to which steps make up half of the motion.
 fn short_steps(ends: &[f64]) -> Vec<f64> {
     let length = |pair: &[f64]| (pair[1] - pair[0]).abs();
     let mut lengths: Vec<f64> = ends.windows(2).map(length).collect();

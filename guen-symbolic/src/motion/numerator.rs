@@ -112,7 +112,7 @@ struct Monomial {
 }
 
 impl Sum {
-    /// The terms with products of sums multiplied out; what is kept whole stays whole. `None` if there are more than so
+    /// The terms with products of sums multiplied out; what is kept whole stays a factor. `None` if there are more than so
     /// many.
     fn new(graph: &mut Graph, e: ExprId, most: usize) -> Option<Self> {
         let mut terms = Vec::new();

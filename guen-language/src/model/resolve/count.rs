@@ -108,7 +108,7 @@ pub(super) fn check(
     eval.faults.report(fault);
 }
 
-/// Constraints whose velocities are combinations of those of constraints before them, each with these.
+/// Constraints that are linear combinations of earlier constraints, each with those earlier ones.
 fn combinations(bench: &mut Workbench, forms: &[(Form, ExprId)], degrees: usize) -> Vec<(usize, Vec<usize>)> {
     /// The number of forms above which the message says less.
     const MOST: usize = 24;

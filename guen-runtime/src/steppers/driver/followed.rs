@@ -110,8 +110,8 @@ impl<'a, R: Real, const N: usize> Followed<'a, R, N> {
         }
     }
 
-    /// Whether the event has happened when a run ends at a time at which its function has this value, and if so, whether the
-    /// function was rising.
+    /// Returns whether the function was rising, if the event has happened by a time at which the function has this value; `None` if
+    /// it has not happened.
     fn by(&self, time: R, value: f64) -> Option<bool> {
         let crossing = self.crossing.filter(|crossing| !earlier(time, crossing.after, self.backwards()))?;
         let past = !earlier(time, crossing.time, self.backwards());

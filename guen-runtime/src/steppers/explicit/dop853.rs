@@ -214,7 +214,7 @@ mod tests {
         }
     }
 
-    /// The evaluations that a motion takes at an error of 1e-8, and how many trials were rejected: by the line through the
+    /// The evaluations of a motion at an error of 1e-8, and the number of rejected trials: read from the line through the
     /// logarithms of errors and evaluations at tolerances around it.
     fn work_at_equal_error<P: Pair<f64, N>, S: System<f64, N>, const N: usize>(
         pair: &P,

@@ -272,7 +272,7 @@ impl<R: Real, V: Runs<R>, const N: usize> Watch<R, V, N> {
     }
 
     /// Tells the faults of runs that cannot go on from where they stand: the cause given, unless the steps since the last check went
-    /// wrong before. Of other runs nothing is learned.
+    /// wrong before. Other runs are not checked.
     #[cold]
     #[inline(never)]
     pub(crate) fn stopped<S>(

@@ -188,7 +188,7 @@ impl<'a> Assembly<'a> {
         }
     }
 
-    /// `I alpha + omega x I omega`, by the products of the spins that the gradient has already.
+    /// The torque `I alpha + omega x I omega`, from the products of spins that the gradient has already.
     fn torque(&mut self, content: &Content) -> [Num; 3] {
         let [xx, yy, zz, xy, yz, zx] = content.inertia;
         if content.inertia.iter().all(|e| e.is_zero()) {

@@ -63,7 +63,7 @@ impl Planner<'_> {
         })
     }
 
-    /// Directions that may be short: the axes on the way to the root, and what is square to two of them.
+    /// Directions along which components may be short: the axes on the way to the root, and the normals of pairs of them.
     fn directions(&mut self, axes: usize) -> Vec<Vec3> {
         let unit = |q: usize| {
             let mut unit = [Num::ZERO; 3];

@@ -11,7 +11,7 @@ use crate::algebra::{AngleParts, ExprId, FastMap, Function, Graph, Node, Rationa
 /// Multiples beyond this are computed by a call of their own: errors grow with the multiple.
 const LARGEST_MULTIPLE: i64 = 4;
 
-/// The price of a sine and cosine, and of one function after one rotation, in units of a multiplication.
+/// The cost of a sine with its cosine by a call, and of either by rotating known ones, in multiplications.
 const PAIR: usize = 20;
 const ROTATION: usize = 3;
 
