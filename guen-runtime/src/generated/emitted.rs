@@ -104,7 +104,8 @@ macro_rules! operators {
         ///
         /// `COEFFICIENTS` says of each coefficient whether it is zero, a number, constant or variable;
         /// `coefficients` computes their values at a time and state.
-        pub type Bracket<const I: usize, const J: usize> = $crate::Commutator<Prepared, I, J>;
+        // In braces, which say that they are constants: a system may be called `I` or `J`.
+        pub type Bracket<const I: usize, const J: usize> = $crate::Commutator<Prepared, { I }, { J }>;
 
         impl $crate::Frame<$n> for Prepared<f64> {
             type Over<B: $crate::Real> = Prepared<B>;
