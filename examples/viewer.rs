@@ -140,14 +140,10 @@ fn turntable(path: &Path) -> Result<(), Box<dyn Error>> {
         .bodies(&system)
         .body("table", table, |t, _| Pose::at([0.0; 3]).turned([0.0, 0.0, 1.0], rate * t))
         .path("contact, in space", |_, state| [state[4], state[5], 0.002])
-        .arrow("force at the contact", 0.01, |t, state| {
-            const METRES_PER_NEWTON: f64 = 2.0;
+        .force("force at the contact in N", |t, state| {
             let state = State::from(*state);
             let force = system.reactions(t, &state);
-            [
-                [state.x, state.y, 0.004],
-                [force.rolling_x, force.rolling_y, 0.0].map(|f| METRES_PER_NEWTON * f),
-            ]
+            [[state.x, state.y, 0.004], [force.rolling_x, force.rolling_y, 0.0]]
         })
         .panel("place on the table in m")
         .curve("x", |t, state| system.outputs(t, &(*state).into()).on_table[0])

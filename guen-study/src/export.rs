@@ -83,8 +83,8 @@ pub trait Export<S, const N: usize> {
     /// [`StudyError::UnknownEntry`] if a name is none of the state's.
     fn plot(&self, title: &str, entries: &[&str]) -> Result<Plot, StudyError>;
 
-    /// Writes a page that plays the motion of the declared bodies, with panels of the energy and of the constraints on
-    /// positions. It is made of 60 samples a second or four a step of the method, whichever are more, but of 600 at least and of
+    /// Writes a page that plays the motion of the declared bodies, with panels of the states, of the energy and of the
+    /// constraints on positions. It is made of 60 samples a second or four a step of the method, whichever are more, but of 600 at least and of
     /// a million at most; the page chooses among them. For other shapes, paths and panels make a [`Viewer`] of
     /// [`sampled`](Self::sampled).
     ///
@@ -141,7 +141,7 @@ where
         let [fewest, most] = SAMPLES;
         let wanted = (RATE * span).max(PER_STEP * self.iter().count() as f64).clamp(fewest, most);
         let recording = self.sampled(span / wanted.floor());
-        Viewer::new(title, &recording).bodies(self.system()).monitored(self.system()).write(path)
+        Viewer::new(title, &recording).bodies(self.system()).states(&[]).monitored(self.system()).write(path)
     }
 }
 

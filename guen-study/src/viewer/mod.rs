@@ -5,6 +5,7 @@
 //! writes numbers, `notes` says what was left out, `page` puts the file together from `page/` and from the drawing library in
 //! `vendor/`.
 
+mod content;
 mod data;
 mod equivalent;
 mod fit;
@@ -20,7 +21,7 @@ mod turn;
 
 use std::path::Path;
 
-use guen_runtime::{Bodies, Body, Monitored};
+use guen_runtime::{Bodies, Body};
 
 use crate::error::StudyError;
 use crate::file::replace_file;
@@ -143,9 +144,18 @@ struct MovingPoint {
 #[derive(Clone, Debug)]
 struct Link {
     name: String,
-    is_arrow: bool,
+    kind: LinkKind,
     radius: f64,
+    /// The ends; of a force its foot and the vector.
     ends: Track<[[f64; 3]; 2]>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum LinkKind {
+    Rod,
+    Arrow,
+    /// An arrow that the page scales.
+    Force,
 }
 
 #[derive(Clone, Debug)]
@@ -430,7 +440,7 @@ impl<'a, const N: usize> Viewer<'a, N> {
         radius: f64,
         ends: impl FnMut(f64, &[f64; N]) -> [[f64; 3]; 2],
     ) -> Self {
-        self.link(name.into(), false, radius, ends)
+        self.link(name.into(), LinkKind::Rod, radius, ends)
     }
 
     /// An arrow from a moving point, such as a force at a contact: its foot, and the vector in lengths of the motion.
@@ -440,7 +450,7 @@ impl<'a, const N: usize> Viewer<'a, N> {
         radius: f64,
         mut foot_and_vector: impl FnMut(f64, &[f64; N]) -> [[f64; 3]; 2],
     ) -> Self {
-        self.link(name.into(), true, radius, move |t, state| {
+        self.link(name.into(), LinkKind::Arrow, radius, move |t, state| {
             let [foot, vector] = foot_and_vector(t, state);
             [foot, std::array::from_fn(|i| foot[i] + vector[i])]
         })
@@ -449,13 +459,13 @@ impl<'a, const N: usize> Viewer<'a, N> {
     fn link(
         mut self,
         name: String,
-        is_arrow: bool,
+        kind: LinkKind,
         radius: f64,
         ends: impl FnMut(f64, &[f64; N]) -> [[f64; 3]; 2],
     ) -> Self {
         let ends = self.sampled(&name, ends, |ends| is_drawable(ends.as_flattened()));
         self.require(is_drawable(&[radius]), || format!("the radius of {name}"));
-        self.links.push(Link { name, is_arrow, radius, ends });
+        self.links.push(Link { name, kind, radius, ends });
         fit::relieve(&mut self);
         self
     }
@@ -478,21 +488,6 @@ impl<'a, const N: usize> Viewer<'a, N> {
         }
         fit::relieve(&mut self);
         self
-    }
-
-    /// Panels with the energy, with its change since the start, and with the largest residual of the constraints on
-    /// positions.
-    pub fn monitored<S>(self, system: &S) -> Self
-    where
-        S: Monitored<f64, N> + ?Sized,
-    {
-        let start = self.samples.first().map_or(0.0, |(t, state)| system.energy(t, state));
-        self.panel("energy")
-            .curve("h", |t, state| system.energy(t, state))
-            .panel("energy since the start")
-            .curve("h - h(0)", |t, state| system.energy(t, state) - start)
-            .panel("residual of the constraints")
-            .curve("largest", |t, state| system.residual(t, state))
     }
 
     /// A plane through a point, in place of the level ground at height zero.

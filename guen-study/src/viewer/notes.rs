@@ -9,7 +9,10 @@ const WIDE: f64 = 90.0;
 
 /// The sentences below the title.
 pub(super) fn of<const N: usize>(viewer: &Viewer<'_, N>, space: &Space) -> Vec<String> {
-    [lost(viewer), thinned(viewer), turns(viewer), moved(space)].into_iter().flatten().collect()
+    [lost(viewer), thinned(viewer), turns(viewer), moved(space), forces(space)]
+        .into_iter()
+        .flatten()
+        .collect()
 }
 
 /// The number of samples that the recording itself did not keep.
@@ -99,19 +102,13 @@ fn moved(space: &Space) -> Option<String> {
     Some(format!("Places are relative to ({x}, {y}, {z})."))
 }
 
+/// The scale of forces.
+fn forces(space: &Space) -> Option<String> {
+    let scale = space.per_force?;
+    Some(format!("Arrows of forces have the length {} for a force of 1.", digits(scale)))
+}
+
 /// Two digits.
 fn digits(value: f64) -> String {
     crate::table::significant(value, 2)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn an_origin_is_told_where_there_is_one() {
-        assert_eq!(moved(&Space { origin: None }), None);
-        let far = Space { origin: Some([6.4e6, 0.0, -0.5]) };
-        assert_eq!(moved(&far).unwrap(), "Places are relative to (6400000, 0, -0.5).");
-    }
 }

@@ -4,7 +4,7 @@ use super::data::{Json, escaped};
 use super::shape::{Pose, difference};
 use super::track::{Shown, Track, bounds, range};
 use super::turn::norm;
-use super::{Fault, Ground, Viewer, notes};
+use super::{Fault, Ground, Link, LinkKind, Shape, Viewer, notes};
 use crate::error::StudyError;
 
 /// Points of a surface in each direction.
@@ -16,12 +16,13 @@ const LIBRARY: &str = include_str!("vendor/three.min.js");
 /// The page's own style and program, in the order in which they are needed.
 const STYLE: &str = include_str!("page/style.css");
 const BODY: &str = include_str!("page/body.html");
-const PROGRAM: [&str; 11] = [
+const PROGRAM: [&str; 12] = [
     include_str!("page/motion.js"),
     include_str!("page/clock.js"),
     include_str!("page/colours.js"),
     include_str!("page/solids.js"),
     include_str!("page/ground.js"),
+    include_str!("page/quality.js"),
     include_str!("page/stage.js"),
     include_str!("page/curves.js"),
     include_str!("page/player.js"),
@@ -138,10 +139,11 @@ fn motion<const N: usize>(viewer: &Viewer<'_, N>) -> (String, Vec<String>) {
         });
         json.objects("links", &viewer.links, |json, link| {
             json.text("name", &link.name);
-            json.text("kind", if link.is_arrow { "arrow" } else { "rod" });
-            json.number("radius", link.radius);
+            json.text("kind", if link.kind == LinkKind::Rod { "rod" } else { "arrow" });
+            let (radius, ends) = space.drawn(link);
+            json.number("radius", radius);
             own_times(json, &link.ends);
-            json.samples("ends", link.ends.values.iter().flatten().flat_map(|end| placed(*end)));
+            json.samples("ends", ends.flatten().flat_map(placed));
         });
         json.objects("panels", &viewer.panels, |json, panel| {
             json.text("name", &panel.name);
@@ -205,10 +207,18 @@ fn base(values: &[f64]) -> f64 {
     if middle.abs() > FAR_OFF * (high - low) && high > low { middle } else { 0.0 }
 }
 
+/// The arrow of the largest force, and the radius of such arrows, as parts of the size of the motion.
+const LONGEST_FORCE: f64 = 0.25;
+const FORCE_RADIUS: f64 = 0.005;
+
 /// Where the motion is.
 pub(super) struct Space {
     /// The place that is subtracted from all places, if single precision would not hold their differences.
     pub(super) origin: Option<[f64; 3]>,
+    /// The longest way through the space that the motion takes up, with its bodies.
+    size: f64,
+    /// The length of an arrow for a force of one.
+    pub(super) per_force: Option<f64>,
 }
 
 impl Space {
@@ -218,7 +228,11 @@ impl Space {
         }
         let bodies = viewer.bodies.iter().flat_map(|body| places(&body.poses));
         let paths = viewer.paths.iter().flat_map(|path| places(&path.points));
-        let links = viewer.links.iter().flat_map(|link| places(&link.ends));
+        // The vector of a force is no place.
+        let links = viewer.links.iter().flat_map(|link| {
+            let step = if link.kind == LinkKind::Force { 2 } else { 1 };
+            places(&link.ends).step_by(step)
+        });
         let (least, most) = bounds(bodies.chain(paths).chain(links));
         let size = norm(difference(most, least));
         let is_far = (0..3).any(|i| least[i].abs().max(most[i].abs()) > FAR_OFF * size) && size > 0.0;
@@ -226,6 +240,24 @@ impl Space {
         let step = 10.0_f64.powf(size.log10().floor());
         let middle = |i: usize| ((least[i] + (most[i] - least[i]) / 2.0) / step).round() * step;
         let origin = (is_far && size.is_finite()).then(|| std::array::from_fn(middle));
-        Self { origin }
+        let around = viewer.bodies.iter().flat_map(|body| &body.shapes).map(Shape::reach).fold(0.0, f64::max);
+        let size = if size.is_finite() { size } else { 0.0 } + 2.0 * around;
+        let size = if size > 0.0 { size } else { 1.0 };
+        let forces = viewer.links.iter().filter(|link| link.kind == LinkKind::Force);
+        let largest =
+            forces.flat_map(|link| &link.ends.values).map(|[_, force]| norm(*force)).fold(0.0, f64::max);
+        let per_force = (largest > 0.0).then(|| LONGEST_FORCE * size / largest);
+        Self { origin, size, per_force }
+    }
+
+    /// A link's radius and the places of its ends.
+    fn drawn<'l>(&self, link: &'l Link) -> (f64, impl Iterator<Item = [[f64; 3]; 2]> + use<'l>) {
+        let scale = self.per_force.unwrap_or(0.0);
+        let is_force = link.kind == LinkKind::Force;
+        let ends = link.ends.values.iter().map(move |&[from, to]| {
+            let tip = std::array::from_fn(|i| from[i] + scale * to[i]);
+            [from, if is_force { tip } else { to }]
+        });
+        (if is_force { FORCE_RADIUS * self.size } else { link.radius }, ends)
     }
 }

@@ -50,6 +50,11 @@ impl<'a, const N: usize> Samples<'a, N> {
         self.times.len()
     }
 
+    /// The names of the entries of a state.
+    pub(super) fn names(&self) -> &'static [&'static str] {
+        self.recording.names()
+    }
+
     /// Samples that the run has shown, kept in the recording or not.
     pub(super) fn seen(&self) -> u64 {
         self.recording.seen()

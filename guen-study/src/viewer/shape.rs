@@ -163,6 +163,18 @@ impl Shape {
         Self { colour: Some(colour & 0xff_ffff), ..self }
     }
 
+    /// The distance from the body's place within which the shape is.
+    pub(super) fn reach(&self) -> f64 {
+        let own = match self.kind {
+            Kind::Ring([radius, thickness]) => radius + thickness,
+            Kind::Cylinder([radius, length]) => radius.hypot(length / 2.0),
+            Kind::Sphere([radius]) => radius,
+            Kind::Cuboid(edges) => norm(edges) / 2.0,
+            Kind::Arrow([length, _]) => length,
+        };
+        own + norm(self.place)
+    }
+
     pub(super) fn is_drawable(&self) -> bool {
         let (_, lengths) = self.kind.parts();
         is_drawable(lengths)

@@ -271,6 +271,41 @@ fn far_from_the_origin_a_track_is_no_staircase() {
 }
 
 #[test]
+fn forces_are_scaled_so_that_the_largest_is_seen() {
+    let recording = recorded(50);
+    let page = |unit: f64| {
+        Viewer::new("v", &recording)
+            .body("b", [Shape::sphere(0.5)], |_, s| Pose::at([s[0], 0.0, 0.0]))
+            .force("f", move |_, s| [[s[0], 0.0, 0.0], [0.0, 0.0, unit * s[1]]])
+            .to_html()
+            .unwrap()
+    };
+    for unit in [1e-3, 1.0, 1e6] {
+        let page = page(unit);
+        let ends = decoded(value(&page, "ends")[0]);
+        let longest = ends.chunks(6).map(|e| (e[5] - e[2]).abs()).fold(0.0, f32::max);
+        // The bodies' places span 2, less what the samples miss, and the ball reaches 0.5 beyond.
+        assert!((0.7..0.76).contains(&longest), "{longest}");
+        let told = notes(&page);
+        let (_, scale) = told.split_once("have the length ").unwrap();
+        let scale: f64 = scale.split_once(' ').unwrap().0.parse().unwrap();
+        assert!((scale * unit / f64::from(longest) - 1.0).abs() < 0.06, "{told}");
+    }
+    assert!(!notes(&page(0.0)).contains("Arrows"));
+}
+
+#[test]
+fn states_and_outputs_are_curves_with_names_and_units() {
+    let recording = recorded(50);
+    let page = Viewer::new("v", &recording).states(&["m"]).to_html().unwrap();
+    assert_eq!(value(&page, "name"), ["state in m", "x", "v", "v"]);
+    let grouped = Viewer::new("v", &recording).states(&["m", "m"]).to_html().unwrap();
+    assert_eq!(value(&grouped, "name"), ["state in m", "x", "v"]);
+    let expected: Vec<f32> = recording.column(1).map(|v| v as f32).collect();
+    assert_eq!(decoded(value(&grouped, "values")[1]), expected);
+}
+
+#[test]
 fn samples_too_far_apart_are_told() {
     let recording = recorded(20);
     let told = |rate: f64| {

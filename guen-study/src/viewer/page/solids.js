@@ -57,16 +57,41 @@ function cylinder([radius, length], ink) {
   return group;
 }
 
+/** Several geometries as one, which is drawn at once. */
+function merged(parts) {
+  const geometry = new THREE.BufferGeometry();
+  for (const name of ["position", "normal"]) {
+    const all = parts.flatMap((part) => [...part.attributes[name].array]);
+    geometry.setAttribute(name, new THREE.Float32BufferAttribute(all, 3));
+  }
+  let before = 0;
+  const index = parts.flatMap((part) => {
+    const moved = [...part.index.array].map((k) => k + before);
+    before += part.attributes.position.count;
+    return moved;
+  });
+  geometry.setIndex(index);
+  return geometry;
+}
+
+// Edges of an octant: of many balls each is small.
+const FINE = motion.bodies.length > 100 ? 5 : 14;
+const balls = new Map();
+
+/** The octants of a ball of one tone and of the other; one for all balls of a radius. */
+function octants(radius) {
+  if (!balls.has(radius)) {
+    const octant = (i, j) => new THREE.SphereGeometry(radius, FINE, FINE, (i * Math.PI) / 2, Math.PI / 2, (j * Math.PI) / 2, Math.PI / 2);
+    const ofTone = (tone) => merged([0, 1, 2, 3].map((i) => octant(i, (i + tone) % 2)));
+    balls.set(radius, [ofTone(0), ofTone(1)]);
+  }
+  return balls.get(radius);
+}
+
 /** A ball of eight octants in two tones. */
 function sphere([radius], ink) {
   const group = new THREE.Group();
-  const tones = [paint(ink), paint(ink, true)];
-  for (let i = 0; i < 4; i += 1) {
-    for (let j = 0; j < 2; j += 1) {
-      const octant = new THREE.SphereGeometry(radius, 14, 14, (i * Math.PI) / 2, Math.PI / 2, (j * Math.PI) / 2, Math.PI / 2);
-      group.add(mesh(octant, tones[(i + j) % 2]));
-    }
-  }
+  octants(radius).forEach((geometry, tone) => group.add(mesh(geometry, paint(ink, tone === 1))));
   return group;
 }
 

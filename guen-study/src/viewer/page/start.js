@@ -35,7 +35,7 @@ const player = makePlayer((time) => {
   // What is printed is drawn once.
   if (stage && !look.printing) {
     stage.place(time);
-    stage.draw();
+    stage.draw(player.state.playing);
     card.draw(time);
   }
   for (const panel of panels) panel.draw(time, repaint);
