@@ -23,7 +23,7 @@ use self::unknowns::Unknowns;
 use super::between::Between;
 use super::projection::{self, Measured, MeasuredForms};
 use super::{Equations, Frame, KineticTerm, Mechanics, Solution};
-use crate::algebra::{ExprId, FastMap, Flow};
+use crate::algebra::{ExprId, FastMap, Flow, Graph, Node};
 use crate::motion::thresholds::{CLOSE_PROMISE, VELOCITY_WEIGHT};
 use crate::program::weighted_cost;
 use crate::workbench::Workbench;
@@ -191,8 +191,9 @@ impl<'a> Velocities<'a> {
         }
         let rows: Vec<Vec<ExprId>> =
             system.forms.forms.iter().map(|form| unknowns.row(bench, &form.row)).collect();
+        let promised = &frame.operators.constant_pivots;
         while !heavy.is_empty() {
-            let (place, form) = solvable(bench, &rows, &heavy).unwrap_or((0, None));
+            let (place, form) = solvable(bench, promised, &rows, &heavy).unwrap_or((0, None));
             let i = heavy.remove(place);
             let Some(v) = form else {
                 let known: Vec<ExprId> =
@@ -324,13 +325,40 @@ fn in_short_angles(bench: &mut Workbench, entries: Vec<ExprId>) -> Vec<ExprId> {
     short.collect()
 }
 
+/// Whether a constant cannot vanish: by its bounds, or because the operators divide by it, too.
+fn is_nonzero(graph: &Graph, promised: &[ExprId], e: ExprId) -> bool {
+    let is_promised = |e: ExprId| {
+        promised.iter().any(|pivot| match graph.node(*pivot) {
+            _ if *pivot == e => true,
+            Node::Product(factors) => factors.iter().any(|(base, exponent)| *base == e && *exponent > 0),
+            Node::Sum { constant, terms } => {
+                constant.is_zero() && matches!(terms[..], [(term, _)] if is_nonzero(graph, &[term], e))
+            }
+            _ => false,
+        })
+    };
+    match graph.node(e) {
+        _ if graph.manifestly_nonzero(e) || is_promised(e) => true,
+        Node::Product(factors) => factors.iter().all(|(base, _)| is_nonzero(graph, promised, *base)),
+        Node::Sum { constant, terms } if constant.is_zero() => {
+            matches!(terms[..], [(term, _)] if is_nonzero(graph, promised, term))
+        }
+        _ => false,
+    }
+}
+
 /// The place of the first unknown of a list that a form gives with a constant pivot, others of the list not in it, and
 /// this form.
-fn solvable(bench: &Workbench, rows: &[Vec<ExprId>], open: &[usize]) -> Option<(usize, Option<usize>)> {
+fn solvable(
+    bench: &Workbench,
+    promised: &[ExprId],
+    rows: &[Vec<ExprId>],
+    open: &[usize],
+) -> Option<(usize, Option<usize>)> {
     open.iter().enumerate().find_map(|(place, i)| {
         let form = rows.iter().position(|row| {
             bench.graph.roles(row[*i]).is_constant()
-                && bench.graph.manifestly_nonzero(row[*i])
+                && is_nonzero(&bench.graph, promised, row[*i])
                 && open.iter().all(|j| j == i || bench.graph.is_zero(row[*j]))
         })?;
         Some((place, Some(form)))
