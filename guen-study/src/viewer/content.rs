@@ -8,8 +8,7 @@ impl<const N: usize> Viewer<'_, N> {
     /// Curves of all entries of the state, by their names. Entries with one unit share a panel; those without, in the order of
     /// the entries, are in panels of their own: rates are seldom of the size of angles.
     ///
-    /// `units` are those of the entries, in their order; what is beyond its end, or empty, has none. A name in a panel's
-    /// heading is a button that hides the curve and shows it again.
+    /// `units` are those of the entries, in their order; what is beyond its end, or empty, has none.
     ///
     /// ```
     /// use guen_study::{Recording, Viewer};
