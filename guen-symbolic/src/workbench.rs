@@ -174,8 +174,10 @@ impl Workbench {
     /// let (p, q) = (bench.graph.symbol("p", Role::Coordinate), bench.graph.symbol("q", Role::Coordinate));
     /// let sum = bench.graph.add(p, q);
     /// let (link, next, between) = (bench.graph.cos(p), bench.graph.cos(sum), bench.graph.cos(q));
-    /// bench.choose_base_angles(&[], &[link, next]);
-    /// assert!(bench.graph.is_in_base_angles(next) && !bench.graph.is_in_base_angles(between));
+    /// let told_apart = |bench: &mut Workbench| {
+    ///     bench.graph.is_in_base_angles(next) && !bench.graph.is_in_base_angles(between)
+    /// };
+    /// assert!(bench.in_base_angles(&[link, next], told_apart));
     /// assert!(bench.in_base_angles(&[between], |bench| bench.graph.is_in_base_angles(between)));
     /// ```
     pub fn in_base_angles<T>(&mut self, roots: &[ExprId], work: impl FnOnce(&mut Self) -> T) -> T {
