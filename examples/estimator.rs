@@ -196,7 +196,7 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
         .line("estimated", record.iter().map(|(_, _, e, ..)| (e.xi, e.eta)))
         .save(pictures.join("track.svg"))?;
     let sigma = |k: usize| record.iter().map(move |(t, _, _, _, p)| (*t, 2.0 * p[(k, k)].sqrt()));
-    // What is no number is a gap: one curve above, and below.
+    // A point that is not a number breaks the curve: the bounds above and below are two parts of one curve.
     let gap = [(f64::NAN, f64::NAN)];
     Plot::new("The error of the tilt, and two standard deviations of the filter")
         .axes("t in s", "rad")

@@ -22,7 +22,7 @@ fn residual(derived: &Derived<'_>) -> f64 {
     left(level, graph, &value)
 }
 
-/// What is left of the equations with a level's rates, relative to what is in them.
+/// The residual of the equations of motion at a level's rates, relative to the largest of their terms.
 fn left(level: &Level, graph: &Graph, value: &impl Fn(SymbolId) -> f64) -> f64 {
     let rates = evaluated(level, function::RHS, value).unwrap();
     let equations = &level.derivation.equations;

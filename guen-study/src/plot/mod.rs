@@ -208,6 +208,17 @@ mod tests {
     }
 
     #[test]
+    fn a_faint_curve_is_drawn_with_its_label_at_its_end() {
+        let lines = |text: &str| text.matches("<polyline").count();
+        let plain = Plot::new("sine").line("sin", sine(20)).to_svg().unwrap();
+        let both = Plot::new("sine").line("sin", sine(20)).faint("half", sine(20).map(|(t, x)| (t, x / 2.0)));
+        let both = both.to_svg().unwrap();
+        assert_eq!(lines(&both), lines(&plain) + 1);
+        let texts: Vec<&str> = both.split("<text").skip(1).filter(|text| text.contains("half")).collect();
+        assert_eq!(texts.len(), 1, "{both}");
+    }
+
+    #[test]
     fn a_long_curve_makes_a_short_file() {
         let text = Plot::new("sine").line("sin", sine(1_000_000)).to_svg().unwrap();
         assert!(text.len() < 200_000, "{} bytes", text.len());

@@ -47,7 +47,7 @@ impl Report {
                 None => curves.push((label, vec![point])),
             }
         }
-        // What is worth choosing stands out; the rest is there to be compared with.
+        // The rows of the front are drawn strong, because readers choose among them; all others are drawn faint.
         let best: BTreeSet<String> = front.iter().filter(|row| wanted(row)).map(|row| label(row)).collect();
         let front = front.iter().filter_map(|row| row.measured());
         let front: Vec<(f64, f64)> = front.map(|(error, cost)| (error, factor * cost.median)).collect();

@@ -181,7 +181,7 @@ fn long_recordings_keep_every_extremum() {
     let is_extremum = |k: usize| (all[k] - all[k - 1]) * (all[k + 1] - all[k]) < 0.0;
     let extrema: Vec<usize> = (1..all.len() - 1).filter(|&k| is_extremum(k)).collect();
     assert!(extrema.len() > 30 && extrema.iter().all(|&k| times.contains(&recording.times()[k])));
-    // What lies between is followed, with few samples.
+    // Between the samples that are kept, lines are near the curve.
     for (t, x) in recording.curve(0) {
         let k = times.partition_point(|s| *s <= t).clamp(1, times.len() - 1) - 1;
         let part = (t - times[k]) / (times[k + 1] - times[k]);
@@ -221,7 +221,7 @@ fn all_samples_on_request_in_parts() {
     let values = decoded(part.split_once('<').unwrap().0);
     assert_eq!(values.len(), 1_000_000);
     assert!(recording.column(0).zip(&values).all(|(x, shown)| x as f32 == *shown));
-    // What no browser opens is refused before it takes the memory.
+    // A page that is too large for any browser is refused before its memory is taken.
     let huge = Viewer::complete("v", &recording).within_bytes(20_000_000);
     let refused = (0..9).fold(huge, |page, k| page.body(format!("b{k}"), [], |_, _| Pose::at([0.0; 3])));
     assert!(matches!(refused.to_html(), Err(StudyError::TooLarge { limit: 20_000_000, .. })));

@@ -245,3 +245,30 @@ fn of_function(function: Function, x: &Range) -> Range {
         Function::Ln => Range::ALL,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::algebra::symbol::Role;
+
+    #[test]
+    fn an_end_that_is_not_taken_on_stays_so() {
+        let (open, closed) = (Range::from_zero(true), Range::from_zero(false));
+        assert!(open.plus(&closed).is_above_zero() && !closed.plus(&closed).is_above_zero());
+        assert!(open.times(&open).is_above_zero() && !open.times(&closed).is_above_zero());
+        assert!(open.clone().opposite().times(&open).is_below_zero());
+    }
+
+    #[test]
+    fn even_powers_are_not_below_zero() {
+        let mut graph = Graph::new();
+        let x = graph.symbol("x", Role::Coordinate);
+        let sine = graph.sin(x);
+        let square = graph.powi(sine, 2);
+        let of = |graph: &Graph, id| graph.range(id, &mut FastMap::default());
+        let (found, line) = (of(&graph, square), of(&graph, x));
+        assert!(found.low == End::zero() && found.high == End::At(Rational::ONE) && !found.open[0]);
+        assert!(line.power(-2).is_above_zero() && line.power(-3).has_zero() && line.power(3).has_zero());
+        assert!(line.power(2).has_zero() && line.power(LARGEST_EXPONENT as i32 + 2).low >= End::zero());
+    }
+}
