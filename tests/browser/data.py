@@ -15,10 +15,9 @@ import sys
 import time
 
 from browser import Browser
+from checks import ended, kept, require
 from place import ROOT, target
-from viewer import Failure, load, quiet, require, settled
-
-TIME = "window.guen.player.state.time"
+from viewer import TIME, load, quiet, settled
 
 # What a page of many samples may take to open, and the least frames of a second, drawn by software.
 OPENS = 3.0
@@ -185,6 +184,16 @@ def make(folder, *arguments):
     subprocess.run(command, cwd=ROOT, check=True)
 
 
+def whole(browser, folder, name, pictures):
+    browser.resize(1000, 640)
+    browser.scheme("light")
+    load(browser, folder / f"{name}.html")
+    CHECKS[name](browser)
+    quiet(browser)
+    to(browser, 0.3)
+    kept(pictures, f"data-{name}", browser.picture)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--pictures", type=pathlib.Path, help="a folder for screenshots")
@@ -197,34 +206,13 @@ def main():
     if arguments.large:
         with browser:
             browser.resize(1280, 800)
-            try:
-                large(browser, folder, *arguments.large, arguments.made)
-            except Failure as failure:
-                print(failure, file=sys.stderr)
-                return 1
-        return 0
+            size = " x ".join(map(str, arguments.large))
+            return ended([(size, lambda: large(browser, folder, *arguments.large, arguments.made))], "quick enough")
     if not arguments.made:
         make(folder)
-    failed = False
+    wanted = [name for name in CHECKS if not arguments.pages or name in arguments.pages]
     with browser:
-        for name, check in CHECKS.items():
-            if arguments.pages and name not in arguments.pages:
-                continue
-            try:
-                browser.resize(1000, 640)
-                browser.scheme("light")
-                load(browser, folder / f"{name}.html")
-                check(browser)
-                quiet(browser)
-                if arguments.pictures:
-                    arguments.pictures.mkdir(parents=True, exist_ok=True)
-                    to(browser, 0.3)
-                    (arguments.pictures / f"data-{name}.png").write_bytes(browser.picture())
-                print(f"{name}: as it should be", flush=True)
-            except (Failure, RuntimeError) as failure:
-                print(f"{name}: {failure}", file=sys.stderr, flush=True)
-                failed = True
-    return 1 if failed else 0
+        return ended([(name, lambda name=name: whole(browser, folder, name, arguments.pictures)) for name in wanted], "as it should be")
 
 
 if __name__ == "__main__":

@@ -18,8 +18,9 @@ import tempfile
 import time
 
 from browser import Browser
+from checks import ended, kept, require
 from place import ROOT, target
-from viewer import TIME, Failure, load, quiet, require, scene, settled
+from viewer import TIME, load, quiet, scene, settled
 
 HEAD, TAIL = '<script type="application/json" id="motion">', "</script>"
 
@@ -318,7 +319,7 @@ def looks(browser, name, path, pictures, some=tuple(LOOKS)):
             if pictures:
                 browser.run("window.guen.player.setTime(0.4 * window.guen.motion.end);")
                 settled(browser)
-                (pictures / f"looks-{name}-{look}-{width}.png").write_bytes(browser.picture())
+                kept(pictures, f"looks-{name}-{look}-{width}", browser.picture)
     browser.scheme("light")
 
 
@@ -365,10 +366,7 @@ def main():
     browser = Browser()
     if not arguments.made:
         subprocess.run(["cargo", "run", "--quiet", "--example", "viewer"], cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
-    if arguments.pictures:
-        arguments.pictures.mkdir(parents=True, exist_ok=True)
     turntable = target() / "guen/viewer/turntable.html"
-    failed = False
     with tempfile.TemporaryDirectory() as folder, browser:
         pages = {"turntable": turntable, "car": turntable.with_name("car.html")}
         for change in (crowd, below, fallen):
@@ -383,14 +381,7 @@ def main():
             ("looks", lambda: looks(browser, "turntable", pages["turntable"], arguments.pictures)),
             ("looks of a crowd", lambda: looks(browser, "crowd", pages["crowd"], arguments.pictures, ["light", "forced"])),
         ]
-        for name, check in checks:
-            try:
-                check()
-                print(f"{name}: as it has to be", flush=True)
-            except (Failure, RuntimeError) as failure:
-                print(f"{name}: {failure}", file=sys.stderr, flush=True)
-                failed = True
-    return 1 if failed else 0
+        return ended(checks, "as it has to be")
 
 
 if __name__ == "__main__":

@@ -14,6 +14,7 @@ import sys
 import time
 
 from browser import Browser
+from checks import ended, kept, require
 from place import ROOT, target
 
 # Example, its page, and the time at which its picture is taken, as a part of the whole.
@@ -35,15 +36,6 @@ def made(release):
         mode = ["--release"] if release else []
         command = ["cargo", "run", "--quiet", *mode, "--example", example]
         subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
-
-
-class Failure(Exception):
-    """A page does not do what it has to."""
-
-
-def require(holds, what):
-    if not holds:
-        raise Failure(what)
 
 
 def quiet(browser):
@@ -172,6 +164,20 @@ def picture(browser, path, part):
     return browser.picture()
 
 
+def whole(browser, path, part, pictures):
+    """All of a page: what it does, how it looks, that it fits a telephone."""
+    browser.resize(900, 560)
+    browser.scheme("light")
+    check(browser, path)
+    for scheme in ("light", "dark") if pictures else ():
+        browser.scheme(scheme)
+        browser.resize(1000, 560)
+        load(browser, path)
+        kept(pictures, f"viewer-{path.stem}-{scheme}", lambda: picture(browser, path, part))
+    narrow(browser, path)
+    kept(pictures, f"viewer-{path.stem}-narrow", lambda: picture(browser, path, part))
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--pictures", type=pathlib.Path, help="a folder for screenshots")
@@ -182,32 +188,10 @@ def main():
     browser = Browser()
     if not arguments.made:
         made(arguments.release)
-    failed = False
+    wanted = [(name, part) for _, name, part in PAGES if not arguments.pages or any(some in name for some in arguments.pages)]
     with browser:
-        for _, name, part in PAGES:
-            if arguments.pages and not any(wanted in name for wanted in arguments.pages):
-                continue
-            path = target() / "guen" / name
-            stem = path.stem
-            try:
-                browser.resize(900, 560)
-                browser.scheme("light")
-                check(browser, path)
-                if arguments.pictures:
-                    arguments.pictures.mkdir(parents=True, exist_ok=True)
-                    for scheme in ("light", "dark"):
-                        browser.scheme(scheme)
-                        browser.resize(1000, 560)
-                        load(browser, path)
-                        (arguments.pictures / f"viewer-{stem}-{scheme}.png").write_bytes(picture(browser, path, part))
-                narrow(browser, path)
-                if arguments.pictures:
-                    (arguments.pictures / f"viewer-{stem}-narrow.png").write_bytes(picture(browser, path, part))
-                print(f"{name}: loads, plays, pauses, scrubs", flush=True)
-            except (Failure, RuntimeError) as failure:
-                print(f"{name}: {failure}", file=sys.stderr, flush=True)
-                failed = True
-    return 1 if failed else 0
+        checks = [(name, lambda name=name, part=part: whole(browser, target() / "guen" / name, part, arguments.pictures)) for name, part in wanted]
+        return ended(checks, "loads, plays, pauses, scrubs")
 
 
 if __name__ == "__main__":
