@@ -25,7 +25,7 @@ pub enum StudyError {
         /// The error of the operating system or of the reader.
         source: Box<dyn Error + Send + Sync>,
     },
-    /// A picture has no curve with a finite point, or a page no motion of two samples.
+    /// A picture has no curve with a finite point, or a page no sample, or nothing that it shows.
     NothingToDraw {
         /// The picture's title.
         title: String,
@@ -95,7 +95,9 @@ impl fmt::Display for StudyError {
             Self::Io { path, source } => write!(f, "cannot write `{}`: {source}", path.display()),
             #[cfg(feature = "serde")]
             Self::Read { path, source } => write!(f, "cannot read `{}`: {source}", path.display()),
-            Self::NothingToDraw { title } => write!(f, "picture `{title}` has no finite point to draw"),
+            Self::NothingToDraw { title } => {
+                write!(f, "picture `{title}` has nothing to draw: no sample, or no finite point")
+            }
             Self::Size { title, width, height } => {
                 write!(f, "picture `{title}` cannot be drawn with {width} by {height} pixels")
             }

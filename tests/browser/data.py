@@ -17,7 +17,7 @@ import time
 from browser import Browser
 from checks import ended, kept, require
 from place import ROOT, target
-from viewer import TIME, load, quiet, settled
+from viewer import TIME, load, quiet, scene, settled
 
 # What a page of many samples may take to open, and the least frames of a second, drawn by software.
 OPENS = 3.0
@@ -149,6 +149,25 @@ def thousand(browser):
     require(frames > 1, f"{frames} frames in a second")
 
 
+def single(browser):
+    """One sample is a picture with its time, and nothing to play."""
+    require(text_of_time(browser) == "t = 2.5 s", f"the time is written {text_of_time(browser)}")
+    require("one sample" in note(browser), f"the note says: {note(browser)}")
+    shown = browser.run("return ['play', 'slider', 'loop', 'speed', 'fit'].filter((id) => document.getElementById(id).checkVisibility());")
+    require(shown == ["fit"], f"controls are {shown}")
+    require(drawn_high(browser) < 1, "the curve has no point")
+    for key in (" ", ".", ",", "\ue010", "\ue011", "l", "2", "f"):
+        browser.press(key)
+        settled(browser)
+    place = browser.run("return window.guen.stage.movers[0].group.position.toArray();")
+    require([round(x, 6) for x in place] == [1, 2, 0.3], f"the body is at {place}")
+    before = scene(browser)
+    browser.run("window.guen.stage.shown.body(0, false); window.guen.player.request();")
+    settled(browser)
+    require(scene(browser) != before, "the body is not seen")
+    browser.run("window.guen.stage.shown.body(0, true);")
+
+
 def frames_of(browser, seconds=3):
     """Frames of a second while it plays."""
     browser.run("window.frames_drawn = 0; const { player } = window.guen; player.setTime(0); player.setPlaying(true); const count = () => { window.frames_drawn += 1; requestAnimationFrame(count); }; requestAnimationFrame(count);")
@@ -160,7 +179,7 @@ def frames_of(browser, seconds=3):
     return (after - before) / (end - begin) * 1000
 
 
-CHECKS = {"far": far, "short": short, "long": long, "million": million, "complete": complete, "names": names, "thousand": thousand}
+CHECKS = {"far": far, "short": short, "long": long, "million": million, "complete": complete, "names": names, "single": single, "thousand": thousand}
 
 
 def large(browser, folder, samples, bodies, made):

@@ -276,7 +276,7 @@ impl<'a, const N: usize> Viewer<'a, N> {
 
     /// Whether values are of use: the page is refused for its times or for its size otherwise.
     fn is_evaluated<T: Shown>(&mut self) -> bool {
-        if self.samples.len() < 2 || self.samples.disorder.is_some() {
+        if self.samples.len() == 0 || self.samples.disorder.is_some() {
             return false;
         }
         let more = self.samples.len().saturating_mul(4 * T::WIDTH).saturating_mul(4) / 3;
@@ -548,7 +548,7 @@ impl<'a, const N: usize> Viewer<'a, N> {
     ///
     /// # Errors
     ///
-    /// [`NothingToDraw`](StudyError::NothingToDraw) for fewer than two samples, or without body, path, link or curve;
+    /// [`NothingToDraw`](StudyError::NothingToDraw) for a recording without a sample, or without body, path, link or curve;
     /// [`Times`](StudyError::Times) if the times do not rise or fall throughout; [`NotDrawable`](StudyError::NotDrawable)
     /// with what it was and when, for a value that is not finite or beyond `1e18`, or an orientation that is none;
     /// [`UnknownBody`](StudyError::UnknownBody) for a name that no body has; [`TooLarge`](StudyError::TooLarge) if the page

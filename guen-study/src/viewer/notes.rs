@@ -18,6 +18,9 @@ pub(super) fn of<const N: usize>(viewer: &Viewer<'_, N>, space: &Space) -> Vec<S
 /// The number of samples that the recording itself did not keep.
 fn lost<const N: usize>(viewer: &Viewer<'_, N>) -> Option<String> {
     let (kept, seen) = (viewer.samples.len(), viewer.samples.seen());
+    if seen == 1 {
+        return Some("The recording has one sample: nothing moves.".to_owned());
+    }
     (seen > kept as u64).then(|| format!("The recording kept {kept} of the {seen} samples of the run."))
 }
 

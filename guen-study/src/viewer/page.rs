@@ -84,7 +84,7 @@ pub(super) fn check<const N: usize>(viewer: &Viewer<'_, N>) -> Result<(), StudyE
     let title = || viewer.title.clone();
     let curves = viewer.panels.iter().map(|panel| panel.curves.len()).sum::<usize>();
     let things = viewer.bodies.len() + viewer.paths.len() + viewer.links.len() + curves;
-    if viewer.samples.len() < 2 || things == 0 {
+    if viewer.samples.len() == 0 || things == 0 {
         return Err(StudyError::NothingToDraw { title: title() });
     }
     if let Some(time) = viewer.samples.disorder {
@@ -235,12 +235,14 @@ impl Space {
         });
         let (least, most) = bounds(bodies.chain(paths).chain(links));
         let size = norm(difference(most, least));
-        let is_far = (0..3).any(|i| least[i].abs().max(most[i].abs()) > FAR_OFF * size) && size > 0.0;
+        let around = viewer.bodies.iter().flat_map(|body| &body.shapes).map(Shape::reach).fold(0.0, f64::max);
+        // What stands still is as large as it is drawn.
+        let held = if size > 0.0 { size } else { around };
+        let is_far = (0..3).any(|i| least[i].abs().max(most[i].abs()) > FAR_OFF * held) && held > 0.0;
         // A number that can be read: to the power of ten below the size of the motion.
-        let step = 10.0_f64.powf(size.log10().floor());
+        let step = 10.0_f64.powf(held.log10().floor());
         let middle = |i: usize| ((least[i] + (most[i] - least[i]) / 2.0) / step).round() * step;
         let origin = (is_far && size.is_finite()).then(|| std::array::from_fn(middle));
-        let around = viewer.bodies.iter().flat_map(|body| &body.shapes).map(Shape::reach).fold(0.0, f64::max);
         let size = if size.is_finite() { size } else { 0.0 } + 2.0 * around;
         let size = if size > 0.0 { size } else { 1.0 };
         let forces = viewer.links.iter().filter(|link| link.kind == LinkKind::Force);

@@ -127,9 +127,11 @@ fn unknown_bodies_empty_pages_and_disordered_times_are_refused() {
     let unknown = Viewer::new("v", &recording).curve("c", |t, _| t).drawn("b", []).to_html();
     assert!(matches!(unknown, Err(StudyError::UnknownBody { .. })));
     assert!(matches!(Viewer::new("v", &recording).to_html(), Err(StudyError::NothingToDraw { .. })));
-    let short = recorded(1);
-    let page = Viewer::new("v", &short).curve("c", |t, _| t).to_html();
-    assert!(matches!(page, Err(StudyError::NothingToDraw { .. })));
+    let empty = recorded(0);
+    for page in [Viewer::new("v", &empty), Viewer::complete("v", &empty), Viewer::thinned("v", &empty, 9)] {
+        let page = page.bodies(&Declared).curve("c", |t, _| t).path("p", |_, _| [0.0; 3]).to_html();
+        assert!(matches!(page, Err(StudyError::NothingToDraw { .. })));
+    }
     let mut disordered = recorded(3);
     disordered.record(0.0, &[0.0; 2]);
     disordered.record(9.0, &[0.0; 2]);
@@ -139,6 +141,30 @@ fn unknown_bodies_empty_pages_and_disordered_times_are_refused() {
     broken.record(f64::NAN, &[0.0; 2]);
     let page = Viewer::new("v", &broken).curve("c", |_, s| s[0]).to_html();
     assert!(matches!(page, Err(StudyError::Times { .. })));
+}
+
+#[test]
+fn one_sample_is_a_picture_at_its_time() {
+    let mut recording = Recording::new(&["x", "v"]);
+    recording.record(7.0, &[6.4e6, 2.0]);
+    for page in [Viewer::new("v", &recording), Viewer::complete("v", &recording)] {
+        let page = page
+            .body("b", [Shape::sphere(0.5)], |_, s| Pose::at([s[0] + 0.25, 0.0, 0.5]))
+            .curve("c", |_, s| s[1])
+            .to_html()
+            .unwrap();
+        assert_eq!(doubles(value(&page, "times")[0]), [0.0]);
+        assert_eq!(decoded(value(&page, "values")[0]), [2.0]);
+        // Far from the origin the place is relative to one beside it.
+        assert!(page.contains(r#""origin":[6400000.3"#), "{}", notes(&page));
+        assert!((decoded(value(&page, "poses")[0])[0] + 0.05).abs() < 1e-6);
+        assert!(page.contains("\"start\":7,") && notes(&page).contains("one sample"), "{}", notes(&page));
+    }
+    // Two samples are no matter of one.
+    assert!(
+        !notes(&Viewer::new("v", &recorded(2)).curve("c", |t, _| t).to_html().unwrap())
+            .contains("one sample")
+    );
 }
 
 #[test]

@@ -108,6 +108,16 @@ fn hard(folder: &Path) -> Result<(), StudyError> {
         })
         .write(folder.join("names.html"))?;
 
+    // One sample: a picture.
+    let mut single = Recording::new(&["t"]);
+    single.record(2.5, &[2.5]);
+    Viewer::new("One sample", &single)
+        .body("ball", ball(), |_, _| Pose::at([1.0, 2.0, 0.3]))
+        .path("way", |_, _| [1.0, 2.0, 0.0])
+        .rod("rod", 0.05, |_, _| [[0.0; 3], [1.0, 2.0, 0.3]])
+        .curve("height in m", |_, _| 0.3)
+        .write(folder.join("single.html"))?;
+
     let recording = clock(500, 10.0, 0.0);
     (0..1000_u32)
         .fold(Viewer::new("A thousand bodies", &recording), |page, k| {

@@ -5,7 +5,7 @@ const PREFIXES = [[1, ""], [1e-3, "m"], [1e-6, "µ"], [1e-9, "n"], [1e-12, "p"]]
 
 /** A length of time as a factor and a name: seconds in the thousands and units of other names stay as they are. */
 function unitFor(time) {
-  const prefix = motion.timeUnit === "s" && time < 0.1 ? PREFIXES.find(([factor]) => factor <= time * (1 + 1e-9)) ?? PREFIXES.at(-1) : PREFIXES[0];
+  const prefix = motion.timeUnit === "s" && time > 0 && time < 0.1 ? PREFIXES.find(([factor]) => factor <= time * (1 + 1e-9)) ?? PREFIXES.at(-1) : PREFIXES[0];
   return { factor: prefix[0], name: prefix[1] + motion.timeUnit };
 }
 
@@ -26,13 +26,14 @@ const clock = (() => {
   // An adaptive method may take a step that nobody sees.
   const digits = digitsFor(Math.max(step, end * 1e-9) / unit.factor, most / unit.factor);
   /** A time since the start, as it is on the clock of the motion. */
-  const text = (time) => minus(((start + time) / unit.factor).toFixed(digits));
+  const text = (time) => minus(motion.still ? String(Number((start / unit.factor).toPrecision(6))) : ((start + time) / unit.factor).toFixed(digits));
   /** Texts for rising times since the start, with the digits that tell them apart. */
   function texts(moments) {
     const between = moments.length > 1 ? (moments[1] - moments[0]) / unit.factor : 1;
     const short = digitsFor(between, most / unit.factor);
     // A step such as 2.5 needs one more.
     const finer = Math.abs(Number(between.toFixed(short)) - between) > between * 1e-3 ? 1 : 0;
+    if (motion.still) return moments.map(text);
     return moments.map((time) => minus(((start + time) / unit.factor).toFixed(short + finer)));
   }
   return { text, texts, unit: unit.name };
@@ -43,7 +44,7 @@ const PLEASANT = 20;
 
 /** The pace at which the page begins: the motion's own, or 1, 2 or 5 times a power of ten. */
 const pace = (() => {
-  if (motion.end >= 1 && motion.end <= 600) return 1;
+  if (motion.still || (motion.end >= 1 && motion.end <= 600)) return 1;
   const wanted = motion.end / PLEASANT;
   const power = 10 ** Math.floor(Math.log10(wanted));
   return Number(([5, 2, 1].find((digit) => digit * power <= wanted * 1.0001) * power).toPrecision(1));

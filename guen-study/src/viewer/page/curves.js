@@ -94,7 +94,7 @@ function makePanel(panel, parent, onPick) {
   let left = 48;
   const layer = document.createElement("canvas");
   let [width, height, ratio] = [0, 0, 1];
-  const x = (t) => left + ((width - left - right) * t) / motion.end;
+  const x = (t) => left + (width - left - right) * (motion.still ? 0.5 : t / motion.end);
   const y = (v) => top + ((height - top - bottom) * (high - v)) / (high - low);
 
   /** Axes and curves, once for each size and theme. */
@@ -122,7 +122,7 @@ function makePanel(panel, parent, onPick) {
     factor.textContent = power === 0 ? "" : `values / 1e${power}`.replace("-", "−");
     pen.textAlign = "center";
     pen.textBaseline = "alphabetic";
-    const moments = ticks(motion.start, motion.start + motion.end, Math.max(2, Math.floor(width / 80))).map((tick) => tick - motion.start);
+    const moments = motion.still ? [0] : ticks(motion.start, motion.start + motion.end, Math.max(2, Math.floor(width / 80))).map((tick) => tick - motion.start);
     const times = clock.texts(moments);
     if (times.length > 0) times[times.length - 1] += ` ${clock.unit}`;
     moments.forEach((tick, i) => {

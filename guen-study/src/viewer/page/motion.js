@@ -57,6 +57,18 @@ for (const curve of motion.curves) {
   curve.base ??= 0;
 }
 for (const ground of motion.grounds) if (ground.heights) ground.heights = decode(ground.heights);
+/** A single sample has no motion: it is shown as two alike, at one time. */
+motion.still = motion.times.length < 2;
+if (motion.still) {
+  const twice = (numbers) => Float32Array.of(...numbers, ...numbers);
+  motion.times = Float64Array.of(motion.times[0], motion.times[0]);
+  for (const track of [...motion.bodies, ...motion.paths, ...motion.links, ...motion.curves]) track.times = motion.times;
+  for (const body of motion.bodies) body.poses = twice(body.poses);
+  for (const path of motion.paths) path.points = twice(path.points);
+  for (const link of motion.links) link.ends = twice(link.ends);
+  for (const curve of motion.curves) curve.values = twice(curve.values);
+}
+document.documentElement.dataset.still = String(motion.still);
 motion.end = motion.times[motion.times.length - 1];
 
 /** The last of the times not after a time, and how far it is to the next one, from 0 to 1. */

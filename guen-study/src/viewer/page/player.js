@@ -35,7 +35,7 @@ function makePlayer(show) {
     }
     slider.value = String(state.time);
     const [at, end] = [state.time, motion.end].map(clock.text);
-    output.textContent = `t = ${at} / ${end} ${clock.unit}`;
+    output.textContent = motion.still ? `t = ${at} ${clock.unit}` : `t = ${at} / ${end} ${clock.unit}`;
     // Not in every frame: somebody listens to it.
     if (!state.playing) slider.setAttribute("aria-valuetext", `t = ${at} ${clock.unit}`);
     element("paper-time").textContent = `t = ${at} ${clock.unit}`;
