@@ -92,13 +92,13 @@ fn state(round: usize) -> Vec<f64> {
 #[test]
 fn other_words_are_as_accurate() {
     let derivation = compared(true);
-    assert!(!derivation.is_by("tensions"), "rotors join each joint to the next");
+    assert!(!derivation.is_by("constraint forces"), "rotors join each joint to the next");
 }
 
 #[test]
-fn tensions_are_as_accurate_as_the_mass_matrix() {
+fn constraint_forces_are_as_accurate_as_the_mass_matrix() {
     let derivation = compared(false);
-    assert!(derivation.is_by("tensions"));
+    assert!(derivation.is_by("constraint forces"));
     assert!(!derivation.solution.determinants.is_empty(), "the first list is by the mass matrix");
 }
 

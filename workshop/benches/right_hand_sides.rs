@@ -8,7 +8,7 @@
 //!
 //! Both sides are generic over the real and run in `f64`, so they call the same elementary functions. A ratio below one
 //! says that the declared system is the faster one. Chains are compared twice: with elimination in the mass matrix, and
-//! with the tensions of the links, a program whose work grows in proportion to the number of links.
+//! with the forces in the links as unknowns, a program whose work grows in proportion to the number of links.
 
 use std::env;
 use std::io::{Write, stdout};

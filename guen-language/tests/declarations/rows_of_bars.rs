@@ -237,7 +237,7 @@ fn a_long_chain_of_relative_angles_is_that_of_absolute_ones() {
                 (b'g', _) => G,
                 _ => 1.25,
             };
-            assert!(derived.system.derivation.is_by("tensions"));
+            assert!(derived.system.derivation.is_by("constraint forces"));
             rates(derived, &value)[links..].to_vec()
         })
     });

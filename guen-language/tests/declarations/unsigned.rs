@@ -96,7 +96,7 @@ fn masses_of_unknown_signs_are_not_taken_for_those_of_one_sign() {
             let residual = residual(derived, &constants);
             assert!(residual < 1e-11, "{m}: {residual:e}");
         }
-        assert!(!derived.system.derivation.is_by("tensions"));
+        assert!(!derived.system.derivation.is_by("constraint forces"));
     });
 }
 

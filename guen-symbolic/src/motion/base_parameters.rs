@@ -4,9 +4,9 @@
 //! moves all links beyond it. In the rates of the base angles, the sums of the joints' rates, the equations are those of absolute angles.
 //! So the accelerations are found there, `zeta = J eta` with numbers for `J`, and turned back.
 
+use super::constraint_forces::{self, ByConstraintForces};
 use super::restated::Restated;
 use super::symmetry::Symmetry;
-use super::tensions::{self, Tensions};
 use super::{Equations, Frame, Mechanics};
 use crate::algebra::{ExprId, Rational, Role, Substitution};
 use crate::geometry::{Form, Operators};
@@ -155,13 +155,17 @@ impl InBaseParameters {
         sums.into_iter().map(|e| bench.graph.keep(e)).collect()
     }
 
-    /// Solves by tensions, and returns to the parameters as declared.
-    pub(super) fn tensions(&mut self, bench: &mut Workbench, declared: &Mechanics) -> Option<Tensions> {
+    /// Solves by the constraint forces, and returns to the parameters as declared.
+    pub(super) fn by_constraint_forces(
+        &mut self,
+        bench: &mut Workbench,
+        declared: &Mechanics,
+    ) -> Option<ByConstraintForces> {
         let Restated { system, frame, forces, projected } = &mut self.restated;
         let (squares, etas) = (projected.squares.as_ref()?, &system.etas[..system.forms.degrees]);
-        let tensions = tensions::solve(bench, frame, squares, &projected.equations, etas, forces)?;
-        let accelerations = self.turned_back(bench, declared, &[], tensions.accelerations);
-        Some(Tensions { accelerations, ..tensions })
+        let solved = constraint_forces::solve(bench, frame, squares, &projected.equations, etas, forces)?;
+        let accelerations = self.turned_back(bench, declared, &[], solved.accelerations);
+        Some(ByConstraintForces { accelerations, ..solved })
     }
 
     /// Solves the equations, and returns to the parameters as declared.

@@ -2,13 +2,13 @@
 //! the root of their tree, where that is much shorter.
 
 use super::base_parameters::InBaseParameters;
+use super::body_axes::InBodyAxes;
 use super::fault::{DerivationError, affordable};
 use super::graph::Turn;
 use super::projection::Projected;
 use super::proof::Definition;
-use super::turned::InOwnAxes;
 use super::velocity_forms::VelocityPartials;
-use super::{Frame, FrameNode, KineticTerm, Mechanics, multibody, projection, restriction, spins, turned};
+use super::{Frame, FrameNode, KineticTerm, Mechanics, body_axes, multibody, projection, restriction, spins};
 use crate::algebra::ExprId;
 use crate::motion::thresholds::{
     ALL_WAYS, FURTHER_FORMS, MASS_PRODUCTS, MULTIPLIED_PARAMETERS, MULTIPLIED_VELOCITIES, OTHER_WAYS,
@@ -86,7 +86,7 @@ pub(super) struct Stated {
     /// The system in the rates of its base angles, where the equations come from there.
     pub(super) in_base: Option<InBaseParameters>,
     /// The equations in the axes of the bodies, where constraints on positions ask for them.
-    pub(super) in_own_axes: Option<InOwnAxes>,
+    pub(super) in_body_axes: Option<InBodyAxes>,
     /// The rows `s = l+1..n`, of the reactions, with the generalised forces.
     pub(super) constrained: Equations,
 }
@@ -152,7 +152,7 @@ impl Stated {
                 bodies,
                 freed,
                 in_base: None,
-                in_own_axes: None,
+                in_body_axes: None,
                 constrained,
             });
         }
@@ -177,7 +177,7 @@ impl Stated {
                     bodies,
                     freed: None,
                     in_base: Some(in_base),
-                    in_own_axes: None,
+                    in_body_axes: None,
                     constrained,
                 });
             }
@@ -205,11 +205,11 @@ impl Stated {
         definition.is(bench, (system, frame), &projected.equations, false)?;
         let mut multiplied = forms(bench, system, &by_definition, &projected.equations);
         // On constraints on positions the axes of the bodies leave less than those of the world.
-        let in_own_axes = match system.holonomic.is_empty() {
+        let in_body_axes = match system.holonomic.is_empty() {
             true => None,
-            false => turned::equations(bench, system, frame, &projected.forms),
+            false => body_axes::equations(bench, system, frame, &projected.forms),
         };
-        if let Some(own) = &in_own_axes
+        if let Some(own) = &in_body_axes
             && own.equations.cost(bench) < multiplied[0].cost(bench)
             && definition.is(bench, (system, frame), &own.equations, true)?
         {
@@ -230,7 +230,7 @@ impl Stated {
             bodies: None,
             freed: None,
             in_base: None,
-            in_own_axes,
+            in_body_axes,
             constrained,
         })
     }

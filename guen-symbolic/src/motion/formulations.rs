@@ -12,7 +12,8 @@ use super::thresholds::OTHER_WAYS;
 use super::velocity_forms::VelocityPartials;
 use super::weightless::solved;
 use super::{
-    Equations, Frame, KineticTerm, Mechanics, Solution, headings, multibody, nested, spins, tensions, turned,
+    Equations, Frame, KineticTerm, Mechanics, Solution, body_axes, constraint_forces, headings, multibody,
+    recursive, spins,
 };
 use crate::algebra::ExprId;
 use crate::program::weighted_cost;
@@ -29,13 +30,13 @@ struct Formulation {
 
 /// All formulations, in the order in which they are tried.
 const FORMULATIONS: [Formulation; 10] = [
-    Formulation { name: "tensions", is_by_spins: false, find: by_tensions },
+    Formulation { name: "constraint forces", is_by_spins: false, find: by_constraint_forces },
     Formulation { name: "multiplied out", is_by_spins: false, find: multiplied_out },
     Formulation { name: "bodies", is_by_spins: false, find: of_bodies },
     Formulation { name: "projected", is_by_spins: false, find: projected },
     Formulation { name: "shared", is_by_spins: false, find: shared },
-    Formulation { name: "nested", is_by_spins: false, find: nested },
-    Formulation { name: "own axes", is_by_spins: false, find: in_own_axes },
+    Formulation { name: "recursive", is_by_spins: false, find: recursive },
+    Formulation { name: "body axes", is_by_spins: false, find: in_body_axes },
     Formulation { name: "spins", is_by_spins: true, find: by_spins },
     Formulation { name: "base parameters", is_by_spins: false, find: in_base_parameters },
     Formulation { name: "without headings", is_by_spins: false, find: without_headings },
@@ -221,7 +222,7 @@ impl Search<'_> {
 }
 
 /// Finds rates with the reactions between the velocity forms as unknowns.
-fn by_tensions(bench: &mut Workbench, search: &mut Search<'_>) -> Result<Outcome, DerivationError> {
+fn by_constraint_forces(bench: &mut Workbench, search: &mut Search<'_>) -> Result<Outcome, DerivationError> {
     search.in_base = match search.stated.in_base.take() {
         None if search.stated.projected.is_some() => {
             InBaseParameters::new(bench, search.system, search.frame)
@@ -231,10 +232,17 @@ fn by_tensions(bench: &mut Workbench, search: &mut Search<'_>) -> Result<Outcome
     let Stated { projected, multiplied, .. } = &*search.stated;
     let squares = projected.as_ref().map(|projected| &projected.squares);
     let found = match (&mut search.in_base, squares) {
-        (Some(in_base), _) => in_base.tensions(bench, search.system),
+        (Some(in_base), _) => in_base.by_constraint_forces(bench, search.system),
         (None, Some(Some(squares))) => {
             let etas = &search.system.etas[..search.system.forms.degrees];
-            tensions::solve(bench, search.frame, squares, &multiplied[0], etas, search.generalised_forces)
+            constraint_forces::solve(
+                bench,
+                search.frame,
+                squares,
+                &multiplied[0],
+                etas,
+                search.generalised_forces,
+            )
         }
         (None, Some(None)) => return Ok(Outcome::Declined("the energy is no sum of squares")),
         (None, None) => return Ok(Outcome::Declined("the energy is not multiplied out")),
@@ -309,12 +317,13 @@ fn shared(bench: &mut Workbench, search: &mut Search<'_>) -> Result<Outcome, Der
 }
 
 /// Velocities computed one from another.
-fn nested(bench: &mut Workbench, search: &mut Search<'_>) -> Result<Outcome, DerivationError> {
+fn recursive(bench: &mut Workbench, search: &mut Search<'_>) -> Result<Outcome, DerivationError> {
     let Some(projected) = &search.stated.projected else {
         return Ok(Outcome::Declined("the energy is not multiplied out"));
     };
     let (system, forces, least) = (search.system, search.generalised_forces, search.least);
-    let mut lists = nested::rates(bench, system, search.frame, search.terms, &projected.forms, forces, least);
+    let mut lists =
+        recursive::rates(bench, system, search.frame, search.terms, &projected.forms, forces, least);
     lists.retain(|rates| weighted_cost(&bench.graph, rates) < least);
     if lists.is_empty() {
         return Ok(Outcome::Declined(
@@ -325,13 +334,13 @@ fn nested(bench: &mut Workbench, search: &mut Search<'_>) -> Result<Outcome, Der
 }
 
 /// Velocities along the axes of the bodies.
-fn in_own_axes(bench: &mut Workbench, search: &mut Search<'_>) -> Result<Outcome, DerivationError> {
+fn in_body_axes(bench: &mut Workbench, search: &mut Search<'_>) -> Result<Outcome, DerivationError> {
     let Some(projected) = &search.stated.projected else {
         return Ok(Outcome::Declined("the energy is not multiplied out"));
     };
-    let own = match search.stated.in_own_axes.take() {
+    let own = match search.stated.in_body_axes.take() {
         Some(own) => Some(own),
-        None => turned::equations(bench, search.system, search.frame, &projected.forms),
+        None => body_axes::equations(bench, search.system, search.frame, &projected.forms),
     };
     let Some(own) = own else {
         return Ok(Outcome::Declined("no chart has an edge, or no body turns"));

@@ -1,7 +1,9 @@
 //! Derives the equations of motion from operators and energies, (2.1)-(2.10), by two independent routes.
 
 mod base_parameters;
-mod between;
+mod body_axes;
+mod cancellation;
+mod constraint_forces;
 mod declaration;
 mod dependence;
 mod derivation;
@@ -18,19 +20,17 @@ mod indispensable;
 mod kinetic;
 mod lagrange;
 mod multibody;
-mod nested;
-mod numerator;
 mod poincare;
 mod projection;
 mod proof;
+mod recursive;
+mod relative_angles;
 mod restated;
 mod restriction;
 mod solve;
 mod spins;
 mod symmetry;
-mod tensions;
 mod thresholds;
-mod turned;
 mod velocity_forms;
 mod weightless;
 

@@ -12,7 +12,7 @@
 //! Rows `s > l` are the equations of the reactions.
 //!
 //! Where `T°` is a sum of squares with constant masses, the forms are handed on as they are, before they are
-//! multiplied out: see `tensions`.
+//! multiplied out: see `constraint_forces`.
 
 use core::ops::Range;
 

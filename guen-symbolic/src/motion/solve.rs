@@ -1,6 +1,6 @@
 //! `M eta' = f` by a straight-line `L D L^T` factorisation of each block of the mass matrix.
 
-use super::numerator;
+use super::cancellation;
 use crate::algebra::ExprId;
 use crate::geometry::adjugate;
 use crate::motion::thresholds::{ADJUGATE_BLOCK, BLOCK_WRITTEN_OUT};
@@ -266,7 +266,7 @@ fn put_back(
     let factor = bench.graph.div(coupling, p);
     let product = bench.graph.mul(factor, f[first]);
     let g = bench.graph.sub(f[other], product);
-    let numerator = numerator::difference(&mut bench.graph, [f[first], d], [coupling, g])?;
+    let numerator = cancellation::difference(&mut bench.graph, [f[first], d], [coupling, g])?;
     Some(bench.graph.product(&[(numerator, 1), (p, -1), (d, -1)]))
 }
 

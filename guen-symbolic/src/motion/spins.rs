@@ -13,10 +13,10 @@
 //! For a quaternion this divides by nothing, `S' x'` is zero, and `C' x' = 2 |q'|^2`; for angles it divides once by what vanishes at
 //! their pole. Terms of the forms without velocities are left out here.
 
+use super::body_axes;
 use super::derivation::rests;
 use super::restated::Restated;
 use super::restriction::{self, Restriction};
-use super::turned;
 use super::velocity_forms::VelocityPartials;
 use super::{Frame, Mechanics};
 use crate::algebra::{ExprId, Flow, Role, Substitution};
@@ -43,9 +43,9 @@ pub(super) fn rates(
     }
     let mut restated = Restated::new(bench, system, operators)?;
     let Restated { system, frame: by_spins, forces, projected } = &mut restated;
-    let turned = turned::in_any_chart(bench, system, by_spins, &projected.forms)?;
+    let turned = body_axes::in_any_chart(bench, system, by_spins, &projected.forms)?;
     // Where it divides by an edge of the spins, a mass matrix in other parameters may be regular there.
-    let divisors = turned::divisors(&bench.graph, &turned.equations.mass.concat());
+    let divisors = body_axes::divisors(&bench.graph, &turned.equations.mass.concat());
     if divisors.into_iter().any(|divisor| is_among(bench, divisor, &own)) {
         return None;
     }
@@ -279,7 +279,7 @@ fn turning(
         }
         let components = match body.spin {
             Some(spin) => spin,
-            None => turned::spin(bench, system, rows),
+            None => body_axes::spin(bench, system, rows),
         };
         let [x, y, z] = components.map(|component| {
             let form = partials.affine(bench, component)?;

@@ -27,8 +27,8 @@ pub(in crate::motion) const ALL_FORMS: u64 = 600;
 /// The estimated cost below which momenta, reactions and the equations shown stay as they are.
 pub(in crate::motion) const RESTATED: u64 = 600;
 
-/// The number of products above which a numerator is not multiplied out.
-pub(in crate::motion) const NUMERATOR_PRODUCTS: usize = 1000;
+/// The number of products above which two products are not compared term by term.
+pub(in crate::motion) const CANCELLATION_PRODUCTS: usize = 1000;
 
 /// The weight up to which velocities on the constraints stay as the operators have them.
 pub(in crate::motion) const VELOCITY_WEIGHT: u64 = 4;
@@ -43,8 +43,8 @@ pub(in crate::motion) const COMPARED_SUMS: usize = 400;
 /// The number of products for every angle of a form from which on it is not looked at.
 pub(in crate::motion) const PRODUCTS_OF_AN_ANGLE: usize = 400;
 
-/// The cost of a mass matrix below which it is left alone by tensions.
-pub(in crate::motion) const TENSIONS_MASSES: usize = 12;
+/// The cost of a mass matrix below which it is not replaced by constraint forces as unknowns.
+pub(in crate::motion) const DENSE_COST: usize = 12;
 
 /// The number of parameters of a block above which it is not balanced.
 pub(in crate::motion) const BALANCED_PARAMETERS: usize = 2;

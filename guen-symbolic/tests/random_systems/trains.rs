@@ -189,7 +189,7 @@ fn trains_move_as_with_multipliers() {
         let (words, mechanics, features) = drawn(seed);
         let Some((derived, difference)) = compared(words, mechanics, seed) else { continue };
         worst = worst.max(difference);
-        if derived.derivation.is_by("nested") {
+        if derived.derivation.is_by("recursive") {
             nested += 1;
             features.into_iter().for_each(|name| *shown.entry(name).or_default() += 1);
         }

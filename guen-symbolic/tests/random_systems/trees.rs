@@ -1,4 +1,4 @@
-//! Random trees of links: what tensions solve, against multipliers.
+//! Random trees of links, solved for the constraint forces, against multipliers.
 //!
 //! Links hang from the tips of earlier ones, from a point at rest, from one that moves as prescribed, or from a cart; in
 //! a plane with absolute or relative angles, measured either way round, or in space with two angles each. They carry
@@ -172,12 +172,12 @@ fn trees_of_links_move_as_with_multipliers() {
         let (words, mechanics, features) = drawn(seed);
         let Some((derived, difference)) = compared(words, mechanics, seed) else { continue };
         worst = worst.max(difference);
-        if derived.derivation.is_by("tensions") {
+        if derived.derivation.is_by("constraint forces") {
             solved += 1;
             features.present.into_iter().for_each(|name| *shown.entry(name).or_default() += 1);
         }
     }
-    println!("by tensions {solved} of {rounds}, largest difference {worst:e}, with {shown:?}");
+    println!("by constraint forces {solved} of {rounds}, largest difference {worst:e}, with {shown:?}");
     assert!(3 * solved >= 2 * rounds);
     for name in [
         "prescribed",
@@ -191,7 +191,7 @@ fn trees_of_links_move_as_with_multipliers() {
     ] {
         assert!(
             shown.get(name).is_some_and(|count| 8 * *count as u64 >= rounds),
-            "{name}: too few by tensions"
+            "{name}: too few by constraint forces"
         );
     }
 }

@@ -1,4 +1,4 @@
-//! The third way to solve: the reactions between the velocity forms as unknowns.
+//! Formulation "constraint forces": the reactions between velocity forms are the unknowns.
 //!
 //! In a chain each mass feels its two links only, but in the mass matrix `M = U^T D U` of the parameters every link meets
 //! every other: the forms `u = U eta` of the particles are long sums. As differences from each other, `S u = B eta` with
@@ -15,7 +15,7 @@
 //! ```
 //!
 //! all of them sparse. The rates `u'` go first, for the masses are positive: `K = S D^-1 S^T`, `B eta' = K lambda - c`.
-//! Then `lambda = lambda_c + P^T g + N sigma` with `B^T N = 0` and `P B = 1` of `balance`, which leaves the tensions
+//! Then `lambda = lambda_c + P^T g + N sigma` with `B^T N = 0` and `P B = 1` of `balance`, which leaves the unknowns `sigma`,
 //!
 //! ```text
 //! N^T K N sigma = N^T (c - K (lambda_c + P^T g)),   eta' = P (K lambda - c).
@@ -23,7 +23,7 @@
 //!
 //! `N^T K N` is positive definite wherever the mass matrix is regular, so that its elimination needs no licence for a
 //! pivot and may go in the order of least fill; for a chain it is tridiagonal. `lambda_c` is constant and takes forces
-//! like weight out of `g` where they are constant along a difference: at rest the tensions are known.
+//! like weight out of `g` where they are constant along a difference: at rest the constraint forces are known.
 
 mod balance;
 mod pattern;
@@ -31,11 +31,11 @@ mod sparse;
 mod system;
 mod tree;
 
-use super::between::Between;
 use super::projection::Squares;
+use super::relative_angles::RelativeAngles;
 use super::{Equations, Frame};
 use crate::algebra::ExprId;
-use crate::motion::thresholds::TENSIONS_MASSES;
+use crate::motion::thresholds::DENSE_COST;
 use crate::workbench::Workbench;
 
 use balance::{Balance, balance};
@@ -44,8 +44,8 @@ use sparse::Vector;
 use system::{System, summands, terms};
 use tree::Edge;
 
-/// The accelerations by tensions.
-pub(super) struct Tensions {
+/// The accelerations by constraint forces.
+pub(super) struct ByConstraintForces {
     /// `eta_1'..eta_l'`.
     pub(super) accelerations: Vec<ExprId>,
     /// The divisors of the elimination: they vanish only where the mass matrix is singular.
@@ -95,7 +95,7 @@ impl Stretched<'_> {
     }
 }
 
-/// Solves by tensions, where that is possible and promises to be cheaper than the mass matrix of `equations`, of which
+/// Solves by constraint forces, where that is possible and promises to be cheaper than the mass matrix of `equations`, of which
 /// the pattern counts. `etas` and `forces` are those of the frame, the forces without `T` and `U`.
 pub(super) fn solve(
     bench: &mut Workbench,
@@ -104,15 +104,15 @@ pub(super) fn solve(
     equations: &Equations,
     etas: &[ExprId],
     forces: &[ExprId],
-) -> Option<Tensions> {
+) -> Option<ByConstraintForces> {
     let l = etas.len();
     let dense = pattern::of_mass(bench, &equations.mass[..l]);
     let zero = bench.graph.zero();
     // Forms that no parameter moves take no part.
     let moving: Vec<usize> =
         (0..squares.masses.len()).filter(|k| squares.components[*k].iter().any(|e| *e != zero)).collect();
-    // Each tension costs as much as a parameter at least.
-    if moving.len() > 4 * l || dense.cost() < TENSIONS_MASSES {
+    // Each constraint force costs as much as a parameter at least.
+    if moving.len() > 4 * l || dense.cost() < DENSE_COST {
         return None;
     }
     let components: Vec<Vec<ExprId>> = moving.iter().map(|k| squares.components[*k].clone()).collect();
@@ -129,8 +129,8 @@ pub(super) fn solve(
     let stretched = Stretched { edges: &edges, weights: &weights };
     let across: Vec<Vector> = null.iter().map(|y| stretched.of(bench, y)).collect();
     let along: Vec<Vector> = inverse.iter().map(|y| stretched.of(bench, y)).collect();
-    let tensions = Pattern::of_products(&across, &along);
-    let (ours, theirs) = (tensions.cost(), dense.cost());
+    let sparse = Pattern::of_products(&across, &along);
+    let (ours, theirs) = (sparse.cost(), dense.cost());
     // An estimate: a solution that it finds a little more expensive may be cheaper.
     if 4 * ours > 5 * theirs {
         return None;
@@ -202,7 +202,7 @@ pub(super) fn solve(
         direct.push(parts);
     }
     let mut system = System { matrix, right, coupled, direct };
-    let between = Between::new(bench, &system.entries());
+    let between = RelativeAngles::new(bench, &system.entries());
     if !between.is_empty() {
         // Only neighbours meet: in the angles between them the entries are short.
         let other = system.rewritten(bench, &between, etas);
@@ -211,7 +211,7 @@ pub(super) fn solve(
         }
     }
     let accelerations = system.solved(bench)?;
-    Some(Tensions { accelerations, divisors, is_clear: 2 * ours <= theirs })
+    Some(ByConstraintForces { accelerations, divisors, is_clear: 2 * ours <= theirs })
 }
 
 /// `sum_k y_k (sum of parts_k)`.

@@ -1,4 +1,4 @@
-//! Formulation "nested": velocities are computed one from another, from the sums as they were written.
+//! Formulation "recursive": velocities are computed one from another, from the sums as they were written.
 //!
 //! The axle of the last of ten trailers moves like the one before it, plus the turn of one link. Multiplied out into
 //! coefficients its velocity has eleven terms, on the constraints each of these is a long product, and a row of the
@@ -20,8 +20,8 @@ mod unknowns;
 use self::component::Component;
 use self::sums::{Relative, relatives};
 use self::unknowns::Unknowns;
-use super::between::Between;
 use super::projection::{self, Measured, MeasuredForms};
+use super::relative_angles::RelativeAngles;
 use super::{Equations, Frame, KineticTerm, Mechanics, Solution};
 use crate::algebra::{ExprId, FastMap, Flow, Graph, Node};
 use crate::motion::thresholds::{CLOSE_PROMISE, VELOCITY_WEIGHT};
@@ -313,7 +313,7 @@ impl<'a> Velocities<'a> {
 /// Entries in angles that are shorter than the base angles that they are between, kept whole: in the steering angle, and not
 /// in those of the front wheel and of the car. Next to zero the sine of a difference of angles has lost its digits.
 fn in_short_angles(bench: &mut Workbench, entries: Vec<ExprId>) -> Vec<ExprId> {
-    let between = Between::new(bench, &entries).shorter(&bench.graph);
+    let between = RelativeAngles::new(bench, &entries).shorter(&bench.graph);
     let short = entries.into_iter().map(|e| {
         let written = between.within(bench, e, |bench| {
             let open = bench.graph.opened(&[e])[0];

@@ -27,13 +27,13 @@ use crate::workbench::Workbench;
 use crate::zero::Verdict;
 
 /// The equations in the axes of the bodies, and what the rates of coordinates are there.
-pub(super) struct InOwnAxes {
+pub(super) struct InBodyAxes {
     /// Without the generalised forces.
     pub(super) equations: Equations,
     velocities: Vec<ExprId>,
 }
 
-impl InOwnAxes {
+impl InBodyAxes {
     /// The rates of the state, velocities first.
     pub(super) fn rates(
         self,
@@ -55,7 +55,7 @@ pub(super) fn equations(
     system: &Mechanics,
     frame: &mut Frame,
     forms: &MeasuredForms,
-) -> Option<InOwnAxes> {
+) -> Option<InBodyAxes> {
     if frame.operators.chart.is_empty() {
         return None;
     }
@@ -68,7 +68,7 @@ pub(super) fn in_any_chart(
     system: &Mechanics,
     frame: &mut Frame,
     forms: &MeasuredForms,
-) -> Option<InOwnAxes> {
+) -> Option<InBodyAxes> {
     let multibody = system.multibody.as_ref()?;
     if !bench.graph.is_zero(multibody.other_energy) {
         return None;
@@ -106,7 +106,7 @@ pub(super) fn in_any_chart(
         projection::assemble(bench, system, (0, &mut displacements), &mut frame.motion, &terms, &forms);
     let velocities =
         if restriction::stay(bench, system, &velocities) { velocities } else { frame.velocities.clone() };
-    Some(InOwnAxes { equations, velocities })
+    Some(InBodyAxes { equations, velocities })
 }
 
 /// The kinetic energy with the velocities of bodies in their own axes.

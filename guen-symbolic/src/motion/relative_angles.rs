@@ -4,11 +4,11 @@ use crate::algebra::{ExprId, Function, Graph, Node, Rational};
 use crate::workbench::Workbench;
 
 /// Differences of angles that meet in an expression, as the edges of a forest.
-pub(super) struct Between {
+pub(super) struct RelativeAngles {
     edges: Vec<(ExprId, ExprId, ExprId)>,
 }
 
-impl Between {
+impl RelativeAngles {
     /// Collects the angles between two base angles from expressions that depend on two of them each.
     pub(super) fn new(bench: &mut Workbench, entries: &[ExprId]) -> Self {
         let mut edges = Vec::new();
@@ -20,7 +20,7 @@ impl Between {
                 edges.push((a, b, shorter(bench, *e, a, b)));
             }
         }
-        Between { edges }
+        RelativeAngles { edges }
     }
 
     /// Drops the angles that are not shorter than those that they are between.
@@ -60,7 +60,7 @@ impl Between {
     }
 }
 
-impl Between {
+impl RelativeAngles {
     /// Angles that join two of some angles that have no edge: two links that hang from a third one.
     fn middles(&self, own: &[ExprId]) -> Vec<ExprId> {
         let other = |edge: &(ExprId, ExprId, ExprId), end: ExprId| match edge {

@@ -5,16 +5,16 @@
 //! `f`, in `d` and in `g`, and its digits cover all others. As `(f d - m g)/(p d)` these products meet, and leave before
 //! anything is rounded.
 
-use crate::motion::thresholds::NUMERATOR_PRODUCTS;
+use crate::motion::thresholds::CANCELLATION_PRODUCTS;
 use std::collections::BTreeMap;
 
 use crate::algebra::{ExprId, Graph, Node, Rational};
 
 /// `f d - m g`, or `None` where nothing cancels.
 pub(super) fn difference(graph: &mut Graph, [f, d]: [ExprId; 2], [m, g]: [ExprId; 2]) -> Option<ExprId> {
-    let mut left = Product::new(graph, f, d, NUMERATOR_PRODUCTS)?;
-    let mut right = Product::new(graph, m, g, NUMERATOR_PRODUCTS)?;
-    if left.size() + right.size() > NUMERATOR_PRODUCTS {
+    let mut left = Product::new(graph, f, d, CANCELLATION_PRODUCTS)?;
+    let mut right = Product::new(graph, m, g, CANCELLATION_PRODUCTS)?;
+    if left.size() + right.size() > CANCELLATION_PRODUCTS {
         return None;
     }
     let mut places: BTreeMap<ExprId, Vec<(usize, usize)>> = BTreeMap::new();

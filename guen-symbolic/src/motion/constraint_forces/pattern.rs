@@ -37,7 +37,7 @@ pub(super) fn of_mass(bench: &Workbench, mass: &[Vec<ExprId>]) -> Pattern {
 }
 
 impl Pattern {
-    /// The pattern of the tensions' matrix, whose entries are products of columns.
+    /// The pattern of the matrix of the constraint forces, whose entries are products of columns.
     pub(super) fn of_products(across: &[Vector], along: &[Vector]) -> Self {
         let count = across.len();
         let mut neighbours = vec![vec![false; count]; count];

@@ -1,13 +1,13 @@
-//! The equations of the tensions: rewritten in the angles between neighbours, scaled, and solved.
+//! The equations of the constraint forces: rewritten in the angles between neighbours, scaled, and solved.
 
 use crate::algebra::{ExprId, FastMap, Node, Rational};
-use crate::motion::between::Between;
+use crate::motion::relative_angles::RelativeAngles;
 use crate::motion::solve::{Elimination, Naming, eliminate};
 use crate::normal::{Limits, normal_coefficients};
 use crate::program::weighted_cost;
 use crate::workbench::Workbench;
 
-/// The equations of the tensions, and the accelerations by tensions.
+/// The equations of the constraint forces, and the accelerations by them.
 pub(super) struct System {
     /// `N^T K N`.
     pub(super) matrix: Vec<Vec<ExprId>>,
@@ -15,12 +15,12 @@ pub(super) struct System {
     pub(super) right: Vec<Vec<ExprId>>,
     /// The rows of `P K N`.
     pub(super) coupled: Vec<Vec<(usize, ExprId)>>,
-    /// Terms of the accelerations without tensions.
+    /// Terms of the accelerations without constraint forces.
     pub(super) direct: Vec<Vec<ExprId>>,
 }
 
 impl System {
-    /// The coefficients of the tensions.
+    /// The coefficients of the constraint forces.
     pub(super) fn entries(&self) -> Vec<ExprId> {
         let lower = self.matrix.iter().enumerate().flat_map(|(s, row)| &row[..=s]);
         lower.copied().chain(self.coupled.iter().flatten().map(|(_, e)| *e)).collect()
@@ -33,7 +33,7 @@ impl System {
     }
 
     /// Rewrites the system in the angles between neighbours.
-    pub(super) fn rewritten(&self, bench: &mut Workbench, between: &Between, etas: &[ExprId]) -> Self {
+    pub(super) fn rewritten(&self, bench: &mut Workbench, between: &RelativeAngles, etas: &[ExprId]) -> Self {
         let lists = |bench: &mut Workbench, lists: &[Vec<ExprId>]| -> Vec<Vec<ExprId>> {
             let sums = lists.iter().map(|list| {
                 let sum = bench.graph.sum(list.iter().copied());
@@ -59,7 +59,7 @@ impl System {
 
     /// The accelerations.
     pub(super) fn solved(mut self, bench: &mut Workbench) -> Option<Vec<ExprId>> {
-        // One scale for all tensions, and one for their equations: both leave ones where there were constants.
+        // One scale for all constraint forces, and one for their equations: both leave ones where there were constants.
         let scale = most_common(bench, self.matrix.iter().flatten().copied());
         let size = most_common(bench, self.right.iter().flatten().copied());
         for entry in self.matrix.iter_mut().flatten() {
@@ -76,7 +76,7 @@ impl System {
                 bench.graph.sum(parts)
             })
             .collect();
-        let tensions = by_least_fill(bench, self.matrix, right)?;
+        let forces = by_least_fill(bench, self.matrix, right)?;
         let rows = self.coupled.into_iter().zip(self.direct);
         let accelerations = rows.map(|(coupled, direct)| {
             let mut parts = Vec::new();
@@ -84,7 +84,7 @@ impl System {
                 let e = bench.graph.product(&[(e, 1), (size, 1), (scale, -1)]);
                 let e = bench.tidy(e);
                 let e = bench.graph.keep(e);
-                parts.push(bench.graph.mul(e, tensions[t]));
+                parts.push(bench.graph.mul(e, forces[t]));
             }
             parts.extend(direct);
             bench.graph.sum(parts)
