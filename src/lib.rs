@@ -57,9 +57,9 @@ pub use guen_runtime::{
     Functions, Fused, FusedOperations, Generic, Holonomic, IncompleteLieGroup, InputLaw, InputRecords,
     InputValues, IntegrationError, Invariants, LaneScalar, Laned, LatexDocument, Level, LevelInfo, Levels,
     LieGroup, Lift, Linearization, Monitored, Nonholonomic, Operator, Ordered, OutputMap, Positions,
-    PositionsError, Projected, Real, Recast, Renormalized, Report, ReportSection, Rheonomic, RunningError,
-    Scleronomic, Setting, Simulate, Smooth, System, WithFunctions, WithInputs, from_fn, generic, lanes,
-    project, projected, renormalized, steppers,
+    PositionsError, Projected, Real, Renormalized, Report, ReportSection, Rheonomic, RunningError,
+    Scleronomic, Setting, Simulate, Smooth, System, WithFunctions, WithInputs, WithScalar, from_fn, generic,
+    lanes, project, projected, renormalized, steppers,
 };
 pub use guen_runtime::{Coefficients, Convolutions, DrivenSeries, HIGHEST_ORDER, PowerSeries, TaylorSeries};
 pub use guen_runtime::{Liftable, Linearizable, OutputLinearization, control, linearized, seeded};
@@ -159,14 +159,15 @@ pub mod __private {
         DrivenSeries, Dual, HIGHEST_ORDER, Holonomic, IncompleteLieGroup, InputRecords, Invariants, Laned,
         Level, LevelInfo, Levels, LieGroup, Lift, Liftable, Linearizable, Linearization, Monitored,
         Nonholonomic, Operator, Ordered, OutputLinearization, OutputMap, Positions, PositionsError, Real,
-        Recast, Report, ReportSection, Rheonomic, RunningError, Scleronomic, Simulate, System, TaylorSeries,
-        Undriven, Unprepared, WithInputs, linearized, nalgebra_conversions, seeded,
+        Report, ReportSection, Rheonomic, RunningError, Scleronomic, Simulate, System, TaylorSeries,
+        Undriven, Unprepared, WithInputs, WithScalar, linearized, nalgebra_conversions, seeded,
     };
     pub use guen_runtime::{
         actuated, condition, conserved, differentiable, domain, dynamics, energy, facts, jacobians, laned,
         level_info, levels, linearizable, mass_form, monitored, motion_of_system, onto_constraints,
         operators, output_map, prepare, prepared, program_functions, rates, reaction_covector, reactions,
-        recast, record, reduce, reported, simulated, singularities, state_of_system, steady_motions, uses,
+        record, reduce, reported, simulated, singularities, state_of_system, steady_motions, uses,
+        with_scalar,
     };
     pub use guen_runtime::{consistent, control, furthest_surplus, serde_record};
 }

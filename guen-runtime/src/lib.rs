@@ -7,7 +7,7 @@
 //! | what is a number? | [`Real`], [`Ordered`], [`Dual`], [`RunningError`]; [`Lift`] embeds a base real |
 //! | what is integrated? | [`System`], [`Monitored`], [`Differentiable`], [`TaylorSeries`], [`from_fn`], [`generic`] |
 //! | which functions does it have? | [`WithFunctions`]: [`Approx13`], [`Approx7`], [`Fused`], [`Functions`] of your own |
-//! | over which reals? | [`Recast`], what can be made anew over each |
+//! | over which reals? | [`WithScalar`]: a system made anew over each |
 //! | how many at once? | [`lanes`]; [`Laned`] systems |
 //! | what acts on functions? | [`Operator`], [`Function`], [`Coordinate`], [`BracketCoefficients`] |
 //! | what is known at compile time? | [`Class`], the markers [`Holonomic`] to [`Conservative`], [`Cost`] |
@@ -97,9 +97,9 @@ pub use system::outputs::OutputMap;
 pub use system::positions::furthest_surplus;
 pub use system::positions::{Positions, Projected, consistent, project, projected};
 pub use system::positions_error::PositionsError;
-pub use system::recast::Recast;
 pub use system::series::{Coefficients, Convolutions, DrivenSeries, TaylorSeries};
 pub use system::simulate::Simulate;
+pub use system::with_scalar::WithScalar;
 pub use system::{FromFn, Laned, Monitored, System, from_fn};
 
 #[cfg(feature = "serde")]

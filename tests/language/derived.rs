@@ -1,7 +1,7 @@
 //! Constants that follow others until they are set, in every way of making a system.
 
 use guen::prelude::*;
-use guen::{Approx7, ConstantsError, Derived, Recast, mechanical_system};
+use guen::{Approx7, ConstantsError, Derived, WithScalar, mechanical_system};
 
 mechanical_system! {
     /// A disc that is turned, with a wheel whose moment follows the disc's.
@@ -69,11 +69,11 @@ fn what_follows_is_checked_as_what_is_given() {
 fn other_reals() {
     let disc = Disc { m: 1.7, r: 0.6, ..Disc::new(0.3) };
     let single = Disc::<f32> { m: 1.7, r: 0.6, ..Disc::new(0.3) }.prepare().unwrap();
-    assert_eq!(disc.recast::<f32>().unwrap(), single);
-    assert_eq!(disc.prepare().unwrap().recast::<f32>().unwrap(), single);
-    let long = disc.prepare().unwrap().recast::<Approx7>().unwrap();
+    assert_eq!(disc.with_scalar::<f32>().unwrap(), single);
+    assert_eq!(disc.prepare().unwrap().with_scalar::<f32>().unwrap(), single);
+    let long = disc.prepare().unwrap().with_scalar::<Approx7>().unwrap();
     assert_eq!((long.constants().J, long.constants().wheel), (Derived::Follows, Derived::Follows));
-    let set = Disc { J: 2.0.into(), ..disc }.recast::<f32>().unwrap();
+    let set = Disc { J: 2.0.into(), ..disc }.with_scalar::<f32>().unwrap();
     assert_eq!(set.constants().J, 2.0_f32);
     // The derivative by the mass goes through what follows it: `d/dm k/(5/8 m r^2 + 1)`.
     let varied = Disc {

@@ -14,7 +14,7 @@ use crate::syntax::Name;
 
 /// The cost of a further variable for a stepper in each of its stages, in units of a multiplication: half of the
 /// coefficients of a stage, for methods of order 8.
-const STEPPED: u64 = 6;
+const STATE_COST: u64 = 6;
 
 /// The carried form of a level whose rates are given in several equal forms; what has none is reported at the word that
 /// asks for it.
@@ -41,7 +41,7 @@ pub(super) fn derive(
         let mut forms = vec![rates];
         extend(&mut model.bench, &mut forms);
         let cost = programs(model, &forms, None).functions[0].cost.weighted()
-            + STEPPED * carried.functions.len() as u64;
+            + STATE_COST * carried.functions.len() as u64;
         if best.as_ref().is_none_or(|(least, ..)| cost < *least) {
             best = Some((cost, carried, forms));
         }

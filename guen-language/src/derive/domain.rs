@@ -64,12 +64,14 @@ fn dependent(model: &Model<'_>, forms: &[usize]) -> String {
 
 /// `a, b and c`; of many the first ones.
 fn listed(names: &[&str]) -> String {
-    const MOST: usize = 6;
+    const LISTED_NAMES: usize = 6;
     match names {
         [] => String::new(),
         [one] => (*one).to_owned(),
-        [first @ .., last] if names.len() <= MOST => format!("{} and {last}", first.join(", ")),
-        _ => format!("{} and {} others", names[..MOST - 1].join(", "), names.len() - MOST + 1),
+        [first @ .., last] if names.len() <= LISTED_NAMES => format!("{} and {last}", first.join(", ")),
+        _ => {
+            format!("{} and {} others", names[..LISTED_NAMES - 1].join(", "), names.len() - LISTED_NAMES + 1)
+        }
     }
 }
 
@@ -103,12 +105,12 @@ impl Zero {
 
 /// The places where an expression vanishes; none where these would take too many words.
 fn zeros(graph: &Graph, e: ExprId) -> Option<Vec<Zero>> {
-    const LONGEST: usize = 60;
+    const CONDITION_CHARACTERS: usize = 60;
     if graph.manifestly_nonzero(e) {
         return Some(Vec::new());
     }
     let told = |e: ExprId, words: &str| {
-        Some(vec![Zero::Told(format!("{} {words}", graph.text_limited(e, LONGEST)?))])
+        Some(vec![Zero::Told(format!("{} {words}", graph.text_limited(e, CONDITION_CHARACTERS)?))])
     };
     match graph.node(e) {
         Node::Kept(inside) => zeros(graph, *inside),
@@ -141,7 +143,7 @@ fn zeros(graph: &Graph, e: ExprId) -> Option<Vec<Zero>> {
             let first = terms.first().is_some_and(|(_, c)| c.is_negative());
             let are_squares = terms.iter().all(|(term, c)| is_square(*term) && c.is_negative() == first);
             if !(are_squares && constant.is_zero()) {
-                return graph.text_limited(e, LONGEST).map(|_| vec![Zero::Plain(e)]);
+                return graph.text_limited(e, CONDITION_CHARACTERS).map(|_| vec![Zero::Plain(e)]);
             }
             // All of them vanish at once.
             let each =
@@ -157,6 +159,6 @@ fn zeros(graph: &Graph, e: ExprId) -> Option<Vec<Zero>> {
 
 /// A function that must not vanish in words; another text where it is too long.
 pub(super) fn written(model: &Model<'_>, e: ExprId, otherwise: &str) -> String {
-    const LONGEST: usize = 400;
-    model.bench.graph.text_limited(e, LONGEST).unwrap_or(otherwise.to_owned())
+    const MESSAGE_CHARACTERS: usize = 400;
+    model.bench.graph.text_limited(e, MESSAGE_CHARACTERS).unwrap_or(otherwise.to_owned())
 }

@@ -228,8 +228,8 @@ pub(super) fn report_missing_momenta(
 
 /// The text of an expression for a message.
 pub(super) fn short(model: &Model<'_>, e: ExprId) -> String {
-    const LONGEST: usize = 200;
-    model.bench.graph.text_limited(e, LONGEST).unwrap_or_else(|| "..".to_owned())
+    const MESSAGE_CHARACTERS: usize = 200;
+    model.bench.graph.text_limited(e, MESSAGE_CHARACTERS).unwrap_or_else(|| "..".to_owned())
 }
 
 /// Outputs that ask for a reaction that the kinetic energy does not determine.

@@ -20,7 +20,7 @@ pub(super) trait Loads {
 /// one before, and the compiler's code for debug information recurses over them: five thousand in a row overflow its
 /// stack.
 pub(super) fn body(instructions: &[Instruction], outputs: &[Value], loads: &dyn Loads) -> String {
-    const BLOCK: usize = 100;
+    const BLOCK_STATEMENTS: usize = 100;
     let values = instructions.iter().flat_map(defined).map(|v| v.index() + 1).max().unwrap_or(0);
     let uses = uses(instructions, outputs, values);
     let mut writer = Writer {
@@ -45,12 +45,12 @@ pub(super) fn body(instructions: &[Instruction], outputs: &[Value], loads: &dyn 
         }
     }
     // Results stand inside of the only block, or behind all of several.
-    let is_short = steps.len() <= BLOCK;
+    let is_short = steps.len() <= BLOCK_STATEMENTS;
     for output in outputs {
         last_use[output.index()] = if is_short { steps.len() } else { usize::MAX };
     }
     // Blocks hand on names only.
-    let block = if is_short { steps.len() + 1 } else { BLOCK };
+    let block = if is_short { steps.len() + 1 } else { BLOCK_STATEMENTS };
     for (place, step) in steps.iter().enumerate() {
         let r = step.result.index();
         writer.in_place[r] = uses[r] == 1 && last_use[r] / block == place / block;
@@ -58,8 +58,8 @@ pub(super) fn body(instructions: &[Instruction], outputs: &[Value], loads: &dyn 
     if is_short {
         writer.statements(&steps);
     } else {
-        for (number, block) in steps.chunks(BLOCK).enumerate() {
-            let end = number * BLOCK + block.len();
+        for (number, block) in steps.chunks(BLOCK_STATEMENTS).enumerate() {
+            let end = number * BLOCK_STATEMENTS + block.len();
             let handed: Vec<String> = block
                 .iter()
                 .flat_map(|step| defined(step))
@@ -141,7 +141,7 @@ fn needed(
     absorbed: &[Option<(Value, Value)>],
 ) -> Option<Vec<usize>> {
     /// An angle is a sum of a few terms; what is longer stays where it is.
-    const MOST: usize = 6;
+    const ANGLE_STEPS: usize = 6;
     let operands = |step: &Instruction| -> Vec<Value> {
         let factors = |v: Value| absorbed[v.index()].map(|(a, b)| [a, b]);
         step.operation
@@ -153,7 +153,7 @@ fn needed(
     let mut found = Vec::new();
     for place in (first..last).rev() {
         if defined(steps[place]).any(|value| values.contains(&value)) {
-            if place == first || found.len() == MOST {
+            if place == first || found.len() == ANGLE_STEPS {
                 return None;
             }
             found.push(place);
@@ -318,10 +318,10 @@ pub(super) fn number(value: &Rational) -> String {
 
 /// `value = sum m 2^e` in descending magnitude: first rounded to 53 bits, then remainders, 330 bits in all.
 fn binary_parts(value: &Rational) -> Vec<(i64, i32)> {
-    const PARTS: usize = 6;
+    const BINARY_PARTS: usize = 6;
     let mut rest = value.clone();
     let mut parts = Vec::new();
-    for _ in 0..PARTS {
+    for _ in 0..BINARY_PARTS {
         if rest.is_zero() {
             break;
         }

@@ -7,7 +7,7 @@ use quote::{format_ident, quote};
 use super::formula::default_text;
 use super::layout::{Layout, REAL, is_derived, variable_ident};
 use super::text::tokens;
-use super::{documentation, limits, motion, physical, recast};
+use super::{documentation, limits, motion, physical, with_scalar};
 use crate::derive::Subject;
 use crate::report::Report;
 use crate::syntax::BoundKind;
@@ -112,7 +112,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, report: &Report)
     let definite = physical::definite(subject, layout);
     let pivots = motion::pivots(subject);
     let limits = limits::has_any(subject).then(|| quote!(prepared.check_limits()?;));
-    let recast = recast::items(layout, &names, marker_value.as_ref());
+    let with_scalar = with_scalar::items(layout, &names, marker_value.as_ref());
     let what = if layout.is_whole { "system" } else { "scene" };
     let prepared_docs = format!(
         "The {what} [`{declared}`] with its constants checked and everything that depends on them alone computed once. Immutable; it alone runs."
@@ -140,7 +140,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, report: &Report)
             }
         }
 
-        #recast
+        #with_scalar
     }
 }
 

@@ -57,7 +57,7 @@ impl CheckOperations {
         /// The cost of an operation whose rounding is counted, and of a function.
         const ROUNDED: [u64; 2] = [4, 2];
         /// The cost of the comparisons of a function that must not vanish, or of one that is carried.
-        const COMPARED: u64 = 20;
+        const COMPARISON_COST: u64 = 20;
         let level = subject.level;
         let cost = |names: &[&str]| -> u64 {
             let programs = names.iter().filter_map(|name| level.program(name));
@@ -76,12 +76,12 @@ impl CheckOperations {
         } else {
             0
         };
-        let edges = rounded(function::DOMAIN) + COMPARED * level.edges as u64;
+        let edges = rounded(function::DOMAIN) + COMPARISON_COST * level.edges as u64;
         // Factors of the matrix and the diagonal of its inverse, roots and divisions for scaling: in loops over short rows,
         // which take more than their operations.
         let l = layout.l as u64;
         let condition = level.program(function::MASS).map_or(0, |_| l * l * (l + 20));
-        let carried = COMPARED * level.selection.carried.len() as u64;
+        let carried = COMPARISON_COST * level.selection.carried.len() as u64;
         let others =
             rounded(function::POSITIONS) + cost(&[function::MASS, function::CARRY, function::INVARIANTS]);
         Self { all: energies + edges + condition + carried + others, edges }
@@ -100,16 +100,16 @@ impl CheckOperations {
 /// The methods `check_cost` and `singularity_check_cost`: operations of checks in right-hand sides with what a stepper does for each.
 pub(super) fn prices(subject: &Subject<'_, '_>, layout: &Layout, checks: &CheckOperations) -> TokenStream {
     /// The cost of a sum over stages, for each entry of the state.
-    const STAGE: u64 = 4;
+    const STAGE_COST: u64 = 4;
     /// The cost of the calls, comparisons and copies of a check, whatever the system: counted for a particle without
     /// forces, whose estimates of errors by RK8 have more operations than all of its right-hand sides.
-    const BESIDES: u64 = 240;
+    const CHECK_OVERHEAD: u64 = 240;
     /// The costs beside a check of singularities alone: counted for Appell's system in lanes, which is the most expensive
     /// beside its right-hand side.
     const BESIDES_EDGES: u64 = 120;
     let rhs = subject.level.program(function::RHS).map_or(0, |program| program.cost.weighted());
-    let one = (rhs + STAGE * layout.size as u64).max(1);
-    let check = u32::try_from((checks.all + BESIDES).div_ceil(one)).unwrap_or(u32::MAX);
+    let one = (rhs + STAGE_COST * layout.size as u64).max(1);
+    let check = u32::try_from((checks.all + CHECK_OVERHEAD).div_ceil(one)).unwrap_or(u32::MAX);
     let edges = (checks.edges > 0).then(|| {
         // In hundredths, which are enough and read well.
         let price = ((checks.edges + BESIDES_EDGES) * 100).div_ceil(one) as f64 / 100.0;

@@ -50,7 +50,7 @@ fn laned(layout: &Layout, prepared: &TokenStream) -> TokenStream {
     if layout.inputs == 0 {
         return quote! {
             impl __guen::Laned<#size> for Prepared<f64> {
-                type In<L: __guen::Lanes> = Prepared<L>;
+                type Over<L: __guen::Lanes> = Prepared<L>;
 
                 fn gather<'a, L: __guen::Lanes>(
                     member: impl ::core::ops::Fn(usize) -> &'a Self,
@@ -63,7 +63,7 @@ fn laned(layout: &Layout, prepared: &TokenStream) -> TokenStream {
     let inputs = layout.inputs;
     quote! {
         impl __guen::Laned<#size> for Driven<f64> {
-            type In<L: __guen::Lanes> = Driven<L>;
+            type Over<L: __guen::Lanes> = Driven<L>;
 
             fn gather<'a, L: __guen::Lanes>(
                 driven: impl ::core::ops::Fn(usize) -> &'a Self,

@@ -149,8 +149,8 @@ fn cells(pattern: &Pattern, rows: usize, size: usize, count: usize) -> TokenStre
 fn by_duals(layout: &Layout, of: &Ident) -> (TokenStream, TokenStream) {
     let (size, count) = (layout.size, layout.inputs);
     // The function is long. With fewer directions its operations would be compiled in line, see `Dual`: minutes of rustc's time.
-    const FEWEST: usize = 9;
-    let directions = (size + count).max(FEWEST);
+    const CALLED_DIRECTIONS: usize = 9;
+    let directions = (size + count).max(CALLED_DIRECTIONS);
     let dual = quote!(__guen::Dual<R, #directions>);
     let held = match count {
         0 => quote!(let inputs: [R; 0] = [];),

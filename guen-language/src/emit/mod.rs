@@ -23,13 +23,13 @@ mod motion;
 mod operators;
 mod physical;
 mod positions;
-mod recast;
 mod records;
 mod serde;
 mod series;
 mod signatures;
 mod text;
 mod uses;
+mod with_scalar;
 
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::quote;

@@ -68,8 +68,8 @@ struct Statement {
 
 /// Statements in blocks that hand on what later ones need: see `code::body`.
 fn blocks(statements: &[Statement], needed: &[String]) -> String {
-    const BLOCK: usize = 100;
-    if statements.len() <= BLOCK {
+    const BLOCK_STATEMENTS: usize = 100;
+    if statements.len() <= BLOCK_STATEMENTS {
         return statements.iter().map(|statement| statement.text.as_str()).collect();
     }
     let mut last_use: BTreeMap<&str, usize> = BTreeMap::new();
@@ -82,8 +82,8 @@ fn blocks(statements: &[Statement], needed: &[String]) -> String {
         last_use.insert(name, usize::MAX);
     });
     let mut text = String::new();
-    for (index, block) in statements.chunks(BLOCK).enumerate() {
-        let end = index * BLOCK + block.len();
+    for (index, block) in statements.chunks(BLOCK_STATEMENTS).enumerate() {
+        let end = index * BLOCK_STATEMENTS + block.len();
         let handed: String = block
             .iter()
             .flat_map(|statement| &statement.defines)

@@ -216,9 +216,9 @@ fn span_of(token: &TokenTree) -> Span {
 
 /// Text that fits into a message.
 fn shortened(text: &str) -> String {
-    const LONGEST: usize = 40;
-    if text.chars().count() <= LONGEST {
+    const QUOTED_CHARACTERS: usize = 40;
+    if text.chars().count() <= QUOTED_CHARACTERS {
         return text.to_owned();
     }
-    text.chars().take(LONGEST).chain(['…']).collect()
+    text.chars().take(QUOTED_CHARACTERS).chain(['…']).collect()
 }

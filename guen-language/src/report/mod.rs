@@ -17,7 +17,7 @@ use crate::model::{FormKind, Model, RedundantEntry};
 use lines::{LATEX_TOO_LONG, Lines, TOO_LONG, Terms, Writer, class_name, plural};
 
 /// Lines longer than this are left to the programs.
-const LONGEST: usize = 3000;
+const LINE_CHARACTERS: usize = 3000;
 
 impl Report {
     /// Writes down what was derived of a level of detail of a model.
@@ -32,8 +32,8 @@ impl Report {
         let graph = &subject.model.bench.graph;
         let shown = &subject.level.shown;
         let writer = &mut Writer {
-            text: Notation::text(graph, LONGEST).of_images(shown),
-            latex: Notation::latex(graph, LONGEST).of_images(shown),
+            text: Notation::text(graph, LINE_CHARACTERS).of_images(shown),
+            latex: Notation::latex(graph, LINE_CHARACTERS).of_images(shown),
         };
         let operators = |lines: &mut Vec<Section>, writer: &mut Writer<'_>| {
             lines.push(self::operators(subject, writer));

@@ -69,12 +69,12 @@ pub(crate) fn page<'s>(
     sections: impl Iterator<Item = (&'s str, &'s [String], &'s [String])>,
 ) -> String {
     /// Formulas that are longer are left to the text: a page of one formula helps no reader.
-    const LONGEST: usize = 1500;
+    const FORMULA_CHARACTERS: usize = 1500;
     let mut text = format!("{summary}\n");
     for (title, lines, formulas) in sections {
         text.push_str(&format!("\n# {title}\n\n"));
         for (formula, plain) in formulas.iter().zip(lines) {
-            if formula.len() <= LONGEST {
+            if formula.len() <= FORMULA_CHARACTERS {
                 text.push_str(&format!("{FORMULA}{formula}{FORMULA}\n\n"));
             } else {
                 text.push_str(&format!("```text\n{plain}\n```\n\n"));

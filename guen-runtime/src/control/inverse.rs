@@ -193,12 +193,12 @@ pub fn affine_inverse_dynamics<R: Ordered, const L: usize, const M: usize>(
 fn start<R: Ordered, const M: usize>(place: usize) -> [R; M] {
     const SIZES: [f64; STARTS / 2] = [1.0, 10.0, 0.1, 100.0, 0.01, 1e3, 1e-3, 1e4];
     /// The golden section: inputs that are alike do not begin alike.
-    const SECTION: f64 = 0.618_033_988_749_894_9;
+    const GOLDEN_SECTION: f64 = 0.618_033_988_749_894_9;
 
     let Some(place) = place.checked_sub(1) else { return [R::zero(); M] };
     let size = SIZES.get(place / 2).copied().unwrap_or_default() * if place % 2 == 0 { 1.0 } else { -1.0 };
     core::array::from_fn(|j| {
-        let turns = SECTION * j as f64;
+        let turns = GOLDEN_SECTION * j as f64;
         R::from_f64(size * (1.0 - (turns - libm::floor(turns))))
     })
 }

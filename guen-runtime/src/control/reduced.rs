@@ -394,7 +394,7 @@ impl<'a, R: Ordered, const N: usize, const H: usize> Leaf<'a, R, N, H> {
     /// Solves for the slots that depend on the others.
     fn solve(&self, slots: &[Component]) -> Result<Solved<R, N, H>, ReduceError> {
         /// An entry that is smaller than this beside the largest one is no pivot.
-        const SMALLEST: f64 = 1e-10;
+        const LEAST_PIVOT: f64 = 1e-10;
         let mut f = [[R::zero(); N]; H];
         for (row, given) in f.iter_mut().zip(&self.rows) {
             for (entry, slot) in row.iter_mut().zip(slots) {
@@ -419,7 +419,7 @@ impl<'a, R: Ordered, const N: usize, const H: usize> Leaf<'a, R, N, H> {
         let needed = H.saturating_sub(self.quaternions.len());
         while solved.rank < needed {
             let k = solved.rank;
-            let mut best = (SMALLEST * scale, None);
+            let mut best = (LEAST_PIVOT * scale, None);
             for (i, row) in f.iter().enumerate().skip(k) {
                 for (j, slot) in slots.iter().enumerate() {
                     let size = row[j].to_f64().abs();

@@ -289,11 +289,11 @@ pub fn check_definite<R: Real, const N: usize, const L: usize>(
 ) -> Result<(), ConstantsError> {
     const STATES: usize = 8;
     /// Multiples of it fill an interval evenly.
-    const GOLDEN: f64 = 0.618_033_988_749_894_9;
+    const GOLDEN_SECTION: f64 = 0.618_033_988_749_894_9;
     for number in 0..STATES {
         let mut state = [R::zero(); N];
         for (i, entry) in state.iter_mut().enumerate() {
-            let drawn = (number * N + i + 1) as f64 * GOLDEN;
+            let drawn = (number * N + i + 1) as f64 * GOLDEN_SECTION;
             *entry = R::from_f64(2.0 * (drawn - libm::floor(drawn)) - 1.0);
         }
         if !has_negative_pivot(mass(state).map(|row| row.map(Real::to_f64))) {

@@ -15,9 +15,9 @@ pub(crate) fn reals<R: Real, const M: usize>(parts: &[Parts; M]) -> [R; M] {
 }
 
 /// Bits of the leading part: the precision of `f64`, so that an `f64` is the decimal rounded once.
-const LEADING: u32 = 53;
+const LEADING_BITS: u32 = 53;
 /// Bits of the second part.
-const REST: u32 = 62;
+const SECOND_BITS: u32 = 62;
 
 /// The decimal `text`, such as `-1.25e-2`, to 115 bits, more than 34 digits: the leading part rounded to nearest,
 /// the second the truncated rest.
@@ -36,7 +36,7 @@ pub(crate) const fn decimal(text: &str) -> Parts {
     let mut quotient = digits / denominator;
     let mut remainder = digits % denominator;
     let mut shift = 0;
-    let mut missing = (LEADING + REST).saturating_sub(u128::BITS - quotient.leading_zeros());
+    let mut missing = (LEADING_BITS + SECOND_BITS).saturating_sub(u128::BITS - quotient.leading_zeros());
     while missing > 0 {
         let room = denominator.leading_zeros();
         let bits = if missing < room { missing } else { room };
@@ -44,19 +44,19 @@ pub(crate) const fn decimal(text: &str) -> Parts {
         quotient = (quotient << bits) + remainder / denominator;
         remainder %= denominator;
         shift += bits as i32;
-        missing = (LEADING + REST).saturating_sub(u128::BITS - quotient.leading_zeros());
+        missing = (LEADING_BITS + SECOND_BITS).saturating_sub(u128::BITS - quotient.leading_zeros());
     }
-    let mut leading = (quotient >> REST) as i64;
-    let mut rest = (quotient & ((1 << REST) - 1)) as i64;
-    if rest >= 1 << (REST - 1) {
+    let mut leading = (quotient >> SECOND_BITS) as i64;
+    let mut rest = (quotient & ((1 << SECOND_BITS) - 1)) as i64;
+    if rest >= 1 << (SECOND_BITS - 1) {
         leading += 1;
-        rest -= 1 << REST;
+        rest -= 1 << SECOND_BITS;
     }
     if negative {
         leading = -leading;
         rest = -rest;
     }
-    [(leading, REST as i32 - shift), (rest, -shift)]
+    [(leading, SECOND_BITS as i32 - shift), (rest, -shift)]
 }
 
 /// Reads a literal: returns its sign, its digits as an integer, and how many of them stand after the point.

@@ -87,8 +87,8 @@ impl<R: Real, const N: usize> Dual<R, N> {
 #[inline(always)]
 fn whole<R: Real, const N: usize>(compute: impl FnOnce() -> Dual<R, N>) -> Dual<R, N> {
     /// A call costs some nanoseconds, as much as so many tangents.
-    const FEW: usize = 8;
-    if N > FEW { apart(compute) } else { compute() }
+    const INLINED_DIRECTIONS: usize = 8;
+    if N > INLINED_DIRECTIONS { apart(compute) } else { compute() }
 }
 
 #[inline(never)]

@@ -159,9 +159,14 @@ mod own {
 /// Whether a ratio is a number of at most 24 bits, as every real keeps it.
 #[inline(always)]
 fn is_short(num: i64, den: i64) -> bool {
-    const LARGEST: u64 = 1 << 24;
+    const MANTISSA_LIMIT: u64 = 1 << 24;
     let (num, den) = (num.unsigned_abs(), den.unsigned_abs());
-    den != 0 && if den.is_power_of_two() { num <= LARGEST } else { num % den == 0 && num / den <= LARGEST }
+    den != 0
+        && if den.is_power_of_two() {
+            num <= MANTISSA_LIMIT
+        } else {
+            num % den == 0 && num / den <= MANTISSA_LIMIT
+        }
 }
 
 impl<R: Real> Real for RunningError<R> {

@@ -69,8 +69,8 @@ impl fmt::Display for LatexDocument<'_> {
 /// nothing.
 fn breakable(f: &mut fmt::Formatter<'_>, formula: &str) -> fmt::Result {
     /// About a line.
-    const LONG: usize = 160;
-    if formula.len() <= LONG {
+    const LINE_CHARACTERS: usize = 160;
+    if formula.len() <= LINE_CHARACTERS {
         return f.write_str(formula);
     }
     let mut depth = 0_i32;

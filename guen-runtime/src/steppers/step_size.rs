@@ -65,8 +65,8 @@ impl Control {
     #[inline]
     pub(crate) fn level(&self, margin: f64, size: f64) -> f64 {
         /// The margin of an error of `1e-4`: a smaller error says nothing about the next.
-        const LARGEST: f64 = 26.6;
-        margin.min(LARGEST) + self.scale(size)
+        const LARGEST_MARGIN: f64 = 26.6;
+        margin.min(LARGEST_MARGIN) + self.scale(size)
     }
 
     #[inline]
@@ -88,10 +88,14 @@ impl Control {
     /// `step^power max(|x'|, |x''|) = 1/100`, at most a hundred times the guess.
     pub(crate) fn first_step(&self, h: f64, slope_size: f64, change_size: f64, longest: f64) -> f64 {
         /// Below this, neither slope nor curvature limits the step.
-        const STILL: f64 = 1e-15;
+        const NEGLIGIBLE_SLOPE: f64 = 1e-15;
 
         let size = (change_size / h).max(slope_size);
-        let step = if size <= STILL { f64::max(1e-6, 1e-3 * h) } else { rough_root(0.01 / size, self.power) };
+        let step = if size <= NEGLIGIBLE_SLOPE {
+            f64::max(1e-6, 1e-3 * h)
+        } else {
+            rough_root(0.01 / size, self.power)
+        };
         // An infinite curvature would give a zero step: the trial steps will find out how short is short enough.
         let step = if step > 0.0 { step } else { h };
         step.min(100.0 * h).min(longest)
@@ -231,15 +235,15 @@ impl Tolerance {
         longest: f64,
     ) -> (f64, f64) {
         /// Below this, a sum of squares says nothing about the size of state or slope.
-        const NEGLIGIBLE: f64 = 1e-10;
+        const NEGLIGIBLE_SQUARES: f64 = 1e-10;
         /// The guess then.
-        const TINY: f64 = 1e-6;
+        const LEAST_GUESS: f64 = 1e-6;
 
         let weights = self.weights(x, x);
         let slope_squares = squares(slope, &weights);
         let state_squares = squares(x, &weights);
-        let guess = if slope_squares <= NEGLIGIBLE || state_squares <= NEGLIGIBLE {
-            TINY
+        let guess = if slope_squares <= NEGLIGIBLE_SQUARES || state_squares <= NEGLIGIBLE_SQUARES {
+            LEAST_GUESS
         } else if slope_squares.is_finite() && state_squares.is_finite() {
             0.01 * libm::sqrt(state_squares / slope_squares)
         } else {

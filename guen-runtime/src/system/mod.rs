@@ -18,9 +18,9 @@ pub(crate) mod operator;
 pub(crate) mod outputs;
 pub(crate) mod positions;
 pub(crate) mod positions_error;
-pub(crate) mod recast;
 pub(crate) mod series;
 pub(crate) mod simulate;
+pub(crate) mod with_scalar;
 
 use crate::numbers::lanes::Lanes;
 use crate::numbers::real::Real;
@@ -139,7 +139,7 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize> System<R, N> for &S {
 /// }
 ///
 /// impl Laned<1> for Decay<f64> {
-///     type In<L: Lanes> = Decay<L>;
+///     type Over<L: Lanes> = Decay<L>;
 ///
 ///     fn gather<'a, L: Lanes>(member: impl Fn(usize) -> &'a Self) -> Decay<L> {
 ///         Decay(L::from_fn(|lane| member(lane).0))
@@ -150,18 +150,18 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize> System<R, N> for &S {
 /// ```
 pub trait Laned<const N: usize>: System<f64, N> {
     /// The system over lanes.
-    type In<L: Lanes>: System<L, N>;
+    type Over<L: Lanes>: System<L, N>;
 
     /// The systems `member(0) .. member(L::COUNT - 1)` side by side.
-    fn gather<'a, L: Lanes>(member: impl Fn(usize) -> &'a Self) -> Self::In<L>
+    fn gather<'a, L: Lanes>(member: impl Fn(usize) -> &'a Self) -> Self::Over<L>
     where
         Self: 'a;
 }
 
 impl<S: Laned<N>, const N: usize> Laned<N> for &S {
-    type In<L: Lanes> = S::In<L>;
+    type Over<L: Lanes> = S::Over<L>;
 
-    fn gather<'a, L: Lanes>(member: impl Fn(usize) -> &'a Self) -> S::In<L>
+    fn gather<'a, L: Lanes>(member: impl Fn(usize) -> &'a Self) -> S::Over<L>
     where
         Self: 'a,
     {

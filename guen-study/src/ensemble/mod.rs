@@ -54,7 +54,7 @@ pub struct Sampled<const N: usize> {
 /// }
 ///
 /// impl Laned<1> for Decay<f64> {
-///     type In<L: Lanes> = Decay<L>;
+///     type Over<L: Lanes> = Decay<L>;
 ///
 ///     fn gather<'a, L: Lanes>(member: impl Fn(usize) -> &'a Self) -> Decay<L> {
 ///         Decay(L::from_fn(|lane| member(lane).0))
@@ -256,12 +256,12 @@ impl<S: Laned<N> + Sync, const N: usize, C: LaneScalar> Ensemble<S, N, C> {
     fn threads_for<M: LaneMethod, V>(&self, task: &Task<'_, S, M, V, N, C>) -> usize {
         /// Entries of the state times steps of a group of lanes: some 17 ns each, so that they take as long as it takes to
         /// start a thread.
-        const LITTLE: f64 = 2500.0;
+        const WORK_OF_A_START: f64 = 2500.0;
         let ends = std::iter::once(&task.t0).chain(task.times);
         let span: f64 = ends.zip(task.times).map(|(from, to)| (to - from).abs()).sum();
         let groups = self.len().div_ceil(self.width.lanes());
         let work = span / task.method.step() * groups as f64 * N as f64;
-        if work < LITTLE { 1 } else { self.threads.unwrap_or_else(processors) }
+        if work < WORK_OF_A_START { 1 } else { self.threads.unwrap_or_else(processors) }
     }
 }
 

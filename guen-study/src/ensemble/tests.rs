@@ -26,7 +26,7 @@ impl Simulate<f64, 2> for Oscillator<f64> {
 }
 
 impl Laned<2> for Oscillator<f64> {
-    type In<L: Lanes> = Oscillator<L>;
+    type Over<L: Lanes> = Oscillator<L>;
 
     fn gather<'a, L: Lanes>(member: impl Fn(usize) -> &'a Self) -> Oscillator<L> {
         Oscillator(L::from_fn(|lane| member(lane).0))

@@ -24,7 +24,7 @@ const FINE: f64 = 10.0;
 const WIDTHS: std::ops::RangeInclusive<u32> = 240..=20_000;
 const HEIGHTS: std::ops::RangeInclusive<u32> = 180..=20_000;
 /// A curve of more points than this is thinned out, to columns of this width in pixels.
-const MANY: usize = 4000;
+const DRAWN_POINTS: usize = 4000;
 const COLUMN: f64 = 0.25;
 
 /// Hues that stay apart for the common kinds of colour blindness, each in a tone for white and in one for a dark
@@ -325,7 +325,7 @@ fn pieces(plot: &Plot, curve: &Curve, frame: &Frame) -> Vec<Vec<(i32, i32)>> {
     parts
         .map(|part| {
             let mut places: Vec<_> = part.iter().map(|&(x, y)| (frame.x.at(x), frame.y.at(y))).collect();
-            if curve.points.len() > MANY {
+            if curve.points.len() > DRAWN_POINTS {
                 places = thin(&places, COLUMN);
             }
             let mut drawn: Vec<_> = places.into_iter().map(fine).collect();

@@ -160,8 +160,8 @@ impl Plot {
 
     /// Whether a point can be drawn. The bound keeps differences of coordinates finite.
     fn can_draw(&self, &(x, y): &(f64, f64)) -> bool {
-        const FAR: f64 = 1e300;
-        x.abs() <= FAR && y.abs() <= FAR && (!self.logarithmic || x > 0.0 && y > 0.0)
+        const LARGEST_VALUE: f64 = 1e300;
+        x.abs() <= LARGEST_VALUE && y.abs() <= LARGEST_VALUE && (!self.logarithmic || x > 0.0 && y > 0.0)
     }
 
     /// Adds a curve.

@@ -94,19 +94,19 @@ fn worst(draws: &mut Draws) -> (f64, Option<f64>) {
 }
 
 /// Below this phase no run is to be refused, but for a few.
-const SLOW: f64 = 6.0;
+const REFUSED_PHASE: f64 = 6.0;
 
 /// Runs so many draws, and returns: those accepted, those of them that are off by more than is stated, their worst
-/// multiple and slowest phase, and those refused although their phase is below [`SLOW`].
+/// multiple and slowest phase, and those refused although their phase is below [`REFUSED_PHASE`].
 fn ask(runs: usize) -> (usize, usize, f64, f64, usize) {
     let mut draws = Draws(11);
     let (mut accepted, mut failed, mut most, mut slowest) = (0, 0, 0.0_f64, f64::INFINITY);
     let (mut needless, mut slow) = (0, 0);
     for _ in 0..runs {
         let (fastest, worst) = worst(&mut draws);
-        slow += usize::from(fastest < SLOW);
+        slow += usize::from(fastest < REFUSED_PHASE);
         let Some(worst) = worst else {
-            needless += usize::from(fastest < SLOW);
+            needless += usize::from(fastest < REFUSED_PHASE);
             continue;
         };
         accepted += 1;

@@ -6,7 +6,7 @@ use super::variant::Argument;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Origin {
     /// The constants, or whatever else can be made anew over a real.
-    Recast,
+    WithScalar,
     /// A system in doubles: a form, or closures.
     Given,
 }
@@ -15,7 +15,9 @@ impl Origin {
     /// The lines before the method.
     fn system(self) -> &'static str {
         match self {
-            Self::Recast => "use guen::{Recast, prelude::*};\nlet system = system.recast::<f64>()?;\n",
+            Self::WithScalar => {
+                "use guen::{WithScalar, prelude::*};\nlet system = system.with_scalar::<f64>()?;\n"
+            }
             Self::Given => "use guen::prelude::*;\n",
         }
     }
@@ -47,10 +49,10 @@ pub(super) fn run(
         );
     }
     format!(
-        "use guen::{{Recast, prelude::*}};\n\
+        "use guen::{{WithScalar, prelude::*}};\n\
          {own}\
          type R = {real};\n\
-         let system = system.recast::<R>()?;\n\
+         let system = system.with_scalar::<R>()?;\n\
          let method = {made};\n\
          let (t0, t1) = (R::from_f64({t0:?}), R::from_f64({t1:?}));\n\
          let start = start.map(R::from_f64);\n\
@@ -73,8 +75,8 @@ pub(super) fn lanes(choice: &str, method: &str, step: f64, span: (f64, f64)) -> 
     let choice =
         if choice == "f64" { String::new() } else { format!(".with_scalar::<guen::{choice}Functions>()") };
     format!(
-        "use guen::{{Recast, prelude::*, study::Ensemble}};\n\
-         let system = system.recast::<f64>()?;\n\
+        "use guen::{{WithScalar, prelude::*, study::Ensemble}};\n\
+         let system = system.with_scalar::<f64>()?;\n\
          let ensemble = Ensemble::of_states(system, starts){choice};\n\
          let ends = ensemble.integrate(&{method}, {t0:?}, {t1:?});\n"
     )

@@ -12,7 +12,7 @@ use guen_runtime::{Lift, Ordered, Real};
 ///   (`tests/digits71.rs`), from which the bound of that test comes.
 /// - Cost: some 40 ns for an operation and 6 us for sine and cosine, hundreds of times those of `f64`: for references, not
 ///   for work.
-/// - It does not contain `f64` in the sense of [`Lift`]: prepare a system in it, as [`Recast`](guen_runtime::Recast)
+/// - It does not contain `f64` in the sense of [`Lift`]: prepare a system in it, as [`WithScalar`](guen_runtime::WithScalar)
 ///   does.
 ///
 /// ```

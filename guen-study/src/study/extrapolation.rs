@@ -9,7 +9,7 @@ const SHORTEN: f64 = 0.1;
 const GROW: f64 = 4.0;
 /// Steps below this part of the span are short, and a jump of the rates is gone over by some 50 trials of them: by more there is a
 /// singularity.
-const SHORT: f64 = 1e-12;
+const SHORTEST_STEP: f64 = 1e-12;
 const MOST_SHORT: u32 = 200;
 
 /// Why a run ended early.
@@ -63,7 +63,7 @@ where
             let landing = size >= 0.999 * rest.to_f64().abs();
             let step = if landing { rest } else { R::from_f64(size.copysign(rest.to_f64())) };
             let next = if landing { target } else { t + step };
-            short = if size < SHORT * span { short + 1 } else { 0 };
+            short = if size < SHORTEST_STEP * span { short + 1 } else { 0 };
             if next == t || short > MOST_SHORT {
                 return Err(Stop::Underflow);
             }

@@ -32,7 +32,7 @@ use std::rc::Rc;
 use std::time::Duration;
 
 use guen_runtime::steppers::{Method, Taylor};
-use guen_runtime::{Real, Recast, System, TaylorSeries};
+use guen_runtime::{Real, System, TaylorSeries, WithScalar};
 
 pub use choice::{Caveat, Choice, NoChoice};
 pub use digits71::Digits71;
@@ -361,7 +361,7 @@ fn sample_times(t0: f64, t1: f64, samples: usize) -> Vec<f64> {
     times
 }
 
-impl<S: Recast<N>, const N: usize> Study<S, N> {
+impl<S: WithScalar<N>, const N: usize> Study<S, N> {
     /// Adds a variant of the user's own: a method on the system in doubles.
     ///
     /// # Errors
@@ -369,11 +369,11 @@ impl<S: Recast<N>, const N: usize> Study<S, N> {
     /// Those of `prepare`.
     ///
     /// ```
-    /// use guen_runtime::{ConstantsError, Recast, steppers::Dop853};
+    /// use guen_runtime::{ConstantsError, WithScalar, steppers::Dop853};
     /// use guen_study::{Settings, Study};
     ///
     /// /// A study with DOP853 with a relative tolerance only.
-    /// fn with_relative<S: Recast<2>>(study: Study<S, 2>) -> Result<Study<S, 2>, ConstantsError> {
+    /// fn with_relative<S: WithScalar<2>>(study: Study<S, 2>) -> Result<Study<S, 2>, ConstantsError> {
     ///     study.with_method(
     ///         "DOP853, relative",
     ///         Settings::Tolerances,
@@ -390,9 +390,9 @@ impl<S: Recast<N>, const N: usize> Study<S, N> {
         code: impl Fn(f64) -> String + 'static,
     ) -> Result<Self, guen_runtime::ConstantsError>
     where
-        M: Method<f64, S::In<f64>, N> + 'static,
+        M: Method<f64, S::Over<f64>, N> + 'static,
     {
-        let system = self.system.recast::<f64>()?;
+        let system = self.system.with_scalar::<f64>()?;
         Ok(self.with_method_on(system, [name, "f64", "declared"], settings, make, code))
     }
 
@@ -403,12 +403,19 @@ impl<S: Recast<N>, const N: usize> Study<S, N> {
     /// Those of `prepare`.
     pub fn with_taylor(self) -> Result<Self, guen_runtime::ConstantsError>
     where
-        S::In<f64>: TaylorSeries<f64, N>,
+        S::Over<f64>: TaylorSeries<f64, N>,
     {
         let span = self.span();
         let method = |tolerance| Taylor::<f64>::new(tolerance, tolerance);
         self.with_method("Taylor", Settings::Tolerances, method, move |tolerance| {
-            code::run(code::Origin::Recast, "f64", "Taylor", variant::Argument::Tolerances, tolerance, span)
+            code::run(
+                code::Origin::WithScalar,
+                "f64",
+                "Taylor",
+                variant::Argument::Tolerances,
+                tolerance,
+                span,
+            )
         })
     }
 
@@ -425,10 +432,10 @@ impl<S: Recast<N>, const N: usize> Study<S, N> {
         check: B,
     ) -> Result<Self, guen_runtime::ConstantsError>
     where
-        A: Method<Digits71, S::In<Digits71>, N> + 'static,
-        B: Method<Digits71, S::In<Digits71>, N> + 'static,
+        A: Method<Digits71, S::Over<Digits71>, N> + 'static,
+        B: Method<Digits71, S::Over<Digits71>, N> + 'static,
     {
-        let system = Rc::new(self.system.recast::<Digits71>()?);
+        let system = Rc::new(self.system.with_scalar::<Digits71>()?);
         self.reference = reference::by_method(name.to_owned(), Rc::clone(&system), method);
         self.check = Some(reference::by_method(check_name.to_owned(), system, check));
         self.shorter = None;

@@ -9,9 +9,9 @@ use crate::error::StudyError;
 use crate::plot::Plot;
 
 /// The fewest timings of a setting that is shown in a picture.
-const ENOUGH: u32 = 3;
+const FEWEST_TIMINGS: u32 = 3;
 /// Points whose interval is wider than they are high are left out.
-const NOISY: f64 = 0.5;
+const NOISY_INTERVAL: f64 = 0.5;
 
 impl Report {
     /// Work against precision: cost over error, both axes logarithmic, a curve for each method over doubles on the
@@ -37,7 +37,9 @@ impl Report {
         for row in self.rows.iter().filter(|row| wanted(row)) {
             let Some((error, cost)) = row.measured() else { continue };
             // A single timing is no median, and one as uncertain as it is large no point.
-            if self.unit == Unit::Seconds && (cost.repetitions < ENOUGH || cost.noise() > NOISY) {
+            if self.unit == Unit::Seconds
+                && (cost.repetitions < FEWEST_TIMINGS || cost.noise() > NOISY_INTERVAL)
+            {
                 continue;
             }
             let label = label(row);

@@ -21,7 +21,7 @@ pub(super) struct Probe<const N: usize> {
 /// system.
 const RESIDUAL: f64 = 1e-9;
 /// Below this size an entry is moved by an absolute amount.
-const SMALL: f64 = 1.0 / 3.0;
+const ABSOLUTE_BELOW: f64 = 1.0 / 3.0;
 
 /// Numbers in `[-1, 1)`, always the same: Knuth's multiplicative generator of 64 bits.
 pub(super) struct Draw(u64);
@@ -39,7 +39,7 @@ impl Draw {
 
 /// Moves every entry at random, by at most `spread max(|x|, 1/3)`.
 pub(super) fn moved<const N: usize>(state: &[f64; N], spread: f64, draw: &mut Draw) -> [f64; N] {
-    state.map(|x| x + spread * x.abs().max(SMALL) * draw.next())
+    state.map(|x| x + spread * x.abs().max(ABSOLUTE_BELOW) * draw.next())
 }
 
 /// Returns as many states around the initial ones as asked for: moved ones, unless that violates a constraint on

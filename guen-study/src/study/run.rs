@@ -21,20 +21,20 @@ use super::variant::{Run, Task, Variant};
 use super::{Stop, Study, lengthened};
 
 /// Settings that err more are not worth a row, unless all do: then the best of them is one.
-const USELESS: f64 = 0.5;
+const USELESS_ERROR: f64 = 0.5;
 /// The number of settings in a row that gain less than a factor of two on the best so far, after which a variant is given up.
 const STAGNATION: u32 = 6;
 /// The error below which settings that gain little are counted, and the multiple of the cost of another setting, which errs no
 /// more, above which a setting is hopeless.
 const SETTLED: f64 = 1e-2;
-const HOPELESS: f64 = 60.0;
+const HOPELESS_COST: f64 = 60.0;
 /// The seconds below which a run is repeated before it is judged.
-const AGAIN: f64 = 5e-3;
+const REPEATED_BELOW: f64 = 5e-3;
 /// A study that counts evaluations has no clock to tell it when a setting takes too long.
 const MOST_EVALUATIONS: f64 = 3e6;
 /// The repetitions of a timing: of all rows, and of those near the front.
-const FEW: usize = 5;
-const MANY: usize = 41;
+const REPETITIONS: usize = 5;
+const FRONT_REPETITIONS: usize = 41;
 /// Rows within this factor of the front in cost are timed often, and tried from states nearby.
 const NEAR_FRONT: f64 = 2.5;
 
@@ -258,7 +258,7 @@ fn errors<S, const N: usize>(
             let mut states = Vec::new();
             let outcome = run(&task, &mut states);
             let mut seconds = budget.seconds() - begun;
-            if outcome.is_ok() && seconds < AGAIN && study.unit == Unit::Seconds {
+            if outcome.is_ok() && seconds < REPEATED_BELOW && study.unit == Unit::Seconds {
                 // The first run may have found nothing where it is needed.
                 let begun = budget.seconds();
                 let _ = std::hint::black_box(run(&task, &mut Vec::new()));
@@ -295,7 +295,7 @@ fn errors<S, const N: usize>(
             if error.is_finite() {
                 row.error = Some(error);
                 row.limited = error < floor;
-                if error <= USELESS {
+                if error <= USELESS_ERROR {
                     // The finest setting that failed is a row as well.
                     all.extend(failed.take());
                     all.push(Tried { row, run: Some(Rc::new(run)), rough });
@@ -309,9 +309,9 @@ fn errors<S, const N: usize>(
             }
             idle = if best < SETTLED && error > 0.5 * best { idle + 1 } else { 0 };
             best = best.min(error);
-            let beaten = all
-                .iter()
-                .any(|other| other.row.error.is_some_and(|e| e <= error) && HOPELESS * other.rough < rough);
+            let beaten = all.iter().any(|other| {
+                other.row.error.is_some_and(|e| e <= error) && HOPELESS_COST * other.rough < rough
+            });
             hopeless = if beaten { hopeless + 1 } else { 0 };
             let too_many = work > MOST_EVALUATIONS * starts;
             if idle >= STAGNATION || hopeless >= 3 || too_many {
@@ -398,15 +398,15 @@ fn costs<S, const N: usize>(
     let mut seconds: Vec<Vec<f64>> = tried.iter().map(|_| Vec::new()).collect();
     let task = Task { starts: &study.starts, t0: study.t0, times, deadline: None };
     let mut states = Vec::new();
-    'rounds: for round in 0..MANY {
+    'rounds: for round in 0..FRONT_REPETITIONS {
         for place in 0..tried.len() {
             // Back and forth, so that what drifts favours nobody.
             let k = if round % 2 == 0 { place } else { tried.len() - 1 - place };
             let Some(run) = &tried[k].run else { continue };
-            if round >= FEW && distances[k] > NEAR_FRONT {
+            if round >= REPETITIONS && distances[k] > NEAR_FRONT {
                 continue;
             }
-            let part = (round as f64 + place as f64 / tried.len() as f64) / MANY as f64;
+            let part = (round as f64 + place as f64 / tried.len() as f64) / FRONT_REPETITIONS as f64;
             if !budget.goes_on(Stage::Timing, part) {
                 break 'rounds;
             }

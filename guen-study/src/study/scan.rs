@@ -37,14 +37,14 @@ const SUSPECT: f64 = 2e-12;
 /// The change of the state by landings above which something was stepped over.
 const MISSED: f64 = 1e-11;
 /// Everything may take so many evaluations, and so many for each of the times. Beyond, rates vary too fast everywhere.
-const MOST: u64 = 2_000_000;
-pub(super) const MOST_STEPS: u64 = MOST / EVALUATIONS_OF_STEP;
+const MOST_EVALUATIONS: u64 = 2_000_000;
+pub(super) const MOST_STEPS: u64 = MOST_EVALUATIONS / EVALUATIONS_OF_STEP;
 const MOST_OF_EACH: u64 = 16;
 /// A jump of the rates is stepped over by so many spacings of numbers, twice as many at each further try.
 const JUMP: f64 = 4.0;
 /// Steps that are shorter by so much than those that half of the motion is made of are at something abrupt: references
 /// land so often in a row of them, unless it is the beginning of a run.
-const SHORT: f64 = 16.0;
+const SHORTER_THAN_USUAL: f64 = 16.0;
 const LANDINGS: usize = 8;
 const BEGINNING: usize = 10;
 
@@ -88,8 +88,10 @@ where
 {
     let span = problem.span();
     let (interval, tolerance, most) = match look {
-        Look::At(points) => (span / points as f64, TOLERANCE, MOST + MOST_OF_EACH * points as u64),
-        Look::Nowhere(tolerance) => (f64::INFINITY, tolerance, MOST),
+        Look::At(points) => {
+            (span / points as f64, TOLERANCE, MOST_EVALUATIONS + MOST_OF_EACH * points as u64)
+        }
+        Look::Nowhere(tolerance) => (f64::INFINITY, tolerance, MOST_EVALUATIONS),
     };
     let mut march = March {
         system,
@@ -354,7 +356,7 @@ fn short_steps(ends: &[f64]) -> Vec<f64> {
         sum += length;
         sum >= half
     });
-    let limit = usual.unwrap_or(0.0) / SHORT;
+    let limit = usual.unwrap_or(0.0) / SHORTER_THAN_USUAL;
     let mut found = Vec::new();
     let mut k = 0;
     while k + 1 < ends.len() {
@@ -416,7 +418,7 @@ mod tests {
     fn rates_that_vary_as_fast_everywhere_cost_no_more_than_is_said() {
         let shaken = from_fn(|t: f64, &[x, v]: &[f64; 2]| [v, -x + (1e6 * t).sin()]);
         let seen = look(&shaken, &[50.0], Look::At(1 << 12));
-        assert!(seen.is_none_or(|seen| seen.evaluations < 2 * MOST));
+        assert!(seen.is_none_or(|seen| seen.evaluations < 2 * MOST_EVALUATIONS));
     }
 
     #[test]

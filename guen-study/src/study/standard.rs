@@ -6,7 +6,7 @@ use std::rc::Rc;
 use guen_runtime::steppers::{Bounded, Euler, Gauss4, Gauss6, LaneMethod, Radau5, Rk4, Rk8, Statistics};
 use guen_runtime::{
     Approx7, Approx7Functions, Approx13, ConstantsError, Differentiable, Fused, LaneScalar, Laned, Ordered,
-    Real, Recast, Std, System,
+    Real, Std, System, WithScalar,
 };
 
 use super::code::{self, Origin};
@@ -20,10 +20,10 @@ use crate::Ensemble;
 fn over<R, S, const N: usize>(real: &'static str, system: &S, span: (f64, f64)) -> Vec<Variant<N>>
 where
     R: Ordered,
-    S: Recast<N>,
+    S: WithScalar<N>,
 {
-    match system.recast::<R>() {
-        Ok(system) => explicit_variants::<R, S::In<R>, N>(real, &Rc::new(system), span, Origin::Recast),
+    match system.with_scalar::<R>() {
+        Ok(system) => explicit_variants::<R, S::Over<R>, N>(real, &Rc::new(system), span, Origin::WithScalar),
         Err(error) => vec![Variant {
             method: "all".to_owned(),
             real: real.to_owned(),
@@ -76,7 +76,7 @@ where
 {
     let names = |method| [method, "f64", "declared"];
     let code = move |constructor: &'static str, argument| {
-        move |setting| code::run(Origin::Recast, "f64", constructor, argument, setting, span)
+        move |setting| code::run(Origin::WithScalar, "f64", constructor, argument, setting, span)
     };
     vec![
         variant::<f64, D, _, N>(
@@ -105,8 +105,8 @@ where
 
 impl<S, const N: usize> Study<S, N>
 where
-    S: Recast<N>,
-    S::In<f64>: Differentiable<f64, N>,
+    S: WithScalar<N>,
+    S::Over<f64>: Differentiable<f64, N>,
 {
     /// A study of a system from an initial state over a span, with every method over every real.
     ///
@@ -117,12 +117,12 @@ where
     ///
     /// The constants cannot be prepared, in doubles or in 71 digits.
     pub fn new(system: S, start: impl Into<[f64; N]>, span: Range<f64>) -> Result<Self, ConstantsError> {
-        let doubles = Rc::new(system.recast::<f64>()?);
-        let long = Rc::new(system.recast::<Digits71>()?);
+        let doubles = Rc::new(system.with_scalar::<f64>()?);
+        let long = Rc::new(system.with_scalar::<Digits71>()?);
         // Constants that this real cannot hold leave the study without it.
-        let shorter = system.recast::<Digits31>().ok();
+        let shorter = system.with_scalar::<Digits31>().ok();
         let ends = (span.start, span.end);
-        let mut variants = of_doubles("f64", &doubles, ends, Origin::Recast);
+        let mut variants = of_doubles("f64", &doubles, ends, Origin::WithScalar);
         variants.extend(over::<Approx13, S, N>("Approx13", &system, ends));
         variants.extend(over::<Approx7, S, N>("Approx7", &system, ends));
         variants.extend(over::<Fused, S, N>("Fused", &system, ends));
@@ -145,9 +145,9 @@ where
     /// Those of `prepare`.
     pub fn with_lanes(mut self) -> Result<Self, ConstantsError>
     where
-        S::In<f64>: Laned<N> + Sync + Clone,
+        S::Over<f64>: Laned<N> + Sync + Clone,
     {
-        let system = self.system.recast::<f64>()?;
+        let system = self.system.with_scalar::<f64>()?;
         let span = self.span();
         let four = Rk4::new;
         let names = |method| [method, "f64 lanes", "f64"];

@@ -34,9 +34,9 @@ impl Deadline<'_> {
 }
 
 /// A timing lasts at least this long: some thousand times what reading the clock takes.
-const SHORTEST: Duration = Duration::from_micros(50);
+const SHORTEST_TIMING: Duration = Duration::from_micros(50);
 /// The time above which a run is not repeated: it warms itself up.
-const LONG: Duration = Duration::from_millis(1);
+const WARM_RUN: Duration = Duration::from_millis(1);
 
 /// The machine's clock.
 #[derive(Clone, Copy, Debug, Default)]
@@ -47,7 +47,7 @@ impl Stopwatch for Wall {
         let first = Instant::now();
         work();
         let first = first.elapsed();
-        if first >= LONG {
+        if first >= WARM_RUN {
             return first.as_secs_f64();
         }
         // Another setting ran before: the first run found neither its code in the cache nor its branches predicted,
@@ -62,7 +62,7 @@ impl Stopwatch for Wall {
             }
             done += further;
             let elapsed = start.elapsed();
-            if elapsed >= SHORTEST {
+            if elapsed >= SHORTEST_TIMING {
                 return elapsed.as_secs_f64() / f64::from(done);
             }
         }

@@ -12,10 +12,10 @@ pub(super) struct Json {
 }
 
 /// Bytes from which on samples stand beside the JSON.
-const LONG: usize = 3 << 20;
+const SEPARATE_BYTES: usize = 3 << 20;
 
 /// Bytes of a part, a multiple of three.
-const PART: usize = 3 << 24;
+const PART_BYTES: usize = 3 << 24;
 
 impl Json {
     /// The JSON, and the parts that its long samples refer to.
@@ -87,14 +87,14 @@ impl Json {
 
     fn bytes(&mut self, key: &str, bytes: &[u8]) {
         self.key(key);
-        if bytes.len() < LONG {
+        if bytes.len() < SEPARATE_BYTES {
             self.text.push('"');
             base64(bytes, &mut self.text);
             self.text.push('"');
             return;
         }
         let from = self.parts.len();
-        self.parts.extend(bytes.chunks(PART).map(|part| {
+        self.parts.extend(bytes.chunks(PART_BYTES).map(|part| {
             let mut text = String::new();
             base64(part, &mut text);
             text
@@ -196,16 +196,19 @@ mod tests {
     fn long_samples_stand_beside_the_text() {
         let mut json = Json::default();
         json.object(|json| {
-            json.doubles("t", &vec![1.5; LONG / 8]);
-            json.samples("x", (0..PART / 4 + 1).map(|_| 1.0));
+            json.doubles("t", &vec![1.5; SEPARATE_BYTES / 8]);
+            json.samples("x", (0..PART_BYTES / 4 + 1).map(|_| 1.0));
         });
         let (text, parts) = json.into_texts();
         let expected = format!(
-            r#"{{"t":{{"bytes":{LONG},"from":0,"to":1}},"x":{{"bytes":{},"from":1,"to":3}}}}"#,
-            PART + 4
+            r#"{{"t":{{"bytes":{SEPARATE_BYTES},"from":0,"to":1}},"x":{{"bytes":{},"from":1,"to":3}}}}"#,
+            PART_BYTES + 4
         );
         assert_eq!(text, expected);
-        assert_eq!(parts.iter().map(String::len).collect::<Vec<_>>(), [LONG / 3 * 4, PART / 3 * 4, 8]);
+        assert_eq!(
+            parts.iter().map(String::len).collect::<Vec<_>>(),
+            [SEPARATE_BYTES / 3 * 4, PART_BYTES / 3 * 4, 8]
+        );
         assert_eq!(parts[2], "AACAPw==");
     }
 

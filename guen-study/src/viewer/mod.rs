@@ -195,10 +195,10 @@ enum Fault {
 }
 
 /// Single precision and the squares of lengths have to hold it.
-const FAR: f64 = 1e18;
+const LARGEST_COORDINATE: f64 = 1e18;
 
 fn is_drawable(values: &[f64]) -> bool {
-    values.iter().all(|value| value.abs() <= FAR)
+    values.iter().all(|value| value.abs() <= LARGEST_COORDINATE)
 }
 
 fn is_direction(vector: [f64; 3]) -> bool {

@@ -5,7 +5,7 @@ use super::page::Space;
 use super::track::{ANGLE, PLACE, Shown, Track};
 
 /// A turn between samples from which on one cannot be sure which way it went, in degrees.
-const WIDE: f64 = 90.0;
+const WIDE_TURN: f64 = 90.0;
 
 /// The sentences below the title.
 pub(super) fn of<const N: usize>(viewer: &Viewer<'_, N>, space: &Space) -> Vec<String> {
@@ -95,7 +95,7 @@ impl Told {
 /// Samples so far apart that turns are guessed.
 fn turns<const N: usize>(viewer: &Viewer<'_, N>) -> Option<String> {
     let degrees = viewer.bodies.iter().map(|body| body.largest_turn.to_degrees()).fold(0.0, f64::max);
-    (degrees.round() > WIDE)
+    (degrees.round() > WIDE_TURN)
         .then(|| format!("Samples are far apart: a body turns by {degrees:.0}° or more between two of them."))
 }
 

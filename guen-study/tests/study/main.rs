@@ -125,9 +125,9 @@ fn every_measure_of_error() {
 /// Makes [`Turning`] over every real.
 struct Told;
 
-impl guen_runtime::Recast<2> for Told {
-    type In<R: Real> = Turning;
-    fn recast<R: Real>(&self) -> Result<Turning, guen_runtime::ConstantsError> {
+impl guen_runtime::WithScalar<2> for Told {
+    type Over<R: Real> = Turning;
+    fn with_scalar<R: Real>(&self) -> Result<Turning, guen_runtime::ConstantsError> {
         Ok(Turning)
     }
 }
@@ -425,9 +425,9 @@ fn pictures_show_every_method_that_was_measured() {
 fn constants_that_a_real_cannot_hold_are_rows() {
     // Refused in single precision: FailureKind::Constants is what the row says.
     struct Picky;
-    impl guen_runtime::Recast<2> for Picky {
-        type In<R: Real> = guen_runtime::Generic<Planar>;
-        fn recast<R: Real>(&self) -> Result<Self::In<R>, guen_runtime::ConstantsError> {
+    impl guen_runtime::WithScalar<2> for Picky {
+        type Over<R: Real> = guen_runtime::Generic<Planar>;
+        fn with_scalar<R: Real>(&self) -> Result<Self::Over<R>, guen_runtime::ConstantsError> {
             if R::epsilon().to_f64() > 1e-10 {
                 return Err(guen_runtime::ConstantsError::NotFinite { name: "m", value: f64::INFINITY });
             }

@@ -14,7 +14,7 @@ use super::{ExprId, FastMap, Function, Graph, Node, Rational};
 pub(crate) type AngleParts = Vec<(ExprId, Rational)>;
 
 /// Longer arguments are no base angles, and stay whole.
-const LONGEST: usize = 64;
+const ARGUMENT_TERMS: usize = 64;
 
 /// The base angles into which arguments of sines and cosines are taken apart.
 #[derive(Debug, Default)]
@@ -68,7 +68,7 @@ impl Graph {
         let mut rows: Vec<AngleParts> = arguments
             .iter()
             .map(|x| self.linear_parts(*x))
-            .filter(|parts| parts.len() <= LONGEST && parts.iter().all(|(e, _)| self.is_monomial(*e)))
+            .filter(|parts| parts.len() <= ARGUMENT_TERMS && parts.iter().all(|(e, _)| self.is_monomial(*e)))
             .collect();
         // Stable: arguments of equal length in the order of their appearance.
         rows.sort_by_key(Vec::len);

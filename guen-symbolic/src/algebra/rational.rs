@@ -277,10 +277,10 @@ impl From<i64> for Rational {
 }
 
 /// Integers below this in size, almost all coefficients, are computed with directly: their products fit.
-const LARGE: i64 = 1 << 31;
+const SMALL_INTEGERS: i64 = 1 << 31;
 
 fn are_short(a: i64, b: i64) -> bool {
-    -LARGE < a && a < LARGE && -LARGE < b && b < LARGE
+    -SMALL_INTEGERS < a && a < SMALL_INTEGERS && -SMALL_INTEGERS < b && b < SMALL_INTEGERS
 }
 
 macro_rules! operator {

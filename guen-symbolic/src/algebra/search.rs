@@ -45,8 +45,8 @@ impl Search {
 
 /// Sorts different identifiers: few by insertion, many by a bit for each.
 pub(crate) fn sort_ids(ids: &mut [ExprId]) {
-    const FEW: usize = 12;
-    if ids.len() <= FEW {
+    const INSERTION_SORTED: usize = 12;
+    if ids.len() <= INSERTION_SORTED {
         let mut next = 1;
         while next < ids.len() {
             let id = ids[next];

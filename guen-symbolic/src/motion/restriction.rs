@@ -20,7 +20,7 @@ use crate::workbench::Workbench;
 use crate::zero::Verdict;
 
 /// Powers of what is constant that are taken out of one expression.
-const POWERS: usize = 4;
+const POWERS_OF_CONSTANTS: usize = 4;
 
 /// Functions of the coordinates that the constraints make constant: `|q|^2` where `|q|^2 = 1`.
 pub(super) struct Restriction {
@@ -66,7 +66,7 @@ impl Restriction {
         let e = self.with_even_roots(bench, e);
         let mut found = normal(bench, e)?;
         for (function, value) in &self.constants {
-            for _ in 0..POWERS {
+            for _ in 0..POWERS_OF_CONSTANTS {
                 let quotient = bench.graph.product(&[(found, 1), (*function, -1), (*value, 1)]);
                 let Some(quotient) = normal(bench, quotient) else { break };
                 let cost = |e: ExprId| weighted_cost(&bench.graph, &[e]);

@@ -219,8 +219,8 @@ impl Poly {
 
     /// Builds a polynomial from different monomials in any order, with coefficients that are not zero.
     pub(super) fn from_unsorted(mut terms: Vec<(Mono, Rational)>) -> Self {
-        const FEW: usize = 24;
-        if terms.len() > FEW {
+        const INSERTION_SORTED: usize = 24;
+        if terms.len() > INSERTION_SORTED {
             terms.sort_unstable_by(|a, b| b.0.compare(&a.0));
         } else {
             let mut next = 1;

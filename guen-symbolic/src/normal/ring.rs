@@ -265,8 +265,8 @@ impl Ring {
     /// A conjugate with which a sum becomes a monomial: `(1 + cos)(1 - cos) = sin^2`.
     fn monomial_norm(&self, p: &Poly) -> Result<Option<(Poly, Poly)>> {
         // Longer sums have no such norm in practice.
-        const SHORT: usize = 4;
-        if p.len() > SHORT {
+        const NORM_TERMS: usize = 4;
+        if p.len() > NORM_TERMS {
             return Ok(None);
         }
         let roots = self.relations.iter().filter(|relation| relation.order == 2).map(|r| r.generator);

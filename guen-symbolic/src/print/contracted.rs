@@ -6,7 +6,7 @@
 use crate::algebra::{ExprId, FastMap, Function, Graph, Node, Rational};
 
 /// Longer sums stay as they are: who would read them?
-const LONGEST: usize = 64;
+const CONTRACTED_TERMS: usize = 64;
 
 /// Expressions, with the sines and cosines of sums in them put together.
 ///
@@ -110,7 +110,7 @@ impl Together {
 /// Two terms of a sum that are one, by the coefficient of the first.
 fn pair(graph: &Graph, e: ExprId) -> Option<(usize, usize, Together)> {
     let Node::Sum { terms, .. } = graph.node(e) else { return None };
-    if terms.len() > LONGEST {
+    if terms.len() > CONTRACTED_TERMS {
         return None;
     }
     let candidates: Vec<usize> =

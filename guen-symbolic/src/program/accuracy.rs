@@ -19,13 +19,13 @@ const POINTS: u64 = 4;
 /// Divisors that are made small, the first of each program.
 const POLES: usize = 4;
 /// The fraction to which such a divisor is reduced.
-const NEAR: f64 = 1e-5;
+const POLE_DISTANCE: f64 = 1e-5;
 /// Programs with more instructions are not analysed: expansion must stay quick.
-const LONGEST: usize = 3000;
+const ANALYSED_INSTRUCTIONS: usize = 3000;
 /// A program that loses so many times more than another is no candidate, however cheap: six bits,
-const INTOLERABLE: f64 = 64.0;
+const RELATIVE_LOSS: f64 = 64.0;
 /// if it loses more than this at all: six of sixteen digits.
-const SERIOUS: f64 = 1e6;
+const SERIOUS_LOSS: f64 = 1e6;
 
 /// A value and a first-order bound of its error in units of the unit roundoff.
 #[derive(Clone, Copy, Debug)]
@@ -214,7 +214,7 @@ impl Candidate {
                 (a, at_a, b, at_b) = (b, at_b, next, at(symbol, next));
                 if at_b.abs() <= 1e-14 * first || a == b {
                     // A divisor that is a square comes down as the square of the distance.
-                    let near = b + NEAR * if start == b { 1.0 } else { start - b };
+                    let near = b + POLE_DISTANCE * if start == b { 1.0 } else { start - b };
                     return Some(Point { moved: Some((symbol, near)), ..point.clone() });
                 }
             }
@@ -241,7 +241,7 @@ fn cheapest(candidates: &[Candidate]) -> usize {
 
 fn chosen(graph: &Graph, codes: &[Candidate], accurate: bool) -> Option<usize> {
     let same = |candidate: &Candidate| candidate.code.instructions == codes[0].code.instructions;
-    let long = |candidate: &Candidate| candidate.code.instructions.len() > LONGEST;
+    let long = |candidate: &Candidate| candidate.code.instructions.len() > ANALYSED_INSTRUCTIONS;
     if codes.iter().all(same) || codes.iter().any(long) {
         return None;
     }
@@ -313,7 +313,7 @@ fn losses(graph: &Graph, codes: &[Candidate]) -> Vec<Losses> {
             };
             for (loss, least) in losses.into_iter().zip(&least) {
                 worst.largest = worst.largest.max(loss);
-                worst.excess = worst.excess.max(loss / SERIOUS.max(INTOLERABLE * least));
+                worst.excess = worst.excess.max(loss / SERIOUS_LOSS.max(RELATIVE_LOSS * least));
             }
         }
     }

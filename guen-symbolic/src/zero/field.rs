@@ -106,7 +106,7 @@ pub(crate) fn root(a: u64, q: u32) -> Option<u64> {
 }
 
 /// Integers below this in size are below the prime.
-const SMALL: i64 = 1 << 60;
+const BELOW_PRIME: i64 = 1 << 60;
 
 /// The residue of a rational number.
 ///
@@ -116,8 +116,8 @@ pub(crate) fn residue(value: &Rational) -> Option<u64> {
         return Some(0);
     }
     if let Some(n) = value.to_i64()
-        && -SMALL < n
-        && n < SMALL
+        && -BELOW_PRIME < n
+        && n < BELOW_PRIME
     {
         return Some(if n < 0 { PRIME - n.unsigned_abs() } else { n as u64 });
     }

@@ -192,7 +192,7 @@ const SOLVED: f64 = -205.0;
 const DISTINCT: f64 = 20.0;
 
 /// A value whose error bound exceeds this many bits relative to the terms it came from says nothing.
-const USELESS: f64 = -150.0;
+const USELESS_BOUND: f64 = -150.0;
 
 /// The power of two of a finite number, rounded down; minus infinity for zero.
 pub(super) fn exponent(x: f256) -> f64 {
@@ -300,7 +300,7 @@ impl RealPoint {
         match self.memo[&e] {
             None => Sighting::Nothing,
             Some(ball) if ball.is_distinct() => Sighting::Nonzero,
-            Some(ball) if ball.error < USELESS => Sighting::Small,
+            Some(ball) if ball.error < USELESS_BOUND => Sighting::Small,
             Some(_) => Sighting::Nothing,
         }
     }

@@ -28,7 +28,7 @@ pub struct Redundant {
 const POINTS: usize = 4;
 /// Starts of the search for points at most, and the solutions of linear equations for which there is time, by the cube of their number.
 const MOST_STARTS: usize = 40;
-const WORK: usize = 4_000_000;
+const MOST_WORK: usize = 4_000_000;
 /// Steps of one search.
 const STEPS: usize = 120;
 /// The remainder beside those before it from which on a gradient of length one is taken in its order.
@@ -40,7 +40,7 @@ const DEPENDENT: f64 = 1e-7;
 /// Newton's steps in 237 bits.
 const POLISH_STEPS: usize = 5;
 /// The power of two below which a value in 237 bits counts as zero.
-const NOTHING: f64 = -180.0;
+const ZERO_EXPONENT: f64 = -180.0;
 
 /// The equations with their derivatives.
 struct Equations<'a> {
@@ -67,7 +67,7 @@ pub(super) fn find(graph: &mut Graph, equations: &[ExprId]) -> Vec<Redundant> {
     let count = equations.len();
     let equations = Equations::new(graph, equations);
     let mut points: Vec<Point> = Vec::new();
-    for start in 0..(WORK / (count * count * count)).clamp(POINTS, MOST_STARTS) {
+    for start in 0..(MOST_WORK / (count * count * count)).clamp(POINTS, MOST_STARTS) {
         let Some((x, others)) = equations.point(start as u64) else { continue };
         let gradients = equations.gradients(&x, &others);
         let Some(chosen) = independent(&gradients) else { continue };
@@ -226,7 +226,7 @@ impl<'a> Equations<'a> {
             }
             (f, rows) = self.values(&x, others);
         }
-        let is_nothing = |value: f256| value.is_finite() && exponent(value) < NOTHING;
+        let is_nothing = |value: f256| value.is_finite() && exponent(value) < ZERO_EXPONENT;
         let mut rests: Vec<Vec<f256>> = rows.into_iter().map(|row| self.by_coordinates(row)).collect();
         for i in chosen {
             take(&mut rests, *i);

@@ -111,14 +111,14 @@ pub(super) fn check(
 /// Constraints that are linear combinations of earlier constraints, each with those earlier ones.
 fn combinations(bench: &mut Workbench, forms: &[(Form, ExprId)], degrees: usize) -> Vec<(usize, Vec<usize>)> {
     /// The number of forms above which the message says less.
-    const MOST: usize = 24;
+    const EXAMINED_FORMS: usize = 24;
     let mut found = Vec::new();
     let mut independent: Vec<usize> = Vec::new();
     let mut depend = |own: &[usize]| {
         let rows: Vec<Vec<ExprId>> = own.iter().map(|k| forms[*k].0.row.clone()).collect();
         bench.zero.rank(&mut bench.graph, &rows, false).is_some_and(|rank| rank < rows.len())
     };
-    for form in (degrees..forms.len()).take(MOST) {
+    for form in (degrees..forms.len()).take(EXAMINED_FORMS) {
         if !depend(&[&independent[..], &[form]].concat()) {
             independent.push(form);
             continue;

@@ -307,7 +307,7 @@ macro_rules! differentiable {
 macro_rules! laned {
     ($size:literal) => {
         impl $crate::Laned<$size> for Prepared<f64> {
-            type In<L: $crate::lanes::Lanes> = Prepared<L>;
+            type Over<L: $crate::lanes::Lanes> = Prepared<L>;
 
             fn gather<'a, L: $crate::lanes::Lanes>(
                 member: impl ::core::ops::Fn(usize) -> &'a Self,
@@ -351,35 +351,41 @@ macro_rules! prepared {
     };
 }
 
-/// `Recast`, from the constants over another real: of the constants and of the prepared system, or with inputs of the system that
+/// `WithScalar`, from the constants over another real: of the constants and of the prepared system, or with inputs of the system that
 /// holds them.
 #[doc(hidden)]
 #[macro_export]
-macro_rules! recast {
+macro_rules! with_scalar {
     ($system:ident $size:literal, $constants:ident: $made:expr) => {
-        impl $crate::Recast<$size> for $system<f64> {
-            type In<R: $crate::Real> = Prepared<R>;
+        impl $crate::WithScalar<$size> for $system<f64> {
+            type Over<R: $crate::Real> = Prepared<R>;
 
-            fn recast<R: $crate::Real>(&self) -> ::core::result::Result<Prepared<R>, $crate::ConstantsError> {
+            fn with_scalar<R: $crate::Real>(
+                &self,
+            ) -> ::core::result::Result<Prepared<R>, $crate::ConstantsError> {
                 let $constants = self;
                 let _ = $constants;
                 $made.prepare()
             }
         }
 
-        impl $crate::Recast<$size> for Prepared<f64> {
-            type In<R: $crate::Real> = Prepared<R>;
+        impl $crate::WithScalar<$size> for Prepared<f64> {
+            type Over<R: $crate::Real> = Prepared<R>;
 
-            fn recast<R: $crate::Real>(&self) -> ::core::result::Result<Prepared<R>, $crate::ConstantsError> {
-                $crate::Recast::recast(&self.constants())
+            fn with_scalar<R: $crate::Real>(
+                &self,
+            ) -> ::core::result::Result<Prepared<R>, $crate::ConstantsError> {
+                $crate::WithScalar::with_scalar(&self.constants())
             }
         }
     };
     ($system:ident $size:literal, $constants:ident: $made:expr, $inputs:literal) => {
-        impl $crate::Recast<$size> for Driven<f64> {
-            type In<R: $crate::Real> = Driven<R>;
+        impl $crate::WithScalar<$size> for Driven<f64> {
+            type Over<R: $crate::Real> = Driven<R>;
 
-            fn recast<R: $crate::Real>(&self) -> ::core::result::Result<Driven<R>, $crate::ConstantsError> {
+            fn with_scalar<R: $crate::Real>(
+                &self,
+            ) -> ::core::result::Result<Driven<R>, $crate::ConstantsError> {
                 let $constants = self.system.constants();
                 let _ = &$constants;
                 let inputs: [f64; $inputs] = ::core::convert::From::from(self.inputs);

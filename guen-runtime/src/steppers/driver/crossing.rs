@@ -46,24 +46,24 @@ pub(in crate::steppers) struct Checks<R> {
 impl<R: Real> Checks<R> {
     /// Returns the number of checks in so many parts.
     fn count(&self, parts: u32) -> u32 {
-        if self.close { parts.saturating_add(CLOSER) } else { parts }
+        if self.close { parts.saturating_add(FIRST_DIVISIONS) } else { parts }
     }
 
     /// The time of a check, counted from one.
     fn time(&self, check: u32, parts: u32) -> R {
-        let closer = if self.close { CLOSER } else { 0 };
+        let closer = if self.close { FIRST_DIVISIONS } else { 0 };
         let part = check.saturating_sub(closer);
         if part >= parts {
             return self.end;
         }
         let length = (self.end - self.start) * R::from_ratio(part.max(1).into(), parts.max(1).into());
-        let shorter = if part == 0 { libm::exp2(-3.0 * f64::from(CLOSER + 1 - check)) } else { 1.0 };
+        let shorter = if part == 0 { libm::exp2(-3.0 * f64::from(FIRST_DIVISIONS + 1 - check)) } else { 1.0 };
         self.start + length * R::from_f64(shorter)
     }
 }
 
 /// The number of times that the first part of the first step is divided by eight: `8^-17` is a rounding of `f64`.
-const CLOSER: u32 = 17;
+const FIRST_DIVISIONS: u32 = 17;
 
 /// Follows the sign of one event's function.
 #[derive(Clone, Copy, Default)]
@@ -154,8 +154,8 @@ fn root<R: Real, const N: usize>(
     value: &mut dyn FnMut(R) -> f64,
 ) -> Crossing<R> {
     /// Enough to halve a bracket from one end of the exponents to the other.
-    const LIMIT: u32 = 10_000;
-    const PATIENCE: u32 = 3;
+    const MAX_ITERATIONS: u32 = 10_000;
+    const ITERATIONS_TO_HALVE: u32 = 3;
 
     let rising = old < 0;
     let mut fa = value(a);
@@ -165,7 +165,7 @@ fn root<R: Real, const N: usize>(
     }
     let mut width = (b - a).to_f64().abs();
     let (mut since, mut last) = (0, 0);
-    for _ in 0..LIMIT {
+    for _ in 0..MAX_ITERATIONS {
         let present = (b - a).to_f64().abs();
         let resolution = event.resolution(a).max(event.resolution(b));
         if present <= resolution {
@@ -174,8 +174,8 @@ fn root<R: Real, const N: usize>(
         if present <= width / 2.0 {
             (width, since) = (present, 0);
         }
-        let mut part = if since >= PATIENCE { 0.5 } else { fa / (fa - fb) };
-        if since >= PATIENCE {
+        let mut part = if since >= ITERATIONS_TO_HALVE { 0.5 } else { fa / (fa - fb) };
+        if since >= ITERATIONS_TO_HALVE {
             (width, since) = (present, 0);
         }
         // A probe nearer to an end than the resolution could not close the bracket from the other side.

@@ -132,9 +132,9 @@ impl<'a, R: Real, const N: usize> Followed<'a, R, N> {
     /// roundings can tell, and may leave it and come back before the first check.
     fn is_near(&self, start: &Checkpoint<R, N>, end: R, run: &mut dyn AnyRun<R, N>) -> bool {
         /// By this factor.
-        const MUCH: f64 = 256.0;
+        const GROWTH_IN_STEP: f64 = 256.0;
 
-        let near = MUCH * self.event.value(start.time, &start.state).abs();
+        let near = GROWTH_IN_STEP * self.event.value(start.time, &start.state).abs();
         if near <= self.end.abs() {
             return true;
         }

@@ -144,7 +144,7 @@ impl<const N: usize> Known<N> {
     /// Takes in a step: the estimates of its errors, and state and rates at both ends; what the rates are of is `h` long.
     fn step<R: Real>(&mut self, own: [f64; N], h: f64, states: [&[R; N]; 2], rates: [&[R; N]; 2]) {
         /// The largest estimate, as a part of the way of a step, of which the estimate of a further digit follows.
-        const PART: f64 = 1e-4;
+        const RESOLVED_PART: f64 = 1e-4;
 
         let of = |pair: [&[R; N]; 2], i: usize| pair.map(|values| values[i].to_f64());
         let ways: [f64; N] = entries(|i| {
@@ -171,13 +171,13 @@ impl<const N: usize> Known<N> {
         if moved > 0.0 {
             self.growth += turned / moved;
         }
-        self.resolved = self.resolved && part <= PART && own.iter().all(|error| error.is_finite());
+        self.resolved = self.resolved && part <= RESOLVED_PART && own.iter().all(|error| error.is_finite());
     }
 
     fn bound(self) -> Option<[f64; N]> {
         /// Errors are not followed on their way; this is what they may have grown by, as the logarithm.
-        const GROWTH: f64 = 3.0;
-        (self.resolved && self.growth <= GROWTH).then_some(self.error)
+        const MAX_LOG_GROWTH: f64 = 3.0;
+        (self.resolved && self.growth <= MAX_LOG_GROWTH).then_some(self.error)
     }
 }
 

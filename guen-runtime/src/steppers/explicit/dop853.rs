@@ -93,7 +93,7 @@ impl<R: Ordered> Dop853<R> {
 }
 
 /// Below this, a sum of squares of errors in units of the tolerance is none, and its own square is below all numbers.
-const NOTHING: f64 = 1e-150;
+const NEGLIGIBLE_SQUARES: f64 = 1e-150;
 
 impl<R: Real, const N: usize> Pair<R, N> for Tableau<R> {
     type Stages = Stages<R, N>;
@@ -116,7 +116,7 @@ impl<R: Real, const N: usize> Pair<R, N> for Tableau<R> {
         let five = step_size::squares(&errors.error5, weights);
         let three = step_size::squares(&errors.error3, weights);
         let size = h * five;
-        Margin { allowed: N as f64 * (five + 0.01 * three) + NOTHING, found: size * size }
+        Margin { allowed: N as f64 * (five + 0.01 * three) + NEGLIGIBLE_SQUARES, found: size * size }
     }
 
     fn dense<S>(&self, system: &S, step: &Step<'_, R, Stages<R, N>, N>) -> (Dense<R, N>, u64)

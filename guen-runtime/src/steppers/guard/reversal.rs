@@ -14,7 +14,7 @@ use crate::system::System;
 use crate::system::linearization::{Liftable, seeded};
 
 /// The number of steps from one check of the way back to the next: each inverts a matrix of the size of the state.
-const EVERY: u32 = 8;
+const CHECK_INTERVAL: u32 = 8;
 
 /// A run with its variational matrix.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -106,7 +106,7 @@ where
     let mut back = Back::new(x0);
     let mut good = (t0, *x0);
     let mut fault = None;
-    let mut until_check = EVERY;
+    let mut until_check = CHECK_INTERVAL;
     let unit = R::epsilon().to_f64() / 2.0;
     let mut check = |time: Dual<R, N>, state: &[Dual<R, N>; N]| {
         back.see(state);
@@ -114,7 +114,7 @@ where
         if until_check > 0 && time.value != t1 {
             return ControlFlow::Continue(());
         }
-        until_check = EVERY;
+        until_check = CHECK_INTERVAL;
         let growth = back.growth(state);
         // What is no number exceeds every limit.
         if (unit * growth).partial_cmp(&limit).is_none_or(core::cmp::Ordering::is_gt) {

@@ -232,9 +232,9 @@ where
     S: Differentiable<R, N> + ?Sized,
 {
     /// The number of iterations from which on a new Jacobian costs less than to go on with the old one.
-    const SLOW: u32 = 7;
+    const SLOW_ITERATIONS: u32 = 7;
     /// Steps that differ by less have the same factors: each iteration leaves so much of the error.
-    const SAME: f64 = 1e-3;
+    const SAME_STEP: f64 = 1e-3;
 
     // A slope that dense output left belongs to the end of a step that is over.
     memory.slopes = Slopes::new();
@@ -248,7 +248,7 @@ where
             fresh = true;
         }
         let factors = match (memory.factors, &memory.jacobian) {
-            (Some((at, factors)), _) if step_size::nearly_the_same(at, h, SAME) => factors,
+            (Some((at, factors)), _) if step_size::nearly_the_same(at, h, SAME_STEP) => factors,
             (_, Some(jacobian)) => {
                 let factors = collocation.factor(jacobian, h).ok_or(Cause::NoConvergence)?;
                 memory.factors = Some((h, factors));
@@ -261,7 +261,7 @@ where
         match found {
             Some((z, iterations)) => {
                 memory.last = Some((h, z));
-                if iterations > SLOW {
+                if iterations > SLOW_ITERATIONS {
                     memory.jacobian = None;
                 }
                 return Ok(collocation.change(&z));
@@ -373,7 +373,7 @@ where
     /// Steps below so many roundings are rounding if they do not become smaller any more.
     const ROUNDINGS: f64 = 1e5;
     /// An entry much smaller than the largest one need not be right relative to itself.
-    const SMALL: f64 = 1e-3;
+    const NEGLIGIBLE_PART: f64 = 1e-3;
 
     let epsilon = R::epsilon().to_f64();
     let mut z = start.unwrap_or([[R::zero(); N]; M]);
@@ -388,7 +388,7 @@ where
                 sizes[k] = sizes[k].max(stage[k].to_f64().abs());
             }
         }
-        let floor = SMALL * sizes.iter().fold(0.0_f64, |most, size| most.max(*size));
+        let floor = NEGLIGIBLE_PART * sizes.iter().fold(0.0_f64, |most, size| most.max(*size));
         let mut size = 0.0_f64;
         for stage in &step {
             for k in 0..N {

@@ -210,10 +210,10 @@ impl<R: Ordered, const N: usize> Run<'_, R, N> {
     {
         const ITERATIONS: u32 = 10;
         /// Part of the tolerance that the equations are solved to at least.
-        const LOOSEST: f64 = 0.03;
+        const MAX_TOLERANCE_PART: f64 = 0.03;
         const ROUNDINGS: f64 = 10.0;
         /// A rate of convergence that is none.
-        const HOPELESS: f64 = 0.99;
+        const DIVERGENT_RATE: f64 = 0.99;
 
         // The tolerance relative to the entry that it is strictest for: what is solved for is better than it by a
         // factor that grows with it, so that the error of order five is not lost, but never better than rounding.
@@ -224,7 +224,8 @@ impl<R: Ordered, const N: usize> Run<'_, R, N> {
             .zip(weights)
             .fold(0.0_f64, |most, (x, weight)| most.max(x.to_f64().abs() * weight));
         let relative = 1.0 / strictest;
-        let enough = (ROUNDINGS * R::epsilon().to_f64() / relative).max(libm::sqrt(relative).min(LOOSEST));
+        let enough =
+            (ROUNDINGS * R::epsilon().to_f64() / relative).max(libm::sqrt(relative).min(MAX_TOLERANCE_PART));
         let mut z = start.unwrap_or([[R::zero(); N]; 3]);
         let (mut last, mut rate) = (f64::INFINITY, 0.0);
         for iteration in 1..=ITERATIONS {
@@ -247,7 +248,7 @@ impl<R: Ordered, const N: usize> Run<'_, R, N> {
             let mut left = if size == 0.0 { 0.0 } else { f64::INFINITY };
             if iteration > 1 && size > 0.0 {
                 rate = size / last;
-                if rate >= HOPELESS {
+                if rate >= DIVERGENT_RATE {
                     return Solved::Diverged;
                 }
                 left = size * rate / (1.0 - rate);
@@ -280,12 +281,12 @@ where
 
     fn advance(&mut self, system: &S, target: R, _dense: bool) -> Result<(), Cause> {
         /// Below this rate of convergence the Jacobian is good enough for the next step.
-        const FAST: f64 = 1e-3;
+        const FAST_RATE: f64 = 1e-3;
         /// A step that would grow by less than this stays as it is, with its factors.
-        const WORTHWHILE: f64 = 1.2;
+        const MIN_GROWTH: f64 = 1.2;
         /// Steps that differ by less have the same factors, which make Newton's method converge no more slowly than a Jacobian
         /// that is kept.
-        const SAME: f64 = 1e-5;
+        const SAME_STEP: f64 = 1e-5;
 
         let collocation = self.method.collocation.as_ref().ok_or(Cause::NoConvergence)?;
         let Ready { slope, step } = match self.ready {
@@ -325,7 +326,7 @@ where
             };
             self.jacobian = Some((jacobian, present));
             let factors = match self.factors {
-                Some((at, factors)) if step_size::nearly_the_same(at, h, SAME) => Some(factors),
+                Some((at, factors)) if step_size::nearly_the_same(at, h, SAME_STEP) => Some(factors),
                 _ => {
                     let factors = collocation.factor(&jacobian, h);
                     self.factors = factors.map(|factors| (h, factors));
@@ -368,8 +369,8 @@ where
                             if rejected {
                                 growth = growth.min(1.0);
                             }
-                            let keep = rate <= FAST;
-                            if keep && (1.0..=WORTHWHILE).contains(&growth) {
+                            let keep = rate <= FAST_RATE;
+                            if keep && (1.0..=MIN_GROWTH).contains(&growth) {
                                 growth = 1.0;
                             }
                             let mut next_step = size * growth;

@@ -16,7 +16,7 @@ pub(super) const INSIDE: f64 = 0.45;
 /// k > p log(tol) / (log(tol) + p log(INSIDE))
 /// ```
 ///
-/// are below it, and `k` times as much, which they add to the slope, is below [`ALLOWED`].
+/// are below it, and `k` times as much, which they add to the slope, is below [`DEFECT_LIMIT`].
 pub(super) fn order_inside(order: usize, tolerance: f64) -> usize {
     let (order, digits) = (order as f64, libm::log2(tolerance).min(0.0));
     (order * digits / (digits + order * libm::log2(INSIDE))) as usize
@@ -24,7 +24,7 @@ pub(super) fn order_inside(order: usize, tolerance: f64) -> usize {
 
 /// The largest defect over a step, in units of the tolerance. What order `p` leaves out of it is about `(p + 1)/16`, so
 /// that a step is not refused because of what its length is chosen by.
-const ALLOWED: f64 = 64.0;
+const DEFECT_LIMIT: f64 = 64.0;
 
 /// The defect of a series,
 ///
@@ -63,7 +63,7 @@ impl<R: Ordered, const N: usize> Defect<'_, R, N> {
         // All of them, without a branch in between.
         let mut small = true;
         for ((slope, rate), weight) in self.slope.iter().zip(rates).zip(self.weights) {
-            small &= (*slope - *rate * self.length).to_f64().abs() * weight <= ALLOWED;
+            small &= (*slope - *rate * self.length).to_f64().abs() * weight <= DEFECT_LIMIT;
         }
         small
     }
@@ -79,7 +79,7 @@ impl<R: Ordered, const N: usize> Defect<'_, R, N> {
         const ROUNDINGS: f64 = 2.0;
         /// The defect is allowed to be so many times as large as the difference of the rates: of many roundings a few tell
         /// about the others.
-        const FACTOR: f64 = 8.0;
+        const ROUNDING_FACTOR: f64 = 8.0;
 
         let begin = &self.series.coefficients[0];
         let over = self.length / self.series.scale;
@@ -92,7 +92,8 @@ impl<R: Ordered, const N: usize> Defect<'_, R, N> {
             let at_begin = there[i] * self.length - self.series.coefficients[1][i] * over;
             let rounding = at_end.to_f64().abs() + at_begin.to_f64().abs() + R::epsilon().to_f64() * terms[i];
             let defect = (self.slope[i] - rates[i] * self.length).to_f64().abs();
-            defect < f64::INFINITY && defect <= f64::max(ALLOWED / self.weights[i], FACTOR * rounding)
+            defect < f64::INFINITY
+                && defect <= f64::max(DEFECT_LIMIT / self.weights[i], ROUNDING_FACTOR * rounding)
         })
     }
 

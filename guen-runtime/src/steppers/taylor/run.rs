@@ -13,8 +13,8 @@ use crate::system::series::TaylorSeries;
 
 /// The factor by which a step becomes shorter whose rates are not those of its series, and by which the one after it
 /// becomes longer at most: what the coefficients did not see is near.
-const SHORTER: f64 = 0.5;
-const LONGER: f64 = 2.0;
+const MAX_SHORTENING: f64 = 0.5;
+const MAX_LENGTHENING: f64 = 2.0;
 
 /// Up to which orders terms are summed.
 #[derive(Clone, Copy, Debug)]
@@ -134,15 +134,15 @@ impl<'a, R: Ordered, const N: usize> Run<'a, R, N> {
         S: TaylorSeries<R, N> + ?Sized,
     {
         /// The factor by which the scale becomes shorter where coefficients overflow.
-        const FINER: f64 = 1.0 / (1_u64 << 20) as f64;
+        const RESCALING: f64 = 1.0 / (1_u64 << 20) as f64;
         /// And how often.
-        const ATTEMPTS: u32 = 6;
+        const MAX_RESCALINGS: u32 = 6;
 
         let order = order.clamp(1, HIGHEST_ORDER);
         let series = &mut self.series[place & 1];
         series.start = time;
         series.order = order;
-        for _ in 0..ATTEMPTS {
+        for _ in 0..MAX_RESCALINGS {
             series.scale = R::from_f64(self.scale);
             system.series(time, state, series.scale, order, &mut series.coefficients);
             self.reached.statistics.evaluations += order as u64;
@@ -154,7 +154,7 @@ impl<'a, R: Ordered, const N: usize> Run<'a, R, N> {
             if !all_finite(&series.coefficients[1]) {
                 break;
             }
-            self.scale *= FINER;
+            self.scale *= RESCALING;
             self.reached.statistics.rejected += 1;
         }
         Err(Cause::NotFinite)
@@ -163,11 +163,11 @@ impl<'a, R: Ordered, const N: usize> Run<'a, R, N> {
     /// The length of the step that the coefficients allow; infinite where all of them vanish.
     fn length(&self, weights: &[f64; N]) -> f64 {
         /// Coefficients that are looked at, and at most half of them: in series with gaps the last ones may vanish.
-        const LAST: usize = 8;
+        const LAST_COEFFICIENTS: usize = 8;
 
         let series = &self.series[self.here()];
         let order = series.order;
-        let shortest = self.shortest(series, weights, order + 1 - LAST.min(order.div_ceil(2)));
+        let shortest = self.shortest(series, weights, order + 1 - LAST_COEFFICIENTS.min(order.div_ceil(2)));
         // Nothing there: of a polynomial every coefficient counts.
         let shortest = if shortest == f64::INFINITY { self.shortest(series, weights, 1) } else { shortest };
         if shortest == f64::INFINITY { shortest } else { exp2(shortest) * series.scale.to_f64() }
@@ -177,17 +177,17 @@ impl<'a, R: Ordered, const N: usize> Run<'a, R, N> {
     fn shortest(&self, series: &Series<R, N>, weights: &[f64; N], first: usize) -> f64 {
         /// The binary logarithm of the ratio of two terms that follow each other, for the last ones, and at least this part
         /// of what it is in a geometric series that falls to the tolerance: with few terms each has to fall further.
-        const RATIO: f64 = 2.0;
-        const PART: f64 = 0.7;
+        const LEAST_RATIO: f64 = 2.0;
+        const TOLERANCE_PART: f64 = 0.7;
         /// The addition to the logarithm for earlier terms, which are not to decide unless there is a gap.
-        const FURTHER: f64 = 0.6;
+        const EARLIER_ALLOWANCE: f64 = 0.6;
         /// The number of the last ones.
-        const DECIDING: f64 = 4.0;
+        const DECIDING_TERMS: f64 = 4.0;
 
         let Series { order, coefficients, .. } = series;
         let tolerance = self.method.tolerance();
         let looser = f64::max(tolerance.relative, tolerance.absolute);
-        let ratio = f64::max(RATIO, -PART * log2(looser) / *order as f64);
+        let ratio = f64::max(LEAST_RATIO, -TOLERANCE_PART * log2(looser) / *order as f64);
         let mut shortest = f64::INFINITY;
         for (k, coefficients) in coefficients.iter().enumerate().take(*order + 1).skip(first) {
             let mut largest = 0.0_f64;
@@ -196,7 +196,8 @@ impl<'a, R: Ordered, const N: usize> Run<'a, R, N> {
                 largest = if size > largest { size } else { largest };
             }
             let below = *order as f64 - k as f64;
-            let allowed = ratio * (below - 1.0) + FURTHER * f64::max(below + 1.0 - DECIDING, 0.0);
+            let allowed =
+                ratio * (below - 1.0) + EARLIER_ALLOWANCE * f64::max(below + 1.0 - DECIDING_TERMS, 0.0);
             shortest = f64::min(shortest, (allowed - log2(largest)) / k as f64);
         }
         shortest
@@ -395,7 +396,7 @@ where
             }
             match self.attempt(system, orders, (next, h), &weights, !landing && !rejected) {
                 Ok(trial) => {
-                    self.longest = LONGER * if rejected { step } else { self.longest };
+                    self.longest = MAX_LENGTHENING * if rejected { step } else { self.longest };
                     self.made = self.here();
                     self.ahead = trial.ahead;
                     self.rest = trial.rest;
@@ -421,7 +422,7 @@ where
                 return Err(Cause::TooManySteps { limit });
             }
             let longest = if landing { h.to_f64().abs() } else { step };
-            step = f64::max(SHORTER * longest, step_size::shortest(time, self.origin));
+            step = f64::max(MAX_SHORTENING * longest, step_size::shortest(time, self.origin));
         }
     }
 

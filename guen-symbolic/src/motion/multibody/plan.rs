@@ -7,7 +7,7 @@
 use super::declared::Group;
 use super::forms::Functional;
 use super::relations::{Linear, back, link, raw_kinematic, reduced, solved, turned_components};
-use super::safety::{SMALL, STATES, real_value};
+use super::safety::{STATES, ZERO_BELOW, real_value};
 use super::tree::{RateForm, Tree, Turn};
 use super::variables::{Class, Kind, Var, Variables};
 use crate::algebra::FastMap;
@@ -308,7 +308,7 @@ impl Planner<'_> {
         }
         let Planner { bench, numbers, known, .. } = self;
         *known.or_insert_with(pivot, || {
-            (0..STATES).all(|state| real_value(bench, numbers, pivot, state).abs() > SMALL)
+            (0..STATES).all(|state| real_value(bench, numbers, pivot, state).abs() > ZERO_BELOW)
         })
     }
 

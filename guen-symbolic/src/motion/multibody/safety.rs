@@ -8,7 +8,7 @@ use crate::workbench::Workbench;
 pub(super) const STATES: u64 = 4;
 
 /// Values below this count as zero, of constants near one.
-pub(super) const SMALL: f64 = 1e-6;
+pub(super) const ZERO_BELOW: f64 = 1e-6;
 
 /// The value at a state: the rest position first, then others; constants near one.
 pub(super) fn real_value(bench: &Workbench, numbers: &Numbering, e: Num, state: u64) -> f64 {
@@ -32,16 +32,16 @@ pub(super) fn real_value(bench: &Workbench, numbers: &Numbering, e: Num, state: 
 pub(super) fn independent(vectors: &[[f64; 3]]) -> bool {
     let length = |v: &[f64; 3]| v.iter().map(|e| e * e).sum::<f64>().sqrt();
     match vectors {
-        [a] => length(a) > SMALL,
+        [a] => length(a) > ZERO_BELOW,
         [a, b] => {
             let product = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-            length(&product) > SMALL * length(a) * length(b)
+            length(&product) > ZERO_BELOW * length(a) * length(b)
         }
         [a, b, c] => {
             let determinant = a[0] * (b[1] * c[2] - b[2] * c[1])
                 + a[1] * (b[2] * c[0] - b[0] * c[2])
                 + a[2] * (b[0] * c[1] - b[1] * c[0]);
-            determinant.abs() > SMALL * length(a) * length(b) * length(c)
+            determinant.abs() > ZERO_BELOW * length(a) * length(b) * length(c)
         }
         _ => false,
     }

@@ -20,7 +20,7 @@ enum Factor {
     Constant(ExprId),
 }
 
-const TAG: u32 = 30;
+const TAG_BIT: u32 = 30;
 
 impl Key for Literal {
     fn hash(&self) -> u32 {
@@ -41,13 +41,13 @@ impl Literal {
             Factor::Below(node) => (1, node.0),
             Factor::Constant(k) => (2, k.0),
         };
-        debug_assert!(id >> TAG == 0, "the graph has more than 2^30 nodes");
-        Literal(tag << TAG | id)
+        debug_assert!(id >> TAG_BIT == 0, "the graph has more than 2^30 nodes");
+        Literal(tag << TAG_BIT | id)
     }
 
     fn factor(self) -> Factor {
-        let id = self.0 & ((1 << TAG) - 1);
-        match self.0 >> TAG {
+        let id = self.0 & ((1 << TAG_BIT) - 1);
+        match self.0 >> TAG_BIT {
             0 => Factor::Above(NetId(id)),
             1 => Factor::Below(NetId(id)),
             _ => Factor::Constant(ExprId(id)),
@@ -55,7 +55,7 @@ impl Literal {
     }
 
     fn is_constant(self) -> bool {
-        self.0 >> TAG == 2
+        self.0 >> TAG_BIT == 2
     }
 }
 

@@ -13,64 +13,64 @@ type End<const N: usize> = Result<[f64; N], Box<dyn Error>>;
 type Ends = Result<Vec<[f64; 2]>, Box<dyn Error>>;
 
 pub fn rk4(system: &Pendulum, start: [f64; 2]) -> End<2> {
-    use guen::{Recast, prelude::*};
-    let system = system.recast::<f64>()?;
+    use guen::{WithScalar, prelude::*};
+    let system = system.with_scalar::<f64>()?;
     let method = Rk4::new(0.125);
     let end = Integration::new(&system, 0.0, &start).run(&method, 1.0)?.state;
     Ok(end)
 }
 
 pub fn rk8(system: &Pendulum, start: [f64; 2]) -> End<2> {
-    use guen::{Recast, prelude::*};
-    let system = system.recast::<f64>()?;
+    use guen::{WithScalar, prelude::*};
+    let system = system.with_scalar::<f64>()?;
     let method = Rk8::new(0.125);
     let end = Integration::new(&system, 0.0, &start).run(&method, 1.0)?.state;
     Ok(end)
 }
 
 pub fn tsit5(system: &Pendulum, start: [f64; 2]) -> End<2> {
-    use guen::{Recast, prelude::*};
-    let system = system.recast::<f64>()?;
+    use guen::{WithScalar, prelude::*};
+    let system = system.with_scalar::<f64>()?;
     let method = Tsit5::new(0.001, 0.001);
     let end = Integration::new(&system, 0.0, &start).run(&method, 1.0)?.state;
     Ok(end)
 }
 
 pub fn dop853(system: &Pendulum, start: [f64; 2]) -> End<2> {
-    use guen::{Recast, prelude::*};
-    let system = system.recast::<f64>()?;
+    use guen::{WithScalar, prelude::*};
+    let system = system.with_scalar::<f64>()?;
     let method = Dop853::new(0.01, 0.01);
     let end = Integration::new(&system, 0.0, &start).run(&method, 1.0)?.state;
     Ok(end)
 }
 
 pub fn euler(system: &Pendulum, start: [f64; 2]) -> End<2> {
-    use guen::{Recast, prelude::*};
-    let system = system.recast::<f64>()?;
+    use guen::{WithScalar, prelude::*};
+    let system = system.with_scalar::<f64>()?;
     let method = Euler::new(0.0013812154696132596);
     let end = Integration::new(&system, 0.0, &start).run(&method, 1.0)?.state;
     Ok(end)
 }
 
 pub fn bounded_dop853(system: &Pendulum, start: [f64; 2]) -> End<2> {
-    use guen::{Recast, prelude::*};
-    let system = system.recast::<f64>()?;
+    use guen::{WithScalar, prelude::*};
+    let system = system.with_scalar::<f64>()?;
     let end = Bounded::<f64>::dop853(24).advance(&system, 0.0, &start, 1.0)?.state;
     Ok(end)
 }
 
 pub fn bounded_tsit5(system: &Pendulum, start: [f64; 2]) -> End<2> {
-    use guen::{Recast, prelude::*};
-    let system = system.recast::<f64>()?;
+    use guen::{WithScalar, prelude::*};
+    let system = system.with_scalar::<f64>()?;
     let end = Bounded::<f64>::tsit5(24).advance(&system, 0.0, &start, 1.0)?.state;
     Ok(end)
 }
 
 pub fn rk4_in_approx13(system: &Pendulum, start: [f64; 2]) -> End<2> {
-    use guen::{Recast, prelude::*};
+    use guen::{WithScalar, prelude::*};
     use guen::Approx13;
     type R = Approx13;
-    let system = system.recast::<R>()?;
+    let system = system.with_scalar::<R>()?;
     let method = Rk4::new(R::from_f64(0.125));
     let (t0, t1) = (R::from_f64(0.0), R::from_f64(1.0));
     let start = start.map(R::from_f64);
@@ -79,10 +79,10 @@ pub fn rk4_in_approx13(system: &Pendulum, start: [f64; 2]) -> End<2> {
 }
 
 pub fn rk8_in_approx13(system: &Pendulum, start: [f64; 2]) -> End<2> {
-    use guen::{Recast, prelude::*};
+    use guen::{WithScalar, prelude::*};
     use guen::Approx13;
     type R = Approx13;
-    let system = system.recast::<R>()?;
+    let system = system.with_scalar::<R>()?;
     let method = Rk8::new(R::from_f64(0.125));
     let (t0, t1) = (R::from_f64(0.0), R::from_f64(1.0));
     let start = start.map(R::from_f64);
@@ -91,10 +91,10 @@ pub fn rk8_in_approx13(system: &Pendulum, start: [f64; 2]) -> End<2> {
 }
 
 pub fn tsit5_in_approx13(system: &Pendulum, start: [f64; 2]) -> End<2> {
-    use guen::{Recast, prelude::*};
+    use guen::{WithScalar, prelude::*};
     use guen::Approx13;
     type R = Approx13;
-    let system = system.recast::<R>()?;
+    let system = system.with_scalar::<R>()?;
     let method = Tsit5::new(0.001, 0.001);
     let (t0, t1) = (R::from_f64(0.0), R::from_f64(1.0));
     let start = start.map(R::from_f64);
@@ -103,10 +103,10 @@ pub fn tsit5_in_approx13(system: &Pendulum, start: [f64; 2]) -> End<2> {
 }
 
 pub fn dop853_in_approx13(system: &Pendulum, start: [f64; 2]) -> End<2> {
-    use guen::{Recast, prelude::*};
+    use guen::{WithScalar, prelude::*};
     use guen::Approx13;
     type R = Approx13;
-    let system = system.recast::<R>()?;
+    let system = system.with_scalar::<R>()?;
     let method = Dop853::new(0.01, 0.01);
     let (t0, t1) = (R::from_f64(0.0), R::from_f64(1.0));
     let start = start.map(R::from_f64);
@@ -115,10 +115,10 @@ pub fn dop853_in_approx13(system: &Pendulum, start: [f64; 2]) -> End<2> {
 }
 
 pub fn rk4_in_approx7(system: &Pendulum, start: [f64; 2]) -> End<2> {
-    use guen::{Recast, prelude::*};
+    use guen::{WithScalar, prelude::*};
     use guen::Approx7;
     type R = Approx7;
-    let system = system.recast::<R>()?;
+    let system = system.with_scalar::<R>()?;
     let method = Rk4::new(R::from_f64(0.125));
     let (t0, t1) = (R::from_f64(0.0), R::from_f64(1.0));
     let start = start.map(R::from_f64);
@@ -127,10 +127,10 @@ pub fn rk4_in_approx7(system: &Pendulum, start: [f64; 2]) -> End<2> {
 }
 
 pub fn rk8_in_approx7(system: &Pendulum, start: [f64; 2]) -> End<2> {
-    use guen::{Recast, prelude::*};
+    use guen::{WithScalar, prelude::*};
     use guen::Approx7;
     type R = Approx7;
-    let system = system.recast::<R>()?;
+    let system = system.with_scalar::<R>()?;
     let method = Rk8::new(R::from_f64(0.125));
     let (t0, t1) = (R::from_f64(0.0), R::from_f64(1.0));
     let start = start.map(R::from_f64);
@@ -139,10 +139,10 @@ pub fn rk8_in_approx7(system: &Pendulum, start: [f64; 2]) -> End<2> {
 }
 
 pub fn tsit5_in_approx7(system: &Pendulum, start: [f64; 2]) -> End<2> {
-    use guen::{Recast, prelude::*};
+    use guen::{WithScalar, prelude::*};
     use guen::Approx7;
     type R = Approx7;
-    let system = system.recast::<R>()?;
+    let system = system.with_scalar::<R>()?;
     let method = Tsit5::new(0.001, 0.001);
     let (t0, t1) = (R::from_f64(0.0), R::from_f64(1.0));
     let start = start.map(R::from_f64);
@@ -151,10 +151,10 @@ pub fn tsit5_in_approx7(system: &Pendulum, start: [f64; 2]) -> End<2> {
 }
 
 pub fn dop853_in_approx7(system: &Pendulum, start: [f64; 2]) -> End<2> {
-    use guen::{Recast, prelude::*};
+    use guen::{WithScalar, prelude::*};
     use guen::Approx7;
     type R = Approx7;
-    let system = system.recast::<R>()?;
+    let system = system.with_scalar::<R>()?;
     let method = Dop853::new(0.01, 0.01);
     let (t0, t1) = (R::from_f64(0.0), R::from_f64(1.0));
     let start = start.map(R::from_f64);
@@ -163,10 +163,10 @@ pub fn dop853_in_approx7(system: &Pendulum, start: [f64; 2]) -> End<2> {
 }
 
 pub fn rk4_in_fused(system: &Pendulum, start: [f64; 2]) -> End<2> {
-    use guen::{Recast, prelude::*};
+    use guen::{WithScalar, prelude::*};
     use guen::Fused;
     type R = Fused;
-    let system = system.recast::<R>()?;
+    let system = system.with_scalar::<R>()?;
     let method = Rk4::new(R::from_f64(0.125));
     let (t0, t1) = (R::from_f64(0.0), R::from_f64(1.0));
     let start = start.map(R::from_f64);
@@ -175,10 +175,10 @@ pub fn rk4_in_fused(system: &Pendulum, start: [f64; 2]) -> End<2> {
 }
 
 pub fn rk8_in_fused(system: &Pendulum, start: [f64; 2]) -> End<2> {
-    use guen::{Recast, prelude::*};
+    use guen::{WithScalar, prelude::*};
     use guen::Fused;
     type R = Fused;
-    let system = system.recast::<R>()?;
+    let system = system.with_scalar::<R>()?;
     let method = Rk8::new(R::from_f64(0.125));
     let (t0, t1) = (R::from_f64(0.0), R::from_f64(1.0));
     let start = start.map(R::from_f64);
@@ -187,10 +187,10 @@ pub fn rk8_in_fused(system: &Pendulum, start: [f64; 2]) -> End<2> {
 }
 
 pub fn tsit5_in_fused(system: &Pendulum, start: [f64; 2]) -> End<2> {
-    use guen::{Recast, prelude::*};
+    use guen::{WithScalar, prelude::*};
     use guen::Fused;
     type R = Fused;
-    let system = system.recast::<R>()?;
+    let system = system.with_scalar::<R>()?;
     let method = Tsit5::new(0.001, 0.001);
     let (t0, t1) = (R::from_f64(0.0), R::from_f64(1.0));
     let start = start.map(R::from_f64);
@@ -199,10 +199,10 @@ pub fn tsit5_in_fused(system: &Pendulum, start: [f64; 2]) -> End<2> {
 }
 
 pub fn dop853_in_fused(system: &Pendulum, start: [f64; 2]) -> End<2> {
-    use guen::{Recast, prelude::*};
+    use guen::{WithScalar, prelude::*};
     use guen::Fused;
     type R = Fused;
-    let system = system.recast::<R>()?;
+    let system = system.with_scalar::<R>()?;
     let method = Dop853::new(0.01, 0.01);
     let (t0, t1) = (R::from_f64(0.0), R::from_f64(1.0));
     let start = start.map(R::from_f64);
@@ -211,10 +211,10 @@ pub fn dop853_in_fused(system: &Pendulum, start: [f64; 2]) -> End<2> {
 }
 
 pub fn rk4_in_std(system: &Pendulum, start: [f64; 2]) -> End<2> {
-    use guen::{Recast, prelude::*};
+    use guen::{WithScalar, prelude::*};
     use guen::Std;
     type R = Std;
-    let system = system.recast::<R>()?;
+    let system = system.with_scalar::<R>()?;
     let method = Rk4::new(R::from_f64(0.125));
     let (t0, t1) = (R::from_f64(0.0), R::from_f64(1.0));
     let start = start.map(R::from_f64);
@@ -223,10 +223,10 @@ pub fn rk4_in_std(system: &Pendulum, start: [f64; 2]) -> End<2> {
 }
 
 pub fn rk8_in_std(system: &Pendulum, start: [f64; 2]) -> End<2> {
-    use guen::{Recast, prelude::*};
+    use guen::{WithScalar, prelude::*};
     use guen::Std;
     type R = Std;
-    let system = system.recast::<R>()?;
+    let system = system.with_scalar::<R>()?;
     let method = Rk8::new(R::from_f64(0.125));
     let (t0, t1) = (R::from_f64(0.0), R::from_f64(1.0));
     let start = start.map(R::from_f64);
@@ -235,10 +235,10 @@ pub fn rk8_in_std(system: &Pendulum, start: [f64; 2]) -> End<2> {
 }
 
 pub fn tsit5_in_std(system: &Pendulum, start: [f64; 2]) -> End<2> {
-    use guen::{Recast, prelude::*};
+    use guen::{WithScalar, prelude::*};
     use guen::Std;
     type R = Std;
-    let system = system.recast::<R>()?;
+    let system = system.with_scalar::<R>()?;
     let method = Tsit5::new(0.001, 0.001);
     let (t0, t1) = (R::from_f64(0.0), R::from_f64(1.0));
     let start = start.map(R::from_f64);
@@ -247,10 +247,10 @@ pub fn tsit5_in_std(system: &Pendulum, start: [f64; 2]) -> End<2> {
 }
 
 pub fn dop853_in_std(system: &Pendulum, start: [f64; 2]) -> End<2> {
-    use guen::{Recast, prelude::*};
+    use guen::{WithScalar, prelude::*};
     use guen::Std;
     type R = Std;
-    let system = system.recast::<R>()?;
+    let system = system.with_scalar::<R>()?;
     let method = Dop853::new(0.01, 0.01);
     let (t0, t1) = (R::from_f64(0.0), R::from_f64(1.0));
     let start = start.map(R::from_f64);
@@ -259,9 +259,9 @@ pub fn dop853_in_std(system: &Pendulum, start: [f64; 2]) -> End<2> {
 }
 
 pub fn rk4_in_f32(system: &Pendulum, start: [f64; 2]) -> End<2> {
-    use guen::{Recast, prelude::*};
+    use guen::{WithScalar, prelude::*};
     type R = f32;
-    let system = system.recast::<R>()?;
+    let system = system.with_scalar::<R>()?;
     let method = Rk4::new(R::from_f64(0.125));
     let (t0, t1) = (R::from_f64(0.0), R::from_f64(1.0));
     let start = start.map(R::from_f64);
@@ -270,9 +270,9 @@ pub fn rk4_in_f32(system: &Pendulum, start: [f64; 2]) -> End<2> {
 }
 
 pub fn rk8_in_f32(system: &Pendulum, start: [f64; 2]) -> End<2> {
-    use guen::{Recast, prelude::*};
+    use guen::{WithScalar, prelude::*};
     type R = f32;
-    let system = system.recast::<R>()?;
+    let system = system.with_scalar::<R>()?;
     let method = Rk8::new(R::from_f64(0.125));
     let (t0, t1) = (R::from_f64(0.0), R::from_f64(1.0));
     let start = start.map(R::from_f64);
@@ -281,9 +281,9 @@ pub fn rk8_in_f32(system: &Pendulum, start: [f64; 2]) -> End<2> {
 }
 
 pub fn tsit5_in_f32(system: &Pendulum, start: [f64; 2]) -> End<2> {
-    use guen::{Recast, prelude::*};
+    use guen::{WithScalar, prelude::*};
     type R = f32;
-    let system = system.recast::<R>()?;
+    let system = system.with_scalar::<R>()?;
     let method = Tsit5::new(0.001, 0.001);
     let (t0, t1) = (R::from_f64(0.0), R::from_f64(1.0));
     let start = start.map(R::from_f64);
@@ -292,9 +292,9 @@ pub fn tsit5_in_f32(system: &Pendulum, start: [f64; 2]) -> End<2> {
 }
 
 pub fn dop853_in_f32(system: &Pendulum, start: [f64; 2]) -> End<2> {
-    use guen::{Recast, prelude::*};
+    use guen::{WithScalar, prelude::*};
     type R = f32;
-    let system = system.recast::<R>()?;
+    let system = system.with_scalar::<R>()?;
     let method = Dop853::new(0.01, 0.01);
     let (t0, t1) = (R::from_f64(0.0), R::from_f64(1.0));
     let start = start.map(R::from_f64);
@@ -303,64 +303,64 @@ pub fn dop853_in_f32(system: &Pendulum, start: [f64; 2]) -> End<2> {
 }
 
 pub fn gauss_4(system: &Pendulum, start: [f64; 2]) -> End<2> {
-    use guen::{Recast, prelude::*};
-    let system = system.recast::<f64>()?;
+    use guen::{WithScalar, prelude::*};
+    let system = system.with_scalar::<f64>()?;
     let method = Gauss4::new(0.125);
     let end = Integration::new(&system, 0.0, &start).run(&method, 1.0)?.state;
     Ok(end)
 }
 
 pub fn gauss_6(system: &Pendulum, start: [f64; 2]) -> End<2> {
-    use guen::{Recast, prelude::*};
-    let system = system.recast::<f64>()?;
+    use guen::{WithScalar, prelude::*};
+    let system = system.with_scalar::<f64>()?;
     let method = Gauss6::new(0.125);
     let end = Integration::new(&system, 0.0, &start).run(&method, 1.0)?.state;
     Ok(end)
 }
 
 pub fn radau_5(system: &Pendulum, start: [f64; 2]) -> End<2> {
-    use guen::{Recast, prelude::*};
-    let system = system.recast::<f64>()?;
+    use guen::{WithScalar, prelude::*};
+    let system = system.with_scalar::<f64>()?;
     let method = Radau5::new(0.01, 0.01);
     let end = Integration::new(&system, 0.0, &start).run(&method, 1.0)?.state;
     Ok(end)
 }
 
 pub fn taylor(system: &Pendulum, start: [f64; 2]) -> End<2> {
-    use guen::{Recast, prelude::*};
-    let system = system.recast::<f64>()?;
+    use guen::{WithScalar, prelude::*};
+    let system = system.with_scalar::<f64>()?;
     let method = Taylor::new(0.01, 0.01);
     let end = Integration::new(&system, 0.0, &start).run(&method, 1.0)?.state;
     Ok(end)
 }
 
 pub fn rk4_in_f64_lanes(system: &Pendulum, starts: Vec<[f64; 2]>) -> Ends {
-    use guen::{Recast, prelude::*, study::Ensemble};
-    let system = system.recast::<f64>()?;
+    use guen::{WithScalar, prelude::*, study::Ensemble};
+    let system = system.with_scalar::<f64>()?;
     let ensemble = Ensemble::of_states(system, starts);
     let ends = ensemble.integrate(&Rk4::new(0.125), 0.0, 1.0);
     ends.into_iter().map(|end| Ok(end?.state)).collect()
 }
 
 pub fn rk8_in_f64_lanes(system: &Pendulum, starts: Vec<[f64; 2]>) -> Ends {
-    use guen::{Recast, prelude::*, study::Ensemble};
-    let system = system.recast::<f64>()?;
+    use guen::{WithScalar, prelude::*, study::Ensemble};
+    let system = system.with_scalar::<f64>()?;
     let ensemble = Ensemble::of_states(system, starts);
     let ends = ensemble.integrate(&Rk8::new(0.125), 0.0, 1.0);
     ends.into_iter().map(|end| Ok(end?.state)).collect()
 }
 
 pub fn rk4_in_approx7_lanes(system: &Pendulum, starts: Vec<[f64; 2]>) -> Ends {
-    use guen::{Recast, prelude::*, study::Ensemble};
-    let system = system.recast::<f64>()?;
+    use guen::{WithScalar, prelude::*, study::Ensemble};
+    let system = system.with_scalar::<f64>()?;
     let ensemble = Ensemble::of_states(system, starts).with_scalar::<guen::Approx7Functions>();
     let ends = ensemble.integrate(&Rk4::new(0.125), 0.0, 1.0);
     ends.into_iter().map(|end| Ok(end?.state)).collect()
 }
 
 pub fn rk8_in_approx7_lanes(system: &Pendulum, starts: Vec<[f64; 2]>) -> Ends {
-    use guen::{Recast, prelude::*, study::Ensemble};
-    let system = system.recast::<f64>()?;
+    use guen::{WithScalar, prelude::*, study::Ensemble};
+    let system = system.with_scalar::<f64>()?;
     let ensemble = Ensemble::of_states(system, starts).with_scalar::<guen::Approx7Functions>();
     let ends = ensemble.integrate(&Rk8::new(0.125), 0.0, 1.0);
     ends.into_iter().map(|end| Ok(end?.state)).collect()

@@ -16,7 +16,7 @@ use crate::system::differentiable::{Equations, Generic};
 /// (`Driven`) where it has inputs. A right-hand side written by hand is one through [`generic`](crate::generic).
 ///
 /// ```
-/// use guen_runtime::{Equations, Real, Recast, System, generic};
+/// use guen_runtime::{Equations, Real, WithScalar, System, generic};
 ///
 /// #[derive(Clone)]
 /// struct Decay;
@@ -25,7 +25,7 @@ use crate::system::differentiable::{Equations, Generic};
 ///         [-x]
 ///     }
 /// }
-/// let short = generic(Decay).recast::<f32>()?;
+/// let short = generic(Decay).with_scalar::<f32>()?;
 /// assert_eq!(short.rhs(0.0_f32, &[2.0]), [-2.0]);
 /// # Ok::<(), guen_runtime::ConstantsError>(())
 /// ```
@@ -33,30 +33,30 @@ use crate::system::differentiable::{Equations, Generic};
     message = "`{Self}` cannot be made anew over another real, as a system of {N} equations",
     note = "the constants of a generated system can, and so can a prepared one; one with inputs through `driven(..)`; a right-hand side written for every real as `Equations` through `generic(..)`"
 )]
-pub trait Recast<const N: usize> {
+pub trait WithScalar<const N: usize> {
     /// The system over the real `R`.
-    type In<R: Real>: System<R, N> + 'static;
+    type Over<R: Real>: System<R, N> + 'static;
 
     /// Makes the system over the real `R`.
     ///
     /// # Errors
     ///
     /// Those of `prepare` over that real: a constant may be finite as a double and not in a shorter real.
-    fn recast<R: Real>(&self) -> Result<Self::In<R>, ConstantsError>;
+    fn with_scalar<R: Real>(&self) -> Result<Self::Over<R>, ConstantsError>;
 }
 
-impl<E: Equations<N> + Clone + 'static, const N: usize> Recast<N> for Generic<E> {
-    type In<R: Real> = Generic<E>;
+impl<E: Equations<N> + Clone + 'static, const N: usize> WithScalar<N> for Generic<E> {
+    type Over<R: Real> = Generic<E>;
 
-    fn recast<R: Real>(&self) -> Result<Generic<E>, ConstantsError> {
+    fn with_scalar<R: Real>(&self) -> Result<Generic<E>, ConstantsError> {
         Ok(self.clone())
     }
 }
 
-impl<S: Recast<N>, const N: usize> Recast<N> for &S {
-    type In<R: Real> = S::In<R>;
+impl<S: WithScalar<N>, const N: usize> WithScalar<N> for &S {
+    type Over<R: Real> = S::Over<R>;
 
-    fn recast<R: Real>(&self) -> Result<S::In<R>, ConstantsError> {
-        (**self).recast()
+    fn with_scalar<R: Real>(&self) -> Result<S::Over<R>, ConstantsError> {
+        (**self).with_scalar()
     }
 }

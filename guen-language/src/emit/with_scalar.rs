@@ -5,7 +5,7 @@ use quote::quote;
 
 use super::layout::Layout;
 
-/// The trait `Recast` for the constants and the prepared system, or for the system with held inputs. `names` are the
+/// The trait `WithScalar` for the constants and the prepared system, or for the system with held inputs. `names` are the
 /// constants, `marker` the value of the field that a struct without constants has.
 pub(super) fn items(layout: &Layout, names: &[&Ident], marker: Option<&TokenStream>) -> TokenStream {
     let (system, size) = (&layout.system, layout.size);
@@ -18,6 +18,6 @@ pub(super) fn items(layout: &Layout, names: &[&Ident], marker: Option<&TokenStre
         count => Some(quote!(, #count)),
     };
     quote! {
-        __guen::recast!(#system #size, constants: #system { #(#names: #values,)* #marker } #inputs);
+        __guen::with_scalar!(#system #size, constants: #system { #(#names: #values,)* #marker } #inputs);
     }
 }
