@@ -8,7 +8,7 @@ mod dynamics;
 #[macro_use]
 mod jacobians;
 mod examples;
-mod leaves;
 mod models;
 mod motion;
+mod reduction;
 mod vehicles;

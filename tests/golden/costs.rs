@@ -87,7 +87,7 @@ fn mechanisms() -> String {
     let in_file = |source: &str| declared(source.parse().unwrap()).to_string();
     let rows = [
         ("bicycle", in_file(include_str!("../spatial/bicycle.rs"))),
-        ("snake6", crate::large::snake(6)),
+        ("snake6", crate::large_systems::snake(6)),
         ("rattleback", guen_benchmarks::rattleback!(stringify).to_owned()),
         ("hoop-quat", guen_benchmarks::quaternion_hoop!(stringify).to_owned()),
         ("four-bar", in_file(include_str!("../spatial/linkages.rs"))),

@@ -1,4 +1,4 @@
-//! The language: what `mechanical_system!` generates, prints and accepts, for the paper's systems and for strange ones.
+//! The language: what `mechanical_system!` generates, prints and accepts, for the paper's systems and for edge cases.
 #![allow(
     mixed_script_confusables,
     reason = "Greek letters are names of physics; the lint is one of the whole crate"
@@ -8,13 +8,13 @@
 extern crate guen_benchmarks;
 
 mod derived;
+mod edge_cases;
 mod generated;
 mod hygiene;
+mod moving_frames;
 mod paper;
 mod report;
 mod serde;
-mod signs;
 mod slip;
-mod strange;
 mod three_ways;
 mod with_scalar;

@@ -6,7 +6,7 @@ extern crate guen_benchmarks;
 
 mod closure;
 mod compare;
-mod drawn;
+mod edge_cases;
 mod ensembles;
 mod equations;
 mod fixing;
@@ -16,4 +16,4 @@ mod levels;
 mod models;
 mod positions;
 mod provided;
-mod strange;
+mod random_scenes;

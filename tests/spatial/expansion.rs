@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use proc_macro2::{TokenStream, TokenTree};
 
-use crate::large::{LADEN_ELLIPSOID, TRICYCLE, snake};
+use crate::large_systems::{LADEN_ELLIPSOID, TRICYCLE, snake};
 
 /// The files with their declarations.
 const FILES: [&str; 9] = [

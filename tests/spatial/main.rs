@@ -6,8 +6,8 @@
 extern crate guen_benchmarks;
 
 #[allow(dead_code, reason = "the examples use the rest")]
-#[path = "../../workshop/guen-measure/src/large.rs"]
-mod large;
+#[path = "../../workshop/guen-measure/src/large_systems.rs"]
+mod large_systems;
 
 #[allow(dead_code, reason = "the paper's tests need all of it")]
 #[path = "../language/paper/formulas.rs"]

@@ -3,7 +3,7 @@
 Taylor's method, relative to what they are without the comparison of rates.
 
 A run is made once and twice; the difference is the count of one. Taylor's method is run with its comparison and without. Needs
-valgrind. Prints the tables of docs/design/guards.md and docs/design/unseen.md, and ends with a nonzero status if a ratio is above 1.03, or one of the second
+valgrind. Prints the tables of docs/design/guards.md and docs/design/narrow-features.md, and ends with a nonzero status if a ratio is above 1.03, or one of the second
 table above its limit.
 
     python3 workshop/benches/guard_instructions.py [word in the names of runs, such as hoop or rk4 ...]

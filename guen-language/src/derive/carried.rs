@@ -74,7 +74,7 @@ pub(super) fn derive(
         domain_names,
         domain_reasons: Vec::new(),
         constant_pivots: Vec::new(),
-        promise: None,
+        missing_bounds: None,
         jacobians: Jacobians::default(),
         shown: Contracted::default(),
         placed: None,

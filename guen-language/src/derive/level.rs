@@ -6,7 +6,7 @@ use guen_symbolic::{Contracted, Derivation, ExprId, FunctionProgram, Programs, S
 
 use super::facts::SceneFacts;
 use super::jacobians::Jacobians;
-use super::promise::Promise;
+use super::missing_bounds::MissingBounds;
 use super::selection::Selection;
 use crate::model::Model;
 use crate::syntax::{Name, Scene};
@@ -51,8 +51,8 @@ pub struct Level {
     pub edges: usize,
     /// Expressions of constants that must not vanish.
     pub constant_pivots: Vec<ExprId>,
-    /// The promise that would save operations; of the system itself.
-    pub promise: Option<Promise>,
+    /// The bounds that would save operations; of the system itself.
+    pub missing_bounds: Option<MissingBounds>,
     /// The recurrences of its Taylor series, if it provides one.
     pub series: Option<Series>,
     /// The places of the derivatives that have code of their own.

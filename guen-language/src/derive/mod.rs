@@ -14,9 +14,9 @@ pub mod function;
 mod jacobians;
 mod level;
 mod manifold;
+mod missing_bounds;
 mod parts;
 mod programs;
-mod promise;
 mod readable;
 mod scene;
 mod selection;
@@ -40,7 +40,7 @@ pub use facts::SceneFacts;
 pub use jacobians::Jacobians;
 pub(crate) use level::Subject;
 pub use level::{Commutator, Derived, Level, Series};
-pub use promise::Promise;
+pub use missing_bounds::MissingBounds;
 pub use selection::{Held, Place, Selection};
 
 /// Derives a checked model and its scenes; a system without equations of motion is reported.
@@ -116,7 +116,7 @@ fn whole(
     let mut programs = programs(&mut model.bench, &lists, &quantities);
     add_mass(&mut programs, model, &derivation);
     let edges = domain_names.len() - derivation.solution.determinants.len();
-    let promise = promise::promise(model, &derivation, &programs);
+    let missing_bounds = missing_bounds::missing_bounds(model, &derivation, &programs);
     let jacobians = Jacobians::add(&mut programs, model, &selection);
     let energy = derivation.energies.integral;
     let mut level = Level {
@@ -133,7 +133,7 @@ fn whole(
         domain_reasons,
         edges,
         constant_pivots,
-        promise,
+        missing_bounds,
         series: None,
         jacobians,
         shown,

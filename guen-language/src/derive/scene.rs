@@ -204,7 +204,7 @@ fn level(
         domain_names,
         domain_reasons,
         constant_pivots,
-        promise: None,
+        missing_bounds: None,
         series,
         jacobians,
         shown,

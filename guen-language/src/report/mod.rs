@@ -12,7 +12,7 @@ pub use pages::set;
 
 use guen_symbolic::{ExprId, Notation};
 
-use crate::derive::{Level, Promise, Subject, function};
+use crate::derive::{Level, MissingBounds, Subject, function};
 use crate::model::{FormKind, Model, RedundantEntry};
 use lines::{LATEX_TOO_LONG, Lines, TOO_LONG, Terms, Writer, class_name, plural};
 
@@ -358,7 +358,7 @@ fn cost(subject: &Subject<'_, '_>) -> Section {
         text.push(format!("right-hand side: {}", operations(&rhs.cost)));
     }
     text.push(format!("prepared once: {}", operations(&subject.level.programs.prepare_cost)));
-    if let Some(Promise { constants, saved }) = &subject.level.promise {
+    if let Some(MissingBounds { constants, saved }) = &subject.level.missing_bounds {
         let constants: Vec<String> = constants.iter().map(|name| format!("`{name} != 0`")).collect();
         let saved = saved.map_or("fewer operations, perhaps".to_owned(), |saved| {
             format!("{} less", plural(saved as usize, "operation"))

@@ -1,11 +1,10 @@
 //! Declarations as text: what is derived of them, at which token their faults are reported, and what their programs compute.
 
+mod absolute_values;
 mod angles;
 mod carried;
 mod common;
 mod corpus;
-mod damage;
-mod drawn;
 mod families;
 mod hints;
 mod imports;
@@ -13,14 +12,15 @@ mod large_costs;
 mod limbs;
 mod outline;
 mod poles;
+mod random_declarations;
 mod redundant;
 mod restricted;
 mod rows_of_bars;
 mod scenes;
-mod signs;
 mod singularities;
 mod spans;
 mod structure;
+mod token_damage;
 mod unsigned;
 mod vehicles;
 mod wheels;

@@ -1,4 +1,4 @@
 //! Lanes: the bits of plain `f64`, and guards for each lane as if it ran alone.
 
-mod judged_lanes;
+mod guarded_lanes;
 mod lanes;

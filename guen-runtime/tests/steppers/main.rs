@@ -1,13 +1,13 @@
 //! Steppers and what drives them: accuracy, order, samples, events, guards.
 
 mod bounds_of_bounded;
-mod clock;
 mod driver;
-mod extended;
-mod hidden;
+mod guarded_steps;
 mod integration;
-mod judged;
+mod late_starts;
 mod motions;
+mod narrow_features;
 mod orders;
+mod other_reals;
 mod simultaneous;
 mod stiff;

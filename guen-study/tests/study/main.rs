@@ -5,11 +5,11 @@
 mod budget;
 #[path = "../files/cells.rs"]
 mod cells;
-mod doubt;
 mod kicks;
 mod promises;
 mod spreadsheet;
 mod systems;
+mod uncertain_errors;
 
 use std::cell::Cell;
 use std::rc::Rc;

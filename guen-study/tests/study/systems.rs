@@ -4,9 +4,9 @@ use guen_runtime::{Equations, Real};
 
 use crate::Oscillator;
 use crate::budget::Slow;
-use crate::doubt::{Free, Spring};
 use crate::kicks::Kicked;
 use crate::promises::Two;
+use crate::uncertain_errors::{Free, Spring};
 
 /// A system of one variable.
 #[derive(Clone)]

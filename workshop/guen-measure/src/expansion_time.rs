@@ -26,7 +26,7 @@ use guen_language::expand;
 use guen_study::{Progress, Table};
 use proc_macro2::{TokenStream, TokenTree};
 
-mod large;
+mod large_systems;
 #[path = "some_scenes.rs"]
 mod scenes;
 
@@ -59,9 +59,9 @@ fn main() -> ExitCode {
             add(format!("{name} of {links}"), &declaration_of_chain("Chain", links, angles));
         }
     }
-    SNAKES.iter().for_each(|&links| add(format!("snake of {links}"), &large::snake(links)));
-    add("tricycle".to_owned(), large::TRICYCLE);
-    add("ellipsoid".to_owned(), large::LADEN_ELLIPSOID);
+    SNAKES.iter().for_each(|&links| add(format!("snake of {links}"), &large_systems::snake(links)));
+    add("tricycle".to_owned(), large_systems::TRICYCLE);
+    add("ellipsoid".to_owned(), large_systems::LADEN_ELLIPSOID);
 
     let compiler = match Compiler::new() {
         Ok(compiler) => compiler,

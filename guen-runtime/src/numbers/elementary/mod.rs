@@ -12,7 +12,7 @@
 //!
 //! `tests/elementary.rs` measures the errors against 71 digits; `workshop/benches/elementary.rs` prints them beside the times.
 
-mod large;
+mod argument_reduction;
 mod trigonometric;
 
 pub(crate) use trigonometric::{cos, sin, sin_cos, sin_cos_7, sin_cos_13};

@@ -11,7 +11,7 @@
 //! coefficients of fdlibm (Sun Microsystems 1993, `k_sin.c` and `k_cos.c`: relative errors of `2^-58`); those of the
 //! shorter versions come from a Remez exchange on `[0, pi/4 (1 + 2^-20)]`, and are minimax in the absolute error.
 
-use crate::numbers::elementary::large::remainder;
+use crate::numbers::elementary::argument_reduction::remainder;
 use crate::numbers::lanes::register::{Register, Vector};
 
 /// The largest magnitude of an argument that the straight line serves: `2^18`.

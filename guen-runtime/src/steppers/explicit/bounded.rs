@@ -23,7 +23,7 @@ use crate::system::System;
 ///   of eight kinds of systems 7,347 had a bound, and 30 of these were off by more than it, at most 4.3 times
 ///   (`cargo test --release -p guen-runtime --test steppers bounds_of_bounded -- --include-ignored --nocapture`).
 /// - A force that lasts less than a step and is over between two evaluations is not seen, and the bound does not hold then:
-///   `docs/design/unseen.md` has how narrow that is.
+///   `docs/design/narrow-features.md` has how narrow that is.
 /// - Whether that is good enough is the caller's decision: [`Bound::error`] is what to compare.
 /// - No guard looks at the run except that all states are finite.
 ///

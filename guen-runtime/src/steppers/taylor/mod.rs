@@ -36,7 +36,7 @@ pub use series::Series;
 /// - The rates of the system are compared with those of the series, `p' = f(t, p)`, at the end of each step and at 0.45 of it. A
 ///   force that is constant to rounding where the series was expanded, as `tanh` far from its zero, leaves no trace in the
 ///   coefficients; where it is another one further on, the step is halved until the rates agree, and the next ones
-///   grow by at most two. A change that leaves no trace in either place is not seen: `docs/design/unseen.md` has how narrow that is.
+///   grow by at most two. A change that leaves no trace in either place is not seen: `docs/design/narrow-features.md` has how narrow that is.
 /// - Trials that [`Statistics`](crate::steppers::Statistics) calls rejected are those steps, and expansions whose coefficients overflowed,
 ///   which are repeated with another scale. In a smooth motion there are none: the length is known before a step is made.
 /// - Of two steps one after the other the rates at the end of the first are the first coefficients of the second, so

@@ -3,7 +3,7 @@
 
 mod functions;
 mod hostile;
-mod large;
+mod many_coordinates;
 mod names;
 mod positions;
 mod small;

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use guen_language::parse;
 use proc_macro2::{Delimiter, Group, TokenStream, TokenTree};
 
-use crate::drawn::scenes::Names;
+use crate::random_declarations::scenes::Names;
 
 /// Every declaration once, with the file where it stands.
 pub fn all() -> Vec<(String, PathBuf)> {

@@ -8,8 +8,8 @@ use guen_symbolic::ExprId;
 use guen_language::parse;
 
 use super::term::Unread;
-use crate::drawn::draw::Draw;
-use crate::drawn::scenes::Names;
+use crate::random_declarations::draw::Draw;
+use crate::random_declarations::scenes::Names;
 
 /// Names of which many are set alike if nobody takes care.
 pub const ALIKE: [&str; 40] = [

@@ -1,4 +1,4 @@
-//! Written by `GUEN_BLESS=1 cargo test -p guen-language --test declarations drawn::compiled`.
+//! Written by `GUEN_BLESS=1 cargo test -p guen-language --test declarations random_declarations::compiled`.
 
 mod number_1 {
     guen::mechanical_system! { pub system Drawn { constants { a, b, m > 0 } coordinates { x1, x2, x3, x4, x5 } parameters { e1 = dot(x1); e2 = dot(x2) + 1*cos(x3)*dot(x1); e3 = dot(x3)*(2 + sin(x2)) + a*cos(x4)*dot(x2); e4 = dot(x4);  } constraints { c5: dot(x5) = 0;  } kinetic_energy = m/2*(dot(x1)^2 + dot(x2)^2 + (2 + sin(x2))*dot(x3)^2 + (2 + sin(x1))*dot(x4)^2 + dot(x5)^2); potential_energy = b*x5^2 + a*sin(x5)*x1; outputs { looked_at = x3*e1; size = a + b; } scene Scene0 { track e3, e2, e1; }

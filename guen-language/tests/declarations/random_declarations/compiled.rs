@@ -12,8 +12,7 @@ const NUMBERS: [u64; 8] = [1, 2, 3, 5, 6, 104, 116, 168];
 /// States of each scene.
 const STATES: usize = 3;
 
-const HEAD: &str =
-    "//! Written by `GUEN_BLESS=1 cargo test -p guen-language --test declarations drawn::compiled`.\n";
+const HEAD: &str = "//! Written by `GUEN_BLESS=1 cargo test -p guen-language --test declarations random_declarations::compiled`.\n";
 
 /// The scenes of a declaration, each with its constants and some states of the whole system.
 fn compared(derived: &Derived<'_>, seed: u64) -> String {
@@ -65,7 +64,7 @@ fn the_file_of_scenes_is_what_is_drawn() {
             declaration.trim()
         );
     }
-    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/scenes/drawn/systems.rs");
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/scenes/random_scenes/systems.rs");
     if std::env::var_os("GUEN_BLESS").is_some() {
         std::fs::write(file, &text).expect("a folder");
     }

@@ -1,4 +1,4 @@
-//! Bounds that are not declared and would save operations: forms are solved without dividing by a constant of which nothing is promised.
+//! Bounds that the declaration lacks and that would save operations: no form is divided by a constant without a bound.
 
 use guen_symbolic::{Derivation, MAX_WORK, Programs};
 
@@ -8,17 +8,21 @@ use crate::diagnostics::collect;
 use crate::model::{self, Model};
 use crate::syntax::{Bound, BoundKind, Item};
 
-/// A promise that the declaration does not make.
-pub struct Promise {
+/// The bounds that the declaration lacks and that would save operations.
+pub struct MissingBounds {
     /// The constants that would have to differ from zero.
     pub constants: Vec<String>,
     /// The operations of a right-hand side that are saved; none where a second derivation would be too much work.
     pub saved: Option<u32>,
 }
 
-/// Returns the promise that would save operations. Only where a form has an entry that nothing but the missing promise keeps from being
-/// divided by, the system is derived once more, with it.
-pub(super) fn promise(model: &Model<'_>, derivation: &Derivation, own: &Programs) -> Option<Promise> {
+/// Returns the bounds that would save operations. Only where a form has an entry that nothing but the missing bound keeps from being
+/// divided by, the system is derived once more, with the bounds.
+pub(super) fn missing_bounds(
+    model: &Model<'_>,
+    derivation: &Derivation,
+    own: &Programs,
+) -> Option<MissingBounds> {
     /// The work of a derivation above which there is no second one.
     const LARGEST_REPEATED: u64 = MAX_WORK / 4;
     let graph = &model.bench.graph;
@@ -31,10 +35,10 @@ pub(super) fn promise(model: &Model<'_>, derivation: &Derivation, own: &Programs
         return None;
     }
     if graph.work() > LARGEST_REPEATED {
-        return Some(Promise { constants, saved: None });
+        return Some(MissingBounds { constants, saved: None });
     }
     let saved = operations(own)?.checked_sub(with(model, &constants)?).filter(|saved| *saved > 0)?;
-    Some(Promise { constants, saved: Some(saved) })
+    Some(MissingBounds { constants, saved: Some(saved) })
 }
 
 /// The operations of a right-hand side.

@@ -1,6 +1,6 @@
 //! Scenes drawn at random, as the compiler sees them: they compile, and their rates are those of the whole system.
 //!
-//! The systems are written by `GUEN_BLESS=1 cargo test -p guen-language --test declarations drawn::compiled`.
+//! The systems are written by `GUEN_BLESS=1 cargo test -p guen-language --test declarations random_declarations::compiled`.
 
 /// A test of some scenes, each with states of the whole system.
 macro_rules! same {
@@ -11,7 +11,7 @@ macro_rules! same {
                 let scene = $scene;
                 let whole = scene.system().prepare().expect("a system");
                 let scene = scene.prepare().expect("a scene");
-                crate::compare::assert_same_rates(&whole, &scene, &$states, crate::drawn::ROUNDING);
+                crate::compare::assert_same_rates(&whole, &scene, &$states, crate::random_scenes::ROUNDING);
             })*
         }
     };

@@ -1,9 +1,9 @@
 //! What is narrower than a step: ramps and bumps of the force, in time, in a coordinate, in a velocity, of widths from a tenth of
 //! a step to a hundred-thousandth, times all methods, `Bounded` and lanes. A run is right, or ends with a typed error, or it is one of
-//! those that `docs/design/unseen.md` states as a limit, with the numbers that are asked for here.
+//! those that `docs/design/narrow-features.md` states as a limit, with the numbers that are asked for here.
 //!
 //! ```text
-//! cargo test -p guen-runtime --test steppers hidden -- --include-ignored --nocapture     # the whole battery
+//! cargo test -p guen-runtime --test steppers narrow_features -- --include-ignored --nocapture     # the whole battery
 //! ```
 
 mod methods;

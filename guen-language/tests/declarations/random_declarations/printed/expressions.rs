@@ -3,7 +3,7 @@
 use guen_symbolic::{ExprId, Function, Graph, Rational, Role};
 
 use super::names::{ALIKE, Scope};
-use crate::drawn::draw::Draw;
+use crate::random_declarations::draw::Draw;
 
 /// A graph with a symbol for each name.
 pub fn world() -> (Graph, Vec<ExprId>, Scope) {

@@ -18,8 +18,8 @@ mod text;
 use guen_symbolic::{Notation, Rational, Workbench};
 
 use crate::common::by_two_threads;
-use crate::drawn::draw::Draw;
-use crate::drawn::{grammar, scenes};
+use crate::random_declarations::draw::Draw;
+use crate::random_declarations::{grammar, scenes};
 use lines::Format;
 use names::Name;
 use report::Checked;

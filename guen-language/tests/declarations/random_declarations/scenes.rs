@@ -5,7 +5,7 @@ use guen_language::diagnostics::collect;
 use guen_language::syntax::{Declaration, Item};
 use guen_language::{model, parse};
 
-use crate::drawn::draw::Draw;
+use crate::random_declarations::draw::Draw;
 
 /// The names that a declaration declares.
 pub struct Names {
