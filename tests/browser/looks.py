@@ -343,6 +343,34 @@ def printed(browser, path):
     return pdf
 
 
+def scriptless(browser, page, pictures):
+    """Where no script runs, there are pictures with their times, at every width, in the dark and on paper."""
+    browser.devtools("Emulation.setScriptExecutionDisabled", value=True)
+    ask = lambda script: browser.devtools("Runtime.evaluate", expression=script, returnByValue=True)["result"]["value"]
+    try:
+        for look, (scheme, others) in LOOKS.items():
+            for width, height in WIDTHS.items():
+                browser.scheme(scheme, **others)
+                browser.resize(width, height, mobile=width < 500)
+                browser.open(page.as_uri())
+                require(ask("document.documentElement.dataset.ready === undefined"), "a script has run")
+                times = ask("[...document.querySelectorAll('.still figcaption')].map((c) => c.textContent)")
+                require(len(times) == 3 and all(text.startswith("t = ") for text in times), f"the scene is shown at {times}")
+                seen = ask("[...document.querySelectorAll('body > :not(noscript), main *')].filter((e) => e.checkVisibility()).map((e) => e.id || e.tagName)")
+                require(seen == [], f"beside the pictures there are {seen}")
+                small = ask("[...document.querySelectorAll('.still figure svg')].filter((e) => !(e.getBoundingClientRect().width > Math.min(300, innerWidth - 60) && e.querySelectorAll('polyline, polygon').length > 3)).length")
+                require(small == 0, f"{small} pictures are empty or small")
+                wide = ask("document.documentElement.scrollWidth")
+                require(wide <= width, f"the pictures are {wide} wide on {width}")
+                low = [found for found in ask(f"(() => {{{CONTRAST}}})()") if found[0] < 1]
+                require(not low, f"{look}: too little contrast: {low[:3]}")
+                kept(pictures, f"scriptless-{page.stem}-{width}-{look}", browser.picture)
+        require(len(browser.devtools("Page.printToPDF")["data"]) > 20_000, "nothing is printed")
+    finally:
+        browser.devtools("Emulation.setScriptExecutionDisabled", value=False)
+        browser.scheme("light")
+
+
 def colours(browser, path):
     """No two of a few things have one colour; of many curves none looks as another one."""
     browser.scheme("light")
@@ -378,6 +406,7 @@ def main():
             ("a click", lambda: clicked(browser, pages["turntable"])),
             ("colours", lambda: [colours(browser, pages[name]) for name in ("turntable", "car", "crowd")]),
             ("print", lambda: printed(browser, pages["turntable"])),
+            ("without scripts", lambda: [scriptless(browser, pages[name], arguments.pictures) for name in ("turntable", "car")]),
             ("looks", lambda: looks(browser, "turntable", pages["turntable"], arguments.pictures)),
             ("looks of a crowd", lambda: looks(browser, "crowd", pages["crowd"], arguments.pictures, ["light", "forced"])),
         ]

@@ -60,6 +60,21 @@ type Drawn = Result<(), DrawingAreaErrorKind<std::io::Error>>;
 
 /// The picture as the text of an SVG file.
 pub(super) fn draw(plot: &Plot) -> Result<String, StudyError> {
+    let (head, rest) = drawn(plot)?;
+    Ok([&head, "\n", &described(plot), &dark_style(""), &rest].concat())
+}
+
+/// The picture as an element of a page, which has the colours for the dark.
+#[cfg(feature = "viewer")]
+pub(super) fn draw_inline(plot: &Plot) -> Result<String, StudyError> {
+    let (head, rest) = drawn(plot)?;
+    // The size of the page decides.
+    let head = head.replacen("<svg ", "<svg role=\"img\" ", 1);
+    Ok([&head, "\n", &described(plot), &rest].concat())
+}
+
+/// The first tag of the picture, and all after it.
+fn drawn(plot: &Plot) -> Result<(String, String), StudyError> {
     let size_error =
         || StudyError::Size { title: plot.title.clone(), width: plot.width, height: plot.height };
     if !WIDTHS.contains(&plot.width) || !HEIGHTS.contains(&plot.height) {
@@ -85,12 +100,14 @@ pub(super) fn draw(plot: &Plot) -> Result<String, StudyError> {
     let text = text.replacen(&drawn, &shown, 1);
     // The first tag is that of the picture.
     let (head, rest) = text.split_at(text.find('>').map_or(0, |end| end + 1));
-    Ok([head, "\n", &described(plot), &dark_style(), rest.trim_start_matches('\n')].concat())
+    Ok((head.to_owned(), rest.trim_start_matches('\n').to_owned()))
 }
 
 /// Title and description, which browsers and screen readers tell.
 fn described(plot: &Plot) -> String {
-    let escaped = |text: &str| text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
+    let escaped = |text: &str| {
+        text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+    };
     let labels: Vec<_> =
         plot.drawn().map(|curve| escaped(&curve.label)).filter(|label| !label.is_empty()).collect();
     let title = if plot.title.is_empty() { labels.join(", ") } else { escaped(&plot.title) };
@@ -107,15 +124,38 @@ fn described(plot: &Plot) -> String {
     text
 }
 
-/// Other colours for readers whose system is dark: rules of a style win over the colours of the elements.
-fn dark_style() -> String {
-    let code = |RGBColor(r, g, b): RGBColor| format!("#{r:02X}{g:02X}{b:02X}");
+/// A colour as SVG writes it.
+fn code(RGBColor(r, g, b): RGBColor) -> String {
+    format!("#{r:02X}{g:02X}{b:02X}")
+}
+
+/// The number of hues before they come again.
+#[cfg(feature = "viewer")]
+pub(crate) const INKS: usize = PALETTE.len();
+
+/// The colour of the curve or thing with this number, of what is behind it, and of a grid, in light.
+#[cfg(feature = "viewer")]
+pub(crate) fn ink(number: usize) -> String {
+    code(color_of(number))
+}
+#[cfg(feature = "viewer")]
+pub(crate) fn paper() -> String {
+    code(PAPER[0])
+}
+#[cfg(feature = "viewer")]
+pub(crate) fn grid() -> String {
+    code(GRID[0])
+}
+
+/// Other colours for readers whose system is dark: rules of a style win over the colours of the elements. `media` restricts
+/// them further.
+pub(crate) fn dark_style(media: &str) -> String {
     let colors = PALETTE.iter().chain([&PAPER, &INK, &AXIS, &GRID, &ZERO, &BAND]);
     let rules = colors.map(|&[light, dark]| {
         let (light, dark) = (code(light), code(dark));
         format!("[fill=\"{light}\"]{{fill:{dark}}}[stroke=\"{light}\"]{{stroke:{dark}}}")
     });
-    format!("<style>@media (prefers-color-scheme:dark){{{}}}</style>\n", rules.collect::<String>())
+    format!("<style>@media {media}(prefers-color-scheme:dark){{{}}}</style>\n", rules.collect::<String>())
 }
 
 struct Painter<'a> {

@@ -13,6 +13,8 @@ use std::path::Path;
 
 use crate::error::StudyError;
 use crate::file::replace_file;
+#[cfg(feature = "viewer")]
+pub(crate) use draw::{INKS, dark_style, grid, ink, paper};
 
 /// Curves on a pair of axes, drawn as SVG.
 ///
@@ -186,6 +188,12 @@ impl Plot {
     /// A size out of its range, or too small for the legend; no finite point in any curve; a complaint of the drawing library.
     pub fn to_svg(&self) -> Result<String, StudyError> {
         draw::draw(self)
+    }
+
+    /// The picture as an element of a page that has [`dark_style`].
+    #[cfg(feature = "viewer")]
+    pub(crate) fn to_inline_svg(&self) -> Result<String, StudyError> {
+        draw::draw_inline(self)
     }
 
     /// Writes the picture to a file, whole or not at all: see [`replace_file`].

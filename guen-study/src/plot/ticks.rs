@@ -80,7 +80,8 @@ fn labelled(values: &[f64], power: i32) -> Vec<Tick> {
     let exponent = if largest > 0.0 { (largest.log10() + 1e-9).floor() as i32 } else { 0 };
     let label = |value: f64| {
         if PLAIN.contains(&exponent) {
-            let decimals = (-power).max(0) as usize;
+            // Zero alone has no digits to be told apart by.
+            let decimals = if largest > 0.0 { (-power).max(0) as usize } else { 0 };
             format!("{value:.decimals$}")
         } else if value == 0.0 {
             "0".to_owned()
@@ -122,6 +123,7 @@ mod tests {
     fn large_and_small_numbers_have_exponents() {
         assert_eq!(labels(-3e-13, 1.2e-12, 4), ["0", "0.5×10⁻¹²", "1.0×10⁻¹²"]);
         assert_eq!(labels(-4e6, 4e6, 5), ["−4×10⁶", "−2×10⁶", "0", "2×10⁶", "4×10⁶"]);
+        assert_eq!(labels(-1e-14, 6e-14, 1), ["0"]);
         assert_eq!(labels(-2e-320, 2e-320, 3), ["−2×10⁻³²⁰", "0", "2×10⁻³²⁰"]);
     }
 

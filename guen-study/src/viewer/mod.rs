@@ -2,7 +2,7 @@
 //!
 //! `shape` says what a body looks like and where it is, `equivalent` draws declared bodies by their inertia. `samples` makes
 //! `track`s of a recording, of which `thin` chooses what is shown and `fit` makes the file as small as it has to be. `data`
-//! writes numbers, `notes` says what was left out, `page` puts the file together from `page/` and from the drawing library in
+//! writes numbers, `notes` says what was left out, `still` draws pictures for readers without scripts by `outline`, `page` puts the file together from `page/` and from the drawing library in
 //! `vendor/`.
 
 mod content;
@@ -10,9 +10,11 @@ mod data;
 mod equivalent;
 mod fit;
 mod notes;
+mod outline;
 mod page;
 mod samples;
 mod shape;
+mod still;
 #[cfg(test)]
 mod tests;
 mod thin;
@@ -25,6 +27,7 @@ use guen_runtime::{Bodies, Body};
 
 use crate::error::StudyError;
 use crate::file::replace_file;
+use crate::plot;
 use crate::recording::Recording;
 
 use samples::Samples;
@@ -565,6 +568,23 @@ impl<'a, const N: usize> Viewer<'a, N> {
     pub fn write(&self, path: impl AsRef<Path>) -> Result<(), StudyError> {
         let text = self.to_html()?;
         replace_file(path, |out| out.write_all(text.as_bytes()))
+    }
+}
+
+/// Colours, by the numbers that the page's program gives to what is in the scene: bodies first, then links, then paths.
+impl<const N: usize> Viewer<'_, N> {
+    fn body_ink(&self, i: usize, own: Option<u32>) -> String {
+        own.map_or_else(|| plot::ink(i), |colour| format!("#{colour:06X}"))
+    }
+
+    fn link_ink(&self, i: usize) -> String {
+        plot::ink(self.bodies.len() + i)
+    }
+
+    fn path_ink(&self, i: usize) -> String {
+        let before = self.bodies.len() + self.links.len();
+        // Where the hues have just begun again, the first path would have the first body's.
+        plot::ink(before + i + usize::from(before > 0 && before.is_multiple_of(plot::INKS)))
     }
 }
 

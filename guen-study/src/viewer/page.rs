@@ -4,7 +4,7 @@ use super::data::{Json, escaped};
 use super::shape::{Pose, difference};
 use super::track::{Shown, Track, bounds, range};
 use super::turn::norm;
-use super::{Fault, Ground, Link, LinkKind, Shape, Viewer, notes};
+use super::{Fault, Ground, Link, LinkKind, Shape, Viewer, notes, still};
 use crate::error::StudyError;
 
 /// Points of a surface in each direction.
@@ -43,7 +43,9 @@ pub(super) fn own_bytes() -> usize {
 /// The page of a description that was checked.
 pub(super) fn html<const N: usize>(viewer: &Viewer<'_, N>) -> String {
     let title = escaped(&viewer.title);
-    let (motion, parts) = motion(viewer);
+    let space = Space::of(viewer);
+    let notes = notes::of(viewer, &space);
+    let (motion, parts) = motion(viewer, &space, &notes);
     let parts = parts.iter().enumerate().flat_map(|(k, part)| {
         [
             "<script type=\"text/plain\" id=\"part-".to_owned(),
@@ -65,6 +67,7 @@ pub(super) fn html<const N: usize>(viewer: &Viewer<'_, N>) -> String {
         "</title>\n<style>\n",
         STYLE,
         "</style>\n</head>\n<body>\n",
+        &still::html(viewer, &space, &notes),
         BODY,
         "<script type=\"application/json\" id=\"motion\">",
         &motion,
@@ -103,9 +106,8 @@ pub(super) fn check<const N: usize>(viewer: &Viewer<'_, N>) -> Result<(), StudyE
 }
 
 /// Everything that the page shows, as JSON; `page/motion.js` reads it.
-fn motion<const N: usize>(viewer: &Viewer<'_, N>) -> (String, Vec<String>) {
+fn motion<const N: usize>(viewer: &Viewer<'_, N>, space: &Space, notes: &[String]) -> (String, Vec<String>) {
     let mut json = Json::default();
-    let space = Space::of(viewer);
     let origin = space.origin.unwrap_or_default();
     let placed = |place: [f64; 3]| difference(place, origin);
     json.object(|json| {
@@ -113,7 +115,7 @@ fn motion<const N: usize>(viewer: &Viewer<'_, N>) -> (String, Vec<String>) {
         json.number("start", viewer.samples.start);
         json.text("timeUnit", viewer.view.time_unit.as_deref().unwrap_or("s"));
         json.doubles("times", &viewer.samples.steps);
-        json.objects("notes", &notes::of(viewer, &space), |json, note| json.text("text", note));
+        json.objects("notes", notes, |json, note| json.text("text", note));
         if let Some(origin) = &space.origin {
             json.numbers("origin", origin);
         }
@@ -222,7 +224,7 @@ pub(super) struct Space {
 }
 
 impl Space {
-    fn of<const N: usize>(viewer: &Viewer<'_, N>) -> Self {
+    pub(super) fn of<const N: usize>(viewer: &Viewer<'_, N>) -> Self {
         fn places<T: Shown>(track: &Track<T>) -> impl Iterator<Item = [f64; 3]> {
             track.values.iter().flat_map(Shown::places)
         }
@@ -253,7 +255,7 @@ impl Space {
     }
 
     /// A link's radius and the places of its ends.
-    fn drawn<'l>(&self, link: &'l Link) -> (f64, impl Iterator<Item = [[f64; 3]; 2]> + use<'l>) {
+    pub(super) fn drawn<'l>(&self, link: &'l Link) -> (f64, impl Iterator<Item = [[f64; 3]; 2]> + use<'l>) {
         let scale = self.per_force.unwrap_or(0.0);
         let is_force = link.kind == LinkKind::Force;
         let ends = link.ends.values.iter().map(move |&[from, to]| {

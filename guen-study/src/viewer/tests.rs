@@ -399,3 +399,90 @@ fn a_file_in_a_new_folder() {
     assert!(matches!(viewer.write(&folder), Err(StudyError::Io { .. })));
     std::fs::remove_dir_all(folder).unwrap();
 }
+
+/// What a reader without scripts sees.
+fn still(page: &str) -> &str {
+    page.split_once("<noscript>").unwrap().1.split_once("</noscript>").unwrap().0
+}
+
+#[test]
+fn without_scripts_there_are_pictures() {
+    let recording = recorded(200);
+    let viewer = Viewer::new("Still", &recording)
+        .body("a <body>", [Shape::disc(0.2, 0.05), Shape::cuboid([0.1; 3])], |_, s| {
+            Pose::at([s[0], s[1], 0.2])
+        })
+        .body("ball", [Shape::sphere(0.1).coloured(0x12_34_56)], |t, _| Pose::at([0.0, 0.0, 0.01 * t]))
+        .path("way", |_, s| [s[0], s[1], 0.0])
+        .rod("rod", 0.01, |_, s| [[0.0; 3], [s[0], s[1], 0.2]])
+        .force("force", |_, s| [[0.0; 3], [s[0], 0.0, 5.0]])
+        .panel("heights in m")
+        .curve("x", |_, s| s[0])
+        .curve("v", |_, s| s[1])
+        .time_unit("h");
+    let page = viewer.to_html().unwrap();
+    let still = still(&page);
+    // The start, the middle and the end, each with its time.
+    for told in ["t = 0 h", "t = 12.438 h", "t = 24.875 h"] {
+        assert!(still.contains(&format!("<figcaption>{told}</figcaption>")), "{told}");
+    }
+    // Three pictures and three plots' worth of elements: balls, boxes with faces, a head for each arrow, names.
+    assert_eq!(still.matches("<circle").count(), 3);
+    assert_eq!(still.matches("fill=\"#123456\"").count(), 3 + 1);
+    assert!(still.contains("<bdi>a &lt;body&gt;</bdi>") && still.contains("<title>heights in m</title>"));
+    assert!(!page.contains("<noscript>\n<noscript>") && page.matches("<noscript>").count() == 1);
+    assert!(still.len() < 60_000, "{}", still.len());
+    // The colours for the dark are there once, and not on paper.
+    assert_eq!(
+        (still.matches("screen and (prefers-color-scheme:dark)").count(), still.matches("<style>").count()),
+        (1, 2)
+    );
+    assert!(!still.contains("NaN") && !still.contains("inf"));
+    // A motion of one sample has one picture.
+    let mut one = Recording::new(&["x"]);
+    one.record(3.0, &[1.0]);
+    let page = Viewer::new("One", &one).path("p", |_, _| [0.0; 3]).curve("c", |_, s| s[0]).to_html().unwrap();
+    assert_eq!(self::still(&page).matches("<figcaption>t = 3 s</figcaption>").count(), 1);
+}
+
+#[test]
+fn pictures_without_scripts_stay_small() {
+    let recording = recorded(500);
+    let crowd = (0..1000_u32).fold(Viewer::new("v", &recording), |page, k| {
+        page.body(format!("b{k}"), [Shape::cuboid([0.1; 3])], move |_, s| Pose::at([f64::from(k), s[0], 0.0]))
+    });
+    let noise = |k: f64| move |t: f64, _: &[f64; 2]| (1e4 * (t + k) * (t + k)).sin();
+    let crowd = (0..120_u32).fold(crowd, |page, k| page.panel("p").curve("c", noise(f64::from(k))));
+    for limit in [64_000_000, 4_000_000, 2_000_000] {
+        let page = crowd.clone().within_bytes(limit).to_html().unwrap();
+        let still = still(&page);
+        assert!(page.len() <= limit && still.len() <= 200_000.min(limit / 20), "{} of {limit}", still.len());
+        assert!(still.contains("more panels of curves"));
+    }
+}
+
+#[test]
+fn pictures_are_seen_from_where_the_page_is() {
+    let mut recording = Recording::new(&["x"]);
+    recording.record(0.0, &[0.0]);
+    recording.record(1.0, &[1.0]);
+    // A point that goes along x, or up, seen along y: from left to right, or upwards.
+    let points = |way: fn(f64) -> [f64; 3], from: [f64; 3]| -> Vec<f64> {
+        let page =
+            Viewer::new("v", &recording).path("p", move |t, _| way(t)).seen_from(from).without_ground();
+        let page = page.to_html().unwrap();
+        let (_, line) = still(&page).split_once("<polyline points=\"").unwrap();
+        line.split_once('"').unwrap().0.split([',', ' ']).map(|number| number.parse().unwrap()).collect()
+    };
+    let near = |found: Vec<f64>, expected: [f64; 4]| {
+        // At the start the rest of the path begins with where the point is, twice.
+        let found = [&found[..2], &found[found.len() - 2..]].concat();
+        assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 0.2), "{found:?}, not {expected:?}");
+    };
+    // Half a length fills 0.5 / (0.5 * 0.84 / sin 19 deg) / tan 19 deg of half the height.
+    let half = 200.0 * 19.0_f64.to_radians().cos() / 0.84;
+    near(points(|t| [t, 0.0, 0.0], [0.0, -1.0, 0.0]), [320.0 - half, 200.0, 320.0 + half, 200.0]);
+    near(points(|t| [t, 0.0, 0.0], [0.0, 1.0, 0.0]), [320.0 + half, 200.0, 320.0 - half, 200.0]);
+    near(points(|t| [0.0, 0.0, t], [0.0, -1.0, 0.0]), [320.0, 200.0 + half, 320.0, 200.0 - half]);
+    near(points(|t| [0.0, t, 0.0], [0.0, 0.0, 1.0]), [320.0, 200.0 + half, 320.0, 200.0 - half]);
+}

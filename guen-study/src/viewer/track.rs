@@ -105,20 +105,20 @@ impl Shown for Pose {
 }
 
 /// The shortest turn from one orientation to another, as the page makes it.
-struct Turning {
+pub(super) struct Turning {
     from: Turn,
     to: Turn,
     angle: f64,
 }
 
 impl Turning {
-    fn new(from: Turn, to: Turn) -> Self {
+    pub(super) fn new(from: Turn, to: Turn) -> Self {
         let cosine: f64 = from.0.iter().zip(to.0).map(|(a, b)| a * b).sum();
         let to = if cosine < 0.0 { Turn(to.0.map(|e| -e)) } else { to };
         Self { from, to, angle: cosine.abs().min(1.0).acos() }
     }
 
-    fn at(&self, part: f64) -> Turn {
+    pub(super) fn at(&self, part: f64) -> Turn {
         let whole = self.angle.sin();
         let (a, b) = if whole < 1e-6 {
             (1.0 - part, part)

@@ -65,6 +65,16 @@ impl Turn {
         ])
     }
 
+    /// Returns a vector, turned.
+    pub(super) fn applied(self, v: [f64; 3]) -> [f64; 3] {
+        // v + 2 w (u x v) + 2 u x (u x v), for the vector part u.
+        let [w, x, y, z] = self.0;
+        let cross = |[a, b, c]: [f64; 3]| [y * c - z * b, z * a - x * c, x * b - y * a];
+        let once = cross(v);
+        let twice = cross(once);
+        std::array::from_fn(|i| v[i] + 2.0 * (w * once[i] + twice[i]))
+    }
+
     pub(super) fn normalized(self) -> Self {
         let length = self.0.iter().map(|e| e * e).sum::<f64>().sqrt();
         Self(self.0.map(|e| e / length))
