@@ -46,6 +46,9 @@ pub const RESERVED_WORDS: &[&str] = &[
 /// Names that begin with this belong to the expansion.
 pub const RESERVED_PREFIX: &str = "__guen";
 
+/// Behind the name of a coordinate: the name of its rate, where the macro chooses it as a parameter.
+pub(crate) const RATE_SUFFIX: &str = "_rate";
+
 /// The sections of a system, in the order in which a help lists them.
 pub const SECTIONS: &[&str] = &[
     "constants",
@@ -67,6 +70,9 @@ pub const SECTIONS: &[&str] = &[
     "scene",
 ];
 
+/// Other names of `parameters`: those of other tools.
+pub const PARAMETER_ALIASES: &[&str] = &["quasi_velocities", "speeds"];
+
 /// The statements of a scene.
 pub const SCENE_STATEMENTS: &[&str] = &["track", "fix", "provide"];
 
@@ -86,9 +92,7 @@ const SECTION_SYNONYMS: &[(&str, &str)] = &[
     ("v", "potential_energy"),
     ("positions", "coordinates"),
     ("controls", "inputs"),
-    ("quasi_velocities", "parameters"),
     ("quasivelocities", "parameters"),
-    ("speeds", "parameters"),
     ("velocities", "parameters"),
     ("nonholonomic", "constraints"),
     ("potential", "potential_energy"),
@@ -282,7 +286,7 @@ mod tests {
         assert_eq!(nearest_section("coordinate"), Some("coordinates"));
         assert_eq!(nearest_section("Constants"), Some("constants"));
         assert_eq!(nearest_section("kinetic_enregy"), Some("kinetic_energy"));
-        assert_eq!(nearest_section("quasi_velocities"), Some("parameters"));
+        assert_eq!(nearest_section("quasivelocities"), Some("parameters"));
         assert_eq!(nearest_section("lagrangian"), None);
         assert_eq!(nearest("theat", ["phi", "theta", "psi"]), Some("theta"));
         assert_eq!(nearest("x", ["y", "z"]), None);

@@ -24,7 +24,9 @@ pub use algebra::{
     Bound, ExprId, Flow, Function, Graph, Node, PowerError, Rational, Role, Roles, Substitution, Symbol,
     SymbolId,
 };
-pub use geometry::{Brackets, Closure, Combination, Form, Forms, Operators, SingularForms};
+pub use geometry::{
+    Brackets, Closure, Combination, Form, Forms, Operators, RateChoice, SingularForms, chosen_rates,
+};
 pub use motion::{
     BodyNode, Class, Component, Dependence, Derivation, DerivationError, Energies, Equations, Force,
     FormShape, Formulated, Frame, FrameId, FrameNode, Holonomic, KineticTerm, Mechanics, Motion,

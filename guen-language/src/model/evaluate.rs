@@ -7,6 +7,7 @@ use proc_macro2::Span;
 
 use super::motion_symbols::MotionSymbols;
 use super::place::{Place, ROLES, role_name};
+use super::rates::AssumedRates;
 use super::scope::Scope;
 use super::shapes::Shapes;
 use super::value::{Value, Vector};
@@ -42,6 +43,8 @@ pub(super) struct Evaluator<'f> {
     pub(super) motion: MotionSymbols,
     /// Arguments of `quaternion`.
     pub(super) quaternions: Vec<[ExprId; 4]>,
+    /// Rates of coordinates that are used as parameters, until it is known whether they are.
+    pub(super) rates: AssumedRates,
     /// Divisors with their places, for a second look once the holonomic constraints are known.
     pub(super) divisors: Vec<(ExprId, Span)>,
 }
@@ -225,6 +228,9 @@ impl Evaluator<'_> {
             "t" => return Ok(Value::Scalar(self.time)),
             "pi" => return Ok(Value::Scalar(self.bench.graph.pi())),
             _ => {}
+        }
+        if let Some(rate) = self.assumed_rate(name) {
+            return Ok(rate);
         }
         let place = self.place.description(self.entry.as_deref());
         match self.scope.look_up(self.faults, name, &place) {

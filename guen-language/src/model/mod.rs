@@ -11,6 +11,7 @@ mod functions;
 mod motion_symbols;
 mod place;
 mod quaternions;
+mod rates;
 mod resolve;
 mod scenes;
 mod scope;
@@ -23,6 +24,7 @@ use proc_macro2::{Ident, Span};
 
 use crate::syntax::{BoundKind, Declaration, Docs, Name, Scene};
 
+pub use rates::ChosenRates;
 pub use resolve::resolve;
 pub(crate) use scenes::is_carried_form;
 
@@ -40,6 +42,8 @@ pub struct Model<'a> {
     pub coordinates: Vec<SymbolEntry<'a>>,
     /// The forms `eta_1..eta_n`, parameters first.
     pub forms: Vec<FormEntry<'a>>,
+    /// Parameters that the declaration left out, where it did.
+    pub chosen: Option<ChosenRates>,
     /// Holonomic equations that follow from others wherever all hold, in the order of the mechanics.
     pub redundant: Vec<RedundantEntry<'a>>,
     /// Bodies in order.

@@ -16,6 +16,7 @@ use super::bodies::{Weight, is_no_inertia, turns_about_several_axes};
 use super::evaluate::{Evaluator, children};
 use super::forms::RawForm;
 use super::place::Place;
+use super::rates::AssumedRates;
 use super::scope::{Category, Scope};
 use super::shapes::Shapes;
 use super::spatial::inner;
@@ -60,7 +61,8 @@ struct Resolver<'a, 'f> {
     bodies: Vec<BodyEntry>,
     particles: Vec<Weight>,
     outputs: Vec<OutputEntry<'a>>,
-    scenes: Vec<SceneEntry<'a>>,
+    /// Scenes as written: they may name parameters that are chosen once all forms are known.
+    written_scenes: Vec<&'a Scene>,
     output_values: Vec<ExprId>,
     provides_operators: bool,
     provides_taylor: Option<&'a crate::syntax::Name>,
@@ -89,6 +91,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
                 left_out: Vec::new(),
                 motion: super::motion_symbols::MotionSymbols::default(),
                 quaternions: Vec::new(),
+                rates: AssumedRates::default(),
                 divisors: Vec::new(),
             },
             constants: Vec::new(),
@@ -109,7 +112,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
             bodies: Vec::new(),
             particles: Vec::new(),
             outputs: Vec::new(),
-            scenes: Vec::new(),
+            written_scenes: Vec::new(),
             output_values: Vec::new(),
             provides_operators: false,
             provides_taylor: None,
@@ -195,7 +198,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
                 self.energy = Some(quantity);
                 if let Ok(energy) = self.eval.scalar_at(Place::KineticEnergy, &quantity.value) {
                     let etas = self.parameters.iter().chain(&self.constraints).map(|form| form.symbol);
-                    let etas: Vec<ExprId> = etas.collect();
+                    let etas: Vec<ExprId> = etas.chain(self.eval.rates.symbols()).collect();
                     self.eval.check_quadratic(&quantity.value, energy, &self.velocities, &etas);
                     self.kinetic.push(energy);
                     self.written_energy = Some(energy);
@@ -274,11 +277,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
             Item::Forces(section) => section.entries.iter().for_each(|force| self.force(force)),
             Item::Outputs(section) => section.entries.iter().for_each(|output| self.output(output)),
             Item::Provide(section) => section.entries.iter().for_each(|provide| self.provide(provide)),
-            Item::Scene(scene) => {
-                let earlier: Vec<&Scene> = self.scenes.iter().map(|entry| entry.scene).collect();
-                let entry = self.eval.scene(scene, self.declaration, &earlier);
-                self.scenes.extend(entry);
-            }
+            Item::Scene(scene) => self.written_scenes.push(scene),
         }
     }
 

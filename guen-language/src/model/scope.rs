@@ -140,6 +140,24 @@ impl Scope {
         self.entries.insert(text.to_owned(), Entry { category, span, written, value, used, derived });
     }
 
+    /// Declares a name that the macro chose: it stands nowhere.
+    pub(super) fn declare_chosen(&mut self, text: &str, span: Span, category: Category, value: Value) {
+        let entry = Entry { category, span, written: 0, value: Some(value), used: true, derived: true };
+        self.entries.entry(text.to_owned()).or_insert(entry);
+    }
+
+    /// Lets a name stand that may or may not be one: nothing is said about it.
+    pub(super) fn excuse(&mut self, text: String, span: Span) {
+        let category = Category::Parameter;
+        let entry = Entry { category, span, written: 0, value: None, used: true, derived: true };
+        self.entries.entry(text).or_insert(entry);
+    }
+
+    /// Whether the declaration declares the name anywhere, or the name was found to be unknown.
+    pub(super) fn is_announced(&self, text: &str) -> bool {
+        self.entries.contains_key(text) || self.later.contains_key(text) || self.unknown.contains(text)
+    }
+
     /// The value of a name in use, or `None` after a fault that is reported here or was before.
     pub(super) fn look_up(&mut self, faults: &mut Faults, name: &Name, place: &str) -> Option<Value> {
         if let Some(entry) = self.entries.get_mut(&name.text) {

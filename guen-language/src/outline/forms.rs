@@ -3,10 +3,12 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use proc_macro2::Span;
+use quote::format_ident;
 
 use super::expressions::{call, number, rate, value};
 use super::kinds::{Kind, Kinds};
 use super::{Names, push, section, unnamed};
+use crate::names::RATE_SUFFIX;
 use crate::syntax::{Declaration, Definition, Docs, Equation, Expression, Item, Name, Plain};
 
 pub(super) struct Forms {
@@ -142,6 +144,7 @@ impl Forms {
                 .iter()
                 .for_each(|entry| forms.parameter(entry, (&kinds, &held), &mut free, names));
         }
+        forms.choose(declaration, &kinds, &mut free, names);
         forms.resting = free.0.iter().map(|name| name.text.clone()).collect();
         forms.constrain(declaration, &kinds, &mut free, names);
         forms
@@ -164,6 +167,36 @@ impl Forms {
         }
         let value = of_kind(kind, &own, rate);
         self.parameters.push(Definition { docs: entry.docs.clone(), name: names.take(&entry.name), value });
+    }
+
+    /// The parameters that the declaration leaves to the macro: of which coordinates is not known where there are faults, so that
+    /// they are those of the first.
+    fn choose(
+        &mut self,
+        declaration: &Declaration,
+        kinds: &BTreeMap<String, Kind>,
+        free: &mut Free,
+        names: &mut Names,
+    ) {
+        let is_constraint = |item: &Item| matches!(item, Item::Constraints(_) | Item::Holonomic(_));
+        let entries =
+            declaration.items.iter().filter(|item| is_constraint(item)).flat_map(|item| match item {
+                Item::Constraints(section) | Item::Holonomic(section) => section.entries.as_slice(),
+                _ => &[],
+            });
+        let needed: usize = entries.map(|entry| components(kinds[&entry.name.ident.to_string()])).sum();
+        let count = free.0.len().saturating_sub(needed);
+        for coordinate in self.coordinates.clone().into_iter().take(count) {
+            let of = &coordinate.name.ident;
+            let name = Name::new(format_ident!("{of}{}", RATE_SUFFIX, span = of.span()));
+            if !self.fields.add(&name, Kind::Scalar) {
+                continue;
+            }
+            let Some(own) = free.take(Kind::Scalar) else { return };
+            self.driven.get_or_insert_with(|| own[0].clone());
+            let value = of_kind(Kind::Scalar, &own, rate);
+            self.parameters.push(Definition { docs: Docs::default(), name: names.take(&name), value });
+        }
     }
 
     /// The constraints as far as there are coordinates, and further ones where there are too few.

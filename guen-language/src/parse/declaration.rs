@@ -9,7 +9,7 @@ use super::names::name;
 use super::{bodies, constants, definitions, energies, equations, forces, particles, scene};
 use crate::diagnostics::{Fault, Faults, Reported};
 use crate::limits::{MAX_COORDINATES, MAX_ENTRIES, MAX_SCENES, MAX_TOKENS};
-use crate::names::{SECTIONS, instead_of_section, nearest_section, quoted};
+use crate::names::{PARAMETER_ALIASES, SECTIONS, instead_of_section, nearest_section, quoted};
 use crate::syntax::{Declaration, Docs, Item, Name, Section, SectionKind, Visibility};
 
 const HELP_SYSTEM: &str = "a declaration reads `pub system Name { .. }`";
@@ -219,7 +219,7 @@ fn item(cursor: &mut Cursor, faults: &mut Faults, progress: &mut Progress) -> Re
         unknown(cursor, faults, &word);
         return Ok(());
     };
-    once(kind, keyword, progress, faults);
+    once(kind, (&word, keyword), progress, faults);
     cursor.skip(1);
     let item = match kind {
         SectionKind::Let => {
@@ -298,7 +298,7 @@ fn too_many(count: usize, most: usize, what: &str, span: Span, faults: &mut Faul
 }
 
 /// Every section at most once, and one way to give the potential.
-fn once(kind: SectionKind, keyword: Span, progress: &mut Progress, faults: &mut Faults) {
+fn once(kind: SectionKind, (word, keyword): (&str, Span), progress: &mut Progress, faults: &mut Faults) {
     let first = progress.first[kind as usize];
     let other = match kind {
         SectionKind::ForceFunction => progress.first[SectionKind::PotentialEnergy as usize],
@@ -306,8 +306,13 @@ fn once(kind: SectionKind, keyword: Span, progress: &mut Progress, faults: &mut 
         _ => None,
     };
     if let Some(first) = first.filter(|_| !kind.may_repeat()) {
-        let fault = Fault::new(keyword, format!("section `{}` is given twice", kind.word()));
-        let fault = fault.note_place("first given", first);
+        let fault =
+            Fault::new(keyword, format!("section `{word}` is given twice")).note_place("first given", first);
+        let names = quoted(PARAMETER_ALIASES.iter().copied());
+        let fault = match kind {
+            SectionKind::Parameters => fault.note(format!("`parameters`, {names} are names of one section")),
+            _ => fault,
+        };
         faults.report(if kind.is_quantity() {
             fault.help("add both up in one expression")
         } else {

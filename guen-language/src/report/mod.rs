@@ -13,7 +13,7 @@ pub use pages::set;
 use guen_symbolic::{ExprId, Notation};
 
 use crate::derive::{Level, MissingBounds, Subject, function};
-use crate::model::{FormKind, Model, RedundantEntry};
+use crate::model::{ChosenRates, FormKind, Model, RedundantEntry};
 use lines::{LATEX_TOO_LONG, Lines, TOO_LONG, Terms, Writer, class_name, plural};
 
 /// Lines longer than this are left to the programs.
@@ -123,6 +123,7 @@ fn forms(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
         lines.section.text.push(line);
         lines.section.latex.push(formula);
     }
+    lines.section.text.extend(subject.model.chosen.as_ref().map(chosen));
     for name in &subject.model.left_out {
         lines.section.text.push(format!("{name} is left out: it says 0 = 0"));
     }
@@ -147,14 +148,36 @@ fn forms(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
     lines.section
 }
 
+/// Which parameters the macro chose, and why.
+fn chosen(chosen: &ChosenRates) -> String {
+    let ChosenRates { names, condition, best: (best, least) } = chosen;
+    let (own, are) = (listed(names), if names.len() == 1 { "is" } else { "are" });
+    let measure = "sqrt(1 + |T|^2) of the matrix T that gives the other velocities by the chosen ones, at the worst of 64 states";
+    if names == best {
+        return format!(
+            "{own} {are} chosen by the macro: no rates of coordinates have a better condition, {condition:.3}, {measure}"
+        );
+    }
+    format!(
+        "{own} {are} chosen by the macro: the first rates of coordinates whose condition is within ten times the best, {condition:.3} \
+         beside {least:.3} of {}; {measure}",
+        listed(best)
+    )
+}
+
+/// `a, b and c`.
+fn listed(names: &[String]) -> String {
+    match names.split_last() {
+        Some((last, [])) => last.clone(),
+        Some((last, others)) => format!("{} and {last}", others.join(", ")),
+        None => String::new(),
+    }
+}
+
 /// The equations that another follows from.
 fn beside(model: &Model<'_>, redundant: &RedundantEntry<'_>) -> String {
-    let names: Vec<&str> = redundant.beside.iter().map(|form| model.forms[*form].name.as_str()).collect();
-    match names.split_last() {
-        Some((last, [])) => (*last).to_owned(),
-        Some((last, others)) => format!("{} and {last}", others.join(", ")),
-        None => "the others".to_owned(),
-    }
+    let names: Vec<String> = redundant.beside.iter().map(|form| model.forms[*form].name.clone()).collect();
+    if names.is_empty() { "the others".to_owned() } else { listed(&names) }
 }
 
 fn operators(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {

@@ -108,8 +108,13 @@ impl SectionKind {
         crate::names::SECTIONS[self as usize]
     }
 
-    /// The kind that a word begins.
+    /// The kind that a word begins, be it another name of the section.
     pub fn of_word(word: &str) -> Option<SectionKind> {
+        let word = if crate::names::PARAMETER_ALIASES.contains(&word) {
+            SectionKind::Parameters.word()
+        } else {
+            word
+        };
         SectionKind::ALL.into_iter().find(|kind| kind.word() == word)
     }
 

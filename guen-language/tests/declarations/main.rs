@@ -13,6 +13,7 @@ mod limbs;
 mod outline;
 mod poles;
 mod random_declarations;
+mod rates;
 mod redundant;
 mod restricted;
 mod rows_of_bars;

@@ -8,6 +8,7 @@ mod forms;
 mod minors;
 mod next_level;
 mod operators;
+mod rates;
 
 pub use brackets::Brackets;
 pub use closure::{Closure, Combination};
@@ -17,3 +18,4 @@ pub use forms::{Form, Forms};
 pub(crate) use minors::adjugate;
 pub use operators::Operators;
 pub(crate) use operators::{MANY_COORDINATES, is_nested};
+pub use rates::{RateChoice, chosen_rates};

@@ -9,6 +9,7 @@
 pub(crate) mod field;
 pub(crate) mod jets;
 mod manifold;
+mod positions;
 mod real;
 mod redundant;
 mod sample;
@@ -17,6 +18,7 @@ mod table;
 mod tests;
 
 use manifold::Manifold;
+pub(crate) use positions::drawn_states;
 use real::{RealPoint, Sighting};
 pub(crate) use sample::Sample;
 use table::{ATOM, OPAQUE, ROOT, SIGN, TRANSCENDENTAL, Table, UNDEFINED};

@@ -9,7 +9,7 @@ use crate::model::evaluate::Evaluator;
 use crate::model::forms::RawForm;
 use crate::names::quoted;
 
-/// Parameters, constraints and holonomic constraints together number `n`.
+/// Parameters, constraints and holonomic constraints together number `n`; of too few the macro completes the parameters.
 pub(super) fn check(
     eval: &mut Evaluator<'_>,
     raw: &[RawForm<'_>],
@@ -21,7 +21,7 @@ pub(super) fn check(
 ) {
     let n = velocities.len();
     // Parameters without a velocity were reported already: without them the count may be right.
-    if raw.len() == n || raw.len() == n + idle {
+    if raw.len() <= n + idle {
         return;
     }
     let count = |kind| raw.iter().filter(|form| form.entry.kind == kind).count();
@@ -47,65 +47,37 @@ pub(super) fn check(
             "{names} {follow} from the other holonomic constraints wherever all of them hold, and {count}"
         ));
     }
-    if raw.len() > n {
-        let surplus = raw.len() - n;
-        let combinations = forms.map_or_else(Vec::new, |forms| combinations(&mut eval.bench, forms, degrees));
-        for (form, beside) in &combinations {
-            let entry = &raw[*form].entry;
-            let (name, others) = (&entry.name, quoted(beside.iter().map(|k| raw[*k].entry.name.as_str())));
-            fault = fault.note(format!(
-                "the velocities of `{name}` are those of {others}: it repeats or contradicts them"
+    let surplus = raw.len() - n;
+    let combinations = forms.map_or_else(Vec::new, |forms| combinations(&mut eval.bench, forms, degrees));
+    for (form, beside) in &combinations {
+        let entry = &raw[*form].entry;
+        let (name, others) = (&entry.name, quoted(beside.iter().map(|k| raw[*k].entry.name.as_str())));
+        fault = fault.note(format!(
+            "the velocities of `{name}` are those of {others}: it repeats or contradicts them"
+        ));
+        let whole = &entry.written.text;
+        if name != whole {
+            fault = fault.help(format!(
+                "impose the other components of `{whole}` one by one, as `{whole}_x: inner(e, vec(1, 0, 0)) = 0;`"
             ));
-            let whole = &entry.written.text;
-            if name != whole {
-                fault = fault.help(format!(
-                    "impose the other components of `{whole}` one by one, as `{whole}_x: inner(e, vec(1, 0, 0)) = 0;`"
-                ));
-            }
         }
-        let positions: Vec<ExprId> = raw.iter().filter_map(|form| form.position).collect();
-        if holonomic > 1 && combinations.is_empty() && forms.is_some() {
-            fault = fault
-                .note("no holonomic constraint is seen to follow from the others where all of them hold");
-            if positions.iter().any(|e| eval.bench.graph.roles(*e).has(Role::Constant)) {
-                fault = fault.note(
-                    "one that follows for particular values of constants only needs these as numbers, or as one constant where \
-                     they are equal",
-                );
-            }
-        }
-        eval.faults.report(fault.help(format!(
-            "remove {}, or declare {} more",
-            plural(surplus, "form"),
-            plural(surplus, "coordinate")
-        )));
-        return;
     }
-    // A coordinate whose velocity is in no form is surely undetermined; where all occur, nobody can say which.
-    let definitions: Vec<ExprId> = raw.iter().map(|form| eval.expanded(form.definition)).collect();
-    let graph = &eval.bench.graph;
-    let occurring = graph.symbols_in(&definitions);
-    let missing: Vec<&str> = velocities
-        .iter()
-        .filter_map(|v| graph.as_symbol(*v))
-        .filter(|symbol| !occurring.contains(symbol))
-        .map(|symbol| graph.symbol_info(symbol).name.as_str())
-        .collect();
-    let lacking = n - raw.len();
-    if !missing.is_empty() {
-        let occur = if missing.len() == 1 { "occurs" } else { "occur" };
-        fault = fault.note(format!("{} {occur} in no form", quoted(missing.iter().copied())));
-    }
-    fault = match missing.first() {
-        Some(velocity) if lacking == 1 => {
-            let name = velocity.trim_start_matches("dot(").trim_end_matches(')');
-            fault.help(format!(
-                "add a parameter such as `rate_of_{name} = {velocity};`, or a constraint such as `{name}_fixed: {velocity} = 0;`"
-            ))
+    let positions: Vec<ExprId> = raw.iter().filter_map(|form| form.position).collect();
+    if holonomic > 1 && combinations.is_empty() && forms.is_some() {
+        fault =
+            fault.note("no holonomic constraint is seen to follow from the others where all of them hold");
+        if positions.iter().any(|e| eval.bench.graph.roles(*e).has(Role::Constant)) {
+            fault = fault.note(
+                "one that follows for particular values of constants only needs these as numbers, or as one constant where \
+                 they are equal",
+            );
         }
-        _ => fault.help(format!("add {} under `parameters` or `constraints`", plural(lacking, "form"))),
-    };
-    eval.faults.report(fault);
+    }
+    eval.faults.report(fault.help(format!(
+        "remove {}, or declare {} more",
+        plural(surplus, "form"),
+        plural(surplus, "coordinate")
+    )));
 }
 
 /// Constraints that are linear combinations of earlier constraints, each with those earlier ones.

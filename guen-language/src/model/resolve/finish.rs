@@ -7,7 +7,7 @@ impl<'a> Resolver<'a, '_> {
     pub(super) fn finish(mut self) -> Option<Model<'a>> {
         let failed = self.eval.faults.count() > 0;
         let velocities = self.velocities.clone();
-        let degrees = self.parameters.len();
+        let mut degrees = self.parameters.len();
         let has_energy = self.energy.is_some() || self.has_masses;
         let mut raw: Vec<RawForm<'a>> = self.parameters;
         raw.extend(self.constraints);
@@ -17,7 +17,30 @@ impl<'a> Resolver<'a, '_> {
             redundant = redundant::taken(&mut self.eval, &mut raw, &coordinates, degrees);
             self.eval.check_divisors_on_manifold();
         }
-        let (forms, idle) = self.eval.linear_forms(&raw, &velocities);
+        let (mut forms, mut idle) = self.eval.linear_forms(&raw, &velocities);
+        let mut chosen = None;
+        if raw.len() + idle < velocities.len() {
+            match &forms {
+                Some(given) if !failed => {
+                    let before = raw.len();
+                    let (coordinates, constants) = (&self.coordinates, &self.constants);
+                    chosen = self.eval.complete(&mut raw, degrees, given, coordinates, constants);
+                    degrees += raw.len() - before;
+                    (forms, idle) = self.eval.linear_forms(&raw, &velocities);
+                    match &chosen {
+                        Some(chosen) => self.eval.report_assumed(Some(chosen)),
+                        None => self.eval.excuse_rates(&self.coordinates),
+                    }
+                }
+                _ => self.eval.excuse_rates(&self.coordinates),
+            }
+        }
+        self.eval.report_assumed(None);
+        let mut scenes: Vec<SceneEntry<'a>> = Vec::new();
+        for scene in self.written_scenes {
+            let earlier: Vec<&Scene> = scenes.iter().map(|entry| entry.scene).collect();
+            scenes.extend(self.eval.scene(scene, self.declaration, &earlier));
+        }
         if !failed {
             // Counts, unused names and idle sections mean something only where everything else was understood.
             let keyword = |kind: SectionKind| {
@@ -135,7 +158,7 @@ impl<'a> Resolver<'a, '_> {
             outputs: self.output_values,
             motion_symbols,
         };
-        let provides = self.scenes.iter().flat_map(|entry| &entry.scene.provides);
+        let provides = scenes.iter().flat_map(|entry| &entry.scene.provides);
         let provides_operators =
             self.provides_operators || provides.into_iter().any(|provide| provide.name.text == "operators");
         Some(Model {
@@ -146,13 +169,14 @@ impl<'a> Resolver<'a, '_> {
             inputs: self.inputs,
             coordinates: self.coordinates,
             forms: raw.into_iter().map(|form| form.entry).collect(),
+            chosen,
             redundant,
             bodies: self.bodies,
             particles: self.particles,
             outputs: self.outputs,
             quaternions,
             reactions,
-            scenes: self.scenes,
+            scenes,
             left_out: self.eval.left_out,
             provides_operators,
             provides_taylor: self.provides_taylor,
