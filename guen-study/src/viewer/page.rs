@@ -16,7 +16,7 @@ const LIBRARY: &str = include_str!("vendor/three.min.js");
 /// The page's own style and program, in the order in which they are needed.
 const STYLE: &str = include_str!("page/style.css");
 const BODY: &str = include_str!("page/body.html");
-const PROGRAM: [&str; 12] = [
+const PROGRAM: [&str; 15] = [
     include_str!("page/motion.js"),
     include_str!("page/clock.js"),
     include_str!("page/colours.js"),
@@ -25,6 +25,9 @@ const PROGRAM: [&str; 12] = [
     include_str!("page/quality.js"),
     include_str!("page/stage.js"),
     include_str!("page/curves.js"),
+    include_str!("page/span.js"),
+    include_str!("page/plot.js"),
+    include_str!("page/panel.js"),
     include_str!("page/player.js"),
     include_str!("page/bodies.js"),
     include_str!("page/keys.js"),

@@ -36,7 +36,12 @@ const clock = (() => {
     if (motion.still) return moments.map(text);
     return moments.map((time) => minus(((start + time) / unit.factor).toFixed(short + finer)));
   }
-  return { text, texts, unit: unit.name };
+  /** A length of time in its own unit. */
+  function length(time) {
+    const { factor, name } = unitFor(time);
+    return `${short(time / factor)} ${name}`;
+  }
+  return { text, texts, length, unit: unit.name };
 })();
 
 /** A motion that is over before one sees it, or takes too long to be watched, is shown in about so many seconds. */

@@ -17,7 +17,7 @@ const DASHES = [[], [7, 4], [2, 3], [10, 3, 2, 3]];
 const look = { dark: false, printing: false };
 
 const hex = (number) => `#${number.toString(16).padStart(6, "0")}`;
-const dashOf = (slot) => DASHES[Math.floor(slot / INKS.length) % DASHES.length];
+const dashOf = ({ slot }) => DASHES[Math.floor(slot / INKS.length) % DASHES.length];
 
 /** The colour of the thing with this number, as `#rrggbb`. */
 const inkOf = (slot) => hex(INKS[slot % INKS.length][look.dark ? 1 : 0]);

@@ -2,7 +2,7 @@
 
 const VIEWS = ["first", "above", "front", "side", "below"];
 
-function listenToKeys({ player, stage, setView, redraw }) {
+function listenToKeys({ player, stage, span, setView, redraw }) {
   const click = (id) => () => document.getElementById(id).click();
   const step = (part) => () => player.setTime(player.state.time + part * motion.end);
   const anywhere = {
@@ -10,6 +10,7 @@ function listenToKeys({ player, stage, setView, redraw }) {
     ArrowRight: step(1 / 200), ArrowLeft: step(-1 / 200),
     Home: () => player.setTime(0), End: () => player.setTime(motion.end),
     ",": () => player.toSample(-1), ".": () => player.toSample(1),
+    Escape: span.reset,
     l: click("loop"), f: click("follow"), r: click("reset"), 0: click("fit"),
   };
   if (stage) {
@@ -25,6 +26,13 @@ function listenToKeys({ player, stage, setView, redraw }) {
     stage.turn(about * ANGLE, towards * ANGLE);
     redraw();
   };
+  /** Comes nearer in time: to where the motion is, if that is shown. */
+  const closer = (factor) => () => {
+    const { time } = player.state;
+    span.zoom(factor, time >= span.from && time <= span.to ? time : (span.from + span.to) / 2);
+  };
+  const inPlot = { "+": closer(1 / 1.5), "=": closer(1 / 1.5), "-": closer(1.5), 0: span.reset };
+  const inPlotShifted = { ArrowLeft: () => span.pan(-0.25), ArrowRight: () => span.pan(0.25) };
   const inSpace = { ArrowLeft: turned(-1, 0), ArrowRight: turned(1, 0), ArrowUp: turned(0, 1), ArrowDown: turned(0, -1) };
 
   window.addEventListener("keydown", (event) => {
@@ -34,7 +42,9 @@ function listenToKeys({ player, stage, setView, redraw }) {
     if (target.matches("select")) return;
     if (key === " " && target.matches("button, summary, input[type=checkbox]")) return;
     if (target.matches("#panels, #legend, #legend *") && (key === "Home" || key === "End")) return;
-    const does = (target.id === "space" && stage && inSpace[key]) || anywhere[key];
+    const isPlot = target.matches("#panels canvas");
+    const own = isPlot ? (event.shiftKey && inPlotShifted[key]) || inPlot[key] : target.id === "space" && stage && inSpace[key];
+    const does = own || anywhere[key];
     if (!does) return;
     does();
     event.preventDefault();

@@ -44,6 +44,7 @@ for (const thing of [...motion.bodies, ...motion.paths, ...motion.links, ...moti
   thing.name = isolated(thing.name);
 }
 motion.times = decode(motion.times, 8);
+for (const { curves } of motion.panels) curves.forEach((curve, i) => (curve.slot = i));
 motion.curves = motion.panels.flatMap((panel) => panel.curves);
 /** What moves and what is drawn over time has times of its own, or those of the page. */
 for (const track of [...motion.bodies, ...motion.paths, ...motion.links, ...motion.curves]) {

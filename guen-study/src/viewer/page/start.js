@@ -19,9 +19,13 @@ try {
 byId("note").textContent = notes.join(" ");
 byId("note").hidden = notes.length === 0;
 
+const redraw = () => player.request();
+const span = makeSpan(redraw);
+/** What the pointer is about to read on a plot: the time, where, and the part of the time that is being marked. */
+const probe = { time: null, canvas: null, marked: null };
 const panels = motion.panels
   .filter((panel) => panel.curves.length > 0)
-  .map((panel) => makePanel(panel, byId("panels"), (time) => player.setTime(time)));
+  .map((panel) => makePanel(panel, byId("panels"), { span, probe, redraw, onPick: (time) => player.setTime(time) }));
 if (panels.length === 0) {
   byId("panels").hidden = true;
   document.querySelector("main").classList.add("alone");
@@ -31,7 +35,10 @@ if (panels.length === 0) {
 }
 
 let repaint = true;
+let before = 0;
 const player = makePlayer((time) => {
+  if (time !== before) span.follow(before, time);
+  before = time;
   // What is printed is drawn once.
   if (stage && !look.printing) {
     stage.place(time);
@@ -41,7 +48,6 @@ const player = makePlayer((time) => {
   for (const panel of panels) panel.draw(time, repaint);
   repaint = false;
 });
-const redraw = player.request;
 
 const card = stage && makeCard(stage, { follow: (i) => setFollowing(true, i), hide: (i) => legend.hide(i), redraw });
 const legend = makeLegend(stage, { choose: (i) => card.choose(i), redraw });
@@ -114,8 +120,8 @@ if (stage) {
 } else {
   for (const id of ["reset", "fit", "view", "space"]) byId(id).hidden = true;
 }
-listenToKeys({ player, stage, setView, redraw });
+listenToKeys({ player, stage, span, setView, redraw });
 new ResizeObserver(redraw).observe(document.querySelector("main"));
 // For programs that test the page.
-window.guen = { motion, player, stage, look };
+window.guen = { motion, player, stage, span, probe, look };
 document.documentElement.dataset.ready = "true";

@@ -1,0 +1,346 @@
+#!/usr/bin/env python3
+"""What hands do on the pages, in a real browser: curves switched and folded, values read, time zoomed.
+
+    python3 tests/browser/hands.py                     # runs the example and tests its pages
+    python3 tests/browser/hands.py --pictures FOLDER   # keeps screenshots as well
+
+Exits with 0 if all is well, 1 if a page fails, 77 if there is no browser and none can be installed.
+"""
+
+import argparse
+import base64
+import pathlib
+import struct
+import subprocess
+import sys
+import tempfile
+
+from browser import Browser
+from checks import ended, kept, require
+from looks import CONTRAST, INKS, LOOKS, PLACES, WIDTHS, varied
+from place import ROOT, target
+from viewer import TIME, load, quiet, settled
+
+ESCAPE, TAB, LEFT, RIGHT, SHIFT = "\ue00c", "\ue004", "\ue012", "\ue014", "\ue008"
+
+# In the page: the pixels of a plot, from a copy.
+COPY = """
+const pixels = (canvas) => {
+  const { width, height } = canvas;
+  const pen = Object.assign(document.createElement('canvas'), { width, height }).getContext('2d', { willReadFrequently: true });
+  pen.drawImage(canvas, 0, 0);
+  return pen.getImageData(0, 0, width, height).data;
+};
+"""
+
+# In the page: how many pixels of a plot have a colour.
+PIXELS = COPY + """
+const canvas = document.querySelectorAll('figure canvas')[arguments[0]];
+const wanted = [1, 3, 5].map((k) => parseInt(arguments[1].slice(k, k + 2), 16));
+const data = pixels(canvas);
+let count = 0;
+for (let k = 0; k < data.length; k += 4) if (data[k + 3] > 250 && wanted.every((c, i) => Math.abs(data[k + i] - c) < 12)) count += 1;
+return count;
+"""
+
+# In the page: how far the first curve is drawn from where the samples of the page have it, in pixels, at its worst of many
+# columns; the part of them in which it is drawn; and the least and the greatest of its values between the samples.
+ASTRAY = COPY + """
+const canvas = document.querySelector('figure canvas');
+const { span, motion: { curves: [{ times, values, base }] } } = window.guen;
+const wanted = [1, 3, 5].map((k) => parseInt(arguments[0].slice(k, k + 2), 16));
+const [left, low, high] = ['left', 'low', 'high'].map((name) => Number(canvas.dataset[name]));
+const { width, height } = canvas;
+const data = pixels(canvas);
+const value = (t) => {
+  const k = Math.max(0, times.findIndex((later) => later >= t) - 1);
+  return base + values[k] + ((values[k + 1] - values[k]) * (t - times[k])) / (times[k + 1] - times[k]);
+};
+let [worst, seen, least, most] = [0, 0, Infinity, -Infinity];
+for (let k = 0; k <= 400; k += 1) {
+  const there = value(span.from + ((span.to - span.from) * k) / 400);
+  [least, most] = [Math.min(least, there), Math.max(most, there)];
+}
+for (let x = Math.ceil(left) + 3; x < width - 12; x += 5) {
+  const t = span.from + ((x + 0.5 - left) / (width - left - 8)) * (span.to - span.from);
+  const drawn = [];
+  for (let y = 0; y < height - 20; y += 1) {
+    const at = 4 * (y * width + x);
+    if (data[at + 3] > 120 && wanted.every((c, i) => Math.abs(data[at + i] - c) < 60)) drawn.push(y + 0.5);
+  }
+  if (drawn.length === 0) continue;
+  seen += 1;
+  const there = 6 + ((height - 26) * (high - value(t))) / (high - low);
+  worst = Math.max(worst, Math.min(...drawn.map((y) => Math.abs(y - there))));
+}
+return [worst, seen / Math.floor((width - left - 15) / 5), least, most];
+"""
+
+RANGE = """
+const { curves } = window.guen.motion.panels[arguments[0]];
+const all = arguments[1].flatMap((k) => [...curves[k].values].map((value) => curves[k].base + value));
+return [Math.min(...all), Math.max(...all)];
+"""
+
+
+def axis(browser, panel):
+    """The least and the greatest value of a panel's axis."""
+    return browser.run("const { low, high } = document.querySelectorAll('figure canvas')[arguments[0]].dataset; return [Number(low), Number(high)];", panel)
+
+
+def fits(found, wanted):
+    """Whether an axis shows a range, with a little room."""
+    room = 0.061 * (wanted[1] - wanted[0])
+    return all(abs(a - b) <= room for a, b in zip(found, wanted)) and found[0] < wanted[0] and found[1] > wanted[1]
+
+
+def bounds(browser, selector, which=0):
+    return browser.run("const b = document.querySelectorAll(arguments[0])[arguments[1]].getBoundingClientRect(); return [b.x, b.y, b.width, b.height];", selector, which)
+
+
+def span(browser):
+    return browser.run("return [window.guen.span.from, window.guen.span.to, window.guen.motion.end];")
+
+
+def press_all(browser, *keys):
+    """Keys held down together."""
+    strokes = [{"type": "keyDown", "value": key} for key in keys] + [{"type": "keyUp", "value": key} for key in reversed(keys)]
+    browser.call("actions", {"actions": [{"type": "key", "id": "keyboard", "actions": strokes}]})
+
+
+def in_plot(browser, part, which=0):
+    """A point of the window: a part of a plot's time."""
+    browser.run("document.querySelectorAll('figure canvas')[arguments[0]].scrollIntoView({ block: 'center' });", which)
+    x, y, width, height = bounds(browser, "figure canvas", which)
+    left = float(browser.run("return document.querySelectorAll('figure canvas')[arguments[0]].dataset.left;", which))
+    return round(x + left + (width - left - 8) * part), round(y + height / 2)
+
+
+def switched(browser, page, pictures):
+    """Curves are switched on and off, panels folded; the axis fits what is shown."""
+    browser.scheme("light")
+    browser.resize(1000, 640)
+    load(browser, page)
+    both, first = browser.run(RANGE, 1, [0, 1]), browser.run(RANGE, 0, [0])
+    require(fits(axis(browser, 1), both), "the axis does not fit both curves")
+    require(browser.run(PIXELS, 0, INKS[1]) > 50, "the second curve is not drawn at first")
+    second = "figure:first-of-type span:nth-of-type(2) .curve"
+    state = f"return document.querySelector('{second}').getAttribute('aria-pressed');"
+    browser.click(second)
+    settled(browser)
+    require(browser.run(state) == "false", "a click does not switch a curve off")
+    require(browser.run(PIXELS, 0, INKS[1]) == 0, "a curve that is off is drawn")
+    require(fits(axis(browser, 0), first), f"the axis shows {axis(browser, 0)} of a curve from {first}")
+    # By the keyboard: Tab reaches it, the space bar presses it, and does not play.
+    browser.run(f"document.querySelector('{second}').focus();")
+    for _ in range(2):
+        browser.press(" ")
+    settled(browser)
+    require(browser.run(state) == "false" and not browser.run("return window.guen.player.state.playing;"), "the space bar does not press the button of a curve")
+    reached = browser.run("return [...document.querySelectorAll('figure button, figure canvas')].every((e) => e.tabIndex === 0);")
+    require(reached, "the keyboard does not reach all of a panel")
+    # A panel is folded, and has no height to speak of.
+    before = bounds(browser, "figure", 1)[3]
+    browser.click("figure:nth-of-type(2) .fold")
+    settled(browser)
+    require(bounds(browser, "figure", 1)[3] < before / 2, "a folded panel is as high as before")
+    require(browser.run("return document.querySelectorAll('.fold')[1].getAttribute('aria-expanded');") == "false", "a folded panel says otherwise")
+    everywhere(browser, "switched", pictures)
+    # Paper shows only what is on.
+    browser.scheme("light", media="print")
+    settled(browser)
+    seen = browser.run("return [...document.querySelectorAll('figure')].map((f) => [f.checkVisibility(), [...f.querySelectorAll('span')].filter((s) => s.checkVisibility()).length]);")
+    require(seen[:2] == [[True, 1], [False, 0]] and all(on for on, _ in seen[2:]), f"paper shows {seen}")
+    require(browser.run(PIXELS, 0, INKS[1]) == 0 and browser.run(PIXELS, 0, INKS[0]) > 50, "paper does not show what is on")
+    browser.scheme("light")
+    # Everything off: an empty panel, and no complaint.
+    for _ in range(2):
+        browser.run("document.querySelectorAll('.fold')[1].click(); document.querySelectorAll('figure .curve[aria-pressed=true]').forEach((b) => b.click());")
+        settled(browser)
+    quiet(browser)
+
+
+def everywhere(browser, name, pictures):
+    """The page as it is, at all widths and in all themes: nothing sticks out, everything has contrast."""
+    for look, (scheme, others) in LOOKS.items():
+        if look == "paper":
+            continue
+        browser.scheme(scheme, **others)
+        for width, height in WIDTHS.items():
+            browser.resize(width, height, mobile=width == 390)
+            settled(browser)
+            where = f"{name}, {width} wide, {look}"
+            wrong = browser.run(PLACES, width)
+            require(not wrong, f"{where}: {wrong}")
+            low = [found for found in browser.run(CONTRAST) if found[0] < 1]
+            require(not low, f"{where}: too little contrast: {low}")
+            kept(pictures, f"hands-{name}-{look}-{width}", browser.picture)
+    browser.scheme("light")
+    browser.resize(1000, 640)
+    settled(browser)
+
+
+def near(found, wanted, part=0.02):
+    """Whether two spans are one, to a part of the motion."""
+    return all(abs(a - b) <= part * found[2] for a, b in zip(found, wanted))
+
+
+def zoomed(browser, page, pictures):
+    """The time is zoomed by the mouse, the wheel, the keys and two fingers, and read under the pointer."""
+    browser.scheme("light")
+    browser.resize(1000, 640)
+    load(browser, page)
+    end = span(browser)[2]
+    browser.drag(in_plot(browser, 0.25), in_plot(browser, 0.5))
+    settled(browser)
+    require(near(span(browser), (end / 4, end / 2)), f"a drag shows {span(browser)}")
+    require(browser.run(f"return {TIME};") == 0, "a drag sets the time")
+    marks = browser.run("return document.getElementById('part').checkVisibility() && document.querySelector('#part span').textContent;")
+    require(marks and marks.endswith(" s") and " to " in marks, f"the page says of the part: {marks}")
+    everywhere(browser, "zoomed", pictures)
+    # The other curves off, the first one is where its samples are, however near one comes.
+    browser.run("document.querySelectorAll('figure:first-of-type .curve')[1].click();")
+    for from_, to in ((0, 1), (0.25, 0.5), (0.3, 0.31), (0.30031, 0.30187)):
+        browser.run("const { span, motion } = window.guen; span.set(arguments[0] * motion.end, arguments[1] * motion.end);", from_, to)
+        settled(browser)
+        worst, drawn, *range_ = browser.run(ASTRAY, INKS[0])
+        # Under the dots of the samples and the cursor no pixel has the colour of the line alone.
+        require(drawn > 0.9 and worst < 1.6, f"from {from_} to {to} the curve is {worst} pixels astray, and drawn in {drawn} of the columns")
+        require(fits(axis(browser, 0), range_), f"from {from_} to {to} the axis shows {axis(browser, 0)} of {range_}")
+    # What runs out of the part turns over to the next one.
+    browser.run("const { span, motion, player } = window.guen; span.set(0, motion.end / 4); player.setTime(motion.end / 5);")
+    settled(browser)
+    browser.run("window.guen.player.setTime(0.3 * window.guen.motion.end);")
+    settled(browser)
+    require(near(span(browser), (end / 4, end / 2)), f"the next page is {span(browser)}")
+
+    # Back: a double click, Escape, 0 in the plot, the button.
+    x, y = in_plot(browser, 0.5)
+    clicks = [{"type": "pointerMove", "origin": "viewport", "duration": 0, "x": x, "y": y}, *[{"type": kind, "button": 0} for kind in ("pointerDown", "pointerUp") * 2]]
+    ways = {
+        "a double click": lambda: browser.call("actions", {"actions": [{"type": "pointer", "id": "mouse", "actions": clicks}]}),
+        "Escape": lambda: browser.press(ESCAPE),
+        "the button": lambda: browser.click("#part button"),
+        "0 in the plot": lambda: (browser.run("document.querySelector('figure canvas').focus();"), browser.press("0")),
+    }
+    for way, does in ways.items():
+        browser.run("const { span, motion } = window.guen; span.set(motion.end / 4, motion.end / 3);")
+        settled(browser)
+        does()
+        settled(browser)
+        require(span(browser)[:2] == [0, end] and browser.run("return document.getElementById('part').hidden;"), f"{way} does not show the whole time")
+
+    # The wheel with Ctrl keeps the time below the pointer, and without it scrolls.
+    x, y = in_plot(browser, 0.75)
+    wheel = "document.querySelector('figure canvas').dispatchEvent(Object.assign(new WheelEvent('wheel', { deltaY: -100, ctrlKey: arguments[0], clientX: arguments[1], cancelable: true, bubbles: true })));"
+    browser.run(wheel, False, x)
+    require(span(browser)[:2] == [0, end], "the wheel alone zooms")
+    browser.run(wheel, True, x)
+    found = span(browser)
+    require(found[1] - found[0] < 0.8 * end and abs((0.75 * end - found[0]) / (found[1] - found[0]) - 0.75) < 0.01, f"the wheel shows {found}")
+    # The keyboard, with the plot in focus: nearer, farther, aside. The view stays as it is.
+    eye = "return window.guen.stage.camera.position.toArray();"
+    before = browser.run(eye)
+    browser.press(ESCAPE)
+    browser.run("document.querySelector('figure canvas').focus(); window.guen.player.setTime(window.guen.motion.end / 2);")
+    settled(browser)
+    browser.press("+")
+    require(near(span(browser), (end / 6, end * 5 / 6)), f"plus shows {span(browser)}")
+    press_all(browser, SHIFT, RIGHT)
+    require(near(span(browser), (end / 3, end)), f"shift and the arrow show {span(browser)}")
+    press_all(browser, SHIFT, LEFT)
+    browser.press("-")
+    require(span(browser)[:2] == [0, end], f"minus shows {span(browser)}")
+    require(browser.run(eye) == before, "keys of a plot move the eye")
+
+    # Below the pointer all panels read the values at its time.
+    move = {"type": "pointerMove", "origin": "viewport", "duration": 0}
+    hover = lambda x, y: browser.call("actions", {"actions": [{"type": "pointer", "id": "mouse", "actions": [{**move, "x": x, "y": y}]}]})
+    read = "return [...document.querySelectorAll('figcaption data')].map((d) => d.textContent);"
+    browser.run("document.querySelectorAll('figure:first-of-type .curve')[1].click();")
+    hover(*in_plot(browser, 0.2))
+    settled(browser)
+    hovered = browser.run(read)
+    at = browser.run("return window.guen.probe.time;")
+    require(abs(at - 0.2 * end) < 0.01 * end and browser.run(f"return {TIME};") == end / 2, "the pointer reads another time, or sets it")
+    kept(pictures, "hands-hover", browser.picture)
+    hover(5, 200)
+    settled(browser)
+    require(browser.run(read) != hovered and browser.run("return window.guen.probe.time;") is None, "the pointer has left, and is read")
+    browser.run("window.guen.player.setTime(arguments[0]);", at)
+    settled(browser)
+    require(browser.run(read) == hovered and len(hovered) == 7, f"below the pointer it reads {hovered}")
+
+    # Two fingers: what they hold stays below them. One finger sets the time.
+    browser.resize(390, 844, mobile=True)
+    browser.devtools("Emulation.setTouchEmulationEnabled", enabled=True, maxTouchPoints=2)
+    settled(browser)
+    touch = lambda kind, *points: browser.devtools("Input.dispatchTouchEvent", type=kind, touchPoints=[{"x": x, "y": y, "id": k} for k, (x, y) in enumerate(points)])
+    hold, spread = [[in_plot(browser, part) for part in parts] for parts in ((0.4, 0.6), (0.1, 0.9))]
+    touch("touchStart", hold[0])
+    touch("touchStart", *hold)
+    for k in range(1, 5):
+        touch("touchMove", *[tuple(round(a + (b - a) * k / 4) for a, b in zip(*pair)) for pair in zip(hold, spread)])
+    touch("touchEnd")
+    settled(browser)
+    # 0.4 and 0.6 of the time are at 0.1 and 0.9 of the plot.
+    require(near(span(browser), (0.375 * end, 0.625 * end)), f"two fingers show {span(browser)}")
+    browser.run("window.guen.span.reset();")
+    settled(browser)
+    touch("touchStart", in_plot(browser, 0.3))
+    touch("touchEnd")
+    settled(browser)
+    require(abs(browser.run(f"return {TIME};") - 0.3 * end) < 0.01 * end, "a finger does not set the time")
+    require(browser.run("return window.guen.probe.time;") is None, "a finger that is gone is read")
+    browser.devtools("Emulation.setTouchEmulationEnabled", enabled=False)
+    quiet(browser)
+
+
+def noise(browser, page):
+    """What is rounding beside the other curves of its panel reads as nothing; a panel of nothing else keeps its values."""
+    load(browser, page)
+    read = "return [...document.querySelectorAll('figcaption data')].map((d) => d.textContent);"
+    found = browser.run(read)
+    require(found[1] == "0", f"rounding reads {found[1]}")
+    require(found[2] == "4.63e−17", f"a panel of small values reads {found[2]}")
+    quiet(browser)
+
+
+def packed(values):
+    return base64.b64encode(struct.pack(f"<{len(values)}f", *values)).decode()
+
+
+def noisy(motion):
+    """Beside a curve of the size one another one of rounding, and a panel with this alone."""
+    count = len(base64.b64decode(motion["times"])) // 8
+    one = {"name": "one", "values": packed([1 - k / count for k in range(count)])}
+    nothing = {"name": "nothing", "values": packed([4.63e-17 * (1 - k / count) for k in range(count)])}
+    motion["panels"] = [{"name": "both", "curves": [one, nothing]}, {"name": "alone", "curves": [nothing]}]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("--pictures", type=pathlib.Path, help="a folder for screenshots")
+    parser.add_argument("--made", action="store_true", help="take the pages as they are, from target/guen")
+    parser.add_argument("checks", nargs="*", help="parts of the names of checks; all if there is none")
+    arguments = parser.parse_args()
+    browser = Browser()
+    if not arguments.made:
+        subprocess.run(["cargo", "run", "--quiet", "--example", "viewer"], cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
+    turntable = target() / "guen/viewer/turntable.html"
+    with tempfile.TemporaryDirectory() as folder, browser:
+        pages = {}
+        for change in (noisy,):
+            pages[change.__name__] = pathlib.Path(folder) / f"{change.__name__}.html"
+            pages[change.__name__].write_text(varied(turntable.read_text(), change))
+        checks = [
+            ("curves on and off", lambda: switched(browser, turntable, arguments.pictures)),
+            ("time zoomed", lambda: zoomed(browser, turntable, arguments.pictures)),
+            ("rounding", lambda: noise(browser, pages["noisy"])),
+        ]
+        wanted = [check for check in checks if not arguments.checks or any(part in check[0] for part in arguments.checks)]
+        return ended(wanted, "as it has to be")
+
+
+if __name__ == "__main__":
+    sys.exit(main())
