@@ -152,6 +152,7 @@ fn turntable(path: &Path) -> Result<(), Box<dyn Error>> {
         .curve("x", |_, state| state[6])
         .curve("y", |_, state| state[7])
         .monitored(&system)
+        .residuals(&turntable::Residuals::NAMES, |t, state| system.residuals(t, &(*state).into()).into())
         .plane([0.0, 0.0, -0.43], [0.0, 0.0, 1.0])
         .write(path)?;
     println!("to play: {}", path.display());

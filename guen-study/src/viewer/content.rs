@@ -104,6 +104,37 @@ impl<const N: usize> Viewer<'_, N> {
             .curve("largest", |t, state| system.residual(t, state))
     }
 
+    /// Curves of what is left of each constraint, by its name in the declaration: for a panel that is folded until somebody asks.
+    ///
+    /// A generated system has the names and the values: `Residuals::NAMES`, and the method `residuals` of what was prepared. Those of
+    /// velocity constraints say how well the velocities keep them, those of holonomic ones how far the coordinates have drifted.
+    ///
+    /// ```
+    /// use guen_study::{Recording, Viewer};
+    ///
+    /// // A point on the unit circle, in steps of Euler's method.
+    /// let mut recording = Recording::new(&["x", "y"]);
+    /// let mut state = [1.0, 0.0];
+    /// for k in 0..100 {
+    ///     recording.record(0.01 * f64::from(k), &state);
+    ///     state = [state[0] - 0.01 * state[1], state[1] + 0.01 * state[0]];
+    /// }
+    /// let page = Viewer::new("Drift", &recording).residuals(&["circle"], |_, [x, y]| [x * x + y * y - 1.0]);
+    /// assert!(page.to_html()?.contains(r#""name":"residuals of the constraints","folded":1"#));
+    /// # Ok::<(), guen_study::StudyError>(())
+    /// ```
+    pub fn residuals<const K: usize>(
+        mut self,
+        names: &[&str; K],
+        values: impl Fn(f64, &[f64; N]) -> [f64; K],
+    ) -> Self {
+        self = self.panel("residuals of the constraints").folded();
+        for (i, name) in names.iter().enumerate() {
+            self = self.curve(*name, |t, state| values(t, state)[i]);
+        }
+        self
+    }
+
     /// A force, or another vector that is no length, as an arrow from a moving point: its foot, and the vector in its own unit.
     ///
     /// Arrows of forces have one scale, with which the largest of them is seen: a quarter of the space that the motion takes up.

@@ -164,6 +164,7 @@ enum LinkKind {
 #[derive(Clone, Debug)]
 struct Panel {
     name: String,
+    is_folded: bool,
     curves: Vec<Curve>,
 }
 
@@ -475,7 +476,25 @@ impl<'a, const N: usize> Viewer<'a, N> {
 
     /// A panel for the curves that follow, with a heading such as `angles in rad`.
     pub fn panel(mut self, name: impl Into<String>) -> Self {
-        self.panels.push(Panel { name: name.into(), curves: Vec::new() });
+        self.panels.push(Panel { name: name.into(), is_folded: false, curves: Vec::new() });
+        self
+    }
+
+    /// Folds the last panel at first: whoever wants to see its curves unfolds it on the page.
+    ///
+    /// ```
+    /// use guen_study::{Recording, Viewer};
+    ///
+    /// let mut recording = Recording::new(&["x"]);
+    /// (0..100).for_each(|k| recording.record(f64::from(k), &[1.0]));
+    /// let page = Viewer::new("Seldom", &recording).panel("seldom looked at").folded().curve("x", |_, x| x[0]);
+    /// assert!(page.to_html()?.contains(r#""name":"seldom looked at","folded":1"#));
+    /// # Ok::<(), guen_study::StudyError>(())
+    /// ```
+    pub fn folded(mut self) -> Self {
+        if let Some(panel) = self.panels.last_mut() {
+            panel.is_folded = true;
+        }
         self
     }
 

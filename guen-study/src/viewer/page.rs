@@ -16,7 +16,7 @@ const LIBRARY: &str = include_str!("vendor/three.min.js");
 /// The page's own style and program, in the order in which they are needed.
 const STYLE: &str = include_str!("page/style.css");
 const BODY: &str = include_str!("page/body.html");
-const PROGRAM: [&str; 15] = [
+const PROGRAM: [&str; 16] = [
     include_str!("page/motion.js"),
     include_str!("page/clock.js"),
     include_str!("page/colours.js"),
@@ -29,6 +29,7 @@ const PROGRAM: [&str; 15] = [
     include_str!("page/plot.js"),
     include_str!("page/panel.js"),
     include_str!("page/player.js"),
+    include_str!("page/frames.js"),
     include_str!("page/bodies.js"),
     include_str!("page/keys.js"),
     include_str!("page/start.js"),
@@ -152,6 +153,9 @@ fn motion<const N: usize>(viewer: &Viewer<'_, N>, space: &Space, notes: &[String
         });
         json.objects("panels", &viewer.panels, |json, panel| {
             json.text("name", &panel.name);
+            if panel.is_folded {
+                json.number("folded", 1.0);
+            }
             json.objects("curves", &panel.curves, |json, curve| {
                 json.text("name", &curve.name);
                 own_times(json, &curve.values);

@@ -46,10 +46,8 @@ function makeLegend(stage, { choose, redraw }) {
 }
 
 /** The chosen body: its place and velocity, and buttons. */
-function makeCard(stage, { follow, hide, redraw }) {
+function makeCard(stage, { follow, hide, label, redraw }) {
   const card = document.getElementById("card");
-  const labels = document.getElementById("labels");
-  const labelled = new Map();
   let chosen = -1;
   const rows = {};
   const element = (tag, text, className) => {
@@ -90,24 +88,10 @@ function makeCard(stage, { follow, hide, redraw }) {
     if (i >= 0) heading.textContent = motion.bodies[i].name;
     redraw();
   }
-  function label(i) {
-    if (labelled.has(i)) {
-      labelled.get(i).remove();
-      labelled.delete(i);
-      return;
-    }
-    const text = element("span", motion.bodies[i].name);
-    labels.append(text);
-    labelled.set(i, text);
-  }
-  const three = (vector) => vector.toArray().map(short).join(", ");
+  /** Entries of a vector, of which those that are rounding beside a size read as nothing. */
+  const three = (vector, size) => vector.toArray().map((entry) => reading(entry, size)).join(", ");
   const [before, after] = [new THREE.Vector3(), new THREE.Vector3()];
   function draw(time) {
-    for (const [i, text] of labelled) {
-      const at = stage.onScreen(stage.movers[i].group.position);
-      text.hidden = at === null || !stage.movers[i].group.visible;
-      if (at) text.style.transform = `translate(${Math.round(at[0])}px, ${Math.round(at[1] + 8)}px)`;
-    }
     if (chosen < 0) return;
     const { group } = stage.movers[chosen];
     const place = group.position.clone().add(new THREE.Vector3(...(motion.origin ?? [0, 0, 0])));
@@ -115,11 +99,11 @@ function makeCard(stage, { follow, hide, redraw }) {
     // The quotient of differences over the samples around the time.
     const [from, to] = stage.around(chosen, time, before, after);
     const velocity = after.clone().sub(before).divideScalar(to - from || 1);
-    rows.place.textContent = three(place);
-    rows.velocity.textContent = three(velocity);
+    rows.place.textContent = three(place, stage.radius);
+    rows.velocity.textContent = three(velocity, Math.max(velocity.length(), stage.radius / motion.end));
     rows.speed.textContent = short(velocity.length());
     const angle = 2 * Math.atan2(Math.hypot(x, y, z), Math.abs(w));
     rows.turned.textContent = `${((angle * 180) / Math.PI).toFixed(1)}°`;
   }
-  return { choose, draw, label };
+  return { choose, draw };
 }

@@ -11,7 +11,7 @@ function listenToKeys({ player, stage, span, setView, redraw }) {
     Home: () => player.setTime(0), End: () => player.setTime(motion.end),
     ",": () => player.toSample(-1), ".": () => player.toSample(1),
     Escape: span.reset,
-    l: click("loop"), f: click("follow"), r: click("reset"), 0: click("fit"),
+    l: click("loop"), f: click("follow"), a: click("axes"), n: click("names"), r: click("reset"), 0: click("fit"),
   };
   if (stage) {
     const nearer = (factor) => () => {

@@ -27,8 +27,10 @@ function makeCaption(panel, figure, changed) {
   heading.textContent = panel.name;
   fold.append(heading);
   fold.title = "fold or unfold";
+  const turn = () => figure.classList.toggle("folded", !toggle(fold, "aria-expanded"));
+  if (panel.folded) turn();
   fold.addEventListener("click", () => {
-    figure.classList.toggle("folded", !toggle(fold, "aria-expanded"));
+    turn();
     changed();
   });
   caption.append(fold);
@@ -52,7 +54,6 @@ function makeCaption(panel, figure, changed) {
   });
   const factor = document.createElement("small");
   caption.append(factor);
-  if (panel.folded) fold.click();
   return { caption, entries, factor };
 }
 

@@ -34,7 +34,7 @@ function makeStage() {
     const holder = new THREE.Group();
     holder.add(group);
     scene.add(holder);
-    return { link, group, holder };
+    return { link, group, holder, middle: new THREE.Vector3() };
   });
   const paths = motion.paths.map((path, i) => makePath(scene, path, () => solidInk(slots.path(i))));
 
@@ -120,11 +120,12 @@ function makeStage() {
       q.fromArray(poses, 7 * at.k + 10);
       group.quaternion.slerpQuaternions(p, q, at.part);
     }
-    for (const { link: { ends, times }, group } of links) {
+    for (const { link: { ends, times }, group, middle } of links) {
       const at = locate(time, times);
       a.set(between(ends, 6, 0, at), between(ends, 6, 1, at), between(ends, 6, 2, at));
       b.set(between(ends, 6, 3, at), between(ends, 6, 4, at), between(ends, 6, 5, at)).sub(a);
       group.position.copy(a);
+      middle.copy(a).addScaledVector(b, 0.5);
       const length = b.length();
       if (length > 0) group.quaternion.setFromUnitVectors(zAxis, b.divideScalar(length));
       group.userData.stretch(length);
@@ -229,7 +230,7 @@ function makeStage() {
 
   const shown = { body: (i, on) => (movers[i].group.visible = on), link: (i, on) => (links[i].holder.visible = on), path: (i, on) => paths[i].show(on) };
   return {
-    place, draw, print, around, look: lookAt, fit, turn, zoom, setFollowing, onScreen, bodyAt, shown, ground, controls, camera, movers,
+    place, draw, print, around, look: lookAt, fit, turn, zoom, setFollowing, onScreen, bodyAt, shown, ground, controls, camera, movers, links,
     radius, center, canFollow: movers.length > 0,
   };
 }

@@ -44,12 +44,14 @@ const player = makePlayer((time) => {
     stage.place(time);
     stage.draw(player.state.playing);
     card.draw(time);
+    tags.draw();
   }
   for (const panel of panels) panel.draw(time, repaint);
   repaint = false;
 });
 
-const card = stage && makeCard(stage, { follow: (i) => setFollowing(true, i), hide: (i) => legend.hide(i), redraw });
+const tags = stage && makeLabels(stage);
+const card = stage && makeCard(stage, { follow: (i) => setFollowing(true, i), hide: (i) => legend.hide(i), label: (i) => tags.toggle(i), redraw });
 const legend = makeLegend(stage, { choose: (i) => card.choose(i), redraw });
 
 // Light, dark, colours that are forced, paper.
@@ -96,6 +98,14 @@ if (stage && stage.canFollow) {
   follow.hidden = true;
 }
 if (stage) {
+  const axes = makeAxes(stage);
+  for (const [id, made] of [["axes", axes], ["names", tags]]) {
+    onOff(id, (on) => {
+      made.show(on);
+      redraw();
+    });
+  }
+  byId("axes").hidden = motion.bodies.length === 0;
   // What the mouse has turned is none of the views in the list.
   stage.controls.addEventListener("start", () => (view.value = "own"));
   stage.controls.addEventListener("change", redraw);
