@@ -6,7 +6,7 @@
 //! | --- | --- |
 //! | what happened? | [`Recording`]: times and states, in bounded memory if wanted, and CSV |
 //! | what becomes of a `Trajectory`? | [`Export`]: recordings, tables, plots and pages of it |
-//! | how long will it take? | [`Progress`]: a line on the terminal during long runs |
+//! | how long will it take? | [`Progress`]: a line on the terminal, or a few in a log file, during long runs |
 //! | how good is it? | [`Monitor`] and its [`InvariantErrors`]; [`drift`] and [`residuals`] as curves |
 //! | what are the numbers? | [`Table`], aligned for a terminal; [`significant`] for one number |
 //! | where does it go? | [`replace_file`]: files that are written whole or not at all, as every writer here does |

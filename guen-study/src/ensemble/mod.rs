@@ -34,7 +34,7 @@ pub struct Sampled<const N: usize> {
 ///   them integrates several trajectories at once in lanes. Neither changes a bit of any result. What is too little for a
 ///   second thread, because that would take longer to start, is done without one.
 /// - A trajectory that fails, because its motion leaves the domain or grows out of range, fails alone.
-/// - Long runs show their [`Progress`](crate::Progress) on a terminal.
+/// - Long runs show their [`Progress`](crate::Progress), unless the environment variable `GUEN_PROGRESS` is `never`.
 ///
 /// ```
 /// use guen_runtime::lanes::Lanes;

@@ -307,7 +307,7 @@ impl<S, const N: usize> Study<S, N> {
         Self { budget, ..self }
     }
 
-    /// Shows a line on the terminal, once two seconds are over, that says how much is done and how much is left.
+    /// Shows how much is done and how much is left, once two seconds are over: a [`Progress`](crate::Progress).
     #[must_use]
     pub fn show_progress(self) -> Self {
         Self { progress: true, ..self }

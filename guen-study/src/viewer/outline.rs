@@ -110,10 +110,13 @@ fn between(a: [f64; 3], b: [f64; 3], part: f64) -> [f64; 3] {
 /// Shapes larger than this part of the motion are drawn first: others move on or before them.
 const LARGE: f64 = 0.3;
 
-/// Something to be drawn, how far from the eye it is, and how large.
+/// Something to be drawn, where it is, how far from the eye, and how large.
 struct Part {
+    at: [f64; 3],
     depth: f64,
     reach: f64,
+    /// The normal of the plane that it lies in.
+    normal: [f64; 3],
     svg: String,
 }
 
@@ -174,12 +177,19 @@ pub(super) fn drawn<const N: usize>(
         });
     }
     parts.sort_by(|a, b| b.depth.total_cmp(&a.depth));
-    // A table is below what goes on it.
+    // A table is below what goes on it, and before what is below it: other shapes are on either side of a large one.
     let (large, small): (Vec<_>, Vec<_>) =
         parts.into_iter().partition(|part| part.reach > LARGE * eye.radius);
-    svg.extend(large.into_iter().map(|part| part.svg));
+    let is_behind = |small: &Part| {
+        large.iter().any(|table| {
+            let side = |place: [f64; 3]| dot(difference(place, table.at), table.normal);
+            side(small.at) * side(eye.place) < 0.0
+        })
+    };
+    let (behind, before): (Vec<_>, Vec<_>) = small.into_iter().partition(is_behind);
+    svg.extend(behind.into_iter().chain(large).map(|part| part.svg));
     svg += &tracks;
-    svg.extend(small.into_iter().map(|part| part.svg));
+    svg.extend(before.into_iter().map(|part| part.svg));
     svg
 }
 
@@ -304,7 +314,13 @@ fn solid(eye: &Eye, pose: &Pose, shape: &Shape, ink: &str) -> Option<Part> {
             part.svg
         }
     };
-    Some(Part { depth, reach: shape.reach(), svg })
+    let thin = match shape.kind {
+        Kind::Cuboid([a, b, c]) if a < b.min(c) => [1.0, 0.0, 0.0],
+        Kind::Cuboid([a, b, c]) if b < a.min(c) => [0.0, 1.0, 0.0],
+        Kind::Sphere(_) | Kind::Arrow(_) => [0.0; 3],
+        Kind::Cuboid(_) | Kind::Cylinder(_) | Kind::Ring(_) => [0.0, 0.0, 1.0],
+    };
+    Some(Part { at: center, depth, reach: shape.reach(), normal: difference(world(thin), center), svg })
 }
 
 /// A straight bar.
@@ -314,7 +330,7 @@ fn bar(eye: &Eye, from: [f64; 3], to: [f64; 3], radius: f64, ink: &str) -> Optio
     let ends = pairs([eye.sees(from)?.0, eye.sees(to)?.0].into_iter());
     let width = (2.0 * scale * radius).max(1.2);
     let svg = format!("<polyline points=\"{ends}\" stroke=\"{ink}\" stroke-width=\"{width:.1}\"/>\n");
-    Some(Part { depth: eye.depth(middle), reach: 0.0, svg })
+    Some(Part { at: middle, depth: eye.depth(middle), reach: 0.0, normal: [0.0; 3], svg })
 }
 
 /// An arrow: a bar, and a head that points where it leads in the picture.

@@ -486,3 +486,22 @@ fn pictures_are_seen_from_where_the_page_is() {
     near(points(|t| [0.0, 0.0, t], [0.0, -1.0, 0.0]), [320.0, 200.0 + half, 320.0, 200.0 - half]);
     near(points(|t| [0.0, t, 0.0], [0.0, 0.0, 1.0]), [320.0, 200.0 + half, 320.0, 200.0 - half]);
 }
+
+#[test]
+fn what_is_below_a_table_is_behind_it() {
+    let recording = recorded(1);
+    let order = |height: f64, from: [f64; 3]| {
+        let page = Viewer::new("v", &recording)
+            .body("table", [Shape::disc(1.0, 0.05).coloured(0x13_57_99)], |_, _| Pose::at([0.0; 3]))
+            .body("ball", [Shape::sphere(0.1).coloured(0x24_68_88)], move |_, _| {
+                Pose::at([0.0, -0.1, height])
+            })
+            .seen_from(from)
+            .to_html()
+            .unwrap();
+        let scene = still(&page).split_once("</figure>").unwrap().0.to_owned();
+        scene.find("#135799").unwrap() < scene.find("#246888").unwrap()
+    };
+    assert!(order(0.2, [0.0, -1.0, 0.5]) && !order(-0.2, [0.0, -1.0, 0.5]));
+    assert!(!order(0.2, [0.0, -1.0, -0.5]) && order(-0.2, [0.0, -1.0, -0.5]));
+}
