@@ -45,6 +45,8 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+#[cfg(test)]
+mod bad_input;
 mod cell;
 mod ensemble;
 mod error;

@@ -103,10 +103,17 @@ fn drawn(plot: &Plot) -> Result<(String, String), StudyError> {
     Ok((head.to_owned(), rest.trim_start_matches('\n').to_owned()))
 }
 
+/// A text without the characters that no XML may have, not even as references: one such would make the file no picture.
+fn legible(text: &str) -> String {
+    let is_forbidden =
+        |c: char| c.is_control() && !matches!(c, '\t' | '\n' | '\r') || matches!(c, '\u{fffe}' | '\u{ffff}');
+    text.replace(is_forbidden, "\u{fffd}")
+}
+
 /// Title and description, which browsers and screen readers tell.
 fn described(plot: &Plot) -> String {
     let escaped = |text: &str| {
-        text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+        legible(text).replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
     };
     let labels: Vec<_> =
         plot.drawn().map(|curve| escaped(&curve.label)).filter(|label| !label.is_empty()).collect();
@@ -355,7 +362,7 @@ impl Painter<'_> {
             return Ok(());
         }
         let font = ("sans-serif", size * FINE * EM).into_font().transform(transform);
-        self.canvas.draw(&Text::new(text, fine(at), font.color(&INK[0]).pos(pos)))
+        self.canvas.draw(&Text::new(legible(text), fine(at), font.color(&INK[0]).pos(pos)))
     }
 }
 
