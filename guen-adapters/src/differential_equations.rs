@@ -28,7 +28,7 @@ use guen_runtime::Linearizable;
 pub struct Adapted<S, const M: usize> {
     /// The system.
     pub system: S,
-    /// Its inputs.
+    /// The inputs.
     pub inputs: [f64; M],
 }
 

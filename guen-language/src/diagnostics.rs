@@ -15,7 +15,7 @@ extern crate proc_macro;
 /// The line that ends the last error of a declaration: where all of them are explained. Once, however many there are.
 pub const POINTER: &str = "note: the book, under \"Errors\", has an example and a repair of every error";
 
-/// One mistake, at the smallest token that carries it.
+/// A mistake of the user, at the smallest token that carries it.
 #[derive(Debug, Clone)]
 pub struct Fault {
     span: Span,
@@ -153,7 +153,7 @@ impl Report {
         })
     }
 
-    /// One `compile_error!` item for each fault, at its place.
+    /// Returns one `compile_error!` item for each fault, at its place.
     pub fn to_compile_errors(&self) -> TokenStream {
         self.errors().map(|(span, text)| quote_spanned!(span=> ::core::compile_error! { #text })).collect()
     }

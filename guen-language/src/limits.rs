@@ -6,25 +6,25 @@
 /// a compiler thread.
 pub const MAX_DEPTH: usize = 128;
 
-/// Most coordinates of a system: the brackets grow as the cube of this number.
+/// The most coordinates of a system: the brackets grow as the cube of this number.
 pub const MAX_COORDINATES: usize = 200;
 
-/// Most entries of any other section, and most `let` definitions.
+/// The most entries of any other section, and most `let` definitions.
 pub const MAX_ENTRIES: usize = 1000;
 
-/// Most sums of products of a Taylor series: while one is computed they are on the stack.
+/// The most sums of products of a Taylor series: while one is computed they are on the stack.
 pub const MAX_SERIES_SUMS: usize = 1_500;
 
-/// Most scenes: each is derived anew.
+/// The most scenes: each is derived anew.
 pub const MAX_SCENES: usize = 64;
 
-/// Most tokens of a declaration.
+/// The most tokens of a declaration.
 pub const MAX_TOKENS: usize = 200_000;
 
 /// Numbers from 10^-400 to 10^400 are accepted, far wider than any quantity of physics in any unit.
 pub const MAX_DECIMAL_ORDER: i64 = 400;
 
-/// Most significant digits of a number, counted without leading and trailing zeros.
+/// The most significant digits of a number, counted without leading and trailing zeros.
 pub const MAX_DIGITS: usize = 500;
 
 /// Deepest nesting of an expression together with what its names stand for, in operations after algebra. Reached
@@ -34,8 +34,8 @@ pub const MAX_TOTAL_DEPTH: u32 = 2_000;
 /// Highest power that algebra may put together: `(x^64)^64` is beyond it.
 pub const MAX_EXPONENT: i32 = 1_000;
 
-/// Most different factors of a product: its derivatives grow as the square.
+/// The most different factors of a product: its derivatives grow as the square.
 pub const MAX_FACTORS: usize = 100;
 
-/// Most bits of a numerator or denominator that algebra may put together: about 10^400.
+/// The most bits of a numerator or denominator that algebra may put together: about 10^400.
 pub const MAX_NUMBER_BITS: u64 = 1_330;

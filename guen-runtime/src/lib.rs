@@ -24,8 +24,8 @@
 //!
 //! - `nalgebra`: re-exports that crate, and [`nalgebra_conversions!`] has an effect.
 //! - `serde`: re-exports that crate, and [`serde_record!`] has an effect.
-//! - `alloc`: [`Simulate::simulate`] and the [`Trajectory`] that it returns. Nothing else allocates.
-//! - `std`: `alloc`; [`Std`], the platform's elementary functions; [`lanes`] chosen at run time, and not by the target of the
+//! - `alloc`: `Simulate::simulate` and the `Trajectory` that it returns. Nothing else allocates.
+//! - `std`: `alloc`; `Std`, the platform's elementary functions; [`lanes`] chosen at run time, and not by the target of the
 //!   build. Without it everything else gives the same bits.
 #![cfg_attr(docsrs, feature(doc_cfg))]
 #![no_std]

@@ -224,7 +224,7 @@ impl<const N: usize> Recording<N> {
         self.column(i).zip(self.column(j))
     }
 
-    /// At most `count` samples, the nearest to times at equal distances from the first to the last; each at most
+    /// Returns at most `count` samples, the nearest to times at equal distances from the first to the last; each at most
     /// once, and first and last among them if `count` is two or more. For the rows of a [`Table`](crate::Table).
     ///
     /// The times must rise or fall throughout.

@@ -4,7 +4,7 @@ use std::fmt;
 
 /// The digits shown unless others are chosen.
 const DIGITS: usize = 6;
-/// More digits than these say nothing of an `f64`.
+/// The most digits that say something of an `f64`.
 const MOST_DIGITS: usize = 17;
 /// Decimal exponents from which on, and below which, a number is written with an exponent.
 const PLAIN: std::ops::Range<i32> = -4..6;

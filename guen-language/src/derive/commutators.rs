@@ -2,7 +2,7 @@
 
 use guen_symbolic::{Derivation, ExprId};
 
-use super::level::Commutator;
+use super::commutator::Commutator;
 use super::{fixed, manifold, parts};
 use crate::model::Model;
 

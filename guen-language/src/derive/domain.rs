@@ -75,7 +75,7 @@ fn listed(names: &[&str]) -> String {
     }
 }
 
-/// Where a function of the chart comes from, and at which states it vanishes if more can be said of them than that it does.
+/// Returns the origin of a function of the chart, and the states at which it vanishes if more can be said of them than that it does.
 pub(super) fn reason(graph: &Graph, e: ExprId, origin: &str) -> String {
     match zeros(graph, e) {
         Some(places) if !places.is_empty() && !matches!(&places[..], [Zero::Plain(known)] if *known == e) => {

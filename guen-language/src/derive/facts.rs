@@ -6,7 +6,7 @@ use super::closure::{Quadrature, Reason};
 
 /// The facts about a scene that its documentation tells beside its formulas.
 pub struct SceneFacts {
-    /// Its index in the model.
+    /// The index in the model.
     pub index: usize,
     /// Why each variable is kept, by its place in the whole state; none for those that left.
     pub reasons: Vec<Option<Reason>>,

@@ -2,8 +2,8 @@
 
 use guen_symbolic::{Derivation, ExprId};
 
+use super::commutator::Commutator;
 use super::function;
-use super::level::Commutator;
 use crate::model::Model;
 
 /// A function beside the right-hand side, by its name, and what it computes.
@@ -18,7 +18,7 @@ pub(super) fn rates(derivation: &Derivation) -> Vec<Vec<ExprId>> {
     wanted.map(|formulated| formulated.rates.clone()).collect()
 }
 
-/// All other functions, in the order in which they are built.
+/// Returns all other functions, in the order in which they are built.
 pub(super) fn whole(
     model: &mut Model<'_>,
     derivation: &Derivation,

@@ -4,6 +4,7 @@ use std::rc::Rc;
 
 use guen_symbolic::{Contracted, Derivation, ExprId, FunctionProgram, Programs, SeriesProgram};
 
+use super::commutator::Commutator;
 use super::facts::SceneFacts;
 use super::jacobians::Jacobians;
 use super::missing_bounds::MissingBounds;
@@ -17,7 +18,7 @@ pub struct Derived<'a> {
     pub model: Model<'a>,
     /// The system itself.
     pub system: Level,
-    /// Its scenes, in order.
+    /// The scenes, in order.
     pub scenes: Vec<Level>,
 }
 
@@ -74,20 +75,10 @@ impl Level {
 
 /// The recurrences of a level's Taylor series.
 pub struct Series {
-    /// With inputs that are held.
+    /// The series with inputs that are held.
     pub held: SeriesProgram,
-    /// With inputs that have series of their own, if there are inputs and the motion is analytic in them.
+    /// The series with inputs that have series of their own, if there are inputs and the motion is analytic in them.
     pub along_inputs: Option<SeriesProgram>,
-}
-
-/// A bracket `(X_r, X_s)`, `r < s`, that does not vanish identically.
-pub struct Commutator {
-    /// The first operator.
-    pub r: usize,
-    /// The second operator.
-    pub s: usize,
-    /// `C_rs1 .. C_rsn`.
-    pub coefficients: Vec<ExprId>,
 }
 
 /// A level of detail on its way to Rust items: the system itself, or one of its scenes. Report and emission read the same.

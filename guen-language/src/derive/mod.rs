@@ -3,6 +3,7 @@
 mod carried;
 mod cheapest;
 mod closure;
+mod commutator;
 mod commutators;
 mod control;
 mod domain;
@@ -35,11 +36,12 @@ use programs::{add_mass, extend, programs};
 use readable::{equations, polish, shown};
 
 pub use closure::{Quadrature, Reason};
+pub use commutator::Commutator;
 pub(crate) use control::{has_covector, known_combinations};
 pub use facts::SceneFacts;
 pub use jacobians::Jacobians;
 pub(crate) use level::Subject;
-pub use level::{Commutator, Derived, Level, Series};
+pub use level::{Derived, Level, Series};
 pub use missing_bounds::MissingBounds;
 pub use selection::{Held, Place, Selection};
 

@@ -2,11 +2,11 @@
 
 use guen_symbolic::{Contracted, Dependence, Derivation, ExprId, Graph, Substitution, Workbench};
 
+use super::commutator::Commutator;
 use super::domain::{constant_pivots, domain, reason, written};
 use super::fixed::Holding;
 use super::formulas::{self, Quantity};
 use super::function;
-use super::level::Commutator;
 use super::manifold::Replacement;
 use super::selection::Selection;
 use crate::model::Model;

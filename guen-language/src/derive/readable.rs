@@ -1,11 +1,11 @@
-//! How a derivation is written: energies and momenta as polynomials where that is cheaper, the equations as expressions that
+//! The written form of a derivation: energies and momenta as polynomials where that is cheaper, the equations as expressions that
 //! vanish, sines and cosines of sums.
 
 use guen_symbolic::{
     Contracted, Derivation, ExprId, Graph, Limits, Workbench, normal_coefficients, weighted_cost,
 };
 
-use super::level::Commutator;
+use super::commutator::Commutator;
 use crate::model::Model;
 
 /// `sum_t M_st eta_t' - f_s`.

@@ -6,11 +6,12 @@ use guen_symbolic::{Dependence, Derivation, ExprId, Substitution, Workbench};
 
 use super::cheapest::cheapest;
 use super::closure::{Flow, Reason};
+use super::commutator::Commutator;
 use super::commutators::commutators;
 use super::facts::SceneFacts;
 use super::fixed::{self, Holding};
 use super::jacobians::Jacobians;
-use super::level::{Commutator, Level};
+use super::level::Level;
 use super::manifold::{Replacement, quaternions};
 use super::parts::{Functions, View, parts, replaced};
 use super::readable::{polish, shown};

@@ -10,7 +10,7 @@ pub type Place = usize;
 /// A variable that a scene holds at its initial value: a constant of the scene.
 #[derive(Clone, Copy, Debug)]
 pub struct Held {
-    /// Its place in the state of the whole system.
+    /// The place in the state of the whole system.
     pub place: Place,
     /// The symbol of the constant.
     pub symbol: ExprId,

@@ -176,7 +176,7 @@ fn prepared(subject: &Subject<'_, '_>, layout: &Layout, base: &Layout, invariant
                 State { #(#fields: state.#fields,)* #(#parts: values[#indices]),* }
             }
 
-            /// How far the carried functions are from what they stand for, at the coordinates and parameters of the
+            /// Returns the distance of the carried functions from what they stand for, at the coordinates and parameters of the
             /// state: the largest `|w - f|/(1 + |f|)`. One elementary call for each.
             pub fn drift(&self, t: R, state: &State<R>) -> R {
                 let all: [R; #size] = ::core::convert::From::from(*state);

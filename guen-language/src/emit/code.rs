@@ -216,7 +216,7 @@ impl Writer {
         }
     }
 
-    /// One statement for two sines and cosines, unless they are none, or one is of the other.
+    /// Writes one statement for two sines and cosines, unless they are none, or one is of the other.
     fn pair(&mut self, first: &Instruction, second: &Instruction) -> bool {
         let (Operation::SinCos { angle, cosine }, Operation::SinCos { angle: next, cosine: next_cosine }) =
             (&first.operation, &second.operation)

@@ -110,7 +110,7 @@ pub(super) fn modules(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream
     tokens(&text)
 }
 
-/// One module, `more` at its end.
+/// Writes a module, `more` at its end.
 fn module(name: &str, programs: &Programs, more: &str, subject: &Subject<'_, '_>, layout: &Layout) -> String {
     let (places, everywhere) = (Places::new(subject, false), Places::new(subject, true));
     let Layout { n, l, size, all, constants, inputs, .. } = layout;

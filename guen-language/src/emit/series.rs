@@ -59,7 +59,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     }
 }
 
-/// One or more values defined by a statement.
+/// A statement that defines one or more values.
 struct Statement {
     defines: Vec<String>,
     uses: Vec<String>,
@@ -124,7 +124,7 @@ pub(super) fn functions(series: &Series, loads: &dyn Loads, layout: &Layout) -> 
     text
 }
 
-/// One of them. Where inputs have series, `u` gives their coefficients, order by order: `g` of order zero, `y` of order `m`.
+/// Writes one of the functions. Where inputs have series, `u` gives their coefficients, order by order: `g` of order zero, `y` of order `m`.
 fn function(series: &SeriesProgram, along_inputs: bool, loads: &dyn Loads, layout: &Layout) -> String {
     let Layout { size, constants, hoisted, inputs, .. } = layout;
     let mut writer = Writer { series, loads, states: *size, kept: BTreeMap::new() };

@@ -147,9 +147,9 @@ pub enum FormKind {
     Holonomic,
 }
 
-/// One of the `n` forms.
+/// An entry of the list of the `n` forms.
 pub struct FormEntry<'a> {
-    /// Its name, with the component where a vector was written.
+    /// The name, with the component where a vector was written.
     pub name: String,
     /// The entry's name as written.
     pub written: &'a Name,
@@ -171,9 +171,9 @@ pub struct RedundantEntry<'a> {
 
 /// The mass, inertia, centre and orientation of a body.
 pub struct BodyEntry {
-    /// Its name.
+    /// The name.
     pub name: String,
-    /// Its mass, if it has one.
+    /// The mass, if there is one.
     pub mass: Option<ExprId>,
     /// The matrix entries `xx, yy, zz, xy, yz, zx` of its inertia, if it has one.
     pub inertia: Option<[ExprId; 6]>,
@@ -199,7 +199,7 @@ pub struct SceneEntry<'a> {
 pub struct FixedConstant<'a> {
     /// The name after `fix`.
     pub name: &'a Name,
-    /// Its symbol.
+    /// The symbol.
     pub symbol: ExprId,
     /// The value, a number or made of constants that are not fixed.
     pub value: ExprId,

@@ -40,7 +40,7 @@ fn axis(graph: &Graph, i: usize) -> Vector {
 }
 
 impl Shapes {
-    /// Nothing is known yet.
+    /// Creates the structure in which nothing is known yet.
     pub(super) fn new(graph: &Graph) -> Self {
         Shapes {
             system: SystemGraph::new(graph),

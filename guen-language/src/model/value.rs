@@ -32,13 +32,13 @@ pub(super) struct Turn {
 /// A rigid body as a value.
 #[derive(Clone)]
 pub(super) struct BodyValue {
-    /// Its name.
+    /// The name.
     pub(super) name: String,
     /// Position and velocity of the mass centre, if it has one.
     pub(super) center: Option<(Vector, Vector)>,
-    /// Its orientation, if it has one.
+    /// The orientation, if it has one.
     pub(super) orientation: Option<Rotation>,
-    /// Its mass, if it has one.
+    /// The mass, if it has one.
     pub(super) mass: Option<ExprId>,
     /// The matrix entries `xx, yy, zz, xy, yz, zx` of its inertia, if it has one.
     pub(super) inertia: Option<[ExprId; 6]>,

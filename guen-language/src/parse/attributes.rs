@@ -6,7 +6,7 @@ use super::cursor::Cursor;
 use crate::diagnostics::{Fault, Faults, Reported};
 use crate::syntax::Docs;
 
-/// All attributes that stand here. One that is no doc comment is reported and left out; an error if nothing
+/// Reads all attributes that stand here. One that is no doc comment is reported and left out; an error if nothing
 /// follows that they could belong to.
 pub(crate) fn docs(cursor: &mut Cursor, faults: &mut Faults) -> Result<Docs, Reported> {
     let mut docs = Docs::default();

@@ -15,18 +15,18 @@ pub(crate) struct Cursor {
 }
 
 impl Cursor {
-    /// At the beginning of a stream that ends at a place.
+    /// Creates a cursor at the beginning of a stream that ends at a place.
     pub(crate) fn new(stream: TokenStream, end: Span) -> Self {
         Cursor { tokens: stream.into_iter().collect(), at: 0, end, has_sections: false }
     }
 
-    /// At the beginning of what a group holds.
+    /// Creates a cursor at the beginning of what a group holds.
     pub(crate) fn inside(group: &Group) -> Self {
         let end = if group.delimiter() == Delimiter::None { group.span() } else { group.span_close() };
         Cursor::new(group.stream(), end)
     }
 
-    /// At the beginning of what the braces of a system hold.
+    /// Creates a cursor at the beginning of what the braces of a system hold.
     pub(crate) fn inside_system(group: &Group) -> Self {
         Cursor { has_sections: true, ..Cursor::inside(group) }
     }
@@ -188,7 +188,7 @@ impl Cursor {
         }
     }
 
-    /// After a fault: goes on to the end of the entry, behind its `;`.
+    /// Recovers from a fault: goes on to the end of the entry, behind its `;`.
     pub(crate) fn recover(&mut self) {
         while !self.is_end() && !self.starts_section() {
             if self.eat(';').is_some() {
@@ -198,7 +198,7 @@ impl Cursor {
         }
     }
 
-    /// After a fault in a list with commas: goes on to the next `,` or `;`, without taking it.
+    /// Recovers from a fault in a list with commas: goes on to the next `,` or `;`, without taking it.
     pub(crate) fn recover_to_comma(&mut self) {
         while !self.is_end() && !self.is_punct(',') && !self.is_punct(';') {
             self.skip(1);

@@ -14,7 +14,7 @@ use crate::syntax::{Declaration, Docs, Item, Name, Section, SectionKind, Visibil
 
 const HELP_SYSTEM: &str = "a declaration reads `pub system Name { .. }`";
 
-/// One invocation of the macro.
+/// Reads an invocation of the macro.
 pub(crate) fn declaration(tokens: TokenStream, faults: &mut Faults) -> Option<Declaration> {
     if has_too_many_tokens(&tokens) {
         faults
@@ -197,7 +197,7 @@ fn missing(progress: &Progress, faults: &mut Faults, name: &Name) {
     }
 }
 
-/// One section, definition or scene.
+/// Reads a section, a definition or a scene.
 fn item(cursor: &mut Cursor, faults: &mut Faults, progress: &mut Progress) -> Result<(), Reported> {
     let docs = docs(cursor, faults)?;
     if cursor.is_word("pub") {

@@ -21,7 +21,7 @@ pub(crate) fn expression(cursor: &mut Cursor, faults: &mut Faults) -> Parsed {
     sum(cursor, faults, 0)
 }
 
-/// All tokens of a stream as one expression.
+/// Reads all tokens of a stream as one expression.
 pub(crate) fn whole(tokens: TokenStream, faults: &mut Faults) -> Expression {
     inside(Cursor::new(tokens, Span::call_site()), faults, 0, "the end")
 }
@@ -377,7 +377,7 @@ pub(crate) fn arguments(group: &Group, faults: &mut Faults, depth: usize) -> Vec
     arguments
 }
 
-/// One level of nesting further, as long as there are any.
+/// Returns the next level of nesting, as long as there are any.
 fn deeper(depth: usize, span: Span, faults: &mut Faults) -> Result<usize, Reported> {
     if depth < MAX_DEPTH {
         return Ok(depth + 1);

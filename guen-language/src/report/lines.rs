@@ -24,7 +24,7 @@ impl Section {
 pub struct Report {
     /// The system's name.
     pub name: String,
-    /// One sentence.
+    /// A sentence that sums up the system.
     pub summary: String,
     /// The sections, in order.
     pub sections: Vec<Section>,
@@ -46,7 +46,7 @@ pub(super) const TOO_LONG: &str = ".. (too long to print)";
 /// The formula in place of a longer one.
 pub(super) const LATEX_TOO_LONG: &str = r"\ldots";
 
-/// Both ways of writing.
+/// The two notations of a report, text and LaTeX.
 pub(super) struct Writer<'g> {
     pub(super) text: Notation<'g>,
     pub(super) latex: Notation<'g>,

@@ -90,7 +90,7 @@ impl Parser<'_> {
         out.push_str(&format!("<{tag}>{}{scripts}</{tag}>", single(&base)));
     }
 
-    /// One group, or one atom, as one element.
+    /// Writes a group, or an atom, as one element.
     fn argument(&mut self, out: &mut String) {
         if self.eat("{") {
             out.push_str("<mrow>");
@@ -243,7 +243,7 @@ fn lead(out: &str) -> &'static str {
     if out.ends_with("<math displaystyle=\"true\"><mrow>") { " lspace=\"0.05em\"" } else { "" }
 }
 
-/// One element, whatever the number of those inside.
+/// Returns one element, whatever the number of those inside.
 fn single(elements: &str) -> String {
     format!("<mrow>{elements}</mrow>")
 }

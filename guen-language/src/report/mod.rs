@@ -369,7 +369,7 @@ fn domain(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
     section
 }
 
-/// Where each of these functions comes from, and at which states it vanishes.
+/// The section on the edges of the chart: the origin of each function, and the states at which it vanishes.
 fn edges(subject: &Subject<'_, '_>) -> Section {
     let edges = subject.level.domain_names.iter().zip(&subject.level.domain_reasons);
     Section::words("Edges of the chart", edges.map(|(name, reason)| format!("`{name}`: {reason}")).collect())

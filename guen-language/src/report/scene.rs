@@ -9,7 +9,7 @@ fn facts<'d>(subject: &Subject<'d, '_>) -> &'d SceneFacts {
     subject.level.scene.as_ref().expect("a report of a scene")
 }
 
-/// One sentence.
+/// Returns the sentence that sums up a scene.
 pub(super) fn summary(subject: &Subject<'_, '_>) -> String {
     let facts = facts(subject);
     let of = &subject.model.declaration.name;

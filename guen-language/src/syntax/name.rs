@@ -46,7 +46,7 @@ pub struct Docs {
 /// The visibility of the generated items.
 #[derive(Debug, Clone)]
 pub enum Visibility {
-    /// Nothing written: the module around the invocation.
+    /// The module around the invocation: no visibility is written.
     Private,
     /// `pub`.
     Public(Span),

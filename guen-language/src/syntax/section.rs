@@ -4,7 +4,7 @@ use proc_macro2::{Span, TokenStream};
 
 use super::{Docs, Expression, Name, Visibility};
 
-/// One `system`.
+/// A declaration: one `system` with its sections.
 #[derive(Debug, Clone)]
 pub struct Declaration {
     /// The path after `crate =`: how the facade is called in the user's crate, where that is not `::guen`.

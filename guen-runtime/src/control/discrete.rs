@@ -32,7 +32,7 @@ impl fmt::Display for DiscreteError {
 
 impl Error for DiscreteError {}
 
-/// One period `h` of the linear model that was frozen at its beginning, inputs held.
+/// The linear model over one period `h`, frozen at its beginning, with inputs held.
 ///
 /// ```text
 /// Phi = exp(A h)      Psi = integral_0^h exp(A tau) dtau      Gamma = Psi B      offset = Psi r
@@ -151,7 +151,7 @@ pub fn c2d<R: Ordered, const N: usize, const M: usize>(
     Ok(Linearization { a: phi, b: gamma })
 }
 
-/// One period of the system itself, inputs held, and the exact derivatives of what a fixed-step method makes of it.
+/// The system itself over one period, with inputs held, and the exact derivatives of the fixed-step method's result.
 ///
 /// ```text
 /// next = phi_h(s, u)      Phi = d next / d s      Gamma = d next / d u

@@ -83,7 +83,7 @@ pub fn poles<R: Ordered, const N: usize>(a: &[[R; N]; N]) -> Option<[Pole<R>; N]
 pub enum PlaceError {
     /// A complex pole without its conjugate: the feedback would be complex.
     Unpaired {
-        /// Its place in the list.
+        /// The place in the list.
         pole: usize,
     },
     /// The input does not reach every mode.

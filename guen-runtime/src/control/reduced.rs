@@ -203,7 +203,7 @@ impl<R: Real, const S: usize, const M: usize, const Z: usize> Reduced<R, S, M, Z
 pub struct Leaf<'a, R, const N: usize, const H: usize> {
     /// The coordinates.
     pub coordinates: [R; N],
-    /// Their rates.
+    /// The rates of the coordinates.
     pub velocities: [R; N],
     /// The differentials of the integrable combinations by the coordinates, a row for each: `F dx = 0` on the leaf.
     pub rows: [[R; N]; H],

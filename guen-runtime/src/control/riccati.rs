@@ -338,7 +338,7 @@ fn settled<R: Ordered, const N: usize, const M: usize>(
     residual: impl Fn(&[[R; N]; N], &[[R; N]; M]) -> [[R; N]; N],
     sum_of: impl Fn(&[[R; N]; M], &[[R; N]; N]) -> Option<[[R; N]; N]>,
 ) -> Result<Regulator<R, N, M>, RiccatiError> {
-    /// One is enough for time constants `1e12` apart; the second costs little.
+    /// The number of corrections: one is enough for time constants `1e12` apart; the second costs little.
     const CORRECTIONS: usize = 2;
     let mut cost = sum_of(&first, &running(&first)).ok_or(RiccatiError::NotStabilizable)?;
     for _ in 0..CORRECTIONS {

@@ -213,7 +213,7 @@ fn poles_are_where_they_were_placed() {
     assert!(matches!(place(&stuck, &[Pole::real(-1.0); 2]), Err(PlaceError::Uncontrollable(_))));
 }
 
-/// By elimination with row pivots.
+/// Returns the determinant, by elimination with row pivots.
 fn determinant<const N: usize>(mut m: Square<N>) -> f64 {
     let mut value = 1.0;
     for k in 0..N {

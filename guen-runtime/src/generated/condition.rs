@@ -56,7 +56,7 @@ fn matrix<R: Real, T: Real, const N: usize>(triangle: &[R], entry: impl Fn(R) ->
     matrix
 }
 
-/// By the factors of the matrix with a diagonal of ones; none if a pivot is not positive, of lanes in one of them.
+/// Returns the condition from the factors of the matrix with a diagonal of ones; none if a pivot is not positive, of lanes in one of them.
 #[inline(always)]
 fn definite<R: Real, const N: usize>(mass: &[[R; N]; N]) -> Option<R> {
     let mut root = [R::zero(); N];

@@ -40,7 +40,7 @@ impl Cost {
         Self { additions, negations, multiplications, divisions, roots, calls }
     }
 
-    /// All operations, each counted once.
+    /// Returns the number of all operations, each counted once.
     pub const fn total(self) -> u32 {
         self.additions + self.negations + self.multiplications + self.divisions + self.roots + self.calls
     }

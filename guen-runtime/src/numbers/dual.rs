@@ -86,7 +86,7 @@ impl<R: Real, const N: usize> Dual<R, N> {
 /// evaluated in duals, all tangents of all its operations in one block take rustc minutes.
 #[inline(always)]
 fn whole<R: Real, const N: usize>(compute: impl FnOnce() -> Dual<R, N>) -> Dual<R, N> {
-    /// A call costs some nanoseconds, as much as so many tangents.
+    /// The number of directions up to which functions are inlined: a call costs as many nanoseconds as so many tangents.
     const INLINED_DIRECTIONS: usize = 8;
     if N > INLINED_DIRECTIONS { apart(compute) } else { compute() }
 }
@@ -169,7 +169,7 @@ impl<R: Real, const N: usize> Neg for Dual<R, N> {
 assign_operators!(Dual<R, N>, R: Real, const N: usize);
 
 impl<R: Ordered, const N: usize> PartialOrd for Dual<R, N> {
-    /// By value; equal only if the tangents are, too.
+    /// Compares by value; duals are equal only if the tangents are, too.
     #[inline]
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         match self.value.partial_cmp(&other.value) {

@@ -123,7 +123,7 @@ impl<R: Real> PowerSeries<R> {
         each
     }
 
-    /// Both series term by term.
+    /// Combines two series term by term.
     fn both(&self, other: &Self, combine: impl Fn(R, R) -> R) -> Self {
         let order = self.order.min(other.order);
         let degree = self.degree.max(other.degree).min(order);
@@ -463,7 +463,7 @@ mod tests {
         ]
     }
 
-    /// By duals of duals: another derivation of the first two derivatives.
+    /// Compares with duals of duals: another derivation of the first two derivatives.
     #[test]
     fn coefficients_are_those_of_nested_duals() {
         // x(s) = 0.6 + 0.3 s - 0.2 s^2
@@ -480,7 +480,7 @@ mod tests {
         }
     }
 
-    /// At another place of the line, high orders sum up to the function there.
+    /// Sums high orders up to the function at another place of the line.
     #[test]
     fn high_orders_sum_up_to_the_function() {
         let along = PowerSeries::line(0.6, 0.05);

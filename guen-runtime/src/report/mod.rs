@@ -31,7 +31,7 @@ pub use markdown::MarkdownDocument;
 pub struct Report {
     /// The system's name.
     pub name: &'static str,
-    /// One sentence.
+    /// A sentence that sums up the system.
     pub summary: &'static str,
     /// The sections in order.
     pub sections: &'static [ReportSection],

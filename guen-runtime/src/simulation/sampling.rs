@@ -1,4 +1,4 @@
-//! How the inputs of a simulation come about: as they are at every time, or held between the samples of a controller.
+//! The inputs of a simulation: as they are at every time, or held between the samples of a controller.
 
 use crate::numbers::real::{Ordered, Real};
 use crate::simulation::optional_projection::OptionalProjection;
@@ -6,7 +6,7 @@ use crate::simulation::recorder::Recorder;
 use crate::steppers::{Interpolant, Method, StepperRun};
 use crate::system::simulate::Simulate;
 
-/// How a method `M` with dense output `P` is to run where inputs may be sampled.
+/// A way to run a method `M` with dense output `P` where inputs may be sampled.
 pub trait Sampling<R: Real, S, M, P, const N: usize> {
     /// The memory that the inputs of a sample take, in bytes.
     const MEMORY: usize;

@@ -37,12 +37,12 @@ mod step_size;
 mod taylor;
 
 pub use driver::dense::{Dense, Interpolant};
-#[cfg(feature = "alloc")]
-pub(crate) use driver::error::Names;
 pub use driver::error::{Cause, IntegrationError, Setting};
+pub(crate) use driver::error::{NamedError, Names};
 pub use driver::events::{Direction, Event, Occurrence};
 pub use driver::integration::Integration;
-pub use driver::run::{Checkpoint, IntegrationResult, Method, Outcome, Statistics, StepperRun};
+pub use driver::run::{Checkpoint, IntegrationResult, Method, Outcome, StepperRun};
+pub use driver::statistics::Statistics;
 pub use explicit::bounded::{Bound, Bounded};
 pub use explicit::compensated::Compensated;
 pub use explicit::dop853::{self, Dop853};

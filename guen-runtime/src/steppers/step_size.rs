@@ -87,7 +87,7 @@ impl Control {
     /// The first step, from the guess `h`, the size of the slope and its change over the guess:
     /// `step^power max(|x'|, |x''|) = 1/100`, at most a hundred times the guess.
     pub(crate) fn first_step(&self, h: f64, slope_size: f64, change_size: f64, longest: f64) -> f64 {
-        /// Below this, neither slope nor curvature limits the step.
+        /// The size of slope and curvature below which neither limits the step.
         const NEGLIGIBLE_SLOPE: f64 = 1e-15;
 
         let size = (change_size / h).max(slope_size);
@@ -182,7 +182,7 @@ fn rough_exp2(x: f64) -> f64 {
     f64::from_bits(mantissa.to_bits().wrapping_add(shifted.to_bits() << 52))
 }
 
-/// A rest of less than this part of a step is not left for a step of its own.
+/// The factor by which the last step may be longer than the others, so that no small rest needs a step of its own.
 pub(in crate::steppers) const STRETCH: f64 = 1.01;
 
 /// The shortest step of a run that began at `origin`: it moves the time, and is so many roundings of the time since then.
@@ -234,9 +234,9 @@ impl Tolerance {
         slope: &[R; N],
         longest: f64,
     ) -> (f64, f64) {
-        /// Below this, a sum of squares says nothing about the size of state or slope.
+        /// The sum of squares below which nothing is known of the size of state or slope.
         const NEGLIGIBLE_SQUARES: f64 = 1e-10;
-        /// The guess then.
+        /// The guess where the sums are smaller.
         const LEAST_GUESS: f64 = 1e-6;
 
         let weights = self.weights(x, x);

@@ -8,9 +8,9 @@ use crate::numbers::real::Real;
 /// Particles have a mass and a center, and the names `particle 1`, `particle 2`, .. in the order of their declaration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Body<R = f64> {
-    /// Its name.
+    /// The name.
     pub name: &'static str,
-    /// Its mass, if it depends on constants alone.
+    /// The mass, if it depends on constants alone.
     pub mass: Option<R>,
     /// The matrix entries `xx, yy, zz, xy, yz, zx` of its inertia about the mass centre, in body axes, if
     /// they depend on constants alone.

@@ -12,7 +12,7 @@ pub enum ConstantsError {
     NotFinite {
         /// The constant's name.
         name: &'static str,
-        /// Its value.
+        /// The value.
         value: f64,
     },
     /// A constant is outside its declared bound.
@@ -28,7 +28,7 @@ pub enum ConstantsError {
     SingularPivot {
         /// The expression, in the names of the declaration.
         what: &'static str,
-        /// Its value.
+        /// The value.
         value: f64,
     },
     /// A constant of the system has another value than a scene fixes.
@@ -67,7 +67,7 @@ pub enum ConstantsError {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum BodyFault {
-    /// Its mass is negative.
+    /// The mass is negative.
     NegativeMass,
     /// A principal moment of inertia is negative, or larger than the sum of the other two.
     Inertia,

@@ -1,6 +1,9 @@
 //! Systems whose motions are asked for by one call, with states that have names.
 
+use core::fmt;
+
 use crate::numbers::real::{Ordered, Real};
+use crate::steppers::{IntegrationError, NamedError, Names};
 use crate::system::differentiable::{Equations, Generic};
 use crate::system::positions::{Positions, Projected};
 use crate::system::positions_error::PositionsError;
@@ -120,4 +123,37 @@ where
     type State = S::State;
     const STATES: &'static [&'static str] = S::STATES;
     const DOMAIN: &'static [&'static str] = S::DOMAIN;
+}
+
+impl Names {
+    /// The names of a system.
+    pub(crate) fn of<R: Real, S: Simulate<R, N> + ?Sized, const N: usize>() -> Self {
+        Self { states: S::STATES, domain: S::DOMAIN }
+    }
+}
+
+impl<R: Real, const N: usize> IntegrationError<R, N> {
+    /// The message in the names of the system: its variables and the functions that must not vanish, and not their numbers.
+    ///
+    /// ```
+    /// use guen_runtime::steppers::{Guard, Integration, Rk4};
+    /// use guen_runtime::{Simulate, System};
+    ///
+    /// struct Growth;
+    /// impl System<f64, 1> for Growth {
+    ///     fn rhs(&self, _t: f64, &[x]: &[f64; 1]) -> [f64; 1] {
+    ///         [100.0 * x]
+    ///     }
+    /// }
+    /// impl Simulate<f64, 1> for Growth {
+    ///     type State = [f64; 1];
+    ///     const STATES: &'static [&'static str] = &["size"];
+    /// }
+    ///
+    /// let error = Integration::new(&Growth, 0.0, &[1.0]).run(&Rk4::new(0.05), 10.0).unwrap_err();
+    /// assert!(error.named(&Growth).to_string().contains("`size` is off"));
+    /// ```
+    pub fn named<S: Simulate<R, N> + ?Sized>(&self, _system: &S) -> impl fmt::Display + use<R, S, N> {
+        NamedError { time: self.time.to_f64(), cause: self.cause, names: Names::of::<R, S, N>() }
+    }
 }

@@ -1,4 +1,4 @@
-//! One system, every real: how a system over `f64` is made anew over a shorter or longer one.
+//! A system over `f64` made anew over a shorter or longer real.
 
 use crate::numbers::real::Real;
 use crate::system::System;

@@ -19,7 +19,7 @@ use threads::{in_turn, processors};
 /// The end of one trajectory: the last time and state with the work done, or the same with a cause.
 pub type End<const N: usize> = Result<IntegrationResult<f64, N>, IntegrationError<f64, N>>;
 
-/// One trajectory at the times that were asked for.
+/// A trajectory at the times that were asked for.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sampled<const N: usize> {
     /// The states at the first of the times, as many as were reached.
@@ -73,7 +73,7 @@ pub struct Sampled<const N: usize> {
 /// ```
 #[derive(Clone, Debug)]
 pub struct Ensemble<S, const N: usize, C = PlainLanes> {
-    /// One for each start, or one for all.
+    /// The systems: one for each start, or one for all.
     systems: Vec<S>,
     starts: Vec<[f64; N]>,
     /// The number of threads; as many as the machine has processors, if absent.
@@ -84,7 +84,7 @@ pub struct Ensemble<S, const N: usize, C = PlainLanes> {
 }
 
 impl<S, const N: usize> Ensemble<S, N> {
-    /// One system and many initial states.
+    /// Creates an ensemble of one system and many initial states.
     pub fn of_states(system: S, states: impl IntoIterator<Item: Into<[f64; N]>>) -> Self {
         Self::new(vec![system], states.into_iter().map(Into::into).collect())
     }

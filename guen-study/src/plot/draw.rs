@@ -52,7 +52,7 @@ const LINE_STROKE: f64 = 1.0;
 const END_RADIUS: f64 = 4.0;
 const POINT_RADIUS: f64 = 2.2;
 const BAND_STROKE: f64 = 9.0;
-/// From the seventh curve on, from the thirteenth on, from the nineteenth on.
+/// The dashes of curves from the seventh on, from the thirteenth on, from the nineteenth on.
 const DASHES: [(f64, f64); 3] = [(7.0, 4.0), (2.0, 3.0), (14.0, 4.0)];
 
 type Canvas<'a> = DrawingArea<SVGBackend<'a>, plotters::coord::Shift>;

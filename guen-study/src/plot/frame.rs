@@ -28,7 +28,7 @@ pub(super) fn text_width(text: &str, size: f64) -> f64 {
     text.chars().count() as f64 * size * LETTER
 }
 
-/// One axis: the values at its ends, the pixels at its ends, and its marks.
+/// An axis: the values at its ends, the pixels at its ends, and its marks.
 #[derive(Clone, Debug)]
 pub(super) struct Axis {
     /// The values at the ends; of a logarithmic axis their decimal logarithms.
@@ -51,7 +51,7 @@ impl Axis {
         (self.to - self.from).abs()
     }
 
-    /// At most so many marks.
+    /// Returns at most so many marks.
     fn marks(&self, most: usize) -> Vec<Tick> {
         if self.logarithmic { decades(self.low, self.high, most) } else { ticks(self.low, self.high, most) }
     }

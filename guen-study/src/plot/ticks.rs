@@ -10,7 +10,7 @@ pub(super) struct Tick {
 /// Decimal exponents of the largest mark for which marks are written without an exponent.
 const PLAIN: std::ops::RangeInclusive<i32> = -4..=5;
 
-/// At most `most` marks from `low` to `high`, at multiples of 1, 2 or 5 times a power of ten, all with the same
+/// Returns at most `most` marks from `low` to `high`, at multiples of 1, 2 or 5 times a power of ten, all with the same
 /// count of decimals. None if the range is empty.
 pub(super) fn ticks(low: f64, high: f64, most: usize) -> Vec<Tick> {
     let span = high - low;
@@ -37,7 +37,7 @@ pub(super) fn ticks(low: f64, high: f64, most: usize) -> Vec<Tick> {
     }
 }
 
-/// At most `most` marks at powers of ten between `10^low` and `10^high`: every one of them, every second, third and so on;
+/// Returns at most `most` marks at powers of ten between `10^low` and `10^high`: every one of them, every second, third and so on;
 /// where there are fewer than two, numbers in between as well.
 pub(super) fn decades(low: f64, high: f64, most: usize) -> Vec<Tick> {
     /// Roundings within which an end of the range is a power of ten.

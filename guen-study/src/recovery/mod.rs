@@ -52,7 +52,7 @@ impl Nodes {
         Ok(Self { times })
     }
 
-    /// All times, in order; those of the grid are every eighth.
+    /// Returns all times, in order; those of the grid are every eighth.
     pub fn times(&self) -> &[f64] {
         &self.times
     }
@@ -77,7 +77,7 @@ impl<const FULL: usize> Recovered<FULL> {
         self.times.iter().zip(&self.states).map(move |(t, state)| (*t, state[entry]))
     }
 
-    /// One entry of the state against another: a path.
+    /// Returns one entry of the state against another: a path.
     pub fn track(&self, x: usize, y: usize) -> impl Iterator<Item = (f64, f64)> + '_ {
         self.states.iter().map(move |state| (state[x], state[y]))
     }

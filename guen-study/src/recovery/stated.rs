@@ -93,7 +93,7 @@ fn worst(draws: &mut Draws) -> (f64, Option<f64>) {
     (f.fastest, Some(worst))
 }
 
-/// Below this phase no run is to be refused, but for a few.
+/// The phase below which no run is to be refused, but for a few.
 const REFUSED_PHASE: f64 = 6.0;
 
 /// Runs so many draws, and returns: those accepted, those of them that are off by more than is stated, their worst

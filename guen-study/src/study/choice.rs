@@ -26,7 +26,7 @@ pub(super) fn least_certain(reference: Option<f64>) -> f64 {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Choice<'a> {
-    /// Its position among the rows.
+    /// The position among the rows.
     pub index: usize,
     /// The setting, with the code to write.
     pub row: &'a Row,
@@ -78,7 +78,7 @@ impl fmt::Display for Caveat {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum NoChoice {
-    /// Nothing was measured: the study was cancelled, or no setting came to the end.
+    /// No setting was measured: the study was cancelled, or no run came to its end.
     NothingMeasured,
     /// There is no reference, so that no error is known: the report has the reason.
     NoReference,

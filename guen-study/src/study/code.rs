@@ -1,7 +1,5 @@
 //! The Rust code to write for a setting.
 
-use super::variant::Argument;
-
 /// The origin of `system` in the code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Origin {
@@ -80,4 +78,13 @@ pub(super) fn lanes(choice: &str, method: &str, step: f64, span: (f64, f64)) -> 
          let ensemble = Ensemble::of_states(system, starts){choice};\n\
          let ends = ensemble.integrate(&{method}, {t0:?}, {t1:?});\n"
     )
+}
+
+/// The argument of a constructor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Argument {
+    /// `Method::new(step)`.
+    Step,
+    /// `Method::new(rtol, atol)`.
+    Tolerances,
 }

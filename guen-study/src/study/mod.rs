@@ -408,14 +408,7 @@ impl<S: WithScalar<N>, const N: usize> Study<S, N> {
         let span = self.span();
         let method = |tolerance| Taylor::<f64>::new(tolerance, tolerance);
         self.with_method("Taylor", Settings::Tolerances, method, move |tolerance| {
-            code::run(
-                code::Origin::WithScalar,
-                "f64",
-                "Taylor",
-                variant::Argument::Tolerances,
-                tolerance,
-                span,
-            )
+            code::run(code::Origin::WithScalar, "f64", "Taylor", code::Argument::Tolerances, tolerance, span)
         })
     }
 

@@ -20,7 +20,7 @@ pub(super) struct Probe<const N: usize> {
 /// A state that violates the constraints by more than the one it was made of, and by more than this, is no state of the
 /// system.
 const RESIDUAL: f64 = 1e-9;
-/// Below this size an entry is moved by an absolute amount.
+/// The size of an entry below which it is moved by an absolute amount.
 const ABSOLUTE_BELOW: f64 = 1.0 / 3.0;
 
 /// Numbers in `[-1, 1)`, always the same: Knuth's multiplicative generator of 64 bits.

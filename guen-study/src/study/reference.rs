@@ -39,7 +39,7 @@ impl Extended for Digits31 {
 pub(super) type Source<const N: usize> =
     Box<dyn Fn(&Problem<'_, N>, &mut dyn FnMut(f64) -> bool) -> Result<Vec<[Long; N]>, String>>;
 
-/// One initial state and where the states are wanted.
+/// An initial state, and the times at which states are wanted.
 #[derive(Clone, Copy)]
 pub(super) struct Problem<'a, const N: usize> {
     pub start: &'a [f64; N],
@@ -50,7 +50,7 @@ pub(super) struct Problem<'a, const N: usize> {
 }
 
 impl<const N: usize> Problem<'_, N> {
-    /// All times to land on, in the direction of the motion, and whether the state there is wanted.
+    /// Returns the times to land on, in the direction of the motion, and whether the state there is wanted.
     pub fn stops(&self) -> Vec<(f64, bool)> {
         let Some(&end) = self.times.last() else { return Vec::new() };
         let inside = |t: f64| (t - self.t0) * (end - t) > 0.0;
@@ -94,7 +94,7 @@ where
     R: Extended,
     S: System<R, N> + 'static,
 {
-    /// More than any reference can afford.
+    /// The number of steps that no reference can afford.
     const STEPS: u64 = 100_000_000;
     let check = Dop853::<R>::new(CHECK_TOLERANCE, CHECK_TOLERANCE).with_max_steps(STEPS);
     let check_name = format!("DOP853 at {CHECK_TOLERANCE:e} in {}", R::NAME);

@@ -113,7 +113,7 @@ impl Nearby {
     }
 }
 
-/// One setting of one variant: what it is, what it errs, what it costs. A row of the table.
+/// A row of the table: a setting of a variant with its error and its cost.
 ///
 /// Fields that were not measured are `None`: a cancelled study, or one whose reference failed, has such rows.
 #[derive(Clone, Debug, PartialEq)]

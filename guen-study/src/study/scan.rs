@@ -56,9 +56,9 @@ pub(super) fn width(span: f64, points: usize) -> f64 {
 /// The closeness of a scan.
 #[derive(Clone, Copy)]
 pub(super) enum Look {
-    /// At the rates, at so many equidistant times of the span.
+    /// The rates, at so many equidistant times of the span.
     At(usize),
-    /// Not at all: the motion alone, with a tolerance.
+    /// The motion alone, with a tolerance.
     Nowhere(f64),
 }
 

@@ -9,10 +9,11 @@ use guen_runtime::{
     Real, Std, System, WithScalar,
 };
 
+use super::code::Argument;
 use super::code::{self, Origin};
 use super::digits31::Digits31;
 use super::row::Failure;
-use super::variant::{Argument, Settings, Task, Variant, explicit_variants, run_bounded, variant};
+use super::variant::{Settings, Task, Variant, explicit_variants, run_bounded, variant};
 use super::{Digits71, Study, reference};
 use crate::Ensemble;
 

@@ -67,7 +67,7 @@ pub enum Forecast {
         /// The difference between the run that the estimate was made with and a coarser one.
         uncertainty: f64,
     },
-    /// Nothing is promised of this row: its error is not certain where it was measured.
+    /// The row has no forecast: its error is not certain where it was measured.
     Refused(NoChoice),
     /// The setting fails there, or nothing can be estimated, because the tighter run fails.
     Fails(Failure),

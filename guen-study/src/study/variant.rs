@@ -1,4 +1,4 @@
-//! One candidate of a study: integrator, scalar type and formulation, with a series of settings.
+//! A candidate of a study: integrator, scalar type and formulation, with a series of settings.
 
 use std::ops::ControlFlow;
 use std::rc::Rc;
@@ -6,7 +6,7 @@ use std::rc::Rc;
 use guen_runtime::steppers::{Bounded, Integration, Method, Outcome, Statistics};
 use guen_runtime::{Ordered, Real, System};
 
-use super::code::Origin;
+use super::code::{Argument, Origin};
 use super::row::{Failure, Knob};
 use super::timing::Deadline;
 
@@ -269,13 +269,4 @@ where
             code("Dop853", Argument::Tolerances),
         ),
     ]
-}
-
-/// The argument of a constructor.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Argument {
-    /// `Method::new(step)`.
-    Step,
-    /// `Method::new(rtol, atol)`.
-    Tolerances,
 }

@@ -7,7 +7,7 @@ use crate::error::StudyError;
 /// The fewest samples of a track: four of a curve are its ends and extrema.
 const FEWEST: usize = 4;
 
-/// How often a page is made anew because it came out larger than estimated.
+/// The number of times that a page is made anew because it came out larger than estimated.
 const ATTEMPTS: usize = 4;
 
 /// The number of samples of each track, and the bytes of one.

@@ -220,7 +220,7 @@ fn base(values: &[f64]) -> f64 {
 const LONGEST_FORCE: f64 = 0.25;
 const FORCE_RADIUS: f64 = 0.005;
 
-/// Where the motion is.
+/// The place and the size of a motion.
 pub(super) struct Space {
     /// The place that is subtracted from all places, if single precision would not hold their differences.
     pub(super) origin: Option<[f64; 3]>,

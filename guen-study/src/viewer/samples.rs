@@ -11,7 +11,7 @@ pub(super) struct Samples<'a, const N: usize> {
     is_backwards: bool,
     /// The time of the first one.
     pub(super) start: f64,
-    /// All times, since the first.
+    /// The times, since the first.
     pub(super) times: Vec<f64>,
     /// The times that the page steps through.
     pub(super) steps: Vec<f64>,

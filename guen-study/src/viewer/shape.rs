@@ -22,12 +22,12 @@ pub struct Pose {
 }
 
 impl Pose {
-    /// At a place, with the body's axes along the world's.
+    /// Creates a pose at a place, with the body's axes along the world's.
     pub fn at(place: [f64; 3]) -> Self {
         Self { place, turn: Turn::NONE }
     }
 
-    /// At a place, with the rotation matrix from body axes to the world's, row by row. A positive factor before the
+    /// Creates a pose at a place, with the rotation matrix from body axes to the world's, row by row. A positive factor before the
     /// matrix is divided out.
     ///
     /// ```

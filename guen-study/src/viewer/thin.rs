@@ -1,4 +1,4 @@
-//! Which samples of a track are shown: those without which the picture would be another one.
+//! The choice of the samples of a track that are shown: those without which the picture would be another one.
 
 use std::cmp::Ordering;
 use std::collections::{BTreeSet, BinaryHeap};
@@ -8,7 +8,7 @@ const SPANS: usize = 256;
 
 /// Samples that stand for all of a track.
 pub(super) struct Chosen {
-    /// Their numbers, rising, with the first and the last.
+    /// The numbers of the samples, rising, with the first and the last.
     pub(super) kept: Vec<usize>,
     /// The largest deviation of a sample that is left out from what is drawn there, in units of the tolerance.
     pub(super) miss: f64,

@@ -67,7 +67,7 @@ fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
     (x * x + y * y + z * z).sqrt()
 }
 
-/// How near a track's places have to be drawn.
+/// Returns the distance within which a track's places have to be drawn.
 fn tolerance(places: impl Iterator<Item = [f64; 3]>) -> f64 {
     let (least, most) = bounds(places);
     let size = norm(super::shape::difference(most, least));
@@ -202,7 +202,7 @@ impl<T: Shown> Track<T> {
         Self { times: None, values, miss: 0.0, is_envelope: false }
     }
 
-    /// At most `most` of values, with times of their own.
+    /// Returns at most `most` of values, with times of their own.
     pub(super) fn thinned(times: &[f64], values: &[T], most: usize) -> Self {
         let (Chosen { kept, miss }, is_envelope) = T::chosen(times, values, most);
         Self {

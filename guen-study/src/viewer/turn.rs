@@ -7,7 +7,7 @@ pub(super) struct Turn(pub(super) [f64; 4]);
 impl Turn {
     pub(super) const NONE: Self = Self([1.0, 0.0, 0.0, 0.0]);
 
-    /// By an angle about an axis of any length but zero, which is no turn.
+    /// Creates a turn by an angle about an axis of any length but zero, which is no turn.
     pub(super) fn about(axis: [f64; 3], angle: f64) -> Self {
         let length = norm(axis);
         if length == 0.0 {

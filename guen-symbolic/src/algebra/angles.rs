@@ -8,26 +8,11 @@
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 
+use super::base_angles::{AngleParts, BaseAngles};
 use super::{ExprId, FastMap, Function, Graph, Node, Rational};
 
-/// A combination of monomials and base angles; the number is a multiple of one.
-pub(crate) type AngleParts = Vec<(ExprId, Rational)>;
-
-/// Longer arguments are no base angles, and stay whole.
+/// The number of terms above which an argument is no base angle and stays whole.
 const ARGUMENT_TERMS: usize = 64;
-
-/// The base angles into which arguments of sines and cosines are taken apart.
-#[derive(Debug, Default)]
-pub(crate) struct BaseAngles {
-    /// While a declaration is read: sums are not taken apart at all.
-    are_whole: bool,
-    /// The base angles, once they are chosen.
-    base: Vec<ExprId>,
-    /// Monomials that a base angle of several terms stands for: each by base angles and other monomials.
-    images: BTreeMap<ExprId, AngleParts>,
-    /// Arguments that were taken apart: they are asked for again and again.
-    known: RefCell<FastMap<ExprId, AngleParts>>,
-}
 
 impl Graph {
     /// A declaration begins: until its base angles are chosen every argument is an angle of its own.

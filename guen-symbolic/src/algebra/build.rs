@@ -4,8 +4,9 @@
 //! integer exponents, and carries no number: numbers belong to the sums above. Sums inside products are
 //! primitive (content one, first coefficient positive). Nothing distributes products over sums.
 
-use super::graph::{COSINES, ExprId, Graph, Node, Order, PowerError, SINE_SQUARED};
-use super::{Function, Rational};
+use super::graph::{COSINES, Graph, Order, SINE_SQUARED};
+use super::node::{Node, PowerError, content_of};
+use super::{ExprId, Function, Rational};
 
 /// Sums with more terms stay nested: flattening them would copy their terms into every user.
 const FLATTEN_TERMS: usize = 8;
@@ -18,17 +19,6 @@ const MAX_NUMBER_BITS: u64 = 1330;
 
 /// The terms `c m sin(x)^2` and `c m cos(x)^2` of a sum, and the factors of `m`.
 type SquarePair = (ExprId, ExprId, Vec<(ExprId, i32)>);
-
-/// Returns the common factor of all coefficients of a sum, with the sign of the first.
-pub(super) fn content_of(constant: &Rational, terms: &[(ExprId, Rational)]) -> Rational {
-    let mut content = constant.abs();
-    let mut index = 0;
-    while index < terms.len() {
-        content = content.content_gcd(&terms[index].1);
-        index += 1;
-    }
-    if terms[0].1.is_negative() { -content } else { content }
-}
 
 /// Adds `c * term` to terms in the graph's order.
 fn add_term(graph: &Graph, terms: &mut Vec<(ExprId, Rational)>, term: ExprId, c: Rational) {

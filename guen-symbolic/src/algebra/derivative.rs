@@ -1,8 +1,10 @@
-//! One memoised directional derivative: partial derivatives, flows and `X_s(f)` are all of this kind.
+//! Memoised directional derivatives: partial derivatives, flows and `X_s(f)` are all of this kind.
 
 use super::Rational;
-use super::graph::{ExprId, Graph, Node, SymbolId};
+use super::graph::Graph;
+use super::id::{ExprId, SymbolId};
 use super::map::FastMap;
+use super::node::Node;
 use super::symbol::Roles;
 
 /// A direction `sum v_k d/dx_k` in the space of symbols, with what was differentiated along it so far.

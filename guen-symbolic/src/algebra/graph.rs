@@ -2,83 +2,13 @@
 
 use std::cell::Cell;
 
-use super::angles::BaseAngles;
-use super::build::content_of;
+use super::base_angles::BaseAngles;
+use super::id::{ExprId, SymbolId, mix};
 use super::map::{FastMap, spread};
+use super::node::{Node, content_of};
 use super::search::{Search, sort_ids};
 use super::symbol::{Bound, Role, Roles, Symbol};
 use super::{Function, Rational};
-
-/// An expression of a [`Graph`]; children always have smaller identifiers than their parents.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-pub struct ExprId(pub(crate) u32);
-
-impl ExprId {
-    /// The position in the graph's table of nodes.
-    pub fn index(self) -> usize {
-        self.0 as usize
-    }
-}
-
-/// A symbol of a [`Graph`].
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-pub struct SymbolId(pub(crate) u32);
-
-impl SymbolId {
-    /// The position in the graph's table of symbols.
-    pub fn index(self) -> usize {
-        self.0 as usize
-    }
-}
-
-/// A node of the graph, in normal form.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub enum Node {
-    /// An exact number.
-    Number(Rational),
-    /// The number pi.
-    Pi,
-    /// A symbol.
-    Symbol(SymbolId),
-    /// `constant + sum coefficient * term`; at least one term, and more than that or not simply `1 * term`.
-    Sum {
-        /// The number added.
-        constant: Rational,
-        /// Terms with coefficients that are not zero, in the graph's order.
-        terms: Box<[(ExprId, Rational)]>,
-    },
-    /// `product base^exponent`; exponents are not zero; not simply `base^1`.
-    Product(Box<[(ExprId, i32)]>),
-    /// An elementary function of one argument.
-    Function(Function, ExprId),
-    /// `atan2(y, x)`.
-    Atan2(ExprId, ExprId),
-    /// An expression that is kept whole: equal to what is inside, but neither flattened nor expanded into its users.
-    Kept(ExprId),
-    /// The result of a division by the number zero; whoever divides asks first, so that it shows a mistake of ours.
-    Undefined,
-}
-
-/// Why a power was refused.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum PowerError {
-    /// The exponent is not a number.
-    ExponentNotNumber,
-    /// The exponent, or the number that would result, is too large.
-    TooLarge,
-    /// An even root of a negative number.
-    NegativeBase,
-    /// A negative power of zero.
-    DivisionByZero,
-}
-
-/// The finaliser of the splitmix64 generator (Steele, Lea, Flood 2014): a fixed mixing of 64 bits.
-pub(crate) fn mix(value: u64) -> u64 {
-    let mut z = value.wrapping_add(0x9e37_79b9_7f4a_7c15);
-    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    z ^ (z >> 31)
-}
 
 fn is_product(node: &Node, factors: &[(ExprId, i32)]) -> bool {
     let Node::Product(others) = node else { return false };
@@ -284,7 +214,7 @@ impl Graph {
         self.symbol_nodes[symbol.index()]
     }
 
-    /// All symbols, in the order of their making.
+    /// Returns all symbols, in the order of their making.
     pub fn symbols(&self) -> impl Iterator<Item = SymbolId> + use<> {
         (0..self.symbols.len() as u32).map(SymbolId)
     }

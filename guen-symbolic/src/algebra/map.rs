@@ -7,7 +7,7 @@
 use std::fmt;
 use std::ops::Index;
 
-use super::graph::{ExprId, SymbolId, mix};
+use super::id::{ExprId, SymbolId, mix};
 
 /// A key of a [`FastMap`].
 pub(crate) trait Key: Eq {
@@ -58,7 +58,7 @@ struct Entry<K, V> {
 /// A map that only grows, iterated in the order of insertion.
 #[derive(Clone)]
 pub(crate) struct FastMap<K, V> {
-    /// One more than the index of an entry, zero for none; a power of two of them, or none at all.
+    /// Slots with one more than the index of an entry, zero for none; a power of two of them, or none at all.
     slots: Vec<u32>,
     entries: Vec<Entry<K, V>>,
 }
@@ -180,7 +180,7 @@ impl<K: Key, V> FastMap<K, V> {
         self.entries.len()
     }
 
-    /// All entries in the order in which they were made.
+    /// Returns the entries in the order in which they were made.
     pub(crate) fn iter(&self) -> impl Iterator<Item = (&K, &V)> {
         self.entries.iter().map(|entry| (&entry.key, &entry.value))
     }

@@ -1,8 +1,10 @@
 //! Ranges of values: which numbers an expression can be at all, from the ranges of its parts.
 
-use super::functions::Function;
-use super::graph::{ExprId, Graph, Node};
+use super::function::Function;
+use super::graph::Graph;
+use super::id::ExprId;
 use super::map::FastMap;
+use super::node::Node;
 use super::rational::Rational;
 use super::symbol::Bound;
 
@@ -17,7 +19,7 @@ enum End {
     Above,
 }
 
-/// All numbers between two ends, and perhaps the ends.
+/// An interval: the numbers between two ends, and perhaps the ends.
 #[derive(Clone, Debug)]
 struct Range {
     low: End,

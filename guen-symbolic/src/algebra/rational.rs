@@ -11,7 +11,7 @@ use num_bigint::{BigInt, BigUint, Sign};
 use num_rational::BigRational;
 use num_traits::{One, Signed, ToPrimitive};
 
-use super::graph::mix;
+use super::id::mix;
 
 /// An exact rational number in lowest terms with a positive denominator.
 ///
@@ -276,7 +276,7 @@ impl From<i64> for Rational {
     }
 }
 
-/// Integers below this in size, almost all coefficients, are computed with directly: their products fit.
+/// The size below which integers, almost all coefficients, are computed with directly: their products fit.
 const SMALL_INTEGERS: i64 = 1 << 31;
 
 fn are_short(a: i64, b: i64) -> bool {

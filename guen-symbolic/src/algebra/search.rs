@@ -1,6 +1,6 @@
 //! Traversals of a graph: the memory of one, and the order of what it found.
 
-use super::graph::ExprId;
+use super::id::ExprId;
 
 /// The memory of a traversal: kept, because clearing it would cost more than the nodes that are visited.
 #[derive(Default)]

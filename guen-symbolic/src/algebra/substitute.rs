@@ -1,8 +1,10 @@
 //! Replacing subexpressions, the same way everywhere, each shared node once.
 
 use super::Rational;
-use super::graph::{ExprId, Graph, Node};
+use super::graph::Graph;
+use super::id::ExprId;
 use super::map::FastMap;
+use super::node::Node;
 
 /// A simultaneous replacement of expressions (usually symbols) by others, with what was replaced so far.
 ///

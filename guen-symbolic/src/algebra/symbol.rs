@@ -56,7 +56,7 @@ impl Roles {
 /// The bound that a declaration promises for a physical constant.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
 pub enum Bound {
-    /// Nothing.
+    /// No bound.
     #[default]
     Free,
     /// `c > 0`.

@@ -2,7 +2,7 @@
 
 use crate::algebra::{ExprId, Graph};
 
-/// One form `eta = sum_i a_i(t, x) x_i' + a_0(t, x)`.
+/// A form `eta = sum_i a_i(t, x) x_i' + a_0(t, x)`.
 #[derive(Clone, Debug)]
 pub struct Form {
     /// The coefficients `a_1..a_n` of the velocities.

@@ -175,7 +175,7 @@ struct Solver<'a> {
     // Columns with the equations that give them, in the order of elimination.
     solved: Vec<(usize, Equation)>,
     steps: Vec<Step>,
-    /// There are many coordinates.
+    /// Whether there are many coordinates.
     is_large: bool,
     /// The least cost of an entry that has no normal form.
     beyond: Option<u64>,

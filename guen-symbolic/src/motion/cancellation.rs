@@ -70,7 +70,7 @@ impl Product {
             .collect()
     }
 
-    /// One of the products, and its coefficient.
+    /// Returns one of the products, and its coefficient.
     fn term(&self, graph: &mut Graph, k: usize, i: usize) -> (ExprId, Rational) {
         let (a, b) = (&self.outer.monomials[k], &self.inner.monomials[i]);
         let product = graph.mul(a.monomial, b.monomial);

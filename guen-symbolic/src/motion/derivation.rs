@@ -1,10 +1,10 @@
 //! The derivation as a whole: from a declared system to everything that is emitted.
 
-use super::equations::Stated;
 use super::fault::{DerivationError, affordable};
 use super::forces::generalised_forces;
 use super::formulations::{self, Formulated, Found};
 use super::indispensable;
+use super::stated::Stated;
 use super::velocity_forms::VelocityPartials;
 use super::{Energies, Equations, Frame, Mechanics, MotionSymbol, Solution, decompose};
 use crate::algebra::{ExprId, FastMap, Flow, Role, Roles, Substitution};
@@ -37,9 +37,9 @@ pub struct Derivation {
     pub closure: Closure,
     /// The class of the forms.
     pub class: Class,
-    /// No `t` in the forms of the constraints, in `T°` and in `U`.
+    /// Whether `t` occurs neither in the forms of the constraints nor in `T°` and `U`.
     pub scleronomic: bool,
-    /// All `a_v0 = 0`.
+    /// Whether all `a_v0 = 0`.
     pub catastatic: bool,
     /// `h' = 0` identically, wherever constraints on positions hold.
     pub conservative: bool,

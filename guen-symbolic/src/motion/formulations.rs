@@ -1,12 +1,12 @@
-//! All ways to the rates of the state: one list, walked once.
+//! The formulations, ways to the rates of the state: one list, walked once.
 //!
 //! Each formulation gives rates of the state, perhaps several, or says why it has none; none knows of another. What it gives is
 //! proved against (2.7), and which costs least is found when code is made. Where one promises half of what the equations as they
 //! are stated cost, the others are not looked at.
 
 use super::base_parameters::InBaseParameters;
-use super::equations::Stated;
 use super::fault::{DerivationError, affordable};
+use super::stated::Stated;
 use super::symmetry::Symmetry;
 use super::thresholds::OTHER_WAYS;
 use super::velocity_forms::VelocityPartials;
@@ -73,7 +73,7 @@ enum Rank {
     Base(Solution),
     /// Equations that are proved, solved by elimination.
     Solved,
-    /// One more way, yet to be proved.
+    /// Rates of a further formulation, yet to be proved.
     Other,
     /// Rates yet to be proved, so much shorter that no other formulation is tried.
     Last(Solution),
@@ -365,7 +365,7 @@ fn in_base_parameters(bench: &mut Workbench, search: &mut Search<'_>) -> Result<
     Ok(Outcome::found(in_base.rates(bench, search.system), || Rank::Other))
 }
 
-/// Without coordinates that the equations do not depend on.
+/// Solves the equations without the coordinates that they do not depend on.
 fn without_headings(bench: &mut Workbench, search: &mut Search<'_>) -> Result<Outcome, DerivationError> {
     let Some(projected) = &search.stated.projected else {
         return Ok(Outcome::Declined("the energy is not multiplied out"));

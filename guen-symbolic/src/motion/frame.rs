@@ -67,7 +67,7 @@ impl Frame {
         Frame { operators, brackets, velocities, displacements, motion, constrain }
     }
 
-    /// `Q_s = sum F beta_s`: the generalised force of index `s` (from 1), `beta_s` the form's component along `X_s`.
+    /// Returns `beta_s`, the component of a velocity form along `X_s`; the generalised forces are `Q_s = sum F beta_s`.
     pub fn component(&self, bench: &mut Workbench, form: &super::VelocityForm, s: usize) -> ExprId {
         // beta_s = sum_i b_i xi_s^i + c_s; for s = 0: sum_i b_i xi_0^i + u_0
         let mut terms: Vec<ExprId> =

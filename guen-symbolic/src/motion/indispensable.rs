@@ -146,7 +146,7 @@ impl Energy {
     }
 }
 
-/// For each symbol the nodes that depend on it; every node is listed behind those that it is made of.
+/// Returns for each symbol the nodes that depend on it; every node is listed behind those that it is made of.
 fn dependents(bench: &Workbench, nodes: &[ExprId], symbols: &[SymbolId]) -> Vec<Vec<ExprId>> {
     const BITS: usize = u64::BITS as usize;
     let words = symbols.len().div_ceil(BITS);

@@ -5,7 +5,7 @@ use crate::algebra::{ExprId, Node, Rational};
 use crate::workbench::Workbench;
 use crate::zero::Verdict;
 
-/// One term `w u v` of the kinetic energy; fewer forms for the linear and constant parts.
+/// A term `w u v` of the kinetic energy; fewer forms for the linear and constant parts.
 #[derive(Clone, Debug)]
 pub struct KineticTerm {
     /// `w(t, x)`.

@@ -29,6 +29,7 @@ mod restated;
 mod restriction;
 mod solve;
 mod spins;
+mod stated;
 mod symmetry;
 mod thresholds;
 mod velocity_forms;

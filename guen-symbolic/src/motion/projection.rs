@@ -23,7 +23,7 @@ use crate::geometry::{MANY_COORDINATES, is_nested};
 use crate::program::weighted_cost;
 use crate::workbench::Workbench;
 
-/// One velocity form with everything that the projection needs of it, each computed once.
+/// A velocity form with everything that the projection needs of it, each computed once.
 #[derive(Clone)]
 pub(super) struct Measured {
     /// `u` on the constraints.

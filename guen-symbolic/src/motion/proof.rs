@@ -14,7 +14,7 @@ const POINTS: usize = 3;
 /// The equations (2.7): their left sides at points, and where points do not decide, as expressions.
 pub(super) struct Definition {
     at_points: Lagrange,
-    /// By definition, without the generalised forces, once they were asked for.
+    /// The equations by definition, without the generalised forces, once they were asked for.
     written: Option<Equations>,
     /// The generalised force of each row.
     generalised_forces: Vec<ExprId>,
@@ -22,7 +22,7 @@ pub(super) struct Definition {
 
 /// The verdict of points on equations.
 enum Seen {
-    /// They hold.
+    /// The equations hold.
     Holds,
     /// Values differ in this row.
     Differs(usize),

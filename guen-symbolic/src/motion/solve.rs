@@ -14,7 +14,7 @@ pub struct Solution {
     pub accelerations: Vec<ExprId>,
     /// Pivots of small blocks that depend on the state: with the chart's functions, the domain of the equations.
     pub pivots: Vec<ExprId>,
-    /// Larger blocks by the parameters of their rows, with their determinants where these depend on the state.
+    /// The larger blocks by the parameters of their rows, with their determinants where these depend on the state.
     pub determinants: Vec<(Vec<usize>, ExprId)>,
     /// Pivots that depend on constants alone: checked when a system is prepared.
     pub constant_pivots: Vec<ExprId>,
@@ -178,13 +178,13 @@ pub(super) struct Elimination {
 /// The results of an elimination that are kept whole.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Naming {
-    /// None: small blocks are written out, and simplify.
+    /// No names: small blocks are written out, and simplify.
     Nothing,
     /// The solutions that are computed first and that the others use.
     Values,
-    /// All: in larger blocks every intermediate result has many users.
+    /// Names for everything: in larger blocks every intermediate result has many users.
     Everything,
-    /// All, of a matrix that is positive definite and sparse: entries that vanish are not looked for.
+    /// Names for everything, of a matrix that is positive definite and sparse: entries that vanish are not looked for.
     Definite,
 }
 

@@ -254,7 +254,7 @@ fn over(bench: &mut Workbench, form: &Form, velocities: &[ExprId]) -> ExprId {
 struct Turning {
     /// The coordinates that its orientation depends on.
     by: Vec<ExprId>,
-    /// Its angular velocity in its own axes; none where these coordinates are too few for it to turn freely.
+    /// The angular velocity in its own axes; none where these coordinates are too few for it to turn freely.
     spin: Option<[Form; 3]>,
 }
 

@@ -57,7 +57,7 @@ impl Mono {
         Ok(mono)
     }
 
-    /// All bits of the given generators.
+    /// Returns all bits of the given generators.
     pub(super) fn mask(generators: impl IntoIterator<Item = usize>) -> Mono {
         let mut mask = Mono::ONE;
         for generator in generators {
@@ -92,7 +92,7 @@ impl Mono {
         if (words[0] | words[1] | words[2] | words[3]) & GUARD == 0 { Ok(Mono(words)) } else { Err(Exceeded) }
     }
 
-    /// Less, equal or greater, as numbers: derived comparisons are several calls.
+    /// Compares as numbers: derived comparisons are several calls.
     fn compare(&self, other: &Mono) -> Ordering {
         let mut word = 0;
         while word < WORDS {
@@ -116,7 +116,7 @@ impl Mono {
         Some(Mono(words))
     }
 
-    /// All bits of those bytes in which this is not less: the guards stay where nothing was borrowed.
+    /// Returns all bits of those bytes in which this is not less: the guards stay where nothing was borrowed.
     fn not_less(a: u64, b: u64) -> u64 {
         ((((a | GUARD) - b) & GUARD) >> 7) * 0xff
     }

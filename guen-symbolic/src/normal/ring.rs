@@ -19,7 +19,7 @@ pub(super) struct Angle {
     pub(super) base: ExprId,
     pub(super) sin: usize,
     pub(super) cos: usize,
-    /// Twice the angle, if the base is a fraction with an even denominator.
+    /// The angle doubled, if the base is a fraction with an even denominator.
     pub(super) double: Option<ExprId>,
 }
 

@@ -5,7 +5,7 @@
 
 use crate::algebra::{ExprId, FastMap, Function, Graph, Node, Rational};
 
-/// Longer sums stay as they are: who would read them?
+/// The number of terms above which a sum stays as it is: nobody would read it.
 const CONTRACTED_TERMS: usize = 64;
 
 /// Expressions, with the sines and cosines of sums in them put together.

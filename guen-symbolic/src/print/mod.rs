@@ -16,7 +16,7 @@ use render::{Printer, sign};
 pub use contracted::Contracted;
 pub use names::{greek_letter, latex_name};
 
-/// Longer texts help no reader; [`Graph::text`] replaces them by a note.
+/// The characters of a text above which [`Graph::text`] replaces it by a note: it helps no reader.
 const LONGEST_TEXT: usize = 20_000;
 
 /// The notation of printed expressions.

@@ -7,7 +7,7 @@ use crate::algebra::{ExprId, Graph, Node, Role, Roles};
 const MOTION: Roles =
     Roles::of(Role::Velocity).or(Roles::of(Role::QuasiVelocity)).or(Roles::of(Role::QuasiAcceleration));
 
-/// More symbols than this do not enter the order of two functions; their text decides then.
+/// The number of symbols above which the text of two functions decides their order.
 const SYMBOLS_COMPARED: usize = 8;
 
 /// The place of a factor in a product.

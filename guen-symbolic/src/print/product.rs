@@ -6,7 +6,7 @@ use super::Style;
 use super::order::FactorKey;
 use super::render::{Level, Printer};
 
-/// One factor of a product as it will be shown: `cot(x)` has taken the place of two.
+/// A factor of a product as it will be shown: `cot(x)` has taken the place of two.
 struct Shown {
     key: FactorKey,
     text: String,

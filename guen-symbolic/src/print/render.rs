@@ -6,7 +6,7 @@ use super::Style;
 use super::names::LatexNames;
 use super::order::{FactorKey, TermKey, merge_symbols};
 
-/// All texts made on the way may be this many times as long as the result.
+/// The factor by which all texts made on the way may be longer than the result.
 const WORK_FACTOR: usize = 256;
 
 /// The precedence of a text: how tightly it binds.

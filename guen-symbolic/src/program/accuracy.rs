@@ -9,8 +9,9 @@ use super::cost::OperationCount;
 use super::evaluate::{Arithmetic, run};
 use super::instruction::{Instruction, Operation, Value};
 use super::lower::{Code, PreparedTable, lower};
-use super::net::{Net, NetId};
+use super::net::Net;
 use super::part::needed;
+use super::terms::NetId;
 use crate::algebra::{Bound, Function, Graph, Rational, Role, SymbolId, mix};
 use crate::zero::evaluate;
 

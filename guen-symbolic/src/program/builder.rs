@@ -9,11 +9,12 @@ use super::accuracy::{self, Candidate};
 use super::cost::{OperationCount, weighted_cost};
 use super::instruction::{FunctionProgram, Programs};
 use super::lower::{Code, PreparedTable, lower};
-use super::net::{Conversion, Field, Net, NetId, NetNode};
+use super::net::{Conversion, Field, Net, NetNode};
 use super::passes::{CANDIDATES, Changes, Pass, affordable, apply, rebuild};
+use super::terms::NetId;
 use crate::algebra::{ExprId, FastMap, Graph, Node, Role, Substitution};
 
-/// One way to compute the outputs of a function.
+/// A way to compute the outputs of a function.
 ///
 /// Definitions name intermediate results by symbols that later definitions and the outputs use. They stay whole: the
 /// optimiser works on what is defined at one depth together, and does not look through a name. A solve written with

@@ -25,7 +25,7 @@ pub struct CarriedFunction {
     pub symbol: ExprId,
     /// The expression that the symbol stands for, in the variables.
     pub value: ExprId,
-    /// Its rate, of the variables and of the symbols.
+    /// The rate, of the variables and of the symbols.
     pub rate: ExprId,
     /// The value next to the symbol's that keeps the relations among the symbols better; the symbol where there are none.
     pub rejoined: ExprId,
@@ -48,7 +48,7 @@ pub struct Carried {
 /// The reason why rates have no carried form.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum NotCarried {
-    /// There is no call of a function of the state.
+    /// The rates call no function of the state.
     Nothing,
     /// A function of an input, which jumps where the input does.
     Input(ExprId),
@@ -61,7 +61,7 @@ enum Group {
     Circle,
     /// Hyperbolic sine and cosine.
     Hyperbola,
-    /// One function.
+    /// A single function.
     Single(Function),
     /// `atan2`.
     Angle,

@@ -1,6 +1,5 @@
 //! Costs of operations: exact counts of programs, and a quick estimate for expressions.
 
-use super::{Instruction, Operation};
 use crate::algebra::{ExprId, FastMap, Function, Graph, Node};
 
 // Rough reciprocal throughputs in units of a multiplication, as measured on current x86-64 and ARM cores.
@@ -24,37 +23,17 @@ pub struct OperationCount {
     pub roots: u32,
     /// Sines and cosines; both of one angle count once.
     pub sines: u32,
-    /// All other elementary functions.
+    /// Calls of all other elementary functions.
     pub calls: u32,
 }
 
 impl OperationCount {
-    /// The count of some code; numbers and loads are free.
-    pub fn of(instructions: &[Instruction]) -> Self {
-        let mut count = OperationCount::default();
-        for instruction in instructions {
-            match &instruction.operation {
-                Operation::Number(_) | Operation::Pi | Operation::Symbol(_) | Operation::Prepared(_) => {}
-                Operation::Add(..) | Operation::Sub(..) => count.additions += 1,
-                Operation::Mul(..) => count.multiplications += 1,
-                Operation::Div(..) => count.divisions += 1,
-                Operation::Neg(_) => count.negations += 1,
-                Operation::SinCos { .. } | Operation::Call(Function::Sin | Function::Cos, _) => {
-                    count.sines += 1
-                }
-                Operation::Call(Function::Root(_), _) => count.roots += 1,
-                Operation::Call(..) | Operation::Atan2(..) => count.calls += 1,
-            }
-        }
-        count
-    }
-
     /// Additions, multiplications, divisions, negations and roots: everything but the elementary functions.
     pub fn operations(&self) -> u32 {
         self.additions + self.multiplications + self.divisions + self.negations + self.roots
     }
 
-    /// One figure to compare programs by, in units of a multiplication.
+    /// Returns one figure to compare programs by, in units of a multiplication.
     pub fn weighted(&self) -> u64 {
         u64::from(self.additions + self.multiplications + self.negations)
             + u64::from(self.divisions) * DIVISION

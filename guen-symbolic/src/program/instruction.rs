@@ -117,7 +117,7 @@ impl Key for Operation {
     }
 }
 
-/// One instruction: `result = operation`.
+/// An instruction: `result = operation`.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Instruction {
     /// The value defined.
@@ -126,7 +126,7 @@ pub struct Instruction {
     pub operation: Operation,
 }
 
-/// One function of the state over the prepared values.
+/// A function of the state over the prepared values.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct FunctionProgram {
     /// The name given to [`ProgramBuilder::add_function`](super::ProgramBuilder::add_function).
@@ -154,4 +154,26 @@ pub struct Programs {
     pub prepare_cost: OperationCount,
     /// The functions, in the order in which they were added.
     pub functions: Vec<FunctionProgram>,
+}
+
+impl OperationCount {
+    /// The count of some code; numbers and loads are free.
+    pub fn of(instructions: &[Instruction]) -> Self {
+        let mut count = OperationCount::default();
+        for instruction in instructions {
+            match &instruction.operation {
+                Operation::Number(_) | Operation::Pi | Operation::Symbol(_) | Operation::Prepared(_) => {}
+                Operation::Add(..) | Operation::Sub(..) => count.additions += 1,
+                Operation::Mul(..) => count.multiplications += 1,
+                Operation::Div(..) => count.divisions += 1,
+                Operation::Neg(_) => count.negations += 1,
+                Operation::SinCos { .. } | Operation::Call(Function::Sin | Function::Cos, _) => {
+                    count.sines += 1
+                }
+                Operation::Call(Function::Root(_), _) => count.roots += 1,
+                Operation::Call(..) | Operation::Atan2(..) => count.calls += 1,
+            }
+        }
+        count
+    }
 }

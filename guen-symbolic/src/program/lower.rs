@@ -1,7 +1,8 @@
 //! Lowers a net to instructions: one operation each, equal operations once, in the order of first use.
 
 use super::instruction::{Instruction, Operation, Value};
-use super::net::{Linear, Net, NetId, NetNode, split_sign};
+use super::net::{Linear, Net, NetNode, split_sign};
+use super::terms::NetId;
 use crate::algebra::{ExprId, FastMap, Function, Graph, Node, Rational};
 
 /// Flags of the functions of an angle that are needed.
@@ -74,7 +75,7 @@ struct Lowering<'a> {
     denominators: Vec<u32>,
     /// Whether sine and cosine of a node are needed.
     turned: Vec<u8>,
-    /// One more than the value of a node, zero for none: zeroed memory is cheap also without optimisation.
+    /// The value of each node, plus one, zero for none: zeroed memory is cheap also without optimisation.
     done: Vec<u32>,
     instructions: Vec<Instruction>,
     numbering: FastMap<Operation, Value>,

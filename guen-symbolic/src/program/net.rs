@@ -6,38 +6,8 @@
 //! once it is here, so that what a pass shares stays shared.
 
 use super::passes::angles::{Angle, Angles};
-use super::terms::Powers;
-use crate::algebra::{
-    ExprId, FastMap, Function, Graph, Key, Node, Ordinal, Rational, SortedMap, mix, spread,
-};
-
-/// A node of a [`Net`]; children have smaller identifiers than their parents.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-pub(super) struct NetId(pub(super) u32);
-
-impl Key for NetId {
-    fn hash(&self) -> u32 {
-        spread(self.0 as u64)
-    }
-}
-
-impl Ordinal for NetId {
-    fn ordinal(self) -> u32 {
-        self.0
-    }
-}
-
-impl Key for (NetId, NetId) {
-    fn hash(&self) -> u32 {
-        spread((self.0.0 as u64) << 32 | self.1.0 as u64)
-    }
-}
-
-impl Key for (ExprId, NetId) {
-    fn hash(&self) -> u32 {
-        spread((self.0.0 as u64) << 32 | self.1.0 as u64)
-    }
-}
+use super::terms::{NetId, Powers};
+use crate::algebra::{ExprId, FastMap, Function, Graph, Node, Rational, SortedMap, mix, spread};
 
 /// A node of a net.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -136,7 +106,7 @@ pub(super) enum Scaled {
 pub(super) struct Net {
     nodes: Vec<NetNode>,
     hashes: Vec<u32>,
-    /// One more than the number of a node, zero for none; a power of two of them.
+    /// Slots with one more than the number of a node, zero for none; a power of two of them.
     slots: Vec<u32>,
 }
 

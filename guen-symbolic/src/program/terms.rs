@@ -1,7 +1,34 @@
 //! Powers and terms while they are collected: lists in the order of nodes.
 
-use super::net::NetId;
-use crate::algebra::{ExprId, Graph, SortedMap};
+use crate::algebra::{ExprId, Graph, Key, Ordinal, SortedMap, spread};
+
+/// A node of a [`Net`]; children have smaller identifiers than their parents.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub(super) struct NetId(pub(super) u32);
+
+impl Key for NetId {
+    fn hash(&self) -> u32 {
+        spread(self.0 as u64)
+    }
+}
+
+impl Ordinal for NetId {
+    fn ordinal(self) -> u32 {
+        self.0
+    }
+}
+
+impl Key for (NetId, NetId) {
+    fn hash(&self) -> u32 {
+        spread((self.0.0 as u64) << 32 | self.1.0 as u64)
+    }
+}
+
+impl Key for (ExprId, NetId) {
+    fn hash(&self) -> u32 {
+        spread((self.0.0 as u64) << 32 | self.1.0 as u64)
+    }
+}
 
 /// Powers of nodes.
 pub(super) type Powers = SortedMap<NetId, i32>;

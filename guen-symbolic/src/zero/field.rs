@@ -105,7 +105,7 @@ pub(crate) fn root(a: u64, q: u32) -> Option<u64> {
     Some(if odd == 1 { value } else { pow(value, inverse_modulo(odd, PRIME - 1)) })
 }
 
-/// Integers below this in size are below the prime.
+/// The size below which integers are below the prime.
 const BELOW_PRIME: i64 = 1 << 60;
 
 /// The residue of a rational number.
@@ -241,7 +241,7 @@ pub(crate) fn relations(rows: &[Vec<u64>]) -> Vec<Vec<u64>> {
     kernel(&columns, rows.len())
 }
 
-/// One solution of `rows x = right`, free unknowns zero; `None` if there is none.
+/// Returns a solution of `rows x = right`, free unknowns zero; `None` if there is none.
 pub(crate) fn solve(rows: &[Vec<u64>], right: &[u64]) -> Option<Vec<u64>> {
     let width = rows.first().map_or(0, Vec::len);
     let mut extended: Vec<Vec<u64>> =

@@ -238,13 +238,13 @@ impl<'a> Moving<'a> {
         Some(())
     }
 
-    /// No slopes yet.
+    /// Returns a table without slopes.
     pub(crate) fn no_slopes(&self) -> Slopes {
         Slopes(vec![Jet::default(); self.rates.len()])
     }
 }
 
-/// By each node the slope of what is differentiated.
+/// The slope of the differentiated expression by each node.
 pub(crate) struct Slopes(Vec<Jet>);
 
 impl Slopes {

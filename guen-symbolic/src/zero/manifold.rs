@@ -161,7 +161,7 @@ impl Manifold {
         })
     }
 
-    /// One step `x -= J^T (J J^T)^-1 f`; returns the largest component of the step. Given `f` and `J` with all that they are made of.
+    /// Makes one step `x -= J^T (J J^T)^-1 f`; returns the largest component of the step. Given `f` and `J` with all that they are made of.
     fn project<R: Real + PartialOrd>(
         &self,
         graph: &Graph,

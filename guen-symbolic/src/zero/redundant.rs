@@ -32,7 +32,7 @@ const MOST_WORK: usize = 4_000_000;
 const CLEARLY: f64 = 0.02;
 /// A gradient of length one with so much left beside the others is independent of them.
 const INDEPENDENT: f64 = 1e-4;
-/// One with less left is a combination of them, as far as double precision tells.
+/// The rest of a gradient of length one below which it is a combination of the others, as far as double precision tells.
 const DEPENDENT: f64 = 1e-7;
 /// Newton's steps in 237 bits.
 const POLISH_STEPS: usize = 5;

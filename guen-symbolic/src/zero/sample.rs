@@ -1,4 +1,4 @@
-//! One random point modulo the prime, with the values of the nodes that were asked for.
+//! A random point modulo the prime, with the values of the nodes that were asked for.
 
 use super::field::{self, PRIME, Point, add, inverse, mix, mul, neg, sub};
 use super::table::{Op, Table};

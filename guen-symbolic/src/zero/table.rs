@@ -55,9 +55,9 @@ type Combination = BTreeMap<Monomial, Rational>;
 
 /// Halves, thirds and quarters are so common that monomials start with this denominator: it rarely grows.
 const FIRST_LCM: i64 = 12;
-/// Larger denominators make an argument opaque.
+/// The least common denominator above which an argument is opaque.
 const LARGEST_LCM: i64 = 1 << 50;
-/// Longer arguments are not multiplied out.
+/// The number of terms above which an argument is not multiplied out.
 const ARGUMENT_TERMS: usize = 64;
 /// Higher powers of sums in arguments are not multiplied out.
 const ARGUMENT_POWER: i32 = 4;

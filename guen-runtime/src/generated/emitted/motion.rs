@@ -159,7 +159,7 @@ macro_rules! domain {
             []
         }
 
-        /// How far the state is from the edge of the chart: of each function of [`DOMAIN`] what is left of it, from one
+        /// Returns the distance of the state from the edge of the chart: of each function of [`DOMAIN`] what is left of it, from one
         /// where it is as certain as what it is made of to zero where it vanishes. Times and states count as rounded
         /// once; so do the constants. See [`RunningError`](__guen::RunningError).
         pub fn distances(&self, _t: R, _state: &State<R>) -> [R; 0] {
@@ -174,7 +174,7 @@ macro_rules! domain {
             program::domain(&self.constants, &self.hoisted, t, &state.__guen_array())
         }
 
-        /// How far the state is from the edge of the chart: of each function of [`DOMAIN`] what is left of it, from one
+        /// Returns the distance of the state from the edge of the chart: of each function of [`DOMAIN`] what is left of it, from one
         /// where it is as certain as what it is made of to zero where it vanishes. Times and states count as rounded
         /// once; so do the constants. See [`RunningError`](__guen::RunningError).
         pub fn distances(&self, t: R, state: &State<R>) -> [R; $count] {
@@ -193,7 +193,7 @@ macro_rules! domain {
 #[macro_export]
 macro_rules! condition {
     ($size:literal $(, $inputs:ident)?) => {
-        /// How ill conditioned the equations for the accelerations are, whatever the units: one where parameters are
+        /// Returns the condition of the equations for the accelerations, whatever the units: one where parameters are
         /// not coupled. See [`System::condition`](__guen::System::condition).
         pub fn condition(&self, t: R, state: &State<R>) -> R {
             let system = self;

@@ -10,36 +10,11 @@
 //! | [`sin_cos_13`] | `abs(x) <= 2^18` | below 1e-13 | as above |
 //! | [`sin_cos_7`] | `abs(x) <= 2^18` | below 4e-8 | as above |
 //!
-//! `tests/elementary.rs` measures the errors against 71 digits; `workshop/benches/elementary.rs` prints them beside the times.
+//! `tests/numbers/elementary.rs` measures the errors against 71 digits; `workshop/benches/elementary` prints them beside the times.
 
 mod argument_reduction;
+pub(crate) mod correctly_rounded;
 mod trigonometric;
 
+pub(crate) use correctly_rounded::{fused, sqrt};
 pub(crate) use trigonometric::{cos, sin, sin_cos, sin_cos_7, sin_cos_13};
-
-/// `a b + c`, rounded once.
-#[inline(always)]
-pub(crate) fn fused(a: f64, b: f64, c: f64) -> f64 {
-    #[cfg(feature = "std")]
-    {
-        // An instruction where the function around it may use it, else a call of the platform's: the same bits.
-        a.mul_add(b, c)
-    }
-    #[cfg(not(feature = "std"))]
-    {
-        libm::fma(a, b, c)
-    }
-}
-
-/// The square root, rounded correctly.
-#[inline(always)]
-pub(crate) fn sqrt(x: f64) -> f64 {
-    #[cfg(feature = "std")]
-    {
-        x.sqrt()
-    }
-    #[cfg(not(feature = "std"))]
-    {
-        libm::sqrt(x)
-    }
-}

@@ -215,7 +215,7 @@ fn large(x: f64) -> (f64, f64) {
     (if x < 0.0 { -sin.0 } else { sin.0 }, cos.0)
 }
 
-/// One number, out of line: what lanes in range give where a neighbour is not.
+/// Functions of one number, out of line: for lanes in range that have a neighbour out of it.
 macro_rules! scalars {
     ($($scalar:ident $function:ident;)*) => {
         $(fn $scalar(x: f64) -> (f64, f64) {

@@ -122,7 +122,7 @@ impl Mask {
         Self(u32::MAX.checked_shr(32_u32.saturating_sub(count as u32)).unwrap_or(0))
     }
 
-    /// One bit for each lane, the first lowest.
+    /// Returns one bit for each lane, the first lowest.
     #[inline(always)]
     pub fn bits(self) -> u32 {
         self.0
@@ -218,7 +218,7 @@ pub enum Backend {
 }
 
 impl Backend {
-    /// All of them, the slowest first.
+    /// The widths, the slowest first.
     pub const ALL: [Self; 3] = [Self::Portable, Self::Avx2, Self::Avx512];
 
     /// Whether this processor has it.

@@ -10,7 +10,7 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 /// The sign bit.
 const SIGN: f64 = -0.0;
 
-/// One or several `f64` that are computed with at once.
+/// A register of one or several `f64` that are computed with at once.
 ///
 /// Every method is always inlined: a register that needs certain instructions has to be used by functions that are
 /// compiled for them, never passed to one that is not.
@@ -177,12 +177,12 @@ impl Register for f64 {
 
     #[inline(always)]
     fn sqrt(self) -> Self {
-        crate::numbers::elementary::sqrt(self)
+        crate::numbers::elementary::correctly_rounded::sqrt(self)
     }
 
     #[inline(always)]
     fn fused(self, b: Self, c: Self) -> Self {
-        crate::numbers::elementary::fused(self, b, c)
+        crate::numbers::elementary::correctly_rounded::fused(self, b, c)
     }
 
     #[inline(always)]

@@ -35,7 +35,7 @@ impl<R> Crossing<R> {
 pub(in crate::steppers) struct Checks<R> {
     /// The beginning of the step.
     pub start: R,
-    /// Its end.
+    /// The end.
     pub end: R,
     /// Whether a run begins with the step near the function's surface. Then its first part is checked after an eighth, a
     /// 64th and so on as well, as far as the digits of a double go: what leaves the surface there may be back long before the

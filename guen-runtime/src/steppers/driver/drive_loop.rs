@@ -15,13 +15,13 @@ pub(super) type Visitor<'a, R, const N: usize> = &'a mut dyn FnMut(usize, R, &[R
 /// Is told of each event; ends the run when it breaks.
 pub(super) type Receiver<'a, R, const N: usize> = &'a mut dyn FnMut(&Occurrence<R, N>) -> ControlFlow<()>;
 
-/// All that is looked at on the way of a run.
+/// The loop of a run with everything that is checked on its way: samples, events, observer and guard.
 pub(super) struct DriveLoop<'a, 'e, R, const N: usize> {
     pub start: Checkpoint<R, N>,
     pub guard: Guard,
     pub observer: Option<Observer<'a, R, N>>,
     pub samples: &'a [R],
-    /// How many of the samples have been visited.
+    /// The number of samples that have been visited.
     pub visited: usize,
     pub visitor: Option<Visitor<'a, R, N>>,
     pub events: &'e mut [Followed<'a, R, N>],

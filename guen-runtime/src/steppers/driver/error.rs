@@ -3,9 +3,8 @@
 use core::error::Error;
 use core::fmt;
 
-use super::run::Statistics;
+use super::statistics::Statistics;
 use crate::numbers::real::Real;
-use crate::system::simulate::Simulate;
 
 /// Why an integration could not go on.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -116,7 +115,7 @@ pub enum Cause {
         /// The limit, of roundings that have grown so, relative to the start.
         limit: f64,
     },
-    /// The trajectory of a [`Simulation`](crate::Simulate::simulate) does not fit into the memory that it may take.
+    /// The trajectory of a simulation (`Simulate::simulate`) does not fit into the memory that it may take.
     Memory {
         /// The limit, in bytes.
         limit: usize,
@@ -161,11 +160,6 @@ pub(crate) struct Names {
 }
 
 impl Names {
-    /// The names of a system.
-    pub(crate) fn of<R: Real, S: Simulate<R, N> + ?Sized, const N: usize>() -> Self {
-        Self { states: S::STATES, domain: S::DOMAIN }
-    }
-
     fn function(&self, f: &mut fmt::Formatter<'_>, function: usize) -> fmt::Result {
         match self.domain.get(function) {
             Some(formula) => write!(f, "`{formula}`"),
@@ -294,37 +288,11 @@ impl<R: Real, const N: usize> fmt::Display for IntegrationError<R, N> {
 
 impl<R: Real, const N: usize> Error for IntegrationError<R, N> {}
 
-impl<R: Real, const N: usize> IntegrationError<R, N> {
-    /// The message in the names of the system: its variables and the functions that must not vanish, and not their numbers.
-    ///
-    /// ```
-    /// use guen_runtime::steppers::{Guard, Integration, Rk4};
-    /// use guen_runtime::{Simulate, System};
-    ///
-    /// struct Growth;
-    /// impl System<f64, 1> for Growth {
-    ///     fn rhs(&self, _t: f64, &[x]: &[f64; 1]) -> [f64; 1] {
-    ///         [100.0 * x]
-    ///     }
-    /// }
-    /// impl Simulate<f64, 1> for Growth {
-    ///     type State = [f64; 1];
-    ///     const STATES: &'static [&'static str] = &["size"];
-    /// }
-    ///
-    /// let error = Integration::new(&Growth, 0.0, &[1.0]).run(&Rk4::new(0.05), 10.0).unwrap_err();
-    /// assert!(error.named(&Growth).to_string().contains("`size` is off"));
-    /// ```
-    pub fn named<S: Simulate<R, N> + ?Sized>(&self, _system: &S) -> impl fmt::Display + use<R, S, N> {
-        NamedError { time: self.time.to_f64(), cause: self.cause, names: Names::of::<R, S, N>() }
-    }
-}
-
 /// An error of a run with the names of its system.
-struct NamedError {
-    time: f64,
-    cause: Cause,
-    names: Names,
+pub(crate) struct NamedError {
+    pub(crate) time: f64,
+    pub(crate) cause: Cause,
+    pub(crate) names: Names,
 }
 
 impl fmt::Display for NamedError {

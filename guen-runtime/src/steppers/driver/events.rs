@@ -5,11 +5,11 @@ use crate::numbers::real::{Ordered, Real};
 /// The crossings of zero that count.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Direction {
-    /// From below zero to above, in the order in which the run goes.
+    /// Crossings from below zero to above, in the order in which the run goes.
     Rising,
-    /// From above zero to below, in the order in which the run goes.
+    /// Crossings from above zero to below, in the order in which the run goes.
     Falling,
-    /// Either.
+    /// Crossings in either direction.
     Any,
 }
 

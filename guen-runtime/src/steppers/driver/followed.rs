@@ -10,7 +10,7 @@ use crate::steppers::driver::run::Checkpoint;
 #[derive(Clone, Copy)]
 pub(super) struct Followed<'a, R, const N: usize> {
     pub event: Event<'a, R, N>,
-    /// Up to where its crossings have been reported, and the tracker as it stood there.
+    /// The time up to which crossings have been reported, and the tracker as it stood there.
     from: R,
     behind: Tracker,
     checks: Checks<R>,
@@ -131,7 +131,7 @@ impl<'a, R: Real, const N: usize> Followed<'a, R, N> {
     /// Whether the function is much smaller at the start of the first step than it becomes in it: it begins at the surface, as far as
     /// roundings can tell, and may leave it and come back before the first check.
     fn is_near(&self, start: &Checkpoint<R, N>, end: R, run: &mut dyn AnyRun<R, N>) -> bool {
-        /// By this factor.
+        /// The factor by which a function grows within a step that starts at its zero.
         const GROWTH_IN_STEP: f64 = 256.0;
 
         let near = GROWTH_IN_STEP * self.event.value(start.time, &start.state).abs();

@@ -10,4 +10,5 @@ mod followed;
 pub(crate) mod integration;
 pub(crate) mod run;
 pub(crate) mod short_ways;
+pub(crate) mod statistics;
 mod within_step;

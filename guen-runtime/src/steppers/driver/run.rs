@@ -1,34 +1,9 @@
 //! The interface between a method and the driver: a method starts a run, and a run goes on step by step.
 
-use core::ops::AddAssign;
-
 use crate::numbers::real::Real;
 use crate::steppers::driver::dense::Interpolant;
 use crate::steppers::driver::error::{Cause, IntegrationError};
-
-/// The work that an integration did.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct Statistics {
-    /// Evaluations of the right-hand side, those for dense output included. A derivative along one direction counts as
-    /// one, a Taylor series of order `p` as `p`.
-    pub evaluations: u64,
-    /// Evaluations of the Jacobian; none with explicit methods.
-    pub jacobians: u64,
-    /// Steps that advanced the state.
-    pub accepted: u64,
-    /// Trial steps that were repeated with a shorter step; none with a fixed step.
-    pub rejected: u64,
-}
-
-impl AddAssign for Statistics {
-    /// Adds the work of a further run.
-    fn add_assign(&mut self, other: Self) {
-        self.evaluations += other.evaluations;
-        self.jacobians += other.jacobians;
-        self.accepted += other.accepted;
-        self.rejected += other.rejected;
-    }
-}
+use crate::steppers::driver::statistics::Statistics;
 
 /// The end of an integration that did not fail.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -60,7 +35,7 @@ pub struct IntegrationResult<R, const N: usize> {
 pub struct Checkpoint<R, const N: usize> {
     /// The time.
     pub time: R,
-    /// By how much the state is later than `time`, which is rounded: zero at the end of every step, and no more than half a
+    /// The time by which the state is later than `time`, which is rounded: zero at the end of every step, and no more than half a
     /// spacing of numbers where a run goes on from an event.
     pub time_rest: R,
     /// The state at `time + time_rest`.

@@ -3,7 +3,8 @@
 use crate::numbers::real::{Ordered, Real};
 use crate::steppers::all_finite;
 use crate::steppers::driver::error::{Cause, IntegrationError, Setting};
-use crate::steppers::driver::run::{Checkpoint, Statistics};
+use crate::steppers::driver::run::Checkpoint;
+use crate::steppers::driver::statistics::Statistics;
 use crate::steppers::entries;
 use crate::steppers::explicit::adaptive::Pair;
 use crate::steppers::explicit::tableau::{Tableau, Trial};

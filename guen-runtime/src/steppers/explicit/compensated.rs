@@ -6,7 +6,8 @@ use crate::numbers::real::Real;
 use crate::steppers::driver::dense::Dense;
 use crate::steppers::driver::error::{Cause, IntegrationError};
 use crate::steppers::driver::integration::Integration;
-use crate::steppers::driver::run::{Checkpoint, IntegrationResult, Method, Statistics};
+use crate::steppers::driver::run::{Checkpoint, IntegrationResult, Method};
+use crate::steppers::driver::statistics::Statistics;
 use crate::steppers::explicit::fixed::{Changes, Fixed, Formula};
 use crate::system::System;
 

@@ -92,7 +92,7 @@ impl<R: Ordered> Dop853<R> {
     }
 }
 
-/// Below this, a sum of squares of errors in units of the tolerance is none, and its own square is below all numbers.
+/// The sum of squares of errors, in units of the tolerance, below which there is no error: its square is below all numbers.
 const NEGLIGIBLE_SQUARES: f64 = 1e-150;
 
 impl<R: Real, const N: usize> Pair<R, N> for Tableau<R> {

@@ -3,8 +3,9 @@
 use crate::numbers::real::Real;
 use crate::steppers::driver::dense::Dense;
 use crate::steppers::driver::error::Cause;
-use crate::steppers::driver::run::{Checkpoint, Method, Statistics};
+use crate::steppers::driver::run::{Checkpoint, Method};
 use crate::steppers::driver::short_ways::short_ways;
+use crate::steppers::driver::statistics::Statistics;
 use crate::steppers::explicit::fixed::{Fixed, Formula, Slopes};
 use crate::steppers::guard::defect::quadrature;
 use crate::steppers::shifted;

@@ -4,7 +4,8 @@ use crate::numbers::real::Real;
 use crate::steppers::all_finite;
 use crate::steppers::driver::dense::Dense;
 use crate::steppers::driver::error::{Cause, Setting};
-use crate::steppers::driver::run::{Checkpoint, Statistics, StepperRun};
+use crate::steppers::driver::run::{Checkpoint, StepperRun};
+use crate::steppers::driver::statistics::Statistics;
 use crate::system::System;
 
 /// A formula that makes one step.
@@ -231,7 +232,7 @@ pub(crate) struct Leg<R> {
 
 impl<R: Real> Leg<R> {
     pub(in crate::steppers) fn new(origin: R, target: R, step: R) -> Result<Self, Cause> {
-        /// Beyond this many steps `f64` no longer counts them one by one.
+        /// The number of steps beyond which `f64` no longer counts them one by one.
         const COUNTABLE: f64 = (1_u64 << 53) as f64;
         /// Roundings by which a span may exceed a whole number of steps without being given a further one: those
         /// of the span, of the quotient, and of the step as the user divided it.

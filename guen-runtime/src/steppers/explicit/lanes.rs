@@ -5,7 +5,8 @@
 
 use crate::numbers::lanes::{Lanes, Mask};
 use crate::steppers::driver::error::{Cause, IntegrationError, Setting};
-use crate::steppers::driver::run::{Checkpoint, IntegrationResult, Outcome, Statistics};
+use crate::steppers::driver::run::{Checkpoint, IntegrationResult, Outcome};
+use crate::steppers::driver::statistics::Statistics;
 use crate::steppers::entries;
 use crate::steppers::explicit::fixed::Leg;
 use crate::steppers::guard::{Each, Guard, MOST, Place, Watch};
@@ -62,7 +63,7 @@ pub(in crate::steppers) trait LaneFormula<L: Lanes, S: ?Sized, const N: usize> {
     ) -> [L; N];
 }
 
-/// How the trajectories in lanes ended.
+/// The ends of the trajectories in lanes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InLanes<const N: usize> {
     ends: [Option<Result<IntegrationResult<f64, N>, IntegrationError<f64, N>>>; MOST],
@@ -294,7 +295,7 @@ struct Run<'a, M: LaneFormula<L, S, N>, L: Lanes, S: ?Sized, const N: usize> {
     formula: M::Ready,
     memory: M::Memory,
     now: Moment<L, N>,
-    /// Where the last step began, if it was `kept`.
+    /// The beginning of the last step, if it was `kept`.
     before: Moment<L, N>,
     kept: bool,
     lanes: Going<N>,

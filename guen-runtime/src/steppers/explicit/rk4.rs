@@ -5,8 +5,9 @@ use crate::numbers::lanes::Lanes;
 use crate::numbers::real::Real;
 use crate::steppers::driver::dense::Dense;
 use crate::steppers::driver::error::Cause;
-use crate::steppers::driver::run::{Checkpoint, Method, Statistics};
+use crate::steppers::driver::run::{Checkpoint, Method};
 use crate::steppers::driver::short_ways::short_ways;
+use crate::steppers::driver::statistics::Statistics;
 use crate::steppers::explicit::compensated::Compensated;
 use crate::steppers::explicit::fixed::{Changes, Fixed, Formula, Slopes};
 use crate::steppers::explicit::lanes::{LaneFormula, Moment, in_lanes};
@@ -14,7 +15,7 @@ use crate::steppers::guard::defect::quadrature;
 use crate::steppers::moved;
 use crate::system::System;
 
-/// One step of the classical Runge-Kutta method.
+/// Makes one step of the classical Runge-Kutta method.
 ///
 /// ```text
 /// k1 = f(t, x)                    k3 = f(t + h/2, x + h/2 k2)

@@ -1,4 +1,4 @@
-//! One step of DOP853: from a state and its slope to the next state, two estimates of the error, and the polynomial
+//! A step of DOP853: from a state and its slope to the next state, two estimates of the error, and the polynomial
 //! between, without any decision about them.
 
 use crate::numbers::decimal::reals;
@@ -89,7 +89,7 @@ impl<R: Real> Tableau<R> {
         }
     }
 
-    /// One step on trial from the state `x` at `t`, where the slope is `k1 = f(t, x)`.
+    /// Makes one step on trial from the state `x` at `t`, where the slope is `k1 = f(t, x)`.
     ///
     /// ```text
     /// k_i = f(t + c_i h, x + h sum_j a_ij k_j)      i = 2 .. 12, j < i

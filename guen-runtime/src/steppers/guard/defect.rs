@@ -136,7 +136,7 @@ mod tests {
     use super::{Checkpoint, quadrature};
     use crate::{System, from_fn};
 
-    /// Of an oscillator the errors of Euler's method and of RK4 are known.
+    /// Compares estimates with the errors of Euler's method and of RK4, which are known for an oscillator.
     #[test]
     fn the_estimate_is_the_error_of_the_step() {
         let oscillator = from_fn(|_t: f64, &[x, v]: &[f64; 2]| [v, -x]);

@@ -3,9 +3,9 @@
 use crate::numbers::lanes::{Lanes, Mask};
 use crate::numbers::real::Real;
 
-/// How runs are read out of the reals that they have in common.
+/// A way to read single runs out of the reals that they have in common.
 pub(in crate::steppers) trait Runs<R: Real> {
-    /// How many there are.
+    /// The number of runs.
     const COUNT: usize;
 
     /// A number of steps for each run.
@@ -18,7 +18,7 @@ pub(in crate::steppers) trait Runs<R: Real> {
     fn finite(x: R) -> Mask;
 }
 
-/// One run.
+/// A run alone, not in lanes.
 pub(in crate::steppers) struct One;
 
 impl<R: Real> Runs<R> for One {

@@ -32,7 +32,7 @@ pub(in crate::steppers) struct Watch<R: Real, V: Runs<R>, const N: usize> {
     /// to that.
     rest: u32,
     between: u32,
-    /// For each run the steps from when it did something last to its own turn, where they are not the same for all.
+    /// The steps of each run from its last check to its next one, where they are not the same for all.
     turns: Option<V::Steps>,
     /// The moment of the last check that found everything in order.
     good: (R, [R; N]),
@@ -41,7 +41,7 @@ pub(in crate::steppers) struct Watch<R: Real, V: Runs<R>, const N: usize> {
 }
 
 impl<R: Real, V: Runs<R>, const N: usize> Watch<R, V, N> {
-    /// For steps of so many evaluations, `fixed` or not.
+    /// Creates a watch over steps of so many evaluations, `fixed` or not.
     pub(crate) fn new<S>(
         guard: Guard,
         system: &S,
@@ -355,7 +355,7 @@ fn place<R: Real, const N: usize>(at: &Checkpoint<R, N>) -> Place<'_, R, N> {
 }
 
 impl<R: Real, const N: usize> Watch<R, One, N> {
-    /// For one run of a method.
+    /// Creates a watch over one run of a method.
     pub(crate) fn of_run(guard: Guard, run: &dyn AnyRun<R, N>) -> Result<Self, Cause> {
         Self::new(guard, run.system(), run.evaluations(), run.is_judged(), place(run.checkpoint()))
     }
@@ -417,7 +417,7 @@ impl<R: Real, const N: usize> Watch<R, One, N> {
     }
 }
 
-/// Where the last step began, and the estimate of its errors.
+/// Returns the beginning of the last step, and the estimate of its errors.
 #[inline(always)]
 fn last<'a, R: Real, const N: usize>(
     before: Option<&'a Checkpoint<R, N>>,

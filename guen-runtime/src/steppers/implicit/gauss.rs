@@ -5,8 +5,9 @@ use crate::numbers::decimal::{Parts, decimal};
 use crate::numbers::real::{Ordered, Real};
 use crate::steppers::driver::dense::Dense;
 use crate::steppers::driver::error::Cause;
-use crate::steppers::driver::run::{Checkpoint, Method, Statistics};
+use crate::steppers::driver::run::{Checkpoint, Method};
 use crate::steppers::driver::short_ways::short_ways;
+use crate::steppers::driver::statistics::Statistics;
 use crate::steppers::entries;
 use crate::steppers::explicit::fixed::{Fixed, Formula, Slopes};
 use crate::steppers::guard::defect::quadrature;
@@ -233,7 +234,7 @@ where
 {
     /// The number of iterations from which on a new Jacobian costs less than to go on with the old one.
     const SLOW_ITERATIONS: u32 = 7;
-    /// Steps that differ by less have the same factors: each iteration leaves so much of the error.
+    /// The relative difference below which two steps share their factors: each iteration leaves so much of the error.
     const SAME_STEP: f64 = 1e-3;
 
     // A slope that dense output left belongs to the end of a step that is over.

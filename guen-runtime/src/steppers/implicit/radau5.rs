@@ -280,7 +280,7 @@ where
     }
 
     fn advance(&mut self, system: &S, target: R, _dense: bool) -> Result<(), Cause> {
-        /// Below this rate of convergence the Jacobian is good enough for the next step.
+        /// The rate of convergence below which the Jacobian is good enough for the next step.
         const FAST_RATE: f64 = 1e-3;
         /// A step that would grow by less than this stays as it is, with its factors.
         const MIN_GROWTH: f64 = 1.2;

@@ -43,7 +43,7 @@ pub(super) struct Defect<'a, R, const N: usize> {
     pub length: R,
     /// `h p'`
     pub slope: &'a [R; N],
-    /// One over the tolerances.
+    /// The reciprocals of the tolerances.
     pub weights: &'a [f64; N],
 }
 
@@ -75,7 +75,7 @@ impl<R: Ordered, const N: usize> Defect<'_, R, N> {
     where
         S: TaylorSeries<R, N> + ?Sized,
     {
-        /// By so many roundings other states are the neighbours.
+        /// The number of roundings by which neighbouring states differ.
         const ROUNDINGS: f64 = 2.0;
         /// The defect is allowed to be so many times as large as the difference of the rates: of many roundings a few tell
         /// about the others.

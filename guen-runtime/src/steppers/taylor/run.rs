@@ -7,7 +7,8 @@ use super::{Series, Taylor};
 use crate::numbers::power_series::HIGHEST_ORDER;
 use crate::numbers::real::{Ordered, Real};
 use crate::steppers::driver::error::Cause;
-use crate::steppers::driver::run::{Checkpoint, Statistics, StepperRun};
+use crate::steppers::driver::run::{Checkpoint, StepperRun};
+use crate::steppers::driver::statistics::Statistics;
 use crate::steppers::step_size;
 use crate::system::series::TaylorSeries;
 
@@ -16,12 +17,12 @@ use crate::system::series::TaylorSeries;
 const MAX_SHORTENING: f64 = 0.5;
 const MAX_LENGTHENING: f64 = 2.0;
 
-/// Up to which orders terms are summed.
+/// The orders up to which terms are summed.
 #[derive(Clone, Copy, Debug)]
 struct Orders {
-    /// In a step.
+    /// The order of a step.
     step: usize,
-    /// Where the rates within it are compared.
+    /// The order at the place within a step where rates are compared.
     inside: usize,
 }
 
@@ -135,7 +136,7 @@ impl<'a, R: Ordered, const N: usize> Run<'a, R, N> {
     {
         /// The factor by which the scale becomes shorter where coefficients overflow.
         const RESCALING: f64 = 1.0 / (1_u64 << 20) as f64;
-        /// And how often.
+        /// The number of times that it becomes shorter before the run ends.
         const MAX_RESCALINGS: u32 = 6;
 
         let order = order.clamp(1, HIGHEST_ORDER);

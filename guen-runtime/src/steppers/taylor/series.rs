@@ -17,7 +17,7 @@ pub struct Series<R, const N: usize> {
 }
 
 impl<R: Real, const N: usize> Series<R, N> {
-    /// Before the first step there is nothing to interpolate but the present state.
+    /// Creates the series before the first step, which interpolates nothing but the present state.
     pub(super) fn still(start: R, state: &[R; N]) -> Self {
         let mut coefficients = [[R::zero(); N]; HIGHEST_ORDER + 1];
         coefficients[0] = *state;

@@ -28,7 +28,7 @@ use crate::zero::Verdict;
 
 /// The equations in the axes of the bodies, and what the rates of coordinates are there.
 pub(super) struct InBodyAxes {
-    /// Without the generalised forces.
+    /// The equations without the generalised forces.
     pub(super) equations: Equations,
     velocities: Vec<ExprId>,
 }
@@ -49,7 +49,7 @@ impl InBodyAxes {
     }
 }
 
-/// None where no chart has an edge, or no body is turned.
+/// The equations in the axes of bodies; none where no chart has an edge, or no body is turned.
 pub(super) fn equations(
     bench: &mut Workbench,
     system: &Mechanics,
@@ -62,7 +62,7 @@ pub(super) fn equations(
     in_any_chart(bench, system, frame, forms)
 }
 
-/// None where no body is turned.
+/// The equations in the axes of bodies, whatever the chart; none where no body is turned.
 pub(super) fn in_any_chart(
     bench: &mut Workbench,
     system: &Mechanics,

@@ -145,7 +145,7 @@ impl Balancing<'_> {
         }
     }
 
-    /// One parameter: the reaction balances across its column.
+    /// Balances a single parameter: the reactions across its column.
     fn along(&mut self, bench: &mut Workbench, members: &[usize], s: usize) -> Option<()> {
         let column: Vec<ExprId> = members.iter().map(|k| self.entry(bench, *k, s)).collect();
         if let [b] = column[..] {

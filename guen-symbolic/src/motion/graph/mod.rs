@@ -29,14 +29,14 @@ impl FrameId {
 /// The turn of a frame against its parent.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Turn {
-    /// By an angle about a unit vector of constants in the axes of the parent.
+    /// A turn by an angle about a unit vector of constants in the axes of the parent.
     About {
         /// The unit vector.
         axis: [ExprId; 3],
         /// The angle, of time and coordinates.
         angle: ExprId,
     },
-    /// By any rotation.
+    /// Any rotation.
     General {
         /// The rotation matrix from these axes to the parent's, row by row.
         matrix: [[ExprId; 3]; 3],
@@ -48,7 +48,7 @@ pub enum Turn {
 /// A frame.
 #[derive(Clone, Debug)]
 pub struct FrameNode {
-    /// Its name in the declaration; empty if it has none.
+    /// The name in the declaration; empty if it has none.
     pub name: String,
     /// The frame on which it hangs; older.
     pub parent: FrameId,
@@ -59,7 +59,7 @@ pub struct FrameNode {
 /// A body or a particle.
 #[derive(Clone, Debug)]
 pub struct BodyNode {
-    /// Its name in the declaration; empty for particles.
+    /// The name in the declaration; empty for particles.
     pub name: String,
     /// The frame in whose axes its inertia is given, where it has inertia.
     pub frame: Option<FrameId>,

@@ -86,7 +86,7 @@ impl Place {
 }
 
 impl Velocity {
-    /// One part, once.
+    /// Creates a velocity of one part.
     pub fn of(graph: &Graph, motion: Motion) -> Self {
         Velocity { parts: vec![(graph.one(), motion)] }
     }

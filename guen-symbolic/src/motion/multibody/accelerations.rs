@@ -1,9 +1,9 @@
 //! Accelerations of points at zero rates of what is free.
 
+use super::definitions::Def;
 use super::kinematics::Kinematics;
-use super::plan::Def;
 use super::tree::{Turn, Vec3, cross};
-use super::variables::{Class, Kind, Var, is_at_rest};
+use super::variables::{Class, Kind, Var};
 use crate::algebra::ExprId;
 use crate::numbering::Num;
 
@@ -137,7 +137,7 @@ impl Kinematics<'_> {
     pub(super) fn acceleration_before(&mut self, point: usize, q: usize) -> Num {
         let (tree, variables) = (self.tree, self.variables);
         let node = &tree.points[point];
-        if is_at_rest(tree, point) {
+        if tree.is_at_rest(point) {
             return self.acceleration(node.parent, q);
         }
         let var = variables.before(point, q);

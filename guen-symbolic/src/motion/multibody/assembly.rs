@@ -4,10 +4,10 @@ use std::collections::BTreeMap;
 
 use super::beside::Row;
 use super::core::Core;
+use super::definitions::{Def, Equation, Plan};
 use super::form::Form;
 use super::forms::Functional;
 use super::kinematics::Kinematics;
-use super::plan::{Def, Equation, Plan};
 use super::relations::{definition, order};
 use super::tree::{Content, Tree, Turn};
 use super::variables::{Class, Kind, Var, Variables};
@@ -47,7 +47,7 @@ fn axial(tree: &Tree, content: &Content) -> Option<usize> {
 /// The time at which a parameter leaves the equations.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Order {
-    /// After all velocities: the mass matrix of the parameters is factored.
+    /// The place after all velocities: the mass matrix of the parameters is factored.
     AtTheRoot,
     /// As soon as all velocities that follow from it have left: the inertia of articulated bodies.
     OnTheWay,

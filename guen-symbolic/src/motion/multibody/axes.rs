@@ -15,7 +15,7 @@ pub(super) type Matrix = [Vector; 3];
 /// The turn of axes against their parent's.
 #[derive(Clone, Debug)]
 pub(super) enum Turned {
-    /// Not at all: the world.
+    /// The axes of the world.
     World,
     /// About a coordinate axis.
     About {
@@ -26,7 +26,7 @@ pub(super) enum Turned {
         /// The angle, where it is not constant.
         angle: Option<ExprId>,
     },
-    /// By any rotation.
+    /// Axes turned by any rotation.
     By {
         /// The rotation matrix from these axes to the parent's.
         matrix: Matrix,

@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use super::plan::{Equation, Plan, Planner};
+use super::definitions::{Equation, Plan};
+use super::plan::Planner;
 use super::relations::{Linear, definition, link, order};
 use super::tree::Tree;
 use super::variables::{Var, Variables};
@@ -11,11 +12,11 @@ use crate::numbering::{Num, Numbering};
 /// A combination of parameters and unknowns.
 type Combination = BTreeMap<Var, Num>;
 
-/// One step of the elimination: a form solved for an unknown.
+/// A step of the elimination: a form solved for an unknown.
 struct Step {
     row: usize,
     unknown: usize,
-    /// One over what was divided by.
+    /// The reciprocal of the divisor.
     inverse: Num,
     /// Unknowns that are solved for later, with what they contribute.
     later: Vec<(usize, Num)>,

@@ -1,8 +1,9 @@
 //! Along which directions the components of a vector that vanishes are taken: those that say least, and that span space.
 
 use super::declared::Group;
+use super::definitions::Plan;
 use super::forms::{Direction, Functional};
-use super::plan::{Plan, Planner};
+use super::plan::Planner;
 use super::safety::{STATES, independent, real_value};
 use super::tree::{Vec3, cross};
 use crate::numbering::Num;

@@ -127,7 +127,7 @@ impl Form {
         }
     }
 
-    /// All pairs that one angle turns, together: `x = c X + s Y`, `y = c Y - s X` for each `(x, y, X, Y)`.
+    /// Turns all pairs that one angle turns, together: `x = c X + s Y`, `y = c Y - s X` for each `(x, y, X, Y)`.
     pub(super) fn turn(
         &mut self,
         numbers: &mut Numbering,

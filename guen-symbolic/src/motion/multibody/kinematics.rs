@@ -10,8 +10,8 @@
 //! a multiple of a parameter its component has no rate of its own, and the acceleration is what its axes do to it.
 
 use super::core::Core;
+use super::definitions::{Def, Plan};
 use super::forms::Part;
-use super::plan::{Def, Plan};
 use super::relations::{Linear, definition, link, raw_kinematic, reduced};
 use super::tree::{RateForm, Tree, Turn, Vec3, cross};
 use super::variables::{Class, Kind, Var, Variables};

@@ -13,15 +13,18 @@ mod beside;
 mod biases;
 mod core;
 mod declared;
+mod definitions;
 mod directions;
 mod form;
 mod forms;
 mod kinematics;
 mod plan;
 mod points;
+mod regrouping;
 mod relations;
 mod safety;
 mod strain;
+mod strained;
 mod tree;
 mod variables;
 

@@ -5,6 +5,7 @@
 //! bicycle the contact of the front wheel determines yaw, pitch and the turn of the wheel.
 
 use super::declared::Group;
+use super::definitions::{Def, Equation, Plan};
 use super::forms::Functional;
 use super::relations::{Linear, back, link, raw_kinematic, reduced, solved, turned_components};
 use super::safety::{STATES, ZERO_BELOW, real_value};
@@ -14,45 +15,6 @@ use crate::algebra::FastMap;
 use crate::numbering::{Num, Numbering};
 use crate::workbench::Workbench;
 use crate::zero::field;
-
-/// The equation from which a variable that stands for its class is computed.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum Def {
-    /// A parameter.
-    Known,
-    /// The variables from which it is one step outwards.
-    Kinematic,
-    /// A form, solved for it.
-    Row(usize),
-    /// The kinematics of another variable, which is a multiple of a known one.
-    Link(Var),
-    /// The turn of this variable and others into a known one, turned back.
-    Back(Var),
-    /// The core.
-    Core(usize),
-}
-
-/// A combination that vanishes.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
-pub(super) enum Equation {
-    /// A form.
-    Row(usize),
-    /// The kinematics of a variable, without the variable.
-    Link(Var),
-}
-
-/// The order of elimination: the definition of each variable, and the core of equations that are left.
-#[derive(Clone)]
-pub(super) struct Plan {
-    pub(super) defs: Vec<Option<Def>>,
-    /// The forms, parameters subtracted.
-    pub(super) rows: Vec<Functional>,
-    /// The equations of the core.
-    pub(super) core: Vec<Equation>,
-    /// The unknowns of the core.
-    pub(super) unknowns: Vec<Var>,
-    pub(super) used: Vec<bool>,
-}
 
 /// The context in which a plan is made.
 pub(super) struct Planner<'a> {

@@ -26,7 +26,7 @@ pub(super) struct Point {
 /// A place by the axes of its terms, in ascending order.
 pub(super) type Terms = Vec<(usize, Vector)>;
 
-/// All points; the first is the origin of the world.
+/// The points; the first is the origin of the world.
 pub(super) struct Points {
     pub(super) list: Vec<Point>,
 }

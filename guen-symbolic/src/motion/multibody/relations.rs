@@ -1,6 +1,6 @@
 //! Steps between velocities: one step outwards, one step back, and forms solved for one of them.
 
-use super::plan::{Def, Plan};
+use super::definitions::{Def, Plan};
 use super::tree::{RateForm, Tree, Turn};
 use super::variables::{Class, Kind, Var, Variables};
 use crate::numbering::{Num, Numbering};

@@ -233,7 +233,7 @@ impl Variables {
         let Some(first) = column.iter().copied().find(|entry| *entry != 0) else { return Class::Zero };
         // What a point has in the axes before is what it is seen from has, where it is at the same place.
         match self.kind(var) {
-            Kind::Before(point, q) if is_at_rest(tree, point) => {
+            Kind::Before(point, q) if tree.is_at_rest(point) => {
                 return self.class(self.velocity(tree.points[point].parent, q));
             }
             Kind::Velocity(point, q) => {
@@ -268,12 +268,6 @@ impl Variables {
         }
         Class::Of(var, Num::ONE)
     }
-}
-
-/// Whether a point is where the one is that it is seen from.
-pub(super) fn is_at_rest(tree: &Tree, point: usize) -> bool {
-    let node = &tree.points[point];
-    node.rate.is_none() && node.offset.iter().all(|e| e.is_zero())
 }
 
 fn add_scaled(sum: &mut [u64], factor: u64, column: &[u64]) {

@@ -5,7 +5,7 @@ use crate::algebra::{ExprId, FastMap, Node, Rational};
 use crate::motion::velocity_forms::VELOCITIES;
 use crate::workbench::Workbench;
 
-/// One linear function of velocity forms: a component along an operator, or the value in a motion.
+/// A linear function of velocity forms: a component along an operator, or the value in a motion.
 pub(super) struct Component<'a> {
     sums: &'a FastMap<ExprId, Relative>,
     /// The definitions of symbols that have no value of their own.

@@ -149,7 +149,7 @@ struct Velocities<'a> {
     velocities: Vec<ExprId>,
     /// `xi_s^i`, a row for each of `X_1..X_l`.
     operators: Vec<Vec<ExprId>>,
-    /// By `s`, the components along `X_s`; 0 is the drift.
+    /// The components along `X_s`, by `s`; 0 is the drift.
     along: Vec<Component<'a>>,
     /// The values, in the `eta`.
     whole: Component<'a>,

@@ -18,7 +18,7 @@ use crate::workbench::Workbench;
 /// world's axes.
 type Key = (Option<ExprId>, Option<ExprId>);
 
-/// One form by velocities and by sines and cosines of single angles, in the order of these.
+/// A form by velocities and by sines and cosines of single angles, in the order of these.
 pub(super) struct Scalar(Vec<(Key, [ExprId; 2])>);
 
 /// `(along + i across) velocity e^{i angle}`

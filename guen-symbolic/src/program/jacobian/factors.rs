@@ -34,7 +34,7 @@ fn is_plain(operation: &Operation) -> bool {
     matches!(operation, Operation::Number(_) | Operation::Pi | Operation::Symbol(_))
 }
 
-/// One stage of code: equal operations are one instruction.
+/// A stage of code: equal operations are one instruction.
 #[derive(Default)]
 struct Stage {
     instructions: Vec<Instruction>,

@@ -1,6 +1,7 @@
 //! `k (a x + b y) = (k a) x + (k b) y` where that is one multiplication less: constants are multiplied once per system.
 
-use super::super::net::{Linear, Net, NetId, NetNode};
+use super::super::net::{Linear, Net, NetNode};
+use super::super::terms::NetId;
 use super::super::terms::{Terms, add_term, nonzero};
 use super::{Changes, is_unit};
 use crate::algebra::{ExprId, FastMap, Graph};

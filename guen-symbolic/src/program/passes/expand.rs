@@ -1,6 +1,7 @@
 //! `x (a + b) = x a + x b` for short sums that few products use, so that later passes can group terms anew.
 
-use super::super::net::{Linear, Net, NetId, NetNode};
+use super::super::net::{Linear, Net, NetNode};
+use super::super::terms::NetId;
 use super::super::terms::{Terms, add_term, nonzero};
 use super::Changes;
 use crate::algebra::{ExprId, FastMap, Graph};

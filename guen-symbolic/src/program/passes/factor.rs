@@ -1,12 +1,13 @@
 //! `x a + x b + c = x (a + b) + c`, greedily by the factor that most terms share, constants included.
 
-use super::super::net::{Linear, Net, NetId, NetNode, split_sign};
+use super::super::net::{Linear, Net, NetNode, split_sign};
+use super::super::terms::NetId;
 use super::super::terms::{Powers, Terms, add_term, nonzero};
 use super::Changes;
 use crate::algebra::{ExprId, FastMap, Graph, Key, spread};
 use crate::program::thresholds::FACTORED_TERMS;
 
-/// One term: coefficient and powers.
+/// A term: coefficient and powers.
 #[derive(Clone, Debug)]
 struct Term {
     k: ExprId,

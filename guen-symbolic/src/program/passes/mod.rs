@@ -11,14 +11,15 @@ mod products;
 mod signs;
 mod sums;
 
-use super::net::{Linear, Net, NetId, NetNode};
+use super::net::{Linear, Net, NetNode};
+use super::terms::NetId;
 use super::terms::{Powers, Terms, add_term, nonzero};
 use crate::algebra::{ExprId, FastMap, Graph};
 
 /// New contents of some nodes, in terms of nodes whose contents may change as well.
 pub(super) type Changes = FastMap<NetId, NetNode>;
 
-/// One rewriting of the whole net.
+/// A rewriting of the whole net.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Pass {
     /// Constant factors move into sums that have a coefficient at every term anyway.

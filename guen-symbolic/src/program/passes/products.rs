@@ -3,7 +3,8 @@
 //! A monomial is a coefficient and powers of nodes; a power `x^-2` counts as the factor `1/x` twice. The counts
 //! are kept up to date in a heap, so the work is near-linear in the sizes of the monomials, which are small.
 
-use super::super::net::{Linear, Net, NetId, NetNode, constant_factors, split_sign};
+use super::super::net::{Linear, Net, NetNode, constant_factors, split_sign};
+use super::super::terms::NetId;
 use super::super::terms::{Powers, Terms, add_term};
 use super::Changes;
 use crate::algebra::{ExprId, FastMap, Graph, Key, Rational, spread};
@@ -180,7 +181,7 @@ impl Search {
         }
     }
 
-    /// One more or one less of a pair; pairs that were never counted cannot become frequent by losing some. Those of a factor that
+    /// Counts one more or one less of a pair; pairs that were never counted cannot become frequent by losing some. Those of a factor that
     /// was in one monomial only were not counted either, and a join may put it into a second one: of such a pair fewer are
     /// counted than there are, and more may go than were counted.
     fn change(&mut self, pair: Pair, up: bool) {

@@ -3,7 +3,8 @@
 //! A sum that only subtracts, `-x - y`, needs a negation. If `x` is a product with a factor that is a sum or has a
 //! prepared coefficient, that factor can change its sign for free, provided that its other users gain no negation.
 
-use super::super::net::{Linear, Net, NetId, NetNode, split_sign};
+use super::super::net::{Linear, Net, NetNode, split_sign};
+use super::super::terms::NetId;
 use super::Changes;
 use crate::algebra::{ExprId, FastMap, Graph};
 use crate::program::thresholds::{SUBTRACTING_SUMS, USERS_OF_A_SIGN};

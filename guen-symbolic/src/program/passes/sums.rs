@@ -3,7 +3,8 @@
 //! `k a + k r b + ..` and `q a + q r b + ..` share `z = a + r b`. The ratio must be one in which nothing new is
 //! divided by: a constant that is not known to differ from zero never becomes a denominator.
 
-use super::super::net::{Linear, Net, NetId, NetNode, constant_factors};
+use super::super::net::{Linear, Net, NetNode, constant_factors};
+use super::super::terms::NetId;
 use super::super::terms::{Terms, nonzero};
 use super::{Changes, is_unit};
 use crate::algebra::{ExprId, FastMap, Graph};

@@ -3,7 +3,26 @@
 use std::path::{Path, PathBuf};
 
 /// Words that begin a riddle: what the item is comes later, or not at all.
-const WEAK: [&str; 8] = ["What ", "The same ", "That ", "Those ", "So ", "These ", "This ", "Who "];
+const WEAK: [&str; 18] = [
+    "What ",
+    "The same ",
+    "That ",
+    "Those ",
+    "So ",
+    "These ",
+    "This ",
+    "Who ",
+    "It ",
+    "Its ",
+    "They ",
+    "Their ",
+    "How ",
+    "Where ",
+    "Which ",
+    "By ",
+    "At ",
+    "Also ",
+];
 
 /// The libraries.
 const CRATES: [&str; 7] =
