@@ -109,6 +109,13 @@ impl Faults {
         Reported(())
     }
 
+    /// Adds a place to the faults that were reported since.
+    pub fn note_since(&mut self, before: usize, what: &str, place: Span) {
+        for fault in self.faults.iter_mut().skip(before) {
+            *fault = fault.clone().note_place(what, place);
+        }
+    }
+
     /// Number of faults so far.
     pub fn count(&self) -> usize {
         self.faults.len()

@@ -9,11 +9,17 @@ pub const MAX_DEPTH: usize = 128;
 /// The most coordinates of a system: the brackets grow as the cube of this number.
 pub const MAX_COORDINATES: usize = 200;
 
-/// The most entries of any other section, and most `let` definitions.
+/// The most entries of any other section, and definitions by `let` and `fn`.
 pub const MAX_ENTRIES: usize = 1000;
 
 /// The most sums of products of a Taylor series: while one is computed they are on the stack.
 pub const MAX_SERIES_SUMS: usize = 1_500;
+
+/// The deepest nesting of functions of the declaration that call each other: each adds the depth of its expression to the stack.
+pub const MAX_CALL_DEPTH: usize = 16;
+
+/// The most calls of functions of the declaration, those inside of functions included: each is evaluated anew.
+pub const MAX_CALLS: usize = 10_000;
 
 /// The most scenes: each is derived anew.
 pub const MAX_SCENES: usize = 64;

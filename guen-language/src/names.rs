@@ -55,6 +55,7 @@ pub const SECTIONS: &[&str] = &[
     "inputs",
     "coordinates",
     "let",
+    "fn",
     "parameters",
     "constraints",
     "holonomic",
@@ -188,7 +189,6 @@ pub fn instead_of_section(word: &str) -> Option<&'static str> {
         }
         "u" => "write `force_function = e;`, or its negative as `potential_energy = e;`",
         "if" | "match" | "for" | "while" | "loop" => "there are no branches and no loops: write every entry",
-        "fn" => "an expression gets a name by `let name = e;`; there are no functions with arguments",
         _ => return None,
     })
 }

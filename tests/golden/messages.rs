@@ -212,9 +212,10 @@ fn every_expectation_has_a_case() {
 }
 
 /// What each theme is about, as its page says. A new folder under `tests/ui` needs a line here.
-const THEMES: [(&str, &str); 10] = [
+const THEMES: [(&str, &str); 11] = [
     ("energies", "kinetic energy, force function, forces and gravity"),
     ("forms", "parameters and constraints: linear, independent, as many as there are coordinates"),
+    ("functions", "functions of the declaration, `fn name(x) = e;`"),
     ("kinds", "scalars, vectors and rotations; what may depend on what"),
     ("limits", "bounds on the size of what is declared"),
     ("names", "unknown, reserved, declared twice"),

@@ -1,14 +1,15 @@
 //! Expressions of the language as exact expressions: names looked up, kinds checked, operators applied.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use guen_symbolic::{ExprId, Flow, Node, PowerError, Rational, Role, Roles, Verdict, Workbench};
 use proc_macro2::Span;
 
+use super::declared_functions::DeclaredFunctions;
 use super::motion_symbols::MotionSymbols;
 use super::place::{Place, ROLES, role_name};
 use super::rates::AssumedRates;
-use super::scope::Scope;
+use super::scope::{Category, Scope};
 use super::shapes::Shapes;
 use super::value::{Value, Vector};
 use crate::diagnostics::{Fault, Faults, Reported};
@@ -43,6 +44,8 @@ pub(super) struct Evaluator<'f> {
     pub(super) motion: MotionSymbols,
     /// Arguments of `quaternion`.
     pub(super) quaternions: Vec<[ExprId; 4]>,
+    /// Functions of the declaration.
+    pub(super) functions: DeclaredFunctions,
     /// Rates of coordinates that are used as parameters, until it is known whether they are.
     pub(super) rates: AssumedRates,
     /// Divisors with their places, for a second look once the holonomic constraints are known.
@@ -155,7 +158,18 @@ impl Evaluator<'_> {
 
     /// The first name or call inside an expression that brings in one of these kinds of symbol.
     fn culprit<'e>(&self, e: &'e Expression, roles: Roles) -> Option<(Span, Option<&'e str>)> {
+        self.culprit_beside(&BTreeSet::new(), e, roles)
+    }
+
+    /// The culprit in the expression of a function, whose arguments are none.
+    pub(super) fn culprit_beside<'e>(
+        &self,
+        arguments: &BTreeSet<&str>,
+        e: &'e Expression,
+        roles: Roles,
+    ) -> Option<(Span, Option<&'e str>)> {
         match &e.kind {
+            ExpressionKind::Name(name) if arguments.contains(name.text.as_str()) => None,
             ExpressionKind::Name(name) => {
                 let own = if name.text == "t" {
                     Roles::of(Role::Time)
@@ -174,13 +188,16 @@ impl Evaluator<'_> {
             {
                 Some((function.span(), None))
             }
+            ExpressionKind::Call { function, .. } if self.brings_in(&function.text, roles) => {
+                Some((function.span(), Some(function.text.as_str())))
+            }
             ExpressionKind::Method { name, .. } | ExpressionKind::Field { name, .. }
                 if roles.has(Role::Velocity)
                     && matches!(name.text.as_str(), "velocity_at" | "angular_velocity") =>
             {
                 Some((name.span(), None))
             }
-            _ => children(e).into_iter().find_map(|child| self.culprit(child, roles)),
+            _ => e.children().into_iter().find_map(|child| self.culprit_beside(arguments, child, roles)),
         }
     }
 
@@ -224,6 +241,12 @@ impl Evaluator<'_> {
     }
 
     pub(super) fn name(&mut self, name: &Name) -> Evaluated {
+        if let Some(value) = self.functions.argument(&name.text) {
+            return Ok(value.clone());
+        }
+        if self.scope.category(&name.text) == Some(Category::Function) {
+            return self.function_as_value(name);
+        }
         match name.text.as_str() {
             "t" => return Ok(Value::Scalar(self.time)),
             "pi" => return Ok(Value::Scalar(self.bench.graph.pi())),
@@ -430,21 +453,3 @@ const EXPONENT_TOO_LARGE: &str = "this power, with the powers inside of it, is b
 
 /// Characters of a formula in a note.
 pub(super) const LONGEST_NOTE: usize = 200;
-
-/// The expressions directly inside another, from left to right.
-pub(super) fn children(e: &Expression) -> Vec<&Expression> {
-    match &e.kind {
-        ExpressionKind::Missing | ExpressionKind::Number(_) | ExpressionKind::Name(_) => Vec::new(),
-        ExpressionKind::Call { arguments, .. } => arguments.iter().collect(),
-        ExpressionKind::Field { base, .. } => vec![base],
-        ExpressionKind::Method { base, arguments, .. } => std::iter::once(&**base).chain(arguments).collect(),
-        ExpressionKind::Negation(operand) => vec![operand],
-        ExpressionKind::Sum { first, rest } => {
-            std::iter::once(&**first).chain(rest.iter().map(|t| &t.value)).collect()
-        }
-        ExpressionKind::Product { first, rest } => {
-            std::iter::once(&**first).chain(rest.iter().map(|f| &f.value)).collect()
-        }
-        ExpressionKind::Power { base, exponent } => vec![base, exponent],
-    }
-}

@@ -7,7 +7,7 @@ use guen_symbolic::{
 };
 use proc_macro2::Span;
 
-use super::evaluate::{Evaluated, Evaluator, LONGEST_NOTE, children};
+use super::evaluate::{Evaluated, Evaluator, LONGEST_NOTE};
 use super::place::Place;
 use super::scope::Category;
 use super::value::Value;
@@ -340,7 +340,7 @@ impl Evaluator<'_> {
         }
         let inside = match &e.kind {
             ExpressionKind::Sum { .. } | ExpressionKind::Negation(_) | ExpressionKind::Product { .. } => {
-                children(e)
+                e.children()
             }
             _ => Vec::new(),
         };

@@ -19,7 +19,10 @@ impl Evaluator<'_> {
             return self.reaction(function, arguments, list);
         }
         if !names::is_function(&function.text) {
-            return self.not_a_function(function, arguments);
+            return match self.declared_call(function, arguments, list) {
+                Some(value) => value,
+                None => self.not_a_function(function, arguments),
+            };
         }
         let mut values = Vec::new();
         for argument in arguments {
@@ -102,7 +105,7 @@ impl Evaluator<'_> {
         }
     }
 
-    fn not_a_function(&mut self, function: &Name, arguments: &[Expression]) -> Evaluated {
+    pub(super) fn not_a_function(&mut self, function: &Name, arguments: &[Expression]) -> Evaluated {
         let text = &function.text;
         let fault = if self.scope.category(text).is_some() {
             // A use all the same, so that nobody hears of it twice.
@@ -111,9 +114,15 @@ impl Evaluator<'_> {
             let inside = if arguments.len() == 1 { arguments[0].source() } else { "..".to_owned() };
             Fault::new(function.span(), format!("`{text}` is not a function"))
                 .help(format!("a product is written with `*`: `{text}*({inside})`"))
+        } else if let Some(later) = self.scope.declared_later(text) {
+            Fault::new(function.span(), format!("`{text}` is used before it is declared"))
+                .note_place("declared", later)
+                .help("move its declaration above this one")
         } else {
             let fault = Fault::new(function.span(), format!("unknown function `{text}`"));
+            let own: Vec<String> = self.functions.names().map(str::to_owned).collect();
             let all = names::SCALAR_FUNCTIONS.iter().chain(names::SPATIAL_FUNCTIONS).copied();
+            let all = all.chain(own.iter().map(String::as_str));
             if let Some(instead) = instead_of(text) {
                 return self.fail(fault.help(instead));
             }

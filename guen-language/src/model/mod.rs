@@ -5,6 +5,7 @@
 
 mod accelerations;
 mod bodies;
+mod declared_functions;
 mod evaluate;
 mod forms;
 mod functions;

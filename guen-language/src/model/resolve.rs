@@ -13,7 +13,7 @@ use guen_symbolic::{
 };
 
 use super::bodies::{Weight, is_no_inertia, turns_about_several_axes};
-use super::evaluate::{Evaluator, children};
+use super::evaluate::Evaluator;
 use super::forms::RawForm;
 use super::place::Place;
 use super::rates::AssumedRates;
@@ -91,6 +91,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
                 left_out: Vec::new(),
                 motion: super::motion_symbols::MotionSymbols::default(),
                 quaternions: Vec::new(),
+                functions: Default::default(),
                 rates: AssumedRates::default(),
                 divisors: Vec::new(),
             },
@@ -131,6 +132,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
                     section.entries.iter().for_each(|e| scope.announce(&e.name));
                 }
                 Item::Let(definition) => scope.announce(&definition.name),
+                Item::Function(function) => scope.announce(&function.name),
                 Item::Parameters(section) | Item::Outputs(section) => {
                     section.entries.iter().for_each(|e| scope.announce(&e.name));
                 }
@@ -180,6 +182,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
                 value.iter().for_each(|value| self.eval.shapes.named(&definition.name.text, value));
                 self.eval.scope.declare(self.eval.faults, &definition.name, Category::Let, value);
             }
+            Item::Function(function) => self.eval.function(function),
             Item::Parameters(section) => {
                 section.entries.iter().for_each(|p| self.eval.parameter(p, &mut self.parameters));
             }
@@ -442,5 +445,5 @@ fn names_in(e: &Expression, found: &mut BTreeSet<String>) {
     {
         found.insert(format!("{}_{}", vector.text, name.text));
     }
-    children(e).into_iter().for_each(|child| names_in(child, found));
+    e.children().into_iter().for_each(|child| names_in(child, found));
 }

@@ -29,6 +29,8 @@ pub(super) enum Category {
     Body,
     /// An output.
     Output,
+    /// A function.
+    Function,
 }
 
 impl Category {
@@ -43,12 +45,16 @@ impl Category {
             Category::Constraint => "a constraint",
             Category::Body => "a body",
             Category::Output => "an output",
+            Category::Function => "a function",
         }
     }
 
     /// Whether something that is declared has to be used: forms, bodies and outputs are used by being there.
     fn must_be_used(self) -> bool {
-        matches!(self, Category::Constant | Category::Input | Category::Coordinate | Category::Let)
+        matches!(
+            self,
+            Category::Constant | Category::Input | Category::Coordinate | Category::Let | Category::Function
+        )
     }
 }
 
@@ -153,6 +159,11 @@ impl Scope {
         self.entries.entry(text).or_insert(entry);
     }
 
+    /// Returns the place where a name is declared that is not declared so far.
+    pub(super) fn declared_later(&self, text: &str) -> Option<Span> {
+        self.later.get(text).filter(|_| !self.entries.contains_key(text)).copied()
+    }
+
     /// Whether the declaration declares the name anywhere, or the name was found to be unknown.
     pub(super) fn is_announced(&self, text: &str) -> bool {
         self.entries.contains_key(text) || self.later.contains_key(text) || self.unknown.contains(text)
@@ -200,14 +211,23 @@ impl Scope {
         of_known.or_else(|| matches!(text, "d" | "dt").then_some("x"))
     }
 
-    /// Returns the place of the declaration of a name, if it is a `let`.
+    /// Returns the place of the declaration of a name, if it is a `let` or a function.
     pub(super) fn definition(&self, text: &str) -> Option<Span> {
-        self.entries.get(text).filter(|entry| entry.category == Category::Let).map(|entry| entry.span)
+        let entry = self.entries.get(text)?;
+        matches!(entry.category, Category::Let | Category::Function).then_some(entry.span)
     }
 
     /// The category of a declared name.
     pub(super) fn category(&self, text: &str) -> Option<Category> {
         self.entries.get(text).map(|entry| entry.category)
+    }
+
+    /// Notes a use of a declared name that takes no value.
+    pub(super) fn mark_used(&mut self, name: &Name) {
+        if let Some(entry) = self.entries.get_mut(&name.text) {
+            entry.used = true;
+        }
+        self.used.push(name.ident.clone());
     }
 
     /// Notes a place that refers to a declared name without using its value.

@@ -170,7 +170,7 @@ impl Forms {
     }
 
     /// The parameters that the declaration leaves to the macro: of which coordinates is not known where there are faults, so that
-    /// they are those of the first.
+    /// they are those of the first that no declared parameter mentions.
     fn choose(
         &mut self,
         declaration: &Declaration,
@@ -186,7 +186,14 @@ impl Forms {
             });
         let needed: usize = entries.map(|entry| components(kinds[&entry.name.ident.to_string()])).sum();
         let count = free.0.len().saturating_sub(needed);
-        for coordinate in self.coordinates.clone().into_iter().take(count) {
+        let given = declaration.items.iter().filter_map(|item| match item {
+            Item::Parameters(section) => Some(&section.entries),
+            _ => None,
+        });
+        let given: Vec<&Definition> = given.flatten().collect();
+        let is_given = |x: &Plain| given.iter().any(|entry| entry.value.mentions(&x.name.text));
+        let (last, first): (Vec<Plain>, Vec<Plain>) = self.coordinates.iter().cloned().partition(is_given);
+        for coordinate in first.into_iter().chain(last).take(count) {
             let of = &coordinate.name.ident;
             let name = Name::new(format_ident!("{of}{}", RATE_SUFFIX, span = of.span()));
             if !self.fields.add(&name, Kind::Scalar) {

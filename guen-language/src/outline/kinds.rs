@@ -3,7 +3,8 @@
 
 use std::collections::BTreeMap;
 
-use crate::syntax::{Declaration, Expression, ExpressionKind, Item};
+use crate::names;
+use crate::syntax::{Declaration, Expression, ExpressionKind, FunctionDefinition, Item};
 
 /// A kind of value.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -25,14 +26,23 @@ impl Kind {
 /// The kinds of the declared names; of a body the kind of its centre.
 pub(super) struct Kinds {
     names: BTreeMap<String, Kind>,
+    /// Functions, each with what could be called where it is declared.
+    functions: BTreeMap<String, FunctionDefinition>,
 }
 
 impl Kinds {
     pub(super) fn new(declaration: &Declaration) -> Self {
-        let mut kinds = Kinds { names: BTreeMap::new() };
+        let mut kinds = Kinds { names: BTreeMap::new(), functions: BTreeMap::new() };
         for item in &declaration.items {
             match item {
                 Item::Let(definition) => kinds.define(&definition.name.text, &definition.value),
+                Item::Function(function) => {
+                    // One that is called before it is declared could call itself.
+                    let calls = |name: &String| kinds.functions.contains_key(name);
+                    if called(&function.value).iter().all(calls) {
+                        kinds.functions.insert(function.name.text.clone(), function.clone());
+                    }
+                }
                 Item::Parameters(section) | Item::Outputs(section) => {
                     section.entries.iter().for_each(|entry| kinds.define(&entry.name.text, &entry.value));
                 }
@@ -66,7 +76,13 @@ impl Kinds {
                 "vec" | "cross" | "angular_velocity" | "angular_velocity_body" => Kind::Vector,
                 "rot" | "rot_x" | "rot_y" | "rot_z" | "quaternion" | "transpose" => Kind::Rotation,
                 "dot" => arguments.first().map_or(Kind::Scalar, |argument| self.of(argument)),
-                _ => Kind::Scalar,
+                name => self.functions.get(name).map_or(Kind::Scalar, |function| {
+                    let mut inside = Kinds { names: self.names.clone(), functions: self.functions.clone() };
+                    for (parameter, argument) in function.parameters.iter().zip(arguments) {
+                        inside.names.insert(parameter.text.clone(), self.of(argument));
+                    }
+                    inside.of(&function.value)
+                }),
             },
             ExpressionKind::Field { base, name } => match name.text.as_str() {
                 "center" => self.of(base),
@@ -87,4 +103,15 @@ impl Kinds {
             }
         }
     }
+}
+
+/// The names of functions that the language does not have, of all calls in an expression.
+fn called(e: &Expression) -> Vec<String> {
+    let mut found: Vec<String> = e.children().into_iter().flat_map(called).collect();
+    if let ExpressionKind::Call { function, .. } = &e.kind
+        && !names::is_function(&function.text)
+    {
+        found.push(function.text.clone());
+    }
+    found
 }

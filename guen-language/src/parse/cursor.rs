@@ -180,7 +180,9 @@ impl Cursor {
         let Some(ident) = self.ident_at(0).filter(|_| self.has_sections) else { return false };
         match SectionKind::of_word(&ident.to_string()) {
             None => false,
-            Some(SectionKind::Let | SectionKind::Scene | SectionKind::Provide) => self.ident_at(1).is_some(),
+            Some(SectionKind::Let | SectionKind::Function | SectionKind::Scene | SectionKind::Provide) => {
+                self.ident_at(1).is_some()
+            }
             Some(_) => {
                 self.group_at(1, Delimiter::Brace).is_some()
                     || (self.is_punct_at(1, '=') && !self.is_punct_at(2, '='))

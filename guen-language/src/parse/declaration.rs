@@ -6,7 +6,7 @@ use super::attributes::docs;
 use super::cursor::Cursor;
 use super::lists::{INPUT, plain_names, stray_semicolon};
 use super::names::name;
-use super::{bodies, constants, definitions, energies, equations, forces, particles, scene};
+use super::{bodies, constants, definitions, energies, equations, forces, functions, particles, scene};
 use crate::diagnostics::{Fault, Faults, Reported};
 use crate::limits::{MAX_COORDINATES, MAX_ENTRIES, MAX_SCENES, MAX_TOKENS};
 use crate::names::{PARAMETER_ALIASES, SECTIONS, instead_of_section, nearest_section, quoted};
@@ -226,6 +226,11 @@ fn item(cursor: &mut Cursor, faults: &mut Faults, progress: &mut Progress) -> Re
             progress.definitions += 1;
             too_many(progress.definitions, MAX_ENTRIES, "`let` definitions", keyword, faults)?;
             Item::Let(definitions::definition_of_let(cursor, faults, docs)?)
+        }
+        SectionKind::Function => {
+            progress.definitions += 1;
+            too_many(progress.definitions, MAX_ENTRIES, "definitions", keyword, faults)?;
+            Item::Function(functions::function(cursor, faults, docs)?)
         }
         SectionKind::Scene => {
             progress.scenes += 1;

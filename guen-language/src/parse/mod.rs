@@ -14,6 +14,7 @@ mod energies;
 mod equations;
 mod expression;
 mod forces;
+mod functions;
 mod lists;
 mod names;
 mod particles;

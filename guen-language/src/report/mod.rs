@@ -152,6 +152,9 @@ fn forms(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
 fn chosen(chosen: &ChosenRates) -> String {
     let ChosenRates { names, condition, best: (best, least) } = chosen;
     let (own, are) = (listed(names), if names.len() == 1 { "is" } else { "are" });
+    if condition.to_bits() == 1.0_f64.to_bits() {
+        return format!("{own} {are} chosen by the macro: the rates that no form given binds");
+    }
     let measure = "sqrt(1 + |T|^2) of the matrix T that gives the other velocities by the chosen ones, at the worst of 64 states";
     if names == best {
         return format!(

@@ -192,6 +192,11 @@ impl Display for Item {
             Item::Constants(section) => braces(f, kind, section, ", "),
             Item::Inputs(section) | Item::Coordinates(section) => braces(f, kind, section, ", "),
             Item::Let(definition) => write!(f, "let {definition}"),
+            Item::Function(function) => {
+                let parameters: Vec<_> =
+                    function.parameters.iter().map(|name| name.ident.to_string()).collect();
+                write!(f, "fn {}({}) = {};", function.name.ident, parameters.join(", "), function.value)
+            }
             Item::Parameters(section) | Item::Outputs(section) => braces(f, kind, section, " "),
             Item::Constraints(section) | Item::Holonomic(section) => braces(f, kind, section, " "),
             Item::Particles(section) => braces(f, kind, section, " "),

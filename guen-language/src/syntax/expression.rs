@@ -138,26 +138,29 @@ impl Expression {
         self.any(&|part| matches!(&part.kind, ExpressionKind::Name(own) if own.text == name))
     }
 
+    /// The expressions directly inside, from left to right.
+    pub fn children(&self) -> Vec<&Expression> {
+        match &self.kind {
+            ExpressionKind::Missing | ExpressionKind::Number(_) | ExpressionKind::Name(_) => Vec::new(),
+            ExpressionKind::Call { arguments, .. } => arguments.iter().collect(),
+            ExpressionKind::Field { base, .. } => vec![base],
+            ExpressionKind::Method { base, arguments, .. } => {
+                std::iter::once(&**base).chain(arguments).collect()
+            }
+            ExpressionKind::Negation(operand) => vec![operand],
+            ExpressionKind::Sum { first, rest } => {
+                std::iter::once(&**first).chain(rest.iter().map(|t| &t.value)).collect()
+            }
+            ExpressionKind::Product { first, rest } => {
+                std::iter::once(&**first).chain(rest.iter().map(|f| &f.value)).collect()
+            }
+            ExpressionKind::Power { base, exponent } => vec![base, exponent],
+        }
+    }
+
     /// Whether something holds for the expression or for one inside of it.
     fn any(&self, holds: &dyn Fn(&Expression) -> bool) -> bool {
-        let inside = |part: &Expression| part.any(holds);
-        holds(self)
-            || match &self.kind {
-                ExpressionKind::Missing | ExpressionKind::Number(_) | ExpressionKind::Name(_) => false,
-                ExpressionKind::Call { arguments, .. } => arguments.iter().any(inside),
-                ExpressionKind::Field { base, .. } => inside(base),
-                ExpressionKind::Method { base, arguments, .. } => {
-                    inside(base) || arguments.iter().any(inside)
-                }
-                ExpressionKind::Negation(operand) => inside(operand),
-                ExpressionKind::Sum { first, rest } => {
-                    inside(first) || rest.iter().any(|term| inside(&term.value))
-                }
-                ExpressionKind::Product { first, rest } => {
-                    inside(first) || rest.iter().any(|factor| inside(&factor.value))
-                }
-                ExpressionKind::Power { base, exponent } => inside(base) || inside(exponent),
-            }
+        holds(self) || self.children().into_iter().any(|part| part.any(holds))
     }
 
     /// The number, if the expression is just a literal.

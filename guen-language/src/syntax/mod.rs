@@ -14,6 +14,6 @@ pub use expression::{AddOperator, Expression, ExpressionKind, Factor, MultiplyOp
 pub use name::{Docs, Name, Visibility};
 pub use number::{Number, NumberProblem};
 pub use section::{
-    Body, BodyField, Bound, BoundKind, Constant, Declaration, Definition, Equation, Fix, Force, Inertia,
-    Item, Particle, Plain, Provide, Quantity, Scene, Section, SectionKind,
+    Body, BodyField, Bound, BoundKind, Constant, Declaration, Definition, Equation, Fix, Force,
+    FunctionDefinition, Inertia, Item, Particle, Plain, Provide, Quantity, Scene, Section, SectionKind,
 };

@@ -19,7 +19,7 @@ pub struct Declaration {
     pub items: Vec<Item>,
 }
 
-/// A section, a `let` or a scene.
+/// A section, a `let`, a function or a scene.
 #[derive(Debug, Clone)]
 pub enum Item {
     /// `constants { .. }`.
@@ -30,6 +30,8 @@ pub enum Item {
     Coordinates(Section<Plain>),
     /// `let name = e;`.
     Let(Definition),
+    /// `fn name(x, y) = e;`.
+    Function(FunctionDefinition),
     /// `parameters { name = e; .. }`.
     Parameters(Section<Definition>),
     /// `constraints { name: e = e; .. }`.
@@ -66,6 +68,7 @@ pub enum SectionKind {
     Inputs,
     Coordinates,
     Let,
+    Function,
     Parameters,
     Constraints,
     Holonomic,
@@ -83,11 +86,12 @@ pub enum SectionKind {
 
 impl SectionKind {
     /// Every kind, in the order of [`crate::names::SECTIONS`].
-    pub const ALL: [SectionKind; 17] = [
+    pub const ALL: [SectionKind; 18] = [
         SectionKind::Constants,
         SectionKind::Inputs,
         SectionKind::Coordinates,
         SectionKind::Let,
+        SectionKind::Function,
         SectionKind::Parameters,
         SectionKind::Constraints,
         SectionKind::Holonomic,
@@ -120,7 +124,7 @@ impl SectionKind {
 
     /// Whether a system may have several.
     pub fn may_repeat(self) -> bool {
-        matches!(self, SectionKind::Let | SectionKind::Scene)
+        matches!(self, SectionKind::Let | SectionKind::Function | SectionKind::Scene)
     }
 
     /// Whether the word is followed by `= e;`.
@@ -209,6 +213,19 @@ pub struct Definition {
     /// The name.
     pub name: Name,
     /// The expression that the name stands for.
+    pub value: Expression,
+}
+
+/// `fn name(parameters) = e`.
+#[derive(Debug, Clone)]
+pub struct FunctionDefinition {
+    /// Doc comments.
+    pub docs: Docs,
+    /// The name.
+    pub name: Name,
+    /// The names of its arguments.
+    pub parameters: Vec<Name>,
+    /// The expression that a call stands for.
     pub value: Expression,
 }
 
@@ -344,6 +361,7 @@ impl Item {
             Item::Inputs(_) => SectionKind::Inputs,
             Item::Coordinates(_) => SectionKind::Coordinates,
             Item::Let(_) => SectionKind::Let,
+            Item::Function(_) => SectionKind::Function,
             Item::Parameters(_) => SectionKind::Parameters,
             Item::Constraints(_) => SectionKind::Constraints,
             Item::Holonomic(_) => SectionKind::Holonomic,

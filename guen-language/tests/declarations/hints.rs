@@ -58,7 +58,7 @@ fn a_missing_section_is_told_by_what_to_write() {
         ("vars { q }", "did you mean `coordinates`?"),
         ("lagrangian = 1;", "`kinetic_energy = e;` and `potential_energy = e;`"),
         ("if true {}", "no branches and no loops"),
-        ("fn f(x) = x;", "by `let name = e;`"),
+        ("fn f(x) { x }", "a function is one expression: write `fn name(x, y) = e;`"),
     ] {
         let text = format!("pub system S {{ coordinates {{ x }} {section} kinetic_energy = dot(x)^2/2; }}");
         let message = guen_language::expand(text.parse().unwrap()).to_string();

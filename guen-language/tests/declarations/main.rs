@@ -6,6 +6,7 @@ mod carried;
 mod common;
 mod corpus;
 mod families;
+mod functions;
 mod hints;
 mod imports;
 mod large_costs;

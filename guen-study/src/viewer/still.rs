@@ -32,7 +32,7 @@ const CHOICES: [(&[f64], usize); 4] =
 /// Room for what is around the pictures, and for the number of panels that have none.
 const TAIL_BYTES: usize = 200;
 
-/// What takes the place of the page where no script runs: it hides what would do nothing.
+/// The head of the part that is shown where no script runs: it hides what would do nothing.
 const HEAD: &str = "<noscript>\n<style>\nhtml, body { height: auto; }\nbody { display: block; }\nbody > :not(noscript) { display: none; }\n</style>\n";
 
 /// The pictures, as an element that scripts keep from being shown.

@@ -400,7 +400,7 @@ fn a_file_in_a_new_folder() {
     std::fs::remove_dir_all(folder).unwrap();
 }
 
-/// What a reader without scripts sees.
+/// Returns the part that a reader without scripts sees.
 fn still(page: &str) -> &str {
     page.split_once("<noscript>").unwrap().1.split_once("</noscript>").unwrap().0
 }

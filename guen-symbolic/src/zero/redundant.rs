@@ -1,8 +1,8 @@
 //! Equations on positions that follow from others wherever all of them hold, although their gradients are independent elsewhere:
 //! the closing equations of a mechanism that moves only because its axes stand as they do.
 //!
-//! What comes in are equations `f(t, x) = 0`. Points where all of them hold are found over the reals, from random starts. The rank of the gradients there is what double precision says where it says that they are
-//! independent. A dependence is looked at in 237 bits: Newton's method on the independent equations alone has to end where the
+//! What comes in are equations `f(t, x) = 0`. Points where all of them hold are found over the reals, from random starts. The rank of
+//! the gradients there is what double precision says where it says that they are independent. A dependence is looked at in 237 bits: Newton's method on the independent equations alone has to end where the
 //! others hold, and their gradients are combinations of those, to more than fifty digits. That is observed at points, and no proof.
 
 use core::cmp::Reverse;

@@ -71,7 +71,11 @@ impl Text {
             (self.quaternion(draw), format!("vec({x}, {y}, {radius})"))
         } else {
             let [yaw, lean, roll] = [0; 3].map(|_| self.coordinate("q"));
-            let upright = format!("rot_z({yaw})*rot_x({lean})");
+            let mut upright = format!("rot_z({yaw})*rot_x({lean})");
+            if self.made.is_multiple_of(2) {
+                self.lets += &format!("fn upright{name}(turn, {lean}) = rot_z(turn)*rot_x({lean});\n");
+                upright = format!("upright{name}({yaw}, {lean})");
+            }
             (format!("{upright}*rot_y({roll})"), format!("vec({x}, {y}, 0) + {radius}*({upright}).z"))
         };
         self.lets += &format!("let R{name} = {rotation};\nlet o{name} = {center};\n");
@@ -89,8 +93,19 @@ impl Text {
         let [l, m, n, mass] = [0; 4].map(|_| self.constant());
         let (arm, closed) = (self.fresh("arm"), self.fresh("closed"));
         let (across, up) = draw.pick(&[("vec(1, 0, 0)", "vec(0, 0, 1)"), ("vec(1, 0)", "vec(0, 1)")]);
-        let link =
-            |length: &str, angle: &str| format!("{length}*(cos({angle})*{across} + sin({angle})*{up})");
+        let by_function = self.made.is_multiple_of(2);
+        let link = |length: &str, angle: &str| {
+            if by_function {
+                format!("link{arm}({angle}, {length})")
+            } else {
+                format!("{length}*(cos({angle})*{across} + sin({angle})*{up})")
+            }
+        };
+        if by_function {
+            self.lets += &format!(
+                "fn way{arm}(angle) = cos(angle)*{across} + sin(angle)*{up};\nfn link{arm}(angle, t_) = t_*way{arm}(angle);\n"
+            );
+        }
         self.lets += &format!("let {arm} = {} + {};\n", link(&l, &first), link(&m, &second));
         self.holonomic +=
             &format!("{closed}: {arm} = {}*{across} + {}; ", draw.pick(&NUMBERS), link(&n, &third));
@@ -241,7 +256,10 @@ impl Text {
             2 => format!("{name} = dot({q} + {q}^3/5 + t*{number}); "),
             _ => format!("{name} = dot({q}); "),
         };
-        self.parameters += &parameter;
+        // Some are left out, and the macro chooses what completes the others.
+        if !self.made.is_multiple_of(3) {
+            self.parameters += &parameter;
+        }
     }
 }
 
@@ -279,10 +297,8 @@ pub fn drawn(seed: u64) -> String {
         }
         if draw.once_in(4) {
             let (drag, along) = (text.constant(), text.coordinates[0].clone());
-            text.forces += &format!(
-                "-{drag}*norm(dot({0}) + vec(0.1, 0.2, 0.3))*dot({0}) along dot({0} + {along}*vec(7/5, 1, 0)); ",
-                pose.1
-            );
+            text.lets += &format!("fn drag{drag}(v) = -{drag}*norm(v + vec(0.1, 0.2, 0.3))*v;\n");
+            text.forces += &format!("drag{drag}(dot({0})) along dot({0} + {along}*vec(7/5, 1, 0)); ", pose.1);
         }
         poses.push(pose);
     }

@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 
 use guen_language::syntax::{
-    AddOperator, Declaration, Equation, Expression, ExpressionKind, Inertia, Item, MultiplyOperator,
+    AddOperator, Declaration, Equation, Expression, ExpressionKind, FunctionDefinition, Inertia, Item,
+    MultiplyOperator,
 };
 
 use super::analytic::Analytic;
@@ -16,6 +17,7 @@ use super::space::{
 /// All that is declared, at a state.
 pub struct Meaning<R> {
     names: BTreeMap<String, Value<R>>,
+    functions: BTreeMap<String, FunctionDefinition>,
     /// The values of forms by name, components apart; of constraints the left side less the right.
     pub forms: BTreeMap<String, R>,
     /// The left sides less the right ones of `holonomic`.
@@ -37,6 +39,7 @@ impl<R: Analytic> Meaning<R> {
         time: R,
         known: BTreeMap<String, Moving<R>>,
     ) -> Result<Self, Missing> {
+        let rates = known.iter().map(|(name, value)| (format!("{name}_rate"), value.du.clone())).collect();
         let mut names: BTreeMap<String, Value<R>> =
             known.into_iter().map(|(name, value)| (name, Value::Scalar(value))).collect();
         names.insert("t".to_owned(), Value::Scalar(Dual { re: time, du: R::constant(1.0) }));
@@ -44,7 +47,9 @@ impl<R: Analytic> Meaning<R> {
         let nothing = R::constant(0.0);
         let mut meaning = Meaning {
             names,
-            forms: BTreeMap::new(),
+            functions: BTreeMap::new(),
+            // Rates of coordinates, in case they are chosen as parameters.
+            forms: rates,
             positions: Vec::new(),
             kinetic_energy: nothing.clone(),
             force_function: nothing,
@@ -72,6 +77,9 @@ impl<R: Analytic> Meaning<R> {
             Item::Let(definition) => {
                 let value = self.value(&definition.value)?;
                 self.names.insert(definition.name.text.clone(), value);
+            }
+            Item::Function(function) => {
+                self.functions.insert(function.name.text.clone(), function.clone());
             }
             Item::Parameters(section) => {
                 for definition in &section.entries {
@@ -280,9 +288,30 @@ impl<R: Analytic> Meaning<R> {
             }
             ExpressionKind::Call { function, arguments, .. } => {
                 let all: Result<Vec<Value<R>>, Missing> = arguments.iter().map(|e| self.value(e)).collect();
-                call(&function.text, &all?)
+                match self.functions.get(&function.text) {
+                    Some(function) => self.called(function, all?),
+                    None => call(&function.text, &all?),
+                }
             }
         }
+    }
+
+    /// The expression of a function where its arguments have these values.
+    fn called(&self, function: &FunctionDefinition, values: Vec<Value<R>>) -> Result<Value<R>, Missing> {
+        let mut names = self.names.clone();
+        names.extend(function.parameters.iter().map(|parameter| parameter.text.clone()).zip(values));
+        let nothing = R::constant(0.0);
+        let inside = Meaning {
+            names,
+            functions: self.functions.clone(),
+            forms: BTreeMap::new(),
+            positions: Vec::new(),
+            kinetic_energy: nothing.clone(),
+            force_function: nothing,
+            works: Vec::new(),
+            outputs: Vec::new(),
+        };
+        inside.value(&function.value)
     }
 
     /// From the right, so that `a*R*v` is `a*(R*v)`; a quotient is a product with the reciprocal.

@@ -1,0 +1,17 @@
+//! Arguments have different names.
+//!
+//! repair: `height(a, a)` => `height(a, b)`
+//! repair: `a*a` => `a*b`
+
+guen::mechanical_system! {
+    pub system Surface {
+        constants { m > 0, h, g = 9.81 }
+        coordinates { x, y }
+        fn height(a, a) = h*a*a;
+        parameters { u = dot(x); v = dot(y); }
+        kinetic_energy = m/2*(dot(x)^2 + dot(y)^2);
+        potential_energy = m*g*height(x, y);
+    }
+}
+
+fn main() {}

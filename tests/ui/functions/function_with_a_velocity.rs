@@ -1,0 +1,16 @@
+//! What a function says is allowed where it is called.
+//!
+//! repair: `height(dot(x))` => `height(x)`
+
+guen::mechanical_system! {
+    pub system Surface {
+        constants { m > 0, h, g = 9.81 }
+        coordinates { x, y }
+        fn height(a) = h*sin(a);
+        parameters { u = dot(x); v = dot(y); }
+        kinetic_energy = m/2*(dot(x)^2 + dot(y)^2);
+        potential_energy = m*g*height(dot(x));
+    }
+}
+
+fn main() {}
