@@ -9,6 +9,7 @@ Exits with 0 if all is well, 1 if a page fails, 77 if there is no browser and no
 """
 
 import argparse
+import math
 import pathlib
 import subprocess
 import sys
@@ -16,8 +17,12 @@ import time
 
 from browser import Browser
 from checks import ended, kept, require
+from hands import everywhere
 from place import ROOT, target
 from viewer import TIME, load, quiet, scene, settled
+
+# A folder for screenshots, if somebody wants them.
+PICTURES = None
 
 # What a page of many samples may take to open, and the least frames of a second, drawn by software.
 OPENS = 3.0
@@ -168,6 +173,63 @@ def single(browser):
     browser.run("window.guen.stage.shown.body(0, true);")
 
 
+def two(browser, name):
+    """What two runs on one page have in common, and tell of each other."""
+    require("slower begins at t = 1 s. slower ends at t = 7 s" in note(browser), f"the note says: {note(browser)}")
+    require(browser.run("return window.guen.motion.end;") == 10, "the clock is not that of the longer run")
+    legend = browser.run("return [...document.querySelectorAll('#legend li')].map((li) => li.textContent);")
+    things = ["ball", "velocity", "way"]
+    require(legend == ["quick", *[f"{one} · quick" for one in things], "slower", *[f"{one} · slower" for one in things]], f"the legend: {legend}")
+    curves = browser.run("return [...document.querySelectorAll('figcaption')].map((c) => [c.querySelector('b').textContent, ...[...c.querySelectorAll('.curve')].map((b) => [b.textContent, b.querySelector('i').style.background])]);")
+    (place, *three), (angle, *one) = curves
+    require((place, angle) == ("place in m", "angle in rad"), f"the panels are {place} and {angle}")
+    require([name for name, _ in three + one] == ["x · quick", "y · quick", "x · slower", "angle · slower"], f"the curves are {three + one}")
+    solid, dashed = three[0][1], three[2][1]
+    require("gradient" in dashed and "gradient" not in solid and solid[solid.index("rgb"):].split(")")[0] in dashed, f"the marks are {solid} and {dashed}")
+    # Both are where their own recordings have them, and who has ended stands still.
+    for t, angles in ((0.5, (0.5, 0.9)), (5, (5, 4.5)), (9, (9, 6.3))):
+        browser.run("window.guen.player.setTime(arguments[0]);", t)
+        settled(browser)
+        found = browser.run("const { stage, motion } = window.guen; return stage.movers.map(({ body, group }) => group.position.clone().sub(motion.runs[body.run].shift ?? { x: 0, y: 0, z: 0 }).toArray());")
+        for run, (place, angle) in enumerate(zip(found, angles)):
+            off = math.dist(place, (2 * math.cos(angle), 2 * math.sin(angle), 0.3))
+            require(off < 1e-3, f"at {t} run {run} is {off} away from its place")
+        readings = browser.run("return [...document.querySelectorAll('figcaption data')].map((d) => d.textContent);")
+        require([text == "–" for text in readings] == [False, False, t != 5, t != 5], f"at {t} the curves read {readings}")
+    # One sample on, of whichever run.
+    browser.run("window.guen.player.setTime(1);")
+    settled(browser)
+    browser.press(".")
+    require(0 < browser.run(f"return {TIME};") - 1 < 0.02, "no sample of either run comes next")
+    # A run is switched off as a whole.
+    browser.run("document.querySelectorAll('#legend .run input')[1].click();")
+    settled(browser)
+    require(browser.run("return window.guen.stage.movers.map(({ group }) => group.visible);") == [True, False], "a run is not switched off as a whole")
+    browser.run("document.querySelectorAll('#legend .run input')[1].click(); window.guen.player.setTime(3);")
+    settled(browser)
+    everywhere(browser, name, PICTURES)
+
+
+def ghost(browser):
+    """A ghost is faint, in the same place, and of the same colour."""
+    inks = browser.run("return window.guen.stage.movers.map(({ group }) => { let m; group.traverse((p) => (m ??= p.material)); return [m.color.getHexString(), m.opacity]; });")
+    require(inks[0][0] == inks[1][0] and inks[0][1] == 1 and inks[1][1] < 0.5, f"colours and opacities are {inks}")
+    two(browser, "ghost")
+
+
+def beside(browser):
+    """What stands beside has room, its name, and its own places."""
+    boxes = browser.run("return window.guen.motion.runs.map((run, k) => { const p = window.guen.motion.paths[k].points; let [a, b] = [Infinity, -Infinity]; const { camera, controls } = window.guen.stage; const right = camera.position.clone().set(1, 0, 0).applyQuaternion(camera.quaternion); for (let i = 0; i < p.length; i += 3) { const x = p[i] * right.x + p[i + 1] * right.y + p[i + 2] * right.z; a = Math.min(a, x); b = Math.max(b, x); } return [a, b]; });")
+    require(boxes[1][0] > boxes[0][1] + 0.6, f"the runs reach from and to {boxes}")
+    shown = "return [...document.querySelectorAll('#labels span')].filter((s) => !s.hidden).map((s) => s.textContent);"
+    require(browser.run(shown) == ["quick", "slower"], f"names: {browser.run(shown)}")
+    two(browser, "beside")
+    browser.run("[...document.querySelectorAll('#legend li button')].find((b) => b.textContent.includes('slower')).click(); window.guen.player.setTime(1);")
+    settled(browser)
+    place = browser.run("return document.querySelector('#card dd:nth-of-type(2)').textContent;")
+    require(place == "1.243, 1.567, 0.3", f"the card says {place}")
+
+
 def frames_of(browser, seconds=3):
     """Frames of a second while it plays."""
     browser.run("window.frames_drawn = 0; const { player } = window.guen; player.setTime(0); player.setPlaying(true); const count = () => { window.frames_drawn += 1; requestAnimationFrame(count); }; requestAnimationFrame(count);")
@@ -179,7 +241,7 @@ def frames_of(browser, seconds=3):
     return (after - before) / (end - begin) * 1000
 
 
-CHECKS = {"far": far, "short": short, "long": long, "million": million, "complete": complete, "names": names, "single": single, "thousand": thousand}
+CHECKS = {"far": far, "short": short, "long": long, "million": million, "complete": complete, "names": names, "single": single, "ghost": ghost, "beside": beside, "thousand": thousand}
 
 
 def large(browser, folder, samples, bodies, made):
@@ -220,6 +282,8 @@ def main():
     parser.add_argument("--large", nargs=2, type=int, metavar=("SAMPLES", "BODIES"), help="time a page of so much")
     parser.add_argument("pages", nargs="*", help="names of pages; all if there is none")
     arguments = parser.parse_args()
+    global PICTURES
+    PICTURES = arguments.pictures
     browser = Browser()
     folder = arguments.made or target() / "guen" / "data"
     if arguments.large:

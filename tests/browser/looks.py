@@ -112,7 +112,7 @@ return wrong;
 # In the page: pictures whose sides are stretched; paper without time or without colours.
 PAPER = """
 const wrong = [];
-for (const canvas of document.querySelectorAll('#paper, figure canvas')) {
+for (const canvas of document.querySelectorAll('#paper, figure:not(.folded) canvas')) {
   const { width, height } = canvas.getBoundingClientRect();
   if (!(width > 0 && height > 0)) wrong.push('a picture is missing');
   const fitted = getComputedStyle(canvas).objectFit === 'contain';
@@ -272,9 +272,14 @@ def keyboard(browser, path):
     settled(browser)
     card = browser.run("return [...document.querySelectorAll('#card dd')].map((e) => e.textContent);")
     require(len(card) == 6 and all(card), f"the card of a body: {card}")
-    browser.run("[...document.querySelectorAll('#card button')].forEach((b) => ['label', 'hide', 'follow'].includes(b.textContent) && b.click());")
+    press = "[...document.querySelectorAll('#card button')].forEach((b) => arguments[0].includes(b.textContent) && b.click());"
+    browser.run(press, ["label"])
     settled(browser)
-    require(browser.run("return document.querySelectorAll('#labels span').length;") == 1, "no label")
+    labels = "return [...document.querySelectorAll('#labels span')].filter((s) => !s.hidden).length;"
+    require(browser.run(labels) == 1, "no label")
+    browser.run(press, ["hide", "follow"])
+    settled(browser)
+    require(browser.run(labels) == 0, "what is hidden has a label")
     require(not browser.run("return window.guen.stage.movers[0].group.visible;"), "hidden is shown")
     require(browser.run("return document.getElementById('follow').getAttribute('aria-pressed');") == "true", "it does not follow")
     quiet(browser)

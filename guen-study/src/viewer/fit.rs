@@ -1,7 +1,8 @@
 //! Pages as small as they have to be: where tracks do not fit, each of them keeps fewer samples.
 
+use super::guests::Guest;
 use super::track::{Shown, Track};
-use super::{Viewer, page};
+use super::{Link, MovingBody, MovingPoint, Panel, Viewer, page};
 use crate::error::StudyError;
 
 /// The fewest samples of a track: four of a curve are its ends and extrema.
@@ -10,22 +11,26 @@ const FEWEST: usize = 4;
 /// The number of times that a page is made anew because it came out larger than estimated.
 const ATTEMPTS: usize = 4;
 
+/// The part of the room by which it is too large at least, if the page does not fit.
+const SLACK: usize = 500;
+
 /// The number of samples of each track, and the bytes of one.
 fn sizes<const N: usize>(viewer: &Viewer<'_, N>) -> Vec<(usize, usize)> {
     fn size<T: Shown>(track: &Track<T>) -> (usize, usize) {
         (track.values.len(), track.bytes_each())
     }
-    let bodies = viewer.bodies.iter().map(|body| size(&body.poses));
-    let paths = viewer.paths.iter().map(|path| size(&path.points));
-    let links = viewer.links.iter().map(|link| size(&link.ends));
-    let curves = viewer.panels.iter().flat_map(|panel| &panel.curves).map(|curve| size(&curve.values));
+    let bodies = viewer.all_bodies().map(|body| size(&body.poses));
+    let paths = viewer.all_paths().map(|path| size(&path.points));
+    let links = viewer.all_links().map(|link| size(&link.ends));
+    let curves = viewer.all_curves().map(|curve| size(&curve.values));
     bodies.chain(paths).chain(links).chain(curves).collect()
 }
 
 /// The bytes of all samples in the file.
 pub(super) fn data_bytes<const N: usize>(viewer: &Viewer<'_, N>) -> usize {
+    let guests = viewer.guests.iter().map(|guest| guest.steps.len()).sum::<usize>();
     sizes(viewer).iter().map(|(count, each)| count * each).sum::<usize>()
-        + viewer.samples.steps.len() * 32 / 3
+        + (viewer.samples.steps.len() + guests) * 32 / 3
 }
 
 /// The largest number of samples a track with which all samples have at most so many bytes.
@@ -48,20 +53,37 @@ fn room(sizes: &[(usize, usize)], bytes: usize) -> usize {
 /// Leaves at most so many bytes of samples, or the fewest samples.
 fn shrink<const N: usize>(viewer: &mut Viewer<'_, N>, bytes: usize) {
     let most = room(&sizes(viewer), bytes).max(FEWEST);
-    let times = &viewer.samples.times;
-    for body in &mut viewer.bodies {
+    let Viewer { bodies, paths, links, panels, .. } = viewer;
+    shrink_tracks((bodies, paths, links, panels), most, &viewer.samples.times);
+    shrink_steps(&mut viewer.samples.steps, bytes);
+    for Guest { bodies, paths, links, panels, times, steps, .. } in &mut viewer.guests {
+        shrink_tracks((bodies, paths, links, panels), most, times);
+        shrink_steps(steps, bytes);
+    }
+}
+
+/// Leaves at most so many samples of each track of a run with these times.
+fn shrink_tracks(
+    (bodies, paths, links, panels): (&mut [MovingBody], &mut [MovingPoint], &mut [Link], &mut [Panel]),
+    most: usize,
+    times: &[f64],
+) {
+    for body in bodies {
         body.poses.shrink(most, times);
     }
-    for path in &mut viewer.paths {
+    for path in paths {
         path.points.shrink(most, times);
     }
-    for link in &mut viewer.links {
+    for link in links {
         link.ends.shrink(most, times);
     }
-    for curve in viewer.panels.iter_mut().flat_map(|panel| &mut panel.curves) {
+    for curve in panels.iter_mut().flat_map(|panel| &mut panel.curves) {
         curve.values.shrink(most, times);
     }
-    let steps = &mut viewer.samples.steps;
+}
+
+/// Leaves so many times to step through that they take an eighth of so many bytes.
+fn shrink_steps(steps: &mut Vec<f64>, bytes: usize) {
     let stride = (steps.len() * 32 / 3).div_ceil((bytes / 8).max(1)).max(1);
     if stride > 1 {
         let last = steps.last().copied();
@@ -102,7 +124,8 @@ pub(super) fn fitting<const N: usize>(viewer: &Viewer<'_, N>) -> Result<String, 
         if bytes <= limit {
             return Ok(page);
         }
-        budget = budget.saturating_sub(bytes - limit);
+        // A little less as well: what is over may be less than one sample of each track.
+        budget = budget.saturating_sub(bytes - limit + budget / SLACK);
     }
     Err(too_large(bytes))
 }

@@ -1,7 +1,7 @@
 //! A recorded run as one HTML file that plays it: bodies in space, their paths, and curves beside them.
 //!
 //! `shape` says what a body looks like and where it is, `equivalent` draws declared bodies by their inertia. `samples` makes
-//! `track`s of a recording, of which `thin` chooses what is shown and `fit` makes the file as small as it has to be. `data`
+//! `track`s of a recording, of which `thin` chooses what is shown and `fit` makes the file as small as it has to be, `guests` are further recordings. `data`
 //! writes numbers, `notes` says what was left out, `still` draws pictures for readers without scripts by `outline`, `page` puts the file together from `page/` and from the drawing library in
 //! `vendor/`.
 
@@ -9,6 +9,7 @@ mod content;
 mod data;
 mod equivalent;
 mod fit;
+mod guests;
 mod notes;
 mod outline;
 mod page;
@@ -30,6 +31,7 @@ use crate::file::replace_file;
 use crate::plot;
 use crate::recording::Recording;
 
+use guests::Guest;
 use samples::Samples;
 use track::{Shown, Track};
 
@@ -115,6 +117,8 @@ const SMALL: f64 = 0.04;
 #[must_use = "a viewer is a description: `write` or `to_html` makes the page"]
 pub struct Viewer<'a, const N: usize> {
     title: String,
+    /// The name of this run beside others; its title unless told.
+    name: Option<String>,
     samples: Samples<'a, N>,
     /// The largest size of the file.
     limit: usize,
@@ -122,6 +126,7 @@ pub struct Viewer<'a, const N: usize> {
     paths: Vec<MovingPoint>,
     links: Vec<Link>,
     panels: Vec<Panel>,
+    guests: Vec<Guest>,
     grounds: Vec<Ground>,
     view: View,
     /// The first thing that cannot be drawn.
@@ -193,9 +198,25 @@ struct View {
 /// A fault of the description; the page is refused with the first one.
 #[derive(Clone, Debug)]
 enum Fault {
-    NotDrawable { what: String, time: f64 },
-    UnknownBody { name: String },
-    TooLarge { bytes: usize },
+    NotDrawable {
+        what: String,
+        time: f64,
+    },
+    UnknownBody {
+        name: String,
+    },
+    TooLarge {
+        bytes: usize,
+    },
+    /// A further run without a sample or a thing.
+    NothingToDraw {
+        title: String,
+    },
+    /// A further run whose times do not rise.
+    Times {
+        title: String,
+        time: f64,
+    },
 }
 
 /// Single precision and the squares of lengths have to hold it.
@@ -246,12 +267,14 @@ impl<'a, const N: usize> Viewer<'a, N> {
     fn of(title: String, samples: Samples<'a, N>, limit: usize) -> Self {
         Self {
             title,
+            name: None,
             samples,
             limit,
             bodies: Vec::new(),
             paths: Vec::new(),
             links: Vec::new(),
             panels: Vec::new(),
+            guests: Vec::new(),
             grounds: Vec::new(),
             view: View::default(),
             fault: None,

@@ -9,7 +9,7 @@ const WIDE_TURN: f64 = 90.0;
 
 /// The sentences below the title.
 pub(super) fn of<const N: usize>(viewer: &Viewer<'_, N>, space: &Space) -> Vec<String> {
-    [lost(viewer), thinned(viewer), turns(viewer), moved(space), forces(space)]
+    [viewer.told_ends(), lost(viewer), thinned(viewer), turns(viewer), moved(space), forces(space)]
         .into_iter()
         .flatten()
         .collect()
@@ -27,14 +27,17 @@ fn lost<const N: usize>(viewer: &Viewer<'_, N>) -> Option<String> {
 /// The number of samples that are shown, and the rule.
 fn thinned<const N: usize>(viewer: &Viewer<'_, N>) -> Option<String> {
     let mut told = Told { least: usize::MAX, ..Told::default() };
-    viewer.bodies.iter().for_each(|body| told.motion(&body.poses));
-    viewer.paths.iter().for_each(|path| told.motion(&path.points));
-    viewer.links.iter().for_each(|link| told.motion(&link.ends));
-    viewer.panels.iter().flat_map(|panel| &panel.curves).for_each(|curve| told.curve(&curve.values));
+    viewer.all_bodies().for_each(|body| told.motion(&body.poses));
+    viewer.all_paths().for_each(|path| told.motion(&path.points));
+    viewer.all_links().for_each(|link| told.motion(&link.ends));
+    viewer.all_curves().for_each(|curve| told.curve(&curve.values));
     if !told.is_thinned {
         return None;
     }
-    let all = viewer.samples.len();
+    let runs =
+        || std::iter::once(viewer.samples.len()).chain(viewer.guests.iter().map(|guest| guest.times.len()));
+    let (fewest, most) = (runs().min().unwrap_or(0), runs().max().unwrap_or(0));
+    let all = if fewest == most { most.to_string() } else { format!("{fewest} to {most}") };
     let count = if told.least == told.most {
         told.most.to_string()
     } else {
@@ -94,7 +97,7 @@ impl Told {
 
 /// Samples so far apart that turns are guessed.
 fn turns<const N: usize>(viewer: &Viewer<'_, N>) -> Option<String> {
-    let degrees = viewer.bodies.iter().map(|body| body.largest_turn.to_degrees()).fold(0.0, f64::max);
+    let degrees = viewer.all_bodies().map(|body| body.largest_turn.to_degrees()).fold(0.0, f64::max);
     (degrees.round() > WIDE_TURN)
         .then(|| format!("Samples are far apart: a body turns by {degrees:.0}° or more between two of them."))
 }

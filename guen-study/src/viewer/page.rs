@@ -4,7 +4,7 @@ use super::data::{Json, escaped};
 use super::shape::{Pose, difference};
 use super::track::{Shown, Track, bounds, range};
 use super::turn::norm;
-use super::{Fault, Ground, Link, LinkKind, Shape, Viewer, notes, still};
+use super::{Fault, Ground, Link, LinkKind, MovingBody, MovingPoint, Panel, Shape, Viewer, notes, still};
 use crate::error::StudyError;
 
 /// Points of a surface in each direction.
@@ -16,7 +16,9 @@ const LIBRARY: &str = include_str!("vendor/three.min.js");
 /// The page's own style and program, in the order in which they are needed.
 const STYLE: &str = include_str!("page/style.css");
 const BODY: &str = include_str!("page/body.html");
-const PROGRAM: [&str; 16] = [
+const PROGRAM: [&str; 18] = [
+    include_str!("page/data.js"),
+    include_str!("page/runs.js"),
     include_str!("page/motion.js"),
     include_str!("page/clock.js"),
     include_str!("page/colours.js"),
@@ -39,9 +41,21 @@ const PROGRAM: [&str; 16] = [
 const POLICY: &str =
     "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:";
 
+/// The style without its indentation.
+fn style() -> String {
+    STYLE.lines().flat_map(|line| [line.trim_start(), "\n"]).collect()
+}
+
+/// The program without indentation and lines of comments: a fifth of it is that.
+fn program() -> String {
+    let is_comment = |line: &&str| ["//", "/**", "* ", "*/"].iter().any(|mark| line.starts_with(mark));
+    let lines = PROGRAM.iter().flat_map(|text| text.lines()).map(str::trim_start);
+    lines.filter(|line| !line.is_empty() && !is_comment(line)).flat_map(|line| [line, "\n"]).collect()
+}
+
 /// Bytes of a page without a motion.
 pub(super) fn own_bytes() -> usize {
-    LIBRARY.len() + STYLE.len() + BODY.len() + PROGRAM.iter().map(|part| part.len()).sum::<usize>()
+    LIBRARY.len() + style().len() + BODY.len() + program().len()
 }
 
 /// The page of a description that was checked.
@@ -69,7 +83,7 @@ pub(super) fn html<const N: usize>(viewer: &Viewer<'_, N>) -> String {
         "\">\n<title>",
         &title,
         "</title>\n<style>\n",
-        STYLE,
+        &style(),
         "</style>\n</head>\n<body>\n",
         &still::html(viewer, &space, &notes),
         BODY,
@@ -80,7 +94,7 @@ pub(super) fn html<const N: usize>(viewer: &Viewer<'_, N>) -> String {
         "<script>\n",
         LIBRARY,
         "</script>\n<script>\n\"use strict\";\n(() => {\n",
-        &PROGRAM.concat(),
+        &program(),
         "})();\n</script>\n</body>\n</html>\n",
     ]
     .concat()
@@ -103,6 +117,8 @@ pub(super) fn check<const N: usize>(viewer: &Viewer<'_, N>) -> Result<(), StudyE
             Err(StudyError::NotDrawable { title: title(), what, time })
         }
         Some(Fault::UnknownBody { name }) => Err(StudyError::UnknownBody { title: title(), name }),
+        Some(Fault::NothingToDraw { title }) => Err(StudyError::NothingToDraw { title }),
+        Some(Fault::Times { title, time }) => Err(StudyError::Times { title, time }),
         Some(Fault::TooLarge { bytes }) => {
             Err(StudyError::TooLarge { title: title(), bytes, limit: viewer.limit })
         }
@@ -116,55 +132,23 @@ fn motion<const N: usize>(viewer: &Viewer<'_, N>, space: &Space, notes: &[String
     let placed = |place: [f64; 3]| difference(place, origin);
     json.object(|json| {
         json.text("title", &viewer.title);
-        json.number("start", viewer.samples.start);
+        let start = viewer.start();
+        json.number("start", start);
         json.text("timeUnit", viewer.view.time_unit.as_deref().unwrap_or("s"));
-        json.doubles("times", &viewer.samples.steps);
+        moments(json, &viewer.samples.steps, viewer.samples.start - start);
         json.objects("notes", notes, |json, note| json.text("text", note));
         if let Some(origin) = &space.origin {
             json.numbers("origin", origin);
         }
-        json.objects("bodies", &viewer.bodies, |json, body| {
-            json.text("name", &body.name);
-            json.objects("shapes", &body.shapes, |json, shape| {
-                let (kind, lengths) = shape.kind.parts();
-                json.text("kind", kind);
-                json.numbers("lengths", lengths);
-                json.numbers("place", &shape.place);
-                json.numbers("turn", &shape.turn.0);
-                if let Some(colour) = shape.colour {
-                    json.number("colour", f64::from(colour));
-                }
-            });
-            own_times(json, &body.poses);
-            json.samples("poses", body.poses.values.iter().flat_map(|pose| reals(pose, placed)));
-        });
-        json.objects("paths", &viewer.paths, |json, path| {
-            json.text("name", &path.name);
-            own_times(json, &path.points);
-            json.samples("points", path.points.values.iter().flat_map(|point| placed(*point)));
-        });
-        json.objects("links", &viewer.links, |json, link| {
-            json.text("name", &link.name);
-            json.text("kind", if link.kind == LinkKind::Rod { "rod" } else { "arrow" });
-            let (radius, ends) = space.drawn(link);
-            json.number("radius", radius);
-            own_times(json, &link.ends);
-            json.samples("ends", ends.flatten().flat_map(placed));
-        });
-        json.objects("panels", &viewer.panels, |json, panel| {
-            json.text("name", &panel.name);
-            if panel.is_folded {
-                json.number("folded", 1.0);
-            }
-            json.objects("curves", &panel.curves, |json, curve| {
-                json.text("name", &curve.name);
-                own_times(json, &curve.values);
-                let base = base(&curve.values.values);
-                if base != 0.0 {
-                    json.number("base", base);
-                }
-                json.samples("values", curve.values.values.iter().map(|value| value - base));
-            });
+        let own = (&viewer.bodies[..], &viewer.paths[..], &viewer.links[..], &viewer.panels[..]);
+        run(json, own, viewer.samples.start - start, space);
+        json.text("run", viewer.own_name());
+        json.objects("guests", &viewer.guests, |json, guest| {
+            let later = guest.start - start;
+            json.text("name", &guest.name);
+            json.text("kind", if guest.is_ghost { "ghost" } else { "beside" });
+            moments(json, &guest.steps, later);
+            run(json, (&guest.bodies, &guest.paths, &guest.links, &guest.panels), later, space);
         });
         json.objects("grounds", &viewer.grounds, |json, ground| match ground {
             Ground::Plane { point, normal } => {
@@ -193,10 +177,69 @@ fn motion<const N: usize>(viewer: &Viewer<'_, N>, space: &Space, notes: &[String
     json.into_texts()
 }
 
+/// Times since the page's first one, of a run that begins so much later.
+fn moments(json: &mut Json, times: &[f64], later: f64) {
+    json.doubles("times", &times.iter().map(|time| time + later).collect::<Vec<f64>>());
+}
+
+/// Writes all that a run shows that begins so much later than the page.
+fn run(
+    json: &mut Json,
+    (bodies, paths, links, panels): (&[MovingBody], &[MovingPoint], &[Link], &[Panel]),
+    later: f64,
+    space: &Space,
+) {
+    let origin = space.origin.unwrap_or_default();
+    let placed = |place: [f64; 3]| difference(place, origin);
+    json.objects("bodies", bodies, |json, body| {
+        json.text("name", &body.name);
+        json.objects("shapes", &body.shapes, |json, shape| {
+            let (kind, lengths) = shape.kind.parts();
+            json.text("kind", kind);
+            json.numbers("lengths", lengths);
+            json.numbers("place", &shape.place);
+            json.numbers("turn", &shape.turn.0);
+            if let Some(colour) = shape.colour {
+                json.number("colour", f64::from(colour));
+            }
+        });
+        own_times(json, &body.poses, later);
+        json.samples("poses", body.poses.values.iter().flat_map(|pose| reals(pose, placed)));
+    });
+    json.objects("paths", paths, |json, path| {
+        json.text("name", &path.name);
+        own_times(json, &path.points, later);
+        json.samples("points", path.points.values.iter().flat_map(|point| placed(*point)));
+    });
+    json.objects("links", links, |json, link| {
+        json.text("name", &link.name);
+        json.text("kind", if link.kind == LinkKind::Rod { "rod" } else { "arrow" });
+        let (radius, ends) = space.drawn(link);
+        json.number("radius", radius);
+        own_times(json, &link.ends, later);
+        json.samples("ends", ends.flatten().flat_map(placed));
+    });
+    json.objects("panels", panels, |json, panel| {
+        json.text("name", &panel.name);
+        if panel.is_folded {
+            json.number("folded", 1.0);
+        }
+        json.objects("curves", &panel.curves, |json, curve| {
+            json.text("name", &curve.name);
+            own_times(json, &curve.values, later);
+            let base = base(&curve.values.values);
+            if base != 0.0 {
+                json.number("base", base);
+            }
+            json.samples("values", curve.values.values.iter().map(|value| value - base));
+        });
+    });
+}
+
 /// The times of a track that has its own.
-fn own_times<T>(json: &mut Json, track: &Track<T>) {
+fn own_times<T>(json: &mut Json, track: &Track<T>, later: f64) {
     if let Some(times) = &track.times {
-        json.doubles("times", times);
+        moments(json, times, later);
     }
 }
 
@@ -235,16 +278,16 @@ impl Space {
         fn places<T: Shown>(track: &Track<T>) -> impl Iterator<Item = [f64; 3]> {
             track.values.iter().flat_map(Shown::places)
         }
-        let bodies = viewer.bodies.iter().flat_map(|body| places(&body.poses));
-        let paths = viewer.paths.iter().flat_map(|path| places(&path.points));
+        let bodies = viewer.all_bodies().flat_map(|body| places(&body.poses));
+        let paths = viewer.all_paths().flat_map(|path| places(&path.points));
         // The vector of a force is no place.
-        let links = viewer.links.iter().flat_map(|link| {
+        let links = viewer.all_links().flat_map(|link| {
             let step = if link.kind == LinkKind::Force { 2 } else { 1 };
             places(&link.ends).step_by(step)
         });
         let (least, most) = bounds(bodies.chain(paths).chain(links));
         let size = norm(difference(most, least));
-        let around = viewer.bodies.iter().flat_map(|body| &body.shapes).map(Shape::reach).fold(0.0, f64::max);
+        let around = viewer.all_bodies().flat_map(|body| &body.shapes).map(Shape::reach).fold(0.0, f64::max);
         // What stands still is as large as it is drawn.
         let held = if size > 0.0 { size } else { around };
         let is_far = (0..3).any(|i| least[i].abs().max(most[i].abs()) > FAR_OFF * held) && held > 0.0;
@@ -254,7 +297,7 @@ impl Space {
         let origin = (is_far && size.is_finite()).then(|| std::array::from_fn(middle));
         let size = if size.is_finite() { size } else { 0.0 } + 2.0 * around;
         let size = if size > 0.0 { size } else { 1.0 };
-        let forces = viewer.links.iter().filter(|link| link.kind == LinkKind::Force);
+        let forces = viewer.all_links().filter(|link| link.kind == LinkKind::Force);
         let largest =
             forces.flat_map(|link| &link.ends.values).map(|[_, force]| norm(*force)).fold(0.0, f64::max);
         let per_force = (largest > 0.0).then(|| LONGEST_FORCE * size / largest);

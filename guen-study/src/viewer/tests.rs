@@ -167,6 +167,52 @@ fn one_sample_is_a_picture_at_its_time() {
     );
 }
 
+/// The page's data after the key of further runs.
+fn guests(page: &str) -> &str {
+    page.split_once("\"guests\":[").unwrap().1.split_once("</script>").unwrap().0
+}
+
+#[test]
+fn runs_have_one_clock_and_one_origin() {
+    // Far from the origin, and the guest begins before the page's own run.
+    let mut early = Recording::new(&["t"]);
+    (0..=40).map(|k| -1.0 + 0.125 * f64::from(k)).for_each(|t| early.record(t, &[t]));
+    let far = |t: f64| Pose::at([6.4e6 + t, 0.0, 0.0]);
+    let guest = Viewer::new("early", &early).body("b", [Shape::sphere(0.1)], |t, _| far(t));
+    let own = recorded(50);
+    let page = Viewer::new("own", &own).body("b", [Shape::sphere(0.1)], |t, _| far(t)).ghost(guest).to_html();
+    let page = page.unwrap();
+    assert!(page.contains("\"start\":-1,"));
+    let [own, early] = [0, 1].map(|k| doubles(value(&page, "times")[k]));
+    assert_eq!((own[0], own[49], early[0], early[40]), (1.0, 7.125, 0.0, 5.0));
+    // Where both are at the same time, both are at the same place.
+    let x: Vec<Vec<f32>> = (0..2).map(|k| decoded(value(&page, "poses")[k])).collect();
+    assert_eq!(x[0][0], x[1][7 * 8]);
+    assert!(notes(&page).contains("own begins at t = 0 s. early ends at t = 4 s"), "{}", notes(&page));
+    assert!(guests(&page).starts_with(r#"{"name":"early","kind":"ghost""#));
+}
+
+#[test]
+fn guests_are_thinned_with_the_page_and_refused_with_their_names() {
+    let mut long = Recording::new(&["t"]);
+    (0..100_000).map(f64::from).for_each(|t| long.record(t, &[t]));
+    let noise = |t: f64, _: &[f64; 1]| (t * t).sin();
+    let own = recorded(5);
+    let page = || Viewer::new("own", &own).curve("c", |t, _| t);
+    let whole = Viewer::complete("long", &long).curve("c", noise);
+    let small = page().ghost(whole).within_bytes(900_000).to_html().unwrap();
+    assert!(small.len() <= 900_000 && notes(&small).contains("of 5 to 100000 samples"), "{}", notes(&small));
+
+    let refused = |guest: Viewer<'_, 1>| page().beside(guest).to_html().unwrap_err().to_string();
+    let told = refused(Viewer::new("long", &long).curve("c", |t, _| 1.0 / (t - 3.0)));
+    assert!(told.contains("c of long") && told.contains('3'), "{told}");
+    let empty = Recording::new(&["t"]);
+    assert!(refused(Viewer::new("empty", &empty).curve("c", noise)).contains("empty"));
+    let mut disordered = Recording::new(&["t"]);
+    [0.0, 2.0, 1.0, 3.0].iter().for_each(|t| disordered.record(*t, &[*t]));
+    assert!(refused(Viewer::new("disordered", &disordered).curve("c", noise)).contains("disordered"));
+}
+
 #[test]
 fn a_run_backwards_is_shown_forwards() {
     let mut recording = Recording::new(&["x"]);

@@ -108,6 +108,32 @@ fn hard(folder: &Path) -> Result<(), StudyError> {
         })
         .write(folder.join("names.html"))?;
 
+    // Two runs with one clock: the other one is slower, begins later and ends before.
+    let own = clock(601, 10.0, 0.0);
+    let mut slower = Recording::new(&["t", "angle"]);
+    (0..=360).map(|k| 1.0 + f64::from(k) / 60.0).for_each(|t| slower.record(t, &[t, 0.9 * t]));
+    let around = |angle: f64| [2.0 * angle.cos(), 2.0 * angle.sin(), 0.3];
+    for (name, is_ghost) in [("ghost", true), ("beside", false)] {
+        let guest = Viewer::new("slower", &slower)
+            .body("ball", ball(), |_, s| Pose::at(around(s[1])).turned([0.0, 0.0, 1.0], s[1]))
+            .path("way", |_, s| around(s[1]))
+            .arrow("velocity", 0.02, |_, s| [around(s[1]), [-1.8 * s[1].sin(), 1.8 * s[1].cos(), 0.0]])
+            .panel("place in m")
+            .curve("x", |_, s| around(s[1])[0])
+            .panel("angle in rad")
+            .curve("angle", |_, s| s[1]);
+        let page = Viewer::new("Two runs", &own)
+            .called("quick")
+            .body("ball", ball(), |t, _| Pose::at(around(t)).turned([0.0, 0.0, 1.0], t))
+            .path("way", |t, _| around(t))
+            .arrow("velocity", 0.02, |t, _| [around(t), [-2.0 * t.sin(), 2.0 * t.cos(), 0.0]])
+            .panel("place in m")
+            .curve("x", |t, _| around(t)[0])
+            .curve("y", |t, _| around(t)[1]);
+        let page = if is_ghost { page.ghost(guest) } else { page.beside(guest) };
+        page.write(folder.join(format!("{name}.html")))?;
+    }
+
     // One sample: a picture.
     let mut single = Recording::new(&["t"]);
     single.record(2.5, &[2.5]);

@@ -4,7 +4,9 @@
 function makeLegend(stage, { choose, redraw }) {
   const legend = document.getElementById("legend");
   const list = legend.querySelector("ul");
-  function entry(name, kind, i, own) {
+  const boxes = [];
+  function entry({ name, run, shapes }, kind, i) {
+    const own = shapes?.[0].colour;
     const item = document.createElement("li");
     const label = document.createElement("label");
     const box = document.createElement("input");
@@ -12,7 +14,7 @@ function makeLegend(stage, { choose, redraw }) {
     box.type = "checkbox";
     box.checked = true;
     box.setAttribute("aria-label", `show ${name}`);
-    mark.className = kind;
+    mark.className = isGhost({ run }) ? `${kind} ghost` : kind;
     painted(() => mark.style.setProperty("--mark", `#${shade(own, slots[kind](i)).getHexString()}`));
     label.append(box, mark);
     item.append(label);
@@ -32,17 +34,32 @@ function makeLegend(stage, { choose, redraw }) {
     }
     item.dir = "auto";
     list.append(item);
-    return box;
+    boxes.push({ box, run, kind, i });
   }
-  const boxes = motion.bodies.map((body, i) => body.shapes.length > 0 && entry(body.name, "body", i, body.shapes[0].colour));
-  motion.links.forEach((link, i) => entry(link.name, "link", i));
-  motion.paths.forEach((path, i) => entry(path.name, "path", i));
+  /** All that a run shows, on and off at once. */
+  function whole(run, k) {
+    const item = document.createElement("li");
+    const label = document.createElement("label");
+    const box = document.createElement("input");
+    box.type = "checkbox";
+    box.checked = true;
+    label.append(box, document.createTextNode(isolated(run.name)));
+    item.className = "run";
+    item.append(label);
+    list.append(item);
+    box.addEventListener("change", () => boxes.forEach((other) => other.run === k && other.box.checked !== box.checked && other.box.click()));
+  }
+  const kinds = { body: motion.bodies.map((body) => (body.shapes.length > 0 ? body : null)), link: motion.links, path: motion.paths };
+  motion.runs.forEach((run, k) => {
+    if (hasGuests) whole(run, k);
+    for (const kind of Object.keys(kinds)) kinds[kind].forEach((thing, i) => thing && thing.run === k && entry(thing, kind, i));
+  });
   const count = list.children.length;
   legend.querySelector("summary").textContent = count > 12 ? `bodies and paths (${count})` : "bodies and paths";
   legend.hidden = count === 0 || !stage;
   // A long list would hide what it explains.
   legend.open = count <= (window.innerWidth > 760 ? 12 : 4);
-  return { hide: (i) => boxes[i] && boxes[i].click() };
+  return { hide: (i) => boxes.find((entry) => entry.kind === "body" && entry.i === i)?.box.click() };
 }
 
 /** The chosen body: its place and velocity, and buttons. */
@@ -94,11 +111,14 @@ function makeCard(stage, { follow, hide, label, redraw }) {
   function draw(time) {
     if (chosen < 0) return;
     const { group } = stage.movers[chosen];
+    const { shift } = motion.runs[motion.bodies[chosen].run];
     const place = group.position.clone().add(new THREE.Vector3(...(motion.origin ?? [0, 0, 0])));
+    if (shift) place.sub(shift);
     const { x, y, z, w } = group.quaternion;
     // The quotient of differences over the samples around the time.
     const [from, to] = stage.around(chosen, time, before, after);
     const velocity = after.clone().sub(before).divideScalar(to - from || 1);
+    if (!covers(motion.bodies[chosen], time)) velocity.set(0, 0, 0);
     rows.place.textContent = three(place, stage.radius);
     rows.velocity.textContent = three(velocity, Math.max(velocity.length(), stage.radius / motion.end));
     rows.speed.textContent = short(velocity.length());

@@ -10,14 +10,14 @@ const INKS = [
   [0x8a6400, 0xe8b64a], // ochre
   [0x4d5661, 0xb9c2cc], // grey
 ];
-// From the seventh curve on the hues come again, dashed: lengths of lines and gaps.
+// From the seventh curve on the hues come again, dashed, and those of other runs are: lengths of lines and gaps.
 const DASHES = [[], [7, 4], [2, 3], [10, 3, 2, 3]];
 
 /** How the page looks: in the dark or on paper. */
 const look = { dark: false, printing: false };
 
 const hex = (number) => `#${number.toString(16).padStart(6, "0")}`;
-const dashOf = ({ slot }) => DASHES[Math.floor(slot / INKS.length) % DASHES.length];
+const dashOf = ({ slot, run }) => DASHES[(Math.floor(slot / INKS.length) + run) % DASHES.length];
 
 /** The colour of the thing with this number, as `#rrggbb`. */
 const inkOf = (slot) => hex(INKS[slot % INKS.length][look.dark ? 1 : 0]);

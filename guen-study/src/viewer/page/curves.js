@@ -32,14 +32,15 @@ function rangeOf(curves, from, to) {
   for (const curve of curves) {
     const { times, values, base } = curve;
     if (times[times.length - 1] < from || times[0] > to) continue;
+    const [begin, end] = [Math.max(from, times[0]), Math.min(to, times[times.length - 1])];
     const [first, last] = samplesIn(curve, from, to);
     const see = (value) => {
       low = Math.min(low, value);
       high = Math.max(high, value);
     };
-    // At the edges the curve is between samples.
-    see(valueAt(curve, from));
-    see(valueAt(curve, to));
+    // At the edges a curve is between samples.
+    see(valueAt(curve, begin));
+    see(valueAt(curve, end));
     for (let k = first; k <= last; k += 1) if (times[k] >= from && times[k] <= to) see(base + values[k]);
   }
   return [low, high];

@@ -60,6 +60,15 @@ function makeLabels(stage) {
     ...stage.movers.map(({ body, group }) => ({ name: body.name, at: () => group.position, seen: () => group.visible })),
     ...stage.links.map(({ link, holder, group, middle }) => ({ name: link.name, at: () => middle, seen: () => holder.visible && group.visible && link.kind === "arrow" })),
   ];
+  // Runs that stand side by side are told apart by their names above them.
+  const isApart = motion.runs.some((run) => run.kind === "beside");
+  const above = motion.runs.map((run, k) => {
+    const { least, most } = box(k);
+    const half = most.clone().sub(least).multiplyScalar(0.5);
+    const up = new THREE.Vector3(...motion.up).normalize();
+    return { name: isolated(run.name), always: isApart && run.kind !== "ghost", at: () => least.clone().add(half).addScaledVector(up, Math.abs(half.dot(up)) + 0.1 * stage.radius), seen: () => isApart };
+  });
+  things.push(...above);
   const chosen = new Set();
   let all = false;
   function element(thing) {
@@ -76,11 +85,11 @@ function makeLabels(stage) {
     toggle: (i) => chosen.delete(i) || chosen.add(i),
     draw() {
       things.forEach((thing, i) => {
-        const wanted = (all || chosen.has(i)) && thing.seen();
+        const wanted = (all || thing.always || chosen.has(i)) && thing.seen();
         const at = wanted ? stage.onScreen(thing.at()) : null;
         if (at) {
           thing.element ??= element(thing);
-          thing.element.style.transform = `translate(${Math.round(at[0])}px, ${Math.round(at[1] + 8)}px)`;
+          thing.element.style.transform = `translate(${Math.round(at[0])}px, ${Math.round(at[1] + 8)}px) translateX(-50%)`;
         }
         if (thing.element) thing.element.hidden = at === null;
       });

@@ -1,55 +1,17 @@
-// What is shown, out of the JSON that the exporter writes: typed arrays, and values between samples.
+// What is shown, at its times, and values between samples.
 
-/** Bytes out of base64. */
-function bytesOf(text) {
-  if (Uint8Array.fromBase64) return Uint8Array.fromBase64(text);
-  const letters = atob(text);
-  const bytes = new Uint8Array(letters.length);
-  for (let k = 0; k < letters.length; k += 1) bytes[k] = letters.charCodeAt(k);
-  return bytes;
-}
-
-/** Samples: base64, or what names the parts of the page where they are. */
-function unpack(stored) {
-  if (typeof stored === "string") return bytesOf(stored);
-  const all = new Uint8Array(stored.bytes);
-  let at = 0;
-  for (let k = stored.from; k < stored.to; k += 1) {
-    const element = document.getElementById(`part-${k}`);
-    const part = bytesOf(element.textContent);
-    // The text is not needed any more.
-    element.remove();
-    all.set(part, at);
-    at += part.length;
-  }
-  return all;
-}
-
-/** Whether this machine orders bytes as the file does: the least significant one first. */
-const littleEndian = new Uint8Array(new Uint16Array([1]).buffer)[0] === 1;
-
-/** Numbers of `size` bytes each. */
-function decode(stored, size = 4) {
-  const bytes = unpack(stored);
-  if (!littleEndian) for (let k = 0; k < bytes.length; k += size) bytes.subarray(k, k + size).reverse();
-  return size === 8 ? new Float64Array(bytes.buffer) : new Float32Array(bytes.buffer);
-}
-
-const motion = JSON.parse(document.getElementById("motion").textContent);
-/** A name that may be written from right to left, or says so, in marks that keep its direction from what stands beside it. */
-const isolated = (name) => (/[\u0590-\u08ff\u200e\u200f\u202a-\u202e\u2066-\u2069\ufb1d-\ufdff\ufe70-\ufefc]|[\ud802-\ud803\ud83a-\ud83b]/.test(name) ? `\u2068${name}\u2069` : name);
 motion.title = isolated(motion.title);
 if (motion.follow !== undefined) motion.follow = isolated(motion.follow);
-for (const thing of [...motion.bodies, ...motion.paths, ...motion.links, ...motion.panels, ...motion.panels.flatMap((panel) => panel.curves)]) {
-  thing.name = isolated(thing.name);
-}
-motion.times = decode(motion.times, 8);
-for (const { curves } of motion.panels) curves.forEach((curve, i) => (curve.slot = i));
+for (const panel of motion.panels) panel.name = isolated(panel.name);
 motion.curves = motion.panels.flatMap((panel) => panel.curves);
-/** What moves and what is drawn over time has times of its own, or those of the page. */
-for (const track of [...motion.bodies, ...motion.paths, ...motion.links, ...motion.curves]) {
-  track.times = track.times === undefined ? motion.times : decode(track.times, 8);
+const tracks = [...motion.bodies, ...motion.paths, ...motion.links, ...motion.curves];
+for (const thing of tracks) {
+  thing.plain = isolated(thing.name);
+  thing.name = ofRun({ name: thing.plain, run: thing.run });
 }
+for (const run of motion.runs) run.times = decode(run.times, 8);
+/** What moves and what is drawn over time has times of its own, or those of its run. */
+for (const track of tracks) track.times = track.times === undefined ? motion.runs[track.run].times : decode(track.times, 8);
 for (const body of motion.bodies) body.poses = decode(body.poses);
 for (const path of motion.paths) path.points = decode(path.points);
 for (const link of motion.links) link.ends = decode(link.ends);
@@ -58,17 +20,17 @@ for (const curve of motion.curves) {
   curve.base ??= 0;
 }
 for (const ground of motion.grounds) if (ground.heights) ground.heights = decode(ground.heights);
+motion.still = motion.runs.every(({ times }) => times.length < 2);
 /** A single sample has no motion: it is shown as two alike, at one time. */
-motion.still = motion.times.length < 2;
-if (motion.still) {
-  const twice = (numbers) => Float32Array.of(...numbers, ...numbers);
-  motion.times = Float64Array.of(motion.times[0], motion.times[0]);
-  for (const track of [...motion.bodies, ...motion.paths, ...motion.links, ...motion.curves]) track.times = motion.times;
-  for (const body of motion.bodies) body.poses = twice(body.poses);
-  for (const path of motion.paths) path.points = twice(path.points);
-  for (const link of motion.links) link.ends = twice(link.ends);
-  for (const curve of motion.curves) curve.values = twice(curve.values);
+const twice = (numbers) => new numbers.constructor([...numbers, ...numbers]);
+for (const run of motion.runs) if (run.times.length < 2) run.times = twice(run.times);
+for (const track of tracks) {
+  if (track.times.length > 1) continue;
+  track.times = twice(track.times);
+  for (const numbers of ["poses", "points", "ends", "values"]) if (track[numbers]) track[numbers] = twice(track[numbers]);
 }
+motion.times = hasGuests ? union(motion.runs.map((run) => run.times)) : motion.runs[0].times;
+if (motion.still && motion.times.length < 2) motion.times = twice(motion.times);
 document.documentElement.dataset.still = String(motion.still);
 motion.end = motion.times[motion.times.length - 1];
 
@@ -90,14 +52,17 @@ function locate(time, times = motion.times) {
 /** A curve's value at a time. */
 const valueAt = (curve, time) => curve.base + between(curve.values, 1, 0, locate(time, curve.times));
 
+/** Whether a track is at a time what it was recorded to be: a run may begin after others, or end before them. */
+const covers = ({ times }, time) => time >= times[0] - 1e-9 * motion.end && time <= times[times.length - 1] + 1e-9 * motion.end;
+
 /** Entry `i` of `width` numbers a sample, between samples on a straight line. */
 function between(values, width, i, { k, part }) {
   const a = values[k * width + i];
   return a + (values[(k + 1) * width + i] - a) * part;
 }
 
-/** The box around everything that moves: its corners. */
-function box() {
+/** The box around everything that moves, or that does in one run: its corners. */
+function box(run) {
   const least = new THREE.Vector3(Infinity, Infinity, Infinity);
   const most = new THREE.Vector3(-Infinity, -Infinity, -Infinity);
   const point = new THREE.Vector3();
@@ -108,9 +73,10 @@ function box() {
       most.max(point);
     }
   };
-  for (const body of motion.bodies) add(body.poses, 7, 0);
-  for (const path of motion.paths) add(path.points, 3, 0);
-  for (const link of motion.links) add(link.ends, 3, 0);
+  const of = (things) => things.filter((thing) => run === undefined || thing.run === run);
+  for (const body of of(motion.bodies)) add(body.poses, 7, 0);
+  for (const path of of(motion.paths)) add(path.points, 3, 0);
+  for (const link of of(motion.links)) add(link.ends, 3, 0);
   if (least.x > most.x) {
     least.set(-1, -1, -1);
     most.set(1, 1, 1);
@@ -132,3 +98,5 @@ function short(value) {
   if (size >= 1e5 || size < 1e-3) return value.toExponential(2).replace("e+", "e").replace("-", "−").replace("e-", "e−");
   return String(Number(value.toPrecision(4))).replace("-", "−");
 }
+
+if (hasGuests) standBeside();

@@ -164,7 +164,7 @@ function makePanel(panel, parent, { span, probe, redraw, onPick }) {
       if (w > 0 && h > 0) paintLayer();
     }
     const seen = probe.time ?? time;
-    for (const { curve, on, value } of entries) value.textContent = on ? reading(valueAt(curve, seen), size) : "";
+    for (const { curve, on, value } of entries) value.textContent = !on ? "" : covers(curve, seen) ? reading(valueAt(curve, seen), size) : "–";
     if (w === 0 || h === 0) return;
     const pen = canvas.getContext("2d");
     pen.setTransform(1, 0, 0, 1, 0, 0);
@@ -193,7 +193,7 @@ function makePanel(panel, parent, { span, probe, redraw, onPick }) {
     }
     if (!inside(seen)) return;
     for (const { curve, on } of entries) {
-      if (!on) continue;
+      if (!on || !covers(curve, seen)) continue;
       pen.fillStyle = inkOf(curve.slot);
       pen.beginPath();
       pen.arc(x(seen), y(valueAt(curve, seen)), 3.5, 0, 2 * Math.PI);

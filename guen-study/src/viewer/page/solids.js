@@ -140,6 +140,15 @@ function rod(radius, ink) {
   return group;
 }
 
+/** Makes a ghost of a solid: faint, and without a shadow. */
+function fade(group) {
+  group.traverse((part) => {
+    if (!part.material) return;
+    part.castShadow = false;
+    for (const material of [part.material].flat()) Object.assign(material, { transparent: true, opacity: 0.38, depthWrite: false });
+  });
+}
+
 const SOLIDS = { ring, cylinder, sphere, cuboid, arrow };
 
 /** A body with all its shapes, in its own axes. */

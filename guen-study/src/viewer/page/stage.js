@@ -24,7 +24,8 @@ function makeStage() {
   const ground = makeGround(scene, { up, center, radius, least, most });
 
   const movers = motion.bodies.map((body, i) => {
-    const group = solid(body, i);
+    const group = solid(body, slots.body(i));
+    if (isGhost(body)) fade(group);
     scene.add(group);
     return { body, group, size: Math.max(radius / 60, ...body.shapes.map(reach)) };
   });
@@ -32,6 +33,7 @@ function makeStage() {
     const ink = () => solidInk(slots.link(i));
     const group = link.kind === "arrow" ? arrow([1, link.radius], ink) : rod(link.radius, ink);
     const holder = new THREE.Group();
+    if (isGhost(link)) fade(group);
     holder.add(group);
     scene.add(holder);
     return { link, group, holder, middle: new THREE.Vector3() };
@@ -42,7 +44,7 @@ function makeStage() {
   camera.up.copy(up);
   const controls = new THREE.OrbitControls(camera, canvas);
   controls.enableDamping = false;
-  let followed = Math.max(0, motion.bodies.findIndex((body) => body.name === motion.follow));
+  let followed = Math.max(0, motion.bodies.findIndex((body) => body.plain === motion.follow));
   let following = false;
   const last = new THREE.Vector3();
 
@@ -50,7 +52,7 @@ function makeStage() {
   /** How far the eye is from something of this size that fills the picture. */
   const away = (size) => (size * 0.84) / Math.sin((camera.fov * Math.PI) / 360) / Math.min(1, camera.aspect);
   const directions = {
-    first: () => (motion.from ? new THREE.Vector3(...motion.from) : new THREE.Vector3(-0.75, -1.25, 0.8).applyQuaternion(level)),
+    first: firstDirection,
     above: () => new THREE.Vector3(0, -1e-3, 1).applyQuaternion(level),
     front: () => new THREE.Vector3(0, -1, 0).applyQuaternion(level),
     side: () => new THREE.Vector3(1, 0, 0).applyQuaternion(level),
@@ -235,14 +237,17 @@ function makeStage() {
   };
 }
 
+/** The number of a thing, or of the one in the first run that has its name. */
+const ofTwin = (kind, i) => (motion[kind][i].like >= 0 ? motion[kind][i].like : i);
+
 /** Numbers in the list of colours: bodies first, what links points, then paths, so that none has the colour of a body. */
 const slots = {
-  body: (i) => i,
-  link: (i) => motion.bodies.length + i,
+  body: (i) => ofTwin("bodies", i),
+  link: (i) => motion.own.bodies + ofTwin("links", i),
   path: (i) => {
-    const before = motion.bodies.length + motion.links.length;
+    const before = motion.own.bodies + motion.own.links;
     // Where the hues have just begun again, the first path would have the first body's.
-    return before + (before > 0 && before % INKS.length === 0 ? 1 : 0) + i;
+    return before + (before > 0 && before % INKS.length === 0 ? 1 : 0) + ofTwin("paths", i);
   },
 };
 
@@ -250,10 +255,10 @@ const slots = {
 function makePath(scene, path, ink) {
   const whole = new THREE.BufferGeometry();
   whole.setAttribute("position", new THREE.BufferAttribute(path.points, 3));
-  const faint = new THREE.Line(whole, new THREE.LineBasicMaterial({ transparent: true, opacity: 0.4 }));
+  const faint = new THREE.Line(whole, new THREE.LineBasicMaterial({ transparent: true, opacity: isGhost(path) ? 0.25 : 0.4 }));
   const done = new THREE.BufferGeometry();
   done.setAttribute("position", new THREE.BufferAttribute(path.points.slice(), 3).setUsage(THREE.DynamicDrawUsage));
-  const strong = new THREE.Line(done, new THREE.LineBasicMaterial());
+  const strong = new THREE.Line(done, new THREE.LineBasicMaterial(isGhost(path) ? { transparent: true, opacity: 0.55 } : {}));
   painted(() => [faint, strong].forEach((line) => line.material.color.copy(ink())));
   faint.frustumCulled = false;
   strong.frustumCulled = false;
