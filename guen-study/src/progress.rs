@@ -121,7 +121,7 @@ impl Progress {
     pub fn finish(self) {}
 }
 
-/// How progress is shown.
+/// The form in which progress is shown.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Style {
     /// One line with a bar, painted over and over.

@@ -36,7 +36,7 @@ impl AssumedRates {
 
 /// The parameters that were chosen, with the reason.
 pub struct ChosenRates {
-    /// Their names.
+    /// The names of the parameters.
     pub names: Vec<String>,
     /// The condition of this set at the worst of the states.
     pub condition: f64,

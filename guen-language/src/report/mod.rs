@@ -148,7 +148,7 @@ fn forms(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
     lines.section
 }
 
-/// Which parameters the macro chose, and why.
+/// The line about the parameters that the macro chose, with its reason.
 fn chosen(chosen: &ChosenRates) -> String {
     let ChosenRates { names, condition, best: (best, least) } = chosen;
     let (own, are) = (listed(names), if names.len() == 1 { "is" } else { "are" });

@@ -19,7 +19,7 @@ const CORNERS: usize = 24;
 /// The first view: from the motion to the eye, where up is `z`.
 const FIRST: [f64; 3] = [-0.75, -1.25, 0.8];
 
-/// Where the picture is seen from.
+/// The eye that sees the picture.
 pub(super) struct Eye {
     place: [f64; 3],
     right: [f64; 3],
@@ -74,7 +74,7 @@ impl Eye {
         Self { place, right, above: cross(right, ahead), ahead, up, center, radius }
     }
 
-    /// Where a place is in the picture, in pixels, and the pixels of a length of one there; nothing if it is not before the eye.
+    /// The point of the picture where a place is, in pixels, and the pixels of a length of one there; nothing if it is not before the eye.
     fn sees(&self, place: [f64; 3]) -> Option<([f64; 2], f64)> {
         let from = difference(place, self.place);
         let depth = dot(from, self.ahead);

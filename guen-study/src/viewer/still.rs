@@ -139,7 +139,7 @@ fn panel_picture<const N: usize>(viewer: &Viewer<'_, N>, panel: &Panel) -> Optio
     Some(format!("<figure>{svg}</figure>\n"))
 }
 
-/// At most so many points of a curve, its extrema among them.
+/// Points of a curve, at most so many, its extrema among them.
 fn thinned<const N: usize>(viewer: &Viewer<'_, N>, curve: &Curve, most: usize) -> Vec<(f64, f64)> {
     let own = &viewer.samples.times;
     let times = curve.values.times.as_deref().unwrap_or(own);
