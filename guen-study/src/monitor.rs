@@ -63,7 +63,7 @@ impl InvariantErrors {
         self.energy_error <= energy_error && self.residual <= residual
     }
 
-    fn look(&mut self, t: f64, energy: f64, residual: f64) {
+    fn record(&mut self, t: f64, energy: f64, residual: f64) {
         let error = or_infinite((energy - self.energy_start) / self.energy_scale);
         if error > self.energy_error {
             (self.energy_error, self.energy_error_time) = (error, t);
@@ -147,7 +147,7 @@ impl<S> Monitor<S> {
             residual: 0.0,
             residual_time: t,
         };
-        found.look(t, energy, system.residual(t, state));
+        found.record(t, energy, system.residual(t, state));
         Self { system, found }
     }
 
@@ -163,7 +163,7 @@ impl<S> Monitor<S> {
     where
         S: Monitored<f64, N>,
     {
-        self.found.look(t, self.system.energy(t, state), self.system.residual(t, state));
+        self.found.record(t, self.system.energy(t, state), self.system.residual(t, state));
     }
 
     /// Returns the largest errors found so far.

@@ -69,7 +69,7 @@ pub(super) fn derive(
         equations: Vec::new(),
         energy: level.energy,
         programs,
-        edges: domain_names.len(),
+        singularities: domain_names.len(),
         domain: carried.edges,
         domain_names,
         domain_reasons: Vec::new(),

@@ -7,7 +7,7 @@ use guen_symbolic::{
     evaluate_function, evaluate_prepare,
 };
 
-use super::domain::{Edge, constant_pivots, domain, reason, written};
+use super::domain::{Singularity, constant_pivots, domain, reason, written};
 use super::function;
 use super::level::Level;
 use super::parts::Functions;
@@ -83,10 +83,10 @@ fn further_divisors(
     derivation: &Derivation,
     values: &[(ExprId, ExprId)],
 ) -> Option<Vec<(ExprId, String)>> {
-    let divisors = |model: &Model<'_>, derivation: &Derivation| -> Vec<Edge> {
+    let divisors = |model: &Model<'_>, derivation: &Derivation| -> Vec<Singularity> {
         let constants = constant_pivots(derivation).into_iter().map(|function| {
             let (text, words) = Default::default();
-            Edge { function, text, words, origin: String::new(), is_determinant: false }
+            Singularity { function, text, words, origin: String::new(), is_determinant: false }
         });
         domain(model, derivation, &whole.shown).into_iter().chain(constants).collect()
     };
@@ -94,10 +94,10 @@ fn further_divisors(
     let bench = &mut model.bench;
     let mut at_values = Substitution::new(values.iter().copied());
     let mut known: Vec<ExprId> =
-        own.iter().map(|edge| at_values.of(&mut bench.graph, edge.function)).collect();
+        own.iter().map(|singularity| at_values.of(&mut bench.graph, singularity.function)).collect();
     let mut found = Vec::new();
-    for edge in of_whole {
-        let e = at_values.of(&mut bench.graph, edge.function);
+    for singularity in of_whole {
+        let e = at_values.of(&mut bench.graph, singularity.function);
         let e = bench.tidy(e);
         if bench.verdict_on_manifold(e) != Verdict::Nonzero {
             return None;
@@ -108,11 +108,11 @@ fn further_divisors(
             bench.graph.as_number(quotient).is_some()
         };
         // The determinant of a block is the same, in whatever order it was eliminated.
-        let is_same = |other: &Edge| edge.is_determinant && other.words == edge.words;
+        let is_same = |other: &Singularity| singularity.is_determinant && other.words == singularity.words;
         let is_known = own.iter().any(is_same) || known.iter().any(|other| is_number(e, *other));
         if !is_known && !bench.graph.manifestly_nonzero(e) {
             known.push(e);
-            found.push((e, edge.words));
+            found.push((e, singularity.words));
         }
     }
     let told = |(e, words): (ExprId, String)| (e, written(model, e, &words));

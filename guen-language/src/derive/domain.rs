@@ -11,7 +11,7 @@ pub(super) fn constant_pivots(derivation: &Derivation) -> Vec<ExprId> {
 }
 
 /// A function that must not vanish, as it is written, and in words that hold wherever it is seen from.
-pub(super) struct Edge {
+pub(super) struct Singularity {
     pub(super) function: ExprId,
     pub(super) text: String,
     pub(super) words: String,
@@ -22,8 +22,8 @@ pub(super) struct Edge {
 }
 
 /// The functions that must not vanish: large determinants are told by their rows.
-pub(super) fn domain(model: &Model<'_>, derivation: &Derivation, shown: &Contracted) -> Vec<Edge> {
-    let named = |e: &ExprId, words: &str, origin: String| Edge {
+pub(super) fn domain(model: &Model<'_>, derivation: &Derivation, shown: &Contracted) -> Vec<Singularity> {
+    let named = |e: &ExprId, words: &str, origin: String| Singularity {
         function: *e,
         text: written(model, shown.image(*e), words),
         words: words.to_owned(),
@@ -40,7 +40,7 @@ pub(super) fn domain(model: &Model<'_>, derivation: &Derivation, shown: &Contrac
         let names: Vec<&str> = rows.iter().map(|s| model.forms[*s].name.as_str()).collect();
         let words = format!("det M[{}]", names.join(", "));
         let origin = format!("{pivot} in {}", listed(&names));
-        Edge { function: *e, text: words.clone(), words, origin, is_determinant: true }
+        Singularity { function: *e, text: words.clone(), words, origin, is_determinant: true }
     });
     chart.chain(pivots).chain(determinants).collect()
 }

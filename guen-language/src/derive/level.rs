@@ -49,7 +49,7 @@ pub struct Level {
     pub domain_reasons: Vec<String>,
     /// The number of them, from the first, that guards measure one by one; the others are determinants, and measured
     /// together as the condition of the mass matrix.
-    pub edges: usize,
+    pub singularities: usize,
     /// Expressions of constants that must not vanish.
     pub constant_pivots: Vec<ExprId>,
     /// The bounds that would save operations; of the system itself.

@@ -100,12 +100,13 @@ fn whole(
     };
     let equations = equations(&mut model.bench, &derivation);
     let shown = shown(model, &derivation, &brackets, &equations);
-    let edges = domain(model, &derivation, &shown);
-    let reasons =
-        edges.iter().map(|edge| reason(&model.bench.graph, shown.image(edge.function), &edge.origin));
+    let singularities = domain(model, &derivation, &shown);
+    let reasons = singularities.iter().map(|singularity| {
+        reason(&model.bench.graph, shown.image(singularity.function), &singularity.origin)
+    });
     let domain_reasons = reasons.collect();
-    let edges = edges.into_iter().map(|edge| (edge.function, edge.text));
-    let (domain, domain_names): (Vec<ExprId>, Vec<String>) = edges.unzip();
+    let singularities = singularities.into_iter().map(|singularity| (singularity.function, singularity.text));
+    let (domain, domain_names): (Vec<ExprId>, Vec<String>) = singularities.unzip();
     let constant_pivots = constant_pivots(&derivation);
     let quantities = formulas::whole(model, &derivation, &brackets, domain.clone(), constant_pivots.clone());
     let control = control::quantities(&mut model.bench, &derivation);
@@ -117,7 +118,7 @@ fn whole(
     let placed = (!placed.is_empty()).then(|| programs(&mut model.bench, &[], &[(function::BODIES, placed)]));
     let mut programs = programs(&mut model.bench, &lists, &quantities);
     add_mass(&mut programs, model, &derivation);
-    let edges = domain_names.len() - derivation.solution.determinants.len();
+    let singularities = domain_names.len() - derivation.solution.determinants.len();
     let missing_bounds = missing_bounds::missing_bounds(model, &derivation, &programs);
     let jacobians = Jacobians::add(&mut programs, model, &selection);
     let energy = derivation.energies.integral;
@@ -133,7 +134,7 @@ fn whole(
         domain,
         domain_names,
         domain_reasons,
-        edges,
+        singularities,
         constant_pivots,
         missing_bounds,
         series: None,

@@ -34,11 +34,11 @@ pub(super) struct Functions {
 impl Functions {
     /// Returns the quantities that the functions compute if these divisors must not vanish either.
     pub(super) fn with_divisors(&self, divisors: &[(ExprId, String)], graph: &Graph) -> Vec<Quantity> {
-        let (constants, edges): (Vec<ExprId>, Vec<ExprId>) =
+        let (constants, singularities): (Vec<ExprId>, Vec<ExprId>) =
             divisors.iter().map(|(e, _)| *e).partition(|e| graph.roles(*e).is_constant());
         let mut all: Vec<Quantity> =
             self.parts.iter().map(|part| (part.name, part.outputs.clone())).collect();
-        for (name, further) in [(function::DOMAIN, edges), (function::PIVOTS, constants)] {
+        for (name, further) in [(function::DOMAIN, singularities), (function::PIVOTS, constants)] {
             match all.iter_mut().find(|(known, _)| *known == name) {
                 Some((_, outputs)) => outputs.extend(further),
                 None => all.push((name, further)),
@@ -103,7 +103,7 @@ pub(super) fn parts(
     let n = model.coordinates.len();
     let chart = domain(model, derivation, shown);
     let pivots = constant_pivots(derivation);
-    let functions = chart.iter().map(|edge| edge.function).collect();
+    let functions = chart.iter().map(|singularity| singularity.function).collect();
     let whole = formulas::whole(model, derivation, brackets, functions, pivots.clone());
     let mut parts = Vec::new();
     let outputs = |name: &str| {
@@ -134,8 +134,8 @@ pub(super) fn parts(
     for (place, pivot) in pivots.iter().enumerate() {
         constants.push((Some(place), view.holding.of(&mut model.bench, *pivot)));
     }
-    for (place, edge) in chart.into_iter().enumerate() {
-        let seen = view.replaced(model, edge.function);
+    for (place, singularity) in chart.into_iter().enumerate() {
+        let seen = view.replaced(model, singularity.function);
         if view.is_lost(model, seen) {
             continue;
         }
@@ -146,12 +146,12 @@ pub(super) fn parts(
             determined.push(place);
             domain.push(seen);
             // The function of the scene differs from that of the whole system, whose formula mentions coordinates that the scene lacks.
-            let text = match seen == edge.function {
-                true => edge.text,
-                false => written(model, seen, &edge.words),
+            let text = match seen == singularity.function {
+                true => singularity.text,
+                false => written(model, seen, &singularity.words),
             };
             domain_names.push(text);
-            domain_reasons.push(reason(&model.bench.graph, shown.image(seen), &edge.origin));
+            domain_reasons.push(reason(&model.bench.graph, shown.image(seen), &singularity.origin));
         }
     }
     push(model, view, function::DOMAIN, determined);

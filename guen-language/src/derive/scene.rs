@@ -199,7 +199,7 @@ fn level(
         equations: Vec::new(),
         energy,
         programs,
-        edges: domain_names.len(),
+        singularities: domain_names.len(),
         placed: None,
         domain,
         domain_names,

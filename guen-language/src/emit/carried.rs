@@ -81,7 +81,7 @@ fn module(subject: &Subject<'_, '_>, layout: &Layout, base: &Layout, checks: Che
         rates.join("\n")
     );
     let (count, values) = lines(values);
-    let (edges, edge_texts) = lines(level.domain_names.clone());
+    let (singularities, singularity_texts) = lines(level.domain_names.clone());
     let program = |name: &str| level.program(name).map(|program| program.outputs.len());
     let invariants = program(function::INVARIANTS).unwrap_or(0);
     let rhs = level.program(function::RHS).map(|program| program.cost).unwrap_or_default();
@@ -89,7 +89,7 @@ fn module(subject: &Subject<'_, '_>, layout: &Layout, base: &Layout, checks: Che
     let state = records::carried(subject, layout);
     let serde = serde::state(layout);
     let prepared = prepared(subject, layout, base, invariants);
-    let systems = systems(subject, layout, base, (invariants, edges), checks);
+    let systems = systems(subject, layout, base, (invariants, singularities), checks);
     let code = functions::modules(subject, layout);
     quote! {
         #state
@@ -101,7 +101,7 @@ fn module(subject: &Subject<'_, '_>, layout: &Layout, base: &Layout, checks: Che
         /// The operations that are done once.
         pub const PREPARE_COST: __guen::Cost = #prepare_cost;
         /// Functions that must not vanish beside those of `DOMAIN` of the system.
-        pub const EDGES: [&str; #edges] = #edge_texts;
+        pub const SINGULARITIES: [&str; #singularities] = #singularity_texts;
         #prepared
         #systems
         #code
@@ -206,7 +206,7 @@ fn systems(
     subject: &Subject<'_, '_>,
     layout: &Layout,
     base: &Layout,
-    (invariants, edges): (usize, usize),
+    (invariants, singularities): (usize, usize),
     checks: CheckOperations,
 ) -> TokenStream {
     let (size, count, variables) = (layout.size, layout.inputs, base.size);
@@ -218,11 +218,11 @@ fn systems(
             let drift = __guen::largest(&[drift, broken]);
         }
     });
-    let further = (edges > 0).then(|| {
+    let further = (singularities > 0).then(|| {
         let domain = integrated::rounded(&quote!(domain), &quote!(prepared), &quote!(t), &quote!(state));
         quote! {
             if let ::core::option::Option::Some(rest) = values.get_mut(written..) {
-                written += __guen::placed(rest, &#domain, #edges);
+                written += __guen::placed(rest, &#domain, #singularities);
             }
         }
     });
@@ -292,7 +292,7 @@ fn systems(
                 let prepared = &#prepared;
                 let _ = &prepared;
                 let variables = Prepared::<__guen::RunningError<R>>::variables(state);
-                #[allow(unused_mut, reason = "there may be no further edges")]
+                #[allow(unused_mut, reason = "there may be no further singularities")]
                 let mut written = __guen::System::singularities(&#below, t, &variables, values);
                 #further
                 written

@@ -16,8 +16,8 @@ pub(super) fn guarded(subject: &Subject<'_, '_>, layout: &Layout, prepared: &Tok
     // Only an energy that is kept is worth its price.
     let kept = (layout.is_whole && level.derivation.conservative).then(|| quote!(kept));
     let held = (!level.selection.holonomic.is_empty()).then(|| quote!(positions));
-    let edges = (level.edges > 0).then(|| {
-        let count = level.edges;
+    let singularities = (level.singularities > 0).then(|| {
+        let count = level.singularities;
         quote!(__guen::singularities!(#prepared; #size #count);)
     });
     let condition = level.program(function::MASS).map(|_| {
@@ -35,7 +35,7 @@ pub(super) fn guarded(subject: &Subject<'_, '_>, layout: &Layout, prepared: &Tok
     let prices = prices(subject, layout, &CheckOperations::of(subject, layout));
     quote! {
         __guen::conserved!(#prepared; #n #size [#kept] [#held]);
-        #edges
+        #singularities
 
         #condition
         #prices
@@ -48,7 +48,7 @@ pub(super) struct CheckOperations {
     /// The cost of `conserved`, `singularities` and `condition` together.
     pub(super) all: u64,
     /// The cost of `singularities` alone.
-    pub(super) edges: u64,
+    pub(super) singularities: u64,
 }
 
 impl CheckOperations {
@@ -76,7 +76,7 @@ impl CheckOperations {
         } else {
             0
         };
-        let edges = rounded(function::DOMAIN) + COMPARISON_COST * level.edges as u64;
+        let singularities = rounded(function::DOMAIN) + COMPARISON_COST * level.singularities as u64;
         // Factors of the matrix and the diagonal of its inverse, roots and divisions for scaling: in loops over short rows,
         // which take more than their operations.
         let l = layout.l as u64;
@@ -84,16 +84,16 @@ impl CheckOperations {
         let carried = COMPARISON_COST * level.selection.carried.len() as u64;
         let others =
             rounded(function::POSITIONS) + cost(&[function::MASS, function::CARRY, function::INVARIANTS]);
-        Self { all: energies + edges + condition + carried + others, edges }
+        Self { all: energies + singularities + condition + carried + others, singularities }
     }
 
     /// Returns the costs of a carried form and of the level that it is a form of, which is given a state of its own.
     pub(super) fn and(self, below: Self) -> Self {
         /// The cost of checking a second system beside its operations, counted for the hoop.
-        const ANOTHER: CheckOperations = CheckOperations { all: 150, edges: 40 };
-        let edges = self.edges + below.edges;
-        let another = if edges > 0 { ANOTHER.edges } else { 0 };
-        Self { all: self.all + below.all + ANOTHER.all, edges: edges + another }
+        const ANOTHER: CheckOperations = CheckOperations { all: 150, singularities: 40 };
+        let singularities = self.singularities + below.singularities;
+        let another = if singularities > 0 { ANOTHER.singularities } else { 0 };
+        Self { all: self.all + below.all + ANOTHER.all, singularities: singularities + another }
     }
 }
 
@@ -106,13 +106,13 @@ pub(super) fn prices(subject: &Subject<'_, '_>, layout: &Layout, checks: &CheckO
     const CHECK_OVERHEAD: u64 = 240;
     /// The costs beside a check of singularities alone: counted for Appell's system in lanes, which is the most expensive
     /// beside its right-hand side.
-    const BESIDES_EDGES: u64 = 120;
+    const SINGULARITY_CHECK_OVERHEAD: u64 = 120;
     let rhs = subject.level.program(function::RHS).map_or(0, |program| program.cost.weighted());
     let one = (rhs + STAGE_COST * layout.size as u64).max(1);
     let check = u32::try_from((checks.all + CHECK_OVERHEAD).div_ceil(one)).unwrap_or(u32::MAX);
-    let edges = (checks.edges > 0).then(|| {
+    let singularities = (checks.singularities > 0).then(|| {
         // In hundredths, which are enough and read well.
-        let price = ((checks.edges + BESIDES_EDGES) * 100).div_ceil(one) as f64 / 100.0;
+        let price = ((checks.singularities + SINGULARITY_CHECK_OVERHEAD) * 100).div_ceil(one) as f64 / 100.0;
         quote! {
             fn singularity_check_cost(&self) -> f64 {
                 #price
@@ -124,7 +124,7 @@ pub(super) fn prices(subject: &Subject<'_, '_>, layout: &Layout, checks: &CheckO
             #check
         }
 
-        #edges
+        #singularities
     }
 }
 

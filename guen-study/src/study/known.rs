@@ -5,12 +5,12 @@ use std::fmt;
 use std::rc::Rc;
 
 use super::reference::Problem;
-use super::scan::{self, Look, Seen};
+use super::scan::{self, ScanDepth, Seen};
 use crate::significant;
 
 /// Looks at a motion of the system in doubles; told whether to go on.
 pub(super) type Scanner<const N: usize> =
-    Rc<dyn Fn(&Problem<'_, N>, Look, &mut dyn FnMut() -> bool) -> Option<Seen<N>>>;
+    Rc<dyn Fn(&Problem<'_, N>, ScanDepth, &mut dyn FnMut() -> bool) -> Option<Seen<N>>>;
 
 /// The evaluations of the rates along a motion in all.
 pub(super) const POINTS: usize = 1 << 20;
@@ -102,10 +102,10 @@ pub(super) fn motion<const N: usize>(
     coarser: f64,
     watch: &mut dyn FnMut() -> bool,
 ) -> Option<(Motion<N>, Seen<N>)> {
-    let mut seen = scanner(problem, Look::At(points), watch)?;
+    let mut seen = scanner(problem, ScanDepth::At(points), watch)?;
     let landings: Vec<f64> = problem.landings.iter().chain(&seen.landings).copied().collect();
     let again = Problem { landings: &landings, ..*problem };
-    let coarse = scanner(&again, Look::Nowhere(coarser), watch)?;
+    let coarse = scanner(&again, ScanDepth::Nowhere(coarser), watch)?;
     seen.evaluations += coarse.evaluations;
     let fine = std::mem::take(&mut seen.states);
     let landings = std::mem::take(&mut seen.landings);
@@ -127,7 +127,7 @@ impl<const N: usize> Known<N> {
 
     /// Looks at the motions from all initial states, more and more closely while `watch` says, given the part that is
     /// done, that there is time.
-    pub fn look(
+    pub fn refine(
         scanner: &Scanner<N>,
         starts: &[[f64; N]],
         (t0, times): (f64, &[f64]),
@@ -184,6 +184,6 @@ pub(super) fn landings_elsewhere<const N: usize>(
     points: usize,
     watch: &mut dyn FnMut() -> bool,
 ) -> Option<Vec<f64>> {
-    let seen = scanner(problem, Look::At(points), watch)?;
+    let seen = scanner(problem, ScanDepth::At(points), watch)?;
     Some(problem.landings.iter().copied().chain(seen.landings).collect())
 }

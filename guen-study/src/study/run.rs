@@ -110,7 +110,7 @@ fn known<S, const N: usize>(study: &Study<S, N>, times: &[f64], budget: &mut Bud
     if !study.measure.needs_reference() {
         return Known::nothing(study.points);
     }
-    Known::look(&study.scanner, &study.starts, (study.t0, times), study.points, &mut |part| {
+    Known::refine(&study.scanner, &study.starts, (study.t0, times), study.points, &mut |part| {
         budget.goes_on(Stage::Scan, part)
     })
 }

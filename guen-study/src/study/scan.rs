@@ -55,7 +55,7 @@ pub(super) fn width(span: f64, points: usize) -> f64 {
 
 /// The closeness of a scan.
 #[derive(Clone, Copy)]
-pub(super) enum Look {
+pub(super) enum ScanDepth {
     /// The rates, at so many equidistant times of the span.
     At(usize),
     /// The motion alone, with a tolerance.
@@ -80,18 +80,18 @@ pub(super) struct Seen<const N: usize> {
 pub(super) fn scan<S, const N: usize>(
     system: &S,
     problem: &Problem<'_, N>,
-    look: Look,
+    depth: ScanDepth,
     watch: &mut dyn FnMut() -> bool,
 ) -> Option<Seen<N>>
 where
     S: System<f64, N>,
 {
     let span = problem.span();
-    let (interval, tolerance, most) = match look {
-        Look::At(points) => {
+    let (interval, tolerance, most) = match depth {
+        ScanDepth::At(points) => {
             (span / points as f64, TOLERANCE, MOST_EVALUATIONS + MOST_OF_EACH * points as u64)
         }
-        Look::Nowhere(tolerance) => (f64::INFINITY, tolerance, MOST_EVALUATIONS),
+        ScanDepth::Nowhere(tolerance) => (f64::INFINITY, tolerance, MOST_EVALUATIONS),
     };
     let mut march = March {
         system,
@@ -105,7 +105,7 @@ where
         seen: Seen { states: Vec::new(), landings: Vec::new(), abrupt: 0, evaluations: 0, uncertain: 0.0 },
     };
     for (stop, wanted) in problem.stops() {
-        march.look_until(stop, watch)?;
+        march.scan_until(stop, watch)?;
         if wanted {
             march.seen.states.push(march.x);
         }
@@ -141,7 +141,7 @@ struct Suspicion<const N: usize> {
 
 impl<S: System<f64, N>, const N: usize> March<'_, S, N> {
     /// Goes to a time and looks into all steps on the way.
-    fn look_until(&mut self, to: f64, watch: &mut dyn FnMut() -> bool) -> Option<()> {
+    fn scan_until(&mut self, to: f64, watch: &mut dyn FnMut() -> bool) -> Option<()> {
         while self.t != to {
             let left = (to - self.t).abs() / self.interval;
             if left <= LEAST_INTERVALS as f64 {
@@ -158,13 +158,13 @@ impl<S: System<f64, N>, const N: usize> March<'_, S, N> {
             } else {
                 (to, left.ceil() as usize)
             };
-            self.look(end, count, watch)?;
+            self.advance(end, count, watch)?;
         }
         Some(())
     }
 
     /// Goes to a time, or to the end of the first step that went over something.
-    fn look(&mut self, to: f64, count: usize, watch: &mut dyn FnMut() -> bool) -> Option<()> {
+    fn advance(&mut self, to: f64, count: usize, watch: &mut dyn FnMut() -> bool) -> Option<()> {
         self.goes_on(watch)?;
         let from = self.t;
         let mut times: Vec<f64> =
@@ -384,9 +384,9 @@ mod tests {
 
     use super::*;
 
-    fn look<S: System<f64, 2>>(system: &S, times: &[f64], look: Look) -> Option<Seen<2>> {
+    fn scanned<S: System<f64, 2>>(system: &S, times: &[f64], depth: ScanDepth) -> Option<Seen<2>> {
         let problem = Problem { start: &[1.0, 0.0], t0: 0.0, times, landings: &[] };
-        scan(system, &problem, look, &mut || true)
+        scan(system, &problem, depth, &mut || true)
     }
 
     #[test]
@@ -395,7 +395,7 @@ mod tests {
         let (on, off) = (33.29925, 33.30075);
         let kicked =
             from_fn(|t: f64, &[x, v]: &[f64; 2]| [v, -x + if (on..off).contains(&t) { FORCE } else { 0.0 }]);
-        let seen = look(&kicked, &[20.0, 50.0], Look::At(1 << 16)).unwrap();
+        let seen = scanned(&kicked, &[20.0, 50.0], ScanDepth::At(1 << 16)).unwrap();
         // The force moves the place that the body turns around.
         let turned = |angle: f64, middle: f64, [x, v]: [f64; 2]| {
             let (sin, cos) = angle.sin_cos();
@@ -410,22 +410,22 @@ mod tests {
         }
         assert!(seen.abrupt >= 1 && seen.landings.len() < 60, "{:?}", seen.landings);
         // Without looking the same motion is without the kick.
-        let blind = look(&kicked, &[50.0], Look::Nowhere(TOLERANCE)).unwrap();
+        let blind = scanned(&kicked, &[50.0], ScanDepth::Nowhere(TOLERANCE)).unwrap();
         assert!(difference(&blind.states[0], &turned(50.0, 0.0, [1.0, 0.0])) < 1e-11);
     }
 
     #[test]
     fn rates_that_vary_as_fast_everywhere_cost_no_more_than_is_said() {
         let shaken = from_fn(|t: f64, &[x, v]: &[f64; 2]| [v, -x + (1e6 * t).sin()]);
-        let seen = look(&shaken, &[50.0], Look::At(1 << 12));
+        let seen = scanned(&shaken, &[50.0], ScanDepth::At(1 << 12));
         assert!(seen.is_none_or(|seen| seen.evaluations < 2 * MOST_EVALUATIONS));
     }
 
     #[test]
     fn backwards_and_nowhere() {
         let free = from_fn(|_: f64, &[_, v]: &[f64; 2]| [v, 0.0]);
-        let seen = look(&free, &[-1.0, -2.0], Look::At(64)).unwrap();
+        let seen = scanned(&free, &[-1.0, -2.0], ScanDepth::At(64)).unwrap();
         assert_eq!((seen.states, seen.landings), (vec![[1.0, 0.0]; 2], vec![]));
-        assert_eq!(look(&free, &[0.0], Look::At(64)).unwrap().states, [[1.0, 0.0]]);
+        assert_eq!(scanned(&free, &[0.0], ScanDepth::At(64)).unwrap().states, [[1.0, 0.0]]);
     }
 }

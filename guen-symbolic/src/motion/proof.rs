@@ -58,7 +58,7 @@ impl Definition {
         let l = system.forms.degrees;
         let rows = equations.rows();
         let all = [&system.accelerations[..l], &rows.concat()].concat();
-        let seen = self.look(bench, system, (&all, on_manifold), |point, values| {
+        let seen = self.compare_values(bench, system, (&all, on_manifold), |point, values| {
             let (accelerations, values) = values.split_at(l);
             let left = point.left_sides(accelerations)?;
             let right = values.chunks(l + 1).map(|row| sub(dot(&row[..l], accelerations), row[l]));
@@ -87,7 +87,7 @@ impl Definition {
     ) -> bool {
         let (n, l) = (system.forms.len(), system.forms.degrees);
         let all = [&system.accelerations[..l], generalised_forces, &rows.rows().concat()].concat();
-        let seen = self.look(bench, system, (&all, true), |point, values| {
+        let seen = self.compare_values(bench, system, (&all, true), |point, values| {
             let (accelerations, values) = values.split_at(l);
             let (forces, values) = values.split_at(n);
             let left = point.left_sides(accelerations)?.into_iter().zip(forces).map(|(e, q)| sub(e, *q));
@@ -107,7 +107,7 @@ impl Definition {
     ) -> Result<bool, DerivationError> {
         let n = system.forms.len();
         let all = [rates, &self.generalised_forces].concat();
-        let seen = self.look(bench, system, (&all, true), |point, values| {
+        let seen = self.compare_values(bench, system, (&all, true), |point, values| {
             let (rates, generalised_forces) = values.split_at(rates.len());
             let (moving, accelerations) = rates.split_at(n);
             if point.velocities != moving {
@@ -136,7 +136,7 @@ impl Definition {
 
     /// Compares values at as many points as it takes: at many, where signs may be right by chance. `differs` is given
     /// the values of some expressions, and returns the row that differs, if any.
-    fn look(
+    fn compare_values(
         &self,
         bench: &mut Workbench,
         system: &Mechanics,

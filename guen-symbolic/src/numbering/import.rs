@@ -19,12 +19,12 @@ impl Numbering {
         if let Some(known) = self.imported.get(&e) {
             return *known;
         }
-        let number = self.look(bench, e);
+        let number = self.numbered(bench, e);
         self.imported.insert(e, number);
         number
     }
 
-    fn look(&mut self, bench: &mut Workbench, e: ExprId) -> Num {
+    fn numbered(&mut self, bench: &mut Workbench, e: ExprId) -> Num {
         let roles = bench.graph.roles(e);
         let constant = roles.is_constant();
         let (moves, signs) = (roles.meets(MOVING), bench.zero.has_signs(&bench.graph, e));

@@ -403,7 +403,7 @@ impl ZeroTest {
         if residues == Residues::Differ && flags & (ROOT | ATOM | TRANSCENDENTAL | OPAQUE) == 0 {
             return Ok(Verdict::Nonzero);
         }
-        match self.look(g, e, on_manifold) {
+        match self.at_real_points(g, e, on_manifold) {
             None => Ok(Verdict::Nonzero),
             Some(witnesses) => Err((flags, witnesses)),
         }
@@ -443,7 +443,7 @@ impl ZeroTest {
     }
 
     /// Looks at real points: `None` if one shows that the value is not zero, else how many show nothing.
-    fn look(&mut self, g: &mut Graph, e: ExprId, on_manifold: bool) -> Option<usize> {
+    fn at_real_points(&mut self, g: &mut Graph, e: ExprId, on_manifold: bool) -> Option<usize> {
         let mut small = 0;
         for number in 0..REAL_POINTS {
             let domain = if on_manifold { &mut self.bound } else { &mut self.free };

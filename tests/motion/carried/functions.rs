@@ -57,7 +57,7 @@ fn every_function_is_carried() {
     }
     assert!(carried.drift(4.5, &done.state.into()) < 1e-9);
     // Roots, the argument of the logarithm and the radius of the angle must not vanish; the input is the system's own.
-    assert_eq!(bead::carried::EDGES.len(), 4, "{:?}", bead::carried::EDGES);
+    assert_eq!(bead::carried::SINGULARITIES.len(), 4, "{:?}", bead::carried::SINGULARITIES);
     let mut values = [RunningError::once(0.0); 8];
     let written =
         own.singularities(RunningError::once(4.5), &done.state.map(RunningError::once), &mut values);
