@@ -33,6 +33,7 @@ mod driver;
 pub(crate) mod explicit;
 mod guard;
 mod implicit;
+mod settings;
 mod step_size;
 mod taylor;
 

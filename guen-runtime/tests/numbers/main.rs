@@ -8,3 +8,4 @@ mod operators;
 mod running_error;
 mod scalar;
 mod with_functions;
+mod wrapper;

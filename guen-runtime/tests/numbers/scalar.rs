@@ -1,6 +1,6 @@
 //! A scalar with nothing but the required methods: what the provided ones do, and that steppers accept it.
 
-use core::ops::{Add, AddAssign, ControlFlow, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
+use core::ops::ControlFlow;
 
 use guen_runtime::steppers::{Dop853, Rk4};
 use guen_runtime::{Lift, Ordered, Real, from_fn};
@@ -8,35 +8,7 @@ use guen_runtime::{Lift, Ordered, Real, from_fn};
 #[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd)]
 struct Plain(f64);
 
-macro_rules! operators {
-    ($($trait:ident $method:ident $assign:ident $assign_method:ident;)*) => {
-        $(impl $trait for Plain {
-            type Output = Self;
-            fn $method(self, other: Self) -> Self {
-                Self(self.0.$method(other.0))
-            }
-        }
-        impl $assign for Plain {
-            fn $assign_method(&mut self, other: Self) {
-                self.0.$assign_method(other.0);
-            }
-        })*
-    };
-}
-
-operators! {
-    Add add AddAssign add_assign;
-    Sub sub SubAssign sub_assign;
-    Mul mul MulAssign mul_assign;
-    Div div DivAssign div_assign;
-}
-
-impl Neg for Plain {
-    type Output = Self;
-    fn neg(self) -> Self {
-        Self(-self.0)
-    }
-}
+crate::wrapper::operators!(Plain);
 
 macro_rules! forward {
     ($($method:ident)*) => {

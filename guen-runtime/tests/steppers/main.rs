@@ -11,3 +11,5 @@ mod orders;
 mod other_reals;
 mod simultaneous;
 mod stiff;
+#[path = "../numbers/wrapper.rs"]
+mod wrapper;

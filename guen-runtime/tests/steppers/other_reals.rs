@@ -1,6 +1,6 @@
 //! Every method in other reals: single precision, and 71 digits, where errors show the digits of the coefficients.
 
-use core::ops::{Add, AddAssign, ControlFlow, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
+use core::ops::ControlFlow;
 
 use f256::f256;
 use guen_runtime::prelude::*;
@@ -11,35 +11,7 @@ use guen_runtime::{Equations, Generic, generic};
 #[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd)]
 struct Long(f256);
 
-macro_rules! operators {
-    ($($trait:ident $method:ident $assign:ident $assign_method:ident;)*) => {
-        $(impl $trait for Long {
-            type Output = Self;
-            fn $method(self, other: Self) -> Self {
-                Self(self.0.$method(other.0))
-            }
-        }
-        impl $assign for Long {
-            fn $assign_method(&mut self, other: Self) {
-                self.0.$assign_method(other.0);
-            }
-        })*
-    };
-}
-
-operators! {
-    Add add AddAssign add_assign;
-    Sub sub SubAssign sub_assign;
-    Mul mul MulAssign mul_assign;
-    Div div DivAssign div_assign;
-}
-
-impl Neg for Long {
-    type Output = Self;
-    fn neg(self) -> Self {
-        Self(-self.0)
-    }
-}
+crate::wrapper::operators!(Long);
 
 /// What the problems below need; they have sines and cosines and nothing else.
 macro_rules! not_needed {

@@ -2,6 +2,7 @@
 
 use super::instruction::{Instruction, Operation, Value};
 use super::net::{Linear, Net, NetNode, split_sign};
+use super::stage::Stage;
 use super::terms::NetId;
 use crate::algebra::{ExprId, FastMap, Function, Graph, Node, Rational};
 
@@ -46,9 +47,7 @@ pub(super) fn lower(graph: &mut Graph, net: &Net, roots: &[NetId], prepared: &mu
         denominators: vec![0; net.len()],
         turned: vec![0; net.len()],
         done: vec![0; net.len()],
-        instructions: Vec::new(),
-        numbering: FastMap::default(),
-        values: 0,
+        stage: Stage::default(),
     };
     for id in &nodes {
         match net.node(*id) {
@@ -63,7 +62,7 @@ pub(super) fn lower(graph: &mut Graph, net: &Net, roots: &[NetId], prepared: &mu
         }
     }
     let outputs = roots.iter().map(|root| lowering.value(*root)).collect();
-    Code { instructions: lowering.instructions, outputs, values: lowering.values as usize }
+    Code { instructions: lowering.stage.instructions, outputs, values: lowering.stage.values as usize }
 }
 
 struct Lowering<'a> {
@@ -77,34 +76,12 @@ struct Lowering<'a> {
     turned: Vec<u8>,
     /// The value of each node, plus one, zero for none: zeroed memory is cheap also without optimisation.
     done: Vec<u32>,
-    instructions: Vec<Instruction>,
-    numbering: FastMap<Operation, Value>,
-    values: u32,
+    stage: Stage,
 }
 
 impl Lowering<'_> {
-    fn emit(&mut self, operation: Operation) -> Value {
-        let operation = match operation {
-            Operation::Add(a, b) if b < a => Operation::Add(b, a),
-            Operation::Mul(a, b) if b < a => Operation::Mul(b, a),
-            other => other,
-        };
-        if let Some(value) = self.numbering.get(&operation) {
-            return *value;
-        }
-        let result = self.fresh();
-        self.numbering.insert(operation.clone(), result);
-        self.instructions.push(Instruction { result, operation });
-        result
-    }
-
-    fn fresh(&mut self) -> Value {
-        self.values += 1;
-        Value(self.values - 1)
-    }
-
     fn number(&mut self, n: i64) -> Value {
-        self.emit(Operation::Number(Rational::integer(n)))
+        self.stage.emit(Operation::Number(Rational::integer(n)))
     }
 
     fn constant(&mut self, k: ExprId) -> Value {
@@ -114,7 +91,7 @@ impl Lowering<'_> {
             Node::Pi => Operation::Pi,
             _ => Operation::Prepared(self.prepared.index(k)),
         };
-        self.emit(operation)
+        self.stage.emit(operation)
     }
 
     /// The value of a node; everything below it first, without recursion.
@@ -147,12 +124,12 @@ impl Lowering<'_> {
     fn step(&mut self, id: NetId) -> Value {
         match self.net.node(id) {
             NetNode::Atom(e) => match *self.graph.node(*e) {
-                Node::Symbol(symbol) => self.emit(Operation::Symbol(symbol)),
-                Node::Pi => self.emit(Operation::Pi),
+                Node::Symbol(symbol) => self.stage.emit(Operation::Symbol(symbol)),
+                Node::Pi => self.stage.emit(Operation::Pi),
                 // Whoever divides asks first; a mistake of ours shows as a value that is not a number.
                 _ => {
                     let zero = self.number(0);
-                    self.emit(Operation::Div(zero, zero))
+                    self.stage.emit(Operation::Div(zero, zero))
                 }
             },
             NetNode::Constant(k) => self.constant(*k),
@@ -161,26 +138,26 @@ impl Lowering<'_> {
             NetNode::Call(function @ (Function::Sin | Function::Cos), x) => {
                 let angle = self.get(*x);
                 if self.turned[x.0 as usize] != SINE | COSINE {
-                    return self.emit(Operation::Call(*function, angle));
+                    return self.stage.emit(Operation::Call(*function, angle));
                 }
                 let key = Operation::Call(*function, angle);
-                if let Some(value) = self.numbering.get(&key) {
+                if let Some(value) = self.stage.numbering.get(&key) {
                     return *value;
                 }
-                let (sine, cosine) = (self.fresh(), self.fresh());
+                let (sine, cosine) = (self.stage.fresh(), self.stage.fresh());
                 let operation = Operation::SinCos { angle, cosine };
-                self.instructions.push(Instruction { result: sine, operation });
-                self.numbering.insert(Operation::Call(Function::Sin, angle), sine);
-                self.numbering.insert(Operation::Call(Function::Cos, angle), cosine);
+                self.stage.instructions.push(Instruction { result: sine, operation });
+                self.stage.numbering.insert(Operation::Call(Function::Sin, angle), sine);
+                self.stage.numbering.insert(Operation::Call(Function::Cos, angle), cosine);
                 if *function == Function::Sin { sine } else { cosine }
             }
             NetNode::Call(function, x) => {
                 let x = self.get(*x);
-                self.emit(Operation::Call(*function, x))
+                self.stage.emit(Operation::Call(*function, x))
             }
             NetNode::Atan2(y, x) => {
                 let (y, x) = (self.get(*y), self.get(*x));
-                self.emit(Operation::Atan2(y, x))
+                self.stage.emit(Operation::Atan2(y, x))
             }
         }
     }
@@ -214,12 +191,12 @@ impl Lowering<'_> {
             let value = self.term(k, node);
             total = Some(match total {
                 None => value,
-                Some(sum) if negative => self.emit(Operation::Sub(sum, value)),
-                Some(sum) => self.emit(Operation::Add(sum, value)),
+                Some(sum) if negative => self.stage.emit(Operation::Sub(sum, value)),
+                Some(sum) => self.stage.emit(Operation::Add(sum, value)),
             });
         }
         let total = total.expect("sums are not empty");
-        if negate { self.emit(Operation::Neg(total)) } else { total }
+        if negate { self.stage.emit(Operation::Neg(total)) } else { total }
     }
 
     fn term(&mut self, k: ExprId, node: Option<NetId>) -> Value {
@@ -235,7 +212,7 @@ impl Lowering<'_> {
         }
         let k = self.constant(k);
         let value = self.get(node);
-        self.emit(Operation::Mul(k, value))
+        self.stage.emit(Operation::Mul(k, value))
     }
 
     fn is_lone_reciprocal(&self, node: NetId, factors: &[(NetId, i32)]) -> bool {
@@ -254,7 +231,7 @@ impl Lowering<'_> {
                 above.push(self.power(value, n));
             } else if self.denominators[base.0 as usize] > 1 {
                 let one = self.number(1);
-                let reciprocal = self.emit(Operation::Div(one, value));
+                let reciprocal = self.stage.emit(Operation::Div(one, value));
                 above.push(self.power(reciprocal, n));
             } else {
                 below.push(self.power(value, n));
@@ -266,17 +243,17 @@ impl Lowering<'_> {
         let numerator = self.multiply(above);
         match (numerator, self.multiply(below)) {
             (Some(numerator), None) => numerator,
-            (Some(numerator), Some(denominator)) => self.emit(Operation::Div(numerator, denominator)),
+            (Some(numerator), Some(denominator)) => self.stage.emit(Operation::Div(numerator, denominator)),
             (None, Some(denominator)) => {
                 let one = self.number(1);
-                self.emit(Operation::Div(one, denominator))
+                self.stage.emit(Operation::Div(one, denominator))
             }
             (None, None) => self.number(1),
         }
     }
 
     fn multiply(&mut self, values: Vec<Value>) -> Option<Value> {
-        values.into_iter().reduce(|a, b| self.emit(Operation::Mul(a, b)))
+        values.into_iter().reduce(|a, b| self.stage.emit(Operation::Mul(a, b)))
     }
 
     /// `value^n` by repeated squaring; shared powers are shared operations.
@@ -287,12 +264,12 @@ impl Lowering<'_> {
             if n & 1 == 1 {
                 power = Some(match power {
                     None => square,
-                    Some(power) => self.emit(Operation::Mul(power, square)),
+                    Some(power) => self.stage.emit(Operation::Mul(power, square)),
                 });
             }
             n >>= 1;
             if n > 0 {
-                square = self.emit(Operation::Mul(square, square));
+                square = self.stage.emit(Operation::Mul(square, square));
             }
         }
         power.expect("exponents are not zero")

@@ -18,6 +18,7 @@ mod lower;
 mod net;
 mod part;
 mod passes;
+mod stage;
 mod taylor;
 mod terms;
 #[cfg(test)]

@@ -2,20 +2,13 @@
 
 use crate::numbers::real::{Ordered, Real};
 use crate::steppers::driver::dense::Dense;
-use crate::steppers::driver::error::{Cause, Setting};
+use crate::steppers::driver::error::Cause;
 use crate::steppers::driver::run::{Checkpoint, StepperRun};
 use crate::steppers::entries;
-use crate::steppers::step_size::{self, Control, Margin, Tolerance};
+use crate::steppers::settings::Settings;
+use crate::steppers::step_size::{self, Control, Margin};
 use crate::steppers::{all_finite, shifted};
 use crate::system::System;
-
-/// The settings that all adaptive methods share.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Settings {
-    pub(in crate::steppers) tolerance: Tolerance,
-    pub(in crate::steppers) max_steps: u64,
-    pub(in crate::steppers) first_step: Option<f64>,
-}
 
 /// An explicit formula with an estimate of its error.
 pub trait Pair<R: Real, const N: usize> {
@@ -99,25 +92,11 @@ where
     where
         S: System<R, N> + ?Sized,
     {
-        let tolerance = self.settings.tolerance;
-        tolerance.check()?;
-        let Checkpoint { time, state, .. } = self.reached;
-        if !time.is_finite() || !all_finite(&state) {
-            return Err(Cause::NotFinite);
+        let (slope, first_step) = self.settings.begin(system, &mut self.reached)?;
+        if let Some(step) = first_step {
+            return Ok(Ready { slope, step, level: None });
         }
-        let slope = system.rhs(time, &state);
-        self.reached.statistics.evaluations += 1;
-        if !all_finite(&slope) {
-            return Err(Cause::NotFinite);
-        }
-        if let Some(step) = self.settings.first_step {
-            let valid = step > 0.0 && step.is_finite();
-            return if valid {
-                Ok(Ready { slope, step, level: None })
-            } else {
-                Err(Cause::Setting(Setting::Step))
-            };
-        }
+        let (tolerance, Checkpoint { time, state, .. }) = (self.settings.tolerance, self.reached);
         let span = (target - time).to_f64();
         let (guess, slope_size) = tolerance.first_guess(&state, &slope, span.abs());
         let h = R::from_f64(guess.copysign(span));

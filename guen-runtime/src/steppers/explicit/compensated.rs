@@ -8,7 +8,7 @@ use crate::steppers::driver::error::{Cause, IntegrationError};
 use crate::steppers::driver::integration::Integration;
 use crate::steppers::driver::run::{Checkpoint, IntegrationResult, Method};
 use crate::steppers::driver::statistics::Statistics;
-use crate::steppers::explicit::fixed::{Changes, Fixed, Formula};
+use crate::steppers::explicit::fixed::{Changes, Fixed, Formula, LastStep, NextStep};
 use crate::system::System;
 
 /// A method with a fixed step that adds up the changes of its steps with compensation: made by
@@ -110,17 +110,15 @@ where
     type Memory = (F::Memory, [R; N]);
     const EVALUATIONS: u32 = F::EVALUATIONS;
 
+    fn begin(&self) -> (R, Self::Memory) {
+        let (step, memory) = self.method.begin();
+        (step, (memory, [R::zero(); N]))
+    }
+
     #[inline]
-    fn step(
-        &self,
-        system: &S,
-        (memory, lost): &mut Self::Memory,
-        from: &Checkpoint<R, N>,
-        h: R,
-        dense: bool,
-        statistics: &mut Statistics,
-    ) -> Result<[R; N], Cause> {
-        let change = self.method.change(system, memory, from, h, dense, statistics);
+    fn step(&self, next: NextStep<'_, R, S, Self::Memory, N>) -> Result<[R; N], Cause> {
+        let NextStep { system, memory: (memory, lost), from, h, dense, statistics } = next;
+        let change = self.method.change(NextStep { system, memory, from, h, dense, statistics });
         let mut next = from.state;
         for i in 0..N {
             let (x, y) = (from.state[i], change[i] + lost[i]);
@@ -134,24 +132,17 @@ where
 
     fn dense(
         &self,
-        system: &S,
-        (memory, _): &mut Self::Memory,
-        from: &Checkpoint<R, N>,
-        to: &Checkpoint<R, N>,
+        last: LastStep<'_, R, S, &mut Self::Memory, N>,
         h: R,
         statistics: &mut Statistics,
     ) -> Dense<R, N> {
-        self.method.dense(system, memory, from, to, h, statistics)
+        let LastStep { system, memory: (memory, _), from, to } = last;
+        self.method.dense(LastStep { system, memory, from, to }, h, statistics)
     }
 
-    fn defect(
-        &self,
-        system: &S,
-        (memory, _): &Self::Memory,
-        from: &Checkpoint<R, N>,
-        to: &Checkpoint<R, N>,
-    ) -> [R; N] {
-        self.method.defect(system, memory, from, to)
+    fn defect(&self, last: LastStep<'_, R, S, &Self::Memory, N>) -> [R; N] {
+        let LastStep { system, memory: (memory, _), from, to } = last;
+        self.method.defect(LastStep { system, memory, from, to })
     }
 }
 
@@ -167,7 +158,6 @@ where
         F: 'a;
 
     fn start(&self, start: &Checkpoint<R, N>) -> Self::Run<'_> {
-        let (step, memory) = self.method.begin();
-        Fixed::new(self, (memory, [R::zero(); N]), step, start)
+        Fixed::new::<S>(self, start)
     }
 }

@@ -7,8 +7,9 @@ use crate::numbers::real::{Ordered, Real};
 use crate::steppers::driver::dense::Dense;
 use crate::steppers::driver::run::{Checkpoint, Method};
 use crate::steppers::driver::short_ways::short_ways;
-use crate::steppers::explicit::adaptive::{Adaptive, Attempt, Pair, Settings, Step};
+use crate::steppers::explicit::adaptive::{Adaptive, Attempt, Pair, Step};
 use crate::steppers::explicit::tableau::{Made, Stages};
+use crate::steppers::settings::adaptive_settings;
 use crate::steppers::step_size::{self, Control, Margin, Tolerance};
 use crate::system::System;
 
@@ -68,29 +69,13 @@ pub struct Dop853<R = f64> {
 }
 
 impl<R: Ordered> Dop853<R> {
-    /// The number of trial steps allowed unless another one is set.
-    pub const MAX_STEPS: u64 = 100_000;
-
     /// The method with the given relative and absolute tolerances.
     pub fn new(rtol: f64, atol: f64) -> Self {
         Self { rtol, atol, max_steps: Self::MAX_STEPS, first_step: None, tableau: Tableau::new() }
     }
-
-    /// Limits the number of trial steps.
-    pub fn with_max_steps(self, max_steps: u64) -> Self {
-        Self { max_steps, ..self }
-    }
-
-    /// Sets the first step.
-    pub fn with_first_step(self, first_step: f64) -> Self {
-        Self { first_step: Some(first_step), ..self }
-    }
-
-    fn settings(&self) -> Settings {
-        let tolerance = Tolerance { relative: self.rtol, absolute: self.atol };
-        Settings { tolerance, max_steps: self.max_steps, first_step: self.first_step }
-    }
 }
+
+adaptive_settings!(Dop853);
 
 /// The sum of squares of errors, in units of the tolerance, below which there is no error: its square is below all numbers.
 const NEGLIGIBLE_SQUARES: f64 = 1e-150;
@@ -187,7 +172,8 @@ mod tests {
         tolerance: f64,
     ) -> (Vec<f64>, [f64; N], Statistics) {
         let tolerance = Tolerance { relative: tolerance, absolute: tolerance };
-        let settings = Settings { tolerance, max_steps: 100_000, first_step: None };
+        let settings =
+            crate::steppers::settings::Settings { tolerance, max_steps: 100_000, first_step: None };
         let mut run = Adaptive::new(pair, settings, &Checkpoint::new(0.0, start));
         let mut times = Vec::new();
         loop {

@@ -4,9 +4,8 @@ use crate::numbers::real::Real;
 use crate::steppers::driver::dense::Dense;
 use crate::steppers::driver::error::Cause;
 use crate::steppers::driver::run::{Checkpoint, Method};
-use crate::steppers::driver::short_ways::short_ways;
 use crate::steppers::driver::statistics::Statistics;
-use crate::steppers::explicit::fixed::{Fixed, Formula, Slopes};
+use crate::steppers::explicit::fixed::{Fixed, Formula, LastStep, NextStep, Slopes, fixed_step};
 use crate::steppers::guard::defect::quadrature;
 use crate::steppers::shifted;
 use crate::system::System;
@@ -52,49 +51,28 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Formula<R, S, N> for Eul
     type Memory = Slopes<R, N>;
     const EVALUATIONS: u32 = 1;
 
+    fn begin(&self) -> (R, Self::Memory) {
+        (self.step, Slopes::new())
+    }
+
     #[inline]
-    fn step(
-        &self,
-        system: &S,
-        slopes: &mut Self::Memory,
-        from: &Checkpoint<R, N>,
-        h: R,
-        _dense: bool,
-        statistics: &mut Statistics,
-    ) -> Result<[R; N], Cause> {
-        let slope = slopes.begin(system, from, statistics);
-        Ok(shifted(&from.state, h, &slope))
+    fn step(&self, next: NextStep<'_, R, S, Self::Memory, N>) -> Result<[R; N], Cause> {
+        let slope = next.memory.begin(next.system, next.from, next.statistics);
+        Ok(shifted(&next.from.state, next.h, &slope))
     }
 
     fn dense(
         &self,
-        system: &S,
-        slopes: &mut Self::Memory,
-        from: &Checkpoint<R, N>,
-        to: &Checkpoint<R, N>,
+        last: LastStep<'_, R, S, &mut Self::Memory, N>,
         h: R,
         statistics: &mut Statistics,
     ) -> Dense<R, N> {
-        slopes.hermite(system, from, to, h, statistics)
+        last.memory.hermite(last.system, (last.from, last.to), h, statistics)
     }
 
-    fn defect(
-        &self,
-        system: &S,
-        slopes: &Self::Memory,
-        from: &Checkpoint<R, N>,
-        to: &Checkpoint<R, N>,
-    ) -> [R; N] {
-        quadrature(system, &slopes.first, from, to)
+    fn defect(&self, last: LastStep<'_, R, S, &Self::Memory, N>) -> [R; N] {
+        quadrature(last.system, &last.memory.first, last.from, last.to)
     }
 }
 
-impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Method<R, S, N> for Euler<R> {
-    type Run<'a> = Fixed<'a, Self, Slopes<R, N>, R, N>;
-
-    fn start(&self, start: &Checkpoint<R, N>) -> Self::Run<'_> {
-        Fixed::new(self, Slopes::new(), self.step, start)
-    }
-}
-
-short_ways!(Euler over Real, systems System);
+fixed_step!(Euler over Real, systems System);

@@ -8,6 +8,27 @@ use crate::steppers::driver::run::{Checkpoint, StepperRun};
 use crate::steppers::driver::statistics::Statistics;
 use crate::system::System;
 
+/// A step that is to be made.
+pub struct NextStep<'a, R, S: ?Sized, M, const N: usize> {
+    pub system: &'a S,
+    pub memory: &'a mut M,
+    pub from: &'a Checkpoint<R, N>,
+    /// The size of the step, of either sign.
+    pub h: R,
+    /// Whether dense output over the step, or its error, may be asked for.
+    pub dense: bool,
+    /// The work, which the step is added to.
+    pub statistics: &'a mut Statistics,
+}
+
+/// A step that was made, from one checkpoint to another.
+pub struct LastStep<'a, R, S: ?Sized, M, const N: usize> {
+    pub system: &'a S,
+    pub memory: M,
+    pub from: &'a Checkpoint<R, N>,
+    pub to: &'a Checkpoint<R, N>,
+}
+
 /// A formula that makes one step.
 pub trait Formula<R: Real, S: ?Sized, const N: usize> {
     /// The memory of a step, for the next one and for dense output.
@@ -15,54 +36,28 @@ pub trait Formula<R: Real, S: ?Sized, const N: usize> {
 
     const EVALUATIONS: u32;
 
-    /// The state one step of size `h` further, `h` of either sign. Counts its work.
-    fn step(
-        &self,
-        system: &S,
-        memory: &mut Self::Memory,
-        from: &Checkpoint<R, N>,
-        h: R,
-        dense: bool,
-        statistics: &mut Statistics,
-    ) -> Result<[R; N], Cause>;
+    /// The step size, and the memory at the beginning of a run.
+    fn begin(&self) -> (R, Self::Memory);
 
-    /// The polynomial over the step of size `h` that led from `from` to `to`.
+    /// Returns the state at the end of a step. Counts its work.
+    fn step(&self, next: NextStep<'_, R, S, Self::Memory, N>) -> Result<[R; N], Cause>;
+
+    /// Returns the polynomial over a step of size `h` that was made.
     fn dense(
         &self,
-        system: &S,
-        memory: &mut Self::Memory,
-        from: &Checkpoint<R, N>,
-        to: &Checkpoint<R, N>,
+        last: LastStep<'_, R, S, &mut Self::Memory, N>,
         h: R,
         statistics: &mut Statistics,
     ) -> Dense<R, N>;
 
-    /// The estimated error of the step from `from` to `to`, the one made last and with `dense`: see `Defects`. What it
-    /// evaluates is not counted.
-    fn defect(
-        &self,
-        system: &S,
-        memory: &Self::Memory,
-        from: &Checkpoint<R, N>,
-        to: &Checkpoint<R, N>,
-    ) -> [R; N];
+    /// Returns the estimated error of a step that was made with `dense`: see `Defects`. Its evaluations are not counted.
+    fn defect(&self, last: LastStep<'_, R, S, &Self::Memory, N>) -> [R; N];
 }
 
 /// A formula whose step is a change that is added to the state.
 pub trait Changes<R: Real, S: ?Sized, const N: usize>: Formula<R, S, N> {
-    /// The step size, and the memory at the beginning of a run.
-    fn begin(&self) -> (R, Self::Memory);
-
     /// Returns the increment that [`Formula::step`] adds to the state.
-    fn change(
-        &self,
-        system: &S,
-        memory: &mut Self::Memory,
-        from: &Checkpoint<R, N>,
-        h: R,
-        dense: bool,
-        statistics: &mut Statistics,
-    ) -> [R; N];
+    fn change(&self, next: NextStep<'_, R, S, Self::Memory, N>) -> [R; N];
 }
 
 /// A run with a fixed step, in legs between the times that it has to land on.
@@ -77,7 +72,11 @@ pub struct Fixed<'a, F, M, R, const N: usize> {
 }
 
 impl<'a, F, M, R: Real, const N: usize> Fixed<'a, F, M, R, N> {
-    pub(in crate::steppers) fn new(formula: &'a F, memory: M, step: R, start: &Checkpoint<R, N>) -> Self {
+    pub(in crate::steppers) fn new<S: ?Sized>(formula: &'a F, start: &Checkpoint<R, N>) -> Self
+    where
+        F: Formula<R, S, N, Memory = M>,
+    {
+        let (step, memory) = formula.begin();
         Self { formula, memory, step, reached: *start, before: *start, leg: None }
     }
 }
@@ -115,7 +114,9 @@ where
         }
         let h = (next - now) - time_rest;
         let mut statistics = self.reached.statistics;
-        let made = self.formula.step(system, &mut self.memory, &self.reached, h, dense, &mut statistics);
+        let (memory, from) = (&mut self.memory, &self.reached);
+        let made =
+            self.formula.step(NextStep { system, memory, from, h, dense, statistics: &mut statistics });
         self.reached.statistics = statistics;
         let mut state = made?;
         if !all_finite(&state) {
@@ -134,14 +135,14 @@ where
     }
 
     fn defect(&self, system: &S, before: &Checkpoint<R, N>) -> [R; N] {
-        self.formula.defect(system, &self.memory, before, &self.reached)
+        self.formula.defect(LastStep { system, memory: &self.memory, from: before, to: &self.reached })
     }
 
     fn dense(&mut self, system: &S) -> Dense<R, N> {
         let h = self.reached.since(&self.before);
         let mut statistics = self.reached.statistics;
-        let dense =
-            self.formula.dense(system, &mut self.memory, &self.before, &self.reached, h, &mut statistics);
+        let last = LastStep { system, memory: &mut self.memory, from: &self.before, to: &self.reached };
+        let dense = self.formula.dense(last, h, &mut statistics);
         self.reached.statistics = statistics;
         dense
     }
@@ -203,8 +204,7 @@ impl<R: Real, const N: usize> Slopes<R, N> {
     pub(in crate::steppers) fn hermite<S>(
         &mut self,
         system: &S,
-        from: &Checkpoint<R, N>,
-        to: &Checkpoint<R, N>,
+        (from, to): (&Checkpoint<R, N>, &Checkpoint<R, N>),
         h: R,
         statistics: &mut Statistics,
     ) -> Dense<R, N>
@@ -215,6 +215,22 @@ impl<R: Real, const N: usize> Slopes<R, N> {
         Dense::hermite(from.time, h, &from.state, &self.first, &to.state, &end)
     }
 }
+
+/// The method of a formula with a fixed step, and the short ways to run it.
+macro_rules! fixed_step {
+    ($Formula:ident over $Real:ident, systems $System:ident) => {
+        impl<R: $Real, S: $System<R, N> + ?Sized, const N: usize> Method<R, S, N> for $Formula<R> {
+            type Run<'a> = Fixed<'a, Self, <Self as Formula<R, S, N>>::Memory, R, N>;
+
+            fn start(&self, start: &Checkpoint<R, N>) -> Self::Run<'_> {
+                Fixed::new::<S>(self, start)
+            }
+        }
+
+        crate::steppers::driver::short_ways::short_ways!($Formula over $Real, systems $System);
+    };
+}
+pub(in crate::steppers) use fixed_step;
 
 /// The steps from one time to another: to `origin + k h` for `k = 1 .. count - 1`, then to the target. These times are rounded,
 /// and a step is as long as their difference.

@@ -6,10 +6,9 @@ use crate::numbers::real::Real;
 use crate::steppers::driver::dense::Dense;
 use crate::steppers::driver::error::Cause;
 use crate::steppers::driver::run::{Checkpoint, Method};
-use crate::steppers::driver::short_ways::short_ways;
 use crate::steppers::driver::statistics::Statistics;
 use crate::steppers::explicit::compensated::Compensated;
-use crate::steppers::explicit::fixed::{Changes, Fixed, Formula, Slopes};
+use crate::steppers::explicit::fixed::{Changes, Fixed, Formula, LastStep, NextStep, Slopes, fixed_step};
 use crate::steppers::explicit::lanes::{LaneFormula, Moment, in_lanes};
 use crate::steppers::guard::defect::quadrature;
 use crate::steppers::moved;
@@ -140,16 +139,13 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Formula<R, S, N> for Rk4
     type Memory = Slopes<R, N>;
     const EVALUATIONS: u32 = 4;
 
+    fn begin(&self) -> (R, Self::Memory) {
+        (self.step, Slopes::new())
+    }
+
     #[inline]
-    fn step(
-        &self,
-        system: &S,
-        slopes: &mut Self::Memory,
-        from: &Checkpoint<R, N>,
-        h: R,
-        _dense: bool,
-        statistics: &mut Statistics,
-    ) -> Result<[R; N], Cause> {
+    fn step(&self, next: NextStep<'_, R, S, Self::Memory, N>) -> Result<[R; N], Cause> {
+        let NextStep { system, memory: slopes, from, h, statistics, .. } = next;
         let slope = slopes.begin(system, from, statistics);
         statistics.evaluations += 3;
         Ok(R::vectorize(
@@ -160,24 +156,15 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Formula<R, S, N> for Rk4
 
     fn dense(
         &self,
-        system: &S,
-        slopes: &mut Self::Memory,
-        from: &Checkpoint<R, N>,
-        to: &Checkpoint<R, N>,
+        last: LastStep<'_, R, S, &mut Self::Memory, N>,
         h: R,
         statistics: &mut Statistics,
     ) -> Dense<R, N> {
-        slopes.hermite(system, from, to, h, statistics)
+        last.memory.hermite(last.system, (last.from, last.to), h, statistics)
     }
 
-    fn defect(
-        &self,
-        system: &S,
-        slopes: &Self::Memory,
-        from: &Checkpoint<R, N>,
-        to: &Checkpoint<R, N>,
-    ) -> [R; N] {
-        quadrature(system, &slopes.first, from, to)
+    fn defect(&self, last: LastStep<'_, R, S, &Self::Memory, N>) -> [R; N] {
+        quadrature(last.system, &last.memory.first, last.from, last.to)
     }
 }
 
@@ -194,20 +181,9 @@ impl<R: Real> Rk4<R> {
 }
 
 impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Changes<R, S, N> for Rk4<R> {
-    fn begin(&self) -> (R, Self::Memory) {
-        (self.step, Slopes::new())
-    }
-
     #[inline]
-    fn change(
-        &self,
-        system: &S,
-        slopes: &mut Self::Memory,
-        from: &Checkpoint<R, N>,
-        h: R,
-        _dense: bool,
-        statistics: &mut Statistics,
-    ) -> [R; N] {
+    fn change(&self, next: NextStep<'_, R, S, Self::Memory, N>) -> [R; N] {
+        let NextStep { system, memory: slopes, from, h, statistics, .. } = next;
         let slope = slopes.begin(system, from, statistics);
         statistics.evaluations += 3;
         R::vectorize(
@@ -217,15 +193,7 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Changes<R, S, N> for Rk4
     }
 }
 
-impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Method<R, S, N> for Rk4<R> {
-    type Run<'a> = Fixed<'a, Self, Slopes<R, N>, R, N>;
-
-    fn start(&self, start: &Checkpoint<R, N>) -> Self::Run<'_> {
-        Fixed::new(self, Slopes::new(), self.step, start)
-    }
-}
-
-short_ways!(Rk4 over Real, systems System);
+fixed_step!(Rk4 over Real, systems System);
 in_lanes!(Rk4);
 
 impl<L: Lanes, S: System<L, N> + ?Sized, const N: usize> LaneFormula<L, S, N> for Rk4 {

@@ -5,10 +5,9 @@ use crate::numbers::real::Real;
 use crate::steppers::driver::dense::Dense;
 use crate::steppers::driver::error::Cause;
 use crate::steppers::driver::run::{Checkpoint, Method};
-use crate::steppers::driver::short_ways::short_ways;
 use crate::steppers::driver::statistics::Statistics;
 use crate::steppers::explicit::compensated::Compensated;
-use crate::steppers::explicit::fixed::{Changes, Fixed, Formula, Slopes};
+use crate::steppers::explicit::fixed::{Changes, Fixed, Formula, LastStep, NextStep, Slopes, fixed_step};
 use crate::steppers::explicit::lanes::{LaneFormula, Moment, in_lanes};
 use crate::steppers::explicit::tableau::{Stages, Tableau};
 use crate::steppers::scaled;
@@ -65,41 +64,30 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Formula<R, S, N> for Rk8
     type Memory = Memory<R, N>;
     const EVALUATIONS: u32 = 12;
 
+    fn begin(&self) -> (R, Self::Memory) {
+        (self.step, Memory { slopes: Slopes::new(), stages: [[R::zero(); N]; 8] })
+    }
+
     #[inline]
-    fn step(
-        &self,
-        system: &S,
-        memory: &mut Self::Memory,
-        from: &Checkpoint<R, N>,
-        h: R,
-        dense: bool,
-        statistics: &mut Statistics,
-    ) -> Result<[R; N], Cause> {
-        Ok(shifted(&from.state, h, &self.slope(system, memory, from, h, dense, statistics)))
+    fn step(&self, next: NextStep<'_, R, S, Self::Memory, N>) -> Result<[R; N], Cause> {
+        let (from, h) = (next.from, next.h);
+        Ok(shifted(&from.state, h, &self.slope(next)))
     }
 
     fn dense(
         &self,
-        system: &S,
-        memory: &mut Self::Memory,
-        from: &Checkpoint<R, N>,
-        to: &Checkpoint<R, N>,
+        last: LastStep<'_, R, S, &mut Self::Memory, N>,
         h: R,
         statistics: &mut Statistics,
     ) -> Dense<R, N> {
+        let LastStep { system, memory, from, to } = last;
         let end = memory.slopes.end(system, to, statistics);
         statistics.evaluations += 3;
         self.tableau.dense(system, &memory.stages, from, to, &end, h)
     }
 
-    fn defect(
-        &self,
-        _system: &S,
-        memory: &Self::Memory,
-        from: &Checkpoint<R, N>,
-        to: &Checkpoint<R, N>,
-    ) -> [R; N] {
-        estimate(&self.tableau, &memory.stages, to.since(from))
+    fn defect(&self, last: LastStep<'_, R, S, &Self::Memory, N>) -> [R; N] {
+        estimate(&self.tableau, &last.memory.stages, last.to.since(last.from))
     }
 }
 
@@ -124,13 +112,9 @@ impl<R: Real> Rk8<R> {
     #[inline]
     fn slope<S: System<R, N> + ?Sized, const N: usize>(
         &self,
-        system: &S,
-        memory: &mut Memory<R, N>,
-        from: &Checkpoint<R, N>,
-        h: R,
-        dense: bool,
-        statistics: &mut Statistics,
+        next: NextStep<'_, R, S, Memory<R, N>, N>,
     ) -> [R; N] {
+        let NextStep { system, memory, from, h, dense, statistics } = next;
         let k1 = memory.slopes.begin(system, from, statistics);
         let stages = self.tableau.late(system, from.time, &from.state, &k1, h).stages;
         statistics.evaluations += 11;
@@ -142,34 +126,14 @@ impl<R: Real> Rk8<R> {
 }
 
 impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Changes<R, S, N> for Rk8<R> {
-    fn begin(&self) -> (R, Self::Memory) {
-        (self.step, Memory { slopes: Slopes::new(), stages: [[R::zero(); N]; 8] })
-    }
-
     #[inline]
-    fn change(
-        &self,
-        system: &S,
-        memory: &mut Self::Memory,
-        from: &Checkpoint<R, N>,
-        h: R,
-        dense: bool,
-        statistics: &mut Statistics,
-    ) -> [R; N] {
-        scaled(h, &self.slope(system, memory, from, h, dense, statistics))
+    fn change(&self, next: NextStep<'_, R, S, Self::Memory, N>) -> [R; N] {
+        let h = next.h;
+        scaled(h, &self.slope(next))
     }
 }
 
-impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Method<R, S, N> for Rk8<R> {
-    type Run<'a> = Fixed<'a, Self, Memory<R, N>, R, N>;
-
-    fn start(&self, start: &Checkpoint<R, N>) -> Self::Run<'_> {
-        let (step, memory) = Changes::<R, S, N>::begin(self);
-        Fixed::new(self, memory, step, start)
-    }
-}
-
-short_ways!(Rk8 over Real, systems System);
+fixed_step!(Rk8 over Real, systems System);
 in_lanes!(Rk8);
 
 impl<L: Lanes, S: System<L, N> + ?Sized, const N: usize> LaneFormula<L, S, N> for Rk8 {

@@ -5,9 +5,10 @@ use crate::numbers::real::{Ordered, Real};
 use crate::steppers::driver::dense::Dense;
 use crate::steppers::driver::run::{Checkpoint, Method};
 use crate::steppers::driver::short_ways::short_ways;
-use crate::steppers::explicit::adaptive::{Adaptive, Attempt, Pair, Settings, Step};
+use crate::steppers::explicit::adaptive::{Adaptive, Attempt, Pair, Step};
 use crate::steppers::explicit::tsit5_coefficients as published;
 use crate::steppers::scaled;
+use crate::steppers::settings::adaptive_settings;
 use crate::steppers::step_size::{self, Control, Margin, Tolerance};
 use crate::steppers::{ahead, arrived, leading, shifted, weighted};
 use crate::system::System;
@@ -56,29 +57,13 @@ pub struct Tsit5<R = f64> {
 }
 
 impl<R: Ordered> Tsit5<R> {
-    /// The number of trial steps allowed unless another one is set.
-    pub const MAX_STEPS: u64 = 100_000;
-
     /// The method with the given relative and absolute tolerances.
     pub fn new(rtol: f64, atol: f64) -> Self {
         Self { rtol, atol, max_steps: Self::MAX_STEPS, first_step: None, formula: Formula::new() }
     }
-
-    /// Limits the number of trial steps.
-    pub fn with_max_steps(self, max_steps: u64) -> Self {
-        Self { max_steps, ..self }
-    }
-
-    /// Sets the first step.
-    pub fn with_first_step(self, first_step: f64) -> Self {
-        Self { first_step: Some(first_step), ..self }
-    }
-
-    fn settings(&self) -> Settings {
-        let tolerance = Tolerance { relative: self.rtol, absolute: self.atol };
-        Settings { tolerance, max_steps: self.max_steps, first_step: self.first_step }
-    }
 }
+
+adaptive_settings!(Tsit5);
 
 /// The coefficients in the real `R`.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -6,10 +6,9 @@ use crate::numbers::real::{Ordered, Real};
 use crate::steppers::driver::dense::Dense;
 use crate::steppers::driver::error::Cause;
 use crate::steppers::driver::run::{Checkpoint, Method};
-use crate::steppers::driver::short_ways::short_ways;
 use crate::steppers::driver::statistics::Statistics;
 use crate::steppers::entries;
-use crate::steppers::explicit::fixed::{Fixed, Formula, Slopes};
+use crate::steppers::explicit::fixed::{Fixed, Formula, LastStep, NextStep, Slopes, fixed_step};
 use crate::steppers::guard::defect::quadrature;
 use crate::steppers::implicit::collocation::{Collocation, Factors, shifted};
 use crate::steppers::step_size;
@@ -30,32 +29,21 @@ macro_rules! gauss {
             type Memory = Memory<R, N, $stages>;
             const EVALUATIONS: u32 = 4 * $stages;
 
-            fn step(
-                &self,
-                system: &S,
-                memory: &mut Self::Memory,
-                from: &Checkpoint<R, N>,
-                h: R,
-                _dense: bool,
-                statistics: &mut Statistics,
-            ) -> Result<[R; N], Cause> {
+            fn begin(&self) -> (R, Self::Memory) {
+                (self.step, Memory::new())
+            }
+
+            fn step(&self, next: NextStep<'_, R, S, Self::Memory, N>) -> Result<[R; N], Cause> {
                 let collocation = self.collocation.as_ref().ok_or(Cause::NoConvergence)?;
-                let change = solve(collocation, system, memory, from, h, statistics)?;
+                let from = next.from;
+                let change = solve(collocation, next)?;
                 Ok(entries(|i| from.state[i] + change[i]))
             }
 
-            fn dense(
-                &self,
-                system: &S,
-                memory: &mut Self::Memory,
-                from: &Checkpoint<R, N>,
-                to: &Checkpoint<R, N>,
-                h: R,
-                statistics: &mut Statistics,
-            ) -> Dense<R, N> {
-                let slopes = &mut memory.slopes;
+            fn dense(&self, last: LastStep<'_, R, S, &mut Self::Memory, N>, h: R, statistics: &mut Statistics) -> Dense<R, N> {
+                let LastStep { system, memory: Memory { slopes, .. }, from, to } = last;
                 slopes.begin(system, from, statistics);
-                let cubic = slopes.hermite(system, from, to, h, statistics);
+                let cubic = slopes.hermite(system, (from, to), h, statistics);
                 if $order == 4 {
                     return cubic;
                 }
@@ -67,31 +55,17 @@ macro_rules! gauss {
                 )
             }
 
-            fn defect(
-                &self,
-                system: &S,
-                memory: &Self::Memory,
-                from: &Checkpoint<R, N>,
-                to: &Checkpoint<R, N>,
-            ) -> [R; N] {
+            fn defect(&self, last: LastStep<'_, R, S, &Self::Memory, N>) -> [R; N] {
                 match &self.collocation {
                     Some(collocation) => {
-                        defect(collocation, $order, system, memory, from, to).map(R::from_f64)
+                        defect(collocation, $order, last).map(R::from_f64)
                     }
                     None => [R::from_f64(f64::NAN); N],
                 }
             }
         }
 
-        impl<R: Ordered, S: Differentiable<R, N> + ?Sized, const N: usize> Method<R, S, N> for $Gauss<R> {
-            type Run<'a> = Fixed<'a, Self, Memory<R, N, $stages>, R, N>;
-
-            fn start(&self, start: &Checkpoint<R, N>) -> Self::Run<'_> {
-                Fixed::new(self, Memory::new(), self.step, start)
-            }
-        }
-
-        short_ways!($Gauss over Ordered, systems Differentiable);
+        fixed_step!($Gauss over Ordered, systems Differentiable);
     };
 }
 
@@ -222,11 +196,7 @@ impl<R: Real, const N: usize, const S: usize> Memory<R, N, S> {
 /// Solves the equations of a step to rounding: the change of the state.
 fn solve<R, S, const N: usize, const M: usize>(
     collocation: &Collocation<R, M>,
-    system: &S,
-    memory: &mut Memory<R, N, M>,
-    from: &Checkpoint<R, N>,
-    h: R,
-    statistics: &mut Statistics,
+    next: NextStep<'_, R, S, Memory<R, N, M>, N>,
 ) -> Result<[R; N], Cause>
 where
     R: Ordered,
@@ -237,6 +207,7 @@ where
     /// The relative difference below which two steps share their factors: each iteration leaves so much of the error.
     const SAME_STEP: f64 = 1e-3;
 
+    let NextStep { system, memory, from, h, statistics, .. } = next;
     // A slope that dense output left belongs to the end of a step that is over.
     memory.slopes = Slopes::new();
     let start = memory.last.map(|(before, z)| collocation.predicted(&z, h / before));
@@ -291,15 +262,13 @@ where
 fn defect<R, S, const N: usize, const M: usize>(
     collocation: &Collocation<R, M>,
     order: u32,
-    system: &S,
-    memory: &Memory<R, N, M>,
-    from: &Checkpoint<R, N>,
-    to: &Checkpoint<R, N>,
+    last: LastStep<'_, R, S, &Memory<R, N, M>, N>,
 ) -> [f64; N]
 where
     R: Ordered,
     S: Differentiable<R, N> + ?Sized,
 {
+    let LastStep { system, memory, from, to } = last;
     let first = system.rhs(from.time, &from.state);
     let smooth = if order == 4 {
         curved(system, &first, from, to)

@@ -5,11 +5,12 @@ use crate::numbers::decimal::{Parts, decimal};
 use crate::numbers::real::{Ordered, Real};
 use crate::steppers::all_finite;
 use crate::steppers::driver::dense::Dense;
-use crate::steppers::driver::error::{Cause, Setting};
+use crate::steppers::driver::error::Cause;
 use crate::steppers::driver::run::{Checkpoint, Method, StepperRun};
 use crate::steppers::driver::short_ways::short_ways;
 use crate::steppers::entries;
 use crate::steppers::implicit::collocation::{Collocation, Factors, combined};
+use crate::steppers::settings::adaptive_settings;
 use crate::steppers::step_size::{self, Control, Margin, Tolerance};
 use crate::system::differentiable::Differentiable;
 
@@ -80,9 +81,6 @@ const IM: Parts = decimal("3.050430199247410569426377624787568");
 const CONTROL: Control = Control { power: 4, safety: 0.9, shorten: 0.125, grow: 5.0, predict: false };
 
 impl<R: Ordered> Radau5<R> {
-    /// The number of trial steps allowed unless another one is set.
-    pub const MAX_STEPS: u64 = 100_000;
-
     /// The method with the given relative and absolute tolerances.
     pub fn new(rtol: f64, atol: f64) -> Self {
         let ratio = R::from_ratio;
@@ -103,21 +101,9 @@ impl<R: Ordered> Radau5<R> {
         let error = [with_root(-13, -7, 3), with_root(-13, 7, 3), ratio(-1, 3)];
         Self { rtol, atol, max_steps: Self::MAX_STEPS, first_step: None, collocation, error }
     }
-
-    /// Limits the number of trial steps.
-    pub fn with_max_steps(self, max_steps: u64) -> Self {
-        Self { max_steps, ..self }
-    }
-
-    /// Sets the first step.
-    pub fn with_first_step(self, first_step: f64) -> Self {
-        Self { first_step: Some(first_step), ..self }
-    }
-
-    fn tolerance(&self) -> Tolerance {
-        Tolerance { relative: self.rtol, absolute: self.atol }
-    }
 }
+
+adaptive_settings!(Radau5);
 
 impl<R: Ordered, S: Differentiable<R, N> + ?Sized, const N: usize> Method<R, S, N> for Radau5<R> {
     type Run<'a> = Run<'a, R, N>;
@@ -175,21 +161,12 @@ impl<R: Ordered, const N: usize> Run<'_, R, N> {
     where
         S: Differentiable<R, N> + ?Sized,
     {
-        let tolerance = self.method.tolerance();
-        tolerance.check()?;
-        let Checkpoint { time, state, .. } = self.reached;
-        if !time.is_finite() || !all_finite(&state) {
-            return Err(Cause::NotFinite);
+        let settings = self.method.settings();
+        let (slope, first_step) = settings.begin(system, &mut self.reached)?;
+        if let Some(step) = first_step {
+            return Ok(Ready { slope, step });
         }
-        let slope = system.rhs(time, &state);
-        self.reached.statistics.evaluations += 1;
-        if !all_finite(&slope) {
-            return Err(Cause::NotFinite);
-        }
-        if let Some(step) = self.method.first_step {
-            let valid = step > 0.0 && step.is_finite();
-            return if valid { Ok(Ready { slope, step }) } else { Err(Cause::Setting(Setting::Step)) };
-        }
+        let (tolerance, Checkpoint { time, state, .. }) = (settings.tolerance, self.reached);
         let span = (target - time).to_f64();
         let (guess, slope_size) = tolerance.first_guess(&state, &slope, span.abs());
         Ok(Ready { slope, step: CONTROL.first_step(guess, slope_size, 0.0, span.abs()) })
@@ -293,7 +270,7 @@ where
             Some(ready) => ready,
             None => self.start(system, target)?,
         };
-        let tolerance = self.method.tolerance();
+        let tolerance = self.method.settings().tolerance;
         let Checkpoint { time, time_rest, state, .. } = self.reached;
         let weights = tolerance.weights(&state, &state);
         let span = ((target - time) - time_rest).to_f64();

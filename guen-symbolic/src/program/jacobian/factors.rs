@@ -3,6 +3,7 @@
 
 use crate::algebra::{FastMap, Function, Rational};
 use crate::program::instruction::{Instruction, Operation, Value};
+use crate::program::stage::Stage;
 
 /// A partial derivative that is not zero: a sign and a size.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -32,36 +33,6 @@ impl Factor {
 /// Whether the operation is a load, and no work to prepare.
 fn is_plain(operation: &Operation) -> bool {
     matches!(operation, Operation::Number(_) | Operation::Pi | Operation::Symbol(_))
-}
-
-/// A stage of code: equal operations are one instruction.
-#[derive(Default)]
-struct Stage {
-    instructions: Vec<Instruction>,
-    numbering: FastMap<Operation, Value>,
-    values: u32,
-}
-
-impl Stage {
-    fn emit(&mut self, operation: Operation) -> Value {
-        let operation = match operation {
-            Operation::Add(a, b) if b < a => Operation::Add(b, a),
-            Operation::Mul(a, b) if b < a => Operation::Mul(b, a),
-            other => other,
-        };
-        if let Some(value) = self.numbering.get(&operation) {
-            return *value;
-        }
-        let result = self.fresh();
-        self.numbering.insert(operation.clone(), result);
-        self.instructions.push(Instruction { result, operation });
-        result
-    }
-
-    fn fresh(&mut self) -> Value {
-        self.values += 1;
-        Value(self.values - 1)
-    }
 }
 
 /// The code of a function and of what it prepares, while it is written.
