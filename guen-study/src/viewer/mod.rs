@@ -367,7 +367,9 @@ impl<'a, const N: usize> Viewer<'a, N> {
 
     /// A body with its poses at all samples.
     fn add_body(&mut self, name: String, shapes: Vec<Shape>, poses: Vec<Pose>) {
-        let largest_turn = poses.windows(2).map(|pair| pair[0].turn.angle(pair[1].turn)).fold(0.0, f64::max);
+        // Of a turn of more than a few degrees no digits are lost.
+        let cosines = poses.windows(2).map(|pair| pair[0].turn.dot(pair[1].turn).abs());
+        let largest_turn = 2.0 * cosines.fold(1.0, f64::min).acos();
         let poses = self.kept(&name, poses, Pose::is_drawable);
         self.check_shapes(&name, &shapes);
         self.bodies.push(MovingBody { name, shapes, poses, largest_turn });

@@ -1,10 +1,12 @@
 //! The choice of the samples of a track that are shown: those without which the picture would be another one.
 
 use std::cmp::Ordering;
-use std::collections::{BTreeSet, BinaryHeap};
 
 /// Spans that a track is cut into before it is refined, so that the work stays near the number of samples.
 const SPANS: usize = 256;
+
+/// Samples of a longer span that are looked at first: where one of them is drawn too badly, the others need no look.
+const PROBES: usize = 48;
 
 /// Samples that stand for all of a track.
 pub(super) struct Chosen {
@@ -20,61 +22,91 @@ struct Span {
     from: usize,
     worst: usize,
     to: usize,
+    /// Whether all samples were looked at; else there may be worse ones.
+    is_exact: bool,
 }
 
-impl PartialEq for Span {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
+/// Spans that are drawn outside of the tolerance, the worst ones first: by ranks that are a quarter of a factor of two wide, so
+/// that none has to be sorted.
+#[derive(Default)]
+struct Queue {
+    ranks: Vec<Vec<Span>>,
+    /// The worst span within the tolerance.
+    within: f64,
 }
-impl Eq for Span {}
-impl PartialOrd for Span {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
+
+impl Queue {
+    fn push(&mut self, span: Span) {
+        if span.miss <= 1.0 {
+            self.within = self.within.max(span.miss);
+            return;
+        }
+        // Of a number above one: its exponent, and two bits of its mantissa.
+        const MANTISSA: u32 = f64::MANTISSA_DIGITS - 1;
+        let rank = ((span.miss.to_bits() - 1.0_f64.to_bits()) >> (MANTISSA - 2)) as usize;
+        if self.ranks.len() <= rank {
+            self.ranks.resize_with(rank + 1, Vec::new);
+        }
+        self.ranks[rank].push(span);
     }
-}
-impl Ord for Span {
-    fn cmp(&self, other: &Self) -> Ordering {
-        self.miss.total_cmp(&other.miss).then_with(|| other.from.cmp(&self.from))
+
+    fn pop(&mut self) -> Option<Span> {
+        while self.ranks.last().is_some_and(Vec::is_empty) {
+            self.ranks.pop();
+        }
+        self.ranks.last_mut()?.pop()
     }
 }
 
 /// Chooses at most `most` samples of `count`: those `required`, and then, always where the drawing is worst, one more, until
-/// it is within its tolerance everywhere. `worst` finds the sample between two others that is drawn worst, and how badly in
-/// units of the tolerance.
+/// it is within its tolerance everywhere. `worst` looks at every so many of the samples between two others, and finds the one that is
+/// drawn worst, and how badly in units of the tolerance.
+///
+/// A span that is cut is looked at by probes, one that stays by all its samples: so most samples are looked at once or twice,
+/// however often a span is cut.
 pub(super) fn refined(
     count: usize,
     required: impl IntoIterator<Item = usize>,
     most: usize,
-    worst: impl Fn(usize, usize) -> (usize, f64),
+    worst: impl Fn(usize, usize, usize) -> (usize, f64),
 ) -> Chosen {
     let last = count.saturating_sub(1);
-    let mut kept: BTreeSet<usize> = required.into_iter().chain([0, last]).collect();
+    let mut kept: Vec<usize> = required.into_iter().chain([0, last]).collect();
+    let in_order = |kept: &mut Vec<usize>| {
+        kept.sort_unstable();
+        kept.dedup();
+    };
+    in_order(&mut kept);
     // Where there is room: evenly.
     let spans = SPANS.min(most.saturating_sub(kept.len()) / 2);
     kept.extend((1..spans).map(|k| (last as u128 * k as u128 / spans as u128) as usize));
+    in_order(&mut kept);
     let measured = |from: usize, to: usize| {
-        let (at, miss) = worst(from, to);
-        Span { miss, from, worst: at, to }
+        let stride = (to - from) / PROBES;
+        let (at, miss) = worst(from, to, stride.max(1));
+        if stride <= 1 || miss > 1.0 {
+            return Span { miss, from, worst: at, to, is_exact: stride <= 1 };
+        }
+        let (at, miss) = worst(from, to, 1);
+        Span { miss, from, worst: at, to, is_exact: true }
     };
-    let between: Vec<usize> = kept.iter().copied().collect();
-    let mut heap: BinaryHeap<Span> = between
-        .windows(2)
-        .filter(|pair| pair[1] > pair[0] + 1)
-        .map(|pair| measured(pair[0], pair[1]))
-        .collect();
-    while kept.len() < most
-        && let Some(span) = heap.peek()
-        && span.miss > 1.0
-    {
-        let Span { from, worst, to, .. } = *span;
-        heap.pop();
-        kept.insert(worst);
-        heap.extend(
-            [(from, worst), (worst, to)].into_iter().filter(|(a, b)| *b > a + 1).map(|(a, b)| measured(a, b)),
-        );
+    let mut queue = Queue::default();
+    for pair in kept.windows(2).filter(|pair| pair[1] > pair[0] + 1) {
+        queue.push(measured(pair[0], pair[1]));
     }
-    Chosen { kept: kept.into_iter().collect(), miss: heap.peek().map_or(0.0, |span| span.miss) }
+    while kept.len() < most
+        && let Some(Span { from, worst, to, .. }) = queue.pop()
+    {
+        // No sample is chosen twice: it lies between two that are.
+        kept.push(worst);
+        for (a, b) in [(from, worst), (worst, to)].into_iter().filter(|(a, b)| *b > a + 1) {
+            queue.push(measured(a, b));
+        }
+    }
+    kept.sort_unstable();
+    let left = queue.ranks.iter().flatten();
+    let found = left.map(|span| if span.is_exact { span.miss } else { worst(span.from, span.to, 1).1 });
+    Chosen { kept, miss: found.fold(queue.within, f64::max) }
 }
 
 /// Numbers of the samples that a curve needs: ends and all minima and maxima if these are at most `most`, and whether they
@@ -134,9 +166,10 @@ fn columns(times: &[f64], values: &[f64], parts: usize) -> Vec<usize> {
 mod tests {
     use super::*;
 
-    fn line(values: &[f64]) -> impl Fn(usize, usize) -> (usize, f64) {
-        |a, b| {
+    fn line(values: &[f64]) -> impl Fn(usize, usize, usize) -> (usize, f64) {
+        |a, b, stride| {
             (a + 1..b)
+                .step_by(stride)
                 .map(|k| {
                     let part = (k - a) as f64 / (b - a) as f64;
                     (k, (values[a] + (values[b] - values[a]) * part - values[k]).abs() / 1e-3)
@@ -153,11 +186,28 @@ mod tests {
         assert!(chosen.miss <= 1.0 && chosen.kept.len() < 3000, "{} {}", chosen.miss, chosen.kept.len());
         assert!(chosen.kept.is_sorted() && chosen.kept[0] == 0 && chosen.kept.last() == Some(&99_999));
         // Found again by brute force.
-        let worst = chosen.kept.windows(2).filter(|p| p[1] > p[0] + 1).map(|p| line(&values)(p[0], p[1]).1);
+        let worst =
+            chosen.kept.windows(2).filter(|p| p[1] > p[0] + 1).map(|p| line(&values)(p[0], p[1], 1).1);
         assert_eq!(worst.fold(0.0, f64::max), chosen.miss);
         // With less room it tells how bad it is.
         let coarse = refined(values.len(), [], 100, line(&values));
         assert!(coarse.kept.len() == 100 && coarse.miss > 10.0, "{} {}", coarse.kept.len(), coarse.miss);
+        let worst = coarse.kept.windows(2).map(|p| line(&values)(p[0], p[1], 1).1).fold(0.0, f64::max);
+        assert_eq!(worst, coarse.miss);
+    }
+
+    #[test]
+    fn samples_are_looked_at_a_few_times_only() {
+        let looked = std::cell::Cell::new(0);
+        let values: Vec<f64> = (0..400_000).map(|k| (f64::from(k) * 0.003).sin()).collect();
+        let counted = |a: usize, b: usize, stride: usize| {
+            looked.set(looked.get() + (b - a - 1).div_ceil(stride));
+            line(&values)(a, b, stride)
+        };
+        let chosen = refined(values.len(), [], 100_000, counted);
+        assert!(chosen.miss <= 1.0 && chosen.kept.len() > 3000, "{} {}", chosen.miss, chosen.kept.len());
+        // Eight cuts of each of the first spans would look at all samples as often.
+        assert!(looked.get() < 4 * values.len(), "{}", looked.get() as f64 / values.len() as f64);
     }
 
     #[test]
@@ -195,7 +245,7 @@ mod tests {
         let (times, values) = ([0.0, 1.0, 2.0, 3.0, 4.0], [0.0, 1.0, -1.0, 1.0, 0.0]);
         assert_eq!(extrema(&times, &values, 2).0, [0, 1, 2, 4]);
         assert_eq!(extrema(&times, &values, 5).0, [0, 1, 2, 3, 4]);
-        assert_eq!(refined(2, [], 2, |_, _| unreachable!()).kept, [0, 1]);
+        assert_eq!(refined(2, [], 2, |_, _, _| unreachable!()).kept, [0, 1]);
         assert_eq!(extrema(&times[..2], &[1.0, 1.0], 9).0, [0, 1]);
     }
 }
