@@ -11,3 +11,4 @@ mod hygiene;
 mod messages;
 mod no_std;
 mod panics;
+mod rustdoc;

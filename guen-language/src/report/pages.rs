@@ -63,13 +63,22 @@ impl Report {
     }
 }
 
-/// A page of a summary and sections: title, lines, formulas.
+/// The sections that a page begins with, where all of their formulas can be set: what most readers come for.
+const FIRST: [&str; 2] = ["Equations of motion", "Velocities"];
+
+/// Formulas that are longer are left to the text: a page of one formula helps no reader.
+const FORMULA_CHARACTERS: usize = 1500;
+
+/// A page of a summary and sections: title, lines, formulas. The equations come first, unless they are too long to be read.
 pub(crate) fn page<'s>(
     summary: &str,
     sections: impl Iterator<Item = (&'s str, &'s [String], &'s [String])>,
 ) -> String {
-    /// Formulas that are longer are left to the text: a page of one formula helps no reader.
-    const FORMULA_CHARACTERS: usize = 1500;
+    let mut sections: Vec<_> = sections.collect();
+    sections.sort_by_key(|(title, _, formulas)| {
+        let is_legible = formulas.iter().all(|formula| formula.len() <= FORMULA_CHARACTERS);
+        FIRST.iter().position(|first| is_legible && title.starts_with(first)).unwrap_or(FIRST.len())
+    });
     let mut text = format!("{summary}\n");
     for (title, lines, formulas) in sections {
         text.push_str(&format!("\n# {title}\n\n"));
@@ -100,4 +109,30 @@ fn escaped(line: &str) -> String {
         escaped.push(c);
     }
     escaped
+}
+
+#[cfg(test)]
+mod tests {
+    use super::page;
+
+    fn headings(formula: &str) -> Vec<String> {
+        let (words, formula) = (["a".to_owned()], [formula.to_owned()]);
+        let sections: [(&str, &[String], &[String]); 4] = [
+            ("Coordinates", &words, &[]),
+            ("Velocities (1.8)", &words, &["v = 0".to_owned()]),
+            ("Equations of motion (2.7)", &words, &formula),
+            ("Momenta (2.8)", &words, &[]),
+        ];
+        let text = page("A system.", sections.into_iter());
+        assert!(text.starts_with("A system.\n"), "{text}");
+        text.lines().filter_map(|line| line.strip_prefix("# ")).map(str::to_owned).collect()
+    }
+
+    #[test]
+    fn a_page_begins_with_its_equations_where_they_can_be_read() {
+        let [equations, velocities] = ["Equations of motion (2.7)", "Velocities (1.8)"];
+        assert_eq!(headings("x = 0"), [equations, velocities, "Coordinates", "Momenta (2.8)"]);
+        let long = "x + ".repeat(1000);
+        assert_eq!(headings(&long), [velocities, "Coordinates", equations, "Momenta (2.8)"]);
+    }
 }
