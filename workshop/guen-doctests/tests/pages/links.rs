@@ -56,6 +56,30 @@ fn links_lead_somewhere() {
 }
 
 #[test]
+fn links_are_called_by_titles() {
+    let pages = pages();
+    let mut faults = Vec::new();
+    let mut count = 0;
+    for page in &pages {
+        for (line, text) in page.prose() {
+            for (before, link) in text.match_indices("](").map(|(at, _)| (&text[..at], &text[at + 2..])) {
+                let (called, link) = (
+                    before.rsplit('[').next().unwrap_or(before),
+                    link.split([')', '#']).next().unwrap_or(link),
+                );
+                count += 1;
+                let file = link.rsplit('/').next().unwrap_or(link);
+                if !file.is_empty() && called.trim_matches('`').ends_with(file) && file.ends_with(".md") {
+                    faults.push(format!("{}:{line}: {called}", page.path));
+                }
+            }
+        }
+    }
+    assert!(faults.is_empty(), "links are called by their files:\n{}", faults.join("\n"));
+    assert!(count > 50, "only {count} links were found");
+}
+
+#[test]
 fn every_page_is_in_the_book_once() {
     let pages = pages();
     let summary = pages.iter().find(|page| page.path == "docs/SUMMARY.md").expect("the summary");
