@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What hands do on the pages, in a real browser: curves switched and folded, values read, time zoomed.
+"""What hands do on the pages, in a real browser: curves switched and folded, values read, time zoomed, things saved.
 
     python3 tests/browser/hands.py                     # runs the example and tests its pages
     python3 tests/browser/hands.py --pictures FOLDER   # keeps screenshots as well
@@ -9,14 +9,16 @@ Exits with 0 if all is well, 1 if a page fails, 77 if there is no browser and no
 
 import argparse
 import base64
+import csv
 import pathlib
 import struct
 import subprocess
 import sys
 import tempfile
+import time
 
 from browser import Browser
-from checks import ended, kept, require
+from checks import Failure, ended, kept, require
 from looks import CONTRAST, INKS, LOOKS, PLACES, WIDTHS, varied
 from place import ROOT, target
 from viewer import TIME, load, quiet, scene, settled
@@ -385,6 +387,140 @@ def residuals(browser, page):
     quiet(browser)
 
 
+def saved(browser, folder, ending, seconds=40):
+    """The one file in a folder, when it is whole; it is taken away."""
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        found = list(folder.glob(f"*.{ending}"))
+        if found and not list(folder.glob("*.crdownload")):
+            content = found[0].read_bytes()
+            require(found[0].stem == "A-ball-on-a-turntable", f"the file is called {found[0].name}")
+            found[0].unlink()
+            return content
+        time.sleep(0.1)
+    raise Failure(f"no file .{ending} is saved")
+
+
+def menu(browser, name):
+    browser.click("#more")
+    browser.click(f"#{name}")
+
+
+def kept_by_readers(browser, page, folder, pictures):
+    """A picture, the values, a film, a link: by buttons and keys, and without network."""
+    browser.scheme("light")
+    browser.resize(1000, 640)
+    load(browser, page)
+    browser.devtools("Browser.setDownloadBehavior", behavior="allow", downloadPath=str(folder))
+    browser.run("window.guen.player.setTime(4); document.getElementById('names').click();")
+    browser.click("#more")
+    settled(browser)
+    everywhere(browser, "menu", pictures)
+    browser.press(ESCAPE)
+    require(browser.run("return document.getElementById('menu').hidden && document.activeElement.id === 'more';"), "Escape does not close the menu")
+
+    for way in (lambda: menu(browser, "picture"), lambda: browser.press("p")):
+        way()
+        png = saved(browser, folder, "png")
+        width, height = struct.unpack(">II", png[16:24])
+        require(png[:8] == b"\x89PNG\r\n\x1a\n" and width == 1600 and height > 1000, f"a picture of {width} x {height}")
+        colours = browser.run(
+            """const image = new Image(); image.src = arguments[0]; return image.decode().then(() => {
+              const pen = Object.assign(document.createElement('canvas'), { width: image.width, height: image.height }).getContext('2d', { willReadFrequently: true });
+              pen.drawImage(image, 0, 0);
+              const { data } = pen.getImageData(0, 0, image.width, image.height);
+              let [faint, blue] = [0, 0];
+              for (let k = 0; k < data.length; k += 4) { if (data[k + 3] < 255) faint += 1; if (data[k + 2] > data[k] + 90) blue += 1; }
+              return [faint, blue]; });""",
+            "data:image/png;base64," + base64.b64encode(png).decode(),
+        )
+        require(colours[0] == 0 and colours[1] > 500, f"pixels that are see-through and blue: {colours}")
+        if pictures:
+            (pathlib.Path(pictures) / "hands-saved.png").write_bytes(png)
+
+    menu(browser, "values")
+    head, *rows = csv.reader(saved(browser, folder, "csv").decode().splitlines())
+    held = browser.run("const { curves, start } = window.guen.motion; return [start, curves.map((c) => c.name), curves.map((c) => [[...c.times], [...c.values].map((v) => c.base + v)])];")
+    require(head[0] == "t in s" and [name.split(": ")[1] for name in head[1:]] == held[1] and head[1] == "place on the table in m: x", f"the heading is {head}")
+    for k, (times, values) in enumerate(held[2]):
+        found = [(float(row[0]), float(row[k + 1])) for row in rows if row[k + 1]]
+        require(found == [(held[0] + t, v) for t, v in zip(times, values)], f"the values of {head[k + 1]} are not those of the page")
+
+    # The address has it all, and another window shows it.
+    browser.run("const { stage, player, span } = window.guen; stage.turn(0.7, 0.2); stage.zoom(0.6); span.set(2, 9); player.setTime(3.25);")
+    settled(browser)
+    eye = browser.run("return window.guen.stage.eye();")
+    browser.press("k")
+    settled(browser)
+    address = browser.run("return location.href;")
+    require("#t=3.25&camera=" in address and "part=2,9" in address, f"the address is {address}")
+    told = browser.run("return document.getElementById('told').textContent;")
+    require(told.startswith("The address of this page"), f"it is told: {told}")
+    browser.open("about:blank")
+    browser.open(address)
+    browser.wait("document.documentElement.dataset.ready === 'true'", "the page is ready")
+    settled(browser)
+    found = browser.run(f"return [{TIME}, window.guen.span.from, window.guen.span.to, window.guen.stage.eye()];")
+    require(found[:3] == [3.25, 2, 9] and all(abs(a - b) < 1e-6 for a, b in zip(found[3], eye)), f"the link shows {found}, not {eye}")
+    # One that follows; and one that says nothing that can be understood.
+    browser.press("f")
+    browser.run("window.guen.stage.turn(0.5, 0);")
+    settled(browser)
+    browser.press("k")
+    address, eye = browser.run("return [location.href, window.guen.stage.eye()];")
+    browser.open("about:blank")
+    browser.open(address)
+    browser.wait("document.documentElement.dataset.ready === 'true'", "the page is ready")
+    settled(browser)
+    found = browser.run("return window.guen.stage.eye();")
+    require("follow=0" in address and all(abs(a - b) < 1e-6 for a, b in zip(found, eye)), f"the link that follows shows {found}, not {eye}")
+    require(browser.run("return document.getElementById('follow').getAttribute('aria-pressed');") == "true", "the link does not follow")
+    before = browser.run("return window.guen.stage.eye();")
+    for wrong in ("#t=NaN&camera=1,2", "#camera=a,b,c,d,e,f&t=", "#part=5,1&follow=99", "#%%%"):
+        browser.run("location.hash = arguments[0];", wrong)
+        settled(browser)
+    require(browser.run("return window.guen.stage.eye();") == before and browser.run(f"return {TIME};") == 3.25, "an address without sense changes the view")
+
+    # A link goes before what the page follows by itself.
+    browser.open(f"{page.with_name('car.html').as_uri()}#t=2&camera=9,8,7,1,2,0")
+    browser.wait("document.documentElement.dataset.ready === 'true'", "the page is ready")
+    settled(browser)
+    found = browser.run("return [window.guen.stage.eye(), document.getElementById('follow').getAttribute('aria-pressed')];")
+    require(found[1] == "false" and all(abs(a - b) < 1e-6 for a, b in zip(found[0], (9, 8, 7, 1, 2, 0))), f"the link shows {found} of a page that follows a car")
+    browser.open("about:blank")
+    load(browser, page)
+
+    # A film of the part of the time that is shown.
+    browser.run("window.guen.span.set(2, 3); document.getElementById('more').click(); document.getElementById('film').click();")
+    film = saved(browser, folder, "webm")
+    require(film[:4] == b"\x1a\x45\xdf\xa3" and len(film) > 5000, f"a film of {len(film)} bytes")
+    require(not browser.run("return window.guen.player.state.playing;") and span(browser)[:2] == [2, 3], "after the film it is otherwise than before")
+    quiet(browser)
+    # Where there is no recorder a message says so.
+    browser.run("window.MediaRecorder = undefined; document.getElementById('film').click();")
+    told = browser.run("const t = document.getElementById('told'); return t.checkVisibility() && t.textContent;")
+    require("makes no films" in str(told), f"without a recorder it says {told}")
+    kept(pictures, "hands-told", browser.picture)
+    browser.press("?")
+    settled(browser)
+    require(browser.run("return document.getElementById('help').open;"), "no list of keys")
+    everywhere(browser, "help", pictures)
+    # While it is open keys do nothing else; Escape closes it.
+    browser.press("k")
+    browser.press(ESCAPE)
+    require(not browser.run("return document.getElementById('help').open;") and span(browser)[:2] == [2, 3], "Escape does more or less than closing the list")
+    listed = browser.run("return document.getElementById('help').textContent;")
+    known = browser.run("return [...document.querySelectorAll('footer [title], #switches [title]')].map((e) => e.title);")
+    require(all(word in listed for word in ("save a picture", "turn the view", "axes")) and len(known) > 10, "a key is not listed")
+    require(browser.run("return performance.getEntriesByType('resource').length;") == 0, "saving loads something")
+    quiet(browser)
+    (folder / "film.webm").write_bytes(film)
+    browser.open((folder / "film.webm").as_uri())
+    browser.wait("document.querySelector('video').readyState >= 2", "the film can be played", 20)
+    sides = browser.run("const v = document.querySelector('video'); return [v.videoWidth, v.videoHeight];")
+    require(sides[0] > 500 and sides[1] > 300 and sides[0] % 2 == sides[1] % 2 == 0, f"the film has the sides {sides}")
+
+
 def noise(browser, page):
     """What is rounding beside the other curves of its panel reads as nothing; a panel of nothing else keeps its values."""
     load(browser, page)
@@ -427,6 +563,7 @@ def main():
             ("time zoomed", lambda: zoomed(browser, turntable, arguments.pictures)),
             ("axes and names", lambda: framed(browser, turntable, arguments.pictures)),
             ("residuals", lambda: residuals(browser, turntable)),
+            ("saved", lambda: kept_by_readers(browser, turntable, pathlib.Path(folder), arguments.pictures)),
             ("rounding", lambda: noise(browser, pages["noisy"])),
         ]
         wanted = [check for check in checks if not arguments.checks or any(part in check[0] for part in arguments.checks)]

@@ -16,7 +16,7 @@ const LIBRARY: &str = include_str!("vendor/three.min.js");
 /// The page's own style and program, in the order in which they are needed.
 const STYLE: &str = include_str!("page/style.css");
 const BODY: &str = include_str!("page/body.html");
-const PROGRAM: [&str; 18] = [
+const PROGRAM: [&str; 20] = [
     include_str!("page/data.js"),
     include_str!("page/runs.js"),
     include_str!("page/motion.js"),
@@ -33,6 +33,8 @@ const PROGRAM: [&str; 18] = [
     include_str!("page/player.js"),
     include_str!("page/frames.js"),
     include_str!("page/bodies.js"),
+    include_str!("page/save.js"),
+    include_str!("page/link.js"),
     include_str!("page/keys.js"),
     include_str!("page/start.js"),
 ];

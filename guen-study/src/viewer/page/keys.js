@@ -2,7 +2,7 @@
 
 const VIEWS = ["first", "above", "front", "side", "below"];
 
-function listenToKeys({ player, stage, span, setView, redraw }) {
+function listenToKeys({ menu,  player, stage, span, setView, redraw }) {
   const click = (id) => () => document.getElementById(id).click();
   const step = (part) => () => player.setTime(player.state.time + part * motion.end);
   const anywhere = {
@@ -10,7 +10,8 @@ function listenToKeys({ player, stage, span, setView, redraw }) {
     ArrowRight: step(1 / 200), ArrowLeft: step(-1 / 200),
     Home: () => player.setTime(0), End: () => player.setTime(motion.end),
     ",": () => player.toSample(-1), ".": () => player.toSample(1),
-    Escape: span.reset,
+    Escape: () => menu.close() || span.reset(),
+    m: click("more"), p: click("picture"), v: click("values"), w: click("film"), k: click("link"), "?": click("list-keys"),
     l: click("loop"), f: click("follow"), a: click("axes"), n: click("names"), r: click("reset"), 0: click("fit"),
   };
   if (stage) {
@@ -38,6 +39,7 @@ function listenToKeys({ player, stage, span, setView, redraw }) {
   window.addEventListener("keydown", (event) => {
     const { key, target } = event;
     if (event.ctrlKey || event.metaKey || event.altKey) return;
+    if (document.querySelector("dialog[open]")) return;
     // Lists have their own keys, buttons and marks their space bar, the slider its own steps.
     if (target.matches("select")) return;
     if (key === " " && target.matches("button, summary, input[type=checkbox]")) return;

@@ -154,6 +154,17 @@ function makeStage() {
     }
   }
 
+  let waiting = null;
+  /** Where the eye is, and where it looks. */
+  const eye = () => [...camera.position.toArray(), ...controls.target.toArray()];
+  /** Looks from there to there; from the first picture on. */
+  function setEye(from) {
+    if (!opened) waiting = from;
+    camera.position.fromArray(from);
+    controls.target.fromArray(from, 3);
+    controls.update();
+  }
+
   let [width, height, opened] = [0, 0, false];
   const quality = makeQuality();
   let drawn = quality.next(false);
@@ -170,6 +181,7 @@ function makeStage() {
       camera.aspect = w / h;
       opened = true;
       if (first) lookAt("first");
+      if (first && waiting) setEye(waiting);
     }
     bound();
     renderer.render(scene, camera);
@@ -232,7 +244,7 @@ function makeStage() {
 
   const shown = { body: (i, on) => (movers[i].group.visible = on), link: (i, on) => (links[i].holder.visible = on), path: (i, on) => paths[i].show(on) };
   return {
-    place, draw, print, around, look: lookAt, fit, turn, zoom, setFollowing, onScreen, bodyAt, shown, ground, controls, camera, movers, links,
+    place, draw, print, around, look: lookAt, fit, turn, zoom, eye, setEye, followed: () => followed, setFollowing, onScreen, bodyAt, shown, ground, controls, camera, movers, links,
     radius, center, canFollow: movers.length > 0,
   };
 }

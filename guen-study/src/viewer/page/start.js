@@ -45,6 +45,7 @@ const player = makePlayer((time) => {
     stage.draw(player.state.playing);
     card.draw(time);
     tags.draw();
+    film.frame(time);
   }
   for (const panel of panels) panel.draw(time, repaint);
   repaint = false;
@@ -93,7 +94,7 @@ function setView(name) {
 }
 if (stage && stage.canFollow) {
   follow.addEventListener("click", () => setFollowing(follow.getAttribute("aria-pressed") !== "true"));
-  if (motion.follow !== undefined) requestAnimationFrame(() => setFollowing(true));
+  if (motion.follow !== undefined) requestAnimationFrame(() => link.isShown || setFollowing(true));
 } else {
   follow.hidden = true;
 }
@@ -130,7 +131,15 @@ if (stage) {
 } else {
   for (const id of ["reset", "fit", "view", "space"]) byId(id).hidden = true;
 }
-listenToKeys({ player, stage, span, setView, redraw });
+const menu = makeMenu();
+const film = makeFilm({ stage, player, span });
+const link = makeLink({ stage, player, span, setFollowing, isFollowing: () => follow.getAttribute("aria-pressed") === "true" });
+byId("picture").addEventListener("click", () => savePicture(stage, redraw));
+byId("values").addEventListener("click", saveValues);
+byId("values").hidden = motion.curves.length === 0;
+byId("film").hidden = !stage || motion.still;
+link.isShown = link.read();
+listenToKeys({ menu,  player, stage, span, setView, redraw });
 new ResizeObserver(redraw).observe(document.querySelector("main"));
 // For programs that test the page.
 window.guen = { motion, player, stage, span, probe, look };
