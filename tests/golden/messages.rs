@@ -212,7 +212,8 @@ fn every_expectation_has_a_case() {
 }
 
 /// What each theme is about, as its page says. A new folder under `tests/ui` needs a line here.
-const THEMES: [(&str, &str); 11] = [
+const THEMES: [(&str, &str); 12] = [
+    ("dimensions", "units and dimensions"),
     ("energies", "kinetic energy, force function, forces and gravity"),
     ("forms", "parameters and constraints: linear, independent, as many as there are coordinates"),
     ("functions", "functions of the declaration, `fn name(x) = e;`"),

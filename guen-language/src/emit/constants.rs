@@ -41,7 +41,11 @@ fn fields(subject: &Subject<'_, '_>, layout: &Layout) -> Vec<Field> {
         Field {
             ident: c.name.ident.clone(),
             name: c.name.text.clone(),
-            docs: documentation::entry(c.docs, &format!("The constant `{}`.", c.name)),
+            docs: documentation::entry(
+                c.docs,
+                &format!("The constant `{}`.", c.name),
+                model.units.get(&c.name.text),
+            ),
             bound: c.bound,
             default: c.default.filter(|_| is_derived || !self::is_derived(model, c)),
             is_derived,

@@ -10,13 +10,17 @@ use super::text::tokens;
 use crate::report::{Report, Section};
 use crate::syntax::Docs;
 
-/// The user's documentation of an entry, or a sentence in its place.
-pub(super) fn entry(docs: &Docs, fallback: &str) -> TokenStream {
+/// The user's documentation of an entry, or a sentence in its place; with its unit, if it has one.
+pub(super) fn entry(docs: &Docs, fallback: &str, unit: Option<&String>) -> TokenStream {
+    let unit = unit.map(|unit| {
+        let unit = format!("In {unit}.");
+        quote!(#[doc = ""] #[doc = #unit])
+    });
     if docs.values.is_empty() {
-        quote!(#[doc = #fallback])
+        quote!(#[doc = #fallback] #unit)
     } else {
         let values = &docs.values;
-        quote!(#(#[doc = #values])*)
+        quote!(#(#[doc = #values])* #unit)
     }
 }
 

@@ -18,18 +18,30 @@ struct Field {
 pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let Subject { model, level } = subject;
     let selection = &level.selection;
-    let field = |ident: &Ident, docs: &Docs, fallback: String| Field {
+    let units = &model.units;
+    let field = |ident: &Ident, docs: &Docs, fallback: String, unit: Option<&String>| Field {
         ident: ident.clone(),
-        docs: documentation::entry(docs, &fallback),
+        docs: documentation::entry(docs, &fallback, unit),
     };
     let coordinates = selection.coordinates.iter().map(|i| &model.coordinates[*i]);
-    let coordinates: Vec<Field> =
-        coordinates.map(|c| field(&c.name.ident, c.docs, format!("The coordinate `{}`.", c.name))).collect();
+    let coordinates: Vec<Field> = coordinates
+        .map(|c| {
+            field(&c.name.ident, c.docs, format!("The coordinate `{}`.", c.name), units.get(&c.name.text))
+        })
+        .collect();
     let forms = |indices: &[usize], what: &str| -> Vec<Field> {
         let forms = indices.iter().map(|j| &model.forms[*j]);
-        forms.map(|form| field(&form_ident(form), form.docs, format!("{what} `{}`.", form.name))).collect()
+        forms
+            .map(|form| field(&form_ident(form), form.docs, format!("{what} `{}`.", form.name), None))
+            .collect()
     };
-    let parameters = forms(&selection.parameters, "The quasi-velocity");
+    let parameters = selection.parameters.iter().map(|j| &model.forms[*j]);
+    let parameters: Vec<Field> = parameters
+        .map(|form| {
+            let fallback = format!("The quasi-velocity `{}`.", form.name);
+            field(&form_ident(form), form.docs, fallback, units.get(&form.name))
+        })
+        .collect();
     let whose = if layout.is_whole { "the system" } else { "the scene" };
     let count = |count: usize, noun: &str| format!("{count} {noun}{}", if count == 1 { "" } else { "s" });
     let (kept, speeds) =
@@ -77,6 +89,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
             &form_ident(entry),
             entry.docs,
             format!("What is left of `{}`, which follows from others.", entry.name),
+            None,
         )
     }));
     add(
@@ -90,8 +103,9 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
         &reactions,
     );
     let inputs = selection.inputs.iter().map(|u| &model.inputs[*u]);
-    let inputs: Vec<Field> =
-        inputs.map(|u| field(&u.name.ident, u.docs, format!("The input `{}`.", u.name))).collect();
+    let inputs: Vec<Field> = inputs
+        .map(|u| field(&u.name.ident, u.docs, format!("The input `{}`.", u.name), units.get(&u.name.text)))
+        .collect();
     add("Inputs", "The control inputs, constant during a step.", &inputs);
     let size = layout.size;
     items.push(quote!(__guen::nalgebra_conversions!(State, #size);));
@@ -138,7 +152,13 @@ fn outputs(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let outputs: Vec<_> =
         subject.level.selection.outputs.iter().map(|o| &subject.model.outputs[*o]).collect();
     let idents: Vec<&Ident> = outputs.iter().map(|o| &o.name.ident).collect();
-    let docs = outputs.iter().map(|o| documentation::entry(o.docs, &format!("The output `{}`.", o.name)));
+    let docs = outputs.iter().map(|o| {
+        documentation::entry(
+            o.docs,
+            &format!("The output `{}`.", o.name),
+            subject.model.units.get(&o.name.text),
+        )
+    });
     let types = outputs.iter().map(|o| if o.components.len() == 1 { quote!(R) } else { quote!([R; 3]) });
     let mut count = 0_usize;
     let values: Vec<TokenStream> = outputs

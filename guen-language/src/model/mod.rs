@@ -6,6 +6,7 @@
 mod accelerations;
 mod bodies;
 mod declared_functions;
+mod dimensions;
 mod evaluate;
 mod forms;
 mod functions;
@@ -25,6 +26,7 @@ use proc_macro2::{Ident, Span};
 
 use crate::syntax::{BoundKind, Declaration, Docs, Name, Scene};
 
+pub use dimensions::Units;
 pub use rates::ChosenRates;
 pub use resolve::resolve;
 pub(crate) use scenes::is_carried_form;
@@ -43,6 +45,8 @@ pub struct Model<'a> {
     pub coordinates: Vec<SymbolEntry<'a>>,
     /// The forms `eta_1..eta_n`, parameters first.
     pub forms: Vec<FormEntry<'a>>,
+    /// The units of names, where units are declared.
+    pub units: Units,
     /// Parameters that the declaration left out, where it did.
     pub chosen: Option<ChosenRates>,
     /// Holonomic equations that follow from others wherever all hold, in the order of the mechanics.

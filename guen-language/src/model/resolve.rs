@@ -36,8 +36,9 @@ pub fn resolve<'a>(declaration: &'a Declaration, faults: &mut Faults) -> Option<
     for item in &declaration.items {
         resolver.item(item);
     }
-    let model = resolver.finish();
-    if faults.count() == before { model } else { None }
+    let mut model = resolver.finish().filter(|_| faults.count() == before)?;
+    model.units = super::dimensions::units(declaration, faults);
+    (faults.count() == before).then_some(model)
 }
 
 struct Resolver<'a, 'f> {
@@ -301,13 +302,24 @@ impl<'a, 'f> Resolver<'a, 'f> {
         if let (Some(Ok(value)), Some(default)) = (&default, &constant.default) {
             self.check_default(*value, bound, default);
         }
-        let symbol = self.eval.bench.graph.bounded_symbol(&constant.name.text, Role::Constant, promise);
-        self.declare_symbol(&constant.name, Category::Constant, symbol);
+        let graph = &mut self.eval.bench.graph;
+        let symbol = graph.bounded_symbol(&constant.name.text, Role::Constant, promise);
+        let mut value = symbol;
+        let mut default = default.and_then(Result::ok);
+        if constant.unit.as_ref().is_some_and(|unit| unit.is_degrees) {
+            // The field is in degrees, and everything else in radians.
+            let degree = graph.degree();
+            value = graph.mul(symbol, degree);
+            // A number is in the unit of its constant.
+            let is_number = |graph: &Graph, e| graph.symbols_in(&[e]).is_empty();
+            default = default.map(|e| if is_number(graph, e) { e } else { graph.div(e, degree) });
+        }
+        self.declare_symbol(&constant.name, Category::Constant, value);
         self.constants.push(ConstantEntry {
             name: &constant.name,
             docs: &constant.docs,
             bound,
-            default: default.and_then(Result::ok),
+            default,
             symbol,
         });
     }

@@ -124,11 +124,21 @@ impl Evaluator<'_> {
                 self.scope.refer(name);
                 self.entry = Some(name.text.clone());
                 // A number, or made of constants; a fault is reported there.
-                let value = self.scalar_at(Place::Fixed, written).ok()?;
-                let symbol = match self.scope.peek(&name.text) {
+                let mut value = self.scalar_at(Place::Fixed, written).ok()?;
+                let mut symbol = match self.scope.peek(&name.text) {
                     Some(Value::Scalar(symbol)) => *symbol,
                     _ => return None,
                 };
+                let graph = &mut self.bench.graph;
+                if graph.as_symbol(symbol).is_none() {
+                    // It is declared in degrees, as is a number that it is fixed to.
+                    let own = graph.symbols_in(&[symbol]).into_iter().next()?;
+                    symbol = graph.symbol_expr(own);
+                    if !graph.symbols_in(&[value]).is_empty() {
+                        let degree = graph.degree();
+                        value = graph.div(value, degree);
+                    }
+                }
                 return Some(FixedConstant { name, symbol, value });
             }
             Some(Category::Coordinate | Category::Parameter) => {

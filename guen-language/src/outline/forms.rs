@@ -114,13 +114,18 @@ impl Forms {
         for item in &declaration.items {
             let Item::Coordinates(section) = item else { continue };
             for coordinate in &section.entries {
-                let new = || Plain { name: names.take(&coordinate.name), limits: None, ..coordinate.clone() };
+                let new = || Plain {
+                    name: names.take(&coordinate.name),
+                    unit: None,
+                    limits: None,
+                    ..coordinate.clone()
+                };
                 push(&mut coordinates, &coordinate.name, |coordinate: &Plain| &coordinate.name, new);
             }
         }
         if coordinates.is_empty() {
             let name = unnamed(names);
-            coordinates.push(Plain { docs: Docs::default(), name, limits: None });
+            coordinates.push(Plain { docs: Docs::default(), name, unit: None, limits: None });
         }
         let held = held(declaration);
         let kinds = of_forms(declaration, coordinates.len(), kinds);

@@ -102,7 +102,7 @@ impl Entries {
             Item::Inputs(section) => {
                 for input in &section.entries {
                     let limits = input.limits.as_ref().map(|_| Box::new([number(0), number(1)]));
-                    let new = || Plain { name: names.take(&input.name), limits, ..input.clone() };
+                    let new = || Plain { name: names.take(&input.name), unit: None, limits, ..input.clone() };
                     push(&mut self.inputs, &input.name, |input| &input.name, new);
                 }
             }
@@ -139,7 +139,7 @@ impl Entries {
             let before = self.constants.first().filter(|_| is_derived);
             before.map_or_else(|| number(1), |before| value(&before.name))
         });
-        let new = || Constant { name: names.take(&constant.name), default, ..constant.clone() };
+        let new = || Constant { name: names.take(&constant.name), unit: None, default, ..constant.clone() };
         push(&mut self.constants, &constant.name, |constant| &constant.name, new);
     }
 

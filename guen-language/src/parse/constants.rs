@@ -8,6 +8,7 @@ use super::expression::expression;
 use super::lists::{at_end, separated};
 use super::names::name;
 use super::punctuation::equals;
+use super::units::unit;
 use crate::diagnostics::{Fault, Faults, Reported};
 use crate::limits::MAX_ENTRIES;
 use crate::syntax::{Bound, BoundKind, Constant, Number};
@@ -25,7 +26,7 @@ fn begins_constant(cursor: &Cursor) -> bool {
     cursor.is_punct('#')
         || (cursor.ident_at(0).is_some()
             && (cursor.peek_nth(1).is_none()
-                || [',', '>', '!', '='].iter().any(|mark| cursor.is_punct_at(1, *mark))))
+                || [',', '>', '!', '=', ':'].iter().any(|mark| cursor.is_punct_at(1, *mark))))
 }
 
 fn constant(cursor: &mut Cursor, faults: &mut Faults) -> Result<Constant, Reported> {
@@ -37,7 +38,7 @@ fn constant(cursor: &mut Cursor, faults: &mut Faults) -> Result<Constant, Report
     }
     let name = name(cursor, faults, "the name of a constant")?;
     // From here on the name counts as declared, whatever is wrong with the rest.
-    let mut constant = Constant { docs, name, bound: None, default: None };
+    let mut constant = Constant { docs, name, unit: None, bound: None, default: None };
     if rest(cursor, faults, &mut constant).is_err() {
         cursor.recover_to_comma();
     }
@@ -45,12 +46,7 @@ fn constant(cursor: &mut Cursor, faults: &mut Faults) -> Result<Constant, Report
 }
 
 fn rest(cursor: &mut Cursor, faults: &mut Faults, constant: &mut Constant) -> Result<(), Reported> {
-    if cursor.is_punct(':') && !cursor.is_pair(':', '=') {
-        let fault = Fault::new(cursor.span(), "a constant is declared without a type");
-        return Err(faults.report(
-            fault.help(format_args!("a default is written `{0} = 9.81`, a bound `{0} > 0`", constant.name)),
-        ));
-    }
+    constant.unit = unit(cursor, faults)?;
     constant.bound = bound(cursor, faults)?;
     if cursor.is_end() || !(cursor.is_punct('=') || cursor.is_punct(':')) {
         return Ok(());

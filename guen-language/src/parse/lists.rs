@@ -7,9 +7,10 @@ use super::cursor::Cursor;
 use super::expression::expression;
 use super::names::name;
 use super::punctuation::semicolon;
+use super::units::unit;
 use crate::diagnostics::{Fault, Faults, Reported};
 use crate::limits::{MAX_COORDINATES, MAX_ENTRIES};
-use crate::syntax::{Expression, Plain};
+use crate::syntax::{Expression, Plain, Unit};
 
 /// The name for an entry of `inputs` in messages.
 pub(crate) const INPUT: &str = "the name of an input";
@@ -130,12 +131,12 @@ pub(crate) fn plain_names(group: &Group, faults: &mut Faults, role: &str, most: 
     separated(&mut Cursor::inside(group), faults, most, at_end, begins, |cursor, faults| {
         let docs = docs(cursor, faults)?;
         let name = name(cursor, faults, role)?;
+        let unit = own_unit(cursor, faults, role);
         let limits = limits(cursor, faults, role);
         if let Some(TokenTree::Punct(mark)) = cursor.peek().filter(|_| !ends_name(cursor)) {
             let fault =
                 Fault::new(cursor.span(), format!("expected `,` after {role}, found {}", cursor.found()));
             let reported = faults.report(match mark.as_char() {
-                ':' => fault.help("names are declared without types"),
                 '=' => fault.help("initial values are given when the system runs, in its state"),
                 '>' | '<' | '!' => fault.help("only `constants` have bounds"),
                 _ => fault,
@@ -144,8 +145,27 @@ pub(crate) fn plain_names(group: &Group, faults: &mut Faults, role: &str, most: 
             cursor.recover_to_comma();
             let _: Reported = reported;
         }
-        Ok(Plain { docs, name, limits })
+        Ok(Plain { docs, name, unit, limits })
     })
+}
+
+/// The unit behind a name. Degrees are for constants.
+fn own_unit(cursor: &mut Cursor, faults: &mut Faults, role: &str) -> Option<Unit> {
+    match unit(cursor, faults) {
+        Ok(Some(unit)) if unit.is_degrees => {
+            let fault = Fault::new(
+                unit.span,
+                format!("{} has its values in `rad`", role.replace("the name of ", "")),
+            );
+            faults.report(fault.help("write `rad`: only constants may be given in degrees"));
+            None
+        }
+        Ok(unit) => unit,
+        Err(Reported { .. }) => {
+            cursor.recover_to_comma();
+            None
+        }
+    }
 }
 
 /// `in lower..upper` after the name of an input.

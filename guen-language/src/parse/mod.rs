@@ -22,6 +22,7 @@ mod punctuation;
 mod scene;
 #[cfg(test)]
 mod tests;
+mod units;
 
 use proc_macro2::TokenStream;
 

@@ -8,16 +8,20 @@ use crate::syntax::{Docs, Item};
 
 /// Constants as they are declared, coordinates and inputs, each with the first line of its documentation.
 pub(super) fn declared(subject: &Subject<'_, '_>) -> Vec<Section> {
+    let model = subject.model;
     let line = |name: &str, docs: &Docs| {
         // Documentation that a macro writes is not known here.
         let texts = docs.values.iter().filter_map(|value| syn::parse2::<syn::LitStr>(value.clone()).ok());
         let first = texts.map(|text| text.value().trim().to_owned()).find(|text| !text.is_empty());
         first.map_or_else(|| name.to_owned(), |first| format!("{name}: {first}"))
     };
+    let unit = |name: &str| model.units.get(name).map_or(String::new(), |unit| format!(": {unit}"));
     let symbols = |entries: &[SymbolEntry<'_>]| -> Vec<String> {
-        entries.iter().map(|entry| line(&entry.name.text, entry.docs)).collect()
+        entries
+            .iter()
+            .map(|entry| line(&format!("{}{}", entry.name.text, unit(&entry.name.text)), entry.docs))
+            .collect()
     };
-    let model = subject.model;
     let constants = model.declaration.items.iter().flat_map(|item| match item {
         Item::Constants(section) => &section.entries[..],
         _ => &[],
@@ -28,13 +32,19 @@ pub(super) fn declared(subject: &Subject<'_, '_>) -> Vec<Section> {
         let written = declared.default.as_ref().map(ToString::to_string).filter(|text| !text.contains('('));
         let default = written.or_else(|| known.default.map(|e| model.bench.graph.text(e)));
         let default = default.map_or(String::new(), |text| format!(" = {text}"));
-        line(&format!("{}{bound}{default}", known.name.text), known.docs)
+        line(&format!("{}{}{bound}{default}", known.name.text, unit(&known.name.text)), known.docs)
     });
     let constants = constants.collect();
+    let derived = model.forms.iter().map(|form| form.name.as_str());
+    let derived = derived.chain(model.outputs.iter().map(|output| output.name.text.as_str()));
+    let derived =
+        derived.filter(|name| model.units.contains_key(*name)).map(|name| format!("{name}{}", unit(name)));
+    let derived: Vec<String> = derived.collect();
     vec![
         Section::words("Constants", constants),
         Section::words("Coordinates", symbols(&model.coordinates)),
         Section::words("Inputs", symbols(&model.inputs)),
+        Section::words("Units that follow", derived),
     ]
 }
 

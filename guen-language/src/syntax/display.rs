@@ -66,6 +66,7 @@ impl Display for Expression {
 impl Display for Plain {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         write!(f, "{}", self.name.ident)?;
+        self.unit.iter().try_for_each(|unit| write!(f, ": {}", unit.text))?;
         if let Some(limits) = &self.limits {
             write!(f, " in {}..{}", limits[0], limits[1])?;
         }
@@ -76,6 +77,7 @@ impl Display for Plain {
 impl Display for Constant {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         write!(f, "{}", self.name.ident)?;
+        self.unit.iter().try_for_each(|unit| write!(f, ": {}", unit.text))?;
         if let Some(bound) = self.bound {
             write!(f, " {}", bound.kind.relation())?;
         }

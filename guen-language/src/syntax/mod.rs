@@ -9,10 +9,13 @@ mod expression;
 mod name;
 mod number;
 mod section;
+mod unit;
 
 pub use expression::{AddOperator, Expression, ExpressionKind, Factor, MultiplyOperator, Term};
 pub use name::{Docs, Name, Visibility};
 pub use number::{Number, NumberProblem};
+pub use unit::{Dimension, Unit};
+
 pub use section::{
     Body, BodyField, Bound, BoundKind, Constant, Declaration, Definition, Equation, Fix, Force,
     FunctionDefinition, Inertia, Item, Particle, Plain, Provide, Quantity, Scene, Section, SectionKind,

@@ -2,7 +2,7 @@
 
 use proc_macro2::{Span, TokenStream};
 
-use super::{Docs, Expression, Name, Visibility};
+use super::{Docs, Expression, Name, Unit, Visibility};
 
 /// A declaration: one `system` with its sections.
 #[derive(Debug, Clone)]
@@ -157,6 +157,8 @@ pub struct Plain {
     pub docs: Docs,
     /// The name.
     pub name: Name,
+    /// The unit, if one is declared.
+    pub unit: Option<Unit>,
     /// The least and the largest value, of an input that has limits.
     pub limits: Option<Box<[Expression; 2]>>,
 }
@@ -168,6 +170,8 @@ pub struct Constant {
     pub docs: Docs,
     /// The name.
     pub name: Name,
+    /// The unit, if one is declared.
+    pub unit: Option<Unit>,
     /// The bound, if one is declared.
     pub bound: Option<Bound>,
     /// The default, if one is declared.

@@ -5,6 +5,7 @@ mod angles;
 mod carried;
 mod common;
 mod corpus;
+mod dimensions;
 mod families;
 mod functions;
 mod hints;

@@ -68,6 +68,12 @@ impl Graph {
         self.intern(Node::Pi)
     }
 
+    /// A degree, `pi/180`.
+    pub fn degree(&mut self) -> ExprId {
+        let (pi, half_turn) = (self.pi(), self.number(Rational::integer(180)));
+        self.div(pi, half_turn)
+    }
+
     /// `a + b`.
     pub fn add(&mut self, a: ExprId, b: ExprId) -> ExprId {
         if self.is_zero(a) {

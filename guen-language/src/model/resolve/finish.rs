@@ -169,6 +169,7 @@ impl<'a> Resolver<'a, '_> {
             inputs: self.inputs,
             coordinates: self.coordinates,
             forms: raw.into_iter().map(|form| form.entry).collect(),
+            units: Default::default(),
             chosen,
             redundant,
             bodies: self.bodies,

@@ -1,0 +1,201 @@
+//! Dimensions: what fits is accepted, what does not is told at the smallest place, and units follow where none is written.
+
+use guen_language::derive::derive;
+use guen_language::diagnostics::collect;
+use guen_language::report::Report;
+use guen_language::{model, parse};
+
+use crate::common::derived;
+
+/// A pendulum on a cart that a motor pushes, with a unit for everything or for one thing.
+const CART: &str = "pub system Cart {
+    constants { m: kg > 0, M: kg > 0, l: m > 0 = 0.5, g: m/s^2 = 9.81, c: N*s/m >= 0, k: N/m, tilt: deg = 30, T: s > 0, I: kg*m^2 > 0 = m*l^2/12 }
+    inputs { push: N in -10..10 }
+    coordinates { x: m, q: rad }
+    let p = vec(x, 0) + l*vec(sin(q + tilt), -cos(q + tilt));
+    fn ramp(time) = tanh(time/T);
+    parameters { v = dot(x); w = dot(q); }
+    particles { M at vec(x, 0); m at p; }
+    kinetic_energy = I/2*w^2;
+    gravity = vec(0, -g);
+    potential_energy = k/2*x^2 + m*g*l*(1 - cos(q));
+    forces { push*ramp(t) - c*v along v; -c*l^2*w along w; }
+    outputs { height = p.y; speed = dot(p); power = push*v; angle = atan2(p.y, p.x); }
+    scene Still { fix l = 1/2, tilt = 10; track q; }
+}";
+
+/// The messages of a declaration's faults.
+fn faults(text: &str) -> Vec<String> {
+    let (declaration, parsed) = parse::parse(text.parse().unwrap());
+    let all = if parsed.is_empty() {
+        let declaration = declaration.unwrap();
+        let (_, report) = collect(|faults| derive(model::resolve(&declaration, faults)?, faults).map(|_| ()));
+        report.to_compile_errors().to_string()
+    } else {
+        parsed.to_compile_errors().to_string()
+    };
+    all.split("compile_error").skip(1).map(str::to_owned).collect()
+}
+
+/// The declaration without the units of some names.
+fn without(names: &[&str]) -> String {
+    let mut text = CART.to_owned();
+    for name in names {
+        let start = text.find(&format!("{name}: ")).unwrap_or_else(|| panic!("`{name}` has no unit"));
+        let rest = &text[start + name.len()..];
+        let end = rest.find([',', '>', '=', '}']).unwrap();
+        let end = rest[..end].find(" in ").unwrap_or(end);
+        text.replace_range(start + name.len()..start + name.len() + end, " ");
+    }
+    text
+}
+
+#[test]
+fn units_follow_from_others() {
+    let all =
+        [("m", "kg"), ("x", "m"), ("q", "rad"), ("l", "m"), ("c", "N*s/m"), ("k", "N/m"), ("push", "N")];
+    derived(CART, |derived| {
+        let units = &derived.model.units;
+        for (name, unit) in all {
+            assert_eq!(units[name], unit);
+        }
+        for (name, unit) in [
+            ("v", "m/s"),
+            ("w", "1/s"),
+            ("height", "m"),
+            ("speed", "m/s"),
+            ("power", "kg*m^2/s^3 (W)"),
+            ("angle", "1"),
+        ] {
+            assert_eq!(units[name], unit, "{name}");
+        }
+        let report = Report::of(&derived.model, &derived.system).to_text();
+        assert!(report.contains("g: m/s^2 = 9.81") && report.contains("v: m/s"), "{report}");
+    });
+    // Most follow from the few that are left.
+    derived(&without(&["m", "c", "k", "push", "I", "q", "T"]), |derived| {
+        let units = &derived.model.units;
+        for (name, unit) in [("c", "kg/s"), ("k", "kg/s^2"), ("push", "kg*m/s^2 (N)"), ("T", "s"), ("q", "1")]
+        {
+            assert_eq!(units[name], unit, "{name}");
+        }
+    });
+    // Without any nothing is checked, and nothing said.
+    let names = ["m", "M", "l", "g", "c", "k", "tilt", "T", "I", "push", "x", "q"];
+    let bare = without(&names).replace("k/2*x^2", "k/2*x");
+    derived(&bare, |derived| assert!(derived.model.units.is_empty()));
+}
+
+#[test]
+fn what_is_left_out_changes_nothing_that_is_right() {
+    let names = ["m", "M", "l", "g", "c", "k", "T", "I", "push", "x", "q"];
+    // All subsets of at most three.
+    for a in 0..names.len() {
+        for b in a..names.len() {
+            for c in b..names.len() {
+                let mut left = vec![names[a], names[b], names[c]];
+                left.dedup();
+                let text = without(&left);
+                assert_eq!(faults(&text), Vec::<String>::new(), "without {left:?}");
+            }
+        }
+    }
+}
+
+/// Each with the part of the message that names what is wrong.
+#[test]
+fn what_does_not_fit_is_told_where_it_is() {
+    let sums = "this sum adds different dimensions";
+    let cases = [
+        ("k/2*x^2 +", "k/2*x +", "`k/2*x` is in kg*m/s^2 (N), and `m*g*l*(1 - cos(q))` is in kg*m^2/s^2 (J)"),
+        ("m*g*l*(1", "m*g*(1", sums),
+        ("1 - cos(q)", "l - cos(q)", "`l` is in m, and `cos(q)` is a number"),
+        ("vec(x, 0) + l", "vec(x, 0) + m", sums),
+        ("- c*v along", "- c*x along", sums),
+        ("push*ramp", "k*ramp", "and `c*v` is in kg*m/s^2 (N)"),
+        ("-c*l^2*w along w", "-c*l*w along w", "a force along a velocity in 1/s is in kg*m^2/s^2 (J)"),
+        ("-c*l^2*w along w", "-c*l^2*w along v", "a force along a velocity in m/s is in kg*m/s^2 (N)"),
+        ("time/T", "time", "an argument of `tanh` is a number, and this is in s"),
+        ("ramp(t)", "ramp(l)", "in the call of `ramp`"),
+        ("M at vec(x, 0)", "l at vec(x, 0)", "a mass at a place in m is in kg, and this is in m"),
+        ("M at vec(x, 0)", "M at vec(x, q)", "the components of this vector have different dimensions"),
+        ("vec(0, -g)", "vec(0, -g*l)", "gravity is in m/s^2, and this is in m^2/s^2"),
+        ("I/2*w^2", "I/2*w", "the kinetic energy is in kg*m^2/s^2 (J), and this is in kg*m^2/s"),
+        ("sin(q + tilt)", "sin(x + tilt)", sums),
+        ("sin(q + tilt)", "sin(q*l)", "an argument of `sin` is a number, and this is in m"),
+        ("atan2(p.y, p.x)", "atan2(p.y, v)", "the arguments of `atan2` have different dimensions"),
+        ("power = push*v", "power = push*v + w", sums),
+        ("power = push*v", "power = exp(push)", "an argument of `exp` is a number"),
+        ("power = push*v", "power = 2^(x/l)*x + m", "the exponent is not a number"),
+        ("g: m/s^2", "g: m/s", "(J)"),
+        ("x: m", "x: s", sums),
+        ("c: N*s/m", "c: N", sums),
+        ("k: N/m", "k: N", sums),
+        ("l: m >", "l: kg >", sums),
+        ("I: kg*m^2 > 0 = m*l^2/12", "I: kg*m^2 > 0 = m*l/12", "`I` is in kg*m^2, and this is in kg*m"),
+        ("-10..10", "-m..m", "`push` is in kg*m/s^2 (N), and this is in kg"),
+        ("fix l = 1/2", "fix l = g", "`l` is in m, and this is in m/s^2"),
+        ("x: m", "x: mm", "unknown unit `mm`"),
+        ("x: m", "x: f64", "names have no types"),
+        ("x: m", "x: metre", "the units are"),
+        ("q: rad", "q: deg", "only constants may be given in degrees"),
+        ("tilt: deg", "tilt: deg/s", "`deg` stands alone"),
+        ("l: m >", "l: >", "expected a unit"),
+        ("g: m/s^2", "g: m/s^", "expected the power of a unit"),
+        ("g: m/s^2", "g: m/s^(1/0)", "a power by zero"),
+        ("g: m/s^2", "g: (m/s", "unclosed"),
+    ];
+    for (right, wrong, expected) in cases {
+        assert!(CART.contains(right), "{right}");
+        if expected == "unclosed" {
+            continue;
+        }
+        let found = faults(&CART.replacen(right, wrong, 1));
+        assert!(found.iter().any(|fault| fault.contains(expected)), "`{wrong}`: {found:#?}");
+        let limit = if wrong.contains(':') { 6 } else { 1 };
+        assert!(found.len() <= limit, "`{wrong}`: {found:#?}");
+    }
+    // Two faults are two errors.
+    let two =
+        CART.replace("M at vec(x, 0)", "l at vec(x, 0)").replace("power = push*v", "power = push*v + w");
+    assert_eq!(faults(&two).len(), 2);
+}
+
+/// Degrees become radians in `prepare`, in scenes, and in defaults that are made of others.
+#[test]
+fn degrees_are_converted() {
+    use guen_language::derive::function;
+    let system = |units: [&str; 2], defaults: &str, scene: &str| {
+        format!(
+            "pub system Spring {{
+                constants {{ a{} = 30, {defaults} k = 2, J = 1 }}
+                coordinates {{ q{} }}
+                parameters {{ w = dot(q); }}
+                kinetic_energy = J/2*w^2;
+                force_function = k*sin(q - a);
+                {scene}
+            }}",
+            units[0], units[1]
+        )
+    };
+    let rate = |text: &str, scene: bool| {
+        derived(text, |derived| {
+            let level = if scene { &derived.scenes[0] } else { &derived.system };
+            let value = |symbol| match derived.model.bench.graph.symbol_info(symbol).name.as_str() {
+                "a" => 30.0,
+                "b" => 1.2,
+                "k" => 2.0,
+                "J" => 1.0,
+                _ => 0.4,
+            };
+            crate::common::evaluated(level, function::RHS, value).unwrap()[1]
+        })
+    };
+    let angle = |a: f64| 2.0 * (0.4 - a).cos();
+    let close = |a: f64, b: f64| assert!((a - b).abs() < 1e-15, "{a} {b}");
+    close(rate(&system([": deg", ""], "", ""), false), angle(30_f64.to_radians()));
+    close(rate(&system([": rad", ""], "", ""), false), angle(30.0));
+    let fixed = |value: &str| format!("scene Fixed {{ track q; fix a = {value}; }}");
+    close(rate(&system([": deg", ""], "", &fixed("50")), true), angle(50_f64.to_radians()));
+    close(rate(&system([": deg", ": rad"], "b: rad = 1,", &fixed("b/2")), true), angle(0.6));
+}
