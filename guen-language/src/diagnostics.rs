@@ -1,6 +1,6 @@
 //! Mistakes of a declaration: collected while a stage runs, reported together when it ends.
 //!
-//! A sink exists only inside [`collect`], and what it gathered leaves as a [`Report`] beside the result, so no
+//! A sink exists only inside [`collect`], and what it gathered leaves as a [`FaultReport`] beside the result, so no
 //! path through a stage can lose a fault: nobody else can make or drop a [`Faults`]. Functions that could not do
 //! their part return [`Reported`], which only a sink hands out; a failure without a message cannot be written.
 
@@ -97,7 +97,7 @@ impl Faults {
     }
 
     /// Takes in what an earlier stage or a part with a sink of its own has found.
-    pub fn absorb(&mut self, report: Report) {
+    pub fn absorb(&mut self, report: FaultReport) {
         for fault in report.faults {
             self.report(fault);
         }
@@ -123,23 +123,23 @@ impl Faults {
 }
 
 /// Runs a stage with an empty sink. The only way to get one.
-pub fn collect<T>(stage: impl FnOnce(&mut Faults) -> T) -> (T, Report) {
+pub fn collect<T>(stage: impl FnOnce(&mut Faults) -> T) -> (T, FaultReport) {
     let mut faults = Faults { faults: Vec::new(), seen: BTreeSet::new() };
     let result = stage(&mut faults);
     let mut faults = faults.faults;
     // Where the compiler tells places; faults of one place stay in the order in which they were found.
     faults.sort_by_key(|fault| position_of(fault.span));
-    (result, Report { faults })
+    (result, FaultReport { faults })
 }
 
 /// Everything a stage found wrong, in the order of the places.
 #[derive(Debug, Clone)]
 #[must_use = "a report that is not emitted hides mistakes from the user"]
-pub struct Report {
+pub struct FaultReport {
     faults: Vec<Fault>,
 }
 
-impl Report {
+impl FaultReport {
     /// Returns `true` if no fault was reported.
     pub fn is_empty(&self) -> bool {
         self.faults.is_empty()
@@ -166,7 +166,7 @@ impl Report {
     }
 }
 
-impl fmt::Display for Report {
+impl fmt::Display for FaultReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for fault in &self.faults {
             writeln!(f, "line {}: {fault}", line_of(fault.span))?;

@@ -97,7 +97,7 @@ fn report_of(input: ParseStream<'_>) -> syn::Result<Page> {
     Ok((summary, sections))
 }
 
-fn with_outline(declaration: &syntax::Declaration, report: &diagnostics::Report) -> TokenStream {
+fn with_outline(declaration: &syntax::Declaration, report: &diagnostics::FaultReport) -> TokenStream {
     let mut items = report.to_compile_errors();
     items.extend(expand_outline(declaration));
     items

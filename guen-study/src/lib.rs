@@ -83,7 +83,8 @@ pub use stored::StoredRecording;
 #[cfg(feature = "study")]
 pub use study::{
     Caveat, Choice, Closures, Cost, Digits71, Ending, Failure, FailureKind, Forecast, Knob, Nearby, NoChoice,
-    ReferenceReport, Report, Row, ScanReport, Settings, Stopwatch, Study, Trade, Tried, Unit, pareto_front,
+    ReferenceReport, Row, ScanReport, Settings, Stopwatch, Study, StudyReport, Trade, Tried, Unit,
+    pareto_front,
 };
 pub use table::{Table, significant};
 #[cfg(feature = "viewer")]

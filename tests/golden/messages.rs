@@ -10,7 +10,7 @@ use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use guen_language::diagnostics::{POINTER, Report, collect};
+use guen_language::diagnostics::{FaultReport, POINTER, collect};
 use guen_language::{derive, emit, expand_outline, model, names, parse};
 use proc_macro2::{Span, TokenStream, TokenTree};
 
@@ -110,7 +110,7 @@ fn invocations(text: &str) -> Vec<TokenStream> {
 }
 
 /// What the stages report of one invocation.
-fn reports(tokens: TokenStream) -> Vec<Report> {
+fn reports(tokens: TokenStream) -> Vec<FaultReport> {
     let (declaration, report) = parse::parse(tokens);
     let mut reports = vec![report];
     let Some(declaration) = declaration.filter(|_| reports[0].is_empty()) else { return reports };

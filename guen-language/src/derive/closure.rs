@@ -3,7 +3,7 @@
 
 use guen_symbolic::{Dependence, ExprId, Workbench};
 
-use super::selection::Place;
+use super::selection::StateIndex;
 
 /// Why a variable is kept.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -13,22 +13,22 @@ pub enum Reason {
     /// Something that the scene provides depends on it.
     Provided(String),
     /// The rate of this variable depends on it.
-    Rate(Place),
+    Rate(StateIndex),
     /// The variable is part of a unit quaternion with this coordinate.
-    Whole(Place),
+    Whole(StateIndex),
 }
 
-/// The variables and what their rates are.
-pub struct Flow<'a> {
+/// The variables of a state and their rates.
+pub struct StateEquations<'a> {
     /// The symbols by place; none for a variable that is held.
     pub variables: &'a [Option<ExprId>],
     /// The rates by place.
     pub rates: &'a [ExprId],
     /// Groups of coordinates that stay together.
-    pub wholes: &'a [Vec<Place>],
+    pub wholes: &'a [Vec<StateIndex>],
 }
 
-impl Flow<'_> {
+impl StateEquations<'_> {
     /// The least closed set with these variables and with those that some quantities depend on; by place the reason, or
     /// none for a variable that leaves. What is tracked is closed first, so that the other reasons say what came in
     /// only by what is provided.
@@ -36,7 +36,7 @@ impl Flow<'_> {
         &self,
         bench: &mut Workbench,
         dependence: &mut Dependence,
-        tracked: &[Place],
+        tracked: &[StateIndex],
         provided: &[(String, ExprId)],
     ) -> Vec<Option<Reason>> {
         let mut kept: Vec<Option<Reason>> = vec![None; self.variables.len()];
@@ -60,9 +60,9 @@ impl Flow<'_> {
         dependence: &mut Dependence,
         kept: &[Option<Reason>],
         e: ExprId,
-    ) -> Vec<Place> {
+    ) -> Vec<StateIndex> {
         let left = (0..kept.len()).filter(|place| kept[*place].is_none());
-        let on = |place: &Place| self.variables[*place].is_some_and(|x| dependence.depends(bench, e, x));
+        let on = |place: &StateIndex| self.variables[*place].is_some_and(|x| dependence.depends(bench, e, x));
         left.filter(on).collect()
     }
 
@@ -92,7 +92,7 @@ impl Flow<'_> {
         let mut known: Vec<Option<Reason>> = kept.to_vec();
         let mut layers: Vec<Vec<Quadrature>> = Vec::new();
         loop {
-            let places: Vec<Place> = (0..known.len())
+            let places: Vec<StateIndex> = (0..known.len())
                 .filter(|place| known[*place].is_none() && self.variables[*place].is_some())
                 .filter(|place| self.missing(bench, dependence, &known, self.rates[*place]).is_empty())
                 .collect();
@@ -115,7 +115,7 @@ impl Flow<'_> {
 #[derive(Clone, Debug)]
 pub struct Quadrature {
     /// The variable.
-    pub place: Place,
+    pub place: StateIndex,
     /// The quadratures of the layers before that its rate depends on.
-    pub needs: Vec<Place>,
+    pub needs: Vec<StateIndex>,
 }

@@ -3,7 +3,7 @@
 use guen_symbolic::{Derivation, DerivationError, ExprId, Node, Substitution, Workbench};
 
 use super::faults::short;
-use super::selection::{Held, Place};
+use super::selection::{Held, StateIndex};
 use crate::diagnostics::{Fault, Faults};
 use crate::model::{FixedConstant, Model, SceneEntry};
 use crate::syntax::Name;
@@ -183,6 +183,6 @@ impl Holding {
 }
 
 /// The places of held variables.
-pub(super) fn is_held(held: &[Held], place: Place) -> bool {
+pub(super) fn is_held(held: &[Held], place: StateIndex) -> bool {
     held.iter().any(|held| held.place == place)
 }

@@ -4,7 +4,7 @@
 use guen_symbolic::{ExprId, Flow, Mechanics, Role, Substitution, Verdict, Workbench};
 
 use super::fixed::Holding;
-use super::selection::Place;
+use super::selection::StateIndex;
 
 /// The coordinates in an equation, by index.
 fn coordinates(bench: &Workbench, system: &Mechanics, equation: ExprId) -> Vec<usize> {
@@ -35,7 +35,7 @@ fn unit(bench: &mut Workbench, system: &Mechanics, equation: ExprId) -> Option<V
 }
 
 /// Unit quaternions: groups of four coordinates that a scene keeps together or not at all.
-pub(super) fn quaternions(bench: &mut Workbench, system: &Mechanics) -> Vec<Vec<Place>> {
+pub(super) fn quaternions(bench: &mut Workbench, system: &Mechanics) -> Vec<Vec<StateIndex>> {
     let equations: Vec<ExprId> = system.holonomic.iter().map(|h| h.equation).collect();
     equations.into_iter().filter_map(|e| unit(bench, system, e)).filter(|group| group.len() == 4).collect()
 }

@@ -43,7 +43,7 @@ pub use jacobians::Jacobians;
 pub(crate) use level::Subject;
 pub use level::{Derived, Level, Series};
 pub use missing_bounds::MissingBounds;
-pub use selection::{Held, Place, Selection};
+pub use selection::{Held, Selection, StateIndex};
 
 /// Derives a checked model and its scenes; a system without equations of motion is reported.
 pub fn derive<'a>(mut model: Model<'a>, faults: &mut Faults) -> Option<Derived<'a>> {

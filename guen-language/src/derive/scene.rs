@@ -5,7 +5,7 @@ use std::rc::Rc;
 use guen_symbolic::{Dependence, Derivation, ExprId, Substitution, Workbench};
 
 use super::cheapest::cheapest;
-use super::closure::{Flow, Reason};
+use super::closure::{Reason, StateEquations};
 use super::commutator::Commutator;
 use super::commutators::commutators;
 use super::facts::SceneFacts;
@@ -15,7 +15,7 @@ use super::level::Level;
 use super::manifold::{Replacement, quaternions};
 use super::parts::{Functions, View, parts, replaced};
 use super::readable::{polish, shown};
-use super::selection::{Held, Place, Selection};
+use super::selection::{Held, Selection, StateIndex};
 use super::{carried, formulas, series};
 use crate::diagnostics::{Fault, Faults};
 use crate::model::{Model, SceneEntry};
@@ -78,7 +78,7 @@ fn level(
     let bench = &mut model.bench;
     let wholes = quaternions(bench, &derivation.system);
     let mut dependence = Dependence::default();
-    let written = Flow { variables: &variables, rates: &first, wholes: &wholes };
+    let written = StateEquations { variables: &variables, rates: &first, wholes: &wholes };
     let mut reasons = written.closure(bench, &mut dependence, &tracked, &wanted);
     let mut replacements: Vec<Replacement> = Vec::new();
     for candidate in Replacement::all(bench, &derivation.system, &mut holding) {
@@ -89,7 +89,7 @@ fn level(
         let rates: Vec<ExprId> = first.iter().map(|e| replaced(bench, &mut replacements, *e)).collect();
         let provided = wanted.iter().map(|(name, e)| (name.clone(), replaced(bench, &mut replacements, *e)));
         let provided: Vec<_> = provided.collect();
-        let flow = Flow { variables: &variables, rates: &rates, wholes: &wholes };
+        let flow = StateEquations { variables: &variables, rates: &rates, wholes: &wholes };
         let fewer = flow.closure(bench, &mut dependence, &tracked, &provided);
         let count = |reasons: &[Option<Reason>]| reasons.iter().flatten().count();
         if count(&fewer) < count(&reasons) {
@@ -332,12 +332,13 @@ fn tracked(
     held: &[Held],
     scene: &SceneEntry<'_>,
     faults: &mut Faults,
-) -> Option<Vec<Place>> {
+) -> Option<Vec<StateIndex>> {
     let (n, size) = model.sizes();
     let named = scene.scene.tracks.iter().flat_map(|name| model.places(&name.text));
-    let tracked: Vec<Place> =
+    let tracked: Vec<StateIndex> =
         if scene.scene.tracks.is_empty() { (n..size).collect() } else { named.collect() };
-    let tracked: Vec<Place> = tracked.into_iter().filter(|place| !fixed::is_held(held, *place)).collect();
+    let tracked: Vec<StateIndex> =
+        tracked.into_iter().filter(|place| !fixed::is_held(held, *place)).collect();
     if tracked.is_empty() {
         let name = &scene.scene.name;
         let fault = Fault::new(name.span(), format!("scene `{name}` has nothing that moves"))

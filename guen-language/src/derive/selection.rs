@@ -5,13 +5,13 @@ use guen_symbolic::{CarriedFunction, ExprId};
 use crate::model::{FormKind, Model};
 
 /// A variable of the state by its place there: coordinates first, then parameters.
-pub type Place = usize;
+pub type StateIndex = usize;
 
 /// A variable that a scene holds at its initial value: a constant of the scene.
 #[derive(Clone, Copy, Debug)]
 pub struct Held {
     /// The place in the state of the whole system.
-    pub place: Place,
+    pub place: StateIndex,
     /// The symbol of the constant.
     pub symbol: ExprId,
 }
@@ -20,7 +20,7 @@ pub struct Held {
 #[derive(Clone, Debug, Default)]
 pub struct Selection {
     /// The variables of the state, in its order.
-    pub variables: Vec<Place>,
+    pub variables: Vec<StateIndex>,
     /// The coordinates among them.
     pub coordinates: Vec<usize>,
     /// The parameters among them.
@@ -58,7 +58,7 @@ impl Model<'_> {
     }
 
     /// The variables that a name stands for: one, or the components of a parameter that was written as a vector.
-    pub fn places(&self, name: &str) -> Vec<Place> {
+    pub fn places(&self, name: &str) -> Vec<StateIndex> {
         let n = self.coordinates.len();
         let coordinate = self.coordinates.iter().position(|c| c.name.text == name);
         let parameters = self.forms.iter().enumerate().filter(|(_, form)| {
@@ -79,7 +79,7 @@ impl Model<'_> {
     }
 
     /// The name of a variable.
-    pub fn variable_name(&self, place: Place) -> &str {
+    pub fn variable_name(&self, place: StateIndex) -> &str {
         let n = self.coordinates.len();
         match place.checked_sub(n) {
             None => &self.coordinates[place].name.text,
@@ -88,7 +88,7 @@ impl Model<'_> {
     }
 
     /// The symbol of a variable.
-    pub fn variable(&self, place: Place) -> ExprId {
+    pub fn variable(&self, place: StateIndex) -> ExprId {
         let n = self.coordinates.len();
         match place.checked_sub(n) {
             None => self.coordinates[place].symbol,

@@ -4,7 +4,7 @@ use guen_symbolic::{CarriedFunction, ExprId};
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};
 
-use crate::derive::{Level, Place, Subject};
+use crate::derive::{Level, StateIndex, Subject};
 use crate::model::{ConstantEntry, Model};
 use crate::syntax::Declaration;
 
@@ -66,7 +66,7 @@ impl Layout {
 }
 
 /// The field of a variable.
-pub(super) fn variable_ident(model: &Model<'_>, place: Place) -> Ident {
+pub(super) fn variable_ident(model: &Model<'_>, place: StateIndex) -> Ident {
     match place.checked_sub(model.coordinates.len()) {
         None => model.coordinates[place].name.ident.clone(),
         Some(s) => form_ident(&model.forms[s]),

@@ -6,7 +6,7 @@ use quote::{format_ident, quote};
 use super::formula::default_text;
 use super::layout::{Layout, is_derived, variable_ident};
 use super::text::tokens;
-use crate::derive::{Level, Place, Subject};
+use crate::derive::{Level, StateIndex, Subject};
 use crate::model::Model;
 use crate::names::module_name;
 
@@ -22,10 +22,10 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
         let places = layers.map(|layer| layer.iter().map(|quadrature| quadrature.place));
         places.map(|places| quote!(&[#(#places),*])).collect()
     });
-    let determined: Vec<Place> =
+    let determined: Vec<StateIndex> =
         subject.scene().map_or(Vec::new(), |(_, facts)| facts.determined.iter().map(|(i, _)| *i).collect());
     let held = level.selection.held.iter().map(|held| held.place);
-    let held: Vec<(Place, usize)> = held.zip(level.selection.constants.len()..).collect();
+    let held: Vec<(StateIndex, usize)> = held.zip(level.selection.constants.len()..).collect();
     let owner = |owner: TokenStream, prepared: TokenStream| {
         let hold = (!held.is_empty()).then(|| {
             let values = held.iter().map(|(place, c)| quote!(full[#place] = #prepared.constants[#c];));

@@ -26,16 +26,16 @@ mod units;
 
 use proc_macro2::TokenStream;
 
-use crate::diagnostics::{Report, collect};
+use crate::diagnostics::{FaultReport, collect};
 use crate::syntax::{Declaration, Expression};
 
 /// Parses the tokens of one invocation. With an empty report there is a declaration, and nothing in it is
 /// missing; otherwise there is one if at least the head `system Name { .. }` could be read.
-pub fn parse(tokens: TokenStream) -> (Option<Declaration>, Report) {
+pub fn parse(tokens: TokenStream) -> (Option<Declaration>, FaultReport) {
     collect(|faults| declaration::declaration(tokens, faults))
 }
 
 /// Parses the tokens of a single expression. None exactly if the report is not empty.
-pub fn parse_expression(tokens: TokenStream) -> (Option<Expression>, Report) {
+pub fn parse_expression(tokens: TokenStream) -> (Option<Expression>, FaultReport) {
     collect(|faults| faults.part(|faults| expression::whole(tokens, faults)).ok())
 }

@@ -74,7 +74,7 @@ fn tree(text: &str) -> String {
 }
 
 /// Every fault as `beginning of what is underlined | text`.
-fn faults_of(report: &crate::diagnostics::Report) -> Vec<String> {
+fn faults_of(report: &crate::diagnostics::FaultReport) -> Vec<String> {
     report
         .faults()
         .iter()

@@ -2,7 +2,7 @@
 
 use super::lines::{Lines, Section, Writer, class_name, plural};
 use crate::derive::Subject;
-use crate::derive::{Place, Reason, SceneFacts};
+use crate::derive::{Reason, SceneFacts, StateIndex};
 use crate::names::quoted;
 
 fn facts<'d>(subject: &Subject<'d, '_>) -> &'d SceneFacts {
@@ -25,7 +25,7 @@ pub(super) fn summary(subject: &Subject<'_, '_>) -> String {
 pub(super) fn sections(subject: &Subject<'_, '_>) -> Vec<Section> {
     let Subject { model, level } = subject;
     let facts = facts(subject);
-    let name = |place: Place| model.variable_name(place);
+    let name = |place: StateIndex| model.variable_name(place);
     let kept = facts.reasons.iter().enumerate().filter_map(|(place, reason)| {
         Some(match reason.as_ref()? {
             Reason::Tracked => format!("{}: tracked", name(place)),
@@ -34,7 +34,8 @@ pub(super) fn sections(subject: &Subject<'_, '_>) -> Vec<Section> {
             Reason::Whole(by) => format!("{}: of one quaternion with {}", name(place), name(*by)),
         })
     });
-    let quadrature = |place: Place| facts.quadratures.iter().flatten().find(|known| known.place == place);
+    let quadrature =
+        |place: StateIndex| facts.quadratures.iter().flatten().find(|known| known.place == place);
     let left = facts.reasons.iter().enumerate().filter(|(_, reason)| reason.is_none()).map(|(place, _)| {
         if let Some(held) = level.selection.held.iter().find(|held| held.place == place) {
             return format!("{}: its rate vanishes identically, and it is a constant here", name(held.place));

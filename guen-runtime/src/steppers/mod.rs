@@ -44,7 +44,7 @@ pub use driver::events::{Direction, Event, Occurrence};
 pub use driver::integration::Integration;
 pub use driver::run::{Checkpoint, IntegrationResult, Method, Outcome, StepperRun};
 pub use driver::statistics::Statistics;
-pub use explicit::bounded::{Bound, Bounded};
+pub use explicit::bounded::{Bounded, BoundedResult};
 pub use explicit::compensated::Compensated;
 pub use explicit::dop853::{self, Dop853};
 pub use explicit::euler::Euler;

@@ -3,7 +3,7 @@
 
 use std::fmt;
 
-use super::report::{Report, Unit};
+use super::report::{StudyReport, Unit};
 use super::row::{Nearby, Row};
 
 /// A setting may err this many times what was asked for from states nearby; ten times is what is promised.
@@ -152,7 +152,7 @@ struct Certain<'a> {
     high: f64,
 }
 
-impl Report {
+impl StudyReport {
     /// Why nothing may be concluded from a row, whatever it shows: its error is not certain. Nothing where it is.
     ///
     /// The marks of the rows are not relied upon: what the report says of its reference counts, so that a report from
@@ -238,7 +238,7 @@ impl Report {
 
     /// The setting with the least measured error among those whose cost is at most this: the upper end of its interval,
     /// so that noise does not choose. In seconds, or in evaluations where the study counts them. Only settings whose errors
-    /// are certain, as in [`fastest_within`](Report::fastest_within).
+    /// are certain, as in [`fastest_within`](StudyReport::fastest_within).
     ///
     /// # Errors
     ///

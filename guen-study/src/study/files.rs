@@ -2,13 +2,13 @@
 
 use std::path::Path;
 
-use super::report::Report;
+use super::report::StudyReport;
 use super::row::Nearby;
 use crate::cell;
 use crate::error::StudyError;
 use crate::file::replace_file;
 
-impl Report {
+impl StudyReport {
     /// The rows as CSV (RFC 4180, lines end with a line feed): a head, then a line for each row. Numbers have as many
     /// digits as identify the double; what was not measured is empty.
     ///
@@ -63,7 +63,7 @@ impl Report {
 }
 
 #[cfg(feature = "serde")]
-impl Report {
+impl StudyReport {
     /// Writes the report as JSON to a file, whole or not at all: see [`replace_file`].
     ///
     /// # Errors
@@ -73,7 +73,7 @@ impl Report {
         replace_file(path, |out| Ok(serde_json::to_writer_pretty(out, self)?))
     }
 
-    /// Reads a report that [`save_json`](Report::save_json) wrote, every number to the bit.
+    /// Reads a report that [`save_json`](StudyReport::save_json) wrote, every number to the bit.
     ///
     /// # Errors
     ///

@@ -2,7 +2,7 @@
 //!
 //! A [`Study`] holds what is to be done: `variant` and `standard` say what can be pulled, `measure` what counts as error,
 //! `reference` and `extrapolation` where the truth comes from, in the real of `digits71`; `scan` looks for what these might step
-//! over, and `known` is what it found. `run` does it, in stages within a `budget`; `timing` and `front` are what is known of costs. Out comes a [`Trade`]: a [`Report`] (`row`,
+//! over, and `known` is what it found. `run` does it, in stages within a `budget`; `timing` and `front` are what is known of costs. Out comes a [`Trade`]: a [`StudyReport`] (`row`,
 //! `report`, `choice`, `files`, `picture`, `code`), and the means to ask whether a choice holds elsewhere (`trade`, `probes`).
 
 mod budget;
@@ -39,7 +39,7 @@ pub use digits71::Digits71;
 pub use front::pareto_front;
 pub use known::ScanReport;
 pub use reference::ReferenceReport;
-pub use report::{Ending, Report, Unit};
+pub use report::{Ending, StudyReport, Unit};
 pub use row::{Failure, FailureKind, Knob, Nearby, Row};
 pub use timing::{Cost, Stopwatch};
 pub use trade::{Forecast, Trade, Tried};

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use super::report::{Report, Unit};
+use super::report::{StudyReport, Unit};
 use super::row::Row;
 use crate::error::StudyError;
 use crate::plot::Plot;
@@ -13,7 +13,7 @@ const FEWEST_TIMINGS: u32 = 3;
 /// Points whose interval is wider than they are high are left out.
 const NOISY_INTERVAL: f64 = 0.5;
 
-impl Report {
+impl StudyReport {
     /// Work against precision: cost over error, both axes logarithmic, a curve for each method over doubles on the
     /// front of all variants, which is a grey band; the other methods are thin grey lines with their names at their ends. Rows that failed, or were timed fewer than three
     /// times, or whose interval is wider than the cost itself, are not there.
@@ -64,7 +64,7 @@ impl Report {
         plot.mark_points(true)
     }
 
-    /// Writes [`picture`](Report::picture) to a file whose parent folders are created.
+    /// Writes [`picture`](StudyReport::picture) to a file whose parent folders are created.
     ///
     /// # Errors
     ///

@@ -43,11 +43,11 @@ pub enum Ending {
 }
 
 /// The result of a study. Displays as a table of the settings worth choosing, with everything that qualifies them;
-/// [`table`](Report::table) has every row.
+/// [`table`](StudyReport::table) has every row.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
-pub struct Report {
+pub struct StudyReport {
     /// The title of the study.
     pub title: String,
     /// The measure of error, in words.
@@ -78,7 +78,7 @@ pub struct Report {
     pub conditions: String,
 }
 
-impl Report {
+impl StudyReport {
     fn points(&self) -> Vec<(f64, f64)> {
         let point = |row: &Row| row.measured().map_or((f64::NAN, f64::NAN), |(e, cost)| (e, cost.median));
         self.rows.iter().map(point).collect()
@@ -157,7 +157,7 @@ fn aligned(lines: &[[String; 6]]) -> String {
     text
 }
 
-impl fmt::Display for Report {
+impl fmt::Display for StudyReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (t0, t1) = self.span;
         let states = if self.starts == 1 { "1 state".to_owned() } else { format!("{} states", self.starts) };

@@ -13,7 +13,7 @@ use super::known::Known;
 use super::measure::{against, kept};
 use super::probes::{self, Probe};
 use super::reference::{CANCELLED, Named, Problem, ReferenceReport, References};
-use super::report::{Ending, Report, Unit};
+use super::report::{Ending, StudyReport, Unit};
 use super::row::{FailureKind, Nearby, Row};
 use super::timing::{Cost, Deadline, Wall};
 use super::trade::{Means, Trade};
@@ -58,7 +58,7 @@ pub(super) fn run<S, const N: usize>(mut study: Study<S, N>) -> Trade<N> {
     let probes = nearby(&study, &times, &references, &known, &mut tried, &mut budget);
     costs(&mut study, &times, &mut tried, &mut budget);
 
-    let mut report = Report {
+    let mut report = StudyReport {
         title: study.title.clone(),
         measure: study.measure.text(),
         span: (study.t0, study.t1),

@@ -9,7 +9,7 @@ use super::known::{self, Scanner};
 use super::measure::{Measure, Scales, Tells, against, kept};
 use super::probes::{Probe, error_of, times_for, with_references};
 use super::reference::{Named, Problem};
-use super::report::Report;
+use super::report::StudyReport;
 use super::row::Failure;
 use super::variant::{Run, Task};
 use super::{lengthened, probes};
@@ -22,7 +22,7 @@ const CERTAIN: f64 = 0.9 * PROMISE;
 /// A finished study.
 pub struct Trade<const N: usize> {
     /// The report.
-    pub report: Report,
+    pub report: StudyReport,
     pub(super) means: Means<N>,
 }
 
@@ -106,7 +106,7 @@ fn judged(estimate: f64, uncertainty: f64, asked: f64) -> Forecast {
 impl<const N: usize> Trade<N> {
     /// Forecasts the error of a row from another state or over another span, before it is relied upon: runs the
     /// setting and compares with DOP853 in doubles at a tolerance of 1e-13, which looks for kicks and steep layers as
-    /// the report's [`scan`](Report::scan) says, and lands in those that the study found. That run is compared with
+    /// the report's [`scan`](StudyReport::scan) says, and lands in those that the study found. That run is compared with
     /// one at a hundredth of the error asked for, so that a motion is noticed whose errors grow beyond what doubles
     /// can tell. The promise is made if estimate and uncertainty together are at most nine times what was asked for.
     ///

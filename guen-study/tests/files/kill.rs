@@ -26,7 +26,7 @@ const VERSIONS: [usize; 2] = [3_000, 2_000];
 struct Writers {
     recording: Recording<2>,
     #[cfg(all(feature = "study", feature = "serde"))]
-    report: guen_study::Report,
+    report: guen_study::StudyReport,
 }
 
 impl Writers {
@@ -69,7 +69,7 @@ impl Writers {
 
 /// A report of many rows, none of which was measured on this machine.
 #[cfg(all(feature = "study", feature = "serde"))]
-fn report(size: usize) -> guen_study::Report {
+fn report(size: usize) -> guen_study::StudyReport {
     let row = |k: usize| {
         let step = 1.0 / (k + 1) as f64;
         serde_json::json!({

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use guen_runtime::steppers::{Dop853, Integration, Rk4};
 use guen_runtime::{Equations, Generic, Real, generic};
-use guen_study::{Digits71, Ending, Knob, Report, Row, Settings, Study, Trade};
+use guen_study::{Digits71, Ending, Knob, Row, Settings, Study, StudyReport, Trade};
 
 use crate::budget;
 use crate::systems::Planar;
@@ -113,7 +113,7 @@ fn truth(system: Kicked, start: [f64; 2]) -> [f64; 2] {
     }
 }
 
-fn end(report: &Report, index: usize, system: Kicked, start: [f64; 2]) -> [f64; 2] {
+fn end(report: &StudyReport, index: usize, system: Kicked, start: [f64; 2]) -> [f64; 2] {
     let row = &report.rows[index];
     let system = generic(Planar::Kicked(system));
     let run = Integration::new(&system, 0.0, &start);

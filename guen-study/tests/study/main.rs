@@ -19,7 +19,7 @@ use std::time::Duration;
 use guen_runtime::steppers::{Dop853, Rk4, Rk8};
 use guen_runtime::{Equations, Invariants, Real, from_fn, generic};
 use guen_study::{
-    Cost, Digits71, Ending, FailureKind, NoChoice, Report, Row, Settings, Stopwatch, Study, Trade, Unit,
+    Cost, Digits71, Ending, FailureKind, NoChoice, Row, Settings, Stopwatch, Study, StudyReport, Trade, Unit,
 };
 
 use cells::cells;
@@ -60,8 +60,8 @@ fn plain(method: &str, real: &str) -> bool {
 }
 
 /// What a whole study of the oscillator by these methods says.
-fn report() -> &'static Report {
-    static REPORT: LazyLock<Report> = LazyLock::new(|| oscillator().keep(plain).run().report);
+fn report() -> &'static StudyReport {
+    static REPORT: LazyLock<StudyReport> = LazyLock::new(|| oscillator().keep(plain).run().report);
     &REPORT
 }
 
@@ -253,7 +253,7 @@ fn two_settings(noise: f64) -> Trade<2> {
 #[test]
 fn a_noisy_machine_ranks_nothing_and_a_quiet_one_does() {
     let quiet = two_settings(0.002).report;
-    let costs = |report: &Report| [0, 1].map(|k: usize| report.rows[k].cost.unwrap());
+    let costs = |report: &StudyReport| [0, 1].map(|k: usize| report.rows[k].cost.unwrap());
     let [first, second] = costs(&quiet);
     assert!(!first.ties_with(&second), "{first:?} {second:?}");
     assert!(first.repetitions >= 5);
@@ -407,7 +407,7 @@ fn csv_says_what_the_rows_say() {
 fn json_comes_back() {
     let report = report();
     let text = serde_json::to_string(report).unwrap();
-    let back: Report = serde_json::from_str(&text).unwrap();
+    let back: StudyReport = serde_json::from_str(&text).unwrap();
     assert_eq!(&back, report);
 }
 

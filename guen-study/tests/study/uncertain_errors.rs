@@ -2,7 +2,7 @@
 
 use guen_runtime::steppers::{Dop853, Rk4, Rk8};
 use guen_runtime::{Equations, Real, from_fn, generic};
-use guen_study::{Caveat, Digits71, Forecast, Knob, NoChoice, Report, Settings, Study};
+use guen_study::{Caveat, Digits71, Forecast, Knob, NoChoice, Settings, Study, StudyReport};
 
 use crate::systems::{Planar, Scalar};
 
@@ -37,7 +37,7 @@ fn disagreeing() -> Study<guen_runtime::Generic<Planar>, 2> {
 }
 
 /// Of a report in which nothing is certain: no choice, whatever is asked for, and the reason in words.
-fn nothing_is_chosen(report: &Report, word: &str) {
+fn nothing_is_chosen(report: &StudyReport, word: &str) {
     for asked in [1e-12, 1e-9, 1e-6, 1e-3, 1e-1] {
         let none = report.fastest_within(asked).unwrap_err();
         assert!(none.to_string().contains(word), "{asked:e}: {none}");
@@ -127,7 +127,7 @@ fn reports_from_files_are_judged_as_new_ones() {
     let path = std::env::temp_dir().join(format!("guen-doubt-{}.json", std::process::id()));
     let report = disagreeing().run().report;
     report.save_json(&path).unwrap();
-    let back = Report::load_json(&path).unwrap();
+    let back = StudyReport::load_json(&path).unwrap();
     std::fs::remove_file(&path).unwrap();
     assert_eq!(back, report);
     nothing_is_chosen(&back, "differ by");

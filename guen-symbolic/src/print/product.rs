@@ -4,13 +4,13 @@ use crate::algebra::{ExprId, Function, Node, Rational};
 
 use super::Style;
 use super::order::FactorKey;
-use super::render::{Level, Printer};
+use super::render::{Precedence, Printer};
 
 /// A factor of a product as it will be shown: `cot(x)` has taken the place of two.
 struct Shown {
     key: FactorKey,
     text: String,
-    level: Level,
+    level: Precedence,
     exponent: i32,
     /// A function with what it is applied to.
     call: Option<Call>,
@@ -55,7 +55,7 @@ impl Printer<'_> {
     }
 
     /// `coefficient * e`: whether it is the negative of the text, the text, and how tightly that binds.
-    pub(super) fn product(&self, coefficient: &Rational, e: ExprId) -> (bool, String, Level) {
+    pub(super) fn product(&self, coefficient: &Rational, e: ExprId) -> (bool, String, Precedence) {
         let (number, factors) = self.factors(coefficient, e);
         let mut minus = number.is_negative();
         let number = number.abs();
@@ -77,9 +77,9 @@ impl Printer<'_> {
         let (above, below): (Vec<_>, Vec<_>) = shown.iter().partition(|item| item.exponent > 0);
         let level = match (&above[..], &below[..]) {
             ([one], []) if number.is_one() && one.exponent == 1 => one.level,
-            ([_], []) if number.is_one() => Level::Power,
-            ([], []) if number.is_integer() => Level::Atom,
-            _ => Level::Product,
+            ([_], []) if number.is_one() => Precedence::Power,
+            ([], []) if number.is_integer() => Precedence::Atom,
+            _ => Precedence::Product,
         };
         (minus, self.quotient_text(&number, &above, &below), level)
     }
@@ -96,9 +96,15 @@ impl Printer<'_> {
             order: 1,
         };
         match self.graph.node(base) {
-            Node::Function(Function::Root(q), x) if self.style == Style::Text && *q > 2 => {
-                (false, Shown { text: self.wrapped(*x, Level::Atom), level: Level::Atom, order: *q, ..item })
-            }
+            Node::Function(Function::Root(q), x) if self.style == Style::Text && *q > 2 => (
+                false,
+                Shown {
+                    text: self.wrapped(*x, Precedence::Atom),
+                    level: Precedence::Atom,
+                    order: *q,
+                    ..item
+                },
+            ),
             Node::Function(Function::Root(_), _) => (piece.minus, item),
             Node::Function(Function::Abs, _) if self.style == Style::Latex => (piece.minus, item),
             Node::Function(function, x) => {
@@ -106,7 +112,10 @@ impl Printer<'_> {
                 let parity = if name.is_some() { Function::Sin } else { *function };
                 let (minus, argument) = self.argument(parity, *x);
                 let call = self.applied(name.unwrap_or(function.name()), *x, &argument);
-                (minus, Shown { text: self.call(&call, 1), level: Level::Atom, call: Some(call), ..item })
+                (
+                    minus,
+                    Shown { text: self.call(&call, 1), level: Precedence::Atom, call: Some(call), ..item },
+                )
             }
             Node::Atan2(..) => (false, Shown { call: Some(self.arctangent(base)), ..item }),
             _ => (piece.minus, item),
@@ -156,7 +165,7 @@ impl Printer<'_> {
             Style::Text => {
                 let mut top = Vec::new();
                 let mut bottom: Vec<String> =
-                    below.iter().map(|item| self.power(item, Level::Power)).collect();
+                    below.iter().map(|item| self.power(item, Precedence::Power)).collect();
                 if above.is_empty() {
                     top.push(n);
                     if d != "1" {
@@ -167,7 +176,7 @@ impl Printer<'_> {
                 } else if n != "1" {
                     top.push(n);
                 }
-                top.extend(above.iter().map(|item| self.power(item, Level::Power)));
+                top.extend(above.iter().map(|item| self.power(item, Precedence::Power)));
                 let top = top.join("*");
                 match bottom.len() {
                     0 => top,
@@ -180,7 +189,7 @@ impl Printer<'_> {
                 // What is alone above or below a bar needs no parentheses.
                 let side = |items: &[&Shown], number: &str| -> Vec<String> {
                     let is_alone = is_fraction && items.len() == 1 && number == "1";
-                    let least = if is_alone { Level::Sum } else { Level::Power };
+                    let least = if is_alone { Precedence::Sum } else { Precedence::Power };
                     items.iter().map(|item| self.power(item, least)).collect()
                 };
                 let (mut top, mut bottom) = (side(above, &n), side(below, &d));
@@ -201,7 +210,7 @@ impl Printer<'_> {
     }
 
     /// A factor with the absolute value of its exponent; in parentheses where it binds less tightly than asked for.
-    fn power(&self, item: &Shown, least: Level) -> String {
+    fn power(&self, item: &Shown, least: Precedence) -> String {
         let e = item.exponent.unsigned_abs();
         if e == 1 && item.order == 1 {
             return if item.level >= least { item.text.clone() } else { self.parentheses(&item.text) };
@@ -209,7 +218,8 @@ impl Printer<'_> {
         if let (1, Some(call)) = (item.order, &item.call) {
             return self.call(call, e);
         }
-        let base = if item.level == Level::Atom { item.text.clone() } else { self.parentheses(&item.text) };
+        let base =
+            if item.level == Precedence::Atom { item.text.clone() } else { self.parentheses(&item.text) };
         match (self.style, item.order) {
             (Style::Text, 1) => format!("{base}^{e}"),
             (Style::Text, q) => format!("{base}^({e}/{q})"),

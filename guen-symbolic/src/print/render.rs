@@ -11,7 +11,7 @@ const WORK_FACTOR: usize = 256;
 
 /// The precedence of a text: how tightly it binds.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
-pub(super) enum Level {
+pub(super) enum Precedence {
     Sum,
     Product,
     Power,
@@ -27,7 +27,7 @@ pub(super) struct Piece {
     pub(super) text: String,
     /// The expression itself, where it is a sum that leads with a minus: `-a + b`, while `text` is `a - b`.
     turned: Option<String>,
-    pub(super) level: Level,
+    pub(super) level: Precedence,
     symbols: Vec<u32>,
 }
 
@@ -81,7 +81,8 @@ impl<'g> Printer<'g> {
     pub(super) fn coefficient(&mut self, e: ExprId) -> Option<(bool, String)> {
         self.prepare(e)?;
         let piece = &self.pieces[&e];
-        let text = if piece.level == Level::Sum { self.parentheses(&piece.text) } else { piece.text.clone() };
+        let text =
+            if piece.level == Precedence::Sum { self.parentheses(&piece.text) } else { piece.text.clone() };
         Some((piece.minus, text))
     }
 
@@ -110,18 +111,18 @@ impl<'g> Printer<'g> {
             Node::Kept(x) => return self.pieces[x].clone(),
             Node::Sum { .. } => return self.sum(id, symbols),
             Node::Number(value) => {
-                let level = if value.is_integer() { Level::Atom } else { Level::Product };
+                let level = if value.is_integer() { Precedence::Atom } else { Precedence::Product };
                 (value.is_negative(), self.number(&value.abs()), level)
             }
-            Node::Pi => (false, self.either("pi", "\\pi"), Level::Atom),
-            Node::Undefined => (false, self.either("undefined", "\\text{undefined}"), Level::Atom),
+            Node::Pi => (false, self.either("pi", "\\pi"), Precedence::Atom),
+            Node::Undefined => (false, self.either("undefined", "\\text{undefined}"), Precedence::Atom),
             Node::Symbol(symbol) => {
                 let name = &self.graph.symbol_info(*symbol).name;
                 let text = if self.style == Style::Latex { self.names.of_name(name) } else { name.clone() };
-                (false, text, Level::Atom)
+                (false, text, Precedence::Atom)
             }
             Node::Function(function, x) => self.function(*function, *x),
-            Node::Atan2(..) => (false, self.call(&self.arctangent(id), 1), Level::Atom),
+            Node::Atan2(..) => (false, self.call(&self.arctangent(id), 1), Precedence::Atom),
             Node::Product(_) => self.product(&Rational::ONE, id),
         };
         Piece { minus, text, turned: None, level, symbols }
@@ -131,20 +132,22 @@ impl<'g> Printer<'g> {
         if self.style == Style::Latex { latex.to_owned() } else { text.to_owned() }
     }
 
-    fn function(&self, function: Function, x: ExprId) -> (bool, String, Level) {
+    fn function(&self, function: Function, x: ExprId) -> (bool, String, Precedence) {
         let piece = &self.pieces[&x];
         match (function, self.style) {
             (Function::Root(q), Style::Latex) => {
                 let order = if q == 2 { String::new() } else { format!("[{q}]") };
-                (false, format!("\\sqrt{order}{{{}}}", piece.signed()), Level::Atom)
+                (false, format!("\\sqrt{order}{{{}}}", piece.signed()), Precedence::Atom)
             }
             (Function::Root(q), Style::Text) if q > 2 => {
-                (false, format!("{}^(1/{q})", self.wrapped(x, Level::Atom)), Level::Power)
+                (false, format!("{}^(1/{q})", self.wrapped(x, Precedence::Atom)), Precedence::Power)
             }
-            (Function::Abs, Style::Latex) => (false, format!("\\left|{}\\right|", piece.text), Level::Atom),
+            (Function::Abs, Style::Latex) => {
+                (false, format!("\\left|{}\\right|", piece.text), Precedence::Atom)
+            }
             _ => {
                 let (minus, argument) = self.argument(function, x);
-                (minus, self.call(&self.applied(function.name(), x, &argument), 1), Level::Atom)
+                (minus, self.call(&self.applied(function.name(), x, &argument), 1), Precedence::Atom)
             }
         }
     }
@@ -167,7 +170,7 @@ impl<'g> Printer<'g> {
             .map(|(term, c)| {
                 let (minus, text, level) = self.product(&c, term);
                 // A sum among the terms has a factor before it or is one of several factors; alone it was put in.
-                let text = if level == Level::Sum { self.parentheses(&text) } else { text };
+                let text = if level == Precedence::Sum { self.parentheses(&text) } else { text };
                 Summand { key: Some(self.term_key(term)), minus, text }
             })
             .collect();
@@ -182,8 +185,8 @@ impl<'g> Printer<'g> {
         let minus = lines[0].minus;
         if let [line] = &mut lines[..] {
             let (text, level) = match line.key {
-                None if number.is_integer() => (core::mem::take(&mut line.text), Level::Atom),
-                _ => (core::mem::take(&mut line.text), Level::Product),
+                None if number.is_integer() => (core::mem::take(&mut line.text), Precedence::Atom),
+                _ => (core::mem::take(&mut line.text), Precedence::Product),
             };
             return Piece { minus, text, turned: None, level, symbols };
         }
@@ -196,7 +199,7 @@ impl<'g> Printer<'g> {
             text
         };
         let turned = minus.then(|| join(false));
-        Piece { minus, text: join(minus), turned, level: Level::Sum, symbols }
+        Piece { minus, text: join(minus), turned, level: Precedence::Sum, symbols }
     }
 
     /// The number and the terms of a sum, with those of sums among its terms, each once.
@@ -250,7 +253,7 @@ impl<'g> Printer<'g> {
     }
 
     /// An expression that binds at least so tightly, in parentheses where it does not by itself.
-    pub(super) fn wrapped(&self, e: ExprId, least: Level) -> String {
+    pub(super) fn wrapped(&self, e: ExprId, least: Precedence) -> String {
         let piece = &self.pieces[&e];
         if !piece.minus && piece.level >= least {
             return piece.text.clone();

@@ -13,7 +13,7 @@ use std::fmt::Write as _;
 use std::{env, fs};
 
 use guen::prelude::*;
-use guen::study::{Digits71, Report, Row, Study};
+use guen::study::{Digits71, Row, Study, StudyReport};
 
 mod choices {
     pub mod written;
@@ -38,7 +38,7 @@ const SPAN: std::ops::Range<f64> = 0.0..1.0;
 const STARTS: [[f64; 2]; 2] = [[0.5, 0.25], [-1.0, 0.5]];
 
 /// A study of the pendulum with every variant that there is, and one of closures that are the same.
-fn reports() -> [Report; 2] {
+fn reports() -> [StudyReport; 2] {
     let prepared = PENDULUM.prepare().unwrap();
     let form = prepared.carried().unwrap();
     // The error is that of the energy, which needs no reference.
@@ -61,7 +61,7 @@ fn reports() -> [Report; 2] {
 }
 
 /// The coarsest setting of each variant that errs by at most a hundredth, or its most accurate one.
-fn chosen(report: &Report) -> Vec<&Row> {
+fn chosen(report: &StudyReport) -> Vec<&Row> {
     let errors = |row: &Row| row.error.filter(|_| row.failure.is_none()).unwrap_or(f64::INFINITY);
     let mut rows: Vec<&Row> = Vec::new();
     for row in report.rows.iter().filter(|row| errors(row).is_finite()) {

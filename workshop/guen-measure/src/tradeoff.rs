@@ -16,7 +16,7 @@ use std::process::ExitCode;
 use std::time::Duration;
 
 use guen::mechanical_system;
-use guen_study::{Report, Study, Trade, Unit};
+use guen_study::{Study, StudyReport, Trade, Unit};
 
 #[path = "../../../examples/common/folder.rs"]
 mod folder;
@@ -164,7 +164,7 @@ fn study<S, const N: usize>(
 }
 
 /// Prints choices; says which are missing that should be there.
-fn choices(report: &Report) -> Vec<String> {
+fn choices(report: &StudyReport) -> Vec<String> {
     let mut missing = Vec::new();
     for error in ERRORS {
         match report.fastest_within(error) {
@@ -230,7 +230,7 @@ fn promise<const N: usize>(trade: &Trade<N>, start: &[f64; N], span: Range<f64>)
     faults
 }
 
-fn save(report: &Report, folder: &Path) -> Result<(), Box<dyn Error>> {
+fn save(report: &StudyReport, folder: &Path) -> Result<(), Box<dyn Error>> {
     report.save_csv(folder.join("rows.csv"))?;
     report.save_picture(folder.join("methods.svg"))?;
     let best = report.fastest_within(TRIED).map_or("RK8", |choice| &choice.row.method);

@@ -4,7 +4,7 @@
 use std::collections::BTreeSet;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use guen_language::diagnostics::{Report, collect};
+use guen_language::diagnostics::{FaultReport, collect};
 use guen_language::names::is_generated_item;
 use guen_language::syntax::Declaration;
 use guen_language::{derive, emit, expand_outline, model, parse};
@@ -179,7 +179,7 @@ fn outline(declaration: &Declaration) {
 }
 
 /// What the whole pipeline makes of a stream: the reports, and the work where it came to its end.
-pub fn pipeline(stream: TokenStream) -> (Vec<Report>, u64) {
+pub fn pipeline(stream: TokenStream) -> (Vec<FaultReport>, u64) {
     let (declaration, report) = parse::parse(stream);
     let mut reports = vec![report];
     let mut work = 0;
@@ -213,7 +213,7 @@ pub fn check(stream: &TokenStream) -> (bool, u64) {
     let (reports, work) = result.unwrap_or_else(|_| panic!("a panic on:\n{stream}"));
     let mut known = BTreeSet::new();
     places(stream.clone(), &mut known);
-    for fault in reports.iter().flat_map(Report::faults) {
+    for fault in reports.iter().flat_map(FaultReport::faults) {
         let is_inside = known.contains(&place(fault.span())) || stream.is_empty();
         assert!(
             is_inside,

@@ -25,7 +25,7 @@ use crate::system::System;
 ///   (`cargo test --release -p guen-runtime --test steppers bounds_of_bounded -- --include-ignored --nocapture`).
 /// - A force that lasts less than a step and is over between two evaluations is not seen, and the bound does not hold then:
 ///   `docs/design/narrow-features.md` has how narrow that is.
-/// - Whether that is good enough is the caller's decision: [`Bound::error`] is what to compare.
+/// - Whether that is good enough is the caller's decision: [`BoundedResult::error`] is what to compare.
 /// - No guard looks at the run except that all states are finite.
 ///
 /// ```
@@ -53,7 +53,7 @@ enum Kind<R> {
 
 /// The result of a bounded run.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Bound<R, const N: usize> {
+pub struct BoundedResult<R, const N: usize> {
     /// The state at the end of the span.
     pub state: [R; N],
     /// A bound of the error of each entry, not negative; none where the steps are too long for the motion or the errors may have
@@ -94,7 +94,7 @@ impl<R: Ordered> Bounded<R> {
         t0: R,
         x0: &[R; N],
         t1: R,
-    ) -> Result<Bound<R, N>, IntegrationError<R, N>>
+    ) -> Result<BoundedResult<R, N>, IntegrationError<R, N>>
     where
         S: System<R, N> + ?Sized,
     {
@@ -191,7 +191,7 @@ fn advance<P, S, R, const N: usize>(
     estimate: impl Fn(&P::Errors, f64) -> [f64; N],
     // The slope at the end of a step, or next to it.
     last: impl Fn(&P::Stages) -> [R; N],
-) -> Result<Bound<R, N>, IntegrationError<R, N>>
+) -> Result<BoundedResult<R, N>, IntegrationError<R, N>>
 where
     P: Pair<R, N>,
     S: System<R, N> + ?Sized,
@@ -226,5 +226,5 @@ where
         reached.state = state;
         reached.statistics.accepted += 1;
     }
-    Ok(Bound { state: reached.state, error: known.bound(), statistics: reached.statistics })
+    Ok(BoundedResult { state: reached.state, error: known.bound(), statistics: reached.statistics })
 }

@@ -9,7 +9,7 @@ use crate::steppers::driver::run::{Checkpoint, IntegrationResult, Outcome};
 use crate::steppers::driver::statistics::Statistics;
 use crate::steppers::entries;
 use crate::steppers::explicit::fixed::Leg;
-use crate::steppers::guard::{Each, Guard, MOST, Place, Watch};
+use crate::steppers::guard::{Each, Guard, MOST, TimeAndState, Watch};
 use crate::system::System;
 
 /// A time and the states in all lanes.
@@ -24,8 +24,8 @@ impl<L: Lanes, const N: usize> Moment<L, N> {
         Checkpoint::new(L::from_f64(self.time), &self.state)
     }
 
-    fn place(&self) -> Place<'_, L, N> {
-        Place { time: L::from_f64(self.time), state: &self.state }
+    fn place(&self) -> TimeAndState<'_, L, N> {
+        TimeAndState { time: L::from_f64(self.time), state: &self.state }
     }
 }
 
@@ -275,14 +275,14 @@ struct Going<const N: usize> {
 impl<const N: usize> Going<N> {
     /// Sets a lane aside, with the last place at which it was in order.
     #[cold]
-    fn fail<L: Lanes>(&mut self, lane: usize, cause: Cause, good: Place<'_, L, N>) {
+    fn fail<L: Lanes>(&mut self, lane: usize, cause: Cause, good: TimeAndState<'_, L, N>) {
         let state = entries(|i| good.state[i].lane(lane));
         let error = IntegrationError { time: good.time.to_f64(), state, cause, statistics: self.statistics };
         self.ends.ends[lane] = Some(Err(error));
         self.lanes = self.lanes - Mask::from_bits(0).with(lane);
     }
 
-    fn fail_all<L: Lanes>(&mut self, cause: Cause, good: Place<'_, L, N>) {
+    fn fail_all<L: Lanes>(&mut self, cause: Cause, good: TimeAndState<'_, L, N>) {
         for lane in self.lanes.lanes() {
             self.fail(lane, cause, good);
         }

@@ -18,7 +18,7 @@ const MAX_SINGULARITIES: usize = 16;
 
 /// A time and the state there.
 #[derive(Clone, Copy)]
-pub(in crate::steppers) struct Place<'a, R, const N: usize> {
+pub(in crate::steppers) struct TimeAndState<'a, R, const N: usize> {
     pub time: R,
     pub state: &'a [R; N],
 }
@@ -33,11 +33,16 @@ pub(in crate::steppers) trait Watched<R: Real, const N: usize> {
     fn prices(&self) -> (u32, f64);
 
     /// The invariants and the condition, and the functions that must not vanish as of [`functions`](Watched::functions), with their number.
-    fn everything(&self, place: Place<'_, R, N>, largest: &[R; N], into: &mut Functions<R>) -> Found<R>;
+    fn everything(
+        &self,
+        place: TimeAndState<'_, R, N>,
+        largest: &[R; N],
+        into: &mut Functions<R>,
+    ) -> Found<R>;
 
     /// Writes the functions that must not vanish, where every entry is uncertain by a rounding of the largest value it has had, and
     /// returns how many they are.
-    fn functions(&self, place: Place<'_, R, N>, largest: &[R; N], into: &mut Functions<R>) -> usize;
+    fn functions(&self, place: TimeAndState<'_, R, N>, largest: &[R; N], into: &mut Functions<R>) -> usize;
 }
 
 /// The answer of a system.
@@ -54,7 +59,12 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Watched<R, N> for S {
     }
 
     #[inline]
-    fn everything(&self, place: Place<'_, R, N>, largest: &[R; N], into: &mut Functions<R>) -> Found<R> {
+    fn everything(
+        &self,
+        place: TimeAndState<'_, R, N>,
+        largest: &[R; N],
+        into: &mut Functions<R>,
+    ) -> Found<R> {
         R::vectorize(
             #[inline(always)]
             || {
@@ -66,7 +76,7 @@ impl<R: Real, S: System<R, N> + ?Sized, const N: usize> Watched<R, N> for S {
     }
 
     #[inline]
-    fn functions(&self, place: Place<'_, R, N>, largest: &[R; N], into: &mut Functions<R>) -> usize {
+    fn functions(&self, place: TimeAndState<'_, R, N>, largest: &[R; N], into: &mut Functions<R>) -> usize {
         R::vectorize(
             #[inline(always)]
             || {
@@ -109,7 +119,7 @@ pub(super) struct Check<R> {
 
 impl<R: Real, const N: usize> Known<R, N> {
     /// Starts from a state, and returns what the first check finds there.
-    pub(super) fn new<S>(system: &S, guard: &Guard, start: Place<'_, R, N>) -> (Self, Check<R>)
+    pub(super) fn new<S>(system: &S, guard: &Guard, start: TimeAndState<'_, R, N>) -> (Self, Check<R>)
     where
         S: Watched<R, N> + ?Sized,
     {
@@ -148,7 +158,7 @@ impl<R: Real, const N: usize> Known<R, N> {
     pub(super) fn check<S>(
         &mut self,
         system: &S,
-        now: Place<'_, R, N>,
+        now: TimeAndState<'_, R, N>,
         defects: Option<[R; N]>,
         steps: u32,
         negligible: f64,
@@ -228,7 +238,7 @@ impl<R: Real, const N: usize> Known<R, N> {
 
     /// Evaluates the functions that must not vanish.
     #[inline(always)]
-    pub(super) fn evaluate_singularities<S>(&mut self, system: &S, now: Place<'_, R, N>)
+    pub(super) fn evaluate_singularities<S>(&mut self, system: &S, now: TimeAndState<'_, R, N>)
     where
         S: Watched<R, N> + ?Sized,
     {
@@ -245,7 +255,7 @@ impl<R: Real, const N: usize> Known<R, N> {
 
     /// Evaluates them where the last step began.
     #[inline(always)]
-    pub(super) fn evaluate_before<S>(&mut self, system: &S, before: Place<'_, R, N>)
+    pub(super) fn evaluate_before<S>(&mut self, system: &S, before: TimeAndState<'_, R, N>)
     where
         S: Watched<R, N> + ?Sized,
     {

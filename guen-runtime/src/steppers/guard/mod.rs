@@ -14,7 +14,7 @@ mod runs;
 mod schedule;
 mod watch;
 
-pub(in crate::steppers) use known::{Place, Watched};
+pub(in crate::steppers) use known::{TimeAndState, Watched};
 pub(in crate::steppers) use runs::{Each, MOST};
 pub(in crate::steppers) use watch::Watch;
 

@@ -9,7 +9,7 @@ use crate::steppers::driver::any_run::AnyRun;
 use crate::steppers::driver::error::{Cause, IntegrationError, Setting};
 use crate::steppers::driver::run::Checkpoint;
 use crate::steppers::guard::Guard;
-use crate::steppers::guard::known::{Known, Place, Watched};
+use crate::steppers::guard::known::{Known, TimeAndState, Watched};
 use crate::steppers::guard::runs::{One, Runs};
 use crate::steppers::guard::schedule::Schedule;
 
@@ -47,7 +47,7 @@ impl<R: Real, V: Runs<R>, const N: usize> Watch<R, V, N> {
         system: &S,
         evaluations: u32,
         fixed: bool,
-        start: Place<'_, R, N>,
+        start: TimeAndState<'_, R, N>,
     ) -> Result<Self, Cause>
     where
         S: Watched<R, N> + ?Sized,
@@ -108,10 +108,10 @@ impl<R: Real, V: Runs<R>, const N: usize> Watch<R, V, N> {
     pub(crate) fn check<S, D>(
         &mut self,
         system: &S,
-        (before, defects): (Option<Place<'_, R, N>>, D),
-        now: Place<'_, R, N>,
+        (before, defects): (Option<TimeAndState<'_, R, N>>, D),
+        now: TimeAndState<'_, R, N>,
         mut going: Mask,
-        mut fail: impl FnMut(usize, Cause, Place<'_, R, N>),
+        mut fail: impl FnMut(usize, Cause, TimeAndState<'_, R, N>),
     ) -> Mask
     where
         S: Watched<R, N> + ?Sized,
@@ -147,17 +147,17 @@ impl<R: Real, V: Runs<R>, const N: usize> Watch<R, V, N> {
     fn singularities<S>(
         &mut self,
         system: &S,
-        before: Option<Place<'_, R, N>>,
-        now: Place<'_, R, N>,
+        before: Option<TimeAndState<'_, R, N>>,
+        now: TimeAndState<'_, R, N>,
         (is_done, made): (bool, u32),
         going: &mut Mask,
-        fail: &mut impl FnMut(usize, Cause, Place<'_, R, N>),
+        fail: &mut impl FnMut(usize, Cause, TimeAndState<'_, R, N>),
     ) where
         S: Watched<R, N> + ?Sized,
     {
         let (rest, until, fixed, guard) = (self.rest, self.until_singularities, self.fixed, &self.guard);
         let Some(known) = &mut self.known else { return };
-        let (found, good) = (now.time.to_f64(), Place { time: self.good.0, state: &self.good.1 });
+        let (found, good) = (now.time.to_f64(), TimeAndState { time: self.good.0, state: &self.good.1 });
         let mut close = R::zero();
         if !is_done {
             if !fixed {
@@ -239,10 +239,10 @@ impl<R: Real, V: Runs<R>, const N: usize> Watch<R, V, N> {
     pub(crate) fn finish<S, D>(
         &mut self,
         system: &S,
-        (before, defects): (Option<Place<'_, R, N>>, D),
-        now: Place<'_, R, N>,
+        (before, defects): (Option<TimeAndState<'_, R, N>>, D),
+        now: TimeAndState<'_, R, N>,
         mut going: Mask,
-        mut fail: impl FnMut(usize, Cause, Place<'_, R, N>),
+        mut fail: impl FnMut(usize, Cause, TimeAndState<'_, R, N>),
     ) where
         S: Watched<R, N> + ?Sized,
         D: FnOnce() -> [R; N],
@@ -255,7 +255,7 @@ impl<R: Real, V: Runs<R>, const N: usize> Watch<R, V, N> {
         self.whole(system, steps, defects, now, &mut going, &mut fail);
         let Self { guard, known: Some(known), good, .. } = self else { return };
         let Some(before) = before.filter(|_| known.count > 0) else { return };
-        let (found, good) = (now.time.to_f64(), Place { time: good.0, state: &good.1 });
+        let (found, good) = (now.time.to_f64(), TimeAndState { time: good.0, state: &good.1 });
         R::vectorize(
             #[inline(always)]
             || {
@@ -278,10 +278,10 @@ impl<R: Real, V: Runs<R>, const N: usize> Watch<R, V, N> {
     pub(crate) fn stopped<S>(
         &mut self,
         system: &S,
-        now: Place<'_, R, N>,
+        now: TimeAndState<'_, R, N>,
         stopped: Mask,
         cause: Cause,
-        mut fail: impl FnMut(usize, Cause, Place<'_, R, N>),
+        mut fail: impl FnMut(usize, Cause, TimeAndState<'_, R, N>),
     ) where
         S: Watched<R, N> + ?Sized,
     {
@@ -303,9 +303,9 @@ impl<R: Real, V: Runs<R>, const N: usize> Watch<R, V, N> {
         system: &S,
         steps: u32,
         defects: Option<D>,
-        now: Place<'_, R, N>,
+        now: TimeAndState<'_, R, N>,
         going: &mut Mask,
-        fail: &mut impl FnMut(usize, Cause, Place<'_, R, N>),
+        fail: &mut impl FnMut(usize, Cause, TimeAndState<'_, R, N>),
     ) where
         S: Watched<R, N> + ?Sized,
         D: FnOnce() -> [R; N],
@@ -317,7 +317,7 @@ impl<R: Real, V: Runs<R>, const N: usize> Watch<R, V, N> {
         R::vectorize(
             #[inline(always)]
             || {
-                let place = Place { time: good.0, state: &good.1 };
+                let place = TimeAndState { time: good.0, state: &good.1 };
                 if known.is_none() {
                     let (begun, check) = Known::new(system, guard, place);
                     for run in (*going & begun.suspects::<V>(guard, &check)).lanes() {
@@ -350,8 +350,8 @@ impl<R: Real, V: Runs<R>, const N: usize> Watch<R, V, N> {
 }
 
 /// The place of a checkpoint.
-fn place<R: Real, const N: usize>(at: &Checkpoint<R, N>) -> Place<'_, R, N> {
-    Place { time: at.time, state: &at.state }
+fn place<R: Real, const N: usize>(at: &Checkpoint<R, N>) -> TimeAndState<'_, R, N> {
+    TimeAndState { time: at.time, state: &at.state }
 }
 
 impl<R: Real, const N: usize> Watch<R, One, N> {
@@ -422,6 +422,6 @@ impl<R: Real, const N: usize> Watch<R, One, N> {
 fn last<'a, R: Real, const N: usize>(
     before: Option<&'a Checkpoint<R, N>>,
     run: &'a dyn AnyRun<R, N>,
-) -> (Option<Place<'a, R, N>>, impl FnOnce() -> [R; N]) {
+) -> (Option<TimeAndState<'a, R, N>>, impl FnOnce() -> [R; N]) {
     (before.map(place), move || before.map_or([R::zero(); N], |before| run.defect(before)))
 }

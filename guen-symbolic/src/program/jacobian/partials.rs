@@ -7,7 +7,7 @@ use crate::program::instruction::{FunctionProgram, Operation, Value};
 
 /// The place of a value of the function in the new code, and the vertex that carries its differential.
 #[derive(Clone, Copy)]
-struct Place {
+struct Slot {
     size: Size,
     negative: bool,
     vertex: Option<usize>,
@@ -23,7 +23,7 @@ pub(super) fn graph(
     let mut builder = Builder {
         code,
         graph: LinearGraph::new(variables.len()),
-        places: vec![Place { size: Size::One, negative: false, vertex: None }; function.values],
+        places: vec![Slot { size: Size::One, negative: false, vertex: None }; function.values],
     };
     for instruction in &function.instructions {
         builder.instruction(instruction.result, &instruction.operation, variables, is_constant);
@@ -36,12 +36,12 @@ pub(super) fn graph(
 struct Builder<'a> {
     code: &'a mut Code,
     graph: LinearGraph,
-    places: Vec<Place>,
+    places: Vec<Slot>,
 }
 
 impl Builder<'_> {
     fn factor(&self, value: Value) -> Factor {
-        let Place { size, negative, .. } = self.places[value.index()];
+        let Slot { size, negative, .. } = self.places[value.index()];
         Factor { negative, size }
     }
 
@@ -57,7 +57,7 @@ impl Builder<'_> {
             .filter_map(|(operand, factor)| Some((self.places[operand.index()].vertex?, *factor)))
             .collect();
         let vertex = (!edges.is_empty()).then(|| self.graph.vertex(self.code, &edges));
-        self.places[result.index()] = Place { size, negative: false, vertex };
+        self.places[result.index()] = Slot { size, negative: false, vertex };
     }
 
     fn is_active(&self, value: Value) -> bool {
@@ -79,7 +79,7 @@ impl Builder<'_> {
             Operation::Number(number) => {
                 let factor = self.code.number(number.clone());
                 self.places[result.index()] =
-                    Place { size: factor.size, negative: factor.negative, vertex: None };
+                    Slot { size: factor.size, negative: factor.negative, vertex: None };
             }
             Operation::Pi => {
                 let size = self.code.constant(Operation::Pi);
@@ -96,7 +96,7 @@ impl Builder<'_> {
             Operation::Symbol(symbol) => {
                 let size = Size::Value(self.code.emit(operation.clone()));
                 let vertex = variables.iter().position(|variable| variable == symbol);
-                self.places[result.index()] = Place { size, negative: false, vertex };
+                self.places[result.index()] = Slot { size, negative: false, vertex };
             }
             Operation::SinCos { angle, cosine } => {
                 let (s, c) = self.sine_cosine(*angle);
