@@ -133,7 +133,7 @@ fn what_does_not_fit_is_told_where_it_is() {
         ("k: N/m", "k: N", sums),
         ("l: m >", "l: kg >", sums),
         ("I: kg*m^2 > 0 = m*l^2/12", "I: kg*m^2 > 0 = m*l/12", "`I` is in kg*m^2, and this is in kg*m"),
-        ("-10..10", "-m..m", "`push` is in kg*m/s^2 (N), and this is in kg"),
+        ("-10..10", "-10..m", "`push` is in kg*m/s^2 (N), and this is in kg"),
         ("fix l = 1/2", "fix l = g", "`l` is in m, and this is in m/s^2"),
         ("x: m", "x: mm", "unknown unit `mm`"),
         ("x: m", "x: f64", "names have no types"),
