@@ -19,6 +19,7 @@ from place import ROOT, target
 
 # Example, its page, and the time at which its picture is taken, as a part of the whole.
 PAGES = [
+    ("furuta", "furuta/furuta.html", 0.13),
     ("hoop", "hoop/hoop.html", 0.31),
     ("balancing_robot", "balancing_robot/robot.html", 0.3375),
     ("chaplygin_sled", "chaplygin_sled/sled.html", 0.2),

@@ -90,18 +90,23 @@ impl<const N: usize> Viewer<'_, N> {
     }
 
     /// Panels with the energy, with its change since the start, and with the largest residual of the constraints on
-    /// positions.
+    /// positions, if there are any.
     pub fn monitored<S>(self, system: &S) -> Self
     where
         S: Monitored<f64, N> + ?Sized,
     {
         let start = self.samples.first().map_or(0.0, |(t, state)| system.energy(t, state));
-        self.panel("energy")
+        let mut samples = self.samples.iter();
+        let is_constrained = samples.any(|(t, state)| system.residual(t, state) != 0.0);
+        let page = self
+            .panel("energy")
             .curve("h", |t, state| system.energy(t, state))
             .panel("energy since the start")
-            .curve("h - h(0)", |t, state| system.energy(t, state) - start)
-            .panel("residual of the constraints")
-            .curve("largest", |t, state| system.residual(t, state))
+            .curve("h - h(0)", |t, state| system.energy(t, state) - start);
+        if !is_constrained {
+            return page;
+        }
+        page.panel("residual of the constraints").curve("largest", |t, state| system.residual(t, state))
     }
 
     /// Curves of what is left of each constraint, by its name in the declaration: for a panel that is folded until somebody asks.

@@ -2,6 +2,7 @@
 
 mod blocks;
 mod executables;
+mod few_lines;
 mod first_lines;
 mod links;
 mod manifests;
