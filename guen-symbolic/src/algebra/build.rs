@@ -508,6 +508,16 @@ impl Graph {
         if small || self.roles(e).is_constant() { e } else { self.intern(Node::Kept(e)) }
     }
 
+    /// The expression kept whole, as by [`keep`](Self::keep), short products as well: for what is known to be used more than once.
+    pub(crate) fn keep_whole(&mut self, e: ExprId) -> ExprId {
+        let is_leaf = match self.node(e) {
+            Node::Number(_) | Node::Pi | Node::Symbol(_) | Node::Undefined | Node::Kept(_) => true,
+            Node::Function(_, x) => self.as_symbol(*x).is_some(),
+            _ => self.roles(e).is_constant(),
+        };
+        if is_leaf { e } else { self.intern(Node::Kept(e)) }
+    }
+
     fn is_small_product(&self, e: ExprId) -> bool {
         match self.node(e) {
             Node::Product(factors) => {

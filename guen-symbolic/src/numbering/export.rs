@@ -57,9 +57,20 @@ impl Numbering {
                 continue;
             }
             let e = self.built(graph, &done, index);
-            done[index] = Some(if uses[index] > 1 { graph.keep(e) } else { e });
+            done[index] = Some(match uses[index] {
+                0 | 1 => e,
+                _ if self.is_over_a_pivot(index) => graph.keep_whole(e),
+                _ => graph.keep(e),
+            });
         }
         roots.iter().map(|root| signed(graph, &done, *root)).collect()
+    }
+
+    /// Whether an expression is a product with a quotient: an entry of a row over the pivot of an elimination, say, which one
+    /// multiplication makes and each further row uses.
+    fn is_over_a_pivot(&self, index: usize) -> bool {
+        let is_quotient = |a: Num| matches!(self.ops[a.index()], Op::Quotient(..));
+        matches!(self.ops[index], Op::Product(a, b) if is_quotient(a) || is_quotient(b))
     }
 
     fn export_constant(&self, graph: &mut Graph, done: &mut [Option<ExprId>], index: usize) -> ExprId {

@@ -8,7 +8,7 @@ use super::definitions::{Def, Equation, Plan};
 use super::form::Form;
 use super::forms::Functional;
 use super::kinematics::Kinematics;
-use super::relations::{definition, order};
+use super::relations::{Linear, definition, in_steps, order, reduced};
 use super::tree::{Content, Tree, Turn};
 use super::variables::{Class, Kind, Var, Variables};
 use crate::numbering::{Num, Numbering};
@@ -44,13 +44,45 @@ fn axial(tree: &Tree, content: &Content) -> Option<usize> {
     others.all(|e| e.is_zero()).then_some(axis)
 }
 
+/// An order in which velocities leave the equations.
+#[derive(Clone, Copy, PartialEq, Eq)]
+struct Order {
+    parameters: Leaving,
+    /// Whether what is shifted along levers leaves before what is turned.
+    shifts_first: bool,
+}
+
 /// The time at which a parameter leaves the equations.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Order {
-    /// The place after all velocities: the mass matrix of the parameters is factored.
+enum Leaving {
+    /// After all velocities: the mass matrix of the parameters is factored.
     AtTheRoot,
     /// As soon as all velocities that follow from it have left: the inertia of articulated bodies.
     OnTheWay,
+}
+
+/// All orders that are tried, those to the root first.
+const ORDERS: [Order; 4] = [
+    Order { parameters: Leaving::AtTheRoot, shifts_first: false },
+    Order { parameters: Leaving::AtTheRoot, shifts_first: true },
+    Order { parameters: Leaving::OnTheWay, shifts_first: false },
+    Order { parameters: Leaving::OnTheWay, shifts_first: true },
+];
+
+/// Equations with the numbering in which they are.
+pub(super) struct Root {
+    pub(super) table: Numbering,
+    /// The mass matrix of the parameters.
+    pub(super) mass: Vec<Vec<Num>>,
+    /// The forces along the parameters.
+    pub(super) forces: Vec<Num>,
+}
+
+impl Root {
+    pub(super) fn cost(&self) -> usize {
+        let entries: Vec<Num> = self.mass.iter().flatten().chain(&self.forces).copied().collect();
+        self.table.cost(&entries)
+    }
 }
 
 /// The rates of velocities beyond those at resting parameters, once the rates of the parameters are known.
@@ -91,15 +123,11 @@ impl Outwards<'_, '_> {
 pub(super) struct Assembly<'a> {
     pub(super) kinematics: Kinematics<'a>,
     form: Form,
-    /// The mass matrix of the parameters and their forces, once they were solved for at the root.
-    pub(super) at_the_root: Option<(Vec<Vec<Num>>, Vec<Num>)>,
-    /// The numbering of these, where the rates have another one.
-    pub(super) table_of_root: Option<Numbering>,
 }
 
 impl<'a> Assembly<'a> {
     pub(super) fn new(kinematics: Kinematics<'a>) -> Self {
-        Assembly { kinematics, form: Form::default(), at_the_root: None, table_of_root: None }
+        Assembly { kinematics, form: Form::default() }
     }
 
     /// A product of two velocities in the energy.
@@ -215,11 +243,25 @@ impl<'a> Assembly<'a> {
         })
     }
 
-    /// A force along a form.
-    pub(super) fn load(&mut self, row: &Functional, magnitude: Num) {
-        for (var, c) in &row.terms {
-            let e = self.kinematics.numbers.mul(magnitude, *c);
-            self.push(*var, e);
+    /// The forces along forms. What acts along the components of one velocity is one vector, whatever the axes in which it was given;
+    /// between bodies it acts along what moves them against each other.
+    pub(super) fn loads(&mut self, loads: &[Functional]) {
+        let Kinematics { tree, variables, plan, system, .. } = self.kinematics;
+        let shapes = &system.structure.loads;
+        let velocity = |k: usize| shapes.get(k)?.as_ref()?.components.first().map(|part| &part.velocity);
+        let mut own = Linear::new();
+        for (k, (force, load)) in system.forces.iter().zip(loads).enumerate() {
+            let magnitude = self.kinematics.numbers.import(self.kinematics.bench, force.magnitude);
+            let numbers = &mut *self.kinematics.numbers;
+            own.extend(load.terms.iter().map(|(var, c)| (*var, numbers.mul(magnitude, *c))));
+            if velocity(k).is_some() && velocity(k) == velocity(k + 1) {
+                continue;
+            }
+            let whole = reduced(numbers, variables, &std::mem::take(&mut own));
+            let relative = in_steps(numbers, tree, variables, plan, whole.clone());
+            for (var, e) in if relative.len() <= whole.len() { relative } else { whole } {
+                self.push(var, e);
+            }
         }
     }
 
@@ -245,38 +287,78 @@ impl<'a> Assembly<'a> {
         }
     }
 
-    /// Takes everything back to the parameters, and solves: the rates of the parameters, and what was divided by. The cheaper
-    /// of two orders, each in a numbering of its own: both have the same values, and the second would find the first's.
-    pub(super) fn solve(&mut self) -> Option<(Vec<Num>, Vec<Num>)> {
+    /// Takes everything back to the parameters, and solves: the rates of the parameters, what was divided by, and the equations
+    /// at the root.
+    pub(super) fn solve(&mut self) -> Option<(Vec<Num>, Vec<Num>, Option<Root>)> {
         let bias = self.core_bias();
-        let form = self.form.clone();
-        let table = self.kinematics.numbers.clone();
-        let at_the_root = self.solved_in(&bias, Order::AtTheRoot)?;
-        self.form = form;
-        let table = std::mem::replace(self.kinematics.numbers, table);
-        let on_the_way =
-            self.solved_in(&bias, Order::OnTheWay).filter(|_| self.kinematics.numbers.is_sound());
-        if let Some(on_the_way) = on_the_way
-            && self.kinematics.numbers.cost(&on_the_way.0) < table.cost(&at_the_root.0)
-        {
-            self.table_of_root = Some(table);
-            return Some(on_the_way);
-        }
-        *self.kinematics.numbers = table;
-        Some(at_the_root)
+        let mut root: Option<Root> = None;
+        let (rates, pivots) = self.cheapest(
+            &ORDERS,
+            |this, order| {
+                let etas = this.reach_parameters(&bias, order)?;
+                if order.parameters == Leaving::AtTheRoot {
+                    let own = this.left_of(&etas);
+                    if root.as_ref().is_none_or(|known| own.cost() < known.cost()) {
+                        root = Some(own);
+                    }
+                }
+                this.eliminated(&etas, &bias)
+            },
+            |numbers, (rates, _)| numbers.cost(rates),
+        )?;
+        Some((rates, pivots, root))
     }
 
     /// The mass matrix of the parameters and their forces, at the root.
     pub(super) fn at_the_root(&mut self) -> Option<(Vec<Vec<Num>>, Vec<Num>)> {
         let bias = self.core_bias();
-        let etas = self.reach_parameters(&bias, Order::AtTheRoot)?;
-        Some(self.left_of(&etas))
+        let orders = ORDERS.iter().filter(|order| order.parameters == Leaving::AtTheRoot);
+        let orders: Vec<Order> = orders.copied().collect();
+        let root = self.cheapest(
+            &orders,
+            |this, order| {
+                let etas = this.reach_parameters(&bias, order)?;
+                Some(this.left_of(&etas))
+            },
+            |_, root| root.cost(),
+        )?;
+        Some((root.mass, root.forces))
+    }
+
+    /// The cheapest result of several orders, each in a numbering of its own: they have the same values, and a later one would
+    /// find those of an earlier one.
+    fn cheapest<T>(
+        &mut self,
+        orders: &[Order],
+        mut result: impl FnMut(&mut Self, Order) -> Option<T>,
+        cost: impl Fn(&Numbering, &T) -> usize,
+    ) -> Option<T> {
+        let (form, table) = (self.form.clone(), self.kinematics.numbers.clone());
+        let mut best: Option<(usize, T, Numbering)> = None;
+        for order in orders {
+            self.form = form.clone();
+            *self.kinematics.numbers = table.clone();
+            let Some(found) = result(self, *order).filter(|_| self.kinematics.numbers.is_sound()) else {
+                continue;
+            };
+            let own = cost(self.kinematics.numbers, &found);
+            if best.as_ref().is_none_or(|(least, ..)| own < *least) {
+                best = Some((own, found, self.kinematics.numbers.clone()));
+            }
+        }
+        let (_, found, table) = best?;
+        *self.kinematics.numbers = table;
+        Some(found)
     }
 
     /// The form and the forces of some variables.
-    fn left_of(&self, vars: &[Var]) -> (Vec<Vec<Num>>, Vec<Num>) {
+    fn left_of(&self, vars: &[Var]) -> Root {
         let row = |i: &Var| vars.iter().map(|j| self.form.entry(*i, *j)).collect();
-        (vars.iter().map(row).collect(), vars.iter().map(|i| self.form.force(*i)).collect())
+        Root {
+            table: self.kinematics.numbers.clone(),
+            mass: vars.iter().map(row).collect(),
+            forces: vars.iter().map(|i| self.form.force(*i)).collect(),
+        }
     }
 
     /// Substitutes everything by the parameters, which it returns.
@@ -292,12 +374,9 @@ impl<'a> Assembly<'a> {
         self.form.variables().iter().all(|var| etas.contains(var)).then_some(etas)
     }
 
-    fn solved_in(&mut self, bias: &[Num], order: Order) -> Option<(Vec<Num>, Vec<Num>)> {
+    /// The rates of the parameters that are left, by their own equations, and what was divided by.
+    fn eliminated(&mut self, etas: &[Var], bias: &[Num]) -> Option<(Vec<Num>, Vec<Num>)> {
         let (variables, plan) = (self.kinematics.variables, self.kinematics.plan);
-        let etas = self.reach_parameters(bias, order)?;
-        if order == Order::AtTheRoot {
-            self.at_the_root = Some(self.left_of(&etas));
-        }
         let mut left: Vec<Var> = etas.iter().copied().filter(|var| !self.form.is_eliminated(*var)).collect();
         while !left.is_empty() {
             let numbers = &mut *self.kinematics.numbers;
@@ -353,7 +432,7 @@ impl<'a> Assembly<'a> {
         for var in &order {
             let found = match plan.def(*var) {
                 // An unknown leaves as soon as nothing follows from it.
-                Some(Def::Core(index)) if when == Order::OnTheWay => {
+                Some(Def::Core(index)) if when.parameters == Leaving::OnTheWay => {
                     Some((self.kinematics.core.solutions[index].clone(), bias[index]))
                 }
                 Some(Def::Core(_)) => None,
@@ -372,46 +451,39 @@ impl<'a> Assembly<'a> {
         let etas: Vec<Var> = (0..self.kinematics.system.forms.degrees).map(|s| variables.eta(s)).collect();
         let mut left: Vec<Var> = order.iter().copied().filter(|var| definitions.contains_key(var)).collect();
         while !left.is_empty() {
-            if when == Order::OnTheWay {
+            if when.parameters == Leaving::OnTheWay {
                 self.eliminate_free(&etas, &users);
             }
             let is_ready = |var: &Var| users.get(var).copied().unwrap_or(0) == 0;
-            let plainly = left.iter().rposition(|var| is_ready(var) && self.pair(*var, &left).is_none());
+            let is_plain = |var: &Var| is_ready(var) && self.pair(*var, &left).is_none();
+            // What is a sum of others costs nothing at any time.
+            let is_first =
+                |var: &Var| when.shifts_first || definitions[var].0.iter().all(|(_, c)| c.abs() == Num::ONE);
+            let mut next = left.iter().rposition(|var| is_plain(var) && is_first(var));
+            let mut pairs = Vec::new();
+            if next.is_none() {
+                let (ready, in_use) = self.youngest_pairs(&left, is_ready);
+                next = if in_use || ready.is_empty() { left.iter().rposition(is_plain) } else { None };
+                pairs = ready;
+            }
+            if next.is_none() && pairs.is_empty() {
+                // A pair one of which is still in use: each by itself.
+                next = Some(left.iter().rposition(is_ready)?);
+            }
             let mut gone: Vec<Var> = Vec::new();
-            if let Some(place) = plainly {
-                let var = left[place];
-                let (terms, bias) = definitions[&var].clone();
-                self.form.substitute(self.kinematics.numbers, var, &terms, bias);
-                gone.push(var);
-            } else {
-                // All ready pairs of the youngest axes.
-                let mut pairs: Vec<(usize, [Var; 4])> = Vec::new();
-                for var in &left {
-                    if let Some((axes, pair)) = self.pair(*var, &left)
-                        && pair[0] == *var
-                        && is_ready(&pair[0])
-                        && is_ready(&pair[1])
-                    {
-                        pairs.push((axes, pair));
-                    }
+            match (next, pairs.first()) {
+                (None, Some((axes, _))) => {
+                    let Turn::About { cosine, sine, .. } = tree.axes[*axes].turn else { return None };
+                    let pairs: Vec<[Var; 4]> = pairs.into_iter().map(|(_, pair)| pair).collect();
+                    self.form.turn(self.kinematics.numbers, variables, &pairs, (cosine, sine));
+                    gone.extend(pairs.iter().flat_map(|[x, y, ..]| [*x, *y]));
                 }
-                let Some(youngest) = pairs.iter().map(|(axes, _)| *axes).max() else {
-                    // A pair one of which is still in use: each by itself.
-                    let place = left.iter().rposition(is_ready)?;
-                    let var = left[place];
+                (next, _) => {
+                    let var = left[next?];
                     let (terms, bias) = definitions[&var].clone();
                     self.form.substitute(self.kinematics.numbers, var, &terms, bias);
-                    left.remove(place);
-                    for (other, _) in &definitions[&var].0 {
-                        *users.get_mut(other)? -= 1;
-                    }
-                    continue;
-                };
-                let pairs: Vec<[Var; 4]> =
-                    pairs.into_iter().filter(|(axes, _)| *axes == youngest).map(|(_, pair)| pair).collect();
-                let Turn::About { cosine, sine, .. } = tree.axes[youngest].turn else { return None };
-                self.form.turn(self.kinematics.numbers, variables, &pairs, (cosine, sine));
-                gone.extend(pairs.iter().flat_map(|[x, y, ..]| [*x, *y]));
+                    gone.push(var);
+                }
             }
             left.retain(|var| !gone.contains(var));
             for var in gone {
@@ -421,6 +493,21 @@ impl<'a> Assembly<'a> {
             }
         }
         Some(())
+    }
+
+    /// The pairs of the youngest axes that nothing uses, and whether others of these axes are still in use.
+    fn youngest_pairs(
+        &self,
+        left: &[Var],
+        is_ready: impl Fn(&Var) -> bool,
+    ) -> (Vec<(usize, [Var; 4])>, bool) {
+        let found = left.iter().filter_map(|var| self.pair(*var, left).filter(|(_, pair)| pair[0] == *var));
+        let found = found.map(|pair| (is_ready(&pair.1[0]) && is_ready(&pair.1[1]), pair));
+        let mut found: Vec<(bool, (usize, [Var; 4]))> = found.collect();
+        let youngest = found.iter().filter(|(ready, _)| *ready).map(|(_, (axes, _))| *axes).max();
+        found.retain(|(_, (axes, _))| Some(*axes) == youngest);
+        let in_use = found.iter().any(|(ready, _)| !ready);
+        (found.into_iter().filter(|(ready, _)| *ready).map(|(_, pair)| pair).collect(), in_use)
     }
 
     /// Eliminates the parameters from which nothing follows that is left.

@@ -28,7 +28,7 @@ mod strained;
 mod tree;
 mod variables;
 
-use self::assembly::Assembly;
+use self::assembly::{Assembly, Root};
 use self::core::Core;
 use self::declared::Declared;
 use self::kinematics::Kinematics;
@@ -189,11 +189,7 @@ fn assembled<T>(
     }
     let mut assembly = Assembly::new(kinematics);
     assembly.bodies();
-    for (force, load) in system.forces.iter().zip(&declared.loads) {
-        let kinematics = &mut assembly.kinematics;
-        let magnitude = kinematics.numbers.import(kinematics.bench, force.magnitude);
-        assembly.load(load, magnitude);
-    }
+    assembly.loads(&declared.loads);
     assembly.beside(&beside);
     for strain in &strains {
         assembly.strained(partials, strain)?;
@@ -213,10 +209,10 @@ fn attempt(
     let generation = bench.zero.generation();
     let mut own = Numbering::new(&mut bench.graph, point, generation);
     let solved = assembled(bench, &mut own, (system, l), frame, partials, |assembly, velocities| {
-        let (accelerations, pivots) = assembly.solve()?;
-        Some((velocities, accelerations, pivots, assembly.at_the_root.take(), assembly.table_of_root.take()))
+        let (accelerations, pivots, root) = assembly.solve()?;
+        Some((velocities, accelerations, pivots, root))
     });
-    let (velocities, accelerations, pivots, at_the_root, table_of_root) = solved?;
+    let (velocities, accelerations, pivots, root) = solved?;
     if !own.is_sound() {
         return None;
     }
@@ -224,9 +220,9 @@ fn attempt(
     let mut rates = own.export(&mut bench.graph, &outputs);
     let pivots = rates.split_off(n + l);
     let cost = weighted_cost(&bench.graph, &rates);
-    let equations = at_the_root.filter(|_| is_stated(cost)).map(|(mass, forces)| {
+    let equations = root.filter(|_| is_stated(cost)).map(|Root { table, mass, forces }| {
         let entries: Vec<Num> = mass.into_iter().flatten().chain(forces).collect();
-        let mut entries = table_of_root.as_ref().unwrap_or(&own).export(&mut bench.graph, &entries);
+        let mut entries = table.export(&mut bench.graph, &entries);
         let forces = entries.split_off(l * l);
         Equations { mass: (0..l).map(|s| entries[s * l..][..l].to_vec()).collect(), forces }
     });

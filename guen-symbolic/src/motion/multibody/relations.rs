@@ -234,6 +234,29 @@ pub(super) fn definition(
     }
 }
 
+/// A combination with every variable that is a plain sum of others in their place: what is the same in two of them drops out.
+pub(super) fn in_steps(
+    numbers: &mut Numbering,
+    tree: &Tree,
+    variables: &Variables,
+    plan: &Plan,
+    mut terms: Linear,
+) -> Linear {
+    let mut next = 0;
+    while let Some((var, c)) = terms.get(next).copied() {
+        match definition(numbers, tree, variables, plan, var) {
+            Some((steps, _)) if steps.iter().all(|(_, k)| k.abs() == Num::ONE) => {
+                terms.remove(next);
+                terms.extend(steps.into_iter().map(|(other, k)| (other, numbers.mul(c, k))));
+                terms = reduced(numbers, variables, &terms);
+                next = 0;
+            }
+            _ => next += 1,
+        }
+    }
+    terms
+}
+
 /// The variables in an order in which each comes after those from which it follows.
 pub(super) fn order(
     numbers: &mut Numbering,
