@@ -182,9 +182,9 @@ class Browser:
         pairs = [{"name": key, "value": value} for key, value in features.items()]
         self.devtools("Emulation.setEmulatedMedia", media=media, features=pairs)
 
-    def picture(self, clip=None):
-        """A screenshot as PNG; `clip` is left, top, width, height."""
+    def picture(self, clip=None, scale=1):
+        """A screenshot as PNG, smaller by a scale; `clip` is left, top, width, height."""
         parameters = {"format": "png"}
         if clip:
-            parameters["clip"] = {**dict(zip(("x", "y", "width", "height"), clip)), "scale": 1}
+            parameters["clip"] = {**dict(zip(("x", "y", "width", "height"), clip)), "scale": scale}
         return base64.b64decode(self.devtools("Page.captureScreenshot", **parameters)["data"])

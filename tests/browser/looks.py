@@ -302,6 +302,11 @@ def clicked(browser, path):
     require(browser.run("return document.querySelector('#card .name').textContent;") == browser.run("return window.guen.motion.bodies[0].name;"), "a click on a body does not choose it")
 
 
+def shrunk(browser, width, height):
+    """A picture for a page of several: at most 640 wide."""
+    return browser.picture((0, 0, width, height), min(1, 640 / width))
+
+
 def looks(browser, name, path, pictures, some=tuple(LOOKS)):
     for look, (scheme, others) in ((look, LOOKS[look]) for look in some):
         browser.scheme(scheme, **others)
@@ -324,7 +329,7 @@ def looks(browser, name, path, pictures, some=tuple(LOOKS)):
             if pictures:
                 browser.run("window.guen.player.setTime(0.4 * window.guen.motion.end);")
                 settled(browser)
-                kept(pictures, f"looks-{name}-{look}-{width}", browser.picture)
+                kept(pictures, f"looks-{name}-{look}-{width}", lambda: shrunk(browser, width, height))
     browser.scheme("light")
 
 
@@ -369,7 +374,7 @@ def scriptless(browser, page, pictures):
                 require(wide <= width, f"the pictures are {wide} wide on {width}")
                 low = [found for found in ask(f"(() => {{{CONTRAST}}})()") if found[0] < 1]
                 require(not low, f"{look}: too little contrast: {low[:3]}")
-                kept(pictures, f"scriptless-{page.stem}-{width}-{look}", browser.picture)
+                kept(pictures, f"looks-scriptless-{page.stem}-{look}-{width}", lambda: shrunk(browser, width, height))
         require(len(browser.devtools("Page.printToPDF")["data"]) > 20_000, "nothing is printed")
     finally:
         browser.devtools("Emulation.setScriptExecutionDisabled", value=False)

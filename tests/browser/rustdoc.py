@@ -29,6 +29,8 @@ def faults(browser):
     for wanted in HEADINGS:
         if not any(wanted in heading for heading in headings):
             yield f"no heading `{wanted}` among {headings}"
+    if not headings[0].endswith("Equations of motion (2.7)"):
+        yield f"the page begins with `{headings[0]}`"
     # A formula that no browser understands has no height; one that was taken for text has no elements.
     sizes = browser.run("return [...document.querySelectorAll('.guen-formula math')].map((m) => [m.getBoundingClientRect().height, m.children.length]);")
     if len(sizes) < 10:
@@ -62,7 +64,7 @@ def main():
                     failed = True
                 if arguments.pictures:
                     arguments.pictures.mkdir(parents=True, exist_ok=True)
-                    browser.run("[...document.querySelectorAll('.docblock h2')].find((h) => h.textContent.includes('Forms')).scrollIntoView();")
+                    browser.run("[...document.querySelectorAll('.docblock h2')].find((h) => h.textContent.includes('Equations of motion')).scrollIntoView();")
                     (arguments.pictures / f"rustdoc-{example}-{scheme}.png").write_bytes(browser.picture())
             print(f"{example}: its documentation is {'faulty' if failed else 'set'}", flush=True)
     return 1 if failed else 0

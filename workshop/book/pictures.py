@@ -5,7 +5,7 @@
     python3 workshop/book/pictures.py --check     # ends with a nonzero status if a picture would change
 
 Drawings are not made by it: they are by hand. A curve of the programs has more points than a page can show; those that are off
-by less than a third of a point from the line through their neighbours (Ramer, Douglas and Peucker) are left out.
+by less than a tenth of a point from the line through their neighbours (Ramer, Douglas and Peucker) are left out.
 """
 
 import argparse
@@ -20,7 +20,7 @@ PICTURES = ROOT / "docs/pictures"
 # Where programs leave theirs.
 TARGET = ROOT / os.environ.get("CARGO_TARGET_DIR", "target") / "guen"
 # The programs' units are tenths of a point.
-TOLERANCE = 3.0
+TOLERANCE = 1.0
 
 FIRST = "cargo test --quiet -p guen-doctests --test blocks first_system"
 SCENES = "cargo run --quiet --release -p guen-measure --bin scenes"

@@ -11,6 +11,7 @@
 
 mod check;
 mod formulas;
+mod live;
 #[path = "../../../examples/common/open.rs"]
 mod open;
 
@@ -51,8 +52,16 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
         book.config.build.build_dir = std::env::current_dir()?.join(target).join("book");
     }
     let mistaken = formulas::set(&mut book);
+    // Beside the book in the target folder.
+    let made = book.root.join(&book.config.build.build_dir).with_file_name("guen");
+    let played = live::link(&mut book, &made);
     book.build()?;
     let folder = book.build_dir_for("html").canonicalize()?;
+    live::copy(&played, &folder)?;
+    println!(
+        "{} motions to play: the examples hoop, chaplygin_sled, balancing_robot and viewer make them",
+        played.len()
+    );
     let found = check::check(&folder)?;
     for fault in mistaken.iter().chain(&found.faults) {
         eprintln!("{fault}");
