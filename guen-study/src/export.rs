@@ -115,21 +115,30 @@ where
     where
         S: OutputMap<f64, N, K>,
     {
-        let mut recording = Recording::new(&S::OUTPUTS);
+        let mut recording = Recording::new(&S::OUTPUTS).with_units(S::OUTPUT_UNITS);
         self.sample(dt).for_each(|(t, x)| recording.record(t, &self.system().output_values(t, &x.into())));
         recording
     }
 
     fn plot(&self, title: &str, entries: &[&str]) -> Result<Plot, StudyError> {
         let recording = self.sampled((self.end_time() - self.start_time()).abs() / PLOT_POINTS);
-        entries.iter().try_fold(Plot::new(title).axes("t", ""), |plot, name| {
-            let place = recording.position(name).ok_or_else(|| StudyError::UnknownEntry {
+        let place = |name: &&str| {
+            recording.position(name).ok_or_else(|| StudyError::UnknownEntry {
                 title: title.to_owned(),
                 name: (*name).to_owned(),
                 known: recording.names(),
-            })?;
-            Ok(plot.line(*name, recording.curve(place)))
-        })
+            })
+        };
+        let places = entries.iter().map(place).collect::<Result<Vec<usize>, _>>()?;
+        let unit = |place: &usize| recording.units().get(*place).copied().unwrap_or_default();
+        // A unit that all share stands at the axis, and different ones behind the names.
+        let shared = places.first().map(unit).filter(|own| places.iter().all(|place| unit(place) == *own));
+        let time = if recording.units().is_empty() { "t" } else { "t [s]" };
+        let axis = shared.filter(|unit| !unit.is_empty()).map_or(String::new(), |unit| format!("[{unit}]"));
+        Ok(places.iter().zip(entries).fold(Plot::new(title).axes(time, axis), |plot, (place, name)| {
+            let name = if shared.is_some() { (*name).to_owned() } else { recording.with_unit(name, *place) };
+            plot.line(name, recording.curve(*place))
+        }))
     }
 
     #[cfg(feature = "viewer")]
@@ -149,7 +158,7 @@ fn filled<S, const N: usize>(states: impl Iterator<Item = (f64, S::State)>) -> R
 where
     S: Simulate<f64, N>,
 {
-    let mut recording = Recording::new(S::STATES);
+    let mut recording = Recording::new(S::STATES).with_units(S::UNITS);
     states.for_each(|(t, state)| recording.record(t, &state.into()));
     recording
 }

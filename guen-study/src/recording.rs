@@ -42,6 +42,7 @@ use crate::file::replace_file;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Recording<const N: usize> {
     pub(crate) names: &'static [&'static str],
+    pub(crate) units: &'static [&'static str],
     pub(crate) times: Vec<f64>,
     pub(crate) states: Vec<[f64; N]>,
     pub(crate) limit: usize,
@@ -58,7 +59,57 @@ impl<const N: usize> Recording<N> {
     pub fn new(names: &'static [&'static str]) -> Self {
         let fit = names.is_empty() || names.len() == N;
         assert!(fit, "a recording needs one name for each entry of the state, or none");
-        Self { names, times: Vec::new(), states: Vec::new(), limit: usize::MAX, stride: 1, seen: 0 }
+        Self {
+            names,
+            units: &[],
+            times: Vec::new(),
+            states: Vec::new(),
+            limit: usize::MAX,
+            stride: 1,
+            seen: 0,
+        }
+    }
+
+    /// Sets the units of the entries, which stand in the headers of tables and at the axes of plots; time is in seconds then. An
+    /// entry without one has an empty text.
+    ///
+    /// ```
+    /// use guen_study::Recording;
+    ///
+    /// let mut recording = Recording::new(&["height", "turns"]).with_units(&["m", ""]);
+    /// recording.record(0.0, &[1.0, 2.0]);
+    /// let mut text = Vec::new();
+    /// recording.write_csv(&mut text)?;
+    /// assert_eq!(text, b"t [s],height [m],turns\n0.0,1.0,2.0\n");
+    /// # Ok::<(), std::io::Error>(())
+    /// ```
+    ///
+    /// # Panics
+    ///
+    /// If there are units, and not as many as entries in a state.
+    pub fn with_units(mut self, units: &'static [&'static str]) -> Self {
+        let fit = units.is_empty() || units.len() == N;
+        assert!(fit, "a recording needs one unit for each entry of the state, or none");
+        self.units = units;
+        self
+    }
+
+    /// The units of the entries; empty where none is known.
+    ///
+    /// ```
+    /// use guen_study::Recording;
+    /// assert!(Recording::<2>::new(&["x", "v"]).units().is_empty());
+    /// ```
+    pub fn units(&self) -> &'static [&'static str] {
+        self.units
+    }
+
+    /// A name with the unit of the entry, as a table has it.
+    pub(crate) fn with_unit(&self, name: &str, entry: usize) -> String {
+        match self.units.get(entry) {
+            Some(unit) if !unit.is_empty() => format!("{name} [{unit}]"),
+            _ => name.to_owned(),
+        }
     }
 
     /// Sets the largest number of samples; less than two are taken as two, the first and the newest.
@@ -268,9 +319,9 @@ impl<const N: usize> Recording<N> {
     ///
     /// Those of the writer.
     pub fn write_csv(&self, mut out: impl Write) -> io::Result<()> {
-        write!(out, "t")?;
-        for name in self.names {
-            write!(out, ",{}", cell::text(name))?;
+        write!(out, "{}", if self.units.is_empty() { "t" } else { "t [s]" })?;
+        for (entry, name) in self.names.iter().enumerate() {
+            write!(out, ",{}", cell::text(&self.with_unit(name, entry)))?;
         }
         let unnamed = if self.names.is_empty() { 0..N } else { 0..0 };
         for number in unnamed {

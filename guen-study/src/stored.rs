@@ -155,7 +155,7 @@ impl<'de, const N: usize> DeserializeSeed<'de> for StoredRecording<N> {
             states.map_err(|state| D::Error::invalid_length(state.len(), &"an entry for each name"))?;
         let states = states.into_iter().map(|state| state.map(|Exact(x)| x)).collect();
         let limit = limit.unwrap_or(usize::MAX).max(2);
-        Ok(Recording { names: self.names, times, states, limit, stride, seen })
+        Ok(Recording { names: self.names, units: &[], times, states, limit, stride, seen })
     }
 }
 

@@ -264,7 +264,7 @@ fn systems(
     });
     let prices = integrated::prices(subject, layout, &checks);
     let differentiable = integrated::differentiable(layout, false);
-    let simulate = integrated::simulate(layout, false, false);
+    let simulate = integrated::simulate(subject, layout, false, false);
     let lanes = lanes::carried(layout);
     quote! {
         #driven

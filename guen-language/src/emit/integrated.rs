@@ -6,6 +6,7 @@ use quote::quote;
 
 use super::layout::Layout;
 use crate::derive::{Subject, function};
+use crate::model::Model;
 
 /// The methods `conserved`, `singularities` and `condition` of the trait `System`, as far as the level has what they look at. `prepared` is the
 /// prepared system.
@@ -151,11 +152,27 @@ pub(super) fn differentiable(layout: &Layout, has_code: bool) -> TokenStream {
 }
 
 /// The trait `Simulate` of what steppers integrate: its states have named fields.
-pub(super) fn simulate(layout: &Layout, domain: bool, positions: bool) -> TokenStream {
+pub(super) fn simulate(
+    subject: &Subject<'_, '_>,
+    layout: &Layout,
+    domain: bool,
+    positions: bool,
+) -> TokenStream {
     let (owner, size) = (owner(layout), layout.size);
     let domain = domain.then(|| quote!(DOMAIN));
     let positions = positions.then(|| quote!(__guen::onto_constraints!(#size);));
-    quote!(__guen::simulated! { #owner #size [#domain] #positions })
+    let names = layout.state.iter().map(|ident| ident.to_string());
+    let units = units(subject.model, names);
+    quote!(__guen::simulated! { #owner #size [#domain] [#(#units)*] #positions })
+}
+
+/// The units of entries by their names; nothing where no unit is declared.
+pub(super) fn units(model: &Model<'_>, names: impl Iterator<Item = String>) -> Vec<String> {
+    if model.units.is_empty() {
+        return Vec::new();
+    }
+    let unit = |name: String| model.units.get(name.trim_start_matches("r#")).cloned().unwrap_or_default();
+    names.map(unit).collect()
 }
 
 /// The name of what steppers integrate.

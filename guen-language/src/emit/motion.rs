@@ -161,7 +161,7 @@ fn systems(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     if layout.inputs == 0 {
         let guarded = integrated::guarded(subject, layout, &quote!(self));
         let differentiable = integrated::differentiable(layout, subject.level.jacobians.rates.is_some());
-        let simulate = integrated::simulate(layout, true, !selection.holonomic.is_empty());
+        let simulate = integrated::simulate(subject, layout, true, !selection.holonomic.is_empty());
         return quote! {
             impl<R: __guen::Real> __guen::System<R, #size> for Prepared<R> {
                 #[inline]
@@ -178,7 +178,7 @@ fn systems(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     }
     let guarded = integrated::guarded(subject, layout, &quote!(self.system));
     let differentiable = integrated::differentiable(layout, subject.level.jacobians.rates.is_some());
-    let simulate = integrated::simulate(layout, true, !selection.holonomic.is_empty());
+    let simulate = integrated::simulate(subject, layout, true, !selection.holonomic.is_empty());
     quote! {
         __guen::actuated!(#size, "system");
 

@@ -4,6 +4,7 @@ use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
 use super::documentation;
+use super::integrated::units;
 use super::layout::{Layout, form_ident};
 use crate::derive::Subject;
 use crate::syntax::Docs;
@@ -178,6 +179,9 @@ fn outputs(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
         1 => vec![o.name.text.clone()],
         _ => ["x", "y", "z"].map(|axis| format!("{}.{axis}", o.name.text)).to_vec(),
     });
+    let of_output = |name: &String| name.split('.').next().unwrap_or_default().to_owned();
+    let names: Vec<String> = names.collect();
+    let units = units(subject.model, names.iter().map(of_output));
     let size = layout.size;
     let owner = if layout.inputs == 0 {
         quote!((self) => self, &[])
@@ -186,7 +190,7 @@ fn outputs(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     };
     let integrated = format_ident!("{}", if layout.inputs == 0 { "Prepared" } else { "Driven" });
     quote! {
-        __guen::output_map!(#integrated #size #count [#(#names)*] #owner);
+        __guen::output_map!(#integrated #size #count [#(#names)*] [#(#units)*] #owner);
 
         /// The declared outputs.
         #[::core::prelude::v1::derive(

@@ -77,14 +77,21 @@ impl Dimension {
         Dimension(std::array::from_fn(|i| &self.0[i] + &(&other.0[i] * power)))
     }
 
+    /// The name of a unit of its own, else the powers of base units.
+    pub fn short(&self) -> String {
+        let own = SHOWN.iter().find(|name| Dimension::of_unit(name).as_ref() == Some(self));
+        own.map_or_else(|| self.powers(), |own| (*own).to_owned())
+    }
+
     /// Whether it is that of a number.
     pub fn is_one(&self) -> bool {
         self.0.iter().all(Rational::is_zero)
     }
 }
 
-impl fmt::Display for Dimension {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+impl Dimension {
+    /// The powers of base units, as `kg*m/s^2`.
+    fn powers(&self) -> String {
         let part = |(base, power): (&str, Rational)| match power.to_i64_pair() {
             Some((1, 1)) => base.to_owned(),
             Some((n, 1)) => format!("{base}^{n}"),
@@ -96,14 +103,20 @@ impl fmt::Display for Dimension {
             powers().filter(|(_, power)| !power.is_zero() && !power.is_negative()).map(part).collect();
         let below: Vec<String> =
             powers().filter(|(_, p)| p.is_negative()).map(|(base, p)| part((base, p.abs()))).collect();
-        f.write_str(&if above.is_empty() { "1".to_owned() } else { above.join("*") })?;
+        let above = if above.is_empty() { "1".to_owned() } else { above.join("*") };
         match &below[..] {
-            [] => {}
-            [only] => write!(f, "/{only}")?,
-            all => write!(f, "/({})", all.join("*"))?,
+            [] => above,
+            [only] => format!("{above}/{only}"),
+            all => format!("{above}/({})", all.join("*")),
         }
-        let own = SHOWN.iter().find(|name| Dimension::of_unit(name).as_ref() == Some(self));
-        own.map_or(Ok(()), |own| write!(f, " ({own})"))
+    }
+}
+
+impl fmt::Display for Dimension {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (powers, short) = (self.powers(), self.short());
+        f.write_str(&powers)?;
+        if short == powers { Ok(()) } else { write!(f, " ({short})") }
     }
 }
 

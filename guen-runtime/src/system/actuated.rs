@@ -181,6 +181,7 @@ where
 {
     type State = <S::Driven as Simulate<R, N>>::State;
     const STATES: &'static [&'static str] = S::Driven::STATES;
+    const UNITS: &'static [&'static str] = S::Driven::UNITS;
     const DOMAIN: &'static [&'static str] = S::Driven::DOMAIN;
 
     fn onto_constraints(&self, t: R, state: &mut [R; N]) -> Result<(), PositionsError>
@@ -213,6 +214,7 @@ where
 {
     type Outputs = <S::Driven as OutputMap<R, N, K>>::Outputs;
     const OUTPUTS: [&'static str; K] = <S::Driven as OutputMap<R, N, K>>::OUTPUTS;
+    const OUTPUT_UNITS: &'static [&'static str] = <S::Driven as OutputMap<R, N, K>>::OUTPUT_UNITS;
 
     fn output_values(&self, t: R, state: &[R; N]) -> [R; K] {
         self.at(t, state).output_values(t, state)

@@ -39,6 +39,9 @@ pub trait OutputMap<R: Real, const N: usize, const K: usize>: System<R, N> {
     /// The names of the reals: of a vector `p` they are `p.x`, `p.y`, `p.z`.
     const OUTPUTS: [&'static str; K];
 
+    /// The units of the reals, for tables and plots; each may be empty, and all are missing where none is declared.
+    const OUTPUT_UNITS: &'static [&'static str] = &[];
+
     /// The outputs as reals, in the order of their names.
     fn output_values(&self, t: R, state: &[R; N]) -> [R; K];
 
@@ -49,6 +52,7 @@ pub trait OutputMap<R: Real, const N: usize, const K: usize>: System<R, N> {
 impl<R: Real, S: OutputMap<R, N, K> + ?Sized, const N: usize, const K: usize> OutputMap<R, N, K> for &S {
     type Outputs = S::Outputs;
     const OUTPUTS: [&'static str; K] = S::OUTPUTS;
+    const OUTPUT_UNITS: &'static [&'static str] = S::OUTPUT_UNITS;
 
     fn output_values(&self, t: R, state: &[R; N]) -> [R; K] {
         (**self).output_values(t, state)

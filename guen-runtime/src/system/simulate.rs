@@ -39,6 +39,9 @@ pub trait Simulate<R: Real, const N: usize>: System<R, N> {
     /// The names of the entries of a state, for messages, tables and plots; empty where they have none.
     const STATES: &'static [&'static str] = &[];
 
+    /// The units of the entries of a state, for tables and plots; each may be empty, and all are missing where none is declared.
+    const UNITS: &'static [&'static str] = &[];
+
     /// The functions that must not vanish, in the order of [`singularities`](System::singularities), for messages; empty where
     /// they have no names.
     const DOMAIN: &'static [&'static str] = &[];
@@ -105,6 +108,7 @@ impl<R: Real, E: Equations<N>, const N: usize> Simulate<R, N> for Generic<E> {
 impl<R: Real, S: Simulate<R, N> + ?Sized, const N: usize> Simulate<R, N> for &S {
     type State = S::State;
     const STATES: &'static [&'static str] = S::STATES;
+    const UNITS: &'static [&'static str] = S::UNITS;
     const DOMAIN: &'static [&'static str] = S::DOMAIN;
 
     fn onto_constraints(&self, t: R, state: &mut [R; N]) -> Result<(), PositionsError>
@@ -122,6 +126,7 @@ where
 {
     type State = S::State;
     const STATES: &'static [&'static str] = S::STATES;
+    const UNITS: &'static [&'static str] = S::UNITS;
     const DOMAIN: &'static [&'static str] = S::DOMAIN;
 }
 

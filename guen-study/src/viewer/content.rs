@@ -8,7 +8,8 @@ impl<const N: usize> Viewer<'_, N> {
     /// Curves of all entries of the state, by their names. Entries with one unit share a panel; those without, in the order of
     /// the entries, are in panels of their own: rates are seldom of the size of angles.
     ///
-    /// `units` are those of the entries, in their order; what is beyond its end, or empty, has none.
+    /// `units` are those of the entries, in their order; what is beyond its end, or empty, has none. Where there are none they are those of
+    /// the recording, which trajectories of systems with [units](crate::Recording::with_units) bring along.
     ///
     /// ```
     /// use guen_study::{Recording, Viewer};
@@ -25,6 +26,8 @@ impl<const N: usize> Viewer<'_, N> {
     pub fn states(mut self, units: &[&str]) -> Self {
         let names = self.samples.names();
         let name = |i: usize| names.get(i).map_or_else(|| i.to_string(), |name| (*name).to_owned());
+        let known = self.samples.units();
+        let units = if units.is_empty() { known } else { units };
         let unit = |i: usize| units.get(i).copied().unwrap_or_default();
         let mut shown = [false; N];
         for first in 0..N {
@@ -81,7 +84,9 @@ impl<const N: usize> Viewer<'_, N> {
         let mut before = None;
         for (i, name) in S::OUTPUTS.into_iter().enumerate() {
             if before != Some(whole(name)) {
-                self = self.panel(format!("output {}", whole(name)));
+                let unit = S::OUTPUT_UNITS.get(i).copied().unwrap_or_default();
+                let unit = if unit.is_empty() { String::new() } else { format!(" in {unit}") };
+                self = self.panel(format!("output {}{unit}", whole(name)));
                 before = Some(whole(name));
             }
             self = self.curve(name, |t, state| system.output_values(t, state)[i]);

@@ -55,6 +55,10 @@ impl<'a, const N: usize> Samples<'a, N> {
         self.recording.names()
     }
 
+    pub(super) fn units(&self) -> &'static [&'static str] {
+        self.recording.units()
+    }
+
     /// Samples that the run has shown, kept in the recording or not.
     pub(super) fn seen(&self) -> u64 {
         self.recording.seen()

@@ -54,7 +54,9 @@ pub(super) fn units(declaration: &Declaration, faults: &mut Faults) -> Units {
     for name in shown {
         let Some(Quantity::Of(own)) = dimensions.names.get(&name) else { continue };
         if let Some(own) = dimensions.unknowns.resolved(own).known() {
-            units.insert(name, own.to_string());
+            // That of a torque, too.
+            let unit = own.short();
+            units.insert(name, if unit == "J" { "N*m".to_owned() } else { unit });
         }
     }
     units.extend(written.into_iter().map(|(name, unit)| (name.to_owned(), unit.text.clone())));

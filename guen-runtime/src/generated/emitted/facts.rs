@@ -119,15 +119,16 @@ macro_rules! uses {
     };
 }
 
-/// The trait `Simulate` of what steppers integrate: its states have named fields. With the number of states, and the names of the
-/// functions that must not vanish where there are some, and what leads back onto constraints on positions.
+/// The trait `Simulate` of what steppers integrate: its states have named fields. With the number of states, the names of the
+/// functions that must not vanish where there are some, the units of the states where there are some, and what leads back onto constraints on positions.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! simulated {
-    ($Owner:ident $size:literal [$($domain:ident)?] $($positions:tt)*) => {
+    ($Owner:ident $size:literal [$($domain:ident)?] [$($unit:literal)*] $($positions:tt)*) => {
         impl<R: $crate::Real> $crate::Simulate<R, $size> for $Owner<R> {
             type State = State<R>;
             const STATES: &'static [&'static str] = &State::<f64>::NAMES;
+            const UNITS: &'static [&'static str] = &[$($unit),*];
             $(const DOMAIN: &'static [&'static str] = &$domain;)?
             $($positions)*
         }

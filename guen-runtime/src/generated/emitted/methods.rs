@@ -32,15 +32,16 @@ macro_rules! onto_constraints {
     };
 }
 
-/// The trait `OutputMap` of what steppers integrate, with the numbers of states and of outputs, the names of the outputs, and where
-/// the prepared values and the inputs are.
+/// The trait `OutputMap` of what steppers integrate, with the numbers of states and of outputs, the names of the outputs and their
+/// units, if there are some, and where the prepared values and the inputs are.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! output_map {
-    ($Owner:ident $size:literal $count:literal [$($name:literal)*] ($self:ident) => $prepared:expr, $given:expr) => {
+    ($Owner:ident $size:literal $count:literal [$($name:literal)*] [$($unit:literal)*] ($self:ident) => $prepared:expr, $given:expr) => {
         impl<R: $crate::Real> $crate::OutputMap<R, $size, $count> for $Owner<R> {
             type Outputs = Outputs<R>;
             const OUTPUTS: [&'static ::core::primitive::str; $count] = [$($name),*];
+            const OUTPUT_UNITS: &'static [&'static ::core::primitive::str] = &[$($unit),*];
 
             #[inline]
             fn output_values(&$self, t: R, state: &[R; $size]) -> [R; $count] {
