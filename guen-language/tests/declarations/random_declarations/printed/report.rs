@@ -83,11 +83,14 @@ pub fn checked(text: &str, with_outline: bool) -> Option<Checked> {
         // That a linearisation is too long to be code is not known before it is derived.
         let is_code = system.jacobians.rates.is_some();
         let linearized = |item: &String| item.contains("fn linearize") || item.contains("differentiable !");
-        let is_chosen = model.chosen.is_some();
+        let (is_chosen, has_units) = (model.chosen.is_some(), !model.units.is_empty());
         let items = emit::emit(Derived { model, system, scenes });
         let missing = crate::outline::missing(&declaration, items).into_iter();
         let missing = missing.filter(|item| is_code || !linearized(item));
-        // Nor is it which rates of coordinates complete the parameters.
+        // An outline has no units.
+        let with_units = |item: &String| item.contains("simulated !") || item.contains("output_map !");
+        let missing = missing.filter(|item| !has_units || !with_units(item));
+        // Nor is it known which rates of coordinates complete the parameters.
         let missing = missing.filter(|item| !is_chosen || !item.contains("_rate"));
         all.faults.extend(missing.map(|item| format!("{}: not in the outline: {item}", declaration.name)));
     }
