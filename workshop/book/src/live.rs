@@ -1,5 +1,5 @@
-//! Pages that play: below a picture of a motion, a link to the page on which it moves. The examples make these pages; a book
-//! that is built without them has none of the links.
+//! Pages that play: below a picture of a motion, a link to the page on which it moves. The examples and the program `gallery` make
+//! these pages; a book that is built without them has none of the links.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -9,14 +9,20 @@ use std::path::{Path, PathBuf};
 use mdbook_driver::MDBook;
 use mdbook_driver::book::BookItem;
 
-/// A picture of the pages, and the page that an example leaves below `guen` in the target folder.
-const PLAYED: [(&str, &str); 6] = [
+/// A picture of the pages, and the page that a program leaves below `guen` in the target folder.
+const PLAYED: [(&str, &str); 12] = [
     ("viewer-hoop-light.png", "hoop/hoop.html"),
-    ("hoop-track.svg", "hoop/hoop.html"),
     ("viewer-robot-light.png", "balancing_robot/robot.html"),
-    ("sled-track.svg", "chaplygin_sled/sled.html"),
     ("viewer-car-dark.png", "viewer/car.html"),
     ("ball-on-table.svg", "viewer/turntable.html"),
+    ("balancing-robot.svg", "balancing_robot/robot.html"),
+    ("chaplygin-ball.svg", "gallery/chaplygin-ball.html"),
+    ("rattleback.svg", "gallery/rattleback.html"),
+    ("spherical-pendulum.svg", "gallery/spherical-pendulum.html"),
+    ("double-pendulum.svg", "gallery/double-pendulum.html"),
+    ("snakeboard.svg", "gallery/snakeboard.html"),
+    ("snake-robot.svg", "gallery/snake-robot.html"),
+    ("bicycle.svg", "gallery/bicycle.html"),
 ];
 
 /// The folder of the book for these pages.

@@ -59,7 +59,7 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
     let folder = book.build_dir_for("html").canonicalize()?;
     live::copy(&played, &folder)?;
     println!(
-        "{} motions to play: the examples hoop, chaplygin_sled, balancing_robot and viewer make them",
+        "{} motions to play: the examples hoop, balancing_robot and viewer make them, and `gallery` of guen-measure",
         played.len()
     );
     let found = check::check(&folder)?;
