@@ -1,28 +1,21 @@
-//! Functions of the declaration, `fn name(x, y) = e;`: a call is the expression with the arguments in place of their names.
+//! Functions that a declaration has declared so far, and the calls of them that are being evaluated.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::rc::Rc;
 
-use proc_macro2::Span;
-
-use super::evaluate::{Evaluated, Evaluator};
-use super::scope::Category;
 use super::value::Value;
-use crate::diagnostics::Fault;
-use crate::limits::{MAX_CALL_DEPTH, MAX_CALLS};
-use crate::names;
-use crate::syntax::{Expression, ExpressionKind, FunctionDefinition, Name};
+use crate::syntax::FunctionDefinition;
 
 /// The functions declared so far, and the calls that are being evaluated.
 #[derive(Default)]
 pub(super) struct DeclaredFunctions {
-    by_name: BTreeMap<String, Rc<FunctionDefinition>>,
+    pub(super) by_name: BTreeMap<String, Rc<FunctionDefinition>>,
     /// The arguments of the calls that are being evaluated, the innermost last.
-    frames: Vec<BTreeMap<String, Value>>,
+    pub(super) frames: Vec<BTreeMap<String, Value>>,
     /// Calls evaluated so far.
-    calls: usize,
+    pub(super) calls: usize,
     /// Faults that were told the innermost call around them.
-    noted: usize,
+    pub(super) noted: usize,
 }
 
 impl DeclaredFunctions {
@@ -40,153 +33,4 @@ impl DeclaredFunctions {
     pub(super) fn names(&self) -> impl Iterator<Item = &str> {
         self.by_name.keys().map(String::as_str)
     }
-}
-
-impl Evaluator<'_> {
-    /// `fn name(x, y) = e;`: its names are checked here, its kinds where it is called.
-    pub(super) fn function(&mut self, function: &FunctionDefinition) {
-        self.entry = Some(function.name.text.clone());
-        self.place = super::place::Place::Let;
-        let before = self.faults.count();
-        let mut own: BTreeSet<&str> = BTreeSet::new();
-        for parameter in &function.parameters {
-            let text = parameter.text.as_str();
-            if names::is_reserved(text) {
-                let what = if names::is_function(text) { "the name of a function" } else { "reserved" };
-                self.faults.report(
-                    Fault::new(parameter.span(), format!("`{text}` is {what} and cannot name an argument"))
-                        .help("choose another name"),
-                );
-            } else if !own.insert(text) {
-                self.faults.report(Fault::new(parameter.span(), format!("`{text}` is an argument twice")));
-            } else if !text.starts_with('_')
-                && !function.value.mentions(text)
-                && !function.value.has_missing()
-            {
-                let fault = Fault::new(
-                    parameter.span(),
-                    format!("`{}` does not use its argument `{text}`", function.name),
-                );
-                self.faults.report(fault.help(format!("remove it, or call it `_{text}`")));
-            }
-        }
-        self.names_inside(&function.value, function, &own);
-        let mut function = function.clone();
-        if self.faults.count() > before {
-            // Nothing is said about its calls.
-            function.value = Expression::missing(function.value.span);
-        }
-        self.functions.by_name.insert(function.name.text.clone(), Rc::new(function.clone()));
-        self.scope.declare(self.faults, &function.name, Category::Function, None);
-    }
-
-    /// Reports what is not declared in front of a function that uses it.
-    fn names_inside(&mut self, e: &Expression, function: &FunctionDefinition, own: &BTreeSet<&str>) {
-        match &e.kind {
-            ExpressionKind::Name(name) if !own.contains(name.text.as_str()) => {
-                // Its faults are reported; the value is asked for by calls.
-                let _ = self.name(name);
-            }
-            ExpressionKind::Call { function: called, .. } if called.text == function.name.text => {
-                self.faults.report(
-                    Fault::new(called.span(), format!("`{called}` uses itself")).help(
-                        "a function is one expression of its arguments and of what is declared before it",
-                    ),
-                );
-            }
-            ExpressionKind::Call { function: called, arguments, .. }
-                if !names::is_function(&called.text)
-                    && self.functions.get(&called.text).is_none()
-                    && called.text != super::accelerations::REACTION =>
-            {
-                let _ = self.not_a_function(called, arguments);
-            }
-            _ => {}
-        }
-        e.children().into_iter().for_each(|child| self.names_inside(child, function, own));
-    }
-
-    /// Refuses the name of a function where a value is meant.
-    pub(super) fn function_as_value(&mut self, name: &Name) -> Evaluated {
-        self.scope.mark_used(name);
-        let parameters = match self.functions.get(&name.text) {
-            Some(function) => usage(function),
-            None => format!("{name}(..)"),
-        };
-        self.fail(
-            Fault::new(name.span(), format!("`{name}` is a function, and no value"))
-                .help(format!("write `{parameters}`")),
-        )
-    }
-
-    /// A call of a function of the declaration.
-    pub(super) fn declared_call(
-        &mut self,
-        name: &Name,
-        arguments: &[Expression],
-        list: Span,
-    ) -> Option<Evaluated> {
-        let function = self.functions.by_name.get(&name.text).cloned()?;
-        self.scope.mark_used(name);
-        Some(self.called(name, &function, arguments, list))
-    }
-
-    fn called(
-        &mut self,
-        name: &Name,
-        function: &FunctionDefinition,
-        arguments: &[Expression],
-        list: Span,
-    ) -> Evaluated {
-        let values: Vec<Evaluated> = arguments.iter().map(|argument| self.value(argument)).collect();
-        let (expected, found) = (function.parameters.len(), values.len());
-        if expected != found {
-            let plural = if expected == 1 { "" } else { "s" };
-            let were = if found == 1 { "was" } else { "were" };
-            let text = format!("`{name}` takes {expected} argument{plural}, and {found} {were} given");
-            return self.fail(Fault::new(list, text).help(format!("write `{}`", usage(function))));
-        }
-        let values = values.into_iter().collect::<Evaluated<Vec<Value>>>()?;
-        if function.value.has_missing() {
-            // Its fault was reported where it is declared.
-            return Err(self.faults.reported_before());
-        }
-        let functions = &mut self.functions;
-        functions.calls += 1;
-        if functions.frames.len() >= MAX_CALL_DEPTH {
-            let text = format!("more than {MAX_CALL_DEPTH} functions call each other here");
-            return self.fail(Fault::new(name.span(), text).help("write some of them out"));
-        }
-        if functions.calls > MAX_CALLS {
-            let text =
-                format!("more than {MAX_CALLS} calls of functions, those inside of functions included");
-            return self
-                .fail(Fault::new(name.span(), text).help("give a value that is used often a name by `let`"));
-        }
-        let names = function.parameters.iter().map(|parameter| parameter.text.clone());
-        let before = self.faults.count();
-        functions.frames.push(names.zip(values).collect());
-        let value = self.value(&function.value);
-        self.functions.frames.pop();
-        // Of a chain of calls the first and the last.
-        let is_outermost = self.functions.frames.is_empty() && self.functions.noted > before;
-        let since = if is_outermost { before } else { before.max(self.functions.noted) };
-        self.faults.note_since(since, &format!("in the call of `{name}`"), name.span());
-        self.functions.noted = self.faults.count();
-        value
-    }
-
-    /// Whether the expression of a function brings in one of these kinds of symbol by itself, whatever its arguments.
-    pub(super) fn brings_in(&self, function: &str, roles: guen_symbolic::Roles) -> bool {
-        let Some(function) = self.functions.get(function) else { return false };
-        let own: BTreeSet<&str> =
-            function.parameters.iter().map(|parameter| parameter.text.as_str()).collect();
-        self.culprit_beside(&own, &function.value, roles).is_some()
-    }
-}
-
-/// `name(x, y)`.
-fn usage(function: &FunctionDefinition) -> String {
-    let parameters: Vec<&str> = function.parameters.iter().map(|parameter| parameter.text.as_str()).collect();
-    format!("{}({})", function.name, parameters.join(", "))
 }

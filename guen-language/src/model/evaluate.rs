@@ -5,10 +5,10 @@ use std::collections::{BTreeMap, BTreeSet};
 use guen_symbolic::{ExprId, Flow, Node, PowerError, Rational, Role, Roles, Verdict, Workbench};
 use proc_macro2::Span;
 
+use super::assumed_rates::AssumedRates;
 use super::declared_functions::DeclaredFunctions;
 use super::motion_symbols::MotionSymbols;
 use super::place::{Place, ROLES, role_name};
-use super::rates::AssumedRates;
 use super::scope::{Category, Scope};
 use super::shapes::Shapes;
 use super::value::{Value, Vector};

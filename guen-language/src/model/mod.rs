@@ -4,7 +4,9 @@
 //! [`guen_symbolic::Mechanics`], in which every expression is an exact one over checked names.
 
 mod accelerations;
+mod assumed_rates;
 mod bodies;
+mod calls;
 mod declared_functions;
 mod dimensions;
 mod evaluate;

@@ -6,6 +6,7 @@ use std::collections::BTreeMap;
 
 use guen_symbolic::{ExprId, Form, Role, SymbolId, chosen_rates, evaluate_f64};
 
+use super::assumed_rates::Assumed;
 use super::evaluate::Evaluator;
 use super::forms::RawForm;
 use super::scope::Category;
@@ -17,22 +18,6 @@ use crate::syntax::{Docs, Name};
 
 /// No documentation: that of the coordinate is about the coordinate.
 const UNDOCUMENTED: &Docs = &Docs { values: Vec::new(), lines: Vec::new() };
-
-/// Rates of coordinates that are used as parameters and declared nowhere.
-#[derive(Default)]
-pub(super) struct AssumedRates(BTreeMap<String, Assumed>);
-
-struct Assumed {
-    symbol: ExprId,
-    /// The first use, and the place in words.
-    first: (Name, String),
-}
-
-impl AssumedRates {
-    pub(super) fn symbols(&self) -> impl Iterator<Item = ExprId> {
-        self.0.values().map(|assumed| assumed.symbol)
-    }
-}
 
 /// The parameters that were chosen, with the reason.
 pub struct ChosenRates {

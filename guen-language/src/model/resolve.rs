@@ -12,11 +12,11 @@ use guen_symbolic::{
     Substitution, Workbench,
 };
 
+use super::assumed_rates::AssumedRates;
 use super::bodies::{Weight, is_no_inertia, turns_about_several_axes};
 use super::evaluate::Evaluator;
 use super::forms::RawForm;
 use super::place::Place;
-use super::rates::AssumedRates;
 use super::scope::{Category, Scope};
 use super::shapes::Shapes;
 use super::spatial::inner;
