@@ -1,7 +1,8 @@
 //! The progress of a long run: one line on the terminal, which comes late, changes seldom and leaves no trace; in a log file a
 //! few plain lines.
 //!
-//! What a line says and when it is due are functions of plain numbers; only [`Progress`] knows clock, terminal and environment.
+//! The text of a line and the time of the next one are computed by pure functions; only [`Progress`] reads the clock, the
+//! terminal and the environment.
 
 use std::io::{self, IsTerminal, Stderr, Write};
 use std::ops::ControlFlow;

@@ -146,7 +146,7 @@ pub(super) fn drawn<const N: usize>(
         let (k, part) = locate(times, time);
         let here = between(whole.values[k], whole.values[(k + 1).min(whole.values.len() - 1)], part);
         let ink = viewer.path_ink(i);
-        // What is behind the moment is strong, what is before it faint.
+        // The past part of a path is drawn strongly, the future part faintly.
         let done = whole.values[..=k].iter().copied().chain([here]);
         let rest = [here].into_iter().chain(whole.values[k + 1..].iter().copied());
         polyline(eye, rest, &ink, 0.35, &mut tracks);

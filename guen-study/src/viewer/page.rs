@@ -290,7 +290,7 @@ impl Space {
         let (least, most) = bounds(bodies.chain(paths).chain(links));
         let size = norm(difference(most, least));
         let around = viewer.all_bodies().flat_map(|body| &body.shapes).map(Shape::reach).fold(0.0, f64::max);
-        // What stands still is as large as it is drawn.
+        // Bodies at rest have no track; their size is that of their shapes.
         let held = if size > 0.0 { size } else { around };
         let is_far = (0..3).any(|i| least[i].abs().max(most[i].abs()) > FAR_OFF * held) && held > 0.0;
         // A number that can be read: to the power of ten below the size of the motion.

@@ -1,7 +1,7 @@
-//! Coordinates whose rates complete forms to as many as there are coordinates: quasi-velocities for a declaration that names too few.
+//! Chooses the quasi-velocities that a declaration leaves out: rates of coordinates that complete its forms.
 //!
-//! The forms given leave some coordinates free. Where the rates of a set `S` of coordinates are taken as the missing forms, the forms
-//! given say what the other velocities are, `x' = -T x'_S` where the forms given vanish. A set is singular at a state where `T` does not
+//! If the rates of a set `S` of coordinates are taken as the missing forms, the declared forms, set to zero, give the velocities of the
+//! other coordinates: `x' = -T x'_S`. A set is singular at a state where `T` does not
 //! exist, and near such a state `T` is large: its *condition* at a state is `sqrt(1 + |T|^2)` in the norm of Frobenius, at least one,
 //! and that of the set is the worst over states drawn at random, on the manifold of the holonomic constraints. It does not depend on
 //! the scales of the forms.
@@ -68,7 +68,7 @@ pub fn chosen_rates(
             let values = evaluate_f64(graph, &entries, &value);
             values.chunks(coordinates.len()).map(<[f64]>::to_vec).collect()
         })
-        // What is not defined at a state says nothing of the forms.
+        // States at which an entry is not finite are skipped.
         .filter(|matrix: &Vec<Vec<f64>>| matrix.iter().flatten().all(|entry| entry.is_finite()))
         .collect();
     chosen(&matrices, coordinates.len()).ok_or_else(|| {

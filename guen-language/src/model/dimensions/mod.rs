@@ -1,6 +1,6 @@
-//! Dimensions of a declaration in which units are written: of what has none they follow from sums, and no sum adds two different ones.
+//! Checks the dimensions of a declaration with units, and infers those of names without one.
 //!
-//! What comes in is a declaration whose names and kinds are sound. Names are visited in their order; each fault is reported at the
+//! The input is a declaration without faults of names and kinds. Names are visited in their order; each fault is reported at the
 //! smallest sum, product or argument that cannot be.
 
 mod expressions;

@@ -48,7 +48,7 @@ fn axial(tree: &Tree, content: &Content) -> Option<usize> {
 #[derive(Clone, Copy, PartialEq, Eq)]
 struct Order {
     parameters: Leaving,
-    /// Whether what is shifted along levers leaves before what is turned.
+    /// Whether velocities that are shifted along levers are eliminated before those that a joint turns.
     shifts_first: bool,
 }
 
