@@ -6,7 +6,7 @@ use proc_macro2::Ident;
 /// Functions of scalars.
 pub const SCALAR_FUNCTIONS: &[&str] = &[
     "sin", "cos", "tan", "cot", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh", "exp", "ln", "sqrt",
-    "abs", "sign",
+    "abs", "sign", "floor", "min", "max", "clamp", "select",
 ];
 
 /// The time derivative and the functions that make or take vectors and rotations.

@@ -13,6 +13,7 @@ mod generated;
 mod hygiene;
 mod moving_frames;
 mod paper;
+mod piecewise;
 mod report;
 mod serde;
 mod slip;

@@ -104,6 +104,12 @@ fn refusal(model: &Model<'_>, refused: NotCarried, word: &Name) -> Fault {
         NotCarried::Nothing => Fault::new(word.span(), "there is nothing to carry")
             .note("the rates call no elementary function of the state")
             .help("leave it out: the right-hand side is without calls as it is"),
+        NotCarried::Supplied(call) => {
+            let call = written(model, call, "a long expression");
+            Fault::new(word.span(), "a function that the program supplies cannot be carried as a state")
+                .note(format!("it is `{call}`, whose rate calls its derivatives"))
+                .help("leave `carried` out")
+        }
         NotCarried::Input(call) => {
             let call = written(model, call, "a long expression");
             Fault::new(word.span(), "a function of an input cannot be carried as a state")

@@ -127,6 +127,7 @@ fn zeros(graph: &Graph, e: ExprId) -> Option<Vec<Zero>> {
             Function::Cos => told(*argument, "is an odd multiple of pi/2"),
             Function::Acos | Function::Ln => told(*argument, "= 1"),
             Function::Exp | Function::Cosh => Some(Vec::new()),
+            Function::Floor => None,
             Function::Asin
             | Function::Atan
             | Function::Sinh
@@ -153,7 +154,7 @@ fn zeros(graph: &Graph, e: ExprId) -> Option<Vec<Zero>> {
             each.sort_unstable();
             Some(vec![Zero::Told(each.join(" and "))])
         }
-        Node::Number(_) | Node::Pi | Node::Atan2(..) | Node::Undefined => None,
+        Node::Number(_) | Node::Pi | Node::Multivariate(..) | Node::Undefined => None,
     }
 }
 

@@ -1,6 +1,6 @@
 //! The Taylor series of a level: its recurrences, and what has none.
 
-use guen_symbolic::{Programs, SeriesProgram, Source, SymbolId};
+use guen_symbolic::{Multivariate, Operation, Programs, SeriesProgram, Source, SymbolId};
 use proc_macro2::Span;
 
 use super::function;
@@ -36,13 +36,18 @@ pub(super) fn of(
     let held = match SeriesProgram::new(rates, source) {
         Ok(series) => series,
         Err(refused) => {
-            let function = refused.function.name();
+            let function = model.called(&refused.operation);
             let variable = model.variable_name(selection.variables[refused.output]);
+            let is_supplied = matches!(refused.operation, Operation::Apply(Multivariate::Supplied { .. }, _));
             let text =
                 format!("the motion has no Taylor series: the rate of `{variable}` needs `{function}`");
             faults.report(
                 Fault::new(word, text)
-                    .note(format!("at a kink of `{function}` a series goes on as if there were none, and nothing would tell"))
+                    .note(if is_supplied {
+                        format!("the program supplies `{function}` with derivatives of a few orders, and a series takes twenty")
+                    } else {
+                        format!("at a kink of `{function}` a series goes on as if there were none, and nothing would tell")
+                    })
                     .help("leave `taylor` out and integrate with another method, up to the kink by an event"),
             );
             return None;

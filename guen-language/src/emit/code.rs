@@ -5,7 +5,7 @@
 
 use std::fmt::Write;
 
-use guen_symbolic::{Function, Instruction, Operation, Rational, SymbolId, Value};
+use guen_symbolic::{Function, Instruction, Multivariate, Operation, Rational, SymbolId, Value};
 
 /// The values of symbols in a program: an expression of Rust for each.
 pub(super) trait Loads {
@@ -283,7 +283,10 @@ impl Writer {
             Operation::Number(value) => return (number(value), false),
             Operation::Pi => return ("R::pi()".to_owned(), false),
             Operation::Call(function, a) => return (call(*function, name(a)), false),
-            Operation::Atan2(y, x) => return (format!("R::atan2({}, {})", name(y), name(x)), false),
+            Operation::Apply(function, arguments) => {
+                let arguments: Vec<String> = arguments.iter().map(|v| name(v).to_owned()).collect();
+                return (apply(*function, &arguments), false);
+            }
             // Loads have no statement, and a pair is no expression.
             Operation::Symbol(_) | Operation::Prepared(_) | Operation::SinCos { .. } => {
                 return (String::new(), false);
@@ -291,6 +294,16 @@ impl Writer {
         };
         (format!("{} {sign} {}", operand(a), operand(b)), true)
     }
+}
+
+/// A call of a function of several arguments.
+pub(super) fn apply(function: Multivariate, arguments: &[String]) -> String {
+    let name = match function {
+        Multivariate::Minimum => "minimum",
+        Multivariate::Maximum => "maximum",
+        known => known.name(),
+    };
+    format!("R::{name}({})", arguments.join(", "))
 }
 
 pub(super) fn call(function: Function, argument: &str) -> String {

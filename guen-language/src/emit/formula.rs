@@ -53,7 +53,10 @@ pub(super) fn default_text(subject: &Subject<'_, '_>, e: ExprId) -> String {
             format!("R::root({}, {q}u32)", of(*x))
         }
         Node::Function(function, x) => format!("R::{}({})", function.name(), of(*x)),
-        Node::Atan2(y, x) => format!("R::atan2({}, {})", of(*y), of(*x)),
+        Node::Multivariate(function, arguments) => {
+            let arguments: Vec<String> = arguments.iter().map(|e| of(*e)).collect();
+            super::code::apply(*function, &arguments)
+        }
         Node::Kept(x) => of(*x),
         // Divisions by zero are refused before.
         Node::Undefined => "R::zero()".to_owned(),

@@ -10,7 +10,7 @@ use guen_symbolic::{Function, Operation, SeriesProgram, SeriesStep, Start, Value
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::code::{Loads, call, number};
+use super::code::{Loads, apply, call, number};
 use super::layout::Layout;
 use crate::derive::{Series, Subject};
 
@@ -242,7 +242,10 @@ impl Writer<'_> {
                 Operation::Mul(a, b) => format!("{} * {}", at(a), at(b)),
                 Operation::Div(a, b) => format!("{} / {}", at(a), at(b)),
                 Operation::Call(function, a) => call(*function, &at(a)),
-                Operation::Atan2(y, x) => format!("R::atan2({}, {})", at(y), at(x)),
+                Operation::Apply(function, arguments) => {
+                    let arguments: Vec<String> = arguments.iter().map(at).collect();
+                    apply(*function, &arguments)
+                }
                 // Series programs have none.
                 Operation::SinCos { .. } => return None,
             },

@@ -232,6 +232,10 @@ impl Evaluator<'_> {
                 sum
             }
             ExpressionKind::Product { first, rest } => self.product(first, rest),
+            // The parser lets it stand there alone.
+            ExpressionKind::Comparison { .. } => {
+                self.fail(Fault::new(e.span, "a comparison is the first argument of `select`"))
+            }
             ExpressionKind::Power { base, exponent } => {
                 let (base_value, exponent_value) = (self.value(base), self.value(exponent));
                 let (base_value, exponent_value) = (base_value?, exponent_value?);

@@ -24,6 +24,9 @@ impl Evaluator<'_> {
                 None => self.not_a_function(function, arguments),
             };
         }
+        if function.text == "select" {
+            return self.select(function, arguments, list);
+        }
         let mut values = Vec::new();
         for argument in arguments {
             values.push((self.value(argument), argument.span));
@@ -63,7 +66,9 @@ impl Evaluator<'_> {
                 let (value, span) = values[0].clone();
                 self.divided(one, value, name.span(), span)
             }
-            text if names::is_function(text) && text != "dot" => self.apply_function(name, values, list),
+            text if names::is_function(text) && !matches!(text, "dot" | "select") => {
+                self.apply_function(name, values, list)
+            }
             text => {
                 let mut fault = Fault::new(name.span(), format!("unknown method `{text}`"));
                 if let Some(near) =
@@ -168,8 +173,12 @@ impl Evaluator<'_> {
             "sqrt" => Some(Function::Root(2)),
             "abs" => Some(Function::Abs),
             "sign" => Some(Function::Sign),
+            "floor" => Some(Function::Floor),
             _ => None,
         };
+        if matches!(text, "min" | "max" | "clamp") {
+            return self.extremum(function, &values, list);
+        }
         let count = match text {
             "atan2" | "inner" | "cross" | "rot" => 2,
             "quaternion" => 4,
@@ -417,7 +426,7 @@ impl Evaluator<'_> {
         Ok(Value::Vector(velocity))
     }
 
-    fn scalar(&mut self, function: &Name, value: &(Value, Span)) -> Evaluated<ExprId> {
+    pub(super) fn scalar(&mut self, function: &Name, value: &(Value, Span)) -> Evaluated<ExprId> {
         match &value.0 {
             Value::Scalar(e) => Ok(*e),
             other => {
@@ -457,8 +466,19 @@ impl Evaluator<'_> {
 /// Returns what to write for a function of other languages that this one has not.
 fn instead_of(text: &str) -> Option<&'static str> {
     Some(match text {
-        "min" => "the smaller of two is `(a + b - abs(a - b))/2`",
-        "max" => "the larger of two is `(a + b + abs(a - b))/2`",
+        "ite" | "ifelse" | "if_else" | "where" | "cond" | "Piecewise" | "piecewise" | "switch" => {
+            "write `select(c >= 0, a, b)`: `a` where the comparison holds, `b` elsewhere"
+        }
+        "smoothstep" => "with `s = clamp((x - a)/(b - a), 0, 1)` it is `s^2*(3 - 2*s)`",
+        "mod" | "fmod" | "rem" | "remainder" => "the rest of a division by `b` is `x - b*floor(x/b)`",
+        "ceil" => "write `-floor(-x)`",
+        "round" => "write `floor(x + 1/2)`",
+        "trunc" => "write `sign(x)*floor(abs(x))`",
+        "fract" | "frac" => "write `x - floor(x)`",
+        "saturate" | "sat" | "limit" => "write `clamp(x, low, high)`",
+        "lambda" | "Function" | "interp" | "interp1" | "interp1d" | "lookup" | "table" | "spline" | "lut" => {
+            "a function of one expression is declared by `fn name(x) = e;`"
+        }
         "sec" => "write `1/cos(x)`",
         "csc" | "cosec" => "write `1/sin(x)`",
         "sech" => "write `1/cosh(x)`",
@@ -468,16 +488,13 @@ fn instead_of(text: &str) -> Option<&'static str> {
         "acosh" | "arccosh" | "arcosh" => "write `ln(x + sqrt(x^2 - 1))`",
         "atanh" | "arctanh" | "artanh" => "write `ln((1 + x)/(1 - x))/2`",
         "acot" | "arccot" => "write `pi/2 - atan(x)`",
-        "round" | "floor" | "ceil" | "trunc" | "fract" | "rem" => {
-            "there are no functions with steps but `sign(x)` and, with an edge, `abs(x)`"
-        }
         "pow" | "powf" | "powi" => "a power is written `x^2`",
         "square" | "sqr" => "a square is written `x^2`",
         "cbrt" => "a cube root is written `x^(1/3)`",
         "hypot" => "write `sqrt(x^2 + y^2)`",
         "log10" => "write `ln(x)/ln(10)`",
         "log2" => "write `ln(x)/ln(2)`",
-        "heaviside" | "step" => "a step from 0 to 1 is `(1 + sign(x))/2`",
+        "heaviside" | "Heaviside" | "step" => "a step from 0 to 1 is `select(x >= 0, 1, 0)`",
         "norm2" => "the square of a vector's length is `inner(v, v)`",
         "diff" => "`dot(x)` is the rate of `x`; derivatives of the energies are the macro's work",
         "d" | "dt" | "ddt" | "der" | "derivative" => "the rate of `x` is written `dot(x)`",
@@ -490,6 +507,8 @@ fn instead_of(text: &str) -> Option<&'static str> {
 fn function_synonym(text: &str) -> Option<&'static str> {
     Some(match text {
         "log" => "ln",
+        "fmin" | "minimum" | "Min" => "min",
+        "fmax" | "maximum" | "Max" => "max",
         "arcsin" => "asin",
         "arccos" => "acos",
         "arctan" => "atan",

@@ -13,6 +13,7 @@ mod evaluate;
 mod forms;
 mod functions;
 mod motion_symbols;
+mod piecewise;
 mod place;
 mod quaternions;
 mod rates;
@@ -23,7 +24,7 @@ mod shapes;
 mod spatial;
 mod value;
 
-use guen_symbolic::{ExprId, Mechanics, Workbench};
+use guen_symbolic::{ExprId, Mechanics, Multivariate, Operation, Workbench};
 use proc_macro2::{Ident, Span};
 
 use crate::syntax::{BoundKind, Declaration, Docs, Name, Scene};
@@ -104,6 +105,18 @@ impl Model<'_> {
         let particle =
             || self.particles.iter().any(|(mass, _)| self.is_negative(*mass)).then_some("particles");
         body.map(|body| body.name.as_str()).or_else(particle)
+    }
+
+    /// The name of the function that an operation calls.
+    pub(crate) fn called(&self, operation: &Operation) -> String {
+        match operation {
+            Operation::Call(function, _) => function.name().to_owned(),
+            Operation::Apply(Multivariate::Supplied { function, .. }, _) => {
+                self.bench.graph.supplied_functions()[usize::from(*function)].name.clone()
+            }
+            Operation::Apply(function, _) => function.name().to_owned(),
+            _ => "an operation".to_owned(),
+        }
     }
 
     /// Whether an expression is a negative number.

@@ -66,11 +66,13 @@ impl Kinds {
     /// The kind of an expression.
     pub(super) fn of(&self, e: &Expression) -> Kind {
         match &e.kind {
-            ExpressionKind::Missing | ExpressionKind::Number(_) | ExpressionKind::Power { .. } => {
-                Kind::Scalar
-            }
+            ExpressionKind::Missing
+            | ExpressionKind::Number(_)
+            | ExpressionKind::Comparison { .. }
+            | ExpressionKind::Power { .. } => Kind::Scalar,
             ExpressionKind::Name(name) => self.names.get(&name.text).copied().unwrap_or(Kind::Scalar),
             ExpressionKind::Call { function, arguments, .. } => match function.text.as_str() {
+                "select" => arguments.get(1).map_or(Kind::Scalar, |argument| self.of(argument)),
                 "vec" if arguments.len() == 2 => Kind::Plane,
                 "unit" => arguments.first().map_or(Kind::Vector, |argument| self.of(argument)),
                 "vec" | "cross" | "angular_velocity" | "angular_velocity_body" => Kind::Vector,

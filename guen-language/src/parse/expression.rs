@@ -11,7 +11,8 @@ use crate::diagnostics::{Fault, Faults, Reported};
 use crate::limits::{MAX_DECIMAL_ORDER, MAX_DEPTH, MAX_DIGITS};
 use crate::names::{can_be_raw, is_function, is_rust_keyword};
 use crate::syntax::{
-    AddOperator, Expression, ExpressionKind, Factor, MultiplyOperator, Name, Number, NumberProblem, Term,
+    AddOperator, Expression, ExpressionKind, Factor, MultiplyOperator, Name, Number, NumberProblem, Order,
+    Term,
 };
 
 type Parsed = Result<Expression, Reported>;
@@ -275,7 +276,7 @@ fn keyword(ident: &proc_macro2::Ident, faults: &mut Faults, expected: &str) -> R
     }
     let fault = Fault::new(ident.span(), format!("expected {expected}, found keyword `{text}`"));
     Err(faults.report(if matches!(text.as_str(), "if" | "else" | "match") {
-        fault.help("an expression has no branches; `sign(x)` and `abs(x)` change where `x` is zero")
+        fault.help("an expression has no branches: write `select(c >= 0, a, b)`, `a` where the comparison holds and `b` elsewhere")
     } else if matches!(text.as_str(), "for" | "while" | "loop") {
         fault.help("there are no loops: write every term")
     } else if can_be_raw(&text) {
@@ -289,7 +290,7 @@ fn keyword(ident: &proc_macro2::Ident, faults: &mut Faults, expected: &str) -> R
 fn name_or_call(cursor: &mut Cursor, faults: &mut Faults, depth: usize, name: Name) -> Expression {
     let span = name.span();
     if let Some(group) = cursor.eat_group(Delimiter::Parenthesis) {
-        let arguments = arguments(&group, faults, depth);
+        let arguments = compared_arguments(&group, faults, depth, name.text == "select");
         if name.text == "dot" && arguments.len() == 2 {
             faults.report(
                 Fault::new(span, "`dot` takes one argument: it is the derivative by time")
@@ -355,12 +356,20 @@ fn parentheses(group: &Group, faults: &mut Faults, depth: usize) -> Parsed {
 
 /// The arguments of a call, separated by commas; one more comma at the end is allowed.
 pub(crate) fn arguments(group: &Group, faults: &mut Faults, depth: usize) -> Vec<Expression> {
+    compared_arguments(group, faults, depth, false)
+}
+
+/// The arguments of a call, of which the first may be a comparison.
+fn compared_arguments(group: &Group, faults: &mut Faults, depth: usize, compares: bool) -> Vec<Expression> {
     let mut arguments = Vec::new();
     let Ok(depth) = deeper(depth, group.span_open(), faults) else { return arguments };
     let mut cursor = Cursor::inside(group);
     while !cursor.is_end() {
         let span = cursor.span();
-        let value = sum(&mut cursor, faults, depth);
+        let mut value = sum(&mut cursor, faults, depth);
+        if let Ok(left) = value {
+            value = comparison(&mut cursor, faults, depth, left, compares && arguments.is_empty());
+        }
         let is_whole = value.is_ok();
         arguments.push(value.unwrap_or_else(|Reported { .. }| Expression::missing(span)));
         if is_whole && !cursor.is_end() && !cursor.is_punct(',') {
@@ -375,6 +384,39 @@ pub(crate) fn arguments(group: &Group, faults: &mut Faults, depth: usize) -> Vec
         cursor.skip(1);
     }
     arguments
+}
+
+/// What an operand becomes by a relation that may stand behind it.
+fn comparison(
+    cursor: &mut Cursor,
+    faults: &mut Faults,
+    depth: usize,
+    left: Expression,
+    is_allowed: bool,
+) -> Parsed {
+    let span = cursor.span();
+    let (order, marks) = match () {
+        () if cursor.is_pair('>', '=') => (Order::AtLeast, 2),
+        () if cursor.is_pair('<', '=') => (Order::AtMost, 2),
+        () if cursor.is_punct('>') => (Order::Above, 1),
+        () if cursor.is_punct('<') => (Order::Below, 1),
+        () if is_allowed && (cursor.is_pair('=', '=') || cursor.is_pair('!', '=')) => {
+            let fault = Fault::new(span, format!("`select` does not compare by {}", cursor.found()));
+            return Err(faults.report(fault.help(
+                "a condition is written with `>=`, `>`, `<=` or `<`: numbers that are computed are hardly ever equal",
+            )));
+        }
+        () => return Ok(left),
+    };
+    cursor.skip(marks);
+    let right = sum(cursor, faults, depth)?;
+    if !is_allowed {
+        let fault =
+            Fault::new(span, "a comparison is the first argument of `select`, and stands nowhere else");
+        return Err(faults.report(fault.help("write `select(c >= 0, a, b)`")));
+    }
+    let sides = (Box::new(left), Box::new(right));
+    Ok(Expression::new(span, ExpressionKind::Comparison { left: sides.0, order, right: sides.1 }))
 }
 
 /// Returns the next level of nesting, as long as there are any.

@@ -97,10 +97,10 @@ pub(crate) fn unexpected(cursor: &Cursor, faults: &mut Faults, expected: &str) -
         }
         Some(TokenTree::Punct(mark)) => match mark.as_char() {
             '=' => fault.help("an entry has one `=`"),
-            '<' | '>' | '!' => fault.help("comparisons stand only in `constants`, as `m > 0`"),
+            '<' | '>' | '!' => fault.help("comparisons stand in `constants`, as `m > 0`, and first in `select(c >= 0, a, b)`"),
             '%' => fault.help("there is no remainder of a division: use `sin` and `cos` of angles"),
             '?' => {
-                fault.help("an expression has no branches; `sign(x)` and `abs(x)` change where `x` is zero")
+                fault.help("an expression has no branches: write `select(c >= 0, a, b)`, `a` where the comparison holds and `b` elsewhere")
             }
             ':' => fault.help("the name of an entry stands at its beginning"),
             _ => fault,

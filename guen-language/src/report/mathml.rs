@@ -219,6 +219,7 @@ impl Parser<'_> {
             "right" => self.atom(out),
             "quad" => out.push_str("<mspace width=\"1em\"/>"),
             "ldots" => out.push_str("<mo>…</mo>"),
+            "ge" => out.push_str("<mo form=\"infix\">≥</mo>"),
             "neq" => out.push_str("<mo form=\"infix\">≠</mo>"),
             "partial" => out.push_str("<mi>∂</mi>"),
             "circ" => out.push_str("<mo>∘</mo>"),

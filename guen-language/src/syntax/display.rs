@@ -59,6 +59,9 @@ impl Display for Expression {
                 })
             }
             ExpressionKind::Power { base, exponent } => write!(f, "({base}^{exponent})"),
+            ExpressionKind::Comparison { left, order, right } => {
+                write!(f, "{left} {} {right}", order.sign())
+            }
         }
     }
 }
@@ -238,6 +241,7 @@ impl Display for Declaration {
 /// The precedence of the outermost operation of an expression: how tightly it binds.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Binding {
+    Comparison,
     Sum,
     Product,
     Sign,
@@ -256,6 +260,7 @@ impl Expression {
 
     fn binding(&self) -> Binding {
         match &self.kind {
+            ExpressionKind::Comparison { .. } => Binding::Comparison,
             ExpressionKind::Sum { .. } => Binding::Sum,
             ExpressionKind::Product { .. } => Binding::Product,
             ExpressionKind::Negation(_) => Binding::Sign,
@@ -306,6 +311,11 @@ impl Expression {
                     factor.value.write(text, Binding::Sign)
                 })
             }
+            ExpressionKind::Comparison { left, order, right } => {
+                left.write(text, Binding::Sum)?;
+                write!(text, " {} ", order.sign())?;
+                right.write(text, Binding::Sum)
+            }
             ExpressionKind::Power { base, exponent } => {
                 base.write(text, Binding::Operand)?;
                 text.push('^');
@@ -328,7 +338,7 @@ fn list(text: &mut String, arguments: &[Expression]) -> fmt::Result {
         if i > 0 {
             text.push_str(", ");
         }
-        argument.write(text, Binding::Sum)?;
+        argument.write(text, Binding::Comparison)?;
     }
     text.push(')');
     Ok(())

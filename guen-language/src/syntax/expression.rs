@@ -68,6 +68,15 @@ pub enum ExpressionKind {
         /// The factors after it.
         rest: Vec<Factor>,
     },
+    /// `left >= right`: the first argument of `select`.
+    Comparison {
+        /// The left side.
+        left: Box<Expression>,
+        /// The relation.
+        order: Order,
+        /// The right side.
+        right: Box<Expression>,
+    },
     /// `base ^ exponent`.
     Power {
         /// The base.
@@ -106,6 +115,31 @@ pub enum AddOperator {
     Plus,
     /// `-`.
     Minus,
+}
+
+/// A relation between two numbers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Order {
+    /// `>=`.
+    AtLeast,
+    /// `>`.
+    Above,
+    /// `<=`.
+    AtMost,
+    /// `<`.
+    Below,
+}
+
+impl Order {
+    /// The relation as it is written.
+    pub fn sign(self) -> &'static str {
+        match self {
+            Order::AtLeast => ">=",
+            Order::Above => ">",
+            Order::AtMost => "<=",
+            Order::Below => "<",
+        }
+    }
 }
 
 /// `*` or `/`.
@@ -154,6 +188,7 @@ impl Expression {
             ExpressionKind::Product { first, rest } => {
                 std::iter::once(&**first).chain(rest.iter().map(|f| &f.value)).collect()
             }
+            ExpressionKind::Comparison { left, right, .. } => vec![left, right],
             ExpressionKind::Power { base, exponent } => vec![base, exponent],
         }
     }
@@ -191,6 +226,7 @@ impl Expression {
             ExpressionKind::Field { base, .. }
             | ExpressionKind::Method { base, .. }
             | ExpressionKind::Power { base, .. } => base.first_token(),
+            ExpressionKind::Comparison { left, .. } => left.first_token(),
             ExpressionKind::Sum { first, .. } | ExpressionKind::Product { first, .. } => first.first_token(),
         }
     }

@@ -11,7 +11,7 @@ mod number;
 mod section;
 mod unit;
 
-pub use expression::{AddOperator, Expression, ExpressionKind, Factor, MultiplyOperator, Term};
+pub use expression::{AddOperator, Expression, ExpressionKind, Factor, MultiplyOperator, Order, Term};
 pub use name::{Docs, Name, Visibility};
 pub use number::{Number, NumberProblem};
 pub use unit::{Dimension, Unit};

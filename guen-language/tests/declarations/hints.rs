@@ -11,24 +11,37 @@ fn message(call: &str) -> String {
 #[test]
 fn a_missing_function_is_told_by_what_to_write() {
     for (call, help) in [
-        ("min(x, u)", "(a + b - abs(a - b))/2"),
-        ("max(x, u)", "(a + b + abs(a - b))/2"),
+        ("Piecewise(x, u)", "write `select(c >= 0, a, b)`"),
+        ("where(x, u, 1)", "write `select(c >= 0, a, b)`"),
+        ("smoothstep(0, 1, x)", "`s = clamp((x - a)/(b - a), 0, 1)`"),
+        ("mod(x, 2)", "`x - b*floor(x/b)`"),
+        ("saturate(x, 0, 1)", "`clamp(x, low, high)`"),
+        ("interp1(x)", "`fn name(x) = e;`"),
+        ("ceil(x)", "`-floor(-x)`"),
         ("sec(x)", "write `1/cos(x)`"),
         ("csc(x)", "write `1/sin(x)`"),
         ("coth(x)", "write `1/tanh(x)`"),
         ("sech(x)", "write `1/cosh(x)`"),
         ("asinh(x)", "`ln(x + sqrt(x^2 + 1))`"),
-        ("round(x)", "no functions with steps"),
+        ("round(x)", "`floor(x + 1/2)`"),
         ("pow(x, 2)", "a power is written `x^2`"),
         ("norm2(x)", "`inner(v, v)`"),
         ("diff(x)", "`dot(x)` is the rate of `x`"),
         ("der(x)", "the rate of `x` is written `dot(x)`"),
         ("square(x)", "a square is written `x^2`"),
-        ("heaviside(x)", "`(1 + sign(x))/2`"),
+        ("heaviside(x)", "`select(x >= 0, 1, 0)`"),
     ] {
         let message = message(call);
         assert!(message.contains(help), "{call}: {message}");
         assert!(!message.contains("did you mean"), "{call}: {message}");
+    }
+}
+
+#[test]
+fn functions_under_other_names_are_told() {
+    for (call, name) in [("fmin(x, u)", "min"), ("fmax(x, u)", "max"), ("Max(x, u)", "max")] {
+        let message = message(call);
+        assert!(message.contains(&format!("did you mean `{name}`?")), "{call}: {message}");
     }
 }
 
@@ -46,7 +59,7 @@ fn a_derivative_in_other_notations_is_one_mistake() {
 fn branches_are_not_taken_for_names() {
     for call in ["if x > 0 { 1 } else { 2 }", "match x {}", "x ? 1 : 2"] {
         let message = message(call);
-        assert!(message.contains("an expression has no branches"), "{call}: {message}");
+        assert!(message.contains("an expression has no branches: write `select("), "{call}: {message}");
         assert!(!message.contains("r#"), "{call}: {message}");
     }
 }

@@ -8,7 +8,8 @@
 use f256::f256;
 use guen_language::derive::{Derived, Level, function};
 use guen_symbolic::{
-    Arithmetic, ExprId, Function, Rational, Real, SymbolId, evaluate, evaluate_function, evaluate_prepare,
+    Arithmetic, ExprId, Function, Multivariate, Rational, Real, SymbolId, evaluate, evaluate_function,
+    evaluate_prepare,
 };
 
 use crate::common::derived;
@@ -51,8 +52,15 @@ impl Arithmetic for Long {
     fn call(function: Function, x: &Self) -> Self {
         Long(x.0.of(function))
     }
-    fn atan2(y: &Self, x: &Self) -> Self {
-        Long(y.0.angle(x.0))
+    fn apply(function: Multivariate, arguments: &[Self]) -> Self {
+        let at = |place: usize| arguments[place].0;
+        Long(match function {
+            Multivariate::Atan2 => at(0).angle(at(1)),
+            Multivariate::Select => at(0).choose(at(1), at(2)),
+            Multivariate::Maximum => (at(0) - at(1)).choose(at(0), at(1)),
+            Multivariate::Minimum => (at(0) - at(1)).choose(at(1), at(0)),
+            Multivariate::Supplied { .. } => panic!("nobody supplies functions here"),
+        })
     }
 }
 

@@ -302,6 +302,12 @@ impl<R: Real, const N: usize> Real for Dual<R, N> {
         Self::constant(self.value.sign())
     }
 
+    // constant between whole numbers
+    #[inline]
+    fn floor(self) -> Self {
+        Self::constant(self.value.floor())
+    }
+
     // (u^n)' = n u^(n - 1), and u^0 does not vary
     #[inline(never)]
     fn powi(self, n: i32) -> Self {

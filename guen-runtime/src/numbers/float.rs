@@ -123,6 +123,11 @@ macro_rules! real_for_float {
             if self == 0.0 { 0.0 } else if self.is_nan() { self } else { (1.0 as $float).copysign(self) }
         }
 
+        #[inline(always)]
+        fn where_above(self, limit: Self, above: Self, below: Self) -> Self {
+            if self <= limit { below } else { above }
+        }
+
         #[inline]
         fn is_finite(self) -> bool {
             $float::is_finite(self)
@@ -165,7 +170,7 @@ impl Real for f64 {
         sin: elementary::sin, cos: elementary::cos,
         tan: libm::tan, asin: libm::asin, acos: libm::acos, atan: libm::atan,
         sinh: libm::sinh, cosh: libm::cosh, tanh: libm::tanh, exp: libm::exp, ln: libm::log,
-        sqrt: elementary::sqrt, abs: f64::abs,
+        sqrt: elementary::sqrt, abs: f64::abs, floor: libm::floor,
     }, sin_cos: sin_cos, atan2: libm::atan2);
 
     #[inline]
@@ -191,7 +196,7 @@ impl Real for f32 {
         sin: sin_single, cos: cos_single,
         tan: libm::tanf, asin: libm::asinf, acos: libm::acosf,
         atan: libm::atanf, sinh: libm::sinhf, cosh: libm::coshf, tanh: libm::tanhf, exp: libm::expf,
-        ln: libm::logf, sqrt: libm::sqrtf, abs: f32::abs,
+        ln: libm::logf, sqrt: libm::sqrtf, abs: f32::abs, floor: libm::floorf,
     }, sin_cos: sin_cos_single, atan2: libm::atan2f);
 
     #[inline]

@@ -404,6 +404,10 @@ impl<R: Real> Real for PowerSeries<R> {
         Self { order: self.order, ..Self::constant(self.coefficients[0].sign()) }
     }
 
+    fn floor(self) -> Self {
+        Self { order: self.order, ..Self::constant(self.coefficients[0].floor()) }
+    }
+
     fn where_above(self, limit: Self, above: Self, below: Self) -> Self {
         above.both(&below, |above, below| {
             self.coefficients[0].where_above(limit.coefficients[0], above, below)

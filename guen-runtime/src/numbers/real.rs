@@ -198,6 +198,53 @@ pub trait Real:
     /// The sign: -1, 0 or 1. Unlike `f64::signum`, the sign of either zero is 0.
     fn sign(self) -> Self;
 
+    /// The largest integer that is not larger.
+    ///
+    /// ```
+    /// use guen_runtime::Real;
+    /// assert_eq!((Real::floor(2.5_f64), Real::floor(-2.5_f64)), (2.0, -3.0));
+    /// ```
+    #[inline]
+    fn floor(self) -> Self {
+        Self::each_alone(|alone| libm::floor(alone(self)))
+    }
+
+    /// `above` where this is at least zero, `below` where it is less, and NaN where it is NaN; in every lane by itself.
+    ///
+    /// ```
+    /// use guen_runtime::Real;
+    /// assert_eq!([1.0, 0.0, -1.0].map(|c: f64| c.select(10.0, 20.0)), [10.0, 10.0, 20.0]);
+    /// assert!(f64::NAN.select(10.0, 20.0).is_nan());
+    /// ```
+    #[inline(always)]
+    fn select(self, above: Self, below: Self) -> Self {
+        (-self).where_above(Self::zero(), self.where_above(Self::zero(), self, below), above)
+    }
+
+    /// The smaller of two; NaN where one of them is. Not named `min`: `f64` has a method of that name, which ignores NaN.
+    ///
+    /// ```
+    /// use guen_runtime::Real;
+    /// assert_eq!(Real::minimum(2.0, 1.0_f64), 1.0);
+    /// assert!(Real::minimum(f64::NAN, 1.0).is_nan() && Real::minimum(1.0, f64::NAN).is_nan());
+    /// ```
+    #[inline(always)]
+    fn minimum(self, other: Self) -> Self {
+        self.where_above(other, other.where_above(self, self + other, other), self)
+    }
+
+    /// The larger of two; NaN where one of them is.
+    ///
+    /// ```
+    /// use guen_runtime::Real;
+    /// assert_eq!(Real::maximum(2.0, 1.0_f64), 2.0);
+    /// assert!(Real::maximum(f64::NAN, 1.0).is_nan() && Real::maximum(1.0, f64::NAN).is_nan());
+    /// ```
+    #[inline(always)]
+    fn maximum(self, other: Self) -> Self {
+        self.where_above(other, other.where_above(self, self + other, self), other)
+    }
+
     /// The power `self^n`, by repeated squaring: at most `2 log2 |n|` products, and a reciprocal for negative
     /// `n`. `x^0` is 1 for every `x`.
     ///

@@ -347,6 +347,11 @@ impl<R: Real> Real for RunningError<R> {
     }
 
     #[inline(always)]
+    fn floor(self) -> Self {
+        Self::exact(self.value.floor())
+    }
+
+    #[inline(always)]
     fn where_above(self, limit: Self, above: Self, below: Self) -> Self {
         let choose = |above: R, below: R| self.value.where_above(limit.value, above, below);
         Self { value: choose(above.value, below.value), error: choose(above.error, below.error) }

@@ -234,6 +234,11 @@ macro_rules! functions {
             }
 
             #[inline(always)]
+            fn floor(self) -> Self {
+                Self::new(self.value.floor())
+            }
+
+            #[inline(always)]
             fn powi(self, n: i32) -> Self {
                 Self::new(self.value.powi(n))
             }

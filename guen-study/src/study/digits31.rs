@@ -348,6 +348,16 @@ impl Real for Digits31 {
         if self.high == 0.0 || self.high.is_nan() { self } else { Self::of(1.0_f64.copysign(self.high)) }
     }
 
+    fn floor(self) -> Self {
+        let high = Real::floor(self.high);
+        // Of a whole number the rest decides.
+        if high == self.high { Self::of(high) + Self::of(Real::floor(self.low)) } else { Self::of(high) }
+    }
+
+    fn where_above(self, limit: Self, above: Self, below: Self) -> Self {
+        if self <= limit { below } else { above }
+    }
+
     fn is_finite(self) -> bool {
         self.high.is_finite() && self.low.is_finite()
     }

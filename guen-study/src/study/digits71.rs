@@ -192,6 +192,14 @@ impl Real for Digits71 {
         if self.0.eq_zero() || self.0.is_nan() { self } else { Self(f256::ONE.copysign(self.0)) }
     }
 
+    fn floor(self) -> Self {
+        Self(self.0.floor())
+    }
+
+    fn where_above(self, limit: Self, above: Self, below: Self) -> Self {
+        if self.0 <= limit.0 { below } else { above }
+    }
+
     fn is_finite(self) -> bool {
         self.0.is_finite()
     }

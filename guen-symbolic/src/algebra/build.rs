@@ -499,7 +499,7 @@ impl Graph {
         let small = match self.node(e) {
             Node::Number(_) | Node::Pi | Node::Symbol(_) | Node::Undefined | Node::Kept(_) => true,
             Node::Function(_, x) => self.as_symbol(*x).is_some(),
-            Node::Atan2(..) => false,
+            Node::Multivariate(..) => false,
             Node::Sum { constant, terms } => {
                 constant.is_zero() && terms.len() == 1 && self.is_small_product(terms[0].0)
             }
@@ -531,7 +531,7 @@ impl Graph {
                                 ))
                     })
             }
-            Node::Sum { .. } | Node::Atan2(..) => false,
+            Node::Sum { .. } | Node::Multivariate(..) => false,
             _ => true,
         }
     }

@@ -114,14 +114,9 @@ impl Flow {
                 let slope = graph.function_derivative(function, x, id);
                 graph.mul(slope, inner)
             }
-            Node::Atan2(y, x) => {
-                // d atan2(y, x) = (x dy - y dx)/(x^2 + y^2)
-                let (dy, dx) = (self.known(graph, y), self.known(graph, x));
-                let (xdy, ydx) = (graph.mul(x, dy), graph.mul(y, dx));
-                let numerator = graph.sub(xdy, ydx);
-                let (x2, y2) = (graph.powi(x, 2), graph.powi(y, 2));
-                let denominator = graph.add(x2, y2);
-                graph.div(numerator, denominator)
+            Node::Multivariate(function, arguments) => {
+                let rates: Vec<_> = arguments.iter().map(|e| self.known(graph, *e)).collect();
+                graph.multivariate_differential(function, &arguments, &rates)
             }
         }
     }

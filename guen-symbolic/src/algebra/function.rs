@@ -29,6 +29,8 @@ pub enum Function {
     Abs,
     /// Sign: -1, 0 or 1.
     Sign,
+    /// The largest integer that is not larger.
+    Floor,
     /// The real root of the given order, at least two.
     Root(u32),
 }
@@ -49,6 +51,7 @@ impl Function {
             Function::Tanh => 10,
             Function::Abs => 11,
             Function::Sign => 12,
+            Function::Floor => 13,
             Function::Root(q) => 64 + u64::from(q),
         }
     }
@@ -68,6 +71,7 @@ impl Function {
             Function::Tanh => "tanh",
             Function::Abs => "abs",
             Function::Sign => "sign",
+            Function::Floor => "floor",
             Function::Root(2) => "sqrt",
             Function::Root(_) => "root",
         }

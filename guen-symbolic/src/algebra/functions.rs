@@ -4,6 +4,7 @@ use super::Rational;
 use super::function::Function;
 use super::graph::Graph;
 use super::id::ExprId;
+use super::multivariate::Multivariate;
 use super::node::Node;
 use super::symbol::Bound;
 
@@ -23,6 +24,7 @@ impl Graph {
             },
             Function::Cosh if self.is_zero(x) => self.one(),
             Function::Sign if self.manifestly_positive(x) => self.one(),
+            Function::Floor => self.floor(x),
             Function::Acos => self.acos(x),
             _ if function.is_odd() && self.is_zero(x) => self.zero(),
             _ => self.with_parity(function, x),
@@ -157,7 +159,8 @@ impl Graph {
                 let h = self.sqrt(h2);
                 Some((self.div(u, h), self.div(one, h)))
             }
-            Node::Atan2(y, x) => {
+            Node::Multivariate(Multivariate::Atan2, ref arguments) => {
+                let (y, x) = (arguments[0], arguments[1]);
                 let (y2, x2) = (self.powi(y, 2), self.powi(x, 2));
                 let h2 = self.add(y2, x2);
                 let h = self.sqrt(h2);
@@ -184,14 +187,6 @@ impl Graph {
         }
     }
 
-    /// `atan2(y, x)`, the angle of the point `(x, y)`.
-    pub fn atan2(&mut self, y: ExprId, x: ExprId) -> ExprId {
-        if self.is_zero(y) && self.manifestly_positive(x) {
-            return self.zero();
-        }
-        self.intern(Node::Atan2(y, x))
-    }
-
     fn acos(&mut self, x: ExprId) -> ExprId {
         let value = self.as_number(x).and_then(Rational::to_i64);
         let pi = self.pi();
@@ -201,6 +196,23 @@ impl Graph {
             Some(-1) => pi,
             _ => self.intern(Node::Function(Function::Acos, x)),
         }
+    }
+
+    /// The largest integer that is not larger: whole numbers leave it.
+    fn floor(&mut self, x: ExprId) -> ExprId {
+        let constant = match self.node(x) {
+            Node::Number(value) => value.clone(),
+            Node::Sum { constant, .. } => constant.clone(),
+            _ => Rational::ZERO,
+        };
+        let whole = Rational::from_big(floor(&constant), 1.into());
+        let whole = self.number(whole);
+        if self.as_number(x).is_some() {
+            return whole;
+        }
+        let rest = self.sub(x, whole);
+        let below = self.intern(Node::Function(Function::Floor, rest));
+        self.add(below, whole)
     }
 
     fn abs(&mut self, x: ExprId) -> ExprId {
@@ -312,7 +324,7 @@ impl Graph {
                 self.sub(one, squared)
             }
             Function::Abs => self.function(Function::Sign, x),
-            Function::Sign => self.zero(),
+            Function::Sign | Function::Floor => self.zero(),
             Function::Root(q) => {
                 let slope = self.product(&[(value, 1), (x, -1)]);
                 self.scale(slope, &Rational::new(1, q.into()))
@@ -344,6 +356,16 @@ impl Graph {
             Node::Pi => true,
             Node::Function(Function::Exp | Function::Cosh | Function::Abs | Function::Acos, _) => true,
             Node::Function(Function::Root(q), _) => q % 2 == 0,
+            Node::Function(Function::Floor, x) => self.manifestly_nonnegative(*x),
+            Node::Multivariate(Multivariate::Select, arguments) => {
+                self.manifestly_nonnegative(arguments[1]) && self.manifestly_nonnegative(arguments[2])
+            }
+            Node::Multivariate(Multivariate::Minimum, arguments) => {
+                arguments.iter().all(|e| self.manifestly_nonnegative(*e))
+            }
+            Node::Multivariate(Multivariate::Maximum, arguments) => {
+                arguments.iter().any(|e| self.manifestly_nonnegative(*e))
+            }
             _ => false,
         }
     }
@@ -370,6 +392,15 @@ impl Graph {
             }
             Node::Pi | Node::Function(Function::Exp | Function::Cosh, _) => true,
             Node::Function(Function::Root(_), x) => self.manifestly_positive(*x),
+            Node::Multivariate(Multivariate::Select, arguments) => {
+                self.manifestly_positive(arguments[1]) && self.manifestly_positive(arguments[2])
+            }
+            Node::Multivariate(Multivariate::Minimum, arguments) => {
+                arguments.iter().all(|e| self.manifestly_positive(*e))
+            }
+            Node::Multivariate(Multivariate::Maximum, arguments) => {
+                arguments.iter().any(|e| self.manifestly_positive(*e))
+            }
             _ => false,
         }
     }

@@ -5,6 +5,7 @@ use std::cell::Cell;
 use super::base_angles::BaseAngles;
 use super::id::{ExprId, SymbolId, mix};
 use super::map::{FastMap, spread};
+use super::multivariate::{Multivariate, SuppliedFunction};
 use super::node::{Node, content_of};
 use super::search::{Search, sort_ids};
 use super::symbol::{Bound, Role, Roles, Symbol};
@@ -90,6 +91,7 @@ pub struct Graph {
     // Constants that differ from zero by what they are, whatever was promised.
     indispensable: Vec<SymbolId>,
     pub(super) base_angles: BaseAngles,
+    pub(super) supplied: Vec<SuppliedFunction>,
 }
 
 impl Graph {
@@ -226,7 +228,7 @@ impl Graph {
             Node::Sum { terms, .. } => terms.iter().map(|t| t.0).collect(),
             Node::Product(factors) => factors.iter().map(|f| f.0).collect(),
             Node::Function(_, x) | Node::Kept(x) => vec![*x],
-            Node::Atan2(y, x) => vec![*y, *x],
+            Node::Multivariate(_, arguments) => arguments.to_vec(),
         }
     }
 
@@ -251,9 +253,10 @@ impl Graph {
                 }
             }
             Node::Function(_, x) | Node::Kept(x) => visit(*x),
-            Node::Atan2(y, x) => {
-                visit(*y);
-                visit(*x);
+            Node::Multivariate(_, arguments) => {
+                for argument in arguments {
+                    visit(*argument);
+                }
             }
         }
     }
@@ -262,6 +265,14 @@ impl Graph {
     pub(crate) fn factors(&self, id: ExprId) -> &[(ExprId, i32)] {
         match self.node(id) {
             Node::Product(factors) => factors,
+            _ => &[],
+        }
+    }
+
+    /// The arguments of a function of several arguments, none of any other node.
+    pub(crate) fn arguments(&self, id: ExprId) -> &[ExprId] {
+        match self.node(id) {
+            Node::Multivariate(_, arguments) => arguments,
             _ => &[],
         }
     }
@@ -314,7 +325,9 @@ impl Graph {
             }
             Node::Number(_) | Node::Pi | Node::Undefined => (Roles::NONE, 0),
             Node::Function(_, x) | Node::Kept(x) => (self.roles(*x), depth(x)),
-            Node::Atan2(y, x) => (self.roles(*y).or(self.roles(*x)), depth(y).max(depth(x))),
+            Node::Multivariate(_, arguments) => arguments
+                .iter()
+                .fold((Roles::NONE, 0), |(roles, below), e| (roles.or(self.roles(*e)), below.max(depth(e)))),
         };
         self.push(node, key, roles, below)
     }
@@ -498,7 +511,12 @@ impl Graph {
             Node::Sum { constant, terms } => self.sum_key(constant, terms),
             Node::Product(factors) => self.product_key(factors),
             Node::Function(function, x) => mix(mix(0x4600 ^ function.code()) ^ key(*x)),
-            Node::Atan2(y, x) => mix(mix(0x4100 ^ key(*y)) ^ key(*x)),
+            Node::Multivariate(Multivariate::Atan2, arguments) => {
+                mix(mix(0x4100 ^ key(arguments[0])) ^ key(arguments[1]))
+            }
+            Node::Multivariate(function, arguments) => arguments
+                .iter()
+                .fold(mix(0x4d00 ^ function.code() << 16), |hash, argument| mix(hash ^ key(*argument))),
         }
     }
 }

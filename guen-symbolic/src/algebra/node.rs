@@ -2,6 +2,7 @@
 
 use super::function::Function;
 use super::id::{ExprId, SymbolId};
+use super::multivariate::Multivariate;
 use super::rational::Rational;
 
 /// A node of the graph, in normal form.
@@ -24,8 +25,8 @@ pub enum Node {
     Product(Box<[(ExprId, i32)]>),
     /// An elementary function of one argument.
     Function(Function, ExprId),
-    /// `atan2(y, x)`.
-    Atan2(ExprId, ExprId),
+    /// A function of several arguments.
+    Multivariate(Multivariate, Box<[ExprId]>),
     /// An expression that is kept whole: equal to what is inside, but neither flattened nor expanded into its users.
     Kept(ExprId),
     /// The result of a division by the number zero; whoever divides asks first, so that it shows a mistake of ours.

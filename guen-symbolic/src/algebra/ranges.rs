@@ -4,6 +4,7 @@ use super::function::Function;
 use super::graph::Graph;
 use super::id::ExprId;
 use super::map::FastMap;
+use super::multivariate::Multivariate;
 use super::node::Node;
 use super::rational::Rational;
 use super::symbol::Bound;
@@ -115,6 +116,23 @@ impl Range {
         Range { low: low.0.clone(), high: high.0.clone(), open: [low.1, high.1] }
     }
 
+    /// The least range with both in it.
+    fn hull(&self, other: &Range) -> Range {
+        let low_open = match self.low.cmp(&other.low) {
+            core::cmp::Ordering::Less => self.open[0],
+            core::cmp::Ordering::Greater => other.open[0],
+            core::cmp::Ordering::Equal => self.open[0] && other.open[0],
+        };
+        let high_open = match self.high.cmp(&other.high) {
+            core::cmp::Ordering::Greater => self.open[1],
+            core::cmp::Ordering::Less => other.open[1],
+            core::cmp::Ordering::Equal => self.open[1] && other.open[1],
+        };
+        let low = self.low.clone().min(other.low.clone());
+        let high = self.high.clone().max(other.high.clone());
+        Range { low, high, open: [low_open, high_open] }
+    }
+
     fn power(&self, exponent: i32) -> Range {
         let is_even = exponent % 2 == 0;
         if exponent < 0 {
@@ -205,7 +223,15 @@ impl Graph {
                 let x = self.range(*x, known);
                 of_function(*function, &x)
             }
-            Node::Atan2(..) => within(Rational::new(31_416, 10_000)),
+            Node::Multivariate(Multivariate::Atan2, _) => within(Rational::new(31_416, 10_000)),
+            Node::Multivariate(Multivariate::Supplied { .. }, _) => Range::ALL,
+            // One of them, whichever it is.
+            Node::Multivariate(function, arguments) => {
+                let branches =
+                    if *function == Multivariate::Select { &arguments[1..] } else { &arguments[..] };
+                let first = self.range(branches[0], known);
+                first.hull(&self.range(branches[1], known))
+            }
             Node::Undefined => Range::ALL,
         };
         known.insert(id, range.clone());
@@ -244,7 +270,8 @@ fn of_function(function: Function, x: &Range) -> Range {
         Function::Abs => Range::from_zero(!x.has_zero()),
         Function::Root(order) if order % 2 == 0 => Range::from_zero(!x.has_zero()),
         Function::Sinh | Function::Root(_) => sign_of_x(),
-        Function::Ln => Range::ALL,
+        Function::Floor if x.low >= End::zero() => Range::from_zero(false),
+        Function::Ln | Function::Floor => Range::ALL,
     }
 }
 

@@ -64,7 +64,10 @@ impl Substitution {
             }
             Node::Function(function, x) => graph.function(function, self.images[&x]),
             Node::Kept(x) => graph.keep(self.images[&x]),
-            Node::Atan2(y, x) => graph.atan2(self.images[&y], self.images[&x]),
+            Node::Multivariate(function, arguments) => {
+                let arguments: Vec<_> = arguments.iter().map(|e| self.images[e]).collect();
+                graph.multivariate(function, &arguments)
+            }
         }
     }
 }

@@ -40,8 +40,7 @@ pub(super) fn find(
     let arguments: Vec<ExprId> = reachable
         .iter()
         .flat_map(|e| match graph.node(*e) {
-            Node::Function(_, x) => vec![*x],
-            Node::Atan2(y, x) => vec![*y, *x],
+            Node::Function(..) | Node::Multivariate(..) => graph.children(*e),
             _ => Vec::new(),
         })
         .collect();

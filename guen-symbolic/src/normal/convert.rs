@@ -164,7 +164,7 @@ pub(super) fn convert(graph: &mut Graph, e: ExprId, limits: &Limits) -> Result<(
             Node::Undefined => return Err(Exceeded),
             Node::Function(f @ (Function::Sin | Function::Cos), x) => trigonometric.push((*id, f, x)),
             Node::Function(f @ Function::Exp, x) => exponentials.push((*id, f, x)),
-            Node::Symbol(_) | Node::Pi | Node::Function(..) | Node::Atan2(..) | Node::Kept(_) => {
+            Node::Symbol(_) | Node::Pi | Node::Function(..) | Node::Multivariate(..) | Node::Kept(_) => {
                 collector.generator(*id)
             }
             _ => {}
@@ -304,7 +304,7 @@ fn node_value(
             _ => generator(ring, id),
         },
         Node::Undefined => Err(Exceeded),
-        Node::Symbol(_) | Node::Pi | Node::Function(..) | Node::Atan2(..) | Node::Kept(_) => {
+        Node::Symbol(_) | Node::Pi | Node::Function(..) | Node::Multivariate(..) | Node::Kept(_) => {
             generator(ring, id)
         }
     }

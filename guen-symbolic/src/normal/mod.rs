@@ -189,7 +189,7 @@ fn prepare(g: &mut Graph, e: ExprId, limits: &Limits) -> ExprId {
     let pending = g.reachable(&[e], |id| kept(g, id));
     let simple = pending.iter().all(|id| match g.node(*id) {
         Node::Function(_, x) => g.is_sum_of_monomials(*x),
-        Node::Atan2(y, x) => g.is_sum_of_monomials(*y) && g.is_sum_of_monomials(*x),
+        Node::Multivariate(_, arguments) => arguments.iter().all(|x| g.is_sum_of_monomials(*x)),
         _ => true,
     });
     if simple || pending.len() > limits.nodes {
@@ -219,9 +219,9 @@ fn prepare(g: &mut Graph, e: ExprId, limits: &Limits) -> ExprId {
                 g.function(function, x)
             }
             Node::Kept(x) => g.keep(images[&x]),
-            Node::Atan2(y, x) => {
-                let (y, x) = (argument(g, y, false), argument(g, x, false));
-                g.atan2(y, x)
+            Node::Multivariate(function, arguments) => {
+                let arguments: Vec<_> = arguments.iter().map(|x| argument(g, *x, false)).collect();
+                g.multivariate(function, &arguments)
             }
         };
         images.insert(id, image);

@@ -147,7 +147,7 @@ fn value(g: &Graph, e: ExprId, point: &[f64]) -> f64 {
                     _ => f64::NAN,
                 }
             }
-            Node::Atan2(y, x) => f64::atan2(values[y], values[x]),
+            Node::Multivariate(_, arguments) => f64::atan2(values[&arguments[0]], values[&arguments[1]]),
             Node::Undefined => f64::NAN,
         };
         values.insert(id, v);

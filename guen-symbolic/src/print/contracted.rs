@@ -56,9 +56,9 @@ impl Contracted {
                 same if same == x => e,
                 other => graph.function(function, other),
             },
-            Node::Atan2(y, x) => {
-                let (y, x) = (self.image(y), self.image(x));
-                graph.atan2(y, x)
+            Node::Multivariate(function, arguments) => {
+                let arguments: Vec<_> = arguments.iter().map(|x| self.image(*x)).collect();
+                graph.multivariate(function, &arguments)
             }
             Node::Product(factors) => {
                 let images: Vec<_> = factors.iter().map(|(base, k)| (self.image(*base), *k)).collect();

@@ -1,6 +1,7 @@
 //! Products: numbers, powers and quotients, with tangents and cotangents for quotients of sines and cosines.
 
-use crate::algebra::{ExprId, Function, Node, Rational};
+use crate::algebra::{ExprId, Function, Multivariate, Node, Rational};
+use crate::print::latex_name;
 
 use super::Style;
 use super::order::FactorKey;
@@ -117,7 +118,9 @@ impl Printer<'_> {
                     Shown { text: self.call(&call, 1), level: Precedence::Atom, call: Some(call), ..item },
                 )
             }
-            Node::Atan2(..) => (false, Shown { call: Some(self.arctangent(base)), ..item }),
+            Node::Multivariate(function, _) => {
+                (false, Shown { call: Some(self.multivariate(*function, base)), ..item })
+            }
             _ => (piece.minus, item),
         }
     }
@@ -234,7 +237,7 @@ impl Printer<'_> {
         }
         let head = match name {
             "asin" | "acos" | "atan" => format!("\\arc{}", &name[1..]),
-            "sign" => "\\operatorname{sign}".to_owned(),
+            "sign" | "floor" => format!("\\operatorname{{{name}}}"),
             _ => format!("\\{name}"),
         };
         // One symbol needs no parentheses behind a name.
@@ -248,10 +251,32 @@ impl Printer<'_> {
     }
 
     /// `atan2(y, x)`.
-    pub(super) fn arctangent(&self, e: ExprId) -> Call {
-        let arguments: Vec<String> = self.graph.children(e).iter().map(|e| self.pieces[e].signed()).collect();
-        let head = if self.style == Style::Text { "atan2" } else { "\\operatorname{atan2}" };
-        Call { head: head.to_owned(), arguments: self.parentheses(&arguments.join(", ")) }
+    /// A function of several arguments; of `select` the first is a condition.
+    pub(super) fn multivariate(&self, function: Multivariate, e: ExprId) -> Call {
+        let mut arguments: Vec<String> =
+            self.graph.children(e).iter().map(|e| self.pieces[e].signed()).collect();
+        if function == Multivariate::Select {
+            arguments[0].push_str(if self.style == Style::Text { " >= 0" } else { " \\ge 0" });
+        }
+        let text = self.style == Style::Text;
+        let head = match function {
+            Multivariate::Supplied { function, orders } => {
+                let supplied = &self.graph.supplied_functions()[usize::from(function)];
+                let by = supplied.arguments.iter().zip(orders);
+                let by = by.flat_map(|(name, times)| core::iter::repeat_n(name.as_str(), times.into()));
+                if text {
+                    by.fold(supplied.name.clone(), |head, name| format!("{head}_{name}"))
+                } else {
+                    let name = latex_name(&supplied.name);
+                    let by: String = by.map(|name| format!("\\partial_{{{}}}", latex_name(name))).collect();
+                    format!("{by}{name}")
+                }
+            }
+            known if text => known.name().to_owned(),
+            Multivariate::Minimum | Multivariate::Maximum => format!("\\{}", function.name()),
+            known => format!("\\operatorname{{{}}}", known.name()),
+        };
+        Call { head, arguments: self.parentheses(&arguments.join(", ")) }
     }
 
     /// A function to a power. In LaTeX the exponent stands at the name: behind the arguments it would be read as theirs.

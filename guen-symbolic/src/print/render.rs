@@ -122,7 +122,9 @@ impl<'g> Printer<'g> {
                 (false, text, Precedence::Atom)
             }
             Node::Function(function, x) => self.function(*function, *x),
-            Node::Atan2(..) => (false, self.call(&self.arctangent(id), 1), Precedence::Atom),
+            Node::Multivariate(function, _) => {
+                (false, self.call(&self.multivariate(*function, id), 1), Precedence::Atom)
+            }
             Node::Product(_) => self.product(&Rational::ONE, id),
         };
         Piece { minus, text, turned: None, level, symbols }

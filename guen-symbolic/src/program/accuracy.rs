@@ -12,7 +12,7 @@ use super::lower::{Code, PreparedTable, lower};
 use super::net::Net;
 use super::part::needed;
 use super::terms::NetId;
-use crate::algebra::{Bound, Function, Graph, Rational, Role, SymbolId, mix};
+use crate::algebra::{Bound, Function, Graph, Multivariate, Rational, Role, SymbolId, mix};
 use crate::zero::evaluate;
 
 /// Random points.
@@ -83,20 +83,42 @@ impl Arithmetic for Running {
             Function::Cosh => u.sinh(),
             Function::Tanh => u.cosh().powi(-2),
             Function::Abs => 1.0,
-            Function::Sign => 0.0,
+            Function::Sign | Function::Floor => 0.0,
             Function::Root(q) => value / u / f64::from(q),
         };
         // An exact argument stays exact at the end of a function's domain too.
         let carried = if x.error == 0.0 { 0.0 } else { slope.abs() * x.error };
         match function {
-            Function::Abs | Function::Sign => Running { value, error: carried },
+            Function::Abs | Function::Sign | Function::Floor => Running { value, error: carried },
             _ => Running::rounded(value, carried),
         }
     }
-    fn atan2(y: &Self, x: &Self) -> Self {
-        let square = x.value * x.value + y.value * y.value;
-        let carried = (x.value.abs() * y.error + y.value.abs() * x.error) / square;
-        Running::rounded(y.value.atan2(x.value), carried)
+    fn apply(function: Multivariate, arguments: &[Self]) -> Self {
+        let values: Vec<f64> = arguments.iter().map(|x| x.value).collect();
+        let value = f64::apply(function, &values);
+        match (function, arguments) {
+            (Multivariate::Select, [c, a, b]) => {
+                if c.value >= 0.0 {
+                    *a
+                } else {
+                    *b
+                }
+            }
+            (Multivariate::Minimum | Multivariate::Maximum, [a, b]) => {
+                if value == a.value {
+                    *a
+                } else {
+                    *b
+                }
+            }
+            (Multivariate::Atan2, [y, x]) => {
+                let square = x.value * x.value + y.value * y.value;
+                let carried = (x.value.abs() * y.error + y.value.abs() * x.error) / square;
+                Running::rounded(value, carried)
+            }
+            // Nobody knows the slopes: those of order one.
+            _ => Running::rounded(value, arguments.iter().map(|x| x.error).sum()),
+        }
     }
 }
 

@@ -16,7 +16,9 @@
 //! calls but single instructions, and have no differential equation where their argument vanishes.
 
 use super::passes::angles::{Angle, Angles};
-use crate::algebra::{ExprId, FastMap, Flow, Function, Graph, Node, Rational, Role, Substitution};
+use crate::algebra::{
+    ExprId, FastMap, Flow, Function, Graph, Multivariate, Node, Rational, Role, Substitution,
+};
 
 /// An elementary function that is carried as a state.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -52,6 +54,8 @@ pub enum NotCarried {
     Nothing,
     /// A function of an input, which jumps where the input does.
     Input(ExprId),
+    /// A function that the program supplies, whose derivatives would need further ones without end.
+    Supplied(ExprId),
 }
 
 /// Functions that are carried together.
@@ -134,8 +138,10 @@ impl Carrying<'_> {
         let angles = Angles::of(self.graph, &nodes);
         for id in nodes {
             let image = match *self.graph.node(id) {
-                Node::Function(Function::Abs | Function::Sign, _) => continue,
-                Node::Function(..) | Node::Atan2(..) if self.graph.roles(id).has(Role::Input) => {
+                Node::Function(Function::Abs | Function::Sign | Function::Floor, _) => continue,
+                Node::Multivariate(function, _) if function.is_choice() => continue,
+                Node::Multivariate(Multivariate::Supplied { .. }, _) => return Err(NotCarried::Supplied(id)),
+                Node::Function(..) | Node::Multivariate(..) if self.graph.roles(id).has(Role::Input) => {
                     return Err(NotCarried::Input(id));
                 }
                 Node::Function(function @ (Function::Sin | Function::Cos), x) => {
@@ -148,7 +154,8 @@ impl Carrying<'_> {
                 Node::Function(Function::Sinh, x) => self.pair(Group::Hyperbola, x)[0],
                 Node::Function(Function::Cosh, x) => self.pair(Group::Hyperbola, x)[1],
                 Node::Function(function, x) => self.single(id, function, x)?,
-                Node::Atan2(y, x) => {
+                Node::Multivariate(_, ref arguments) => {
+                    let [y, x] = [arguments[0], arguments[1]];
                     let symbol = self.symbol("atan2", None);
                     let arguments = [y, x].map(|e| self.images.of(self.graph, e));
                     let (symbols, values) = ([symbol; 2], [id; 2]);
@@ -348,7 +355,7 @@ impl Member {
                     }
                     // Pairs are above; these have no rate.
                     Function::Sin | Function::Cos | Function::Sinh | Function::Cosh => one,
-                    Function::Abs | Function::Sign => g.zero(),
+                    Function::Abs | Function::Sign | Function::Floor => g.zero(),
                 };
                 vec![new(0, g.mul(slope, du), rejoined)]
             }

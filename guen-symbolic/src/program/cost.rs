@@ -59,7 +59,7 @@ pub fn weighted_cost(graph: &Graph, roots: &[ExprId]) -> u64 {
                 Some(()) => 0,
             },
             Node::Function(Function::Root(_), _) => ROOT,
-            Node::Function(..) | Node::Atan2(..) => CALL,
+            Node::Function(..) | Node::Multivariate(..) => CALL,
         };
     }
     cost

@@ -1,7 +1,8 @@
 //! Running programs directly, over any numbers: the reference that emitted code is tested against.
 
 use super::{Instruction, Operation, Programs, Value};
-use crate::algebra::{Function, Rational, SymbolId};
+use crate::algebra::{Function, Multivariate, Rational, SymbolId};
+use crate::zero::apply;
 
 /// Numbers that programs can be run over.
 pub trait Arithmetic: Clone {
@@ -21,8 +22,8 @@ pub trait Arithmetic: Clone {
     fn div(&self, other: &Self) -> Self;
     /// An elementary function.
     fn call(function: Function, x: &Self) -> Self;
-    /// `atan2(y, x)`.
-    fn atan2(y: &Self, x: &Self) -> Self;
+    /// A function of several arguments.
+    fn apply(function: Multivariate, arguments: &[Self]) -> Self;
 }
 
 impl Arithmetic for f64 {
@@ -63,13 +64,14 @@ impl Arithmetic for f64 {
             Function::Abs => x.abs(),
             Function::Sign if x == 0.0 => 0.0,
             Function::Sign => x.signum(),
+            Function::Floor => x.floor(),
             Function::Root(2) => x.sqrt(),
             Function::Root(q) if q % 2 == 1 => x.signum() * x.abs().powf(1.0 / f64::from(q)),
             Function::Root(q) => x.powf(1.0 / f64::from(q)),
         }
     }
-    fn atan2(y: &Self, x: &Self) -> Self {
-        f64::atan2(*y, *x)
+    fn apply(function: Multivariate, arguments: &[Self]) -> Self {
+        apply(function, arguments)
     }
 }
 
@@ -118,7 +120,10 @@ pub(super) fn run<R: Arithmetic>(
                 R::call(Function::Sin, angle)
             }
             Operation::Call(function, x) => R::call(*function, at(x)),
-            Operation::Atan2(y, x) => R::atan2(at(y), at(x)),
+            Operation::Apply(function, arguments) => {
+                let arguments: Vec<R> = arguments.iter().map(|v| at(v).clone()).collect();
+                R::apply(*function, &arguments)
+            }
         };
         values[instruction.result.0 as usize] = result;
         if let Some((value, result)) = second {

@@ -1,7 +1,7 @@
 //! Straight-line code: one operation per instruction, every value defined once and before its use.
 
 use super::OperationCount;
-use crate::algebra::{Function, Key, Rational, SymbolId, mix, spread};
+use crate::algebra::{Function, Key, Multivariate, Rational, SymbolId, mix, spread};
 
 /// A value of one program, numbered from 0 in the order of definition.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
@@ -49,8 +49,8 @@ pub enum Operation {
     },
     /// An elementary function, roots (of an order above one) included.
     Call(Function, Value),
-    /// `atan2(y, x)`.
-    Atan2(Value, Value),
+    /// A function of several arguments.
+    Apply(Multivariate, Box<[Value]>),
 }
 
 impl Operation {
@@ -61,19 +61,20 @@ impl Operation {
                 (None, None)
             }
             Operation::Neg(a) | Operation::Call(_, a) | Operation::SinCos { angle: a, .. } => (Some(a), None),
-            Operation::Add(a, b)
-            | Operation::Sub(a, b)
-            | Operation::Mul(a, b)
-            | Operation::Div(a, b)
-            | Operation::Atan2(a, b) => (Some(a), Some(b)),
+            Operation::Add(a, b) | Operation::Sub(a, b) | Operation::Mul(a, b) | Operation::Div(a, b) => {
+                (Some(a), Some(b))
+            }
+            Operation::Apply(..) => (None, None),
         };
-        a.into_iter().chain(b)
+        let several: &[Value] = if let Operation::Apply(_, arguments) = self { arguments } else { &[] };
+        a.into_iter().chain(b).chain(several.iter().copied())
     }
 }
 
 impl Operation {
     /// The values that are read, and the second one that is defined.
     pub(super) fn values_mut(&mut self) -> impl Iterator<Item = &mut Value> {
+        let mut several: &mut [Value] = &mut [];
         let (a, b) = match self {
             Operation::Number(_) | Operation::Pi | Operation::Symbol(_) | Operation::Prepared(_) => {
                 (None, None)
@@ -83,10 +84,13 @@ impl Operation {
             | Operation::Sub(a, b)
             | Operation::Mul(a, b)
             | Operation::Div(a, b)
-            | Operation::Atan2(a, b)
             | Operation::SinCos { angle: a, cosine: b } => (Some(a), Some(b)),
+            Operation::Apply(_, arguments) => {
+                several = arguments;
+                (None, None)
+            }
         };
-        a.into_iter().chain(b)
+        a.into_iter().chain(b).chain(several)
     }
 }
 
@@ -111,7 +115,10 @@ impl Key for Operation {
             Operation::Div(a, b) => (9, pair(a.0, b.0)),
             Operation::SinCos { angle, cosine } => (10, pair(angle.0, cosine.0)),
             Operation::Call(function, a) => (11, mix(function.code() << 32 ^ a.0 as u64)),
-            Operation::Atan2(a, b) => (12, pair(a.0, b.0)),
+            Operation::Apply(function, arguments) => (
+                12,
+                arguments.iter().fold(function.code(), |hash, v| mix(hash << 32 ^ hash >> 32 ^ v.0 as u64)),
+            ),
         };
         spread(mix(content ^ kind << 60))
     }
@@ -171,7 +178,7 @@ impl OperationCount {
                     count.sines += 1
                 }
                 Operation::Call(Function::Root(_), _) => count.roots += 1,
-                Operation::Call(..) | Operation::Atan2(..) => count.calls += 1,
+                Operation::Call(..) | Operation::Apply(..) => count.calls += 1,
             }
         }
         count

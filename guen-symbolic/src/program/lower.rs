@@ -155,9 +155,9 @@ impl Lowering<'_> {
                 let x = self.get(*x);
                 self.stage.emit(Operation::Call(*function, x))
             }
-            NetNode::Atan2(y, x) => {
-                let (y, x) = (self.get(*y), self.get(*x));
-                self.stage.emit(Operation::Atan2(y, x))
+            NetNode::Apply(function, arguments) => {
+                let arguments = arguments.iter().map(|x| self.get(*x)).collect();
+                self.stage.emit(Operation::Apply(*function, arguments))
             }
         }
     }

@@ -7,7 +7,9 @@
 
 use super::passes::angles::{Angle, Angles};
 use super::terms::{NetId, Powers};
-use crate::algebra::{ExprId, FastMap, Function, Graph, Node, Rational, SortedMap, mix, spread};
+use crate::algebra::{
+    ExprId, FastMap, Function, Graph, Multivariate, Node, Rational, SortedMap, mix, spread,
+};
 
 /// A node of a net.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -22,8 +24,8 @@ pub(super) enum NetNode {
     Product(Vec<(NetId, i32)>),
     /// An elementary function.
     Call(Function, NetId),
-    /// `atan2(y, x)`.
-    Atan2(NetId, NetId),
+    /// A function of several arguments.
+    Apply(Multivariate, Box<[NetId]>),
 }
 
 impl NetNode {
@@ -53,7 +55,12 @@ impl NetNode {
                 }
             }
             NetNode::Call(function, x) => hash = mix(function.code() << 32 ^ x.0 as u64),
-            NetNode::Atan2(y, x) => hash = mix((y.0 as u64) << 32 ^ (x.0 as u64) ^ 1 << 63),
+            NetNode::Apply(function, arguments) => {
+                hash = function.code() ^ 1 << 63;
+                for argument in arguments {
+                    hash = mix(hash ^ argument.0 as u64);
+                }
+            }
         }
         spread(hash)
     }
@@ -79,10 +86,7 @@ impl NetNode {
                 }
             }
             NetNode::Call(_, x) => visit(*x),
-            NetNode::Atan2(y, x) => {
-                visit(*y);
-                visit(*x);
-            }
+            NetNode::Apply(_, arguments) => arguments.iter().for_each(|argument| visit(*argument)),
         }
     }
 }
@@ -479,9 +483,9 @@ impl<'a> Conversion<'a> {
             },
             Node::Function(function, x) => self.call(function, x),
             Node::Kept(x) => self.known(x),
-            Node::Atan2(y, x) => {
-                let (y, x) = (self.node_of(y), self.node_of(x));
-                Scaled::Times(one, self.net.intern(NetNode::Atan2(y, x)))
+            Node::Multivariate(function, arguments) => {
+                let arguments = arguments.iter().map(|x| self.node_of(*x)).collect();
+                Scaled::Times(one, self.net.intern(NetNode::Apply(function, arguments)))
             }
         }
     }

@@ -66,8 +66,8 @@ pub(crate) struct Tape {
     /// The nodes that change along a motion, operands first.
     nodes: Vec<ExprId>,
     is_known: Vec<bool>,
-    /// The slopes of the functions among the nodes.
-    slopes: FastMap<ExprId, ExprId>,
+    /// The slopes of the functions among the nodes, by each argument.
+    slopes: FastMap<ExprId, Vec<ExprId>>,
 }
 
 impl Tape {
@@ -80,11 +80,15 @@ impl Tape {
             let fresh = graph.reachable(&roots, |id| !graph.roles(id).meets(MOVING) || known(id));
             roots.clear();
             for id in &fresh {
-                if let Node::Function(function, x) = *graph.node(*id) {
-                    let slope = graph.function_derivative(function, x, *id);
-                    self.slopes.insert(*id, slope);
-                    roots.push(slope);
-                }
+                let slopes: Vec<ExprId> = match graph.node(*id).clone() {
+                    Node::Function(function, x) => vec![graph.function_derivative(function, x, *id)],
+                    Node::Multivariate(function, arguments) => (0..arguments.len())
+                        .map(|place| graph.multivariate_partial(function, &arguments, place))
+                        .collect(),
+                    _ => continue,
+                };
+                roots.extend(&slopes);
+                self.slopes.insert(*id, slopes);
             }
             self.is_known.resize(graph.len(), false);
             for id in &fresh {
@@ -151,10 +155,16 @@ impl<'a> Moving<'a> {
         for id in &tape.nodes[nodes] {
             let rate = match graph.node(*id) {
                 Node::Symbol(_) => continue,
-                Node::Function(_, x) => match self.rate(*x) {
-                    0 => 0,
-                    inner => mul(self.value(tape.slopes[id])?, inner),
-                },
+                Node::Function(..) | Node::Multivariate(..) => {
+                    let mut sum = 0;
+                    for (slope, x) in tape.slopes[id].iter().zip(graph.children(*id)) {
+                        match self.rate(x) {
+                            0 => {}
+                            inner => sum = add(sum, mul(self.value(*slope)?, inner)),
+                        }
+                    }
+                    sum
+                }
                 Node::Product(factors) => {
                     let mut product = Jet::ONE;
                     if factors.iter().any(|(base, _)| self.rate(*base) != 0) {
@@ -163,10 +173,6 @@ impl<'a> Moving<'a> {
                         }
                     }
                     product.rate
-                }
-                Node::Atan2(y, x) => {
-                    let (by_y, by_x) = self.slopes_of_angle(*y, *x)?;
-                    add(mul(by_y.value, self.rate(*y)), mul(by_x.value, self.rate(*x)))
                 }
                 _ => match &table.ops[id.index()] {
                     Op::Sum(_, terms) => terms.iter().fold(0, |sum, (term, c)| match self.rate(*term) {
@@ -181,13 +187,6 @@ impl<'a> Moving<'a> {
         Some(())
     }
 
-    /// `d atan2(y, x) = (x dy - y dx)/(x^2 + y^2)`.
-    fn slopes_of_angle(&mut self, y: ExprId, x: ExprId) -> Option<(Jet, Jet)> {
-        let (y, x) = (self.jet(y)?, self.jet(x)?);
-        let over = x.times(x).plus(y.times(y)).inverse()?;
-        Some((x.times(over), y.times(over).scaled(neg(1))))
-    }
-
     /// Goes back over some nodes: what each has of the slopes goes to its operands.
     pub(crate) fn go_back(&mut self, nodes: core::ops::Range<usize>, slopes: &mut Slopes) -> Option<()> {
         let (graph, table, tape) = (self.graph, &self.zero.table, self.tape);
@@ -198,9 +197,13 @@ impl<'a> Moving<'a> {
             }
             match graph.node(*id) {
                 Node::Symbol(_) => {}
-                Node::Function(_, x) => {
-                    let slope = self.jet(tape.slopes[id])?;
-                    slopes.add(*x, own.times(slope));
+                Node::Function(..) | Node::Multivariate(..) => {
+                    for (slope, x) in tape.slopes[id].iter().zip(graph.children(*id)) {
+                        if graph.roles(x).meets(MOVING) {
+                            let slope = self.jet(*slope)?;
+                            slopes.add(x, own.times(slope));
+                        }
+                    }
                 }
                 Node::Product(factors) => {
                     let mut powers = Vec::with_capacity(factors.len());
@@ -219,11 +222,6 @@ impl<'a> Moving<'a> {
                         }
                         slopes.add(*base, share);
                     }
-                }
-                Node::Atan2(y, x) => {
-                    let (by_y, by_x) = self.slopes_of_angle(*y, *x)?;
-                    slopes.add(*y, own.times(by_y));
-                    slopes.add(*x, own.times(by_x));
                 }
                 _ => match &table.ops[id.index()] {
                     Op::Sum(_, terms) => {
@@ -288,10 +286,13 @@ mod tests {
             Function::Tanh,
             Function::Abs,
             Function::Sign,
+            Function::Floor,
             Function::Root(2),
             Function::Root(3),
         ];
         let mut roots: Vec<ExprId> = functions.iter().map(|f| g.function(*f, argument)).collect();
+        let supplied = g.declare_function("f", &["x", "v"]);
+        roots.extend([g.multivariate(supplied, &[x, product]), g.select(v, x, product), g.maximum(x, v)]);
         roots.extend([g.atan2(x, v), g.product(&[(argument, -2), (v, 3), (x, 1)]), g.keep(argument)]);
         for root in roots {
             let e = g.product(&[(root, 2), (x, 1), (a, 1)]);

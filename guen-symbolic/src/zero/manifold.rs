@@ -9,7 +9,7 @@ use super::field::{self, PRIME, add, inverse, mul, neg, sub};
 use super::real::{Real, RealPoint, evaluate_in, exponent};
 use super::sample::Sample;
 use super::table::Table;
-use crate::algebra::{Bound, ExprId, FastMap, Flow, Function, Graph, Node, Role, SymbolId};
+use crate::algebra::{Bound, ExprId, FastMap, Flow, Function, Graph, Multivariate, Node, Role, SymbolId};
 use f256::f256;
 
 /// Equations that are solved together; the unit vectors of a frame need three.
@@ -99,7 +99,9 @@ impl Manifold {
                     bits = OCCURS
                 }
                 Node::Function(Function::Root(_) | Function::Abs | Function::Sign, _) => {}
-                Node::Function(..) | Node::Atan2(..) if bits & OCCURS != 0 => bits |= INSIDE,
+                // Any values will do for those of a function that nobody knows, and for the branches of a choice.
+                Node::Multivariate(function, _) if *function != Multivariate::Atan2 => {}
+                Node::Function(..) | Node::Multivariate(..) if bits & OCCURS != 0 => bits |= INSIDE,
                 _ => {}
             }
             self.occurrence.push(bits);

@@ -21,8 +21,9 @@ use manifold::Manifold;
 pub(crate) use positions::drawn_states;
 use real::{RealPoint, Sighting};
 pub(crate) use sample::Sample;
-use table::{ATOM, OPAQUE, ROOT, SIGN, TRANSCENDENTAL, Table, UNDEFINED};
+use table::{ATOM, OPAQUE, PIECEWISE, ROOT, SIGN, TRANSCENDENTAL, Table, UNDEFINED};
 
+pub(crate) use real::apply;
 pub use real::{Real, evaluate, evaluate_f64};
 pub use redundant::Redundant;
 
@@ -156,7 +157,10 @@ impl ZeroTest {
     }
 
     fn derivatives_vanish(&mut self, g: &mut Graph, e: ExprId, variables: &[ExprId], depth: u32) -> Verdict {
-        let mut verdict = Verdict::Zero;
+        self.table.scan(g);
+        // Between its jumps a function may be constant, and change at them.
+        let jumps = self.table.flags[e.index()] & PIECEWISE != 0;
+        let mut verdict = if jumps { Verdict::Unknown } else { Verdict::Zero };
         let before = g.work();
         for variable in variables {
             if g.work() - before > DERIVATIVE_WORK {

@@ -5,7 +5,7 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 use f256::f256;
 
 use super::field::mix;
-use crate::algebra::{Bound, ExprId, FastMap, Function, Graph, Node, Rational, SymbolId};
+use crate::algebra::{Bound, ExprId, FastMap, Function, Graph, Multivariate, Node, Rational, SymbolId};
 
 /// The operations that evaluation needs of a kind of real number.
 pub trait Real:
@@ -21,6 +21,8 @@ pub trait Real:
     fn of(self, function: Function) -> Self;
     /// The angle of the point `(x, self)`.
     fn angle(self, x: Self) -> Self;
+    /// `above` where this is at least zero, `below` elsewhere.
+    fn choose(self, above: Self, below: Self) -> Self;
 }
 
 impl Real for f64 {
@@ -51,6 +53,7 @@ impl Real for f64 {
             Function::Abs => self.abs(),
             Function::Sign if self == 0.0 => 0.0,
             Function::Sign => self.signum(),
+            Function::Floor => self.floor(),
             Function::Root(2) => self.sqrt(),
             Function::Root(3) => self.cbrt(),
             Function::Root(q) if q % 2 == 1 => self.abs().powf(1.0 / f64::from(q)).copysign(self),
@@ -60,6 +63,10 @@ impl Real for f64 {
 
     fn angle(self, x: Self) -> Self {
         self.atan2(x)
+    }
+
+    fn choose(self, above: Self, below: Self) -> Self {
+        if self >= 0.0 { above } else { below }
     }
 }
 
@@ -126,6 +133,7 @@ impl Real for f256 {
             Function::Abs => f256::abs(&self),
             Function::Sign if self.eq_zero() => f256::ZERO,
             Function::Sign => f256::ONE.copysign(self),
+            Function::Floor => f256::floor(&self),
             Function::Root(2) => f256::sqrt(self),
             Function::Root(q) => {
                 if self.eq_zero() || (q % 2 == 0 && self < f256::ZERO) {
@@ -139,6 +147,10 @@ impl Real for f256 {
 
     fn angle(self, x: Self) -> Self {
         f256::atan2(&self, &x)
+    }
+
+    fn choose(self, above: Self, below: Self) -> Self {
+        if self >= f256::ZERO { above } else { below }
     }
 }
 
@@ -170,7 +182,10 @@ pub(super) fn evaluate_in<R: Real>(
                 .fold(R::rational(&Rational::ONE), |product, (base, e)| product * known[base].power(*e)),
             Node::Function(function, x) => known[x].of(*function),
             Node::Kept(x) => known[x],
-            Node::Atan2(y, x) => known[y].angle(known[x]),
+            Node::Multivariate(function, arguments) => {
+                let arguments: Vec<R> = arguments.iter().map(|e| known[e]).collect();
+                apply(*function, &arguments)
+            }
         };
         known.insert(id, value);
     }
@@ -208,6 +223,39 @@ pub(super) fn exponent(x: f256) -> f64 {
 fn plus(a: f64, b: f64) -> f64 {
     let (low, high) = if a < b { (a, b) } else { (b, a) };
     if low == f64::NEG_INFINITY { high } else { high + (low - high).exp2().ln_1p() / core::f64::consts::LN_2 }
+}
+
+/// A function of several arguments; a smooth function stands in for one that the program supplies.
+pub(crate) fn apply<R: Real>(function: Multivariate, arguments: &[R]) -> R {
+    match (function, arguments) {
+        (Multivariate::Supplied { function, orders }, _) => stand_in(function, &orders, arguments),
+        (Multivariate::Atan2, [y, x]) => y.angle(*x),
+        (Multivariate::Select, [c, a, b]) => c.choose(*a, *b),
+        (Multivariate::Maximum, [a, b]) => (*a - *b).choose(*a, *b),
+        (Multivariate::Minimum, [a, b]) => (*a - *b).choose(*b, *a),
+        _ => unreachable!("the number of arguments is checked"),
+    }
+}
+
+/// The derivative of a smooth function that stands in for one that the program supplies: a sine of a linear function whose
+/// coefficients lie between one and two.
+fn stand_in<R: Real>(function: u16, orders: &[u8], arguments: &[R]) -> R {
+    let mut angle = R::rational(&Rational::new(i64::from(function) * 7 + 3, 10));
+    let mut factor = R::rational(&Rational::ONE);
+    let mut order = 0;
+    for (place, (x, times)) in arguments.iter().zip(orders).enumerate() {
+        let slope = R::rational(&Rational::new(17 + 2 * place as i64 + i64::from(function) % 3, 16));
+        angle = angle + slope * *x;
+        factor = factor * slope.power(i32::from(*times));
+        order += u32::from(*times);
+    }
+    let value = match order % 4 {
+        0 => angle.of(Function::Sin),
+        1 => angle.of(Function::Cos),
+        2 => -angle.of(Function::Sin),
+        _ => -angle.of(Function::Cos),
+    };
+    factor * value
 }
 
 /// A value with the power of two that bounds its absolute error.
@@ -346,8 +394,30 @@ impl RealPoint {
             }
             Node::Function(function, x) => function_ball(*function, at(*x)?),
             Node::Kept(x) => at(*x),
-            Node::Atan2(y, x) => {
-                let (y, x) = (at(*y)?, at(*x)?);
+            Node::Multivariate(Multivariate::Supplied { function, orders }, arguments) => {
+                let arguments: Vec<Ball> = arguments.iter().map(|e| at(*e)).collect::<Option<_>>()?;
+                let values: Vec<f256> = arguments.iter().map(|x| x.value).collect();
+                // Slopes of the stand-in are below a power of two for each order.
+                let order: u32 = orders.iter().map(|order| u32::from(*order)).sum();
+                let carried = arguments.iter().fold(f64::NEG_INFINITY, |sum, x| plus(sum, x.error));
+                let size = values.iter().fold(0.0, |size: f64, x| size.max(exponent(*x)));
+                let error = plus(carried, size + 4.0 + ROUNDING) + f64::from(order) + 2.0;
+                Some(Ball { value: stand_in(*function, orders, &values), error })
+            }
+            Node::Multivariate(Multivariate::Select, arguments) => {
+                let c = at(arguments[0])?;
+                if !c.is_distinct() {
+                    return None;
+                }
+                at(if c.value >= f256::ZERO { arguments[1] } else { arguments[2] })
+            }
+            Node::Multivariate(function @ (Multivariate::Minimum | Multivariate::Maximum), arguments) => {
+                let (a, b) = (at(arguments[0])?, at(arguments[1])?);
+                let larger = (a.value >= b.value) == (*function == Multivariate::Maximum);
+                Some(Ball { value: if larger { a.value } else { b.value }, error: plus(a.error, b.error) })
+            }
+            Node::Multivariate(Multivariate::Atan2, arguments) => {
+                let (y, x) = (at(arguments[0])?, at(arguments[1])?);
                 let radius = exponent(x.value).max(exponent(y.value));
                 let error = plus(y.error, x.error);
                 let off_cut = y.is_distinct() || x.is_distinct() && x.value > f256::ZERO;
@@ -396,6 +466,10 @@ fn function_ball(function: Function, x: Ball) -> Option<Ball> {
         }
         Function::Ln if relative > -DISTINCT => return None,
         Function::Ln => relative + 1.0,
+        // Next to a whole number it may be this one or the one before.
+        Function::Floor if exponent(x.value - value) < x.error + DISTINCT => return None,
+        Function::Floor if exponent(value + f256::ONE - x.value) < x.error + DISTINCT => return None,
+        Function::Floor => f64::NEG_INFINITY,
         Function::Sign if relative > -DISTINCT => return None,
         Function::Sign => f64::NEG_INFINITY,
         Function::Root(_) if relative > -DISTINCT => return None,

@@ -2,7 +2,7 @@
 
 use super::field::{self, PRIME, Point, add, inverse, mix, mul, neg, sub};
 use super::table::{Op, Table};
-use crate::algebra::{Bound, ExprId, FastMap, Function, Graph, SymbolId};
+use crate::algebra::{Bound, ExprId, FastMap, Function, Graph, Multivariate, SymbolId};
 
 // What a draw is for: each purpose has its own stream.
 const OF_SYMBOL: u64 = 1;
@@ -10,6 +10,7 @@ const OF_ANGLE: u64 = 2;
 const OF_UNIT: u64 = 3;
 const OF_PI: u64 = 4;
 const OF_ATOM: u64 = 5;
+const OF_BRANCH: u64 = 6;
 
 /// The encoding of stored values: one not yet computed, one that does not exist, and residues from [`SET`] on.
 const UNSET: u64 = 0;
@@ -123,9 +124,10 @@ impl Sample {
                     }
                 }
                 Op::At(_, x) => need(*x),
-                Op::Atan2(y, x) => {
-                    need(*y);
-                    need(*x);
+                Op::Several(_) => {
+                    for argument in graph.arguments(ExprId(id)) {
+                        need(*argument);
+                    }
                 }
                 Op::Constant(_) | Op::Pi | Op::Symbol(_) | Op::Of(..) => {}
             }
@@ -221,8 +223,31 @@ impl Sample {
                 _ => PRIME - 1,
             }),
             Op::At(function, x) => Some(self.draw(OF_ATOM + function.code() * 256, at(x))),
-            Op::Atan2(y, x) => Some(self.draw(OF_ATOM ^ mix(at(y)), at(x))),
+            Op::Several(function) => Some(self.several(*function, graph.arguments(id))),
         }
+    }
+
+    /// A function of several arguments that are done.
+    fn several(&self, function: Multivariate, arguments: &[ExprId]) -> u64 {
+        let at = |place: usize| self.values[arguments[place].0 as usize] - SET;
+        match function {
+            Multivariate::Atan2 => self.draw(OF_ATOM ^ mix(at(0)), at(1)),
+            Multivariate::Select => self.between(at(0), at(1), at(2)),
+            Multivariate::Maximum => self.between(sub(at(0), at(1)), at(0), at(1)),
+            Multivariate::Minimum => self.between(sub(at(0), at(1)), at(1), at(0)),
+            Multivariate::Supplied { .. } => {
+                let last = arguments.len() - 1;
+                let purpose = (0..last).fold(mix(function.code()), |hash, place| mix(hash ^ at(place)));
+                self.draw(OF_ATOM ^ purpose, at(last))
+            }
+        }
+    }
+
+    /// `s a + (1 - s) b` with a number `s` drawn for `c`, and `1 - s` for `-c`. What holds for all `s` holds for zero and one, and
+    /// so on both sides of every switch, however many there are; a residue that chose one side would say nothing of the other.
+    fn between(&self, c: u64, a: u64, b: u64) -> u64 {
+        let (c, a, b) = if c > PRIME / 2 { (neg(c), b, a) } else { (c, a, b) };
+        add(b, mul(self.draw(OF_BRANCH, c), sub(a, b)))
     }
 
     /// The point of the circle at an argument.

@@ -8,13 +8,13 @@
 use std::collections::BTreeMap;
 
 use super::field;
-use crate::algebra::{ExprId, FastMap, Function, Graph, Node, Rational, SymbolId};
+use crate::algebra::{ExprId, FastMap, Function, Graph, Multivariate, Node, Rational, SymbolId};
 
 /// The flags of the nodes below an expression, by which a verdict is reached; a set of the constants here.
 pub(crate) type Flags = u8;
 /// Roots, absolute values, signs: a residue knows them up to a sign.
 pub(crate) const ROOT: Flags = 1;
-/// `ln`, `asin`, `acos`, `atan`, `atan2`: hashes that only agree for equal arguments.
+/// `ln`, `asin`, `acos`, `atan`, `atan2`, `floor`: hashes that only agree for equal arguments.
 pub(crate) const ATOM: Flags = 2;
 /// Numbers such as `pi`, `sin(0.3)`: independent unknowns.
 pub(crate) const TRANSCENDENTAL: Flags = 4;
@@ -22,6 +22,8 @@ pub(crate) const TRANSCENDENTAL: Flags = 4;
 pub(crate) const OPAQUE: Flags = 8;
 /// Absolute values and signs: at a point they are one of a number and its opposite, and elsewhere the other.
 pub(crate) const SIGN: Flags = 32;
+/// Functions that are constant between jumps, or have branches: a derivative that vanishes does not make them constant.
+pub(crate) const PIECEWISE: Flags = 64;
 /// A division by the number zero, or a number that the prime cannot represent.
 pub(crate) const UNDEFINED: Flags = 16;
 
@@ -39,7 +41,8 @@ pub(crate) enum Op {
     Of(Function, u32),
     /// An algebraic function, or an atom.
     At(Function, ExprId),
-    Atan2(ExprId, ExprId),
+    /// A function of several arguments, those of the graph's node.
+    Several(Multivariate),
 }
 
 /// `sum (n/d) * monomial + (a/b) pi`, the last part where an exact root of unity serves it.
@@ -108,14 +111,24 @@ impl Table {
             }
             Node::Product(_) => (Op::Product, 0),
             Node::Kept(x) => (Op::Sum(0, Box::new([(*x, 1)])), 0),
-            Node::Atan2(y, x) => (Op::Atan2(*y, *x), ATOM),
+            Node::Multivariate(function, _) => {
+                let flags = match function {
+                    Multivariate::Atan2 => ATOM,
+                    // All derivatives at all arguments are free: what holds for random values holds for every function.
+                    Multivariate::Supplied { .. } => 0,
+                    // A residue has neither of both branches, but something between them.
+                    _ => OPAQUE | PIECEWISE,
+                };
+                (Op::Several(*function), flags)
+            }
             Node::Function(function, x) => {
                 let (function, x) = (*function, *x);
                 match function {
                     Function::Asin | Function::Acos | Function::Atan | Function::Ln => {
                         (Op::At(function, x), ATOM)
                     }
-                    Function::Abs | Function::Sign => (Op::At(function, x), ROOT | SIGN),
+                    Function::Abs | Function::Sign => (Op::At(function, x), ROOT | SIGN | PIECEWISE),
+                    Function::Floor => (Op::At(function, x), ATOM | PIECEWISE),
                     Function::Root(_) => (Op::At(function, x), ROOT),
                     Function::Sin | Function::Cos => self.of_argument(graph, function, x, true),
                     Function::Exp | Function::Sinh | Function::Cosh | Function::Tanh => {

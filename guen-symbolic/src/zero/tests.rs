@@ -1,6 +1,7 @@
 //! Identities that must be found, and near misses that must not.
 
 mod manifolds;
+mod piecewise;
 
 use manifolds::quaternion;
 

@@ -130,7 +130,7 @@ parameters { v8 = dot(q1);  }
 bodies { B3 { mass: k4, inertia: sym(3 + k5, 3 + k6, 3 + k7, 0.2, -0.3, 2/4), center: oB3, orientation: RB3 }
  }
 kinetic_energy = dot(q1)^2/20;
-potential_energy = 3/4*q1^2 + atan2(q1, 2 + q1^2);
+potential_energy = 3/4*q1^2 + -q1^2/(3 - q1/3);
 gravity = vec(0, 1/5, -g);
 scene Scene0 { track v8; fix k2 = 1; fix k5 = 3/4; }
 scene Scene3 { track v8; provide energy; }
@@ -160,7 +160,7 @@ bodies { B3 { mass: k5, inertia: diag(k6 + k7, k7 + k8, k6 + k8), center: oB3, o
  }
 forces { dragk9(dot(oB3)) along dot(oB3 + q1*vec(7/5, 1, 0));  }
 kinetic_energy = dot(q1)^2/20;
-potential_energy = 3/4*q1^2 + asin(q1/9);
+potential_energy = 3/4*q1^2 + sinh(q1/2);
 gravity = vec(0, 1/5, -g);
 scene Scene0 { track q1, v10; }
 scene Scene1 { track v10; fix k8 = 2; fix k5 = g/2; }
@@ -189,11 +189,11 @@ constants { k1 > 0, k2 > 0, k6 > 0, k7 > 0, k8 > 0, k9 > 0, k10 > 0, g = 9.81 }
 coordinates { q3, q4 }
 let RB5 = rot_x(q3)*rot_y(q4);
 let oB5 = vec(0, 0, 0);
-parameters { v11 = (5 + tanh(acos(tanh(ln(9 + q4))/9)))*dot(q3);  }
+parameters { v11 = (5 + tanh(cosh(tanh(cos(q4 + q4))/2)*q4))*dot(q3);  }
 particles { k8 at oB5 + RB5*vec(0.3, 0.4, 0.5); k9 at oB5 + RB5*vec(-0.3, 0.7, 0.2); k10 at oB5 + RB5*vec(0.9, -0.2, -0.6);  }
-forces { (exp(q4/3 - q4/5))*abs(dot(q3)) along dot(q3);  }
+forces { (sin(q4)*q4)*abs(dot(q3)) along dot(q3);  }
 kinetic_energy = dot(q3)^2/20 + dot(q4)^2/20;
-potential_energy = 3/4*q4^2 + sqrt(9 + q3 - q3/2);
+potential_energy = 3/4*q4^2 + atan2(q3, 2 + q3^2);
 gravity = vec(0, 1/5, -g);
 scene Scene0 { track v11, q3; provide energy, carried; }
 scene Scene1 { track v11, q4, q3; fix k6 = 2; fix k9 = k8/2; }

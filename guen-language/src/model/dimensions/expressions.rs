@@ -139,6 +139,11 @@ impl Dimensions<'_> {
                 let power = self.number(exponent);
                 self.raised(base, own, power)
             }
+            ExpressionKind::Comparison { left, right, .. } => {
+                let (l, r) = (format!("`{}`", left.source()), format!("`{}`", right.source()));
+                let (a, b) = (self.of(left), self.of(right));
+                self.shared((a, &l), (b, &r), e.span, "this compares different dimensions")
+            }
             ExpressionKind::Field { base, name } => {
                 let base = self.of(base);
                 self.field(base, name)
@@ -251,22 +256,9 @@ impl Dimensions<'_> {
                 Quantity::Of(own) => Quantity::Of(own.raised(&Rational::new(1, 2))),
                 other => other,
             },
-            "vec" => {
-                let mut shared = Quantity::Anything;
-                for (place, (e, own)) in arguments.iter().enumerate() {
-                    let before =
-                        arguments[..place].iter().rev().find(|(_, own)| matches!(own, Quantity::Of(_)));
-                    let left = before.map_or(String::new(), |(e, _)| format!("`{}`", e.source()));
-                    let right = format!("`{}`", e.source());
-                    shared = self.shared(
-                        (shared, &left),
-                        (own.clone(), &right),
-                        e.extent(),
-                        "the components of this vector have different dimensions",
-                    );
-                }
-                shared
-            }
+            "min" | "max" | "clamp" | "vec" => self.alike(name, arguments),
+            // The first is a comparison.
+            "select" => self.alike(name, arguments.get(1..).unwrap_or_default()),
             "inner" | "cross" => match arguments {
                 [(_, Quantity::Of(a)), (_, Quantity::Of(b))] => {
                     Quantity::Of(a.times(b, &Rational::integer(1)))
@@ -309,6 +301,22 @@ impl Dimensions<'_> {
                 number()
             }
         }
+    }
+
+    /// The dimension that all arguments share.
+    fn alike(&mut self, name: &Name, arguments: &[(&Expression, Quantity)]) -> Quantity {
+        let what = match name.text.as_str() {
+            "vec" => "the components of this vector have different dimensions".to_owned(),
+            other => format!("the arguments of `{other}` have different dimensions"),
+        };
+        let mut shared = Quantity::Anything;
+        for (place, (e, own)) in arguments.iter().enumerate() {
+            let before = arguments[..place].iter().rev().find(|(_, own)| matches!(own, Quantity::Of(_)));
+            let left = before.map_or(String::new(), |(e, _)| format!("`{}`", e.source()));
+            let right = format!("`{}`", e.source());
+            shared = self.shared((shared, &left), (own.clone(), &right), e.extent(), &what);
+        }
+        shared
     }
 
     /// The value of an expression that is a number.

@@ -36,6 +36,7 @@ pub trait Analytic: Scalar {
             "acos" => Some(Self::constant(FRAC_PI_2).minus(&self.function("asin")?)),
             "abs" => Some(self.scaled(self.value().signum())),
             "sign" => Some(Self::constant(self.value().signum())),
+            "floor" => Some(Self::constant(self.value().floor())),
             _ => None,
         }
     }

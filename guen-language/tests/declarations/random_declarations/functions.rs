@@ -12,7 +12,7 @@ pub fn function(draw: &mut Draw, names: [&str; 2], depth: usize) -> String {
         format!("tanh({})", function(draw, names, depth - 1))
     };
     let (a, b) = (argument(names[0]), argument(names[1]));
-    match draw.below(24) {
+    match draw.below(28) {
         0 => format!("sin({a})*{b}"),
         1 => format!("cos({a} + {b})"),
         2 => format!("tan({a}/4)"),
@@ -35,7 +35,12 @@ pub fn function(draw: &mut Draw, names: [&str; 2], depth: usize) -> String {
         19 => format!("(2 + {a}^2)^-2"),
         20 => format!("{a}.sin()*({b}).powi(3)"),
         21 => format!("-{a}^2/(3 - {b}/3)"),
-        22 => format!("inner(vec({a}, 1, {b}), unit(vec(1, {b}, 2)))"),
+        26 => format!("inner(vec({a}, 1, {b}), unit(vec(1, {b}, 2)))"),
+        22 => format!("max({a}, {b}, 1/3)"),
+        23 => format!("min({a} + {b}/2, 1 - {b})*{b}"),
+        24 => format!("clamp({a}, -1/2, 1/2 + {b}^2)"),
+        // Continuous, and so is its first derivative.
+        25 => format!("select({a} {} {b}, ({a} - {b})^2, ({b} - {a})^3)", draw.pick(&[">=", "<=", ">", "<"])),
         _ => format!("norm(cross(vec({a}, 3, 0), vec({b}, 1, 2)))"),
     }
 }

@@ -316,7 +316,8 @@ pub fn drawn(seed: u64) -> String {
     }
     if draw.once_in(3) {
         let (push, along) = (text.function(draw, 2), text.coordinates[0].clone());
-        text.forces += &format!("({push})*abs(dot({along})) along dot({along}); ");
+        let step = draw.pick(&["abs", "sign", "floor", "2*abs"]);
+        text.forces += &format!("({push})*{step}(dot({along})) along dot({along}); ");
     }
     let landscape = text.function(draw, 2);
     // Every coordinate has some inertia.

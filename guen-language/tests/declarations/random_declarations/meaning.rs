@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use guen_language::syntax::{
     AddOperator, Declaration, Equation, Expression, ExpressionKind, FunctionDefinition, Inertia, Item,
-    MultiplyOperator,
+    MultiplyOperator, Order,
 };
 
 use super::analytic::Analytic;
@@ -286,6 +286,21 @@ impl<R: Analytic> Meaning<R> {
                 }
                 call(&name.text, &all)
             }
+            ExpressionKind::Comparison { .. } => Err("a comparison alone".to_owned()),
+            ExpressionKind::Call { function, arguments, .. } if function.text == "select" => {
+                let ExpressionKind::Comparison { left, order, right } = &arguments[0].kind else {
+                    return Err("a condition".to_owned());
+                };
+                let [a, b] = [left, right].map(|side| self.value(side).and_then(|value| scalar_of(&value)));
+                let (a, b) = (a?.value(), b?.value());
+                let holds = match order {
+                    Order::AtLeast => a >= b,
+                    Order::AtMost => a <= b,
+                    Order::Above => a > b,
+                    Order::Below => a < b,
+                };
+                self.value(&arguments[if holds { 1 } else { 2 }])
+            }
             ExpressionKind::Call { function, arguments, .. } => {
                 let all: Result<Vec<Value<R>>, Missing> = arguments.iter().map(|e| self.value(e)).collect();
                 match self.functions.get(&function.text) {
@@ -414,6 +429,21 @@ fn call<R: Analytic>(name: &str, arguments: &[Value<R>]) -> Result<Value<R>, Mis
         }
         ("powi", [x, exponent]) => Value::Scalar(scalar_of(x)?.power(scalar_of(exponent)?.value() as i32)),
         ("atan2", [y, x]) => Value::Scalar(scalar_of(y)?.arc_tangent_2(&scalar_of(x)?)),
+        ("min" | "max", [first, rest @ ..]) => {
+            let mut found = scalar_of(first)?;
+            for other in rest {
+                let other = scalar_of(other)?;
+                if (other.value() < found.value()) == (name == "min") {
+                    found = other;
+                }
+            }
+            Value::Scalar(found)
+        }
+        ("clamp", [x, low, high]) => {
+            let (x, low, high) = (scalar_of(x)?, scalar_of(low)?, scalar_of(high)?);
+            let above = if x.value() < low.value() { low } else { x };
+            Value::Scalar(if above.value() > high.value() { high } else { above })
+        }
         (_, [Value::Scalar(e)]) => Value::Scalar(e.function(name).ok_or_else(wrong)?),
         _ => return Err(wrong()),
     })

@@ -91,7 +91,7 @@ impl<V: Register> Real for Vector<V> {
         self.sin_cos().1
     }
 
-    lane_by_lane! { tan cot asin acos atan sinh cosh tanh exp ln sign }
+    lane_by_lane! { tan cot asin acos atan sinh cosh tanh exp ln sign floor }
 
     #[inline(always)]
     fn atan2(self, x: Self) -> Self {

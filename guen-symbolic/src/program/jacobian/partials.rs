@@ -2,7 +2,7 @@
 
 use super::eliminate::LinearGraph;
 use super::factors::{Code, Factor, Size};
-use crate::algebra::{Function, Rational, SymbolId};
+use crate::algebra::{Function, Multivariate, Rational, SymbolId};
 use crate::program::instruction::{FunctionProgram, Operation, Value};
 
 /// The place of a value of the function in the new code, and the vertex that carries its differential.
@@ -122,6 +122,7 @@ impl Builder<'_> {
     fn arithmetic(&mut self, result: Value, operation: &Operation) {
         let one = Factor::ONE;
         match *operation {
+            Operation::Apply(function, ref arguments) => self.apply(result, function, arguments),
             Operation::Add(a, b) => {
                 let value = self.binary(a, b, Operation::Add);
                 self.define(result, value, &[(a, one), (b, one)]);
@@ -155,20 +156,6 @@ impl Builder<'_> {
                 }
                 self.define(result, value, &partials);
             }
-            Operation::Atan2(y, x) => {
-                let value = self.binary(y, x, Operation::Atan2);
-                let mut partials = Vec::new();
-                if self.is_active(y) || self.is_active(x) {
-                    let [above, right] = [y, x].map(|v| self.load(v));
-                    let squares = [above, right].map(|v| self.code.emit(Operation::Mul(v, v)));
-                    let square = self.code.emit(Operation::Add(squares[0], squares[1]));
-                    let [along_y, along_x] =
-                        [right, above].map(|v| Size::Value(self.code.emit(Operation::Div(v, square))));
-                    partials.push((y, Factor { negative: false, size: along_y }));
-                    partials.push((x, Factor { negative: true, size: along_x }));
-                }
-                self.define(result, value, &partials);
-            }
             Operation::Call(function, x) => self.call(result, function, x),
             // Loads, and sines with cosines, are done by the caller.
             _ => {}
@@ -178,6 +165,50 @@ impl Builder<'_> {
     fn binary(&mut self, a: Value, b: Value, operation: fn(Value, Value) -> Operation) -> Size {
         let (a, b) = (self.load(a), self.load(b));
         Size::Value(self.code.emit(operation(a, b)))
+    }
+
+    /// A function of several arguments with its partial derivatives.
+    fn apply(&mut self, result: Value, function: Multivariate, arguments: &[Value]) {
+        let loaded: Vec<Value> = arguments.iter().map(|v| self.load(*v)).collect();
+        let value = self.code.emit(Operation::Apply(function, loaded.clone().into()));
+        let mut partials = Vec::new();
+        for (place, argument) in arguments.iter().enumerate() {
+            if self.is_active(*argument)
+                && let Some((negative, slope)) = self.slope_by(function, &loaded, place)
+            {
+                partials.push((*argument, Factor { negative, size: Size::Value(slope) }));
+            }
+        }
+        self.define(result, Size::Value(value), &partials);
+    }
+
+    /// The partial derivative of a function by the argument at a place; none where it vanishes.
+    fn slope_by(
+        &mut self,
+        function: Multivariate,
+        arguments: &[Value],
+        place: usize,
+    ) -> Option<(bool, Value)> {
+        let code = &mut *self.code;
+        match function {
+            Multivariate::Atan2 => {
+                let squares = [0, 1].map(|i| code.emit(Operation::Mul(arguments[i], arguments[i])));
+                let square = code.emit(Operation::Add(squares[0], squares[1]));
+                Some((place == 1, code.emit(Operation::Div(arguments[1 - place], square))))
+            }
+            Multivariate::Select if place == 0 => None,
+            Multivariate::Select => Some((false, branch(code, arguments[0], place == 1))),
+            Multivariate::Minimum | Multivariate::Maximum => {
+                let difference = code.emit(Operation::Sub(arguments[0], arguments[1]));
+                let above = (place == 0) == (function == Multivariate::Maximum);
+                Some((false, branch(code, difference, above)))
+            }
+            Multivariate::Supplied { function, mut orders } => {
+                orders[place] = orders[place].saturating_add(1);
+                let slope = Multivariate::Supplied { function, orders };
+                Some((false, code.emit(Operation::Apply(slope, arguments.into()))))
+            }
+        }
     }
 
     /// An elementary function with its slope.
@@ -221,7 +252,7 @@ impl Builder<'_> {
                 (false, code.emit(Operation::Mul(reciprocal, reciprocal)))
             }
             Function::Abs => (false, code.emit(Operation::Call(Function::Sign, x))),
-            Function::Sign => return None,
+            Function::Sign | Function::Floor => return None,
             // root' = 1/(q root^(q - 1))
             Function::Root(q) => {
                 let mut power = f;
@@ -235,4 +266,11 @@ impl Builder<'_> {
             Function::Sin | Function::Cos => return None,
         })
     }
+}
+
+/// One where `c >= 0` and zero elsewhere, or the other way round.
+fn branch(code: &mut Code, c: Value, above: bool) -> Value {
+    let [one, zero] = [1, 0].map(|n| code.emit(Operation::Number(Rational::integer(n))));
+    let values = if above { [c, one, zero] } else { [c, zero, one] };
+    code.emit(Operation::Apply(Multivariate::Select, values.into()))
 }

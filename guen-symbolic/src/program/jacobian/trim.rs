@@ -82,7 +82,9 @@ fn renamed(operation: &Operation, of: &impl Fn(&Value) -> Value) -> Operation {
         Operation::Mul(a, b) => Operation::Mul(of(a), of(b)),
         Operation::Div(a, b) => Operation::Div(of(a), of(b)),
         Operation::Call(function, a) => Operation::Call(*function, of(a)),
-        Operation::Atan2(y, x) => Operation::Atan2(of(y), of(x)),
+        Operation::Apply(function, arguments) => {
+            Operation::Apply(*function, arguments.iter().map(of).collect())
+        }
         Operation::SinCos { angle, cosine } => Operation::SinCos { angle: of(angle), cosine: of(cosine) },
         load @ (Operation::Number(_) | Operation::Pi | Operation::Symbol(_) | Operation::Prepared(_)) => {
             load.clone()

@@ -142,7 +142,10 @@ fn with_children(graph: &mut Graph, net: &mut Net, node: NetNode, image: impl Fn
             net.plain_product(collected)
         }
         NetNode::Call(function, x) => net.intern(NetNode::Call(function, image(x))),
-        NetNode::Atan2(y, x) => net.intern(NetNode::Atan2(image(y), image(x))),
+        NetNode::Apply(function, arguments) => {
+            let arguments = arguments.iter().map(|x| image(*x)).collect();
+            net.intern(NetNode::Apply(function, arguments))
+        }
     }
 }
 

@@ -3,9 +3,9 @@
 
 use std::collections::BTreeMap;
 
-use super::super::{FunctionProgram, Operation, Value};
+use super::super::{FunctionProgram, Instruction, Operation, Value};
 use super::{NotAnalytic, SeriesProgram, SeriesStep, Source, Start};
-use crate::algebra::{Function, Rational, SymbolId};
+use crate::algebra::{Function, Multivariate, Rational, SymbolId};
 
 /// The part of a step by which equal steps are found.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -95,17 +95,27 @@ pub(super) fn build(
             }
             Operation::Call(function, a) => {
                 let a = at(a);
-                builder.call(*function, a).ok_or_else(|| NotAnalytic {
-                    function: *function,
-                    output: first_output(program, instruction.result),
-                })?
+                builder.call(*function, a).ok_or_else(|| not_analytic(program, instruction))?
             }
-            Operation::Atan2(y, x) => builder.atan2(at(y), at(x)),
+            Operation::Apply(function, arguments) => {
+                let arguments: Vec<Value> = arguments.iter().map(at).collect();
+                if arguments.iter().all(|a| builder.is_still(*a)) {
+                    builder.push(SeriesStep::Still(Operation::Apply(*function, arguments.into())))
+                } else if *function == Multivariate::Atan2 {
+                    builder.atan2(arguments[0], arguments[1])
+                } else {
+                    return Err(not_analytic(program, instruction));
+                }
+            }
         };
         moved[instruction.result.index()] = Some(value);
     }
     let rates: Vec<Value> = program.outputs.iter().map(|v| moved[v.index()].unwrap_or(Value(0))).collect();
     Ok(builder.finish(rates))
+}
+
+fn not_analytic(program: &FunctionProgram, call: &Instruction) -> NotAnalytic {
+    NotAnalytic { operation: call.operation.clone(), output: first_output(program, call.result) }
 }
 
 /// The first output that a value leads to.
@@ -337,7 +347,7 @@ impl Builder {
             return Some(*value);
         }
         Some(match function {
-            Function::Abs | Function::Sign => return None,
+            Function::Abs | Function::Sign | Function::Floor => return None,
             Function::Sin => self.sine_cosine(a).0,
             Function::Cos => self.sine_cosine(a).1,
             Function::Sinh => self.couple([Function::Sinh, Function::Cosh], a, false).0,
@@ -406,9 +416,6 @@ impl Builder {
 
     /// `z* = (x y* - y x*) / (x^2 + y^2)`
     fn atan2(&mut self, y: Value, x: Value) -> Value {
-        if self.is_still(y) && self.is_still(x) {
-            return self.push(SeriesStep::Still(Operation::Atan2(y, x)));
-        }
         let squares = (self.mul(x, x), self.mul(y, y));
         let denominator = self.add(squares.0, squares.1);
         let part = |builder: &mut Self, moving: Value, other: Value| {
@@ -528,7 +535,9 @@ fn renamed(operation: &Operation, at: &dyn Fn(&Value) -> Value) -> Operation {
         Operation::Mul(a, b) => Operation::Mul(at(a), at(b)),
         Operation::Div(a, b) => Operation::Div(at(a), at(b)),
         Operation::Call(function, a) => Operation::Call(*function, at(a)),
-        Operation::Atan2(y, x) => Operation::Atan2(at(y), at(x)),
+        Operation::Apply(function, arguments) => {
+            Operation::Apply(*function, arguments.iter().map(at).collect())
+        }
         // Sines and cosines of still angles became two calls.
         Operation::SinCos { .. }
         | Operation::Number(_)

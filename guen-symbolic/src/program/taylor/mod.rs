@@ -96,10 +96,10 @@ pub struct SeriesProgram {
 }
 
 /// Why a program has no Taylor series: a function that is not analytic.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, PartialEq, Eq, Debug)]
 pub struct NotAnalytic {
-    /// The function.
-    pub function: Function,
+    /// The call of the function.
+    pub operation: Operation,
     /// The first output that needs it.
     pub output: usize,
 }
@@ -109,8 +109,8 @@ impl SeriesProgram {
     ///
     /// # Errors
     ///
-    /// The absolute value and the sign of something that moves have no series: they would be continued beyond their
-    /// kink by the wrong branch, and nothing would tell.
+    /// Piecewise functions of something that moves have no series: they would be continued beyond their
+    /// kink by the wrong branch, and nothing would tell. Of functions that the program supplies no series is known.
     pub fn new(program: &FunctionProgram, source: impl Fn(SymbolId) -> Source) -> Result<Self, NotAnalytic> {
         builder::build(program, &source)
     }

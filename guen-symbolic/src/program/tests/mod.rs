@@ -43,7 +43,10 @@ fn direct(graph: &Graph, roots: &[ExprId], symbols: &[f64]) -> Vec<f64> {
                 factors.iter().fold(1.0, |p, (base, e)| p * values[base.index()].powi(*e))
             }
             Node::Function(function, x) => f64::call(*function, &values[x.index()]),
-            Node::Atan2(y, x) => values[y.index()].atan2(values[x.index()]),
+            Node::Multivariate(function, arguments) => {
+                let arguments: Vec<f64> = arguments.iter().map(|e| values[e.index()]).collect();
+                f64::apply(*function, &arguments)
+            }
             Node::Kept(x) => values[x.index()],
             Node::Undefined => f64::NAN,
         };

@@ -15,8 +15,10 @@ struct Reader<'t> {
     rest: &'t str,
 }
 
-const FUNCTIONS: [&str; 12] =
-    ["sin", "cos", "tan", "cot", "arcsin", "arccos", "arctan", "sinh", "cosh", "tanh", "ln", "exp"];
+const FUNCTIONS: [&str; 14] = [
+    "sin", "cos", "tan", "cot", "arcsin", "arccos", "arctan", "sinh", "cosh", "tanh", "ln", "exp", "min",
+    "max",
+];
 
 impl<'t> Reader<'t> {
     fn eat(&mut self, mark: &str) -> bool {
@@ -118,6 +120,7 @@ impl<'t> Reader<'t> {
             "operatorname" => Math::Function(self.words()?),
             "text" => Math::Prose(self.words()?),
             "neq" => Math::Mark('≠'),
+            "ge" => Math::Mark('≥'),
             "ldots" => Math::Mark('…'),
             "partial" => Math::Word { text: "∂".to_owned(), upright: false },
             "circ" => Math::Word { text: "∘".to_owned(), upright: false },

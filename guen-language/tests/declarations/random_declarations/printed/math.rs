@@ -106,8 +106,13 @@ fn factor(items: &[Math]) -> Result<(Term, &[Math]), Unread> {
     }
     let (arguments, after) = match next {
         Math::Fenced('(', inner) => {
+            let argument = |items: &[Math]| match items {
+                // The condition of `select`.
+                [c @ .., Math::Mark('≥'), Math::Number(zero)] if zero == "0" => read(c),
+                _ => read(items),
+            };
             let arguments: Result<Vec<Term>, Unread> =
-                inner.split(|item| *item == Math::Mark(',')).map(read).collect();
+                inner.split(|item| *item == Math::Mark(',')).map(argument).collect();
             (arguments?, &rest[1..])
         }
         _ => {

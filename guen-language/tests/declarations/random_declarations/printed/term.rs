@@ -96,12 +96,16 @@ fn call(graph: &mut Graph, name: &str, arguments: &[ExprId]) -> Result<ExprId, U
         "tanh" => Function::Tanh,
         "abs" => Function::Abs,
         "sign" => Function::Sign,
+        "floor" => Function::Floor,
         "sqrt" => Function::Root(2),
         _ => {
             return match (name, arguments) {
                 ("tan", [x]) => Ok(graph.tan(*x)),
                 ("cot", [x]) => Ok(graph.cot(*x)),
                 ("atan2", [y, x]) => Ok(graph.atan2(*y, *x)),
+                ("min", [a, b]) => Ok(graph.minimum(*a, *b)),
+                ("max", [a, b]) => Ok(graph.maximum(*a, *b)),
+                ("select", [c, a, b]) => Ok(graph.select(*c, *a, *b)),
                 _ => Err(format!("the function `{name}` of {} arguments", arguments.len())),
             };
         }

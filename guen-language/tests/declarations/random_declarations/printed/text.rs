@@ -108,6 +108,8 @@ impl<'t> Reader<'t> {
             return Ok(Term::Name(Name::Text(name)));
         }
         let mut arguments = vec![self.sum()?];
+        // The condition of `select`.
+        self.eat(" >= 0");
         while self.eat(", ") {
             arguments.push(self.sum()?);
         }

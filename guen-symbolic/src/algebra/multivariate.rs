@@ -1,0 +1,290 @@
+//! Functions of several arguments: the arctangent of a quotient, choices between branches, functions that the program supplies.
+
+use super::function::Function;
+use super::graph::Graph;
+use super::id::ExprId;
+use super::node::Node;
+
+/// The most arguments of a function that the program supplies.
+pub const MAX_ARGUMENTS: usize = 8;
+
+/// A function of several arguments.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub enum Multivariate {
+    /// `atan2(y, x)`, the angle of the point `(x, y)`.
+    Atan2,
+    /// `select(c, a, b)`: `a` where `c >= 0`, and `b` elsewhere.
+    Select,
+    /// The smaller of two.
+    Minimum,
+    /// The larger of two.
+    Maximum,
+    /// A smooth function that the program supplies, or a partial derivative of it.
+    Supplied {
+        /// Its number among those of the graph.
+        function: u16,
+        /// How often it is differentiated by each of its arguments.
+        orders: [u8; MAX_ARGUMENTS],
+    },
+}
+
+impl Multivariate {
+    /// A number for structural hashing.
+    pub(crate) fn code(self) -> u64 {
+        match self {
+            Multivariate::Atan2 => 1,
+            Multivariate::Select => 2,
+            Multivariate::Minimum => 3,
+            Multivariate::Maximum => 4,
+            Multivariate::Supplied { function, orders } => {
+                super::id::mix(u64::from_le_bytes(orders) ^ u64::from(function) << 56) | 8
+            }
+        }
+    }
+
+    /// The name in the language; functions that the program supplies have their own.
+    pub fn name(self) -> &'static str {
+        match self {
+            Multivariate::Atan2 => "atan2",
+            Multivariate::Select => "select",
+            Multivariate::Minimum => "min",
+            Multivariate::Maximum => "max",
+            Multivariate::Supplied { .. } => "supplied",
+        }
+    }
+
+    /// Whether it is a choice between branches.
+    pub fn is_choice(self) -> bool {
+        matches!(self, Multivariate::Select | Multivariate::Minimum | Multivariate::Maximum)
+    }
+}
+
+/// A function that the program supplies.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct SuppliedFunction {
+    /// Its name.
+    pub name: String,
+    /// The names of its arguments.
+    pub arguments: Vec<String>,
+}
+
+impl Graph {
+    /// Declares a function that the program supplies; at most [`MAX_ARGUMENTS`] arguments.
+    pub fn declare_function(&mut self, name: &str, arguments: &[&str]) -> Multivariate {
+        assert!((1..=MAX_ARGUMENTS).contains(&arguments.len()), "whoever declares counts the arguments");
+        let function = u16::try_from(self.supplied.len()).expect("there are few functions");
+        let arguments = arguments.iter().map(|name| (*name).to_owned()).collect();
+        self.supplied.push(SuppliedFunction { name: name.to_owned(), arguments });
+        Multivariate::Supplied { function, orders: [0; MAX_ARGUMENTS] }
+    }
+
+    /// The functions that the program supplies, by their numbers.
+    pub fn supplied_functions(&self) -> &[SuppliedFunction] {
+        &self.supplied
+    }
+
+    /// A function of several arguments, in normal form.
+    pub fn multivariate(&mut self, function: Multivariate, arguments: &[ExprId]) -> ExprId {
+        match (function, arguments) {
+            (Multivariate::Atan2, [y, x]) => self.atan2(*y, *x),
+            (Multivariate::Select, [c, a, b]) => self.select(*c, *a, *b),
+            (Multivariate::Minimum, [a, b]) => self.minimum(*a, *b),
+            (Multivariate::Maximum, [a, b]) => self.maximum(*a, *b),
+            _ => self.intern(Node::Multivariate(function, arguments.into())),
+        }
+    }
+
+    /// `atan2(y, x)`, the angle of the point `(x, y)`.
+    pub fn atan2(&mut self, y: ExprId, x: ExprId) -> ExprId {
+        if self.is_zero(y) && self.manifestly_positive(x) {
+            return self.zero();
+        }
+        self.intern(Node::Multivariate(Multivariate::Atan2, [y, x].into()))
+    }
+
+    /// `a` where `c >= 0`, `b` elsewhere. A positive number before `c` is left out.
+    pub fn select(&mut self, c: ExprId, a: ExprId, b: ExprId) -> ExprId {
+        if a == b || self.manifestly_nonnegative(c) {
+            return a;
+        }
+        let opposite = self.neg(c);
+        if self.manifestly_positive(opposite) {
+            return b;
+        }
+        let (content, _) = match self.node(c) {
+            Node::Sum { .. } => self.split_content(c),
+            _ => self.split_coefficient(c),
+        };
+        let c = match content.abs().recip() {
+            Some(scale) => self.scale(c, &scale),
+            None => c,
+        };
+        self.intern(Node::Multivariate(Multivariate::Select, [c, a, b].into()))
+    }
+
+    /// The smaller of two.
+    pub fn minimum(&mut self, a: ExprId, b: ExprId) -> ExprId {
+        self.extremum(Multivariate::Minimum, a, b)
+    }
+
+    /// The larger of two.
+    pub fn maximum(&mut self, a: ExprId, b: ExprId) -> ExprId {
+        self.extremum(Multivariate::Maximum, a, b)
+    }
+
+    fn extremum(&mut self, function: Multivariate, a: ExprId, b: ExprId) -> ExprId {
+        let difference = self.sub(b, a);
+        let opposite = self.neg(difference);
+        let [smaller, larger] = match () {
+            () if self.manifestly_nonnegative(difference) => [a, b],
+            () if self.manifestly_nonnegative(opposite) => [b, a],
+            // The order of the arguments says nothing.
+            () => {
+                let sorted = if self.key(b) < self.key(a) { [b, a] } else { [a, b] };
+                return self.intern(Node::Multivariate(function, sorted.into()));
+            }
+        };
+        if function == Multivariate::Minimum { smaller } else { larger }
+    }
+
+    /// The partial derivative of a function by the argument at a place.
+    pub(crate) fn multivariate_partial(
+        &mut self,
+        function: Multivariate,
+        arguments: &[ExprId],
+        place: usize,
+    ) -> ExprId {
+        match function {
+            Multivariate::Atan2 => {
+                // d atan2(y, x) = (x dy - y dx)/(x^2 + y^2)
+                let (y, x) = (arguments[0], arguments[1]);
+                let (x2, y2) = (self.powi(x, 2), self.powi(y, 2));
+                let square = self.add(x2, y2);
+                let above = if place == 0 { x } else { self.neg(y) };
+                self.div(above, square)
+            }
+            // Where the branches change there is no derivative: a run restarts there.
+            Multivariate::Select if place == 0 => self.zero(),
+            Multivariate::Select => self.branch(arguments[0], place == 1),
+            Multivariate::Minimum | Multivariate::Maximum => {
+                let difference = self.sub(arguments[0], arguments[1]);
+                self.branch(difference, (place == 0) == (function == Multivariate::Maximum))
+            }
+            Multivariate::Supplied { function, mut orders } => {
+                orders[place] = orders[place].saturating_add(1);
+                self.multivariate(Multivariate::Supplied { function, orders }, arguments)
+            }
+        }
+    }
+
+    /// One where `c >= 0` and zero elsewhere, or the other way round.
+    fn branch(&mut self, c: ExprId, above: bool) -> ExprId {
+        let (one, zero) = (self.one(), self.zero());
+        if above { self.select(c, one, zero) } else { self.select(c, zero, one) }
+    }
+
+    /// The differential of a function along those of its arguments.
+    pub(super) fn multivariate_differential(
+        &mut self,
+        function: Multivariate,
+        arguments: &[ExprId],
+        rates: &[ExprId],
+    ) -> ExprId {
+        match function {
+            Multivariate::Atan2 => {
+                let ((y, x), (dy, dx)) = ((arguments[0], arguments[1]), (rates[0], rates[1]));
+                let (xdy, ydx) = (self.mul(x, dy), self.mul(y, dx));
+                let numerator = self.sub(xdy, ydx);
+                let (x2, y2) = (self.powi(x, 2), self.powi(y, 2));
+                let denominator = self.add(x2, y2);
+                self.div(numerator, denominator)
+            }
+            // A choice between rates: what the other branch does with its argument is not looked at.
+            Multivariate::Select => self.select(arguments[0], rates[1], rates[2]),
+            Multivariate::Minimum | Multivariate::Maximum => {
+                let difference = self.sub(arguments[0], arguments[1]);
+                match function {
+                    Multivariate::Maximum => self.select(difference, rates[0], rates[1]),
+                    _ => self.select(difference, rates[1], rates[0]),
+                }
+            }
+            Multivariate::Supplied { .. } => {
+                let mut sum = self.zero();
+                for (place, rate) in rates.iter().enumerate() {
+                    if !self.is_zero(*rate) {
+                        let slope = self.multivariate_partial(function, arguments, place);
+                        let term = self.mul(slope, *rate);
+                        sum = self.add(sum, term);
+                    }
+                }
+                sum
+            }
+        }
+    }
+
+    /// The function by whose zeros a piecewise function changes its branch; none of any other node.
+    pub fn switching_function(&mut self, id: ExprId) -> Option<ExprId> {
+        match self.node(id).clone() {
+            Node::Function(Function::Abs | Function::Sign, x) => Some(x),
+            // The whole numbers are the zeros of sin(pi x).
+            Node::Function(Function::Floor, x) => {
+                let pi = self.pi();
+                let angle = self.mul(pi, x);
+                Some(self.sin(angle))
+            }
+            Node::Multivariate(Multivariate::Select, arguments) => Some(arguments[0]),
+            Node::Multivariate(Multivariate::Minimum | Multivariate::Maximum, arguments) => {
+                Some(self.sub(arguments[0], arguments[1]))
+            }
+            _ => None,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{Flow, Graph, Role};
+
+    #[test]
+    fn extrema_do_not_depend_on_the_order_of_their_arguments() {
+        let mut g = Graph::new();
+        let [x, y] = ["x", "y"].map(|name| g.symbol(name, Role::Coordinate));
+        assert_eq!(g.maximum(x, y), g.maximum(y, x));
+        assert_ne!(g.maximum(x, y), g.minimum(x, y));
+        let [two, three] = [g.number(2), g.number(3)];
+        assert_eq!((g.maximum(two, three), g.minimum(two, three)), (three, two));
+        let square = g.powi(x, 2);
+        let zero = g.zero();
+        assert_eq!((g.maximum(zero, square), g.minimum(square, zero)), (square, zero));
+    }
+
+    #[test]
+    fn derivatives_choose_the_branch() {
+        let mut g = Graph::new();
+        let [x, y] = ["x", "y"].map(|name| g.symbol(name, Role::Coordinate));
+        let larger = g.maximum(x, y);
+        let (one, zero) = (g.one(), g.zero());
+        let by_x = Flow::partial(&g, x).of(&mut g, larger);
+        let difference = g.sub(x, y);
+        let expected = g.select(difference, one, zero);
+        let other = g.neg(difference);
+        let turned = g.select(other, zero, one);
+        assert!(by_x == expected || by_x == turned, "{}", g.text(by_x));
+        let smaller = g.minimum(x, y);
+        let by_x_of_smaller = Flow::partial(&g, x).of(&mut g, smaller);
+        assert_ne!(by_x, by_x_of_smaller);
+    }
+
+    #[test]
+    fn supplied_functions_have_partial_derivatives() {
+        let mut g = Graph::new();
+        let [x, y] = ["x", "y"].map(|name| g.symbol(name, Role::Coordinate));
+        let ground = g.declare_function("ground", &["x", "y"]);
+        let square = g.powi(x, 2);
+        let height = g.multivariate(ground, &[square, y]);
+        let slope = Flow::partial(&g, x).of(&mut g, height);
+        assert_eq!(g.text(slope), "2*ground_x(x^2, y)*x");
+        let mixed = Flow::partial(&g, y).of(&mut g, slope);
+        assert_eq!(g.text(mixed), "2*ground_x_y(x^2, y)*x");
+    }
+}

@@ -1,0 +1,153 @@
+//! Piecewise functions: rates and linearisations on both sides of every switch, in every real.
+
+use guen::mechanical_system;
+use guen::{Dual, Real};
+
+mechanical_system! {
+    /// Forces with every piecewise function, along a coordinate each.
+    pub system Steps {
+        constants   { k > 0, low = -1, high = 2 }
+        inputs      { u }
+        coordinates { x, y }
+        parameters  { v = dot(x); w = dot(y); }
+        kinetic_energy   = (v^2 + w^2)/2;
+        potential_energy = k/2*max(0, -x)^2 + min(x*y, y^2/2, 3);
+        forces {
+            select(v > w, -v, u) + floor(y + 1/2) along v;
+            clamp(2*y, low, high)*abs(w) + sign(x - y) along w;
+        }
+        outputs {
+            side = select(x <= 0, vec(x, y), vec(y, 2*x));
+            safe = select(x >= 0, sqrt(x), 0);
+            least = x.min(y).max(low);
+        }
+    }
+}
+
+/// The forces by hand, and the two accelerations.
+fn by_hand(k: f64, u: f64, [x, y, v, w]: [f64; 4]) -> [f64; 2] {
+    let stop = if x < 0.0 { -k * x } else { 0.0 };
+    let (xy, half) = (x * y, y * y / 2.0);
+    let least = xy.min(half).min(3.0);
+    let (by_x, by_y) = if least == 3.0 {
+        (0.0, 0.0)
+    } else if least == xy {
+        (y, x)
+    } else {
+        (0.0, y)
+    };
+    let drive = if v > w { -v } else { u };
+    let limited = (2.0 * y).clamp(-1.0, 2.0);
+    [drive + (y + 0.5).floor() + stop - by_x, limited * w.abs() + (x - y).signum() - by_y]
+}
+
+/// States on all sides, none on a switch.
+fn states() -> impl Iterator<Item = [f64; 4]> {
+    let values = [-2.7, -0.6, 0.35, 1.4, 3.1];
+    (0..625).map(move |n: usize| {
+        let pick = |place: u32, shift: f64| values[n / 5_usize.pow(place) % 5] + shift;
+        [pick(0, 0.0), pick(1, 0.013), pick(2, 0.021), pick(3, 0.032)]
+    })
+}
+
+#[test]
+fn every_branch_is_taken_where_it_holds() {
+    let (k, u) = (7.0, 0.4);
+    let steps = Steps { k, low: -1.0, high: 2.0 }.prepare().unwrap();
+    for state in states() {
+        let rate = steps.rhs(0.0, &state.into(), &steps::Inputs { u });
+        let expected = by_hand(k, u, state);
+        assert!((rate.v - expected[0]).abs() < 1e-13 && (rate.w - expected[1]).abs() < 1e-13, "{state:?}");
+        let outputs = steps.outputs(0.0, &state.into(), &steps::Inputs { u });
+        let [x, y, ..] = state;
+        let side = if x <= 0.0 { [x, y, 0.0] } else { [y, 2.0 * x, 0.0] };
+        assert_eq!((outputs.side, outputs.least), (side, x.min(y).max(-1.0)));
+        // The branch that is not taken is no number for negative `x`.
+        assert_eq!(outputs.safe, if x >= 0.0 { x.sqrt() } else { 0.0 });
+    }
+}
+
+/// The emitted linearisation is that of dual numbers, and of differences.
+#[test]
+fn slopes_are_those_of_the_branch() {
+    let steps = Steps { k: 7.0, low: -1.0, high: 2.0 }.prepare().unwrap();
+    let lifted = steps.lift::<Dual<f64, 1>>();
+    for state in states() {
+        let linear = steps.linearize(0.0, &state.into(), &steps::Inputs { u: 0.4 });
+        for j in 0..4 {
+            let dual: [Dual<f64, 1>; 4] = core::array::from_fn(|i| {
+                if i == j { Dual::variable(state[i], 0) } else { Dual::constant(state[i]) }
+            });
+            let rates = lifted.rhs(Dual::zero(), &dual.into(), &steps::Inputs { u: Dual::constant(0.4) });
+            let rates: [Dual<f64, 1>; 4] = rates.into();
+            let moved = |by: f64| {
+                let mut state = state;
+                state[j] += by;
+                let hand = by_hand(7.0, 0.4, state);
+                [state[2], state[3], hand[0], hand[1]]
+            };
+            let (ahead, behind) = (moved(1e-5), moved(-1e-5));
+            for i in 0..4 {
+                assert!((linear.a[i][j] - rates[i].tangent[0]).abs() < 1e-13, "{state:?}: {i} by {j}");
+                let slope = (ahead[i] - behind[i]) / 2e-5;
+                assert!((linear.a[i][j] - slope).abs() < 1e-7, "{state:?}: {i} by {j}");
+            }
+        }
+    }
+}
+
+/// What is not a number stays so, in every real.
+#[test]
+fn nothing_is_chosen_by_what_is_not_a_number() {
+    fn check<R: Real>() {
+        let (nan, one, two) = (R::from_f64(f64::NAN), R::one(), R::from_ratio(2, 1));
+        let chosen =
+            [nan.select(one, two), nan.minimum(one), one.minimum(nan), nan.maximum(one), one.maximum(nan)];
+        assert!(chosen.iter().all(|x| x.to_f64().is_nan()), "{chosen:?}");
+        assert_eq!(
+            [one.minimum(two), two.minimum(one), one.maximum(two), two.maximum(one)],
+            [one, one, two, two]
+        );
+        let half = R::from_ratio(1, 2);
+        assert_eq!([half.floor(), (-half).floor(), two.floor()], [R::zero(), -one, two]);
+        assert_eq!([R::zero().select(one, two), (-half).select(one, two)], [one, two]);
+    }
+    check::<f64>();
+    check::<f32>();
+    check::<Dual<f64, 2>>();
+    check::<guen::PowerSeries<f64>>();
+    check::<guen::RunningError<f64>>();
+    check::<guen::Fused<f64>>();
+}
+
+/// Lanes choose each by itself, with the bits of one number.
+#[test]
+fn lanes_choose_each_by_itself() {
+    use guen::lanes::{LaneTask, Lanes, Width, dispatch};
+    struct Rates([[f64; 4]; 8]);
+    impl LaneTask for Rates {
+        type Output = [[f64; 4]; 8];
+        fn run<L: Lanes>(self) -> Self::Output {
+            let steps = Steps { k: 7.0, low: -1.0, high: 2.0 }.prepare().unwrap();
+            let steps = steps.lift::<L>();
+            let mut found = [[0.0; 4]; 8];
+            for first in (0..8).step_by(L::COUNT) {
+                let state: [L; 4] = core::array::from_fn(|i| L::from_fn(|lane| self.0[first + lane][i]));
+                let inputs = steps::Inputs { u: L::from_f64(0.4) };
+                let rates: [L; 4] = steps.rhs(L::zero(), &state.into(), &inputs).into();
+                for lane in 0..L::COUNT {
+                    found[first + lane] = rates.map(|rate| rate.lane(lane));
+                }
+            }
+            found
+        }
+    }
+    let all: Vec<[f64; 4]> = states().collect();
+    for states in all.chunks_exact(8) {
+        let states: [[f64; 4]; 8] = states.try_into().unwrap();
+        let alone = dispatch(Width::One, Rates(states));
+        for width in [Width::Four, Width::Eight] {
+            assert_eq!(dispatch(width, Rates(states)), alone);
+        }
+    }
+}

@@ -1,0 +1,15 @@
+//! The lower limit of `clamp` stands before the upper one.
+//!
+//! repair: `clamp(v, 1, -1)` => `clamp(v, -1, 1)`
+
+guen::mechanical_system! {
+    pub system Stop {
+        constants { m > 0, c >= 0 }
+        coordinates { x }
+        parameters { v = dot(x); }
+        kinetic_energy = m/2*v^2;
+        forces { -c*clamp(v, 1, -1) along v; }
+    }
+}
+
+fn main() {}

@@ -1,0 +1,15 @@
+//! `min` and `max` take two values or more.
+//!
+//! repair: `max(x)` => `max(x, 0)`
+
+guen::mechanical_system! {
+    pub system Stop {
+        constants { m > 0, c >= 0 }
+        coordinates { x }
+        parameters { v = dot(x); }
+        kinetic_energy = m/2*v^2;
+        forces { -c*max(x) along v; }
+    }
+}
+
+fn main() {}
