@@ -466,7 +466,7 @@ impl Evaluator<'_> {
 /// Returns what to write for a function of other languages that this one has not.
 fn instead_of(text: &str) -> Option<&'static str> {
     Some(match text {
-        "ite" | "ifelse" | "if_else" | "where" | "cond" | "Piecewise" | "piecewise" | "switch" => {
+        "ite" | "ifelse" | "if_else" | "cond" | "Piecewise" | "piecewise" | "switch" => {
             "write `select(c >= 0, a, b)`: `a` where the comparison holds, `b` elsewhere"
         }
         "smoothstep" => "with `s = clamp((x - a)/(b - a), 0, 1)` it is `s^2*(3 - 2*s)`",

@@ -386,7 +386,7 @@ fn compared_arguments(group: &Group, faults: &mut Faults, depth: usize, compares
     arguments
 }
 
-/// What an operand becomes by a relation that may stand behind it.
+/// Reads the relation that may stand behind an operand, and what follows it.
 fn comparison(
     cursor: &mut Cursor,
     faults: &mut Faults,

@@ -12,7 +12,7 @@ fn message(call: &str) -> String {
 fn a_missing_function_is_told_by_what_to_write() {
     for (call, help) in [
         ("Piecewise(x, u)", "write `select(c >= 0, a, b)`"),
-        ("where(x, u, 1)", "write `select(c >= 0, a, b)`"),
+        ("ite(x, u, 1)", "write `select(c >= 0, a, b)`"),
         ("smoothstep(0, 1, x)", "`s = clamp((x - a)/(b - a), 0, 1)`"),
         ("mod(x, 2)", "`x - b*floor(x/b)`"),
         ("saturate(x, 0, 1)", "`clamp(x, low, high)`"),

@@ -21,9 +21,9 @@ pub enum Multivariate {
     Maximum,
     /// A smooth function that the program supplies, or a partial derivative of it.
     Supplied {
-        /// Its number among those of the graph.
+        /// The number among those of the graph.
         function: u16,
-        /// How often it is differentiated by each of its arguments.
+        /// The number of times that it is differentiated by each of its arguments.
         orders: [u8; MAX_ARGUMENTS],
     },
 }
@@ -62,7 +62,7 @@ impl Multivariate {
 /// A function that the program supplies.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct SuppliedFunction {
-    /// Its name.
+    /// The name in the declaration.
     pub name: String,
     /// The names of its arguments.
     pub arguments: Vec<String>,
