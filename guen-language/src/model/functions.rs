@@ -470,7 +470,7 @@ fn instead_of(text: &str) -> Option<&'static str> {
             "write `select(c >= 0, a, b)`: `a` where the comparison holds, `b` elsewhere"
         }
         "smoothstep" => "with `s = clamp((x - a)/(b - a), 0, 1)` it is `s^2*(3 - 2*s)`",
-        "mod" | "fmod" | "rem" | "remainder" => "the rest of a division by `b` is `x - b*floor(x/b)`",
+        "fmod" | "rem" | "remainder" => "the rest of a division by `b` is `x - b*floor(x/b)`",
         "ceil" => "write `-floor(-x)`",
         "round" => "write `floor(x + 1/2)`",
         "trunc" => "write `sign(x)*floor(abs(x))`",

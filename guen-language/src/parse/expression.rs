@@ -275,7 +275,9 @@ fn keyword(ident: &proc_macro2::Ident, faults: &mut Faults, expected: &str) -> R
         return Ok(());
     }
     let fault = Fault::new(ident.span(), format!("expected {expected}, found keyword `{text}`"));
-    Err(faults.report(if matches!(text.as_str(), "if" | "else" | "match") {
+    Err(faults.report(if text == "mod" {
+        fault.help("the rest of a division by `b` is `x - b*floor(x/b)`")
+    } else if matches!(text.as_str(), "if" | "else" | "match" | "where") {
         fault.help("an expression has no branches: write `select(c >= 0, a, b)`, `a` where the comparison holds and `b` elsewhere")
     } else if matches!(text.as_str(), "for" | "while" | "loop") {
         fault.help("there are no loops: write every term")
