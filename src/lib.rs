@@ -159,15 +159,15 @@ pub mod __private {
         DrivenSeries, Dual, HIGHEST_ORDER, Holonomic, IncompleteLieGroup, InputRecords, Invariants, Laned,
         Level, LevelInfo, Levels, LieGroup, Lift, Liftable, Linearizable, Linearization, Monitored,
         Nonholonomic, Operator, Ordered, OutputLinearization, OutputMap, Positions, PositionsError, Real,
-        Report, ReportSection, Rheonomic, RunningError, Scleronomic, Simulate, System, TaylorSeries,
+        Report, ReportSection, Rheonomic, RunningError, Scleronomic, Shape, Simulate, System, TaylorSeries,
         Undriven, Unprepared, WithInputs, WithScalar, linearized, nalgebra_conversions, seeded,
     };
     pub use guen_runtime::{
         actuated, condition, conserved, differentiable, domain, dynamics, energy, facts, jacobians, laned,
         level_info, levels, linearizable, mass_form, monitored, motion_of_system, onto_constraints,
         operators, output_map, prepare, prepared, program_functions, rates, reaction_covector, reactions,
-        record, reduce, reported, simulated, singularities, state_of_system, steady_motions, uses,
-        with_scalar,
+        record, reduce, reported, simulated, singularities, state_of_system, steady_motions, structured,
+        uses, with_scalar,
     };
-    pub use guen_runtime::{consistent, control, furthest_surplus, serde_record};
+    pub use guen_runtime::{consistent, control, furthest_surplus, serde_record, serde_structured};
 }

@@ -80,10 +80,11 @@ pub struct Faults {
 }
 
 impl Faults {
-    /// Takes a fault in. Of faults with the same place and text the first one stays.
+    /// Takes a fault in. Of faults with the same place and text the first one stays; texts that differ in the indices of
+    /// entries are one, so that a mistake in a loop is reported once.
     pub fn report(&mut self, fault: Fault) -> Reported {
         // `Span` cannot be compared; its debug text names the bytes and the macro it came through.
-        if self.seen.insert((format!("{:?}", fault.span), fault.to_string())) {
+        if self.seen.insert((format!("{:?}", fault.span), without_indices(&fault.to_string()))) {
             self.faults.push(fault);
         }
         Reported(())
@@ -116,10 +117,36 @@ impl Faults {
         }
     }
 
+    /// Notes of the faults that were reported since for which values of loop variables they were found first.
+    pub fn note_first(&mut self, before: usize, values: &str) {
+        for fault in self.faults.iter_mut().skip(before) {
+            if !fault.notes.iter().any(|note| note.starts_with(FIRST)) {
+                fault.notes.push(format!("{FIRST}{values}"));
+            }
+        }
+    }
+
     /// Number of faults so far.
     pub fn count(&self) -> usize {
         self.faults.len()
     }
+}
+
+/// The beginning of the note that says for which entry of a loop a fault was found.
+const FIRST: &str = "note: found first for ";
+
+/// A text with nothing between the brackets of its names.
+fn without_indices(text: &str) -> String {
+    let mut kept = String::with_capacity(text.len());
+    let mut depth = 0_usize;
+    for letter in text.chars() {
+        depth = depth.saturating_sub(usize::from(letter == ']'));
+        if depth == 0 {
+            kept.push(letter);
+        }
+        depth += usize::from(letter == '[');
+    }
+    kept
 }
 
 /// Runs a stage with an empty sink. The only way to get one.

@@ -3,7 +3,7 @@
 //! An ordinary library on `proc_macro2`, so that tests, benchmarks and other front ends can call every stage
 //! without a compiler around it. The stages, each with types of its own:
 //!
-//! tokens -[`parse`]-> [`syntax`] -[`model`]-> checked model -[`mod@derive`]-> derivation and programs -[`emit`]-> Rust items
+//! tokens -[`parse`]-> [`syntax`] -[`unfold`]-> [`syntax`] without loops -[`model`]-> checked model -[`mod@derive`]-> derivation and programs -[`emit`]-> Rust items
 //!
 //! Every stage reports what is wrong through [`diagnostics`]; [`report`] writes down what was derived. For a declaration
 //! with faults the stages run once more on the sound one that [`outline`] puts in its place.
@@ -22,6 +22,7 @@ pub mod outline;
 pub mod parse;
 pub mod report;
 pub mod syntax;
+pub mod unfold;
 
 use proc_macro2::{Literal, TokenStream};
 use quote::ToTokens;

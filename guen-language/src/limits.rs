@@ -21,6 +21,12 @@ pub const MAX_CALL_DEPTH: usize = 16;
 /// The most calls of functions of the declaration, those inside of functions included: each is evaluated anew.
 pub const MAX_CALLS: usize = 10_000;
 
+/// The most loops and choices inside of each other.
+pub const MAX_NESTED_LOOPS: usize = 16;
+
+/// The most entries of a declaration once its loops are unfolded.
+pub const MAX_UNFOLDED: usize = 1_000_000;
+
 /// The most scenes: each is derived anew.
 pub const MAX_SCENES: usize = 64;
 

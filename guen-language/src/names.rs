@@ -27,6 +27,9 @@ pub const SPATIAL_FUNCTIONS: &[&str] = &[
     "angular_velocity_body",
 ];
 
+/// Functions of a range: `sum(i in 0..n: e)`.
+pub const FOLDS: &[&str] = &["sum", "product"];
+
 /// Reserved words that are not functions.
 pub const RESERVED_WORDS: &[&str] = &[
     "t",
@@ -51,6 +54,7 @@ pub(crate) const RATE_SUFFIX: &str = "_rate";
 
 /// The sections of a system, in the order in which a help lists them.
 pub const SECTIONS: &[&str] = &[
+    "count",
     "constants",
     "inputs",
     "coordinates",
@@ -142,6 +146,33 @@ const RUST_KEYWORDS: &[&str] = &[
     "virtual", "where", "while", "yield", "_",
 ];
 
+/// The place in the text of a name where the indices at its end begin: `q[3]` is `q` and `[3]`.
+fn stem_length(text: &str) -> usize {
+    let mut end = text.len();
+    while text[..end].ends_with(']') {
+        let Some(start) = text[..end].rfind('[') else { break };
+        end = start;
+    }
+    end
+}
+
+/// The name of a part of what has a name: `w_x` of `w`, `w_x[3]` of `w[3]`.
+pub(crate) fn suffixed(text: &str, suffix: &str) -> String {
+    let (stem, indices) = text.split_at(stem_length(text));
+    format!("{stem}{suffix}{indices}")
+}
+
+/// The name without its suffix, if it has it: `w[3]` of `w_x[3]`.
+pub(crate) fn without_suffix(text: &str, suffix: &str) -> Option<String> {
+    let (stem, indices) = text.split_at(stem_length(text));
+    Some(format!("{}{indices}", stem.strip_suffix(suffix)?))
+}
+
+/// The name of the array that an entry belongs to; a name that is no entry is its own.
+pub(crate) fn array_of(text: &str) -> &str {
+    &text[..stem_length(text)]
+}
+
 /// Whether a word is a function of the language.
 pub fn is_function(word: &str) -> bool {
     SCALAR_FUNCTIONS.contains(&word) || SPATIAL_FUNCTIONS.contains(&word)
@@ -188,7 +219,9 @@ pub fn instead_of_section(word: &str) -> Option<&'static str> {
             "write `kinetic_energy = e;` and `potential_energy = e;`: the equations follow from both"
         }
         "u" => "write `force_function = e;`, or its negative as `potential_energy = e;`",
-        "if" | "match" | "for" | "while" | "loop" => "there are no branches and no loops: write every entry",
+        "match" | "while" | "loop" => {
+            "entries repeat as `for i in 0..n { .. }`, and are chosen by `if i < k { .. } else { .. }`"
+        }
         _ => return None,
     })
 }

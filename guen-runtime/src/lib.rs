@@ -107,6 +107,11 @@ pub use system::{FromFn, Laned, Monitored, System, from_fn};
 pub use generated::serde_support::{
     deserialize_derived, deserialize_record, serialize_derived, serialize_record,
 };
+#[doc(hidden)]
+pub use generated::shape::Shape;
+#[cfg(feature = "serde")]
+#[doc(hidden)]
+pub use generated::shape::{deserialize_structured, serialize_structured};
 #[cfg(feature = "nalgebra")]
 pub use nalgebra;
 #[cfg(feature = "serde")]

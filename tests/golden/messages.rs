@@ -212,9 +212,10 @@ fn every_expectation_has_a_case() {
 }
 
 /// What each theme is about, as its page says. A new folder under `tests/ui` needs a line here.
-const THEMES: [(&str, &str); 12] = [
+const THEMES: [(&str, &str); 13] = [
     ("dimensions", "units and dimensions"),
     ("energies", "kinetic energy, force function, forces and gravity"),
+    ("families", "counts, arrays, loops and sums"),
     ("forms", "parameters and constraints: linear, independent, as many as there are coordinates"),
     ("functions", "functions of the declaration, `fn name(x) = e;`"),
     ("kinds", "scalars, vectors and rotations; what may depend on what"),

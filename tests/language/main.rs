@@ -9,6 +9,7 @@ extern crate guen_benchmarks;
 
 mod derived;
 mod edge_cases;
+mod families;
 mod generated;
 mod hygiene;
 mod moving_frames;

@@ -1,11 +1,11 @@
 //! The carried form of a level: a module with a state, a system and a program of its own.
 
 use guen_symbolic::{CarriedFunction, ExprId};
-use proc_macro2::{Ident, TokenStream};
+use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::integrated::CheckOperations;
-use super::layout::{Layout, carried_ident, carried_name, inputs};
+use super::layout::{Layout, carried_name, inputs};
 use super::text::cost;
 use super::{functions, integrated, lanes, records, serde};
 use crate::derive::{Subject, function};
@@ -17,7 +17,9 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let own = Layout { is_whole: false, ..Layout::new(&carried) };
     let checks = CheckOperations::of(&carried, &own).and(CheckOperations::of(subject, layout));
     let module = module(&carried, &own, layout, checks);
-    let (size, fields) = (layout.size, &layout.state);
+    let size = layout.size;
+    let without = layout.state.accesses().iter().map(|name| quote!(state.#name));
+    let without = layout.state.literal(&without.collect::<Vec<_>>());
     quote! {
         #[doc = " What belongs to the carried form, [`Carried`]: its state, and which functions it carries."]
         pub mod carried {
@@ -52,7 +54,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
             /// The state without the functions that are carried.
             #[inline]
             fn from(state: carried::State<R>) -> Self {
-                State { #(#fields: state.#fields),* }
+                State { #without }
             }
         }
 
@@ -112,9 +114,9 @@ fn module(subject: &Subject<'_, '_>, layout: &Layout, base: &Layout, checks: Che
 fn prepared(subject: &Subject<'_, '_>, layout: &Layout, base: &Layout, invariants: usize) -> TokenStream {
     let (size, hoisted, constants, variables) = (layout.size, layout.hoisted, layout.constants, base.size);
     let (parameter, argument) = inputs(layout);
-    let parts: Vec<Ident> =
-        subject.level.selection.carried.iter().map(|f| carried_ident(subject.model, f)).collect();
-    let (fields, indices) = (&base.state, 0..parts.len());
+    let fields = base.state.accesses().iter().map(|name| quote!(state.#name));
+    let parts = (0..subject.level.selection.carried.len()).map(|i| quote!(values[#i]));
+    let carried = layout.state.literal(&fields.chain(parts).collect::<Vec<_>>());
     let places = 0..variables;
     let given = (layout.inputs > 0).then(|| {
         quote!(
@@ -173,7 +175,7 @@ fn prepared(subject: &Subject<'_, '_>, layout: &Layout, base: &Layout, invariant
                 let variables: [R; #variables] = ::core::convert::From::from(*state);
                 all[..#variables].copy_from_slice(&variables);
                 let values = program::carry(&self.constants, &self.hoisted, t, &all);
-                State { #(#fields: state.#fields,)* #(#parts: values[#indices]),* }
+                State { #carried }
             }
 
             /// Returns the distance of the carried functions from what they stand for, at the coordinates and parameters of the

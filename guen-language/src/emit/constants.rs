@@ -4,18 +4,19 @@ use guen_symbolic::ExprId;
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
+use super::fields::{Fields, plain};
 use super::formula::default_text;
-use super::layout::{Layout, REAL, is_derived, variable_ident};
+use super::layout::{Layout, REAL, is_derived, variable_name};
 use super::text::tokens;
 use super::{documentation, limits, motion, physical, with_scalar};
 use crate::derive::Subject;
 use crate::report::Report;
-use crate::syntax::BoundKind;
+use crate::syntax::{BoundKind, Name};
 
 /// A field of the struct of constants.
 struct Field {
-    ident: Ident,
-    /// The name without `r#`.
+    written: Name,
+    /// The name without `r#`, with its index.
     name: String,
     docs: TokenStream,
     bound: Option<BoundKind>,
@@ -25,7 +26,8 @@ struct Field {
 }
 
 /// The values of the constants of a struct, where those that are derived are computed.
-pub(super) fn values(layout: &Layout, names: &[&Ident], of: &TokenStream) -> TokenStream {
+pub(super) fn values(layout: &Layout, structure: &Fields, of: &TokenStream) -> TokenStream {
+    let names = structure.accesses();
     match layout.derived.is_empty() {
         true => quote!([#(#of.#names),*]),
         false => quote!(#of.__guen_values()),
@@ -39,7 +41,7 @@ fn fields(subject: &Subject<'_, '_>, layout: &Layout) -> Vec<Field> {
     let constants = constants.map(|(i, c)| {
         let is_derived = layout.derived.contains(&i);
         Field {
-            ident: c.name.ident.clone(),
+            written: c.name.clone(),
             name: c.name.text.clone(),
             docs: documentation::entry(
                 c.docs,
@@ -54,8 +56,8 @@ fn fields(subject: &Subject<'_, '_>, layout: &Layout) -> Vec<Field> {
     let held = level.selection.held.iter().map(|held| {
         let name = model.variable_name(held.place).to_owned();
         let text = format!("The value at which `{name}` stays.");
-        let ident = variable_ident(model, held.place);
-        Field { ident, name, docs: quote!(#[doc = #text]), bound: None, default: None, is_derived: false }
+        let written = variable_name(model, held.place);
+        Field { written, name, docs: quote!(#[doc = #text]), bound: None, default: None, is_derived: false }
     });
     constants.chain(held).collect()
 }
@@ -63,16 +65,27 @@ fn fields(subject: &Subject<'_, '_>, layout: &Layout) -> Vec<Field> {
 pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, report: &Report) -> TokenStream {
     let (system, declared) = (&layout.system, &layout.declared);
     let fields = fields(subject, layout);
-    let names: Vec<&Ident> = fields.iter().map(|field| &field.ident).collect();
-    let docs = fields.iter().map(|field| &field.docs);
+    let structure = Fields::new(fields.iter().map(|field| &field.written));
     let real = format_ident!("{}", if system == declared { REAL } else { "Scalar" });
-    let types = fields
-        .iter()
-        .map(|field| if field.is_derived { quote!(__guen::Derived<#real>) } else { quote!(#real) });
+    let kind = |field: &Field| if field.is_derived { quote!(__guen::Derived<#real>) } else { quote!(#real) };
+    let declared_fields: Vec<TokenStream> = structure
+        .trees()
+        .map(|(ident, tree)| {
+            let mut places = Vec::new();
+            tree.leaves(&mut places);
+            let (first, last) = (&fields[places[0]], &fields[places[places.len() - 1]]);
+            let (docs, kind) = (&first.docs, tree.of_type(&kind(first)));
+            let range = (places.len() > 1).then(|| {
+                let range = format!("The entries `{}` to `{}`.", first.name, last.name);
+                quote!(#[doc = ""] #[doc = #range])
+            });
+            quote!(#docs #range pub #ident: #kind,)
+        })
+        .collect();
     let written = subject.scene().map_or(&subject.model.declaration.docs, |(scene, _)| &scene.docs);
     let (count, hoisted) = (layout.constants, layout.hoisted);
     let checks = checks(subject, &fields);
-    let constructors = constructors(subject, layout, &fields);
+    let constructors = constructors(subject, layout, &fields, &structure);
     // A system without constants still has a type parameter to carry; its name is a value, as that of a unit struct.
     let marker = (count == 0).then(|| quote!(real: ::core::marker::PhantomData<#real>,));
     let marker_value = (count == 0).then(|| quote!(real: ::core::marker::PhantomData,));
@@ -84,19 +97,19 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, report: &Report)
             pub const #declared: #system = #system { #marker_value };
         }
     });
-    let structure = quote! {
+    let item = quote! {
         #[::core::prelude::v1::derive(
             ::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq
         )]
         pub struct #declared<#real = f64> {
-            #(#docs pub #names: #types,)*
+            #(#declared_fields)*
             #marker
         }
     };
-    let structure = documentation::reported(report, written, layout.is_whole, &structure);
-    let values = values(layout, &names, &quote!(self));
-    let resolution = resolution(subject, layout, &fields);
-    let derived: Vec<&Ident> = layout.derived.iter().map(|i| &fields[*i].ident).collect();
+    let item = documentation::reported(report, written, layout.is_whole, &item);
+    let values = values(layout, &structure, &quote!(self));
+    let resolution = resolution(subject, layout, &fields, &structure);
+    let derived: Vec<&TokenStream> = layout.derived.iter().map(|i| structure.access(*i)).collect();
     let (follows, follows_field) = match derived.len() {
         0 => (None, None),
         count => (
@@ -104,7 +117,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, report: &Report)
             Some(quote!(follows #count)),
         ),
     };
-    let given = (0..count).map(|i| {
+    let given: Vec<TokenStream> = (0..count).map(|i| {
         let place = layout.derived.iter().position(|derived| *derived == i);
         match place {
             None => quote!(self.constants[#i]),
@@ -112,17 +125,18 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, report: &Report)
                 if self.follows[#k] { __guen::Derived::Follows } else { __guen::Derived::Set(self.constants[#i]) }
             },
         }
-    });
+    }).collect();
+    let given = structure.literal(&given);
     let definite = physical::definite(subject, layout);
     let pivots = motion::pivots(subject);
     let limits = limits::has_any(subject).then(|| quote!(prepared.check_limits()?;));
-    let with_scalar = with_scalar::items(layout, &names, marker_value.as_ref());
+    let with_scalar = with_scalar::items(layout, &structure, marker_value.as_ref());
     let what = if layout.is_whole { "system" } else { "scene" };
     let prepared_docs = format!(
         "The {what} [`{declared}`] with its constants checked and everything that depends on them alone computed once. Immutable; it alone runs."
     );
     quote! {
-        #structure
+        #item
         #unit
 
         #constructors
@@ -140,7 +154,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, report: &Report)
         impl<R: __guen::Real> Prepared<R> {
             /// The constants that the system was prepared from.
             pub fn constants(&self) -> #system<R> {
-                #system { #(#names: #given,)* #marker_value }
+                #system { #given #marker_value }
             }
         }
 
@@ -149,7 +163,12 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, report: &Report)
 }
 
 /// Returns the code that makes numbers of constants that follow others; nothing where there are none.
-fn resolution(subject: &Subject<'_, '_>, layout: &Layout, fields: &[Field]) -> Option<TokenStream> {
+fn resolution(
+    subject: &Subject<'_, '_>,
+    layout: &Layout,
+    fields: &[Field],
+    structure: &Fields,
+) -> Option<TokenStream> {
     if layout.derived.is_empty() {
         return None;
     }
@@ -158,25 +177,25 @@ fn resolution(subject: &Subject<'_, '_>, layout: &Layout, fields: &[Field]) -> O
     let locals: Vec<Ident> = (0..count).map(|i| format_ident!("__guen_c{i}")).collect();
     // Formulas come last, each behind those that it reads.
     let plain = (0..count).filter(|i| !fields[*i].is_derived).map(|i| {
-        let (local, name) = (&locals[i], &fields[i].ident);
+        let (local, name) = (&locals[i], structure.access(i));
         quote!(let #local: R = self.#name;)
     });
     let formulas = layout.derived.iter().map(|i| {
-        let (local, name) = (&locals[*i], &fields[*i].ident);
+        let (local, name) = (&locals[*i], structure.access(*i));
         let formula = fields[*i].default.map(|e| tokens(&default_text(subject, e)));
         quote!(let #local: R = __guen::Derived::resolve(self.#name, || #formula);)
     });
     let resolved = fields.iter().enumerate().map(|(i, field)| {
-        let name = &field.ident;
         let value = quote!(values[#i]);
-        if field.is_derived { quote!(#name: __guen::Derived::Set(#value)) } else { quote!(#name: #value) }
+        if field.is_derived { quote!(__guen::Derived::Set(#value)) } else { value }
     });
+    let resolved = structure.literal(&resolved.collect::<Vec<_>>());
     Some(quote! {
         impl<R: __guen::Real> #system<R> {
             /// Returns the constants with every derived one set to its present value.
             pub fn resolved(&self) -> Self {
                 let values = self.__guen_values();
-                #system { #(#resolved),* }
+                #system { #resolved }
             }
 
             /// The constants as numbers, each out of those before it.
@@ -241,32 +260,46 @@ fn words(name: &str, bound: BoundKind) -> (String, TokenStream, TokenStream) {
 }
 
 /// `new` with the constants that have no default, and `Default` if all have one.
-fn constructors(subject: &Subject<'_, '_>, layout: &Layout, fields: &[Field]) -> TokenStream {
+fn constructors(
+    subject: &Subject<'_, '_>,
+    layout: &Layout,
+    fields: &[Field],
+    structure: &Fields,
+) -> TokenStream {
     let system = &layout.system;
     // A parameter named like a constant of the module, an operator or `None` would be a pattern.
-    let parameter = |field: &Field| {
-        if crate::names::is_pattern(&field.name) {
-            format_ident!("{}_", field.name, span = field.ident.span())
-        } else {
-            field.ident.clone()
-        }
+    let parameter = |ident: &Ident| match crate::names::is_pattern(&plain(ident)) {
+        true => format_ident!("{ident}_", span = ident.span()),
+        false => ident.clone(),
     };
-    let required: Vec<Ident> = fields.iter().filter(|field| field.default.is_none()).map(parameter).collect();
-    let values = fields.iter().map(|field| {
-        let name = &field.ident;
-        match field.default {
-            None => {
-                let parameter = parameter(field);
-                // `a: a` would be a lint in the user's file.
-                if *name == parameter { quote!(#name) } else { quote!(#name: #parameter) }
-            }
-            Some(_) if field.is_derived => quote!(#name: __guen::Derived::Follows),
-            Some(default) => {
-                let value = tokens(&default_text(subject, default));
-                quote!(#name: #value)
-            }
+    // An array is given as a whole if one of its entries has no default.
+    let defaults: Vec<TokenStream> = fields
+        .iter()
+        .map(|field| match field.default {
+            None => TokenStream::new(),
+            Some(_) if field.is_derived => quote!(__guen::Derived::Follows),
+            Some(default) => tokens(&default_text(subject, default)),
+        })
+        .collect();
+    let (mut required, mut kinds) = (Vec::new(), Vec::new());
+    let mut values = Vec::new();
+    for (name, tree) in structure.trees() {
+        let mut places = Vec::new();
+        tree.leaves(&mut places);
+        if places.iter().all(|place| fields[*place].default.is_some()) {
+            let value = tree.literal(&defaults);
+            values.push(quote!(#name: #value));
+            continue;
         }
-    });
+        let parameter = parameter(name);
+        kinds.push(match fields[places[0]].is_derived {
+            true => tree.of_type(&quote!(__guen::Derived<R>)),
+            false => tree.of_type(&quote!(R)),
+        });
+        // `a: a` would be a lint in the user's file.
+        values.push(if *name == parameter { quote!(#name) } else { quote!(#name: #parameter) });
+        required.push(parameter);
+    }
     let marker = (fields.is_empty()).then(|| quote!(real: ::core::marker::PhantomData,));
     let docs = if required.is_empty() {
         "The system with its default constants.".to_owned()
@@ -300,7 +333,7 @@ fn constructors(subject: &Subject<'_, '_>, layout: &Layout, fields: &[Field]) ->
         impl<R: __guen::Real> #system<R> {
             #[doc = #docs]
             #[allow(clippy::too_many_arguments, reason = "one for each constant without a default")]
-            pub fn new(#(#required: R),*) -> Self {
+            pub fn new(#(#required: #kinds),*) -> Self {
                 #system { #(#values,)* #marker }
             }
         }

@@ -1,12 +1,14 @@
 //! Methods for controllers, with the names of the declaration.
 
 use guen_symbolic::{Operation, Role};
-use proc_macro2::{Ident, TokenStream};
+use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
-use super::layout::{Layout, given, inputs};
+use super::fields::{Fields, Tree};
+use super::layout::{Layout, form_name, given, inputs};
 use crate::derive::{Subject, function};
 use crate::derive::{has_covector, known_combinations};
+use crate::syntax::Name;
 
 pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     if !layout.is_whole {
@@ -162,18 +164,23 @@ fn reactions(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
             }
         }
     });
-    let methods = vectors(subject, layout).into_iter().map(|(name, fields)| {
-        let docs = format!(
-            "The reaction of the vector constraint `{name}`, as a force or torque in the world's axes."
-        );
-        let parts = fields.iter().map(|field| match field {
-            Some(field) => quote!(self.#field),
-            None => quote!(R::zero()),
-        });
+    let vectors = vectors(subject, layout);
+    let structure = Fields::new(vectors.iter().map(|(name, _)| name));
+    let values: Vec<TokenStream> = vectors.into_iter().map(|(_, value)| value).collect();
+    let methods = structure.trees().map(|(name, tree)| {
+        let docs = match tree {
+            Tree::Leaf(_) => format!(
+                "The reaction of the vector constraint `{name}`, as a force or torque in the world's axes."
+            ),
+            _ => format!(
+                "The reactions of the vector constraints `{name}`, as forces or torques in the world's axes."
+            ),
+        };
+        let (kind, value) = (tree.of_type(&quote!([R; 3])), tree.literal(&values));
         quote! {
             #[doc = #docs]
-            pub fn #name(&self) -> [R; 3] {
-                [#(#parts),*]
+            pub fn #name(&self) -> #kind {
+                #value
             }
         }
     });
@@ -188,23 +195,34 @@ fn reactions(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     quote!(#covector #vectors)
 }
 
-/// Constraints that were written as vectors, with the fields of their components among the reactions; of a component that
+/// Constraints that were written as vectors, with the components of their reactions; of a component that
 /// says `0 = 0` there is none. Left out if a reaction is not known.
-fn vectors(subject: &Subject<'_, '_>, layout: &Layout) -> Vec<(Ident, [Option<Ident>; 3])> {
+fn vectors(subject: &Subject<'_, '_>, layout: &Layout) -> Vec<(Name, TokenStream)> {
+    let known = &subject.level.selection.reactions;
+    let names: Vec<Name> = known.iter().map(|form| form_name(&subject.model.forms[*form])).collect();
+    let reactions = Fields::new(&names);
     let constraints = &subject.model.forms[layout.l..];
-    let mut found: Vec<(Ident, [Option<Ident>; 3])> = Vec::new();
+    let mut found: Vec<(Name, TokenStream)> = Vec::new();
     for form in constraints {
-        let name = &form.written.ident;
-        if form.name == form.written.text || found.iter().any(|(known, _)| known == name) {
+        let name = form.written;
+        if form.name == name.text || found.iter().any(|(known, _)| known.text == name.text) {
             continue;
         }
-        let of = |axis: &str| format!("{}_{axis}", form.written.text);
-        let parts = ["x", "y", "z"].map(|axis| {
-            let place = constraints.iter().position(|c| c.name == of(axis) && c.written.ident == *name);
-            place.map(|v| (subject.level.derivation.reactions[v].is_some(), format_ident!("{}", of(axis))))
+        let parts = ["_x", "_y", "_z"].map(|axis| {
+            let own = crate::names::suffixed(&name.text, axis);
+            let is_there = constraints.iter().any(|c| c.name == own && c.written.text == name.text);
+            let place = names.iter().position(|name| name.text == own);
+            match place {
+                Some(place) if is_there => {
+                    let way = reactions.access(place);
+                    Some(quote!(self.#way))
+                }
+                _ if is_there => None,
+                _ => Some(quote!(R::zero())),
+            }
         });
-        if parts.iter().flatten().all(|(known, _)| *known) {
-            found.push((name.clone(), parts.map(|part| part.map(|(_, ident)| ident))));
+        if let [Some(x), Some(y), Some(z)] = parts {
+            found.push((name.clone(), quote!([#x, #y, #z])));
         }
     }
     found

@@ -161,7 +161,7 @@ pub(super) fn simulate(
     let (owner, size) = (owner(layout), layout.size);
     let domain = domain.then(|| quote!(DOMAIN));
     let positions = positions.then(|| quote!(__guen::onto_constraints!(#size);));
-    let names = layout.state.iter().map(|ident| ident.to_string());
+    let names = layout.state.names().iter().cloned();
     let units = units(subject.model, names);
     quote!(__guen::simulated! { #owner #size [#domain] [#(#units)*] #positions })
 }

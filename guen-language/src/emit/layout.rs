@@ -4,9 +4,11 @@ use guen_symbolic::{CarriedFunction, ExprId};
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};
 
+use super::fields::Fields;
 use crate::derive::{Level, StateIndex, Subject};
-use crate::model::{ConstantEntry, Model};
-use crate::syntax::Declaration;
+use crate::model::{ConstantEntry, FormEntry, Model};
+use crate::names::{RATE_SUFFIX, array_of};
+use crate::syntax::{Declaration, Name};
 
 /// The path of the facade in the user's crate.
 pub(super) fn facade(declaration: &Declaration) -> TokenStream {
@@ -31,7 +33,7 @@ pub(super) struct Layout {
     /// The constants that follow others until they are set, each behind those that its formula reads.
     pub(super) derived: Vec<usize>,
     /// Fields of the state.
-    pub(super) state: Vec<Ident>,
+    pub(super) state: Fields,
     /// Whether this is the system itself.
     pub(super) is_whole: bool,
 }
@@ -57,38 +59,43 @@ impl Layout {
             inputs: selection.inputs.len(),
             derived: derived(model, level),
             state: {
-                let variables = selection.variables.iter().map(|place| variable_ident(model, *place));
-                variables.chain(selection.carried.iter().map(|f| carried_ident(model, f))).collect()
+                let variables = selection.variables.iter().map(|place| variable_name(model, *place));
+                let names = variables.chain(selection.carried.iter().map(|f| carried_field(model, f)));
+                Fields::new(&names.collect::<Vec<Name>>())
             },
             is_whole: level.scene.is_none(),
         }
     }
 }
 
-/// The field of a variable.
-pub(super) fn variable_ident(model: &Model<'_>, place: StateIndex) -> Ident {
+/// The name of a variable, which is the way to its value.
+pub(super) fn variable_name(model: &Model<'_>, place: StateIndex) -> Name {
     match place.checked_sub(model.coordinates.len()) {
-        None => model.coordinates[place].name.ident.clone(),
-        Some(s) => form_ident(&model.forms[s]),
+        None => model.coordinates[place].name.clone(),
+        Some(s) => form_name(&model.forms[s]),
     }
 }
 
-/// The field of a form: its name as written, with the component where a vector was written.
-pub(super) fn form_ident(form: &crate::model::FormEntry<'_>) -> Ident {
-    if form.name == form.written.text {
-        form.written.ident.clone()
-    } else {
-        format_ident!("{}", form.name, span = form.written.span())
-    }
+/// The name of a form: as written, with the component where a vector was written.
+pub(super) fn form_name(form: &FormEntry<'_>) -> Name {
+    let suffixes = ["", "_x", "_y", "_z", RATE_SUFFIX].into_iter();
+    let mut names = suffixes.map(|suffix| match suffix {
+        "" => form.written.clone(),
+        _ => form.written.suffixed(suffix),
+    });
+    let own = names.find(|name| name.text == form.name);
+    own.unwrap_or_else(|| Name::new(format_ident!("{}", form.name, span = form.written.span())))
 }
 
-/// The field of a function that is carried.
-pub(super) fn carried_ident(model: &Model<'_>, function: &CarriedFunction) -> Ident {
-    format_ident!("{}", carried_name(model, function), span = Span::call_site())
+/// The name of a function that is carried.
+pub(super) fn carried_field(model: &Model<'_>, function: &CarriedFunction) -> Name {
+    Name::new(format_ident!("{}", carried_name(model, function), span = Span::call_site()))
 }
 
+/// The name of a function that is carried, as text: an identifier, whatever the function is of.
 pub(super) fn carried_name(model: &Model<'_>, function: &CarriedFunction) -> String {
-    model.bench.graph.text(function.symbol)
+    let text = model.bench.graph.text(function.symbol).replace(']', "");
+    text.replace(['[', '.'], "_")
 }
 
 /// The parameter and the argument of inputs, where the system has some.
@@ -111,9 +118,17 @@ pub(super) fn given_alone(layout: &Layout) -> TokenStream {
     if layout.inputs == 0 { quote!() } else { quote!(inputs) }
 }
 
-/// Whether a constant of the system follows others until it is set: its field is a `Derived<R>`, and no plain number.
+/// Whether a constant of the system follows others until it is set: its field is a `Derived<R>`, and no plain number. The entries
+/// of an array have one type, so that one which follows others makes all of them such.
 pub(super) fn is_derived(model: &Model<'_>, constant: &ConstantEntry<'_>) -> bool {
-    constant.default.is_some_and(|e| !model.bench.graph.symbols_in(&[e]).is_empty())
+    let follows = |constant: &ConstantEntry<'_>| {
+        constant.default.is_some_and(|e| !model.bench.graph.symbols_in(&[e]).is_empty())
+    };
+    let array = array_of(&constant.name.text);
+    match constant.name.path() {
+        None => follows(constant),
+        Some(_) => model.constants.iter().any(|other| array_of(&other.name.text) == array && follows(other)),
+    }
 }
 
 /// The constants of a level that follow others, by place, each behind those that its formula reads. In a scene one that

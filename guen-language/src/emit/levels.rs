@@ -3,12 +3,14 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
+use super::fields::Fields;
 use super::formula::default_text;
-use super::layout::{Layout, is_derived, variable_ident};
+use super::layout::{Layout, is_derived, variable_name};
 use super::text::tokens;
 use crate::derive::{Level, StateIndex, Subject};
 use crate::model::Model;
 use crate::names::module_name;
+use crate::syntax::Name;
 
 /// `Level` for what steppers integrate; for a scene the conversions too.
 pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
@@ -89,28 +91,37 @@ fn conversions(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let Subject { model, level } = subject;
     let scene = &layout.system;
     let whole = &model.declaration.name.ident;
-    let fields = &layout.state;
     let selection = &level.selection;
-    let constants: Vec<&Ident> =
-        selection.constants.iter().map(|c| &model.constants[*c].name.ident).collect();
-    let held: Vec<Ident> = selection.held.iter().map(|held| variable_ident(model, held.place)).collect();
+    let held: Vec<Name> = selection.held.iter().map(|held| variable_name(model, held.place)).collect();
+    let given = selection.constants.iter().map(|c| model.constants[*c].name);
+    // The structs of the constants and of the state, here and in the system.
+    let own_fields = Fields::new(given.chain(&held));
+    let whole_fields = Fields::new(model.constants.iter().map(|constant| constant.name));
+    let (_, full) = model.sizes();
+    let whole_state = Fields::new(&(0..full).map(|place| variable_name(model, place)).collect::<Vec<Name>>());
+    let count = selection.constants.len();
     let marker = |is_empty: bool| is_empty.then(|| quote!(real: ::core::marker::PhantomData,));
     let own_marker = marker(layout.constants == 0);
     let whole_marker = marker(model.constants.is_empty());
     let fixes = subject.scene().map_or(&[][..], |(_, facts)| &facts.fixes);
-    let locals: Vec<Ident> = (0..constants.len()).map(|i| format_ident!("__guen_c{i}")).collect();
-    let fixed: Vec<&Ident> = fixes.iter().map(|(c, _)| &model.constants[*c].name.ident).collect();
+    let locals: Vec<Ident> = (0..count).map(|i| format_ident!("__guen_c{i}")).collect();
     let fixed_names: Vec<&str> = fixes.iter().map(|(c, _)| model.constants[*c].name.text.as_str()).collect();
     let values: Vec<TokenStream> =
         fixes.iter().map(|(_, value)| tokens(&default_text(subject, *value))).collect();
-    let inputs: Vec<&Ident> = selection.inputs.iter().map(|u| &model.inputs[*u].name.ident).collect();
-    let of_inputs = (!inputs.is_empty()).then(|| {
+    let own_inputs = Fields::new(selection.inputs.iter().map(|u| model.inputs[*u].name));
+    let whole_inputs = Fields::new(model.inputs.iter().map(|input| input.name));
+    let of_inputs = (own_inputs.len() > 0).then(|| {
+        let values = selection.inputs.iter().map(|u| {
+            let way = whole_inputs.access(*u);
+            quote!(inputs.#way)
+        });
+        let values = own_inputs.literal(&values.collect::<Vec<_>>());
         quote! {
             impl<R> ::core::convert::From<super::Inputs<R>> for Inputs<R> {
                 /// Returns the inputs of the system that the scene has.
                 #[inline]
                 fn from(inputs: super::Inputs<R>) -> Self {
-                    Inputs { #(#inputs: inputs.#inputs),* }
+                    Inputs { #values }
                 }
             }
         }
@@ -120,33 +131,47 @@ fn conversions(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let whole_values =
         (0..model.constants.len()).any(is_derived).then(|| quote!(let values = system.__guen_values();));
     let of_whole = |c: usize| {
-        let name = &model.constants[c].name.ident;
+        let name = whole_fields.access(c);
         if whole_values.is_some() { quote!(values[#c]) } else { quote!(system.#name) }
     };
     let given: Vec<TokenStream> = selection.constants.iter().map(|c| of_whole(*c)).collect();
     let given_fixed: Vec<TokenStream> = fixes.iter().map(|(c, _)| of_whole(*c)).collect();
     // One that would follow itself in the scene is a number there.
     let held_back = |i: usize| is_derived(selection.constants[i]) && !layout.derived.contains(&i);
-    let kept: Vec<TokenStream> = constants
-        .iter()
-        .enumerate()
-        .map(|(i, name)| if held_back(i) { of_whole(selection.constants[i]) } else { quote!(system.#name) })
-        .collect();
-    let back = constants.iter().enumerate().map(|(i, name)| match held_back(i) {
-        true => quote!(__guen::Derived::Set(self.#name)),
-        false => quote!(self.#name),
+    let kept = (0..count).map(|i| match (held_back(i), selection.constants[i]) {
+        (true, c) => of_whole(c),
+        (false, c) => {
+            let name = whole_fields.access(c);
+            quote!(system.#name)
+        }
     });
+    let at_rest = selection.held.iter().map(|held| {
+        let name = whole_state.access(held.place);
+        quote!(state.#name)
+    });
+    let built = own_fields.literal(&kept.chain(at_rest).collect::<Vec<_>>());
     let own_values = (!layout.derived.is_empty()).then(|| quote!(let values = self.__guen_values();));
-    let own = constants.iter().enumerate().map(|(i, name)| match own_values {
-        Some(_) => quote!(values[#i]),
-        None => quote!(self.#name),
+    let own = (0..count).map(|i| {
+        let name = own_fields.access(i);
+        if own_values.is_some() { quote!(values[#i]) } else { quote!(self.#name) }
     });
-    let put = fixes.iter().zip(&values).map(|((c, _), value)| match is_derived(*c) {
-        true => quote!(__guen::Derived::Set(#value)),
-        false => quote!(#value),
+    // The constants of the system: those that the scene has, and those that it fixes.
+    let whole_constants = (0..model.constants.len()).map(|c| {
+        if let Some(i) = selection.constants.iter().position(|own| *own == c) {
+            let name = own_fields.access(i);
+            return if held_back(i) { quote!(__guen::Derived::Set(self.#name)) } else { quote!(self.#name) };
+        }
+        let value = fixes.iter().zip(&values).find(|((fixed, _), _)| *fixed == c).map(|(_, value)| value);
+        if is_derived(c) { quote!(__guen::Derived::Set(#value)) } else { quote!(#value) }
     });
-    let kept_values = (0..constants.len()).any(held_back).then(|| whole_values.clone());
-    let built = quote!(#(#constants: #kept,)*);
+    let whole_constants = whole_fields.literal(&whole_constants.collect::<Vec<_>>());
+    let kept_values = (0..count).any(held_back).then(|| whole_values.clone());
+    let of_state = level.selection.variables.iter().map(|place| {
+        let name = whole_state.access(*place);
+        quote!(state.#name)
+    });
+    let of_state = layout.state.literal(&of_state.collect::<Vec<_>>());
+    let within = within(level, layout, &whole_state);
     let what = if fixes.is_empty() { "" } else { ", if they are those that the scene fixes" };
     let docs =
         format!("The scene with the constants of the system{what}, and what it holds as it is in a state.");
@@ -177,7 +202,6 @@ fn conversions(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
         }
     });
     let state_name = if held.is_empty() { quote!(_state) } else { quote!(state) };
-    let count = constants.len();
     quote! {
         impl<R: __guen::Real> #scene<R> {
             #[doc = #docs]
@@ -193,7 +217,6 @@ fn conversions(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
                 #kept_values
                 ::core::result::Result::Ok(#scene {
                     #built
-                    #(#held: #state_name.#held,)*
                     #own_marker
                 })
             }
@@ -211,7 +234,7 @@ fn conversions(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
             pub fn system(&self) -> super::#whole<R> {
                 #own_values
                 let [#(#locals),*]: [R; #count] = [#(#own),*];
-                super::#whole { #(#constants: #back,)* #(#fixed: #put,)* #whole_marker }
+                super::#whole { #whole_constants #whole_marker }
             }
         }
 
@@ -221,7 +244,7 @@ fn conversions(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
             /// The variables of the scene out of a state of the system.
             #[inline]
             fn from(state: &super::State<R>) -> Self {
-                State { #(#fields: state.#fields),* }
+                State { #of_state }
             }
         }
 
@@ -232,15 +255,33 @@ fn conversions(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
             }
         }
 
-        impl<R> State<R> {
+        impl<R: ::core::marker::Copy> State<R> {
             /// A state of the system: its variables that the scene has from here, the others from `rest`.
             #[inline]
             #[allow(clippy::needless_update, unused_variables, reason = "a scene may have every variable")]
             pub fn within(self, rest: super::State<R>) -> super::State<R> {
-                super::State { #(#fields: self.#fields,)* ..rest }
+                #within
             }
         }
 
         #of_inputs
+    }
+}
+
+/// The state of the system out of that of a scene and of `rest`.
+fn within(level: &Level, layout: &Layout, whole: &Fields) -> TokenStream {
+    let variables = &level.selection.variables;
+    if whole.is_flat() && layout.state.is_flat() {
+        let fields = &layout.state.accesses()[..variables.len()];
+        return quote!(super::State { #(#fields: self.#fields,)* ..rest });
+    }
+    let set = variables.iter().enumerate().map(|(own, place)| {
+        let (to, from) = (whole.access(*place), layout.state.access(own));
+        quote!(all.#to = self.#from;)
+    });
+    quote! {
+        let mut all = rest;
+        #(#set)*
+        all
     }
 }

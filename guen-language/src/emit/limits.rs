@@ -3,6 +3,7 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
+use super::fields::Fields;
 use super::formula::default_text;
 use super::layout::Layout;
 use super::text::tokens;
@@ -35,11 +36,17 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
             .collect()
     };
     let (lower, upper) = (end(0, "NEG_INFINITY"), end(1, "INFINITY"));
-    let names: Vec<&Ident> = inputs.iter().map(|input| &input.name.ident).collect();
+    let structure = Fields::new(inputs.iter().map(|input| input.name));
     let locals: Vec<Ident> = (0..layout.constants).map(|i| format_ident!("__guen_c{i}")).collect();
-    let limited: Vec<&Ident> =
-        inputs.iter().filter(|input| input.limits.is_some()).map(|input| &input.name.ident).collect();
-    let texts = limited.iter().map(|name| name.to_string().trim_start_matches("r#").to_owned());
+    let is_limited = |place: &usize| inputs[*place].limits.is_some();
+    let places: Vec<usize> = (0..inputs.len()).filter(is_limited).collect();
+    let limited: Vec<&TokenStream> = places.iter().map(|place| structure.access(*place)).collect();
+    let texts = places.iter().map(|place| &structure.names()[*place]);
+    let names = structure.accesses().iter();
+    let clamped: Vec<TokenStream> =
+        names.map(|name| quote!(__guen::clamped(inputs.#name, lower.#name, upper.#name))).collect();
+    let (lower, upper, clamped) =
+        (structure.literal(&lower), structure.literal(&upper), structure.literal(&clamped));
     quote! {
         impl<R: __guen::Real> Prepared<R> {
             fn check_limits(&self) -> ::core::result::Result<(), __guen::ConstantsError> {
@@ -54,7 +61,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
             pub fn limits(&self) -> (Inputs<R>, Inputs<R>) {
                 #[allow(unused_variables, reason = "limits need not use every constant")]
                 let [#(#locals),*] = self.constants;
-                (Inputs { #(#names: #lower),* }, Inputs { #(#names: #upper),* })
+                (Inputs { #lower }, Inputs { #upper })
             }
         }
 
@@ -63,7 +70,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
             /// it is no command, and the steppers refuse it.
             pub fn clamped(&self, inputs: &Inputs<R>) -> Inputs<R> {
                 let (lower, upper) = self.limits();
-                Inputs { #(#names: __guen::clamped(inputs.#names, lower.#names, upper.#names)),* }
+                Inputs { #clamped }
             }
         }
     }

@@ -10,6 +10,7 @@ mod code;
 mod constants;
 mod control;
 mod documentation;
+mod fields;
 mod formula;
 mod functions;
 mod integrated;

@@ -4,15 +4,17 @@ use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
 use super::documentation;
+use super::fields::{Fields, Tree};
 use super::integrated::units;
-use super::layout::{Layout, form_ident};
+use super::layout::{Layout, carried_field, form_name, variable_name};
 use crate::derive::Subject;
-use crate::syntax::Docs;
+use crate::model::OutputEntry;
+use crate::syntax::{Docs, Name};
 
-/// A field of a record.
+/// A value of a record.
 #[derive(Clone)]
 struct Field {
-    ident: Ident,
+    name: Name,
     docs: TokenStream,
 }
 
@@ -20,27 +22,25 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let Subject { model, level } = subject;
     let selection = &level.selection;
     let units = &model.units;
-    let field = |ident: &Ident, docs: &Docs, fallback: String, unit: Option<&String>| Field {
-        ident: ident.clone(),
+    let field = |name: &Name, docs: &Docs, fallback: String, unit: Option<&String>| Field {
+        name: name.clone(),
         docs: documentation::entry(docs, &fallback, unit),
     };
     let coordinates = selection.coordinates.iter().map(|i| &model.coordinates[*i]);
     let coordinates: Vec<Field> = coordinates
-        .map(|c| {
-            field(&c.name.ident, c.docs, format!("The coordinate `{}`.", c.name), units.get(&c.name.text))
-        })
+        .map(|c| field(c.name, c.docs, format!("The coordinate `{}`.", c.name), units.get(&c.name.text)))
         .collect();
     let forms = |indices: &[usize], what: &str| -> Vec<Field> {
         let forms = indices.iter().map(|j| &model.forms[*j]);
         forms
-            .map(|form| field(&form_ident(form), form.docs, format!("{what} `{}`.", form.name), None))
+            .map(|form| field(&form_name(form), form.docs, format!("{what} `{}`.", form.name), None))
             .collect()
     };
     let parameters = selection.parameters.iter().map(|j| &model.forms[*j]);
     let parameters: Vec<Field> = parameters
         .map(|form| {
             let fallback = format!("The quasi-velocity `{}`.", form.name);
-            field(&form_ident(form), form.docs, fallback, units.get(&form.name))
+            field(&form_name(form), form.docs, fallback, units.get(&form.name))
         })
         .collect();
     let whose = if layout.is_whole { "the system" } else { "the scene" };
@@ -87,7 +87,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     residuals.extend(selection.redundant.iter().map(|r| {
         let entry = &model.redundant[*r].entry;
         field(
-            &form_ident(entry),
+            &form_name(entry),
             entry.docs,
             format!("What is left of `{}`, which follows from others.", entry.name),
             None,
@@ -105,7 +105,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     );
     let inputs = selection.inputs.iter().map(|u| &model.inputs[*u]);
     let inputs: Vec<Field> = inputs
-        .map(|u| field(&u.name.ident, u.docs, format!("The input `{}`.", u.name), units.get(&u.name.text)))
+        .map(|u| field(u.name, u.docs, format!("The input `{}`.", u.name), units.get(&u.name.text)))
         .collect();
     add("Inputs", "The control inputs, constant during a step.", &inputs);
     let size = layout.size;
@@ -128,39 +128,99 @@ pub(super) fn carried(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream
     });
     let fields: Vec<Field> = places
         .chain(functions)
-        .zip(&layout.state)
-        .map(|(docs, ident)| Field { ident: ident.clone(), docs: quote!(#[doc = #docs]) })
+        .zip(names(subject))
+        .map(|(docs, name)| Field { name, docs: quote!(#[doc = #docs]) })
         .collect();
     let size = layout.size;
     let state = record("State", "A state of the carried form: the variables, then the functions.", &fields);
     quote!(#state __guen::nalgebra_conversions!(State, #size);)
 }
 
+/// The names of the states of a carried form.
+fn names(subject: &Subject<'_, '_>) -> Vec<Name> {
+    let Subject { model, level } = subject;
+    let variables = level.selection.variables.iter().map(|place| variable_name(model, *place));
+    variables.chain(level.selection.carried.iter().map(|f| carried_field(model, f))).collect()
+}
+
 /// A record of reals with conversions from and to an array.
 fn record(name: &str, docs: &str, fields: &[Field]) -> TokenStream {
     let record = format_ident!("{name}");
     let count = fields.len();
+    let structure = Fields::new(fields.iter().map(|field| &field.name));
+    if !structure.is_flat() {
+        return structured(&record, docs, fields, &structure);
+    }
     // A name in a pattern would mean a constant or an operator of that name, if there is one.
-    let fields = fields.iter().enumerate().map(|(i, Field { ident, docs })| {
+    let fields = fields.iter().zip(structure.idents()).enumerate().map(|(i, (Field { docs, .. }, ident))| {
         let local = format_ident!("__guen_{i}");
         quote!(#docs #ident #local,)
     });
     quote!(__guen::record! { #[doc = #docs] #record #count #(#fields)* })
 }
 
+/// A record with arrays.
+fn structured(record: &Ident, docs: &str, values: &[Field], structure: &Fields) -> TokenStream {
+    let count = structure.len();
+    let fields = structure.trees().map(|(ident, tree)| {
+        let (docs, kind) = (docs_of(tree, values), tree.of_type(&quote!(R)));
+        quote!(#docs pub #ident: #kind,)
+    });
+    let (names, idents, accesses) = (structure.names(), structure.idents(), structure.accesses());
+    let of_array: Vec<TokenStream> = (0..count).map(|i| quote!(values[#i])).collect();
+    let literal = structure.literal(&of_array);
+    let default = quote!(::core::default::Default::default());
+    let defaults = structure.trees().map(|(ident, tree)| {
+        let value = tree.filled(&default);
+        quote!(#ident: #value,)
+    });
+    quote! {
+        __guen::structured! {
+            #[doc = #docs] #record #count { #(#fields)* } [#(#names)*] [#(#idents)*]
+            |self, values| [#(self.#accesses),*] { #literal } { #(#defaults)* }
+        }
+    }
+}
+
+/// The documentation of a field: that of its first value, and of an array the names of its entries.
+fn docs_of(tree: &Tree, values: &[Field]) -> TokenStream {
+    let mut places = Vec::new();
+    tree.leaves(&mut places);
+    let (Some(first), Some(last)) = (places.first(), places.last()) else { return TokenStream::new() };
+    let docs = &values[*first].docs;
+    if first == last {
+        return docs.clone();
+    }
+    let range = format!("The entries `{}` to `{}`.", values[*first].name, values[*last].name);
+    quote!(#docs #[doc = ""] #[doc = #range])
+}
+
 /// Outputs: scalars are reals, vectors arrays of three.
 fn outputs(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let outputs: Vec<_> =
         subject.level.selection.outputs.iter().map(|o| &subject.model.outputs[*o]).collect();
-    let idents: Vec<&Ident> = outputs.iter().map(|o| &o.name.ident).collect();
-    let docs = outputs.iter().map(|o| {
-        documentation::entry(
-            o.docs,
-            &format!("The output `{}`.", o.name),
-            subject.model.units.get(&o.name.text),
-        )
-    });
-    let types = outputs.iter().map(|o| if o.components.len() == 1 { quote!(R) } else { quote!([R; 3]) });
+    let structure = Fields::new(outputs.iter().map(|o| o.name));
+    let entries: Vec<Field> = outputs
+        .iter()
+        .map(|o| Field {
+            name: o.name.clone(),
+            docs: documentation::entry(
+                o.docs,
+                &format!("The output `{}`.", o.name),
+                subject.model.units.get(&o.name.text),
+            ),
+        })
+        .collect();
+    let of_output = |o: &OutputEntry<'_>| if o.components.len() == 1 { quote!(R) } else { quote!([R; 3]) };
+    let fields: Vec<TokenStream> = structure
+        .trees()
+        .map(|(ident, tree)| {
+            let docs = docs_of(tree, &entries);
+            let kind =
+                tree.of_type(&tree.first().map_or_else(|| quote!(R), |first| of_output(outputs[first])));
+            quote!(#docs pub #ident: #kind,)
+        })
+        .collect();
     let mut count = 0_usize;
     let values: Vec<TokenStream> = outputs
         .iter()
@@ -179,9 +239,12 @@ fn outputs(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
         1 => vec![o.name.text.clone()],
         _ => ["x", "y", "z"].map(|axis| format!("{}.{axis}", o.name.text)).to_vec(),
     });
-    let of_output = |name: &String| name.split('.').next().unwrap_or_default().to_owned();
+    let without_axis = |name: &String| match name.rsplit_once('.') {
+        Some((output, "x" | "y" | "z")) => output.to_owned(),
+        _ => name.clone(),
+    };
     let names: Vec<String> = names.collect();
-    let units = units(subject.model, names.iter().map(of_output));
+    let units = units(subject.model, names.iter().map(without_axis));
     let size = layout.size;
     let owner = if layout.inputs == 0 {
         quote!((self) => self, &[])
@@ -189,22 +252,39 @@ fn outputs(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
         quote!((self) => self.system, &::core::convert::From::from(self.inputs))
     };
     let integrated = format_ident!("{}", if layout.inputs == 0 { "Prepared" } else { "Driven" });
+    let literal = structure.literal(&values);
+    let is_short = structure.is_flat();
+    let derived = is_short.then(|| quote!(, ::core::default::Default));
+    let default = (!is_short).then(|| {
+        let values = structure.trees().map(|(ident, tree)| {
+            let value = tree.filled(&quote!(::core::default::Default::default()));
+            quote!(#ident: #value,)
+        });
+        quote! {
+            impl<R: ::core::default::Default> ::core::default::Default for Outputs<R> {
+                fn default() -> Self {
+                    Outputs { #(#values)* }
+                }
+            }
+        }
+    });
     quote! {
         __guen::output_map!(#integrated #size #count [#(#names)*] [#(#units)*] #owner);
 
         /// The declared outputs.
         #[::core::prelude::v1::derive(
-            ::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq,
-            ::core::default::Default
+            ::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq #derived
         )]
         pub struct Outputs<R = f64> {
-            #(#docs pub #idents: #types,)*
+            #(#fields)*
         }
+
+        #default
 
         impl<R: ::core::marker::Copy> Outputs<R> {
             #[inline]
             fn from_values(values: &[R; #count]) -> Self {
-                Outputs { #(#idents: #values),* }
+                Outputs { #literal }
             }
         }
     }

@@ -3,38 +3,92 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
-use super::layout::{Layout, variable_ident};
+use super::fields::{Fields, plain};
+use super::layout::{Layout, variable_name};
 use crate::derive::Subject;
+use crate::syntax::Name;
 
 pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let Subject { model, level } = subject;
     let selection = &level.selection;
-    let given = selection.constants.iter().map(|c| model.constants[*c].name.ident.clone());
-    let held = selection.held.iter().map(|held| variable_ident(model, held.place));
-    let constants: Vec<Ident> = given.chain(held).collect();
-    let marker = constants.is_empty().then(|| quote!(real: ::core::marker::PhantomData,));
+    let given = selection.constants.iter().map(|c| model.constants[*c].name.clone());
+    let held = selection.held.iter().map(|held| variable_name(model, held.place));
+    let constants = Fields::new(&given.chain(held).collect::<Vec<Name>>());
+    let marker = (constants.len() == 0).then(|| quote!(real: ::core::marker::PhantomData,));
     let constants = of_constants(layout, &constants, marker.as_ref());
     let has_coordinates = layout.n > 0 && (layout.is_whole || !selection.holonomic.is_empty());
-    let coordinates = has_coordinates.then(|| record("Coordinates", layout.n));
-    let inputs = (layout.inputs > 0).then(|| record("Inputs", layout.inputs));
+    let coordinates = has_coordinates.then(|| {
+        let coordinates = selection.coordinates.iter().map(|i| model.coordinates[*i].name);
+        record("Coordinates", &Fields::new(coordinates))
+    });
+    let inputs = (layout.inputs > 0)
+        .then(|| record("Inputs", &Fields::new(selection.inputs.iter().map(|u| model.inputs[*u].name))));
     let state = state(layout);
     quote!(#constants #state #coordinates #inputs)
 }
 
 /// The state alone.
 pub(super) fn state(layout: &Layout) -> TokenStream {
-    record("State", layout.size)
+    record("State", &layout.state)
 }
 
 /// A record, which knows its names and converts from and to an array.
-fn record(name: &str, count: usize) -> TokenStream {
+fn record(name: &str, structure: &Fields) -> TokenStream {
     let record = format_ident!("{name}");
+    let count = structure.len();
+    if !structure.is_flat() {
+        let is_derived = vec![false; count];
+        return structured(&record, name, structure, &is_derived, None);
+    }
     quote!(__guen::serde_record!(#record, #name, #count);)
 }
 
-fn of_constants(layout: &Layout, fields: &[Ident], marker: Option<&TokenStream>) -> TokenStream {
+/// A struct with arrays, whose values stand in them in the order of the fields.
+fn structured(
+    record: &Ident,
+    text: &str,
+    structure: &Fields,
+    is_derived: &[bool],
+    marker: Option<&TokenStream>,
+) -> TokenStream {
+    let count = structure.len();
+    let names = structure.idents().map(plain);
+    let (shape, order) = (structure.shape(), structure.order());
+    let given = order.iter().map(|place| {
+        let access = structure.access(*place);
+        match is_derived[*place] {
+            true => quote!(__guen::Derived::value(record.#access)),
+            false => quote!(::core::option::Option::Some(record.#access)),
+        }
+    });
+    let mut read = vec![TokenStream::new(); count];
+    for (k, place) in order.iter().enumerate() {
+        read[*place] = match is_derived[*place] {
+            true => {
+                quote!(::core::option::Option::map_or(values[#k], __guen::Derived::Follows, __guen::Derived::Set))
+            }
+            false => quote!(values[#k]?),
+        };
+    }
+    let literal = structure.literal(&read);
+    let is_derived = order.iter().map(|place| is_derived[*place]);
+    quote! {
+        __guen::serde_structured!(
+            #record, #text, #count, [#(#names),*], #shape, [#(#is_derived),*],
+            |record| [#(#given),*],
+            |values| ::core::option::Option::Some(#record { #literal #marker })
+        );
+    }
+}
+
+fn of_constants(layout: &Layout, structure: &Fields, marker: Option<&TokenStream>) -> TokenStream {
     let name = &layout.system;
-    let (text, count) = (layout.declared.to_string(), fields.len());
+    let (text, count) = (layout.declared.to_string(), structure.len());
+    if !structure.is_flat() {
+        let is_derived: Vec<bool> = (0..count).map(|i| layout.derived.contains(&i)).collect();
+        return structured(name, &text, structure, &is_derived, marker);
+    }
+    let fields: Vec<&Ident> = structure.idents().collect();
     let names = fields.iter().map(|field| field.to_string().trim_start_matches("r#").to_owned());
     let locals: Vec<Ident> = (0..count).map(|i| format_ident!("__guen_{i}")).collect();
     if !layout.derived.is_empty() {

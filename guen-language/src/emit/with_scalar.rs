@@ -1,23 +1,25 @@
 //! Prepares a system over `f64` anew over every other real.
 
-use proc_macro2::{Ident, TokenStream};
+use proc_macro2::TokenStream;
 use quote::quote;
 
+use super::fields::Fields;
 use super::layout::Layout;
 
-/// The trait `WithScalar` for the constants and the prepared system, or for the system with held inputs. `names` are the
+/// The trait `WithScalar` for the constants and the prepared system, or for the system with held inputs. `structure` has the
 /// constants, `marker` the value of the field that a struct without constants has.
-pub(super) fn items(layout: &Layout, names: &[&Ident], marker: Option<&TokenStream>) -> TokenStream {
+pub(super) fn items(layout: &Layout, structure: &Fields, marker: Option<&TokenStream>) -> TokenStream {
     let (system, size) = (&layout.system, layout.size);
-    let values = names.iter().enumerate().map(|(i, name)| match layout.derived.contains(&i) {
+    let values = structure.accesses().iter().enumerate().map(|(i, name)| match layout.derived.contains(&i) {
         true => quote!(__guen::Derived::map(constants.#name, R::from_f64)),
         false => quote!(R::from_f64(constants.#name)),
     });
+    let values = structure.literal(&values.collect::<Vec<_>>());
     let inputs = match layout.inputs {
         0 => None,
         count => Some(quote!(, #count)),
     };
     quote! {
-        __guen::with_scalar!(#system #size, constants: #system { #(#names: #values,)* #marker } #inputs);
+        __guen::with_scalar!(#system #size, constants: #system { #values #marker } #inputs);
     }
 }

@@ -204,7 +204,9 @@ impl Evaluator<'_> {
     /// The value of an expression.
     pub(super) fn value(&mut self, e: &Expression) -> Evaluated {
         match &e.kind {
-            ExpressionKind::Missing => self.fail(Fault::new(e.span, "something is missing here")),
+            ExpressionKind::Missing | ExpressionKind::Fold(_) => {
+                self.fail(Fault::new(e.span, "something is missing here"))
+            }
             ExpressionKind::Number(number) => {
                 let value = Rational::from_decimal(&number.digits, number.exponent).unwrap_or_default();
                 Ok(Value::Scalar(self.bench.graph.number(value)))

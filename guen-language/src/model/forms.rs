@@ -189,7 +189,8 @@ impl Evaluator<'_> {
                 let before = forms.len();
                 let mut places = [None; 3];
                 for (i, (definition, axis)) in components.into_iter().zip(AXES).enumerate() {
-                    let text = format!("{}{axis}", name.text);
+                    let component = name.suffixed(axis);
+                    let text = component.text.clone();
                     let value = if self.vanishes_as_form(definition) {
                         // 0 = 0: nothing to impose, nothing to name.
                         self.left_out.push(text.clone());
@@ -201,7 +202,7 @@ impl Evaluator<'_> {
                     };
                     symbols[i] = value;
                     let value = Some(Value::Scalar(value));
-                    self.scope.declare_component(self.faults, &text, name.span(), category, value);
+                    self.scope.declare_component(self.faults, &component, category, value);
                 }
                 if self.shapes.is_velocity(&components) {
                     let parameters = kind == FormKind::Parameter;

@@ -95,6 +95,17 @@ pub struct Identifiers {
     pub unused: Vec<Ident>,
 }
 
+impl Identifiers {
+    /// Adds the counts of the declaration, each with whether anything uses it.
+    fn with_counts(mut self, counts: &[(Name, bool)]) -> Self {
+        for (name, is_used) in counts {
+            let list = if *is_used { &mut self.declared } else { &mut self.unused };
+            list.push(name.ident.clone());
+        }
+        self
+    }
+}
+
 impl Model<'_> {
     /// A body whose mass or a moment of inertia is a negative number, or whose inertia in numbers no body can have.
     pub(crate) fn suspicious_body(&self) -> Option<&str> {

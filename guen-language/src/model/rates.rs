@@ -13,7 +13,7 @@ use super::scope::Category;
 use super::value::Value;
 use super::{ConstantEntry, FormEntry, FormKind, SymbolEntry};
 use crate::diagnostics::Fault;
-use crate::names::{RATE_SUFFIX, quoted};
+use crate::names::{RATE_SUFFIX, quoted, suffixed, without_suffix};
 use crate::syntax::{Docs, Name};
 
 /// No documentation: that of the coordinate is about the coordinate.
@@ -38,7 +38,7 @@ impl Evaluator<'_> {
         if let Some(assumed) = self.rates.0.get(&name.text) {
             return Some(Value::Scalar(assumed.symbol));
         }
-        let coordinate = name.text.strip_suffix(RATE_SUFFIX)?;
+        let coordinate = without_suffix(&name.text, RATE_SUFFIX)?;
         let graph = &self.bench.graph;
         let is_it = |x: ExprId| graph.as_symbol(x).is_some_and(|x| graph.symbol_info(x).name == coordinate);
         let (_, velocity) = *self.motion.coordinates.iter().find(|(x, _)| is_it(*x))?;
@@ -65,7 +65,7 @@ impl Evaluator<'_> {
         let values = self.nominal(constants);
         let value = |symbol: SymbolId| values.get(&symbol).copied().unwrap_or(1.0);
         let choice = chosen_rates(&mut self.bench.graph, &rows, &equations, &symbols, &value);
-        let name = |place: usize| format!("{}{RATE_SUFFIX}", coordinates[place].name.text);
+        let name = |place: usize| suffixed(&coordinates[place].name.text, RATE_SUFFIX);
         let places = match &choice {
             Ok(choice) => choice.coordinates.clone(),
             Err(places) => places.clone(),
@@ -147,7 +147,7 @@ impl Evaluator<'_> {
                 let _ = self.scope.look_up(self.faults, &name, &place);
                 continue;
             };
-            let coordinate = text.strip_suffix(RATE_SUFFIX).unwrap_or(&text);
+            let coordinate = without_suffix(&text, RATE_SUFFIX).unwrap_or_else(|| text.clone());
             let names = quoted(chosen.names.iter().map(String::as_str));
             let fault = Fault::new(name.span(), format!("`{name}` is used in {place} and is no parameter"))
                 .note(format!("as rates of coordinates the macro chose {names}"));
@@ -161,7 +161,7 @@ impl Evaluator<'_> {
     pub(super) fn excuse_rates(&mut self, coordinates: &[SymbolEntry<'_>]) {
         self.rates.0.clear();
         for coordinate in coordinates {
-            self.scope.excuse(format!("{}{RATE_SUFFIX}", coordinate.name.text), coordinate.name.span());
+            self.scope.excuse(suffixed(&coordinate.name.text, RATE_SUFFIX), coordinate.name.span());
         }
     }
 }

@@ -148,7 +148,12 @@ impl<'a, 'f> Resolver<'a, 'f> {
 
     fn item(&mut self, item: &'a Item) {
         match item {
-            Item::Constants(section) => section.entries.iter().for_each(|constant| self.constant(constant)),
+            // Loops are unfolded, and counts known.
+            Item::Count(_) => {}
+            Item::Constants(section) => {
+                section.entries.iter().for_each(|constant| self.constant(constant));
+                self.check_defaults_of_arrays(&section.entries);
+            }
             Item::Inputs(section) => {
                 for plain in &section.entries {
                     let symbol = self.eval.bench.graph.symbol(&plain.name.text, Role::Input);
@@ -324,6 +329,23 @@ impl<'a, 'f> Resolver<'a, 'f> {
         });
     }
 
+    /// The entries of an array are given together: all of them have a default, or none.
+    fn check_defaults_of_arrays(&mut self, constants: &[Constant]) {
+        let mut first: BTreeMap<&str, &Constant> = BTreeMap::new();
+        for constant in constants.iter().filter(|constant| constant.name.path().is_some()) {
+            let name = &constant.name;
+            let other = *first.entry(crate::names::array_of(&name.text)).or_insert(constant);
+            if other.default.is_some() == constant.default.is_some() {
+                continue;
+            }
+            let (with, without) =
+                if constant.default.is_some() { (constant, other) } else { (other, constant) };
+            let text = format!("`{}` has a default, and `{}` has none", with.name, without.name);
+            let fault = Fault::new(name.span(), text).note("the entries of an array are given together");
+            self.eval.faults.report(fault.help("give all of them a default, or none"));
+        }
+    }
+
     /// The limits of an input; two numbers have to stand in their order.
     fn limits(&mut self, plain: &Plain, limits: &[Expression; 2]) -> Option<[ExprId; 2]> {
         self.eval.entry = Some(plain.name.text.clone());
@@ -455,7 +477,7 @@ fn names_in(e: &Expression, found: &mut BTreeSet<String>) {
     if let ExpressionKind::Field { base, name } = &e.kind
         && let ExpressionKind::Name(vector) = &base.kind
     {
-        found.insert(format!("{}_{}", vector.text, name.text));
+        found.insert(crate::names::suffixed(&vector.text, &format!("_{}", name.text)));
     }
     e.children().into_iter().for_each(|child| names_in(child, found));
 }

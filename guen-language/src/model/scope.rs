@@ -98,7 +98,7 @@ impl Scope {
         category: Category,
         value: Option<Value>,
     ) {
-        self.declared.push(name.ident.clone());
+        self.declared.push(name.root().clone());
         self.declare_text(faults, &name.text, name.span(), category, value, false);
     }
 
@@ -106,13 +106,12 @@ impl Scope {
     pub(super) fn declare_component(
         &mut self,
         faults: &mut Faults,
-        text: &str,
-        span: Span,
+        name: &Name,
         category: Category,
         value: Option<Value>,
     ) {
-        self.declared.push(Ident::new(text, span));
-        self.declare_text(faults, text, span, category, value, true);
+        self.declared.push(name.root().clone());
+        self.declare_text(faults, &name.text, name.span(), category, value, true);
     }
 
     fn declare_text(
@@ -173,7 +172,7 @@ impl Scope {
     pub(super) fn look_up(&mut self, faults: &mut Faults, name: &Name, place: &str) -> Option<Value> {
         if let Some(entry) = self.entries.get_mut(&name.text) {
             entry.used = true;
-            self.used.push(name.ident.clone());
+            self.used.push(name.root().clone());
             return entry.value.clone();
         }
         if !self.unknown.insert(name.text.clone()) {
@@ -194,10 +193,9 @@ impl Scope {
         } else if let Some(near) = names::nearest(&name.text, self.order.iter().map(String::as_str)) {
             fault = fault.help(format!("did you mean `{near}`?"));
         } else if !self.order.is_empty() {
-            fault = fault.help(format!(
-                "declared so far are {}",
-                names::quoted(self.order.iter().map(String::as_str))
-            ));
+            let mut known: Vec<&str> = self.order.iter().map(|text| names::array_of(text)).collect();
+            known.dedup();
+            fault = fault.help(format!("declared so far are {}", names::quoted(known)));
         }
         faults.report(fault);
         None
@@ -227,12 +225,12 @@ impl Scope {
         if let Some(entry) = self.entries.get_mut(&name.text) {
             entry.used = true;
         }
-        self.used.push(name.ident.clone());
+        self.used.push(name.root().clone());
     }
 
     /// Notes a place that refers to a declared name without using its value.
     pub(super) fn refer(&mut self, name: &Name) {
-        self.used.push(name.ident.clone());
+        self.used.push(name.root().clone());
     }
 
     /// The value of a declared name, without counting as a use.
@@ -243,28 +241,44 @@ impl Scope {
     /// Reports coordinates that nothing mentions: without them the number of forms means nothing.
     pub(super) fn report_unused(&self, faults: &mut Faults) {
         for text in self.unused().filter(|text| self.entries[*text].category == Category::Coordinate) {
-            faults.report(
-                Fault::new(
-                    self.entries[text].span,
-                    format!("`{text}` is declared as a coordinate and never used"),
-                )
-                .help(format!("use it, remove it, or call it `_{text}` to keep it")),
+            let fault = Fault::new(
+                self.entries[text].span,
+                format!("`{text}` is declared as a coordinate and never used"),
             );
+            faults.report(match text.ends_with(']') {
+                true => fault.help("use it, or declare fewer entries"),
+                false => fault.help(format!("use it, remove it, or call it `_{text}` to keep it")),
+            });
         }
     }
 
     /// Names without any use, in the order of declaration.
     fn unused(&self) -> impl Iterator<Item = &str> {
-        self.order.iter().map(String::as_str).filter(|text| {
+        // An array is used where one of its entries is; a coordinate is on its own.
+        let is_array = |text: &str| text.ends_with(']');
+        let used = self.entries.iter().filter(|(text, entry)| entry.used && is_array(text));
+        let used: BTreeSet<&str> = used.map(|(text, _)| names::array_of(text)).collect();
+        self.order.iter().map(String::as_str).filter(move |text| {
             let entry = &self.entries[*text];
-            !entry.used && !entry.derived && entry.category.must_be_used()
+            let is_idle = !entry.used && !entry.derived && entry.category.must_be_used();
+            is_idle && (entry.category == Category::Coordinate || !used.contains(names::array_of(text)))
         })
     }
 
     /// Every name as written, and those without any use: a scene may refer to one of them all the same.
     pub(super) fn into_identifiers(self) -> Identifiers {
         let idle: BTreeSet<usize> = self.unused().map(|text| self.entries[text].written).collect();
-        let unused = idle.into_iter().map(|place| self.declared[place].clone()).collect();
-        Identifiers { declared: self.declared, used: self.used, unused }
+        let mut unused: Vec<Ident> = idle.into_iter().map(|place| self.declared[place].clone()).collect();
+        let (mut declared, mut used) = (self.declared, self.used);
+        if self.entries.keys().any(|text| text.ends_with(']')) {
+            // The entries of an array share a name, and what a loop says a place.
+            let mut seen = BTreeSet::new();
+            declared.retain(|ident| seen.insert(ident.to_string()));
+            seen.clear();
+            unused.retain(|ident| seen.insert(ident.to_string()));
+            seen.clear();
+            used.retain(|ident| seen.insert(format!("{ident} {:?}", ident.span())));
+        }
+        Identifiers { declared, used, unused }
     }
 }

@@ -3,7 +3,6 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use proc_macro2::Span;
-use quote::format_ident;
 
 use super::expressions::{call, number, rate, value};
 use super::kinds::{Kind, Kinds};
@@ -199,8 +198,7 @@ impl Forms {
         let is_given = |x: &Plain| given.iter().any(|entry| entry.value.mentions(&x.name.text));
         let (last, first): (Vec<Plain>, Vec<Plain>) = self.coordinates.iter().cloned().partition(is_given);
         for coordinate in first.into_iter().chain(last).take(count) {
-            let of = &coordinate.name.ident;
-            let name = Name::new(format_ident!("{of}{}", RATE_SUFFIX, span = of.span()));
+            let name = coordinate.name.suffixed(RATE_SUFFIX);
             if !self.fields.add(&name, Kind::Scalar) {
                 continue;
             }

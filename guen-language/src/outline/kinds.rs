@@ -69,7 +69,8 @@ impl Kinds {
             ExpressionKind::Missing
             | ExpressionKind::Number(_)
             | ExpressionKind::Comparison { .. }
-            | ExpressionKind::Power { .. } => Kind::Scalar,
+            | ExpressionKind::Power { .. }
+            | ExpressionKind::Fold(_) => Kind::Scalar,
             ExpressionKind::Name(name) => self.names.get(&name.text).copied().unwrap_or(Kind::Scalar),
             ExpressionKind::Call { function, arguments, .. } => match function.text.as_str() {
                 "select" => arguments.get(1).map_or(Kind::Scalar, |argument| self.of(argument)),

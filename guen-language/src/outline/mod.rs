@@ -55,7 +55,7 @@ pub fn sound(declaration: &Declaration) -> Declaration {
 
 /// A section without documentation; one without entries is as if it were not there.
 fn section<T>(entries: Vec<T>) -> Section<T> {
-    Section { docs: Docs::default(), keyword: Span::call_site(), entries }
+    Section::new(Docs::default(), Span::call_site(), entries)
 }
 
 /// The names that are taken. A name that is reserved or taken keeps its identifier, which the fields have, and is called
@@ -70,8 +70,8 @@ impl Names {
             text.insert_str(0, "other_");
         }
         self.0.insert(text.clone());
-        self.0.extend(["x", "y", "z"].map(|axis| format!("{text}_{axis}")));
-        Name { text, ident: name.ident.clone() }
+        self.0.extend(["_x", "_y", "_z"].map(|axis| names::suffixed(&text, axis)));
+        Name { text, ..name.clone() }
     }
 }
 
@@ -139,6 +139,12 @@ impl Entries {
             let before = self.constants.first().filter(|_| is_derived);
             before.map_or_else(|| number(1), |before| value(&before.name))
         });
+        // The entries of an array have defaults together.
+        let sibling = self
+            .constants
+            .iter()
+            .find(|known| known.name.path().is_some() && known.name.root() == constant.name.root());
+        let default = sibling.map_or(default, |known| known.default.clone());
         let new = || Constant { name: names.take(&constant.name), unit: None, default, ..constant.clone() };
         push(&mut self.constants, &constant.name, |constant| &constant.name, new);
     }

@@ -5,8 +5,10 @@ use proc_macro2::{Delimiter, Group, Span};
 use super::attributes::docs;
 use super::cursor::Cursor;
 use super::expression::{arguments, expression};
+use super::index::indexed_name;
 use super::lists::{at_end, separated};
 use super::names::name;
+use super::nesting::Entries;
 use super::punctuation::colon;
 use crate::diagnostics::{Fault, Faults, Reported};
 use crate::limits::MAX_ENTRIES;
@@ -16,11 +18,20 @@ use crate::syntax::{Body, BodyField, Expression, Inertia, Name};
 const HELP_INERTIA: &str = "write `inertia: diag(xx, yy, zz)` or `inertia: sym(xx, yy, zz, xy, yz, zx)`";
 
 /// The entries of `bodies`; commas between them are optional.
-pub(crate) fn bodies(group: &Group, faults: &mut Faults) -> Vec<Body> {
+pub(crate) fn bodies(group: &Group, faults: &mut Faults) -> Entries<Body> {
+    let mut bodies = Entries::new();
+    fill(group, faults, &mut bodies);
+    bodies
+}
+
+fn fill(group: &Group, faults: &mut Faults, bodies: &mut Entries<Body>) {
     let mut cursor = Cursor::inside(group);
-    let mut bodies = Vec::new();
     while !cursor.is_end() {
-        if bodies.len() >= MAX_ENTRIES {
+        if bodies.block(&mut cursor, faults, &mut fill) {
+            cursor.eat(',');
+            continue;
+        }
+        if bodies.list.len() >= MAX_ENTRIES {
             faults.report(Fault::new(cursor.span(), format!("more than {MAX_ENTRIES} bodies")));
             break;
         }
@@ -43,12 +54,11 @@ pub(crate) fn bodies(group: &Group, faults: &mut Faults) -> Vec<Body> {
             }
         }
     }
-    bodies
 }
 
 fn body(cursor: &mut Cursor, faults: &mut Faults) -> Result<Body, Reported> {
     let docs = docs(cursor, faults)?;
-    let name = name(cursor, faults, "the name of a body")?;
+    let name = indexed_name(cursor, faults, "the name of a body")?;
     let Some(group) = cursor.eat_group(Delimiter::Brace) else {
         let fault =
             Fault::new(cursor.span(), format!("expected `{{` after `{name}`, found {}", cursor.found()));

@@ -5,8 +5,9 @@ use proc_macro2::{Group, TokenTree};
 use super::attributes::docs;
 use super::cursor::Cursor;
 use super::expression::expression;
-use super::lists::{at_end, separated};
-use super::names::name;
+use super::index::indexed_name;
+use super::lists::listed;
+use super::nesting::Entries;
 use super::punctuation::equals;
 use super::units::unit;
 use crate::diagnostics::{Fault, Faults, Reported};
@@ -16,8 +17,8 @@ use crate::syntax::{Bound, BoundKind, Constant, Number};
 const HELP_BOUND: &str = "the bounds are `name > 0`, `name >= 0` and `name != 0`";
 
 /// The entries of `constants`.
-pub(crate) fn constants(group: &Group, faults: &mut Faults) -> Vec<Constant> {
-    separated(&mut Cursor::inside(group), faults, MAX_ENTRIES, at_end, begins_constant, constant)
+pub(crate) fn constants(group: &Group, faults: &mut Faults) -> Entries<Constant> {
+    listed(group, faults, MAX_ENTRIES, begins_constant, &mut constant)
 }
 
 /// Whether a name with something that may follow it in this list stands here. Anything else, such as a unit
@@ -25,8 +26,10 @@ pub(crate) fn constants(group: &Group, faults: &mut Faults) -> Vec<Constant> {
 fn begins_constant(cursor: &Cursor) -> bool {
     cursor.is_punct('#')
         || (cursor.ident_at(0).is_some()
-            && (cursor.peek_nth(1).is_none()
-                || [',', '>', '!', '=', ':'].iter().any(|mark| cursor.is_punct_at(1, *mark))))
+            && (cursor.peek_nth(cursor.name_length()).is_none()
+                || [',', '>', '!', '=', ':']
+                    .iter()
+                    .any(|mark| cursor.is_punct_at(cursor.name_length(), *mark))))
 }
 
 fn constant(cursor: &mut Cursor, faults: &mut Faults) -> Result<Constant, Reported> {
@@ -36,7 +39,7 @@ fn constant(cursor: &mut Cursor, faults: &mut Faults) -> Result<Constant, Report
             Fault::new(cursor.span(), format!("expected the name of a constant, found {}", cursor.found()));
         return Err(faults.report(fault.help(HELP_BOUND)));
     }
-    let name = name(cursor, faults, "the name of a constant")?;
+    let name = indexed_name(cursor, faults, "the name of a constant")?;
     // From here on the name counts as declared, whatever is wrong with the rest.
     let mut constant = Constant { docs, name, unit: None, bound: None, default: None };
     if rest(cursor, faults, &mut constant).is_err() {

@@ -166,6 +166,11 @@ impl Cursor {
         Some(group)
     }
 
+    /// The number of tokens of a name here: two where an index stands behind it.
+    pub(crate) fn name_length(&self) -> usize {
+        1 + usize::from(self.group_at(1, Delimiter::Bracket).is_some())
+    }
+
     /// Replaces an invisible group, as a fragment of `macro_rules!` leaves it, by what it holds. For places where
     /// a group cannot mean parentheses.
     pub(crate) fn open_invisible(&mut self) {
@@ -180,9 +185,13 @@ impl Cursor {
         let Some(ident) = self.ident_at(0).filter(|_| self.has_sections) else { return false };
         match SectionKind::of_word(&ident.to_string()) {
             None => false,
-            Some(SectionKind::Let | SectionKind::Function | SectionKind::Scene | SectionKind::Provide) => {
-                self.ident_at(1).is_some()
-            }
+            Some(
+                SectionKind::Count
+                | SectionKind::Let
+                | SectionKind::Function
+                | SectionKind::Scene
+                | SectionKind::Provide,
+            ) => self.ident_at(1).is_some(),
             Some(_) => {
                 self.group_at(1, Delimiter::Brace).is_some()
                     || (self.is_punct_at(1, '=') && !self.is_punct_at(2, '='))

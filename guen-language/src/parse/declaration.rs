@@ -4,13 +4,18 @@ use proc_macro2::{Delimiter, Group, Span, TokenStream, TokenTree};
 
 use super::attributes::docs;
 use super::cursor::Cursor;
+use super::index;
 use super::lists::{INPUT, plain_names, stray_semicolon};
 use super::names::name;
+use super::nesting::Entries;
+use super::punctuation::{equals, semicolon};
 use super::{bodies, constants, definitions, energies, equations, forces, functions, particles, scene};
 use crate::diagnostics::{Fault, Faults, Reported};
 use crate::limits::{MAX_COORDINATES, MAX_ENTRIES, MAX_SCENES, MAX_TOKENS};
 use crate::names::{PARAMETER_ALIASES, SECTIONS, instead_of_section, nearest_section, quoted};
-use crate::syntax::{Declaration, Docs, Item, Name, Section, SectionKind, Visibility};
+use crate::syntax::{
+    Count, Declaration, Docs, IndexExpression, IndexKind, Item, Name, Node, Section, SectionKind, Visibility,
+};
 
 const HELP_SYSTEM: &str = "a declaration reads `pub system Name { .. }`";
 
@@ -69,8 +74,8 @@ fn system(cursor: &mut Cursor, faults: &mut Faults) -> Result<Declaration, Repor
             fault.help(HELP_SYSTEM)
         }));
     };
-    let items = items(&group, faults, &name);
-    Ok(Declaration { crate_path, docs, visibility, name, items })
+    let (items, nesting) = items(&group, faults, &name);
+    Ok(Declaration { crate_path, docs, visibility, name, items, nesting, counts: Vec::new() })
 }
 
 /// `crate = path;`, if it stands here.
@@ -150,38 +155,96 @@ fn after_system(cursor: &mut Cursor, faults: &mut Faults) {
 
 /// The items of a system that have been read so far.
 struct Progress {
-    items: Vec<Item>,
+    items: Entries<Item>,
     first: [Option<Span>; SectionKind::ALL.len()],
     scenes: usize,
     definitions: usize,
     has_unknown: bool,
 }
 
-fn items(group: &Group, faults: &mut Faults, name: &Name) -> Vec<Item> {
-    let mut cursor = Cursor::inside_system(group);
+fn items(group: &Group, faults: &mut Faults, name: &Name) -> (Vec<Item>, Vec<Node>) {
     let mut progress = Progress {
-        items: Vec::new(),
+        items: Entries::new(),
         first: [None; SectionKind::ALL.len()],
         scenes: 0,
         definitions: 0,
         has_unknown: false,
     };
+    fill(group, faults, &mut progress);
+    if !progress.has_unknown {
+        missing(&progress, faults, name);
+    }
+    progress.items.nesting()
+}
+
+fn fill(group: &Group, faults: &mut Faults, progress: &mut Progress) {
+    let mut cursor = Cursor::inside_system(group);
     while !cursor.is_end() {
         let before = cursor.position();
-        if stray_semicolon(&mut cursor, faults) {
+        if stray_semicolon(&mut cursor, faults) || block(&mut cursor, faults, progress) {
             continue;
         }
-        if item(&mut cursor, faults, &mut progress).is_err() {
+        if item(&mut cursor, faults, progress).is_err() {
             cursor.recover();
         }
         if cursor.position() == before {
             cursor.skip(1);
         }
     }
-    if !progress.has_unknown {
-        missing(&progress, faults, name);
+}
+
+/// Reads a loop or a choice around definitions, if one begins here.
+fn block(cursor: &mut Cursor, faults: &mut Faults, progress: &mut Progress) -> bool {
+    let mut items = std::mem::replace(&mut progress.items, Entries::new());
+    let found = items.block(cursor, faults, &mut |group, faults, items| {
+        std::mem::swap(items, &mut progress.items);
+        fill(group, faults, progress);
+        std::mem::swap(items, &mut progress.items);
+    });
+    progress.items = items;
+    found
+}
+
+/// Refuses sections in loops: a section has the loop inside.
+fn only_definitions(
+    kind: SectionKind,
+    keyword: Span,
+    progress: &Progress,
+    faults: &mut Faults,
+) -> Result<(), Reported> {
+    if !progress.items.is_inside() || kind == SectionKind::Let {
+        return Ok(());
     }
-    progress.items
+    let word = kind.word();
+    let fault =
+        Fault::new(keyword, format!("a loop or choice outside of sections holds `let`, and no `{word}`"));
+    Err(faults.report(match kind {
+        _ if kind.is_quantity() => fault.help(format!("write `{word} = sum(i in 0..n: e);`")),
+        SectionKind::Count | SectionKind::Function | SectionKind::Scene | SectionKind::Provide => {
+            fault.help("write it outside of the loop")
+        }
+        _ => {
+            fault.help(format!("write the loop inside of the section, `{word} {{ for i in 0..n {{ .. }} }}`"))
+        }
+    }))
+}
+
+/// `count name = value;` behind the word.
+fn count(cursor: &mut Cursor, faults: &mut Faults, docs: Docs) -> Result<Count, Reported> {
+    let name = name(cursor, faults, "the name of a count")?;
+    let span = cursor.span();
+    let value = equals(cursor, faults, &format!("`{name}`"), "a count reads `count n = 20;`")
+        .and_then(|_| index::sum(cursor, faults, 0));
+    match value {
+        Ok(value) => {
+            semicolon(cursor, faults, |_| false);
+            Ok(Count { docs, name, value })
+        }
+        Err(Reported { .. }) => {
+            cursor.recover();
+            Ok(Count { docs, name, value: IndexExpression { span, kind: IndexKind::Missing } })
+        }
+    }
 }
 
 /// Sections that a system cannot be without.
@@ -219,9 +282,20 @@ fn item(cursor: &mut Cursor, faults: &mut Faults, progress: &mut Progress) -> Re
         unknown(cursor, faults, &word);
         return Ok(());
     };
+    if let Err(reported) = only_definitions(kind, keyword, progress, faults) {
+        // Nothing is said of a section that is there and missing at once.
+        progress.first[kind as usize].get_or_insert(keyword);
+        cursor.skip(1);
+        return cursor.eat_group(Delimiter::Brace).map(|_| ()).ok_or(reported);
+    }
     once(kind, (&word, keyword), progress, faults);
     cursor.skip(1);
     let item = match kind {
+        SectionKind::Count => {
+            progress.definitions += 1;
+            too_many(progress.definitions, MAX_ENTRIES, "definitions", keyword, faults)?;
+            Item::Count(count(cursor, faults, docs)?)
+        }
         SectionKind::Let => {
             progress.definitions += 1;
             too_many(progress.definitions, MAX_ENTRIES, "`let` definitions", keyword, faults)?;
@@ -237,9 +311,7 @@ fn item(cursor: &mut Cursor, faults: &mut Faults, progress: &mut Progress) -> Re
             too_many(progress.scenes, MAX_SCENES, "scenes", keyword, faults)?;
             Item::Scene(scene::scene(cursor, faults, docs, keyword)?)
         }
-        SectionKind::Provide => {
-            Item::Provide(Section { docs, keyword, entries: scene::provides(cursor, faults) })
-        }
+        SectionKind::Provide => Item::Provide(Section::new(docs, keyword, scene::provides(cursor, faults))),
         _ if kind.is_quantity() => {
             let quantity = energies::quantity(cursor, faults, docs, &word, keyword);
             match kind {
@@ -266,8 +338,8 @@ fn item(cursor: &mut Cursor, faults: &mut Faults, progress: &mut Progress) -> Re
 
 /// A section in braces.
 fn section(kind: SectionKind, group: &Group, faults: &mut Faults, docs: Docs, keyword: Span) -> Item {
-    fn of<T>(docs: Docs, keyword: Span, entries: Vec<T>) -> Section<T> {
-        Section { docs, keyword, entries }
+    fn of<T>(docs: Docs, keyword: Span, entries: Entries<T>) -> Section<T> {
+        entries.section(docs, keyword)
     }
     match kind {
         SectionKind::Constants => Item::Constants(of(docs, keyword, constants::constants(group, faults))),

@@ -4,8 +4,9 @@ use proc_macro2::{Group, TokenTree};
 
 use super::attributes::docs;
 use super::cursor::Cursor;
+use super::index::indexed_name;
 use super::lists::{entries, expression_to_semicolon};
-use super::names::name;
+use super::nesting::Entries;
 use super::punctuation::{begins_definition, equals};
 use crate::diagnostics::{Fault, Faults, Reported};
 use crate::syntax::{Definition, Docs, Expression};
@@ -13,7 +14,7 @@ use crate::syntax::{Definition, Docs, Expression};
 const HELP_PARAMETER: &str = "`parameters` are the quasi-velocities, each `name = e;`; physical constants belong in `constants { .. }`";
 
 /// The entries of `parameters`.
-pub(crate) fn parameters(group: &Group, faults: &mut Faults) -> Vec<Definition> {
+pub(crate) fn parameters(group: &Group, faults: &mut Faults) -> Entries<Definition> {
     entries(group, faults, |cursor, faults| {
         let docs = docs(cursor, faults)?;
         if is_constant(cursor) {
@@ -28,18 +29,16 @@ fn is_constant(cursor: &Cursor) -> bool {
     if cursor.ident_at(0).is_none() {
         return false;
     }
-    let ends_at = |n| cursor.peek_nth(n).is_none() || cursor.is_punct_at(n, ',');
-    ends_at(1)
-        || cursor.is_punct_at(1, ';')
-        || cursor.is_punct_at(1, '>')
-        || cursor.is_punct_at(1, '!')
-        || (cursor.is_punct_at(1, '=')
-            && matches!(cursor.peek_nth(2), Some(TokenTree::Literal(_)))
-            && cursor.is_punct_at(3, ','))
+    let end = cursor.name_length();
+    cursor.peek_nth(end).is_none()
+        || [',', ';', '>', '!'].iter().any(|mark| cursor.is_punct_at(end, *mark))
+        || (cursor.is_punct_at(end, '=')
+            && matches!(cursor.peek_nth(end + 1), Some(TokenTree::Literal(_)))
+            && cursor.is_punct_at(end + 2, ','))
 }
 
 fn physical_constant(cursor: &mut Cursor, faults: &mut Faults, docs: Docs) -> Result<Definition, Reported> {
-    let name = name(cursor, faults, "the name of a parameter")?;
+    let name = indexed_name(cursor, faults, "the name of a parameter")?;
     let span = name.span();
     faults.report(Fault::new(span, format!("`{name}` is not defined by an expression")).help(HELP_PARAMETER));
     cursor.recover_to_comma();
@@ -48,7 +47,7 @@ fn physical_constant(cursor: &mut Cursor, faults: &mut Faults, docs: Docs) -> Re
 }
 
 /// The entries of `outputs`.
-pub(crate) fn outputs(group: &Group, faults: &mut Faults) -> Vec<Definition> {
+pub(crate) fn outputs(group: &Group, faults: &mut Faults) -> Entries<Definition> {
     entries(group, faults, |cursor, faults| {
         let docs = docs(cursor, faults)?;
         definition(cursor, faults, docs, "the name of an output", "an output reads `name = e;`")
@@ -76,7 +75,7 @@ fn definition(
     role: &str,
     help: &str,
 ) -> Result<Definition, Reported> {
-    let name = name(cursor, faults, role)?;
+    let name = indexed_name(cursor, faults, role)?;
     let span = cursor.span();
     let value = match equals(cursor, faults, &format!("`{name}`"), help) {
         Ok(_) => expression_to_semicolon(cursor, faults, begins_definition),

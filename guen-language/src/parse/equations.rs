@@ -5,8 +5,9 @@ use proc_macro2::{Group, Span};
 use super::attributes::docs;
 use super::cursor::Cursor;
 use super::expression::expression;
+use super::index::indexed_name;
 use super::lists::{entries, expression_to_semicolon};
-use super::names::name;
+use super::nesting::Entries;
 use super::punctuation::{begins_equation, colon};
 use crate::diagnostics::{Fault, Faults, Reported};
 use crate::syntax::{Equation, Expression};
@@ -14,20 +15,21 @@ use crate::syntax::{Equation, Expression};
 const HELP: &str = "an entry reads `name: left = right;`";
 
 /// The entries of `constraints` or `holonomic`.
-pub(crate) fn equations(group: &Group, faults: &mut Faults) -> Vec<Equation> {
+pub(crate) fn equations(group: &Group, faults: &mut Faults) -> Entries<Equation> {
     entries(group, faults, |cursor, faults| {
         let docs = docs(cursor, faults)?;
-        let has_name =
-            (cursor.is_punct_at(1, ':') && !cursor.is_punct_at(2, ':')) || cursor.is_punct_at(1, '=');
+        let end = cursor.name_length();
+        let has_name = (cursor.is_punct_at(end, ':') && !cursor.is_punct_at(end + 1, ':'))
+            || cursor.is_punct_at(end, '=');
         if !has_name && !cursor.is_end() && !cursor.is_word("pub") {
             let fault = Fault::new(cursor.span(), "a constraint needs a name");
             return Err(faults
                 .report(fault.help("write `name: left = right;`, the name stands for its reaction too")));
         }
-        let name = name(cursor, faults, "the name of a constraint")?;
+        let name = indexed_name(cursor, faults, "the name of a constraint")?;
         let start = cursor.span();
         let (left, equals, right) =
-            sides(cursor, faults, &name.to_string()).unwrap_or_else(|Reported { .. }| {
+            sides(cursor, faults, &name.text).unwrap_or_else(|Reported { .. }| {
                 cursor.recover();
                 (Expression::missing(start), start, Expression::missing(start))
             });

@@ -6,13 +6,14 @@
 use proc_macro2::{Delimiter, Group, Literal, Span, TokenStream, TokenTree};
 
 use super::cursor::Cursor;
+use super::index::{begins_fold, fold_head, index_of};
 use super::punctuation::unexpected;
 use crate::diagnostics::{Fault, Faults, Reported};
 use crate::limits::{MAX_DECIMAL_ORDER, MAX_DEPTH, MAX_DIGITS};
-use crate::names::{can_be_raw, is_function, is_rust_keyword};
+use crate::names::{FOLDS, can_be_raw, is_function, is_rust_keyword};
 use crate::syntax::{
-    AddOperator, Expression, ExpressionKind, Factor, MultiplyOperator, Name, Number, NumberProblem, Order,
-    Term,
+    AddOperator, Expression, ExpressionKind, Factor, Fold, MultiplyOperator, Name, Number, NumberProblem,
+    Order, Term,
 };
 
 type Parsed = Result<Expression, Reported>;
@@ -238,7 +239,7 @@ fn primary(cursor: &mut Cursor, faults: &mut Faults, depth: usize) -> Parsed {
         Some(TokenTree::Ident(ident)) => {
             keyword(&ident, faults, "an expression")?;
             cursor.skip(1);
-            Ok(name_or_call(cursor, faults, depth, Name::new(ident)))
+            name_or_call(cursor, faults, depth, Name::new(ident))
         }
         Some(TokenTree::Group(group)) => match group.delimiter() {
             Delimiter::Parenthesis | Delimiter::None => {
@@ -280,7 +281,7 @@ fn keyword(ident: &proc_macro2::Ident, faults: &mut Faults, expected: &str) -> R
     } else if matches!(text.as_str(), "if" | "else" | "match" | "where") {
         fault.help("an expression has no branches: write `select(c >= 0, a, b)`, `a` where the comparison holds and `b` elsewhere")
     } else if matches!(text.as_str(), "for" | "while" | "loop") {
-        fault.help("there are no loops: write every term")
+        fault.help("the sum of a range is written `sum(i in 0..n: e)`")
     } else if can_be_raw(&text) {
         fault.help(format_args!("if this is the name of a variable, write `r#{text}`"))
     } else {
@@ -289,18 +290,22 @@ fn keyword(ident: &proc_macro2::Ident, faults: &mut Faults, expected: &str) -> R
 }
 
 /// A name and what may stand directly behind it.
-fn name_or_call(cursor: &mut Cursor, faults: &mut Faults, depth: usize, name: Name) -> Expression {
+fn name_or_call(cursor: &mut Cursor, faults: &mut Faults, depth: usize, name: Name) -> Parsed {
     let span = name.span();
     if let Some(group) = cursor.eat_group(Delimiter::Parenthesis) {
+        if FOLDS.contains(&name.text.as_str()) && begins_fold(&group) {
+            return fold(&group, faults, depth, name);
+        }
         let arguments = compared_arguments(&group, faults, depth, name.text == "select");
         if name.text == "dot" && arguments.len() == 2 {
             faults.report(
                 Fault::new(span, "`dot` takes one argument: it is the derivative by time")
                     .help("the product of two vectors is written `inner(u, v)`"),
             );
-            return Expression::missing(span);
+            return Ok(Expression::missing(span));
         }
-        return Expression::new(span, ExpressionKind::Call { function: name, arguments, list: group.span() });
+        let call = ExpressionKind::Call { function: name, arguments, list: group.span() };
+        return Ok(Expression::new(span, call));
     }
     if cursor.is_pair(':', ':') {
         while cursor.is_pair(':', ':') {
@@ -313,7 +318,7 @@ fn name_or_call(cursor: &mut Cursor, faults: &mut Faults, depth: usize, name: Na
             Fault::new(span, "paths have no meaning here")
                 .help("functions and constants have plain names, such as `sin(x)` and `pi`"),
         );
-        return Expression::missing(span);
+        return Ok(Expression::missing(span));
     }
     if cursor.is_punct('!') && matches!(cursor.peek_nth(1), Some(TokenTree::Group(_))) {
         cursor.skip(2);
@@ -321,9 +326,19 @@ fn name_or_call(cursor: &mut Cursor, faults: &mut Faults, depth: usize, name: Na
             Fault::new(span, format!("macros such as `{name}!` cannot be called here"))
                 .help("functions are written without `!`, such as `vec(x, y, z)`"),
         );
-        return Expression::missing(span);
+        return Ok(Expression::missing(span));
     }
-    Expression::new(span, ExpressionKind::Name(name))
+    Ok(Expression::new(span, ExpressionKind::Name(index_of(cursor, faults, name))))
+}
+
+/// `sum(i in 0..n: e)` and `product(i in 0..n: e)`.
+fn fold(group: &Group, faults: &mut Faults, depth: usize, function: Name) -> Parsed {
+    let span = function.span();
+    let depth = deeper(depth, group.span_open(), faults)?;
+    let mut cursor = Cursor::inside(group);
+    let Ok((variable, range)) = fold_head(&mut cursor, faults) else { return Ok(Expression::missing(span)) };
+    let body = inside(cursor, faults, depth, "`)`");
+    Ok(Expression::new(span, ExpressionKind::Fold(Box::new(Fold { function, variable, range, body }))))
 }
 
 /// An expression in parentheses, or in an invisible group, which counts as such.

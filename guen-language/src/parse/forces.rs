@@ -5,12 +5,13 @@ use proc_macro2::Group;
 use super::attributes::docs;
 use super::expression::expression;
 use super::lists::{entries, expression_to_semicolon};
+use super::nesting::Entries;
 use super::punctuation::{begins_documentation, unexpected};
 use crate::diagnostics::{Fault, Faults};
 use crate::syntax::Force;
 
 /// The entries of `forces`.
-pub(crate) fn forces(group: &Group, faults: &mut Faults) -> Vec<Force> {
+pub(crate) fn forces(group: &Group, faults: &mut Faults) -> Entries<Force> {
     entries(group, faults, |cursor, faults| {
         let docs = docs(cursor, faults)?;
         let force = expression(cursor, faults)?;

@@ -5,7 +5,8 @@ use proc_macro2::{Group, TokenTree};
 use super::attributes::docs;
 use super::cursor::Cursor;
 use super::expression::expression;
-use super::names::name;
+use super::index::indexed_name;
+use super::nesting::Entries;
 use super::punctuation::semicolon;
 use super::units::unit;
 use crate::diagnostics::{Fault, Faults, Reported};
@@ -15,20 +16,27 @@ use crate::syntax::{Expression, Plain, Unit};
 /// The name for an entry of `inputs` in messages.
 pub(crate) const INPUT: &str = "the name of an input";
 
+/// Reads one entry of a section.
+pub(crate) type Entry<T> = fn(&mut Cursor, &mut Faults) -> Result<T, Reported>;
+
 /// Entries that each take their `;`.
-pub(crate) fn entries<T>(
-    group: &Group,
-    faults: &mut Faults,
-    mut entry: impl FnMut(&mut Cursor, &mut Faults) -> Result<T, Reported>,
-) -> Vec<T> {
+pub(crate) fn entries<T>(group: &Group, faults: &mut Faults, entry: Entry<T>) -> Entries<T> {
+    let mut entries = Entries::new();
+    fill(group, faults, &mut entries, entry);
+    entries
+}
+
+fn fill<T>(group: &Group, faults: &mut Faults, entries: &mut Entries<T>, entry: Entry<T>) {
     let mut cursor = Cursor::inside(group);
-    let mut entries = Vec::new();
     while !cursor.is_end() {
-        if is_too_long(entries.len(), MAX_ENTRIES, &cursor, faults) {
+        if is_too_long(entries.list.len(), MAX_ENTRIES, &cursor, faults) {
             break;
         }
         let before = cursor.position();
-        if stray_semicolon(&mut cursor, faults) {
+        let mut inside = |group: &Group, faults: &mut Faults, entries: &mut Entries<T>| {
+            fill(group, faults, entries, entry)
+        };
+        if stray_semicolon(&mut cursor, faults) || entries.block(&mut cursor, faults, &mut inside) {
             continue;
         }
         match entry(&mut cursor, faults) {
@@ -39,7 +47,50 @@ pub(crate) fn entries<T>(
             cursor.skip(1);
         }
     }
+}
+
+/// A section whose entries have commas between them; behind the braces of loops they may be left out.
+pub(crate) fn listed<T>(
+    group: &Group,
+    faults: &mut Faults,
+    most: usize,
+    begins_entry: fn(&Cursor) -> bool,
+    entry: &mut dyn FnMut(&mut Cursor, &mut Faults) -> Result<T, Reported>,
+) -> Entries<T> {
+    let mut entries = Entries::new();
+    fill_listed(group, faults, &mut entries, most, begins_entry, entry);
     entries
+}
+
+fn fill_listed<T>(
+    group: &Group,
+    faults: &mut Faults,
+    entries: &mut Entries<T>,
+    most: usize,
+    begins_entry: fn(&Cursor) -> bool,
+    entry: &mut dyn FnMut(&mut Cursor, &mut Faults) -> Result<T, Reported>,
+) {
+    let mut cursor = Cursor::inside(group);
+    while !cursor.is_end() {
+        if is_too_long(entries.list.len(), most, &cursor, faults) {
+            break;
+        }
+        let mut inside = |group: &Group, faults: &mut Faults, entries: &mut Entries<T>| {
+            fill_listed(group, faults, entries, most, begins_entry, entry);
+        };
+        if entries.block(&mut cursor, faults, &mut inside) {
+            cursor.eat(',');
+            continue;
+        }
+        let is_whole = match entry(&mut cursor, faults) {
+            Ok(entry) => {
+                entries.push(entry);
+                true
+            }
+            Err(Reported { .. }) => false,
+        };
+        comma(&mut cursor, faults, is_whole, at_end, begins_entry);
+    }
 }
 
 /// Reports and passes a `;` that ends nothing.
@@ -126,11 +177,11 @@ pub(crate) fn at_end(cursor: &Cursor) -> bool {
 }
 
 /// The entries of `coordinates` or `inputs`.
-pub(crate) fn plain_names(group: &Group, faults: &mut Faults, role: &str, most: usize) -> Vec<Plain> {
+pub(crate) fn plain_names(group: &Group, faults: &mut Faults, role: &str, most: usize) -> Entries<Plain> {
     let begins = |cursor: &Cursor| cursor.is_punct('#') || cursor.ident_at(0).is_some();
-    separated(&mut Cursor::inside(group), faults, most, at_end, begins, |cursor, faults| {
+    listed(group, faults, most, begins, &mut |cursor, faults| {
         let docs = docs(cursor, faults)?;
-        let name = name(cursor, faults, role)?;
+        let name = indexed_name(cursor, faults, role)?;
         let unit = own_unit(cursor, faults, role);
         let limits = limits(cursor, faults, role);
         if let Some(TokenTree::Punct(mark)) = cursor.peek().filter(|_| !ends_name(cursor)) {

@@ -15,8 +15,10 @@ mod equations;
 mod expression;
 mod forces;
 mod functions;
+mod index;
 mod lists;
 mod names;
+mod nesting;
 mod particles;
 mod punctuation;
 mod scene;
@@ -29,10 +31,13 @@ use proc_macro2::TokenStream;
 use crate::diagnostics::{FaultReport, collect};
 use crate::syntax::{Declaration, Expression};
 
-/// Parses the tokens of one invocation. With an empty report there is a declaration, and nothing in it is
+/// Parses the tokens of one invocation, and writes its loops out. With an empty report there is a declaration, and nothing in it is
 /// missing; otherwise there is one if at least the head `system Name { .. }` could be read.
 pub fn parse(tokens: TokenStream) -> (Option<Declaration>, FaultReport) {
-    collect(|faults| declaration::declaration(tokens, faults))
+    collect(|faults| {
+        let declaration = declaration::declaration(tokens, faults)?;
+        Some(crate::unfold::unfold(declaration, faults))
+    })
 }
 
 /// Parses the tokens of a single expression. None exactly if the report is not empty.

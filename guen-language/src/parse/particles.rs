@@ -5,12 +5,13 @@ use proc_macro2::Group;
 use super::attributes::docs;
 use super::expression::expression;
 use super::lists::{entries, expression_to_semicolon};
+use super::nesting::Entries;
 use super::punctuation::{begins_documentation, unexpected};
 use crate::diagnostics::{Fault, Faults};
 use crate::syntax::Particle;
 
 /// The entries of `particles`.
-pub(crate) fn particles(group: &Group, faults: &mut Faults) -> Vec<Particle> {
+pub(crate) fn particles(group: &Group, faults: &mut Faults) -> Entries<Particle> {
     entries(group, faults, |cursor, faults| {
         let docs = docs(cursor, faults)?;
         let mass = expression(cursor, faults)?;

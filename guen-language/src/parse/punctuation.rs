@@ -112,13 +112,17 @@ pub(crate) fn unexpected(cursor: &Cursor, faults: &mut Faults, expected: &str) -
 /// Whether a definition begins here: `name =`, perhaps with documentation.
 pub(crate) fn begins_definition(cursor: &Cursor) -> bool {
     cursor.is_punct('#')
-        || (cursor.ident_at(0).is_some() && cursor.is_punct_at(1, '=') && !cursor.is_punct_at(2, '='))
+        || (cursor.ident_at(0).is_some()
+            && cursor.is_punct_at(cursor.name_length(), '=')
+            && !cursor.is_punct_at(cursor.name_length() + 1, '='))
 }
 
 /// Whether an equation begins here: `name:`, perhaps with documentation.
 pub(crate) fn begins_equation(cursor: &Cursor) -> bool {
     cursor.is_punct('#')
-        || (cursor.ident_at(0).is_some() && cursor.is_punct_at(1, ':') && !cursor.is_punct_at(2, ':'))
+        || (cursor.ident_at(0).is_some()
+            && cursor.is_punct_at(cursor.name_length(), ':')
+            && !cursor.is_punct_at(cursor.name_length() + 1, ':'))
 }
 
 /// Whether documentation begins here; for entries that begin with an expression.

@@ -173,7 +173,7 @@ fn invisible_groups_are_parentheses() {
         super::constants::constants(&Group::new(Delimiter::Brace, inside), faults)
     });
     assert!(report.is_empty(), "{report}");
-    assert_eq!(constants[0].to_string(), "a > 0");
+    assert_eq!(constants.list[0].to_string(), "a > 0");
 
     let visibility = TokenTree::Group(Group::new(Delimiter::None, tokens("pub")));
     let stream = [visibility].into_iter().chain(tokens(HOOP.split_once("pub").unwrap().1)).collect();

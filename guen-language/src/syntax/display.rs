@@ -17,12 +17,125 @@ fn separated<T: Display>(f: &mut Formatter<'_>, items: &[T], separator: &str) ->
     Ok(())
 }
 
+/// A name as it was written, with `r#` and with its index.
+struct Written<'a>(&'a Name);
+
+impl Display for Written<'_> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let name = self.0;
+        write!(f, "{}", name.root())?;
+        match &name.index {
+            Index::None => Ok(()),
+            Index::Written(written) => {
+                f.write_char('[')?;
+                separated(f, &written.indices, ", ")?;
+                f.write_char(']')
+            }
+            Index::Entry(path) => {
+                let mut steps = path.steps.iter().peekable();
+                while let Some(step) = steps.next() {
+                    match step {
+                        Step::Field(field) => write!(f, ".{field}")?,
+                        Step::Index { at, .. } => {
+                            write!(f, "[{at}")?;
+                            while let Some(Step::Index { at, .. }) =
+                                steps.next_if(|step| matches!(step, Step::Index { .. }))
+                            {
+                                write!(f, ", {at}")?;
+                            }
+                            f.write_char(']')?;
+                        }
+                    }
+                }
+                Ok(())
+            }
+        }
+    }
+}
+
+impl Display for IndexExpression {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match &self.kind {
+            IndexKind::Missing => f.write_char('?'),
+            IndexKind::Number(value) => write!(f, "{value}"),
+            IndexKind::Name(name) => write!(f, "{}", name.ident),
+            IndexKind::Negation(operand) => write!(f, "(-{operand})"),
+            IndexKind::Operation(left, operator, right) => {
+                let mark = match operator {
+                    IndexOperator::Plus => '+',
+                    IndexOperator::Minus => '-',
+                    IndexOperator::Times => '*',
+                    IndexOperator::Over => '/',
+                    IndexOperator::Remainder => '%',
+                };
+                write!(f, "({left} {mark} {right})")
+            }
+        }
+    }
+}
+
+impl Display for Range {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "{}..{}{}", self.start, if self.is_closed { "=" } else { "" }, self.end)
+    }
+}
+
+impl Display for Condition {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Condition::Missing => f.write_char('?'),
+            Condition::Comparison(left, comparison, right) => {
+                let mark = match comparison {
+                    Comparison::Less => "<",
+                    Comparison::LessOrEqual => "<=",
+                    Comparison::Greater => ">",
+                    Comparison::GreaterOrEqual => ">=",
+                    Comparison::Equal => "==",
+                    Comparison::Unequal => "!=",
+                };
+                write!(f, "{left} {mark} {right}")
+            }
+            Condition::Not(inner) => write!(f, "!({inner})"),
+            Condition::And(left, right) => write!(f, "({left}) && ({right})"),
+            Condition::Or(left, right) => write!(f, "({left}) || ({right})"),
+        }
+    }
+}
+
+/// The entries of a list in their loops and conditions.
+fn nested<T: Display>(f: &mut Formatter<'_>, nodes: &[Node], entries: &[T], separator: &str) -> fmt::Result {
+    for (i, node) in nodes.iter().enumerate() {
+        if i > 0 {
+            f.write_str(separator)?;
+        }
+        match node {
+            Node::Entry(place) => write!(f, "{}", entries[*place])?,
+            Node::For(Loop { variable, range, body, .. }) => {
+                write!(f, "for {} in {range} {{ ", variable.ident)?;
+                nested(f, body, entries, separator)?;
+                f.write_str(" }")?;
+            }
+            Node::If(Choice { condition, then, otherwise }) => {
+                write!(f, "if {condition} {{ ")?;
+                nested(f, then, entries, separator)?;
+                f.write_str(" }")?;
+                if !otherwise.is_empty() {
+                    f.write_str(" else { ")?;
+                    nested(f, otherwise, entries, separator)?;
+                    f.write_str(" }")?;
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
 impl Display for Expression {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match &self.kind {
             ExpressionKind::Missing => f.write_str("?"),
             ExpressionKind::Number(number) => write!(f, "{number}"),
-            ExpressionKind::Name(name) => write!(f, "{}", name.ident),
+            ExpressionKind::Name(name) => write!(f, "{}", Written(name)),
             ExpressionKind::Call { function, arguments, .. } => {
                 write!(f, "{}(", function.ident)?;
                 separated(f, arguments, ", ")?;
@@ -62,13 +175,17 @@ impl Display for Expression {
             ExpressionKind::Comparison { left, order, right } => {
                 write!(f, "{left} {} {right}", order.sign())
             }
+            ExpressionKind::Fold(fold) => {
+                let Fold { function, variable, range, body } = &**fold;
+                write!(f, "{}({} in {range}: {body})", function.ident, variable.ident)
+            }
         }
     }
 }
 
 impl Display for Plain {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        write!(f, "{}", self.name.ident)?;
+        write!(f, "{}", Written(&self.name))?;
         self.unit.iter().try_for_each(|unit| write!(f, ": {}", unit.text))?;
         if let Some(limits) = &self.limits {
             write!(f, " in {}..{}", limits[0], limits[1])?;
@@ -79,7 +196,7 @@ impl Display for Plain {
 
 impl Display for Constant {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        write!(f, "{}", self.name.ident)?;
+        write!(f, "{}", Written(&self.name))?;
         self.unit.iter().try_for_each(|unit| write!(f, ": {}", unit.text))?;
         if let Some(bound) = self.bound {
             write!(f, " {}", bound.kind.relation())?;
@@ -90,13 +207,13 @@ impl Display for Constant {
 
 impl Display for Definition {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        write!(f, "{} = {};", self.name.ident, self.value)
+        write!(f, "{} = {};", Written(&self.name), self.value)
     }
 }
 
 impl Display for Equation {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {} = {};", self.name.ident, self.left, self.right)
+        write!(f, "{}: {} = {};", Written(&self.name), self.left, self.right)
     }
 }
 
@@ -127,7 +244,7 @@ impl Display for Inertia {
 
 impl Display for Body {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        write!(f, "{} {{ ", self.name.ident)?;
+        write!(f, "{} {{ ", Written(&self.name))?;
         self.mass.iter().try_for_each(|field| write!(f, "mass: {}, ", field.value))?;
         self.inertia.iter().try_for_each(|field| write!(f, "inertia: {}, ", field.value))?;
         self.center.iter().try_for_each(|field| write!(f, "center: {}, ", field.value))?;
@@ -138,18 +255,18 @@ impl Display for Body {
 
 impl Display for Fix {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        write!(f, "{}", self.name.ident)?;
+        write!(f, "{}", Written(&self.name))?;
         self.value.iter().try_for_each(|value| write!(f, " = {value}"))
     }
 }
 
 impl Display for Provide {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        write!(f, "{}", self.name.ident)?;
+        write!(f, "{}", Written(&self.name))?;
         if let Some(names) = &self.of {
             f.write_char('(')?;
             for (i, name) in names.iter().enumerate() {
-                write!(f, "{}{}", if i > 0 { ", " } else { "" }, name.ident)?;
+                write!(f, "{}{}", if i > 0 { ", " } else { "" }, Written(name))?;
             }
             f.write_char(')')?;
         }
@@ -161,7 +278,7 @@ impl Display for Scene {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         write!(f, "scene {} {{", self.name.ident)?;
         if !self.tracks.is_empty() {
-            let names: Vec<_> = self.tracks.iter().map(|name| name.ident.to_string()).collect();
+            let names: Vec<_> = self.tracks.iter().map(|name| Written(name).to_string()).collect();
             write!(f, " track {};", names.join(", "))?;
         }
         if !self.fixes.is_empty() {
@@ -186,7 +303,10 @@ fn braces<T: Display>(
     separator: &str,
 ) -> fmt::Result {
     write!(f, "{} {{ ", kind.word())?;
-    separated(f, &section.entries, separator)?;
+    match section.nesting.is_empty() {
+        true => separated(f, &section.entries, separator)?,
+        false => nested(f, &section.nesting, &section.entries, separator)?,
+    }
     f.write_str(" }")
 }
 
@@ -194,6 +314,7 @@ impl Display for Item {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let kind = self.kind();
         match self {
+            Item::Count(count) => write!(f, "count {} = {};", count.name.ident, count.value),
             Item::Constants(section) => braces(f, kind, section, ", "),
             Item::Inputs(section) | Item::Coordinates(section) => braces(f, kind, section, ", "),
             Item::Let(definition) => write!(f, "let {definition}"),
@@ -233,7 +354,10 @@ impl Display for Declaration {
             if visibility.is_empty() { "" } else { " " },
             self.name.ident
         )?;
-        self.items.iter().try_for_each(|item| writeln!(f, "    {item}"))?;
+        match self.nesting.is_empty() {
+            true => self.items.iter().try_for_each(|item| writeln!(f, "    {item}"))?,
+            false => nested(f, &self.nesting, &self.items, "\n    ")?,
+        }
         f.write_char('}')
     }
 }
@@ -292,6 +416,10 @@ impl Expression {
                 base.write_before_point(text)?;
                 write!(text, ".{}", name.ident)?;
                 list(text, arguments)
+            }
+            ExpressionKind::Fold(fold) => {
+                let Fold { function, variable, range, body } = &**fold;
+                write!(text, "{}({} in {range}: {})", function.ident, variable.ident, body.source())
             }
             ExpressionKind::Negation(operand) => {
                 text.push('-');

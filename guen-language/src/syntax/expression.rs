@@ -2,7 +2,7 @@
 
 use proc_macro2::Span;
 
-use super::{Name, Number};
+use super::{Name, Number, Range};
 
 /// An expression.
 #[derive(Debug, Clone)]
@@ -84,6 +84,21 @@ pub enum ExpressionKind {
         /// The exponent.
         exponent: Box<Expression>,
     },
+    /// `sum(i in 0..n: e)` or `product(i in 0..n: e)`. There is none left once loops are unfolded.
+    Fold(Box<Fold>),
+}
+
+/// A sum or product over a range.
+#[derive(Debug, Clone)]
+pub struct Fold {
+    /// The word in front.
+    pub function: Name,
+    /// The loop variable.
+    pub variable: Name,
+    /// The numbers that it runs through.
+    pub range: Range,
+    /// The term or factor.
+    pub body: Expression,
 }
 
 /// A term of a sum after the first.
@@ -190,6 +205,7 @@ impl Expression {
             }
             ExpressionKind::Comparison { left, right, .. } => vec![left, right],
             ExpressionKind::Power { base, exponent } => vec![base, exponent],
+            ExpressionKind::Fold(fold) => vec![&fold.body],
         }
     }
 
@@ -222,6 +238,7 @@ impl Expression {
             | ExpressionKind::Number(_)
             | ExpressionKind::Name(_)
             | ExpressionKind::Call { .. }
+            | ExpressionKind::Fold(_)
             | ExpressionKind::Negation(_) => self.span,
             ExpressionKind::Field { base, .. }
             | ExpressionKind::Method { base, .. }

@@ -3,20 +3,27 @@
 //! Where the parser reported a fault the tree holds [`ExpressionKind::Missing`], so that the names around it are
 //! still known to whoever emits signatures after an error. A tree whose report is empty has none of them, has
 //! every section at most once, and has a `coordinates` section.
+//!
+//! Counts, loops, conditions on indices and indices as they were written are in the tree until `unfold` has written them out.
 
 mod display;
 mod expression;
+mod index;
 mod name;
 mod number;
 mod section;
 mod unit;
 
-pub use expression::{AddOperator, Expression, ExpressionKind, Factor, MultiplyOperator, Order, Term};
+pub use expression::{AddOperator, Expression, ExpressionKind, Factor, Fold, MultiplyOperator, Order, Term};
+pub use index::{
+    Choice, Comparison, Condition, Index, IndexExpression, IndexKind, IndexOperator, Loop, Node, Path, Range,
+    Step, WrittenIndex,
+};
 pub use name::{Docs, Name, Visibility};
 pub use number::{Number, NumberProblem};
 pub use unit::{Dimension, Unit};
 
 pub use section::{
-    Body, BodyField, Bound, BoundKind, Constant, Declaration, Definition, Equation, Fix, Force,
+    Body, BodyField, Bound, BoundKind, Constant, Count, Declaration, Definition, Equation, Fix, Force,
     FunctionDefinition, Inertia, Item, Particle, Plain, Provide, Quantity, Scene, Section, SectionKind,
 };

@@ -3,15 +3,19 @@
 use std::fmt;
 
 use proc_macro2::{Ident, Span, TokenStream};
-use quote::quote;
+use quote::{format_ident, quote};
+
+use super::{Index, Path};
 
 /// A name, kept with the identifier that the expansion will use.
 #[derive(Debug, Clone)]
 pub struct Name {
-    /// The name as shown to the user, without `r#`.
+    /// The name as shown to the user, without `r#`: of an entry of an array its path, `q[3]`.
     pub text: String,
-    /// The identifier as written, with its span.
+    /// The identifier as written, with its span; of an entry of an array one of its own, `q_3`.
     pub ident: Ident,
+    /// The index, if there is one.
+    pub index: Index,
 }
 
 impl Name {
@@ -19,7 +23,45 @@ impl Name {
     pub fn new(ident: Ident) -> Self {
         let written = ident.to_string();
         let text = written.strip_prefix("r#").map(str::to_owned).unwrap_or(written);
-        Name { text, ident }
+        Name { text, ident, index: Index::None }
+    }
+
+    /// The name at the end of a path.
+    pub fn at(path: Path) -> Self {
+        Name { text: path.text(), ident: path.flat(), index: Index::Entry(Box::new(path)) }
+    }
+
+    /// The path of an entry of an array; none of a plain name.
+    pub fn path(&self) -> Option<&Path> {
+        match &self.index {
+            Index::Entry(path) => Some(path),
+            _ => None,
+        }
+    }
+
+    /// The identifier as it was written, without an index.
+    pub fn root(&self) -> &Ident {
+        self.path().map_or(&self.ident, |path| &path.root)
+    }
+
+    /// The name of a part: `w_x` of `w`, and `w_x[3]` of `w[3]`.
+    pub fn suffixed(&self, suffix: &str) -> Name {
+        match self.path() {
+            None => {
+                let ident = format_ident!("{}{suffix}", self.ident, span = self.span());
+                Name { text: format!("{}{suffix}", self.text), ident, index: self.index.clone() }
+            }
+            Some(path) => {
+                let mut path = path.clone();
+                let last = path.steps.iter_mut().rev().find_map(|step| match step {
+                    super::Step::Field(field) => Some(field),
+                    super::Step::Index { .. } => None,
+                });
+                let field = last.unwrap_or(&mut path.root);
+                *field = format_ident!("{field}{suffix}", span = field.span());
+                Name::at(path)
+            }
+        }
     }
 
     /// Returns the place of the name.

@@ -2,7 +2,7 @@
 
 use proc_macro2::{Span, TokenStream};
 
-use super::{Docs, Expression, Name, Unit, Visibility};
+use super::{Docs, Expression, IndexExpression, Name, Node, Unit, Visibility};
 
 /// A declaration: one `system` with its sections.
 #[derive(Debug, Clone)]
@@ -17,11 +17,17 @@ pub struct Declaration {
     pub name: Name,
     /// Sections, definitions and scenes, in the order in which they were written: a name is declared before use.
     pub items: Vec<Item>,
+    /// The order of the items, where loops and conditions stand between them; empty where there are none.
+    pub nesting: Vec<Node>,
+    /// The counts, once they are known, each with whether anything uses it.
+    pub counts: Vec<(Name, bool)>,
 }
 
 /// A section, a `let`, a function or a scene.
 #[derive(Debug, Clone)]
 pub enum Item {
+    /// `count n = 20;`. There is none left once loops are unfolded.
+    Count(Count),
     /// `constants { .. }`.
     Constants(Section<Constant>),
     /// `inputs { .. }`.
@@ -64,6 +70,7 @@ pub enum Item {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 #[allow(missing_docs, reason = "each is named as the variant of `Item` that it begins")]
 pub enum SectionKind {
+    Count,
     Constants,
     Inputs,
     Coordinates,
@@ -86,7 +93,8 @@ pub enum SectionKind {
 
 impl SectionKind {
     /// Every kind, in the order of [`crate::names::SECTIONS`].
-    pub const ALL: [SectionKind; 18] = [
+    pub const ALL: [SectionKind; 19] = [
+        SectionKind::Count,
         SectionKind::Constants,
         SectionKind::Inputs,
         SectionKind::Coordinates,
@@ -124,7 +132,7 @@ impl SectionKind {
 
     /// Whether a system may have several.
     pub fn may_repeat(self) -> bool {
-        matches!(self, SectionKind::Let | SectionKind::Function | SectionKind::Scene)
+        matches!(self, SectionKind::Count | SectionKind::Let | SectionKind::Function | SectionKind::Scene)
     }
 
     /// Whether the word is followed by `= e;`.
@@ -148,6 +156,26 @@ pub struct Section<T> {
     pub keyword: Span,
     /// The entries of the section.
     pub entries: Vec<T>,
+    /// The order of the entries, where loops and conditions stand between them; empty where there are none.
+    pub nesting: Vec<Node>,
+}
+
+impl<T> Section<T> {
+    /// A section of entries that stand one behind the other.
+    pub fn new(docs: Docs, keyword: Span, entries: Vec<T>) -> Self {
+        Section { docs, keyword, entries, nesting: Vec::new() }
+    }
+}
+
+/// `count name = value`.
+#[derive(Debug, Clone)]
+pub struct Count {
+    /// Doc comments.
+    pub docs: Docs,
+    /// The name.
+    pub name: Name,
+    /// The value.
+    pub value: IndexExpression,
 }
 
 /// A coordinate, or an input with or without limits: `name`, `name in lower..upper`.
@@ -361,6 +389,7 @@ impl Item {
     /// Returns the word that begins the item.
     pub fn kind(&self) -> SectionKind {
         match self {
+            Item::Count(_) => SectionKind::Count,
             Item::Constants(_) => SectionKind::Constants,
             Item::Inputs(_) => SectionKind::Inputs,
             Item::Coordinates(_) => SectionKind::Coordinates,

@@ -70,7 +70,7 @@ fn a_missing_section_is_told_by_what_to_write() {
         ("params { a }", "physical constants stand in `constants`, quasi-velocities in `parameters`"),
         ("vars { q }", "did you mean `coordinates`?"),
         ("lagrangian = 1;", "`kinetic_energy = e;` and `potential_energy = e;`"),
-        ("if true {}", "no branches and no loops"),
+        ("while true {}", "entries repeat as `for i in 0..n { .. }`"),
         ("fn f(x) { x }", "a function is one expression: write `fn name(x, y) = e;`"),
     ] {
         let text = format!("pub system S {{ coordinates {{ x }} {section} kinetic_energy = dot(x)^2/2; }}");

@@ -4,8 +4,19 @@ use std::path::{Path, PathBuf};
 
 /// The modules of the crate in the order of the pipeline. Each reads modules that stand before it; `parse` hands over a syntax
 /// tree, so nothing reads `parse`.
-const ORDER: [&str; 10] =
-    ["names", "limits", "diagnostics", "syntax", "outline", "parse", "model", "derive", "report", "emit"];
+const ORDER: [&str; 11] = [
+    "names",
+    "limits",
+    "diagnostics",
+    "syntax",
+    "outline",
+    "unfold",
+    "parse",
+    "model",
+    "derive",
+    "report",
+    "emit",
+];
 
 /// The modules that a text names by `crate::`.
 fn imports(text: &str) -> Vec<String> {

@@ -87,6 +87,63 @@ macro_rules! record {
     };
 }
 
+/// A struct of reals in fields and arrays, as [`record!`](crate::record): its fields, the names of the values, the ways to
+/// them, and a literal of the struct from local variables and from default values.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! structured {
+    (
+        $(#[$($docs:tt)*])* $Record:ident $n:literal { $($fields:tt)* } [$($name:literal)*] [$($shown:ident)*]
+        |$self:ident, $values:ident| [$($access:expr),*] { $($literal:tt)* } { $($default:tt)* }
+    ) => {
+        $(#[$($docs)*])*
+        #[::core::prelude::v1::derive(::core::clone::Clone, ::core::marker::Copy, ::core::cmp::PartialEq)]
+        pub struct $Record<R = f64> {
+            $($fields)*
+        }
+
+        impl $Record<f64> {
+            /// The names of the values, in order.
+            pub const NAMES: [&'static str; $n] = [$($name),*];
+        }
+
+        impl<R: ::core::marker::Copy> $Record<R> {
+            #[inline]
+            fn __guen_array($self) -> [R; $n] {
+                [$($access),*]
+            }
+        }
+
+        impl<R: ::core::default::Default> ::core::default::Default for $Record<R> {
+            fn default() -> Self {
+                $Record { $($default)* }
+            }
+        }
+
+        impl<R: ::core::fmt::Debug> ::core::fmt::Debug for $Record<R> {
+            fn fmt(&self, f: &mut ::core::fmt::Formatter<'_>) -> ::core::fmt::Result {
+                let mut all = ::core::fmt::Formatter::debug_struct(f, ::core::stringify!($Record));
+                $(all.field($crate::checks::plain([::core::stringify!($shown)])[0], &self.$shown);)*
+                all.finish()
+            }
+        }
+
+        impl<R: ::core::marker::Copy> ::core::convert::From<[R; $n]> for $Record<R> {
+            #[inline]
+            fn from($values: [R; $n]) -> Self {
+                $Record { $($literal)* }
+            }
+        }
+
+        impl<R: ::core::marker::Copy> ::core::convert::From<$Record<R>> for [R; $n] {
+            #[inline]
+            fn from(record: $Record<R>) -> Self {
+                record.__guen_array()
+            }
+        }
+    };
+}
+
 /// The operators of displacement and their brackets, with the number of coordinates and the highest index of an operator in a
 /// bracket: the names of the operators, each with its documentation, and the brackets `(X_r, X_s)`, `r < s`, that do not vanish,
 /// with what is known of their coefficients.

@@ -8,3 +8,4 @@ pub(crate) mod derived;
 mod emitted;
 mod nalgebra_support;
 pub(crate) mod serde_support;
+pub(crate) mod shape;

@@ -59,6 +59,7 @@ pub fn greek_letter(command: &str) -> Option<char> {
 /// assert_eq!(guen_symbolic::latex_name("dot(theta)"), "\\dot{\\theta}");
 /// assert_eq!(guen_symbolic::latex_name("eta1'"), "\\dot{\\eta}_{1}");
 /// assert_eq!(guen_symbolic::latex_name("αβ"), "\\mathrm{{\\alpha}{\\beta}}");
+/// assert_eq!(guen_symbolic::latex_name("q_x[3]"), "q_{x,3}");
 /// assert_eq!(guen_symbolic::latex_name("mass_body"), "\\mathrm{mass}_{\\mathrm{body}}");
 /// ```
 pub fn latex_name(name: &str) -> String {
@@ -126,9 +127,9 @@ fn indexed(stem: &str, dots: usize) -> String {
     format!("{text}_{{{}}}", indices.join(","))
 }
 
-/// `omega_x1` is `omega` with the indices `x` and `1`; digits at the end of the first word are an index too.
+/// `omega_x1` is `omega` with the indices `x` and `1`, as `k[1][2]` is `k` with its; digits at the end of the first word are an index too.
 fn split_indices(name: &str) -> (&str, Vec<&str>) {
-    let mut words = name.split('_').filter(|word| !word.is_empty());
+    let mut words = name.split(['_', '[', ']']).filter(|word| !word.is_empty());
     let Some(first) = words.next() else { return (name, Vec::new()) };
     let head = first.trim_end_matches(|c: char| c.is_ascii_digit());
     if head.is_empty() {

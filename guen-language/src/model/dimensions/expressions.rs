@@ -101,7 +101,7 @@ impl Dimensions<'_> {
     /// The dimension of an expression.
     pub(super) fn of(&mut self, e: &Expression) -> Quantity {
         match &e.kind {
-            ExpressionKind::Missing => Quantity::Anything,
+            ExpressionKind::Fold(_) | ExpressionKind::Missing => Quantity::Anything,
             ExpressionKind::Number(number) if number.is_zero() => Quantity::Anything,
             ExpressionKind::Number(_) => Quantity::Of(Partial::one()),
             ExpressionKind::Name(name) => self.name(name),

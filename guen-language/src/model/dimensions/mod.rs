@@ -122,13 +122,14 @@ impl Dimensions<'_> {
 
     fn form(&mut self, name: &str, own: Quantity, shown: &mut Vec<String>) {
         for axis in ["", "_x", "_y", "_z"] {
-            self.names.insert(format!("{name}{axis}"), own.clone());
-            shown.push(format!("{name}{axis}"));
+            self.names.insert(crate::names::suffixed(name, axis), own.clone());
+            shown.push(crate::names::suffixed(name, axis));
         }
     }
 
     fn item(&mut self, item: &Item, shown: &mut Vec<String>, weights: &mut Vec<(Partial, Partial)>) {
         match item {
+            Item::Count(_) => {}
             Item::Constants(section) => {
                 for entry in &section.entries {
                     let own = self.declared(entry.unit.as_ref());
@@ -144,7 +145,7 @@ impl Dimensions<'_> {
                     shown.push(entry.name.text.clone());
                     if matches!(item, Item::Coordinates(_)) {
                         // In case it is chosen as a parameter.
-                        let rate = format!("{}{}", entry.name.text, crate::names::RATE_SUFFIX);
+                        let rate = crate::names::suffixed(&entry.name.text, crate::names::RATE_SUFFIX);
                         self.names.insert(rate.clone(), per_second(self.names[&entry.name.text].clone()));
                         shown.push(rate);
                     }

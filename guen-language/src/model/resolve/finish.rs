@@ -162,7 +162,7 @@ impl<'a> Resolver<'a, '_> {
         let provides_operators =
             self.provides_operators || provides.into_iter().any(|provide| provide.name.text == "operators");
         Some(Model {
-            identifiers: self.eval.scope.into_identifiers(),
+            identifiers: self.eval.scope.into_identifiers().with_counts(&self.declaration.counts),
             declaration: self.declaration,
             bench: self.eval.bench,
             constants: self.constants,

@@ -74,6 +74,7 @@ impl<R: Analytic> Meaning<R> {
 
     fn read(&mut self, item: &Item, gravity: Option<&Vector<R>>) -> Result<(), Missing> {
         match item {
+            Item::Count(_) => unreachable!("loops are written out"),
             Item::Let(definition) => {
                 let value = self.value(&definition.value)?;
                 self.names.insert(definition.name.text.clone(), value);
@@ -238,6 +239,7 @@ impl<R: Analytic> Meaning<R> {
 
     fn value(&self, e: &Expression) -> Result<Value<R>, Missing> {
         match &e.kind {
+            ExpressionKind::Fold(_) => unreachable!("loops are written out"),
             ExpressionKind::Missing => Err("a hole".to_owned()),
             ExpressionKind::Number(number) => {
                 let value: f64 = number.text.replace('_', "").parse().map_err(|_| format!("`{e}`"))?;

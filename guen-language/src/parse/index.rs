@@ -1,0 +1,288 @@
+//! Whole numbers: `[i, j]` behind a name, the range of a loop, a condition on indices.
+
+use proc_macro2::{Delimiter, Group, Literal, Span, TokenTree};
+
+use super::cursor::Cursor;
+use super::names::name;
+use crate::diagnostics::{Fault, Faults, Reported};
+use crate::limits::MAX_DEPTH;
+use crate::names::is_rust_keyword;
+use crate::syntax::{
+    Comparison, Condition, Index, IndexExpression, IndexKind, IndexOperator, Name, Range, WrittenIndex,
+};
+
+const HELP_NUMBER: &str = "an index is made of whole numbers, counts and loop variables with `+ - * / %`";
+const HELP_RANGE: &str = "a range is `0..n`, without its end, or `0..=k`, with its end";
+
+type Parsed = Result<IndexExpression, Reported>;
+
+/// A name with what stands in brackets behind it, if anything does.
+pub(crate) fn indexed_name(cursor: &mut Cursor, faults: &mut Faults, role: &str) -> Result<Name, Reported> {
+    let name = name(cursor, faults, role)?;
+    Ok(index_of(cursor, faults, name))
+}
+
+/// A name that has been read with its index behind it.
+pub(crate) fn index_of(cursor: &mut Cursor, faults: &mut Faults, name: Name) -> Name {
+    let Some(group) = cursor.eat_group(Delimiter::Bracket) else { return name };
+    let mut indices = indices(&group, faults);
+    while let Some(second) = cursor.eat_group(Delimiter::Bracket) {
+        indices.extend(self::indices(&second, faults));
+        indices.truncate(2);
+        let fault = Fault::new(second.span_open(), "an entry has one pair of brackets");
+        faults.report(fault.help(format!("write `{name}[i, j]` for an entry of two indices")));
+    }
+    Name { index: Index::Written(Box::new(WrittenIndex { indices, brackets: group.span() })), ..name }
+}
+
+/// The indices between brackets: one or two.
+fn indices(group: &Group, faults: &mut Faults) -> Vec<IndexExpression> {
+    let mut cursor = Cursor::inside(group);
+    let mut found = Vec::new();
+    while !cursor.is_end() {
+        let span = cursor.span();
+        let index = sum(&mut cursor, faults, 0);
+        let is_whole = index.is_ok();
+        found.push(index.unwrap_or_else(|Reported { .. }| missing(span)));
+        if is_whole && !cursor.is_end() && !cursor.is_punct(',') {
+            let fault =
+                Fault::new(cursor.span(), format!("expected `]` or an operator, found {}", cursor.found()));
+            faults.report(if cursor.is_punct(':') || cursor.is_pair('.', '.') {
+                fault.help("a name has one entry at a time: write a loop, `for i in 0..n { .. }`")
+            } else {
+                fault.help(HELP_NUMBER)
+            });
+        }
+        cursor.recover_to_comma();
+        cursor.skip(1);
+    }
+    if found.is_empty() {
+        let fault = Fault::new(group.span_open(), "an index is missing between these brackets");
+        faults.report(fault.help("indices run from 0: `q[0]` is the first entry"));
+        found.push(missing(group.span_open()));
+    } else if found.len() > 2 {
+        faults.report(Fault::new(found[2].span, "an array has one or two indices, and here are more"));
+        found.truncate(2);
+    }
+    found
+}
+
+/// `start..end` or `start..=end`.
+pub(crate) fn range(cursor: &mut Cursor, faults: &mut Faults) -> Result<Range, Reported> {
+    cursor.open_invisible();
+    if cursor.is_word("range") && cursor.group_at(1, Delimiter::Parenthesis).is_some() {
+        let fault = Fault::new(cursor.span(), "`range(..)` is no range of this language");
+        return Err(faults.report(fault.help(HELP_RANGE)));
+    }
+    let start = sum(cursor, faults, 0)?;
+    let span = cursor.span();
+    if cursor.is_pair('.', '.') {
+        cursor.skip(2);
+        let is_closed = cursor.eat('=').is_some();
+        return Ok(Range { start, end: sum(cursor, faults, 0)?, is_closed, span });
+    }
+    let fault = Fault::new(span, format!("expected `..`, found {}", cursor.found()));
+    if cursor.is_punct(':') && !cursor.is_pair(':', ':') {
+        return Err(faults.report(fault.help("the range from `a` to `b`, both included, is written `a..=b`")));
+    }
+    Err(faults.report(fault.help(HELP_RANGE)))
+}
+
+/// Conditions that `||` joins.
+pub(crate) fn condition(cursor: &mut Cursor, faults: &mut Faults) -> Result<Condition, Reported> {
+    let mut left = all(cursor, faults)?;
+    while cursor.is_pair('|', '|') {
+        cursor.skip(2);
+        left = Condition::Or(Box::new(left), Box::new(all(cursor, faults)?));
+    }
+    Ok(left)
+}
+
+/// Conditions that `&&` joins.
+fn all(cursor: &mut Cursor, faults: &mut Faults) -> Result<Condition, Reported> {
+    let mut left = single(cursor, faults)?;
+    while cursor.is_pair('&', '&') {
+        cursor.skip(2);
+        left = Condition::And(Box::new(left), Box::new(single(cursor, faults)?));
+    }
+    Ok(left)
+}
+
+fn single(cursor: &mut Cursor, faults: &mut Faults) -> Result<Condition, Reported> {
+    cursor.open_invisible();
+    if cursor.is_punct('!') && !cursor.is_pair('!', '=') {
+        cursor.skip(1);
+        return Ok(Condition::Not(Box::new(single(cursor, faults)?)));
+    }
+    // Parentheses hold a condition where a comparison stands inside of them.
+    if let Some(group) = cursor.group_at(0, Delimiter::Parenthesis).filter(|group| holds_comparison(group)) {
+        let mut inside = Cursor::inside(&group.clone());
+        cursor.skip(1);
+        let inner = condition(&mut inside, faults)?;
+        if !inside.is_end() {
+            let text = format!("expected `)`, found {}", inside.found());
+            return Err(faults.report(Fault::new(inside.span(), text)));
+        }
+        return Ok(inner);
+    }
+    let left = sum(cursor, faults, 0)?;
+    let comparison = comparison(cursor, faults)?;
+    Ok(Condition::Comparison(left, comparison, sum(cursor, faults, 0)?))
+}
+
+fn holds_comparison(group: &Group) -> bool {
+    group.stream().into_iter().any(|token| match token {
+        TokenTree::Punct(mark) => matches!(mark.as_char(), '<' | '>' | '=' | '!'),
+        _ => false,
+    })
+}
+
+fn comparison(cursor: &mut Cursor, faults: &mut Faults) -> Result<Comparison, Reported> {
+    let pairs = [
+        ("<=", Comparison::LessOrEqual),
+        (">=", Comparison::GreaterOrEqual),
+        ("==", Comparison::Equal),
+        ("!=", Comparison::Unequal),
+    ];
+    for (text, comparison) in pairs {
+        let mut marks = text.chars();
+        if cursor.is_pair(marks.next().unwrap_or(' '), marks.next().unwrap_or(' ')) {
+            cursor.skip(2);
+            return Ok(comparison);
+        }
+    }
+    if cursor.eat('<').is_some() {
+        return Ok(Comparison::Less);
+    }
+    if cursor.eat('>').is_some() {
+        return Ok(Comparison::Greater);
+    }
+    let fault = Fault::new(cursor.span(), format!("expected a comparison, found {}", cursor.found()));
+    Err(faults.report(if cursor.is_punct('=') {
+        fault.help("equality is written `==`")
+    } else {
+        fault.help("a condition compares indices: `i < k`, `i % 2 == 0`")
+    }))
+}
+
+/// An expression of whole numbers; it ends at the first token that cannot continue it.
+pub(crate) fn sum(cursor: &mut Cursor, faults: &mut Faults, depth: usize) -> Parsed {
+    let mut left = product(cursor, faults, depth)?;
+    loop {
+        let operator = match cursor.peek() {
+            Some(TokenTree::Punct(mark)) if mark.as_char() == '+' => IndexOperator::Plus,
+            Some(TokenTree::Punct(mark)) if mark.as_char() == '-' => IndexOperator::Minus,
+            _ => return Ok(left),
+        };
+        let span = cursor.span();
+        cursor.skip(1);
+        left = operation(left, operator, span, product(cursor, faults, depth)?);
+    }
+}
+
+fn product(cursor: &mut Cursor, faults: &mut Faults, depth: usize) -> Parsed {
+    let mut left = unary(cursor, faults, depth)?;
+    loop {
+        let operator = match cursor.peek() {
+            Some(TokenTree::Punct(mark)) if mark.as_char() == '*' => IndexOperator::Times,
+            Some(TokenTree::Punct(mark)) if mark.as_char() == '/' => IndexOperator::Over,
+            Some(TokenTree::Punct(mark)) if mark.as_char() == '%' => IndexOperator::Remainder,
+            _ => return Ok(left),
+        };
+        let span = cursor.span();
+        cursor.skip(1);
+        left = operation(left, operator, span, unary(cursor, faults, depth)?);
+    }
+}
+
+fn operation(
+    left: IndexExpression,
+    operator: IndexOperator,
+    span: Span,
+    right: IndexExpression,
+) -> IndexExpression {
+    IndexExpression { span, kind: IndexKind::Operation(Box::new(left), operator, Box::new(right)) }
+}
+
+fn unary(cursor: &mut Cursor, faults: &mut Faults, depth: usize) -> Parsed {
+    cursor.open_invisible();
+    let span = cursor.span();
+    if depth > MAX_DEPTH {
+        let text = format!("the index is nested more than {MAX_DEPTH} levels deep");
+        return Err(faults.report(Fault::new(span, text)));
+    }
+    if cursor.eat('-').is_some() {
+        let operand = unary(cursor, faults, depth + 1)?;
+        return Ok(IndexExpression { span, kind: IndexKind::Negation(Box::new(operand)) });
+    }
+    match cursor.peek().cloned() {
+        Some(TokenTree::Literal(literal)) => {
+            cursor.skip(1);
+            number(&literal, faults)
+        }
+        Some(TokenTree::Ident(ident)) if !is_rust_keyword(&ident.to_string()) => {
+            cursor.skip(1);
+            if cursor.group_at(0, Delimiter::Parenthesis).is_some() {
+                cursor.skip(1);
+                let fault =
+                    Fault::new(span, format!("an index calls no function, and this is `{ident}(..)`"));
+                return Err(faults.report(fault.help(HELP_NUMBER)));
+            }
+            Ok(IndexExpression { span, kind: IndexKind::Name(Name::new(ident)) })
+        }
+        Some(TokenTree::Group(group)) if group.delimiter() == Delimiter::Parenthesis => {
+            cursor.skip(1);
+            let mut inside = Cursor::inside(&group);
+            let value = sum(&mut inside, faults, depth + 1)?;
+            if inside.is_end() {
+                return Ok(value);
+            }
+            let text = format!("expected `)` or an operator, found {}", inside.found());
+            Err(faults.report(Fault::new(inside.span(), text).help(HELP_NUMBER)))
+        }
+        _ => {
+            let fault = Fault::new(span, format!("expected a whole number, found {}", cursor.found()));
+            Err(faults.report(fault.help(HELP_NUMBER)))
+        }
+    }
+}
+
+fn number(literal: &Literal, faults: &mut Faults) -> Parsed {
+    let (text, span) = (literal.to_string(), literal.span());
+    match text.replace('_', "").parse() {
+        Ok(value) => Ok(IndexExpression { span, kind: IndexKind::Number(value) }),
+        Err(_) => {
+            let digits: String = text.chars().take_while(char::is_ascii_digit).collect();
+            let fault = Fault::new(span, format!("an index is a whole number, and this is `{text}`"));
+            let is_typed = !digits.is_empty() && text[digits.len()..].starts_with(['u', 'i']);
+            Err(faults.report(match is_typed {
+                true => fault.help(format!("numbers have no types here: write `{digits}`")),
+                false => fault.help(HELP_NUMBER),
+            }))
+        }
+    }
+}
+
+fn missing(span: Span) -> IndexExpression {
+    IndexExpression { span, kind: IndexKind::Missing }
+}
+
+/// Whether `name in` stands at the beginning of a group: the head of a sum or product over a range.
+pub(crate) fn begins_fold(group: &Group) -> bool {
+    let mut tokens = group.stream().into_iter();
+    matches!(tokens.next(), Some(TokenTree::Ident(_)))
+        && matches!(tokens.next(), Some(TokenTree::Ident(word)) if word == "in")
+}
+
+/// `i in 0..n:` at the beginning of a sum or product; the cursor stands behind the colon afterwards.
+pub(crate) fn fold_head(cursor: &mut Cursor, faults: &mut Faults) -> Result<(Name, Range), Reported> {
+    let variable = name(cursor, faults, "a loop variable")?;
+    cursor.skip(1);
+    let range = range(cursor, faults)?;
+    if cursor.eat(':').is_none() {
+        let fault =
+            Fault::new(cursor.span(), format!("expected `:` after the range, found {}", cursor.found()));
+        return Err(faults.report(fault.help("a sum reads `sum(i in 0..n: e)`")));
+    }
+    Ok((variable, range))
+}

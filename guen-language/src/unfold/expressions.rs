@@ -1,0 +1,334 @@
+//! Names and expressions without indices that have to be computed.
+
+use proc_macro2::Span;
+
+use super::Unfolder;
+use super::arrays::brackets;
+use crate::diagnostics::Fault;
+use crate::syntax::{
+    AddOperator, Expression, ExpressionKind, Factor, Fold, Index, Inertia, Item, MultiplyOperator, Name,
+    Node, Number, Term,
+};
+
+impl Unfolder<'_> {
+    /// An expression for the present values of the loop variables.
+    pub(super) fn expression(&mut self, e: &Expression) -> Expression {
+        let kind = match &e.kind {
+            ExpressionKind::Missing | ExpressionKind::Number(_) => e.kind.clone(),
+            ExpressionKind::Name(name) => self.value(name),
+            ExpressionKind::Call { function, arguments, list } => {
+                if let Some(kind) = self.call_of_array(function, arguments) {
+                    return Expression { span: e.span, parentheses: e.parentheses, kind };
+                }
+                let arguments = arguments.iter().map(|argument| self.expression(argument)).collect();
+                ExpressionKind::Call { function: function.clone(), arguments, list: *list }
+            }
+            ExpressionKind::Field { base, name } => {
+                ExpressionKind::Field { base: Box::new(self.expression(base)), name: name.clone() }
+            }
+            ExpressionKind::Method { base, name, arguments, list } => ExpressionKind::Method {
+                base: Box::new(self.expression(base)),
+                name: name.clone(),
+                arguments: arguments.iter().map(|argument| self.expression(argument)).collect(),
+                list: *list,
+            },
+            ExpressionKind::Negation(operand) => ExpressionKind::Negation(Box::new(self.expression(operand))),
+            ExpressionKind::Sum { first, rest } => ExpressionKind::Sum {
+                first: Box::new(self.expression(first)),
+                rest: rest
+                    .iter()
+                    .map(|term| Term { value: self.expression(&term.value), ..term.clone() })
+                    .collect(),
+            },
+            ExpressionKind::Product { first, rest } => ExpressionKind::Product {
+                first: Box::new(self.expression(first)),
+                rest: rest
+                    .iter()
+                    .map(|factor| Factor { value: self.expression(&factor.value), ..factor.clone() })
+                    .collect(),
+            },
+            ExpressionKind::Power { base, exponent } => ExpressionKind::Power {
+                base: Box::new(self.expression(base)),
+                exponent: Box::new(self.expression(exponent)),
+            },
+            ExpressionKind::Comparison { left, order, right } => ExpressionKind::Comparison {
+                left: Box::new(self.expression(left)),
+                order: *order,
+                right: Box::new(self.expression(right)),
+            },
+            ExpressionKind::Fold(fold) => self.fold(fold),
+        };
+        Expression { span: e.span, parentheses: e.parentheses, kind }
+    }
+
+    /// A sum or product over a range, written out.
+    fn fold(&mut self, Fold { function, variable, range, body }: &Fold) -> ExpressionKind {
+        self.check_variable(variable);
+        let mut parts = Vec::new();
+        let mut is_sound = true;
+        self.repeat(variable, range, &mut |this| {
+            let before = this.faults.count();
+            parts.push(this.expression(body));
+            is_sound &= this.faults.count() == before;
+            this.note_variables(before);
+        });
+        if !is_sound {
+            return ExpressionKind::Missing;
+        }
+        let is_sum = function.text == "sum";
+        let span = function.span();
+        let mut parts = parts.into_iter();
+        let Some(first) = parts.next() else { return number(i64::from(!is_sum), span).kind };
+        let first = Box::new(first);
+        if parts.len() == 0 {
+            return first.kind;
+        }
+        if is_sum {
+            let rest = parts.map(|value| Term { operator: AddOperator::Plus, span, value }).collect();
+            ExpressionKind::Sum { first, rest }
+        } else {
+            let rest = parts.map(|value| Factor { operator: MultiplyOperator::Times, span, value }).collect();
+            ExpressionKind::Product { first, rest }
+        }
+    }
+
+    /// A name in an expression: a loop variable or count is a number, an entry of an array has its place.
+    fn value(&mut self, name: &Name) -> ExpressionKind {
+        if self.hidden.contains(&name.text) {
+            if !matches!(name.index, Index::None) {
+                let text = format!("`{name}` is an argument, and has no entries");
+                self.faults.report(Fault::new(name.span(), text));
+                return ExpressionKind::Missing;
+            }
+            return ExpressionKind::Name(name.clone());
+        }
+        if matches!(name.index, Index::None) {
+            let is_variable = self.variables.iter().any(|(variable, _)| *variable == name.text);
+            if let Some(value) = self.whole_number(&name.text) {
+                if is_variable && !self.may_use_variables {
+                    let fault = Fault::new(
+                        name.span(),
+                        format!("loop variable `{name}` stands for no real number here"),
+                    );
+                    self.faults.report(
+                        fault
+                            .note("it counts entries; a real number that depends on it has a name of its own")
+                            .help(format!(
+                                "declare `let number[{name}] = {name};` in a loop, and use `number[{name}]`"
+                            )),
+                    );
+                    return ExpressionKind::Missing;
+                }
+                return value.map_or(ExpressionKind::Missing, |value| number(value, name.span()).kind);
+            }
+        }
+        match self.used(name) {
+            Some(name) => ExpressionKind::Name(name),
+            None => ExpressionKind::Missing,
+        }
+    }
+
+    /// The name of an entry that is used; none after a fault.
+    pub(super) fn used(&mut self, name: &Name) -> Option<Name> {
+        if self.arrays.is_confused(&name.text) {
+            return None;
+        }
+        let Index::Written(written) = &name.index else {
+            return match self.arrays.of(&name.text) {
+                Some(array) if matches!(name.index, Index::None) => {
+                    let first = brackets(&vec![0; array.sizes.len()]);
+                    let rank = array.rank();
+                    let fault = Fault::new(name.span(), format!("`{name}` is an array, and no single value"));
+                    self.faults
+                        .report(fault.note(format!("it has {rank}: its first entry is `{name}{first}`")).help(
+                        format!(
+                            "write the entry that is meant, or a sum over all, `sum(i in 0..n: {name}[i])`"
+                        ),
+                    ));
+                    None
+                }
+                _ => Some(name.clone()),
+            };
+        };
+        let values: Vec<Option<i64>> = written.indices.iter().map(|e| self.number(e)).collect();
+        let values = values.into_iter().collect::<Option<Vec<i64>>>()?;
+        let Some(array) = self.arrays.of(&name.text) else {
+            if self.arrays.is_single(&name.text) || self.counts.contains_key(&name.text) {
+                let text = format!("`{name}` is a single value, and no array");
+                self.faults.report(Fault::new(written.brackets, text).help(format!("write `{name}`")));
+                return None;
+            }
+            // The model says that it does not know the name.
+            return Some(Name { index: Index::None, ..name.clone() });
+        };
+        if array.sizes.len() != values.len() {
+            let rank = array.rank();
+            let text = format!("`{name}` has {rank}, and here are {}", values.len());
+            let text = if values.len() == 1 { format!("`{name}` has {rank}, and here is one") } else { text };
+            self.faults.report(Fault::new(written.brackets, text));
+            return None;
+        }
+        let mut place = Vec::new();
+        for ((value, size), e) in values.iter().zip(&array.sizes).zip(&written.indices) {
+            match usize::try_from(*value).ok().filter(|index| index < size) {
+                Some(index) => place.push(index),
+                None if !self.knows_entries => return None,
+                None => {
+                    let all: Vec<String> = values.iter().map(ToString::to_string).collect();
+                    let text = format!("`{name}[{}]` is out of range", all.join(", "));
+                    let first = brackets(&vec![0; array.sizes.len()]);
+                    let last: Vec<usize> = array.sizes.iter().map(|size| size.saturating_sub(1)).collect();
+                    let fault = Fault::new(e.span, text);
+                    let fault = match array.sizes.iter().all(|size| *size > 0) {
+                        true => fault.note(format!(
+                            "`{name}` runs from `{name}{first}` to `{name}{}`",
+                            brackets(&last)
+                        )),
+                        false => fault.note(format!("`{name}` has no entries")),
+                    };
+                    self.faults
+                        .report(fault.help("indices run from 0, and the last one is the length less one"));
+                    return None;
+                }
+            }
+        }
+        // A gap has been reported where the array is declared.
+        array.has(&place).then(|| Name::at(array.path(name.ident.clone(), &place)))
+    }
+
+    /// `q(i)` for `q[i]`.
+    fn call_of_array(&mut self, function: &Name, arguments: &[Expression]) -> Option<ExpressionKind> {
+        let is_one = self.arrays.of(&function.text).is_some();
+        if !is_one || self.hidden.contains(&function.text) || arguments.is_empty() || arguments.len() > 2 {
+            return None;
+        }
+        let written: Vec<String> = arguments.iter().map(Expression::source).collect();
+        let fault = Fault::new(function.span(), format!("`{function}` is an array, and no function"));
+        self.faults.report(
+            fault
+                .note("indices stand in brackets and run from 0")
+                .help(format!("write `{function}[{}]`", written.join(", "))),
+        );
+        Some(ExpressionKind::Missing)
+    }
+}
+
+/// A whole number as an expression.
+fn number(value: i64, span: Span) -> Expression {
+    let text = value.unsigned_abs().to_string();
+    let number = Number { digits: text.clone(), exponent: 0, text };
+    let number = Expression::new(span, ExpressionKind::Number(number));
+    match value < 0 {
+        true => Expression::new(span, ExpressionKind::Negation(Box::new(number))),
+        false => number,
+    }
+}
+
+/// The order of the entries of a section, where loops stand between them.
+pub(super) fn section_nesting(item: &Item) -> Option<&[Node]> {
+    let nesting = match item {
+        Item::Constants(section) => &section.nesting,
+        Item::Inputs(section) | Item::Coordinates(section) => &section.nesting,
+        Item::Parameters(section) | Item::Outputs(section) => &section.nesting,
+        Item::Constraints(section) | Item::Holonomic(section) => &section.nesting,
+        Item::Particles(section) => &section.nesting,
+        Item::Bodies(section) => &section.nesting,
+        Item::Forces(section) => &section.nesting,
+        _ => return None,
+    };
+    (!nesting.is_empty()).then_some(nesting)
+}
+
+/// Calls a function with every name that an item declares or that stands in its expressions.
+pub(super) fn names(item: &Item, visit: &mut dyn FnMut(&Name)) {
+    declared(item, visit);
+    for e in expressions(item) {
+        names_in(e, visit);
+    }
+}
+
+/// Whether a sum or product over a range stands in an item.
+pub(super) fn has_fold(item: &Item) -> bool {
+    fn inside(e: &Expression) -> bool {
+        matches!(e.kind, ExpressionKind::Fold(_)) || e.children().into_iter().any(inside)
+    }
+    expressions(item).into_iter().any(inside)
+}
+
+fn names_in(e: &Expression, visit: &mut dyn FnMut(&Name)) {
+    if let ExpressionKind::Name(name) = &e.kind {
+        visit(name);
+    }
+    e.children().into_iter().for_each(|child| names_in(child, visit));
+}
+
+fn declared(item: &Item, visit: &mut dyn FnMut(&Name)) {
+    match item {
+        Item::Constants(section) => section.entries.iter().for_each(|entry| visit(&entry.name)),
+        Item::Inputs(section) | Item::Coordinates(section) => {
+            section.entries.iter().for_each(|entry| visit(&entry.name));
+        }
+        Item::Let(definition) => visit(&definition.name),
+        Item::Parameters(section) | Item::Outputs(section) => {
+            section.entries.iter().for_each(|entry| visit(&entry.name));
+        }
+        Item::Constraints(section) | Item::Holonomic(section) => {
+            section.entries.iter().for_each(|entry| visit(&entry.name));
+        }
+        Item::Bodies(section) => section.entries.iter().for_each(|entry| visit(&entry.name)),
+        Item::Scene(scene) => {
+            scene.tracks.iter().for_each(&mut *visit);
+            scene.fixes.iter().for_each(|fix| visit(&fix.name));
+            scene.provides.iter().for_each(|provide| {
+                visit(&provide.name);
+                provide.of.iter().flatten().for_each(&mut *visit);
+            });
+        }
+        Item::Provide(section) => section.entries.iter().for_each(|entry| visit(&entry.name)),
+        _ => {}
+    }
+}
+
+fn expressions(item: &Item) -> Vec<&Expression> {
+    match item {
+        Item::Constants(section) => {
+            section.entries.iter().filter_map(|entry| entry.default.as_ref()).collect()
+        }
+        Item::Inputs(section) | Item::Coordinates(section) => {
+            section.entries.iter().filter_map(|entry| entry.limits.as_deref()).flatten().collect()
+        }
+        Item::Let(definition) => vec![&definition.value],
+        Item::Function(function) => vec![&function.value],
+        Item::Parameters(section) | Item::Outputs(section) => {
+            section.entries.iter().map(|entry| &entry.value).collect()
+        }
+        Item::Constraints(section) | Item::Holonomic(section) => {
+            section.entries.iter().flat_map(|entry| [&entry.left, &entry.right]).collect()
+        }
+        Item::KineticEnergy(quantity)
+        | Item::Gravity(quantity)
+        | Item::ForceFunction(quantity)
+        | Item::PotentialEnergy(quantity) => vec![&quantity.value],
+        Item::Particles(section) => {
+            section.entries.iter().flat_map(|entry| [&entry.mass, &entry.position]).collect()
+        }
+        Item::Bodies(section) => section
+            .entries
+            .iter()
+            .flat_map(|body| {
+                let fields = [&body.mass, &body.center, &body.orientation];
+                let inertia: &[Expression] = match body.inertia.as_ref().map(|field| &field.value) {
+                    None | Some(Inertia::Missing) => &[],
+                    Some(Inertia::Diagonal(entries)) => &entries[..],
+                    Some(Inertia::Symmetric(entries)) => &entries[..],
+                };
+                fields.into_iter().flatten().map(|field| &field.value).chain(inertia)
+            })
+            .collect(),
+        Item::Forces(section) => {
+            section.entries.iter().flat_map(|entry| [&entry.force, &entry.direction]).collect()
+        }
+        Item::Scene(scene) => scene.fixes.iter().filter_map(|fix| fix.value.as_ref()).collect(),
+        Item::Count(_) | Item::Provide(_) => Vec::new(),
+    }
+}

@@ -1,0 +1,165 @@
+//! Writes loops out: what comes in has counts, arrays, `for`, `if` on indices, and sums over ranges; what goes out is the
+//! declaration that a patient person would have written, in which every entry of an array has a name of its own, `q[3]`.
+//!
+//! Two passes over the items: the first finds out which entries every array has, the second writes entries and expressions
+//! out. Names of an index are checked here, everything else is left to the model.
+
+mod announce;
+mod arrays;
+mod expressions;
+mod numbers;
+mod write;
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use proc_macro2::Span;
+
+use crate::diagnostics::{Fault, Faults};
+use crate::limits::MAX_UNFOLDED;
+use crate::names;
+use crate::syntax::{Choice, Declaration, Index, Item, Loop, Name, Node, Range};
+use arrays::Arrays;
+
+/// Returns the declaration without loops, counts and written indices. What cannot be written out is reported and left out.
+pub fn unfold(declaration: Declaration, faults: &mut Faults) -> Declaration {
+    if is_plain(&declaration) {
+        return declaration;
+    }
+    let mut unfolder = Unfolder::new(faults);
+    unfolder.announce(&declaration);
+    unfolder.knows_entries = unfolder.faults.count() == 0;
+    unfolder.write(declaration)
+}
+
+/// Whether nothing is to be done, judged by the tokens that only this stage knows: the way of most declarations.
+fn is_plain(declaration: &Declaration) -> bool {
+    let has_index = |item: &Item| {
+        let mut found = matches!(item, Item::Count(_)) || expressions::section_nesting(item).is_some();
+        expressions::names(item, &mut |name| found |= !matches!(name.index, Index::None));
+        found || expressions::has_fold(item)
+    };
+    declaration.nesting.is_empty() && !declaration.items.iter().any(has_index)
+}
+
+/// The state of both passes.
+struct Unfolder<'f> {
+    faults: &'f mut Faults,
+    /// Counts with their values, where they are declared, and whether something uses them.
+    counts: BTreeMap<String, Count>,
+    /// Loop variables with their values, the innermost last.
+    variables: Vec<(String, i64)>,
+    /// Arguments of the function that is written out: they hide what has their name.
+    hidden: BTreeSet<String>,
+    arrays: Arrays,
+    /// The entries that may still be written out.
+    budget: usize,
+    /// Whether the entries of arrays are known: not after a fault before.
+    knows_entries: bool,
+    /// Whether loop variables may stand for real numbers here.
+    may_use_variables: bool,
+}
+
+struct Count {
+    name: Name,
+    /// None after a fault.
+    value: Option<i64>,
+    is_used: bool,
+}
+
+impl<'f> Unfolder<'f> {
+    fn new(faults: &'f mut Faults) -> Self {
+        Unfolder {
+            faults,
+            counts: BTreeMap::new(),
+            variables: Vec::new(),
+            hidden: BTreeSet::new(),
+            arrays: Arrays::default(),
+            budget: MAX_UNFOLDED,
+            knows_entries: true,
+            may_use_variables: false,
+        }
+    }
+
+    /// Calls a function for every entry of a list, in the order in which loops and conditions yield them.
+    fn each(&mut self, nodes: &[Node], entries: usize, visit: &mut dyn FnMut(&mut Self, usize)) {
+        if nodes.is_empty() {
+            for entry in 0..entries {
+                self.one(entry, visit);
+            }
+        } else {
+            self.nodes(nodes, visit);
+        }
+    }
+
+    fn nodes(&mut self, nodes: &[Node], visit: &mut dyn FnMut(&mut Self, usize)) {
+        for node in nodes {
+            match node {
+                Node::Entry(entry) => self.one(*entry, visit),
+                Node::For(Loop { variable, range, body, .. }) => {
+                    self.check_variable(variable);
+                    self.repeat(variable, range, &mut |this| this.nodes(body, visit));
+                }
+                Node::If(Choice { condition, then, otherwise }) => match self.holds(condition) {
+                    Some(true) => self.nodes(then, visit),
+                    Some(false) => self.nodes(otherwise, visit),
+                    None => {}
+                },
+            }
+        }
+    }
+
+    /// One entry, with the values of loop variables beside the faults that are found in it.
+    fn one(&mut self, entry: usize, visit: &mut dyn FnMut(&mut Self, usize)) {
+        let before = self.faults.count();
+        visit(self, entry);
+        self.note_variables(before);
+    }
+
+    /// Names the loop variables in the faults that were reported since.
+    fn note_variables(&mut self, before: usize) {
+        if self.faults.count() > before && !self.variables.is_empty() {
+            let values: Vec<String> =
+                self.variables.iter().map(|(name, value)| format!("`{name} = {value}`")).collect();
+            self.faults.note_first(before, &values.join(", "));
+        }
+    }
+
+    /// Runs through a range with a loop variable.
+    fn repeat(&mut self, variable: &Name, range: &Range, body: &mut dyn FnMut(&mut Self)) {
+        let Some((start, end)) = self.bounds(range) else { return };
+        for value in start..end {
+            if !self.spend(1, range.span) {
+                return;
+            }
+            self.variables.push((variable.text.clone(), value));
+            body(self);
+            self.variables.pop();
+        }
+    }
+
+    /// Takes entries from the budget; `false` once it is spent.
+    fn spend(&mut self, entries: usize, place: Span) -> bool {
+        match self.budget.checked_sub(entries) {
+            Some(left) => {
+                self.budget = left;
+                true
+            }
+            None => {
+                // Without an entry left nothing else is written out, and nothing else is reported.
+                if self.budget > 0 || entries > 0 {
+                    let text = format!("more than {MAX_UNFOLDED} entries, with all loops written out");
+                    self.faults.report(Fault::new(place, text));
+                }
+                self.budget = 0;
+                false
+            }
+        }
+    }
+
+    fn check_variable(&mut self, variable: &Name) {
+        if names::is_reserved(&variable.text) {
+            let text = format!("`{variable}` is reserved and cannot name a loop variable");
+            self.faults.report(Fault::new(variable.span(), text).help("choose another name"));
+        }
+    }
+}

@@ -1,0 +1,203 @@
+//! The second pass: items without loops.
+
+use super::Unfolder;
+use super::arrays::next;
+use crate::syntax::{
+    Body, BodyField, Constant, Declaration, Definition, Equation, Expression, Fix, Force, FunctionDefinition,
+    Index, Inertia, Item, Name, Particle, Plain, Provide, Quantity, Scene, Section,
+};
+
+impl Unfolder<'_> {
+    /// Writes the items out.
+    pub(super) fn write(mut self, declaration: Declaration) -> Declaration {
+        let Declaration { items, nesting, .. } = &declaration;
+        let mut written = Vec::new();
+        self.each(nesting, items.len(), &mut |this, place| written.extend(this.item(&items[place])));
+        let counts = self.counts.into_values().map(|count| (count.name, count.is_used)).collect();
+        Declaration { items: written, nesting: Vec::new(), counts, ..declaration }
+    }
+
+    fn item(&mut self, item: &Item) -> Option<Item> {
+        self.may_use_variables = matches!(item, Item::Let(_) | Item::Constants(_) | Item::Inputs(_));
+        Some(match item {
+            Item::Count(_) => return None,
+            Item::Constants(section) => {
+                Item::Constants(self.sized_section(section, |constant| &constant.name, Self::constant))
+            }
+            Item::Inputs(section) => {
+                Item::Inputs(self.sized_section(section, |plain| &plain.name, Self::plain))
+            }
+            Item::Coordinates(section) => {
+                Item::Coordinates(self.sized_section(section, |plain| &plain.name, Self::plain))
+            }
+            Item::Let(definition) => Item::Let(self.definition(definition)?),
+            Item::Function(function) => Item::Function(self.function(function)),
+            Item::Parameters(section) => Item::Parameters(self.written(section, Self::definition)),
+            Item::Outputs(section) => Item::Outputs(self.written(section, Self::definition)),
+            Item::Constraints(section) => Item::Constraints(self.written(section, Self::equation)),
+            Item::Holonomic(section) => Item::Holonomic(self.written(section, Self::equation)),
+            Item::KineticEnergy(quantity) => Item::KineticEnergy(self.quantity(quantity)),
+            Item::Gravity(quantity) => Item::Gravity(self.quantity(quantity)),
+            Item::ForceFunction(quantity) => Item::ForceFunction(self.quantity(quantity)),
+            Item::PotentialEnergy(quantity) => Item::PotentialEnergy(self.quantity(quantity)),
+            Item::Particles(section) => Item::Particles(self.written(section, Self::particle)),
+            Item::Bodies(section) => Item::Bodies(self.written(section, Self::body)),
+            Item::Forces(section) => Item::Forces(self.written(section, Self::force)),
+            Item::Provide(section) => {
+                let entries = section.entries.iter().flat_map(|provide| self.provide(provide)).collect();
+                Item::Provide(Section::new(section.docs.clone(), section.keyword, entries))
+            }
+            Item::Scene(scene) => Item::Scene(self.scene(scene)),
+        })
+    }
+
+    fn written<T>(&mut self, section: &Section<T>, entry: fn(&mut Self, &T) -> Option<T>) -> Section<T> {
+        let mut entries = Vec::new();
+        self.each(&section.nesting, section.entries.len(), &mut |this, place| {
+            entries.extend(entry(this, &section.entries[place]));
+        });
+        Section::new(section.docs.clone(), section.keyword, entries)
+    }
+
+    /// A section in which `q[n]` outside of a loop stands for all entries.
+    fn sized_section<T: Clone>(
+        &mut self,
+        section: &Section<T>,
+        name: fn(&T) -> &Name,
+        entry: fn(&mut Self, &T, Name) -> T,
+    ) -> Section<T> {
+        let mut entries = Vec::new();
+        self.each(&section.nesting, section.entries.len(), &mut |this, place| {
+            let one = &section.entries[place];
+            let name = name(one);
+            match &name.index {
+                Index::Written(written) if this.variables.is_empty() => {
+                    let Some(sizes) = this.sizes(name, &written.indices) else { return };
+                    let mut indices = vec![0; sizes.len()];
+                    for _ in 0..sizes.iter().product() {
+                        let Some(name) = this.entry_name(name, &indices) else { return };
+                        entries.push(entry(this, one, name));
+                        next(&mut indices, &sizes);
+                    }
+                }
+                _ => {
+                    let Some(name) = this.declared(name) else { return };
+                    entries.push(entry(this, one, name));
+                }
+            }
+        });
+        Section::new(section.docs.clone(), section.keyword, entries)
+    }
+
+    /// The name of an entry of an array that is declared.
+    fn entry_name(&self, name: &Name, indices: &[usize]) -> Option<Name> {
+        let array = self.arrays.of(&name.text).filter(|array| array.sizes.len() == indices.len())?;
+        Some(Name::at(array.path(name.ident.clone(), indices)))
+    }
+
+    /// A declared name with its index computed; none after a fault.
+    fn declared(&mut self, name: &Name) -> Option<Name> {
+        let Index::Written(written) = &name.index else { return Some(name.clone()) };
+        let indices = self.place(name, &written.indices)?;
+        self.entry_name(name, &indices)
+    }
+
+    fn constant(&mut self, constant: &Constant, name: Name) -> Constant {
+        let default = constant.default.as_ref().map(|default| self.expression(default));
+        Constant { name, default, ..constant.clone() }
+    }
+
+    fn plain(&mut self, plain: &Plain, name: Name) -> Plain {
+        let limits =
+            plain.limits.as_deref().map(|limits| Box::new(limits.each_ref().map(|e| self.expression(e))));
+        Plain { name, limits, ..plain.clone() }
+    }
+
+    fn definition(&mut self, definition: &Definition) -> Option<Definition> {
+        let value = self.expression(&definition.value);
+        Some(Definition { docs: definition.docs.clone(), name: self.declared(&definition.name)?, value })
+    }
+
+    fn function(&mut self, function: &FunctionDefinition) -> FunctionDefinition {
+        self.hidden = function.parameters.iter().map(|parameter| parameter.text.clone()).collect();
+        let value = self.expression(&function.value);
+        self.hidden.clear();
+        FunctionDefinition { value, ..function.clone() }
+    }
+
+    fn equation(&mut self, equation: &Equation) -> Option<Equation> {
+        let (left, right) = (self.expression(&equation.left), self.expression(&equation.right));
+        let name = self.declared(&equation.name)?;
+        Some(Equation { docs: equation.docs.clone(), name, left, equals: equation.equals, right })
+    }
+
+    fn quantity(&mut self, quantity: &Quantity) -> Quantity {
+        Quantity { value: self.expression(&quantity.value), ..quantity.clone() }
+    }
+
+    fn particle(&mut self, particle: &Particle) -> Option<Particle> {
+        let (mass, position) = (self.expression(&particle.mass), self.expression(&particle.position));
+        Some(Particle { docs: particle.docs.clone(), mass, at: particle.at, position })
+    }
+
+    fn force(&mut self, force: &Force) -> Option<Force> {
+        let (value, direction) = (self.expression(&force.force), self.expression(&force.direction));
+        Some(Force { docs: force.docs.clone(), force: value, along: force.along, direction })
+    }
+
+    fn body(&mut self, body: &Body) -> Option<Body> {
+        let mut field = |field: &Option<BodyField<Expression>>| {
+            let field = field.as_ref()?;
+            Some(BodyField { keyword: field.keyword, value: self.expression(&field.value) })
+        };
+        let (mass, center, orientation) = (field(&body.mass), field(&body.center), field(&body.orientation));
+        let inertia = body.inertia.as_ref().map(|inertia| {
+            let value = match &inertia.value {
+                Inertia::Missing => Inertia::Missing,
+                Inertia::Diagonal(entries) => {
+                    Inertia::Diagonal(Box::new(entries.each_ref().map(|e| self.expression(e))))
+                }
+                Inertia::Symmetric(entries) => {
+                    Inertia::Symmetric(Box::new(entries.each_ref().map(|e| self.expression(e))))
+                }
+            };
+            BodyField { keyword: inertia.keyword, value }
+        });
+        Some(Body {
+            docs: body.docs.clone(),
+            name: self.declared(&body.name)?,
+            mass,
+            inertia,
+            center,
+            orientation,
+        })
+    }
+
+    fn scene(&mut self, scene: &Scene) -> Scene {
+        let tracks = scene.tracks.iter().flat_map(|name| self.all(name)).collect();
+        let mut fixes = Vec::new();
+        for fix in &scene.fixes {
+            let value = fix.value.as_ref().map(|value| self.expression(value));
+            fixes.extend(self.all(&fix.name).into_iter().map(|name| Fix { name, value: value.clone() }));
+        }
+        let provides = scene.provides.iter().flat_map(|provide| self.provide(provide)).collect();
+        Scene { tracks, fixes, provides, ..scene.clone() }
+    }
+
+    fn provide(&mut self, provide: &Provide) -> Vec<Provide> {
+        let of: Option<Vec<Name>> =
+            provide.of.as_ref().map(|of| of.iter().flat_map(|name| self.all(name)).collect());
+        self.all(&provide.name).into_iter().map(|name| Provide { name, of: of.clone() }).collect()
+    }
+
+    /// The entries that a name in a scene stands for: one, or all of an array.
+    fn all(&mut self, name: &Name) -> Vec<Name> {
+        if let (Index::None, Some(array)) = (&name.index, self.arrays.of(&name.text)) {
+            return array
+                .indices()
+                .map(|indices| Name::at(array.path(name.ident.clone(), indices)))
+                .collect();
+        }
+        self.used(name).into_iter().collect()
+    }
+}

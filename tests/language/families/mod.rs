@@ -1,0 +1,3 @@
+//! Counts, arrays, loops and sums: the same systems written out by hand and by loop.
+
+mod chains;

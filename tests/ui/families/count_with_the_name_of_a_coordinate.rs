@@ -1,0 +1,20 @@
+//! A count has a name of its own.
+//!
+//! repair: `g = 9.81, n` => `g = 9.81, k`
+//! repair: `force_function = n*q[0]` => `force_function = k*q[0]`
+
+guen::mechanical_system! {
+    pub system Chain {
+        count n = 4;
+        constants   { m[n] > 0, l > 0, c >= 0, g = 9.81, n }
+        coordinates { q[n] }
+        let p[0] = l*vec(sin(q[0]), -cos(q[0]));
+        for i in 1..n { let p[i] = p[i-1] + l*vec(sin(q[i]), -cos(q[i])); }
+        particles { for i in 0..n { m[i] at p[i]; } }
+        forces    { for i in 1..n { -c*(dot(q[i]) - dot(q[i-1])) along dot(q[i]) - dot(q[i-1]); } }
+        force_function = n*q[0];
+        gravity = vec(0, -g);
+    }
+}
+
+fn main() {}
