@@ -39,6 +39,7 @@ extern crate std;
 
 pub mod control;
 mod generated;
+pub mod hybrid;
 mod linear_algebra;
 mod numbers;
 mod report;

@@ -1,0 +1,127 @@
+//! Elements: what can touch, slip, stop and lock, as a table that is known at compile time.
+
+/// The kind of an [`Element`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Kind {
+    /// A contact without friction: open or closed.
+    Smooth,
+    /// A contact with Coulomb friction: open, stick or slip.
+    Rough,
+    /// A constraint on velocities that gives way where its force reaches a limit: stick or slip.
+    Grip,
+    /// A constraint on positions that is locked and released: free or locked.
+    Latch,
+}
+
+/// A contact, a grip or a latch: its name, its kind and its rows.
+///
+/// A *row* is a form `gamma_w = W_w eta + w_w` of the velocities, with a reaction along it. Rows are numbered over all elements.
+///
+/// - A smooth contact has one row, the rate of its gap; a rough one the rate of its gap and one or two components of its slip.
+/// - A grip has one or two components of its slip, and no normal row.
+/// - A latch has one row, the rate of its gap.
+///
+/// ```
+/// use guen_runtime::hybrid::{Element, Kind};
+///
+/// const ELEMENTS: [Element; 3] =
+///     [Element::smooth("stop", 0), Element::rough("tyre", 1, &[2]).with_friction_of_speed(), Element::latch("bolt", 3)];
+/// assert_eq!((ELEMENTS[1].kind, ELEMENTS[1].load), (Kind::Rough, Some(1)));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Element {
+    /// The name in the declaration.
+    pub name: &'static str,
+    /// The kind.
+    pub kind: Kind,
+    /// The row of the gap's rate; none for a grip.
+    pub normal: Option<usize>,
+    /// The rows of the slip's components: none, one or two.
+    pub tangential: &'static [usize],
+    /// The row whose reaction, times the coefficient of friction, limits the tangential reaction: of a rough contact its own
+    /// normal row. The limit is `limit + friction * reaction`; without a load it is `limit` alone.
+    pub load: Option<usize>,
+    /// Whether the coefficient of friction depends on the magnitude of the slip.
+    pub friction_of_speed: bool,
+}
+
+impl Element {
+    const fn new(
+        name: &'static str,
+        kind: Kind,
+        normal: Option<usize>,
+        tangential: &'static [usize],
+        load: Option<usize>,
+    ) -> Self {
+        Self { name, kind, normal, tangential, load, friction_of_speed: false }
+    }
+
+    /// A contact without friction, with the row of its gap's rate.
+    pub const fn smooth(name: &'static str, normal: usize) -> Self {
+        Self::new(name, Kind::Smooth, Some(normal), &[], None)
+    }
+
+    /// A contact with friction: the row of its gap's rate, and one or two rows of its slip.
+    pub const fn rough(name: &'static str, normal: usize, tangential: &'static [usize]) -> Self {
+        Self::new(name, Kind::Rough, Some(normal), tangential, Some(normal))
+    }
+
+    /// A grip, with one or two rows of its slip.
+    pub const fn grip(name: &'static str, tangential: &'static [usize]) -> Self {
+        Self::new(name, Kind::Grip, None, tangential, None)
+    }
+
+    /// A latch, with the row of its gap's rate.
+    pub const fn latch(name: &'static str, normal: usize) -> Self {
+        Self::new(name, Kind::Latch, Some(normal), &[], None)
+    }
+
+    /// A grip whose limit grows with the reaction of a row, the normal row of a smooth contact: `load = reaction(contact)`.
+    #[must_use]
+    pub const fn loaded_by(self, row: usize) -> Self {
+        Self { load: Some(row), ..self }
+    }
+
+    /// An element whose coefficient of friction depends on the magnitude of the slip.
+    #[must_use]
+    pub const fn with_friction_of_speed(self) -> Self {
+        Self { friction_of_speed: true, ..self }
+    }
+}
+
+/// A located function of time and state that belongs to no element.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Signal {
+    /// The name in the declaration.
+    pub name: &'static str,
+    /// What its crossings of zero do.
+    pub effect: Effect,
+}
+
+/// What the crossings of a [`Signal`] do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Effect {
+    /// Either crossing changes the value of a switch: one where the function is positive, zero elsewhere.
+    Switch,
+    /// Where the function rises through zero, [`HybridSystem::reset`](crate::hybrid::HybridSystem::reset) gives a new state.
+    ResetWhenRising,
+    /// Where the function falls through zero, [`HybridSystem::reset`](crate::hybrid::HybridSystem::reset) gives a new state.
+    ResetWhenFalling,
+}
+
+impl Signal {
+    /// A switch.
+    pub const fn switch(name: &'static str) -> Self {
+        Self { name, effect: Effect::Switch }
+    }
+
+    /// A reset where the function rises through zero.
+    pub const fn reset_rising(name: &'static str) -> Self {
+        Self { name, effect: Effect::ResetWhenRising }
+    }
+
+    /// A reset where the function falls through zero.
+    pub const fn reset_falling(name: &'static str) -> Self {
+        Self { name, effect: Effect::ResetWhenFalling }
+    }
+}

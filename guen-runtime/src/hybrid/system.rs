@@ -1,0 +1,161 @@
+//! The interface between a declared system with contacts and the run time: one trait, of straight-line programs and tables.
+
+use crate::hybrid::element::{Element, Signal};
+use crate::hybrid::mode::Mode;
+use crate::numbers::lift::Lift;
+use crate::numbers::real::Real;
+use crate::system::positions_error::PositionsError;
+
+/// The motion without reactions at one time and state, and what reactions do to it: everything that the rates of every mode
+/// are made of.
+///
+/// Rows, their reactions `l` and the mode-free equations `M eta' + b = Q + sum_w W_w^T l_w` give
+///
+/// ```text
+/// eta'   = M^-1 (Q - b) + sum_w (M^-1 W_w^T) l_w
+/// gamma' = biases + D l,      D = W M^-1 W^T
+/// ```
+///
+/// With `N` entries of the state, `W` rows and `C` elements.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FreeMotion<R, const N: usize, const W: usize, const C: usize> {
+    /// The rates of the state with all contacts open, all grips slipping without force, all latches free.
+    pub rates: [R; N],
+    /// The gaps of contacts and latches; zero for a grip.
+    pub gaps: [R; C],
+    /// The rows `gamma_w = W_w eta + w_w`.
+    pub row_rates: [R; W],
+    /// The rates of the rows in the free motion, `zeta + W M^-1 (Q - b)`.
+    pub biases: [R; W],
+    /// The Delassus matrix `D = W M^-1 W^T`, symmetric.
+    pub delassus: [[R; W]; W],
+    /// `responses[w]` is what a unit reaction of the row adds to the rates of the state: zeros for the coordinates, then
+    /// `M^-1 W_w^T`.
+    pub responses: [[R; N]; W],
+    /// The coefficients of friction at the given speeds of slip; zero where there is none.
+    pub friction: [R; C],
+    /// The coefficients that limit sticking: `stiction`, or the friction at speed zero.
+    pub stiction: [R; C],
+    /// The limits of grips that do not come from a load; zero elsewhere.
+    pub limits: [R; C],
+}
+
+/// The conditions of elements at one time and state: see [`HybridSystem::conditions`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Conditions<R, const C: usize> {
+    /// A contact closes, and a latch locks, only where this is positive.
+    pub when: [R; C],
+    /// A latch is released where this rises through zero.
+    pub release: [R; C],
+}
+
+impl<R: Real, const C: usize> Conditions<R, C> {
+    /// No condition: contacts close at all times, and latches are never released.
+    ///
+    /// ```
+    /// use guen_runtime::hybrid::Conditions;
+    /// assert!(Conditions::<f64, 1>::none().when[0] > 0.0);
+    /// ```
+    pub fn none() -> Self {
+        Self { when: [R::one(); C], release: [-R::one(); C] }
+    }
+}
+
+/// A system of `N` equations with contacts, grips and latches: `C` elements with `W` rows, and `S` signals.
+///
+/// A declared system with `contacts` implements it, with its inputs held where it has any. The state holds the coordinates
+/// and then the quasi-velocities of the *mode-free* system: permanent constraints are eliminated, all contacts are open.
+///
+/// Programs are generic in their real, so that derivatives along a mode come from dual numbers and power series; constants are
+/// doubles. The values of switches and the speeds of slip are arguments, because both are constant or of one sign within a mode:
+/// the program has no branch.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no contacts that `Hybrid` could run",
+    note = "a declared system has them by its section `contacts`; with inputs through `driven(..)`"
+)]
+pub trait HybridSystem<const N: usize, const W: usize, const C: usize, const S: usize> {
+    /// Contacts, grips and latches, in the order of their declaration.
+    const ELEMENTS: [Element; C];
+    /// Switches and resets, in the order of their declaration.
+    const SIGNALS: [Signal; S];
+    /// The number of coordinates, which come first in the state.
+    const COORDINATES: usize;
+    /// Whether it is proved that in no mode a slipping contact can have an inconsistent or an undetermined reaction.
+    const PAINLEVE_FREE: bool = false;
+
+    /// The mode with named fields; [`Mode`] itself where there is none.
+    type Mode: Copy + From<Mode<C>>;
+    /// The inputs; `()` where there are none.
+    type Inputs: Copy;
+
+    /// The system with other inputs.
+    #[must_use]
+    fn with_inputs(&self, inputs: Self::Inputs) -> Self
+    where
+        Self: Sized;
+
+    /// The free motion at time `t`.
+    ///
+    /// - `switches`: the values of the signals that are switches, zero or one; of other signals zero.
+    /// - `speeds`: the magnitudes of the slip of the elements, for coefficients of friction that depend on it; zero where an element
+    ///   does not slip.
+    fn free_motion<R: Lift<f64>>(
+        &self,
+        t: R,
+        state: &[R; N],
+        switches: &[R; S],
+        speeds: &[R; C],
+    ) -> FreeMotion<R, N, W, C>;
+
+    /// The rates of the free motion alone.
+    #[inline]
+    fn free_rates<R: Lift<f64>>(&self, t: R, state: &[R; N], switches: &[R; S]) -> [R; N] {
+        self.free_motion(t, state, switches, &[R::zero(); C]).rates
+    }
+
+    /// The rows `gamma_w = W_w eta + w_w` alone.
+    #[inline]
+    fn row_rates<R: Lift<f64>>(&self, t: R, state: &[R; N]) -> [R; W] {
+        self.free_motion(t, state, &[R::zero(); S], &[R::zero(); C]).row_rates
+    }
+
+    /// The parts `w_w` of the rows that do not depend on the velocities. Zero where nothing that touches moves by itself.
+    #[inline]
+    fn row_drifts(&self, _t: f64, _state: &[f64; N]) -> [f64; W] {
+        [0.0; W]
+    }
+
+    /// The restitutions of contacts, between zero and one; zero for other elements.
+    fn restitutions(&self) -> [f64; C];
+
+    /// The conditions `when` and `release`. Without any, [`Conditions::none`].
+    #[inline]
+    fn conditions<R: Lift<f64>>(&self, _t: R, _state: &[R; N], _switches: &[R; S]) -> Conditions<R, C> {
+        Conditions::none()
+    }
+
+    /// The functions of the signals.
+    fn signals<R: Lift<f64>>(&self, t: R, state: &[R; N]) -> [R; S];
+
+    /// The state after a reset by this signal.
+    #[inline]
+    fn reset(&self, _signal: usize, _t: f64, state: &[f64; N]) -> [f64; N] {
+        *state
+    }
+
+    /// Whether the declaration has this mode among its `modes`.
+    #[inline]
+    fn allows(&self, _mode: &Mode<C>) -> bool {
+        true
+    }
+
+    /// Puts coordinates back onto permanent constraints on positions, as [`System::restore`](crate::System::restore) does.
+    ///
+    /// # Errors
+    ///
+    /// Whatever keeps the state from being put back.
+    #[inline]
+    fn restore(&self, _t: f64, _state: &mut [f64; N]) -> Result<(), PositionsError> {
+        Ok(())
+    }
+}
