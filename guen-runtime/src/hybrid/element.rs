@@ -120,6 +120,11 @@ impl Signal {
         Self { name, effect: Effect::ResetWhenRising }
     }
 
+    /// Whether it is a switch.
+    pub const fn is_switch(&self) -> bool {
+        matches!(self.effect, Effect::Switch)
+    }
+
     /// A reset where the function falls through zero.
     pub const fn reset_falling(name: &'static str) -> Self {
         Self { name, effect: Effect::ResetWhenFalling }

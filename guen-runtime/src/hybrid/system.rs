@@ -4,7 +4,6 @@ use crate::hybrid::element::{Element, Signal};
 use crate::hybrid::mode::Mode;
 use crate::numbers::lift::Lift;
 use crate::numbers::real::Real;
-use crate::system::positions_error::PositionsError;
 
 /// The motion without reactions at one time and state, and what reactions do to it: everything that the rates of every mode
 /// are made of.
@@ -147,15 +146,5 @@ pub trait HybridSystem<const N: usize, const W: usize, const C: usize, const S: 
     #[inline]
     fn allows(&self, _mode: &Mode<C>) -> bool {
         true
-    }
-
-    /// Puts coordinates back onto permanent constraints on positions, as [`System::restore`](crate::System::restore) does.
-    ///
-    /// # Errors
-    ///
-    /// Whatever keeps the state from being put back.
-    #[inline]
-    fn restore(&self, _t: f64, _state: &mut [f64; N]) -> Result<(), PositionsError> {
-        Ok(())
     }
 }

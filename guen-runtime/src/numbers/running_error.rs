@@ -2,6 +2,7 @@
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
+use crate::numbers::lift::Lift;
 use crate::numbers::real::Real;
 use crate::numbers::rules::assign_operators;
 
@@ -88,6 +89,14 @@ impl<R: Real> RunningError<R> {
         // An exact argument moves nothing, even where the slope is infinite; an error that is NaN stays that.
         let moved = self.error.where_above(R::zero(), slope.abs() * self.error, self.error);
         Self { value, error: moved + R::from_ratio(own, 1) * value.abs() }
+    }
+}
+
+// A constant is as exact as a parameter of a declared system: rounded once.
+impl<B, R: Lift<B>> Lift<B> for RunningError<R> {
+    #[inline(always)]
+    fn lift(base: B) -> Self {
+        Self::once(R::lift(base))
     }
 }
 

@@ -33,6 +33,7 @@ mod driver;
 pub(crate) mod explicit;
 mod guard;
 mod implicit;
+pub(crate) mod root;
 mod settings;
 mod step_size;
 mod taylor;

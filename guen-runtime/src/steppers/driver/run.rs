@@ -106,6 +106,9 @@ pub trait StepperRun<R: Real, S: ?Sized, const N: usize> {
     /// The motion over one step, as [`dense`](StepperRun::dense) returns it: for most methods a [`Dense`](crate::steppers::Dense).
     type Polynomial: Interpolant<R, N>;
 
+    /// Whether the polynomial is less exact than the step itself: what is located on it is then computed once more by a step.
+    const COARSE_POLYNOMIAL: bool = true;
+
     /// Returns the last accepted time and state, and the work so far.
     fn checkpoint(&self) -> &Checkpoint<R, N>;
 
@@ -117,6 +120,9 @@ pub trait StepperRun<R: Real, S: ?Sized, const N: usize> {
     ///
     /// What made the step impossible; the run stands where it stood.
     fn advance(&mut self, system: &S, target: R, dense: bool) -> Result<(), Cause>;
+
+    /// Sets the size of the step that is tried next, where the method chooses its steps and has not made one yet.
+    fn try_first(&mut self, _step: f64) {}
 
     /// Makes as many accepted steps towards `target` as are given, at least one: fewer if it arrives, and none that is known
     /// to be the last but the first. The same as [`advance`](StepperRun::advance) as often, where nobody looks in between; a

@@ -249,6 +249,12 @@ where
         self.steps(system, target, dense, 1)
     }
 
+    fn try_first(&mut self, step: f64) {
+        if step > 0.0 && step.is_finite() && self.settings.first_step.is_none() {
+            self.settings.first_step = Some(step);
+        }
+    }
+
     fn go_on(&mut self, system: &S, target: R, steps: u32) -> Result<(), Cause> {
         self.steps(system, target, false, steps)
     }

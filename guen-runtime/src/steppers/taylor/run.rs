@@ -358,6 +358,8 @@ where
 
     type Polynomial = Series<R, N>;
 
+    const COARSE_POLYNOMIAL: bool = false;
+
     fn checkpoint(&self) -> &Checkpoint<R, N> {
         &self.reached
     }

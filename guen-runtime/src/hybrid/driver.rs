@@ -1,0 +1,564 @@
+//! The driver of a run through modes: steps within a mode, the location of its end, the transition, and so on.
+
+use core::ops::ControlFlow;
+
+use crate::hybrid::error::{HybridCause, HybridError};
+use crate::hybrid::in_mode::InMode;
+use crate::hybrid::located::{Found, Step};
+use crate::hybrid::mode::Mode;
+use crate::hybrid::resting::Resting;
+use crate::hybrid::system::HybridSystem;
+use crate::hybrid::transition::{Transition, TransitionKind};
+use crate::hybrid::turn::{Fired, Place};
+use crate::hybrid::watched::{Function, Sides};
+use crate::steppers::{Cause, Checkpoint, Interpolant, Method, Setting, Statistics, StepperRun};
+
+/// Is shown each sample: its position, time, state and mode.
+type Visitor<'a, M, const N: usize> = &'a mut dyn FnMut(usize, f64, &[f64; N], &M);
+/// Is told of each transition; ends the run when it breaks.
+type Receiver<'a, M, const N: usize, const W: usize, const C: usize> =
+    &'a mut dyn FnMut(&Transition<M, N, W, C>) -> ControlFlow<()>;
+
+/// A run of a system with contacts through its modes, from one time and state.
+pub struct Hybrid<'a, H, const N: usize, const W: usize, const C: usize, const S: usize>
+where
+    H: HybridSystem<N, W, C, S>,
+{
+    system: &'a H,
+    t: f64,
+    state: [f64; N],
+    samples: &'a [f64],
+    visitor: Option<Visitor<'a, H::Mode, N>>,
+    inputs: &'a [(f64, H::Inputs)],
+    receiver: Option<Receiver<'a, H::Mode, N, W, C>>,
+    resting_accuracy: f64,
+    max_transitions: u64,
+}
+
+/// The end of a run through modes that did not fail.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HybridResult<M, const N: usize> {
+    /// The time reached.
+    pub t: f64,
+    /// The state at that time.
+    pub state: [f64; N],
+    /// The mode at that time.
+    pub mode: M,
+    /// Whether the receiver of transitions ended the run.
+    pub stopped: bool,
+    /// The number of transitions.
+    pub transitions: u64,
+    /// The work done.
+    pub work: Statistics,
+}
+
+impl<'a, H, const N: usize, const W: usize, const C: usize, const S: usize> Hybrid<'a, H, N, W, C, S>
+where
+    H: HybridSystem<N, W, C, S> + Clone,
+{
+    /// The number of transitions allowed unless another one is set.
+    pub const MAX_TRANSITIONS: u64 = 10_000_000;
+
+    /// A run of the system from a time and state. The mode at the start is found: contacts whose gap is zero touch.
+    pub fn new(system: &'a H, t: f64, state: &[f64; N]) -> Self {
+        Self {
+            system,
+            t,
+            state: *state,
+            samples: &[],
+            visitor: None,
+            inputs: &[],
+            receiver: None,
+            resting_accuracy: 1e-12,
+            max_transitions: Self::MAX_TRANSITIONS,
+        }
+    }
+
+    /// Shows the state and the mode at these times, in order, to a visitor; at the time of a transition those after it.
+    #[must_use]
+    pub fn sample(self, times: &'a [f64], visitor: Visitor<'a, H::Mode, N>) -> Self {
+        Self { samples: times, visitor: Some(visitor), ..self }
+    }
+
+    /// Changes the inputs at these times, in order. No step goes across one of them.
+    #[must_use]
+    pub fn inputs(self, inputs: &'a [(f64, H::Inputs)]) -> Self {
+        Self { inputs, ..self }
+    }
+
+    /// Tells a receiver of every transition; when it breaks, the run ends there.
+    #[must_use]
+    pub fn transitions(self, receiver: Receiver<'a, H::Mode, N, W, C>) -> Self {
+        Self { receiver: Some(receiver), ..self }
+    }
+
+    /// Sets the error, as a time, with which the end of infinitely many impacts may be found: `1e-12` unless it is set.
+    #[must_use]
+    pub fn resting_accuracy(self, time: f64) -> Self {
+        Self { resting_accuracy: time, ..self }
+    }
+
+    /// Limits the number of transitions.
+    #[must_use]
+    pub fn max_transitions(self, limit: u64) -> Self {
+        Self { max_transitions: limit, ..self }
+    }
+
+    /// Runs to a time, which is not before the start.
+    ///
+    /// # Errors
+    ///
+    /// What kept the run from going on, with the last time, state and mode that were in order.
+    pub fn run<M>(self, method: &M, end: f64) -> Result<HybridResult<H::Mode, N>, HybridError<N, C>>
+    where
+        M: Method<f64, InMode<H, N, W, C, S>, N>,
+    {
+        let mode = Mode::free(&H::ELEMENTS);
+        let fail = |cause| HybridError {
+            t: self.t,
+            mode,
+            state: self.state,
+            cause: HybridCause::Integration(cause),
+            work: Statistics::default(),
+        };
+        if !self.t.is_finite() || !end.is_finite() {
+            return Err(fail(Cause::Setting(Setting::Time)));
+        }
+        if end < self.t {
+            return Err(fail(Cause::Setting(Setting::Backwards)));
+        }
+        let inputs = self.inputs.iter().map(|(time, _)| *time);
+        if !in_order(self.t, self.samples.iter().copied()) || !in_order(self.t, inputs) {
+            return Err(fail(Cause::Setting(Setting::Samples)));
+        }
+        if !self.state.iter().all(|entry| entry.is_finite()) {
+            return Err(fail(Cause::NotFinite));
+        }
+        let in_mode = InMode::new(self.system.clone(), mode, self.t, &self.state);
+        let signals = in_mode.switches.map(|value| if value > 0.0 { 1.0 } else { -1.0 });
+        let sides = Sides { latches: [1.0; C], signals, slow: [0.0; C] };
+        let place = Place { t: self.t, state: self.state, in_mode, sides, begins: true };
+        let resting = Resting::new(self.resting_accuracy);
+        let run = Run {
+            place,
+            resting,
+            hybrid: self,
+            visited: 0,
+            switched: 0,
+            transitions: 0,
+            work: Statistics::default(),
+            step: None,
+            pair: Pair { modes: [mode; 2], count: 0, since: 0.0 },
+        };
+        run.to(method, end)
+    }
+}
+
+/// Whether times follow each other from a first one on.
+fn in_order(first: f64, mut times: impl Iterator<Item = f64>) -> bool {
+    times.try_fold(first, |last, time| (time >= last && time.is_finite()).then_some(time)).is_some()
+}
+
+/// Transitions between the same two modes, one after the other.
+#[derive(Clone, Copy)]
+struct Pair<const C: usize> {
+    modes: [Mode<C>; 2],
+    count: u32,
+    since: f64,
+}
+
+struct Run<'a, H, const N: usize, const W: usize, const C: usize, const S: usize>
+where
+    H: HybridSystem<N, W, C, S>,
+{
+    hybrid: Hybrid<'a, H, N, W, C, S>,
+    place: Place<H, N, W, C, S>,
+    resting: Resting<C>,
+    visited: usize,
+    switched: usize,
+    transitions: u64,
+    work: Statistics,
+    /// The size of the last step.
+    step: Option<f64>,
+    pair: Pair<C>,
+}
+
+/// How a part of a run ended.
+enum Part<const C: usize, const S: usize> {
+    Arrived,
+    Fired(Fired<C, S>),
+}
+
+impl<H, const N: usize, const W: usize, const C: usize, const S: usize> Run<'_, H, N, W, C, S>
+where
+    H: HybridSystem<N, W, C, S> + Clone,
+{
+    fn to<M>(mut self, method: &M, end: f64) -> Result<HybridResult<H::Mode, N>, HybridError<N, C>>
+    where
+        M: Method<f64, InMode<H, N, W, C, S>, N>,
+    {
+        let mut due = Some(Fired::default());
+        loop {
+            while let Some(&(time, inputs)) = self.hybrid.inputs.get(self.switched)
+                && time <= self.place.t
+            {
+                self.place.in_mode.system = self.place.in_mode.system.with_inputs(inputs);
+                self.switched += 1;
+                due.get_or_insert_with(Fired::default);
+            }
+            if let Some(fired) = due
+                && self.turn(&fired, end)?
+            {
+                return Ok(self.result(true));
+            }
+            self.visit_until(self.place.t, true);
+            if self.place.t >= end {
+                return Ok(self.result(false));
+            }
+            let next = self.hybrid.inputs.get(self.switched).map_or(end, |(time, _)| time.min(end));
+            due = match self.part(method, next).map_err(|cause| self.failed(cause))? {
+                Part::Arrived => None,
+                Part::Fired(fired) => Some(fired),
+            };
+        }
+    }
+
+    fn result(&self, stopped: bool) -> HybridResult<H::Mode, N> {
+        let Place { t, state, in_mode, .. } = &self.place;
+        let (transitions, work) = (self.transitions, self.work);
+        HybridResult { t: *t, state: *state, mode: in_mode.mode.into(), stopped, transitions, work }
+    }
+
+    fn failed(&self, cause: HybridCause<C>) -> HybridError<N, C> {
+        let Place { t, state, in_mode, .. } = &self.place;
+        let cause = match cause {
+            // Steps become too small where a reaction grows beyond all bounds.
+            HybridCause::Integration(Cause::StepUnderflow | Cause::NotFinite) if self.place.jams() => {
+                self.place.painleve()
+            }
+            cause => cause,
+        };
+        HybridError { t: *t, mode: in_mode.mode, state: *state, cause, work: self.work }
+    }
+
+    /// Goes over to the next mode, and tells of it. Says whether the receiver ends the run.
+    fn turn(&mut self, fired: &Fired<C, S>, end: f64) -> Result<bool, HybridError<N, C>> {
+        let begins = self.place.begins;
+        let mut resting = self.resting;
+        let (next, transition) = self.place.turn(fired, &mut resting).map_err(|cause| self.failed(cause))?;
+        self.resting = resting;
+        let changes = transition.before != transition.after || transition.impulses != [0.0; W];
+        let happened = fired_any(fired) || !begins && changes;
+        if begins && transition.impulses == [0.0; W] {
+            self.place = next;
+            return Ok(false);
+        }
+        if !matches!(
+            transition.kind,
+            TransitionKind::Impact | TransitionKind::Rest { .. } | TransitionKind::Touch
+        ) {
+            // Contacts that take turns open and close on the way.
+            if !matches!(
+                transition.kind,
+                TransitionKind::Lifted | TransitionKind::Slips | TransitionKind::Sticks
+            ) {
+                self.resting.interrupt();
+            }
+        }
+        self.place = next;
+        if !happened && !changes {
+            return Ok(false);
+        }
+        self.transitions += 1;
+        if self.transitions > self.hybrid.max_transitions {
+            let limit = self.hybrid.max_transitions;
+            return Err(self.failed(HybridCause::TooManyTransitions { limit }));
+        }
+        self.chatters(&transition, end).map_err(|cause| self.failed(cause))?;
+        Ok(self.tell(&transition))
+    }
+
+    fn tell(&mut self, transition: &Transition<Mode<C>, N, W, C>) -> bool {
+        let Some(receiver) = &mut self.hybrid.receiver else { return false };
+        let Transition {
+            t,
+            kind,
+            elements,
+            signal,
+            before,
+            after,
+            state_before,
+            state_after,
+            impulses,
+            energy,
+        } = *transition;
+        let (before, after) = (before.into(), after.into());
+        let told = Transition {
+            t,
+            kind,
+            elements,
+            signal,
+            before,
+            after,
+            state_before,
+            state_after,
+            impulses,
+            energy,
+        };
+        receiver(&told).is_break()
+    }
+
+    /// Refuses transitions between the same two modes that hardly move time.
+    fn chatters(
+        &mut self,
+        transition: &Transition<Mode<C>, N, W, C>,
+        end: f64,
+    ) -> Result<(), HybridCause<C>> {
+        /// Transitions, and the part of the span of the run within which they are too many.
+        const TRANSITIONS: u32 = 50;
+        const SPAN: f64 = 1e-9;
+
+        let (a, b) = (transition.before, transition.after);
+        let same = self.pair.modes == [a, b] || self.pair.modes == [b, a];
+        let within = SPAN * (end - self.hybrid.t);
+        if !same || transition.t - self.pair.since > within {
+            self.pair = Pair { modes: [a, b], count: 0, since: transition.t };
+        }
+        self.pair.count += 1;
+        if self.pair.count > TRANSITIONS {
+            let span = transition.t - self.pair.since;
+            return Err(HybridCause::Chattering { count: self.pair.count, span });
+        }
+        Ok(())
+    }
+
+    /// Shows the samples before a time, or up to it, which are those of the present place.
+    fn visit_until(&mut self, time: f64, including: bool) {
+        while let Some(&sample) = self.hybrid.samples.get(self.visited)
+            && (sample < time || including && sample == time)
+        {
+            let state = self.place.state;
+            self.show(sample, &state);
+        }
+    }
+
+    fn show(&mut self, time: f64, state: &[f64; N]) {
+        let mode = self.place.in_mode.mode.into();
+        if let Some(visitor) = &mut self.hybrid.visitor {
+            visitor(self.visited, time, state, &mode);
+        }
+        self.visited += 1;
+    }
+
+    /// Goes on in the present mode until it ends, or to a time.
+    fn part<M>(&mut self, method: &M, target: f64) -> Result<Part<C, S>, HybridCause<C>>
+    where
+        M: Method<f64, InMode<H, N, W, C, S>, N>,
+    {
+        let in_mode = self.place.in_mode.clone();
+        let mut checkpoint = Checkpoint::new(self.place.t, &self.place.state);
+        checkpoint.statistics = self.work;
+        let mut run = method.start(&checkpoint);
+        if let Some(step) = self.step {
+            run.try_first(step);
+        }
+        let mut first = true;
+        loop {
+            let before = *run.checkpoint();
+            if before.time == target {
+                return Ok(Part::Arrived);
+            }
+            let made = run.advance(&in_mode, target, true);
+            self.work = run.checkpoint().statistics;
+            made.map_err(HybridCause::Integration)?;
+            let polynomial = run.dense(&in_mode);
+            let after = *run.checkpoint();
+            self.work = after.statistics;
+            let at = |t: f64| {
+                if t == after.time {
+                    after.state
+                } else if t == before.time {
+                    before.state
+                } else {
+                    polynomial.at(t)
+                }
+            };
+            let mut from = before.time;
+            loop {
+                let sides = self.place.sides;
+                let mut state_at = at;
+                let mut step = Step {
+                    in_mode: &in_mode,
+                    sides: &sides,
+                    start: before.time,
+                    end: after.time,
+                    first,
+                    at: &mut state_at,
+                };
+                let Some(found) = step.first_after(from) else { break };
+                let polished = M::Run::COARSE_POLYNOMIAL;
+                let (t, state) = self.located(method, &in_mode, &before, found, at(found.t), polished);
+                self.samples_before(&in_mode, t, &at);
+                if found.touches {
+                    self.touched(found, t, &state);
+                    from = found.t;
+                    continue;
+                }
+                self.step = Some(after.time - before.time);
+                (self.place.t, self.place.state) = (t, state);
+                let bracket = (t - found.t).abs() + 4.0 * f64::EPSILON * t.abs();
+                return Ok(Part::Fired(self.fired(found, bracket)));
+            }
+            first = false;
+            self.samples_before(&in_mode, after.time, &at);
+            (self.place.t, self.place.state) = (after.time, after.state);
+            self.slow_down(&after.state);
+        }
+    }
+
+    /// Shows the samples of the last step before a time.
+    fn samples_before(&mut self, in_mode: &InMode<H, N, W, C, S>, time: f64, at: &dyn Fn(f64) -> [f64; N]) {
+        while let Some(&sample) = self.hybrid.samples.get(self.visited)
+            && sample < time
+        {
+            let state = in_mode.restored(sample, &at(sample));
+            self.show(sample, &state);
+        }
+    }
+
+    /// The time and state of what was found on the polynomial, computed once more by the method itself where the polynomial is less
+    /// exact; where spatial slip ends, at its end.
+    fn located<M>(
+        &mut self,
+        method: &M,
+        in_mode: &InMode<H, N, W, C, S>,
+        before: &Checkpoint<f64, N>,
+        found: Found,
+        state: [f64; N],
+        polished: bool,
+    ) -> (f64, [f64; N])
+    where
+        M: Method<f64, InMode<H, N, W, C, S>, N>,
+    {
+        /// Steps of Newton's method.
+        const CORRECTIONS: u32 = 4;
+
+        let (mut t, mut here) = (found.t, state);
+        if polished && t > before.time {
+            for _ in 0..CORRECTIONS {
+                let Some(exact) = self.by_method(method, in_mode, before, t) else { break };
+                here = exact;
+                if found.touches {
+                    break;
+                }
+                let watched = in_mode.watched_along(&self.place.sides, t, &here);
+                let Some(value) = watched.get(found.function) else { break };
+                let change = -value.value / value.tangent[0];
+                // Not where the function hardly moves.
+                if !(change.abs() <= 1e-3 * (t - before.time)) || change.abs() <= f64::EPSILON * t.abs() {
+                    break;
+                }
+                t += change;
+            }
+        }
+        match found.function {
+            Function::Slip(c) if H::ELEMENTS[c].tangential.len() == 2 => in_mode.stopped(c, t, &here),
+            _ => (t, here),
+        }
+    }
+
+    /// The state at a time by steps of the method from the beginning of a step.
+    fn by_method<M>(
+        &mut self,
+        method: &M,
+        in_mode: &InMode<H, N, W, C, S>,
+        before: &Checkpoint<f64, N>,
+        t: f64,
+    ) -> Option<[f64; N]>
+    where
+        M: Method<f64, InMode<H, N, W, C, S>, N>,
+    {
+        let mut start = *before;
+        start.statistics = Statistics::default();
+        let mut run = method.start(&start);
+        run.try_first(t - before.time);
+        while run.checkpoint().time != t {
+            let made = run.advance(in_mode, t, false);
+            if made.is_err() {
+                break;
+            }
+        }
+        let Checkpoint { time, state, statistics, .. } = *run.checkpoint();
+        self.work += statistics;
+        (time == t).then_some(state)
+    }
+
+    /// All functions that reach zero where one was found.
+    fn fired(&self, found: Found, bracket: f64) -> Fired<C, S> {
+        let Place { t, state, in_mode, sides, .. } = &self.place;
+        let watched = in_mode.watched_along(sides, *t, state);
+        let mut fired = Fired::default();
+        fired.add(found.function);
+        for function in Function::all(C, S).filter(|function| *function != found.function) {
+            let Some(value) = watched.get(function) else { continue };
+            if let Function::Gap(c) = function
+                && !in_mode.mode.0[c].is_closed()
+                && !(in_mode.system.conditions(*t, state, &in_mode.switches).when[c] > 0.0)
+            {
+                continue;
+            }
+            if self.place.fires_too(function, value.value, value.tangent[0], bracket) {
+                fired.add(function);
+            }
+        }
+        fired
+    }
+
+    /// Tells of a gap that touches zero.
+    fn touched(&mut self, found: Found, t: f64, state: &[f64; N]) {
+        let mode = self.place.in_mode.mode;
+        let mut elements = [false; C];
+        if let Some(c) = found.function.element() {
+            elements[c] = true;
+        }
+        let transition = Transition {
+            t,
+            kind: TransitionKind::Touch,
+            elements,
+            signal: None,
+            before: mode,
+            after: mode,
+            state_before: *state,
+            state_after: *state,
+            impulses: [0.0; W],
+            energy: 0.0,
+        };
+        self.transitions += 1;
+        self.tell(&transition);
+    }
+
+    /// Updates the speeds of spatial slip that count as slow.
+    fn slow_down(&mut self, state: &[f64; N]) {
+        /// The part of the largest slip of a mode at which it is taken to its end.
+        const SLOW: f64 = 1e-5;
+
+        if !H::ELEMENTS.iter().any(|element| element.tangential.len() == 2) {
+            return;
+        }
+        let rates = self.place.in_mode.system.row_rates(self.place.t, state);
+        for (c, element) in H::ELEMENTS.iter().enumerate() {
+            if let &[first, second] = element.tangential
+                && self.place.in_mode.mode.0[c].slips()
+            {
+                let slip = libm::hypot(rates[first], rates[second]);
+                self.place.sides.slow[c] = f64::max(self.place.sides.slow[c], SLOW * slip);
+            }
+        }
+    }
+}
+
+fn fired_any<const C: usize, const S: usize>(fired: &Fired<C, S>) -> bool {
+    let elements =
+        (0..C).any(|c| fired.gap[c] || fired.normal[c] || fired.cone[c] != [false; 2] || fired.slip[c]);
+    elements || fired.signals.contains(&true) || fired.regularity
+}

@@ -1,0 +1,317 @@
+//! Impacts by Poisson's law: compression and expansion, each one complementarity problem over the Delassus matrix.
+
+use crate::hybrid::element::{Element, Kind};
+use crate::hybrid::phase::{Participant, Phase, Tangential};
+
+/// The impact of some elements at one state.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Impact<'a, const W: usize, const C: usize> {
+    pub(super) elements: &'a [Element; C],
+    pub(super) delassus: &'a [[f64; W]; W],
+    /// The rates of all rows before it.
+    pub(super) before: [f64; W],
+    /// Who takes part: contacts that touch, latches that lock or are locked, grips.
+    pub(super) takes_part: [bool; C],
+    pub(super) friction: [f64; C],
+    pub(super) restitutions: [f64; C],
+}
+
+/// What an impact leads to.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Struck<const W: usize, const C: usize> {
+    /// The impulses along all rows.
+    pub(super) impulses: [f64; W],
+    /// The rates of all rows after it.
+    pub(super) after: [f64; W],
+    /// Whether the normal rate vanishes after it, and the slip.
+    pub(super) closed: [bool; C],
+    pub(super) sticks: [bool; C],
+    /// The change of the kinetic energy, as seen from what moves by itself: half the sum of impulses times rates before and after.
+    pub(super) energy: f64,
+}
+
+/// Why there is no impact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Unsolved {
+    /// No impulses satisfy the law, or this implementation does not find them.
+    None,
+    /// Impulses with different rates satisfy it.
+    Several,
+    /// The energy grows.
+    EnergyGain(f64),
+}
+
+/// The gain of energy, relative to what the impulses do, that is rounding.
+const GAIN: f64 = 1e-9;
+
+impl<const W: usize, const C: usize> Impact<'_, W, C> {
+    /// The largest rate before it.
+    fn scale(&self) -> f64 {
+        self.before.iter().fold(0.0, |most, rate| most.max(rate.abs()))
+    }
+
+    /// The impulses of compression and expansion.
+    pub(super) fn solve(&self) -> Result<Struck<W, C>, Unsolved> {
+        let participants: [Participant; C] = core::array::from_fn(|c| {
+            let element = &self.elements[c];
+            if !self.takes_part[c] {
+                return Participant::Absent;
+            }
+            match element.kind {
+                Kind::Latch => Participant::Locked,
+                Kind::Grip => Participant::Grip,
+                Kind::Smooth | Kind::Rough => Participant::Contact { floor: 0.0 },
+            }
+        });
+        let phase = |participants, before| Phase {
+            elements: self.elements,
+            delassus: self.delassus,
+            before,
+            scale: self.scale(),
+            participants,
+            friction: self.friction,
+        };
+        let compression = phase(participants, self.before).solve()?;
+        let mut expanding = participants;
+        for (c, participant) in expanding.iter_mut().enumerate() {
+            if let (Participant::Contact { floor }, Some(row)) = (participant, self.elements[c].normal) {
+                *floor = self.restitutions[c] * compression.impulses[row].max(0.0);
+            }
+        }
+        let expansion = phase(expanding, compression.after).solve()?;
+        let impulses: [f64; W] = core::array::from_fn(|w| compression.impulses[w] + expansion.impulses[w]);
+        let struck = self.summed(impulses, &expansion.closed, &expansion.tangential);
+        let work: f64 = impulses.iter().zip(&self.before).map(|(l, rate)| (l * rate).abs()).sum();
+        if struck.energy > GAIN * work {
+            return Err(Unsolved::EnergyGain(struck.energy));
+        }
+        Ok(struck)
+    }
+
+    /// The impact that closes all contacts taking part and keeps the friction of an impact before: sticking stays sticking, slip
+    /// stays slip.
+    pub(super) fn closing(&self, like: &Struck<W, C>) -> Option<Struck<W, C>> {
+        let tangential: [Tangential; C] = core::array::from_fn(|c| {
+            if like.sticks[c] {
+                Tangential::Stick
+            } else {
+                Tangential::along(self.elements[c].tangential, &like.after)
+            }
+        });
+        let participants: [Participant; C] = core::array::from_fn(|c| match self.elements[c].kind {
+            _ if !self.takes_part[c] => Participant::Absent,
+            Kind::Latch => Participant::Locked,
+            Kind::Grip => Participant::Grip,
+            _ => Participant::Contact { floor: 0.0 },
+        });
+        let phase = Phase {
+            elements: self.elements,
+            delassus: self.delassus,
+            before: self.before,
+            scale: self.scale(),
+            participants,
+            friction: self.friction,
+        };
+        let closed: [bool; C] =
+            core::array::from_fn(|c| self.takes_part[c] && self.elements[c].normal.is_some());
+        let solved = phase.with_states(&closed, &tangential)?;
+        Some(self.summed(solved.impulses, &closed, &tangential))
+    }
+
+    fn summed(&self, impulses: [f64; W], closed: &[bool; C], tangential: &[Tangential; C]) -> Struck<W, C> {
+        let after: [f64; W] = core::array::from_fn(|w| {
+            self.before[w] + impulses.iter().zip(&self.delassus[w]).map(|(l, d)| l * d).sum::<f64>()
+        });
+        let energy = impulses.iter().zip(&self.before).zip(&after).map(|((l, a), b)| 0.5 * l * (a + b)).sum();
+        let sticks = core::array::from_fn(|c| self.takes_part[c] && tangential[c] == Tangential::Stick);
+        Struck { impulses, after, closed: *closed, sticks, energy }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Impact, Struck, Unsolved};
+    use crate::hybrid::element::{Element, Kind};
+
+    /// Numbers between minus one and one, from a seed.
+    struct Random(u64);
+
+    impl Random {
+        fn next(&mut self) -> f64 {
+            self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            ((self.0 >> 11) as f64 / (1_u64 << 52) as f64) - 1.0
+        }
+
+        /// A symmetric positive definite matrix: rows times their transposes, in `rank` dimensions.
+        fn delassus<const W: usize>(&mut self, rank: usize) -> [[f64; W]; W] {
+            let rows: [[f64; 12]; W] =
+                core::array::from_fn(|_| core::array::from_fn(|k| if k < rank { self.next() } else { 0.0 }));
+            core::array::from_fn(|i| {
+                core::array::from_fn(|j| rows[i].iter().zip(&rows[j]).map(|(a, b)| a * b).sum())
+            })
+        }
+    }
+
+    /// Solves `0 <= q + D x` complementary to `x >= 0` by projected successive relaxation, which shares nothing with the enumeration.
+    fn relaxed<const W: usize>(d: &[[f64; W]; W], q: &[f64; W]) -> [f64; W] {
+        let mut x = [0.0_f64; W];
+        for _ in 0..20_000 {
+            for i in 0..W {
+                let rate: f64 = q[i] + (0..W).map(|j| d[i][j] * x[j]).sum::<f64>();
+                x[i] = f64::max(0.0, x[i] - rate / d[i][i]);
+            }
+        }
+        x
+    }
+
+    fn product<const W: usize>(d: &[[f64; W]; W], x: &[f64; W]) -> [f64; W] {
+        core::array::from_fn(|i| (0..W).map(|j| d[i][j] * x[j]).sum())
+    }
+
+    #[test]
+    fn smooth_impacts_are_those_of_another_method() {
+        const ELEMENTS: [Element; 3] =
+            [Element::smooth("a", 0), Element::smooth("b", 1), Element::smooth("c", 2)];
+        let mut random = Random(7);
+        for _ in 0..40 {
+            let delassus = random.delassus::<3>(6);
+            let before: [f64; 3] = core::array::from_fn(|_| random.next());
+            let restitutions: [f64; 3] = core::array::from_fn(|_| random.next().abs());
+            let impact = Impact {
+                elements: &ELEMENTS,
+                delassus: &delassus,
+                before,
+                takes_part: [true; 3],
+                friction: [0.0; 3],
+                restitutions,
+            };
+            let Struck { impulses, after, energy, .. } = impact.solve().unwrap();
+            let compression = relaxed(&delassus, &before);
+            let change = product(&delassus, &compression);
+            // Expansion, in the variables beyond their lower bounds.
+            let floor: [f64; 3] = core::array::from_fn(|i| restitutions[i] * compression[i]);
+            let pushed = product(&delassus, &floor);
+            let beyond = relaxed(&delassus, &core::array::from_fn(|i| before[i] + change[i] + pushed[i]));
+            for i in 0..3 {
+                let expected = compression[i] + floor[i] + beyond[i];
+                assert!(
+                    (impulses[i] - expected).abs() < 1e-9 * (1.0 + expected),
+                    "{impulses:?} {i} {expected}"
+                );
+                assert!(after[i] >= -1e-12 && impulses[i] >= -1e-12);
+            }
+            assert!(energy <= 1e-14);
+        }
+    }
+
+    /// The residual of Coulomb's law and of the complementarity of one phase, written down once more.
+    fn residual(floor: f64, mu: f64, (rate, slip): (f64, f64), (normal, along): (f64, f64)) -> f64 {
+        let complementary = f64::min(rate, normal - floor).abs();
+        let outside = f64::max(0.0, along.abs() - mu * normal);
+        // Where there is slip, the impulse is at the cone's edge, against it.
+        let against = slip.abs().min((along + mu * normal * slip.signum()).abs());
+        complementary.max(outside).max(against)
+    }
+
+    #[test]
+    fn rough_impacts_satisfy_their_laws_and_gain_no_energy() {
+        const ELEMENTS: [Element; 2] = [Element::rough("a", 0, &[1]), Element::rough("b", 2, &[3])];
+        let mut random = Random(11);
+        let (mut solved, mut several, mut gained) = (0, 0, 0);
+        for _ in 0..400 {
+            let delassus = random.delassus::<4>(8);
+            let mut before: [f64; 4] = core::array::from_fn(|_| random.next());
+            before[0] = -before[0].abs();
+            let friction: [f64; 2] = core::array::from_fn(|_| random.next().abs());
+            // Without expansion the whole impact is one phase.
+            let mut impact = Impact {
+                elements: &ELEMENTS,
+                delassus: &delassus,
+                before,
+                takes_part: [true; 2],
+                friction,
+                restitutions: [0.0; 2],
+            };
+            match impact.solve() {
+                Ok(Struck { impulses, after, .. }) => {
+                    solved += 1;
+                    for c in 0..2 {
+                        let (n, t) = (2 * c, 2 * c + 1);
+                        let worst =
+                            residual(0.0, friction[c], (after[n], after[t]), (impulses[n], impulses[t]));
+                        assert!(worst < 1e-9 * (1.0 + impulses[n]), "{worst:e}");
+                    }
+                    let change = product(&delassus, &impulses);
+                    for w in 0..4 {
+                        assert!(
+                            (after[w] - before[w] - change[w]).abs()
+                                < 1e-9 * (1.0 + impulses[0] + impulses[2])
+                        );
+                    }
+                }
+                Err(Unsolved::Several) => several += 1,
+                Err(why) => panic!("{why:?}"),
+            }
+            // One contact alone never gains.
+            impact.takes_part = [true, false];
+            impact.restitutions = [random.next().abs(); 2];
+            match impact.solve() {
+                Ok(struck) => assert!(struck.energy <= 1e-12),
+                Err(Unsolved::EnergyGain(_)) => gained += 1,
+                Err(why) => panic!("{why:?}"),
+            }
+        }
+        assert!(solved > 380, "{solved} solved, {several} with several solutions");
+        assert_eq!(gained, 0);
+    }
+
+    #[test]
+    fn spatial_impacts_slip_against_their_friction() {
+        const ELEMENTS: [Element; 1] = [Element::rough("a", 0, &[1, 2])];
+        let mut random = Random(3);
+        let mut slipped = 0;
+        for _ in 0..200 {
+            let delassus = random.delassus::<3>(7);
+            let mut before: [f64; 3] = core::array::from_fn(|_| random.next());
+            before[0] = -before[0].abs();
+            let mu = random.next().abs();
+            let impact = Impact {
+                elements: &ELEMENTS,
+                delassus: &delassus,
+                before,
+                takes_part: [true],
+                friction: [mu],
+                restitutions: [0.0],
+            };
+            let Struck { impulses, after, energy, .. } = impact.solve().unwrap();
+            let (along, slip) = (libm::hypot(impulses[1], impulses[2]), libm::hypot(after[1], after[2]));
+            assert!(after[0].abs() < 1e-10 && along <= mu * impulses[0] * (1.0 + 1e-9) && energy < 1e-12);
+            if slip > 1e-6 {
+                slipped += 1;
+                for k in 1..3 {
+                    assert!((impulses[k] * slip + mu * impulses[0] * after[k]).abs() < 1e-9 * impulses[0]);
+                }
+            }
+        }
+        assert!(slipped > 50, "{slipped}");
+    }
+
+    #[test]
+    fn a_latch_that_locks_stops_what_it_holds() {
+        const ELEMENTS: [Element; 2] = [Element::latch("bolt", 0), Element::smooth("stop", 1)];
+        assert_eq!(ELEMENTS[0].kind, Kind::Latch);
+        let delassus = [[2.0, 1.0], [1.0, 3.0]];
+        let impact = Impact {
+            elements: &ELEMENTS,
+            delassus: &delassus,
+            before: [-1.0, 0.0],
+            takes_part: [true, true],
+            friction: [0.0; 2],
+            restitutions: [0.0; 2],
+        };
+        let Struck { impulses, after, .. } = impact.solve().unwrap();
+        // The bolt alone would open the stop: its impulse is a half.
+        assert!(after[0].abs() < 1e-15 && (impulses[0] - 0.5).abs() < 1e-15 && impulses[1] == 0.0);
+        assert!((after[1] - 0.5).abs() < 1e-15);
+    }
+}

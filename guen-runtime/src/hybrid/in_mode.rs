@@ -1,0 +1,397 @@
+//! A system in one mode: reactions from one small solve over the Delassus matrix, and the smooth system that they make.
+
+use core::array::from_fn;
+
+use crate::hybrid::element::Element;
+use crate::hybrid::mode::{ElementState, Mode};
+use crate::hybrid::pivots::Pivots;
+use crate::hybrid::system::{FreeMotion, HybridSystem};
+use crate::numbers::dual::Dual;
+use crate::numbers::lift::Lift;
+use crate::numbers::power_series::PowerSeries;
+use crate::numbers::real::Real;
+use crate::system::System;
+use crate::system::differentiable::Differentiable;
+use crate::system::linearization::seeded;
+use crate::system::positions_error::PositionsError;
+use crate::system::series::{Coefficients, TaylorSeries};
+
+/// A system in one of its modes, as a smooth [`System`] that every stepper runs.
+///
+/// ```text
+/// eta' = M^-1 (Q - b) + sum_w (M^-1 W_w^T) l_w,     l = -G^-1 (biases),     G = W M^-1 C
+/// ```
+///
+/// with the rows `W` and the columns `C` of the mode: `C = W_n^T - mu W_t^T d` where a contact slips in the direction `d`. The
+/// matrix `G` is made of entries of the Delassus matrix, so that a mode costs one small solve. After every step the state is put back to
+/// where closed contacts touch and what sticks does not slip.
+#[derive(Clone, Copy, Debug)]
+pub struct InMode<H, const N: usize, const W: usize, const C: usize, const S: usize> {
+    pub(super) system: H,
+    pub(super) mode: Mode<C>,
+    pub(super) switches: [f64; S],
+    pub(super) pivots: Pivots<W>,
+    /// The directions of spatial slip where the slip itself does not tell one.
+    pub(super) leaning: [Leaning; C],
+}
+
+/// The direction of spatial slip next to rest.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Leaning {
+    /// A unit vector, or zero where the slip tells its direction.
+    pub(super) direction: [f64; 2],
+    /// A speed far below which the direction is this one; infinite where it is this one always.
+    pub(super) speed: f64,
+}
+
+/// The motion in a mode at one time and state.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reactions<R, const N: usize, const W: usize, const C: usize> {
+    /// The motion without reactions, and what reactions do to it.
+    pub free: FreeMotion<R, N, W, C>,
+    /// The reaction along every row, friction included; zero where a contact is open.
+    pub reactions: [R; W],
+    /// The direction of every slip by its rows: the components of a unit vector, zero where nothing slips.
+    pub directions: [R; W],
+    /// The determinant of the mode's matrix `G`, relative to that of the same rows without friction and without coupling: it vanishes
+    /// where the reactions of slipping contacts become infinite.
+    pub regularity: R,
+}
+
+impl<R: Real, const N: usize, const W: usize, const C: usize> Reactions<R, N, W, C> {
+    /// The rates of the state.
+    pub fn rates(&self) -> [R; N] {
+        let mut rates = self.free.rates;
+        for (reaction, response) in self.reactions.iter().zip(&self.free.responses) {
+            for (rate, entry) in rates.iter_mut().zip(response) {
+                *rate = reaction.times_plus(*entry, *rate);
+            }
+        }
+        rates
+    }
+
+    /// The rates of the rows, `biases + D l`.
+    pub fn row_accelerations(&self) -> [R; W] {
+        from_fn(|w| {
+            let mut sum = self.free.biases[w];
+            for (reaction, entry) in self.reactions.iter().zip(&self.free.delassus[w]) {
+                sum = reaction.times_plus(*entry, sum);
+            }
+            sum
+        })
+    }
+}
+
+impl<H, const N: usize, const W: usize, const C: usize, const S: usize> InMode<H, N, W, C, S>
+where
+    H: HybridSystem<N, W, C, S>,
+{
+    /// The system in a mode, with the values of its switches at a time and state; the order of elimination is chosen there, and rows
+    /// that depend on others are found.
+    pub fn new(system: H, mode: Mode<C>, t: f64, state: &[f64; N]) -> Self {
+        let values = system.signals(t, state);
+        let switches = from_fn(|i| f64::from(u8::from(H::SIGNALS[i].is_switch() && values[i] > 0.0)));
+        Self::with_switches(system, mode, switches, t, state)
+    }
+
+    /// The system in a mode, with these values of the switches.
+    pub(super) fn with_switches(
+        system: H,
+        mode: Mode<C>,
+        switches: [f64; S],
+        t: f64,
+        state: &[f64; N],
+    ) -> Self {
+        let pivots = Pivots::in_order(unknown_rows(&H::ELEMENTS, &mode));
+        let mut in_mode = Self { system, mode, switches, pivots, leaning: [Leaning::default(); C] };
+        in_mode.choose_pivots(t, state);
+        in_mode
+    }
+
+    /// Chooses the order of elimination anew.
+    pub(super) fn choose_pivots(&mut self, t: f64, state: &[f64; N]) {
+        let (free, directions) = self.free_motion(t, state);
+        let (matrix, _) = self.equations(&free, &directions);
+        self.pivots = self.pivots.chosen(matrix, &diagonal(&free.delassus));
+    }
+
+    /// The mode.
+    pub fn mode(&self) -> Mode<C> {
+        self.mode
+    }
+
+    /// The system in whatever mode.
+    pub fn system(&self) -> &H {
+        &self.system
+    }
+
+    /// Whether some reactions of the mode are not determined, because rows depend on each other. The motion is.
+    pub fn is_redundant(&self) -> bool {
+        self.pivots.is_redundant()
+    }
+
+    /// The values of the switches as they are held.
+    fn lifted_switches<R: Lift<f64>>(&self) -> [R; S] {
+        self.switches.map(R::lift)
+    }
+
+    /// The free motion in this mode, with the directions of slip.
+    fn free_motion<R: Lift<f64>>(&self, t: R, state: &[R; N]) -> (FreeMotion<R, N, W, C>, [R; W]) {
+        let switches = self.lifted_switches();
+        let mut speeds = [R::zero(); C];
+        let needed = |(element, state): (&Element, &ElementState)| element.friction_of_speed && state.slips();
+        if H::ELEMENTS.iter().zip(&self.mode.0).any(needed) {
+            let rates = self.system.row_rates(t, state);
+            speeds = from_fn(|c| self.speed(c, &rates));
+        }
+        let free = self.system.free_motion(t, state, &switches, &speeds);
+        let mut directions = [R::zero(); W];
+        for c in 0..C {
+            let (rows, direction) = self.direction(c, &free.row_rates);
+            for (&row, component) in rows.iter().zip(direction) {
+                directions[row] = component;
+            }
+        }
+        (free, directions)
+    }
+
+    /// The magnitude of an element's slip; zero where it does not slip.
+    fn speed<R: Lift<f64>>(&self, c: usize, row_rates: &[R; W]) -> R {
+        let (rows, direction) = self.direction(c, row_rates);
+        rows.iter().zip(direction).fold(R::zero(), |sum, (&row, d)| d.times_plus(row_rates[row], sum))
+    }
+
+    /// The rows of an element's slip, and its direction; zero where it does not slip.
+    fn direction<R: Lift<f64>>(&self, c: usize, row_rates: &[R; W]) -> (&'static [usize], [R; 2]) {
+        let rows = H::ELEMENTS[c].tangential;
+        let sign = self.mode.0[c].sign();
+        let zero = R::zero();
+        match rows {
+            _ if sign == 0 => (rows, [zero; 2]),
+            &[first, second] => {
+                let Leaning { direction, speed } = self.leaning[c];
+                if speed == f64::INFINITY {
+                    return (rows, direction.map(R::lift));
+                }
+                let [x, y] = direction.map(|component| R::lift(speed * component));
+                let (x, y) = (row_rates[first] + x, row_rates[second] + y);
+                let inverse = (x * x + y * y).sqrt().recip();
+                (rows, [x * inverse, y * inverse])
+            }
+            _ => (rows, [R::from_ratio(sign.into(), 1), zero]),
+        }
+    }
+
+    /// The equations `G l = r` of the mode, over all rows.
+    fn equations<R: Real>(
+        &self,
+        free: &FreeMotion<R, N, W, C>,
+        directions: &[R; W],
+    ) -> ([[R; W]; W], [R; W]) {
+        let mut matrix = free.delassus;
+        let mut right = free.biases.map(|bias| -bias);
+        for (c, element) in H::ELEMENTS.iter().enumerate() {
+            if !self.mode.0[c].slips() {
+                continue;
+            }
+            for &row in self.pivots.all() {
+                let mut along = R::zero();
+                for &t in element.tangential {
+                    along = directions[t].times_plus(free.delassus[row][t], along);
+                }
+                if let Some(load) = element.load {
+                    matrix[row][load] = matrix[row][load].minus_times(free.friction[c], along);
+                }
+                right[row] = free.limits[c].times_plus(along, right[row]);
+            }
+        }
+        (matrix, right)
+    }
+
+    /// The reactions in this mode at a time and state. Where rows depend on each other they are those with zero along the rows
+    /// that were left out.
+    pub fn reactions<R: Lift<f64>>(&self, t: R, state: &[R; N]) -> Reactions<R, N, W, C> {
+        let (free, directions) = self.free_motion(t, state);
+        let (matrix, right) = self.equations(&free, &directions);
+        let (mut reactions, regularity) = self.pivots.solve(matrix, right, &diagonal(&free.delassus));
+        for (c, element) in H::ELEMENTS.iter().enumerate() {
+            if self.mode.0[c].slips() {
+                let load = element.load.map_or(R::zero(), |row| reactions[row]);
+                let force = free.friction[c].times_plus(load, free.limits[c]);
+                for &t in element.tangential {
+                    reactions[t] = -(force * directions[t]);
+                }
+            }
+        }
+        Reactions { free, reactions, directions, regularity }
+    }
+
+    /// The rates of the state in this mode.
+    pub fn rates<R: Lift<f64>>(&self, t: R, state: &[R; N]) -> [R; N] {
+        if self.pivots.all().is_empty() && !self.mode.0.iter().any(|state| state.slips()) {
+            return self.system.free_rates(t, state, &self.lifted_switches());
+        }
+        self.reactions(t, state).rates()
+    }
+
+    /// The state after impulses along these rows have made their rates vanish.
+    pub(super) fn at_rest<R: Lift<f64>>(&self, t: R, state: &[R; N], rows: &Pivots<W>) -> [R; N] {
+        let switches = self.lifted_switches();
+        let free = self.system.free_motion(t, state, &switches, &[R::zero(); C]);
+        let right = free.row_rates.map(|rate| -rate);
+        let (impulses, _) = rows.solve(free.delassus, right, &[R::one(); W]);
+        moved(state, &impulses, &free.responses)
+    }
+
+    /// The state with coordinates at which these gaps vanish, displaced as the reactions along the gaps would: one step of Newton's method.
+    pub(super) fn touching<R: Lift<f64>>(&self, t: R, state: &[R; N], rows: &Pivots<W>) -> [R; N] {
+        let switches = self.lifted_switches();
+        let free = self.system.free_motion(t, state, &switches, &[R::zero(); C]);
+        let mut right = [R::zero(); W];
+        for (c, element) in H::ELEMENTS.iter().enumerate() {
+            if let Some(row) = element.normal {
+                right[row] = -free.gaps[c];
+            }
+        }
+        let (shifts, _) = rows.solve(free.delassus, right, &[R::one(); W]);
+        let still = from_fn(|i| if i < H::COORDINATES { state[i] } else { R::zero() });
+        let at_rest = self.system.free_rates(t, &still, &switches);
+        let mut displaced = *state;
+        for &row in rows.independent() {
+            let pushed = from_fn(|i| still[i] + free.responses[row][i]);
+            let velocities = self.system.free_rates(t, &pushed, &switches);
+            for i in 0..H::COORDINATES.min(N) {
+                displaced[i] += shifts[row] * (velocities[i] - at_rest[i]);
+            }
+        }
+        displaced
+    }
+
+    /// The rows of gaps that are closed.
+    fn closed_rows(&self) -> Pivots<W> {
+        let closed = |row: usize| {
+            H::ELEMENTS.iter().zip(&self.mode.0).any(|(e, state)| e.normal == Some(row) && state.is_closed())
+        };
+        Pivots::in_order(self.pivots.independent().iter().copied().filter(|&row| closed(row)))
+    }
+
+    /// The state with closed gaps and what does not slip at zero: positions first, then velocities.
+    pub(super) fn restored<R: Lift<f64>>(&self, t: R, state: &[R; N]) -> [R; N] {
+        if self.pivots.all().is_empty() {
+            return *state;
+        }
+        let closed = self.closed_rows();
+        let state = if closed.all().is_empty() { *state } else { self.touching(t, state, &closed) };
+        self.at_rest(t, &state, &Pivots::in_order(self.pivots.independent().iter().copied()))
+    }
+}
+
+/// The state with impulses or displacements of velocity along rows added.
+pub(super) fn moved<R: Real, const N: usize, const W: usize>(
+    state: &[R; N],
+    impulses: &[R; W],
+    responses: &[[R; N]; W],
+) -> [R; N] {
+    let mut moved = *state;
+    for (impulse, response) in impulses.iter().zip(responses) {
+        for (entry, change) in moved.iter_mut().zip(response) {
+            *entry = impulse.times_plus(*change, *entry);
+        }
+    }
+    moved
+}
+
+/// The diagonal of a matrix.
+pub(super) fn diagonal<R: Copy, const W: usize>(matrix: &[[R; W]; W]) -> [R; W] {
+    from_fn(|w| matrix[w][w])
+}
+
+/// The rows whose reactions are unknowns of a mode: normals of what is closed, slips of what sticks.
+fn unknown_rows<const C: usize>(elements: &[Element; C], mode: &Mode<C>) -> impl Iterator<Item = usize> {
+    let states = mode.0;
+    (0..C).flat_map({
+        let elements = *elements;
+        move |c| {
+            let normal = elements[c].normal.filter(|_| states[c].is_closed());
+            let tangential = if states[c] == ElementState::Stick { elements[c].tangential } else { &[] };
+            normal.into_iter().chain(tangential.iter().copied())
+        }
+    })
+}
+
+impl<R: Lift<f64>, H, const N: usize, const W: usize, const C: usize, const S: usize> System<R, N>
+    for InMode<H, N, W, C, S>
+where
+    H: HybridSystem<N, W, C, S>,
+{
+    #[inline]
+    fn rhs(&self, t: R, state: &[R; N]) -> [R; N] {
+        self.rates(t, state)
+    }
+
+    fn restore(&self, t: R, state: &mut [R; N]) -> Result<(), PositionsError> {
+        let restored = self.restored(t, state);
+        if !restored.iter().all(|entry| entry.is_finite()) {
+            return Err(PositionsError::NotFinite);
+        }
+        // What moves nothing beyond rounding moves nothing: so the slope at the end of a step stays that of the state.
+        let moves =
+            |(new, old): (&R, &R)| (*new - *old).to_f64().abs() > 4.0 * f64::EPSILON * old.to_f64().abs();
+        if restored.iter().zip(state.iter()).any(moves) {
+            *state = restored;
+        }
+        Ok(())
+    }
+}
+
+impl<R, H, const N: usize, const W: usize, const C: usize, const S: usize> Differentiable<R, N>
+    for InMode<H, N, W, C, S>
+where
+    R: Lift<f64>,
+    H: HybridSystem<N, W, C, S>,
+{
+    fn jacobian(&self, t: R, state: &[R; N]) -> [[R; N]; N] {
+        self.rates(Dual::constant(t), &seeded(state)).map(|rate| rate.tangent)
+    }
+
+    fn along(&self, t: R, state: &[R; N], dt: R, dx: &[R; N]) -> [R; N] {
+        let time = Dual { value: t, tangent: [dt] };
+        let state = from_fn(|i| Dual { value: state[i], tangent: [dx[i]] });
+        self.rates(time, &state).map(|rate| rate.tangent[0])
+    }
+}
+
+/// The motion through a state as power series in a unit of time: one evaluation of the rates for each order.
+pub(super) fn motion_series<R: Lift<f64>, const N: usize>(
+    (t, state): (R, &[R; N]),
+    unit: R,
+    order: usize,
+    rates: impl Fn(PowerSeries<R>, &[PowerSeries<R>; N]) -> [PowerSeries<R>; N],
+) -> [PowerSeries<R>; N] {
+    let mut series = state.map(|entry| PowerSeries::known([entry]));
+    for k in 1..=order {
+        let slopes = rates(PowerSeries::line(t, unit), &series);
+        let part = unit / R::from_ratio(k as i64, 1);
+        for (entry, slope) in series.iter_mut().zip(&slopes) {
+            entry.know(k, slope.coefficient(k - 1) * part);
+        }
+    }
+    series
+}
+
+impl<R, H, const N: usize, const W: usize, const C: usize, const S: usize> TaylorSeries<R, N>
+    for InMode<H, N, W, C, S>
+where
+    R: Lift<f64>,
+    H: HybridSystem<N, W, C, S>,
+{
+    // The series come from the program of the rates over power series, not from recurrences with sums of their own.
+    const PRODUCTS: usize = 0;
+
+    fn series(&self, t: R, state: &[R; N], scale: R, order: usize, coefficients: &mut Coefficients<R, N>) {
+        let series = motion_series((t, state), scale, order, |t, state| self.rates(t, state));
+        for (k, coefficients) in coefficients.iter_mut().enumerate().take(order + 1) {
+            *coefficients = from_fn(|i| series[i].coefficient(k));
+        }
+    }
+}

@@ -1,0 +1,191 @@
+//! The first end of a mode within a step: falling zeros of the functions watched, pairs of them included.
+
+use crate::hybrid::in_mode::InMode;
+use crate::hybrid::system::HybridSystem;
+use crate::hybrid::watched::{Function, Sides, Watched};
+use crate::numbers::dual::Dual;
+use crate::numbers::running_error::RunningError;
+use crate::steppers::root::{Bracket, narrow};
+
+/// What happens first within a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Found {
+    pub(super) function: Function,
+    pub(super) t: f64,
+    /// Whether it only touches zero, as far as can be told.
+    pub(super) touches: bool,
+}
+
+/// The number of roundings of everything that it is made of within which a number vanishes.
+const NOISE: f64 = 256.0;
+/// The parts of a step at whose ends functions are looked at.
+const PARTS: u32 = 4;
+/// The number of times that the first part of the first step of a mode is divided by eight.
+const FIRST_DIVISIONS: u32 = 14;
+
+/// The functions watched at one time, with the rates of their changes.
+#[derive(Clone, Copy)]
+struct Look<const C: usize, const S: usize> {
+    t: f64,
+    values: Watched<Dual<f64, 1>, C, S>,
+}
+
+/// The motion within a step, watched.
+pub(super) struct Step<'a, H, const N: usize, const W: usize, const C: usize, const S: usize> {
+    pub(super) in_mode: &'a InMode<H, N, W, C, S>,
+    pub(super) sides: &'a Sides<C, S>,
+    pub(super) start: f64,
+    pub(super) end: f64,
+    /// Whether the mode begins with the step: functions may leave zero there.
+    pub(super) first: bool,
+    pub(super) at: &'a mut dyn FnMut(f64) -> [f64; N],
+}
+
+impl<H, const N: usize, const W: usize, const C: usize, const S: usize> Step<'_, H, N, W, C, S>
+where
+    H: HybridSystem<N, W, C, S>,
+{
+    /// The first falling zero, or touch of zero, after a time of the step.
+    pub(super) fn first_after(&mut self, from: f64) -> Option<Found> {
+        let mut before = self.look(from);
+        let divisions = if self.first { FIRST_DIVISIONS } else { 0 };
+        let (start, end) = (self.start, self.end);
+        let part = (end - start) / f64::from(PARTS);
+        let inner = (0..divisions).map(|k| start + part * libm::exp2(-3.0 * f64::from(divisions - k)));
+        let outer = (1..=PARTS).map(|k| if k == PARTS { end } else { start + part * f64::from(k) });
+        for t in inner.chain(outer) {
+            if t <= from {
+                continue;
+            }
+            let after = self.look(t);
+            let mut earliest: Option<Found> = None;
+            for function in Function::all(C, S) {
+                if let Some(found) = self.within(function, &before, &after)
+                    && earliest.is_none_or(|sooner| found.t < sooner.t)
+                {
+                    earliest = Some(found);
+                }
+            }
+            if earliest.is_some() {
+                return earliest;
+            }
+            before = after;
+        }
+        None
+    }
+
+    fn look(&mut self, t: f64) -> Look<C, S> {
+        let state = (self.at)(t);
+        Look { t, values: self.in_mode.watched_along(self.sides, t, &state) }
+    }
+
+    fn value(&mut self, function: Function, t: f64) -> f64 {
+        let state = (self.at)(t);
+        self.in_mode.watched(self.sides, t, &state).get(function).unwrap_or(f64::NAN)
+    }
+
+    fn rate(&mut self, function: Function, t: f64) -> f64 {
+        self.look(t).values.get(function).map_or(f64::NAN, |value| value.tangent[0])
+    }
+
+    /// The sign of a function at a time, zero where it is no more than rounding.
+    fn side(&mut self, function: Function, t: f64) -> i8 {
+        let state = (self.at)(t);
+        side(self.in_mode, self.sides, function, t, &state)
+    }
+
+    /// What happens to a function between two times.
+    fn within(&mut self, function: Function, before: &Look<C, S>, after: &Look<C, S>) -> Option<Found> {
+        let (a, b) = (before.values.get(function)?, after.values.get(function)?);
+        if b.value.is_nan() || a.value.is_nan() {
+            return None;
+        }
+        if b.value <= 0.0 {
+            // Past zero already before, or no further past it than rounding.
+            if (a.value <= 0.0 && self.side(function, before.t) < 0) || self.side(function, after.t) >= 0 {
+                return None;
+            }
+            return self.falling(function, (before.t, a.value), (after.t, b.value));
+        }
+        if a.value > 0.0 && a.tangent[0] < 0.0 && b.tangent[0] > 0.0 {
+            return self.least(function, before.t, after.t, (a.tangent[0], b.tangent[0]));
+        }
+        None
+    }
+
+    /// The falling zero between two times, at the second of which the function is negative.
+    fn falling(&mut self, function: Function, (a, high): (f64, f64), (b, low): (f64, f64)) -> Option<Found> {
+        /// The number of times that a part is halved in search of a place at which the function is positive.
+        const HALVINGS: u32 = 50;
+
+        let (mut before, mut value) = (a, high);
+        if high <= 0.0 {
+            // It leaves zero here, and comes back.
+            for k in 1..=HALVINGS {
+                let t = a + (b - a) * libm::exp2(-f64::from(k));
+                let found = self.value(function, t);
+                if found > 0.0 {
+                    (before, value) = (t, found);
+                    break;
+                }
+            }
+        }
+        let mut t = before;
+        if value > 0.0 {
+            t = narrow(Bracket { before, after: b }, (value, low), 0.0, &mut |t| self.value(function, t))
+                .after;
+        }
+        self.counts(function, t).then_some(Found { function, t, touches: false })
+    }
+
+    /// The least value between two times at which a function is positive and between which its rate rises through zero: a falling
+    /// zero before it, a touch, or nothing.
+    fn least(&mut self, function: Function, a: f64, b: f64, (falls, rises): (f64, f64)) -> Option<Found> {
+        let bottom =
+            narrow(Bracket { before: a, after: b }, (-falls, -rises), 0.0, &mut |t| -self.rate(function, t))
+                .after;
+        let value = self.value(function, bottom);
+        match self.side(function, bottom) {
+            -1 => {
+                let high = self.value(function, a);
+                self.falling(function, (a, high), (bottom, value))
+            }
+            0 if matches!(function, Function::Gap(_))
+                && self.side(function, a) > 0
+                && self.side(function, b) > 0 =>
+            {
+                self.counts(function, bottom).then_some(Found { function, t: bottom, touches: true })
+            }
+            _ => None,
+        }
+    }
+
+    /// Whether the function's zero counts: a contact closes, and a latch locks, only while its condition is positive.
+    fn counts(&mut self, function: Function, t: f64) -> bool {
+        let Function::Gap(c) = function else { return true };
+        if self.in_mode.mode.0[c].is_closed() {
+            return true;
+        }
+        let state = (self.at)(t);
+        self.in_mode.system.conditions(t, &state, &self.in_mode.switches).when[c] > 0.0
+    }
+}
+
+/// The sign of a function at a time and state, zero where it is no more than rounding.
+pub(super) fn side<H, const N: usize, const W: usize, const C: usize, const S: usize>(
+    in_mode: &InMode<H, N, W, C, S>,
+    sides: &Sides<C, S>,
+    function: Function,
+    t: f64,
+    state: &[f64; N],
+) -> i8
+where
+    H: HybridSystem<N, W, C, S>,
+{
+    let (time, state) = (RunningError::once(t), state.map(RunningError::once));
+    let Some(found) = in_mode.watched(sides, time, &state).get(function) else { return 0 };
+    if found.value.abs() <= NOISE * 0.5 * f64::EPSILON * found.error {
+        return 0;
+    }
+    if found.value > 0.0 { 1 } else { -1 }
+}

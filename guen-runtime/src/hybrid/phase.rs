@@ -1,0 +1,362 @@
+//! One phase of an impact: normal complementarity and Coulomb's law between impulses and the rates after them, solved by enumeration.
+
+use core::array::from_fn;
+use core::f64::consts::TAU;
+
+use crate::hybrid::element::Element;
+use crate::hybrid::impact::Unsolved;
+
+/// What an element does in a phase.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Participant {
+    /// It takes no part.
+    Absent,
+    /// A contact: `0 <= gamma_n` is complementary to `Lambda_n - floor >= 0`.
+    Contact { floor: f64 },
+    /// Friction under the impulse of another element.
+    Grip,
+    /// Its rate vanishes, whatever impulse that takes.
+    Locked,
+}
+
+/// The tangential state of an element in a phase.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Tangential {
+    /// There is no tangential impulse to speak of.
+    None,
+    Stick,
+    /// Slip in the direction of this unit vector.
+    Slip([f64; 2]),
+}
+
+impl Tangential {
+    /// The slip in the direction of these rates.
+    pub(super) fn along<const W: usize>(rows: &[usize], rates: &[f64; W]) -> Self {
+        let component = |k: usize| rows.get(k).map_or(0.0, |&row| rates[row]);
+        let [x, y] = [component(0), component(1)];
+        let length = libm::hypot(x, y);
+        if length > 0.0 { Self::Slip([x / length, y / length]) } else { Self::None }
+    }
+}
+
+/// One phase of an impact.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Phase<'a, const W: usize, const C: usize> {
+    pub(super) elements: &'a [Element; C],
+    pub(super) delassus: &'a [[f64; W]; W],
+    /// The rates of the rows before it.
+    pub(super) before: [f64; W],
+    /// The largest rate before the impact, with which rates are compared.
+    pub(super) scale: f64,
+    pub(super) participants: [Participant; C],
+    pub(super) friction: [f64; C],
+}
+
+/// The solution of a phase.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Solved<const W: usize, const C: usize> {
+    pub(super) impulses: [f64; W],
+    pub(super) after: [f64; W],
+    /// The contacts whose normal rate vanishes.
+    pub(super) closed: [bool; C],
+    pub(super) tangential: [Tangential; C],
+}
+
+/// Combinations that are tried in one phase.
+const MAX_COMBINATIONS: usize = 1 << 17;
+/// Parts of a turn in which directions of spatial slip are looked for.
+const DIRECTIONS: usize = 180;
+/// The violation of an inequality, relative to the rates before and to impulses that stop them, that is rounding.
+const ROUNDING: f64 = 1e-11;
+/// The difference of rates, relative to those before, by which two solutions are two.
+const DIFFERENT: f64 = 1e-7;
+
+/// A state of one element that is tried.
+#[derive(Clone, Copy, Debug)]
+struct Choice {
+    closed: bool,
+    tangential: Tangential,
+    /// Spatial slip in a direction that is to be found.
+    turns: bool,
+}
+
+impl<const W: usize, const C: usize> Phase<'_, W, C> {
+    /// The impulses that satisfy the laws of all elements.
+    pub(super) fn solve(&self) -> Result<Solved<W, C>, Unsolved> {
+        let choices: [([Choice; 8], usize); C] = from_fn(|c| self.choices(c));
+        let count = choices.iter().fold(1_usize, |product, (_, length)| product.saturating_mul(*length));
+        if count > MAX_COMBINATIONS {
+            return Err(Unsolved::None);
+        }
+        let scale = self.scale;
+        let mut best: Option<(f64, Solved<W, C>)> = None;
+        let mut several = false;
+        let mut judge = |solved: &Solved<W, C>| {
+            let violation = self.violation(solved, scale);
+            if !(violation <= ROUNDING) {
+                return;
+            }
+            let same = |other: &Solved<W, C>| {
+                let same = |(a, b): (&f64, &f64)| (a - b).abs() <= DIFFERENT * scale;
+                solved.after.iter().zip(&other.after).all(same)
+            };
+            several |= best.as_ref().is_some_and(|(_, best)| !same(best));
+            if best.as_ref().is_none_or(|(least, _)| violation < *least) {
+                best = Some((violation, *solved));
+            }
+        };
+        for index in 0..count {
+            let mut rest = index;
+            let chosen = choices.map(|(states, length)| {
+                let state = states[rest % length];
+                rest /= length;
+                state
+            });
+            let closed = chosen.map(|choice| choice.closed);
+            let tangential = chosen.map(|choice| choice.tangential);
+            let turning = chosen.iter().filter(|choice| choice.turns).count();
+            match chosen.iter().position(|choice| choice.turns) {
+                None => {
+                    if let Some(solved) = self.with_states(&closed, &tangential) {
+                        judge(&solved);
+                    }
+                }
+                // Several directions at once are not looked for.
+                Some(_) if turning > 1 => {}
+                Some(turning) => self.turned(turning, &closed, tangential, &mut judge),
+            }
+        }
+        match best {
+            _ if several => Err(Unsolved::Several),
+            Some((_, solved)) => Ok(solved),
+            None => Err(Unsolved::None),
+        }
+    }
+
+    /// The states of an element that are tried.
+    fn choices(&self, c: usize) -> ([Choice; 8], usize) {
+        let nothing = Choice { closed: false, tangential: Tangential::None, turns: false };
+        let mut all = [nothing; 8];
+        let mut count = 0;
+        let mut add = |choice| {
+            all[count] = choice;
+            count += 1;
+        };
+        let slides = |add: &mut dyn FnMut(Choice), closed: bool| match self.elements[c].tangential.len() {
+            0 => add(Choice { closed, ..nothing }),
+            components => {
+                add(Choice { closed, tangential: Tangential::Stick, turns: false });
+                if components == 1 {
+                    for sign in [1.0, -1.0] {
+                        add(Choice { closed, tangential: Tangential::Slip([sign, 0.0]), turns: false });
+                    }
+                } else {
+                    add(Choice { closed, tangential: Tangential::Slip([1.0, 0.0]), turns: true });
+                }
+            }
+        };
+        match self.participants[c] {
+            Participant::Absent => add(nothing),
+            Participant::Locked => add(Choice { closed: true, ..nothing }),
+            Participant::Grip if self.elements[c].load.is_none() => add(nothing),
+            Participant::Grip => slides(&mut add, false),
+            Participant::Contact { floor } => {
+                // Without an impulse there is no friction.
+                if floor == 0.0 {
+                    add(nothing)
+                } else {
+                    slides(&mut add, false)
+                }
+                slides(&mut add, true);
+            }
+        }
+        (all, count)
+    }
+
+    /// The impulses with which these contacts close and these elements stick or slip, whatever the inequalities say; none where
+    /// they are not determined.
+    pub(super) fn with_states(
+        &self,
+        closed: &[bool; C],
+        tangential: &[Tangential; C],
+    ) -> Option<Solved<W, C>> {
+        let (mut known, mut unknown) = ([0.0; W], [false; W]);
+        for (c, element) in self.elements.iter().enumerate() {
+            if let (Some(row), Participant::Contact { floor }) = (element.normal, self.participants[c]) {
+                (known[row], unknown[row]) = (if closed[c] { 0.0 } else { floor }, closed[c]);
+            }
+            if let (Some(row), Participant::Locked) = (element.normal, self.participants[c]) {
+                unknown[row] = true;
+            }
+            if tangential[c] == Tangential::Stick {
+                for &row in element.tangential {
+                    unknown[row] = true;
+                }
+            }
+        }
+        // The matrix with the columns of friction added to those of the loads.
+        let mut matrix = *self.delassus;
+        for (c, element) in self.elements.iter().enumerate() {
+            let (Tangential::Slip(direction), Some(load)) = (tangential[c], element.load) else { continue };
+            for (w, row) in matrix.iter_mut().enumerate() {
+                for (&t, d) in element.tangential.iter().zip(direction) {
+                    row[load] -= self.friction[c] * d * self.delassus[w][t];
+                }
+            }
+        }
+        let right: [f64; W] =
+            from_fn(|w| -(self.before[w] + known.iter().zip(&matrix[w]).map(|(l, d)| l * d).sum::<f64>()));
+        let found = solve_some(&matrix, &right, &unknown)?;
+        let mut impulses: [f64; W] = from_fn(|w| known[w] + found[w]);
+        for (c, element) in self.elements.iter().enumerate() {
+            let (Tangential::Slip(direction), Some(load)) = (tangential[c], element.load) else { continue };
+            for (&t, d) in element.tangential.iter().zip(direction) {
+                impulses[t] = -self.friction[c] * d * impulses[load];
+            }
+        }
+        let after: [f64; W] = from_fn(|w| {
+            self.before[w] + impulses.iter().zip(&self.delassus[w]).map(|(l, d)| l * d).sum::<f64>()
+        });
+        let finite = after.iter().all(|rate| rate.is_finite());
+        finite.then_some(Solved { impulses, after, closed: *closed, tangential: *tangential })
+    }
+
+    /// The largest violation of an inequality: of rates relative to `scale`, of impulses relative to those that stop such rates.
+    fn violation(&self, solved: &Solved<W, C>, scale: f64) -> f64 {
+        let Solved { impulses, after, closed, tangential } = solved;
+        if scale == 0.0 {
+            return 0.0;
+        }
+        let mut most = 0.0_f64;
+        // Differences below zero, and NaN, count.
+        let mut at_least_zero = |value: f64| most = if value >= -most { most } else { -value };
+        for (c, element) in self.elements.iter().enumerate() {
+            if let (Some(row), Participant::Contact { floor }) = (element.normal, self.participants[c]) {
+                let size = scale / self.delassus[row][row];
+                if closed[c] {
+                    at_least_zero((impulses[row] - floor) / size);
+                } else {
+                    at_least_zero(after[row] / scale);
+                }
+            }
+            match tangential[c] {
+                Tangential::None => {}
+                Tangential::Stick => {
+                    let Some(load) = element.load else { continue };
+                    let square: f64 = element.tangential.iter().map(|&t| impulses[t] * impulses[t]).sum();
+                    let size =
+                        element.tangential.iter().map(|&t| scale / self.delassus[t][t]).fold(0.0, f64::max);
+                    at_least_zero((self.friction[c] * impulses[load] - libm::sqrt(square)) / size);
+                }
+                Tangential::Slip(direction) => {
+                    let along: f64 =
+                        element.tangential.iter().zip(direction).map(|(&t, d)| d * after[t]).sum();
+                    at_least_zero(along / scale);
+                }
+            }
+        }
+        most
+    }
+
+    /// All directions of one spatial slip in which the slip after the phase is along the direction.
+    fn turned(
+        &self,
+        turning: usize,
+        closed: &[bool; C],
+        mut tangential: [Tangential; C],
+        judge: &mut dyn FnMut(&Solved<W, C>),
+    ) {
+        let &[first, second] = self.elements[turning].tangential else { return };
+        let mut at = |angle: f64| {
+            let (y, x) = (libm::sin(angle), libm::cos(angle));
+            tangential[turning] = Tangential::Slip([x, y]);
+            let solved = self.with_states(closed, &tangential)?;
+            Some((x * solved.after[second] - y * solved.after[first], solved))
+        };
+        let part = TAU / DIRECTIONS as f64;
+        let mut before = at(0.0).map(|(aside, _)| aside);
+        for k in 1..=DIRECTIONS {
+            let (mut low, mut high) = (part * (k - 1) as f64, part * k as f64);
+            let here = at(high).map(|(aside, _)| aside);
+            if let (Some(a), Some(b)) = (before, here)
+                && (a <= 0.0) != (b <= 0.0)
+            {
+                for _ in 0..60 {
+                    let middle = 0.5 * (low + high);
+                    match at(middle) {
+                        Some((aside, _)) if (aside <= 0.0) == (a <= 0.0) => low = middle,
+                        _ => high = middle,
+                    }
+                }
+                if let Some((_, solved)) = at(0.5 * (low + high)) {
+                    judge(&solved);
+                }
+            }
+            before = here;
+        }
+    }
+}
+
+/// Solves the equations of the unknown rows, with zeros elsewhere, by elimination with complete pivoting. Unknowns that the equations do
+/// not determine are zero if the equations then hold; none if they do not.
+pub(super) fn solve_some<const W: usize>(
+    matrix: &[[f64; W]; W],
+    right: &[f64; W],
+    unknown: &[bool; W],
+) -> Option<[f64; W]> {
+    /// The part of the largest entry below which a pivot is rounding, and of a right side.
+    const DEPENDENT: f64 = 1e-11;
+
+    let (mut matrix, mut right) = (*matrix, *right);
+    let mut rows: [usize; W] = from_fn(|w| w);
+    let mut columns = rows;
+    let mut count = 0;
+    for w in 0..W {
+        if unknown[w] {
+            (rows[count], columns[count]) = (w, w);
+            count += 1;
+        }
+    }
+    let entry = |matrix: &[[f64; W]; W], w: usize, v: usize| matrix[w][v].abs();
+    let mut largest = 0.0_f64;
+    for &w in &rows[..count] {
+        largest = columns[..count].iter().fold(largest, |most, &v| most.max(entry(&matrix, w, v)));
+    }
+    let size = right.iter().fold(0.0, |most: f64, r| most.max(r.abs()));
+    let mut rank = 0;
+    while rank < count {
+        let (mut best, mut most) = ((rank, rank), 0.0);
+        for i in rank..count {
+            for j in rank..count {
+                let size = entry(&matrix, rows[i], columns[j]);
+                if size > most {
+                    (best, most) = ((i, j), size);
+                }
+            }
+        }
+        if !(most > DEPENDENT * largest) {
+            break;
+        }
+        rows.swap(rank, best.0);
+        columns.swap(rank, best.1);
+        let (row, column) = (rows[rank], columns[rank]);
+        for &other in &rows[rank + 1..count] {
+            let factor = matrix[other][column] / matrix[row][column];
+            for &v in &columns[rank..count] {
+                matrix[other][v] -= factor * matrix[row][v];
+            }
+            right[other] -= factor * right[row];
+        }
+        rank += 1;
+    }
+    if rows[rank..count].iter().any(|&row| !(right[row].abs() <= DEPENDENT * size)) {
+        return None;
+    }
+    let mut solution = [0.0; W];
+    for k in (0..rank).rev() {
+        let (row, column) = (rows[k], columns[k]);
+        let rest: f64 = columns[k + 1..rank].iter().map(|&v| matrix[row][v] * solution[v]).sum();
+        solution[column] = (right[row] - rest) / matrix[row][column];
+    }
+    Some(solution)
+}

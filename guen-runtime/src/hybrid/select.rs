@@ -1,0 +1,316 @@
+//! Which mode follows a transition: every inequality of every mode that fits is expanded in time, and its first derivative that does
+//! not vanish decides.
+
+use core::array::from_fn;
+
+use crate::hybrid::element::Kind;
+use crate::hybrid::in_mode::{InMode, Leaning, motion_series};
+use crate::hybrid::mode::{ElementState, Mode};
+use crate::hybrid::system::HybridSystem;
+use crate::numbers::power_series::PowerSeries;
+use crate::numbers::running_error::RunningError;
+
+/// A rate that is known to vanish, or not to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Rate {
+    Still,
+    Moving,
+}
+
+/// What is known of an element when a mode is selected.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Known {
+    /// Whether the contact touches: its gap is zero.
+    pub(super) touches: bool,
+    /// The rate of the gap: still, or opening.
+    pub(super) normal: Rate,
+    /// The slip: still, or moving as the state says.
+    pub(super) slip: Rate,
+    /// Functions that vanish because their zero was located: the normal reaction, the two margins of the cone.
+    pub(super) normal_reaction_fired: bool,
+    pub(super) cone_fired: [bool; 2],
+    /// The state of a latch, which is not selected.
+    pub(super) latch: ElementState,
+}
+
+impl Default for Known {
+    fn default() -> Self {
+        Self {
+            touches: false,
+            normal: Rate::Moving,
+            slip: Rate::Moving,
+            normal_reaction_fired: false,
+            cone_fired: [false; 2],
+            latch: ElementState::Free,
+        }
+    }
+}
+
+/// Why no mode was selected.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Unselected<const C: usize> {
+    /// No mode fits.
+    Inconsistent,
+    /// Two modes fit.
+    Ambiguous([Mode<C>; 2]),
+    /// There are too many modes to compare.
+    TooMany,
+}
+
+/// The order to which inequalities are expanded.
+const HIGHEST: usize = 5;
+/// The part of what a derivative is made of below which it vanishes: what integration and location leave of a zero.
+const VANISHING: f64 = 1e-9;
+/// Modes that are compared at one transition.
+const MAX_CANDIDATES: usize = 1 << 14;
+
+type Jet = PowerSeries<RunningError<f64>>;
+
+/// What the first terms of a function say of its sign next.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Sign {
+    Positive,
+    Negative,
+    /// All terms vanish that are known.
+    Unknown,
+}
+
+/// Whether a number vanishes up to what it is made of.
+pub(super) fn vanishes(number: RunningError<f64>) -> bool {
+    number.value.abs() <= VANISHING * number.error
+}
+
+/// The sign of a function, from the term of this order on.
+fn sign(jet: &Jet, from: usize, order: usize) -> Sign {
+    for k in from..=order.min(jet.order()) {
+        let term = jet.coefficient(k);
+        if term.value.is_nan() {
+            return Sign::Negative;
+        }
+        if !vanishes(term) {
+            return if term.value > 0.0 { Sign::Positive } else { Sign::Negative };
+        }
+    }
+    Sign::Unknown
+}
+
+/// A mode that was tried, as far as its inequalities have been expanded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Verdict {
+    Consistent,
+    Inconsistent,
+    /// Further terms decide.
+    Open,
+}
+
+/// The states that an element may have next.
+fn candidates(kind: Kind, components: usize, known: &Known, sign: f64) -> ([ElementState; 4], usize) {
+    use ElementState::{Closed, Free, Locked, Open, Slip, SlipBackward, SlipForward, Stick};
+    let closed = known.touches && known.normal == Rate::Still;
+    let list = |states: &[ElementState]| {
+        let mut all = [Open; 4];
+        all[..states.len()].copy_from_slice(states);
+        (all, states.len())
+    };
+    let along = if sign > 0.0 { SlipForward } else { SlipBackward };
+    match (kind, components, known.slip) {
+        (Kind::Latch, ..) => list(&[if known.latch == Locked { Locked } else { Free }]),
+        (Kind::Smooth | Kind::Rough, ..) if !closed => list(&[Open]),
+        (Kind::Smooth, ..) => list(&[Open, Closed]),
+        (Kind::Rough, 1, Rate::Still) => list(&[Open, Stick, SlipForward, SlipBackward]),
+        (Kind::Rough, 1, Rate::Moving) => list(&[Open, along]),
+        (Kind::Rough, _, Rate::Still) => list(&[Open, Stick, Slip]),
+        (Kind::Rough, _, Rate::Moving) => list(&[Open, Slip]),
+        (Kind::Grip, 1, Rate::Still) => list(&[Stick, SlipForward, SlipBackward]),
+        (Kind::Grip, 1, Rate::Moving) => list(&[along]),
+        (Kind::Grip, _, Rate::Still) => list(&[Stick, Slip]),
+        (Kind::Grip, _, Rate::Moving) => list(&[Slip]),
+    }
+}
+
+/// Selects the mode that goes on from a time and state.
+pub(super) fn select<H, const N: usize, const W: usize, const C: usize, const S: usize>(
+    system: H,
+    switches: [f64; S],
+    (t, state): (f64, &[f64; N]),
+    known: &[Known; C],
+) -> Result<InMode<H, N, W, C, S>, Unselected<C>>
+where
+    H: HybridSystem<N, W, C, S> + Clone,
+{
+    let rates = system.row_rates(t, state);
+    let lists: [([ElementState; 4], usize); C] = from_fn(|c| {
+        let element = &H::ELEMENTS[c];
+        let slip = element.tangential.first().map_or(0.0, |&row| rates[row]);
+        candidates(element.kind, element.tangential.len(), &known[c], slip)
+    });
+    let count = lists.iter().fold(1_usize, |product, (_, length)| product.saturating_mul(*length));
+    if count > MAX_CANDIDATES {
+        return Err(Unselected::TooMany);
+    }
+    let mut found: Option<InMode<H, N, W, C, S>> = None;
+    for index in 0..count {
+        let mut rest = index;
+        let mode = Mode(lists.map(|(states, length)| {
+            let state = states[rest % length];
+            rest /= length;
+            state
+        }));
+        let mut in_mode = InMode::with_switches(system.clone(), mode, switches, t, state);
+        if !in_mode.lean(t, state, known) || !in_mode.is_consistent(t, state, known) {
+            continue;
+        }
+        found = match found {
+            None => Some(in_mode),
+            Some(before) => match preferred(known, &before, &in_mode) {
+                Some(true) => Some(before),
+                Some(false) => Some(in_mode),
+                None => return Err(Unselected::Ambiguous([before.mode, mode])),
+            },
+        };
+    }
+    found.ok_or(Unselected::Inconsistent)
+}
+
+/// Of two consistent modes the one in which elements go on sticking, where that is the only difference: so with more friction at
+/// rest than in motion. Whether it is the first; none where they differ otherwise.
+fn preferred<H, const N: usize, const W: usize, const C: usize, const S: usize>(
+    known: &[Known; C],
+    first: &InMode<H, N, W, C, S>,
+    second: &InMode<H, N, W, C, S>,
+) -> Option<bool> {
+    let mut answer = None;
+    for ((a, b), known) in first.mode.0.iter().zip(&second.mode.0).zip(known) {
+        let sticks = match (a, b) {
+            _ if a == b => continue,
+            (ElementState::Stick, b) if b.slips() && known.slip == Rate::Still => true,
+            (a, ElementState::Stick) if a.slips() && known.slip == Rate::Still => false,
+            _ => return None,
+        };
+        if answer.is_some_and(|answer| answer != sticks) {
+            return None;
+        }
+        answer = Some(sticks);
+    }
+    answer
+}
+
+impl<H, const N: usize, const W: usize, const C: usize, const S: usize> InMode<H, N, W, C, S>
+where
+    H: HybridSystem<N, W, C, S>,
+{
+    /// The series of the state in this mode, to an order.
+    fn jets(&self, t: f64, state: &[f64; N], order: usize) -> [Jet; N] {
+        let (time, unit) = (RunningError::once(t), RunningError::exact(1.0));
+        motion_series((time, &state.map(RunningError::once)), unit, order, |t, state| self.rates(t, state))
+    }
+
+    /// Whether every inequality of the mode holds in it right after this time.
+    fn is_consistent(&self, t: f64, state: &[f64; N], known: &[Known; C]) -> bool {
+        for order in 1..=HIGHEST {
+            match self.verdict(t, state, known, order) {
+                Verdict::Open if order < HIGHEST => {}
+                // What vanishes identically: margins hold, gaps and slips that never open do not.
+                Verdict::Open | Verdict::Inconsistent => return false,
+                Verdict::Consistent => return true,
+            }
+        }
+        false
+    }
+
+    fn verdict(&self, t: f64, state: &[f64; N], known: &[Known; C], order: usize) -> Verdict {
+        let series = self.jets(t, state, order);
+        let time = Jet::line(RunningError::once(t), RunningError::exact(1.0));
+        let motion = self.reactions(time, &series);
+        let mut verdict = Verdict::Consistent;
+        // A function that must hold: `strict` where one that vanishes identically does not.
+        let mut demand = |jet: &Jet, from: usize, strict: bool| match sign(jet, from, order) {
+            Sign::Positive => {}
+            Sign::Negative => verdict = Verdict::Inconsistent,
+            Sign::Unknown if (order < HIGHEST || strict) && verdict == Verdict::Consistent => {
+                verdict = Verdict::Open;
+            }
+            Sign::Unknown => {}
+        };
+        for (c, element) in H::ELEMENTS.iter().enumerate() {
+            let (state, known) = (self.mode.0[c], &known[c]);
+            if state == ElementState::Open {
+                if known.touches && known.normal == Rate::Still {
+                    demand(&motion.free.gaps[c], 2, true);
+                }
+                continue;
+            }
+            if element.kind == Kind::Latch {
+                continue;
+            }
+            if let Some(row) = element.normal {
+                demand(&motion.reactions[row], usize::from(known.normal_reaction_fired), false);
+            }
+            if state.slips() && known.slip == Rate::Still {
+                let slip = element.tangential.iter().fold(Jet::default(), |sum, &row| {
+                    sum + motion.directions[row] * motion.free.row_rates[row]
+                });
+                demand(&slip, 1, true);
+            }
+            if state == ElementState::Stick {
+                for (margin, fired) in self.margins(c, &motion).into_iter().zip(known.cone_fired) {
+                    if let Some(margin) = margin {
+                        demand(&margin, usize::from(fired), false);
+                    }
+                }
+            }
+        }
+        verdict
+    }
+
+    /// Finds the directions in which spatial slips leave rest: against the reaction that held them, and where the slip then has an
+    /// acceleration, along it. False where there is none.
+    fn lean(&mut self, t: f64, state: &[f64; N], known: &[Known; C]) -> bool
+    where
+        H: Clone,
+    {
+        /// Iterations for the direction, and the change that is none.
+        const ITERATIONS: usize = 100;
+        const STEADY: f64 = 1e-14;
+
+        for c in 0..C {
+            if self.mode.0[c] != ElementState::Slip || known[c].slip != Rate::Still {
+                continue;
+            }
+            let &[first, second] = H::ELEMENTS[c].tangential else { continue };
+            let held = InMode::<H, N, W, C, S>::with_switches(
+                self.system.clone(),
+                self.mode.with(c, ElementState::Stick),
+                self.switches,
+                t,
+                state,
+            );
+            let reactions = held.reactions(t, state).reactions;
+            let Some(mut direction) = unit([-reactions[first], -reactions[second]]) else { return false };
+            for _ in 0..ITERATIONS {
+                self.leaning[c] = Leaning { direction, speed: f64::INFINITY };
+                self.choose_pivots(t, state);
+                let motion = self.reactions(RunningError::once(t), &state.map(RunningError::once));
+                let accelerations = motion.row_accelerations();
+                let [x, y] = [accelerations[first], accelerations[second]];
+                if vanishes(x) && vanishes(y) {
+                    break;
+                }
+                let Some(next) = unit([x.value, y.value]) else { return false };
+                let change = f64::max((next[0] - direction[0]).abs(), (next[1] - direction[1]).abs());
+                direction = next;
+                if change <= STEADY {
+                    break;
+                }
+            }
+            self.leaning[c] = Leaning { direction, speed: f64::INFINITY };
+        }
+        true
+    }
+}
+
+/// The unit vector along another one; none where that is zero.
+pub(super) fn unit([x, y]: [f64; 2]) -> Option<[f64; 2]> {
+    let length = libm::hypot(x, y);
+    (length > 0.0 && length.is_finite()).then(|| [x / length, y / length])
+}

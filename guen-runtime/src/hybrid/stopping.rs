@@ -1,0 +1,45 @@
+//! The end of spatial slip: its last part, in which the direction of the slip no longer turns.
+
+use crate::hybrid::in_mode::{InMode, Leaning};
+use crate::hybrid::select::unit;
+use crate::hybrid::system::HybridSystem;
+
+impl<H, const N: usize, const W: usize, const C: usize, const S: usize> InMode<H, N, W, C, S>
+where
+    H: HybridSystem<N, W, C, S> + Clone,
+{
+    /// The time and state at which a slow spatial slip ends, with its direction as it is now.
+    pub(super) fn stopped(&self, c: usize, t: f64, state: &[f64; N]) -> (f64, [f64; N]) {
+        /// Steps of Newton's method for the time that is left.
+        const ITERATIONS: u32 = 5;
+
+        let &[first, second] = H::ELEMENTS[c].tangential else { return (t, *state) };
+        let rates = self.system.row_rates(t, state);
+        let Some(direction) = unit([rates[first], rates[second]]) else { return (t, *state) };
+        let mut straight = self.clone();
+        straight.leaning[c] = Leaning { direction, speed: f64::INFINITY };
+        let along = |rates: &[f64; W]| direction[0] * rates[first] + direction[1] * rates[second];
+        let mut left = 0.0;
+        let mut end = *state;
+        for _ in 0..ITERATIONS {
+            let motion = straight.reactions(t + left, &end);
+            let (slip, change) = (along(&motion.free.row_rates), along(&motion.row_accelerations()));
+            if !(change < 0.0) {
+                break;
+            }
+            left -= slip / change;
+            end = straight.after(t, state, left);
+        }
+        (t + left, end)
+    }
+
+    /// One step of the classical method of order four.
+    fn after(&self, t: f64, x: &[f64; N], h: f64) -> [f64; N] {
+        let ahead = |part: f64, slope: &[f64; N]| core::array::from_fn(|i| x[i] + part * h * slope[i]);
+        let a: [f64; N] = self.rates(t, x);
+        let b = self.rates(t + 0.5 * h, &ahead(0.5, &a));
+        let c = self.rates(t + 0.5 * h, &ahead(0.5, &b));
+        let d = self.rates(t + h, &ahead(1.0, &c));
+        core::array::from_fn(|i| x[i] + h / 6.0 * (a[i] + 2.0 * (b[i] + c[i]) + d[i]))
+    }
+}

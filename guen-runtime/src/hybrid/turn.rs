@@ -1,0 +1,484 @@
+//! A transition: from what fired in one mode to the next mode, with the impact in between.
+
+use core::array::from_fn;
+
+use crate::hybrid::element::{Effect, Kind};
+use crate::hybrid::error::HybridCause;
+use crate::hybrid::impact::{Impact, Struck, Unsolved};
+use crate::hybrid::in_mode::{InMode, Leaning, moved};
+use crate::hybrid::located::side;
+use crate::hybrid::mode::{ElementState, Mode};
+use crate::hybrid::pivots::Pivots;
+use crate::hybrid::resting::Resting;
+use crate::hybrid::select::{Known, Rate, Unselected, select, vanishes};
+use crate::hybrid::system::HybridSystem;
+use crate::hybrid::transition::{Transition, TransitionKind};
+use crate::hybrid::watched::{Function, Sides};
+use crate::numbers::running_error::RunningError;
+
+/// The functions that have reached zero.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Fired<const C: usize, const S: usize> {
+    pub(super) gap: [bool; C],
+    pub(super) normal: [bool; C],
+    pub(super) cone: [[bool; 2]; C],
+    pub(super) slip: [bool; C],
+    pub(super) signals: [bool; S],
+    pub(super) regularity: bool,
+}
+
+impl<const C: usize, const S: usize> Default for Fired<C, S> {
+    fn default() -> Self {
+        let no = [false; C];
+        Self { gap: no, normal: no, cone: [[false; 2]; C], slip: no, signals: [false; S], regularity: false }
+    }
+}
+
+impl<const C: usize, const S: usize> Fired<C, S> {
+    pub(super) fn add(&mut self, function: Function) {
+        match function {
+            Function::Gap(c) => self.gap[c] = true,
+            Function::Normal(c) => self.normal[c] = true,
+            Function::Cone(c, positive) => self.cone[c][usize::from(!positive)] = true,
+            Function::Slip(c) => self.slip[c] = true,
+            Function::Signal(s) => self.signals[s] = true,
+            Function::Regularity => self.regularity = true,
+        }
+    }
+
+    /// The elements of which a function has reached zero.
+    fn elements(&self) -> [bool; C] {
+        from_fn(|c| self.gap[c] || self.normal[c] || self.cone[c] != [false; 2] || self.slip[c])
+    }
+}
+
+/// A run between two steps: where it is and in which mode.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place<H, const N: usize, const W: usize, const C: usize, const S: usize> {
+    pub(super) t: f64,
+    pub(super) state: [f64; N],
+    pub(super) in_mode: InMode<H, N, W, C, S>,
+    pub(super) sides: Sides<C, S>,
+    /// The states of grips and latches that a run begins with are not known yet.
+    pub(super) begins: bool,
+}
+
+/// What a turn leads to: the next place, and what is told of it.
+pub(super) type Turned<H, const N: usize, const W: usize, const C: usize, const S: usize> =
+    (Place<H, N, W, C, S>, Transition<Mode<C>, N, W, C>);
+
+impl<H, const N: usize, const W: usize, const C: usize, const S: usize> Place<H, N, W, C, S>
+where
+    H: HybridSystem<N, W, C, S> + Clone,
+{
+    /// The place after what has fired, and the transition.
+    pub(super) fn turn(
+        &self,
+        fired: &Fired<C, S>,
+        resting: &mut Resting<C>,
+    ) -> Result<Turned<H, N, W, C, S>, HybridCause<C>> {
+        if fired.regularity {
+            return Err(self.painleve());
+        }
+        let (t, system) = (self.t, &self.in_mode.system);
+        let mut next = self.clone();
+        next.in_mode.leaning = [Leaning::default(); C];
+
+        // Zeros are made zero: gaps first, then the rates of what is closed, of what sticks and of slips that ended.
+        let zero_rows = |positions: bool| {
+            H::ELEMENTS.iter().enumerate().flat_map(move |(c, element)| {
+                let state = self.in_mode.mode.0[c];
+                let normal = element.normal.filter(|_| state.is_closed() || positions && fired.gap[c]);
+                let still = !positions && (state == ElementState::Stick || fired.slip[c]);
+                normal.into_iter().chain(if still { element.tangential } else { &[] }.iter().copied())
+            })
+        };
+        next.state = next.in_mode.touching(t, &next.state, &next.independent(zero_rows(true)));
+        next.state = next.in_mode.at_rest(t, &next.state, &next.independent(zero_rows(false)));
+        let state_before = next.state;
+
+        // Resets, all from the state before, and switches.
+        let mut was_reset = false;
+        for (s, signal) in H::SIGNALS.iter().enumerate().filter(|(s, _)| fired.signals[*s]) {
+            if signal.effect == Effect::Switch {
+                next.in_mode.switches[s] = 1.0 - next.in_mode.switches[s];
+                next.sides.signals[s] = -next.sides.signals[s];
+            } else {
+                next.state = system.reset(s, t, &next.state);
+                was_reset = true;
+            }
+        }
+
+        let touches = next.touching(fired, was_reset)?;
+        let mut known = next.known(fired, &touches, was_reset);
+        let mut locks = [false; C];
+        for c in 0..C {
+            if H::ELEMENTS[c].kind == Kind::Latch && fired.gap[c] {
+                let locked = self.in_mode.mode.0[c] == ElementState::Locked;
+                known[c].latch = if locked { ElementState::Free } else { ElementState::Locked };
+                locks[c] = !locked;
+            }
+        }
+        if self.begins {
+            next.lock_at_start(&mut known);
+        }
+        let (impulses, energy, rests) = next.strike(&touches, &locks, &mut known, resting)?;
+        let struck = impulses.iter().any(|impulse| *impulse != 0.0);
+
+        let selected = select(system.clone(), next.in_mode.switches, (t, &next.state), &known);
+        next.in_mode = selected.map_err(|why| match why {
+            Unselected::Inconsistent => HybridCause::Inconsistent,
+            Unselected::Ambiguous(modes) => HybridCause::Ambiguous { modes },
+            Unselected::TooMany => HybridCause::TooManyModes,
+        })?;
+        let (before, after) = (self.in_mode.mode, next.in_mode.mode);
+        if !system.allows(&after) {
+            return Err(HybridCause::Excluded { mode: after });
+        }
+        next.begins = false;
+        next.begin_mode(self, &locks);
+
+        let mut elements = fired.elements();
+        for (c, takes_part) in elements.iter_mut().enumerate() {
+            let row = |&row: &usize| impulses[row] != 0.0;
+            *takes_part |= H::ELEMENTS[c].normal.iter().chain(H::ELEMENTS[c].tangential).any(row);
+        }
+        let kind = match rests {
+            Some(rest) => rest,
+            None if was_reset => TransitionKind::Reset,
+            None if struck => match locks.iter().any(|locks| *locks) {
+                true => TransitionKind::Locked,
+                false => TransitionKind::Impact,
+            },
+            None => kind_of(fired, &before, &after),
+        };
+        let signal = fired.signals.iter().position(|fired| *fired);
+        let transition = Transition {
+            t,
+            kind,
+            elements,
+            signal,
+            before,
+            after,
+            state_before,
+            state_after: next.state,
+            impulses,
+            energy,
+        };
+        Ok((next, transition))
+    }
+
+    /// The rows of these that do not depend on each other.
+    fn independent(&self, rows: impl Iterator<Item = usize>) -> Pivots<W> {
+        let delassus = self.free().delassus;
+        Pivots::in_order(rows).chosen(delassus, &from_fn(|w| delassus[w][w]))
+    }
+
+    /// The free motion here, with friction at the present slips.
+    fn free(&self) -> crate::hybrid::system::FreeMotion<f64, N, W, C> {
+        let system = &self.in_mode.system;
+        let rates = system.row_rates(self.t, &self.state);
+        let speeds = from_fn(|c| {
+            let square: f64 = H::ELEMENTS[c].tangential.iter().map(|&row| rates[row] * rates[row]).sum();
+            libm::sqrt(square)
+        });
+        system.free_motion(self.t, &self.state, &self.in_mode.switches, &speeds)
+    }
+
+    /// The contacts that touch: those that were closed, and those whose gap has reached zero; at the start and after a reset those whose gap
+    /// is zero.
+    fn touching(&self, fired: &Fired<C, S>, anew: bool) -> Result<[bool; C], HybridCause<C>> {
+        let system = &self.in_mode.system;
+        let when = system.conditions(self.t, &self.state, &self.in_mode.switches).when;
+        let known: [bool; C] =
+            from_fn(|c| self.in_mode.mode.0[c].is_closed() && H::ELEMENTS[c].kind != Kind::Grip);
+        if !anew && !self.begins {
+            return Ok(from_fn(|c| known[c] || fired.gap[c] && H::ELEMENTS[c].kind != Kind::Latch));
+        }
+        let zero = |_| RunningError::exact(0.0);
+        let switches = self.in_mode.switches.map(RunningError::exact);
+        let state = self.state.map(RunningError::once);
+        let gaps = system.free_motion(RunningError::once(self.t), &state, &switches, &from_fn(zero)).gaps;
+        let mut touches = [false; C];
+        for c in 0..C {
+            let contact = H::ELEMENTS[c].name;
+            let closes = known[c] || when[c] > 0.0 && H::ELEMENTS[c].kind != Kind::Latch;
+            let is_zero = vanishes(gaps[c]);
+            if H::ELEMENTS[c].kind == Kind::Grip {
+                continue;
+            }
+            if known[c] && !is_zero {
+                return Err(HybridCause::BrokenByReset { contact });
+            }
+            if closes && !is_zero && gaps[c].value < 0.0 {
+                return Err(HybridCause::Penetrating { contact, gap: gaps[c].value });
+            }
+            touches[c] = closes && is_zero;
+        }
+        Ok(touches)
+    }
+
+    /// Locks the latches that a run begins with at zero and at rest.
+    fn lock_at_start(&self, known: &mut [Known; C]) {
+        let zero = |_| RunningError::exact(0.0);
+        let switches = self.in_mode.switches.map(RunningError::exact);
+        let state = self.state.map(RunningError::once);
+        let free =
+            self.in_mode.system.free_motion(RunningError::once(self.t), &state, &switches, &from_fn(zero));
+        for (c, element) in H::ELEMENTS.iter().enumerate() {
+            if let (Kind::Latch, Some(row)) = (element.kind, element.normal)
+                && vanishes(free.gaps[c])
+                && vanishes(free.row_rates[row])
+            {
+                known[c].latch = ElementState::Locked;
+            }
+        }
+    }
+
+    /// What is known of the elements before an impact.
+    fn known(&self, fired: &Fired<C, S>, touches: &[bool; C], anew: bool) -> [Known; C] {
+        let rates =
+            self.in_mode.system.row_rates(RunningError::once(self.t), &self.state.map(RunningError::once));
+        let anew = anew || self.begins;
+        from_fn(|c| {
+            let (element, state) = (&H::ELEMENTS[c], self.in_mode.mode.0[c]);
+            let vanish = |rows: &[usize]| rows.iter().all(|&row| vanishes(rates[row]));
+            let closed = state.is_closed() && !anew && element.kind != Kind::Grip;
+            let normal_still = closed || element.normal.is_some_and(|row| vanishes(rates[row]));
+            let slip_still = !anew && (state == ElementState::Stick || fired.slip[c])
+                || (anew || !state.slips()) && vanish(element.tangential);
+            let rate = |still| if still { Rate::Still } else { Rate::Moving };
+            Known {
+                touches: touches[c],
+                normal: rate(normal_still),
+                slip: rate(slip_still),
+                normal_reaction_fired: fired.normal[c],
+                cone_fired: fired.cone[c],
+                latch: state,
+            }
+        })
+    }
+
+    /// Changes the velocities by an impact, if some contact that touches closes or a latch locks. Returns the impulses, the change of the
+    /// kinetic energy, and what is told where a sequence of impacts is closed early.
+    #[allow(clippy::type_complexity, reason = "three results of one impact")]
+    fn strike(
+        &mut self,
+        touches: &[bool; C],
+        locks: &[bool; C],
+        known: &mut [Known; C],
+        resting: &mut Resting<C>,
+    ) -> Result<([f64; W], f64, Option<TransitionKind>), HybridCause<C>> {
+        let free = self.free();
+        let before = free.row_rates;
+        let meets = |c: usize| {
+            let rate = H::ELEMENTS[c].normal.map_or(0.0, |row| before[row]);
+            touches[c] && H::ELEMENTS[c].kind != Kind::Latch && known[c].normal == Rate::Moving && rate < 0.0
+        };
+        if !(0..C).any(|c| meets(c) || locks[c]) {
+            return Ok(([0.0; W], 0.0, None));
+        }
+        let takes_part: [bool; C] = from_fn(|c| {
+            touches[c]
+                || locks[c]
+                || known[c].latch == ElementState::Locked
+                || H::ELEMENTS[c].kind == Kind::Grip
+        });
+        let impact = Impact {
+            elements: &H::ELEMENTS,
+            delassus: &free.delassus,
+            before,
+            takes_part,
+            friction: free.friction,
+            restitutions: self.in_mode.system.restitutions(),
+        };
+        let mut struck = impact.solve().map_err(|why| match why {
+            Unsolved::None => HybridCause::NoImpact,
+            Unsolved::Several => HybridCause::SeveralImpacts,
+            Unsolved::EnergyGain(gain) => HybridCause::EnergyGain { gain },
+        })?;
+        let rests = self.rests(&impact, &mut struck, resting, from_fn(meets));
+        let scale = before.iter().fold(0.0, |most: f64, rate| most.max(rate.abs()));
+        for c in 0..C {
+            let element = &H::ELEMENTS[c];
+            let vanish = |rows: &[usize]| rows.iter().all(|&row| struck.after[row].abs() <= STILL * scale);
+            if takes_part[c] && element.normal.is_some() {
+                let still = struck.closed[c] || element.normal.is_some_and(|row| vanish(&[row]));
+                known[c].normal = if still { Rate::Still } else { Rate::Moving };
+            }
+            let still = struck.sticks[c] || vanish(element.tangential);
+            known[c].slip = if still { Rate::Still } else { Rate::Moving };
+            // What fired did so in the motion before.
+            known[c].normal_reaction_fired = false;
+            known[c].cone_fired = [false; 2];
+        }
+        self.state = moved(&self.state, &struck.impulses, &free.responses);
+        let drifts = self.in_mode.system.row_drifts(self.t, &self.state);
+        let by_drift: f64 = struck.impulses.iter().zip(&drifts).map(|(l, w)| l * w).sum();
+        Ok((struck.impulses, struck.energy - by_drift, rests))
+    }
+
+    /// Closes a sequence of impacts early, where the rebound is slow enough: the impact becomes the one that closes.
+    fn rests(
+        &self,
+        impact: &Impact<'_, W, C>,
+        struck: &mut Struck<W, C>,
+        resting: &mut Resting<C>,
+        meets: [bool; C],
+    ) -> Option<TransitionKind> {
+        let rate = |c: usize, rates: &[f64; W]| H::ELEMENTS[c].normal.map_or(0.0, |row| rates[row]);
+        let speed = (0..C).filter(|c| meets[*c]).fold(0.0, |most: f64, c| most.max(-rate(c, &impact.before)));
+        let ratio = resting.record(self.t, speed, &meets)?;
+        let rebounds = |c: usize| impact.takes_part[c] && rate(c, &struck.after) > STILL * speed;
+        let mut until = self.t;
+        let mut slowest = false;
+        let mut opened = self.in_mode.mode;
+        for c in (0..C).filter(|c| rebounds(*c)) {
+            opened = opened.with(c, ElementState::Open);
+            slowest = true;
+        }
+        if !slowest {
+            return None;
+        }
+        // The acceleration with which the contacts that rebound come back.
+        for c in (0..C).filter(|c| impact.takes_part[*c] && H::ELEMENTS[*c].normal.is_some() && !rebounds(*c))
+        {
+            let held =
+                if H::ELEMENTS[c].kind == Kind::Rough { ElementState::Stick } else { ElementState::Closed };
+            opened = opened.with(c, held);
+        }
+        let state = moved(&self.state, &struck.impulses, &self.free().responses);
+        let flight =
+            InMode::with_switches(self.in_mode.system.clone(), opened, self.in_mode.switches, self.t, &state);
+        let accelerations = flight.reactions(self.t, &state).row_accelerations();
+        let aside = |c: usize| {
+            let tangential = if struck.sticks[c] { H::ELEMENTS[c].tangential } else { &[] };
+            tangential.iter().map(|&row| accelerations[row].abs()).fold(0.0, f64::max)
+        };
+        let aside = (0..C).filter(|c| rebounds(*c)).map(aside).fold(0.0, f64::max);
+        for c in (0..C).filter(|c| rebounds(*c)) {
+            let (back, away) = (-rate(c, &accelerations), rate(c, &struck.after));
+            if !(away <= resting.slowest(back, aside)) {
+                return None;
+            }
+            until = f64::max(until, self.t + 2.0 * away / (back * (1.0 - ratio)));
+        }
+        let closing = impact.closing(struck)?;
+        // Only where a mode with these contacts closed goes on.
+        let closed_state = moved(&self.state, &closing.impulses, &self.free().responses);
+        let known: [Known; C] = from_fn(|c| Known {
+            touches: impact.takes_part[c] && H::ELEMENTS[c].kind != Kind::Grip,
+            normal: Rate::Still,
+            slip: if closing.sticks[c] { Rate::Still } else { Rate::Moving },
+            latch: self.in_mode.mode.0[c],
+            ..Known::default()
+        });
+        let switches = self.in_mode.switches;
+        let next = select(self.in_mode.system.clone(), switches, (self.t, &closed_state), &known).ok()?;
+        if (0..C).any(|c| rebounds(c) && !next.mode.0[c].is_closed()) {
+            return None;
+        }
+        *struck = closing;
+        let impacts = resting.finish();
+        Some(TransitionKind::Rest { impacts, until })
+    }
+
+    /// What begins with a mode: sides of latches that became free, directions of slip, speeds that count as slow.
+    fn begin_mode(&mut self, before: &Self, locks: &[bool; C]) {
+        let switches = self.in_mode.switches;
+        let motion = self.in_mode.reactions(self.t, &self.state);
+        let accelerations = motion.row_accelerations();
+        for c in 0..C {
+            let (element, state) = (&H::ELEMENTS[c], self.in_mode.mode.0[c]);
+            let was = before.in_mode.mode.0[c];
+            if let (Kind::Latch, ElementState::Free, Some(row)) = (element.kind, state, element.normal)
+                && !locks[c]
+                && (was == ElementState::Locked || before.begins)
+            {
+                let gap = self.in_mode.system.free_motion(self.t, &self.state, &switches, &[0.0; C]).gaps[c];
+                let rate = motion.free.row_rates[row];
+                let away = if was == ElementState::Locked { 0.0 } else { gap };
+                let first = [away, rate, accelerations[row]].into_iter().find(|value| value.abs() > 1e-12);
+                self.sides.latches[c] = first.map_or(1.0, |value| if value > 0.0 { 1.0 } else { -1.0 });
+            }
+            if state != ElementState::Slip {
+                self.sides.slow[c] = 0.0;
+            }
+            if self.in_mode.leaning[c].speed == f64::INFINITY {
+                let size = |rates: &[f64; W]| {
+                    element.tangential.iter().map(|&row| rates[row].abs()).fold(0.0, f64::max)
+                };
+                self.in_mode.leaning[c].speed = f64::max(LEANING * size(&accelerations), f64::MIN_POSITIVE);
+            }
+        }
+    }
+
+    /// The error where the reactions of a slipping contact become infinite.
+    pub(super) fn painleve(&self) -> HybridCause<C> {
+        let motion = self.in_mode.reactions(self.t, &self.state);
+        let (mut contact, mut p) = ("", f64::INFINITY);
+        for (c, element) in H::ELEMENTS.iter().enumerate() {
+            let Some(load) = element.load.filter(|_| self.in_mode.mode.0[c].slips()) else { continue };
+            let along: f64 = element
+                .tangential
+                .iter()
+                .map(|&t| motion.directions[t] * motion.free.delassus[load][t])
+                .sum();
+            let own = 1.0 - motion.free.friction[c] * along / motion.free.delassus[load][load];
+            if own < p {
+                (contact, p) = (element.name, own);
+            }
+        }
+        HybridCause::Painleve { contact, p }
+    }
+
+    /// Whether one of the slipping contacts is next to where its reaction becomes infinite.
+    pub(super) fn jams(&self) -> bool {
+        /// What is left of `D_nn` there, where steps become too small.
+        const CLOSE: f64 = 1e-2;
+        matches!(self.painleve(), HybridCause::Painleve { p, .. } if p.abs() < CLOSE)
+    }
+
+    /// Whether another function has reached zero together with one that was located to `bracket`.
+    pub(super) fn fires_too(&self, function: Function, value: f64, rate: f64, bracket: f64) -> bool {
+        rate < 0.0
+            && (value.abs() <= -rate * bracket
+                || side(&self.in_mode, &self.sides, function, self.t, &self.state) == 0)
+    }
+}
+
+/// The part of the largest rate before an impact below which a rate after it vanishes.
+const STILL: f64 = 1e-11;
+/// The speed, relative to an acceleration and a unit of time, far below which spatial slip has the direction in which it begins.
+const LEANING: f64 = 1e-12;
+
+/// The kind of a transition without jumps.
+fn kind_of<const C: usize, const S: usize>(
+    fired: &Fired<C, S>,
+    before: &Mode<C>,
+    after: &Mode<C>,
+) -> TransitionKind {
+    let changes = |c: usize| (before.0[c], after.0[c]);
+    for c in 0..C {
+        let kind = match changes(c) {
+            (ElementState::Free, ElementState::Locked) => TransitionKind::Locked,
+            (ElementState::Locked, ElementState::Free) => TransitionKind::Released,
+            (ElementState::Open, state) if state.is_closed() => TransitionKind::Closed,
+            (state, ElementState::Open) if state.is_closed() => TransitionKind::Lifted,
+            _ => continue,
+        };
+        return kind;
+    }
+    for c in 0..C {
+        let kind = match changes(c) {
+            (ElementState::Stick, state) if state.slips() => TransitionKind::Slips,
+            (state, ElementState::Stick) if state.slips() => TransitionKind::Sticks,
+            (from, to) if from.slips() && to.slips() && (from != to || fired.slip[c]) => {
+                TransitionKind::Reversed
+            }
+            _ => continue,
+        };
+        return kind;
+    }
+    if fired.signals.iter().any(|fired| *fired) { TransitionKind::Switched } else { TransitionKind::Touch }
+}

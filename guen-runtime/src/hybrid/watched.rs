@@ -1,0 +1,192 @@
+//! The functions watched in a mode: inequalities that hold inside of it, each with a falling zero where the mode ends.
+
+use core::array::from_fn;
+
+use crate::hybrid::element::{Effect, Kind};
+use crate::hybrid::in_mode::{InMode, Reactions};
+use crate::hybrid::mode::ElementState;
+use crate::hybrid::system::HybridSystem;
+use crate::numbers::dual::Dual;
+use crate::numbers::lift::Lift;
+
+/// Functions watched for each element.
+pub(super) const SLOTS: usize = 5;
+
+/// A function among those watched.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Function {
+    /// The gap of an open contact, the distance of a free latch, what keeps a locked latch from being released.
+    Gap(usize),
+    /// The normal reaction of a closed contact.
+    Normal(usize),
+    /// A margin of the friction cone of what sticks: on the side of a positive reaction for `true`.
+    Cone(usize, bool),
+    /// The slip of what slips, in its direction.
+    Slip(usize),
+    /// A signal.
+    Signal(usize),
+    /// The determinant of the equations of the reactions.
+    Regularity,
+}
+
+/// The values of all functions watched in a mode; none where a function is not watched.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Watched<R, const C: usize, const S: usize> {
+    elements: [[Option<R>; SLOTS]; C],
+    signals: [Option<R>; S],
+    regularity: Option<R>,
+}
+
+impl<R: Copy, const C: usize, const S: usize> Watched<R, C, S> {
+    /// The value of a function.
+    pub(super) fn get(&self, function: Function) -> Option<R> {
+        let slot = |c: usize, k: usize| self.elements.get(c).and_then(|slots| slots[k]);
+        match function {
+            Function::Gap(c) => slot(c, 0),
+            Function::Normal(c) => slot(c, 1),
+            Function::Cone(c, positive) => slot(c, if positive { 2 } else { 3 }),
+            Function::Slip(c) => slot(c, 4),
+            Function::Signal(s) => self.signals.get(s).copied().flatten(),
+            Function::Regularity => self.regularity,
+        }
+    }
+}
+
+impl Function {
+    /// All functions that a system of so many elements and signals can watch.
+    pub(super) fn all(elements: usize, signals: usize) -> impl Iterator<Item = Self> + Clone {
+        let of_element =
+            |c| [Self::Gap(c), Self::Normal(c), Self::Cone(c, true), Self::Cone(c, false), Self::Slip(c)];
+        (0..elements)
+            .flat_map(of_element)
+            .chain((0..signals).map(Self::Signal))
+            .chain(core::iter::once(Self::Regularity))
+    }
+
+    /// The element that the function belongs to.
+    pub(super) fn element(self) -> Option<usize> {
+        match self {
+            Self::Gap(c) | Self::Normal(c) | Self::Cone(c, _) | Self::Slip(c) => Some(c),
+            Self::Signal(_) | Self::Regularity => None,
+        }
+    }
+}
+
+/// What is known of a run when functions are watched, beside mode, time and state.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sides<const C: usize, const S: usize> {
+    /// The sides on which latches were when they became free, and signals when the mode began.
+    pub(super) latches: [f64; C],
+    pub(super) signals: [f64; S],
+    /// The speeds of spatial slip below which it is taken to its end in one step.
+    pub(super) slow: [f64; C],
+}
+
+impl<H, const N: usize, const W: usize, const C: usize, const S: usize> InMode<H, N, W, C, S>
+where
+    H: HybridSystem<N, W, C, S>,
+{
+    /// The functions watched in this mode.
+    pub(super) fn watched<R: Lift<f64>>(
+        &self,
+        sides: &Sides<C, S>,
+        t: R,
+        state: &[R; N],
+    ) -> Watched<R, C, S> {
+        self.watched_with(sides, t, state, &self.reactions(t, state))
+    }
+
+    /// The functions watched in this mode with the rates of their changes along it.
+    pub(super) fn watched_along(
+        &self,
+        sides: &Sides<C, S>,
+        t: f64,
+        state: &[f64; N],
+    ) -> Watched<Dual<f64, 1>, C, S> {
+        let rates = self.rates(t, state);
+        let time = Dual { value: t, tangent: [1.0] };
+        let state = from_fn(|i| Dual { value: state[i], tangent: [rates[i]] });
+        self.watched(sides, time, &state)
+    }
+
+    fn watched_with<R: Lift<f64>>(
+        &self,
+        sides: &Sides<C, S>,
+        t: R,
+        state: &[R; N],
+        motion: &Reactions<R, N, W, C>,
+    ) -> Watched<R, C, S> {
+        let mut elements = [[None; SLOTS]; C];
+        let (mut slips, mut locked) = (false, false);
+        for (c, slots) in elements.iter_mut().enumerate() {
+            *slots = self.of_element(sides, c, motion);
+            slips |= self.mode.0[c].slips() && H::ELEMENTS[c].load.is_some();
+            locked |= self.mode.0[c] == ElementState::Locked;
+        }
+        if locked {
+            let conditions = self.system.conditions(t, state, &self.switches.map(R::lift));
+            for (c, slots) in elements.iter_mut().enumerate() {
+                if self.mode.0[c] == ElementState::Locked {
+                    slots[0] = Some(-conditions.release[c]);
+                }
+            }
+        }
+        let values = self.system.signals(t, state);
+        let signals = from_fn(|s| match H::SIGNALS[s].effect {
+            Effect::Switch => Some(values[s] * R::lift(sides.signals[s])),
+            Effect::ResetWhenRising => Some(-values[s]),
+            Effect::ResetWhenFalling => Some(values[s]),
+        });
+        let regularity = (slips && !H::PAINLEVE_FREE).then_some(motion.regularity);
+        Watched { elements, signals, regularity }
+    }
+
+    fn of_element<R: Lift<f64>>(
+        &self,
+        sides: &Sides<C, S>,
+        c: usize,
+        motion: &Reactions<R, N, W, C>,
+    ) -> [Option<R>; SLOTS] {
+        let (element, state) = (&H::ELEMENTS[c], self.mode.0[c]);
+        let Reactions { free, reactions, directions, .. } = motion;
+        let normal = || {
+            let row = element.normal.filter(|_| element.kind != Kind::Latch)?;
+            Some(reactions[row])
+        };
+        let slip = || {
+            element
+                .tangential
+                .iter()
+                .fold(R::zero(), |sum, &row| directions[row].times_plus(free.row_rates[row], sum))
+        };
+        match state {
+            ElementState::Open => [Some(free.gaps[c]), None, None, None, None],
+            ElementState::Free => [Some(free.gaps[c] * R::lift(sides.latches[c])), None, None, None, None],
+            // Its condition is filled in by the caller.
+            ElementState::Locked => [None; SLOTS],
+            ElementState::Closed => [None, normal(), None, None, None],
+            ElementState::SlipForward | ElementState::SlipBackward => {
+                [None, normal(), None, None, Some(slip())]
+            }
+            ElementState::Slip => [None, normal(), None, None, Some(slip() - R::lift(sides.slow[c]))],
+            ElementState::Stick => {
+                let [plus, minus] = self.margins(c, motion);
+                [None, normal(), plus, minus, None]
+            }
+        }
+    }
+
+    /// The margins of the cone of an element that sticks: of one component on both sides, of two the difference of squares.
+    pub(super) fn margins<R: Lift<f64>>(&self, c: usize, motion: &Reactions<R, N, W, C>) -> [Option<R>; 2] {
+        let Reactions { free, reactions, .. } = motion;
+        let load = H::ELEMENTS[c].load.map_or(R::zero(), |row| reactions[row]);
+        let limit = free.stiction[c].times_plus(load, free.limits[c]);
+        match H::ELEMENTS[c].tangential {
+            &[row] => [Some(limit - reactions[row]), Some(limit + reactions[row])],
+            rows => {
+                let square = rows.iter().fold(R::zero(), |sum, &row| sum + reactions[row] * reactions[row]);
+                [Some(limit * limit - square), None]
+            }
+        }
+    }
+}

@@ -1,0 +1,6 @@
+//! Runs through modes: the reference scenes with systems written by hand, impacts, and what goes wrong.
+
+mod bodies;
+mod json;
+mod reference;
+mod systems;
