@@ -1,5 +1,16 @@
 //! Sequences of impacts that accumulate: when one is so slow that what is left of it is closed early.
 
+use core::array::from_fn;
+
+use crate::hybrid::element::Kind;
+use crate::hybrid::impact::{Impact, Struck};
+use crate::hybrid::in_mode::{InMode, moved};
+use crate::hybrid::mode::ElementState;
+use crate::hybrid::select::{Known, Rate, select};
+use crate::hybrid::system::HybridSystem;
+use crate::hybrid::transition::TransitionKind;
+use crate::hybrid::turn::{Place, STILL};
+
 /// The impacts of late, as far as the end of a sequence is judged by them.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Resting<const C: usize> {
@@ -58,5 +69,75 @@ impl<const C: usize> Resting<C> {
     /// Forgets the impacts: something else happened.
     pub(super) fn interrupt(&mut self) {
         *self = Self::new(self.accuracy);
+    }
+}
+
+impl<H, const N: usize, const W: usize, const C: usize, const S: usize> Place<H, N, W, C, S>
+where
+    H: HybridSystem<N, W, C, S> + Clone,
+{
+    /// Closes a sequence of impacts early, where the rebound is slow enough: the impact becomes the one that closes.
+    pub(super) fn rests(
+        &self,
+        impact: &Impact<'_, W, C>,
+        struck: &mut Struck<W, C>,
+        resting: &mut Resting<C>,
+        meets: [bool; C],
+    ) -> Option<TransitionKind> {
+        let rate = |c: usize, rates: &[f64; W]| H::ELEMENTS[c].normal.map_or(0.0, |row| rates[row]);
+        let speed = (0..C).filter(|c| meets[*c]).fold(0.0, |most: f64, c| most.max(-rate(c, &impact.before)));
+        let ratio = resting.record(self.t, speed, &meets)?;
+        let rebounds = |c: usize| impact.takes_part[c] && rate(c, &struck.after) > STILL * speed;
+        let mut until = self.t;
+        let mut slowest = false;
+        let mut opened = self.in_mode.mode;
+        for c in (0..C).filter(|c| rebounds(*c)) {
+            opened = opened.with(c, ElementState::Open);
+            slowest = true;
+        }
+        if !slowest {
+            return None;
+        }
+        // The acceleration with which the contacts that rebound come back.
+        for c in (0..C).filter(|c| impact.takes_part[*c] && H::ELEMENTS[*c].normal.is_some() && !rebounds(*c))
+        {
+            let held =
+                if H::ELEMENTS[c].kind == Kind::Rough { ElementState::Stick } else { ElementState::Closed };
+            opened = opened.with(c, held);
+        }
+        let state = moved(&self.state, &struck.impulses, &self.free().responses);
+        let flight =
+            InMode::with_switches(self.in_mode.system.clone(), opened, self.in_mode.switches, self.t, &state);
+        let accelerations = flight.reactions(self.t, &state).row_accelerations();
+        let aside = |c: usize| {
+            let tangential = if struck.sticks[c] { H::ELEMENTS[c].tangential } else { &[] };
+            tangential.iter().map(|&row| accelerations[row].abs()).fold(0.0, f64::max)
+        };
+        let aside = (0..C).filter(|c| rebounds(*c)).map(aside).fold(0.0, f64::max);
+        for c in (0..C).filter(|c| rebounds(*c)) {
+            let (back, away) = (-rate(c, &accelerations), rate(c, &struck.after));
+            if !(away <= resting.slowest(back, aside)) {
+                return None;
+            }
+            until = f64::max(until, self.t + 2.0 * away / (back * (1.0 - ratio)));
+        }
+        let closing = impact.closing(struck)?;
+        // Only where a mode with these contacts closed goes on.
+        let closed_state = moved(&self.state, &closing.impulses, &self.free().responses);
+        let known: [Known; C] = from_fn(|c| Known {
+            touches: impact.takes_part[c] && H::ELEMENTS[c].kind != Kind::Grip,
+            normal: Rate::Still,
+            slip: if closing.sticks[c] { Rate::Still } else { Rate::Moving },
+            latch: self.in_mode.mode.0[c],
+            ..Known::default()
+        });
+        let switches = self.in_mode.switches;
+        let next = select(self.in_mode.system.clone(), switches, (self.t, &closed_state), &known).ok()?;
+        if (0..C).any(|c| rebounds(c) && !next.mode.0[c].is_closed()) {
+            return None;
+        }
+        *struck = closing;
+        let impacts = resting.finish();
+        Some(TransitionKind::Rest { impacts, until })
     }
 }

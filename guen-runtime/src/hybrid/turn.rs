@@ -4,17 +4,16 @@ use core::array::from_fn;
 
 use crate::hybrid::element::{Effect, Kind};
 use crate::hybrid::error::HybridCause;
-use crate::hybrid::impact::{Impact, Struck, Unsolved};
+use crate::hybrid::impact::{Impact, Unsolved};
 use crate::hybrid::in_mode::{InMode, Leaning, moved};
 use crate::hybrid::located::side;
 use crate::hybrid::mode::{ElementState, Mode};
 use crate::hybrid::pivots::Pivots;
 use crate::hybrid::resting::Resting;
-use crate::hybrid::select::{Known, Rate, Unselected, select, vanishes};
-use crate::hybrid::system::HybridSystem;
+use crate::hybrid::select::{Known, Rate, Unselected, select};
+use crate::hybrid::system::{FreeMotion, HybridSystem};
 use crate::hybrid::transition::{Transition, TransitionKind};
 use crate::hybrid::watched::{Function, Sides};
-use crate::numbers::running_error::RunningError;
 
 /// The functions that have reached zero.
 #[derive(Clone, Copy, Debug)]
@@ -175,7 +174,7 @@ where
     }
 
     /// The free motion here, with friction at the present slips.
-    fn free(&self) -> crate::hybrid::system::FreeMotion<f64, N, W, C> {
+    pub(super) fn free(&self) -> FreeMotion<f64, N, W, C> {
         let system = &self.in_mode.system;
         let rates = system.row_rates(self.t, &self.state);
         let speeds = from_fn(|c| {
@@ -183,80 +182,6 @@ where
             libm::sqrt(square)
         });
         system.free_motion(self.t, &self.state, &self.in_mode.switches, &speeds)
-    }
-
-    /// The contacts that touch: those that were closed, and those whose gap has reached zero; at the start and after a reset those whose gap
-    /// is zero.
-    fn touching(&self, fired: &Fired<C, S>, anew: bool) -> Result<[bool; C], HybridCause<C>> {
-        let system = &self.in_mode.system;
-        let when = system.conditions(self.t, &self.state, &self.in_mode.switches).when;
-        let known: [bool; C] =
-            from_fn(|c| self.in_mode.mode.0[c].is_closed() && H::ELEMENTS[c].kind != Kind::Grip);
-        if !anew && !self.begins {
-            return Ok(from_fn(|c| known[c] || fired.gap[c] && H::ELEMENTS[c].kind != Kind::Latch));
-        }
-        let zero = |_| RunningError::exact(0.0);
-        let switches = self.in_mode.switches.map(RunningError::exact);
-        let state = self.state.map(RunningError::once);
-        let gaps = system.free_motion(RunningError::once(self.t), &state, &switches, &from_fn(zero)).gaps;
-        let mut touches = [false; C];
-        for c in 0..C {
-            let contact = H::ELEMENTS[c].name;
-            let closes = known[c] || when[c] > 0.0 && H::ELEMENTS[c].kind != Kind::Latch;
-            let is_zero = vanishes(gaps[c]);
-            if H::ELEMENTS[c].kind == Kind::Grip {
-                continue;
-            }
-            if known[c] && !is_zero {
-                return Err(HybridCause::BrokenByReset { contact });
-            }
-            if closes && !is_zero && gaps[c].value < 0.0 {
-                return Err(HybridCause::Penetrating { contact, gap: gaps[c].value });
-            }
-            touches[c] = closes && is_zero;
-        }
-        Ok(touches)
-    }
-
-    /// Locks the latches that a run begins with at zero and at rest.
-    fn lock_at_start(&self, known: &mut [Known; C]) {
-        let zero = |_| RunningError::exact(0.0);
-        let switches = self.in_mode.switches.map(RunningError::exact);
-        let state = self.state.map(RunningError::once);
-        let free =
-            self.in_mode.system.free_motion(RunningError::once(self.t), &state, &switches, &from_fn(zero));
-        for (c, element) in H::ELEMENTS.iter().enumerate() {
-            if let (Kind::Latch, Some(row)) = (element.kind, element.normal)
-                && vanishes(free.gaps[c])
-                && vanishes(free.row_rates[row])
-            {
-                known[c].latch = ElementState::Locked;
-            }
-        }
-    }
-
-    /// What is known of the elements before an impact.
-    fn known(&self, fired: &Fired<C, S>, touches: &[bool; C], anew: bool) -> [Known; C] {
-        let rates =
-            self.in_mode.system.row_rates(RunningError::once(self.t), &self.state.map(RunningError::once));
-        let anew = anew || self.begins;
-        from_fn(|c| {
-            let (element, state) = (&H::ELEMENTS[c], self.in_mode.mode.0[c]);
-            let vanish = |rows: &[usize]| rows.iter().all(|&row| vanishes(rates[row]));
-            let closed = state.is_closed() && !anew && element.kind != Kind::Grip;
-            let normal_still = closed || element.normal.is_some_and(|row| vanishes(rates[row]));
-            let slip_still = !anew && (state == ElementState::Stick || fired.slip[c])
-                || (anew || !state.slips()) && vanish(element.tangential);
-            let rate = |still| if still { Rate::Still } else { Rate::Moving };
-            Known {
-                touches: touches[c],
-                normal: rate(normal_still),
-                slip: rate(slip_still),
-                normal_reaction_fired: fired.normal[c],
-                cone_fired: fired.cone[c],
-                latch: state,
-            }
-        })
     }
 
     /// Changes the velocities by an impact, if some contact that touches closes or a latch locks. Returns the impulses, the change of the
@@ -316,71 +241,6 @@ where
         let drifts = self.in_mode.system.row_drifts(self.t, &self.state);
         let by_drift: f64 = struck.impulses.iter().zip(&drifts).map(|(l, w)| l * w).sum();
         Ok((struck.impulses, struck.energy - by_drift, rests))
-    }
-
-    /// Closes a sequence of impacts early, where the rebound is slow enough: the impact becomes the one that closes.
-    fn rests(
-        &self,
-        impact: &Impact<'_, W, C>,
-        struck: &mut Struck<W, C>,
-        resting: &mut Resting<C>,
-        meets: [bool; C],
-    ) -> Option<TransitionKind> {
-        let rate = |c: usize, rates: &[f64; W]| H::ELEMENTS[c].normal.map_or(0.0, |row| rates[row]);
-        let speed = (0..C).filter(|c| meets[*c]).fold(0.0, |most: f64, c| most.max(-rate(c, &impact.before)));
-        let ratio = resting.record(self.t, speed, &meets)?;
-        let rebounds = |c: usize| impact.takes_part[c] && rate(c, &struck.after) > STILL * speed;
-        let mut until = self.t;
-        let mut slowest = false;
-        let mut opened = self.in_mode.mode;
-        for c in (0..C).filter(|c| rebounds(*c)) {
-            opened = opened.with(c, ElementState::Open);
-            slowest = true;
-        }
-        if !slowest {
-            return None;
-        }
-        // The acceleration with which the contacts that rebound come back.
-        for c in (0..C).filter(|c| impact.takes_part[*c] && H::ELEMENTS[*c].normal.is_some() && !rebounds(*c))
-        {
-            let held =
-                if H::ELEMENTS[c].kind == Kind::Rough { ElementState::Stick } else { ElementState::Closed };
-            opened = opened.with(c, held);
-        }
-        let state = moved(&self.state, &struck.impulses, &self.free().responses);
-        let flight =
-            InMode::with_switches(self.in_mode.system.clone(), opened, self.in_mode.switches, self.t, &state);
-        let accelerations = flight.reactions(self.t, &state).row_accelerations();
-        let aside = |c: usize| {
-            let tangential = if struck.sticks[c] { H::ELEMENTS[c].tangential } else { &[] };
-            tangential.iter().map(|&row| accelerations[row].abs()).fold(0.0, f64::max)
-        };
-        let aside = (0..C).filter(|c| rebounds(*c)).map(aside).fold(0.0, f64::max);
-        for c in (0..C).filter(|c| rebounds(*c)) {
-            let (back, away) = (-rate(c, &accelerations), rate(c, &struck.after));
-            if !(away <= resting.slowest(back, aside)) {
-                return None;
-            }
-            until = f64::max(until, self.t + 2.0 * away / (back * (1.0 - ratio)));
-        }
-        let closing = impact.closing(struck)?;
-        // Only where a mode with these contacts closed goes on.
-        let closed_state = moved(&self.state, &closing.impulses, &self.free().responses);
-        let known: [Known; C] = from_fn(|c| Known {
-            touches: impact.takes_part[c] && H::ELEMENTS[c].kind != Kind::Grip,
-            normal: Rate::Still,
-            slip: if closing.sticks[c] { Rate::Still } else { Rate::Moving },
-            latch: self.in_mode.mode.0[c],
-            ..Known::default()
-        });
-        let switches = self.in_mode.switches;
-        let next = select(self.in_mode.system.clone(), switches, (self.t, &closed_state), &known).ok()?;
-        if (0..C).any(|c| rebounds(c) && !next.mode.0[c].is_closed()) {
-            return None;
-        }
-        *struck = closing;
-        let impacts = resting.finish();
-        Some(TransitionKind::Rest { impacts, until })
     }
 
     /// What begins with a mode: sides of latches that became free, directions of slip, speeds that count as slow.
@@ -448,7 +308,7 @@ where
 }
 
 /// The part of the largest rate before an impact below which a rate after it vanishes.
-const STILL: f64 = 1e-11;
+pub(super) const STILL: f64 = 1e-11;
 /// The speed, relative to an acceleration and a unit of time, far below which spatial slip has the direction in which it begins.
 const LEANING: f64 = 1e-12;
 

@@ -1,0 +1,90 @@
+//! What is known of the elements at a transition before it is judged: who touches, what is still.
+
+use core::array::from_fn;
+
+use crate::hybrid::element::Kind;
+use crate::hybrid::error::HybridCause;
+use crate::hybrid::mode::ElementState;
+use crate::hybrid::select::{Known, Rate, vanishes};
+use crate::hybrid::system::HybridSystem;
+use crate::hybrid::turn::{Fired, Place};
+use crate::numbers::running_error::RunningError;
+
+impl<H, const N: usize, const W: usize, const C: usize, const S: usize> Place<H, N, W, C, S>
+where
+    H: HybridSystem<N, W, C, S> + Clone,
+{
+    /// The contacts that touch: those that were closed, and those whose gap has reached zero; at the start and after a reset those whose gap
+    /// is zero.
+    pub(super) fn touching(&self, fired: &Fired<C, S>, anew: bool) -> Result<[bool; C], HybridCause<C>> {
+        let system = &self.in_mode.system;
+        let when = system.conditions(self.t, &self.state, &self.in_mode.switches).when;
+        let known: [bool; C] =
+            from_fn(|c| self.in_mode.mode.0[c].is_closed() && H::ELEMENTS[c].kind != Kind::Grip);
+        if !anew && !self.begins {
+            return Ok(from_fn(|c| known[c] || fired.gap[c] && H::ELEMENTS[c].kind != Kind::Latch));
+        }
+        let zero = |_| RunningError::exact(0.0);
+        let switches = self.in_mode.switches.map(RunningError::exact);
+        let state = self.state.map(RunningError::once);
+        let gaps = system.free_motion(RunningError::once(self.t), &state, &switches, &from_fn(zero)).gaps;
+        let mut touches = [false; C];
+        for c in 0..C {
+            let contact = H::ELEMENTS[c].name;
+            let closes = known[c] || when[c] > 0.0 && H::ELEMENTS[c].kind != Kind::Latch;
+            let is_zero = vanishes(gaps[c]);
+            if H::ELEMENTS[c].kind == Kind::Grip {
+                continue;
+            }
+            if known[c] && !is_zero {
+                return Err(HybridCause::BrokenByReset { contact });
+            }
+            if closes && !is_zero && gaps[c].value < 0.0 {
+                return Err(HybridCause::Penetrating { contact, gap: gaps[c].value });
+            }
+            touches[c] = closes && is_zero;
+        }
+        Ok(touches)
+    }
+
+    /// Locks the latches that a run begins with at zero and at rest.
+    pub(super) fn lock_at_start(&self, known: &mut [Known; C]) {
+        let zero = |_| RunningError::exact(0.0);
+        let switches = self.in_mode.switches.map(RunningError::exact);
+        let state = self.state.map(RunningError::once);
+        let free =
+            self.in_mode.system.free_motion(RunningError::once(self.t), &state, &switches, &from_fn(zero));
+        for (c, element) in H::ELEMENTS.iter().enumerate() {
+            if let (Kind::Latch, Some(row)) = (element.kind, element.normal)
+                && vanishes(free.gaps[c])
+                && vanishes(free.row_rates[row])
+            {
+                known[c].latch = ElementState::Locked;
+            }
+        }
+    }
+
+    /// What is known of the elements before an impact.
+    pub(super) fn known(&self, fired: &Fired<C, S>, touches: &[bool; C], anew: bool) -> [Known; C] {
+        let rates =
+            self.in_mode.system.row_rates(RunningError::once(self.t), &self.state.map(RunningError::once));
+        let anew = anew || self.begins;
+        from_fn(|c| {
+            let (element, state) = (&H::ELEMENTS[c], self.in_mode.mode.0[c]);
+            let vanish = |rows: &[usize]| rows.iter().all(|&row| vanishes(rates[row]));
+            let closed = state.is_closed() && !anew && element.kind != Kind::Grip;
+            let normal_still = closed || element.normal.is_some_and(|row| vanishes(rates[row]));
+            let slip_still = !anew && (state == ElementState::Stick || fired.slip[c])
+                || (anew || !state.slips()) && vanish(element.tangential);
+            let rate = |still| if still { Rate::Still } else { Rate::Moving };
+            Known {
+                touches: touches[c],
+                normal: rate(normal_still),
+                slip: rate(slip_still),
+                normal_reaction_fired: fired.normal[c],
+                cone_fired: fired.cone[c],
+                latch: state,
+            }
+        })
+    }
+}

@@ -1,0 +1,331 @@
+//! The loop of a run through modes: steps within a mode, its end, the transition, and so on.
+
+use crate::hybrid::driver::{Hybrid, HybridResult};
+use crate::hybrid::error::{HybridCause, HybridError};
+use crate::hybrid::in_mode::InMode;
+use crate::hybrid::located::{Found, Step};
+use crate::hybrid::mode::Mode;
+use crate::hybrid::resting::Resting;
+use crate::hybrid::system::HybridSystem;
+use crate::hybrid::transition::{Transition, TransitionKind};
+use crate::hybrid::turn::{Fired, Place};
+use crate::steppers::{Cause, Checkpoint, Interpolant, Method, Statistics, StepperRun};
+
+/// Transitions between the same two modes, one after the other.
+#[derive(Clone, Copy)]
+pub(super) struct Pair<const C: usize> {
+    pub(super) modes: [Mode<C>; 2],
+    pub(super) count: u32,
+    pub(super) since: f64,
+}
+
+/// A run on its way.
+pub(super) struct Run<'a, H, const N: usize, const W: usize, const C: usize, const S: usize>
+where
+    H: HybridSystem<N, W, C, S>,
+{
+    pub(super) hybrid: Hybrid<'a, H, N, W, C, S>,
+    pub(super) place: Place<H, N, W, C, S>,
+    pub(super) resting: Resting<C>,
+    pub(super) visited: usize,
+    pub(super) switched: usize,
+    pub(super) transitions: u64,
+    pub(super) work: Statistics,
+    /// The size of the last step.
+    pub(super) step: Option<f64>,
+    pub(super) pair: Pair<C>,
+}
+
+/// How a part of a run ended.
+enum Part<const C: usize, const S: usize> {
+    Arrived,
+    Fired(Fired<C, S>),
+}
+
+impl<H, const N: usize, const W: usize, const C: usize, const S: usize> Run<'_, H, N, W, C, S>
+where
+    H: HybridSystem<N, W, C, S> + Clone,
+{
+    /// Runs to a time.
+    pub(super) fn to<M>(mut self, method: &M, end: f64) -> Result<HybridResult<H::Mode, N>, HybridError<N, C>>
+    where
+        M: Method<f64, InMode<H, N, W, C, S>, N>,
+    {
+        let mut due = Some(Fired::default());
+        loop {
+            while let Some(&(time, inputs)) = self.hybrid.inputs.get(self.switched)
+                && time <= self.place.t
+            {
+                self.place.in_mode.system = self.place.in_mode.system.with_inputs(inputs);
+                self.switched += 1;
+                due.get_or_insert_with(Fired::default);
+            }
+            if let Some(fired) = due
+                && self.turn(&fired, end)?
+            {
+                return Ok(self.result(true));
+            }
+            self.visit_until(self.place.t, true);
+            if self.place.t >= end {
+                return Ok(self.result(false));
+            }
+            let next = self.hybrid.inputs.get(self.switched).map_or(end, |(time, _)| time.min(end));
+            due = match self.part(method, next).map_err(|cause| self.failed(cause))? {
+                Part::Arrived => None,
+                Part::Fired(fired) => Some(fired),
+            };
+        }
+    }
+
+    fn result(&self, stopped: bool) -> HybridResult<H::Mode, N> {
+        let Place { t, state, in_mode, .. } = &self.place;
+        let (transitions, work) = (self.transitions, self.work);
+        HybridResult { t: *t, state: *state, mode: in_mode.mode.into(), stopped, transitions, work }
+    }
+
+    fn failed(&self, cause: HybridCause<C>) -> HybridError<N, C> {
+        let Place { t, state, in_mode, .. } = &self.place;
+        let cause = match cause {
+            // Steps become too small where a reaction grows beyond all bounds.
+            HybridCause::Integration(Cause::StepUnderflow | Cause::NotFinite) if self.place.jams() => {
+                self.place.painleve()
+            }
+            cause => cause,
+        };
+        HybridError { t: *t, mode: in_mode.mode, state: *state, cause, work: self.work }
+    }
+
+    /// Goes over to the next mode, and tells of it. Says whether the receiver ends the run.
+    fn turn(&mut self, fired: &Fired<C, S>, end: f64) -> Result<bool, HybridError<N, C>> {
+        let begins = self.place.begins;
+        let mut resting = self.resting;
+        let (next, transition) = self.place.turn(fired, &mut resting).map_err(|cause| self.failed(cause))?;
+        self.resting = resting;
+        let changes = transition.before != transition.after || transition.impulses != [0.0; W];
+        let happened = fired_any(fired) || !begins && changes;
+        if begins && transition.impulses == [0.0; W] {
+            self.place = next;
+            return Ok(false);
+        }
+        if !matches!(
+            transition.kind,
+            TransitionKind::Impact | TransitionKind::Rest { .. } | TransitionKind::Touch
+        ) {
+            // Contacts that take turns open and close on the way.
+            if !matches!(
+                transition.kind,
+                TransitionKind::Lifted | TransitionKind::Slips | TransitionKind::Sticks
+            ) {
+                self.resting.interrupt();
+            }
+        }
+        self.place = next;
+        if !happened && !changes {
+            return Ok(false);
+        }
+        self.transitions += 1;
+        if self.transitions > self.hybrid.max_transitions {
+            let limit = self.hybrid.max_transitions;
+            return Err(self.failed(HybridCause::TooManyTransitions { limit }));
+        }
+        self.chatters(&transition, end).map_err(|cause| self.failed(cause))?;
+        Ok(self.tell(&transition))
+    }
+
+    fn tell(&mut self, transition: &Transition<Mode<C>, N, W, C>) -> bool {
+        let Some(receiver) = &mut self.hybrid.receiver else { return false };
+        let Transition {
+            t,
+            kind,
+            elements,
+            signal,
+            before,
+            after,
+            state_before,
+            state_after,
+            impulses,
+            energy,
+        } = *transition;
+        let (before, after) = (before.into(), after.into());
+        let told = Transition {
+            t,
+            kind,
+            elements,
+            signal,
+            before,
+            after,
+            state_before,
+            state_after,
+            impulses,
+            energy,
+        };
+        receiver(&told).is_break()
+    }
+
+    /// Refuses transitions between the same two modes that hardly move time.
+    fn chatters(
+        &mut self,
+        transition: &Transition<Mode<C>, N, W, C>,
+        end: f64,
+    ) -> Result<(), HybridCause<C>> {
+        /// Transitions, and the part of the span of the run within which they are too many.
+        const TRANSITIONS: u32 = 50;
+        const SPAN: f64 = 1e-9;
+
+        let (a, b) = (transition.before, transition.after);
+        let same = self.pair.modes == [a, b] || self.pair.modes == [b, a];
+        let within = SPAN * (end - self.hybrid.t);
+        if !same || transition.t - self.pair.since > within {
+            self.pair = Pair { modes: [a, b], count: 0, since: transition.t };
+        }
+        self.pair.count += 1;
+        if self.pair.count > TRANSITIONS {
+            let span = transition.t - self.pair.since;
+            return Err(HybridCause::Chattering { count: self.pair.count, span });
+        }
+        Ok(())
+    }
+
+    /// Shows the samples before a time, or up to it, which are those of the present place.
+    fn visit_until(&mut self, time: f64, including: bool) {
+        while let Some(&sample) = self.hybrid.samples.get(self.visited)
+            && (sample < time || including && sample == time)
+        {
+            let state = self.place.state;
+            self.show(sample, &state);
+        }
+    }
+
+    fn show(&mut self, time: f64, state: &[f64; N]) {
+        let mode = self.place.in_mode.mode.into();
+        if let Some(visitor) = &mut self.hybrid.visitor {
+            visitor(self.visited, time, state, &mode);
+        }
+        self.visited += 1;
+    }
+
+    /// Goes on in the present mode until it ends, or to a time.
+    fn part<M>(&mut self, method: &M, target: f64) -> Result<Part<C, S>, HybridCause<C>>
+    where
+        M: Method<f64, InMode<H, N, W, C, S>, N>,
+    {
+        let in_mode = self.place.in_mode.clone();
+        let mut checkpoint = Checkpoint::new(self.place.t, &self.place.state);
+        checkpoint.statistics = self.work;
+        let mut run = method.start(&checkpoint);
+        if let Some(step) = self.step {
+            run.try_first(step);
+        }
+        let mut first = true;
+        loop {
+            let before = *run.checkpoint();
+            if before.time == target {
+                return Ok(Part::Arrived);
+            }
+            let made = run.advance(&in_mode, target, true);
+            self.work = run.checkpoint().statistics;
+            made.map_err(HybridCause::Integration)?;
+            let polynomial = run.dense(&in_mode);
+            let after = *run.checkpoint();
+            self.work = after.statistics;
+            let at = |t: f64| {
+                if t == after.time {
+                    after.state
+                } else if t == before.time {
+                    before.state
+                } else {
+                    polynomial.at(t)
+                }
+            };
+            let mut from = before.time;
+            loop {
+                let sides = self.place.sides;
+                let mut state_at = at;
+                let mut step = Step {
+                    in_mode: &in_mode,
+                    sides: &sides,
+                    start: before.time,
+                    end: after.time,
+                    first,
+                    at: &mut state_at,
+                };
+                let Some(found) = step.first_after(from) else { break };
+                let polished = M::Run::COARSE_POLYNOMIAL;
+                let (t, state) = self.located(method, &in_mode, &before, found, at(found.t), polished);
+                self.samples_before(&in_mode, t, &at);
+                if found.touches {
+                    self.touched(found, t, &state);
+                    from = found.t;
+                    continue;
+                }
+                self.step = Some(after.time - before.time);
+                (self.place.t, self.place.state) = (t, state);
+                let bracket = (t - found.t).abs() + 4.0 * f64::EPSILON * t.abs();
+                return Ok(Part::Fired(self.fired(found, bracket)));
+            }
+            first = false;
+            self.samples_before(&in_mode, after.time, &at);
+            (self.place.t, self.place.state) = (after.time, after.state);
+            self.slow_down(&after.state);
+        }
+    }
+
+    /// Shows the samples of the last step before a time.
+    fn samples_before(&mut self, in_mode: &InMode<H, N, W, C, S>, time: f64, at: &dyn Fn(f64) -> [f64; N]) {
+        while let Some(&sample) = self.hybrid.samples.get(self.visited)
+            && sample < time
+        {
+            let state = in_mode.restored(sample, &at(sample));
+            self.show(sample, &state);
+        }
+    }
+
+    /// Tells of a gap that touches zero.
+    fn touched(&mut self, found: Found, t: f64, state: &[f64; N]) {
+        let mode = self.place.in_mode.mode;
+        let mut elements = [false; C];
+        if let Some(c) = found.function.element() {
+            elements[c] = true;
+        }
+        let transition = Transition {
+            t,
+            kind: TransitionKind::Touch,
+            elements,
+            signal: None,
+            before: mode,
+            after: mode,
+            state_before: *state,
+            state_after: *state,
+            impulses: [0.0; W],
+            energy: 0.0,
+        };
+        self.transitions += 1;
+        self.tell(&transition);
+    }
+
+    /// Updates the speeds of spatial slip that count as slow.
+    fn slow_down(&mut self, state: &[f64; N]) {
+        /// The part of the largest slip of a mode at which it is taken to its end.
+        const SLOW: f64 = 1e-5;
+
+        if !H::ELEMENTS.iter().any(|element| element.tangential.len() == 2) {
+            return;
+        }
+        let rates = self.place.in_mode.system.row_rates(self.place.t, state);
+        for (c, element) in H::ELEMENTS.iter().enumerate() {
+            if let &[first, second] = element.tangential
+                && self.place.in_mode.mode.0[c].slips()
+            {
+                let slip = libm::hypot(rates[first], rates[second]);
+                self.place.sides.slow[c] = f64::max(self.place.sides.slow[c], SLOW * slip);
+            }
+        }
+    }
+}
+
+/// Whether anything has fired.
+fn fired_any<const C: usize, const S: usize>(fired: &Fired<C, S>) -> bool {
+    let elements =
+        (0..C).any(|c| fired.gap[c] || fired.normal[c] || fired.cone[c] != [false; 2] || fired.slip[c]);
+    elements || fired.signals.contains(&true) || fired.regularity
+}
