@@ -59,7 +59,7 @@ pub use guen_runtime::{
     LieGroup, Lift, Linearization, Monitored, Nonholonomic, Operator, Ordered, OutputMap, Positions,
     PositionsError, Projected, Real, Renormalized, Report, ReportSection, Rheonomic, RunningError,
     Scleronomic, Setting, Simulate, Smooth, System, WithFunctions, WithInputs, WithScalar, from_fn, generic,
-    lanes, project, projected, renormalized, steppers,
+    hybrid, lanes, project, projected, renormalized, steppers,
 };
 pub use guen_runtime::{Coefficients, Convolutions, DrivenSeries, HIGHEST_ORDER, PowerSeries, TaylorSeries};
 pub use guen_runtime::{Liftable, Linearizable, OutputLinearization, control, linearized, seeded};

@@ -12,6 +12,7 @@
 //! | what acts on functions? | [`Operator`], [`Function`], [`Coordinate`], [`BracketCoefficients`] |
 //! | what is known at compile time? | [`Class`], the markers [`Holonomic`] to [`Conservative`], [`Cost`] |
 //! | how is it integrated? | [`steppers`]: an [`Integration`](steppers::Integration) run by one of ten methods |
+//! | what touches, sticks and slips? | [`hybrid`]: a [`Hybrid`](hybrid::Hybrid) run through the modes of a [`HybridSystem`](hybrid::HybridSystem) |
 //! | how is it controlled? | [`Linearizable`], [`control`] |
 //! | which level of detail? | [`Level`], [`LevelInfo`], [`Levels`] |
 //! | what holds of positions? | [`Positions`], [`consistent`], [`project`], [`projected`] |

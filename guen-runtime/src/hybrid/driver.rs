@@ -20,6 +20,15 @@ type Receiver<'a, M, const N: usize, const W: usize, const C: usize> =
     &'a mut dyn FnMut(&Transition<M, N, W, C>) -> ControlFlow<()>;
 
 /// A run of a system with contacts through its modes, from one time and state.
+///
+/// - The mode at the start is found: contacts whose gap is zero touch, latches whose gap is zero at rest are locked. What moves into a
+///   contact there meets it at once.
+/// - The step in which a mode ends is cut there; the next one begins with its size.
+/// - A run goes forwards in time. Runs over duals are refused by the types: the times of transitions depend on the start, which their
+///   derivatives would not know.
+/// - Guards do not watch it. Gaps and slips that are closed are put back after every step.
+///
+/// The [module](crate::hybrid) has an example.
 pub struct Hybrid<'a, H, const N: usize, const W: usize, const C: usize, const S: usize>
 where
     H: HybridSystem<N, W, C, S>,
@@ -35,7 +44,7 @@ where
     pub(super) max_transitions: u64,
 }
 
-/// The end of a run through modes that did not fail.
+/// The end of a run through modes that did not fail: what [`Hybrid::run`] returns.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HybridResult<M, const N: usize> {
     /// The time reached.

@@ -98,6 +98,16 @@ impl<const C: usize> fmt::Display for HybridCause<C> {
 }
 
 /// A run through modes that failed: where it stopped, in which mode, why, and what had been reached.
+///
+/// ```
+/// use guen_runtime::hybrid::{ElementState, HybridCause, HybridError, Mode};
+/// use guen_runtime::steppers::Statistics;
+///
+/// let mode = Mode([ElementState::Open]);
+/// let cause = HybridCause::Penetrating { contact: "floor", gap: -0.5 };
+/// let error = HybridError { t: 0.0, mode, state: [-0.5, 0.0], cause, work: Statistics::default() };
+/// assert_eq!(format!("{error}"), "the run stopped at t = 0, in the mode (open): the gap of `floor` is negative, -5e-1");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HybridError<const N: usize, const C: usize> {
     /// The time that was reached.

@@ -183,7 +183,7 @@ where
     }
 
     /// The equations `G l = r` of the mode, over all rows.
-    fn equations<R: Real>(
+    pub(super) fn equations<R: Real>(
         &self,
         free: &FreeMotion<R, N, W, C>,
         directions: &[R; W],
@@ -214,16 +214,27 @@ where
         let (free, directions) = self.free_motion(t, state);
         let (matrix, right) = self.equations(&free, &directions);
         let (mut reactions, regularity) = self.pivots.solve(matrix, right, &diagonal(&free.delassus));
+        self.add_friction(&mut reactions, &free.friction, &directions, |c| free.limits[c]);
+        Reactions { free, reactions, directions, regularity }
+    }
+
+    /// Adds the reactions of what slips to those of its loads.
+    pub(super) fn add_friction<R: Real>(
+        &self,
+        reactions: &mut [R; W],
+        friction: &[R; C],
+        directions: &[R; W],
+        limit: impl Fn(usize) -> R,
+    ) {
         for (c, element) in H::ELEMENTS.iter().enumerate() {
             if self.mode.0[c].slips() {
                 let load = element.load.map_or(R::zero(), |row| reactions[row]);
-                let force = free.friction[c].times_plus(load, free.limits[c]);
+                let force = friction[c].times_plus(load, limit(c));
                 for &t in element.tangential {
                     reactions[t] = -(force * directions[t]);
                 }
             }
         }
-        Reactions { free, reactions, directions, regularity }
     }
 
     /// The rates of the state in this mode.

@@ -37,6 +37,11 @@ impl<const W: usize> Pivots<W> {
         self.rows.get(..self.count).unwrap_or(&self.rows)
     }
 
+    /// The rows of the mode that depend on those that are eliminated.
+    pub(super) fn dependent(&self) -> &[usize] {
+        self.rows.get(self.rank..self.count).unwrap_or(&[])
+    }
+
     /// Whether rows of the mode depend on others.
     pub(super) fn is_redundant(&self) -> bool {
         self.rank < self.count

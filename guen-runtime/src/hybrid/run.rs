@@ -327,5 +327,5 @@ where
 fn fired_any<const C: usize, const S: usize>(fired: &Fired<C, S>) -> bool {
     let elements =
         (0..C).any(|c| fired.gap[c] || fired.normal[c] || fired.cone[c] != [false; 2] || fired.slip[c]);
-    elements || fired.signals.contains(&true) || fired.regularity
+    elements || fired.signals.contains(&true) || fired.regularity || fired.shared
 }

@@ -232,6 +232,10 @@ where
             }
             Sign::Unknown => {}
         };
+        let redundant = self.is_redundant();
+        if redundant {
+            self.visit_shared(&motion, &mut |function| demand(&function, 0, false));
+        }
         for (c, element) in H::ELEMENTS.iter().enumerate() {
             let (state, known) = (self.mode.0[c], &known[c]);
             if state == ElementState::Open {
@@ -243,7 +247,7 @@ where
             if element.kind == Kind::Latch {
                 continue;
             }
-            if let Some(row) = element.normal {
+            if let Some(row) = element.normal.filter(|_| !redundant) {
                 demand(&motion.reactions[row], usize::from(known.normal_reaction_fired), false);
             }
             if state.slips() && known.slip == Rate::Still {
@@ -252,7 +256,7 @@ where
                 });
                 demand(&slip, 1, true);
             }
-            if state == ElementState::Stick {
+            if state == ElementState::Stick && !redundant {
                 for (margin, fired) in self.margins(c, &motion).into_iter().zip(known.cone_fired) {
                     if let Some(margin) = margin {
                         demand(&margin, usize::from(fired), false);

@@ -3,6 +3,11 @@
 use core::fmt;
 
 /// The kind of a [`Transition`].
+///
+/// ```
+/// use guen_runtime::hybrid::TransitionKind;
+/// assert_eq!(format!("{}", TransitionKind::Lifted), "lifted");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum TransitionKind {
@@ -56,7 +61,8 @@ impl fmt::Display for TransitionKind {
     }
 }
 
-/// The end of one mode and the beginning of the next, at one time.
+/// The end of one mode and the beginning of the next, at one time: what [`Hybrid::transitions`](crate::hybrid::Hybrid::transitions)
+/// tells, with an example in the [module](crate::hybrid).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Transition<M, const N: usize, const W: usize, const C: usize> {
     /// The time.

@@ -24,12 +24,21 @@ pub(super) struct Fired<const C: usize, const S: usize> {
     pub(super) slip: [bool; C],
     pub(super) signals: [bool; S],
     pub(super) regularity: bool,
+    pub(super) shared: bool,
 }
 
 impl<const C: usize, const S: usize> Default for Fired<C, S> {
     fn default() -> Self {
         let no = [false; C];
-        Self { gap: no, normal: no, cone: [[false; 2]; C], slip: no, signals: [false; S], regularity: false }
+        Self {
+            gap: no,
+            normal: no,
+            cone: [[false; 2]; C],
+            slip: no,
+            signals: [false; S],
+            regularity: false,
+            shared: false,
+        }
     }
 }
 
@@ -42,6 +51,7 @@ impl<const C: usize, const S: usize> Fired<C, S> {
             Function::Slip(c) => self.slip[c] = true,
             Function::Signal(s) => self.signals[s] = true,
             Function::Regularity => self.regularity = true,
+            Function::Shared => self.shared = true,
         }
     }
 

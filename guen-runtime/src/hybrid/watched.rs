@@ -27,6 +27,8 @@ pub(super) enum Function {
     Signal(usize),
     /// The determinant of the equations of the reactions.
     Regularity,
+    /// Where reactions are not determined: the least of the functions that are nonnegative if some reactions lie in all cones.
+    Shared,
 }
 
 /// The values of all functions watched in a mode; none where a function is not watched.
@@ -35,6 +37,7 @@ pub(super) struct Watched<R, const C: usize, const S: usize> {
     elements: [[Option<R>; SLOTS]; C],
     signals: [Option<R>; S],
     regularity: Option<R>,
+    shared: Option<R>,
 }
 
 impl<R: Copy, const C: usize, const S: usize> Watched<R, C, S> {
@@ -48,6 +51,7 @@ impl<R: Copy, const C: usize, const S: usize> Watched<R, C, S> {
             Function::Slip(c) => slot(c, 4),
             Function::Signal(s) => self.signals.get(s).copied().flatten(),
             Function::Regularity => self.regularity,
+            Function::Shared => self.shared,
         }
     }
 }
@@ -60,14 +64,14 @@ impl Function {
         (0..elements)
             .flat_map(of_element)
             .chain((0..signals).map(Self::Signal))
-            .chain(core::iter::once(Self::Regularity))
+            .chain([Self::Regularity, Self::Shared])
     }
 
     /// The element that the function belongs to.
     pub(super) fn element(self) -> Option<usize> {
         match self {
             Self::Gap(c) | Self::Normal(c) | Self::Cone(c, _) | Self::Slip(c) => Some(c),
-            Self::Signal(_) | Self::Regularity => None,
+            Self::Signal(_) | Self::Regularity | Self::Shared => None,
         }
     }
 }
@@ -138,7 +142,15 @@ where
             Effect::ResetWhenFalling => Some(values[s]),
         });
         let regularity = (slips && !H::PAINLEVE_FREE).then_some(motion.regularity);
-        Watched { elements, signals, regularity }
+        let mut shared: Option<R> = None;
+        if self.is_redundant() {
+            self.visit_shared(motion, &mut |value| {
+                if shared.is_none_or(|least| value.to_f64() < least.to_f64()) {
+                    shared = Some(value);
+                }
+            });
+        }
+        Watched { elements, signals, regularity, shared }
     }
 
     fn of_element<R: Lift<f64>>(
@@ -150,7 +162,7 @@ where
         let (element, state) = (&H::ELEMENTS[c], self.mode.0[c]);
         let Reactions { free, reactions, directions, .. } = motion;
         let normal = || {
-            let row = element.normal.filter(|_| element.kind != Kind::Latch)?;
+            let row = element.normal.filter(|_| element.kind != Kind::Latch && !self.is_redundant())?;
             Some(reactions[row])
         };
         let slip = || {
@@ -170,7 +182,7 @@ where
             }
             ElementState::Slip => [None, normal(), None, None, Some(slip() - R::lift(sides.slow[c]))],
             ElementState::Stick => {
-                let [plus, minus] = self.margins(c, motion);
+                let [plus, minus] = if self.is_redundant() { [None; 2] } else { self.margins(c, motion) };
                 [None, normal(), plus, minus, None]
             }
         }

@@ -61,7 +61,7 @@ impl Json {
     }
 }
 
-fn skip<'a>(rest: &mut &'a str, token: &str) -> bool {
+fn skip(rest: &mut &str, token: &str) -> bool {
     match rest.strip_prefix(token) {
         Some(after) => {
             *rest = after.trim_start();

@@ -3,4 +3,5 @@
 mod bodies;
 mod json;
 mod reference;
+mod scenarios;
 mod systems;
