@@ -6,7 +6,7 @@ use crate::hybrid::error::{HybridCause, HybridError};
 use crate::hybrid::in_mode::InMode;
 use crate::hybrid::mode::Mode;
 use crate::hybrid::resting::Resting;
-use crate::hybrid::run::{Pair, Run};
+use crate::hybrid::run::{Pair, Run, Witness};
 use crate::hybrid::system::HybridSystem;
 use crate::hybrid::transition::Transition;
 use crate::hybrid::turn::Place;
@@ -122,6 +122,19 @@ where
     where
         M: Method<f64, InMode<H, N, W, C, S>, N>,
     {
+        self.witnessed(method, end, &mut |_, _, _| Ok(()))
+    }
+
+    /// Runs to a time, and tells a witness of every mode that begins.
+    pub(super) fn witnessed<M>(
+        self,
+        method: &M,
+        end: f64,
+        witness: Witness<'_, H, N, W, C, S>,
+    ) -> Result<HybridResult<H::Mode, N>, HybridError<N, C>>
+    where
+        M: Method<f64, InMode<H, N, W, C, S>, N>,
+    {
         let mode = Mode::free(&H::ELEMENTS);
         let fail = |cause| HybridError {
             t: self.t,
@@ -159,7 +172,7 @@ where
             step: None,
             pair: Pair { modes: [mode; 2], count: 0, since: 0.0 },
         };
-        run.to(method, end)
+        run.to(method, end, witness)
     }
 }
 

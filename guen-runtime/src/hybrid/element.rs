@@ -94,18 +94,18 @@ impl Element {
 pub struct Signal {
     /// The name in the declaration.
     pub name: &'static str,
-    /// What its crossings of zero do.
+    /// The effect of its crossings of zero.
     pub effect: Effect,
 }
 
-/// What the crossings of a [`Signal`] do.
+/// The effect of the crossings of a [`Signal`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Effect {
     /// Either crossing changes the value of a switch: one where the function is positive, zero elsewhere.
     Switch,
-    /// Where the function rises through zero, [`HybridSystem::reset`](crate::hybrid::HybridSystem::reset) gives a new state.
+    /// A rise through zero resets the state: [`HybridSystem::reset`](crate::hybrid::HybridSystem::reset) gives a new state.
     ResetWhenRising,
-    /// Where the function falls through zero, [`HybridSystem::reset`](crate::hybrid::HybridSystem::reset) gives a new state.
+    /// A fall through zero resets the state: [`HybridSystem::reset`](crate::hybrid::HybridSystem::reset) gives a new state.
     ResetWhenFalling,
 }
 

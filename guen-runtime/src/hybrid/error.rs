@@ -36,7 +36,7 @@ pub enum HybridCause<const C: usize> {
         /// The mode.
         mode: Mode<C>,
     },
-    /// The same two modes follow each other without an accumulation that could be closed.
+    /// Two modes follow each other again and again without an accumulation that could be closed.
     Chattering {
         /// The transitions.
         count: u32,

@@ -64,7 +64,7 @@ where
         }
     }
 
-    /// What is known of the elements before an impact.
+    /// The facts of the elements before an impact.
     pub(super) fn known(&self, fired: &Fired<C, S>, touches: &[bool; C], anew: bool) -> [Known; C] {
         let rates =
             self.in_mode.system.row_rates(RunningError::once(self.t), &self.state.map(RunningError::once));

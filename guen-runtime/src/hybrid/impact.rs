@@ -16,7 +16,7 @@ pub(super) struct Impact<'a, const W: usize, const C: usize> {
     pub(super) restitutions: [f64; C],
 }
 
-/// What an impact leads to.
+/// The result of an impact.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Struck<const W: usize, const C: usize> {
     /// The impulses along all rows.

@@ -7,7 +7,7 @@ use crate::numbers::dual::Dual;
 use crate::numbers::running_error::RunningError;
 use crate::steppers::root::{Bracket, narrow};
 
-/// What happens first within a step.
+/// The first thing that happens within a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Found {
     pub(super) function: Function,
@@ -94,7 +94,7 @@ where
         side(self.in_mode, self.sides, function, t, &state)
     }
 
-    /// What happens to a function between two times.
+    /// The zero or touch of a function between two times.
     fn within(&mut self, function: Function, before: &Look<C, S>, after: &Look<C, S>) -> Option<Found> {
         let (a, b) = (before.values.get(function)?, after.values.get(function)?);
         if b.value.is_nan() || a.value.is_nan() {

@@ -80,6 +80,8 @@ mod error;
 mod facts;
 mod impact;
 mod in_mode;
+#[cfg(feature = "alloc")]
+mod kept;
 mod located;
 mod mode;
 mod phase;
@@ -89,8 +91,12 @@ mod redundant;
 mod resting;
 mod run;
 mod select;
+#[cfg(feature = "alloc")]
+mod simulation;
 mod stopping;
 mod system;
+#[cfg(feature = "alloc")]
+mod trajectory;
 mod transition;
 mod turn;
 mod watched;
@@ -100,5 +106,9 @@ pub use element::{Effect, Element, Kind, Signal};
 pub use error::{HybridCause, HybridError};
 pub use in_mode::{InMode, Reactions};
 pub use mode::{ElementState, Mode};
+#[cfg(feature = "alloc")]
+pub use simulation::{HybridSimulation, HybridSimulationError, SimulateModes};
 pub use system::{Conditions, FreeMotion, HybridSystem};
+#[cfg(feature = "alloc")]
+pub use trajectory::HybridTrajectory;
 pub use transition::{Transition, TransitionKind};

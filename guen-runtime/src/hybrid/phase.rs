@@ -6,10 +6,10 @@ use core::f64::consts::TAU;
 use crate::hybrid::element::Element;
 use crate::hybrid::impact::Unsolved;
 
-/// What an element does in a phase.
+/// The part of an element in a phase.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Participant {
-    /// It takes no part.
+    /// No part.
     Absent,
     /// A contact: `0 <= gamma_n` is complementary to `Lambda_n - floor >= 0`.
     Contact { floor: f64 },

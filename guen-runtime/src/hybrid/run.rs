@@ -36,7 +36,11 @@ where
     pub(super) pair: Pair<C>,
 }
 
-/// How a part of a run ended.
+/// Is told of every mode that begins, with its time and state.
+pub(super) type Witness<'a, H, const N: usize, const W: usize, const C: usize, const S: usize> =
+    &'a mut dyn FnMut(f64, &[f64; N], &InMode<H, N, W, C, S>) -> Result<(), Cause>;
+
+/// The end of a part of a run.
 enum Part<const C: usize, const S: usize> {
     Arrived,
     Fired(Fired<C, S>),
@@ -47,7 +51,12 @@ where
     H: HybridSystem<N, W, C, S> + Clone,
 {
     /// Runs to a time.
-    pub(super) fn to<M>(mut self, method: &M, end: f64) -> Result<HybridResult<H::Mode, N>, HybridError<N, C>>
+    pub(super) fn to<M>(
+        mut self,
+        method: &M,
+        end: f64,
+        witness: Witness<'_, H, N, W, C, S>,
+    ) -> Result<HybridResult<H::Mode, N>, HybridError<N, C>>
     where
         M: Method<f64, InMode<H, N, W, C, S>, N>,
     {
@@ -60,10 +69,14 @@ where
                 self.switched += 1;
                 due.get_or_insert_with(Fired::default);
             }
-            if let Some(fired) = due
-                && self.turn(&fired, end)?
-            {
-                return Ok(self.result(true));
+            if let Some(fired) = due {
+                let stops = self.turn(&fired, end)?;
+                let Place { t, state, in_mode, .. } = &self.place;
+                let kept = witness(*t, state, in_mode);
+                kept.map_err(|cause| self.failed(HybridCause::Integration(cause)))?;
+                if stops {
+                    return Ok(self.result(true));
+                }
             }
             self.visit_until(self.place.t, true);
             if self.place.t >= end {

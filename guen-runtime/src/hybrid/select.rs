@@ -17,7 +17,7 @@ pub(super) enum Rate {
     Moving,
 }
 
-/// What is known of an element when a mode is selected.
+/// The facts of an element from which a mode is selected.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Known {
     /// Whether the contact touches: its gap is zero.
@@ -66,7 +66,7 @@ const MAX_CANDIDATES: usize = 1 << 14;
 
 type Jet = PowerSeries<RunningError<f64>>;
 
-/// What the first terms of a function say of its sign next.
+/// The sign of a function next, as its first terms say.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Sign {
     Positive,

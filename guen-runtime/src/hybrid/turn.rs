@@ -72,7 +72,7 @@ pub(super) struct Place<H, const N: usize, const W: usize, const C: usize, const
     pub(super) begins: bool,
 }
 
-/// What a turn leads to: the next place, and what is told of it.
+/// The next place, and the transition that led to it.
 pub(super) type Turned<H, const N: usize, const W: usize, const C: usize, const S: usize> =
     (Place<H, N, W, C, S>, Transition<Mode<C>, N, W, C>);
 
@@ -253,7 +253,7 @@ where
         Ok((struck.impulses, struck.energy - by_drift, rests))
     }
 
-    /// What begins with a mode: sides of latches that became free, directions of slip, speeds that count as slow.
+    /// Sets what begins with a mode: sides of latches that became free, directions of slip, speeds that count as slow.
     fn begin_mode(&mut self, before: &Self, locks: &[bool; C]) {
         let switches = self.in_mode.switches;
         let motion = self.in_mode.reactions(self.t, &self.state);
@@ -304,7 +304,7 @@ where
 
     /// Whether one of the slipping contacts is next to where its reaction becomes infinite.
     pub(super) fn jams(&self) -> bool {
-        /// What is left of `D_nn` there, where steps become too small.
+        /// The part of `D_nn` that is left where steps become too small.
         const CLOSE: f64 = 1e-2;
         matches!(self.painleve(), HybridCause::Painleve { p, .. } if p.abs() < CLOSE)
     }

@@ -27,7 +27,7 @@ pub(super) enum Function {
     Signal(usize),
     /// The determinant of the equations of the reactions.
     Regularity,
-    /// Where reactions are not determined: the least of the functions that are nonnegative if some reactions lie in all cones.
+    /// The least of the functions that are nonnegative if some reactions lie in all cones, where reactions are not determined.
     Shared,
 }
 
@@ -76,7 +76,7 @@ impl Function {
     }
 }
 
-/// What is known of a run when functions are watched, beside mode, time and state.
+/// The facts of a run that watched functions depend on, beside mode, time and state.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sides<const C: usize, const S: usize> {
     /// The sides on which latches were when they became free, and signals when the mode began.

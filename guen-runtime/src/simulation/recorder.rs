@@ -86,6 +86,7 @@ where
 {
     const EVALUATIONS: u32 = C::EVALUATIONS;
     const JUDGED: bool = C::JUDGED;
+    const COARSE_POLYNOMIAL: bool = C::COARSE_POLYNOMIAL;
     type Polynomial = P;
 
     fn checkpoint(&self) -> &Checkpoint<R, N> {
@@ -98,6 +99,10 @@ where
         let polynomial = self.run.dense(system);
         self.last = Some(polynomial);
         self.log.borrow_mut().push(Step { start, polynomial })
+    }
+
+    fn try_first(&mut self, step: f64) {
+        self.run.try_first(step);
     }
 
     fn is_last(&self, target: R) -> bool {

@@ -1,0 +1,294 @@
+//! Simulations through modes: a run from a named state, and the trajectory that it leaves.
+
+use alloc::boxed::Box;
+use alloc::vec::Vec;
+use core::fmt;
+use core::ops::{ControlFlow, Range};
+
+use crate::hybrid::driver::Hybrid;
+use crate::hybrid::error::HybridError;
+use crate::hybrid::in_mode::InMode;
+use crate::hybrid::kept::{Kept, Log};
+use crate::hybrid::system::HybridSystem;
+use crate::hybrid::trajectory::HybridTrajectory;
+use crate::hybrid::transition::Transition;
+use crate::steppers::{Dense, Dop853, Interpolant, Method, StepperRun};
+
+/// The tolerance of a simulation that nobody sets, relative and absolute.
+const TOLERANCE: f64 = 1e-9;
+/// The memory that a trajectory may take unless another limit is set: 256 MiB.
+const MEMORY: usize = 1 << 28;
+
+/// A system with contacts whose motions are simulated through its modes, in two lines.
+///
+/// ```
+/// # use guen_runtime::hybrid::{Element, FreeMotion, HybridSystem, Mode, Signal};
+/// # use guen_runtime::{Lift, Real};
+/// # #[derive(Clone, Copy)]
+/// # struct Ball;
+/// # impl HybridSystem<2, 1, 1, 0> for Ball {
+/// #     const ELEMENTS: [Element; 1] = [Element::smooth("floor", 0)];
+/// #     const SIGNALS: [Signal; 0] = [];
+/// #     const COORDINATES: usize = 1;
+/// #     type Mode = Mode<1>;
+/// #     type Inputs = ();
+/// #     fn with_inputs(&self, (): ()) -> Self {
+/// #         *self
+/// #     }
+/// #     fn free_motion<R: Lift<f64>>(&self, _t: R, &[z, v]: &[R; 2], _: &[R; 0], _: &[R; 1]) -> FreeMotion<R, 2, 1, 1> {
+/// #         let (zero, one, g) = (R::zero(), R::one(), R::lift(9.81));
+/// #         FreeMotion {
+/// #             rates: [v, -g], gaps: [z], row_rates: [v], biases: [-g], delassus: [[one]], responses: [[zero, one]],
+/// #             friction: [zero], stiction: [zero], limits: [zero],
+/// #         }
+/// #     }
+/// #     fn restitutions(&self) -> [f64; 1] {
+/// #         [0.5]
+/// #     }
+/// #     fn signals<R: Lift<f64>>(&self, _t: R, _: &[R; 2]) -> [R; 0] {
+/// #         []
+/// #     }
+/// # }
+/// use guen_runtime::hybrid::SimulateModes;
+///
+/// // A ball that falls from a height of one, and bounces with a half of its speed.
+/// let motion = Ball.simulate(&[1.0, 0.0], 0.0..2.0).unwrap();
+/// let landing = motion.transitions()[0].t;
+/// assert!((landing - f64::sqrt(2.0 / 9.81)).abs() < 1e-12);
+/// assert!(motion.before(landing)[1] < 0.0 && motion.at(landing)[1] > 0.0);
+/// // At rest the floor carries it.
+/// assert!((motion.reactions_at(2.0)[0] - 9.81).abs() < 1e-12);
+/// ```
+pub trait SimulateModes<const N: usize, const W: usize, const C: usize, const S: usize>:
+    HybridSystem<N, W, C, S> + Clone
+{
+    /// Simulates the motion from a state over a span of time, with the default settings of [`HybridSimulation`].
+    ///
+    /// # Errors
+    ///
+    /// What kept the motion from going on, with the trajectory until then.
+    #[allow(clippy::type_complexity, reason = "one trajectory or the error with it")]
+    fn simulate<X>(
+        &self,
+        start: &X,
+        span: Range<f64>,
+    ) -> Result<HybridTrajectory<Self, X, N, W, C, S>, HybridSimulationError<Self, X, N, W, C, S>>
+    where
+        X: Copy + From<[f64; N]> + Into<[f64; N]>,
+    {
+        self.simulation(start).run(span)
+    }
+
+    /// A simulation from a state, to be described further and run.
+    fn simulation<X>(&self, start: &X) -> HybridSimulation<'_, Self, X, N, W, C, S>
+    where
+        X: Copy + From<[f64; N]> + Into<[f64; N]>,
+    {
+        HybridSimulation {
+            system: self.clone(),
+            start: *start,
+            method: Dop853::new(TOLERANCE, TOLERANCE),
+            memory: MEMORY,
+            inputs: Vec::new(),
+            receiver: None,
+            resting_accuracy: None,
+            max_transitions: None,
+        }
+    }
+}
+
+impl<H, const N: usize, const W: usize, const C: usize, const S: usize> SimulateModes<N, W, C, S> for H where
+    H: HybridSystem<N, W, C, S> + Clone
+{
+}
+
+/// Is told of each transition; ends the run when it breaks.
+type Receiver<'a, M, const N: usize, const W: usize, const C: usize> =
+    Box<dyn FnMut(&Transition<M, N, W, C>) -> ControlFlow<()> + 'a>;
+
+/// A simulation through modes that is being described: system and start are given, everything else has a default.
+///
+/// | setting | default |
+/// | --- | --- |
+/// | [`method`](Self::method), [`tolerance`](Self::tolerance) | [`Dop853`] with 1e-9, relative and absolute |
+/// | [`inputs`](Self::inputs) | those of the system |
+/// | [`observe_transitions`](Self::observe_transitions) | nobody |
+/// | [`resting_accuracy`](Self::resting_accuracy), [`max_transitions`](Self::max_transitions) | those of [`Hybrid`] |
+/// | [`memory`](Self::memory) | 256 MiB for the trajectory |
+#[must_use = "a simulation runs when `run` is called"]
+pub struct HybridSimulation<
+    'a,
+    H,
+    X,
+    const N: usize,
+    const W: usize,
+    const C: usize,
+    const S: usize,
+    M = Dop853<f64>,
+> where
+    H: HybridSystem<N, W, C, S>,
+{
+    system: H,
+    start: X,
+    method: M,
+    memory: usize,
+    inputs: Vec<(f64, H::Inputs)>,
+    receiver: Option<Receiver<'a, H::Mode, N, W, C>>,
+    resting_accuracy: Option<f64>,
+    max_transitions: Option<u64>,
+}
+
+impl<'a, H, X, M, const N: usize, const W: usize, const C: usize, const S: usize>
+    HybridSimulation<'a, H, X, N, W, C, S, M>
+where
+    H: HybridSystem<N, W, C, S> + Clone,
+    X: Copy + From<[f64; N]> + Into<[f64; N]>,
+{
+    /// Sets the method.
+    pub fn method<M2>(self, method: M2) -> HybridSimulation<'a, H, X, N, W, C, S, M2> {
+        let Self { system, start, memory, inputs, receiver, resting_accuracy, max_transitions, .. } = self;
+        HybridSimulation {
+            system,
+            start,
+            method,
+            memory,
+            inputs,
+            receiver,
+            resting_accuracy,
+            max_transitions,
+        }
+    }
+
+    /// Changes the inputs at these times, in order.
+    pub fn inputs(self, inputs: &[(f64, H::Inputs)]) -> Self {
+        Self { inputs: inputs.to_vec(), ..self }
+    }
+
+    /// Tells a receiver of every transition; when it breaks, the run ends there.
+    pub fn observe_transitions(
+        self,
+        receiver: impl FnMut(&Transition<H::Mode, N, W, C>) -> ControlFlow<()> + 'a,
+    ) -> Self {
+        Self { receiver: Some(Box::new(receiver)), ..self }
+    }
+
+    /// Sets the error, as a time, with which the end of infinitely many impacts may be found.
+    pub fn resting_accuracy(self, time: f64) -> Self {
+        Self { resting_accuracy: Some(time), ..self }
+    }
+
+    /// Limits the number of transitions.
+    pub fn max_transitions(self, limit: u64) -> Self {
+        Self { max_transitions: Some(limit), ..self }
+    }
+
+    /// Limits the memory of the steps of the trajectory, and that of its modes, in bytes.
+    pub fn memory(self, bytes: usize) -> Self {
+        Self { memory: bytes, ..self }
+    }
+
+    /// Runs over a span of time, forwards.
+    ///
+    /// # Errors
+    ///
+    /// What kept the motion from going on, with the trajectory until then.
+    #[allow(clippy::type_complexity, reason = "one trajectory or the error with it")]
+    pub fn run<P>(
+        self,
+        span: Range<f64>,
+    ) -> Result<HybridTrajectory<H, X, N, W, C, S, P>, HybridSimulationError<H, X, N, W, C, S, P>>
+    where
+        M: Method<f64, InMode<H, N, W, C, S>, N>,
+        for<'r> M::Run<'r>: StepperRun<f64, InMode<H, N, W, C, S>, N, Polynomial = P>,
+        P: Interpolant<f64, N>,
+    {
+        let Self { system, start, method, memory, inputs, mut receiver, resting_accuracy, max_transitions } =
+            self;
+        let mut transitions = Vec::new();
+        let kept = Kept::new(&method, memory);
+        let mut log = Log::new();
+        let mut tell = |transition: &Transition<H::Mode, N, W, C>| {
+            transitions.push(*transition);
+            receiver.as_mut().map_or(ControlFlow::Continue(()), |receiver| receiver(transition))
+        };
+        let mut hybrid =
+            Hybrid::new(&system, span.start, &start.into()).inputs(&inputs).transitions(&mut tell);
+        if let Some(time) = resting_accuracy {
+            hybrid = hybrid.resting_accuracy(time);
+        }
+        if let Some(limit) = max_transitions {
+            hybrid = hybrid.max_transitions(limit);
+        }
+        let done = hybrid.witnessed(&kept, span.end, &mut |t, state, in_mode| {
+            log.begin((t, state), in_mode, kept.count(), memory)
+        });
+        log.steps = kept.into_steps();
+        let (t, state, work) = match &done {
+            Ok(done) => (done.t, done.state, done.work),
+            Err(error) => (error.t, error.state, error.work),
+        };
+        let trajectory =
+            HybridTrajectory::new(log, (span.start, start), (t, state.into()), transitions, work);
+        match done {
+            Ok(_) => Ok(trajectory),
+            Err(error) => Err(HybridSimulationError { error, trajectory: Box::new(trajectory) }),
+        }
+    }
+}
+
+impl<'a, H, X, const N: usize, const W: usize, const C: usize, const S: usize>
+    HybridSimulation<'a, H, X, N, W, C, S>
+where
+    H: HybridSystem<N, W, C, S>,
+{
+    /// Sets the tolerance of the default method, relative and absolute.
+    pub fn tolerance(self, tolerance: f64) -> Self {
+        Self { method: Dop853::new(tolerance, tolerance), ..self }
+    }
+}
+
+/// A simulation through modes that failed: why it stopped, and the motion until then.
+pub struct HybridSimulationError<
+    H,
+    X,
+    const N: usize,
+    const W: usize,
+    const C: usize,
+    const S: usize,
+    P = Dense<f64, N>,
+> where
+    H: HybridSystem<N, W, C, S>,
+{
+    /// The time and state at which it stopped, and the reason.
+    pub error: HybridError<N, C>,
+    /// The motion up to there.
+    pub trajectory: Box<HybridTrajectory<H, X, N, W, C, S, P>>,
+}
+
+impl<H, X, P, const N: usize, const W: usize, const C: usize, const S: usize> fmt::Debug
+    for HybridSimulationError<H, X, N, W, C, S, P>
+where
+    H: HybridSystem<N, W, C, S>,
+{
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        // The message, because `main` and `unwrap` show an error so; the motion until then would hide it.
+        write!(f, "HybridSimulationError({self})")
+    }
+}
+
+impl<H, X, P, const N: usize, const W: usize, const C: usize, const S: usize> fmt::Display
+    for HybridSimulationError<H, X, N, W, C, S, P>
+where
+    H: HybridSystem<N, W, C, S>,
+{
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(&self.error, f)
+    }
+}
+
+impl<H, X, P, const N: usize, const W: usize, const C: usize, const S: usize> core::error::Error
+    for HybridSimulationError<H, X, N, W, C, S, P>
+where
+    H: HybridSystem<N, W, C, S>,
+{
+}
