@@ -1,4 +1,4 @@
-//! What is known of the elements at a transition before it is judged: who touches, what is still.
+//! The facts of the elements at a transition before it is judged: who touches, what is still.
 
 use core::array::from_fn;
 

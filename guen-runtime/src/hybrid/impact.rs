@@ -10,7 +10,7 @@ pub(super) struct Impact<'a, const W: usize, const C: usize> {
     pub(super) delassus: &'a [[f64; W]; W],
     /// The rates of all rows before it.
     pub(super) before: [f64; W],
-    /// Who takes part: contacts that touch, latches that lock or are locked, grips.
+    /// The elements that take part: contacts that touch, latches that lock or are locked, grips.
     pub(super) takes_part: [bool; C],
     pub(super) friction: [f64; C],
     pub(super) restitutions: [f64; C],

@@ -1,4 +1,4 @@
-//! What a simulation through modes keeps: the polynomials of its steps and its modes, in bounded memory.
+//! The polynomials of the steps of a simulation through modes and its modes, kept in bounded memory.
 
 use alloc::vec::Vec;
 use core::cell::RefCell;

@@ -15,7 +15,7 @@ pub(super) enum Participant {
     Contact { floor: f64 },
     /// Friction under the impulse of another element.
     Grip,
-    /// Its rate vanishes, whatever impulse that takes.
+    /// A rate that vanishes, whatever impulse that takes.
     Locked,
 }
 

@@ -16,7 +16,7 @@ pub(super) struct Pivots<const W: usize> {
 const DEPENDENT: f64 = 1e-10;
 
 impl<const W: usize> Pivots<W> {
-    /// These rows as they stand.
+    /// Takes rows as they stand.
     pub(super) fn in_order(rows: impl IntoIterator<Item = usize>) -> Self {
         let mut pivots = Self { rows: [0; W], rank: 0, count: 0 };
         for (place, row) in pivots.rows.iter_mut().zip(rows) {

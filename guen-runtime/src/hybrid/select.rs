@@ -1,4 +1,4 @@
-//! Which mode follows a transition: every inequality of every mode that fits is expanded in time, and its first derivative that does
+//! Selects the mode that follows a transition: every inequality of every mode that fits is expanded in time, and its first derivative that does
 //! not vanish decides.
 
 use core::array::from_fn;
