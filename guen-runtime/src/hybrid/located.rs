@@ -17,7 +17,9 @@ pub(super) struct Found {
 }
 
 /// The number of roundings of everything that it is made of within which a number vanishes.
-const NOISE: f64 = 256.0;
+pub(super) const NOISE: f64 = 256.0;
+/// The part of a step within which a touch is the one before.
+const AGAIN: f64 = 1e-7;
 /// The parts of a step at whose ends functions are looked at.
 const PARTS: u32 = 4;
 /// The number of times that the first part of the first step of a mode is divided by eight.
@@ -61,6 +63,8 @@ where
             let mut earliest: Option<Found> = None;
             for function in Function::all(C, S) {
                 if let Some(found) = self.within(function, &before, &after)
+                    // A touch from which the search goes on is not found again.
+                    && !(found.touches && found.t <= from + AGAIN * (end - start))
                     && earliest.is_none_or(|sooner| found.t < sooner.t)
                 {
                     earliest = Some(found);

@@ -5,11 +5,13 @@ use core::array::from_fn;
 use crate::hybrid::element::Kind;
 use crate::hybrid::impact::{Impact, Struck};
 use crate::hybrid::in_mode::{InMode, moved};
+use crate::hybrid::located::NOISE;
 use crate::hybrid::mode::ElementState;
 use crate::hybrid::select::{Known, Rate, select};
 use crate::hybrid::system::HybridSystem;
 use crate::hybrid::transition::TransitionKind;
 use crate::hybrid::turn::{Place, STILL};
+use crate::numbers::running_error::RunningError;
 
 /// The impacts of late, as far as the end of a sequence is judged by them.
 #[derive(Clone, Copy, Debug)]
@@ -59,6 +61,12 @@ impl<const C: usize> Resting<C> {
         if second < third { second } else { third }
     }
 
+    /// The ratio of the last two speeds, as far as it is below a half; zero elsewhere.
+    pub(super) fn last_ratio(&self) -> f64 {
+        let ratio = self.speeds[0] / self.speeds[1];
+        if self.count > 1 && ratio < 0.5 { ratio } else { 0.0 }
+    }
+
     /// Ends the sequence, and returns the number of its impacts.
     pub(super) fn finish(&mut self) -> u32 {
         let count = self.count;
@@ -76,6 +84,16 @@ impl<H, const N: usize, const W: usize, const C: usize, const S: usize> Place<H,
 where
     H: HybridSystem<N, W, C, S> + Clone,
 {
+    /// The sizes of gaps below which they are rounding.
+    fn resolution(&self) -> [f64; C] {
+        let exact = |value: f64| RunningError::exact(value);
+        let switches = self.in_mode.switches.map(exact);
+        let state = self.state.map(RunningError::once);
+        let time = RunningError::once(self.t);
+        let free = self.in_mode.system.free_motion(time, &state, &switches, &[exact(0.0); C]);
+        free.gaps.map(|gap| NOISE * 0.5 * f64::EPSILON * gap.error)
+    }
+
     /// Closes a sequence of impacts early, where the rebound is slow enough: the impact becomes the one that closes.
     pub(super) fn rests(
         &self,
@@ -86,7 +104,7 @@ where
     ) -> Option<TransitionKind> {
         let rate = |c: usize, rates: &[f64; W]| H::ELEMENTS[c].normal.map_or(0.0, |row| rates[row]);
         let speed = (0..C).filter(|c| meets[*c]).fold(0.0, |most: f64, c| most.max(-rate(c, &impact.before)));
-        let ratio = resting.record(self.t, speed, &meets)?;
+        let ratio = resting.record(self.t, speed, &meets);
         let rebounds = |c: usize| impact.takes_part[c] && rate(c, &struck.after) > STILL * speed;
         let mut until = self.t;
         let mut slowest = false;
@@ -114,11 +132,19 @@ where
             tangential.iter().map(|&row| accelerations[row].abs()).fold(0.0, f64::max)
         };
         let aside = (0..C).filter(|c| rebounds(*c)).map(aside).fold(0.0, f64::max);
+        let resolution = self.resolution();
         for c in (0..C).filter(|c| rebounds(*c)) {
             let (back, away) = (-rate(c, &accelerations), rate(c, &struck.after));
-            if !(away <= resting.slowest(back, aside)) {
+            if !(back > 0.0) {
                 return None;
             }
+            // Lower than the digits of the gap tell, whatever the ratio: such a flight has no end that could be located.
+            let unresolved = away * away <= 2.0 * back * resolution[c];
+            let slow = ratio.is_some() && away <= resting.slowest(back, aside);
+            if !(unresolved || slow) {
+                return None;
+            }
+            let ratio = ratio.unwrap_or_else(|| resting.last_ratio());
             until = f64::max(until, self.t + 2.0 * away / (back * (1.0 - ratio)));
         }
         let closing = impact.closing(struck)?;

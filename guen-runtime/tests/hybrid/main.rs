@@ -2,6 +2,8 @@
 
 mod bodies;
 mod json;
+#[cfg(feature = "alloc")]
+mod polygons;
 mod reference;
 mod scenarios;
 mod systems;

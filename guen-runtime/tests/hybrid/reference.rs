@@ -238,3 +238,22 @@ fn painleves_rod_ends_in_a_typed_error_at_its_time() {
         assert_eq!(found, expected);
     }
 }
+
+#[test]
+fn event_times_converge_with_the_tolerance() {
+    println!("| tolerance | `pendulum_stop` | `stick_slip_belt` |");
+    println!("| --- | --- | --- |");
+    for exponent in [5, 7, 9, 11] {
+        let tolerance = 10.0_f64.powi(-exponent);
+        let method = Dop853::new(tolerance, tolerance);
+        let errors = [
+            compared::<_, _, 2, 1, 1, 0>(&PendulumStop, &method, "pendulum_stop").0,
+            compared::<_, _, 4, 2, 1, 0>(&StickSlipBelt, &method, "stick_slip_belt").0,
+        ];
+        println!("| 1e-{exponent} | {:.1e} | {:.1e} |", errors[0], errors[1]);
+        // Where slip begins on the belt, errors grow: friction falls with the speed.
+        for (error, factor) in errors.into_iter().zip([10.0, 300.0]) {
+            assert!(error < factor * tolerance, "{error:e} at {tolerance:e}");
+        }
+    }
+}

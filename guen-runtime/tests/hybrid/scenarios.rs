@@ -139,6 +139,26 @@ fn bouncing_without_loss_goes_back_the_way_it_came() {
 }
 
 #[test]
+fn thousands_of_transitions_lose_nothing() {
+    // An elastic ball between floor and ceiling: its energy is that of the start after every impact.
+    let elastic = Shaft { g: 10.0, height: 1.0, restitution: 1.0, shakes: (0.0, 0.0) };
+    let end = if std::env::var_os("GUEN_ROUNDS").is_some() { 1000.0 } else { 100.0 };
+    let energy = |x: &[f64; 2]| 0.5 * x[1] * x[1] + 10.0 * x[0];
+    let (start, mut count, mut worst) = ([0.5, 9.0], 0, 0.0_f64);
+    let done = Hybrid::new(&elastic, 0.0, &start)
+        .transitions(&mut |tr: &Transition<Mode<2>, 2, 2, 2>| {
+            assert_eq!(tr.kind, TransitionKind::Impact);
+            count += 1;
+            worst = worst.max((energy(&tr.state_after) - energy(&start)).abs());
+            ControlFlow::Continue(())
+        })
+        .run(&dop853(), end)
+        .unwrap();
+    assert!(f64::from(count) > 8.0 * end && done.transitions == u64::try_from(count).unwrap());
+    assert!(worst < 1e-12 * f64::from(count), "{worst:e} after {count}");
+}
+
+#[test]
 fn what_penetrates_at_the_start_is_refused() {
     let still = Shaft { g: 10.0, height: 5.0, restitution: 0.5, shakes: (0.0, 0.0) };
     let (_, done) = run(&still, &dop853(), [-0.1, 0.0], 1.0);
