@@ -167,7 +167,7 @@ pub mod __private {
         level_info, levels, linearizable, mass_form, monitored, motion_of_system, onto_constraints,
         operators, output_map, prepare, prepared, program_functions, rates, reaction_covector, reactions,
         record, reduce, reported, simulated, singularities, state_of_system, steady_motions, structured,
-        uses, with_scalar,
+        switches, uses, with_scalar,
     };
     pub use guen_runtime::{consistent, control, furthest_surplus, serde_record, serde_structured};
 }

@@ -15,6 +15,9 @@ pub const MAX_ENTRIES: usize = 1000;
 /// The most sums of products of a Taylor series: while one is computed they are on the stack.
 pub const MAX_SERIES_SUMS: usize = 1_500;
 
+/// The most switching functions of piecewise functions in the rates: steppers keep the sides of all of them.
+pub const MAX_SWITCHES: usize = 64;
+
 /// The deepest nesting of functions of the declaration that call each other: each adds the depth of its expression to the stack.
 pub const MAX_CALL_DEPTH: usize = 16;
 

@@ -102,7 +102,7 @@ pub use system::positions_error::PositionsError;
 pub use system::series::{Coefficients, Convolutions, DrivenSeries, TaylorSeries};
 pub use system::simulate::Simulate;
 pub use system::with_scalar::WithScalar;
-pub use system::{FromFn, Laned, Monitored, System, from_fn};
+pub use system::{FromFn, Laned, MAX_SWITCHES, Monitored, System, from_fn};
 
 #[cfg(feature = "serde")]
 #[doc(hidden)]

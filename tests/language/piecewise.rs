@@ -1,7 +1,8 @@
 //! Piecewise functions: rates and linearisations on both sides of every switch, in every real.
 
 use guen::mechanical_system;
-use guen::{Dual, Real};
+use guen::steppers::{Dop853, Integration, Outcome};
+use guen::{Dual, Real, Simulate, System};
 
 mechanical_system! {
     /// Forces with every piecewise function, along a coordinate each.
@@ -150,4 +151,99 @@ fn lanes_choose_each_by_itself() {
             assert_eq!(dispatch(width, Rates(states)), alone);
         }
     }
+}
+
+mechanical_system! {
+    /// A mass on a belt, between a spring and a stop, with everything that a scene and a carried form pass on.
+    pub system Belt {
+        constants   { m > 0, k > 0, stop > 0, friction >= 0, belt, wall > 0 }
+        inputs      { push }
+        coordinates { x, q }
+        parameters  { v = dot(x); w = dot(q); }
+        kinetic_energy   = m/2*v^2 + w^2/2;
+        potential_energy = k/2*x^2 + stop/2*max(0, x - wall)^2 - cos(q);
+        forces { friction*sign(belt - v) + push along v; }
+        outputs { beyond = max(0, x - wall); never = select(q >= 0, 1, 0); }
+        provide carried;
+        scene Swing { track q; }
+        scene Slide { track x; }
+    }
+}
+
+fn belt() -> Belt {
+    Belt { m: 2.0, k: 3.0, stop: 50.0, friction: 0.7, belt: 0.25, wall: 0.8 }
+}
+
+/// Each function of the rates, once, in the words of the declaration; what outputs alone use is none.
+#[test]
+fn switching_functions_have_names() {
+    assert_eq!(belt::SWITCHES, ["wall - x", "v - belt"]);
+    assert_eq!(<belt::Driven as Simulate<f64, 4>>::SWITCHES, belt::SWITCHES);
+    assert_eq!(belt::slide::SWITCHES, belt::SWITCHES);
+    assert!(<belt::swing::Prepared as Simulate<f64, 2>>::SWITCHES.is_empty());
+    let driven = belt().prepare().unwrap().driven(belt::Inputs { push: 0.4 });
+    let mut values = [0.0; 8];
+    let state = [1.0, 0.1, 0.5, 0.2];
+    assert_eq!(System::switches(&driven, 0.0, &state, &mut values), 2);
+    assert!((values[0] + 0.2).abs() < 1e-15 && (values[1] - 0.25).abs() < 1e-15, "{values:?}");
+}
+
+/// The motion of `Belt` by hand, phase after phase, with the formula of each.
+#[test]
+fn tolerances_hold_over_the_switches_of_a_declaration() {
+    let driven = belt().prepare().unwrap().driven(belt::Inputs { push: 0.4 });
+    let start = belt::State { x: -2.0, q: 0.3, v: 0.0, w: 0.0 };
+    // The reference runs each phase with the branches as they are, from event to event.
+    let reference = {
+        let (mut time, mut state, mut phases) = (0.0, [-2.0_f64, 0.0], 0);
+        let (mut slip, mut contact) = (1.0, false);
+        loop {
+            let rates = move |_t: f64, &[x, v]: &[f64; 2]| {
+                let stop = if contact { 50.0 * (x - 0.8) } else { 0.0 };
+                [v, (0.4 + 0.7 * slip - 3.0 * x - stop) / 2.0]
+            };
+            let phase = guen::from_fn(rates);
+            let (speed, wall) = (|_t: f64, x: &[f64; 2]| x[1] - 0.25, |_t: f64, x: &[f64; 2]| x[0] - 0.8);
+            let events =
+                [guen::steppers::Event::new(&speed).terminal(), guen::steppers::Event::new(&wall).terminal()];
+            let mut seen = |_: &guen::steppers::Occurrence<f64, 2>| core::ops::ControlFlow::Continue(());
+            let done = Integration::new(&phase, time, &state)
+                .events(events, &mut seen)
+                .run(&Dop853::new(1e-14, 1e-14), 6.0);
+            let done = done.unwrap();
+            (time, state) = (done.time, done.state);
+            match done.outcome {
+                Outcome::Event(0) => slip = -slip,
+                Outcome::Event(_) => contact = !contact,
+                _ => {}
+            }
+            if time == 6.0 {
+                assert!(phases > 4, "{phases}");
+                break state;
+            }
+            phases += 1;
+        }
+    };
+    for tolerance in [1e-6, 1e-8, 1e-10, 1e-12] {
+        let method = Dop853::new(tolerance, tolerance);
+        let done = Integration::new(&driven, 0.0, &start.into()).run(&method, 6.0).unwrap();
+        let error = (done.state[0] - reference[0]).abs().max((done.state[2] - reference[1]).abs());
+        assert!(error < 200.0 * tolerance && done.statistics.switches > 4, "{tolerance}: {error}");
+        // The carried form has the same switches.
+        let carried = belt().prepare().unwrap().carried().unwrap();
+        let lifted = start.carried(&carried, 0.0);
+        let carried = carried.driven(belt::Inputs { push: 0.4 });
+        let done = Integration::new(&carried, 0.0, &lifted.into()).run(&method, 6.0).unwrap();
+        let error = (done.state[0] - reference[0]).abs().max((done.state[2] - reference[1]).abs());
+        assert!(error < 200.0 * tolerance, "carried, {tolerance}: {error}");
+    }
+}
+
+/// A block that comes to rest on the belt has no motion by these rates: the error says so in the words of the declaration.
+#[test]
+fn a_block_that_sticks_is_told_of() {
+    let belt = Belt { k: 0.1, friction: 3.0, ..belt() }.prepare().unwrap().driven(belt::Inputs { push: 0.0 });
+    let start = belt::State { x: 0.1, q: 0.3, v: -0.5, w: 0.0 };
+    let error = belt.simulate(&start, 0.0..6.0).unwrap_err().to_string();
+    assert!(error.contains("`v - belt` = 0") && error.contains("`contacts`"), "{error}");
 }

@@ -73,6 +73,7 @@ pub(super) fn derive(
         domain: carried.edges,
         domain_names,
         domain_reasons: Vec::new(),
+        switches: level.switches.clone(),
         constant_pivots: Vec::new(),
         missing_bounds: None,
         jacobians: Jacobians::default(),

@@ -31,6 +31,8 @@ pub const MASS: &str = "mass";
 pub const BODIES: &str = "bodies";
 /// The functions that must not vanish.
 pub const DOMAIN: &str = "domain";
+/// The functions at whose zeros the rates change their formula.
+pub const SWITCHES: &str = "switches";
 /// The expressions of constants that must not vanish.
 pub const PIVOTS: &str = "pivots";
 /// Coordinates that a scene leaves out and that holonomic equations say of what it keeps.

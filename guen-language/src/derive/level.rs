@@ -50,6 +50,8 @@ pub struct Level {
     /// The number of them, from the first, that guards measure one by one; the others are determinants, and measured
     /// together as the condition of the mass matrix.
     pub singularities: usize,
+    /// The texts of the functions at whose zeros the rates change their formula; [`SWITCHES`](super::function::SWITCHES) computes them.
+    pub switches: Vec<String>,
     /// Expressions of constants that must not vanish.
     pub constant_pivots: Vec<ExprId>,
     /// The bounds that would save operations; of the system itself.

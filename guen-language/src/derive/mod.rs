@@ -22,6 +22,7 @@ mod readable;
 mod scene;
 mod selection;
 mod series;
+mod switches;
 
 use std::rc::Rc;
 
@@ -121,6 +122,8 @@ fn whole(
     let singularities = domain_names.len() - derivation.solution.determinants.len();
     let missing_bounds = missing_bounds::missing_bounds(model, &derivation, &programs);
     let jacobians = Jacobians::add(&mut programs, model, &selection);
+    let name = model.declaration.name.span();
+    let switches = switches::add(model, &rates, &shown, &mut programs, (name, &mut *faults));
     let energy = derivation.energies.integral;
     let mut level = Level {
         selection,
@@ -135,6 +138,7 @@ fn whole(
         domain_names,
         domain_reasons,
         singularities,
+        switches,
         constant_pivots,
         missing_bounds,
         series: None,

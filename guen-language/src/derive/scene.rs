@@ -172,6 +172,8 @@ fn level(
         cheapest(model, (system, &derivation), &selection, &scene.fixes, lists, kept, &mut functions);
     let Functions { domain, domain_names, domain_reasons, constant_pivots, .. } = functions;
     let jacobians = Jacobians::add(&mut programs, model, &selection);
+    let place = (scene.scene.name.span(), &mut *faults);
+    let switches = super::switches::add(model, &rates, &shown, &mut programs, place);
     let series = expands.and_then(|word| series::of(model, &selection, &programs, word.span(), faults));
     let fixes = scene
         .fixes
@@ -204,6 +206,7 @@ fn level(
         domain,
         domain_names,
         domain_reasons,
+        switches,
         constant_pivots,
         missing_bounds: None,
         series,

@@ -48,7 +48,7 @@ pub(super) fn of(
                     } else {
                         format!("at a kink of `{function}` a series goes on as if there were none, and nothing would tell")
                     })
-                    .help("leave `taylor` out and integrate with another method, up to the kink by an event"),
+                    .help("leave `taylor` out and integrate with another method, which locates the kink"),
             );
             return None;
         }

@@ -264,6 +264,14 @@ fn systems(
             }
         }
     });
+    let switches = (!subject.level.switches.is_empty()).then(|| {
+        quote! {
+            #[inline]
+            fn switches(&self, t: R, state: &[R; #size], values: &mut [R]) -> usize {
+                __guen::System::switches(&#below, t, &Prepared::variables(state), values)
+            }
+        }
+    });
     let prices = integrated::prices(subject, layout, &checks);
     let differentiable = integrated::differentiable(layout, false);
     let simulate = integrated::simulate(subject, layout, false, false);
@@ -299,6 +307,8 @@ fn systems(
                 #further
                 written
             }
+
+            #switches
 
             fn condition(&self, t: R, state: &[R; #size]) -> R {
                 __guen::System::condition(&#below, t, &Prepared::variables(state))

@@ -68,8 +68,18 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, is_outline: bool
     let unfinished = unfinished.map(|note| format!("{note:?}")).unwrap_or_default();
     let literals =
         |texts: &[String]| texts.iter().map(|text| format!("{text:?}")).collect::<Vec<_>>().join(" ");
+    let switches = &subject.level.switches;
+    let switches = match switches.len() {
+        0 => String::new(),
+        count => format!(
+            "/// The functions at whose zeros the rates change their formula, in the names of the declaration: those of `min`, `max`,
+            /// `select` and the others. Methods that choose their steps locate these zeros.
+            pub const SWITCHES: [&str; {count}] = [{}];",
+            switches.iter().map(|text| format!("{text:?}")).collect::<Vec<_>>().join(", "),
+        ),
+    };
     tokens(&format!(
-        "__guen::facts! {{ {system} {class} [{growth}] {steps} {integrable} {complete} [{unfinished}] {scleronomic} {catastatic}
+        "{switches} __guen::facts! {{ {system} {class} [{growth}] {steps} {integrable} {complete} [{unfinished}] {scleronomic} {catastatic}
         {conservative} [{}] [{}] [{}] [{}] {domain_count} {owners} }}",
         list(&cost),
         list(&prepare_cost),

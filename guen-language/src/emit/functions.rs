@@ -83,6 +83,7 @@ pub(super) fn signature(name: &str) -> Signature {
         | function::MASS_FORM
         | function::APPLIED
         | function::LINEARIZATION
+        | function::SWITCHES
         | function::OUTPUT_LINEARIZATION => Signature::Driven,
         function::REACTIONS | function::REACTION_COVECTOR | function::POWER => Signature::Accelerated,
         function::VELOCITIES | function::ENERGY | function::KINETIC_ENERGY | function::MOMENTA => {

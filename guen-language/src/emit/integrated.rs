@@ -8,7 +8,7 @@ use super::layout::Layout;
 use crate::derive::{Subject, function};
 use crate::model::Model;
 
-/// The methods `conserved`, `singularities` and `condition` of the trait `System`, as far as the level has what they look at. `prepared` is the
+/// The methods `conserved`, `singularities`, `switches` and `condition` of the trait `System`, as far as the level has what they look at. `prepared` is the
 /// prepared system.
 pub(super) fn guarded(subject: &Subject<'_, '_>, layout: &Layout, prepared: &TokenStream) -> TokenStream {
     let level = subject.level;
@@ -20,6 +20,14 @@ pub(super) fn guarded(subject: &Subject<'_, '_>, layout: &Layout, prepared: &Tok
     let singularities = (level.singularities > 0).then(|| {
         let count = level.singularities;
         quote!(__guen::singularities!(#prepared; #size #count);)
+    });
+    let switches = (!level.switches.is_empty()).then(|| {
+        let count = level.switches.len();
+        let inputs = match layout.inputs {
+            0 => quote!([]),
+            _ => quote!(::core::convert::From::from(self.inputs)),
+        };
+        quote!(__guen::switches!(#prepared; #size #count #inputs);)
     });
     let condition = level.program(function::MASS).map(|_| {
         let l = layout.l;
@@ -37,6 +45,7 @@ pub(super) fn guarded(subject: &Subject<'_, '_>, layout: &Layout, prepared: &Tok
     quote! {
         __guen::conserved!(#prepared; #n #size [#kept] [#held]);
         #singularities
+        #switches
 
         #condition
         #prices
@@ -159,11 +168,15 @@ pub(super) fn simulate(
     positions: bool,
 ) -> TokenStream {
     let (owner, size) = (owner(layout), layout.size);
-    let domain = domain.then(|| quote!(DOMAIN));
     let positions = positions.then(|| quote!(__guen::onto_constraints!(#size);));
     let names = layout.state.names().iter().cloned();
     let units = units(subject.model, names);
-    quote!(__guen::simulated! { #owner #size [#domain] [#(#units)*] #positions })
+    // A carried form lies in a module of its own, and its domain beside the system's.
+    let names = if domain { quote!(SWITCHES) } else { quote!(super::SWITCHES) };
+    let switches = (!subject.level.switches.is_empty())
+        .then(|| quote!(const SWITCHES: &'static [&'static str] = &#names;));
+    let domain = domain.then(|| quote!(DOMAIN));
+    quote!(__guen::simulated! { #owner #size [#domain] [#(#units)*] #switches #positions })
 }
 
 /// The units of entries by their names; nothing where no unit is declared.

@@ -519,7 +519,7 @@ pub fn joined<R: Real, const N: usize>(head: &[R], tail: &[R]) -> [R; N] {
 }
 
 /// Writes the first `count` functions that must not vanish to the head of `values`, as far as there is place for them, and
-/// returns how many: what [`System::singularities`](crate::System::singularities) does with them.
+/// returns how many: what [`System::singularities`](crate::System::singularities) and [`System::switches`](crate::System::switches) do with them.
 ///
 /// ```
 /// use guen_runtime::{RunningError, checks::placed};
@@ -529,11 +529,7 @@ pub fn joined<R: Real, const N: usize>(head: &[R], tail: &[R]) -> [R; N] {
 /// assert_eq!(placed(&mut values[..1], &functions, 3), 1);
 /// ```
 #[inline(always)]
-pub fn placed<R: Real, const N: usize>(
-    values: &mut [RunningError<R>],
-    functions: &[RunningError<R>; N],
-    count: usize,
-) -> usize {
+pub fn placed<T: Copy, const N: usize>(values: &mut [T], functions: &[T; N], count: usize) -> usize {
     let mut written = 0;
     for (place, function) in values.iter_mut().zip(functions.iter().take(count)) {
         *place = *function;

@@ -183,6 +183,7 @@ where
     const STATES: &'static [&'static str] = S::Driven::STATES;
     const UNITS: &'static [&'static str] = S::Driven::UNITS;
     const DOMAIN: &'static [&'static str] = S::Driven::DOMAIN;
+    const SWITCHES: &'static [&'static str] = S::Driven::SWITCHES;
 
     fn onto_constraints(&self, t: R, state: &mut [R; N]) -> Result<(), PositionsError>
     where

@@ -44,6 +44,11 @@ macro_rules! forward {
         }
 
         #[inline]
+        fn switches(&$self, $t: $R, $state: &[$R; $N], values: &mut [$R]) -> usize {
+            $here.switches($t, $state, values)
+        }
+
+        #[inline]
         fn condition(&$self, t: $R, state: &[$R; $N]) -> $R {
             $inner.condition(t, state)
         }

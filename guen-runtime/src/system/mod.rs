@@ -29,6 +29,9 @@ use crate::system::forward::forward;
 use crate::system::invariants::Invariants;
 use crate::system::positions_error::PositionsError;
 
+/// The most [switching functions](System::switches) of a system.
+pub const MAX_SWITCHES: usize = 64;
+
 /// A system of `N` ordinary differential equations of first order over the real `R`.
 ///
 /// ```text
@@ -82,6 +85,35 @@ pub trait System<R: Real, const N: usize> {
         _state: &[RunningError<R>; N],
         _values: &mut [RunningError<R>],
     ) -> usize {
+        0
+    }
+
+    /// Writes functions at whose zeros the right-hand side changes its formula, as `max(0, x)` does at `x = 0`, to the head of
+    /// `values`, and returns how many: none, unless a system says more. At most [`MAX_SWITCHES`] count. A method that chooses its
+    /// steps ends one at every change of sign, located to rounding, and starts anew behind it.
+    ///
+    /// ```
+    /// use guen_runtime::System;
+    /// use guen_runtime::steppers::{Dop853, Integration};
+    ///
+    /// /// A mass that a spring pushes on one side of zero only.
+    /// struct Stop;
+    /// impl System<f64, 2> for Stop {
+    ///     fn rhs(&self, _t: f64, &[x, v]: &[f64; 2]) -> [f64; 2] {
+    ///         [v, if x < 0.0 { -100.0 * x } else { 0.0 }]
+    ///     }
+    ///     fn switches(&self, _t: f64, state: &[f64; 2], values: &mut [f64]) -> usize {
+    ///         values[0] = state[0];
+    ///         1
+    ///     }
+    /// }
+    /// // It comes back after half a period of the spring, as fast as it came.
+    /// let done = Integration::new(&Stop, 0.0, &[1.0, -1.0]).run(&Dop853::new(1e-10, 1e-10), 3.0).unwrap();
+    /// assert!((done.state[0] - (2.0 - std::f64::consts::PI / 10.0)).abs() < 1e-9);
+    /// assert_eq!(done.statistics.switches, 2);
+    /// ```
+    #[inline]
+    fn switches(&self, _t: R, _state: &[R; N], _values: &mut [R]) -> usize {
         0
     }
 

@@ -46,6 +46,10 @@ pub trait Simulate<R: Real, const N: usize>: System<R, N> {
     /// they have no names.
     const DOMAIN: &'static [&'static str] = &[];
 
+    /// The functions at whose zeros the rates change their formula, in the order of [`switches`](System::switches), for messages;
+    /// empty where they have no names.
+    const SWITCHES: &'static [&'static str] = &[];
+
     /// Moves a state onto the constraints on positions, as simulations do after every step: by [`project`](crate::project) in
     /// declared systems that have some. What [`restore`](System::restore) does, unless a system says more.
     ///
@@ -110,6 +114,7 @@ impl<R: Real, S: Simulate<R, N> + ?Sized, const N: usize> Simulate<R, N> for &S 
     const STATES: &'static [&'static str] = S::STATES;
     const UNITS: &'static [&'static str] = S::UNITS;
     const DOMAIN: &'static [&'static str] = S::DOMAIN;
+    const SWITCHES: &'static [&'static str] = S::SWITCHES;
 
     fn onto_constraints(&self, t: R, state: &mut [R; N]) -> Result<(), PositionsError>
     where
@@ -128,12 +133,13 @@ where
     const STATES: &'static [&'static str] = S::STATES;
     const UNITS: &'static [&'static str] = S::UNITS;
     const DOMAIN: &'static [&'static str] = S::DOMAIN;
+    const SWITCHES: &'static [&'static str] = S::SWITCHES;
 }
 
 impl Names {
     /// The names of a system.
     pub(crate) fn of<R: Real, S: Simulate<R, N> + ?Sized, const N: usize>() -> Self {
-        Self { states: S::STATES, domain: S::DOMAIN }
+        Self { states: S::STATES, domain: S::DOMAIN, switches: S::SWITCHES }
     }
 }
 

@@ -11,5 +11,6 @@ mod orders;
 mod other_reals;
 mod simultaneous;
 mod stiff;
+mod switches;
 #[path = "../numbers/wrapper.rs"]
 mod wrapper;

@@ -70,6 +70,7 @@ impl Failure {
             | Cause::Residual { .. }
             | Cause::ChartSingularity { .. }
             | Cause::Carried { .. }
+            | Cause::Sliding { .. }
             | Cause::Positions => FailureKind::Guard,
             Cause::Setting(_) => FailureKind::Setting,
             _ => FailureKind::Steps,

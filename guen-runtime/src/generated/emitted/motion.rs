@@ -458,6 +458,20 @@ macro_rules! singularities {
     };
 }
 
+/// `switches` of the trait `System`: the path to the prepared system, the numbers of states and of functions, and the inputs.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! switches {
+    ($self:ident $(. $inner:ident)?; $size:literal $count:literal $inputs:expr) => {
+        #[inline]
+        fn switches(&$self, t: R, state: &[R; $size], values: &mut [R]) -> usize {
+            let prepared = &$self $(.$inner)?;
+            let found = program::switches(&prepared.constants, &prepared.hoisted, t, state, &$inputs);
+            $crate::checks::placed(values, &found, $count)
+        }
+    };
+}
+
 /// `prepare` of the constants: the struct, their number, their values, the checks of them, and those of the prepared system.
 #[doc(hidden)]
 #[macro_export]

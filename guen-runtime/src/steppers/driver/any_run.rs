@@ -6,7 +6,8 @@ use core::ops::ControlFlow;
 use crate::numbers::real::Real;
 use crate::steppers::driver::dense::Interpolant;
 use crate::steppers::driver::error::Cause;
-use crate::steppers::driver::run::{Checkpoint, StepperRun};
+use crate::steppers::driver::run::{Checkpoint, Method, StepperRun};
+use crate::steppers::driver::switches::{Step, Switches, Values};
 use crate::steppers::guard::Watched;
 use crate::system::System;
 
@@ -45,21 +46,105 @@ pub(in crate::steppers) trait AnyRun<R: Real, const N: usize> {
 }
 
 /// A run, its system, and the polynomial of its last step once somebody has asked for it.
-pub(in crate::steppers) struct SystemRun<'a, C: StepperRun<R, S, N>, R: Real, S: ?Sized, const N: usize> {
-    run: C,
+pub(in crate::steppers) struct SystemRun<'a, M, R, S, const N: usize>
+where
+    M: Method<R, S, N>,
+    R: Real,
+    S: ?Sized,
+{
+    method: &'a M,
+    run: M::Run<'a>,
     system: &'a S,
-    polynomial: Option<C::Polynomial>,
+    polynomial: Option<<M::Run<'a> as StepperRun<R, S, N>>::Polynomial>,
+    switched: Option<Switched<R, N>>,
 }
 
-impl<'a, C: StepperRun<R, S, N>, R: Real, S: ?Sized, const N: usize> SystemRun<'a, C, R, S, N> {
-    pub(crate) fn new(run: C, system: &'a S) -> Self {
-        Self { run, system, polynomial: None }
+/// The state of a run over switches.
+struct Switched<R, const N: usize> {
+    switches: Switches<R>,
+    /// The place that the run has reached, with the work of all attempts.
+    reached: Checkpoint<R, N>,
+    /// Whether the next step is the first of a new run.
+    restarts: bool,
+}
+
+impl<'a, M, R, S, const N: usize> SystemRun<'a, M, R, S, N>
+where
+    M: Method<R, S, N>,
+    R: Real,
+    S: System<R, N> + ?Sized,
+{
+    pub(crate) fn new(method: &'a M, start: &Checkpoint<R, N>, system: &'a S) -> Self {
+        let here = Values::of(system, start);
+        let switched = (!here.is_empty()).then(|| Switched {
+            switches: Switches::new(here),
+            reached: *start,
+            restarts: false,
+        });
+        Self { method, run: method.start(start), system, polynomial: None, switched }
+    }
+
+    /// A step of a system with switches.
+    fn advance_over(&mut self, target: R, dense: bool) -> Result<(), Cause> {
+        /// Attempts to end a step at a crossing; halves alone take 64.
+        const MOST_ATTEMPTS: u32 = 200;
+        let Self { method, run, system, switched, .. } = self;
+        let Some(Switched { switches, reached, restarts }) = switched else { return Ok(()) };
+        let from = *reached;
+        let backwards = (target - from.time).to_f64() < 0.0;
+        if M::Run::<'a>::JUDGED {
+            run.advance(system, target, dense)?;
+            let passed = switches.pass(Values::of(*system, run.checkpoint()));
+            let before = reached.statistics.switches_passed;
+            *reached = *run.checkpoint();
+            reached.statistics.switches_passed = before + passed;
+            return Ok(());
+        }
+        let slides = |switches: &Switches<R>, place: &Checkpoint<R, N>, crossed| {
+            let found = place.time.to_f64();
+            let slides = switches.slides(*system, place, backwards, crossed);
+            slides.map_or(Ok(()), |switch| Err(Cause::Sliding { found, switch }))
+        };
+        if core::mem::take(restarts) {
+            *run = method.start(&from);
+        } else if from.statistics.accepted == 0 && switches.begins_on_one() {
+            slides(switches, &from, None)?;
+        }
+        // Whether a method could not make steps as short as those to the crossing.
+        let mut anyway = false;
+        for _ in 0..MOST_ATTEMPTS {
+            let goal = switches.past().filter(|_| anyway).unwrap_or_else(|| switches.goal(&from, target));
+            if let Err(cause) = run.advance(system, goal, dense) {
+                if anyway || switches.past().is_none() {
+                    return Err(cause);
+                }
+                anyway = true;
+                *run = method.start(&Checkpoint { statistics: run.checkpoint().statistics, ..from });
+                continue;
+            }
+            let to = *run.checkpoint();
+            match switches.judge(&from, &to, Values::of(*system, &to), anyway) {
+                Step::OneSided => {
+                    *reached = to;
+                    return Ok(());
+                }
+                Step::Located { switch } => {
+                    slides(switches, &to, Some(switch))?;
+                    *reached = to;
+                    reached.statistics.switches += 1;
+                    *restarts = true;
+                    return Ok(());
+                }
+                Step::Over => *run = method.start(&Checkpoint { statistics: to.statistics, ..from }),
+            }
+        }
+        Err(Cause::StepUnderflow)
     }
 }
 
-impl<C, R, S, const N: usize> AnyRun<R, N> for SystemRun<'_, C, R, S, N>
+impl<'a, M, R, S, const N: usize> AnyRun<R, N> for SystemRun<'a, M, R, S, N>
 where
-    C: StepperRun<R, S, N>,
+    M: Method<R, S, N>,
     R: Real,
     S: System<R, N> + ?Sized,
 {
@@ -68,38 +153,50 @@ where
     }
 
     fn evaluations(&self) -> u32 {
-        C::EVALUATIONS
+        M::Run::<'a>::EVALUATIONS
     }
 
     fn is_judged(&self) -> bool {
-        C::JUDGED
+        M::Run::<'a>::JUDGED
     }
 
     fn checkpoint(&self) -> &Checkpoint<R, N> {
-        self.run.checkpoint()
+        match &self.switched {
+            Some(switched) => &switched.reached,
+            None => self.run.checkpoint(),
+        }
     }
 
     fn advance(&mut self, target: R, dense: bool) -> Result<(), Cause> {
         self.polynomial = None;
-        self.run.advance(self.system, target, dense)
+        match self.switched {
+            Some(_) => self.advance_over(target, dense),
+            None => self.run.advance(self.system, target, dense),
+        }
     }
 
-    fn go_on(&mut self, target: R, steps: u32, observer: Option<Observer<'_, R, N>>) -> Result<bool, Cause> {
+    fn go_on(
+        &mut self,
+        target: R,
+        steps: u32,
+        mut observer: Option<Observer<'_, R, N>>,
+    ) -> Result<bool, Cause> {
         self.polynomial = None;
-        let Some(observer) = observer else {
+        if observer.is_none() && self.switched.is_none() {
             return self.run.go_on(self.system, target, steps).map(|()| false);
-        };
+        }
         for made in 0..steps.max(1) {
             if made > 0 {
-                let reached = self.run.checkpoint();
+                let reached = *self.checkpoint();
                 if reached.time == target || self.run.is_last(target) {
                     break;
                 }
-                if observer(reached.time, &reached.state).is_break() {
+                if observer.as_mut().is_some_and(|observer| observer(reached.time, &reached.state).is_break())
+                {
                     return Ok(true);
                 }
             }
-            self.run.advance(self.system, target, false)?;
+            self.advance(target, false)?;
         }
         Ok(false)
     }
@@ -113,11 +210,11 @@ where
     }
 
     fn at(&mut self, time: R) -> Result<[R; N], Cause> {
-        let reached = self.run.checkpoint();
+        let reached = self.checkpoint();
         if time == reached.time {
             return Ok(reached.state);
         }
-        let Self { run, system, polynomial } = self;
+        let Self { run, system, polynomial, .. } = self;
         let mut state = polynomial.get_or_insert_with(|| run.dense(system)).at(time);
         system.restore(time, &mut state).map_err(|_| Cause::Positions)?;
         Ok(state)

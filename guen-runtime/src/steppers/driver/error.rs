@@ -115,6 +115,14 @@ pub enum Cause {
         /// The limit, of roundings that have grown so, relative to the start.
         limit: f64,
     },
+    /// A switch of a piecewise function drives the motion back to where it came from, on both sides: it would slide along the zero of
+    /// the switching function, where the rates have no value. Declare a `contact` or a `grip` if it is one that sticks.
+    Sliding {
+        /// The time at which it was found.
+        found: f64,
+        /// The index of the switching function; a generated system has the formulas in `SWITCHES`.
+        switch: usize,
+    },
     /// The trajectory of a simulation (`Simulate::simulate`) does not fit into the memory that it may take.
     Memory {
         /// The limit, in bytes.
@@ -157,6 +165,8 @@ pub(crate) struct Names {
     pub states: &'static [&'static str],
     /// The functions that must not vanish.
     pub domain: &'static [&'static str],
+    /// The functions at whose zeros the rates change.
+    pub switches: &'static [&'static str],
 }
 
 impl Names {
@@ -164,6 +174,13 @@ impl Names {
         match self.domain.get(function) {
             Some(formula) => write!(f, "`{formula}`"),
             None => write!(f, "function {function} of the domain"),
+        }
+    }
+
+    fn switch(&self, f: &mut fmt::Formatter<'_>, switch: usize) -> fmt::Result {
+        match self.switches.get(switch) {
+            Some(formula) => write!(f, "`{formula}`"),
+            None => write!(f, "switching function {switch}"),
         }
     }
 
@@ -240,6 +257,14 @@ impl Cause {
                 names.entry(f, *entry)?;
                 f.write_str(" is off by about ")?;
                 write!(f, "{defect:e} of its size, and {limit:e} is allowed")
+            }
+            Self::Sliding { found, switch } => {
+                write!(f, "at t = {found} the motion would slide where ")?;
+                names.switch(f, *switch)?;
+                f.write_str(
+                    " = 0: the rates on both sides lead back there, and none are given for the motion between. \
+                     What sticks is declared under `contacts`; a law that is smooth, as `tanh(v/small)`, creeps instead",
+                )
             }
             Self::Memory { limit } => write!(f, "the trajectory does not fit into {limit} bytes"),
             Self::Setting(Setting::Time) => f.write_str("a time to start from or to go to is not finite"),

@@ -205,6 +205,6 @@ impl<'a, R: Real, S: System<R, N> + ?Sized, const N: usize, const E: usize> Inte
         let mut events: [Followed<'_, R, N>; E] = events.map(Followed::new);
         let events = &mut events;
         let drive_loop = DriveLoop { start, guard, observer, samples, visited: 0, visitor, events, receiver };
-        drive_loop.through(&mut SystemRun::new(method.start(&start), system), times, &mut visit)
+        drive_loop.through(&mut SystemRun::new(method, &start, system), times, &mut visit)
     }
 }

@@ -11,4 +11,5 @@ pub(crate) mod integration;
 pub(crate) mod run;
 pub(crate) mod short_ways;
 pub(crate) mod statistics;
+mod switches;
 mod within_step;

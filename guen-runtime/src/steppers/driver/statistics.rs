@@ -14,6 +14,11 @@ pub struct Statistics {
     pub accepted: u64,
     /// Trial steps that were repeated with a shorter step; none with a fixed step.
     pub rejected: u64,
+    /// Switches of piecewise functions that were located, and behind which the run started anew.
+    pub switches: u64,
+    /// Switches that a method with a fixed step went over without locating them: each costs it an error of the size of the jump
+    /// times the step.
+    pub switches_passed: u64,
 }
 
 impl AddAssign for Statistics {
@@ -23,5 +28,7 @@ impl AddAssign for Statistics {
         self.jacobians += other.jacobians;
         self.accepted += other.accepted;
         self.rejected += other.rejected;
+        self.switches += other.switches;
+        self.switches_passed += other.switches_passed;
     }
 }

@@ -191,7 +191,7 @@ mod tests {
         // `dop853.f`, called through scipy with these tolerances, counts 52 steps and 626 evaluations.
         let oscillator = from_fn(|_t: f64, &[x, v]: &[f64; 2]| [v, -x]);
         let (times, _, work) = steps(&Original(Tableau::new()), &oscillator, &[0.0, 1.0], 10.0, 1e-12);
-        assert_eq!(work, Statistics { evaluations: 626, jacobians: 0, accepted: 52, rejected: 0 });
+        assert_eq!(work, Statistics { evaluations: 626, accepted: 52, ..Statistics::default() });
         // The control takes its roots to almost four digits.
         for (time, original) in
             times.into_iter().zip([0.01778279410038923, 0.1244795587027246, 0.32690535550916894])

@@ -1,0 +1,217 @@
+//! Switches: the functions at whose zeros a right-hand side changes its formula, and the search for the end of a step at one of them.
+//!
+//! Nothing is read off a polynomial: one over a step with a switch in it is right on neither side. Steps are made again from where the
+//! last one ended, each to a time nearer to the crossing. Those that end in front of it are steps as others; those that end past it
+//! have the wrong formula for the part behind the crossing, which becomes as short as a rounding of the time.
+
+use crate::numbers::real::Real;
+use crate::steppers::driver::crossing::sign;
+use crate::steppers::driver::run::Checkpoint;
+use crate::system::{MAX_SWITCHES, System};
+
+/// The switching functions at one state.
+#[derive(Clone, Copy)]
+pub(super) struct Values {
+    values: [f64; MAX_SWITCHES],
+    count: usize,
+}
+
+impl Values {
+    /// The functions of a system; those beyond [`MAX_SWITCHES`] are left out.
+    pub(super) fn of<R: Real, S: System<R, N> + ?Sized, const N: usize>(
+        system: &S,
+        place: &Checkpoint<R, N>,
+    ) -> Self {
+        let mut written = [R::zero(); MAX_SWITCHES];
+        let count = system.switches(place.time, &place.state, &mut written).min(MAX_SWITCHES);
+        Self { values: written.map(Real::to_f64), count }
+    }
+
+    /// Whether there are any.
+    pub(super) fn is_empty(&self) -> bool {
+        self.count == 0
+    }
+}
+
+/// The time of a state past a crossing, and the functions there.
+#[derive(Clone, Copy)]
+struct Past<R> {
+    time: R,
+    values: Values,
+}
+
+/// The search for crossings of a run.
+pub(super) struct Switches<R> {
+    /// The side on which each function was last; zero before it was on one.
+    sides: [i8; MAX_SWITCHES],
+    /// The functions at the end of the last step.
+    here: Values,
+    past: Option<Past<R>>,
+    /// How often in turn the same end of the bracket has moved: in front of the crossing above zero, past it below.
+    moved: i32,
+    /// The longest step so far.
+    longest: f64,
+}
+
+/// What a step turned out to be.
+pub(super) enum Step {
+    /// Everything is on the side where it was.
+    OneSided,
+    /// It ends just past a crossing.
+    Located {
+        /// The function that crosses.
+        switch: usize,
+    },
+    /// It goes over a crossing that is still to be located.
+    Over,
+}
+
+impl<R: Real> Switches<R> {
+    /// At the start of a run.
+    pub(super) fn new(here: Values) -> Self {
+        let sides = here.values.map(sign);
+        Self { sides, here, past: None, moved: 0, longest: 0.0 }
+    }
+
+    /// The time to go to: in a bracket the place where the first function is expected to cross, by regula falsi with the Illinois
+    /// rule.
+    pub(super) fn goal<const N: usize>(&self, from: &Checkpoint<R, N>, target: R) -> R {
+        /// In turn moved ends after which the bracket is halved.
+        const PATIENCE: i32 = 3;
+        let Some(past) = &self.past else { return target };
+        let length = past.time - from.time;
+        let (ahead, behind) = (self.moved.max(0), (-self.moved).max(0));
+        let part = match self.moved.abs() < PATIENCE {
+            true => self.crossed(&past.values).map_or(0.5, |k| {
+                let a = self.here.values[k].abs() * libm::exp2(f64::from(-(behind - 1).max(0)));
+                let b = past.values.values[k].abs() * libm::exp2(f64::from(-(ahead - 1).max(0)));
+                if a + b > 0.0 { a / (a + b) } else { 0.5 }
+            }),
+            false => 0.5,
+        };
+        let middle = from.time + length * R::from_f64(part);
+        // A probe in the last roundings before an end would not close the bracket from the other side.
+        let near = R::from_f64(0.5 * resolution(past.time, self.longest));
+        let near = if length.to_f64() < 0.0 { -near } else { near };
+        let inside = |t: R| (t - from.time - near).to_f64() * length.to_f64() > 0.0;
+        let outside = |t: R| (past.time - near - t).to_f64() * length.to_f64() <= 0.0;
+        match () {
+            () if !inside(middle) => from.time + near,
+            () if outside(middle) => past.time - near,
+            () => middle,
+        }
+    }
+
+    /// The crossed function that is expected to have crossed first.
+    fn crossed(&self, values: &Values) -> Option<usize> {
+        let mut found: Option<(usize, f64)> = None;
+        for k in 0..values.count {
+            let (a, b) = (self.here.values[k], values.values[k]);
+            if self.sides[k] * sign(b) < 0 {
+                let part = a.abs() / (a.abs() + b.abs());
+                if found.is_none_or(|(_, first)| part < first) {
+                    found = Some((k, part));
+                }
+            }
+        }
+        found.map(|(k, _)| k)
+    }
+
+    /// Judges a step, which has ended with these values. With `anyway` a crossing counts as located however long the step was.
+    pub(super) fn judge<const N: usize>(
+        &mut self,
+        from: &Checkpoint<R, N>,
+        to: &Checkpoint<R, N>,
+        values: Values,
+        anyway: bool,
+    ) -> Step {
+        let length = to.since(from).to_f64().abs();
+        self.longest = self.longest.max(length);
+        let Some(switch) = self.crossed(&values) else {
+            let reaches =
+                |past: Past<R>| (to.time - past.time).to_f64() * (past.time - from.time).to_f64() >= 0.0;
+            if self.past.is_some_and(reaches) {
+                self.past = None;
+            }
+            self.moved = if self.past.is_some() { self.moved.max(0) + 1 } else { 0 };
+            self.enter(values);
+            return Step::OneSided;
+        };
+        if length > resolution(to.time, self.longest) && !anyway {
+            self.past = Some(Past { time: to.time, values });
+            self.moved = self.moved.min(0) - 1;
+            return Step::Over;
+        }
+        (self.past, self.moved) = (None, 0);
+        self.enter(values);
+        Step::Located { switch }
+    }
+
+    /// The time past the crossing that is being located.
+    pub(super) fn past(&self) -> Option<R> {
+        self.past.map(|past| past.time)
+    }
+
+    /// The function that leads a motion back to its zero, of those that it stands on or has just crossed: on the side where it
+    /// is, the rates point to the other. `None` if it can go on.
+    pub(super) fn slides<S: System<R, N> + ?Sized, const N: usize>(
+        &self,
+        system: &S,
+        place: &Checkpoint<R, N>,
+        backwards: bool,
+        crossed: Option<usize>,
+    ) -> Option<usize> {
+        /// The distance of the place that is looked at, in longest steps.
+        const AHEAD: f64 = 1e-6;
+        let distance = if self.longest > 0.0 { AHEAD * self.longest } else { AHEAD };
+        let ahead = R::from_f64(if backwards { -distance } else { distance });
+        let next = |place: &Checkpoint<R, N>| {
+            let rates = system.rhs(place.time, &place.state);
+            let state = core::array::from_fn(|i| place.state[i] + ahead * rates[i]);
+            Checkpoint { time: place.time + ahead, state, ..*place }
+        };
+        let first = next(place);
+        let values = Values::of(system, &first);
+        match crossed {
+            Some(k) => (self.sides[k] * sign(values.values[k]) < 0).then_some(k),
+            None => {
+                let second = Values::of(system, &next(&first));
+                let leads_back = |k: &usize| {
+                    let side = sign(values.values[*k]);
+                    self.sides[*k] == 0
+                        && side != 0
+                        && (second.values[*k] - values.values[*k]) * f64::from(side) < 0.0
+                };
+                (0..values.count).find(leads_back)
+            }
+        }
+    }
+
+    /// Whether some function vanishes at the start.
+    pub(super) fn begins_on_one(&self) -> bool {
+        self.sides[..self.here.count].contains(&0)
+    }
+
+    /// Takes the values at the end of a step that counts. Whoever stands on zero stays on the side from which it came.
+    fn enter(&mut self, values: Values) {
+        for k in 0..values.count {
+            let side = sign(values.values[k]);
+            if side != 0 {
+                self.sides[k] = side;
+            }
+        }
+        self.here = values;
+    }
+
+    /// Counts the functions that a step has carried to their other side, and takes its end as it is.
+    pub(super) fn pass(&mut self, values: Values) -> u64 {
+        let crossed = (0..values.count).filter(|k| self.sides[*k] * sign(values.values[*k]) < 0).count();
+        self.enter(values);
+        crossed as u64
+    }
+}
+
+/// The duration to which a crossing is located: four roundings of the time, or of the longest step.
+fn resolution<R: Real>(t: R, longest: f64) -> f64 {
+    4.0 * R::epsilon().to_f64() * t.to_f64().abs().max(longest)
+}

@@ -1,0 +1,191 @@
+//! Right-hand sides that change their formula: methods that choose their steps locate the change, so that errors follow the
+//! tolerance as on smooth systems; others count it.
+
+use guen_runtime::steppers::{Cause, Dop853, Integration, Outcome, Radau5, Rk4, Tsit5};
+use guen_runtime::{Differentiable, Dual, Real, System};
+
+/// An oscillator between two springs that begin at a distance: free in between.
+#[derive(Clone, Copy)]
+struct Gap;
+
+impl<R: Real> System<R, 2> for Gap {
+    fn rhs(&self, _t: R, &[x, v]: &[R; 2]) -> [R; 2] {
+        let one = R::one();
+        let stiffness = R::from_ratio(400, 1);
+        let push = (-one - x).maximum(R::zero()) - (x - one).maximum(R::zero());
+        [v, stiffness * push]
+    }
+
+    fn switches(&self, _t: R, &[x, _]: &[R; 2], values: &mut [R]) -> usize {
+        values[0] = x + R::one();
+        values[1] = x - R::one();
+        2
+    }
+}
+
+/// The place of the gap's motion that begins at zero with speed one: two seconds between the springs, `pi/20` in each.
+fn in_gap(t: f64) -> [f64; 2] {
+    let contact = core::f64::consts::PI / 20.0;
+    let half = 2.0 + contact;
+    let turns = ((t + 1.0) / half).floor();
+    let within = (t + 1.0) % half;
+    let side = if turns % 2.0 == 0.0 { 1.0 } else { -1.0 };
+    let [x, v] = if within < 2.0 {
+        [within - 1.0, 1.0]
+    } else {
+        let phase = 20.0 * (within - 2.0);
+        [1.0 + phase.sin() / 20.0, phase.cos()]
+    };
+    [side * x, side * v]
+}
+
+/// A mass on a spring with dry friction, `x'' = -x - f sign(v)`.
+#[derive(Clone, Copy)]
+struct Friction(f64);
+
+impl<R: Real> System<R, 2> for Friction {
+    fn rhs(&self, _t: R, &[x, v]: &[R; 2]) -> [R; 2] {
+        [v, -x - R::from_f64(self.0) * v.sign()]
+    }
+
+    fn switches(&self, _t: R, &[_, v]: &[R; 2], values: &mut [R]) -> usize {
+        values[0] = v;
+        1
+    }
+}
+
+/// From rest at `a`: half a turn about the point where spring and friction balance, then about the opposite one.
+fn with_friction(f: f64, a: f64, t: f64) -> [f64; 2] {
+    let (mut start, mut left) = (a, t);
+    while left > core::f64::consts::PI {
+        let balance = f * start.signum();
+        start = 2.0 * balance - start;
+        left -= core::f64::consts::PI;
+    }
+    let balance = f * start.signum();
+    let size = start - balance;
+    [balance + size * left.cos(), -size * left.sin()]
+}
+
+fn off(found: [f64; 2], expected: [f64; 2]) -> f64 {
+    (found[0] - expected[0]).abs().max((found[1] - expected[1]).abs())
+}
+
+#[test]
+fn errors_follow_the_tolerance_over_switches() {
+    let start = with_friction(0.3, 5.0, 0.25);
+    for exponent in [4, 6, 8, 10, 12] {
+        let tolerance = 10.0_f64.powi(-exponent);
+        let mut errors = Vec::new();
+        macro_rules! with {
+            ($method:expr) => {{
+                let method = $method;
+                let done = Integration::new(&Gap, 0.0, &[0.0, 1.0]).run(&method, 10.0).unwrap();
+                errors.push(off(done.state, in_gap(10.0)));
+                assert_eq!((done.statistics.switches, done.statistics.switches_passed), (10, 0));
+                let friction = Integration::new(&Friction(0.3), 0.25, &start).run(&method, 15.0).unwrap();
+                errors.push(off(friction.state, with_friction(0.3, 5.0, 15.0)));
+                assert_eq!(friction.statistics.switches, 4);
+            }};
+        }
+        with!(Dop853::new(tolerance, tolerance));
+        with!(Tsit5::new(tolerance, tolerance));
+        for error in &errors {
+            assert!(*error < 300.0 * tolerance, "{tolerance}: {errors:?}");
+        }
+    }
+}
+
+#[test]
+fn implicit_methods_locate_switches() {
+    let method = Radau5::new(1e-8, 1e-8);
+    let done = Integration::new(&Gap, 0.0, &[0.0, 1.0]).run(&method, 10.0).unwrap();
+    assert!(off(done.state, in_gap(10.0)) < 1e-5, "{done:?}");
+}
+
+impl Differentiable<f64, 2> for Gap {
+    fn jacobian(&self, _t: f64, &[x, _]: &[f64; 2]) -> [[f64; 2]; 2] {
+        [[0.0, 1.0], [if x.abs() > 1.0 { -400.0 } else { 0.0 }, 0.0]]
+    }
+
+    fn along(&self, t: f64, state: &[f64; 2], _dt: f64, dx: &[f64; 2]) -> [f64; 2] {
+        let [[_, one], [slope, _]] = self.jacobian(t, state);
+        [one * dx[1], slope * dx[0]]
+    }
+}
+
+/// Runs backwards come back to the start.
+#[test]
+fn switches_are_located_backwards() {
+    let method = Dop853::new(1e-12, 1e-12);
+    let there = Integration::new(&Gap, 0.0, &[0.0, 1.0]).run(&method, 10.0).unwrap();
+    let back = Integration::new(&Gap, 10.0, &there.state).run(&method, 0.0).unwrap();
+    assert!(off(back.state, [0.0, 1.0]) < 1e-9 && back.statistics.switches == 10, "{back:?}");
+}
+
+/// Samples and events beside a switch are those of the motion.
+#[test]
+fn samples_lie_on_the_motion() {
+    let times: Vec<f64> = (0..200).map(|k| 0.05 * f64::from(k)).collect();
+    let mut worst = 0.0_f64;
+    let slow = |_t: f64, &[x, v]: &[f64; 2]| v - 0.5 * x;
+    let mut events = Vec::new();
+    let mut visit = |k: usize, _t: f64, state: &[f64; 2]| worst = worst.max(off(*state, in_gap(times[k])));
+    Integration::new(&Gap, 0.0, &[0.0, 1.0])
+        .sample(&times, &mut visit)
+        .events([guen_runtime::steppers::Event::new(&slow)], &mut |event| {
+            events.push(off(event.state, in_gap(event.time)));
+            core::ops::ControlFlow::Continue(())
+        })
+        .run(&Dop853::new(1e-11, 1e-11), 9.99)
+        .unwrap();
+    assert!(worst < 1e-8, "{worst}");
+    assert!(events.len() == 5 && events.iter().all(|error| *error < 1e-8), "{events:?}");
+}
+
+/// Friction that stops is no motion of these equations: spring and friction lead back from both sides.
+#[test]
+fn sliding_is_an_error_with_the_switch() {
+    let start = [0.8, 0.0];
+    // At `pi` it has come to `2 f - 0.8 = -0.2`, where the spring is weaker than friction.
+    let found =
+        Integration::new(&Friction(0.3), 0.0, &[start[0], -1e-9]).run(&Dop853::new(1e-10, 1e-10), 10.0);
+    let error = found.unwrap_err();
+    let Cause::Sliding { found, switch: 0 } = error.cause else { panic!("{error}") };
+    assert!((found - core::f64::consts::PI).abs() < 1e-6, "{error}");
+    assert!((error.state[0] + 0.2).abs() < 1e-6 && error.to_string().contains("contacts"), "{error}");
+    // At rest from the start, and with as much friction as the spring: neither moves.
+    let at_rest = Integration::new(&Friction(0.3), 0.0, &[0.1, 0.0]).run(&Dop853::new(1e-10, 1e-10), 10.0);
+    assert!(matches!(at_rest.unwrap_err().cause, Cause::Sliding { switch: 0, .. }));
+    // A stronger spring than friction moves from rest.
+    let start =
+        Integration::new(&Friction(0.3), 0.0, &[5.0, 0.0]).run(&Dop853::new(1e-10, 1e-10), 3.0).unwrap();
+    assert!(off(start.state, with_friction(0.3, 5.0, 3.0)) < 1e-8, "{start:?}");
+}
+
+#[test]
+fn fixed_steps_count_what_they_pass() {
+    let done = Integration::new(&Gap, 0.0, &[0.0, 1.0]).run(&Rk4::new(0.01), 10.0).unwrap();
+    assert_eq!((done.statistics.switches, done.statistics.switches_passed), (0, 10));
+    assert_eq!(done.outcome, Outcome::Arrived);
+    let error = off(done.state, in_gap(10.0));
+    assert!(error > 1e-9 && error < 1e-2, "{error}");
+}
+
+/// Derivatives by the start go through switches of rates that are continuous.
+#[test]
+fn duals_go_over_kinks() {
+    let along = |x: f64| {
+        let state = [Dual::<f64, 1> { value: x, tangent: [1.0] }, Dual::constant(1.0)];
+        Integration::new(&Gap, Dual::zero(), &state)
+            .run(&Dop853::new(1e-11, 1e-11), Dual::constant(7.0))
+            .unwrap()
+            .state
+    };
+    let run =
+        |x: f64| Integration::new(&Gap, 0.0, &[x, 1.0]).run(&Dop853::new(1e-12, 1e-12), 7.0).unwrap().state;
+    let (dual, ahead, behind) = (along(0.1), run(0.1 + 1e-4), run(0.1 - 1e-4));
+    for i in 0..2 {
+        assert!((dual[i].tangent[0] - (ahead[i] - behind[i]) / 2e-4).abs() < 1e-5, "{dual:?}");
+    }
+}
