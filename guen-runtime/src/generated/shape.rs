@@ -1,6 +1,6 @@
 //! Records with arrays in files: serde for structs whose values stand in fields, arrays and structs.
 
-/// What a field of a generated struct holds.
+/// The content of a field of a generated struct.
 #[doc(hidden)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shape {

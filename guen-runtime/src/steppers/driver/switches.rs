@@ -47,22 +47,22 @@ pub(super) struct Switches<R> {
     /// The functions at the end of the last step.
     here: Values,
     past: Option<Past<R>>,
-    /// How often in turn the same end of the bracket has moved: in front of the crossing above zero, past it below.
+    /// The number of times in turn that the same end of the bracket has moved: in front of the crossing above zero, past it below.
     moved: i32,
     /// The longest step so far.
     longest: f64,
 }
 
-/// What a step turned out to be.
+/// The kinds of steps, by the sides on which they begin and end.
 pub(super) enum Step {
-    /// Everything is on the side where it was.
+    /// On one side of everything.
     OneSided,
-    /// It ends just past a crossing.
+    /// Just past a crossing.
     Located {
         /// The function that crosses.
         switch: usize,
     },
-    /// It goes over a crossing that is still to be located.
+    /// Over a crossing that is still to be located.
     Over,
 }
 
