@@ -18,7 +18,7 @@ pub(super) struct Fields {
     accesses: Vec<TokenStream>,
 }
 
-/// What a field holds, with the places of values in the list.
+/// The content of a field, with the places of values in the list.
 #[derive(Clone)]
 pub(super) enum Tree {
     /// One value.

@@ -67,7 +67,7 @@ pub(super) enum Step {
 }
 
 impl<R: Real> Switches<R> {
-    /// At the start of a run.
+    /// Begins at the start of a run.
     pub(super) fn new(here: Values) -> Self {
         let sides = here.values.map(sign);
         Self { sides, here, past: None, moved: 0, longest: 0.0 }
