@@ -13,6 +13,7 @@
 //! | what does it look like? | [`Plot`], an SVG picture |
 //! | how does it move? | `Viewer`, an HTML page that plays a recording; feature `viewer` |
 //! | what if it begins elsewhere? | [`Ensemble`]: many motions in lanes and on threads |
+//! | what of a million of them? | [`Sweep`]: designs, rows in files, statistics, in parts that survive a kill |
 //! | which method, which real, which step? | `Study`, with the feature `study`: the trade of speed for accuracy, measured |
 //! | what did a scene leave out? | [`recover`]: integrals along a recorded run of a scene, with their errors |
 //! | what went wrong? | [`StudyError`], [`RecoveryError`] |
@@ -64,6 +65,7 @@ mod recovery;
 mod stored;
 #[cfg(feature = "study")]
 mod study;
+mod sweep;
 mod table;
 #[cfg(feature = "viewer")]
 mod viewer;
@@ -85,6 +87,10 @@ pub use study::{
     Caveat, Choice, Closures, Cost, Digits71, Ending, Failure, FailureKind, Forecast, Knob, Nearby, NoChoice,
     ReferenceReport, Row, ScanReport, Settings, Stopwatch, Study, StudyReport, Trade, Tried, Unit,
     pareto_front,
+};
+pub use sweep::{
+    ColumnStatistics, Design, DesignFault, Grid, Motions, Part, PartReport, Point, Rows, Sampling,
+    Statistics, Summary, Sweep, SweepError, UnknownAxis, UnknownEntry,
 };
 pub use table::{Table, significant};
 #[cfg(feature = "viewer")]

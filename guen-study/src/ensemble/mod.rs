@@ -14,7 +14,10 @@ use guen_runtime::{
     IntegrationError, LaneScalar, Laned, PlainLanes, Simulate, Simulation, SimulationError, Trajectory,
 };
 
-use threads::{in_turn, processors};
+use crate::progress::Progress;
+
+use threads::in_turn;
+pub(crate) use threads::processors;
 
 /// The end of one trajectory: the last time and state with the work done, or the same with a cause.
 pub type End<const N: usize> = Result<IntegrationResult<f64, N>, IntegrationError<f64, N>>;
@@ -80,6 +83,7 @@ pub struct Ensemble<S, const N: usize, C = PlainLanes> {
     threads: Option<usize>,
     backend: Backend,
     width: Width,
+    silent: bool,
     choice: PhantomData<fn() -> C>,
 }
 
@@ -97,7 +101,15 @@ impl<S, const N: usize> Ensemble<S, N> {
 
     fn new(systems: Vec<S>, starts: Vec<[f64; N]>) -> Self {
         let backend = Backend::best();
-        Self { systems, starts, threads: None, backend, width: backend.width(), choice: PhantomData }
+        Self {
+            systems,
+            starts,
+            threads: None,
+            backend,
+            width: backend.width(),
+            silent: false,
+            choice: PhantomData,
+        }
     }
 }
 
@@ -112,10 +124,20 @@ impl<S, const N: usize, C> Ensemble<S, N, C> {
         Self { backend, width, ..self }
     }
 
+    /// Shows no progress: for those whose own work it is a part of.
+    pub(crate) fn silent(self) -> Self {
+        Self { silent: true, ..self }
+    }
+
+    fn progress(&self) -> Progress {
+        let progress = Progress::new(0.0, self.len() as f64);
+        if self.silent { progress.silent() } else { progress }
+    }
+
     /// Exchanges the elementary functions, as in `with_scalar::<Approx7Functions>()`.
     pub fn with_scalar<D: LaneScalar>(self) -> Ensemble<S, N, D> {
-        let Self { systems, starts, threads, backend, width, .. } = self;
-        Ensemble { systems, starts, threads, backend, width, choice: PhantomData }
+        let Self { systems, starts, threads, backend, width, silent, .. } = self;
+        Ensemble { systems, starts, threads, backend, width, silent, choice: PhantomData }
     }
 
     /// The number of trajectories.
@@ -153,7 +175,7 @@ impl<S, const N: usize, C> Ensemble<S, N, C> {
     where
         S: Sync,
     {
-        in_turn(self.len(), 1, self.threads.unwrap_or_else(processors), |range| {
+        in_turn(self.len(), 1, self.threads.unwrap_or_else(processors), self.progress(), |range| {
             range.map(|i| work(self.system(i), &self.starts[i])).collect()
         })
     }
@@ -232,7 +254,7 @@ impl<S: Laned<N> + Sync, const N: usize, C: LaneScalar> Ensemble<S, N, C> {
     where
         V: Fn(&mut K, [f64; N]) + Sync,
     {
-        in_turn(self.len(), self.width.lanes(), self.threads_for(task), |range| {
+        in_turn(self.len(), self.width.lanes(), self.threads_for(task), self.progress(), |range| {
             let groups = range.step_by(self.width.lanes());
             let ends = groups.flat_map(|first| {
                 dispatch_on(

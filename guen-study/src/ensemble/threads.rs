@@ -12,7 +12,7 @@ const PORTIONS: usize = 16;
 
 /// Returns the number of threads that can run at once, one at least. Asked for once: the answer is read from several
 /// files, which takes as long as a short ensemble.
-pub(super) fn processors() -> usize {
+pub(crate) fn processors() -> usize {
     static FOUND: OnceLock<usize> = OnceLock::new();
     *FOUND.get_or_init(|| thread::available_parallelism().map_or(1, NonZero::get))
 }
@@ -24,13 +24,14 @@ pub(super) fn in_turn<T: Send>(
     count: usize,
     unit: usize,
     threads: usize,
+    progress: Progress,
     work: impl Fn(Range<usize>) -> Vec<T> + Sync,
 ) -> Vec<T> {
     let units = count.div_ceil(unit);
     let size = unit * units.div_ceil(threads.saturating_mul(PORTIONS)).max(1);
     let mut results: Vec<Vec<T>> = (0..count.div_ceil(size)).map(|_| Vec::new()).collect();
     let queue = Mutex::new(results.iter_mut().enumerate());
-    let progress = Mutex::new((0, Progress::new(0.0, count as f64)));
+    let progress = Mutex::new((0, progress));
     let worker = || {
         loop {
             let Some((portion, slot)) = locked(&queue).next() else { break };

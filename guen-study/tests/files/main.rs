@@ -5,6 +5,7 @@ mod kill;
 #[cfg(feature = "serde")]
 mod recordings;
 mod spreadsheet;
+mod sweeps;
 
 use std::path::PathBuf;
 

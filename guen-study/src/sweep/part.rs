@@ -1,0 +1,65 @@
+//! A part of a sweep.
+
+use std::path::Path;
+
+use super::Sweep;
+use super::error::SweepError;
+use super::folder::PartFolder;
+use super::plan::Plan;
+use super::run::{Tally, run};
+
+/// A part of a sweep: every so many chunks of motions, for one process.
+#[derive(Clone, Copy, Debug)]
+#[must_use = "a part runs when `run_in` is called"]
+pub struct Part<'s, 'a> {
+    pub(super) sweep: &'s Sweep<'a>,
+    pub(super) part: u64,
+    pub(super) parts: u64,
+}
+
+/// The work of a run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PartReport {
+    /// The chunks that earlier runs had finished.
+    pub found: u64,
+    /// The chunks that this run has computed.
+    pub computed: u64,
+    /// The finished chunks whose files had been lost or damaged, and are written again.
+    pub rewritten: u64,
+    /// Whether the record of the part had been damaged, so that all of it was computed anew.
+    pub record_was_damaged: bool,
+    /// The motions of the part that have failed.
+    pub faults: u64,
+}
+
+impl Part<'_, '_> {
+    /// Computes the motions of this part and writes their rows into a folder, which the other parts may share: see [`Sweep::run_in`].
+    ///
+    /// A run that was killed at any instant, or that an error has ended, is gone on with by calling this again: finished chunks are looked at, and
+    /// computed anew where their files are lost or damaged; nothing is lost, and nothing counted twice.
+    ///
+    /// # Errors
+    ///
+    /// - [`SweepError::Io`]: the disk is full, the folder cannot be written, or its file system has no locks.
+    /// - [`SweepError::Busy`]: another process is at work on this part.
+    /// - [`SweepError::OtherSweep`], [`SweepError::OtherParts`]: the folder belongs to something else.
+    /// - [`SweepError::NotReproducible`]: a chunk that had to be computed again has other bits.
+    /// - What is wrong with the design or the columns.
+    pub fn run_in(&self, folder: impl AsRef<Path>) -> Result<PartReport, SweepError> {
+        let plan = Plan::of(self.sweep)?;
+        let folder = PartFolder::open(
+            folder.as_ref(),
+            &plan,
+            (self.part, self.parts),
+            self.sweep.rows,
+            self.sweep.locks,
+        )?;
+        let (record, record_was_damaged) = folder.record(&plan)?;
+        let lost = folder.lost(&record)?;
+        let (found, rewritten) = (record.chunks.len() as u64, lost.len() as u64);
+        let mut tally = Tally::new(record, lost, Some(&folder));
+        run(&plan, self, &mut tally)?;
+        let faults = tally.record.statistics.faults();
+        Ok(PartReport { found, computed: tally.computed, rewritten, record_was_damaged, faults })
+    }
+}
