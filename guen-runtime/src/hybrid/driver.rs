@@ -26,6 +26,8 @@ type Receiver<'a, M, const N: usize, const W: usize, const C: usize> =
 /// - The step in which a mode ends is cut there; the next one begins with its size.
 /// - A run goes forwards in time. Runs over duals are refused by the types: the times of transitions depend on the start, which their
 ///   derivatives would not know.
+/// - Spatial slip that begins from rest is stiff, since its direction follows the force at once: explicit methods make some ten thousand
+///   small steps there.
 /// - Guards do not watch it. Gaps and slips that are closed are put back after every step.
 ///
 /// The [module](crate::hybrid) has an example.

@@ -23,7 +23,9 @@ const AGAIN: f64 = 1e-7;
 /// The parts of a step at whose ends functions are looked at.
 const PARTS: u32 = 4;
 /// The number of times that the first part of the first step of a mode is divided by eight.
-const FIRST_DIVISIONS: u32 = 14;
+const FIRST_DIVISIONS: u32 = 10;
+/// The part of the time itself after its beginning before which nothing is looked at: the time at which a mode begins is known no better.
+const SETTLING: f64 = 1e-12;
 
 /// The functions watched at one time, with the rates of their changes.
 #[derive(Clone, Copy)]
@@ -56,7 +58,7 @@ where
         let inner = (0..divisions).map(|k| start + part * libm::exp2(-3.0 * f64::from(divisions - k)));
         let outer = (1..=PARTS).map(|k| if k == PARTS { end } else { start + part * f64::from(k) });
         for t in inner.chain(outer) {
-            if t <= from {
+            if t <= from || t < end && t - start <= SETTLING * start.abs() {
                 continue;
             }
             let after = self.look(t);
@@ -107,6 +109,10 @@ where
         if b.value <= 0.0 {
             // Past zero already before, or no further past it than rounding.
             if (a.value <= 0.0 && self.side(function, before.t) < 0) || self.side(function, after.t) >= 0 {
+                return None;
+            }
+            // A function that leaves zero and is on its way up has not come back: the polynomial is off by as much.
+            if self.first && before.t == self.start && a.value <= 0.0 && b.tangent[0] > 0.0 {
                 return None;
             }
             return self.falling(function, (before.t, a.value), (after.t, b.value));

@@ -13,7 +13,7 @@ where
     H: HybridSystem<N, W, C, S> + Clone,
 {
     /// The time and state of what was found on the polynomial, computed once more by the method itself where the polynomial is less
-    /// exact; where spatial slip ends, at its end.
+    /// exact; where spatial slip ends, at its end. None if it does not happen there.
     pub(super) fn located<M>(
         &mut self,
         method: &M,
@@ -22,7 +22,7 @@ where
         found: Found,
         state: [f64; N],
         polished: bool,
-    ) -> (f64, [f64; N])
+    ) -> Option<(f64, [f64; N])>
     where
         M: Method<f64, InMode<H, N, W, C, S>, N>,
     {
@@ -39,6 +39,10 @@ where
                 }
                 let watched = in_mode.watched_along(&self.place.sides, t, &here);
                 let Some(value) = watched.get(found.function) else { break };
+                // The polynomial was off: the function is positive there, and rises.
+                if value.value >= 0.0 && value.tangent[0] > 0.0 {
+                    return None;
+                }
                 let change = -value.value / value.tangent[0];
                 // Not where the function hardly moves.
                 if !(change.abs() <= 1e-3 * (t - before.time)) || change.abs() <= f64::EPSILON * t.abs() {
@@ -47,10 +51,10 @@ where
                 t += change;
             }
         }
-        match found.function {
+        Some(match found.function {
             Function::Slip(c) if H::ELEMENTS[c].tangential.len() == 2 => in_mode.stopped(c, t, &here),
             _ => (t, here),
-        }
+        })
     }
 
     /// The state at a time by steps of the method from the beginning of a step.

@@ -222,6 +222,8 @@ where
     where
         M: Method<f64, InMode<H, N, W, C, S>, N>,
     {
+        let state = self.place.state;
+        self.slow_down(&state);
         let in_mode = self.place.in_mode.clone();
         let mut checkpoint = Checkpoint::new(self.place.t, &self.place.state);
         checkpoint.statistics = self.work;
@@ -264,7 +266,11 @@ where
                 };
                 let Some(found) = step.first_after(from) else { break };
                 let polished = M::Run::COARSE_POLYNOMIAL;
-                let (t, state) = self.located(method, &in_mode, &before, found, at(found.t), polished);
+                let located = self.located(method, &in_mode, &before, found, at(found.t), polished);
+                let Some((t, state)) = located else {
+                    from = found.t;
+                    continue;
+                };
                 self.samples_before(&in_mode, t, &at);
                 if found.touches {
                     self.touched(found, t, &state);
@@ -320,6 +326,8 @@ where
     fn slow_down(&mut self, state: &[f64; N]) {
         /// The part of the largest slip of a mode at which it is taken to its end.
         const SLOW: f64 = 1e-5;
+        /// The number of times by which a slip from rest is faster than the speed below which its direction is held, when it has begun.
+        const BEGUN: f64 = 1e4;
 
         if !H::ELEMENTS.iter().any(|element| element.tangential.len() == 2) {
             return;
@@ -330,6 +338,9 @@ where
                 && self.place.in_mode.mode.0[c].slips()
             {
                 let slip = libm::hypot(rates[first], rates[second]);
+                if BEGUN * self.place.in_mode.leaning[c].speed > slip {
+                    continue;
+                }
                 self.place.sides.slow[c] = f64::max(self.place.sides.slow[c], SLOW * slip);
             }
         }

@@ -271,14 +271,19 @@ where
                 let first = [away, rate, accelerations[row]].into_iter().find(|value| value.abs() > 1e-12);
                 self.sides.latches[c] = first.map_or(1.0, |value| if value > 0.0 { 1.0 } else { -1.0 });
             }
-            if state != ElementState::Slip {
+            if state != ElementState::Slip || self.in_mode.leaning[c].speed == f64::INFINITY {
                 self.sides.slow[c] = 0.0;
             }
             if self.in_mode.leaning[c].speed == f64::INFINITY {
-                let size = |rates: &[f64; W]| {
-                    element.tangential.iter().map(|&row| rates[row].abs()).fold(0.0, f64::max)
-                };
-                self.in_mode.leaning[c].speed = f64::max(LEANING * size(&accelerations), f64::MIN_POSITIVE);
+                // What friction takes from the slip in a unit of time.
+                let taken = element.tangential.iter().map(|&row| {
+                    let along = |&w: &usize| motion.free.delassus[row][w] * motion.reactions[w];
+                    element.tangential.iter().map(along).sum::<f64>().abs()
+                });
+                let taken = taken.fold(0.0, f64::max);
+                let size =
+                    element.tangential.iter().map(|&row| accelerations[row].abs()).fold(taken, f64::max);
+                self.in_mode.leaning[c].speed = LEANING * size;
             }
         }
     }
@@ -320,7 +325,7 @@ where
 /// The part of the largest rate before an impact below which a rate after it vanishes.
 pub(super) const STILL: f64 = 1e-11;
 /// The speed, relative to an acceleration and a unit of time, far below which spatial slip has the direction in which it begins.
-const LEANING: f64 = 1e-12;
+const LEANING: f64 = 1e-9;
 
 /// The kind of a transition without jumps.
 fn kind_of<const C: usize, const S: usize>(

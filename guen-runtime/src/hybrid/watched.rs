@@ -180,7 +180,12 @@ where
             ElementState::SlipForward | ElementState::SlipBackward => {
                 [None, normal(), None, None, Some(slip())]
             }
-            ElementState::Slip => [None, normal(), None, None, Some(slip() - R::lift(sides.slow[c]))],
+            // A slip that has hardly begun is not looked at: its direction is still the one in which it begins.
+            ElementState::Slip => {
+                let slow = sides.slow[c];
+                let above = (slow > 0.0).then(|| slip() - R::lift(slow));
+                [None, normal(), None, None, above]
+            }
             ElementState::Stick => {
                 let [plus, minus] = if self.is_redundant() { [None; 2] } else { self.margins(c, motion) };
                 [None, normal(), plus, minus, None]

@@ -1,6 +1,7 @@
 //! Runs through modes: the reference scenes with systems written by hand, impacts, and what goes wrong.
 
 mod bodies;
+mod friction;
 mod json;
 #[cfg(feature = "alloc")]
 mod polygons;

@@ -161,3 +161,25 @@ fn thrown_polygons_keep_the_laws_and_lose_energy() {
     );
     assert!(transitions > 5 * rounds && rests > rounds / 4 && failures <= rounds / 10);
 }
+
+#[test]
+fn the_order_of_declaration_does_not_matter() {
+    let mut random = Random(5);
+    for _ in 0..4 {
+        let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]
+            .map(|corner: [f64; 2]| corner.map(|entry| entry * (0.6 + 0.4 * random.next().abs())));
+        let polygon = Polygon { corners, inertia: 0.5, friction: 0.3, restitution: 0.4 };
+        let [a, b, c, d] = corners;
+        let permuted = Polygon { corners: [c, a, d, b], ..polygon };
+        let start = [0.0, 2.5, random.next(), random.next(), 0.0, random.next()];
+        let run = |polygon: &Polygon| polygon.simulation(&start).tolerance(1e-11).run(0.0..1.5).unwrap();
+        let (one, other) = (run(&polygon), run(&permuted));
+        let pairs = one.transitions().iter().zip(other.transitions());
+        assert!(one.transitions().len() > 1 && one.transitions().len() == other.transitions().len());
+        for (one, other) in pairs {
+            let [first, second, third, fourth] = one.after.0;
+            assert!((one.t - other.t).abs() < 1e-9, "{one:?} {other:?}");
+            assert_eq!(other.after.0, [third, first, fourth, second]);
+        }
+    }
+}
