@@ -69,6 +69,7 @@ pub const SECTIONS: &[&str] = &[
     "gravity",
     "force_function",
     "potential_energy",
+    "states",
     "forces",
     "outputs",
     "provide",
@@ -106,6 +107,11 @@ const SECTION_SYNONYMS: &[(&str, &str)] = &[
     ("masses", "particles"),
     ("points", "particles"),
     ("loads", "forces"),
+    ("odes", "states"),
+    ("first_order", "states"),
+    ("auxiliary_states", "states"),
+    ("filters", "states"),
+    ("integrators", "states"),
 ];
 
 /// Items of a generated module, and names that generated code uses for itself or for types of Rust.

@@ -28,10 +28,10 @@ pub use geometry::{
     Brackets, Closure, Combination, Form, Forms, Operators, RateChoice, SingularForms, chosen_rates,
 };
 pub use motion::{
-    BodyNode, Class, Component, Dependence, Derivation, DerivationError, Energies, Equations, Force,
-    FormShape, Formulated, Frame, FrameId, FrameNode, Holonomic, KineticTerm, Mechanics, Motion,
-    MotionSymbol, Multibody, NotQuadratic, Place, RigidBody, Solution, SystemGraph, Turn, Velocity,
-    VelocityForm, VelocityPartials, decompose, equations_by_definition,
+    BodyNode, Class, Component, Dependence, Derivation, DerivationError, Energies, Equations,
+    FirstOrderState, Force, FormShape, Formulated, Frame, FrameId, FrameNode, Holonomic, KineticTerm,
+    Mechanics, Motion, MotionSymbol, Multibody, NotQuadratic, Place, RigidBody, Solution, SystemGraph, Turn,
+    Velocity, VelocityForm, VelocityPartials, decompose, equations_by_definition,
 };
 pub use normal::{Limits, normal_coefficients, normal_form};
 pub use print::{Contracted, Notation, greek_letter, latex_name};

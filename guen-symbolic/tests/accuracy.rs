@@ -69,6 +69,7 @@ fn chain(graph: &mut Graph, rotors: bool) -> (Mechanics, [ExprId; 3]) {
         structure: Default::default(),
         forces: vec![pull],
         outputs: Vec::new(),
+        states: Vec::new(),
         motion_symbols: Vec::new(),
     };
     (mechanics, constants)

@@ -11,4 +11,5 @@ mod examples;
 mod models;
 mod motion;
 mod reduction;
+mod states;
 mod vehicles;

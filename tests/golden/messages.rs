@@ -225,6 +225,7 @@ const THEMES: [(&str, &str); 13] = [
     ("several", "several faults at once"),
     ("singular", "a direction without inertia"),
     ("spatial", "bodies, rotations, constraints on positions"),
+    ("states", "first-order states beside the motion"),
     ("syntax", "punctuation, sections, habits from other languages"),
 ];
 

@@ -16,5 +16,6 @@ mod reference;
 mod reversal;
 mod simulation;
 mod singular;
+mod states;
 mod study_forecast;
 mod taylor;

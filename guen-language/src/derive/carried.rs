@@ -54,6 +54,7 @@ pub(super) fn derive(
         variables: places.clone(),
         coordinates: level.selection.coordinates.clone(),
         parameters: level.selection.parameters.clone(),
+        states: level.selection.states.clone(),
         constants: level.selection.constants.clone(),
         held: level.selection.held.clone(),
         inputs: level.selection.inputs.clone(),

@@ -3,7 +3,7 @@
 use guen_symbolic::{Derivation, DerivationError, ExprId, Node, Substitution, Workbench};
 
 use super::faults::short;
-use super::selection::{Held, StateIndex};
+use super::selection::{Held, StateIndex, StatePart};
 use crate::diagnostics::{Fault, Faults};
 use crate::model::{FixedConstant, Model, SceneEntry};
 use crate::syntax::Name;
@@ -107,6 +107,7 @@ fn trouble(bench: &mut Workbench, whole: &Derivation, fixed: &[(ExprId, ExprId)]
         [system.kinetic_energy, system.force_function]
             .into_iter()
             .chain(system.outputs.iter().copied())
+            .chain(system.states.iter().map(|state| state.rate))
             .collect(),
         system.forces.iter().flat_map(|force| [force.magnitude, force.along]).collect(),
         system.forms.forms.iter().map(|form| form.offset).collect(),
@@ -169,10 +170,12 @@ pub(super) struct Holding {
 
 impl Holding {
     pub(super) fn new(model: &Model<'_>, held: &[Held]) -> Self {
-        let (n, _) = model.sizes();
         let zero = model.bench.graph.zero();
         let values = held.iter().map(|held| (model.variable(held.place), held.symbol));
-        let resting = held.iter().filter_map(|held| held.place.checked_sub(n));
+        let resting = held.iter().filter_map(|held| match model.part(held.place) {
+            StatePart::Parameter(s) => Some(s),
+            _ => None,
+        });
         let resting = resting.map(|s| (model.mechanics.accelerations[s], zero));
         Holding { substitution: Substitution::new(values.chain(resting)) }
     }

@@ -44,7 +44,7 @@ pub use jacobians::Jacobians;
 pub(crate) use level::Subject;
 pub use level::{Derived, Level, Series};
 pub use missing_bounds::MissingBounds;
-pub use selection::{Held, Selection, StateIndex};
+pub use selection::{Held, Selection, StateIndex, StatePart};
 
 /// Derives a checked model and its scenes; a system without equations of motion is reported.
 pub fn derive<'a>(mut model: Model<'a>, faults: &mut Faults) -> Option<Derived<'a>> {
@@ -80,27 +80,28 @@ fn whole(
     brackets: Rc<Vec<Commutator>>,
     faults: &mut Faults,
 ) -> Level {
-    let (n, size) = model.sizes();
+    let (_, size) = model.sizes();
+    let l = model.mechanics.forms.degrees;
     let forms = 0..model.forms.len();
-    let selection = Selection {
-        variables: (0..size).collect(),
-        coordinates: (0..n).collect(),
-        parameters: (0..size - n).collect(),
+    let mut selection = Selection {
         constants: (0..model.constants.len()).collect(),
         held: Vec::new(),
         inputs: (0..model.inputs.len()).collect(),
         holonomic: (0..derivation.system.holonomic.len()).collect(),
         redundant: (0..derivation.system.redundant.len()).collect(),
         momenta: forms.clone().filter(|j| derivation.known_momentum[*j]).collect(),
-        reactions: forms.skip(size - n).filter(|v| derivation.reactions[v + n - size].is_some()).collect(),
+        reactions: forms.skip(l).filter(|v| derivation.reactions[v - l].is_some()).collect(),
         outputs: (0..model.outputs.len()).collect(),
         energy: true,
         linearization: true,
         operators: true,
-        carried: Vec::new(),
+        ..Selection::default()
     };
+    selection.take(model, (0..size).collect());
     let equations = equations(&mut model.bench, &derivation);
-    let shown = shown(model, &derivation, &brackets, &equations);
+    let rates = derivation.formulations[0].rates.clone();
+    let written = [&equations[..], &rates[model.coordinates.len() + l..]].concat();
+    let shown = shown(model, &derivation, &brackets, &written);
     let singularities = domain(model, &derivation, &shown);
     let reasons = singularities.iter().map(|singularity| {
         reason(&model.bench.graph, shown.image(singularity.function), &singularity.origin)
@@ -112,7 +113,6 @@ fn whole(
     let quantities = formulas::whole(model, &derivation, &brackets, domain.clone(), constant_pivots.clone());
     let control = control::quantities(&mut model.bench, &derivation);
     let quantities: Vec<Quantity> = quantities.into_iter().chain(control).collect();
-    let rates = derivation.formulations[0].rates.clone();
     let mut lists = formulas::rates(&derivation);
     extend(&mut model.bench, &mut lists);
     let placed = formulas::placed(model);

@@ -8,7 +8,7 @@ use super::fixed::Holding;
 use super::formulas::{self, Quantity};
 use super::function;
 use super::manifold::Replacement;
-use super::selection::Selection;
+use super::selection::{Selection, StatePart};
 use crate::model::Model;
 
 /// A function of a scene: its name, the places of its results in the function of the whole system if that has all of them, and
@@ -199,8 +199,14 @@ fn reaction(
         Substitution::new(parameters.map(|s| (symbols[s], values[s])))
     };
     let l = derivation.system.forms.degrees;
-    let held: Vec<usize> =
-        selection.held.iter().filter_map(|held| held.place.checked_sub(model.coordinates.len())).collect();
+    let held: Vec<usize> = selection
+        .held
+        .iter()
+        .filter_map(|held| match model.part(held.place) {
+            StatePart::Parameter(s) => Some(s),
+            _ => None,
+        })
+        .collect();
     let left = |s: &usize| !selection.parameters.contains(s) && !held.contains(s);
     let partly = solved(&mut (0..l).filter(left)).of(&mut model.bench.graph, e);
     let partly = view.of(model, partly);

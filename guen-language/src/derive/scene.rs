@@ -102,9 +102,7 @@ fn level(
     let mut known = reasons.clone();
     determined.iter().for_each(|(i, _)| known[*i] = Some(Reason::Tracked));
     let quadratures = written.quadratures(bench, &mut dependence, &known);
-    selection.variables = (0..size).filter(|p| reasons[*p].is_some()).collect();
-    selection.coordinates = selection.variables.iter().copied().filter(|p| *p < n).collect();
-    selection.parameters = selection.variables.iter().filter_map(|p| p.checked_sub(n)).collect();
+    selection.take(model, (0..size).filter(|p| reasons[*p].is_some()).collect());
 
     // Expressions without what left.
     let mut view = View { holding, replacements, dependence, idle: Vec::new() };
@@ -336,10 +334,10 @@ fn tracked(
     scene: &SceneEntry<'_>,
     faults: &mut Faults,
 ) -> Option<Vec<StateIndex>> {
-    let (n, size) = model.sizes();
+    let (n, l) = (model.coordinates.len(), model.mechanics.forms.degrees);
     let named = scene.scene.tracks.iter().flat_map(|name| model.places(&name.text));
     let tracked: Vec<StateIndex> =
-        if scene.scene.tracks.is_empty() { (n..size).collect() } else { named.collect() };
+        if scene.scene.tracks.is_empty() { (n..n + l).collect() } else { named.collect() };
     let tracked: Vec<StateIndex> =
         tracked.into_iter().filter(|place| !fixed::is_held(held, *place)).collect();
     if tracked.is_empty() {

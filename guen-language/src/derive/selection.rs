@@ -4,8 +4,19 @@ use guen_symbolic::{CarriedFunction, ExprId};
 
 use crate::model::{FormKind, Model};
 
-/// A variable of the state by its place there: coordinates first, then parameters.
+/// A variable of the state by its place there: coordinates first, then parameters, then states beside the motion.
 pub type StateIndex = usize;
+
+/// A variable by the part of the state that it belongs to.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum StatePart {
+    /// A coordinate.
+    Coordinate(usize),
+    /// A parameter.
+    Parameter(usize),
+    /// A state beside the motion.
+    State(usize),
+}
 
 /// A variable that a scene holds at its initial value: a constant of the scene.
 #[derive(Clone, Copy, Debug)]
@@ -25,6 +36,8 @@ pub struct Selection {
     pub coordinates: Vec<usize>,
     /// The parameters among them.
     pub parameters: Vec<usize>,
+    /// The states beside the motion among them.
+    pub states: Vec<usize>,
     /// The physical constants that are given at run time.
     pub constants: Vec<usize>,
     /// Variables that became constants.
@@ -51,20 +64,37 @@ pub struct Selection {
     pub carried: Vec<CarriedFunction>,
 }
 
+impl Selection {
+    /// Takes these variables, in the order of the state.
+    pub fn take(&mut self, model: &Model<'_>, variables: Vec<StateIndex>) {
+        for place in &variables {
+            match model.part(*place) {
+                StatePart::Coordinate(i) => self.coordinates.push(i),
+                StatePart::Parameter(s) => self.parameters.push(s),
+                StatePart::State(k) => self.states.push(k),
+            }
+        }
+        self.variables = variables;
+    }
+}
+
 impl Model<'_> {
     /// The number of coordinates, and of variables of the whole state.
     pub fn sizes(&self) -> (usize, usize) {
-        (self.coordinates.len(), self.coordinates.len() + self.mechanics.forms.degrees)
+        let n = self.coordinates.len();
+        (n, n + self.mechanics.forms.degrees + self.states.len())
     }
 
     /// The variables that a name stands for: one, or the components of a parameter that was written as a vector.
     pub fn places(&self, name: &str) -> Vec<StateIndex> {
-        let n = self.coordinates.len();
+        let (n, l) = (self.coordinates.len(), self.mechanics.forms.degrees);
+        let state = self.states.iter().position(|state| state.name.text == name);
         let coordinate = self.coordinates.iter().position(|c| c.name.text == name);
         let parameters = self.forms.iter().enumerate().filter(|(_, form)| {
             form.kind == FormKind::Parameter && (form.name == name || form.written.text == name)
         });
-        coordinate.into_iter().chain(parameters.map(|(s, _)| n + s)).collect()
+        let parameters = parameters.map(|(s, _)| n + s);
+        coordinate.into_iter().chain(parameters).chain(state.map(|k| n + l + k)).collect()
     }
 
     /// The constraints that a name stands for, by the index of their form.
@@ -78,21 +108,31 @@ impl Model<'_> {
             .collect()
     }
 
+    /// The part of the state that a variable belongs to, with its place there.
+    pub fn part(&self, place: StateIndex) -> StatePart {
+        let (n, l) = (self.coordinates.len(), self.mechanics.forms.degrees);
+        match place.checked_sub(n) {
+            None => StatePart::Coordinate(place),
+            Some(s) if s < l => StatePart::Parameter(s),
+            Some(s) => StatePart::State(s - l),
+        }
+    }
+
     /// The name of a variable.
     pub fn variable_name(&self, place: StateIndex) -> &str {
-        let n = self.coordinates.len();
-        match place.checked_sub(n) {
-            None => &self.coordinates[place].name.text,
-            Some(s) => &self.forms[s].name,
+        match self.part(place) {
+            StatePart::Coordinate(i) => &self.coordinates[i].name.text,
+            StatePart::Parameter(s) => &self.forms[s].name,
+            StatePart::State(k) => &self.states[k].name.text,
         }
     }
 
     /// The symbol of a variable.
     pub fn variable(&self, place: StateIndex) -> ExprId {
-        let n = self.coordinates.len();
-        match place.checked_sub(n) {
-            None => self.coordinates[place].symbol,
-            Some(s) => self.mechanics.etas[s],
+        match self.part(place) {
+            StatePart::Coordinate(i) => self.coordinates[i].symbol,
+            StatePart::Parameter(s) => self.mechanics.etas[s],
+            StatePart::State(k) => self.states[k].symbol,
         }
     }
 }

@@ -42,7 +42,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
 /// The equations apart.
 fn mass_form(layout: &Layout) -> TokenStream {
     let (parameter, given) = (inputs(layout).0, given(layout));
-    let (l, count) = (layout.size - layout.n, layout.inputs);
+    let (l, count) = (layout.l, layout.inputs);
     if l == 0 {
         return quote! {
             /// The equations of motion apart: there are none.
@@ -57,7 +57,7 @@ fn mass_form(layout: &Layout) -> TokenStream {
 /// The parts of the equations, and the Jacobians of outputs.
 fn dynamics(subject: &Subject<'_, '_>, layout: &Layout) -> Option<TokenStream> {
     let (n, size, count) = (layout.n, layout.size, layout.inputs);
-    let l = size - n;
+    let l = layout.l;
     let has = |name: &str| subject.level.program(name).is_some().then(|| format_ident!("{name}"));
     let (mass, applied) = (has(function::MASS), has(function::APPLIED));
     let has_outputs = !subject.level.selection.outputs.is_empty();
@@ -85,8 +85,8 @@ fn is_affine(subject: &Subject<'_, '_>) -> bool {
 }
 
 fn inverse_dynamics(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
-    let (n, size, count) = (layout.n, layout.size, layout.inputs);
-    let accelerations: Vec<usize> = (n..size).collect();
+    let (n, l, size, count) = (layout.n, layout.l, layout.size, layout.inputs);
+    let accelerations: Vec<usize> = (n..n + l).collect();
     let wanted = quote!(&[#(rate[#accelerations]),*]);
     let convert = quote!(::core::convert::From::from);
     let (how, refused, solve) = if is_affine(subject) {
@@ -155,8 +155,8 @@ fn reduce(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
 
 /// The covector of the reactions, and the forces of vector constraints.
 fn reactions(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
-    let Layout { n, size, .. } = layout;
-    let (l, given) = (size - n, given(layout));
+    let Layout { n, l, size, .. } = layout;
+    let given = given(layout);
     let covector = has_covector(&subject.level.derivation).then(|| {
         quote! {
             impl<R: __guen::Real> Prepared<R> {

@@ -5,7 +5,7 @@ use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};
 
 use super::fields::Fields;
-use crate::derive::{Level, StateIndex, Subject};
+use crate::derive::{Level, StateIndex, StatePart, Subject};
 use crate::model::{ConstantEntry, FormEntry, Model};
 use crate::names::{RATE_SUFFIX, array_of};
 use crate::syntax::{Declaration, Name};
@@ -70,9 +70,10 @@ impl Layout {
 
 /// The name of a variable, which is the way to its value.
 pub(super) fn variable_name(model: &Model<'_>, place: StateIndex) -> Name {
-    match place.checked_sub(model.coordinates.len()) {
-        None => model.coordinates[place].name.clone(),
-        Some(s) => form_name(&model.forms[s]),
+    match model.part(place) {
+        StatePart::Coordinate(i) => model.coordinates[i].name.clone(),
+        StatePart::Parameter(s) => form_name(&model.forms[s]),
+        StatePart::State(k) => model.states[k].name.clone(),
     }
 }
 

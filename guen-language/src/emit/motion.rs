@@ -31,16 +31,16 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
 
 /// Emits the items that only the system itself has, and no scene can choose.
 fn whole(layout: &Layout) -> TokenStream {
-    let Layout { n, size, .. } = layout;
-    let (l, given) = (size - n, given(layout));
+    let Layout { n, l, size, .. } = layout;
+    let given = given(layout);
     quote!(__guen::motion_of_system!(#n, #l, #size #given);)
 }
 
 /// Energy, reactions and outputs: what a scene has if it provides them.
 fn chosen(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let (_, argument) = inputs(layout);
-    let Layout { n, size, .. } = layout;
-    let (l, given) = (size - n, given(layout));
+    let Layout { n, l, size, .. } = layout;
+    let given = given(layout);
     let selection = &subject.level.selection;
     let energy = selection.energy.then(|| quote!(__guen::energy!();));
     let reactions =

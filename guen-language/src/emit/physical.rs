@@ -52,7 +52,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
 /// The check that a negative number does not make the mass matrix indefinite. On constraints on positions there is none: the matrix
 /// says something only where they hold.
 pub(super) fn definite(subject: &Subject<'_, '_>, layout: &Layout) -> Option<TokenStream> {
-    let (size, l, count) = (layout.size, layout.size - layout.n, layout.inputs);
+    let (size, l, count) = (layout.size, layout.l, layout.inputs);
     let name = subject.model.suspicious_body()?;
     if !layout.is_whole || l == 0 || !subject.level.derivation.system.holonomic.is_empty() {
         return None;

@@ -47,14 +47,26 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let count = |count: usize, noun: &str| format!("{count} {noun}{}", if count == 1 { "" } else { "s" });
     let (kept, speeds) =
         (count(layout.n, "coordinate"), count(layout.l, "quasi-velocity").replace("ys", "ies"));
-    let state_docs = format!("A state of {whose}: {kept}, then {speeds}, in the order of the declaration.");
+    let states = selection.states.iter().map(|k| &model.states[*k]);
+    let states: Vec<Field> = states
+        .map(|z| {
+            let fallback = format!("The state `{}`.", z.name);
+            field(z.name, z.docs, fallback, units.get(&z.name.text))
+        })
+        .collect();
+    let further = match states.len() {
+        0 => String::new(),
+        _ => format!(", then {}", count(states.len(), "state").replace("states", "states beside the motion")),
+    };
+    let state_docs =
+        format!("A state of {whose}: {kept}, then {speeds}{further}, in the order of the declaration.");
     let mut items = Vec::new();
     let mut add = |name: &str, docs: &str, fields: &[Field]| {
         if !fields.is_empty() {
             items.push(record(name, docs, fields));
         }
     };
-    let state = [coordinates.clone(), parameters].concat();
+    let state = [coordinates.clone(), parameters, states].concat();
     add("State", &state_docs, &state);
     let positions = "A value for each coordinate: a position, or the velocities `x'`.";
     // A scene needs them for its holonomic constraints only.

@@ -1,6 +1,6 @@
-//! Accelerations and reactions in outputs: the only place where they may be named.
+//! Accelerations and reactions in outputs and in the rates of states: the only places where they may be named.
 //!
-//! In an output `dot(e)` of something with velocities or parameters is its rate along the motion, and `reaction(name)`
+//! There `dot(e)` of something with velocities or parameters is its rate along the motion, and `reaction(name)`
 //! the multiplier of a constraint. The model introduces symbols for them; the derivation, which knows the motion, puts
 //! in what they are.
 
@@ -14,16 +14,16 @@ use super::value::Value;
 use crate::diagnostics::Fault;
 use crate::syntax::{Expression, ExpressionKind, Name};
 
-/// The word that is a function in outputs only, and a name like any other elsewhere.
+/// The word that is a function in outputs and in the rates of states, and a name like any other elsewhere.
 pub(super) const REACTION: &str = "reaction";
 
 impl Evaluator<'_> {
     /// Whether rates of velocities may be asked for.
     pub(super) fn knows_motion(&self) -> bool {
-        self.place == Place::Output
+        matches!(self.place, Place::Output | Place::StateRate)
     }
 
-    /// `d/dt` of a function of time, coordinates, velocities and quasi-velocities, along the motion.
+    /// `d/dt` of a function of time, coordinates, velocities, quasi-velocities and states, along the motion.
     pub(super) fn rate_along_motion(&mut self, e: ExprId) -> ExprId {
         let graph = &mut self.bench.graph;
         let moving = Roles::of(Role::Velocity).or(Roles::of(Role::QuasiVelocity));
@@ -42,6 +42,7 @@ impl Evaluator<'_> {
         }
         let rates = self.motion.coordinates.iter().copied();
         let rates = rates.chain(self.motion.rates.iter().map(|(of, rate)| (*of, *rate)));
+        let rates = rates.chain(self.states.iter().filter_map(|(of, rate)| Some((*of, (*rate)?))));
         let rates: Vec<_> = rates.chain([(self.time, graph.one())]).collect();
         Flow::new(graph, rates).of(graph, e)
     }
@@ -51,7 +52,9 @@ impl Evaluator<'_> {
         if !self.knows_motion() {
             let place = self.place.description(self.entry.as_deref());
             let fault = Fault::new(function.span(), format!("{place} cannot depend on a reaction"));
-            return self.fail(fault.note("reactions follow from the motion: only `outputs` may use them"));
+            return self.fail(
+                fault.note("reactions follow from the motion: only `outputs` and `states` may use them"),
+            );
         }
         let [Expression { kind: ExpressionKind::Name(name), .. }] = arguments else {
             return self.fail(

@@ -42,6 +42,8 @@ pub(super) struct Evaluator<'f> {
     pub(super) left_out: Vec<String>,
     /// Accelerations and reactions that outputs use.
     pub(super) motion: MotionSymbols,
+    /// States beside the motion, with their rates as far as these are declared.
+    pub(super) states: Vec<(ExprId, Option<ExprId>)>,
     /// Arguments of `quaternion`.
     pub(super) quaternions: Vec<[ExprId; 4]>,
     /// Functions of the declaration.
@@ -124,7 +126,14 @@ impl Evaluator<'_> {
             (Place::ForceFunction, Role::Velocity | Role::QuasiVelocity | Role::Input) => {
                 fault.help("write it under `forces`, as `force along velocity;`")
             }
-            (_, Role::Input) => fault.note("inputs are allowed in `forces` and `outputs` only"),
+            (_, Role::Input) => fault.note("inputs are allowed in `states`, `forces` and `outputs` only"),
+            (Place::Force, Role::QuasiAcceleration) => {
+                fault.note("accelerations follow from forces: `outputs` and the rates of states may use them")
+            }
+            (Place::KineticEnergy | Place::ForceFunction, Role::State) => fault
+                .note("energies are those of the motion; states act on it through `forces`")
+                .help("write what the state does as `force along velocity;`"),
+            (_, Role::State) => fault.note("states are allowed in `states`, `forces` and `outputs` only"),
             _ => match place.rule() {
                 Some(rule) => fault.note(rule),
                 None => fault,
@@ -188,6 +197,12 @@ impl Evaluator<'_> {
             {
                 Some((function.span(), None))
             }
+            // The rate of a state has in it what its declaration has.
+            ExpressionKind::Call { function, arguments, .. }
+                if function.text == "dot" && self.have_rates_with(arguments, roles) =>
+            {
+                Some((function.span(), None))
+            }
             ExpressionKind::Call { function, .. } if self.brings_in(&function.text, roles) => {
                 Some((function.span(), Some(function.text.as_str())))
             }
@@ -199,6 +214,17 @@ impl Evaluator<'_> {
             }
             _ => e.children().into_iter().find_map(|child| self.culprit_beside(arguments, child, roles)),
         }
+    }
+
+    /// Whether the rate of a state that is named in some expressions brings in one of these kinds of symbol.
+    fn have_rates_with(&self, expressions: &[Expression], roles: Roles) -> bool {
+        let graph = &self.bench.graph;
+        let mut states =
+            self.states.iter().filter_map(|(state, rate)| Some((graph.as_symbol(*state)?, (*rate)?)));
+        states.any(|(state, rate)| {
+            graph.roles(rate).meets(roles)
+                && expressions.iter().any(|e| e.mentions(&graph.symbol_info(state).name))
+        })
     }
 
     /// The value of an expression.

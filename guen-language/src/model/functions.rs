@@ -320,7 +320,16 @@ impl Evaluator<'_> {
         let moving = Roles::of(Role::Velocity).or(Roles::of(Role::QuasiVelocity));
         let without_rate = Roles::of(Role::Input).or(Roles::of(Role::QuasiAcceleration));
         let roles = value.expressions().iter().fold(Roles::NONE, |all, e| all.or(self.bench.graph.roles(*e)));
-        if self.knows_motion() && roles.meets(moving) && !roles.meets(without_rate) {
+        let has_states = roles.has(Role::State);
+        if has_states {
+            self.known_rates(value, span)?;
+        }
+        let is_along_motion = if self.knows_motion() {
+            roles.meets(moving) || has_states
+        } else {
+            has_states && !roles.meets(moving)
+        };
+        if is_along_motion && !roles.meets(without_rate) {
             match value {
                 Value::Scalar(e) => {
                     let rate = self.rate_along_motion(*e);
@@ -354,6 +363,19 @@ impl Evaluator<'_> {
                 )
             }
         }
+    }
+
+    /// Refuses the rate of something with states whose own rates are declared further down.
+    fn known_rates(&mut self, value: &Value, span: Span) -> Evaluated<()> {
+        let symbols = self.bench.graph.symbols_in(&value.expressions());
+        let graph = &self.bench.graph;
+        let unknown = self.states.iter().filter(|(_, rate)| rate.is_none()).find_map(|(state, _)| {
+            let symbol = graph.as_symbol(*state)?;
+            symbols.contains(&symbol).then(|| graph.symbol_info(symbol).name.clone())
+        });
+        let Some(name) = unknown else { return Ok(()) };
+        let fault = Fault::new(span, format!("the rate of `{name}` is used before it is declared"));
+        self.fail(fault.help(format!("declare `dot({name})` above this, or write what it is")))
     }
 
     /// The first kind of symbol in a value that has no rate of its own.
@@ -456,6 +478,7 @@ impl Evaluator<'_> {
     fn angle(&mut self, function: &Name, value: &(Value, Span)) -> Evaluated<ExprId> {
         let e = self.scalar(function, value)?;
         let moving = Roles::of(Role::Velocity).or(Roles::of(Role::QuasiVelocity)).or(Roles::of(Role::Input));
+        let moving = moving.or(Roles::of(Role::State));
         if self.bench.graph.roles(e).meets(moving) {
             return self.fail(Fault::new(value.1, "a rotation depends on time and coordinates only"));
         }

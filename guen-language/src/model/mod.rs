@@ -58,6 +58,8 @@ pub struct Model<'a> {
     pub bodies: Vec<BodyEntry>,
     /// Masses and positions of particles in order.
     pub particles: Vec<(ExprId, [ExprId; 3])>,
+    /// States beside the motion, in order.
+    pub states: Vec<SymbolEntry<'a>>,
     /// Outputs in order.
     pub outputs: Vec<OutputEntry<'a>>,
     /// Unit quaternions among the coordinates, by the indices of `w, x, y, z`.
@@ -155,7 +157,7 @@ pub struct ConstantEntry<'a> {
     pub symbol: ExprId,
 }
 
-/// A coordinate or an input.
+/// A coordinate, an input or a state.
 pub struct SymbolEntry<'a> {
     /// Name as written.
     pub name: &'a Name,

@@ -29,6 +29,8 @@ pub(super) enum Place {
     Mass,
     /// A position or an orientation.
     Position,
+    /// The rate of a state.
+    StateRate,
     /// A generalised force.
     Force,
     /// The velocity form behind `along`.
@@ -53,6 +55,7 @@ impl Place {
             Place::Gravity => return "`gravity`".to_owned(),
             Place::Mass => return "a mass or an inertia".to_owned(),
             Place::Position => return "a position or an orientation".to_owned(),
+            Place::StateRate => ("the rate of state", "the rate of a state"),
             Place::Force => return "a force".to_owned(),
             Place::Direction => return "the velocity after `along`".to_owned(),
             Place::Output => ("output", "an output"),
@@ -83,14 +86,14 @@ impl Place {
         let timed = constants.or(Roles::of(Role::Time));
         let positions = timed.or(Roles::of(Role::Coordinate));
         let velocities = positions.or(Roles::of(Role::Velocity)).or(Roles::of(Role::QuasiVelocity));
-        let all = velocities.or(Roles::of(Role::Input));
+        let all = velocities.or(Roles::of(Role::Input)).or(Roles::of(Role::State));
         match self {
             Place::Default | Place::Limit | Place::Fixed => constants,
             Place::Gravity => timed,
             Place::Holonomic | Place::ForceFunction | Place::Mass | Place::Position => positions,
             Place::Parameter | Place::Constraint | Place::KineticEnergy | Place::Direction => velocities,
             Place::Let | Place::Force => all,
-            Place::Output => all.or(Roles::of(Role::QuasiAcceleration)),
+            Place::StateRate | Place::Output => all.or(Roles::of(Role::QuasiAcceleration)),
         }
     }
 }
@@ -104,13 +107,15 @@ pub(super) fn role_name(role: Role) -> &'static str {
         Role::Velocity => "a velocity",
         Role::QuasiVelocity => "a quasi-velocity",
         Role::QuasiAcceleration => "an acceleration",
+        Role::State => "a state",
         Role::Input => "an input",
     }
 }
 
 /// Every kind of symbol, in the order in which a message names the first that is not allowed.
-pub(super) const ROLES: [Role; 7] = [
+pub(super) const ROLES: [Role; 8] = [
     Role::QuasiAcceleration,
+    Role::State,
     Role::Input,
     Role::Velocity,
     Role::QuasiVelocity,

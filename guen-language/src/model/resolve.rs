@@ -4,12 +4,13 @@ mod count;
 mod finish;
 mod provide;
 mod redundant;
+mod states;
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use guen_symbolic::{
-    Bound, ExprId, Flow, Force, Forms, Graph, Holonomic, Mechanics, Multibody, RigidBody, Role, Roles,
-    Substitution, Workbench,
+    Bound, ExprId, FirstOrderState, Flow, Force, Forms, Graph, Holonomic, Mechanics, Multibody, RigidBody,
+    Role, Roles, Substitution, Workbench,
 };
 
 use super::assumed_rates::AssumedRates;
@@ -61,6 +62,7 @@ struct Resolver<'a, 'f> {
     forces: Vec<Force>,
     bodies: Vec<BodyEntry>,
     particles: Vec<Weight>,
+    states: Vec<SymbolEntry<'a>>,
     outputs: Vec<OutputEntry<'a>>,
     /// Scenes as written: they may name parameters that are chosen once all forms are known.
     written_scenes: Vec<&'a Scene>,
@@ -91,6 +93,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
                 expansions: BTreeMap::new(),
                 left_out: Vec::new(),
                 motion: super::motion_symbols::MotionSymbols::default(),
+                states: Vec::new(),
                 quaternions: Vec::new(),
                 functions: Default::default(),
                 rates: AssumedRates::default(),
@@ -113,6 +116,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
             forces: Vec::new(),
             bodies: Vec::new(),
             particles: Vec::new(),
+            states: Vec::new(),
             outputs: Vec::new(),
             written_scenes: Vec::new(),
             output_values: Vec::new(),
@@ -144,6 +148,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
                 _ => {}
             }
         }
+        self.declare_states();
     }
 
     fn item(&mut self, item: &'a Item) {
@@ -283,6 +288,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
                 let potential = self.eval.scalar_at(Place::ForceFunction, &quantity.value).ok();
                 self.force_function = potential.map(|v| self.eval.bench.graph.neg(v));
             }
+            Item::States(section) => section.entries.iter().for_each(|state| self.state(state)),
             Item::Forces(section) => section.entries.iter().for_each(|force| self.force(force)),
             Item::Outputs(section) => section.entries.iter().for_each(|output| self.output(output)),
             Item::Provide(section) => section.entries.iter().for_each(|provide| self.provide(provide)),

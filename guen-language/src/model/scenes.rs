@@ -95,12 +95,12 @@ impl Evaluator<'_> {
 
     fn tracked(&mut self, name: &Name) {
         match self.scope.category(&name.text) {
-            Some(Category::Coordinate | Category::Parameter) => self.scope.refer(name),
+            Some(Category::Coordinate | Category::Parameter | Category::State) => self.scope.refer(name),
             Some(other) => {
                 let noun = other.noun();
                 let fault = Fault::new(
                     name.span(),
-                    format!("`{name}` is {noun}, and a scene tracks coordinates and parameters"),
+                    format!("`{name}` is {noun}, and a scene tracks coordinates, parameters and states"),
                 );
                 self.faults.report(match other {
                     Category::Output => {
@@ -141,7 +141,7 @@ impl Evaluator<'_> {
                 }
                 return Some(FixedConstant { name, symbol, value });
             }
-            Some(Category::Coordinate | Category::Parameter) => {
+            Some(Category::Coordinate | Category::Parameter | Category::State) => {
                 self.faults.report(
                     Fault::new(written.first_token(), format!("`{name}` is fixed at its initial value"))
                         .help(format!("write `fix {name};`")),
@@ -155,7 +155,7 @@ impl Evaluator<'_> {
     /// `fix name`.
     fn held<'a>(&mut self, name: &'a Name, tracks: &[Name]) -> Option<&'a Name> {
         match self.scope.category(&name.text) {
-            Some(Category::Coordinate | Category::Parameter) => {
+            Some(Category::Coordinate | Category::Parameter | Category::State) => {
                 if tracks.iter().any(|tracked| tracked.text == name.text) {
                     let fault = Fault::new(name.span(), format!("`{name}` is tracked and fixed"));
                     self.faults
@@ -182,7 +182,7 @@ impl Evaluator<'_> {
                 let noun = other.noun();
                 self.faults.report(Fault::new(
                     name.span(),
-                    format!("`{name}` is {noun}, and a scene fixes constants, and parameters or coordinates at rest"),
+                    format!("`{name}` is {noun}, and a scene fixes constants, and coordinates, parameters or states at rest"),
                 ));
             }
             None => self.unknown(name, "a scene"),
@@ -235,7 +235,7 @@ impl Evaluator<'_> {
             let near = names::nearest(&name.text, QUANTITIES);
             let fault = Fault::new(name.span(), format!("a scene cannot provide `{name}`"));
             self.faults.report(match (near, self.scope.category(&name.text)) {
-                (_, Some(Category::Coordinate | Category::Parameter)) => {
+                (_, Some(Category::Coordinate | Category::Parameter | Category::State)) => {
                     fault.help(format!("variables are tracked: `track {name};`"))
                 }
                 (Some(near), _) => fault.help(format!("did you mean `{near}`?")),

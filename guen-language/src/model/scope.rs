@@ -27,6 +27,8 @@ pub(super) enum Category {
     Constraint,
     /// A body.
     Body,
+    /// A state beside the motion.
+    State,
     /// An output.
     Output,
     /// A function.
@@ -44,6 +46,7 @@ impl Category {
             Category::Parameter => "a parameter",
             Category::Constraint => "a constraint",
             Category::Body => "a body",
+            Category::State => "a state",
             Category::Output => "an output",
             Category::Function => "a function",
         }
@@ -161,6 +164,11 @@ impl Scope {
     /// Returns the place where a name is declared that is not declared so far.
     pub(super) fn declared_later(&self, text: &str) -> Option<Span> {
         self.later.get(text).filter(|_| !self.entries.contains_key(text)).copied()
+    }
+
+    /// Whether a name was announced that is not declared so far.
+    pub(super) fn is_declared_later(&self, text: &str) -> bool {
+        self.declared_later(text).is_some()
     }
 
     /// Whether the declaration declares the name anywhere, or the name was found to be unknown.

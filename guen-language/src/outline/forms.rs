@@ -154,6 +154,11 @@ impl Forms {
         forms
     }
 
+    /// Whether no field of the state and of the forms has this name.
+    pub(super) fn is_free(&self, name: &Name) -> bool {
+        !self.fields.0.contains(&name.ident.to_string())
+    }
+
     fn parameter(
         &mut self,
         entry: &Definition,

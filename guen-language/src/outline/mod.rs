@@ -18,7 +18,7 @@ use quote::format_ident;
 use crate::names;
 use crate::syntax::{
     Body, BodyField, Constant, Declaration, Definition, Docs, Expression, Force, Inertia, Item, Name,
-    Particle, Plain, Provide, Quantity, Section,
+    Particle, Plain, Provide, Quantity, Section, State,
 };
 use expressions::{call, number, rate, square, sum, value};
 use forms::Forms;
@@ -31,6 +31,8 @@ pub fn sound(declaration: &Declaration) -> Declaration {
     let mut entries = Entries::default();
     declaration.items.iter().for_each(|item| entries.add(item, &kinds, &mut names));
     let forms = Forms::new(declaration, &kinds, &mut names);
+    // After the forms, whose names are fields of the state, too.
+    declaration.items.iter().for_each(|item| entries.add_states(item, &forms, &mut names));
     if forms.driven.is_none() {
         // Without a force there is no function to carry.
         entries.provides.retain(|provide| provide.name.text != "carried");
@@ -44,6 +46,7 @@ pub fn sound(declaration: &Declaration) -> Declaration {
         Item::KineticEnergy(Quantity { docs: Docs::default(), keyword: Span::call_site(), value: energy }),
         Item::Bodies(section(entries.bodies.clone())),
         Item::Particles(section(entries.particles.clone())),
+        Item::States(section(entries.states.clone())),
         Item::Outputs(section(entries.outputs.clone())),
         Item::Provide(section(entries.provides.clone())),
     ];
@@ -87,6 +90,7 @@ fn push<T>(entries: &mut Vec<T>, name: &Name, of: impl Fn(&T) -> &Name, new: imp
 struct Entries {
     constants: Vec<Constant>,
     inputs: Vec<Plain>,
+    states: Vec<State>,
     outputs: Vec<Definition>,
     bodies: Vec<Body>,
     particles: Vec<Particle>,
@@ -129,6 +133,16 @@ impl Entries {
                 }
             }
             _ => {}
+        }
+    }
+
+    /// States whose names no coordinate and no parameter has.
+    fn add_states(&mut self, item: &Item, forms: &Forms, names: &mut Names) {
+        let Item::States(section) = item else { return };
+        for state in section.entries.iter().filter(|state| forms.is_free(&state.name)) {
+            let new =
+                || State { name: names.take(&state.name), unit: None, rate: number(0), ..state.clone() };
+            push(&mut self.states, &state.name, |state| &state.name, new);
         }
     }
 

@@ -33,7 +33,9 @@ fn sound(scene: &Scene, entries: &Entries, forms: &Forms) -> Scene {
         let is_it = |other: &&Name| other.ident == name.ident;
         let constant = entries.constants.iter().map(|constant| &constant.name).find(is_it);
         let resting = forms.coordinates.iter().map(|x| &x.name).filter(|x| forms.resting.contains(&x.text));
-        let variable = forms.parameters.iter().map(|parameter| &parameter.name).chain(resting).find(is_it);
+        let states = entries.states.iter().map(|state| &state.name);
+        let parameters = forms.parameters.iter().map(|parameter| &parameter.name);
+        let variable = parameters.chain(resting).chain(states).find(is_it);
         if let Some(known) = constant.or(variable) {
             let new = || Fix { name: known.clone(), value: constant.map(|_| number(1)) };
             push(&mut fixes, name, |fix| &fix.name, new);
@@ -41,6 +43,7 @@ fn sound(scene: &Scene, entries: &Entries, forms: &Forms) -> Scene {
     }
     let variables = forms.coordinates.iter().map(|coordinate| &coordinate.name);
     let variables = variables.chain(forms.parameters.iter().map(|parameter| &parameter.name));
+    let variables = variables.chain(entries.states.iter().map(|state| &state.name));
     let tracks =
         variables.filter(|name| fixes.iter().all(|fix| fix.name.text != name.text)).cloned().collect();
     let words = ["energy", "linearization", "operators", "reactions"].into_iter();

@@ -9,7 +9,9 @@ use super::lists::{INPUT, plain_names, stray_semicolon};
 use super::names::name;
 use super::nesting::Entries;
 use super::punctuation::{equals, semicolon};
-use super::{bodies, constants, definitions, energies, equations, forces, functions, particles, scene};
+use super::{
+    bodies, constants, definitions, energies, equations, forces, functions, particles, scene, states,
+};
 use crate::diagnostics::{Fault, Faults, Reported};
 use crate::limits::{MAX_COORDINATES, MAX_ENTRIES, MAX_SCENES, MAX_TOKENS};
 use crate::names::{PARAMETER_ALIASES, SECTIONS, instead_of_section, nearest_section, quoted};
@@ -361,6 +363,7 @@ fn section(kind: SectionKind, group: &Group, faults: &mut Faults, docs: Docs, ke
         SectionKind::Holonomic => Item::Holonomic(of(docs, keyword, equations::equations(group, faults))),
         SectionKind::Particles => Item::Particles(of(docs, keyword, particles::particles(group, faults))),
         SectionKind::Bodies => Item::Bodies(of(docs, keyword, bodies::bodies(group, faults))),
+        SectionKind::States => Item::States(of(docs, keyword, states::states(group, faults))),
         SectionKind::Forces => Item::Forces(of(docs, keyword, forces::forces(group, faults))),
         // The kinds without braces have been told apart before.
         _ => Item::Outputs(of(docs, keyword, definitions::outputs(group, faults))),

@@ -201,7 +201,7 @@ pub(crate) fn plain_names(group: &Group, faults: &mut Faults, role: &str, most: 
 }
 
 /// The unit behind a name. Degrees are for constants.
-fn own_unit(cursor: &mut Cursor, faults: &mut Faults, role: &str) -> Option<Unit> {
+pub(crate) fn own_unit(cursor: &mut Cursor, faults: &mut Faults, role: &str) -> Option<Unit> {
     match unit(cursor, faults) {
         Ok(Some(unit)) if unit.is_degrees => {
             let fault = Fault::new(

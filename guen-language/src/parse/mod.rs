@@ -22,6 +22,7 @@ mod nesting;
 mod particles;
 mod punctuation;
 mod scene;
+mod states;
 #[cfg(test)]
 mod tests;
 mod units;

@@ -54,6 +54,7 @@ pub(crate) system Cart {
     }
     gravity = vec(0, -g);
     potential_energy = k*x.powi(2).sqrt();
+    states { dot(i) = tau - i; dot(r#e: A*s) = -i/2; }
     forces { tau - c*dot(x) along dot(θ); F*R.x along dot(p); }
     outputs { height = p.y; }
     provide operators, reactions(c, on_ground);
@@ -259,6 +260,7 @@ pub (in crate) system Cart {
          ball { mass: 1, center: vec(0, 0, 0), } }
     gravity = vec(0, (-g));
     potential_energy = (k*x.powi(2).sqrt());
+    states { dot(i) = (tau - i); dot(r#e: A*s) = ((-i)/2); }
     forces { (tau - (c*dot(x))) along dot(θ); (F*R.x) along dot(p); }
     outputs { height = p.y; }
     provide operators, reactions(c, on_ground);

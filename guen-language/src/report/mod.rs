@@ -57,6 +57,7 @@ impl Report {
             sections.push(classification(subject, writer));
             sections.push(velocities(subject, writer));
             sections.push(equations(subject, writer));
+            sections.push(states(subject, writer));
             sections.push(momenta(subject, writer));
             sections.push(energies(subject, writer));
         }
@@ -84,8 +85,12 @@ impl Report {
 fn summary(subject: &Subject<'_, '_>) -> String {
     let derivation = &subject.level.derivation;
     let (n, l) = (subject.model.coordinates.len(), derivation.system.forms.degrees);
+    let states = match subject.model.states.len() {
+        0 => String::new(),
+        count => format!(", {}", plural(count, "state")),
+    };
     format!(
-        "{}, {}, {}: {}.",
+        "{}, {}, {}{states}: {}.",
         plural(n, "coordinate"),
         if l == 1 { "1 degree of freedom".to_owned() } else { format!("{l} degrees of freedom") },
         plural(n - l, "constraint"),
@@ -310,6 +315,17 @@ fn equations(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
         }
     }
     section
+}
+
+/// The rates of the states beside the motion.
+fn states(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
+    let Subject { model, level } = subject;
+    let mut lines = Lines::new(writer, "Rates of the states");
+    let first = level.rates.len() - model.states.len();
+    for (state, rate) in model.states.iter().zip(&level.rates[first..]) {
+        lines.named(&format!("{}'", state.name), *rate);
+    }
+    lines.section
 }
 
 fn momenta(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {

@@ -44,6 +44,7 @@ pub(super) fn declared(subject: &Subject<'_, '_>) -> Vec<Section> {
         Section::words("Constants", constants),
         Section::words("Coordinates", symbols(&model.coordinates)),
         Section::words("Inputs", symbols(&model.inputs)),
+        Section::words("States", symbols(&model.states)),
         Section::words("Units that follow", derived),
     ]
 }

@@ -223,6 +223,14 @@ impl Display for Particle {
     }
 }
 
+impl Display for State {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "dot({}", Written(&self.name))?;
+        self.unit.iter().try_for_each(|unit| write!(f, ": {}", unit.text))?;
+        write!(f, ") = {};", self.rate)
+    }
+}
+
 impl Display for Force {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         write!(f, "{} along {};", self.force, self.direction)
@@ -327,6 +335,7 @@ impl Display for Item {
             Item::Constraints(section) | Item::Holonomic(section) => braces(f, kind, section, " "),
             Item::Particles(section) => braces(f, kind, section, " "),
             Item::Bodies(section) => braces(f, kind, section, " "),
+            Item::States(section) => braces(f, kind, section, " "),
             Item::Forces(section) => braces(f, kind, section, " "),
             Item::KineticEnergy(quantity)
             | Item::Gravity(quantity)

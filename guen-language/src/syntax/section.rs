@@ -56,6 +56,8 @@ pub enum Item {
     ForceFunction(Quantity),
     /// `potential_energy = e;`.
     PotentialEnergy(Quantity),
+    /// `states { dot(name) = e; .. }`.
+    States(Section<State>),
     /// `forces { e along e; .. }`.
     Forces(Section<Force>),
     /// `outputs { name = e; .. }`.
@@ -85,6 +87,7 @@ pub enum SectionKind {
     Gravity,
     ForceFunction,
     PotentialEnergy,
+    States,
     Forces,
     Outputs,
     Provide,
@@ -93,7 +96,7 @@ pub enum SectionKind {
 
 impl SectionKind {
     /// Every kind, in the order of [`crate::names::SECTIONS`].
-    pub const ALL: [SectionKind; 19] = [
+    pub const ALL: [SectionKind; 20] = [
         SectionKind::Count,
         SectionKind::Constants,
         SectionKind::Inputs,
@@ -109,6 +112,7 @@ impl SectionKind {
         SectionKind::Gravity,
         SectionKind::ForceFunction,
         SectionKind::PotentialEnergy,
+        SectionKind::States,
         SectionKind::Forces,
         SectionKind::Outputs,
         SectionKind::Provide,
@@ -337,6 +341,21 @@ pub enum Inertia {
     Symmetric(Box<[Expression; 6]>),
 }
 
+/// `dot(name) = rate` or `dot(name: unit) = rate`.
+#[derive(Debug, Clone)]
+pub struct State {
+    /// Doc comments.
+    pub docs: Docs,
+    /// The name.
+    pub name: Name,
+    /// The unit of the state, if one is declared.
+    pub unit: Option<Unit>,
+    /// Place of the `=`.
+    pub equals: Span,
+    /// The rate.
+    pub rate: Expression,
+}
+
 /// `force along direction`.
 #[derive(Debug, Clone)]
 pub struct Force {
@@ -404,6 +423,7 @@ impl Item {
             Item::Gravity(_) => SectionKind::Gravity,
             Item::ForceFunction(_) => SectionKind::ForceFunction,
             Item::PotentialEnergy(_) => SectionKind::PotentialEnergy,
+            Item::States(_) => SectionKind::States,
             Item::Forces(_) => SectionKind::Forces,
             Item::Outputs(_) => SectionKind::Outputs,
             Item::Provide(_) => SectionKind::Provide,

@@ -34,6 +34,7 @@ impl Unfolder<'_> {
             Item::Constraints(section) => self.section(section, "a constraint", |entry| &entry.name),
             Item::Holonomic(section) => self.section(section, "a holonomic constraint", |entry| &entry.name),
             Item::Bodies(section) => self.section(section, "a body", |entry| &entry.name),
+            Item::States(section) => self.section(section, "a state", |entry| &entry.name),
             Item::Particles(section) => self.counted(section, "particles"),
             Item::Forces(section) => self.counted(section, "forces"),
             Item::KineticEnergy(_)

@@ -233,6 +233,7 @@ pub(super) fn section_nesting(item: &Item) -> Option<&[Node]> {
         Item::Constraints(section) | Item::Holonomic(section) => &section.nesting,
         Item::Particles(section) => &section.nesting,
         Item::Bodies(section) => &section.nesting,
+        Item::States(section) => &section.nesting,
         Item::Forces(section) => &section.nesting,
         _ => return None,
     };
@@ -276,6 +277,7 @@ fn declared(item: &Item, visit: &mut dyn FnMut(&Name)) {
             section.entries.iter().for_each(|entry| visit(&entry.name));
         }
         Item::Bodies(section) => section.entries.iter().for_each(|entry| visit(&entry.name)),
+        Item::States(section) => section.entries.iter().for_each(|entry| visit(&entry.name)),
         Item::Scene(scene) => {
             scene.tracks.iter().for_each(&mut *visit);
             scene.fixes.iter().for_each(|fix| visit(&fix.name));
@@ -325,6 +327,7 @@ fn expressions(item: &Item) -> Vec<&Expression> {
                 fields.into_iter().flatten().map(|field| &field.value).chain(inertia)
             })
             .collect(),
+        Item::States(section) => section.entries.iter().map(|entry| &entry.rate).collect(),
         Item::Forces(section) => {
             section.entries.iter().flat_map(|entry| [&entry.force, &entry.direction]).collect()
         }

@@ -4,7 +4,7 @@ use super::Unfolder;
 use super::arrays::next;
 use crate::syntax::{
     Body, BodyField, Constant, Declaration, Definition, Equation, Expression, Fix, Force, FunctionDefinition,
-    Index, Inertia, Item, Name, Particle, Plain, Provide, Quantity, Scene, Section,
+    Index, Inertia, Item, Name, Particle, Plain, Provide, Quantity, Scene, Section, State,
 };
 
 impl Unfolder<'_> {
@@ -42,6 +42,7 @@ impl Unfolder<'_> {
             Item::PotentialEnergy(quantity) => Item::PotentialEnergy(self.quantity(quantity)),
             Item::Particles(section) => Item::Particles(self.written(section, Self::particle)),
             Item::Bodies(section) => Item::Bodies(self.written(section, Self::body)),
+            Item::States(section) => Item::States(self.written(section, Self::state)),
             Item::Forces(section) => Item::Forces(self.written(section, Self::force)),
             Item::Provide(section) => {
                 let entries = section.entries.iter().flat_map(|provide| self.provide(provide)).collect();
@@ -138,6 +139,11 @@ impl Unfolder<'_> {
     fn particle(&mut self, particle: &Particle) -> Option<Particle> {
         let (mass, position) = (self.expression(&particle.mass), self.expression(&particle.position));
         Some(Particle { docs: particle.docs.clone(), mass, at: particle.at, position })
+    }
+
+    fn state(&mut self, state: &State) -> Option<State> {
+        let rate = self.expression(&state.rate);
+        Some(State { name: self.declared(&state.name)?, rate, ..state.clone() })
     }
 
     fn force(&mut self, force: &Force) -> Option<Force> {

@@ -22,6 +22,7 @@ mod rows_of_bars;
 mod scenes;
 mod singularities;
 mod spans;
+mod states;
 mod structure;
 mod token_damage;
 mod unsigned;

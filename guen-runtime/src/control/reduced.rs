@@ -23,7 +23,7 @@ pub enum Component {
         /// 0, 1 or 2 for the body's `x`, `y` or `z`.
         axis: usize,
     },
-    /// A quasi-velocity, by its index among the parameters.
+    /// A quasi-velocity by its index among the parameters, or behind these a state beside the motion.
     Parameter(usize),
 }
 
@@ -149,7 +149,8 @@ pub fn independent<const N: usize, const S: usize>(
     Ok(found)
 }
 
-/// The linear model of a system in a basis `z` of its leaf: independent positions, then the quasi-velocities.
+/// The linear model of a system in a basis `z` of its leaf: independent positions, then the quasi-velocities,
+/// then the states beside the motion.
 ///
 /// ```text
 /// d(state) = E dz      dz = P d(state)      A_z = P (A E - E')      B_z = P B

@@ -17,6 +17,8 @@ pub enum Role {
     QuasiAcceleration,
     /// A control input.
     Input,
+    /// A first-order state beside the motion, such as the current of a motor.
+    State,
 }
 
 /// A set of [`Role`]s: which kinds of symbol occur below a node.

@@ -23,8 +23,17 @@ pub struct Holonomic {
     pub equation: ExprId,
 }
 
-/// The meaning of a symbol in an output. (The rates of the parameters have symbols of their own,
-/// [`Mechanics::accelerations`], and may occur in outputs too.)
+/// A first-order state beside the motion, such as the current of a motor: `z' = rate`.
+#[derive(Clone, Copy, Debug)]
+pub struct FirstOrderState {
+    /// The symbol `z`.
+    pub symbol: ExprId,
+    /// The rate, of everything, with the symbols of [`Mechanics::motion_symbols`].
+    pub rate: ExprId,
+}
+
+/// The meaning of a symbol in an output or in the rate of a state. (The rates of the parameters have symbols of their own,
+/// [`Mechanics::accelerations`], and may occur there too.)
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum MotionSymbol {
     /// `x_i''`, by the index of the coordinate.
@@ -97,9 +106,11 @@ pub struct Mechanics {
     pub structure: SystemGraph,
     /// The other generalised forces.
     pub forces: Vec<Force>,
+    /// The states beside the motion, which forces may depend on.
+    pub states: Vec<FirstOrderState>,
     /// Quantities computed on request.
     pub outputs: Vec<ExprId>,
-    /// Symbols in the outputs for what follows from the motion.
+    /// Symbols in the outputs and in the rates of the states for what follows from the motion.
     pub motion_symbols: Vec<(ExprId, MotionSymbol)>,
 }
 
@@ -133,6 +144,7 @@ impl Mechanics {
             .chain(system.holonomic.iter_mut().map(|h| &mut h.equation))
             .chain(&mut system.redundant)
             .chain(system.forces.iter_mut().flat_map(|force| [&mut force.magnitude, &mut force.along]))
+            .chain(system.states.iter_mut().map(|state| &mut state.rate))
             .chain(&mut system.outputs)
             .chain(&mut system.written)
             .chain(system.multibody.iter_mut().flat_map(Multibody::expressions));

@@ -4,6 +4,7 @@ use super::fault::{DerivationError, affordable};
 use super::forces::generalised_forces;
 use super::formulations::{self, Formulated, Found};
 use super::indispensable;
+use super::state_rates;
 use super::stated::Stated;
 use super::velocity_forms::VelocityPartials;
 use super::{Energies, Equations, Frame, Mechanics, MotionSymbol, Solution, decompose};
@@ -49,8 +50,8 @@ pub struct Derivation {
     pub generalised_forces: Vec<ExprId>,
     /// The solved accelerations.
     pub solution: Solution,
-    /// The rates of the state by all formulations that gave some, those of the solution first: which costs least is found when code is
-    /// made.
+    /// The rates of the state by all formulations that gave some, those of the solution first, and of the states beside the motion:
+    /// which costs least is found when code is made.
     pub formulations: Vec<Formulated>,
     /// The formulations that gave nothing, each with the reason.
     pub declined: Vec<(&'static str, &'static str)>,
@@ -90,7 +91,7 @@ impl Derivation {
         let generalised_forces = generalised_forces(bench, &system, &mut frame, &mut partials);
 
         let mut stated = Stated::new(bench, &system, &mut frame, &mut partials, &terms, &generalised_forces)?;
-        let Found { equations, mut solution, formulations, declined, mut symmetry } = formulations::walk(
+        let Found { equations, mut solution, mut formulations, declined, mut symmetry } = formulations::walk(
             bench,
             &system,
             &mut frame,
@@ -147,6 +148,7 @@ impl Derivation {
         });
         let power = power.unwrap_or(bench.graph.zero());
         let outputs = outputs(bench, &system, &mut frame, &solution.accelerations, &reactions);
+        state_rates::append(bench, &system, &frame, &reactions, &mut formulations);
         Ok(Derivation {
             system,
             frame,

@@ -29,13 +29,14 @@ mod restated;
 mod restriction;
 mod solve;
 mod spins;
+mod state_rates;
 mod stated;
 mod symmetry;
 mod thresholds;
 mod velocity_forms;
 mod weightless;
 
-pub use declaration::{Force, Holonomic, Mechanics, MotionSymbol, Multibody, RigidBody};
+pub use declaration::{FirstOrderState, Force, Holonomic, Mechanics, MotionSymbol, Multibody, RigidBody};
 pub use dependence::Dependence;
 pub use derivation::{Class, Derivation};
 pub use energy::Energies;

@@ -250,6 +250,7 @@ mod tests {
             structure: Default::default(),
             forces: Vec::new(),
             outputs: Vec::new(),
+            states: Vec::new(),
             motion_symbols: Vec::new(),
         }
     }

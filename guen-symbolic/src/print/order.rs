@@ -41,11 +41,12 @@ impl FactorKey {
                 Role::Velocity => 7,
                 Role::QuasiVelocity => 8,
                 Role::QuasiAcceleration => 9,
-                Role::Input => 10,
+                Role::State => 10,
+                Role::Input => 11,
             },
             _ if roles == Roles::NONE => 0,
             _ if roles.is_constant() => 2,
-            _ if roles.meets(MOTION.or(Roles::of(Role::Input))) => 6,
+            _ if roles.meets(MOTION.or(Roles::of(Role::Input)).or(Roles::of(Role::State))) => 6,
             _ => 3,
         };
         let function = match graph.node(base) {

@@ -289,6 +289,7 @@ fn drawn(seed: u64) -> (Words, Mechanics, Vec<&'static str>) {
         structure,
         forces: Vec::new(),
         outputs: Vec::new(),
+        states: Vec::new(),
         motion_symbols: Vec::new(),
     };
     features.sort_unstable();

@@ -93,6 +93,7 @@ impl Scene {
             structure: Default::default(),
             forces: Vec::new(),
             outputs: Vec::new(),
+            states: Vec::new(),
             motion_symbols: Vec::new(),
         };
         let declared = Declared::new(&words.graph, &mechanics);

@@ -59,6 +59,7 @@ pub fn drawn(seed: u64) -> (Words, Mechanics) {
         structure: Default::default(),
         forces,
         outputs: Vec::new(),
+        states: Vec::new(),
         motion_symbols: Vec::new(),
     };
     (words, mechanics)

@@ -135,6 +135,7 @@ fn drawn(seed: u64) -> (Words, Mechanics, Vec<&'static str>) {
         structure: Default::default(),
         forces: forces.into_iter().collect(),
         outputs: Vec::new(),
+        states: Vec::new(),
         motion_symbols: Vec::new(),
     };
     (words, mechanics, features)

@@ -39,6 +39,15 @@ pub(super) fn units(declaration: &Declaration, faults: &mut Faults) -> Units {
     });
     let mut weights: Vec<(Partial, Partial)> = Vec::new();
     for item in &declaration.items {
+        if let Item::States(section) = item {
+            for state in &section.entries {
+                let own = dimensions.declared(state.unit.as_ref());
+                dimensions.names.insert(state.name.text.clone(), own);
+                shown.push(state.name.text.clone());
+            }
+        }
+    }
+    for item in &declaration.items {
         dimensions.item(item, &mut shown, &mut weights);
     }
     if let Some(gravity) = gravity
@@ -74,6 +83,11 @@ fn declared_units(declaration: &Declaration) -> Vec<(&str, &Unit)> {
                 found.extend(units.filter_map(|(name, unit)| Some((name, unit?))));
             }
             Item::Coordinates(section) | Item::Inputs(section) => {
+                let units =
+                    section.entries.iter().map(|entry| (entry.name.text.as_str(), entry.unit.as_ref()));
+                found.extend(units.filter_map(|(name, unit)| Some((name, unit?))));
+            }
+            Item::States(section) => {
                 let units =
                     section.entries.iter().map(|entry| (entry.name.text.as_str(), entry.unit.as_ref()));
                 found.extend(units.filter_map(|(name, unit)| Some((name, unit?))));
@@ -213,6 +227,16 @@ impl Dimensions<'_> {
                         _ => None,
                     });
                     self.names.insert(body.name.text.clone(), Quantity::Body(center));
+                }
+            }
+            // Their names are known from the beginning.
+            Item::States(section) => {
+                for state in &section.entries {
+                    let own = per_second(self.names[&state.name.text].clone());
+                    let rate = self.of(&state.rate);
+                    let (l, r) = (format!("`dot({})`", state.name), format!("`{}`", state.rate.source()));
+                    let message = "the sides of this equation have different dimensions";
+                    self.shared((own, &l), (rate, &r), state.equals, message);
                 }
             }
             Item::Forces(section) => {

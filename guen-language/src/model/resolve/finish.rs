@@ -78,6 +78,14 @@ impl<'a> Resolver<'a, '_> {
         written_out(&mut kinetic_energy);
         self.written_energy.iter_mut().for_each(&mut written_out);
         self.output_values.iter_mut().for_each(&mut written_out);
+        // Every rate is known, or its fault was reported.
+        let mut states: Vec<FirstOrderState> = self
+            .eval
+            .states
+            .iter()
+            .map(|(symbol, rate)| FirstOrderState { symbol: *symbol, rate: rate.unwrap_or(*symbol) })
+            .collect();
+        states.iter_mut().for_each(|state| written_out(&mut state.rate));
         self.forces
             .iter_mut()
             .flat_map(|force| [&mut force.magnitude, &mut force.along])
@@ -155,6 +163,7 @@ impl<'a> Resolver<'a, '_> {
             multibody,
             structure,
             forces: self.forces,
+            states,
             outputs: self.output_values,
             motion_symbols,
         };
@@ -174,6 +183,7 @@ impl<'a> Resolver<'a, '_> {
             redundant,
             bodies: self.bodies,
             particles: self.particles,
+            states: self.states,
             outputs: self.outputs,
             quaternions,
             reactions,

@@ -11,7 +11,7 @@ use guen_language::{derive, emit, expand_outline, model, parse};
 use proc_macro2::{Delimiter, Group, Span, TokenStream, TokenTree};
 
 /// Sound declarations, small, with every section between them.
-pub const SOUND: [&str; 6] = [
+pub const SOUND: [&str; 7] = [
     "/// A bead on a turning hoop.
     pub system Bead {
         constants { m > 0, R > 0, Omega, g = 9.81, k >= 0 = m*g/2 }
@@ -65,6 +65,17 @@ pub const SOUND: [&str; 6] = [
         parameters { w = dot(p); }
         kinetic_energy = m/2*inner(dot(p), dot(p)) + 0*w_x;
         forces { -w along dot(p); (m/2)*unit(vec(1, 1)) along w; }
+    }",
+    "system Motor {
+        constants { J: kg*m^2 > 0, R: Ohm, L: H > 0, k: N*m/A }
+        inputs { u: V }
+        coordinates { phi: rad }
+        parameters { omega = dot(phi); }
+        states { dot(current: A) = (u - R*current - k*omega)/L; dot(seen) = dot(omega) - seen/(1*t); dot(charge) = current; }
+        kinetic_energy = J/2*omega^2;
+        forces { k*current along omega; }
+        outputs { slope = dot(current); }
+        scene Electric { track current; provide slope; }
     }",
 ];
 

@@ -36,7 +36,11 @@ fn compared(derived: &Derived<'_>, seed: u64) -> String {
         }
         let states: Vec<String> = (0..STATES)
             .filter_map(|_| declared.state_of(&mut draw, given.clone()))
-            .map(|(point, etas)| format!("{:?}", [&point[1..=declared.n], &etas].concat()))
+            .map(|(point, etas)| {
+                // The states beside the motion are the last of what is held.
+                let states = &point[point.len() - model.states.len()..];
+                format!("{:?}", [&point[1..=declared.n], &etas[..declared.degrees], states].concat())
+            })
             .collect();
         let module = model.declaration.name.text.to_lowercase();
         let scene = &model.scenes[facts.index].scene.name;

@@ -239,6 +239,41 @@ impl Text {
         }
     }
 
+    /// States beside the motion, for every third declaration: a force and an output that depend on them, and a name above them. They are
+    /// drawn apart, so that everything else is drawn as without them.
+    fn states(&mut self, draw: &mut Draw) -> String {
+        if !draw.once_in(3) {
+            return String::new();
+        }
+        let names: Vec<String> = (0..draw.between(1, 3)).map(|k| format!("z{k}")).collect();
+        let mut rates = String::new();
+        for name in &names {
+            let (number, q) =
+                (draw.pick(&NUMBERS), self.coordinates[draw.below(self.coordinates.len())].clone());
+            let other = names[draw.below(names.len())].clone();
+            let mut rate = match draw.below(6) {
+                0 => format!("{q} - {number}*t"),
+                1 => format!("(dot({q}) - {name})/{number}"),
+                2 => format!("{number}*sin({other}) - lag*{name}*dot({q})^2"),
+                3 => format!("{other}*{q} - tanh({name}) + exp(-t)"),
+                4 => format!("-{number}*{name} + {}", self.function(draw, 1)),
+                _ => format!("{number}/(2 + {name}^2)"),
+            };
+            if let Some(input) = self.inputs.first().filter(|_| draw.once_in(2)) {
+                rate += &format!(" + {input}*{other}");
+            }
+            rates += &format!("dot({name}) = {rate}; ");
+        }
+        let (last, q) = (names[names.len() - 1].clone(), self.coordinates[0].clone());
+        self.lets += &format!("let lag = {} + {last}/7;\n", draw.pick(&NUMBERS));
+        if draw.once_in(3) {
+            self.outputs += &format!("lagging = lag*{};\n", names[0]);
+        } else {
+            self.forces += &format!("{} - lag*dot({q}) along dot({q}); ", names[0]);
+        }
+        rates
+    }
+
     /// A function of some coordinates.
     fn function(&mut self, draw: &mut Draw, depth: usize) -> String {
         let names = [0; 2].map(|_| self.coordinates[draw.below(self.coordinates.len())].clone());
@@ -319,6 +354,7 @@ pub fn drawn(seed: u64) -> String {
         let step = draw.pick(&["abs", "sign", "floor", "2*abs"]);
         text.forces += &format!("({push})*{step}(dot({along})) along dot({along}); ");
     }
+    let states = text.states(&mut Draw::new(seed.rotate_left(23)));
     let landscape = text.function(draw, 2);
     // Every coordinate has some inertia.
     let sluggish: Vec<String> = text.coordinates.iter().map(|q| format!("dot({q})^2/20")).collect();
@@ -339,6 +375,7 @@ pub fn drawn(seed: u64) -> String {
         section("holonomic", &text.holonomic),
         section("bodies", &text.bodies),
         section("constraints", &(text.constraints + &text.after)),
+        section("states", &states),
         section("particles", &text.particles),
         section("forces", &text.forces),
         section("outputs", &text.outputs),

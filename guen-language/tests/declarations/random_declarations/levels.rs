@@ -145,8 +145,10 @@ fn looked_at(text: &str, derived: &Derived<'_>, seed: u64) -> Seen {
                 })
                 .unwrap_or_default()
             };
+            let meaning = declared.meaning(&point);
             let all: Vec<f64> = (declared.velocities.iter().map(|v| point[*v]))
                 .chain(reference.accelerations.iter().copied())
+                .chain(meaning.state_rates.iter().copied())
                 .collect();
             let mut compare = |name: &str, found: Vec<f64>, expected: Vec<f64>, unit: f64| {
                 let close = |(a, b): (&f64, &f64)| (a - b).abs() <= ROUNDING * unit;
@@ -157,7 +159,6 @@ fn looked_at(text: &str, derived: &Derived<'_>, seed: u64) -> Seen {
             };
             let expected = selection.variables.iter().map(|place| all[*place]).collect();
             compare(function::RHS, run(&mut lost, function::RHS), expected, unit);
-            let meaning = declared.meaning(&point);
             if !selection.outputs.is_empty() {
                 let wanted = selection.outputs.iter().flat_map(|o| &model.outputs[*o].components);
                 let wanted: Vec<f64> = wanted.map(|c| meaning.outputs[*c]).collect();

@@ -27,6 +27,8 @@ pub struct Meaning<R> {
     /// Forces and what they act along.
     pub works: Vec<(R, R)>,
     pub outputs: Vec<R>,
+    /// The rates of the states beside the motion.
+    pub state_rates: Vec<R>,
 }
 
 /// Why there is no number.
@@ -55,6 +57,7 @@ impl<R: Analytic> Meaning<R> {
             force_function: nothing,
             works: Vec::new(),
             outputs: Vec::new(),
+            state_rates: Vec::new(),
         };
         let gravity = meaning.gravity(declaration)?;
         for item in &declaration.items {
@@ -145,6 +148,12 @@ impl<R: Analytic> Meaning<R> {
                     }
                     let body_value = Value::Body(Box::new(Rigid { center, orientation }));
                     self.names.insert(body.name.text.clone(), body_value);
+                }
+            }
+            Item::States(section) => {
+                for state in &section.entries {
+                    let rate = self.scalar(&state.rate)?.re;
+                    self.state_rates.push(rate);
                 }
             }
             Item::Forces(section) => {
@@ -327,6 +336,7 @@ impl<R: Analytic> Meaning<R> {
             force_function: nothing,
             works: Vec::new(),
             outputs: Vec::new(),
+            state_rates: Vec::new(),
         };
         inside.value(&function.value)
     }

@@ -41,7 +41,7 @@ const LARGEST: f64 = 1e6;
 /// States of each system.
 const STATES: usize = 3;
 
-/// A declaration in numbers, and the symbols of its coordinates and of its constants and inputs with their names.
+/// A declaration in numbers, and the symbols of its coordinates and of its constants, inputs and states with their names.
 struct Numbers<'a> {
     declared: Declared<'a>,
     coordinates: Vec<(String, SymbolId)>,
@@ -57,7 +57,8 @@ fn numbers_of<'a>(model: &Model<'a>) -> Numbers<'a> {
     let name = |entry: &model::SymbolEntry<'_>| (entry.name.text.clone(), symbol(entry.symbol));
     let coordinates: Vec<(String, SymbolId)> = model.coordinates.iter().map(name).collect();
     let constants = model.constants.iter().map(|entry| (entry.name.text.clone(), symbol(entry.symbol)));
-    let held: Vec<(String, SymbolId)> = constants.chain(model.inputs.iter().map(name)).collect();
+    let given = model.inputs.iter().chain(&model.states).map(name);
+    let held: Vec<(String, SymbolId)> = constants.chain(given).collect();
     let declared = Declared::new(
         model.declaration,
         coordinates.iter().map(|(name, _)| name.clone()).collect(),
@@ -112,7 +113,8 @@ fn difference(text: &str, derived: &Derived<'_>, seed: u64) -> (f64, usize) {
                 worst = worst.max(ratio);
             }
         };
-        let rates = speeds.chain(reference.accelerations.iter().copied()).collect();
+        let rates = speeds.chain(reference.accelerations.iter().copied());
+        let rates = rates.chain(meaning.state_rates.iter().copied()).collect();
         compare("rates", program(function::RHS), rates, unit);
         let energies = [
             (function::KINETIC_ENERGY, meaning.kinetic_energy),

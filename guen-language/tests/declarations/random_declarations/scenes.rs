@@ -15,6 +15,7 @@ pub struct Names {
     pub parameters: Vec<String>,
     pub constraints: Vec<String>,
     pub outputs: Vec<String>,
+    pub states: Vec<String>,
 }
 
 impl Names {
@@ -26,6 +27,7 @@ impl Names {
             parameters: Vec::new(),
             constraints: Vec::new(),
             outputs: Vec::new(),
+            states: Vec::new(),
         };
         for item in &declaration.items {
             match item {
@@ -47,6 +49,9 @@ impl Names {
                 Item::Holonomic(section) => {
                     names.constraints.extend(section.entries.iter().map(|e| e.name.text.clone()));
                 }
+                Item::States(section) => {
+                    names.states.extend(section.entries.iter().map(|e| e.name.text.clone()));
+                }
                 Item::Outputs(section) => {
                     names.outputs.extend(section.entries.iter().map(|e| e.name.text.clone()));
                 }
@@ -67,7 +72,7 @@ fn some(draw: &mut Draw, list: &[String], most: usize) -> Vec<String> {
 pub fn scene(draw: &mut Draw, declaration: &Declaration, name: &str) -> String {
     let names = Names::of(declaration);
     let mut text = format!("scene {name} {{ ");
-    let variables = [&names.coordinates[..], &names.parameters].concat();
+    let variables = [&names.coordinates[..], &names.parameters, &names.states].concat();
     let tracked = if draw.once_in(4) { Vec::new() } else { some(draw, &variables, 3) };
     if !tracked.is_empty() {
         text += &format!("track {}; ", tracked.join(", "));

@@ -216,7 +216,7 @@ macro_rules! state_of_system {
         impl<R: $crate::Real> State<R> {
             /// The state at given coordinates and velocities: the quasi-velocities are `eta_s = sum_i a_si x_i' +
             /// a_s0`, (1.6). Beside it the residuals `eta_v` of the constraints (their rates, where they are
-            /// holonomic): how far the velocities are from being possible.
+            /// holonomic): how far the velocities are from being possible. States beside the motion are zero.
             pub fn from_velocities(
                 system: &Prepared<R>,
                 t: R,
@@ -226,7 +226,7 @@ macro_rules! state_of_system {
                 let x = coordinates.__guen_array();
                 let w = velocities.__guen_array();
                 let forms = program::forms(&system.constants, &system.hoisted, t, &x, &w);
-                let state: [R; $size] = $crate::checks::joined(&x, &forms);
+                let state: [R; $size] = $crate::checks::joined(&x, forms.split_at($l).0);
                 (::core::convert::From::from(state), $crate::checks::first(forms.split_at($l).1))
             }
 

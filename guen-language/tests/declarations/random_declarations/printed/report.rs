@@ -151,6 +151,7 @@ fn scope(model: &Model<'_>, level: &Level) -> Scope {
     let mechanics = &level.derivation.system;
     let all = model.constants.iter().map(|c| c.symbol).chain(mechanics.inputs.iter().copied());
     let all = all.chain(mechanics.forms.coordinates.iter().copied()).chain([mechanics.forms.time]);
+    let all = all.chain(mechanics.states.iter().map(|state| state.symbol));
     for e in all.chain(mechanics.velocities.iter().copied()).chain(mechanics.etas.iter().copied()) {
         let symbol = graph.as_symbol(e).expect("a symbol");
         scope.add(&graph.symbol_info(symbol).name, e);
@@ -262,6 +263,12 @@ fn expected(model: &mut Model<'_>, level: &Level, section: &Section, scope: &mut
             lines.push(equation("h".to_owned(), d.energies.integral));
             if !d.conservative {
                 lines.push(equation("h'".to_owned(), d.power));
+            }
+        }
+        "Rates" if level.scene.is_none() => {
+            let first = model.coordinates.len() + l;
+            for (state, rate) in model.states.iter().zip(&level.rates[first..]) {
+                lines.push(equation(format!("{}'", state.name), *rate));
             }
         }
         "Rates" => {

@@ -1,0 +1,17 @@
+//! A state has one rate.
+//!
+//! repair: ` dot(current) = 0;` => ``
+
+guen::mechanical_system! {
+    pub system Motor {
+        constants { J > 0, R > 0, L > 0, k }
+        inputs { u }
+        coordinates { phi }
+        parameters { omega = dot(phi); }
+        states { dot(current) = (u - R*current - k*omega)/L; dot(current) = 0; }
+        kinetic_energy = J/2*omega^2;
+        forces { k*current along omega; }
+    }
+}
+
+fn main() {}

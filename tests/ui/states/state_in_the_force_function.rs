@@ -1,0 +1,18 @@
+//! A potential does not depend on a state; a force may.
+//!
+//! repair: `        force_function = k*current*phi;\n` => ``
+
+guen::mechanical_system! {
+    pub system Motor {
+        constants { J > 0, R > 0, L > 0, k }
+        inputs { u }
+        coordinates { phi }
+        parameters { omega = dot(phi); }
+        states { dot(current) = (u - R*current - k*omega)/L; }
+        kinetic_energy = J/2*omega^2;
+        force_function = k*current*phi;
+        forces { k*current along omega; }
+    }
+}
+
+fn main() {}

@@ -1,0 +1,18 @@
+//! A state that a scene fixes has a vanishing rate.
+//!
+//! repair: `fix current; ` => ``
+
+guen::mechanical_system! {
+    pub system Motor {
+        constants { J > 0, R > 0, L > 0, k }
+        inputs { u }
+        coordinates { phi }
+        parameters { omega = dot(phi); }
+        states { dot(current) = (u - R*current - k*omega)/L; }
+        kinetic_energy = J/2*omega^2;
+        forces { k*current along omega; }
+        scene Turned { track omega; fix current; }
+    }
+}
+
+fn main() {}
