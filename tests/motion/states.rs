@@ -86,7 +86,7 @@ fn a_motor_runs_as_its_closed_form() {
 
 #[test]
 fn states_have_units_names_and_outputs() {
-    assert!(!motor::CONSERVATIVE);
+    const { assert!(!motor::CONSERVATIVE) };
     assert_eq!(motor::REPORT.lines("States"), ["current: A: Through the winding.", "charge: s*A"]);
     assert_eq!(
         motor::REPORT.lines("Rates of the states"),
@@ -212,9 +212,9 @@ fn a_loop_of_filters_is_what_is_written_by_hand() {
         let jacobian = system::<f64>().linearize(0.0, &state.into(), &inputs);
         let lifted: [Dual<f64, 8>; 7] = std::array::from_fn(|j| Dual::variable(state[j], j));
         let slopes = by_hand(lifted, Dual::variable(0.3, 7)).map(|rate| rate.tangent);
-        for i in 0..7 {
-            near(&jacobian.a[i], &slopes[i][..7], 1e-12);
-            near(&jacobian.b[i], &slopes[i][7..], 1e-12);
+        for ((a, b), slopes) in jacobian.a.iter().zip(&jacobian.b).zip(&slopes) {
+            near(a, &slopes[..7], 1e-12);
+            near(b, &slopes[7..], 1e-12);
         }
         let outputs = system::<f64>().outputs(0.0, &state.into(), &inputs);
         near(&[outputs.jerk], &[by_hand(state, 0.3)[5]], 1e-13);

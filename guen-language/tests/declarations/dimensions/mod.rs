@@ -1,5 +1,8 @@
 //! Dimensions: what fits is accepted, what does not is told at the smallest place, and units follow where none is written.
 
+mod seeded;
+mod twenty;
+
 use guen_language::derive::derive;
 use guen_language::diagnostics::collect;
 use guen_language::report::Report;
