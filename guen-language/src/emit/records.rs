@@ -8,7 +8,7 @@ use super::fields::{Fields, Tree};
 use super::integrated::units;
 use super::layout::{Layout, carried_field, form_name, variable_name};
 use crate::derive::Subject;
-use crate::model::OutputEntry;
+use crate::model::{FormEntry, FormKind, OutputEntry, momentum, reaction, residual};
 use crate::syntax::{Docs, Name};
 
 /// A value of a record.
@@ -30,11 +30,13 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let coordinates: Vec<Field> = coordinates
         .map(|c| field(c.name, c.docs, format!("The coordinate `{}`.", c.name), units.get(&c.name.text)))
         .collect();
-    let forms = |indices: &[usize], what: &str| -> Vec<Field> {
+    let forms = |indices: &[usize], what: &str, unit_of: fn(&FormEntry<'_>) -> String| -> Vec<Field> {
         let forms = indices.iter().map(|j| &model.forms[*j]);
-        forms
-            .map(|form| field(&form_name(form), form.docs, format!("{what} `{}`.", form.name), None))
-            .collect()
+        let described = forms.map(|form| {
+            let fallback = format!("{what} `{}`.", form.name);
+            field(&form_name(form), form.docs, fallback, units.get(&unit_of(form)))
+        });
+        described.collect()
     };
     let parameters = selection.parameters.iter().map(|j| &model.forms[*j]);
     let parameters: Vec<Field> = parameters
@@ -76,14 +78,14 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     add(
         "Momenta",
         "The momenta `dT/d eta_s`, and `(dT°/d eta_v)` for the constraints, (2.8), as far as the kinetic energy speaks of them.",
-        &forms(&selection.momenta, "The momentum that goes with"),
+        &forms(&selection.momenta, "The momentum that goes with", |form| momentum(&form.name)),
     );
     let bound: Vec<usize> = if layout.is_whole {
         (layout.l..model.forms.len()).collect()
     } else {
         selection.holonomic.iter().map(|h| level.derivation.system.holonomic[*h].form).collect()
     };
-    let mut reactions = forms(&selection.reactions, "The multiplier of");
+    let mut reactions = forms(&selection.reactions, "The multiplier of", |form| reaction(&form.name));
     for (field, form) in reactions.iter_mut().zip(&selection.reactions) {
         let surplus = model.redundant.iter().filter(|redundant| redundant.beside.contains(form));
         let names: Vec<String> = surplus.map(|redundant| format!("`{}`", redundant.entry.name)).collect();
@@ -95,14 +97,17 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
             field.docs = quote!(#docs #[doc = ""] #[doc = #note]);
         }
     }
-    let mut residuals = forms(&bound, "What is left of");
+    let mut residuals = forms(&bound, "What is left of", |form| match form.kind {
+        FormKind::Holonomic => residual(&form.name),
+        _ => form.name.clone(),
+    });
     residuals.extend(selection.redundant.iter().map(|r| {
         let entry = &model.redundant[*r].entry;
         field(
             &form_name(entry),
             entry.docs,
             format!("What is left of `{}`, which follows from others.", entry.name),
-            None,
+            units.get(&residual(&entry.name)),
         )
     }));
     add(

@@ -29,7 +29,7 @@ use proc_macro2::{Ident, Span};
 
 use crate::syntax::{BoundKind, Declaration, Docs, Name, Scene};
 
-pub use dimensions::Units;
+pub use dimensions::{Units, momentum, reaction, residual};
 pub use rates::ChosenRates;
 pub use resolve::resolve;
 pub(crate) use scenes::is_carried_form;

@@ -3,7 +3,7 @@
 use super::lines::{Report, Section};
 use super::mathml::paragraph;
 use crate::derive::Subject;
-use crate::model::SymbolEntry;
+use crate::model::{SymbolEntry, momentum, reaction};
 use crate::syntax::{Docs, Item};
 
 /// Constants as they are declared, coordinates and inputs, each with the first line of its documentation.
@@ -40,12 +40,21 @@ pub(super) fn declared(subject: &Subject<'_, '_>) -> Vec<Section> {
     let derived =
         derived.filter(|name| model.units.contains_key(*name)).map(|name| format!("{name}{}", unit(name)));
     let derived: Vec<String> = derived.collect();
+    let derivation = &subject.level.derivation;
+    let l = derivation.system.forms.degrees;
+    let momenta = model.forms.iter().zip(&derivation.known_momentum).filter(|(_, known)| **known);
+    let momenta = momenta.map(|(form, _)| momentum(&form.name));
+    let reactions = model.forms[l..].iter().zip(&derivation.reactions).filter(|(_, known)| known.is_some());
+    let reactions = reactions.map(|(form, _)| reaction(&form.name));
+    let of_forms = momenta.chain(reactions).filter(|name| model.units.contains_key(name));
+    let of_forms: Vec<String> = of_forms.map(|name| format!("{name}{}", unit(&name))).collect();
     vec![
         Section::words("Constants", constants),
         Section::words("Coordinates", symbols(&model.coordinates)),
         Section::words("Inputs", symbols(&model.inputs)),
         Section::words("States", symbols(&model.states)),
         Section::words("Units that follow", derived),
+        Section::words("Units of momenta and reactions", of_forms),
     ]
 }
 

@@ -1,6 +1,6 @@
 //! Dimensions of expressions: what is added is of one dimension, and functions take numbers.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use guen_symbolic::Rational;
 use proc_macro2::Span;
@@ -33,6 +33,8 @@ pub(super) struct Dimensions<'f> {
     /// Names that stand for numbers, for exponents.
     pub(super) numbers: BTreeMap<String, Rational>,
     pub(super) functions: BTreeMap<String, FunctionDefinition>,
+    /// The names of parameters and constraints.
+    pub(super) forms: BTreeSet<String>,
 }
 
 /// A power of the second.

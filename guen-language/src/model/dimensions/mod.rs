@@ -6,7 +6,7 @@
 mod expressions;
 mod unknowns;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use guen_symbolic::Rational;
 
@@ -30,6 +30,7 @@ pub(super) fn units(declaration: &Declaration, faults: &mut Faults) -> Units {
         names: BTreeMap::new(),
         numbers: BTreeMap::new(),
         functions: BTreeMap::new(),
+        forms: BTreeSet::new(),
     };
     let mut shown = Vec::new();
     // Gravity may stand behind the bodies.
@@ -62,14 +63,38 @@ pub(super) fn units(declaration: &Declaration, faults: &mut Faults) -> Units {
     let mut units = Units::new();
     for name in shown {
         let Some(Quantity::Of(own)) = dimensions.names.get(&name) else { continue };
-        if let Some(own) = dimensions.unknowns.resolved(own).known() {
-            // That of a torque, too.
-            let unit = own.short();
-            units.insert(name, if unit == "J" { "N*m".to_owned() } else { unit });
+        let mut say = |name: String, of: Partial| {
+            if let Some(own) = dimensions.unknowns.resolved(&of).known() {
+                // That of a torque, too.
+                let unit = own.short();
+                units.insert(name, if unit == "J" { "N*m".to_owned() } else { unit });
+            }
+        };
+        if dimensions.forms.contains(&name) {
+            let per_rate = |unit: &str| of(unit).times(own, &Rational::integer(-1));
+            say(momentum(&name), per_rate("J"));
+            say(reaction(&name), per_rate("W"));
+            say(residual(&name), own.times(&expressions::seconds(1), &Rational::integer(1)));
         }
+        say(name, own.clone());
     }
     units.extend(written.into_iter().map(|(name, unit)| (name.to_owned(), unit.text.clone())));
     units
+}
+
+/// The name under which the unit of a form's momentum `dT/d eta` stands.
+pub fn momentum(form: &str) -> String {
+    format!("dT/d{form}")
+}
+
+/// The name under which the unit of a constraint's reaction stands.
+pub fn reaction(constraint: &str) -> String {
+    format!("reaction({constraint})")
+}
+
+/// The name under which the unit of what is left of a constraint on positions stands.
+pub fn residual(constraint: &str) -> String {
+    format!("residual({constraint})")
 }
 
 /// The names with units of their own.
@@ -136,8 +161,10 @@ impl Dimensions<'_> {
 
     fn form(&mut self, name: &str, own: Quantity, shown: &mut Vec<String>) {
         for axis in ["", "_x", "_y", "_z"] {
-            self.names.insert(crate::names::suffixed(name, axis), own.clone());
-            shown.push(crate::names::suffixed(name, axis));
+            let name = crate::names::suffixed(name, axis);
+            self.names.insert(name.clone(), own.clone());
+            self.forms.insert(name.clone());
+            shown.push(name);
         }
     }
 
@@ -161,6 +188,7 @@ impl Dimensions<'_> {
                         // In case it is chosen as a parameter.
                         let rate = crate::names::suffixed(&entry.name.text, crate::names::RATE_SUFFIX);
                         self.names.insert(rate.clone(), per_second(self.names[&entry.name.text].clone()));
+                        self.forms.insert(rate.clone());
                         shown.push(rate);
                     }
                     let limits = entry.limits.iter().flat_map(|limits| limits.iter());
@@ -176,10 +204,17 @@ impl Dimensions<'_> {
             Item::Function(function) => {
                 self.functions.insert(function.name.text.clone(), function.clone());
             }
-            Item::Parameters(section) | Item::Outputs(section) => {
+            Item::Parameters(section) => {
                 for entry in &section.entries {
                     let own = self.of(&entry.value);
                     self.form(&entry.name.text, own, shown);
+                }
+            }
+            Item::Outputs(section) => {
+                for entry in &section.entries {
+                    let own = self.of(&entry.value);
+                    self.names.insert(entry.name.text.clone(), own);
+                    shown.push(entry.name.text.clone());
                 }
             }
             Item::Constraints(section) => {

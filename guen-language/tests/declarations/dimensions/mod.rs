@@ -196,3 +196,47 @@ fn degrees_are_converted() {
     close(rate(&system([": deg", ""], "", &fixed("50")), true), angle(50_f64.to_radians()));
     close(rate(&system([": deg", ": rad"], "b: rad = 1,", &fixed("b/2")), true), angle(0.6));
 }
+
+/// Momenta, reactions and what is left of constraints have the units that follow from their forms.
+#[test]
+fn momenta_and_reactions_have_units() {
+    // A sled, rods that close a loop, and a coin: a speed, an angular velocity, a vector constraint, positions.
+    let wanted: [(usize, &[(&str, &str)]); 4] = [
+        (
+            1,
+            &[
+                ("dT/dspeed", "kg*m/s"),
+                ("dT/dturning", "kg*m^2/s"),
+                ("reaction(blade)", "N"),
+                ("blade", "m/s"),
+            ],
+        ),
+        (4, &[("dT/dtipping", "kg*m^2/s"), ("reaction(contact_x)", "N"), ("dT/dcontact_y", "kg*m/s")]),
+        (9, &[("reaction(closed_x)", "N"), ("residual(closed_x)", "m"), ("closed_x", "m/s")]),
+        (12, &[("reaction(rod)", "kg/s^2"), ("residual(rod)", "m^2")]),
+    ];
+    // In rustdoc, too.
+    let items = guen_language::expand(twenty::TWENTY[1].parse().unwrap()).to_string();
+    assert!(items.contains("\"The multiplier of `blade`.\"] # [doc = \"\"] # [doc = \"In N.\"]"));
+    for (number, wanted) in wanted {
+        derived(twenty::TWENTY[number], |derived| {
+            for (name, unit) in wanted {
+                assert_eq!(
+                    derived.model.units.get(*name).map(String::as_str),
+                    Some(*unit),
+                    "{name} of {number}"
+                );
+            }
+            let report = Report::of(&derived.model, &derived.system).to_text();
+            let lines = report.lines().skip_while(|line| *line != "Units of momenta and reactions").skip(1);
+            let lines: Vec<&str> = lines.take_while(|line| !line.is_empty()).map(str::trim).collect();
+            assert!(!lines.is_empty(), "{report}");
+            for (name, unit) in
+                wanted.iter().filter(|(name, _)| name.starts_with("dT") || name.starts_with("reaction"))
+            {
+                let line = format!("{name}: {unit}");
+                assert!(lines.contains(&&line[..]), "{line} in {lines:?}");
+            }
+        });
+    }
+}
