@@ -289,3 +289,33 @@ fn methods_agree_along_a_run() {
     let end = r#loop::State::from(r#loop::carried::State::from(end.state));
     near(&<[f64; 7]>::from(end), &reference, 1e-9);
 }
+
+guen::mechanical_system! {
+    /// A mass behind a chain of filters.
+    pub system Ladder {
+        count n = 4;
+        constants   { m > 0, k > 0, tau[n] > 0 = 0.1 }
+        coordinates { x }
+        parameters  { v = dot(x); }
+        states {
+            dot(z[0]) = (x - z[0])/tau[0];
+            for i in 1..n { dot(z[i]) = (z[i-1] - z[i])/tau[i]; }
+        }
+        kinetic_energy = m/2*v^2;
+        forces  { -k*z[n-1] - v along v; }
+        provide taylor;
+        scene Filters { track z; provide taylor; }
+    }
+}
+
+/// In Rust the states of a loop are an array.
+#[test]
+fn states_of_a_loop_are_an_array() {
+    let ladder = Ladder { m: 1.0, k: 2.0, tau: [0.1, 0.2, 0.3, 0.4] }.prepare().unwrap();
+    let state = ladder::State { x: 1.0, z: [0.5, 0.25, 0.0, -1.0], ..Default::default() };
+    assert_eq!(ladder::State::NAMES, ["x", "v", "z[0]", "z[1]", "z[2]", "z[3]"]);
+    let rates = ladder.rhs(0.0, &state);
+    near(&rates.z, &[(1.0 - 0.5) / 0.1, (0.5 - 0.25) / 0.2, (0.25 - 0.0) / 0.3, (0.0 + 1.0) / 0.4], 1e-14);
+    near(&[rates.v], &[2.0], 1e-15);
+    assert_eq!(ladder.linearize(0.0, &state).a[5], [0.0, 0.0, 0.0, 0.0, 1.0 / 0.4, -1.0 / 0.4]);
+}

@@ -159,3 +159,49 @@ fn scenes_leave_states_that_act_on_nothing() {
         assert!(report.contains("error' = -bias + phi - wanted"), "{report}");
     });
 }
+
+/// A ladder of filters in a loop is the ladder that is written out, and costs what it costs.
+#[test]
+fn loops_declare_states() {
+    let system = |states: &str, last: &str| {
+        format!(
+            "pub system Ladder {{
+                count n = 4;
+                constants {{ m > 0, k > 0 }}
+                coordinates {{ x }}
+                parameters {{ v = dot(x); }}
+                states {{ {states} }}
+                kinetic_energy = m/2*v^2;
+                forces {{ -k*{last} along v; }}
+                outputs {{ slope = dot({last}); }}
+                scene Two {{ track {last}; provide slope; }}
+            }}"
+        )
+    };
+    let looped = system(
+        "dot(z[0]) = x - z[0]; for i in 1..n { if i < 2 { dot(z[i]) = k*(z[i-1] - z[i]); } else { dot(z[i]) = z[i-1] - sum(j in 0..i: 1)*z[i]; } }",
+        "z[n-1]",
+    );
+    let written = system("dot(a) = x - a; dot(b) = k*(a - b); dot(c) = b - 2*c; dot(d) = c - 3*d;", "d");
+    let rates = |text: &str| {
+        derived(text, |derived| {
+            let names: Vec<String> =
+                (0..6).map(|place| derived.model.variable_name(place).to_owned()).collect();
+            let values = [0.3, -1.2, 0.7, 0.4, -0.9, 1.6];
+            let mut known: Vec<(&str, f64)> = names.iter().map(|name| &name[..]).zip(values).collect();
+            known.extend([("m", 1.3), ("k", 0.8)]);
+            let levels = [&derived.system, &derived.scenes[0]];
+            levels.map(|level| {
+                let slope = evaluated(level, function::OUTPUTS, at(derived, &known)).unwrap();
+                [evaluated(level, function::RHS, at(derived, &known)).unwrap(), slope].concat()
+            })
+        })
+    };
+    assert_eq!(rates(&looped), rates(&written));
+    assert_eq!(cost(&looped), cost(&written));
+    derived(&looped, |derived| {
+        assert_eq!(derived.model.variable_name(5), "z[3]");
+        let report = Report::of(&derived.model, &derived.system).to_text();
+        assert!(report.contains("z[1]' = "), "{report}");
+    });
+}
