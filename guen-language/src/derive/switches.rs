@@ -18,6 +18,7 @@ pub(super) fn add(
     (place, faults): (Span, &mut Faults),
 ) -> Vec<String> {
     let moving = Roles::of(Role::Time).or(Roles::of(Role::Coordinate)).or(Roles::of(Role::QuasiVelocity));
+    let moving = moving.or(Roles::of(Role::State));
     let graph = &mut model.bench.graph;
     let mut switches: Vec<ExprId> = Vec::new();
     for id in graph.reachable(rates, |_| false) {
