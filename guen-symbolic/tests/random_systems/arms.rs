@@ -1,6 +1,6 @@
 //! Random trees of bodies in space: what is derived link by link, in the axes of each, against multipliers.
 //!
-//! Bodies turn about axes of their parents, slide along them or do both, hang on earlier bodies, on a cart, or on axes that
+//! Bodies turn about axes of their parents, oblique ones too, slide along them or do both, hang on earlier bodies, on a cart, or on axes that
 //! move as prescribed; some have a second body or a particle fixed to them. Energies of other things stand beside theirs. Parameters are rates of coordinates or sums of
 //! such, and some trees are held by a nonholonomic constraint.
 
@@ -45,10 +45,10 @@ fn plus(g: &mut Graph, a: Vector, b: Vector) -> Vector {
 
 /// A frame that is turned about one of the three axes.
 fn hung(g: &mut Graph, structure: &mut SystemGraph, frame: FrameId, axis: usize, angle: ExprId) -> FrameId {
-    structure.turned(frame, Turn::About { axis: unit(g, axis), angle })
+    structure.turned(frame, Turn::About { axis: unit_of(g, axis), angle })
 }
 
-fn unit(g: &Graph, axis: usize) -> Vector {
+fn unit_of(g: &Graph, axis: usize) -> Vector {
     let mut unit = [g.zero(); 3];
     unit[axis] = g.one();
     unit
@@ -64,6 +64,36 @@ fn turn(g: &mut Graph, axis: usize, angle: ExprId) -> Matrix {
     (m[j][j], m[k][k]) = (c, c);
     (m[k][j], m[j][k]) = (s, g.neg(s));
     m
+}
+
+/// Unit vectors that are no coordinate axes, numerators and denominator; none is parallel to the one before.
+const OBLIQUE: [([i64; 3], i64); 4] = [([2, 1, -2], 3), ([1, 2, 2], 3), ([0, 3, -4], 5), ([6, -2, 3], 7)];
+
+/// One of the oblique unit vectors.
+fn oblique(g: &mut Graph, place: usize) -> Vector {
+    let (numerators, denominator) = OBLIQUE[place % OBLIQUE.len()];
+    numerators.map(|n| g.ratio(n, denominator))
+}
+
+/// The turn about a unit vector, `c 1 + (1 - c) a a^T + s [a]x`.
+fn turn_about(g: &mut Graph, a: Vector, angle: ExprId) -> Matrix {
+    let (s, c) = g.sin_cos(angle);
+    let one = g.one();
+    let rest = g.sub(one, c);
+    [0, 1, 2].map(|i| {
+        [0, 1, 2].map(|k| {
+            let outer = g.product(&[(rest, 1), (a[i], 1), (a[k], 1)]);
+            let other = match (k + 3 - i) % 3 {
+                0 => c,
+                1 => {
+                    let e = g.mul(s, a[(i + 2) % 3]);
+                    g.neg(e)
+                }
+                _ => g.mul(s, a[(i + 1) % 3]),
+            };
+            g.add(outer, other)
+        })
+    })
 }
 
 fn numbers(words: &mut Words) -> Vector {
@@ -100,6 +130,8 @@ fn drawn(seed: u64) -> (Words, Mechanics, Vec<&'static str>) {
     let cart = if root == 3 { 2 } else { 0 };
     // With so many that equations are not multiplied out.
     let (large, rotors) = (draw.once_in(10), draw.once_in(4));
+    // Axes of numbers in frames that are tilted by `1/3` have components that are no numbers.
+    let tilts = draw.once_in(2);
     let n = cart + if large { 8 } else { draw.between(4, 5) };
     let mut words = Words::new(draw, n);
     let mut features = Vec::new();
@@ -132,7 +164,7 @@ fn drawn(seed: u64) -> (Words, Mechanics, Vec<&'static str>) {
         let branches = tips.len() > 2 && words.draw.once_in(4);
         let parent = if branches { words.draw.between(1, tips.len() - 2) } else { tips.len() - 1 };
         let (mut axes, mut place, last, mut frame, mut seat) = tips[parent].clone();
-        let joint = words.draw.below(6);
+        let joint = words.draw.below(8);
         // Turns about parallel axes would be one.
         let axis = (last + words.draw.between(1, 2)) % 3;
         let own = if joint == 0 && next + 1 < n { 2 } else { 1 };
@@ -153,11 +185,22 @@ fn drawn(seed: u64) -> (Words, Mechanics, Vec<&'static str>) {
                 let own = turn(&mut words.graph, axis, words.x[next]);
                 axes = product(&mut words.graph, axes, own);
             }
+            2..=4 if !tilts => {
+                features.push("oblique axis");
+                let about = oblique(&mut words.graph, next);
+                frame = structure.turned(frame, Turn::About { axis: about, angle: words.x[next] });
+                let own = turn_about(&mut words.graph, about, words.x[next]);
+                axes = product(&mut words.graph, axes, own);
+            }
             1 if next > cart => {
                 features.push("slides");
-                let along = axes.map(|row| row[axis]);
-                let mut own = [zero; 3];
-                own[axis] = words.x[next];
+                let direction = if words.draw.once_in(2) {
+                    oblique(&mut words.graph, next)
+                } else {
+                    unit_of(&words.graph, axis)
+                };
+                let along = applied(&mut words.graph, axes, direction);
+                let own = direction.map(|e| words.graph.mul(e, words.x[next]));
                 let own = Place::in_axes(&words.graph, frame, own);
                 seat = seat.plus(&mut words.graph, &own);
                 place = [0, 1, 2].map(|i| {
@@ -165,7 +208,7 @@ fn drawn(seed: u64) -> (Words, Mechanics, Vec<&'static str>) {
                     words.graph.add(place[i], part)
                 });
             }
-            2 => {
+            2 | 3 if tilts => {
                 features.push("tilted axis");
                 let tilt = words.graph.number(Rational::new(1, 3));
                 frame = hung(&mut words.graph, &mut structure, frame, last % 3, tilt);
@@ -321,6 +364,7 @@ fn bodies_on_bodies_move_as_with_multipliers() {
         "turns and slides",
         "slides",
         "tilted axis",
+        "oblique axis",
         "branches",
         "products of inertia",
         "a particle fixed to a body",

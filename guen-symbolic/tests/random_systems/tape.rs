@@ -41,6 +41,11 @@ impl Tape {
                 }
                 Node::Function(Function::Sin, x) => Op::Sine(place[x]),
                 Node::Function(Function::Cos, x) => Op::Cosine(place[x]),
+                // Of numbers alone.
+                Node::Function(Function::Root(2), x) => match graph.node(*x) {
+                    Node::Number(value) => Op::Constant(value.to_f64().sqrt()),
+                    other => panic!("drawn systems have no root of {other:?}"),
+                },
                 Node::Kept(x) => Op::Sum(0.0, vec![(place[x], 1.0)]),
                 other => panic!("drawn systems have no {other:?}"),
             })

@@ -101,17 +101,21 @@ impl Kinematics<'_> {
         })
     }
 
+    /// Whether a velocity vanishes or is a multiple of a parameter or a rate.
+    pub(super) fn is_by_component(&self, var: Var) -> bool {
+        let Class::Of(representative, _) = self.variables.class(var) else { return true };
+        let is_free = matches!(self.plan.def(representative), Some(Def::Core(_)));
+        is_free || !matches!(self.variables.kind(representative), Kind::Velocity(..) | Kind::Before(..))
+    }
+
     /// The acceleration of a point along an axis in which its velocity vanishes or is a multiple of a parameter or a rate.
     pub(super) fn by_component(&mut self, var: Var, axes: usize, q: usize) -> Option<Num> {
+        if !self.is_by_component(var) {
+            return None;
+        }
         let rate = match self.variables.class(var) {
             Class::Zero => Num::ZERO,
             Class::Of(representative, factor) => {
-                let is_free = matches!(self.plan.def(representative), Some(Def::Core(_)));
-                let is_velocity =
-                    matches!(self.variables.kind(representative), Kind::Velocity(..) | Kind::Before(..));
-                if is_velocity && !is_free {
-                    return None;
-                }
                 let rate = self.rate(representative);
                 self.numbers.mul(factor, rate)
             }

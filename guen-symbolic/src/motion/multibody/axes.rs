@@ -2,15 +2,15 @@
 //!
 //! A frame that is turned by constants alone has the axes of its parent, and so has the body in it, with constants that are
 //! turned once. Where joints of a link are about other axes than its own, the link is given axes in which they are
-//! coordinate axes, if a turn about its own joint's axis does it.
+//! coordinate axes, or lie in coordinate planes, if a turn about its own joint's axis does it (`shifts`).
 
+use super::rotations::{
+    Matrix, Shift, Vector, applied_back, further, product, rotation, rotation_by, simplified, transposed,
+};
+use super::shifts::{coordinate_axis, joint_axes, shortest, upright};
 use crate::algebra::ExprId;
 use crate::motion::graph::{FrameId, SystemGraph, Turn};
 use crate::workbench::Workbench;
-
-/// Components that are functions of time and coordinates.
-pub(super) type Vector = [ExprId; 3];
-pub(super) type Matrix = [Vector; 3];
 
 /// The turn of axes against their parent's.
 #[derive(Clone, Debug)]
@@ -25,6 +25,8 @@ pub(super) enum Turned {
         turn: [ExprId; 2],
         /// The angle, where it is not constant.
         angle: Option<ExprId>,
+        /// Cosine and sine of a constant angle by which the axes are turned beyond that angle.
+        shift: Option<Shift>,
     },
     /// Axes turned by any rotation.
     By {
@@ -70,8 +72,7 @@ impl AllAxes {
                 }
                 Turn::About { axis, angle } => {
                     let own = base.as_ref().map_or(*axis, |base| applied_back(bench, base, axis));
-                    let ahead = all.absorbed(bench, system, index);
-                    all.turned_about(bench, (parent, base), own, *angle, ahead)?
+                    all.turned_about(bench, (parent, base), own, *angle, (system, index))?
                 }
                 Turn::General { matrix, spin } => {
                     let matrix = base.as_ref().map_or(*matrix, |base| {
@@ -91,37 +92,56 @@ impl AllAxes {
         self.list.len() - 1
     }
 
-    /// Axes turned about a constant vector of the parent's axes, and further by a constant angle.
+    /// Axes of a frame that is turned about a constant vector of the parent's axes, and further by a constant angle.
     fn turned_about(
         &mut self,
         bench: &mut Workbench,
-        (parent, base): (usize, Option<Matrix>),
+        (mut parent, mut base): (usize, Option<Matrix>),
         own: Vector,
         angle: ExprId,
-        ahead: Option<ExprId>,
+        (system, index): (&SystemGraph, usize),
     ) -> Option<(usize, Option<Matrix>)> {
-        if let Some((axis, negative)) = coordinate_axis(bench, &own) {
-            let mut turned = |e: ExprId| if negative { bench.graph.neg(e) } else { e };
-            let (own, ahead) = (turned(angle), ahead.map(&mut turned));
-            let whole = ahead.map_or(own, |ahead| bench.graph.add(own, ahead));
-            let place = self.push(parent, about(bench, axis, whole));
-            // v_frame = base R(ahead) v_axes
-            let base = match ahead {
-                None => base,
-                Some(ahead) => {
-                    let turn = rotation(bench, &unit(bench, axis), ahead);
-                    let turn = base.map_or(turn, |base| product(bench, &base, &turn));
-                    simplified(bench, turn)
+        let (axis, negative) = match coordinate_axis(bench, &own) {
+            Some(found) => found,
+            None => {
+                // First the axis is made a coordinate axis, by constant turns.
+                let (turns, axis) = upright(bench, &own)?;
+                for turned in turns {
+                    let turn = match turned {
+                        Turned::About { axis, turn, .. } => rotation_by(bench, axis, turn),
+                        Turned::By { matrix, .. } => matrix,
+                        Turned::World => continue,
+                    };
+                    parent = self.push(parent, turned);
+                    base = Some(base.map_or(turn, |base| product(bench, &base, &turn)));
                 }
-            };
-            return Some((place, base));
-        }
-        // First the axis is made a coordinate axis, by a constant turn.
-        let (constant, axis, turn) = upright(bench, &own)?;
-        let middle = self.push(parent, constant);
-        let place = self.push(middle, about(bench, axis, angle));
-        let base = base.map_or(turn, |base| product(bench, &base, &turn));
-        Some((place, simplified(bench, base)))
+                (axis, false)
+            }
+        };
+        let ahead = self.absorbed(bench, system, index);
+        let mut turned = |e: ExprId| if negative { bench.graph.neg(e) } else { e };
+        let (own, ahead) = (turned(angle), ahead.map(&mut turned));
+        // v_frame = base R(ahead) v_axes
+        let (whole, shift) = match ahead {
+            Some(ahead) => {
+                let (s, c) = bench.graph.sin_cos(ahead);
+                base = turned_further(bench, base, axis, [c, s]);
+                (bench.graph.add(own, ahead), None)
+            }
+            None => {
+                let joints: Vec<Vector> = joint_axes(bench, system, index)
+                    .iter()
+                    .map(|v| base.as_ref().map_or(*v, |base| applied_back(bench, base, v)))
+                    .collect();
+                let shift = shortest(bench, axis, &joints);
+                if let Some(shift) = shift {
+                    base = turned_further(bench, base, axis, shift);
+                }
+                (own, shift)
+            }
+        };
+        let place = self.push(parent, about(bench, axis, whole, shift));
+        Some((place, base.and_then(|base| simplified(bench, base))))
     }
 
     /// The constant angle by which a frame's axes are turned further about its own axis, because a frame that is turned so
@@ -196,119 +216,14 @@ impl AllAxes {
     }
 }
 
-fn about(bench: &mut Workbench, axis: usize, angle: ExprId) -> Turned {
+pub(super) fn about(bench: &mut Workbench, axis: usize, angle: ExprId, shift: Option<Shift>) -> Turned {
     let (sine, cosine) = bench.graph.sin_cos(angle);
-    Turned::About { axis, turn: [cosine, sine], angle: Some(angle) }
+    let turn = shift.map_or([cosine, sine], |shift| further(bench, [cosine, sine], shift));
+    Turned::About { axis, turn, angle: Some(angle), shift }
 }
 
-fn unit(bench: &Workbench, axis: usize) -> Vector {
-    let mut unit = [bench.graph.zero(); 3];
-    unit[axis] = bench.graph.one();
-    unit
-}
-
-fn transposed(m: &Matrix) -> Matrix {
-    [0, 1, 2].map(|i| [0, 1, 2].map(|k| m[k][i]))
-}
-
-fn product(bench: &mut Workbench, a: &Matrix, b: &Matrix) -> Matrix {
-    let columns = transposed(b);
-    [0, 1, 2].map(|i| {
-        [0, 1, 2].map(|k| {
-            let entry = bench.dot(&a[i], &columns[k]);
-            bench.tidy(entry)
-        })
-    })
-}
-
-/// `M^T v`.
-fn applied_back(bench: &mut Workbench, m: &Matrix, v: &Vector) -> Vector {
-    transposed(m).map(|row| {
-        let entry = bench.dot(&row, v);
-        bench.tidy(entry)
-    })
-}
-
-/// The rotation by an angle about a unit vector, `c 1 + (1 - c) a a^T + s [a]x`.
-fn rotation(bench: &mut Workbench, axis: &Vector, angle: ExprId) -> Matrix {
-    let graph = &mut bench.graph;
-    let (s, c) = graph.sin_cos(angle);
-    let one = graph.one();
-    let rest = graph.sub(one, c);
-    let zero = graph.zero();
-    let minus: Vector = axis.map(|e| graph.neg(e));
-    let crossed = [[zero, minus[2], axis[1]], [axis[2], zero, minus[0]], [minus[1], axis[0], zero]];
-    [0, 1, 2].map(|i| {
-        [0, 1, 2].map(|k| {
-            let outer = bench.graph.product(&[(rest, 1), (axis[i], 1), (axis[k], 1)]);
-            let turning = bench.graph.mul(s, crossed[i][k]);
-            let diagonal = if i == k { c } else { zero };
-            let sum = bench.graph.sum([diagonal, outer, turning]);
-            bench.tidy(sum)
-        })
-    })
-}
-
-/// `None` for the unit matrix.
-fn simplified(bench: &Workbench, m: Matrix) -> Option<Matrix> {
-    let graph = &bench.graph;
-    let is_unit = (0..3).all(|i| (0..3).all(|k| m[i][k] == if i == k { graph.one() } else { graph.zero() }));
-    (!is_unit).then_some(m)
-}
-
-/// The coordinate axis that a unit vector is, and whether it points the other way.
-fn coordinate_axis(bench: &mut Workbench, v: &Vector) -> Option<(usize, bool)> {
-    let axis = (0..3).find(|i| (0..3).all(|k| k == *i || bench.vanishes(v[k])))?;
-    let one = bench.graph.one();
-    let minus = bench.graph.neg(one);
-    if v[axis] == one {
-        Some((axis, false))
-    } else if v[axis] == minus {
-        Some((axis, true))
-    } else {
-        let difference = bench.graph.sub(v[axis], one);
-        bench.vanishes(difference).then_some((axis, false))
-    }
-}
-
-/// A constant rotation after which a unit vector is a coordinate axis, that axis, and the matrix of the rotation.
-fn upright(bench: &mut Workbench, v: &Vector) -> Option<(Turned, usize, Matrix)> {
-    let (zero, one) = (bench.graph.zero(), bench.graph.one());
-    let level = (0..3).find(|i| bench.vanishes(v[*i]));
-    Some(match level {
-        Some(i) => {
-            // In a coordinate plane: v = (v_j, v_k), and the k-th axis is turned onto it about the i-th.
-            let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-            let mut matrix = [[zero; 3]; 3];
-            matrix[i][i] = one;
-            matrix[j][j] = v[k];
-            matrix[k][k] = v[k];
-            matrix[j][k] = v[j];
-            matrix[k][j] = bench.graph.neg(v[j]);
-            (Turned::About { axis: i, turn: [v[k], matrix[k][j]], angle: None }, k, matrix)
-        }
-        None => {
-            // The rotation that takes e_k to v the shortest way: 1 + [w] + [w]^2/(1 + v_k), w = e_k x v.
-            let k = (0..3).find(|k| bench.graph.as_number(v[*k]).is_some_and(|n| !n.is_negative()))?;
-            let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-            let graph = &mut bench.graph;
-            let below = graph.add(one, v[k]);
-            let mut entry = |a: usize, b: usize| {
-                let product = graph.product(&[(v[a], 1), (v[b], 1), (below, -1)]);
-                let diagonal = if a == b { one } else { zero };
-                graph.sub(diagonal, product)
-            };
-            let mut matrix = [[zero; 3]; 3];
-            matrix[i][i] = entry(i, i);
-            matrix[j][j] = entry(j, j);
-            matrix[i][j] = entry(i, j);
-            matrix[j][i] = matrix[i][j];
-            for a in [i, j] {
-                matrix[a][k] = v[a];
-                matrix[k][a] = graph.neg(v[a]);
-            }
-            matrix[k][k] = v[k];
-            (Turned::By { matrix, spin: [zero; 3] }, k, matrix)
-        }
-    })
+fn turned_further(bench: &mut Workbench, base: Option<Matrix>, axis: usize, shift: Shift) -> Option<Matrix> {
+    let turn = rotation_by(bench, axis, shift);
+    let turn = base.map_or(turn, |base| product(bench, &base, &turn));
+    simplified(bench, turn)
 }

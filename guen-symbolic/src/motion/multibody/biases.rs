@@ -137,13 +137,69 @@ impl Kinematics<'_> {
 
     /// The rate of a form at zero rates of the parameters and of the core's unknowns.
     pub(super) fn form_bias(&mut self, row: &Functional) -> Num {
-        let mut sum = self.remainder(row);
-        for (var, c) in &row.terms {
+        // A lever that is fixed in its axes is accelerated by their gradient, which all rows share; what gravity is along the direction
+        // is found where both are known.
+        let mut other = Functional { directions: row.directions.clone(), ..row.clone() };
+        other.parts.clear();
+        let mut whole: Vec<(usize, usize, Vec3, Vec3)> = Vec::new();
+        let mut sum = Num::ZERO;
+        for (part, direction, along) in &row.parts {
+            let (axes, acceleration) = match part {
+                Part::Point { point } if !self.has_own_rate(*point, along) => {
+                    for (q, e) in along.iter().enumerate() {
+                        other.add_term(self.numbers, self.variables.velocity(*point, q), e.neg());
+                    }
+                    other.parts.push((part.clone(), *direction, *along));
+                    let axes = self.tree.points[*point].axes;
+                    let seen = self.tree.seen_in(self.numbers, 0, axes, along);
+                    let weight = self.weight(0);
+                    let fall = self.numbers.dot(&seen, &weight);
+                    sum = self.numbers.add(sum, fall);
+                    (axes, [0, 1, 2].map(|q| self.acceleration(*point, q)))
+                }
+                Part::Arm { axes, body, arm }
+                    if axes == body && arm.iter().all(|e| self.numbers.is_constant(*e)) =>
+                {
+                    for (q, e) in cross(self.numbers, arm, along).into_iter().enumerate() {
+                        other.add_term(self.numbers, self.variables.spin(*axes, q), e.neg());
+                    }
+                    let spin = self.spin(*axes);
+                    let velocity = cross(self.numbers, &spin, arm);
+                    let turned = self.by_direction(row, *direction, *axes, along, &velocity);
+                    sum = self.numbers.add(sum, turned);
+                    let gradient = self.gradient(*axes);
+                    (*axes, gradient.map(|row| self.numbers.dot(&row, arm)))
+                }
+                _ => {
+                    other.parts.push((part.clone(), *direction, *along));
+                    continue;
+                }
+            };
+            let same = |known: &&mut (usize, usize, Vec3, Vec3)| {
+                (known.0, known.1, known.2) == (axes, *direction, *along)
+            };
+            match whole.iter_mut().find(same) {
+                Some((.., known)) => *known = plus(self.numbers, known, &acceleration),
+                None => whole.push((axes, *direction, *along, acceleration)),
+            }
+        }
+        for (_, _, along, acceleration) in whole {
+            let own = self.numbers.dot(&along, &acceleration);
+            sum = self.numbers.add(sum, own);
+        }
+        let rest = self.remainder(&other);
+        sum = self.numbers.add(sum, rest);
+        for (var, c) in &other.terms {
             let rate = self.true_rate(*var);
             let part = self.numbers.mul(*c, rate);
             sum = self.numbers.add(sum, part);
         }
         sum
+    }
+
+    /// Whether the velocity of a point has a component of its own along a direction, of which the acceleration is made.
+    fn has_own_rate(&self, point: usize, along: &Vec3) -> bool {
+        (0..3).any(|q| !along[q].is_zero() && self.is_by_component(self.variables.velocity(point, q)))
     }
 
     /// Returns the rate of a form less the accelerations of its variables.

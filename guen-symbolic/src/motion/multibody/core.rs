@@ -3,9 +3,10 @@
 use std::collections::BTreeMap;
 
 use super::definitions::{Equation, Plan};
+use super::forms::{Functional, Part};
 use super::plan::Planner;
 use super::relations::{Linear, definition, link, order};
-use super::tree::Tree;
+use super::tree::{Tree, Turn, plus};
 use super::variables::{Var, Variables};
 use crate::numbering::{Num, Numbering};
 
@@ -44,6 +45,7 @@ impl Core {
         for equation in &plan.core {
             let (terms, offset) = match equation {
                 Equation::Row(row) => {
+                    moments(planner.numbers, tree, &plan.rows[*row]);
                     let terms = plan.rows[*row].terms.clone();
                     (planner.reduced(&terms), plan.rows[*row].offset)
                 }
@@ -134,6 +136,41 @@ impl Core {
             }
         }
         found
+    }
+}
+
+/// Numbers the moments of what acts at a point along a direction, about all joints on the way to the root: about the axis of a joint
+/// it is one component of `p x d`, with the point as it is seen from there. The turns of the whole moment are dearer.
+fn moments(numbers: &mut Numbering, tree: &Tree, row: &Functional) {
+    let points = row.parts.iter().filter_map(|(part, _, along)| match part {
+        Part::Point { point } => Some((*point, along)),
+        _ => None,
+    });
+    for (point, along) in points {
+        let mut place = point;
+        let mut d = *along;
+        // The lever, if the same direction has one.
+        let axes = tree.points[point].axes;
+        let arm = row.parts.iter().find_map(|(part, _, own)| match part {
+            Part::Arm { axes: own_axes, arm, .. } if *own_axes == axes && own == along => Some(*arm),
+            _ => None,
+        });
+        let mut p = arm.unwrap_or_default();
+        while place > 0 {
+            let node = &tree.points[place];
+            let parent = tree.points[node.parent].axes;
+            if node.axes != parent {
+                if let Turn::About { axis, .. } = tree.axes[node.axes].turn {
+                    let (i, j) = ((axis + 1) % 3, (axis + 2) % 3);
+                    let (first, second) = (numbers.mul(p[i], d[j]), numbers.mul(p[j], d[i]));
+                    numbers.sub(first, second);
+                }
+                p = tree.inwards(numbers, node.axes, &p);
+                d = tree.inwards(numbers, node.axes, &d);
+            }
+            p = plus(numbers, &p, &node.offset);
+            place = node.parent;
+        }
     }
 }
 

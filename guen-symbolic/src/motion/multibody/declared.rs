@@ -138,6 +138,10 @@ impl Maker<'_> {
         let hangs = terms.iter().all(|(own, _)| self.tree.all.hangs_on(axes, *own));
         let axes = if hangs { axes } else { youngest };
         let (point, arm) = self.tree.locate(self.bench, self.numbers, self.system, place, Some(axes));
+        if axes > 0 && arm.iter().any(|e| !e.is_zero()) && arm.iter().all(|e| self.numbers.is_constant(*e)) {
+            let point = self.tree.point_at(self.bench, self.numbers, self.system, place, axes);
+            return Some(vec![Part::Point { point }]);
+        }
         let mut parts = vec![Part::Point { point }];
         if arm.iter().any(|e| !e.is_zero()) {
             parts.push(Part::Arm { axes, body: axes, arm });

@@ -1,7 +1,7 @@
 //! Forms as linear functions of the velocities of a tree, in parts, with what their rates need beside accelerations.
 
-use super::tree::{Tree, Turn, Vec3, cross};
-use super::variables::{Var, Variables};
+use super::tree::{PointNode, Tree, Turn, Vec3, cross};
+use super::variables::{Class, Var, Variables};
 use crate::numbering::{Num, Numbering};
 
 /// A direction, by its components in some axes.
@@ -59,6 +59,21 @@ impl Part {
     }
 }
 
+/// The velocity of a point that is fixed in the axes of another one, by that and a lever, where it vanishes along the direction or is a
+/// multiple of something: a form that says so speaks of what it follows from.
+fn apart((tree, variables): (&Tree, &Variables), part: &Part, along: &Vec3) -> Vec<Part> {
+    let Part::Point { point } = part else { return vec![part.clone()] };
+    let is_own = |q: usize| {
+        let class = variables.class(variables.velocity(*point, q));
+        class == Class::Of(variables.before(*point, q), Num::ONE)
+    };
+    if !tree.is_end(*point) || (0..3).all(|q| along[q].is_zero() || is_own(q)) {
+        return vec![part.clone()];
+    }
+    let PointNode { axes, parent, offset, .. } = tree.points[*point];
+    vec![Part::Point { point: parent }, Part::Arm { axes, body: axes, arm: offset }]
+}
+
 impl Functional {
     /// Adds a component of a velocity.
     pub(super) fn add(
@@ -74,8 +89,10 @@ impl Functional {
             let axes = part.axes(tree);
             let seen = tree.seen_in(numbers, axes, direction.axes, &direction.vector);
             let along = seen.map(|e| numbers.mul(*factor, e));
-            self.add_terms(numbers, (tree, variables), part, &along);
-            self.parts.push((part.clone(), index, along));
+            for part in apart((tree, variables), part, &along) {
+                self.add_terms(numbers, (tree, variables), &part, &along);
+                self.parts.push((part, index, along));
+            }
         }
     }
 

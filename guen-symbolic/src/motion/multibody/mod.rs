@@ -1,7 +1,7 @@
 //! Accelerations of bodies that hang on each other and roll: kinematics outwards, elimination inwards, over velocities that are
 //! named where they are.
 //!
-//! `axes` and `points` choose axes and origins, `tree` puts them together and regroups what the bodies weigh; `variables` says
+//! `axes`, `shifts` and `points` choose axes and origins, `tree` puts them together and regroups what the bodies weigh; `variables` says
 //! which velocities vanish or are one; `forms` and `declared` have the declaration over these, `plan` says what determines
 //! what, `core` solves what is left; `kinematics` goes outwards, `assembly` puts up the quadratic form and the forces and
 //! takes them back to the parameters.
@@ -22,7 +22,9 @@ mod plan;
 mod points;
 mod regrouping;
 mod relations;
+mod rotations;
 mod safety;
+mod shifts;
 mod strain;
 mod strained;
 mod tree;

@@ -240,6 +240,12 @@ impl Planner<'_> {
             if self.variables.class(var) == Class::Of(var, Num::ONE) {
                 continue;
             }
+            // The forms that speak of it say the same.
+            if let Kind::Before(point, _) | Kind::Velocity(point, _) = self.variables.kind(var)
+                && self.tree.is_end(point)
+            {
+                continue;
+            }
             if let Some((terms, _)) = link(self.numbers, self.tree, self.variables, var)
                 && !terms.is_empty()
             {

@@ -3,8 +3,9 @@
 //! A body is seen from the origin of its own axes, which is where the terms of its place in other axes lead. So the origin
 //! of a link is on its joint, and its body's centre and the joints that it carries are constants in its axes.
 
-use super::axes::{AllAxes, Matrix, Turned, Vector};
-use crate::algebra::ExprId;
+use super::axes::{AllAxes, Turned, about};
+use super::rotations::{Matrix, Shift, Vector, further};
+use crate::algebra::{ExprId, Node};
 use crate::motion::graph::Place;
 use crate::workbench::Workbench;
 
@@ -37,7 +38,8 @@ impl Points {
         Points { list: vec![Point { axes: 0, parent: 0, offset, slides: false, arm: None }] }
     }
 
-    fn push(&mut self, point: Point) -> usize {
+    /// The point, new or known.
+    pub(super) fn push(&mut self, point: Point) -> usize {
         if let Some(known) = self.list.iter().position(|known| *known == point) {
             return known;
         }
@@ -55,11 +57,17 @@ impl Points {
     ) -> (usize, Vector) {
         // What hangs elsewhere is seen in the axes where the ways part.
         let mut own = [bench.graph.zero(); 3];
+        let mut fixed = own;
         let (mut rest, mut arms) = (Terms::new(), Vec::new());
         for (place, vector) in terms {
-            if *place == axes || !all.hangs_on(axes, *place) && self.parts_at(all, axes, *place) == axes {
+            let is_fixed = vector.iter().all(|e| bench.graph.roles(*e).is_constant());
+            if *place == axes && is_fixed {
+                fixed = [0, 1, 2].map(|i| bench.graph.add(fixed[i], vector[i]));
+            } else if *place == axes
+                || !all.hangs_on(axes, *place) && self.parts_at(all, axes, *place) == axes
+            {
                 let seen = all.seen_from(bench, axes, *place, vector);
-                if *place != axes && vector.iter().all(|e| bench.graph.roles(*e).is_constant()) {
+                if *place != axes && is_fixed {
                     arms.push((seen, (*place, *vector)));
                 } else {
                     own = [0, 1, 2].map(|i| bench.graph.add(own[i], seen[i]));
@@ -74,12 +82,15 @@ impl Points {
             base = self.push(Point { axes, parent: base, offset, slides: true, arm: Some(arm) });
         }
         if let Turned::About { axis, .. } = all.list[axes].turned {
-            own[axis] = bench.graph.add(own[axis], ahead);
+            fixed[axis] = bench.graph.add(fixed[axis], ahead);
         }
         let zero = bench.graph.zero();
         let is_fixed = |e: ExprId| bench.graph.roles(e).is_constant();
         let moving = own.map(|e| if is_fixed(e) { zero } else { e });
-        let fixed = own.map(|e| if is_fixed(e) { e } else { zero });
+        let own = own.map(|e| if is_fixed(e) { e } else { zero });
+        let fixed = [0, 1, 2].map(|i| bench.graph.add(fixed[i], own[i]));
+        // What is fixed in the world neither moves nor weighs anything there.
+        let fixed = if axes == 0 { [zero; 3] } else { fixed };
         if moving == [zero; 3] {
             return (base, fixed);
         }
@@ -110,15 +121,41 @@ impl Points {
     }
 }
 
+/// The terms of a sum that are constants.
+fn constant_terms(bench: &mut Workbench, e: ExprId) -> ExprId {
+    let graph = &mut bench.graph;
+    if graph.roles(e).is_constant() {
+        return e;
+    }
+    let Node::Sum { constant, terms } = graph.node(e).clone() else { return graph.zero() };
+    let mut fixed = vec![graph.number(constant)];
+    for (term, c) in terms.iter() {
+        if graph.roles(*term).is_constant() {
+            let c = graph.number(c.clone());
+            fixed.push(graph.mul(c, *term));
+        }
+    }
+    graph.sum(fixed)
+}
+
 impl AllAxes {
     /// The terms of a place in axes.
     pub(super) fn terms(&self, bench: &mut Workbench, place: &Place) -> Terms {
         let mut terms = Terms::new();
         for (frame, vector) in &place.terms {
-            let (axes, vector) = (self.of(*frame), self.vector(bench, *frame, vector));
-            match terms.iter_mut().find(|(known, _)| *known == axes) {
-                Some((_, known)) => *known = [0, 1, 2].map(|i| bench.graph.add(known[i], vector[i])),
-                None => terms.push((axes, vector)),
+            let axes = self.of(*frame);
+            let fixed = vector.map(|e| constant_terms(bench, e));
+            let moving = [0, 1, 2].map(|i| bench.graph.sub(vector[i], fixed[i]));
+            for own in [fixed, moving] {
+                let own = self.vector(bench, *frame, &own);
+                let is_fixed = |vector: &Vector| vector.iter().all(|e| bench.graph.roles(*e).is_constant());
+                let same = |(other, known): &&mut (usize, Vector)| {
+                    *other == axes && is_fixed(known) == is_fixed(&own)
+                };
+                match terms.iter_mut().find(same) {
+                    Some((_, known)) => *known = [0, 1, 2].map(|i| bench.graph.add(known[i], own[i])),
+                    None => terms.push((axes, own)),
+                }
             }
         }
         terms.sort_by_key(|(axes, _)| *axes);
@@ -159,12 +196,12 @@ impl AllAxes {
     /// Lets axes hang on those of the link before them: where a place leads through axes that are turned about the same axis
     /// of the same parent, the difference of the angles is the joint's.
     pub(super) fn settle(&mut self, bench: &mut Workbench, axes: usize, terms: &Terms) {
-        let Turned::About { axis, angle: Some(angle), .. } = self.list[axes].turned else { return };
+        let Turned::About { axis, angle: Some(angle), shift, .. } = self.list[axes].turned else { return };
         let parent = self.list[axes].parent;
         // The link before: as deep as any other, about parallel axes.
         let before = terms.iter().map(|(place, _)| *place).filter(|place| *place < axes && *place != parent);
         let found = before.filter_map(|place| Some((place, self.whole_angle(bench, place, parent, axis)?)));
-        let Some((before, whole)) =
+        let Some((before, (whole, behind))) =
             found.collect::<Vec<_>>().into_iter().max_by_key(|(place, _)| self.depth(*place))
         else {
             return;
@@ -174,11 +211,14 @@ impl AllAxes {
             return;
         }
         let bend = bench.graph.sub(angle, whole);
-        let (sine, cosine) = bench.graph.sin_cos(bend);
-        self.list[axes] = super::axes::Axes {
-            parent: before,
-            turned: Turned::About { axis, turn: [cosine, sine], angle: Some(bend) },
+        let shift = match (shift, behind) {
+            (shift, None) => shift,
+            (shift, Some([c, s])) => {
+                let back = [c, bench.graph.neg(s)];
+                Some(shift.map_or(back, |shift| further(bench, shift, back)))
+            }
         };
+        self.list[axes] = super::axes::Axes { parent: before, turned: about(bench, axis, bend, shift) };
     }
 
     fn depth(&self, axes: usize) -> usize {
@@ -190,18 +230,31 @@ impl AllAxes {
         depth
     }
 
-    /// The angle by which axes are turned against others about one axis, over any number of joints.
-    fn whole_angle(&self, bench: &mut Workbench, axes: usize, other: usize, about: usize) -> Option<ExprId> {
+    /// The angle by which axes are turned against others about one axis, over any number of joints, and the constant shift beyond it.
+    fn whole_angle(
+        &self,
+        bench: &mut Workbench,
+        axes: usize,
+        other: usize,
+        about: usize,
+    ) -> Option<(ExprId, Option<Shift>)> {
         let mut place = axes;
         let mut whole = bench.graph.zero();
+        let mut beyond: Option<Shift> = None;
         while place != other {
-            let Turned::About { axis, angle: Some(angle), .. } = self.list[place].turned else { return None };
+            let Turned::About { axis, angle: Some(angle), shift, .. } = self.list[place].turned else {
+                return None;
+            };
             if axis != about || place == 0 {
                 return None;
             }
             whole = bench.graph.add(whole, angle);
+            beyond = match (beyond, shift) {
+                (Some(beyond), Some(shift)) => Some(further(bench, beyond, shift)),
+                (beyond, shift) => beyond.or(shift),
+            };
             place = self.list[place].parent;
         }
-        Some(whole)
+        Some((whole, beyond))
     }
 }

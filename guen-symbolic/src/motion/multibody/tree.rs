@@ -1,7 +1,8 @@
 //! The tree of axes and points in numbered expressions, and what hangs on it, regrouped.
 
-use super::axes::{AllAxes, Turned, Vector};
-use super::points::{Points, Terms};
+use super::axes::{AllAxes, Turned};
+use super::points::{Point, Points, Terms};
+use super::rotations::Vector;
 use crate::algebra::ExprId;
 use crate::motion::Mechanics;
 use crate::motion::graph::{FrameId, Place};
@@ -152,7 +153,7 @@ impl Tree {
         for axes in &self.all.list {
             let turn = match &axes.turned {
                 Turned::World => Turn::World,
-                Turned::About { axis, turn, angle } => {
+                Turned::About { axis, turn, angle, .. } => {
                     let [cosine, sine] = turn.map(|e| numbers.import(bench, e));
                     let rate = angle.map(|angle| rate_of(bench, numbers, system, angle)).unwrap_or_default();
                     Turn::About { axis: *axis, cosine, sine, rate }
@@ -203,6 +204,22 @@ impl Tree {
         (point, offset.map(|e| numbers.import(bench, e)))
     }
 
+    /// The point at a place, in axes on which it is fixed.
+    pub(super) fn point_at(
+        &mut self,
+        bench: &mut Workbench,
+        numbers: &mut Numbering,
+        system: &Mechanics,
+        place: &Place,
+        axes: usize,
+    ) -> usize {
+        let terms = self.all.terms(bench, place);
+        let (parent, offset) = self.origins.locate(bench, &self.all, axes, &terms);
+        let point = self.origins.push(Point { axes, parent, offset, slides: false, arm: None });
+        self.number_points(bench, numbers, system);
+        point
+    }
+
     fn load(
         &mut self,
         bench: &mut Workbench,
@@ -244,6 +261,12 @@ impl Tree {
     pub(super) fn is_at_rest(&self, point: usize) -> bool {
         let node = &self.points[point];
         node.rate.is_none() && node.offset.iter().all(|e| e.is_zero())
+    }
+
+    /// Whether a point is fixed in the axes of the one that it is seen from: one of which forms alone speak.
+    pub(super) fn is_end(&self, point: usize) -> bool {
+        let node = &self.points[point];
+        point > 0 && node.axes == self.points[node.parent].axes && node.rate.is_none() && node.arm.is_none()
     }
 
     /// The axes of a frame.
