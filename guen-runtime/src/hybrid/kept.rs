@@ -1,11 +1,9 @@
 //! The polynomials of the steps of a simulation through modes and its modes, kept in bounded memory.
 
 use alloc::vec::Vec;
-use core::cell::RefCell;
-use core::marker::PhantomData;
+use core::cell::{Cell, RefCell};
 
 use crate::hybrid::in_mode::InMode;
-use crate::numbers::real::Real;
 use crate::steppers::{Cause, Checkpoint, Interpolant, Method, StepperRun};
 
 /// A part of a motion in one mode.
@@ -53,15 +51,17 @@ impl<H: Clone, P, const N: usize, const W: usize, const C: usize, const S: usize
 }
 
 /// A method that keeps the polynomial of every step of which somebody asks for it.
-pub(super) struct Kept<'m, M, P> {
+pub(super) struct Kept<'m, M, P, const N: usize> {
     method: &'m M,
     steps: RefCell<Vec<(f64, P)>>,
     memory: usize,
+    /// The beginning of the first step that did not fit: then no further one is made.
+    full: Cell<Option<(f64, [f64; N])>>,
 }
 
-impl<'m, M, P> Kept<'m, M, P> {
+impl<'m, M, P, const N: usize> Kept<'m, M, P, N> {
     pub(super) fn new(method: &'m M, memory: usize) -> Self {
-        Self { method, steps: RefCell::new(Vec::new()), memory }
+        Self { method, steps: RefCell::new(Vec::new()), memory, full: Cell::new(None) }
     }
 
     /// The number of steps that it has kept.
@@ -69,61 +69,60 @@ impl<'m, M, P> Kept<'m, M, P> {
         self.steps.borrow().len()
     }
 
+    /// The time and state up to which everything fitted; none if all did.
+    pub(super) fn full(&self) -> Option<(f64, [f64; N])> {
+        self.full.get()
+    }
+
     pub(super) fn into_steps(self) -> Vec<(f64, P)> {
         self.steps.into_inner()
     }
 }
 
-impl<R, Y, M, P, const N: usize> Method<R, Y, N> for Kept<'_, M, P>
+impl<Y, M, P, const N: usize> Method<f64, Y, N> for Kept<'_, M, P, N>
 where
-    R: Real,
-    P: Interpolant<R, N>,
-    M: Method<R, Y, N>,
-    for<'r> M::Run<'r>: StepperRun<R, Y, N, Polynomial = P>,
+    P: Interpolant<f64, N>,
+    M: Method<f64, Y, N>,
+    for<'r> M::Run<'r>: StepperRun<f64, Y, N, Polynomial = P>,
 {
     type Run<'a>
-        = KeptRun<'a, M::Run<'a>, R, P, N>
+        = KeptRun<'a, 'a, M::Run<'a>, M, P, N>
     where
         Self: 'a;
 
-    fn start(&self, start: &Checkpoint<R, N>) -> Self::Run<'_> {
-        let (steps, memory) = (&self.steps, self.memory);
-        let run = self.method.start(start);
-        KeptRun { run, steps, memory, before: start.time, full: false, state: PhantomData }
+    fn start(&self, start: &Checkpoint<f64, N>) -> Self::Run<'_> {
+        KeptRun { run: self.method.start(start), kept: self, before: (start.time, start.state) }
     }
 }
 
 /// A run of the method.
-pub(super) struct KeptRun<'a, X, R, P, const N: usize> {
+pub(super) struct KeptRun<'a, 'm, X, M, P, const N: usize> {
     run: X,
-    steps: &'a RefCell<Vec<(f64, P)>>,
-    memory: usize,
+    kept: &'a Kept<'m, M, P, N>,
     /// The beginning of the last step.
-    before: R,
-    full: bool,
-    state: PhantomData<[R; N]>,
+    before: (f64, [f64; N]),
 }
 
-impl<X, R, Y, P, const N: usize> StepperRun<R, Y, N> for KeptRun<'_, X, R, P, N>
+impl<X, Y, M, P, const N: usize> StepperRun<f64, Y, N> for KeptRun<'_, '_, X, M, P, N>
 where
-    R: Real,
-    P: Interpolant<R, N>,
-    X: StepperRun<R, Y, N, Polynomial = P>,
+    P: Interpolant<f64, N>,
+    X: StepperRun<f64, Y, N, Polynomial = P>,
 {
     const EVALUATIONS: u32 = X::EVALUATIONS;
     const JUDGED: bool = X::JUDGED;
     const COARSE_POLYNOMIAL: bool = X::COARSE_POLYNOMIAL;
     type Polynomial = P;
 
-    fn checkpoint(&self) -> &Checkpoint<R, N> {
+    fn checkpoint(&self) -> &Checkpoint<f64, N> {
         self.run.checkpoint()
     }
 
-    fn advance(&mut self, system: &Y, target: R, dense: bool) -> Result<(), Cause> {
-        if self.full {
-            return Err(Cause::Memory { limit: self.memory });
+    fn advance(&mut self, system: &Y, target: f64, dense: bool) -> Result<(), Cause> {
+        if self.kept.full.get().is_some() {
+            return Err(Cause::Memory { limit: self.kept.memory });
         }
-        self.before = self.run.checkpoint().time;
+        let here = self.run.checkpoint();
+        self.before = (here.time, here.state);
         self.run.advance(system, target, dense)
     }
 
@@ -131,14 +130,17 @@ where
         self.run.try_first(step);
     }
 
-    fn is_last(&self, target: R) -> bool {
+    fn is_last(&self, target: f64) -> bool {
         self.run.is_last(target)
     }
 
     fn dense(&mut self, system: &Y) -> P {
         let polynomial = self.run.dense(system);
-        let kept = push(&mut self.steps.borrow_mut(), (self.before.to_f64(), polynomial), self.memory);
-        self.full |= kept.is_err();
+        let Kept { steps, memory, full, .. } = self.kept;
+        let kept = push(&mut steps.borrow_mut(), (self.before.0, polynomial), *memory);
+        if kept.is_err() && full.get().is_none() {
+            full.set(Some(self.before));
+        }
         polynomial
     }
 }

@@ -6,13 +6,14 @@ use core::fmt;
 use core::ops::{ControlFlow, Range};
 
 use crate::hybrid::driver::Hybrid;
-use crate::hybrid::error::HybridError;
+use crate::hybrid::error::{HybridCause, HybridError};
 use crate::hybrid::in_mode::InMode;
 use crate::hybrid::kept::{Kept, Log};
+use crate::hybrid::mode::Mode;
 use crate::hybrid::system::HybridSystem;
 use crate::hybrid::trajectory::HybridTrajectory;
 use crate::hybrid::transition::Transition;
-use crate::steppers::{Dense, Dop853, Interpolant, Method, StepperRun};
+use crate::steppers::{Cause, Dense, Dop853, Interpolant, Method, StepperRun};
 
 /// The tolerance of a simulation that nobody sets, relative and absolute.
 const TOLERANCE: f64 = 1e-9;
@@ -222,9 +223,22 @@ where
         let done = hybrid.witnessed(&kept, span.end, &mut |t, state, in_mode| {
             log.begin((t, state), in_mode, kept.count(), memory)
         });
+        // What happened in a step that did not fit is no part of the motion.
+        let full = kept.full();
         log.steps = kept.into_steps();
+        let done = match (done, full) {
+            (done, None) => done.map(|done| (done.t, done.state, done.work)),
+            (done, Some((t, state))) => {
+                log.segments.retain(|segment| segment.start <= t);
+                transitions.retain(|transition: &Transition<H::Mode, N, W, C>| transition.t <= t);
+                let work = done.map_or_else(|error| error.work, |done| done.work);
+                let mode = log.segments.last().map_or(Mode::free(&H::ELEMENTS), |part| part.in_mode.mode());
+                let cause = HybridCause::Integration(Cause::Memory { limit: memory });
+                Err(HybridError { t, mode, state, cause, work })
+            }
+        };
         let (t, state, work) = match &done {
-            Ok(done) => (done.t, done.state, done.work),
+            Ok(done) => *done,
             Err(error) => (error.t, error.state, error.work),
         };
         let trajectory =

@@ -3,6 +3,7 @@
 mod bodies;
 mod friction;
 mod json;
+mod methods;
 #[cfg(feature = "alloc")]
 mod polygons;
 mod reference;
