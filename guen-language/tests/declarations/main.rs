@@ -8,6 +8,7 @@ mod corpus;
 mod dimensions;
 mod families;
 mod functions;
+mod grammar_of_the_page;
 mod hints;
 mod imports;
 mod large_costs;
