@@ -20,6 +20,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let size = layout.size;
     let without = layout.state.accesses().iter().map(|name| quote!(state.#name));
     let without = layout.state.literal(&without.collect::<Vec<_>>());
+    let copied = layout.state.copied();
     quote! {
         #[doc = " What belongs to the carried form, [`Carried`]: its state, and which functions it carries."]
         pub mod carried {
@@ -50,7 +51,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
             }
         }
 
-        impl<R> ::core::convert::From<carried::State<R>> for State<R> {
+        impl<R #copied> ::core::convert::From<carried::State<R>> for State<R> {
             /// The state without the functions that are carried.
             #[inline]
             fn from(state: carried::State<R>) -> Self {

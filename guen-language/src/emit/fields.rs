@@ -71,6 +71,16 @@ impl Fields {
         self.fields.iter().all(|(_, tree)| matches!(tree, Tree::Leaf(_)))
     }
 
+    /// Whether every value has a field of its own that is called as it is: a struct without anything of arrays.
+    pub(super) fn is_plain(&self) -> bool {
+        self.is_flat() && self.fields.iter().zip(&self.names).all(|((ident, _), name)| plain(ident) == *name)
+    }
+
+    /// The bound of the real where values are taken out one by one: out of an array they are copied.
+    pub(super) fn copied(&self) -> Option<TokenStream> {
+        (!self.is_flat()).then(|| quote!(: ::core::marker::Copy))
+    }
+
     /// The number of values.
     pub(super) fn len(&self) -> usize {
         self.names.len()

@@ -116,8 +116,9 @@ fn conversions(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
             quote!(inputs.#way)
         });
         let values = own_inputs.literal(&values.collect::<Vec<_>>());
+        let copied = whole_inputs.copied();
         quote! {
-            impl<R> ::core::convert::From<super::Inputs<R>> for Inputs<R> {
+            impl<R #copied> ::core::convert::From<super::Inputs<R>> for Inputs<R> {
                 /// Returns the inputs of the system that the scene has.
                 #[inline]
                 fn from(inputs: super::Inputs<R>) -> Self {
@@ -172,6 +173,7 @@ fn conversions(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     });
     let of_state = layout.state.literal(&of_state.collect::<Vec<_>>());
     let within = within(level, layout, &whole_state);
+    let copied = whole_state.copied();
     let what = if fixes.is_empty() { "" } else { ", if they are those that the scene fixes" };
     let docs =
         format!("The scene with the constants of the system{what}, and what it holds as it is in a state.");
@@ -255,7 +257,7 @@ fn conversions(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
             }
         }
 
-        impl<R: ::core::marker::Copy> State<R> {
+        impl<R #copied> State<R> {
             /// A state of the system: its variables that the scene has from here, the others from `rest`.
             #[inline]
             #[allow(clippy::needless_update, unused_variables, reason = "a scene may have every variable")]

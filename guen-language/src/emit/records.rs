@@ -165,7 +165,7 @@ fn record(name: &str, docs: &str, fields: &[Field]) -> TokenStream {
     let record = format_ident!("{name}");
     let count = fields.len();
     let structure = Fields::new(fields.iter().map(|field| &field.name));
-    if !structure.is_flat() {
+    if !structure.is_plain() {
         return structured(&record, docs, fields, &structure);
     }
     // A name in a pattern would mean a constant or an operator of that name, if there is one.

@@ -36,7 +36,7 @@ pub(super) fn state(layout: &Layout) -> TokenStream {
 fn record(name: &str, structure: &Fields) -> TokenStream {
     let record = format_ident!("{name}");
     let count = structure.len();
-    if !structure.is_flat() {
+    if !structure.is_plain() {
         let is_derived = vec![false; count];
         return structured(&record, name, structure, &is_derived, None);
     }

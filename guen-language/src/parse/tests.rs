@@ -533,13 +533,26 @@ fn damaged(stream: TokenStream, sequence: &mut Sequence) -> TokenStream {
     tokens.into_iter().collect()
 }
 
+/// Every word of counts, arrays and loops.
+const FAMILY: &str = "system S {
+    count n = 4 - 1;
+    constants { m[n] > 0 = 1, k[n, n], for i in 0..n { l[i] = i } }
+    coordinates { q[n] }
+    let p[0] = q[0];
+    for i in 1..=n-1 { let p[i] = p[i-1] + l[i % 2]*q[i]; }
+    parameters { for i in 0..n { if i == 0 || !(i > 1) { w[i] = dot(q[i]); } else { w[i] = 2*dot(p[i]); } } }
+    kinetic_energy = sum(i in 0..n: m[i]*w[i]^2) + product(i in 0..0: m[i]);
+    forces { for i in 0..n { for j in 0..i { -k[i, j]*q[j] along w[i]; } } }
+    scene A { track q, w[0]; fix m = 1, k[0, 1] = 2; }
+}";
+
 #[test]
 fn damage_never_panics() {
-    let valid = [tokens(HOOP), tokens(EVERYTHING)];
+    let valid = [tokens(HOOP), tokens(EVERYTHING), tokens(FAMILY)];
     let mut sequence = Sequence(1);
     let mut refused = 0;
     for round in 0..3000 {
-        let mut stream = valid[round % 2].clone();
+        let mut stream = valid[round % 3].clone();
         for _ in 0..=sequence.below(6) {
             stream = damaged(stream, &mut sequence);
         }

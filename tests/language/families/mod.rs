@@ -1,3 +1,5 @@
 //! Counts, arrays, loops and sums: the same systems written out by hand and by loop.
 
 mod chains;
+mod entries;
+mod vectors;

@@ -11,7 +11,22 @@ use guen_language::{derive, emit, expand_outline, model, parse};
 use proc_macro2::{Delimiter, Group, Span, TokenStream, TokenTree};
 
 /// Sound declarations, small, with every section between them.
-pub const SOUND: [&str; 7] = [
+pub const SOUND: [&str; 8] = [
+    "/// A chain by a loop.
+    system Chain {
+        count n = 2 + 1;
+        constants { m[n] > 0, k[n, 2] = 1/2, for i in 0..n { if i < 2 { l[i] = i } else { l[i] = 2*i - 1 } } }
+        inputs { u[n] }
+        coordinates { q[n] }
+        let p[0] = vec(l[0] + q[0], k[0, 0]);
+        for i in 1..=n-1 { let p[i] = p[i-1] + k[i % 2, 1]*vec(sin(q[i]), cos(q[i])); }
+        parameters { for i in 0..n { w[i] = dot(q[i]); } }
+        particles { for i in 0..n { m[i] at p[i]; } }
+        bodies { for i in 0..1 { b[i] { inertia: diag(1, 1, 1), orientation: rot_z(q[i]) } } }
+        potential_energy = sum(i in 1..n: l[i]*(q[i] - q[i-1])^2) + product(i in 0..n: q[i]);
+        forces { for i in 0..n { if !(i == 1) && (i >= 0 || i != n) { u[i] along w[i]; } } u[1] along w[1]; }
+        scene First { track q[0], w; fix m = 1, k[0, 1] = 2; }
+    }",
     "/// A bead on a turning hoop.
     pub system Bead {
         constants { m > 0, R > 0, Omega, g = 9.81, k >= 0 = m*g/2 }

@@ -11,6 +11,7 @@ mod declared;
 #[allow(dead_code, reason = "systems drawn over expressions use the rest")]
 #[path = "../../../../guen-symbolic/tests/random_systems/draw.rs"]
 mod draw;
+mod families;
 mod functions;
 mod grammar;
 mod levels;
