@@ -6,12 +6,12 @@
 //! cargo run -p guen-measure --bin families -- --quick     # small families: that it works
 //! ```
 //!
-//! Without `--release`, as cargo builds procedural macros. The times are those of the stages outside of a compiler, the least of
-//! three expansions (of one, where it takes seconds). The last row of each family is the exponent between its last two sizes.
+//! Without `--release`, as cargo builds procedural macros. The times are processor times of the stages outside of a compiler, the least of
+//! three expansions (of one, where it takes seconds). Behind each table stand the exponents between its last two sizes.
 
 use std::env;
-use std::time::Instant;
 
+use guen_benchmarks::timing::processor_time;
 use guen_language::diagnostics::collect;
 use guen_language::{derive, emit, model, parse};
 use guen_study::Table;
@@ -142,7 +142,7 @@ fn measured(text: &str) -> Result<[f64; 3], String> {
     let mut best = [f64::INFINITY, 0.0, 0.0];
     for _ in 0..3 {
         let tokens = text.parse().map_err(|error| format!("{error:?}"))?;
-        let start = Instant::now();
+        let start = processor_time();
         let (parsed, report) = parse::parse(tokens);
         let parsed = parsed.filter(|_| report.is_empty()).ok_or_else(|| report.to_string())?;
         let (resolved, report) = collect(|faults| model::resolve(&parsed, faults));
@@ -153,7 +153,7 @@ fn measured(text: &str) -> Result<[f64; 3], String> {
         let cost = rates.unwrap_or_default();
         let operations = f64::from(cost.operations() + cost.sines + cost.calls);
         let bytes = emit::emit(derived).to_string().len() as f64;
-        let time = start.elapsed().as_secs_f64();
+        let time = processor_time() - start;
         best = [best[0].min(time), bytes, operations];
         if time > 2.0 {
             break;
