@@ -247,7 +247,7 @@ impl Tree {
         }
     }
 
-    /// The same value everywhere, for any length.
+    /// A literal with one value everywhere, whatever the length.
     pub(super) fn filled(&self, value: &TokenStream) -> TokenStream {
         match self {
             Tree::Leaf(_) => value.clone(),
