@@ -63,10 +63,10 @@ impl Family {
 fn drawn(seed: u64) -> Pair {
     let mut draw = Draw::new(seed);
     let draw = &mut draw;
-    let n = draw.between(1, 4);
+    let n = draw.between(1, 5);
     let last = n - 1;
     let mut family = Family::default();
-    let is_chain = draw.once_in(2);
+    let is_chain = !draw.once_in(4);
     let is_tree = draw.once_in(2);
     let by_function = draw.once_in(2);
     let bound = if draw.once_in(2) && n > 1 { draw.between(1, n - 1) } else { 0 };

@@ -91,7 +91,7 @@ impl Tree {
         }
     }
 
-    /// The same mass about the point that its point is seen from.
+    /// Returns the mass about the point that its point is seen from.
     fn about_parent(&self, numbers: &mut Numbering, mut content: Content) -> Content {
         let point = content.point.filter(|point| !self.is_end(*point));
         if let Some(point) = point {
