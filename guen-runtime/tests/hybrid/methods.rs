@@ -2,10 +2,10 @@
 
 use core::ops::ControlFlow;
 
-use guen_runtime::hybrid::{Hybrid, HybridSystem, InMode, Mode, Transition, TransitionKind};
+use guen_runtime::hybrid::{Hybrid, InMode, Mode, Transition, TransitionKind};
 use guen_runtime::steppers::{Dop853, Gauss4, Gauss6, Method, Radau5, Rk4, Rk8, Taylor, Tsit5};
 
-use crate::systems::{PendulumStop, ThrownBall};
+use crate::systems::PendulumStop;
 
 /// The first impact and the transitions of a pendulum against a stop until `t = 4`.
 fn stops<M>(method: &M) -> (f64, usize)
@@ -50,7 +50,8 @@ fn every_method_finds_the_stop() {
 #[cfg(feature = "alloc")]
 #[test]
 fn a_trajectory_knows_both_sides_of_a_transition() {
-    use guen_runtime::hybrid::SimulateModes;
+    use crate::systems::ThrownBall;
+    use guen_runtime::hybrid::{HybridSystem, SimulateModes};
 
     let start = [0.0, 1.1, 0.0, 3.0, 0.0, -40.0];
     let motion = ThrownBall.simulation(&start).tolerance(1e-11).run(0.0..2.0).unwrap();
