@@ -71,6 +71,7 @@ impl Evaluator<'_> {
         let roles =
             value.expressions().iter().fold(Roles::NONE, |roles, e| roles.or(self.bench.graph.roles(*e)));
         self.check_allowed(place, roles, e)?;
+        self.check_jumps(place, &value, e)?;
         Ok(value)
     }
 

@@ -12,6 +12,7 @@ mod dimensions;
 mod evaluate;
 mod forms;
 mod functions;
+mod jumps;
 mod motion_symbols;
 mod piecewise;
 mod place;

@@ -92,6 +92,8 @@ pub struct Graph {
     indispensable: Vec<SymbolId>,
     pub(super) base_angles: BaseAngles,
     pub(super) supplied: Vec<SuppliedFunction>,
+    // Whether a piecewise function was made.
+    branches: bool,
 }
 
 impl Graph {
@@ -269,6 +271,11 @@ impl Graph {
         }
     }
 
+    /// Whether some expression has branches: an absolute value, a sign, a step, a choice.
+    pub fn has_branches(&self) -> bool {
+        self.branches
+    }
+
     /// The arguments of a function of several arguments, none of any other node.
     pub(crate) fn arguments(&self, id: ExprId) -> &[ExprId] {
         match self.node(id) {
@@ -318,6 +325,11 @@ impl Graph {
         if let Some(id) = self.lookup(key, |other| *other == node) {
             return id;
         }
+        self.branches |= match &node {
+            Node::Function(Function::Abs | Function::Sign | Function::Floor, _) => true,
+            Node::Multivariate(function, _) => function.is_choice(),
+            _ => false,
+        };
         let depth = |child: &ExprId| self.depths[child.index()];
         let (roles, below) = match &node {
             Node::Symbol(_) | Node::Sum { .. } | Node::Product(_) => {

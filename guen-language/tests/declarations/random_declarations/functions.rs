@@ -29,7 +29,8 @@ pub fn function(draw: &mut Draw, names: [&str; 2], depth: usize) -> String {
         13 => format!("atan2({a}, 2 + {b}^2)"),
         14 => format!("atan2(-1 - {b}^2, {a})"),
         15 => format!("abs({a} - 9)"),
-        16 => format!("sign({a} - 9)*{b}"),
+        // Continuous, and so is its first derivative.
+        16 => format!("sign({a} - 1)*({a} - 1)^2*{b}"),
         17 => format!("(9 + {a})^(1/3)"),
         18 => format!("(9 + {b})^(3/2)/27"),
         19 => format!("(2 + {a}^2)^-2"),
