@@ -148,9 +148,9 @@ pub mod prelude {
 pub mod __private {
     pub use guen_macros::{mechanical_system, page};
     pub use guen_runtime::checks::{
-        Bound, check_constants, check_definite, check_fixed, check_hoisted, check_inertia, check_limits,
-        check_mass, check_nonnegative, check_nonzero, check_pivot, check_positive, clamped, condition, drift,
-        first, furthest, head, joined, largest, placed, rounded,
+        self, Bound, check_constants, check_definite, check_fixed, check_hoisted, check_inertia,
+        check_limits, check_mass, check_nonnegative, check_nonzero, check_pivot, check_positive,
+        check_within, clamped, condition, drift, first, furthest, head, joined, largest, placed, rounded,
     };
     pub use guen_runtime::lanes::Lanes;
     pub use guen_runtime::{
@@ -163,11 +163,11 @@ pub mod __private {
         Undriven, Unprepared, WithInputs, WithScalar, linearized, nalgebra_conversions, seeded,
     };
     pub use guen_runtime::{
-        actuated, condition, conserved, differentiable, domain, dynamics, energy, facts, jacobians, laned,
-        level_info, levels, linearizable, mass_form, monitored, motion_of_system, onto_constraints,
-        operators, output_map, prepare, prepared, program_functions, rates, reaction_covector, reactions,
-        record, reduce, reported, simulated, singularities, state_of_system, steady_motions, structured,
-        switches, uses, with_scalar,
+        actuated, condition, conserved, contact_mode, contact_states, differentiable, domain, dynamics,
+        energy, facts, jacobians, laned, level_info, levels, linearizable, mass_form, monitored,
+        motion_of_system, onto_constraints, operators, output_map, prepare, prepared, program_functions,
+        rates, reaction_covector, reactions, record, reduce, reported, simulated, singularities,
+        state_of_system, steady_motions, structured, switches, uses, with_scalar,
     };
-    pub use guen_runtime::{consistent, control, furthest_surplus, serde_record, serde_structured};
+    pub use guen_runtime::{consistent, control, furthest_surplus, hybrid, serde_record, serde_structured};
 }

@@ -33,6 +33,12 @@ pub const MAX_UNFOLDED: usize = 1_000_000;
 /// The most scenes: each is derived anew.
 pub const MAX_SCENES: usize = 64;
 
+/// The most contacts, grips and latches: each multiplies the modes.
+pub const MAX_CONTACTS: usize = 12;
+
+/// The most modes, combinations of the states of contacts.
+pub const MAX_MODES: usize = 64;
+
 /// The most tokens of a declaration.
 pub const MAX_TOKENS: usize = 200_000;
 

@@ -71,6 +71,9 @@ pub const SECTIONS: &[&str] = &[
     "potential_energy",
     "states",
     "forces",
+    "switches",
+    "contacts",
+    "modes",
     "outputs",
     "provide",
     "scene",
@@ -314,6 +317,23 @@ pub fn module_name(system: &Ident, what: &str) -> Ident {
         name.push('_');
     }
     Ident::new(&name, system.span())
+}
+
+/// The name of the type of something's states: `left_foot` becomes `LeftFoot`.
+pub fn type_name(name: &str) -> String {
+    let mut text = String::new();
+    let mut begins = true;
+    for letter in name.chars() {
+        match letter {
+            '_' => begins = true,
+            _ if begins => {
+                text.extend(letter.to_uppercase());
+                begins = false;
+            }
+            _ => text.push(letter),
+        }
+    }
+    if text.starts_with(|first: char| first.is_alphabetic()) { text } else { format!("_{text}") }
 }
 
 #[cfg(test)]

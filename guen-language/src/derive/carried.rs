@@ -82,6 +82,7 @@ pub(super) fn derive(
         placed: None,
         series: None,
         scene: None,
+        contacts: None,
         carried: None,
     }))
 }

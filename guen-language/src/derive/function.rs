@@ -59,3 +59,20 @@ pub const CARRY: &str = "carry";
 pub const INVARIANTS: &str = "invariants";
 /// Carried functions, closer to their relations.
 pub const RENORMALIZED: &str = "renormalized";
+/// The motion without the forces of contacts and what these forces do to it: rates, gaps, rows, their rates, the lower triangle of
+/// the Delassus matrix, the responses row by row, coefficients of friction and stiction, limits.
+pub const FREE_MOTION: &str = "free_motion";
+/// The rates without the forces of contacts.
+pub const FREE_RATES: &str = "free_rates";
+/// The rows of contacts.
+pub const ROW_RATES: &str = "row_rates";
+/// The parts of the rows without velocities; only where some differ from zero.
+pub const ROW_DRIFTS: &str = "row_drifts";
+/// The conditions under which contacts close, then those under which latches are released; only where some are declared.
+pub const CONDITIONS: &str = "conditions";
+/// The functions of switches.
+pub const SIGNALS: &str = "signals";
+/// The coefficients of restitution.
+pub const RESTITUTIONS: &str = "restitutions";
+/// The outputs with the forces of contacts.
+pub const CONTACT_OUTPUTS: &str = "contact_outputs";

@@ -5,6 +5,7 @@ use std::rc::Rc;
 use guen_symbolic::{Contracted, Derivation, ExprId, FunctionProgram, Programs, SeriesProgram};
 
 use super::commutator::Commutator;
+use super::contacts::ContactFacts;
 use super::facts::SceneFacts;
 use super::jacobians::Jacobians;
 use super::missing_bounds::MissingBounds;
@@ -64,6 +65,8 @@ pub struct Level {
     pub shown: Contracted,
     /// The facts about a scene that its documentation tells; none for the system itself.
     pub scene: Option<SceneFacts>,
+    /// The facts about contacts, of a system that has some.
+    pub contacts: Option<ContactFacts>,
     /// The level with its elementary functions as states, if that form is provided.
     pub carried: Option<Box<Level>>,
 }

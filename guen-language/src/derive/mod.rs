@@ -5,6 +5,7 @@ mod cheapest;
 mod closure;
 mod commutator;
 mod commutators;
+mod contacts;
 mod control;
 mod domain;
 mod facts;
@@ -38,6 +39,7 @@ use readable::{equations, polish, shown};
 
 pub use closure::{Quadrature, Reason};
 pub use commutator::Commutator;
+pub use contacts::ContactFacts;
 pub(crate) use control::{has_covector, known_combinations};
 pub use facts::SceneFacts;
 pub use jacobians::Jacobians;
@@ -68,6 +70,10 @@ pub fn derive<'a>(mut model: Model<'a>, faults: &mut Faults) -> Option<Derived<'
     let mut system = whole(&mut model, Rc::new(derivation), Rc::new(brackets), faults);
     if let Some(word) = model.provides_taylor {
         system.series = series::of(&model, &system.selection, &system.programs, word.span(), faults);
+    }
+    if let Some((programs, facts)) = contacts::derive(&mut model, faults) {
+        system.programs.append(programs);
+        system.contacts = Some(facts);
     }
     let scenes = scene::derive(&mut model, &system, faults);
     (faults.count() == before).then_some(Derived { model, system, scenes })
@@ -145,6 +151,7 @@ fn whole(
         jacobians,
         shown,
         scene: None,
+        contacts: None,
         carried: None,
     };
     if let Some(word) = model.provides_carried {

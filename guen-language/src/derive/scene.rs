@@ -211,6 +211,7 @@ fn level(
         jacobians,
         shown,
         scene: Some(facts),
+        contacts: None,
         carried: None,
     };
     if let Some(word) = carries {

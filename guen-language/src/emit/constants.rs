@@ -11,7 +11,7 @@ use super::text::tokens;
 use super::{documentation, limits, motion, physical, with_scalar};
 use crate::derive::Subject;
 use crate::report::Report;
-use crate::syntax::{BoundKind, Name};
+use crate::syntax::{BoundKind, Expression, Item, Name};
 
 /// A field of the struct of constants.
 struct Field {
@@ -234,6 +234,8 @@ fn checks(subject: &Subject<'_, '_>, fields: &[Field]) -> TokenStream {
             constant.bound.map(|bound| check_bound(&constant.name.text, bound, &value))
         })
         .collect();
+    let mut fixed = fixed;
+    fixed.extend(limited(subject));
     let locals = (0..fields.len()).map(|i| format_ident!("__guen_c{i}"));
     let locals = (!fixed.is_empty()).then(|| {
         quote! {
@@ -242,6 +244,41 @@ fn checks(subject: &Subject<'_, '_>, fields: &[Field]) -> TokenStream {
         }
     });
     quote!(#given #locals #(#fixed)*)
+}
+
+/// Inside the limits, each constant that has some; restitutions that are made of constants from 0 to 1.
+fn limited(subject: &Subject<'_, '_>) -> Vec<TokenStream> {
+    let model = subject.model;
+    let text = |e: ExprId| tokens(&default_text(subject, e));
+    let within = |value: ExprId, [lower, upper]: [ExprId; 2], name: &str, words: &str| {
+        let (value, lower, upper) = (text(value), text(lower), text(upper));
+        quote!(__guen::check_within(#value, #lower, #upper, #name, #words)?;)
+    };
+    let limits = model.constants.iter().zip(written_limits(subject)).filter_map(|(constant, written)| {
+        let words = format!("{} in {}..{}", constant.name, written?[0].source(), written?[1].source());
+        Some(within(constant.symbol, constant.limits?, &constant.name.text, &words))
+    });
+    let mut found: Vec<TokenStream> = limits.collect();
+    let graph = &model.bench.graph;
+    let unit = [graph.zero(), graph.one()];
+    for entry in model.contacts.iter().flat_map(|contacts| &contacts.entries) {
+        if graph.as_number(entry.restitution).is_none() {
+            let (name, words) =
+                (graph.text(entry.restitution), format!("restitution of {} in 0..1", entry.name));
+            found.push(within(entry.restitution, unit, &name, &words));
+        }
+    }
+    found
+}
+
+/// The limits of the constants as they are written.
+fn written_limits<'d>(subject: &Subject<'d, '_>) -> Vec<Option<&'d [Expression; 2]>> {
+    let items = subject.model.declaration.items.iter();
+    let sections = items.filter_map(|item| match item {
+        Item::Constants(section) => Some(section),
+        _ => None,
+    });
+    sections.flat_map(|section| &section.entries).map(|constant| constant.limits.as_deref()).collect()
 }
 
 fn check_bound(name: &str, bound: BoundKind, value: &TokenStream) -> TokenStream {

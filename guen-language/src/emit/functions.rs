@@ -50,6 +50,14 @@ impl Places {
         accelerations.for_each(|(i, s)| put(mechanics.accelerations[*s], format!("a[{i}]")));
         let inputs = selection.inputs.iter().enumerate();
         inputs.for_each(|(i, u)| put(mechanics.inputs[*u], format!("u[{i}]")));
+        if let Some(contacts) = &model.contacts {
+            let switches = contacts.switches.iter().enumerate();
+            switches.for_each(|(i, switch)| put(switch.symbol, format!("b[{i}]")));
+            let forces = contacts.rows().enumerate();
+            forces.for_each(|(i, row)| put(row.force, format!("f[{i}]")));
+            let speeds = contacts.entries.iter().map(|entry| entry.speed).enumerate();
+            speeds.for_each(|(i, speed)| speed.into_iter().for_each(|speed| put(speed, format!("m[{i}]"))));
+        }
         Places(places)
     }
 }
@@ -71,12 +79,23 @@ pub(super) enum Signature {
     Driven,
     /// Time, the whole state, the inputs and the accelerations.
     Accelerated,
+    /// Time, the whole state, the inputs, the switches and the magnitudes of slips.
+    Contacts,
+    /// Time, the whole state, the inputs, the switches, the magnitudes of slips and the forces of contacts.
+    Pressed,
 }
 
 /// The signature of a function by its name.
 pub(super) fn signature(name: &str) -> Signature {
     match name {
-        function::PIVOTS => Signature::Constants,
+        function::PIVOTS | function::RESTITUTIONS => Signature::Constants,
+        function::FREE_MOTION
+        | function::FREE_RATES
+        | function::ROW_RATES
+        | function::ROW_DRIFTS
+        | function::CONDITIONS
+        | function::SIGNALS => Signature::Contacts,
+        function::CONTACT_OUTPUTS => Signature::Pressed,
         function::FORMS => Signature::Velocities,
         function::RHS
         | function::OUTPUTS
@@ -128,8 +147,18 @@ fn module(name: &str, programs: &Programs, more: &str, subject: &Subject<'_, '_>
     );
     let _ = write!(
         text,
-        "__guen::program_functions! {{ c {constants} k {hoisted} s {size} x {n} y {all} w {n} u {inputs} a {l};"
+        "__guen::program_functions! {{ c {constants} k {hoisted} s {size} x {n} y {all} w {n} u {inputs} a {l}"
     );
+    if let (Some(contacts), Some(_)) = (&subject.model.contacts, &subject.level.contacts) {
+        let _ = write!(
+            text,
+            " b {} m {} f {}",
+            contacts.switches.len(),
+            contacts.entries.len(),
+            contacts.rows().count()
+        );
+    }
+    text.push(';');
     for program in &programs.functions {
         let signature = signature(&program.name);
         let places = if signature == Signature::Everywhere { &everywhere } else { &places };
@@ -141,6 +170,8 @@ fn module(name: &str, programs: &Programs, more: &str, subject: &Subject<'_, '_>
             Signature::State => "t; s s",
             Signature::Driven => "t; s s u u",
             Signature::Accelerated => "t; s s u u a a",
+            Signature::Contacts => "t; s s u u b b m m",
+            Signature::Pressed => "t; s s u u b b m m f f",
         };
         let _ = write!(
             text,

@@ -8,6 +8,7 @@ mod carried;
 mod classification;
 mod code;
 mod constants;
+mod contacts;
 mod control;
 mod documentation;
 mod fields;
@@ -107,6 +108,7 @@ fn module(
         operators::items(subject, &layout),
         classification::items(subject, &layout, is_outline),
         levels::items(subject, &layout),
+        contacts::items(subject, &layout),
         missing::items(subject, &layout),
         functions::modules(subject, &layout),
         carried::items(subject, &layout),

@@ -62,6 +62,9 @@ impl Evaluator<'_> {
                     .help("write `reaction(name)` with a name from `constraints` or `holonomic`"),
             );
         };
+        if self.scope.category(&name.text) == Some(Category::Contact) {
+            return Ok(self.contact_named(REACTION, arguments, list)?.1.reaction);
+        }
         let value = self.name(name)?;
         let category = self.scope.category(&name.text);
         if category != Some(Category::Constraint) {

@@ -6,6 +6,7 @@ use guen_symbolic::{ExprId, Flow, Node, PowerError, Rational, Role, Roles, Verdi
 use proc_macro2::Span;
 
 use super::assumed_rates::AssumedRates;
+use super::contact_values::ContactValue;
 use super::declared_functions::DeclaredFunctions;
 use super::motion_symbols::MotionSymbols;
 use super::place::{Place, ROLES, role_name};
@@ -44,6 +45,8 @@ pub(super) struct Evaluator<'f> {
     pub(super) motion: MotionSymbols,
     /// States beside the motion, with their rates as far as these are declared.
     pub(super) states: Vec<(ExprId, Option<ExprId>)>,
+    /// Contacts by name, as outputs and loads see them.
+    pub(super) contacts: BTreeMap<String, ContactValue>,
     /// Arguments of `quaternion`.
     pub(super) quaternions: Vec<[ExprId; 4]>,
     /// Functions of the declaration.
@@ -114,7 +117,18 @@ impl Evaluator<'_> {
             }
             None => role_name(role).to_owned(),
         };
-        let mut fault = Fault::new(span, format!("{what} cannot depend on {on}"));
+        let switch = (role == Role::Input)
+            .then(|| name.and_then(|name| self.switch_in(name)))
+            .flatten()
+            .map(|name| format!("the switch `{name}`"));
+        let mut fault = if place.is_of_contact() {
+            let of_role = if role == Role::QuasiVelocity { Role::Velocity } else { role };
+            let on = switch.clone().unwrap_or_else(|| role_name(of_role).to_owned());
+            Fault::new(span, format!("{what} depends on {on}"))
+        } else {
+            let on = switch.clone().unwrap_or(on);
+            Fault::new(span, format!("{what} cannot depend on {on}"))
+        };
         if let Some((name, defined)) = name.and_then(|name| Some((name, self.scope.definition(name)?))) {
             let inside = self.symbol_of_role(name, role);
             let inside = inside.map_or_else(|| role_name(role).to_owned(), |name| format!("`{name}`"));
@@ -127,6 +141,9 @@ impl Evaluator<'_> {
             (Place::ForceFunction, Role::Velocity | Role::QuasiVelocity | Role::Input) => {
                 fault.help("write it under `forces`, as `force along velocity;`")
             }
+            (_, Role::Input) if switch.is_some() => fault.note(
+                "switches are allowed in `forces` and `outputs`, and in the coefficients, limits and conditions of contacts",
+            ),
             (_, Role::Input) => fault.note("inputs are allowed in `states`, `forces` and `outputs` only"),
             (Place::Force, Role::QuasiAcceleration) => {
                 fault.note("accelerations follow from forces: `outputs` and the rates of states may use them")
@@ -141,6 +158,15 @@ impl Evaluator<'_> {
             },
         };
         self.fail(fault)
+    }
+
+    /// The switch that a name is, or that its value contains.
+    fn switch_in(&self, name: &str) -> Option<String> {
+        let is_switch = |name: &str| self.scope.category(name) == Some(Category::Switch);
+        if is_switch(name) {
+            return Some(name.to_owned());
+        }
+        self.symbol_of_role(name, Role::Input).filter(|inside| is_switch(inside))
     }
 
     /// The name of a symbol of this kind inside the value of a name.
@@ -284,6 +310,13 @@ impl Evaluator<'_> {
             "t" => return Ok(Value::Scalar(self.time)),
             "pi" => return Ok(Value::Scalar(self.bench.graph.pi())),
             _ => {}
+        }
+        if self.scope.category(&name.text) == Some(Category::Contact) {
+            self.scope.refer(name);
+            let fault = Fault::new(name.span(), format!("`{name}` is a contact, and no value"));
+            return self.fail(
+                fault.help(format!("in `outputs` write `gap({name})`, `slip({name})` or `reaction({name})`")),
+            );
         }
         if let Some(rate) = self.assumed_rate(name) {
             return Ok(rate);

@@ -18,6 +18,9 @@ impl Evaluator<'_> {
         if function.text == REACTION && self.scope.category(REACTION).is_none() {
             return self.reaction(function, arguments, list);
         }
+        if self.is_of_contact(function) && !self.contacts.is_empty() {
+            return self.of_contact(function, arguments, list);
+        }
         if !names::is_function(&function.text) {
             return match self.declared_call(function, arguments, list) {
                 Some(value) => value,

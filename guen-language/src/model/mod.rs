@@ -7,6 +7,8 @@ mod accelerations;
 mod assumed_rates;
 mod bodies;
 mod calls;
+mod contact;
+mod contact_values;
 mod declared_functions;
 mod dimensions;
 mod evaluate;
@@ -30,6 +32,7 @@ use proc_macro2::{Ident, Span};
 
 use crate::syntax::{BoundKind, Declaration, Docs, Name, Scene};
 
+pub use contact::{ContactEntry, ContactKind, ContactState, Contacts, Row, SwitchEntry};
 pub use dimensions::{Units, momentum, reaction, residual};
 pub use rates::ChosenRates;
 pub use resolve::resolve;
@@ -67,6 +70,8 @@ pub struct Model<'a> {
     pub quaternions: Vec<[usize; 4]>,
     /// Constraints whose reactions outputs use, with the place.
     pub reactions: Vec<(usize, Span)>,
+    /// Contacts with their modes, where the declaration has some.
+    pub contacts: Option<Contacts<'a>>,
     /// Scenes whose names are sound.
     pub scenes: Vec<SceneEntry<'a>>,
     /// Whether the system or a scene provides operators: then all brackets are derived.
@@ -152,6 +157,8 @@ pub struct ConstantEntry<'a> {
     pub docs: &'a Docs,
     /// The promise.
     pub bound: Option<BoundKind>,
+    /// The least and the largest value, of constants, where they are declared.
+    pub limits: Option<[ExprId; 2]>,
     /// The default, of earlier constants.
     pub default: Option<ExprId>,
     /// The symbol.

@@ -37,6 +37,24 @@ pub(super) enum Place {
     Direction,
     /// An output.
     Output,
+    /// The function of a switch.
+    Switch,
+    /// The gap of a contact.
+    Gap,
+    /// The function of a latch.
+    Latch,
+    /// The velocity along a contact.
+    Slip,
+    /// The velocity of a grip.
+    Grip,
+    /// A coefficient of friction.
+    Friction,
+    /// A coefficient of restitution.
+    Restitution,
+    /// The condition of a contact.
+    Condition,
+    /// The limit or the load of a grip.
+    GripForce,
 }
 
 impl Place {
@@ -59,6 +77,15 @@ impl Place {
             Place::Force => return "a force".to_owned(),
             Place::Direction => return "the velocity after `along`".to_owned(),
             Place::Output => ("output", "an output"),
+            Place::Switch => ("the switch", "a switch"),
+            Place::Gap => ("the gap of", "a gap"),
+            Place::Latch => ("the latch", "a latch"),
+            Place::Slip => ("the slip of", "a slip"),
+            Place::Grip => ("the grip", "a grip"),
+            Place::Friction => ("the friction of", "a coefficient of friction"),
+            Place::Restitution => ("the restitution of", "a coefficient of restitution"),
+            Place::Condition => ("the condition of", "the condition of a contact"),
+            Place::GripForce => ("the limit of", "the limit of a grip"),
         };
         match entry {
             None => nameless.to_owned(),
@@ -76,6 +103,11 @@ impl Place {
             Place::Gravity => "gravity is one vector for the whole system, of constants and `t`",
             Place::Mass => "a mass depends on time and coordinates at most",
             Place::Position => "positions and orientations depend on time and coordinates",
+            Place::Gap | Place::Latch => "it depends on constants, time and coordinates",
+            Place::Friction => {
+                "it depends on constants, time, coordinates, switches, and on `speed`, the magnitude of the slip"
+            }
+            Place::Restitution => "it depends on constants alone",
             _ => return None,
         })
     }
@@ -88,13 +120,42 @@ impl Place {
         let velocities = positions.or(Roles::of(Role::Velocity)).or(Roles::of(Role::QuasiVelocity));
         let all = velocities.or(Roles::of(Role::Input)).or(Roles::of(Role::State));
         match self {
-            Place::Default | Place::Limit | Place::Fixed => constants,
+            Place::Default | Place::Limit | Place::Fixed | Place::Restitution => constants,
             Place::Gravity => timed,
-            Place::Holonomic | Place::ForceFunction | Place::Mass | Place::Position => positions,
-            Place::Parameter | Place::Constraint | Place::KineticEnergy | Place::Direction => velocities,
-            Place::Let | Place::Force => all,
+            Place::Holonomic
+            | Place::ForceFunction
+            | Place::Mass
+            | Place::Position
+            | Place::Gap
+            | Place::Latch => positions,
+            Place::Friction => positions.or(Roles::of(Role::Input)),
+            Place::Parameter
+            | Place::Constraint
+            | Place::KineticEnergy
+            | Place::Direction
+            | Place::Slip
+            | Place::Grip
+            | Place::Switch => velocities,
+            Place::Let | Place::Force | Place::Condition | Place::GripForce => all,
             Place::StateRate | Place::Output => all.or(Roles::of(Role::QuasiAcceleration)),
         }
+    }
+}
+
+impl Place {
+    /// Whether it is a part of a contact.
+    pub(super) fn is_of_contact(self) -> bool {
+        matches!(
+            self,
+            Place::Gap
+                | Place::Latch
+                | Place::Slip
+                | Place::Grip
+                | Place::Friction
+                | Place::Restitution
+                | Place::Condition
+                | Place::GripForce
+        )
     }
 }
 

@@ -1,7 +1,9 @@
 //! A declaration becomes a model: one pass over the items in the order in which they were written.
 
+mod contacts;
 mod count;
 mod finish;
+mod modes;
 mod provide;
 mod redundant;
 mod states;
@@ -15,7 +17,8 @@ use guen_symbolic::{
 
 use super::assumed_rates::AssumedRates;
 use super::bodies::{Weight, is_no_inertia, turns_about_several_axes};
-use super::evaluate::Evaluator;
+use super::contact::SwitchEntry;
+use super::evaluate::{Evaluated, Evaluator};
 use super::forms::RawForm;
 use super::place::Place;
 use super::scope::{Category, Scope};
@@ -64,6 +67,8 @@ struct Resolver<'a, 'f> {
     particles: Vec<Weight>,
     states: Vec<SymbolEntry<'a>>,
     outputs: Vec<OutputEntry<'a>>,
+    switches: Vec<SwitchEntry<'a>>,
+    contacts: Vec<contacts::RawContact<'a>>,
     /// Scenes as written: they may name parameters that are chosen once all forms are known.
     written_scenes: Vec<&'a Scene>,
     output_values: Vec<ExprId>,
@@ -94,6 +99,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
                 left_out: Vec::new(),
                 motion: super::motion_symbols::MotionSymbols::default(),
                 states: Vec::new(),
+                contacts: BTreeMap::new(),
                 quaternions: Vec::new(),
                 functions: Default::default(),
                 rates: AssumedRates::default(),
@@ -118,6 +124,8 @@ impl<'a, 'f> Resolver<'a, 'f> {
             particles: Vec::new(),
             states: Vec::new(),
             outputs: Vec::new(),
+            switches: Vec::new(),
+            contacts: Vec::new(),
             written_scenes: Vec::new(),
             output_values: Vec::new(),
             provides_operators: false,
@@ -145,6 +153,8 @@ impl<'a, 'f> Resolver<'a, 'f> {
                     section.entries.iter().for_each(|e| scope.announce(&e.name));
                 }
                 Item::Bodies(section) => section.entries.iter().for_each(|e| scope.announce(&e.name)),
+                Item::Switches(section) => section.entries.iter().for_each(|e| scope.announce(&e.name)),
+                Item::Contacts(section) => section.entries.iter().for_each(|e| scope.announce(&e.name)),
                 _ => {}
             }
         }
@@ -290,6 +300,10 @@ impl<'a, 'f> Resolver<'a, 'f> {
             }
             Item::States(section) => section.entries.iter().for_each(|state| self.state(state)),
             Item::Forces(section) => section.entries.iter().for_each(|force| self.force(force)),
+            Item::Switches(section) => section.entries.iter().for_each(|switch| self.switch(switch)),
+            Item::Contacts(section) => section.entries.iter().for_each(|contact| self.contact(contact)),
+            // Read when all contacts are known.
+            Item::Modes(_) => {}
             Item::Outputs(section) => section.entries.iter().for_each(|output| self.output(output)),
             Item::Provide(section) => section.entries.iter().for_each(|provide| self.provide(provide)),
             Item::Scene(scene) => self.written_scenes.push(scene),
@@ -313,6 +327,15 @@ impl<'a, 'f> Resolver<'a, 'f> {
         if let (Some(Ok(value)), Some(default)) = (&default, &constant.default) {
             self.check_default(*value, bound, default);
         }
+        let limits = constant.limits.as_deref().and_then(|limits| self.constant_limits(limits));
+        if let (Some(Ok(value)), Some(limits), Some(written)) = (&default, limits, &constant.default) {
+            self.check_limited_default(*value, limits, written);
+        }
+        let promise = limits.map_or(promise, |[lower, _]| match self.eval.bench.graph.as_number(lower) {
+            Some(number) if number.is_zero() => Bound::NonNegative,
+            Some(number) if !number.is_negative() => Bound::Positive,
+            _ => promise,
+        });
         let graph = &mut self.eval.bench.graph;
         let symbol = graph.bounded_symbol(&constant.name.text, Role::Constant, promise);
         let mut value = symbol;
@@ -330,6 +353,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
             name: &constant.name,
             docs: &constant.docs,
             bound,
+            limits,
             default,
             symbol,
         });
@@ -352,18 +376,41 @@ impl<'a, 'f> Resolver<'a, 'f> {
         }
     }
 
+    /// The limits of a constant; two numbers have to stand in their order.
+    fn constant_limits(&mut self, limits: &[Expression; 2]) -> Option<[ExprId; 2]> {
+        let values = limits.each_ref().map(|e| self.eval.scalar_at(Place::Default, e).ok());
+        let [Some(lower), Some(upper)] = values else { return None };
+        let before = self.eval.faults.count();
+        self.in_order(lower, upper, limits);
+        (self.eval.faults.count() == before).then_some([lower, upper])
+    }
+
+    /// A default that is a number must lie between limits that are.
+    fn check_limited_default(&mut self, value: ExprId, limits: [ExprId; 2], written: &Expression) {
+        let graph = &mut self.eval.bench.graph;
+        let outside = [graph.sub(value, limits[0]), graph.sub(limits[1], value)];
+        if outside.iter().any(|rest| graph.as_number(*rest).is_some_and(|rest| rest.is_negative())) {
+            let fault = Fault::new(written.span, "this default lies outside of its limits");
+            self.eval.faults.report(fault.help("change the default or the limits"));
+        }
+    }
+
     /// The limits of an input; two numbers have to stand in their order.
     fn limits(&mut self, plain: &Plain, limits: &[Expression; 2]) -> Option<[ExprId; 2]> {
         self.eval.entry = Some(plain.name.text.clone());
         let values = limits.each_ref().map(|e| self.eval.scalar_at(Place::Limit, e).ok());
         let [Some(lower), Some(upper)] = values else { return None };
+        self.in_order(lower, upper, limits);
+        Some([lower, upper])
+    }
+
+    fn in_order(&mut self, lower: ExprId, upper: ExprId, limits: &[Expression; 2]) {
         let graph = &mut self.eval.bench.graph;
         let span = graph.sub(upper, lower);
         if graph.as_number(span).is_some_and(|span| span.is_negative()) {
             let fault = Fault::new(limits[0].extent(), "the lower limit is above the upper one");
             self.eval.faults.report(fault.help("limits are written `name in lower..upper`"));
         }
-        Some([lower, upper])
     }
 
     /// A default that is a number must keep the bound beside it.

@@ -33,6 +33,10 @@ pub(super) enum Category {
     Output,
     /// A function.
     Function,
+    /// A contact, a grip or a latch.
+    Contact,
+    /// A switch.
+    Switch,
 }
 
 impl Category {
@@ -49,6 +53,8 @@ impl Category {
             Category::State => "a state",
             Category::Output => "an output",
             Category::Function => "a function",
+            Category::Contact => "a contact",
+            Category::Switch => "a switch",
         }
     }
 
@@ -56,10 +62,18 @@ impl Category {
     fn must_be_used(self) -> bool {
         matches!(
             self,
-            Category::Constant | Category::Input | Category::Coordinate | Category::Let | Category::Function
+            Category::Constant
+                | Category::Input
+                | Category::Coordinate
+                | Category::Let
+                | Category::Function
+                | Category::Switch
         )
     }
 }
+
+/// The word for the magnitude of the slip, in `friction` alone.
+pub(super) const SPEED: &str = "speed";
 
 struct Entry {
     category: Category,
@@ -126,7 +140,9 @@ impl Scope {
         value: Option<Value>,
         derived: bool,
     ) {
-        if names::is_reserved(text) {
+        // A contact is no value: one called `floor` stands in nobody's way.
+        let is_free = category == Category::Contact && names::is_function(text);
+        if names::is_reserved(text) && !is_free {
             let what = if names::is_function(text) { "the name of a function" } else { "reserved" };
             faults.report(
                 Fault::new(span, format!("`{text}` is {what} and cannot name {}", category.noun()))
@@ -198,6 +214,8 @@ impl Scope {
             fault = fault.help(format!("the rate of `{rate}` is written `dot({rate})`"));
             // `d/dt` is one mistake.
             self.unknown.extend(["d", "dt"].map(String::from));
+        } else if name.text == SPEED && self.entries.values().any(|e| e.category == Category::Contact) {
+            fault = fault.help("`speed` is the magnitude of the slip, inside of `friction` alone");
         } else if let Some(near) = names::nearest(&name.text, self.order.iter().map(String::as_str)) {
             fault = fault.help(format!("did you mean `{near}`?"));
         } else if !self.order.is_empty() {

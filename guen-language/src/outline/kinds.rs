@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 
 use crate::names;
-use crate::syntax::{Declaration, Expression, ExpressionKind, FunctionDefinition, Item};
+use crate::syntax::{ClauseWord, Contact, Declaration, Expression, ExpressionKind, FunctionDefinition, Item};
 
 /// A kind of value.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -46,6 +46,7 @@ impl Kinds {
                 Item::Parameters(section) | Item::Outputs(section) => {
                     section.entries.iter().for_each(|entry| kinds.define(&entry.name.text, &entry.value));
                 }
+                Item::Contacts(section) => section.entries.iter().for_each(|contact| kinds.contact(contact)),
                 Item::Bodies(section) => {
                     for body in &section.entries {
                         if let Some(center) = &body.center {
@@ -57,6 +58,17 @@ impl Kinds {
             }
         }
         kinds
+    }
+
+    /// The slip and the reaction of a contact, under the calls that ask for them.
+    fn contact(&mut self, contact: &Contact) {
+        let along = contact.clause(ClauseWord::Grip).or(contact.clause(ClauseWord::Slip));
+        let slip = along.map_or(Kind::Scalar, |clause| self.of(&clause.value));
+        let slip = if slip == Kind::Plane { Kind::Vector } else { slip };
+        let has_slip = contact.clause(ClauseWord::Slip).is_some();
+        let reaction = if has_slip { Kind::Vector } else { slip };
+        self.names.insert(format!("slip({})", contact.name), slip);
+        self.names.insert(format!("reaction({})", contact.name), reaction);
     }
 
     fn define(&mut self, name: &str, value: &Expression) {
@@ -79,6 +91,11 @@ impl Kinds {
                 "vec" | "cross" | "angular_velocity" | "angular_velocity_body" => Kind::Vector,
                 "rot" | "rot_x" | "rot_y" | "rot_z" | "quaternion" | "transpose" => Kind::Rotation,
                 "dot" => arguments.first().map_or(Kind::Scalar, |argument| self.of(argument)),
+                name @ ("reaction" | "slip") if !self.functions.contains_key(name) => {
+                    let of_contact =
+                        arguments.first().map(|argument| format!("{name}({})", argument.source()));
+                    of_contact.and_then(|key| self.names.get(&key).copied()).unwrap_or(Kind::Scalar)
+                }
                 name => self.functions.get(name).map_or(Kind::Scalar, |function| {
                     let mut inside = Kinds { names: self.names.clone(), functions: self.functions.clone() };
                     for (parameter, argument) in function.parameters.iter().zip(arguments) {

@@ -5,6 +5,7 @@
 //! matrix is the identity. Vectors are recognised by how they are written; a scene keeps every variable and provides
 //! everything, because what it would keep is not known.
 
+mod contacts;
 mod expressions;
 mod forms;
 mod kinds;
@@ -52,6 +53,12 @@ pub fn sound(declaration: &Declaration) -> Declaration {
     ];
     items.extend(forms.constraints.iter().cloned());
     items.extend(forms.driven.as_ref().map(|x| Item::Forces(section(vec![entries.force(x)]))));
+    // Contacts do not go with scenes and states.
+    let refuses = |item: &Item| matches!(item, Item::Scene(_) | Item::States(_));
+    let has_contacts = !declaration.items.iter().any(refuses);
+    if let (Some(moving), true) = (&forms.driven, has_contacts) {
+        items.extend(contacts::items(declaration, &kinds, &mut names, moving, &forms.coordinates));
+    }
     items.extend(scenes::items(declaration, &entries, &forms));
     Declaration { items, ..declaration.clone() }
 }
@@ -159,7 +166,13 @@ impl Entries {
             .iter()
             .find(|known| known.name.path().is_some() && known.name.root() == constant.name.root());
         let default = sibling.map_or(default, |known| known.default.clone());
-        let new = || Constant { name: names.take(&constant.name), unit: None, default, ..constant.clone() };
+        let new = || Constant {
+            name: names.take(&constant.name),
+            unit: None,
+            limits: None,
+            default,
+            ..constant.clone()
+        };
         push(&mut self.constants, &constant.name, |constant| &constant.name, new);
     }
 

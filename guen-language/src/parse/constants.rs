@@ -12,9 +12,9 @@ use super::punctuation::equals;
 use super::units::unit;
 use crate::diagnostics::{Fault, Faults, Reported};
 use crate::limits::MAX_ENTRIES;
-use crate::syntax::{Bound, BoundKind, Constant, Number};
+use crate::syntax::{Bound, BoundKind, Constant, Expression, Number};
 
-const HELP_BOUND: &str = "the bounds are `name > 0`, `name >= 0` and `name != 0`";
+const HELP_BOUND: &str = "the bounds are `name > 0`, `name >= 0`, `name != 0` and `name in lower..upper`";
 
 /// The entries of `constants`.
 pub(crate) fn constants(group: &Group, faults: &mut Faults) -> Entries<Constant> {
@@ -27,6 +27,7 @@ fn begins_constant(cursor: &Cursor) -> bool {
     cursor.is_punct('#')
         || (cursor.ident_at(0).is_some()
             && (cursor.peek_nth(cursor.name_length()).is_none()
+                || cursor.is_word_at(cursor.name_length(), "in")
                 || [',', '>', '!', '=', ':']
                     .iter()
                     .any(|mark| cursor.is_punct_at(cursor.name_length(), *mark))))
@@ -41,7 +42,7 @@ fn constant(cursor: &mut Cursor, faults: &mut Faults) -> Result<Constant, Report
     }
     let name = indexed_name(cursor, faults, "the name of a constant")?;
     // From here on the name counts as declared, whatever is wrong with the rest.
-    let mut constant = Constant { docs, name, unit: None, bound: None, default: None };
+    let mut constant = Constant { docs, name, unit: None, bound: None, limits: None, default: None };
     if rest(cursor, faults, &mut constant).is_err() {
         cursor.recover_to_comma();
     }
@@ -51,6 +52,7 @@ fn constant(cursor: &mut Cursor, faults: &mut Faults) -> Result<Constant, Report
 fn rest(cursor: &mut Cursor, faults: &mut Faults, constant: &mut Constant) -> Result<(), Reported> {
     constant.unit = unit(cursor, faults)?;
     constant.bound = bound(cursor, faults)?;
+    constant.limits = limits(cursor, faults, constant)?;
     if cursor.is_end() || !(cursor.is_punct('=') || cursor.is_punct(':')) {
         return Ok(());
     }
@@ -66,6 +68,30 @@ fn rest(cursor: &mut Cursor, faults: &mut Faults, constant: &mut Constant) -> Re
         return Err(faults.report(fault.help(format_args!("write `{} > 0 = value`", constant.name))));
     }
     Ok(())
+}
+
+/// `in lower..upper`, if it stands here.
+fn limits(
+    cursor: &mut Cursor,
+    faults: &mut Faults,
+    constant: &Constant,
+) -> Result<Option<Box<[Expression; 2]>>, Reported> {
+    let Some(span) = cursor.eat_word("in") else { return Ok(None) };
+    if constant.bound.is_some() {
+        return Err(faults.report(Fault::new(span, "a constant has one bound")));
+    }
+    let lower = expression(cursor, faults)?;
+    if !cursor.is_pair('.', '.') {
+        let fault = Fault::new(cursor.span(), format!("expected `..`, found {}", cursor.found()));
+        return Err(faults.report(fault.help("limits are written `name in lower..upper`")));
+    }
+    cursor.skip(2);
+    if let Some(span) = cursor.eat('=') {
+        let fault = Fault::new(span, "limits are written with `..`");
+        faults
+            .report(fault.help("both ends belong to what the constant may be: write `name in lower..upper`"));
+    }
+    Ok(Some(Box::new([lower, expression(cursor, faults)?])))
 }
 
 fn is_comparison(cursor: &Cursor) -> bool {

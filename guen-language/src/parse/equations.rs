@@ -58,7 +58,7 @@ fn sides(
         let fault = Fault::new(span, format!("expected `=` or an operator, found {}", cursor.found()));
         let is_inequality = cursor.is_punct('<') || cursor.is_punct('>') || cursor.is_punct('!');
         return Err(faults.report(if is_inequality {
-            fault.help("constraints are equations; one-sided contact is not part of a system")
+            fault.help("constraints are equations; what stays on one side is a contact: `contacts { name: gap = e; }`")
         } else {
             fault.help(HELP).help("if a product is meant, write `*` between its factors")
         }));

@@ -7,6 +7,7 @@
 mod attributes;
 mod bodies;
 mod constants;
+mod contacts;
 mod cursor;
 mod declaration;
 mod definitions;
@@ -17,6 +18,7 @@ mod forces;
 mod functions;
 mod index;
 mod lists;
+mod modes;
 mod names;
 mod nesting;
 mod particles;

@@ -1,5 +1,6 @@
 //! The derivation in readable notation: the same lines as text and as LaTeX.
 
+mod contacts;
 mod lines;
 mod mathml;
 mod pages;
@@ -60,6 +61,7 @@ impl Report {
             sections.push(states(subject, writer));
             sections.push(momenta(subject, writer));
             sections.push(energies(subject, writer));
+            sections.extend(contacts::section(subject, writer));
         }
         sections.push(domain(subject, writer));
         sections.push(edges(subject));

@@ -28,6 +28,9 @@ pub(super) fn declared(subject: &Subject<'_, '_>) -> Vec<Section> {
     });
     let constants = constants.zip(&model.constants).map(|(declared, known)| {
         let bound = known.bound.map_or(String::new(), |bound| format!(" {}", bound.relation()));
+        let limits = declared.limits.as_deref();
+        let limits = limits.map(|[lower, upper]| format!(" in {}..{}", lower.source(), upper.source()));
+        let bound = format!("{bound}{}", limits.unwrap_or_default());
         // A number as it was written; with operations the sum and product that were read.
         let written = declared.default.as_ref().map(ToString::to_string).filter(|text| !text.contains('('));
         let default = written.or_else(|| known.default.map(|e| model.bench.graph.text(e)));

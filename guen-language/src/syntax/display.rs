@@ -201,6 +201,9 @@ impl Display for Constant {
         if let Some(bound) = self.bound {
             write!(f, " {}", bound.kind.relation())?;
         }
+        if let Some(limits) = &self.limits {
+            write!(f, " in {}..{}", limits[0], limits[1])?;
+        }
         self.default.iter().try_for_each(|default| write!(f, " = {default}"))
     }
 }
@@ -234,6 +237,43 @@ impl Display for State {
 impl Display for Force {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         write!(f, "{} along {};", self.force, self.direction)
+    }
+}
+
+impl Display for Switch {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {};", self.name.ident, self.value)
+    }
+}
+
+impl Display for Clause {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "{} = {}", self.word.text(), self.value)
+    }
+}
+
+impl Display for Contact {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: ", self.name.ident)?;
+        separated(f, &self.clauses, ", ")?;
+        f.write_char(';')
+    }
+}
+
+impl Display for ModeStatement {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            ModeStatement::States { contact, states } => {
+                let states: Vec<_> = states.iter().map(|state| state.ident.to_string()).collect();
+                write!(f, "{}: {};", contact.ident, states.join(", "))
+            }
+            ModeStatement::Never { combination, .. } => {
+                let pairs = combination.iter();
+                let pairs: Vec<_> =
+                    pairs.map(|(contact, state)| format!("{}.{}", contact.ident, state.ident)).collect();
+                write!(f, "never {};", pairs.join(" with "))
+            }
+        }
     }
 }
 
@@ -337,6 +377,9 @@ impl Display for Item {
             Item::Bodies(section) => braces(f, kind, section, " "),
             Item::States(section) => braces(f, kind, section, " "),
             Item::Forces(section) => braces(f, kind, section, " "),
+            Item::Switches(section) => braces(f, kind, section, " "),
+            Item::Contacts(section) => braces(f, kind, section, " "),
+            Item::Modes(section) => braces(f, kind, section, " "),
             Item::KineticEnergy(quantity)
             | Item::Gravity(quantity)
             | Item::ForceFunction(quantity)

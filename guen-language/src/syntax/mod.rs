@@ -6,6 +6,7 @@
 //!
 //! Counts, loops, conditions on indices and indices as they were written are in the tree until `unfold` has written them out.
 
+mod contact;
 mod display;
 mod expression;
 mod index;
@@ -14,6 +15,7 @@ mod number;
 mod section;
 mod unit;
 
+pub use contact::{Clause, ClauseWord, Contact, ModeStatement, Switch, type_of_states};
 pub use expression::{AddOperator, Expression, ExpressionKind, Factor, Fold, MultiplyOperator, Order, Term};
 pub use index::{
     Choice, Comparison, Condition, Index, IndexExpression, IndexKind, IndexOperator, Loop, Node, Path, Range,

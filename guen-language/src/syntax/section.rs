@@ -2,7 +2,9 @@
 
 use proc_macro2::{Span, TokenStream};
 
-use super::{Docs, Expression, IndexExpression, Name, Node, Unit, Visibility};
+use super::{
+    Contact, Docs, Expression, IndexExpression, ModeStatement, Name, Node, Switch, Unit, Visibility,
+};
 
 /// A declaration: one `system` with its sections.
 #[derive(Debug, Clone)]
@@ -60,6 +62,12 @@ pub enum Item {
     States(Section<State>),
     /// `forces { e along e; .. }`.
     Forces(Section<Force>),
+    /// `switches { name: e; .. }`.
+    Switches(Section<Switch>),
+    /// `contacts { name: gap = e, ..; .. }`.
+    Contacts(Section<Contact>),
+    /// `modes { contact: state, ..; .. }`.
+    Modes(Section<ModeStatement>),
     /// `outputs { name = e; .. }`.
     Outputs(Section<Definition>),
     /// `provide name, ..;` of the whole system.
@@ -89,6 +97,9 @@ pub enum SectionKind {
     PotentialEnergy,
     States,
     Forces,
+    Switches,
+    Contacts,
+    Modes,
     Outputs,
     Provide,
     Scene,
@@ -96,7 +107,7 @@ pub enum SectionKind {
 
 impl SectionKind {
     /// Every kind, in the order of [`crate::names::SECTIONS`].
-    pub const ALL: [SectionKind; 20] = [
+    pub const ALL: [SectionKind; 23] = [
         SectionKind::Count,
         SectionKind::Constants,
         SectionKind::Inputs,
@@ -114,6 +125,9 @@ impl SectionKind {
         SectionKind::PotentialEnergy,
         SectionKind::States,
         SectionKind::Forces,
+        SectionKind::Switches,
+        SectionKind::Contacts,
+        SectionKind::Modes,
         SectionKind::Outputs,
         SectionKind::Provide,
         SectionKind::Scene,
@@ -206,6 +220,8 @@ pub struct Constant {
     pub unit: Option<Unit>,
     /// The bound, if one is declared.
     pub bound: Option<Bound>,
+    /// The least and the largest value, of a constant that has limits.
+    pub limits: Option<Box<[Expression; 2]>>,
     /// The default, if one is declared.
     pub default: Option<Expression>,
 }
@@ -425,6 +441,9 @@ impl Item {
             Item::PotentialEnergy(_) => SectionKind::PotentialEnergy,
             Item::States(_) => SectionKind::States,
             Item::Forces(_) => SectionKind::Forces,
+            Item::Switches(_) => SectionKind::Switches,
+            Item::Contacts(_) => SectionKind::Contacts,
+            Item::Modes(_) => SectionKind::Modes,
             Item::Outputs(_) => SectionKind::Outputs,
             Item::Provide(_) => SectionKind::Provide,
             Item::Scene(_) => SectionKind::Scene,

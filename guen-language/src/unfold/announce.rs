@@ -35,6 +35,9 @@ impl Unfolder<'_> {
             Item::Holonomic(section) => self.section(section, "a holonomic constraint", |entry| &entry.name),
             Item::Bodies(section) => self.section(section, "a body", |entry| &entry.name),
             Item::States(section) => self.section(section, "a state", |entry| &entry.name),
+            Item::Switches(section) => self.section(section, "a switch", |entry| &entry.name),
+            Item::Contacts(section) => self.section(section, "a contact", |entry| &entry.name),
+            Item::Modes(section) => self.counted(section, "statements"),
             Item::Particles(section) => self.counted(section, "particles"),
             Item::Forces(section) => self.counted(section, "forces"),
             Item::KineticEnergy(_)

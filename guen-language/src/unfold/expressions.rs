@@ -6,8 +6,8 @@ use super::Unfolder;
 use super::arrays::brackets;
 use crate::diagnostics::Fault;
 use crate::syntax::{
-    AddOperator, Expression, ExpressionKind, Factor, Fold, Index, Inertia, Item, MultiplyOperator, Name,
-    Node, Number, Term,
+    AddOperator, Expression, ExpressionKind, Factor, Fold, Index, Inertia, Item, ModeStatement,
+    MultiplyOperator, Name, Node, Number, Term,
 };
 
 impl Unfolder<'_> {
@@ -234,6 +234,9 @@ pub(super) fn section_nesting(item: &Item) -> Option<&[Node]> {
         Item::Particles(section) => &section.nesting,
         Item::Bodies(section) => &section.nesting,
         Item::States(section) => &section.nesting,
+        Item::Switches(section) => &section.nesting,
+        Item::Contacts(section) => &section.nesting,
+        Item::Modes(section) => &section.nesting,
         Item::Forces(section) => &section.nesting,
         _ => return None,
     };
@@ -278,6 +281,14 @@ fn declared(item: &Item, visit: &mut dyn FnMut(&Name)) {
         }
         Item::Bodies(section) => section.entries.iter().for_each(|entry| visit(&entry.name)),
         Item::States(section) => section.entries.iter().for_each(|entry| visit(&entry.name)),
+        Item::Switches(section) => section.entries.iter().for_each(|entry| visit(&entry.name)),
+        Item::Contacts(section) => section.entries.iter().for_each(|entry| visit(&entry.name)),
+        Item::Modes(section) => section.entries.iter().for_each(|statement| match statement {
+            ModeStatement::States { contact, .. } => visit(contact),
+            ModeStatement::Never { combination, .. } => {
+                combination.iter().for_each(|(contact, _)| visit(contact));
+            }
+        }),
         Item::Scene(scene) => {
             scene.tracks.iter().for_each(&mut *visit);
             scene.fixes.iter().for_each(|fix| visit(&fix.name));
@@ -294,7 +305,8 @@ fn declared(item: &Item, visit: &mut dyn FnMut(&Name)) {
 fn expressions(item: &Item) -> Vec<&Expression> {
     match item {
         Item::Constants(section) => {
-            section.entries.iter().filter_map(|entry| entry.default.as_ref()).collect()
+            let limits = section.entries.iter().filter_map(|entry| entry.limits.as_deref()).flatten();
+            section.entries.iter().filter_map(|entry| entry.default.as_ref()).chain(limits).collect()
         }
         Item::Inputs(section) | Item::Coordinates(section) => {
             section.entries.iter().filter_map(|entry| entry.limits.as_deref()).flatten().collect()
@@ -331,7 +343,13 @@ fn expressions(item: &Item) -> Vec<&Expression> {
         Item::Forces(section) => {
             section.entries.iter().flat_map(|entry| [&entry.force, &entry.direction]).collect()
         }
+        Item::Switches(section) => section.entries.iter().map(|entry| &entry.value).collect(),
+        Item::Contacts(section) => section
+            .entries
+            .iter()
+            .flat_map(|entry| entry.clauses.iter().map(|clause| &clause.value))
+            .collect(),
         Item::Scene(scene) => scene.fixes.iter().filter_map(|fix| fix.value.as_ref()).collect(),
-        Item::Count(_) | Item::Provide(_) => Vec::new(),
+        Item::Count(_) | Item::Provide(_) | Item::Modes(_) => Vec::new(),
     }
 }

@@ -3,8 +3,9 @@
 use super::Unfolder;
 use super::arrays::next;
 use crate::syntax::{
-    Body, BodyField, Constant, Declaration, Definition, Equation, Expression, Fix, Force, FunctionDefinition,
-    Index, Inertia, Item, Name, Particle, Plain, Provide, Quantity, Scene, Section, State,
+    Body, BodyField, Clause, Constant, Contact, Declaration, Definition, Equation, Expression, Fix, Force,
+    FunctionDefinition, Index, Inertia, Item, ModeStatement, Name, Particle, Plain, Provide, Quantity, Scene,
+    Section, State, Switch,
 };
 
 impl Unfolder<'_> {
@@ -44,6 +45,9 @@ impl Unfolder<'_> {
             Item::Bodies(section) => Item::Bodies(self.written(section, Self::body)),
             Item::States(section) => Item::States(self.written(section, Self::state)),
             Item::Forces(section) => Item::Forces(self.written(section, Self::force)),
+            Item::Switches(section) => Item::Switches(self.written(section, Self::switch)),
+            Item::Contacts(section) => Item::Contacts(self.written(section, Self::contact)),
+            Item::Modes(section) => Item::Modes(self.written(section, Self::mode)),
             Item::Provide(section) => {
                 let entries = section.entries.iter().flat_map(|provide| self.provide(provide)).collect();
                 Item::Provide(Section::new(section.docs.clone(), section.keyword, entries))
@@ -105,7 +109,9 @@ impl Unfolder<'_> {
 
     fn constant(&mut self, constant: &Constant, name: Name) -> Constant {
         let default = constant.default.as_ref().map(|default| self.expression(default));
-        Constant { name, default, ..constant.clone() }
+        let limits =
+            constant.limits.as_deref().map(|limits| Box::new(limits.each_ref().map(|e| self.expression(e))));
+        Constant { name, default, limits, ..constant.clone() }
     }
 
     fn plain(&mut self, plain: &Plain, name: Name) -> Plain {
@@ -124,6 +130,34 @@ impl Unfolder<'_> {
         let value = self.expression(&function.value);
         self.hidden.clear();
         FunctionDefinition { value, ..function.clone() }
+    }
+
+    fn switch(&mut self, switch: &Switch) -> Option<Switch> {
+        let value = self.expression(&switch.value);
+        Some(Switch { docs: switch.docs.clone(), name: self.declared(&switch.name)?, value })
+    }
+
+    fn contact(&mut self, contact: &Contact) -> Option<Contact> {
+        let clause = |clause: &Clause| Clause { value: self.expression(&clause.value), ..clause.clone() };
+        let clauses = contact.clauses.iter().map(clause).collect();
+        Some(Contact { docs: contact.docs.clone(), name: self.declared(&contact.name)?, clauses })
+    }
+
+    fn mode(&mut self, statement: &ModeStatement) -> Option<ModeStatement> {
+        Some(match statement {
+            ModeStatement::States { contact, states } => {
+                ModeStatement::States { contact: self.used(contact)?, states: states.clone() }
+            }
+            ModeStatement::Never { keyword, combination } => {
+                let pairs = combination.iter();
+                let pairs: Vec<_> =
+                    pairs.map(|(contact, state)| Some((self.used(contact)?, state.clone()))).collect();
+                ModeStatement::Never {
+                    keyword: *keyword,
+                    combination: pairs.into_iter().collect::<Option<_>>()?,
+                }
+            }
+        })
     }
 
     fn equation(&mut self, equation: &Equation) -> Option<Equation> {

@@ -3,6 +3,7 @@
 use core::fmt;
 
 pub use crate::generated::condition::condition;
+use crate::hybrid::{Conditions, FreeMotion};
 use crate::system::constants_error::BodyFault;
 use crate::{ConstantsError, Ordered, Real, RunningError};
 
@@ -133,6 +134,28 @@ pub fn check_nonzero<R: Real>(
     bounded(value, name, bound, |value| value != 0.0)
 }
 
+/// Refuses a constant outside of its limits; `bound` says so in words.
+///
+/// ```
+/// use guen_runtime::checks::check_within;
+/// assert!(check_within(0.5, 0.0, 1.0, "e", "e in 0..1").is_ok());
+/// assert!(check_within(1.5, 0.0, 1.0, "e", "e in 0..1").is_err());
+/// ```
+///
+/// # Errors
+///
+/// [`ConstantsError::OutOfBound`] with its name, bound and value.
+pub fn check_within<R: Real>(
+    value: R,
+    lower: R,
+    upper: R,
+    name: &'static str,
+    bound: &'static str,
+) -> Result<(), ConstantsError> {
+    let (lower, upper) = (lower.to_f64(), upper.to_f64());
+    bounded(value, name, bound, |value| lower <= value && value <= upper)
+}
+
 fn bounded<R: Real>(
     value: R,
     name: &'static str,
@@ -236,6 +259,50 @@ pub fn check_fixed<R: Real>(value: R, fixed: R, name: &'static str) -> Result<()
         return Ok(());
     }
     Err(ConstantsError::Contradicted { name, fixed: fixed.to_f64(), value: value.to_f64() })
+}
+
+/// The free motion of a system with contacts out of the values of its program: rates, gaps, rows, their rates, the lower
+/// triangle of the Delassus matrix, the rates of the quasi-velocities that unit forces cause, coefficients of friction and of
+/// stiction, limits; with `X` coordinates.
+///
+/// ```
+/// // A point above a floor: the state is a height and its rate, the mass one half.
+/// let values = [-1.0, -9.81, 2.0, -1.0, -9.81, 2.0, 2.0, 0.0, 0.0, 0.0];
+/// let free = guen_runtime::checks::free_motion::<f64, 1, 2, 1, 1>(&values);
+/// assert_eq!((free.gaps, free.delassus, free.responses), ([2.0], [[2.0]], [[0.0, 2.0]]));
+/// ```
+pub fn free_motion<R: Real, const X: usize, const N: usize, const W: usize, const C: usize>(
+    values: &[R],
+) -> FreeMotion<R, N, W, C> {
+    let mut rest = values.iter().copied();
+    let mut next = || rest.next().unwrap_or_else(R::zero);
+    let rates = core::array::from_fn(|_| next());
+    let gaps = core::array::from_fn(|_| next());
+    let row_rates = core::array::from_fn(|_| next());
+    let biases = core::array::from_fn(|_| next());
+    let mut delassus = [[R::zero(); W]; W];
+    let triangle = (0..W).flat_map(|row| (0..=row).map(move |column| (row, column)));
+    triangle.for_each(|(row, column)| {
+        let entry = next();
+        (delassus[row][column], delassus[column][row]) = (entry, entry);
+    });
+    let responses =
+        core::array::from_fn(|_| core::array::from_fn(|i| if i < X { R::zero() } else { next() }));
+    let friction = core::array::from_fn(|_| next());
+    let stiction = core::array::from_fn(|_| next());
+    let limits = core::array::from_fn(|_| next());
+    FreeMotion { rates, gaps, row_rates, biases, delassus, responses, friction, stiction, limits }
+}
+
+/// The conditions of a system with contacts: those under which contacts close, then those under which latches are released.
+///
+/// ```
+/// let conditions = guen_runtime::checks::conditions::<f64, 1>(&[1.0, -1.0]);
+/// assert_eq!((conditions.when, conditions.release), ([1.0], [-1.0]));
+/// ```
+pub fn conditions<R: Real, const C: usize>(values: &[R]) -> Conditions<R, C> {
+    let value = |i: usize| values.get(i).copied().unwrap_or_else(R::zero);
+    Conditions { when: core::array::from_fn(value), release: core::array::from_fn(|i| value(C + i)) }
 }
 
 /// Refuses limits of an input that leave no value between them.

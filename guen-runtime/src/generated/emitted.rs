@@ -4,6 +4,7 @@
 //! They expand inside the module of a system, which defines `Prepared` and the module `program`, and work
 //! without a prelude and from any crate name.
 
+mod contacts;
 mod facts;
 mod methods;
 mod motion;

@@ -94,6 +94,20 @@ where
         Self::with_switches(system, mode, switches, t, state)
     }
 
+    /// The system in a mode, with these values of the switches, wherever the state will be: the order of elimination is chosen, and
+    /// rows that depend on others are found, at a state without symmetry.
+    pub fn anywhere(system: H, mode: Mode<C>, switches: [bool; S]) -> Self {
+        let state = from_fn(|i| 0.37 + 0.061 * i as f64);
+        let switches = switches.map(|value| f64::from(u8::from(value)));
+        let chosen = Self::with_switches(system, mode, switches, 0.29, &state);
+        if chosen.pivots.independent().is_empty() {
+            // The state is outside of where the system is defined.
+            let pivots = Pivots::in_order(unknown_rows(&H::ELEMENTS, &mode));
+            return Self { pivots, ..chosen };
+        }
+        chosen
+    }
+
     /// The system in a mode, with these values of the switches.
     pub(super) fn with_switches(
         system: H,
@@ -118,6 +132,11 @@ where
     /// The mode.
     pub fn mode(&self) -> Mode<C> {
         self.mode
+    }
+
+    /// The values of the switches, zero or one.
+    pub fn switches(&self) -> [f64; S] {
+        self.switches
     }
 
     /// The system in whatever mode.

@@ -11,7 +11,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use guen_symbolic::Rational;
 
 use crate::diagnostics::Faults;
-use crate::syntax::{Declaration, Dimension, Expression, ExpressionKind, Inertia, Item, Unit};
+use crate::syntax::{
+    ClauseWord, Contact, Declaration, Dimension, Expression, ExpressionKind, Inertia, Item, Unit,
+};
 use expressions::{Dimensions, NUMBER, Quantity, per_second};
 use unknowns::{Partial, Unknowns};
 
@@ -294,7 +296,48 @@ impl Dimensions<'_> {
                     fix.value.iter().for_each(|value| self.value_of(&fix.name.text, value));
                 }
             }
-            Item::Gravity(_) | Item::Provide(_) => {}
+            Item::Switches(section) => {
+                for switch in &section.entries {
+                    self.of(&switch.value);
+                    self.names.insert(switch.name.text.clone(), Quantity::Of(Partial::one()));
+                }
+            }
+            Item::Contacts(section) => section.entries.iter().for_each(|contact| self.contact(contact)),
+            Item::Gravity(_) | Item::Provide(_) | Item::Modes(_) => {}
+        }
+    }
+
+    /// Coefficients are numbers, and the limit of a grip is a force along its velocity.
+    fn contact(&mut self, contact: &Contact) {
+        let mut along = None;
+        for clause in &contact.clauses {
+            let outer = match (clause.word, &along) {
+                (ClauseWord::Friction, Some(slip)) => {
+                    Some(self.names.insert("speed".to_owned(), Quantity::clone(slip)))
+                }
+                _ => None,
+            };
+            let own = self.of(&clause.value);
+            if let Some(outer) = outer {
+                match outer {
+                    Some(outer) => self.names.insert("speed".to_owned(), outer),
+                    None => self.names.remove("speed"),
+                };
+            }
+            let word = clause.word.text();
+            match clause.word {
+                ClauseWord::Slip | ClauseWord::Grip => along = Some(own),
+                ClauseWord::Friction | ClauseWord::Stiction | ClauseWord::Restitution => {
+                    self.require(&clause.value, own, Partial::one(), &format!("the {word}"));
+                }
+                ClauseWord::Limit | ClauseWord::Load => {
+                    if let Some(Quantity::Of(along)) = &along {
+                        let wanted = of("W").times(along, &Rational::integer(-1));
+                        self.require(&clause.value, own, wanted, &format!("the {word}"));
+                    }
+                }
+                _ => {}
+            }
         }
     }
 

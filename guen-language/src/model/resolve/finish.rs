@@ -6,6 +6,8 @@ impl<'a> Resolver<'a, '_> {
     /// Puts the model together, out of what the items left.
     pub(super) fn finish(mut self) -> Option<Model<'a>> {
         let failed = self.eval.faults.count() > 0;
+        let has_contacts = self.has_contacts();
+        let modes = if failed { None } else { self.modes() };
         let velocities = self.velocities.clone();
         let mut degrees = self.parameters.len();
         let has_energy = self.energy.is_some() || self.has_masses;
@@ -38,6 +40,9 @@ impl<'a> Resolver<'a, '_> {
         self.eval.report_assumed(None);
         let mut scenes: Vec<SceneEntry<'a>> = Vec::new();
         for scene in self.written_scenes {
+            if has_contacts {
+                contacts::refuse_scene(scene, self.eval.faults);
+            }
             let earlier: Vec<&Scene> = scenes.iter().map(|entry| entry.scene).collect();
             scenes.extend(self.eval.scene(scene, self.declaration, &earlier));
         }
@@ -90,6 +95,9 @@ impl<'a> Resolver<'a, '_> {
             .iter_mut()
             .flat_map(|force| [&mut force.magnitude, &mut force.along])
             .for_each(&mut written_out);
+        let (mut contacts, shapes): (Vec<_>, Vec<_>) =
+            self.contacts.into_iter().map(|contact| (contact.entry, contact.shapes)).unzip();
+        contacts.iter_mut().flat_map(|entry| &mut entry.rows).for_each(|row| written_out(&mut row.form));
         let (redundant, further): (Vec<_>, Vec<_>) =
             redundant.into_iter().map(|taken| (taken.entry, taken.equation)).unzip();
         let zero = bench.graph.zero();
@@ -102,6 +110,11 @@ impl<'a> Resolver<'a, '_> {
             .map(|(parameters, places)| places.map(|own| own.map(|own| place(own, *parameters))))
             .collect();
         structure.forms = raw.iter().map(|form| form.shape.clone()).collect();
+        let pressed = modes.is_some().then(|| {
+            let mut structure = structure.clone();
+            structure.loads.extend(shapes.into_iter().flatten());
+            structure.pruned()
+        });
         let structure = structure.pruned();
         let multibody = self.has_masses.then(|| Multibody {
             bodies: self.rigid_bodies,
@@ -143,7 +156,7 @@ impl<'a> Resolver<'a, '_> {
             &coordinates,
             &holonomic,
         );
-        let mechanics = Mechanics {
+        let mut mechanics = Mechanics {
             forms: Forms {
                 time: self.eval.time,
                 coordinates: self.coordinates.iter().map(|c| c.symbol).collect(),
@@ -167,6 +180,9 @@ impl<'a> Resolver<'a, '_> {
             outputs: self.output_values,
             motion_symbols,
         };
+        let contacts = modes.zip(pressed).map(|(modes, structure)| {
+            contacts::assembled(bench, &mut mechanics, contacts, self.switches, modes, structure)
+        });
         let provides = scenes.iter().flat_map(|entry| &entry.scene.provides);
         let provides_operators =
             self.provides_operators || provides.into_iter().any(|provide| provide.name.text == "operators");
@@ -187,6 +203,7 @@ impl<'a> Resolver<'a, '_> {
             outputs: self.outputs,
             quaternions,
             reactions,
+            contacts,
             scenes,
             left_out: self.eval.left_out,
             provides_operators,

@@ -173,6 +173,8 @@ impl<R: Analytic> Meaning<R> {
             // Numbers for constants and inputs are given; gravity is known.
             Item::Constants(_) | Item::Inputs(_) | Item::Coordinates(_) | Item::Gravity(_) => {}
             Item::Provide(_) | Item::Scene(_) => {}
+            // No motion without contact depends on them, and the grammar has none.
+            Item::Switches(_) | Item::Contacts(_) | Item::Modes(_) => {}
         }
         Ok(())
     }

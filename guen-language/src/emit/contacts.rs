@@ -1,0 +1,297 @@
+//! Contacts: the trait by which they run, and modes with named fields.
+
+use proc_macro2::{Ident, TokenStream};
+use quote::{format_ident, quote};
+
+use super::documentation;
+use super::layout::Layout;
+use crate::derive::{Subject, function};
+use crate::model::{ContactEntry, ContactKind, ContactState, Contacts};
+use crate::syntax::type_of_states;
+
+pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
+    let (Some(contacts), Some(facts)) = (&subject.model.contacts, &subject.level.contacts) else {
+        return TokenStream::new();
+    };
+    let Layout { size, n, .. } = layout;
+    let count = contacts.entries.len();
+    let rows = contacts.rows().count();
+    let switches = contacts.switches.len();
+    let elements = elements(contacts);
+    let signals = contacts.switches.iter().map(|switch| {
+        let name = &switch.name.text;
+        quote!(__guen::hybrid::Signal::switch(#name))
+    });
+    let (owner, system) = match layout.inputs {
+        0 => (quote!(Prepared), quote!(self)),
+        _ => (quote!(Driven), quote!(self.system)),
+    };
+    let given = layout.inputs;
+    let inputs = match given {
+        0 => quote!([]),
+        _ => {
+            quote!(<[::core::primitive::f64; #given]>::from(self.inputs).map(<S as __guen::Lift<::core::primitive::f64>>::lift))
+        }
+    };
+    let lifted = quote! {
+        let constants = #system.constants.map(<S as __guen::Lift<::core::primitive::f64>>::lift);
+        let hoisted = #system.hoisted.map(<S as __guen::Lift<::core::primitive::f64>>::lift);
+        let inputs: [S; #given] = #inputs;
+    };
+    let program = |name: &str, rest: &TokenStream| {
+        let name = format_ident!("{name}");
+        quote!(program::#name(&constants, &hoisted, t, state, &inputs, #rest))
+    };
+    let has = |name: &str| subject.level.program(name).is_some();
+    let still = quote!(&[<S as __guen::Real>::zero(); #switches], &[<S as __guen::Real>::zero(); #count]);
+    let free_motion = program(function::FREE_MOTION, &quote!(switches, speeds));
+    let free_rates = program(function::FREE_RATES, &quote!(switches, &[<S as __guen::Real>::zero(); #count]));
+    let row_rates = has(function::ROW_RATES).then(|| {
+        let program = program(function::ROW_RATES, &still);
+        quote! {
+            #[inline]
+            fn row_rates<S: __guen::Lift<::core::primitive::f64>>(&self, t: S, state: &[S; #size]) -> [S; #rows] {
+                #lifted
+                #program
+            }
+        }
+    });
+    let row_drifts = has(function::ROW_DRIFTS).then(|| {
+        let program = program(function::ROW_DRIFTS, &still);
+        quote! {
+            #[inline]
+            fn row_drifts(
+                &self, t: ::core::primitive::f64, state: &[::core::primitive::f64; #size],
+            ) -> [::core::primitive::f64; #rows] {
+                type S = ::core::primitive::f64;
+                #lifted
+                #program
+            }
+        }
+    });
+    let conditions = has(function::CONDITIONS).then(|| {
+        let program =
+            program(function::CONDITIONS, &quote!(switches, &[<S as __guen::Real>::zero(); #count]));
+        quote! {
+            #[inline]
+            fn conditions<S: __guen::Lift<::core::primitive::f64>>(
+                &self, t: S, state: &[S; #size], switches: &[S; #switches],
+            ) -> __guen::hybrid::Conditions<S, #count> {
+                #lifted
+                __guen::checks::conditions(&#program)
+            }
+        }
+    });
+    let signal_values = if has(function::SIGNALS) {
+        let program = program(function::SIGNALS, &still);
+        quote!(#lifted #program)
+    } else {
+        quote!([])
+    };
+    let restitutions = if has(function::RESTITUTIONS) {
+        quote!(program::restitutions(&#system.constants, &#system.hoisted))
+    } else {
+        quote!([])
+    };
+    let inputs_type = match given {
+        0 => quote!(()),
+        _ => quote!(Inputs<::core::primitive::f64>),
+    };
+    let with_inputs = match given {
+        0 => quote!((): ()),
+        _ => quote!(inputs: Inputs<::core::primitive::f64>),
+    };
+    let held = match given {
+        0 => quote!(*self),
+        _ => quote!(self.system.driven(inputs)),
+    };
+    let painleve_free = facts.painleve_free;
+    let modes = modes(contacts);
+    let in_mode = in_mode(contacts, &[*size, rows, count, switches]);
+    let outputs = outputs(subject, layout, &[*size, rows, count, switches]);
+    quote! {
+        #modes
+
+        impl #owner<::core::primitive::f64> {
+            #in_mode
+            #outputs
+        }
+
+        #[allow(unused_variables, reason = "every function has the signature of the trait")]
+        impl __guen::hybrid::HybridSystem<#size, #rows, #count, #switches> for #owner<::core::primitive::f64> {
+            const ELEMENTS: [__guen::hybrid::Element; #count] = [#(#elements),*];
+            const SIGNALS: [__guen::hybrid::Signal; #switches] = [#(#signals),*];
+            const COORDINATES: ::core::primitive::usize = #n;
+            const PAINLEVE_FREE: ::core::primitive::bool = #painleve_free;
+
+            type Mode = Mode;
+            type Inputs = #inputs_type;
+
+            #[inline]
+            fn with_inputs(&self, #with_inputs) -> Self {
+                #held
+            }
+
+            #[inline]
+            fn free_motion<S: __guen::Lift<::core::primitive::f64>>(
+                &self, t: S, state: &[S; #size], switches: &[S; #switches], speeds: &[S; #count],
+            ) -> __guen::hybrid::FreeMotion<S, #size, #rows, #count> {
+                #lifted
+                __guen::checks::free_motion::<S, #n, #size, #rows, #count>(&#free_motion)
+            }
+
+            #[inline]
+            fn free_rates<S: __guen::Lift<::core::primitive::f64>>(
+                &self, t: S, state: &[S; #size], switches: &[S; #switches],
+            ) -> [S; #size] {
+                #lifted
+                #free_rates
+            }
+
+            #row_rates
+            #row_drifts
+            #conditions
+
+            #[inline]
+            fn restitutions(&self) -> [::core::primitive::f64; #count] {
+                #restitutions
+            }
+
+            #[inline]
+            fn signals<S: __guen::Lift<::core::primitive::f64>>(&self, t: S, state: &[S; #size]) -> [S; #switches] {
+                #signal_values
+            }
+
+            #[inline]
+            fn allows(&self, mode: &__guen::hybrid::Mode<#count>) -> ::core::primitive::bool {
+                MODES.contains(&::core::convert::From::from(*mode))
+            }
+
+        }
+    }
+}
+
+/// `in_mode`; `sizes` are the numbers of states, rows, contacts and switches.
+fn in_mode(contacts: &Contacts<'_>, sizes: &[usize; 4]) -> TokenStream {
+    let [size, rows, count, switches] = sizes;
+    let (parameter, values, docs) = if contacts.switches.is_empty() {
+        (quote!(), quote!([]), "")
+    } else {
+        let docs = ", with these values of its switches";
+        (quote!(, switches: [::core::primitive::bool; #switches]), quote!(switches), docs)
+    };
+    let docs = format!("The system in a mode{docs}: a smooth system that every stepper runs.");
+    quote! {
+        #[doc = #docs]
+        pub fn in_mode(
+            &self, mode: Mode #parameter
+        ) -> __guen::hybrid::InMode<Self, #size, #rows, #count, #switches> {
+            __guen::hybrid::InMode::anywhere(*self, ::core::convert::From::from(mode), #values)
+        }
+    }
+}
+
+/// `outputs_in_mode`, where there are outputs.
+fn outputs(subject: &Subject<'_, '_>, layout: &Layout, sizes: &[usize; 4]) -> Option<TokenStream> {
+    subject.level.program(function::CONTACT_OUTPUTS)?;
+    let [_, rows, count, switches] = sizes;
+    let (system, inputs) = match layout.inputs {
+        0 => (quote!(self), quote!(&[])),
+        _ => (quote!(self.system), quote!(&::core::convert::From::from(self.inputs))),
+    };
+    Some(quote! {
+        /// The declared outputs at a state in a mode, with the reactions of the contacts there.
+        pub fn outputs_in_mode(
+            &self, mode: Mode, t: ::core::primitive::f64, state: &State<::core::primitive::f64>,
+        ) -> Outputs<::core::primitive::f64> {
+            let state = &::core::convert::From::from(*state);
+            let in_mode = __guen::hybrid::InMode::<_, _, #rows, #count, #switches>::new(
+                *self, ::core::convert::From::from(mode), t, state,
+            );
+            let reactions = in_mode.reactions(t, state).reactions;
+            Outputs::from_values(&program::contact_outputs(
+                &#system.constants, &#system.hoisted, t, state, #inputs, &in_mode.switches(), &[0.0; #count], &reactions,
+            ))
+        }
+    })
+}
+
+/// The table of contacts, grips and latches.
+fn elements(contacts: &Contacts<'_>) -> Vec<TokenStream> {
+    let mut row = 0_usize;
+    contacts
+        .entries
+        .iter()
+        .map(|entry| {
+            let name = &entry.name.text;
+            let first = row;
+            row += entry.rows.len();
+            let tangential = first + usize::from(entry.gap.is_some())..row;
+            let element = match entry.kind {
+                ContactKind::Smooth => quote!(__guen::hybrid::Element::smooth(#name, #first)),
+                ContactKind::Planar | ContactKind::Spatial => {
+                    quote!(__guen::hybrid::Element::rough(#name, #first, &[#(#tangential),*]))
+                }
+                ContactKind::Grip => quote!(__guen::hybrid::Element::grip(#name, &[#(#tangential),*])),
+                ContactKind::Latch => quote!(__guen::hybrid::Element::latch(#name, #first)),
+            };
+            let loaded = entry.loaded_by.map(|row| quote!(.loaded_by(#row)));
+            let of_speed = entry.friction_of_speed.then(|| quote!(.with_friction_of_speed()));
+            quote!(#element #loaded #of_speed)
+        })
+        .collect()
+}
+
+/// `Mode`, the states of every contact, and the list of all modes.
+fn modes(contacts: &Contacts<'_>) -> TokenStream {
+    let entries = &contacts.entries;
+    let states = entries.iter().map(|entry| {
+        let name = type_of(entry);
+        let docs = format!("The state of `{}`.", entry.name);
+        let variants = entry.states().iter().map(|state| variant(*state));
+        quote!(__guen::contact_states! { #docs #name #(#variants)* })
+    });
+    let fields = entries.iter().map(|entry| {
+        let (ident, name) = (&entry.name.ident, type_of(entry));
+        let docs = documentation::entry(entry.docs, &format!("The state of `{}`.", entry.name), None);
+        let text = &entry.name.text;
+        quote!(#docs #ident #text #name;)
+    });
+    let count = entries.len();
+    let table = contacts.modes.iter().map(|mode| {
+        let fields = entries.iter().zip(mode).map(|(entry, state)| {
+            let (ident, name) = (&entry.name.ident, type_of(entry));
+            let variant = variant(entry.states()[*state]);
+            quote!(#ident: #name::#variant)
+        });
+        quote!(Mode { #(#fields),* })
+    });
+    quote! {
+        #(#states)*
+        __guen::contact_mode! { #count #(#fields)* }
+
+        /// Every mode that the declaration allows.
+        pub const MODES: &[Mode] = &[#(#table),*];
+    }
+}
+
+/// The type of the states of a contact.
+fn type_of(entry: &ContactEntry<'_>) -> Ident {
+    format_ident!("{}", type_of_states(entry.name), span = entry.name.span())
+}
+
+fn variant(state: ContactState) -> Ident {
+    format_ident!(
+        "{}",
+        match state {
+            ContactState::Open => "Open",
+            ContactState::Closed => "Closed",
+            ContactState::Stick => "Stick",
+            ContactState::SlipPlus => "SlipForward",
+            ContactState::SlipMinus => "SlipBackward",
+            ContactState::Slip => "Slip",
+            ContactState::Free => "Free",
+            ContactState::Locked => "Locked",
+        }
+    )
+}

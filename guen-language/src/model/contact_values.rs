@@ -1,0 +1,99 @@
+//! Contacts in outputs: `gap(name)`, `slip(name)` and `reaction(name)`.
+
+use guen_symbolic::ExprId;
+use proc_macro2::Span;
+
+use super::evaluate::{Evaluated, Evaluator};
+use super::place::Place;
+use super::scope::Category;
+use super::value::Value;
+use crate::diagnostics::Fault;
+use crate::names::{nearest, quoted};
+use crate::syntax::{Expression, ExpressionKind, Name};
+
+/// The words that are functions of contacts in outputs, and names like any other elsewhere.
+const GAP: &str = "gap";
+const SLIP: &str = "slip";
+
+/// A contact as outputs see it.
+#[derive(Clone)]
+pub(super) struct ContactValue {
+    /// The gap, or the function of a latch; none for a grip.
+    pub(super) gap: Option<ExprId>,
+    /// The velocity along it; none without friction.
+    pub(super) slip: Option<Value>,
+    /// Its force: a scalar of a smooth contact, a latch or a grip along a line; else the components along the gap and the slip.
+    pub(super) reaction: Value,
+    /// Whether it is a contact without friction.
+    pub(super) is_smooth: bool,
+}
+
+impl Evaluator<'_> {
+    /// Whether a call asks for something of a contact.
+    pub(super) fn is_of_contact(&self, function: &Name) -> bool {
+        let word = function.text.as_str();
+        (word == GAP || word == SLIP)
+            && self.scope.category(word).is_none()
+            && self.functions.get(word).is_none()
+    }
+
+    /// `gap(name)` or `slip(name)`.
+    pub(super) fn of_contact(&mut self, function: &Name, arguments: &[Expression], list: Span) -> Evaluated {
+        let word = function.text.as_str();
+        if self.place != Place::Output {
+            let place = self.place.description(self.entry.as_deref());
+            let fault =
+                Fault::new(function.span(), format!("{place} cannot ask for the {word} of a contact"));
+            return self.fail(fault.note("only `outputs` may").help("give the expression a name by `let`"));
+        }
+        let contact = self.contact_named(word, arguments, list)?;
+        let value = if word == GAP { contact.1.gap.map(Value::Scalar) } else { contact.1.slip };
+        match value {
+            Some(value) => Ok(value),
+            None => {
+                let name = contact.0;
+                self.fail(Fault::new(name.span(), format!("`{name}` has no {word}")))
+            }
+        }
+    }
+
+    /// The contact that a call names.
+    pub(super) fn contact_named<'e>(
+        &mut self,
+        word: &str,
+        arguments: &'e [Expression],
+        list: Span,
+    ) -> Evaluated<(&'e Name, ContactValue)> {
+        let [Expression { kind: ExpressionKind::Name(name), .. }] = arguments else {
+            let fault = Fault::new(list, format!("`{word}` takes the name of a contact"));
+            return self.fail(fault.help(format!("write `{word}(name)` with a name from `contacts`")));
+        };
+        if let Some(contact) = self.contacts.get(&name.text) {
+            let contact = contact.clone();
+            self.scope.refer(name);
+            return Ok((name, contact));
+        }
+        match self.scope.category(&name.text) {
+            // Its fault was reported.
+            Some(Category::Contact) => Err(self.faults.reported_before()),
+            Some(category) => {
+                let text = format!("`{name}` is {}, and no contact", category.noun());
+                self.fail(Fault::new(name.span(), text))
+            }
+            None if self.scope.declared_later(&name.text).is_some() => {
+                let fault = Fault::new(name.span(), format!("`{name}` is used before it is declared"));
+                self.fail(fault.help("move its declaration above this one"))
+            }
+            None => {
+                let names: Vec<String> = self.contacts.keys().cloned().collect();
+                let known = || names.iter().map(String::as_str);
+                let fault = Fault::new(name.span(), format!("unknown contact `{name}`"));
+                self.fail(match nearest(&name.text, known()) {
+                    Some(near) => fault.help(format!("did you mean `{near}`?")),
+                    None if names.is_empty() => fault.help("the system declares no contacts"),
+                    None => fault.help(format!("the contacts are {}", quoted(known()))),
+                })
+            }
+        }
+    }
+}

@@ -1,0 +1,200 @@
+//! `contacts` and `switches`: gaps, velocities along contacts, coefficients, conditions.
+
+mod along;
+mod assembled;
+mod coefficients;
+mod words;
+
+use guen_symbolic::FormShape;
+
+use super::*;
+use crate::limits::MAX_CONTACTS;
+use crate::model::contact::{ContactEntry, ContactKind, Row, SwitchEntry};
+use crate::model::contact_values::ContactValue;
+use crate::syntax::{Clause, ClauseWord, Contact, Switch, type_of_states};
+
+pub(super) use assembled::{assembled, refuse_scene};
+
+/// A contact on its way into the model: with the structure of its rows.
+pub(super) struct RawContact<'a> {
+    pub(super) entry: ContactEntry<'a>,
+    pub(super) shapes: Vec<Option<FormShape>>,
+}
+
+impl<'a> Resolver<'a, '_> {
+    /// `name: e;` of `switches`.
+    pub(super) fn switch(&mut self, switch: &'a Switch) {
+        self.eval.entry = Some(switch.name.text.clone());
+        let function = self.eval.scalar_at(Place::Switch, &switch.value);
+        let symbol = self.eval.bench.graph.symbol(&switch.name.text, Role::Input);
+        let function = function.and_then(|function| {
+            if self.eval.bench.graph.as_number(function).is_some() {
+                let text = format!("the switch `{}` never changes", switch.name);
+                return self.eval.fail(Fault::new(switch.value.extent(), text));
+            }
+            Ok(function)
+        });
+        self.declare_symbol(&switch.name, Category::Switch, symbol);
+        if let Ok(function) = function {
+            self.switches.push(SwitchEntry { name: &switch.name, docs: &switch.docs, symbol, function });
+        }
+    }
+
+    /// `name: gap = e, ..;` of `contacts`.
+    pub(super) fn contact(&mut self, contact: &'a Contact) {
+        self.eval.entry = Some(contact.name.text.clone());
+        let entry = self.entry(contact);
+        self.eval.scope.declare(self.eval.faults, &contact.name, Category::Contact, None);
+        self.type_of_states(contact);
+        match entry {
+            Ok(entry) if self.contacts.len() < MAX_CONTACTS => {
+                let value = self.value_of(&entry.entry);
+                self.eval.contacts.insert(contact.name.text.clone(), value);
+                self.contacts.push(entry);
+            }
+            Ok(_) => {
+                let text = format!("more than {MAX_CONTACTS} contacts");
+                self.eval.faults.report(
+                    Fault::new(contact.name.span(), text)
+                        .note("every combination of their states is a mode of its own"),
+                );
+            }
+            Err(_) => {}
+        }
+    }
+
+    /// The states of a contact are a type, which has the name of the contact.
+    fn type_of_states(&mut self, contact: &Contact) {
+        let name = &contact.name;
+        let own = type_of_states(name);
+        let others = self.contacts.iter().map(|other| other.entry.name);
+        let mut others = others.filter(|other| other.text != name.text);
+        let same = others.find(|other| type_of_states(other) == own);
+        let same = same.map(|other| format!("`{other}` has it, too"));
+        let taken = self.declaration.takes_type(&own).or(same);
+        if let Some(why) = taken {
+            let fault = Fault::new(name.span(), format!("a contact cannot be called `{name}` here"));
+            let fault = fault.note(format!("its states are the type `{own}`: {why}"));
+            self.eval.faults.report(fault.help("choose another name"));
+        }
+    }
+
+    /// A contact as outputs see it.
+    fn value_of(&self, entry: &ContactEntry<'_>) -> ContactValue {
+        let zero = self.eval.bench.graph.zero();
+        let of_rows = |rows: &[Row], of: fn(&Row) -> ExprId| match rows {
+            [row] => Value::Scalar(of(row)),
+            _ => Value::Vector(std::array::from_fn(|i| rows.get(i).map_or(zero, of))),
+        };
+        let tangential = &entry.rows[usize::from(entry.gap.is_some())..];
+        ContactValue {
+            gap: entry.gap,
+            slip: (!tangential.is_empty()).then(|| of_rows(tangential, |row| row.form)),
+            reaction: of_rows(&entry.rows, |row| row.force),
+            is_smooth: entry.kind == ContactKind::Smooth,
+        }
+    }
+
+    fn entry(&mut self, contact: &'a Contact) -> Evaluated<RawContact<'a>> {
+        let before = self.eval.faults.count();
+        let kind = self.kind(contact)?;
+        self.words(contact, kind);
+        let mut rows = Vec::new();
+        let mut shapes = Vec::new();
+        let mut gap = None;
+        if matches!(kind.word, ClauseWord::Gap | ClauseWord::Latch)
+            && let Ok(value) = self.gap(contact, kind)
+        {
+            gap = Some(value);
+            let rate = self.eval.total_rate(value);
+            self.eval.shapes.scalar_rate(&self.eval.bench.graph, value, rate);
+            shapes.push(self.eval.shapes.form(rate));
+            rows.push(rate);
+        }
+        let along = if kind.word == ClauseWord::Grip { Some(kind) } else { contact.clause(ClauseWord::Slip) };
+        if let Some(clause) = along
+            && let Ok((forms, structure)) = self.slip(contact, clause)
+        {
+            rows.extend(forms);
+            shapes.extend(structure);
+        }
+        let name = &contact.name.text;
+        let speed = along.map(|_| self.eval.bench.graph.symbol(&format!("speed of {name}"), Role::Input));
+        let coefficient = |this: &mut Self, word: ClauseWord| {
+            let clause = contact.clause(word)?;
+            this.coefficient(contact, clause, speed).ok()
+        };
+        let friction = coefficient(self, ClauseWord::Friction);
+        let stiction = coefficient(self, ClauseWord::Stiction);
+        let restitution = match contact.clause(ClauseWord::Restitution) {
+            Some(clause) => self.restitution(contact, clause).ok(),
+            None => None,
+        };
+        let force = |this: &mut Self, word: ClauseWord| {
+            let clause = contact.clause(word)?;
+            this.eval.scalar_at(Place::GripForce, &clause.value).ok()
+        };
+        let limit = force(self, ClauseWord::Limit);
+        let loaded_by = contact.clause(ClauseWord::Load).and_then(|clause| self.loading_row(clause));
+        let load = match loaded_by {
+            Some(_) => None,
+            None => force(self, ClauseWord::Load),
+        };
+        let loaded_by = loaded_by.flatten();
+        let condition = |this: &mut Self, word: ClauseWord| {
+            let clause = contact.clause(word)?;
+            let value = this.eval.scalar_at(Place::Condition, &clause.value).ok()?;
+            this.without_inputs(contact, clause, value).ok()
+        };
+        let when = condition(self, ClauseWord::When);
+        let release = condition(self, ClauseWord::Release);
+        if self.eval.faults.count() > before {
+            return Err(self.eval.faults.reported_before());
+        }
+        let graph = &mut self.eval.bench.graph;
+        let zero = graph.zero();
+        let at_rest = |graph: &mut Graph, e: ExprId| {
+            let still = speed.map(|speed| (speed, zero));
+            Substitution::new(still).of(graph, e)
+        };
+        let symbol = speed.and_then(|speed| graph.as_symbol(speed));
+        let friction_of_speed = friction.is_some_and(|friction| {
+            symbol.is_some_and(|speed| graph.symbols_in(&[friction]).contains(&speed))
+        });
+        let stiction = stiction.or_else(|| friction.map(|friction| at_rest(graph, friction)));
+        let limit = match (limit, friction, load) {
+            (None, Some(friction), Some(load)) => Some(graph.mul(friction, load)),
+            (limit, ..) => limit,
+        };
+        let tangential = rows.len() - usize::from(gap.is_some());
+        let kind_of = match (kind.word, tangential) {
+            (ClauseWord::Grip, _) => ContactKind::Grip,
+            (ClauseWord::Latch, _) => ContactKind::Latch,
+            (_, 0) => ContactKind::Smooth,
+            (_, 1) => ContactKind::Planar,
+            _ => ContactKind::Spatial,
+        };
+        let rows = rows.into_iter().enumerate().map(|(i, form)| {
+            let force = graph.symbol(&format!("force {i} of {name}"), Role::Input);
+            Row { form, force }
+        });
+        let entry = ContactEntry {
+            name: &contact.name,
+            docs: &contact.docs,
+            kind: kind_of,
+            gap,
+            gap_span: kind.value.extent(),
+            rows: rows.collect(),
+            friction,
+            stiction,
+            friction_of_speed,
+            speed,
+            restitution: restitution.unwrap_or(zero),
+            limit,
+            loaded_by,
+            when,
+            release,
+        };
+        Ok(RawContact { entry, shapes })
+    }
+}

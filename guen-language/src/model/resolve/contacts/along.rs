@@ -1,0 +1,87 @@
+//! The gap of a contact, and the velocity along it.
+
+use guen_symbolic::{Role, Roles, VelocityPartials};
+
+use super::*;
+
+impl Resolver<'_, '_> {
+    /// The gap: a function of time and coordinates.
+    pub(super) fn gap(&mut self, contact: &Contact, clause: &Clause) -> Evaluated<ExprId> {
+        let place = if clause.word == ClauseWord::Latch { Place::Latch } else { Place::Gap };
+        let gap = self.eval.scalar_at(place, &clause.value)?;
+        if self.eval.bench.graph.roles(gap).has(Role::Coordinate) {
+            return Ok(gap);
+        }
+        let what = if clause.word == ClauseWord::Latch { "latch" } else { "gap" };
+        let fault =
+            Fault::new(clause.value.extent(), format!("the {what} of `{}` never changes", contact.name));
+        self.eval.fail(fault.note("it depends on no coordinate"))
+    }
+
+    /// The velocity along a contact: its components that do not vanish, each with its structure.
+    pub(super) fn slip(
+        &mut self,
+        contact: &Contact,
+        clause: &Clause,
+    ) -> Evaluated<(Vec<ExprId>, Vec<Option<FormShape>>)> {
+        let word = clause.word.text();
+        let name = &contact.name;
+        let place = if clause.word == ClauseWord::Grip { Place::Grip } else { Place::Slip };
+        let value = self.eval.at(place, &clause.value)?;
+        let (forms, shapes): (Vec<_>, Vec<_>) = match &value {
+            Value::Scalar(form) => vec![(*form, self.eval.shapes.form(*form))],
+            Value::Vector(v) => {
+                let (graph, shapes) = (&self.eval.bench.graph, &self.eval.shapes);
+                (0..3).map(|i| (v[i], shapes.component(graph, v, i))).collect()
+            }
+            other => {
+                let text =
+                    format!("the {word} of `{name}` is a scalar or a vector, and this is {}", other.kind());
+                return self.eval.fail(Fault::new(clause.value.extent(), text));
+            }
+        }
+        .into_iter()
+        .unzip();
+        let moving = Roles::of(Role::Velocity).or(Roles::of(Role::QuasiVelocity));
+        if !forms.iter().any(|form| self.eval.bench.graph.roles(*form).meets(moving)) {
+            let text = format!("the {word} of `{name}` has no velocity");
+            let fault = Fault::new(clause.value.extent(), text);
+            return self.eval.fail(fault.help("the rate of a coordinate is written `dot(x)`"));
+        }
+        let mut kept = (Vec::new(), Vec::new());
+        let velocities = self.velocities.clone();
+        for (form, shape) in forms.into_iter().zip(shapes) {
+            let expanded = self.eval.expanded(form);
+            let mut partials = VelocityPartials::new(&self.eval.bench, &velocities, &[]);
+            let Some(parts) = partials.affine(&mut self.eval.bench, expanded) else {
+                let guilty = self.eval.guilty(&clause.value, &mut |eval, e| {
+                    let e = eval.expanded(e);
+                    let mut partials = VelocityPartials::new(&eval.bench, &velocities, &[]);
+                    partials.affine(&mut eval.bench, e).is_some()
+                });
+                let (span, term) = guilty.unwrap_or((clause.value.span, clause.value.source()));
+                let text = format!("the {word} of `{name}` is not linear in the velocities");
+                return self.eval.fail(Fault::new(span, text).note(format!("`{term}` is not")));
+            };
+            if !parts.on_velocities.is_empty() {
+                kept.0.push(form);
+                kept.1.push(shape);
+            } else if !self.eval.bench.vanishes(parts.offset) {
+                let text = format!("the {word} of `{name}` has a component without velocity");
+                return self.eval.fail(Fault::new(clause.value.extent(), text));
+            }
+        }
+        if kept.0.len() > 2 {
+            let text = format!("the {word} of `{name}` has three components");
+            let fault = Fault::new(clause.value.extent(), text)
+                .note("a contact has a normal and at most two tangents")
+                .help("write the tangential ones: `vec(inner(v, a), inner(v, b))`");
+            return self.eval.fail(fault);
+        }
+        if kept.0.is_empty() {
+            let text = format!("the {word} of `{name}` has no velocity");
+            return self.eval.fail(Fault::new(clause.value.extent(), text));
+        }
+        Ok(kept)
+    }
+}

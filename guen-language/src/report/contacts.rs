@@ -1,0 +1,92 @@
+//! Contacts in the report: rows, the Delassus matrix, modes, and whether a slip may have Painlevé's paradox.
+
+use super::lines::{Lines, Section, Writer, plural};
+use crate::derive::{ContactFacts, Subject};
+use crate::model::{ContactEntry, ContactKind, Contacts};
+
+/// Contacts and what was derived of them; nothing where there are none.
+pub(super) fn section(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Option<Section> {
+    let (contacts, facts) = (subject.model.contacts.as_ref()?, subject.level.contacts.as_ref()?);
+    let graph = &subject.model.bench.graph;
+    let mut lines = Lines::new(writer, "Contacts");
+    let mut names = Vec::new();
+    let mut rows = facts.rows.iter();
+    for entry in &contacts.entries {
+        for i in 0..entry.rows.len() {
+            let name = row_name(entry, i);
+            rows.next().into_iter().for_each(|row| lines.named(&name, *row));
+            names.push(name);
+        }
+    }
+    let mut entry = facts.delassus.iter();
+    for w in 0..names.len() {
+        for v in 0..=w {
+            let Some(value) = entry.next().filter(|value| !graph.is_zero(**value)) else { continue };
+            let name = format!("D[{}, {}]", names[w], names[v]);
+            let latex = format!("D_{{{}\\,{}}}", w + 1, v + 1);
+            lines.equation(&name, &latex, *value);
+        }
+    }
+    let mut section = lines.section;
+    section.text.extend(contacts.entries.iter().map(words));
+    section.text.extend(
+        contacts
+            .switches
+            .iter()
+            .map(|switch| format!("{} is a switch: {}", switch.name, graph.text(switch.function))),
+    );
+    section.text.push(plural(contacts.modes.len(), "mode"));
+    section.text.extend(painleve(contacts, facts));
+    Some(section)
+}
+
+/// The velocity of a row by its contact.
+fn row_name(entry: &ContactEntry<'_>, row: usize) -> String {
+    let name = &entry.name.text;
+    let tangential = row.checked_sub(usize::from(entry.gap.is_some()));
+    match (tangential, entry.rows.len() - usize::from(entry.gap.is_some())) {
+        (None, _) => format!("{name}_n"),
+        (Some(_), 1) => format!("{name}_t"),
+        (Some(i), _) => format!("{name}_t{}", i + 1),
+    }
+}
+
+fn words(entry: &ContactEntry<'_>) -> String {
+    let what = match entry.kind {
+        ContactKind::Smooth => "a contact without friction",
+        ContactKind::Planar => "a contact with friction along a line",
+        ContactKind::Spatial => "a contact with friction in a plane",
+        ContactKind::Grip => "a grip",
+        ContactKind::Latch => "a latch",
+    };
+    let mut states: Vec<&str> = entry.states().iter().map(|state| state.word()).collect();
+    states.dedup();
+    format!("{} is {what}: {}", entry.name, states.join(", "))
+}
+
+/// Whether every slip has one reaction.
+fn painleve(contacts: &Contacts<'_>, facts: &ContactFacts) -> Vec<String> {
+    let name = |place: usize| &contacts.entries[place].name;
+    if facts.coupled.is_empty() {
+        let is_rough = |entry: &ContactEntry<'_>| {
+            entry.friction.is_some() && matches!(entry.kind, ContactKind::Planar | ContactKind::Spatial)
+        };
+        return match contacts.entries.iter().any(is_rough) {
+            true => {
+                vec!["in every mode a slip has one reaction: D between slips and gaps vanishes".to_owned()]
+            }
+            false => Vec::new(),
+        };
+    }
+    let pair = |(slipping, touching): &(usize, usize)| match slipping == touching {
+        true => {
+            format!("where {} slips its reaction may have no value, or several (Painlevé)", name(*slipping))
+        }
+        false => format!(
+            "where {} slips that of {} may have no value, or several",
+            name(*slipping),
+            name(*touching)
+        ),
+    };
+    facts.coupled.iter().map(pair).collect()
+}

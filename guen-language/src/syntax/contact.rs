@@ -1,0 +1,155 @@
+//! Contacts, grips, latches, switches and modes as written.
+
+use proc_macro2::Span;
+
+use super::{Declaration, Docs, Expression, Item, Name};
+use crate::names::{is_generated_item, is_rust_keyword, type_name};
+
+/// `name: word = e, word = e, ..;` of `contacts`.
+#[derive(Debug, Clone)]
+pub struct Contact {
+    /// Doc comments.
+    pub docs: Docs,
+    /// The name.
+    pub name: Name,
+    /// The clauses, in the order in which they were written, each word at most once.
+    pub clauses: Vec<Clause>,
+}
+
+/// `word = e` of a contact.
+#[derive(Debug, Clone)]
+pub struct Clause {
+    /// The word.
+    pub word: ClauseWord,
+    /// Place of the word.
+    pub keyword: Span,
+    /// The value.
+    pub value: Expression,
+}
+
+/// The words of a contact.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ClauseWord {
+    /// The distance that stays nonnegative.
+    Gap,
+    /// The velocity that vanishes until its force is too large.
+    Grip,
+    /// The function that locks at zero.
+    Latch,
+    /// The velocity along the contact.
+    Slip,
+    /// The coefficient of friction.
+    Friction,
+    /// The coefficient that limits sticking.
+    Stiction,
+    /// The coefficient of restitution.
+    Restitution,
+    /// The largest force of a grip.
+    Limit,
+    /// The normal force of a grip.
+    Load,
+    /// The condition under which an open contact closes.
+    When,
+    /// The function whose rise unlocks a latch.
+    Release,
+}
+
+impl ClauseWord {
+    /// Every word, the kinds of contacts first.
+    pub const ALL: [ClauseWord; 11] = [
+        ClauseWord::Gap,
+        ClauseWord::Grip,
+        ClauseWord::Latch,
+        ClauseWord::Slip,
+        ClauseWord::Friction,
+        ClauseWord::Stiction,
+        ClauseWord::Restitution,
+        ClauseWord::Limit,
+        ClauseWord::Load,
+        ClauseWord::When,
+        ClauseWord::Release,
+    ];
+
+    /// The word in the language.
+    pub fn text(self) -> &'static str {
+        match self {
+            ClauseWord::Gap => "gap",
+            ClauseWord::Grip => "grip",
+            ClauseWord::Latch => "latch",
+            ClauseWord::Slip => "slip",
+            ClauseWord::Friction => "friction",
+            ClauseWord::Stiction => "stiction",
+            ClauseWord::Restitution => "restitution",
+            ClauseWord::Limit => "limit",
+            ClauseWord::Load => "load",
+            ClauseWord::When => "when",
+            ClauseWord::Release => "release",
+        }
+    }
+
+    /// Whether the word says what kind of contact it is.
+    pub fn is_kind(self) -> bool {
+        matches!(self, ClauseWord::Gap | ClauseWord::Grip | ClauseWord::Latch)
+    }
+}
+
+impl Contact {
+    /// The clause of a word, if it is there.
+    pub fn clause(&self, word: ClauseWord) -> Option<&Clause> {
+        self.clauses.iter().find(|clause| clause.word == word)
+    }
+}
+
+/// The type of the states of a contact: of `foot[0]`, whose field is `foot_0`, it is `Foot0`.
+pub fn type_of_states(contact: &Name) -> String {
+    type_name(contact.ident.to_string().trim_start_matches("r#"))
+}
+
+/// `name: e;` of `switches`.
+#[derive(Debug, Clone)]
+pub struct Switch {
+    /// Doc comments.
+    pub docs: Docs,
+    /// The name.
+    pub name: Name,
+    /// The function: the switch is 1 where it is positive, 0 elsewhere.
+    pub value: Expression,
+}
+
+/// A statement of `modes`.
+#[derive(Debug, Clone)]
+pub enum ModeStatement {
+    /// `contact: state, state;`: the states that the contact has.
+    States {
+        /// The contact.
+        contact: Name,
+        /// Its states.
+        states: Vec<Name>,
+    },
+    /// `never contact.state with contact.state ..;`: a combination that does not occur.
+    Never {
+        /// Place of the word `never`.
+        keyword: Span,
+        /// The contacts, each with its state.
+        combination: Vec<(Name, Name)>,
+    },
+}
+
+impl Declaration {
+    /// Tells why the states of a contact cannot be a type of this name, if they cannot.
+    pub fn takes_type(&self, name: &str) -> Option<String> {
+        let mut scenes = self.items.iter().filter_map(|item| match item {
+            Item::Scene(scene) => Some(&scene.name.text),
+            _ => None,
+        });
+        if name == "Mode" || is_generated_item(name) || is_rust_keyword(name) {
+            Some(format!("the module of `{}` has an item of this name", self.name))
+        } else if name == self.name.text {
+            Some("this is the name of the system".to_owned())
+        } else if scenes.any(|scene| scene == name) {
+            Some("this is the name of a scene".to_owned())
+        } else {
+            None
+        }
+    }
+}

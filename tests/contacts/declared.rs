@@ -1,0 +1,208 @@
+//! The systems of these tests: those of the reference scenes, as their README declares them, and further ones.
+
+use guen::mechanical_system;
+
+mechanical_system! {
+    pub system BouncingBall {
+        constants { g = 9.81, e = 4/5 }
+        coordinates { z }
+        parameters { v = dot(z); }
+        kinetic_energy = 1/2*v^2;
+        potential_energy = g*z;
+        contacts { floor: gap = z, restitution = e; }
+    }
+}
+
+mechanical_system! {
+    pub system BowlingBall {
+        constants { m = 7, a = 27/250, g = 9.81, mu = 3/20, c = 4, J = 2/5*m*a^2 }
+        coordinates { x, z, phi }
+        parameters { u = dot(x); w = dot(z); spin = dot(phi); }
+        kinetic_energy = m/2*(u^2 + w^2) + J/2*spin^2;
+        potential_energy = m*g*z;
+        switches { brake: (t - 3)*(9/2 - t); }
+        forces { -c*(t - 3)*brake along dot(phi); }
+        contacts { lane: gap = z - a, slip = dot(x) - a*dot(phi), friction = mu, restitution = 0; }
+    }
+}
+
+mechanical_system! {
+    pub system KaneImpact {
+        constants { e = 7/10, mu = 1/2, h }
+        coordinates { p, q }
+        let elbow = vec(sin(p), -cos(p));
+        let tip = elbow + vec(sin(q), -cos(q));
+        bodies {
+            upper { mass: 1, inertia: diag(0, 0, 1/12), center: elbow/2, orientation: rot_z(p) }
+            lower { mass: 1, inertia: diag(0, 0, 1/12), center: (elbow + tip)/2, orientation: rot_z(q) }
+        }
+        parameters { u = dot(p); w = dot(q); }
+        contacts { floor: gap = tip.y + h, slip = dot(tip).x, friction = mu, restitution = e; }
+    }
+}
+
+mechanical_system! {
+    pub system PainleveRod {
+        constants { m = 1, l = 1, g = 9.81, mu = 2, J = m*l^2/3 }
+        coordinates { x, z, theta }
+        let tip = vec(x - l*cos(theta), z - l*sin(theta));
+        bodies { rod { mass: m, inertia: diag(0, 0, J), center: vec(x, z), orientation: rot_z(theta) } }
+        gravity = vec(0, -g);
+        parameters { u = dot(x); w = dot(z); omega = dot(theta); }
+        contacts { end: gap = tip.y, slip = dot(tip).x, friction = mu, restitution = 0; }
+    }
+}
+
+mechanical_system! {
+    pub system PendulumStop {
+        constants { l = 1, g = 9.81, e = 3/5, limit = 1/5 }
+        coordinates { theta }
+        parameters { omega = dot(theta); }
+        kinetic_energy = l^2/2*omega^2;
+        potential_energy = -g*l*cos(theta);
+        contacts { stop: gap = theta + limit, restitution = e; }
+    }
+}
+
+mechanical_system! {
+    pub system PuckIncline {
+        constants { m = 1, g = 9.81, sa = 5/13, ca = 12/13, mu = 5/6 }
+        coordinates { x, y, n }
+        particles { m at vec(x, y, n); }
+        gravity = g*vec(sa, 0, -ca);
+        parameters { v = dot(vec(x, y, n)); }
+        contacts { plane: gap = n, slip = vec(dot(x), dot(y)), friction = mu, restitution = 0; }
+    }
+}
+
+mechanical_system! {
+    pub system StickSlip {
+        constants { m = 1, k = 1, vb = 1/5, mus = 1/10, delta = 3, g = 10 }
+        coordinates { x, z }
+        parameters { u = dot(x); w = dot(z); }
+        kinetic_energy = m/2*(u^2 + w^2);
+        potential_energy = k/2*x^2 + m*g*z;
+        contacts { belt: gap = z, slip = dot(x) - vb, friction = mus/(1 + delta*speed), restitution = 0; }
+    }
+}
+
+mechanical_system! {
+    pub system ThrownBall {
+        constants { m = 1, a = 1/10, J = 1/250, g = 9.81, e = 1/2, mu = 1/5 }
+        coordinates { x, z, phi }
+        parameters { u = dot(x); w = dot(z); spin = dot(phi); }
+        kinetic_energy = m/2*(u^2 + w^2) + J/2*spin^2;
+        potential_energy = m*g*z;
+        contacts { floor: gap = z - a, slip = dot(x) - a*dot(phi), friction = mu, restitution = e; }
+    }
+}
+
+mechanical_system! {
+    pub system TwoBalls {
+        constants { mA = 1, mB = 2, e = 1/2 }
+        coordinates { xA, xB }
+        parameters { a = dot(xA); b = dot(xB); }
+        kinetic_energy = mA/2*a^2 + mB/2*b^2;
+        contacts { wall: gap = xB, restitution = e; pair: gap = xA - xB, restitution = e; }
+    }
+}
+
+mechanical_system! {
+    /// The wheel of the design: driven, on a road with ice.
+    pub system Wheel {
+        constants { m > 0 = 20, a > 0 = 3/10, J > 0 = 1, c >= 0 = 1/2, g = 9.81, mu_road = 4/5, mu_ice = 1/10, e in 0..1 = 0 }
+        inputs { torque }
+        coordinates { x, z, phi }
+        bodies { wheel { mass: m, center: vec(x, z), inertia: diag(0, 0, J), orientation: rot_z(-phi) } }
+        gravity = vec(0, -g);
+        parameters { speed_ahead = dot(x); up = dot(z); spin = dot(phi); }
+        forces { torque along spin; -c*speed_ahead along speed_ahead; }
+        switches { ice: (x - 5)*(9 - x); }
+        let p = vec(x, z - a);
+        contacts {
+            /// The tyre on the road.
+            tyre: gap = z - a, slip = wheel.velocity_at(p).x, friction = mu_road + (mu_ice - mu_road)*ice, restitution = e;
+        }
+    }
+}
+
+mechanical_system! {
+    /// The hoop of the paper, rolling.
+    pub system Hoop {
+        constants { a > 0 = 2, A > 0 = 3/2, C > 0 = 5/2, g = 9.81 }
+        coordinates { theta, psi, phi, xi, eta, zeta }
+        let rolling = dot(psi)*cos(theta) + dot(phi);
+        parameters { eta1 = dot(theta); eta2 = dot(psi)*sin(theta); eta3 = rolling; }
+        constraints {
+            eta4: dot(xi) = a*sin(theta)*sin(psi)*dot(theta) - a*cos(theta)*cos(psi)*dot(psi) - a*cos(psi)*dot(phi);
+            eta5: dot(eta) + a*sin(theta)*cos(psi)*dot(theta) + a*cos(theta)*sin(psi)*dot(psi) + a*sin(psi)*dot(phi) = 0;
+            eta6: dot(zeta) - a*cos(theta)*dot(theta) = 0;
+        }
+        kinetic_energy = 1/2*(dot(xi)^2 + dot(eta)^2 + dot(zeta)^2) + 1/2*(A*eta1^2 + A*eta2^2 + C*eta3^2);
+        force_function = -a*g*sin(theta) + 0*(eta4 + eta5 + eta6);
+    }
+}
+
+mechanical_system! {
+    /// The hoop of the paper above a floor.
+    pub system HoopOnFloor {
+        constants { a > 0 = 2, A > 0 = 3/2, C > 0 = 5/2, g = 9.81, mu >= 0 = 1/2 }
+        coordinates { theta, psi, phi, xi, eta, zeta }
+        let rolling = dot(psi)*cos(theta) + dot(phi);
+        parameters {
+            eta1 = dot(theta); eta2 = dot(psi)*sin(theta); eta3 = rolling;
+            u = dot(xi); v = dot(eta); w = dot(zeta);
+        }
+        kinetic_energy = 1/2*(u^2 + v^2 + w^2) + 1/2*(A*eta1^2 + A*eta2^2 + C*eta3^2);
+        force_function = -g*zeta;
+        let slip_x = dot(xi) - a*sin(theta)*sin(psi)*dot(theta) + a*cos(theta)*cos(psi)*dot(psi) + a*cos(psi)*dot(phi);
+        let slip_y = dot(eta) + a*sin(theta)*cos(psi)*dot(theta) + a*cos(theta)*sin(psi)*dot(psi) + a*sin(psi)*dot(phi);
+        contacts { floor: gap = zeta - a*sin(theta), slip = vec(slip_x, slip_y), friction = mu; }
+        outputs { above = gap(floor); across = slip(floor); force = reaction(floor); }
+    }
+}
+
+mechanical_system! {
+    /// Four links, two feet that stick or slip, a knee that stops, a latch, a grip at the hip that a smooth stop loads, a rod on
+    /// top that keeps its height above a moving floor.
+    pub system Walker {
+        constants { g = 9.81, l > 0 = 2/3, mu >= 0 = 7/10, e in 0..1 = 1/4, rate = 3 }
+        inputs { hip }
+        coordinates { x, z, q1, q2, q3, q4 }
+        let p0 = vec(x, z);
+        let p1 = p0 + l*vec(sin(q1), -cos(q1));
+        let foot1 = p1 + l*vec(sin(q2), -cos(q2));
+        let p3 = p0 + l*vec(sin(q3), -cos(q3));
+        let foot2 = p3 + l*vec(sin(q4), -cos(q4));
+        particles { 5 at p0; 1 at p1; 1/2 at foot1; 1 at p3; 1/2 at foot2; }
+        gravity = vec(0, -g);
+        switches { late: t - 1; }
+        forces { hip*(1 + late) along dot(q1) - dot(q3); }
+        contacts {
+            heel: gap = foot1.y, slip = dot(foot1).x - sin(rate*t), friction = mu*(1 + 1/(1 + speed)), restitution = e;
+            toe: gap = foot2.y - sin(x)/10, slip = dot(foot2).x, friction = mu, stiction = 1;
+            knee: gap = q1 - q2;
+            lock: latch = q3 - q4, when = z, release = t - 2;
+            brake: grip = dot(q1) - dot(q3), friction = mu, load = reaction(knee);
+        }
+        modes { heel: open, stick; toe: open, slip; knee: open, closed; lock: free, locked; never heel.open with toe.open; }
+    }
+}
+
+mechanical_system! {
+    /// A table on feet, declared by a loop.
+    pub system Feet {
+        count n = 3;
+        constants { m > 0 = 2, J > 0 = 1, reach[n] = 1, g = 9.81, mu >= 0 = 1/2 }
+        coordinates { x, z, tilt }
+        parameters { u = dot(x); w = dot(z); omega = dot(tilt); }
+        kinetic_energy = m/2*(u^2 + w^2) + J/2*omega^2;
+        potential_energy = m*g*z;
+        for i in 0..n { let foot[i] = vec(x + (i - 1)*reach[i]*cos(tilt), z + (i - 1)*reach[i]*sin(tilt)); }
+        contacts {
+            for i in 0..n { leg[i]: gap = foot[i].y, slip = dot(foot[i]).x, friction = mu; }
+        }
+        modes { for i in 0..n { leg[i]: open, stick; } never leg[0].open with leg[2].open; }
+        outputs { load = reaction(leg[2]).x; }
+    }
+}

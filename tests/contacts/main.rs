@@ -1,0 +1,7 @@
+//! Declarations with contacts: what is generated for them, against independent calculations.
+
+mod declared;
+mod free_motion;
+#[path = "../../guen-runtime/tests/hybrid/json.rs"]
+mod json;
+mod reference;
