@@ -9,7 +9,7 @@
 //! sweeps merge SYSTEM MOTIONS FOLDER                                   # all parts put together
 //! ```
 //!
-//! Ends with a nonzero status where a digest differs, or where a sweep costs more than is promised.
+//! Ends with a nonzero status where a digest differs, or where a sweep costs much more than is aimed at.
 
 mod bits;
 mod cost;
