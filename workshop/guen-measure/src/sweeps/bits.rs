@@ -51,7 +51,7 @@ fn killed(system: &str, motions: u64, folder: &Path, kills: u32, whole: Duration
     let mut before_the_end = 0;
     for _ in 0..kills {
         let mut program = part(system, motions, folder, 0, 1)?.spawn()?;
-        std::thread::sleep(whole.mul_f64(0.5 * random()));
+        std::thread::sleep(whole.mul_f64(0.15 * random()));
         program.kill()?;
         before_the_end += u32::from(!program.wait()?.success());
     }
