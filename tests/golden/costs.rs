@@ -98,6 +98,8 @@ fn mechanisms() -> String {
         ("rods2", robots::rods(2, false)),
         ("rods4", robots::rods(4, false)),
         ("rods4-rel", robots::rods(4, true)),
+        ("rods2-pins", robots::pinned_rods(2)),
+        ("rods3-pins", robots::pinned_rods(3)),
         ("bars2", bars::in_angles(2)),
         ("bars2-xy", bars::in_points(2)),
     ];

@@ -80,6 +80,29 @@ pub fn rods(count: usize, is_relative: bool) -> String {
     )
 }
 
+/// The same rods, each with a quaternion and its centre as coordinates, pinned to each other by holonomic equations.
+pub fn pinned_rods(count: usize) -> String {
+    let list = |entry: &dyn Fn(usize) -> String| (1..=count).map(entry).collect::<Vec<_>>();
+    let turn = |i: usize| format!("quaternion(w{i}, x{i}, y{i}, z{i})");
+    let pin = |i: usize| match i {
+        1 => "p1 - l1/2*R1.x = vec(0, 0, 0)".to_owned(),
+        _ => format!("p{0} + l{0}/2*R{0}.x = p{i} - l{i}/2*R{i}.x", i - 1),
+    };
+    format!(
+        "pub system Rods {{ constants {{ g = 9.81, {} }} coordinates {{ {} }} {} holonomic {{ {} }} bodies {{ {} }} \
+         parameters {{ {} }} gravity = vec(0, 0, -g); }}",
+        list(&|i| format!("l{i} > 0, m{i} > 0, I{i} > 0, J{i} > 0")).join(", "),
+        list(&|i| format!("a{i}, b{i}, c{i}, w{i}, x{i}, y{i}, z{i}")).join(", "),
+        list(&|i| format!("let R{i} = {}; let p{i} = vec(a{i}, b{i}, c{i});", turn(i))).join(" "),
+        list(&|i| format!("unit{i}: w{i}^2 + x{i}^2 + y{i}^2 + z{i}^2 = 1; pin{i}: {};", pin(i))).join(" "),
+        list(&|i| format!(
+            "B{i} {{ mass: m{i}, inertia: diag(J{i}, I{i}, I{i}), center: p{i}, orientation: R{i} }}"
+        ))
+        .join(" "),
+        list(&|i| format!("spin{i} = angular_velocity_body({});", turn(i))).join(" "),
+    )
+}
+
 /// A declaration with a quaternion for the angles of the first body.
 pub fn on_quaternion(declaration: &str) -> String {
     let [orientation, angles] = ["rot_z(yaw)*rot_y(pitch)*rot_x(roll)", "yaw, pitch, roll"];

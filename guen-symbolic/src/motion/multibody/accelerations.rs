@@ -2,6 +2,7 @@
 
 use super::definitions::Def;
 use super::kinematics::Kinematics;
+use super::relations::turned_components;
 use super::tree::{Turn, Vec3, cross};
 use super::variables::{Class, Kind, Var};
 use crate::algebra::ExprId;
@@ -60,6 +61,9 @@ impl Kinematics<'_> {
         if let Some(acceleration) = self.by_component(var, axes, q) {
             return acceleration;
         }
+        if let Some(acceleration) = self.determined_otherwise(var, axes, q) {
+            return acceleration;
+        }
         if axes == self.tree.points[parent].axes {
             return self.acceleration_before(point, q);
         }
@@ -99,6 +103,43 @@ impl Kinematics<'_> {
                 self.numbers.dot(&column, &before)
             }
         })
+    }
+
+    /// The acceleration along a velocity that is turned back, or that the kinematics of another one determine.
+    fn determined_otherwise(&mut self, var: Var, axes: usize, q: usize) -> Option<Num> {
+        if self.variables.class(var) != Class::Of(var, Num::ONE) {
+            return None;
+        }
+        match self.plan.def(var)? {
+            Def::Back(image) => {
+                // Accelerations are vectors: they turn as velocities do.
+                let (images, _) = turned_components(self.tree, self.variables, image)?;
+                let place = images.iter().position(|var| *var == image)?;
+                let Kind::Velocity(point, _) = self.variables.kind(image) else { return None };
+                let entries: Vec<Num> = match &self.tree.axes[self.tree.points[point].axes].turn {
+                    Turn::World => return None,
+                    Turn::About { cosine, sine, .. } if place == 0 => vec![*cosine, sine.neg()],
+                    Turn::About { cosine, sine, .. } => vec![*sine, *cosine],
+                    Turn::By { matrix, .. } => matrix[place].to_vec(),
+                };
+                let mut sum = Num::ZERO;
+                for (image, entry) in images.into_iter().zip(entries) {
+                    let Kind::Velocity(point, q) = self.variables.kind(image) else { return None };
+                    let own = self.acceleration(point, q);
+                    let part = self.numbers.mul(entry, own);
+                    sum = self.numbers.add(sum, part);
+                }
+                Some(sum)
+            }
+            Def::Link(other) => {
+                let rate = self.link_rate(other, var);
+                let turning = self.turning(var, axes, q);
+                let weight = self.weight(axes)[q];
+                let sum = self.numbers.add(rate, turning);
+                Some(self.numbers.sub(sum, weight))
+            }
+            _ => None,
+        }
     }
 
     /// Whether a velocity vanishes or is a multiple of a parameter or a rate.
@@ -166,6 +207,9 @@ impl Kinematics<'_> {
             let rate = self.row_rate(row, var);
             let weight = self.weight(axes)[q];
             return self.numbers.sub(rate, weight);
+        }
+        if let Some(acceleration) = self.determined_otherwise(var, axes, q) {
+            return acceleration;
         }
         let parent = self.acceleration(node.parent, q);
         if let Some(arm) = &node.arm {

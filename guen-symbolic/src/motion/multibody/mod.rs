@@ -82,7 +82,14 @@ pub(super) fn rates(
     if on_manifold && rolls && !is_alone {
         return None;
     }
-    (0..POINTS).find_map(|point| attempt(bench, system, frame, partials, (point, on_manifold), &is_stated))
+    // What is pinned in the world may be found from its pins, where it is not found otherwise.
+    let ways = if system.holonomic.is_empty() { &[false][..] } else { &[false, true] };
+    ways.iter().find_map(|solves_back| {
+        (0..POINTS).find_map(|point| {
+            let point = (point, on_manifold);
+            attempt(bench, system, frame, partials, point, *solves_back, &is_stated)
+        })
+    })
 }
 
 fn has_general_turns(system: &Mechanics) -> bool {
@@ -129,8 +136,9 @@ pub(super) fn freed(
     let mut attempt = |free: &Mechanics, point| {
         let generation = bench.zero.generation();
         let mut own = Numbering::new(&mut bench.graph, (point, on_manifold), generation);
-        let (mass, forces) =
-            assembled(bench, &mut own, (free, l), frame, partials, |assembly, _| assembly.at_the_root())?;
+        let (mass, forces) = assembled(bench, &mut own, (free, l, false), frame, partials, |assembly, _| {
+            assembly.at_the_root()
+        })?;
         if !own.is_sound() {
             return None;
         }
@@ -158,7 +166,7 @@ pub(super) fn freed(
 fn assembled<T>(
     bench: &mut Workbench,
     numbers: &mut Numbering,
-    (system, moving): (&Mechanics, usize),
+    (system, moving, solves_back): (&Mechanics, usize, bool),
     frame: &Frame,
     partials: &mut VelocityPartials,
     then: impl FnOnce(&mut Assembly<'_>, Vec<Num>) -> Option<T>,
@@ -178,8 +186,14 @@ fn assembled<T>(
     let needed = assembly::needed(&tree, &variables).into_iter();
     let mut needed: Vec<_> = needed.chain(loads).chain(moved.map(|i| variables.rate(i))).collect();
     needed.extend(strain::needed(&tree, &variables, &strains));
-    let mut planner =
-        Planner { bench, numbers, tree: &tree, variables: &variables, known: FastMap::default() };
+    let mut planner = Planner {
+        bench,
+        numbers,
+        tree: &tree,
+        variables: &variables,
+        known: FastMap::default(),
+        solves_back,
+    };
     let plan = planner.plan(declared.rows, &declared.groups, &needed)?;
     let core = Core::new(&mut planner, &plan)?;
 
@@ -205,15 +219,17 @@ fn attempt(
     frame: &Frame,
     partials: &mut VelocityPartials,
     point: (usize, bool),
+    solves_back: bool,
     is_stated: impl Fn(u64) -> bool,
 ) -> Option<Found> {
     let (n, l) = (system.forms.len(), system.forms.degrees);
     let generation = bench.zero.generation();
     let mut own = Numbering::new(&mut bench.graph, point, generation);
-    let solved = assembled(bench, &mut own, (system, l), frame, partials, |assembly, velocities| {
-        let (accelerations, pivots, root) = assembly.solve()?;
-        Some((velocities, accelerations, pivots, root))
-    });
+    let solved =
+        assembled(bench, &mut own, (system, l, solves_back), frame, partials, |assembly, velocities| {
+            let (accelerations, pivots, root) = assembly.solve()?;
+            Some((velocities, accelerations, pivots, root))
+        });
     let (velocities, accelerations, pivots, root) = solved?;
     if !own.is_sound() {
         return None;
