@@ -164,10 +164,11 @@ pub mod __private {
     };
     pub use guen_runtime::{
         actuated, condition, conserved, contact_mode, contact_states, differentiable, domain, dynamics,
-        energy, facts, jacobians, laned, level_info, levels, linearizable, mass_form, monitored,
-        motion_of_system, onto_constraints, operators, output_map, prepare, prepared, program_functions,
-        rates, reaction_covector, reactions, record, reduce, reported, simulated, singularities,
-        state_of_system, steady_motions, structured, switches, uses, with_scalar,
+        energy, facts, held_through_modes, jacobians, laned, level_info, levels, linearizable, mass_form,
+        monitored, motion_of_system, onto_constraints, operators, output_map, prepare, prepared,
+        program_functions, rates, reaction_covector, reactions, record, reduce, reported, simulated,
+        simulated_through_modes, singularities, state_of_system, steady_motions, structured, switches, uses,
+        with_scalar,
     };
     pub use guen_runtime::{consistent, control, furthest_surplus, hybrid, serde_record, serde_structured};
 }

@@ -5,3 +5,4 @@ mod free_motion;
 #[path = "../../guen-runtime/tests/hybrid/json.rs"]
 mod json;
 mod reference;
+mod simulated;

@@ -101,7 +101,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
         0 => quote!((): ()),
         _ => quote!(inputs: Inputs<::core::primitive::f64>),
     };
-    let held = match given {
+    let with_held = match given {
         0 => quote!(*self),
         _ => quote!(self.system.driven(inputs)),
     };
@@ -109,8 +109,12 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let modes = modes(contacts);
     let in_mode = in_mode(contacts, &[*size, rows, count, switches]);
     let outputs = outputs(subject, layout, &[*size, rows, count, switches]);
+    let held = (given > 0).then(|| quote!(__guen::held_through_modes!();));
     quote! {
         #modes
+
+        __guen::simulated_through_modes!(#owner #size #rows #count #switches);
+        #held
 
         impl #owner<::core::primitive::f64> {
             #in_mode
@@ -129,7 +133,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
 
             #[inline]
             fn with_inputs(&self, #with_inputs) -> Self {
-                #held
+                #with_held
             }
 
             #[inline]

@@ -9,3 +9,4 @@ mod emitted;
 mod nalgebra_support;
 pub(crate) mod serde_support;
 pub(crate) mod shape;
+mod through_modes;

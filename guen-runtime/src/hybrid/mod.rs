@@ -112,3 +112,11 @@ pub use system::{Conditions, FreeMotion, HybridSystem};
 #[cfg(feature = "alloc")]
 pub use trajectory::HybridTrajectory;
 pub use transition::{Transition, TransitionKind};
+
+/// Implemented by nothing: the bound of methods that a system with contacts refuses.
+#[doc(hidden)]
+#[diagnostic::on_unimplemented(
+    message = "a run through modes takes no inputs that are functions of time and state",
+    note = "hold them, `.driven(inputs)`, and change them at given times: `.simulation(&start).inputs(&[(time, inputs)])`"
+)]
+pub trait ThroughModes {}

@@ -1,0 +1,96 @@
+//! `simulate` of systems with contacts: methods of their own, which go before those of the trait `Simulate`, whose motions know no contacts.
+
+/// `simulate` and `simulation` through modes: the owner, with the numbers of states, rows, elements and signals.
+#[doc(hidden)]
+#[cfg(feature = "alloc")]
+#[macro_export]
+macro_rules! simulated_through_modes {
+    ($Owner:ident $size:tt $rows:tt $count:tt $signals:tt) => {
+        impl $Owner<::core::primitive::f64> {
+            /// Simulates the motion from a state over a span of time, through its modes, with DOP853 at a tolerance of 1e-9.
+            ///
+            /// # Errors
+            ///
+            /// The reason why the motion could not go on, with the trajectory until then.
+            #[allow(clippy::type_complexity, clippy::result_large_err)]
+            pub fn simulate(
+                &self,
+                start: &State<::core::primitive::f64>,
+                span: ::core::ops::Range<::core::primitive::f64>,
+            ) -> ::core::result::Result<
+                $crate::hybrid::HybridTrajectory<
+                    Self,
+                    State<::core::primitive::f64>,
+                    $size,
+                    $rows,
+                    $count,
+                    $signals,
+                >,
+                $crate::hybrid::HybridSimulationError<
+                    Self,
+                    State<::core::primitive::f64>,
+                    $size,
+                    $rows,
+                    $count,
+                    $signals,
+                >,
+            > {
+                $crate::hybrid::SimulateModes::simulate(self, start, span)
+            }
+
+            /// A simulation through modes from a state, to be described further and run.
+            pub fn simulation(
+                &self,
+                start: &State<::core::primitive::f64>,
+            ) -> $crate::hybrid::HybridSimulation<
+                '_,
+                Self,
+                State<::core::primitive::f64>,
+                $size,
+                $rows,
+                $count,
+                $signals,
+            > {
+                $crate::hybrid::SimulateModes::simulation(self, start)
+            }
+        }
+    };
+}
+
+/// Nothing, without the feature `alloc`.
+#[doc(hidden)]
+#[cfg(not(feature = "alloc"))]
+#[macro_export]
+macro_rules! simulated_through_modes {
+    ($($tokens:tt)*) => {};
+}
+
+/// `simulation` of a prepared system with contacts and inputs, which asks for inputs that are held.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! held_through_modes {
+    () => {
+        impl<R: $crate::Real> Prepared<R> {
+            /// Refused: a run through modes takes inputs that are held, `driven(..)`, and changed at given times.
+            pub fn simulation<X>(&self, _start: &X)
+            where
+                Self: $crate::hybrid::ThroughModes,
+            {
+            }
+
+            /// Refused: a run through modes takes inputs that are held, `driven(..)`, and changed at given times.
+            pub fn with_inputs<X>(&self, _law: X)
+            where
+                Self: $crate::hybrid::ThroughModes,
+            {
+            }
+
+            /// Refused: a run through modes takes inputs that are held, `driven(..)`, and changed at given times.
+            pub fn with_law<X>(&self, _law: X)
+            where
+                Self: $crate::hybrid::ThroughModes,
+            {
+            }
+        }
+    };
+}
