@@ -44,6 +44,7 @@
 //! | `alloc` | with `std` | `simulate` and the `Trajectory` that it returns |
 //! | `std` | yes | `Std`, and lanes chosen at run time; recordings and pictures are in the crate `guen-study` |
 //! | `serde` | no | serde's traits for constants, states and inputs, and for reports of studies |
+//! | `components` | no | the module `components`: wheels, springs, motors, arms to be used in systems |
 //! | `study` | no | the module `study`: which method, real and step for which accuracy; recordings and pictures |
 //! | `viewer` | no | `study`, and in it `Viewer`: recordings as pages that play |
 #![no_std]
@@ -100,6 +101,10 @@ pub use guen_runtime::{Std, StdFunctions};
 #[cfg_attr(docsrs, doc(cfg(feature = "study")))]
 pub use guen_study as study;
 
+#[cfg(feature = "components")]
+#[cfg_attr(docsrs, doc(cfg(feature = "components")))]
+pub mod components;
+
 /// Declares a mechanical system and derives its equations of motion at compile time.
 ///
 /// For `pub system Hoop { .. }` it generates the struct `Hoop` of physical constants and, beside it, the module
@@ -135,9 +140,55 @@ macro_rules! mechanical_system {
     ($($declaration:tt)*) => { $crate::__private::mechanical_system! { crate = $crate; $($declaration)* } };
 }
 
-/// The items that a program needs in scope: the macro, and what integrates and simulates.
+/// Declares a component: a part of a mechanical system, to be used any number of times in any number of systems.
+///
+/// For `pub component Wheel(hub: vector, ..) { .. }` it generates the struct `Wheel` of the component's constants. A system has
+/// a wheel by `use Wheel as left { hub: e, .. }`. A component is imported like an item, from another module or another crate.
+/// The book describes components in the chapter "Components" (`docs/start/components.md` of the repository).
+///
+/// ```
+/// use guen::prelude::*;
+///
+/// mechanical_component! {
+///     /// A mass on a spring that hangs from `anchor`.
+///     pub component Spring(anchor: vector) {
+///         constants   { m > 0, k > 0, rest >= 0 = 0.1 }
+///         coordinates { length }
+///         particles   { m at anchor - vec(0, 0, length); }
+///         potential_energy = k/2*(length - rest)^2;
+///     }
+/// }
+///
+/// mechanical_system! {
+///     pub system Pair {
+///         constants   { M > 0, g = 9.81 }
+///         coordinates { z }
+///         particles   { M at vec(0, 0, z); }
+///         potential_energy = M*z^2;
+///         gravity     = vec(0, 0, -g);
+///         use Spring as left  { anchor: vec(-1, 0, z) }
+///         use Spring as right { anchor: vec( 1, 0, z) }
+///     }
+/// }
+///
+/// # fn main() -> Result<(), guen::ConstantsError> {
+/// let spring = Spring { m: 0.1, k: 20.0, rest: 0.1 };
+/// let pair = Pair { M: 1.0, g: 9.81, left: spring, right: Spring { k: 30.0, ..spring } }.prepare()?;
+/// assert_eq!(pair::State::NAMES, ["z", "left.length", "right.length", "z_rate", "left.length_rate", "right.length_rate"]);
+/// let rate = pair.rhs(0.0, &pair::State::default());
+/// assert!(rate.left.length_rate > 9.81);
+/// # Ok(())
+/// # }
+/// ```
+#[macro_export]
+macro_rules! mechanical_component {
+    (crate = $($rest:tt)*) => { $crate::__private::mechanical_component! { crate = $($rest)* } };
+    ($($declaration:tt)*) => { $crate::__private::mechanical_component! { crate = $crate; $($declaration)* } };
+}
+
+/// The items that a program needs in scope: the macros, and what integrates and simulates.
 pub mod prelude {
-    pub use crate::mechanical_system;
+    pub use crate::{mechanical_component, mechanical_system};
     pub use guen_runtime::prelude::*;
     #[cfg(feature = "study")]
     pub use guen_study::Export;
@@ -146,7 +197,9 @@ pub mod prelude {
 /// The items that expansions refer to; no part of the public interface.
 #[doc(hidden)]
 pub mod __private {
-    pub use guen_macros::{mechanical_system, page};
+    pub use guen_macros::{
+        mechanical_component, mechanical_component_with, mechanical_system, mechanical_system_with, page,
+    };
     pub use guen_runtime::checks::{
         self, Bound, check_constants, check_definite, check_fixed, check_hoisted, check_inertia,
         check_limits, check_mass, check_nonnegative, check_nonzero, check_pivot, check_positive,
@@ -156,11 +209,12 @@ pub mod __private {
     pub use guen_runtime::{
         Actuated, AuxiliaryStates, Bodies, Body, BracketCoefficients, Catastatic, Class, Coefficient,
         Coefficients, Conservative, ConstantsError, Convolutions, Cost, Derived, Differentiable,
-        DrivenSeries, Dual, HIGHEST_ORDER, Holonomic, IncompleteLieGroup, InputRecords, Invariants, Laned,
-        Level, LevelInfo, Levels, LieGroup, Lift, Liftable, Linearizable, Linearization, Monitored,
-        Nonholonomic, Operator, Ordered, OutputLinearization, OutputMap, Positions, PositionsError, Real,
-        Report, ReportSection, Rheonomic, RunningError, Scleronomic, Shape, Simulate, System, TaylorSeries,
-        Undriven, Unprepared, WithInputs, WithScalar, linearized, nalgebra_conversions, seeded,
+        DrivenSeries, Dual, HIGHEST_ORDER, Holonomic, IncompleteLieGroup, InputRecords, Instances,
+        Invariants, Laned, Level, LevelInfo, Levels, LieGroup, Lift, Liftable, Linearizable, Linearization,
+        Monitored, Nonholonomic, Operator, Ordered, OutputLinearization, OutputMap, Positions,
+        PositionsError, Real, Report, ReportSection, Rheonomic, RunningError, Scleronomic, Shape, Simulate,
+        System, TaylorSeries, Undriven, Unprepared, WithInputs, WithScalar, linearized, nalgebra_conversions,
+        seeded,
     };
     pub use guen_runtime::{
         actuated, condition, conserved, contact_mode, contact_states, differentiable, domain, dynamics,

@@ -126,6 +126,19 @@ impl Faults {
         }
     }
 
+    /// Names the instance in the faults that were reported since, which are mistakes in its component. Of one mistake that several
+    /// instances show the first stays.
+    pub fn of_instance(&mut self, before: usize, what: &str, place: Span) {
+        let at = |fault: &Fault| format!("{:?}", fault.span);
+        let known: BTreeSet<String> = self.faults[..before].iter().map(at).collect();
+        let mut index = 0;
+        self.faults.retain(|fault| {
+            index += 1;
+            index <= before || !known.contains(&at(fault))
+        });
+        self.note_since(before, what, place);
+    }
+
     /// Number of faults so far.
     pub fn count(&self) -> usize {
         self.faults.len()
@@ -208,7 +221,7 @@ pub fn line_of(span: Span) -> usize {
 }
 
 /// Line and column of a place: from the compiler inside a macro, from the text outside of one.
-fn position_of(span: Span) -> (usize, usize) {
+pub(crate) fn position_of(span: Span) -> (usize, usize) {
     if proc_macro::is_available() {
         let span = span.unwrap();
         return (span.line(), span.column());

@@ -12,6 +12,7 @@
 
 extern crate proc_macro;
 
+mod components;
 pub mod derive;
 pub mod diagnostics;
 pub mod emit;
@@ -47,10 +48,48 @@ use diagnostics::collect;
 /// assert!(items.to_string().contains("struct Pendulum"));
 /// ```
 pub fn expand(tokens: TokenStream) -> TokenStream {
-    let (declaration, report) = parse::parse(tokens);
+    let (declaration, report) = parse::written(tokens.clone());
     let Some(declaration) = declaration else {
         return report.to_compile_errors();
     };
+    let paths = syntax::imports(&declaration.items);
+    if !paths.is_empty() {
+        return components::gather(declaration.crate_path.as_ref(), "mechanical_system_with", &paths, tokens);
+    }
+    finish(declaration, report)
+}
+
+/// Expands one invocation of `mechanical_system!` to which the components that it uses have been added.
+pub fn expand_with(tokens: TokenStream) -> TokenStream {
+    let components::Gathered { tokens, bundles } = components::split(tokens);
+    let (declaration, report) = parse::written(tokens);
+    let Some(mut declaration) = declaration else {
+        return report.to_compile_errors();
+    };
+    declaration.imported = components::imported(&syntax::imports(&declaration.items), &bundles);
+    if declaration.imported.iter().any(|imported| imported.is_faulty) {
+        // The faults are reported where the components are declared.
+        let mut items = report.to_compile_errors();
+        let (declaration, _) = parse::unfolded(declaration, report);
+        items.extend(expand_outline(&declaration));
+        return items;
+    }
+    finish(declaration, report)
+}
+
+/// Expands one invocation of `mechanical_component!`: the struct of its constants, and the macro that brings its tokens to the
+/// systems that use it.
+pub fn expand_component(tokens: TokenStream) -> TokenStream {
+    components::expand(tokens)
+}
+
+/// Expands one invocation of `mechanical_component!` to which the components that it uses have been added.
+pub fn expand_component_with(tokens: TokenStream) -> TokenStream {
+    components::expand_with(tokens)
+}
+
+fn finish(declaration: syntax::Declaration, report: diagnostics::FaultReport) -> TokenStream {
+    let (declaration, report) = parse::unfolded(declaration, report);
     if !report.is_empty() {
         return with_outline(&declaration, &report);
     }

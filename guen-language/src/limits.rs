@@ -30,6 +30,12 @@ pub const MAX_NESTED_LOOPS: usize = 16;
 /// The most entries of a declaration once its loops are unfolded.
 pub const MAX_UNFOLDED: usize = 1_000_000;
 
+/// The most instances of components, those inside of components included.
+pub const MAX_INSTANCES: usize = 1_000;
+
+/// The deepest nesting of components inside of each other.
+pub const MAX_COMPONENT_DEPTH: usize = 16;
+
 /// The most scenes: each is derived anew.
 pub const MAX_SCENES: usize = 64;
 

@@ -75,6 +75,8 @@ pub const SECTIONS: &[&str] = &[
     "contacts",
     "modes",
     "outputs",
+    "component",
+    "use",
     "provide",
     "scene",
 ];
@@ -228,6 +230,12 @@ pub fn instead_of_section(word: &str) -> Option<&'static str> {
             "write `kinetic_energy = e;` and `potential_energy = e;`: the equations follow from both"
         }
         "u" => "write `force_function = e;`, or its negative as `potential_energy = e;`",
+        "extends" | "connect" | "connector" | "model" | "block" | "class" | "inherits" => {
+            "a part is declared by `component Name(a: vector) { .. }`, and used by `use Name as name { a: e }`"
+        }
+        "include" | "import" | "replicate" | "attach" | "instance" => {
+            "a component is imported with `use` of Rust in front of the system, and used by `use Name as name { a: e }`"
+        }
         "match" | "while" | "loop" => {
             "entries repeat as `for i in 0..n { .. }`, and are chosen by `if i < k { .. } else { .. }`"
         }

@@ -12,6 +12,26 @@ pub fn mechanical_system(tokens: TokenStream) -> TokenStream {
     guen_language::expand(tokens.into()).into()
 }
 
+/// Expands a system to which the components that it uses have been added; no part of the public interface.
+#[doc(hidden)]
+#[proc_macro]
+pub fn mechanical_system_with(tokens: TokenStream) -> TokenStream {
+    guen_language::expand_with(tokens.into()).into()
+}
+
+/// Expands the declaration of a component; documented in the facade.
+#[proc_macro]
+pub fn mechanical_component(tokens: TokenStream) -> TokenStream {
+    guen_language::expand_component(tokens.into()).into()
+}
+
+/// Expands a component to which those that it uses have been added; no part of the public interface.
+#[doc(hidden)]
+#[proc_macro]
+pub fn mechanical_component_with(tokens: TokenStream) -> TokenStream {
+    guen_language::expand_component_with(tokens.into()).into()
+}
+
 /// Sets the formulas in the documentation of an expansion; no part of the public interface.
 #[doc(hidden)]
 #[proc_macro]

@@ -104,6 +104,8 @@ pub use system::simulate::Simulate;
 pub use system::with_scalar::WithScalar;
 pub use system::{FromFn, Laned, MAX_SWITCHES, Monitored, System, from_fn};
 
+#[doc(hidden)]
+pub use generated::instances::Instances;
 #[cfg(feature = "serde")]
 #[doc(hidden)]
 pub use generated::serde_support::{

@@ -212,7 +212,8 @@ fn every_expectation_has_a_case() {
 }
 
 /// What each theme is about, as its page says. A new folder under `tests/ui` needs a line here.
-const THEMES: [(&str, &str); 15] = [
+const THEMES: [(&str, &str); 16] = [
+    ("components", "components, their arguments and their instances"),
     ("contacts", "contacts, grips, latches, switches and modes"),
     ("dimensions", "units and dimensions"),
     ("energies", "kinetic energy, force function, forces and gravity"),

@@ -22,6 +22,35 @@ mechanics::mechanical_system! {
     }
 }
 
+mechanics::mechanical_component! {
+    /// A mass on a spring.
+    pub component Spring(
+        /// Where it hangs.
+        anchor: vector,
+    ) {
+        constants   { m > 0, k > 0 = 1, I > 0 = m*k }
+        inputs      { pull }
+        coordinates { length, turned }
+        particles   { m at anchor - vec(0, 0, length); }
+        kinetic_energy = I/2*dot(turned)^2;
+        potential_energy = k/2*length^2;
+        forces      { pull along dot(length); }
+        outputs     { stretch = length; }
+    }
+}
+
+mechanics::mechanical_system! {
+    /// Springs at a beam.
+    pub system Beam {
+        constants   { M > 0 }
+        coordinates { z }
+        particles   { M at vec(0, 0, z); }
+        use Spring as one { anchor: vec(0, 0, z) }
+        for i in 0..2 { use Spring as more[i] { anchor: vec(i, 0, z) } }
+        scene Part { track one; fix more[1].k = 3; }
+    }
+}
+
 mechanics::mechanical_system! {
     pub system Motor {
         constants { J > 0, c >= 0 = 0.1 }

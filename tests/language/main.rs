@@ -7,6 +7,7 @@
 #[macro_use]
 extern crate guen_benchmarks;
 
+mod components;
 mod derived;
 mod edge_cases;
 mod families;

@@ -4,9 +4,10 @@ use guen_symbolic::ExprId;
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
-use super::fields::{Fields, plain};
+use super::fields::{Fields, Tree, plain};
 use super::formula::default_text;
 use super::layout::{Layout, REAL, is_derived, variable_name};
+use super::parts::{self, Modules};
 use super::text::tokens;
 use super::{documentation, limits, motion, physical, with_scalar};
 use crate::derive::Subject;
@@ -65,8 +66,8 @@ fn fields(subject: &Subject<'_, '_>, layout: &Layout) -> Vec<Field> {
 pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, report: &Report) -> TokenStream {
     let (system, declared) = (&layout.system, &layout.declared);
     let fields = fields(subject, layout);
-    let structure = Fields::new(fields.iter().map(|field| &field.written));
     let real = format_ident!("{}", if system == declared { REAL } else { "Scalar" });
+    let structure = Fields::new(fields.iter().map(|field| &field.written)).of_record("Constants").over(&real);
     let kind = |field: &Field| if field.is_derived { quote!(__guen::Derived<#real>) } else { quote!(#real) };
     let declared_fields: Vec<TokenStream> = structure
         .trees()
@@ -74,7 +75,12 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, report: &Report)
             let mut places = Vec::new();
             tree.leaves(&mut places);
             let (first, last) = (&fields[places[0]], &fields[places[places.len() - 1]]);
-            let (docs, kind) = (&first.docs, tree.of_type(&kind(first)));
+            let kind = tree.of_type(&kind(first));
+            if let Some(part) = tree.instance() {
+                let docs = parts::docs_of_instance(&subject.model.declaration.instances, part);
+                return quote!(#docs pub #ident: #kind,);
+            }
+            let docs = &first.docs;
             let range = (places.len() > 1).then(|| {
                 let range = format!("The entries `{}` to `{}`.", first.name, last.name);
                 quote!(#[doc = ""] #[doc = #range])
@@ -160,6 +166,26 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, report: &Report)
 
         #with_scalar
     }
+}
+
+/// Adds the types of the constants of instances.
+pub(super) fn parts(subject: &Subject<'_, '_>, layout: &Layout, modules: &mut Modules) {
+    let model = subject.model;
+    let whole = Fields::new(model.constants.iter().map(|constant| constant.name)).of_record("Constants");
+    if layout.is_whole {
+        return parts::add_constants(modules, &whole);
+    }
+    let fields = fields(subject, layout);
+    let structure = Fields::new(fields.iter().map(|field| &field.written)).of_record("Constants");
+    let docs = |tree: &Tree| match tree.instance() {
+        Some(part) => parts::docs_of_instance(&model.declaration.instances, part),
+        None => tree.first().map_or_else(TokenStream::new, |first| fields[first].docs.clone()),
+    };
+    let leaf = |place: usize| match fields[place].is_derived {
+        true => quote!(__guen::Derived<R>),
+        false => quote!(R),
+    };
+    parts::add_constants_of_scene(modules, &structure, &whole, &docs, &leaf);
 }
 
 /// Returns the code that makes numbers of constants that follow others; nothing where there are none.

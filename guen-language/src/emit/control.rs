@@ -1,14 +1,14 @@
 //! Methods for controllers, with the names of the declaration.
 
 use guen_symbolic::{Operation, Role};
-use proc_macro2::TokenStream;
+use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
 use super::fields::{Fields, Tree};
 use super::layout::{Layout, form_name, given, inputs};
 use crate::derive::{Subject, function};
 use crate::derive::{has_covector, known_combinations};
-use crate::syntax::Name;
+use crate::syntax::{Name, Step};
 
 pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     if !layout.is_whole {
@@ -165,8 +165,10 @@ fn reactions(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
         }
     });
     let vectors = vectors(subject, layout);
+    let of_instances = of_instances(&vectors);
+    let vectors: Vec<_> = vectors.into_iter().filter(|(name, _)| inner_module(name).is_none()).collect();
     let structure = Fields::new(vectors.iter().map(|(name, _)| name));
-    let values: Vec<TokenStream> = vectors.into_iter().map(|(_, value)| value).collect();
+    let values: Vec<TokenStream> = vectors.into_iter().map(|(_, value)| quote!([#(#value),*])).collect();
     let methods = structure.trees().map(|(name, tree)| {
         let docs = match tree {
             Tree::Leaf(_) => format!(
@@ -192,17 +194,59 @@ fn reactions(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
             }
         }
     });
-    quote!(#covector #vectors)
+    quote!(#covector #vectors #of_instances)
+}
+
+/// The module of the instance that a name belongs to.
+fn inner_module(name: &Name) -> Option<Vec<Ident>> {
+    let path = name.path()?;
+    let fields = path.steps.iter().filter_map(|step| match step {
+        Step::Field(field) => Some(field.clone()),
+        Step::Index { .. } => None,
+    });
+    let mut module: Vec<Ident> = std::iter::once(path.root.clone()).chain(fields).collect();
+    module.pop();
+    (!module.is_empty()).then_some(module)
+}
+
+/// The reactions of vector constraints of instances, as methods of the structs of these.
+fn of_instances(vectors: &[(Name, [TokenStream; 3])]) -> TokenStream {
+    let mut seen = std::collections::BTreeSet::new();
+    let methods = vectors.iter().filter_map(|(name, value)| {
+        let module = inner_module(name)?;
+        let Some(Step::Field(own)) = name.path()?.steps.last() else { return None };
+        let known: Vec<String> = module.iter().chain([own]).map(ToString::to_string).collect();
+        if !seen.insert(known) {
+            // Another entry of an array of instances.
+            return None;
+        }
+        let parts = ["_x", "_y", "_z"].into_iter().zip(value).map(|(axis, value)| {
+            let part = quote::format_ident!("{own}{axis}", span = own.span());
+            if value.to_string().starts_with("self") { quote!(self.#part) } else { value.clone() }
+        });
+        let docs = format!(
+            "The reaction of the vector constraint `{own}`, as a force or torque in the world's axes."
+        );
+        Some(quote! {
+            impl<R: __guen::Real> #(#module::)* Reactions<R> {
+                #[doc = #docs]
+                pub fn #own(&self) -> [R; 3] {
+                    [#(#parts),*]
+                }
+            }
+        })
+    });
+    methods.collect()
 }
 
 /// Constraints that were written as vectors, with the components of their reactions; of a component that
 /// says `0 = 0` there is none. Left out if a reaction is not known.
-fn vectors(subject: &Subject<'_, '_>, layout: &Layout) -> Vec<(Name, TokenStream)> {
+fn vectors(subject: &Subject<'_, '_>, layout: &Layout) -> Vec<(Name, [TokenStream; 3])> {
     let known = &subject.level.selection.reactions;
     let names: Vec<Name> = known.iter().map(|form| form_name(&subject.model.forms[*form])).collect();
     let reactions = Fields::new(&names);
     let constraints = &subject.model.forms[layout.l..];
-    let mut found: Vec<(Name, TokenStream)> = Vec::new();
+    let mut found: Vec<(Name, [TokenStream; 3])> = Vec::new();
     for form in constraints {
         let name = form.written;
         if form.name == name.text || found.iter().any(|(known, _)| known.text == name.text) {
@@ -222,7 +266,7 @@ fn vectors(subject: &Subject<'_, '_>, layout: &Layout) -> Vec<(Name, TokenStream
             }
         });
         if let [Some(x), Some(y), Some(z)] = parts {
-            found.push((name.clone(), quote!([#x, #y, #z])));
+            found.push((name.clone(), [x, y, z]));
         }
     }
     found

@@ -3,7 +3,7 @@
 //! A name is the way to its value: `q[3]` is the entry 3 of the field `q`. Where a struct has only some entries of an array,
 //! as that of a scene may, each has a field of its own, `q_3`.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
@@ -25,8 +25,23 @@ pub(super) enum Tree {
     Leaf(usize),
     /// An array.
     Array(Vec<Tree>),
-    /// A component with its fields.
-    Instance(Vec<(Ident, Tree)>),
+    /// An instance of a component.
+    Instance(Part),
+}
+
+/// The values of an instance, in a struct of their own: `State` in the module `left` has the states of the instance `left`.
+#[derive(Clone)]
+pub(super) struct Part {
+    /// The fields.
+    pub(super) fields: Vec<(Ident, Tree)>,
+    /// The module of the struct, seen from that of the level: `left::hip`.
+    pub(super) module: Vec<Ident>,
+    /// The module of the level, seen from where the struct is named: nothing, or `super::`.
+    level: TokenStream,
+    /// The name of the struct.
+    record: &'static str,
+    /// The type of reals.
+    real: TokenStream,
 }
 
 /// A value on its way into the tree: the steps that are left, and its place in the list.
@@ -38,7 +53,11 @@ impl Fields {
         let names: Vec<&Name> = names.into_iter().collect();
         let mut order: Vec<&Ident> = Vec::new();
         let mut groups: BTreeMap<String, Vec<Waiting<'_>>> = BTreeMap::new();
+        let incomplete = incomplete(&names);
         for (place, name) in names.iter().enumerate() {
+            if incomplete.contains(&template(name)) {
+                continue;
+            }
             let group = groups.entry(name.root().to_string()).or_default();
             if group.is_empty() {
                 order.push(name.root());
@@ -49,7 +68,7 @@ impl Fields {
         let mut accesses = vec![TokenStream::new(); names.len()];
         for root in order {
             let group = &groups[&root.to_string()];
-            match tree(group) {
+            match tree(group, std::slice::from_ref(root)) {
                 Some(tree) => {
                     tree.reach(&quote!(#root), &mut accesses);
                     fields.push((root.clone(), tree));
@@ -63,7 +82,42 @@ impl Fields {
                 }
             }
         }
+        for (place, name) in names.iter().enumerate().filter(|(_, name)| incomplete.contains(&template(name)))
+        {
+            let own = &name.ident;
+            accesses[place] = quote!(#own);
+            fields.push((own.clone(), Tree::Leaf(place)));
+        }
         Fields { fields, names: names.into_iter().map(|name| name.text.clone()).collect(), accesses }
+    }
+
+    /// Sets the name of the record, whose instances have structs of that name.
+    pub(super) fn of_record(mut self, record: &'static str) -> Self {
+        self.each_part(&mut |part| part.record = record);
+        self
+    }
+
+    /// Sets the name of the type of reals.
+    pub(super) fn over(mut self, real: &Ident) -> Self {
+        self.each_part(&mut |part| part.real = quote!(#real));
+        self
+    }
+
+    /// Names structs from a module inside of that of the level.
+    pub(super) fn of_outer(mut self) -> Self {
+        self.each_part(&mut |part| part.level = quote!(super::));
+        self
+    }
+
+    fn each_part(&mut self, change: &mut dyn FnMut(&mut Part)) {
+        self.fields.iter_mut().for_each(|(_, tree)| tree.each_part(change));
+    }
+
+    /// The instances, each behind the one that it is a part of; of an array of them the first.
+    pub(super) fn parts(&self) -> Vec<&Part> {
+        let mut found = Vec::new();
+        self.fields.iter().for_each(|(_, tree)| tree.parts(&mut found));
+        found
     }
 
     /// Whether every value has a field of its own.
@@ -137,8 +191,31 @@ impl Fields {
     }
 }
 
+/// A name without the numbers of its indices: entries of one array have one of them.
+fn template(name: &Name) -> String {
+    let steps = name.path().into_iter().flat_map(|path| &path.steps);
+    let steps = steps.map(|step| match step {
+        Step::Index { .. } => "[]".to_owned(),
+        Step::Field(field) => format!(".{field}"),
+    });
+    std::iter::once(name.root().to_string()).chain(steps).collect()
+}
+
+/// The templates of arrays of which there are some entries only.
+fn incomplete(names: &[&Name]) -> BTreeSet<String> {
+    let mut counts: BTreeMap<String, (usize, usize)> = BTreeMap::new();
+    for name in names {
+        let sizes = name.path().into_iter().flat_map(|path| &path.steps).map(|step| match step {
+            Step::Index { of, .. } => *of,
+            Step::Field(_) => 1,
+        });
+        counts.entry(template(name)).or_insert((0, sizes.product())).0 += 1;
+    }
+    counts.into_iter().filter(|(_, (found, all))| found != all).map(|(template, _)| template).collect()
+}
+
 /// The tree of values with steps before them; none where an array would have gaps or entries of several kinds.
-fn tree(waiting: &[Waiting<'_>]) -> Option<Tree> {
+fn tree(waiting: &[Waiting<'_>], module: &[Ident]) -> Option<Tree> {
     if let [([], place)] = waiting {
         return Some(Tree::Leaf(*place));
     }
@@ -160,12 +237,17 @@ fn tree(waiting: &[Waiting<'_>]) -> Option<Tree> {
     }
     match (rows.is_empty(), fields.is_empty()) {
         (false, true) => {
-            let entries: Option<Vec<Tree>> = (0..length).map(|at| tree(rows.get(&at)?)).collect();
+            let entries: Option<Vec<Tree>> = (0..length).map(|at| tree(rows.get(&at)?, module)).collect();
             entries.filter(|entries| entries.iter().all(|entry| entry.is_like(&entries[0]))).map(Tree::Array)
         }
         (true, false) => {
-            let fields = fields.into_iter().map(|(ident, group)| Some((ident, tree(&group)?)));
-            fields.collect::<Option<_>>().map(Tree::Instance)
+            let fields = fields.into_iter().map(|(ident, group)| {
+                let inner: Vec<Ident> = module.iter().cloned().chain([ident.clone()]).collect();
+                Some((ident, tree(&group, &inner)?))
+            });
+            let fields = fields.collect::<Option<_>>()?;
+            let (module, level) = (module.to_vec(), TokenStream::new());
+            Some(Tree::Instance(Part { fields, module, level, record: "", real: quote!(R) }))
         }
         _ => None,
     }
@@ -180,9 +262,61 @@ impl Tree {
                 a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.is_like(b))
             }
             (Tree::Instance(a), Tree::Instance(b)) => {
+                let (a, b) = (&a.fields, &b.fields);
                 a.len() == b.len() && a.iter().zip(b).all(|((i, a), (j, b))| i == j && a.is_like(b))
             }
             _ => false,
+        }
+    }
+
+    /// A value that is everywhere the same, inside of the module of an instance.
+    pub(super) fn inner_filled(&self, value: &TokenStream, depth: usize) -> TokenStream {
+        let mut inner = self.clone();
+        inner.each_part(&mut |part| part.level = outward(depth));
+        inner.filled(value)
+    }
+
+    /// The instance that the field is, or of an array of them the first.
+    pub(super) fn instance(&self) -> Option<&Part> {
+        match self {
+            Tree::Leaf(_) => None,
+            Tree::Array(entries) => entries.first()?.instance(),
+            Tree::Instance(part) => Some(part),
+        }
+    }
+
+    fn each_part(&mut self, change: &mut dyn FnMut(&mut Part)) {
+        match self {
+            Tree::Leaf(_) => {}
+            Tree::Array(entries) => entries.iter_mut().for_each(|entry| entry.each_part(change)),
+            Tree::Instance(part) => {
+                change(part);
+                part.fields.iter_mut().for_each(|(_, tree)| tree.each_part(change));
+            }
+        }
+    }
+
+    fn parts<'a>(&'a self, found: &mut Vec<&'a Part>) {
+        match self {
+            Tree::Leaf(_) => {}
+            Tree::Array(entries) => entries.iter().take(1).for_each(|entry| entry.parts(found)),
+            Tree::Instance(part) => {
+                found.push(part);
+                part.fields.iter().for_each(|(_, tree)| tree.parts(found));
+            }
+        }
+    }
+
+    /// The type inside of the module of an instance, where the level is some modules further out, from that of a value.
+    pub(super) fn inner_type(&self, leaf: &dyn Fn(usize) -> TokenStream, depth: usize) -> TokenStream {
+        match self {
+            Tree::Leaf(place) => leaf(*place),
+            Tree::Array(entries) => {
+                let count = entries.len();
+                let inner = entries.first().map_or_else(|| quote!(R), |entry| entry.inner_type(leaf, depth));
+                quote!([#inner; #count])
+            }
+            Tree::Instance(part) => part.of_type(&outward(depth)),
         }
     }
 
@@ -193,8 +327,8 @@ impl Tree {
                 let at = proc_macro2::Literal::usize_unsuffixed(at);
                 entry.reach(&quote!(#way[#at]), accesses);
             }),
-            Tree::Instance(fields) => {
-                fields.iter().for_each(|(field, tree)| tree.reach(&quote!(#way.#field), accesses));
+            Tree::Instance(part) => {
+                part.fields.iter().for_each(|(field, tree)| tree.reach(&quote!(#way.#field), accesses));
             }
         }
     }
@@ -204,7 +338,7 @@ impl Tree {
         match self {
             Tree::Leaf(place) => places.push(*place),
             Tree::Array(entries) => entries.iter().for_each(|entry| entry.leaves(places)),
-            Tree::Instance(fields) => fields.iter().for_each(|(_, tree)| tree.leaves(places)),
+            Tree::Instance(part) => part.fields.iter().for_each(|(_, tree)| tree.leaves(places)),
         }
     }
 
@@ -224,11 +358,7 @@ impl Tree {
                 let inner = entries.first().map_or_else(|| leaf.clone(), |entry| entry.of_type(leaf));
                 quote!([#inner; #count])
             }
-            // A struct of its own stands for these.
-            Tree::Instance(fields) => {
-                let inner = fields.iter().map(|(_, tree)| tree.of_type(leaf));
-                quote!((#(#inner,)*))
-            }
+            Tree::Instance(part) => part.of_type(&TokenStream::new()),
         }
     }
 
@@ -240,9 +370,13 @@ impl Tree {
                 let entries = entries.iter().map(|entry| entry.literal(values));
                 quote!([#(#entries),*])
             }
-            Tree::Instance(fields) => {
-                let fields = fields.iter().map(|(_, tree)| tree.literal(values));
-                quote!((#(#fields,)*))
+            Tree::Instance(part) => {
+                let path = part.path(&part.level);
+                let fields = part.fields.iter().map(|(ident, tree)| {
+                    let value = tree.literal(values);
+                    quote!(#ident: #value)
+                });
+                quote!(#path { #(#fields),* })
             }
         }
     }
@@ -255,9 +389,13 @@ impl Tree {
                 let inner = entries.first().map_or_else(|| value.clone(), |entry| entry.filled(value));
                 quote!(::core::array::from_fn(|_| #inner))
             }
-            Tree::Instance(fields) => {
-                let fields = fields.iter().map(|(_, tree)| tree.filled(value));
-                quote!((#(#fields,)*))
+            Tree::Instance(part) => {
+                let path = part.path(&part.level);
+                let fields = part.fields.iter().map(|(ident, tree)| {
+                    let value = tree.filled(value);
+                    quote!(#ident: #value)
+                });
+                quote!(#path { #(#fields),* })
             }
         }
     }
@@ -272,14 +410,38 @@ impl Tree {
                 );
                 quote!(__guen::Shape::Array(#count, &#inner))
             }
-            Tree::Instance(fields) => {
-                let fields = fields.iter().map(|(ident, tree)| {
+            Tree::Instance(part) => {
+                let fields = part.fields.iter().map(|(ident, tree)| {
                     let (name, shape) = (plain(ident), tree.shape());
                     quote!((#name, #shape))
                 });
                 quote!(__guen::Shape::Struct(&[#(#fields),*]))
             }
         }
+    }
+}
+
+/// The way out of some modules.
+pub(super) fn outward(depth: usize) -> TokenStream {
+    (0..depth).flat_map(|_| quote!(super::)).collect()
+}
+
+impl Part {
+    /// Whether both have the same fields.
+    pub(super) fn is_like(&self, other: &Part) -> bool {
+        Tree::Instance(self.clone()).is_like(&Tree::Instance(other.clone()))
+    }
+
+    /// The struct, where the level is further out by some `super::`.
+    fn path(&self, outer: &TokenStream) -> TokenStream {
+        let (module, record) = (&self.module, quote::format_ident!("{}", self.record));
+        quote!(#outer #(#module::)* #record)
+    }
+
+    fn of_type(&self, outer: &TokenStream) -> TokenStream {
+        let outer = if outer.is_empty() { &self.level } else { outer };
+        let (path, real) = (self.path(outer), &self.real);
+        quote!(#path<#real>)
     }
 }
 

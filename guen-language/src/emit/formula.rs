@@ -1,6 +1,6 @@
 //! Expressions of constants as Rust: defaults, limits, masses.
 
-use guen_symbolic::ExprId;
+use guen_symbolic::{ExprId, Graph, SymbolId};
 
 use super::code::number;
 use crate::derive::Subject;
@@ -8,23 +8,29 @@ use crate::derive::Subject;
 /// An expression of constants as one of Rust over the locals `__guen_c0`, `__guen_c1`, .., one for each field; constants
 /// that a scene fixes are at their values.
 pub(super) fn default_text(subject: &Subject<'_, '_>, e: ExprId) -> String {
-    use guen_symbolic::Node;
-    let of = |e| default_text(subject, e);
     let graph = &subject.model.bench.graph;
     let constants = &subject.model.constants;
+    text_of(graph, e, &|symbol| {
+        let is_it = |c: &usize| graph.as_symbol(constants[*c].symbol) == Some(symbol);
+        let fixes = subject.scene().map_or(&[][..], |(_, facts)| &facts.fixes);
+        match subject.level.selection.constants.iter().position(is_it) {
+            Some(i) => format!("__guen_c{i}"),
+            None => {
+                let value = fixes.iter().find(|(c, _)| is_it(c));
+                value.map_or_else(String::new, |(_, value)| default_text(subject, *value))
+            }
+        }
+    })
+}
+
+/// An expression as one of Rust, from what stands for its symbols.
+pub(super) fn text_of(graph: &Graph, e: ExprId, symbol: &dyn Fn(SymbolId) -> String) -> String {
+    use guen_symbolic::Node;
+    let of = |e| text_of(graph, e, symbol);
     match graph.node(e) {
         Node::Number(value) => number(value),
         Node::Pi => "R::pi()".to_owned(),
-        Node::Symbol(symbol) => {
-            let is_it = |c: &usize| graph.as_symbol(constants[*c].symbol) == Some(*symbol);
-            let fixes = subject.scene().map_or(&[][..], |(_, facts)| &facts.fixes);
-            match subject.level.selection.constants.iter().position(is_it) {
-                Some(i) => format!("__guen_c{i}"),
-                None => {
-                    fixes.iter().find(|(c, _)| is_it(c)).map_or_else(String::new, |(_, value)| of(*value))
-                }
-            }
-        }
+        Node::Symbol(known) => symbol(*known),
         Node::Sum { constant, terms } => {
             let mut parts = Vec::new();
             if !constant.is_zero() {

@@ -61,7 +61,7 @@ impl Layout {
             state: {
                 let variables = selection.variables.iter().map(|place| variable_name(model, *place));
                 let names = variables.chain(selection.carried.iter().map(|f| carried_field(model, f)));
-                Fields::new(&names.collect::<Vec<Name>>())
+                Fields::new(&names.collect::<Vec<Name>>()).of_record("State")
             },
             is_whole: level.scene.is_none(),
         }

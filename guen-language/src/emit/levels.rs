@@ -95,8 +95,9 @@ fn conversions(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let held: Vec<Name> = selection.held.iter().map(|held| variable_name(model, held.place)).collect();
     let given = selection.constants.iter().map(|c| model.constants[*c].name);
     // The structs of the constants and of the state, here and in the system.
-    let own_fields = Fields::new(given.chain(&held));
+    let own_fields = Fields::new(given.chain(&held)).of_record("Constants");
     let whole_fields = Fields::new(model.constants.iter().map(|constant| constant.name));
+    let whole_fields = whole_fields.of_record("Constants").of_outer();
     let (_, full) = model.sizes();
     let whole_state = Fields::new(&(0..full).map(|place| variable_name(model, place)).collect::<Vec<Name>>());
     let count = selection.constants.len();
@@ -108,7 +109,7 @@ fn conversions(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let fixed_names: Vec<&str> = fixes.iter().map(|(c, _)| model.constants[*c].name.text.as_str()).collect();
     let values: Vec<TokenStream> =
         fixes.iter().map(|(_, value)| tokens(&default_text(subject, *value))).collect();
-    let own_inputs = Fields::new(selection.inputs.iter().map(|u| model.inputs[*u].name));
+    let own_inputs = Fields::new(selection.inputs.iter().map(|u| model.inputs[*u].name)).of_record("Inputs");
     let whole_inputs = Fields::new(model.inputs.iter().map(|input| input.name));
     let of_inputs = (own_inputs.len() > 0).then(|| {
         let values = selection.inputs.iter().map(|u| {

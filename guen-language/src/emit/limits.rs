@@ -36,7 +36,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
             .collect()
     };
     let (lower, upper) = (end(0, "NEG_INFINITY"), end(1, "INFINITY"));
-    let structure = Fields::new(inputs.iter().map(|input| input.name));
+    let structure = Fields::new(inputs.iter().map(|input| input.name)).of_record("Inputs");
     let locals: Vec<Ident> = (0..layout.constants).map(|i| format_ident!("__guen_c{i}")).collect();
     let is_limited = |place: &usize| inputs[*place].limits.is_some();
     let places: Vec<usize> = (0..inputs.len()).filter(is_limited).collect();

@@ -7,6 +7,7 @@ mod bodies;
 mod carried;
 mod classification;
 mod code;
+mod components;
 mod constants;
 mod contacts;
 mod control;
@@ -23,6 +24,7 @@ mod linearization;
 mod missing;
 mod motion;
 mod operators;
+mod parts;
 mod physical;
 mod positions;
 mod records;
@@ -39,6 +41,7 @@ use quote::quote;
 use crate::derive::{Derived, Subject};
 use crate::names::module_name;
 use crate::report::Report;
+pub(crate) use components::component;
 use layout::{Layout, facade};
 
 /// Emits a derived system with its scenes.
@@ -66,13 +69,15 @@ fn items(derived: &Derived<'_>, is_outline: bool) -> TokenStream {
     let levels = levels::table(model, scenes);
     let uses = (!is_outline).then(|| uses::items(&model.identifiers));
     let visibility = model.declaration.visibility.outside();
-    module(
+    let (of_instances, inside) = components::of_instances(model, &facade);
+    let module = module(
         &whole,
         &quote!(#facade::__private),
         &quote!(#visibility),
-        &quote!(#levels #uses #(#inner)*),
+        &quote!(#levels #uses #inside #(#inner)*),
         is_outline,
-    )
+    );
+    quote!(#module #of_instances)
 }
 
 /// The module of a level, and the struct beside it.

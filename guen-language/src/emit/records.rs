@@ -7,9 +7,10 @@ use super::documentation;
 use super::fields::{Fields, Tree};
 use super::integrated::units;
 use super::layout::{Layout, carried_field, form_name, variable_name};
+use super::parts::{self, Modules};
 use crate::derive::Subject;
 use crate::model::{FormEntry, FormKind, OutputEntry, momentum, reaction, residual};
-use crate::syntax::{Docs, Name};
+use crate::syntax::{Docs, Instance, Name};
 
 /// A value of a record.
 #[derive(Clone)]
@@ -63,9 +64,12 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let state_docs =
         format!("A state of {whose}: {kept}, then {speeds}{further}, in the order of the declaration.");
     let mut items = Vec::new();
-    let mut add = |name: &str, docs: &str, fields: &[Field]| {
+    let mut modules = Modules::default();
+    super::constants::parts(subject, layout, &mut modules);
+    let instances = &model.declaration.instances;
+    let mut add = |name: &'static str, docs: &str, fields: &[Field]| {
         if !fields.is_empty() {
-            items.push(record(name, docs, fields));
+            items.push(record(name, docs, fields, instances, &mut modules));
         }
     };
     let state = [coordinates.clone(), parameters, states].concat();
@@ -128,9 +132,10 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let size = layout.size;
     items.push(quote!(__guen::nalgebra_conversions!(State, #size);));
     if !selection.outputs.is_empty() {
-        items.push(outputs(subject, layout));
+        items.push(outputs(subject, layout, &mut modules));
     }
-    quote!(#(#items)*)
+    let modules = modules.tokens();
+    quote!(#(#items)* #modules)
 }
 
 /// The state of a carried form: the variables, then the functions.
@@ -149,8 +154,11 @@ pub(super) fn carried(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream
         .map(|(docs, name)| Field { name, docs: quote!(#[doc = #docs]) })
         .collect();
     let size = layout.size;
-    let state = record("State", "A state of the carried form: the variables, then the functions.", &fields);
-    quote!(#state __guen::nalgebra_conversions!(State, #size);)
+    let mut modules = Modules::default();
+    let docs = "A state of the carried form: the variables, then the functions.";
+    let state = record("State", docs, &fields, &model.declaration.instances, &mut modules);
+    let modules = modules.tokens();
+    quote!(#state #modules __guen::nalgebra_conversions!(State, #size);)
 }
 
 /// The names of the states of a carried form.
@@ -161,12 +169,20 @@ fn names(subject: &Subject<'_, '_>) -> Vec<Name> {
 }
 
 /// A record of reals with conversions from and to an array.
-fn record(name: &str, docs: &str, fields: &[Field]) -> TokenStream {
+fn record(
+    name: &'static str,
+    docs: &str,
+    fields: &[Field],
+    instances: &[Instance],
+    modules: &mut Modules,
+) -> TokenStream {
     let record = format_ident!("{name}");
     let count = fields.len();
-    let structure = Fields::new(fields.iter().map(|field| &field.name));
+    let structure = Fields::new(fields.iter().map(|field| &field.name)).of_record(name);
     if !structure.is_plain() {
-        return structured(&record, docs, fields, &structure);
+        let docs_of = |tree: &Tree| docs_of(tree, fields, instances);
+        parts::add(modules, name, &structure, &docs_of, &|_| quote!(R), true);
+        return structured(&record, docs, fields, &structure, instances);
     }
     // A name in a pattern would mean a constant or an operator of that name, if there is one.
     let fields = fields.iter().zip(structure.idents()).enumerate().map(|(i, (Field { docs, .. }, ident))| {
@@ -177,10 +193,16 @@ fn record(name: &str, docs: &str, fields: &[Field]) -> TokenStream {
 }
 
 /// A record with arrays.
-fn structured(record: &Ident, docs: &str, values: &[Field], structure: &Fields) -> TokenStream {
+fn structured(
+    record: &Ident,
+    docs: &str,
+    values: &[Field],
+    structure: &Fields,
+    instances: &[Instance],
+) -> TokenStream {
     let count = structure.len();
     let fields = structure.trees().map(|(ident, tree)| {
-        let (docs, kind) = (docs_of(tree, values), tree.of_type(&quote!(R)));
+        let (docs, kind) = (docs_of(tree, values, instances), tree.of_type(&quote!(R)));
         quote!(#docs pub #ident: #kind,)
     });
     let (names, idents, accesses) = (structure.names(), structure.idents(), structure.accesses());
@@ -200,7 +222,10 @@ fn structured(record: &Ident, docs: &str, values: &[Field], structure: &Fields) 
 }
 
 /// The documentation of a field: that of its first value, and of an array the names of its entries.
-fn docs_of(tree: &Tree, values: &[Field]) -> TokenStream {
+fn docs_of(tree: &Tree, values: &[Field], instances: &[Instance]) -> TokenStream {
+    if let Some(part) = tree.instance() {
+        return parts::docs_of_instance(instances, part);
+    }
     let mut places = Vec::new();
     tree.leaves(&mut places);
     let (Some(first), Some(last)) = (places.first(), places.last()) else { return TokenStream::new() };
@@ -213,10 +238,11 @@ fn docs_of(tree: &Tree, values: &[Field]) -> TokenStream {
 }
 
 /// Outputs: scalars are reals, vectors arrays of three.
-fn outputs(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
+fn outputs(subject: &Subject<'_, '_>, layout: &Layout, modules: &mut Modules) -> TokenStream {
+    let instances = &subject.model.declaration.instances;
     let outputs: Vec<_> =
         subject.level.selection.outputs.iter().map(|o| &subject.model.outputs[*o]).collect();
-    let structure = Fields::new(outputs.iter().map(|o| o.name));
+    let structure = Fields::new(outputs.iter().map(|o| o.name)).of_record("Outputs");
     let entries: Vec<Field> = outputs
         .iter()
         .map(|o| Field {
@@ -232,12 +258,14 @@ fn outputs(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let fields: Vec<TokenStream> = structure
         .trees()
         .map(|(ident, tree)| {
-            let docs = docs_of(tree, &entries);
+            let docs = docs_of(tree, &entries, instances);
             let kind =
                 tree.of_type(&tree.first().map_or_else(|| quote!(R), |first| of_output(outputs[first])));
             quote!(#docs pub #ident: #kind,)
         })
         .collect();
+    let docs = |tree: &Tree| docs_of(tree, &entries, instances);
+    parts::add(modules, "Outputs", &structure, &docs, &|place| of_output(outputs[place]), true);
     let mut count = 0_usize;
     let values: Vec<TokenStream> = outputs
         .iter()

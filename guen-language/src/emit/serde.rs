@@ -13,16 +13,18 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let selection = &level.selection;
     let given = selection.constants.iter().map(|c| model.constants[*c].name.clone());
     let held = selection.held.iter().map(|held| variable_name(model, held.place));
-    let constants = Fields::new(&given.chain(held).collect::<Vec<Name>>());
+    let constants = Fields::new(&given.chain(held).collect::<Vec<Name>>()).of_record("Constants");
     let marker = (constants.len() == 0).then(|| quote!(real: ::core::marker::PhantomData,));
     let constants = of_constants(layout, &constants, marker.as_ref());
     let has_coordinates = layout.n > 0 && (layout.is_whole || !selection.holonomic.is_empty());
     let coordinates = has_coordinates.then(|| {
         let coordinates = selection.coordinates.iter().map(|i| model.coordinates[*i].name);
-        record("Coordinates", &Fields::new(coordinates))
+        record("Coordinates", &Fields::new(coordinates).of_record("Coordinates"))
     });
-    let inputs = (layout.inputs > 0)
-        .then(|| record("Inputs", &Fields::new(selection.inputs.iter().map(|u| model.inputs[*u].name))));
+    let inputs = (layout.inputs > 0).then(|| {
+        let inputs = selection.inputs.iter().map(|u| model.inputs[*u].name);
+        record("Inputs", &Fields::new(inputs).of_record("Inputs"))
+    });
     let state = state(layout);
     quote!(#constants #state #coordinates #inputs)
 }

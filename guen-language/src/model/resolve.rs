@@ -4,6 +4,7 @@ mod contacts;
 mod count;
 mod finish;
 mod modes;
+mod order;
 mod provide;
 mod redundant;
 mod states;
@@ -28,8 +29,8 @@ use super::value::{BodyValue, Value};
 use super::{BodyEntry, ConstantEntry, Model, OutputEntry, SceneEntry, SymbolEntry};
 use crate::diagnostics::{Fault, Faults};
 use crate::syntax::{
-    BoundKind, Constant, Declaration, Definition, Expression, ExpressionKind, Force as WrittenForce, Item,
-    Plain, Quantity, Scene, SectionKind,
+    Argument, ArgumentKind, BoundKind, Constant, Declaration, Definition, Expression, ExpressionKind,
+    Force as WrittenForce, Instance, Item, Plain, Quantity, Scene, SectionKind,
 };
 
 /// Checks names, kinds and forms. `None` if a fault was reported that leaves no model.
@@ -37,8 +38,14 @@ pub fn resolve<'a>(declaration: &'a Declaration, faults: &mut Faults) -> Option<
     let before = faults.count();
     let mut resolver = Resolver::new(declaration, faults);
     resolver.announce();
-    for item in &declaration.items {
+    for (place, item) in declaration.items.iter().enumerate() {
+        let before = resolver.eval.faults.count();
         resolver.item(item);
+        if let Some(origin) = declaration.origins.get(place).copied().flatten() {
+            let Instance { path, component, place, .. } = &declaration.instances[origin];
+            let what = format!("in `{}`, a `{}`, used", path.text(), component.name);
+            resolver.eval.faults.of_instance(before, &what, *place);
+        }
     }
     let mut model = resolver.finish().filter(|_| faults.count() == before)?;
     model.units = super::dimensions::units(declaration, faults);
@@ -145,6 +152,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
                     section.entries.iter().for_each(|e| scope.announce(&e.name));
                 }
                 Item::Let(definition) => scope.announce(&definition.name),
+                Item::Argument(argument) => scope.announce(&argument.name),
                 Item::Function(function) => scope.announce(&function.name),
                 Item::Parameters(section) | Item::Outputs(section) => {
                     section.entries.iter().for_each(|e| scope.announce(&e.name));
@@ -219,19 +227,21 @@ impl<'a, 'f> Resolver<'a, 'f> {
                 bench.zero.set_manifold(&mut bench.graph, &positions);
             }
             Item::KineticEnergy(quantity) => {
-                self.energy = Some(quantity);
+                self.energy.get_or_insert(quantity);
                 if let Ok(energy) = self.eval.scalar_at(Place::KineticEnergy, &quantity.value) {
                     let etas = self.parameters.iter().chain(&self.constraints).map(|form| form.symbol);
                     let etas: Vec<ExprId> = etas.chain(self.eval.rates.symbols()).collect();
                     self.eval.check_quadratic(&quantity.value, energy, &self.velocities, &etas);
                     self.kinetic.push(energy);
-                    self.written_energy = Some(energy);
+                    // Those of components add up.
+                    let before = self.written_energy.unwrap_or_else(|| self.eval.bench.graph.zero());
+                    self.written_energy = Some(self.eval.bench.graph.add(before, energy));
                 }
                 let mut mentioned = BTreeSet::new();
                 names_in(&quantity.value, &mut mentioned);
                 for form in &mut self.constraints {
                     let entry = &mut form.entry;
-                    entry.mentioned_in_energy =
+                    entry.mentioned_in_energy |=
                         mentioned.contains(&entry.name) || mentioned.contains(&entry.written.text);
                 }
             }
@@ -292,11 +302,13 @@ impl<'a, 'f> Resolver<'a, 'f> {
                 self.gravity = self.eval.vector_at(Place::Gravity, &quantity.value).ok()
             }
             Item::ForceFunction(quantity) => {
-                self.force_function = self.eval.scalar_at(Place::ForceFunction, &quantity.value).ok();
+                let value = self.eval.scalar_at(Place::ForceFunction, &quantity.value).ok();
+                self.add_force_function(value);
             }
             Item::PotentialEnergy(quantity) => {
                 let potential = self.eval.scalar_at(Place::ForceFunction, &quantity.value).ok();
-                self.force_function = potential.map(|v| self.eval.bench.graph.neg(v));
+                let value = potential.map(|v| self.eval.bench.graph.neg(v));
+                self.add_force_function(value);
             }
             Item::States(section) => section.entries.iter().for_each(|state| self.state(state)),
             Item::Forces(section) => section.entries.iter().for_each(|force| self.force(force)),
@@ -307,7 +319,46 @@ impl<'a, 'f> Resolver<'a, 'f> {
             Item::Outputs(section) => section.entries.iter().for_each(|output| self.output(output)),
             Item::Provide(section) => section.entries.iter().for_each(|provide| self.provide(provide)),
             Item::Scene(scene) => self.written_scenes.push(scene),
+            Item::Argument(argument) => self.argument(argument),
+            // Both were unfolded before.
+            Item::Component(_) | Item::Use(_) => {}
         }
+    }
+
+    /// The value of an argument, under its name in the instance.
+    fn argument(&mut self, argument: &'a Argument) {
+        let Argument { name, kind, component, given } = argument;
+        self.eval.entry = Some(given.name.text.clone());
+        let value = self.eval.at(Place::Let, &given.value).ok();
+        let value = value.filter(|value| {
+            let fits = match kind {
+                ArgumentKind::Scalar => matches!(value, Value::Scalar(_)),
+                ArgumentKind::Vector => matches!(value, Value::Vector(_)),
+                ArgumentKind::Rotation => matches!(value, Value::Rotation(_)),
+                ArgumentKind::Body => matches!(value, Value::Body(_)),
+            };
+            if !fits {
+                let (given, word) = (&given.name, kind.word());
+                let article = "a";
+                let text = format!(
+                    "argument `{given}` of `{component}` is {article} {word}, and this is {}",
+                    value.kind()
+                );
+                self.eval.faults.report(Fault::new(argument.given.value.extent(), text));
+            }
+            fits
+        });
+        value.iter().for_each(|value| self.eval.shapes.named(&name.text, value));
+        let category = if *kind == ArgumentKind::Body { Category::Body } else { Category::Let };
+        self.eval.scope.declare(self.eval.faults, name, category, value);
+    }
+
+    /// Adds to the force function: those of components add up.
+    fn add_force_function(&mut self, value: Option<ExprId>) {
+        let Some(value) = value else { return };
+        let graph = &mut self.eval.bench.graph;
+        let before = self.force_function.unwrap_or_else(|| graph.zero());
+        self.force_function = Some(graph.add(before, value));
     }
 
     fn declare_symbol(&mut self, name: &crate::syntax::Name, category: Category, symbol: ExprId) {

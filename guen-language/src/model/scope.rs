@@ -293,11 +293,13 @@ impl Scope {
 
     /// Every name as written, and those without any use: a scene may refer to one of them all the same.
     pub(super) fn into_identifiers(self) -> Identifiers {
-        let idle: BTreeSet<usize> = self.unused().map(|text| self.entries[text].written).collect();
+        // What a component declares, its other uses may need.
+        let unused = self.unused().filter(|text| !text.contains('.'));
+        let idle: BTreeSet<usize> = unused.map(|text| self.entries[text].written).collect();
         let mut unused: Vec<Ident> = idle.into_iter().map(|place| self.declared[place].clone()).collect();
         let (mut declared, mut used) = (self.declared, self.used);
-        if self.entries.keys().any(|text| text.ends_with(']')) {
-            // The entries of an array share a name, and what a loop says a place.
+        if self.entries.keys().any(|text| text.ends_with(']') || text.contains('.')) {
+            // The entries of an array and the names of an instance share a name, and what a loop says a place.
             let mut seen = BTreeSet::new();
             declared.retain(|ident| seen.insert(ident.to_string()));
             seen.clear();

@@ -60,7 +60,7 @@ pub fn sound(declaration: &Declaration) -> Declaration {
         items.extend(contacts::items(declaration, &kinds, &mut names, moving, &forms.coordinates));
     }
     items.extend(scenes::items(declaration, &entries, &forms));
-    Declaration { items, ..declaration.clone() }
+    Declaration { items, origins: Vec::new(), ..declaration.clone() }
 }
 
 /// A section without documentation; one without entries is as if it were not there.

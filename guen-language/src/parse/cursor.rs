@@ -185,8 +185,10 @@ impl Cursor {
         let Some(ident) = self.ident_at(0).filter(|_| self.has_sections) else { return false };
         match SectionKind::of_word(&ident.to_string()) {
             None => false,
+            Some(SectionKind::Use) => self.ident_at(1).is_some() || self.is_punct_at(1, ':'),
             Some(
                 SectionKind::Count
+                | SectionKind::Component
                 | SectionKind::Let
                 | SectionKind::Function
                 | SectionKind::Scene

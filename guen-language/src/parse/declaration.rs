@@ -3,6 +3,7 @@
 use proc_macro2::{Delimiter, Group, Span, TokenStream, TokenTree};
 
 use super::attributes::docs;
+use super::components::{HELP_COMPONENT, component, instance};
 use super::cursor::Cursor;
 use super::index;
 use super::lists::{INPUT, plain_names, stray_semicolon};
@@ -17,7 +18,8 @@ use crate::diagnostics::{Fault, Faults, Reported};
 use crate::limits::{MAX_COORDINATES, MAX_ENTRIES, MAX_SCENES, MAX_TOKENS};
 use crate::names::{PARAMETER_ALIASES, SECTIONS, instead_of_section, nearest_section, quoted};
 use crate::syntax::{
-    Count, Declaration, Docs, IndexExpression, IndexKind, Item, Name, Node, Section, SectionKind, Visibility,
+    Component, Count, Declaration, Docs, IndexExpression, IndexKind, Item, Name, Node, Section, SectionKind,
+    Visibility,
 };
 
 const HELP_SYSTEM: &str = "a declaration reads `pub system Name { .. }`";
@@ -36,6 +38,36 @@ pub(crate) fn declaration(tokens: TokenStream, faults: &mut Faults) -> Option<De
         after_system(&mut cursor, faults);
     }
     declaration
+}
+
+/// Reads an invocation of the macro for components.
+pub(crate) fn declared_component(tokens: TokenStream, faults: &mut Faults) -> Option<Component> {
+    if has_too_many_tokens(&tokens) {
+        let text = format!("a component of more than {MAX_TOKENS} tokens");
+        faults.report(Fault::new(Span::call_site(), text));
+        return None;
+    }
+    let end = tokens.clone().into_iter().last().map_or_else(Span::call_site, |token| token.span());
+    let mut cursor = Cursor::new(tokens, end);
+    cursor.open_invisible();
+    let crate_path = crate_path(&mut cursor, faults).ok()?;
+    let docs = docs(&mut cursor, faults).ok()?;
+    let visibility = visibility(&mut cursor, faults);
+    if cursor.eat_word("component").is_none() {
+        let fault = Fault::new(cursor.span(), format!("expected `component`, found {}", cursor.found()));
+        faults.report(if cursor.is_word("system") {
+            fault.help("a system is declared by `mechanical_system! { .. }`")
+        } else {
+            fault.help(HELP_COMPONENT)
+        });
+        return None;
+    }
+    let component = component(&mut cursor, faults, docs, visibility).ok()?;
+    if !cursor.is_end() {
+        let fault = Fault::new(cursor.span(), "expected nothing after the `}` of the component");
+        faults.report(fault.help("write a second `mechanical_component! { .. }` for another component"));
+    }
+    Some(Component { crate_path, ..component })
 }
 
 /// Counts without recursion, before anything else walks the tokens.
@@ -77,8 +109,21 @@ fn system(cursor: &mut Cursor, faults: &mut Faults) -> Result<Declaration, Repor
             fault.help(HELP_SYSTEM)
         }));
     };
-    let (items, nesting) = items(&group, faults, &name);
-    Ok(Declaration { crate_path, docs, visibility, name, items, nesting, counts: Vec::new() })
+    let (items, nesting) = items(&group, faults, &name, Owner::System);
+    let (counts, imported, instances, origins, components) = Default::default();
+    Ok(Declaration {
+        crate_path,
+        docs,
+        visibility,
+        name,
+        items,
+        nesting,
+        counts,
+        imported,
+        instances,
+        origins,
+        components,
+    })
 }
 
 /// `crate = path;`, if it stands here.
@@ -156,8 +201,16 @@ fn after_system(cursor: &mut Cursor, faults: &mut Faults) {
     }
 }
 
-/// The items of a system that have been read so far.
+/// The owner of the items.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Owner {
+    System,
+    Component,
+}
+
+/// The items of a system or component that have been read so far.
 struct Progress {
+    owner: Owner,
     items: Entries<Item>,
     first: [Option<Span>; SectionKind::ALL.len()],
     scenes: usize,
@@ -165,8 +218,10 @@ struct Progress {
     has_unknown: bool,
 }
 
-fn items(group: &Group, faults: &mut Faults, name: &Name) -> (Vec<Item>, Vec<Node>) {
+/// Reads what the braces of a system or component hold.
+pub(crate) fn items(group: &Group, faults: &mut Faults, name: &Name, owner: Owner) -> (Vec<Item>, Vec<Node>) {
     let mut progress = Progress {
+        owner,
         items: Entries::new(),
         first: [None; SectionKind::ALL.len()],
         scenes: 0,
@@ -174,7 +229,7 @@ fn items(group: &Group, faults: &mut Faults, name: &Name) -> (Vec<Item>, Vec<Nod
         has_unknown: false,
     };
     fill(group, faults, &mut progress);
-    if !progress.has_unknown {
+    if !progress.has_unknown && owner == Owner::System {
         missing(&progress, faults, name);
     }
     progress.items.nesting()
@@ -215,12 +270,14 @@ fn only_definitions(
     progress: &Progress,
     faults: &mut Faults,
 ) -> Result<(), Reported> {
-    if !progress.items.is_inside() || kind == SectionKind::Let {
+    if !progress.items.is_inside() || matches!(kind, SectionKind::Let | SectionKind::Use) {
         return Ok(());
     }
     let word = kind.word();
-    let fault =
-        Fault::new(keyword, format!("a loop or choice outside of sections holds `let`, and no `{word}`"));
+    let fault = Fault::new(
+        keyword,
+        format!("a loop or choice outside of sections holds `let` and `use`, and no `{word}`"),
+    );
     Err(faults.report(match kind {
         _ if kind.is_quantity() => fault.help(format!("write `{word} = sum(i in 0..n: e);`")),
         SectionKind::Count | SectionKind::Function | SectionKind::Scene | SectionKind::Provide => {
@@ -253,6 +310,10 @@ fn count(cursor: &mut Cursor, faults: &mut Faults, docs: Docs) -> Result<Count, 
 /// Sections that a system cannot be without.
 fn missing(progress: &Progress, faults: &mut Faults, name: &Name) {
     let has = |kind: SectionKind| progress.first[kind as usize].is_some();
+    if has(SectionKind::Use) {
+        // Components may have both: whether they do is asked where they are unfolded.
+        return;
+    }
     if !has(SectionKind::Coordinates) {
         let fault = Fault::new(name.span(), format!("system `{name}` has no `coordinates`"));
         faults.report(fault.help("add `coordinates { x, y }`"));
@@ -293,11 +354,24 @@ fn item(cursor: &mut Cursor, faults: &mut Faults, progress: &mut Progress) -> Re
     }
     once(kind, (&word, keyword), progress, faults);
     cursor.skip(1);
+    if progress.owner == Owner::Component {
+        only_of_systems(kind, keyword, faults);
+    }
     let item = match kind {
         SectionKind::Count => {
             progress.definitions += 1;
             too_many(progress.definitions, MAX_ENTRIES, "definitions", keyword, faults)?;
             Item::Count(count(cursor, faults, docs)?)
+        }
+        SectionKind::Component => {
+            progress.definitions += 1;
+            too_many(progress.definitions, MAX_ENTRIES, "definitions", keyword, faults)?;
+            Item::Component(component(cursor, faults, docs, Visibility::Private)?)
+        }
+        SectionKind::Use => {
+            progress.definitions += 1;
+            too_many(progress.definitions, MAX_ENTRIES, "definitions", keyword, faults)?;
+            Item::Use(instance(cursor, faults, docs, keyword)?)
         }
         SectionKind::Let => {
             progress.definitions += 1;
@@ -337,6 +411,24 @@ fn item(cursor: &mut Cursor, faults: &mut Faults, progress: &mut Progress) -> Re
     };
     progress.items.push(item);
     Ok(())
+}
+
+/// Refuses in a component what a system alone may have.
+fn only_of_systems(kind: SectionKind, keyword: Span, faults: &mut Faults) {
+    let word = kind.word();
+    let fault = Fault::new(keyword, format!("a component has no `{word}`"));
+    faults.report(match kind {
+        SectionKind::Gravity => fault
+            .note("`gravity` of the system acts on the particles and bodies of its components too")
+            .help("declare it in the system"),
+        SectionKind::Switches
+        | SectionKind::Contacts
+        | SectionKind::Modes
+        | SectionKind::Scene
+        | SectionKind::Provide => fault.help("declare it in the system that uses the component"),
+        SectionKind::Component => fault.help("declare the inner component beside this one"),
+        _ => return,
+    });
 }
 
 /// A section in braces.

@@ -201,9 +201,14 @@ fn member(cursor: &mut Cursor, faults: &mut Faults, depth: usize, base: Expressi
                 arguments: arguments(&group, faults, depth),
                 list: group.span(),
             },
-            None => ExpressionKind::Field { base, name },
+            None => field(cursor, faults, base, name),
         },
     ))
+}
+
+/// A name behind a `.`, with its index, if it has one.
+fn field(cursor: &mut Cursor, faults: &mut Faults, base: Box<Expression>, name: Name) -> ExpressionKind {
+    ExpressionKind::Field { base, name: index_of(cursor, faults, name) }
 }
 
 /// Returns the token directly behind an operand that begins another one. A name may end the expression and begin

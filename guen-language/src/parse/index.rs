@@ -9,6 +9,7 @@ use crate::limits::MAX_DEPTH;
 use crate::names::is_rust_keyword;
 use crate::syntax::{
     Comparison, Condition, Index, IndexExpression, IndexKind, IndexOperator, Name, Range, WrittenIndex,
+    WrittenMember,
 };
 
 const HELP_NUMBER: &str = "an index is made of whole numbers, counts and loop variables with `+ - * / %`";
@@ -20,6 +21,22 @@ type Parsed = Result<IndexExpression, Reported>;
 pub(crate) fn indexed_name(cursor: &mut Cursor, faults: &mut Faults, role: &str) -> Result<Name, Reported> {
     let name = name(cursor, faults, role)?;
     Ok(index_of(cursor, faults, name))
+}
+
+/// A name in a scene: `q[3]`, or a name of an instance, `left.q[3]`.
+pub(crate) fn member_name(cursor: &mut Cursor, faults: &mut Faults, role: &str) -> Result<Name, Reported> {
+    let first = indexed_name(cursor, faults, role)?;
+    if !cursor.is_punct('.') || cursor.is_pair('.', '.') {
+        return Ok(first);
+    }
+    let mut steps = vec![first];
+    while cursor.is_punct('.') && !cursor.is_pair('.', '.') {
+        cursor.skip(1);
+        steps.push(indexed_name(cursor, faults, "a name of the instance")?);
+    }
+    let texts: Vec<&str> = steps.iter().map(|step| step.text.as_str()).collect();
+    let (text, ident) = (texts.join("."), steps[steps.len() - 1].ident.clone());
+    Ok(Name { text, ident, index: Index::Member(Box::new(WrittenMember { steps })) })
 }
 
 /// A name that has been read with its index behind it.

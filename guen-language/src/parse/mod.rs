@@ -6,6 +6,7 @@
 
 mod attributes;
 mod bodies;
+mod components;
 mod constants;
 mod contacts;
 mod cursor;
@@ -32,15 +33,33 @@ mod units;
 use proc_macro2::TokenStream;
 
 use crate::diagnostics::{FaultReport, collect};
-use crate::syntax::{Declaration, Expression};
+use crate::syntax::{Component, Declaration, Expression};
 
 /// Parses the tokens of one invocation, and writes its loops out. With an empty report there is a declaration, and nothing in it is
 /// missing; otherwise there is one if at least the head `system Name { .. }` could be read.
 pub fn parse(tokens: TokenStream) -> (Option<Declaration>, FaultReport) {
+    let (declaration, report) = written(tokens);
+    let Some(declaration) = declaration else { return (None, report) };
+    let (declaration, report) = unfolded(declaration, report);
+    (Some(declaration), report)
+}
+
+/// Parses the tokens of one invocation, and leaves loops and uses of components as they are.
+pub(crate) fn written(tokens: TokenStream) -> (Option<Declaration>, FaultReport) {
+    collect(|faults| declaration::declaration(tokens, faults))
+}
+
+/// Writes loops and uses of components out; the faults of the parser are among those of the result.
+pub(crate) fn unfolded(declaration: Declaration, report: FaultReport) -> (Declaration, FaultReport) {
     collect(|faults| {
-        let declaration = declaration::declaration(tokens, faults)?;
-        Some(crate::unfold::unfold(declaration, faults))
+        faults.absorb(report);
+        crate::unfold::unfold(declaration, faults)
     })
+}
+
+/// Parses the tokens of one invocation of `mechanical_component!`, as [`parse`] does those of a system.
+pub fn parse_component(tokens: TokenStream) -> (Option<Component>, FaultReport) {
+    collect(|faults| declaration::declared_component(tokens, faults))
 }
 
 /// Parses the tokens of a single expression. None exactly if the report is not empty.

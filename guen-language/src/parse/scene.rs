@@ -5,7 +5,7 @@ use proc_macro2::{Delimiter, Span};
 use super::attributes::docs;
 use super::cursor::Cursor;
 use super::expression::expression;
-use super::index::indexed_name;
+use super::index::member_name;
 use super::lists::{separated, stray_semicolon};
 use super::names::name;
 use super::punctuation::{equals, semicolon};
@@ -50,7 +50,7 @@ fn statement(cursor: &mut Cursor, faults: &mut Faults, scene: &mut Scene) -> Res
     }
     if cursor.eat_word("track").is_some() {
         scene.tracks.extend(list(cursor, faults, |cursor, faults| {
-            indexed_name(cursor, faults, "a name after `track`")
+            member_name(cursor, faults, "a name after `track`")
         }));
     } else if cursor.eat_word("fix").is_some() {
         scene.fixes.extend(list(cursor, faults, fix));
@@ -78,14 +78,14 @@ fn unknown(cursor: &Cursor, faults: &mut Faults) -> Reported {
 /// The names after `provide`, with the `;`.
 pub(crate) fn provides(cursor: &mut Cursor, faults: &mut Faults) -> Vec<Provide> {
     list(cursor, faults, |cursor, faults| {
-        let quantity = indexed_name(cursor, faults, "a name after `provide`")?;
+        let quantity = member_name(cursor, faults, "a name after `provide`")?;
         let Some(group) = cursor.eat_group(Delimiter::Parenthesis) else {
             return Ok(Provide { name: quantity, of: None });
         };
         let begins = |cursor: &Cursor| cursor.ident_at(0).is_some();
         let mut inside = Cursor::inside(&group);
         let of = separated(&mut inside, faults, MAX_ENTRIES, Cursor::is_end, begins, |cursor, faults| {
-            indexed_name(cursor, faults, "the name of a constraint")
+            member_name(cursor, faults, "the name of a constraint")
         });
         Ok(Provide { name: quantity, of: Some(of) })
     })
@@ -93,7 +93,7 @@ pub(crate) fn provides(cursor: &mut Cursor, faults: &mut Faults) -> Vec<Provide>
 
 /// `name = e` or `name`.
 fn fix(cursor: &mut Cursor, faults: &mut Faults) -> Result<Fix, Reported> {
-    let name = indexed_name(cursor, faults, "a name after `fix`")?;
+    let name = member_name(cursor, faults, "a name after `fix`")?;
     if is_end_of_list(cursor) || !(cursor.is_punct('=') || cursor.is_punct(':')) {
         return Ok(Fix { name, value: None });
     }

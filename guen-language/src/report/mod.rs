@@ -1,12 +1,14 @@
 //! The derivation in readable notation: the same lines as text and as LaTeX.
 
 mod contacts;
+mod interface;
 mod lines;
 mod mathml;
 mod pages;
 mod reasons;
 mod scene;
 
+pub(crate) use interface::interface;
 pub use lines::{Report, Section};
 pub(crate) use pages::page;
 pub use pages::set;

@@ -17,15 +17,30 @@ fn separated<T: Display>(f: &mut Formatter<'_>, items: &[T], separator: &str) ->
     Ok(())
 }
 
+/// A name of an instance, by its steps.
+fn separated_steps(f: &mut Formatter<'_>, steps: &[Name]) -> fmt::Result {
+    steps.iter().enumerate().try_for_each(|(i, step)| {
+        if i > 0 {
+            f.write_char('.')?;
+        }
+        write!(f, "{}", Written(step))
+    })
+}
+
 /// A name as it was written, with `r#` and with its index.
 struct Written<'a>(&'a Name);
 
 impl Display for Written<'_> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let name = self.0;
-        write!(f, "{}", name.root())?;
+        let root = match &name.index {
+            Index::Member(member) => return separated_steps(f, &member.steps),
+            _ => name.root(),
+        };
+        write!(f, "{root}")?;
         match &name.index {
             Index::None => Ok(()),
+            Index::Member(_) => Ok(()),
             Index::Written(written) => {
                 f.write_char('[')?;
                 separated(f, &written.indices, ", ")?;
@@ -358,6 +373,25 @@ fn braces<T: Display>(
     f.write_str(" }")
 }
 
+impl Display for Component {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "component {}(", self.name.ident)?;
+        let arguments: Vec<String> =
+            self.arguments.iter().map(|a| format!("{}: {}", a.name.ident, a.kind.word())).collect();
+        write!(f, "{}) {{ ", arguments.join(", "))?;
+        separated(f, &self.items, " ")?;
+        f.write_str(" }")
+    }
+}
+
+impl Display for Use {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let arguments: Vec<String> =
+            self.arguments.iter().map(|a| format!("{}: {}", a.name.ident, a.value)).collect();
+        write!(f, "use {} as {} {{ {} }}", self.path.text, self.name.ident, arguments.join(", "))
+    }
+}
+
 impl Display for Item {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let kind = self.kind();
@@ -389,6 +423,9 @@ impl Display for Item {
                 separated(f, &section.entries, ", ")?;
                 f.write_char(';')
             }
+            Item::Component(component) => write!(f, "{component}"),
+            Item::Use(instance) => write!(f, "{instance}"),
+            Item::Argument(argument) => write!(f, "let {} = {};", argument.name, argument.given.value),
             Item::Scene(scene) => write!(f, "{scene}"),
         }
     }

@@ -96,8 +96,17 @@ pub enum Index {
     None,
     /// An index as it was written. There is none left once loops are unfolded.
     Written(Box<WrittenIndex>),
+    /// A name of an instance as it was written in a scene, by its steps. There is none left once uses are unfolded.
+    Member(Box<WrittenMember>),
     /// The entry of an array, or a member of a component: what is left once loops are unfolded.
     Entry(Box<Path>),
+}
+
+/// `left.q[3]` in a scene.
+#[derive(Debug, Clone)]
+pub struct WrittenMember {
+    /// The names between the points, each with its index.
+    pub steps: Vec<Name>,
 }
 
 /// `[i]` or `[i, j]` behind a name.

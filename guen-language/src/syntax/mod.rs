@@ -6,6 +6,7 @@
 //!
 //! Counts, loops, conditions on indices and indices as they were written are in the tree until `unfold` has written them out.
 
+mod component;
 mod contact;
 mod display;
 mod expression;
@@ -14,12 +15,17 @@ mod name;
 mod number;
 mod section;
 mod unit;
+mod walk;
 
+pub use component::{
+    Argument, ArgumentKind, Component, ComponentPath, DeclaredArgument, GivenArgument, Imported, Instance,
+    Use, imports,
+};
 pub use contact::{Clause, ClauseWord, Contact, ModeStatement, Switch, type_of_states};
 pub use expression::{AddOperator, Expression, ExpressionKind, Factor, Fold, MultiplyOperator, Order, Term};
 pub use index::{
     Choice, Comparison, Condition, Index, IndexExpression, IndexKind, IndexOperator, Loop, Node, Path, Range,
-    Step, WrittenIndex,
+    Step, WrittenIndex, WrittenMember,
 };
 pub use name::{Docs, Name, Visibility};
 pub use number::{Number, NumberProblem};

@@ -1,9 +1,12 @@
 //! A declaration and its sections as written.
 
+use std::rc::Rc;
+
 use proc_macro2::{Span, TokenStream};
 
 use super::{
-    Contact, Docs, Expression, IndexExpression, ModeStatement, Name, Node, Switch, Unit, Visibility,
+    Argument, Component, Contact, Docs, Expression, Imported, IndexExpression, Instance, ModeStatement, Name,
+    Node, Switch, Unit, Use, Visibility,
 };
 
 /// A declaration: one `system` with its sections.
@@ -23,6 +26,14 @@ pub struct Declaration {
     pub nesting: Vec<Node>,
     /// The counts, once they are known, each with whether anything uses it.
     pub counts: Vec<(Name, bool)>,
+    /// The components that it uses and does not declare itself.
+    pub imported: Vec<Imported>,
+    /// The instances of components, once uses are unfolded, each behind the one that it is a part of.
+    pub instances: Vec<Instance>,
+    /// The components that are declared in the braces, each with its constants as a declaration.
+    pub components: Vec<(Rc<Component>, Declaration)>,
+    /// The instance that each item comes from, as a place in `instances`; empty where there are none.
+    pub origins: Vec<Option<usize>>,
 }
 
 /// A section, a `let`, a function or a scene.
@@ -70,6 +81,12 @@ pub enum Item {
     Modes(Section<ModeStatement>),
     /// `outputs { name = e; .. }`.
     Outputs(Section<Definition>),
+    /// `component Name(a: scalar) { .. }`.
+    Component(Component),
+    /// `use Name as name { a: e }`.
+    Use(Use),
+    /// An argument of an instance. There is none before uses are unfolded.
+    Argument(Argument),
     /// `provide name, ..;` of the whole system.
     Provide(Section<Provide>),
     /// `scene Name { .. }`.
@@ -101,13 +118,15 @@ pub enum SectionKind {
     Contacts,
     Modes,
     Outputs,
+    Component,
+    Use,
     Provide,
     Scene,
 }
 
 impl SectionKind {
     /// Every kind, in the order of [`crate::names::SECTIONS`].
-    pub const ALL: [SectionKind; 23] = [
+    pub const ALL: [SectionKind; 25] = [
         SectionKind::Count,
         SectionKind::Constants,
         SectionKind::Inputs,
@@ -129,6 +148,8 @@ impl SectionKind {
         SectionKind::Contacts,
         SectionKind::Modes,
         SectionKind::Outputs,
+        SectionKind::Component,
+        SectionKind::Use,
         SectionKind::Provide,
         SectionKind::Scene,
     ];
@@ -150,7 +171,15 @@ impl SectionKind {
 
     /// Whether a system may have several.
     pub fn may_repeat(self) -> bool {
-        matches!(self, SectionKind::Count | SectionKind::Let | SectionKind::Function | SectionKind::Scene)
+        matches!(
+            self,
+            SectionKind::Count
+                | SectionKind::Let
+                | SectionKind::Function
+                | SectionKind::Component
+                | SectionKind::Use
+                | SectionKind::Scene
+        )
     }
 
     /// Whether the word is followed by `= e;`.
@@ -445,6 +474,8 @@ impl Item {
             Item::Contacts(_) => SectionKind::Contacts,
             Item::Modes(_) => SectionKind::Modes,
             Item::Outputs(_) => SectionKind::Outputs,
+            Item::Component(_) => SectionKind::Component,
+            Item::Use(_) | Item::Argument(_) => SectionKind::Use,
             Item::Provide(_) => SectionKind::Provide,
             Item::Scene(_) => SectionKind::Scene,
         }

@@ -28,6 +28,8 @@ impl Unfolder<'_> {
                 self.sized(section, "a coordinate", MAX_COORDINATES, |entry| &entry.name);
             }
             Item::Let(definition) => self.entry(&definition.name, "a `let`"),
+            Item::Use(instance) => self.entry(&instance.name, "an instance"),
+            Item::Component(component) => self.entry(&component.name, "a component"),
             Item::Function(function) => self.entry(&function.name, "a function"),
             Item::Parameters(section) => self.section(section, "a parameter", |entry| &entry.name),
             Item::Outputs(section) => self.section(section, "an output", |entry| &entry.name),
@@ -44,6 +46,7 @@ impl Unfolder<'_> {
             | Item::Gravity(_)
             | Item::ForceFunction(_)
             | Item::PotentialEnergy(_)
+            | Item::Argument(_)
             | Item::Provide(_)
             | Item::Scene(_) => {}
         }

@@ -6,8 +6,8 @@ use super::Unfolder;
 use super::arrays::brackets;
 use crate::diagnostics::Fault;
 use crate::syntax::{
-    AddOperator, Expression, ExpressionKind, Factor, Fold, Index, Inertia, Item, ModeStatement,
-    MultiplyOperator, Name, Node, Number, Term,
+    AddOperator, Expression, ExpressionKind, Factor, Fold, Index, Item, ModeStatement, MultiplyOperator,
+    Name, Node, Number, Path, Step, Term,
 };
 
 impl Unfolder<'_> {
@@ -24,7 +24,8 @@ impl Unfolder<'_> {
                 ExpressionKind::Call { function: function.clone(), arguments, list: *list }
             }
             ExpressionKind::Field { base, name } => {
-                ExpressionKind::Field { base: Box::new(self.expression(base)), name: name.clone() }
+                let name = self.member(name);
+                ExpressionKind::Field { base: Box::new(self.expression(base)), name }
             }
             ExpressionKind::Method { base, name, arguments, list } => ExpressionKind::Method {
                 base: Box::new(self.expression(base)),
@@ -59,6 +60,24 @@ impl Unfolder<'_> {
             ExpressionKind::Fold(fold) => self.fold(fold),
         };
         Expression { span: e.span, parentheses: e.parentheses, kind }
+    }
+
+    /// The name of a member of an instance, with its index computed; whether it has such an entry is asked later.
+    pub(super) fn member(&mut self, name: &Name) -> Name {
+        let Index::Written(written) = &name.index else { return name.clone() };
+        let values = written.indices.iter().map(|e| Some((self.number(e)?, e.span)));
+        let Some(values) = values.collect::<Option<Vec<(i64, Span)>>>() else { return name.clone() };
+        let mut steps = Vec::new();
+        for (value, span) in values {
+            match usize::try_from(value) {
+                Ok(at) => steps.push(Step::Index { at, of: 0 }),
+                Err(_) => {
+                    self.faults.report(Fault::new(span, format!("`{name}[{value}]` is out of range")));
+                    return name.clone();
+                }
+            }
+        }
+        Name::at(Path { root: name.ident.clone(), steps })
     }
 
     /// A sum or product over a range, written out.
@@ -132,6 +151,10 @@ impl Unfolder<'_> {
     pub(super) fn used(&mut self, name: &Name) -> Option<Name> {
         if self.arrays.is_confused(&name.text) {
             return None;
+        }
+        if let Index::Member(member) = &name.index {
+            let texts: Vec<String> = member.steps.iter().map(|step| self.member(step).text).collect();
+            return Some(Name { text: texts.join("."), ident: name.ident.clone(), index: Index::None });
         }
         let Index::Written(written) = &name.index else {
             return match self.arrays.of(&name.text) {
@@ -273,6 +296,7 @@ fn declared(item: &Item, visit: &mut dyn FnMut(&Name)) {
             section.entries.iter().for_each(|entry| visit(&entry.name));
         }
         Item::Let(definition) => visit(&definition.name),
+        Item::Use(instance) => visit(&instance.name),
         Item::Parameters(section) | Item::Outputs(section) => {
             section.entries.iter().for_each(|entry| visit(&entry.name));
         }
@@ -304,52 +328,7 @@ fn declared(item: &Item, visit: &mut dyn FnMut(&Name)) {
 
 fn expressions(item: &Item) -> Vec<&Expression> {
     match item {
-        Item::Constants(section) => {
-            let limits = section.entries.iter().filter_map(|entry| entry.limits.as_deref()).flatten();
-            section.entries.iter().filter_map(|entry| entry.default.as_ref()).chain(limits).collect()
-        }
-        Item::Inputs(section) | Item::Coordinates(section) => {
-            section.entries.iter().filter_map(|entry| entry.limits.as_deref()).flatten().collect()
-        }
-        Item::Let(definition) => vec![&definition.value],
-        Item::Function(function) => vec![&function.value],
-        Item::Parameters(section) | Item::Outputs(section) => {
-            section.entries.iter().map(|entry| &entry.value).collect()
-        }
-        Item::Constraints(section) | Item::Holonomic(section) => {
-            section.entries.iter().flat_map(|entry| [&entry.left, &entry.right]).collect()
-        }
-        Item::KineticEnergy(quantity)
-        | Item::Gravity(quantity)
-        | Item::ForceFunction(quantity)
-        | Item::PotentialEnergy(quantity) => vec![&quantity.value],
-        Item::Particles(section) => {
-            section.entries.iter().flat_map(|entry| [&entry.mass, &entry.position]).collect()
-        }
-        Item::Bodies(section) => section
-            .entries
-            .iter()
-            .flat_map(|body| {
-                let fields = [&body.mass, &body.center, &body.orientation];
-                let inertia: &[Expression] = match body.inertia.as_ref().map(|field| &field.value) {
-                    None | Some(Inertia::Missing) => &[],
-                    Some(Inertia::Diagonal(entries)) => &entries[..],
-                    Some(Inertia::Symmetric(entries)) => &entries[..],
-                };
-                fields.into_iter().flatten().map(|field| &field.value).chain(inertia)
-            })
-            .collect(),
-        Item::States(section) => section.entries.iter().map(|entry| &entry.rate).collect(),
-        Item::Forces(section) => {
-            section.entries.iter().flat_map(|entry| [&entry.force, &entry.direction]).collect()
-        }
-        Item::Switches(section) => section.entries.iter().map(|entry| &entry.value).collect(),
-        Item::Contacts(section) => section
-            .entries
-            .iter()
-            .flat_map(|entry| entry.clauses.iter().map(|clause| &clause.value))
-            .collect(),
         Item::Scene(scene) => scene.fixes.iter().filter_map(|fix| fix.value.as_ref()).collect(),
-        Item::Count(_) | Item::Provide(_) | Item::Modes(_) => Vec::new(),
+        _ => item.expressions(),
     }
 }

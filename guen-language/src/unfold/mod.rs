@@ -6,7 +6,9 @@
 
 mod announce;
 mod arrays;
+mod component_names;
 mod expressions;
+mod instances;
 mod numbers;
 mod write;
 
@@ -17,11 +19,44 @@ use proc_macro2::Span;
 use crate::diagnostics::{Fault, Faults};
 use crate::limits::MAX_UNFOLDED;
 use crate::names;
-use crate::syntax::{Choice, Declaration, Index, Item, Loop, Name, Node, Range};
+use crate::syntax::{Choice, Component, Declaration, Docs, Index, Item, Loop, Name, Node, Range, Visibility};
 use arrays::Arrays;
+pub(crate) use component_names::names as check_names;
 
-/// Returns the declaration without loops, counts and written indices. What cannot be written out is reported and left out.
+/// Returns the declaration without loops, counts, written indices and uses of components. What cannot be written out is reported and
+/// left out.
 pub fn unfold(declaration: Declaration, faults: &mut Faults) -> Declaration {
+    let declaration = without_loops(declaration, faults);
+    instances::instantiate(declaration, faults)
+}
+
+/// The constants of a component as a declaration of their own, with those of the components that it uses.
+pub(crate) fn constants(component: &Component, faults: &mut Faults) -> Declaration {
+    instances::constants(component, faults)
+}
+
+/// The items of a component without loops.
+fn loops_of(component: &Component, faults: &mut Faults) -> Vec<Item> {
+    let (docs, visibility, name) = (Docs::default(), Visibility::Private, component.name.clone());
+    let (items, nesting) = (component.items.clone(), component.nesting.clone());
+    let (crate_path, counts, imported, instances, origins, components) = Default::default();
+    let whole = Declaration {
+        crate_path,
+        docs,
+        visibility,
+        name,
+        items,
+        nesting,
+        counts,
+        imported,
+        instances,
+        origins,
+        components,
+    };
+    without_loops(whole, faults).items
+}
+
+fn without_loops(declaration: Declaration, faults: &mut Faults) -> Declaration {
     if is_plain(&declaration) {
         return declaration;
     }

@@ -4,8 +4,8 @@ use super::Unfolder;
 use super::arrays::next;
 use crate::syntax::{
     Body, BodyField, Clause, Constant, Contact, Declaration, Definition, Equation, Expression, Fix, Force,
-    FunctionDefinition, Index, Inertia, Item, ModeStatement, Name, Particle, Plain, Provide, Quantity, Scene,
-    Section, State, Switch,
+    FunctionDefinition, GivenArgument, Index, Inertia, Item, ModeStatement, Name, Particle, Plain, Provide,
+    Quantity, Scene, Section, State, Switch, Use,
 };
 
 impl Unfolder<'_> {
@@ -19,7 +19,8 @@ impl Unfolder<'_> {
     }
 
     fn item(&mut self, item: &Item) -> Option<Item> {
-        self.may_use_variables = matches!(item, Item::Let(_) | Item::Constants(_) | Item::Inputs(_));
+        self.may_use_variables =
+            matches!(item, Item::Let(_) | Item::Use(_) | Item::Constants(_) | Item::Inputs(_));
         Some(match item {
             Item::Count(_) => return None,
             Item::Constants(section) => {
@@ -32,6 +33,9 @@ impl Unfolder<'_> {
                 Item::Coordinates(self.sized_section(section, |plain| &plain.name, Self::plain))
             }
             Item::Let(definition) => Item::Let(self.definition(definition)?),
+            Item::Use(instance) => Item::Use(self.instance(instance)?),
+            Item::Component(component) => Item::Component(component.clone()),
+            Item::Argument(argument) => Item::Argument(argument.clone()),
             Item::Function(function) => Item::Function(self.function(function)),
             Item::Parameters(section) => Item::Parameters(self.written(section, Self::definition)),
             Item::Outputs(section) => Item::Outputs(self.written(section, Self::definition)),
@@ -123,6 +127,15 @@ impl Unfolder<'_> {
     fn definition(&mut self, definition: &Definition) -> Option<Definition> {
         let value = self.expression(&definition.value);
         Some(Definition { docs: definition.docs.clone(), name: self.declared(&definition.name)?, value })
+    }
+
+    fn instance(&mut self, instance: &Use) -> Option<Use> {
+        let arguments = instance.arguments.iter().map(|argument| GivenArgument {
+            name: argument.name.clone(),
+            value: self.expression(&argument.value),
+        });
+        let arguments = arguments.collect();
+        Some(Use { name: self.declared(&instance.name)?, arguments, ..instance.clone() })
     }
 
     fn function(&mut self, function: &FunctionDefinition) -> FunctionDefinition {

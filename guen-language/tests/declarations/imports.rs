@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 /// The modules of the crate in the order of the pipeline. Each reads modules that stand before it; `parse` hands over a syntax
-/// tree, so nothing reads `parse`.
-const ORDER: [&str; 11] = [
+/// tree, so nothing reads `parse` but the fronts, which are the root of the crate and `components`.
+const ORDER: [&str; 12] = [
     "names",
     "limits",
     "diagnostics",
@@ -16,6 +16,7 @@ const ORDER: [&str; 11] = [
     "derive",
     "report",
     "emit",
+    "components",
 ];
 
 /// The modules that a text names by `crate::`.
@@ -55,7 +56,7 @@ fn stages_import_those_before_them() {
         for name in imports(&std::fs::read_to_string(&source).unwrap()) {
             let other = place(&name).unwrap_or_else(|| panic!("{}: {name} is no stage", path.display()));
             count += 1;
-            if other > own || (ORDER[other] == "parse" && own != other) {
+            if other > own || (ORDER[other] == "parse" && own != other && stage != "components") {
                 faults.push(format!("{}: `{name}` stands behind `{stage}`", path.display()));
             }
         }

@@ -4,6 +4,7 @@ mod absolute_values;
 mod angles;
 mod carried;
 mod common;
+mod components;
 mod corpus;
 mod dimensions;
 mod families;

@@ -203,6 +203,12 @@ impl Dimensions<'_> {
                     .extend(self.number(&definition.value).map(|n| (definition.name.text.clone(), n)));
                 self.names.insert(definition.name.text.clone(), own);
             }
+            Item::Argument(argument) => {
+                let value = &argument.given.value;
+                let own = self.of(value);
+                self.numbers.extend(self.number(value).map(|n| (argument.name.text.clone(), n)));
+                self.names.insert(argument.name.text.clone(), own);
+            }
             Item::Function(function) => {
                 self.functions.insert(function.name.text.clone(), function.clone());
             }
@@ -303,7 +309,7 @@ impl Dimensions<'_> {
                 }
             }
             Item::Contacts(section) => section.entries.iter().for_each(|contact| self.contact(contact)),
-            Item::Gravity(_) | Item::Provide(_) | Item::Modes(_) => {}
+            Item::Gravity(_) | Item::Provide(_) | Item::Modes(_) | Item::Component(_) | Item::Use(_) => {}
         }
     }
 

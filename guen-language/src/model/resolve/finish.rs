@@ -12,6 +12,7 @@ impl<'a> Resolver<'a, '_> {
         let mut degrees = self.parameters.len();
         let has_energy = self.energy.is_some() || self.has_masses;
         let mut raw: Vec<RawForm<'a>> = self.parameters;
+        order::by_instance(self.declaration, &mut raw, degrees, &mut self.eval.vectors);
         raw.extend(self.constraints);
         let mut redundant = Vec::new();
         if !failed && raw.iter().any(|form| form.position.is_some()) {
@@ -28,6 +29,7 @@ impl<'a> Resolver<'a, '_> {
                     let (coordinates, constants) = (&self.coordinates, &self.constants);
                     chosen = self.eval.complete(&mut raw, degrees, given, coordinates, constants);
                     degrees += raw.len() - before;
+                    order::by_instance(self.declaration, &mut raw, degrees, &mut self.eval.vectors);
                     (forms, idle) = self.eval.linear_forms(&raw, &velocities);
                     match &chosen {
                         Some(chosen) => self.eval.report_assumed(Some(chosen)),

@@ -18,7 +18,9 @@ impl<'a> Resolver<'a, '_> {
             Item::States(section) => Some(&section.entries),
             _ => None,
         });
-        let states: Vec<&'a State> = sections.flatten().collect();
+        let mut states: Vec<&'a State> = sections.flatten().collect();
+        // Those of the system, then those of each instance.
+        states.sort_by_key(|state| super::order::rank(self.declaration, &state.name));
         for state in &states {
             if !self.eval.scope.is_declared_later(&state.name.text) {
                 self.declare_state(state);

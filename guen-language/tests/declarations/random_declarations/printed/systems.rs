@@ -30,7 +30,9 @@ pub fn all() -> Vec<(String, PathBuf)> {
         for tokens in blocks.iter().filter_map(|block| block.parse::<TokenStream>().ok()) {
             declarations(tokens, &mut |declaration| {
                 let text = declaration.to_string();
-                if seen.insert(text.clone()) {
+                // Components that are imported are not known here.
+                let imports = text.contains(" use ") && !text.contains(" component ");
+                if !imports && seen.insert(text.clone()) {
                     found.push((text, file.clone()));
                 }
             });

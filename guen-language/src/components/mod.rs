@@ -1,0 +1,118 @@
+//! Components on their way from where they are declared to the systems that use them.
+//!
+//! A procedural macro sees the tokens of its own invocation only. Therefore `mechanical_component!` makes, under the name
+//! of the component, a macro that holds its tokens. A system with `use wheels::Wheel as left` expands to a call of
+//! `wheels::Wheel!`, which adds its tokens and calls the next component, and the last one calls the macro of the system again:
+//! paths, imports and visibility are those of Rust. A component that uses others holds their tokens too, because their paths
+//! mean something where it is declared and nowhere else.
+
+mod carried;
+mod gather;
+
+use proc_macro2::{Delimiter, Group, TokenStream, TokenTree};
+
+use crate::diagnostics::{Fault, FaultReport, Faults, collect};
+use crate::syntax::{Component, Declaration, Imported, Item, imports};
+use crate::{emit, model, parse, unfold};
+
+pub(crate) use gather::{Gathered, gather, imported, split};
+
+/// Expands one invocation of `mechanical_component!`.
+pub(crate) fn expand(tokens: TokenStream) -> TokenStream {
+    let (component, report) = parse::parse_component(tokens.clone());
+    let Some(component) = component else {
+        return report.to_compile_errors();
+    };
+    let paths = imports(&component.items);
+    let paths: Vec<_> = paths.into_iter().filter(|path| path.text != component.name.text).collect();
+    if !paths.is_empty() {
+        return gather(component.crate_path.as_ref(), "mechanical_component_with", &paths, tokens);
+    }
+    finish(tokens, component, Vec::new(), report)
+}
+
+/// Expands a component to which those that it uses have been added.
+pub(crate) fn expand_with(tokens: TokenStream) -> TokenStream {
+    let Gathered { tokens, bundles } = split(tokens);
+    let (component, report) = parse::parse_component(tokens.clone());
+    match component {
+        None => report.to_compile_errors(),
+        Some(component) => finish(tokens, component, bundles, report),
+    }
+}
+
+fn finish(
+    tokens: TokenStream,
+    mut component: Component,
+    bundles: Vec<Group>,
+    report: FaultReport,
+) -> TokenStream {
+    let paths = imports(&component.items);
+    let paths: Vec<_> = paths.into_iter().filter(|path| path.text != component.name.text).collect();
+    component.imported = imported(&paths, &bundles);
+    let (constants, further) = collect(|faults| {
+        faults.absorb(report);
+        uses_itself(&component, faults);
+        unfold::check_names(&component, faults);
+        let is_sound = faults.count() == 0;
+        // After a fault the struct is there all the same, as far as its constants are sound.
+        let constants = match is_sound {
+            true => unfold::constants(&component, faults),
+            false => collect(|ignored| unfold::constants(&component, ignored)).0,
+        };
+        if is_sound {
+            // Defaults and bounds mean something without a system.
+            let _ = model::resolve(&constants, faults);
+        }
+        constants
+    });
+    let mut items = further.to_compile_errors();
+    items.extend(carried::items(&component, tokens, &bundles, !further.is_empty()));
+    let facade = component.crate_path.clone().unwrap_or_else(|| quote::quote!(::guen));
+    items.extend(structure(&component, &constants, &facade));
+    items
+}
+
+/// The struct of the constants; nothing where these have faults.
+fn structure(component: &Component, constants: &Declaration, facade: &TokenStream) -> TokenStream {
+    let (model, _) = collect(|faults| model::resolve(constants, faults));
+    model.map_or_else(TokenStream::new, |model| emit::component(component, &model, facade))
+}
+
+/// A component that stands in itself has no end.
+fn uses_itself(component: &Component, faults: &mut Faults) {
+    for item in &component.items {
+        let Item::Use(instance) = item else { continue };
+        if instance.path.text == component.name.text {
+            let fault = Fault::new(instance.path.name.span(), format!("`{}` uses itself", component.name));
+            faults.report(fault.help("a component may use others, each of which ends somewhere"));
+        }
+    }
+}
+
+/// The tokens of a bundle: the component, and those that it uses.
+fn bundle(tokens: TokenStream, inner: &[Group], is_faulty: bool) -> TokenStream {
+    let faulty =
+        is_faulty.then(|| TokenTree::from(proc_macro2::Ident::new("faulty", proc_macro2::Span::call_site())));
+    let own = TokenTree::from(Group::new(Delimiter::Brace, tokens));
+    faulty.into_iter().chain([own]).chain(inner.iter().cloned().map(TokenTree::from)).collect()
+}
+
+/// Reads a bundle.
+fn unbundle(group: &Group) -> Option<(Component, bool)> {
+    let mut tokens = group.stream().into_iter().peekable();
+    let is_faulty = matches!(tokens.peek(), Some(TokenTree::Ident(_)));
+    let mut groups = tokens.filter_map(|token| match token {
+        TokenTree::Group(group) => Some(group),
+        _ => None,
+    });
+    let own = groups.next()?;
+    let (component, _) = parse::parse_component(own.stream());
+    let mut component = component?;
+    let inner: Vec<Group> = groups.collect();
+    let paths = imports(&component.items);
+    let paths: Vec<_> = paths.into_iter().filter(|path| path.text != component.name.text).collect();
+    let found: Vec<Imported> = imported(&paths, &inner);
+    component.imported = found;
+    Some((component, is_faulty))
+}

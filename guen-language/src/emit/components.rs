@@ -1,0 +1,281 @@
+//! Items of a component: the struct of its constants.
+
+use guen_symbolic::{ExprId, SymbolId};
+use proc_macro2::{Ident, Span, TokenStream};
+use quote::{format_ident, quote, quote_spanned};
+
+use super::documentation;
+use super::fields::{Fields, Tree};
+use super::formula::text_of;
+use super::layout::is_derived;
+use super::text::tokens;
+use crate::diagnostics::collect;
+use crate::model::Model;
+use crate::names::module_name;
+use crate::report::interface;
+use crate::syntax::{Component, Instance, Name};
+
+/// The struct of the constants of a component, for a model of these alone, and the module with its name for them.
+pub(crate) fn component(component: &Component, model: &Model<'_>, facade: &TokenStream) -> TokenStream {
+    let structure = structure(component, model, facade, &component.visibility.outside());
+    let module = module(component, &quote!(#facade::__private));
+    quote!(#structure #module)
+}
+
+fn structure(
+    component: &Component,
+    model: &Model<'_>,
+    facade: &TokenStream,
+    visibility: &TokenStream,
+) -> TokenStream {
+    let name = &component.name.ident;
+    let private = quote!(#facade::__private);
+    let names: Vec<&Name> = model.constants.iter().map(|constant| constant.name).collect();
+    let structure = Fields::new(names).of_record("Constants");
+    let instances = &model.declaration.instances;
+    let leaf = |place: usize| match is_derived(model, &model.constants[place]) {
+        true => quote!(#private::Derived<R>),
+        false => quote!(R),
+    };
+    let fields = structure.trees().map(|(ident, tree)| {
+        let docs = docs(model, tree);
+        let kind = kind(tree, instances, &leaf);
+        quote!(#docs pub #ident: #kind,)
+    });
+    let marker =
+        (structure.len() == 0).then(|| quote!(#[doc(hidden)] pub real: ::core::marker::PhantomData<R>,));
+    let constructors = constructors(component, model, &structure, &private);
+    let parts = parts(name, &structure, instances, &private);
+    let text = interface(component);
+    let written = &component.docs.values;
+    let blank = (!written.is_empty()).then(|| quote!(#[doc = ""]));
+    quote! {
+        #(#[doc = #written])*
+        #blank
+        #[doc = #text]
+        #[::core::prelude::v1::derive(
+            ::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq
+        )]
+        #[allow(non_snake_case, reason = "names are the user's own")]
+        #visibility struct #name<R = f64> {
+            #(#fields)*
+            #marker
+        }
+        #constructors
+        #parts
+    }
+}
+
+/// `rolling_wheel::Constants` for `RollingWheel`.
+fn module(component: &Component, private: &TokenStream) -> TokenStream {
+    let name = &component.name.ident;
+    let module = module_name(name, "component");
+    let (visibility, inner) = (component.visibility.outside(), component.visibility.inside());
+    let text = format!("The constants of the component `{name}`.");
+    quote! {
+        #[doc = #text]
+        #[allow(unused_imports, dead_code, reason = "the struct alone may be what is used")]
+        #visibility mod #module {
+            #[doc(hidden)]
+            #[::core::prelude::v1::derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug)]
+            #inner struct __GuenComponent;
+            #[doc = #text]
+            pub type Constants<R = f64> = <__GuenComponent as __guen::Instances<0>>::Constants<R>;
+            use #private as __guen;
+        }
+        impl #private::Instances<0> for #module::__GuenComponent {
+            type Constants<R> = #name<R>;
+        }
+    }
+}
+
+fn docs(model: &Model<'_>, tree: &Tree) -> TokenStream {
+    let mut places = Vec::new();
+    tree.leaves(&mut places);
+    let Some(first) = places.first() else { return TokenStream::new() };
+    if let Some(part) = tree.instance() {
+        return super::parts::docs_of_instance(&model.declaration.instances, part);
+    }
+    let constant = &model.constants[*first];
+    let text = format!("The constant `{}`.", constant.name);
+    documentation::entry(constant.docs, &text, model.units.get(&constant.name.text))
+}
+
+/// The component of an instance that is a field, as the use has it.
+fn path_of<'a>(tree: &Tree, instances: &'a [Instance]) -> Option<&'a TokenStream> {
+    let part = tree.instance()?;
+    let instance = instances.iter().find(|instance| {
+        let is_top = instance.path.steps.iter().all(|step| matches!(step, crate::syntax::Step::Index { .. }));
+        is_top && part.module.first() == Some(&instance.path.root)
+    });
+    instance.map(|instance| &instance.component.tokens)
+}
+
+fn kind(tree: &Tree, instances: &[Instance], leaf: &dyn Fn(usize) -> TokenStream) -> TokenStream {
+    match tree {
+        Tree::Leaf(place) => leaf(*place),
+        Tree::Array(entries) => {
+            let count = entries.len();
+            let inner = entries.first().map_or_else(|| quote!(R), |entry| kind(entry, instances, leaf));
+            quote!([#inner; #count])
+        }
+        Tree::Instance(_) => path_of(tree, instances).map_or_else(|| quote!(R), |path| quote!(#path<R>)),
+    }
+}
+
+/// `new` with what has no default, and `Default` if everything has one.
+fn constructors(
+    component: &Component,
+    model: &Model<'_>,
+    structure: &Fields,
+    private: &TokenStream,
+) -> TokenStream {
+    let name = &component.name.ident;
+    let (mut required, mut kinds, mut values) = (Vec::new(), Vec::new(), Vec::new());
+    let real = quote!(R);
+    for (ident, tree) in structure.trees() {
+        let mut places = Vec::new();
+        tree.leaves(&mut places);
+        if places.iter().all(|place| model.constants[*place].default.is_some()) {
+            let value = default(model, tree, private);
+            values.push(quote!(#ident: #value));
+            continue;
+        }
+        let parameter: Ident = match crate::names::is_pattern(&super::fields::plain(ident)) {
+            true => format_ident!("{ident}_", span = ident.span()),
+            false => ident.clone(),
+        };
+        let leaf = |place: usize| match is_derived(model, &model.constants[place]) {
+            true => quote!(#private::Derived<R>),
+            false => real.clone(),
+        };
+        kinds.push(kind(tree, &model.declaration.instances, &leaf));
+        values.push(if *ident == parameter { quote!(#ident) } else { quote!(#ident: #parameter) });
+        required.push(parameter);
+    }
+    let marker = (structure.len() == 0).then(|| quote!(real: ::core::marker::PhantomData,));
+    if required.is_empty() {
+        return quote! {
+            #[allow(dead_code, reason = "a struct may be written out")]
+            impl #name<::core::primitive::f64> {
+                /// The component with its default constants.
+                pub fn new() -> Self {
+                    Self::with_defaults()
+                }
+
+                /// [`new`](Self::new) over another real: `with_defaults::<f32>()`.
+                pub fn with_defaults<R: #private::Real>() -> #name<R> {
+                    #name { #(#values,)* #marker }
+                }
+            }
+
+            impl ::core::default::Default for #name<::core::primitive::f64> {
+                fn default() -> Self {
+                    Self::new()
+                }
+            }
+        };
+    }
+    let list: Vec<String> = required.iter().map(|name| format!("`{name}`")).collect();
+    let docs = format!("The component with {}, and the defaults of all other constants.", list.join(", "));
+    quote! {
+        #[allow(dead_code, reason = "a struct may be written out")]
+        impl<R: #private::Real> #name<R> {
+            #[doc = #docs]
+            #[allow(clippy::too_many_arguments, non_snake_case, reason = "one for each constant without a default")]
+            pub fn new(#(#required: #kinds),*) -> Self {
+                #name { #(#values,)* #marker }
+            }
+        }
+    }
+}
+
+/// The value of a field from defaults.
+fn default(model: &Model<'_>, tree: &Tree, private: &TokenStream) -> TokenStream {
+    match tree {
+        Tree::Leaf(place) => {
+            let constant = &model.constants[*place];
+            if is_derived(model, constant) {
+                return quote!(#private::Derived::Follows);
+            }
+            let unknown = |_: SymbolId| String::new();
+            let text = |e: ExprId| text_of(&model.bench.graph, e, &unknown);
+            constant.default.map_or_else(TokenStream::new, |e| tokens(&text(e)))
+        }
+        Tree::Array(entries) => {
+            let entries = entries.iter().map(|entry| default(model, entry, private));
+            quote!([#(#entries),*])
+        }
+        Tree::Instance(_) => {
+            let path = path_of(tree, &model.declaration.instances);
+            quote!(<#path<::core::primitive::f64>>::with_defaults())
+        }
+    }
+}
+
+/// The types of the constants of inner instances, by which systems find them.
+fn parts(name: &Ident, structure: &Fields, instances: &[Instance], private: &TokenStream) -> TokenStream {
+    let fields: Vec<(Ident, Tree)> =
+        structure.trees().map(|(ident, tree)| (ident.clone(), tree.clone())).collect();
+    let parts = super::parts::instances(&fields).filter_map(|(place, ident)| {
+        let tree = fields.iter().find(|(known, _)| known == ident).map(|(_, tree)| tree)?;
+        let path = path_of(tree, instances)?;
+        Some(quote! {
+            impl #private::Instances<#place> for #name<::core::primitive::f64> {
+                type Constants<R> = #path<R>;
+            }
+        })
+    });
+    let parts: Vec<TokenStream> = parts.collect();
+    quote!(#(#parts)*)
+}
+
+/// The types of the constants of the instances of a system: an implementation beside the module for each component that is
+/// imported there, and in the module the components that are declared in the braces of the system.
+pub(super) fn of_instances(model: &Model<'_>, facade: &TokenStream) -> (TokenStream, TokenStream) {
+    let declaration = model.declaration;
+    if declaration.instances.is_empty() {
+        return Default::default();
+    }
+    let module = module_name(&declaration.name.ident, "system");
+    let names = model.constants.iter().map(|constant| constant.name);
+    let fields: Vec<(Ident, Tree)> =
+        Fields::new(names).trees().map(|(ident, tree)| (ident.clone(), tree.clone())).collect();
+    let (mut outside, mut inside) = (TokenStream::new(), TokenStream::new());
+    let inner = declaration.visibility.inside();
+    inside.extend(quote! {
+        #[doc(hidden)]
+        #[::core::prelude::v1::derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug)]
+        #inner struct __GuenInstances;
+    });
+    for (place, ident) in super::parts::instances(&fields) {
+        let tree = fields.iter().find(|(known, _)| known == ident).map(|(_, tree)| tree);
+        let Some(path) = tree.and_then(|tree| path_of(tree, &declaration.instances)) else { continue };
+        let text = path.to_string();
+        let is_inside = declaration.components.iter().any(|(known, _)| known.name.ident == text);
+        if is_inside {
+            inside.extend(quote! {
+                impl __guen::Instances<#place> for __GuenInstances {
+                    type Constants<R> = #path<R>;
+                }
+            });
+        } else {
+            // A component that fewer may see than the system is the compiler's mistake at this place.
+            let place_of_path =
+                path.clone().into_iter().last().map_or_else(Span::call_site, |token| token.span());
+            let constants = quote_spanned!(place_of_path=> type Constants<R> = #path<R>;);
+            outside.extend(quote! {
+                impl #facade::__private::Instances<#place> for #module::__GuenInstances {
+                    #constants
+                }
+            });
+        }
+    }
+    for (component, constants) in &declaration.components {
+        let (constants, _) = collect(|faults| crate::model::resolve(constants, faults));
+        if let Some(constants) = constants {
+            inside.extend(structure(component, &constants, facade, &quote!(pub)));
+        }
+    }
+    (outside, inside)
+}

@@ -1,0 +1,53 @@
+//! Names of instances and components that the generated module needs for itself.
+
+use crate::diagnostics::{Fault, Faults};
+use crate::names::{CARRIED_ITEMS, is_generated_item, module_name};
+use crate::syntax::{Declaration, Item};
+
+/// Reports instances and components whose modules and structs would have the names of others.
+pub(super) fn check(declaration: &Declaration, faults: &mut Faults) {
+    let scenes: Vec<_> = declaration
+        .items
+        .iter()
+        .filter_map(|item| match item {
+            Item::Scene(scene) => Some(&scene.name),
+            _ => None,
+        })
+        .collect();
+    for item in &declaration.items {
+        match item {
+            Item::Use(instance) => {
+                let name = &instance.name;
+                let text = name.root().to_string();
+                let scene = scenes.iter().find(|scene| module_name(&scene.ident, "scene") == text);
+                let fault = || Fault::new(name.span(), format!("an instance cannot be called `{text}`"));
+                if let Some(scene) = scene {
+                    let fault = fault().note_place(
+                        &format!("scene `{scene}` has a module of that name, declared"),
+                        scene.span(),
+                    );
+                    faults.report(fault.help("choose another name for one of them"));
+                } else if is_generated_item(&text) || CARRIED_ITEMS.contains(&text.as_str()) {
+                    let fault =
+                        fault().note(format!("the module of the system has an item `{text}` of its own"));
+                    faults.report(fault.help("choose another name"));
+                }
+            }
+            Item::Component(component) => {
+                let name = &component.name;
+                let is_taken = is_generated_item(&name.text)
+                    || CARRIED_ITEMS.contains(&name.text.as_str())
+                    || declaration.name.text == name.text
+                    || scenes.iter().any(|scene| scene.text == name.text);
+                if is_taken {
+                    let text =
+                        format!("a component in the braces of a system cannot be called `{name}` here");
+                    let fault = Fault::new(name.span(), text);
+                    let note = format!("the module of the system has an item `{name}` of its own");
+                    faults.report(fault.note(note).help("choose another name"));
+                }
+            }
+            _ => {}
+        }
+    }
+}

@@ -1,0 +1,197 @@
+//! Components: a declaration with them is the one that is written out by hand.
+
+use guen_language::derive::{derive, function};
+use guen_language::diagnostics::collect;
+use guen_language::{model, parse};
+
+use crate::common::{derived, evaluated};
+
+/// The bits of the rates at a state where every symbol has a value that follows from its name, in the order of the state, and
+/// the cost of the right-hand side.
+fn rates(text: &str, meaning: fn(&str) -> String) -> (Vec<u64>, String, Vec<String>) {
+    derived(text, |derived| {
+        let value = |symbol| {
+            let name = meaning(&derived.model.bench.graph.symbol_info(symbol).name);
+            name.bytes().fold(0.3, |value, byte| (value * 7.0 + f64::from(byte) / 50.0) % 1.7)
+        };
+        let rates = evaluated(&derived.system, function::RHS, value).expect("a right-hand side");
+        let names = derived.model.coordinates.iter().map(|c| c.name.text.clone());
+        let names = names.chain(derived.model.forms.iter().map(|form| form.name.clone())).collect();
+        let programs = &derived.system.programs;
+        let cost =
+            format!("{:?}", programs.functions.iter().find(|f| f.name == function::RHS).map(|f| f.cost));
+        (rates.into_iter().map(f64::to_bits).collect(), cost, names)
+    })
+}
+
+fn faults(text: &str) -> String {
+    let (declaration, parsed) = parse::parse(text.parse().unwrap());
+    if !parsed.is_empty() {
+        return parsed.to_string();
+    }
+    let declaration = declaration.unwrap();
+    let (derived, report) = collect(|faults| derive(model::resolve(&declaration, faults)?, faults));
+    assert!(derived.is_none(), "{text}");
+    report.to_string()
+}
+
+const TROLLEY: &str = "pub system Trolley {
+    component Wheel(hub: vector, axle: vector, forward: vector, radius: scalar) {
+        constants   { mass > 0, spin_inertia > 0 = 0.1 }
+        coordinates { angle }
+        particles   { mass at hub; }
+        kinetic_energy = 1/2*spin_inertia*dot(angle)^2;
+        constraints { rolls: inner(dot(hub), forward) = radius*dot(angle); }
+        outputs     { turned = angle; }
+    }
+    constants   { m > 0, J > 0, b > 0, r > 0 }
+    inputs      { u }
+    coordinates { x, y, heading }
+    let p = vec(x, y, r);
+    let ahead = vec(cos(heading), sin(heading));
+    let side  = vec(-sin(heading), cos(heading));
+    use Wheel as left  { hub: p + b*side, axle: side, forward: ahead, radius: r }
+    use Wheel as right { hub: p - b*side, axle: side, forward: ahead, radius: r }
+    particles   { m at p; }
+    kinetic_energy = J/2*dot(heading)^2;
+    constraints { grips: inner(dot(p), side) = 0; }
+    forces      { u along dot(left.angle); }
+    scene Straight { track left.angle; fix left.mass = 1; }
+}";
+
+/// The same, as somebody writes it who has no components.
+const BY_HAND: &str = "pub system Trolley {
+    constants   { m > 0, J > 0, b > 0, r > 0, left_mass > 0, left_spin_inertia > 0 = 0.1, right_mass > 0, right_spin_inertia > 0 = 0.1 }
+    inputs      { u }
+    coordinates { x, y, heading, left_angle, right_angle }
+    let p = vec(x, y, r);
+    let ahead = vec(cos(heading), sin(heading));
+    let side  = vec(-sin(heading), cos(heading));
+    let left_hub  = p + b*side;
+    let right_hub = p - b*side;
+    particles   { left_mass at left_hub; right_mass at right_hub; m at p; }
+    constraints {
+        left_rolls:  inner(dot(left_hub), ahead) = r*dot(left_angle);
+        right_rolls: inner(dot(right_hub), ahead) = r*dot(right_angle);
+        grips: inner(dot(p), side) = 0;
+    }
+    kinetic_energy = 1/2*left_spin_inertia*dot(left_angle)^2 + 1/2*right_spin_inertia*dot(right_angle)^2 + J/2*dot(heading)^2;
+    forces      { u along dot(left_angle); }
+    scene Straight { track left_angle; fix left_mass = 1; }
+}";
+
+#[test]
+fn a_trolley_with_two_wheels_is_the_one_that_is_written_by_hand() {
+    let by_hand = |name: &str| name.replace("left_", "left.").replace("right_", "right.");
+    let (own, cost, names) = rates(TROLLEY, str::to_owned);
+    let (hand, hand_cost, hand_names) = rates(BY_HAND, by_hand);
+    let own_order = ["x", "y", "heading", "left.angle", "right.angle", "heading_rate", "left.angle_rate"];
+    assert_eq!(names[..7], own_order);
+    assert_eq!(hand_names.iter().map(|name| by_hand(name)).collect::<Vec<_>>(), names);
+    assert_eq!(own, hand);
+    assert_eq!(cost, hand_cost);
+}
+
+#[test]
+fn instances_in_a_loop_are_those_that_are_written_one_by_one() {
+    let wheels = |uses: &str, meaning: fn(&str) -> String| {
+        let text = TROLLEY
+            .replace("use Wheel as left  { hub: p + b*side, axle: side, forward: ahead, radius: r }", uses);
+        let text =
+            text.replace("use Wheel as right { hub: p - b*side, axle: side, forward: ahead, radius: r }", "");
+        let text = text.replace(
+            "u along dot(left.angle); }",
+            if uses.contains("for i") { "u along dot(w[0].angle); }" } else { "u along dot(a.angle); }" },
+        );
+        let from = text.find("scene").unwrap();
+        let (own, cost, names) = rates(&format!("{} }}", &text[..from]), meaning);
+        (own, cost, names.iter().map(|name| meaning(name)).collect::<Vec<_>>())
+    };
+    let singly = wheels(
+        "use Wheel as a { hub: p - b*side, axle: side, forward: ahead, radius: r }
+         use Wheel as b1 { hub: p, axle: side, forward: ahead, radius: r }
+         use Wheel as c { hub: p + b*side, axle: side, forward: ahead, radius: r }",
+        |name| name.replace("a.", "w[0].").replace("b1.", "w[1].").replace("c.", "w[2]."),
+    );
+    let looped = wheels(
+        "for i in 0..3 { use Wheel as w[i] { hub: p + (i - 1)*b*side, axle: side, forward: ahead, radius: r } }",
+        str::to_owned,
+    );
+    assert_eq!(singly, looped);
+    assert_eq!(looped.2[3..6], ["w[0].angle", "w[1].angle", "w[2].angle"]);
+}
+
+#[test]
+fn components_use_others_and_loops() {
+    let chain = "pub system Chain {
+        component Link(base: vector) {
+            constants { m > 0, l > 0 }
+            coordinates { q }
+            let tip = base + l*vec(sin(q), -cos(q));
+            particles { m at tip; }
+        }
+        component Leg(base: vector) {
+            count n = 2;
+            use Link as upper { base }
+            for i in 0..n { use Link as toe[i] { base: upper.tip } }
+            let end = toe[n-1].tip;
+            constants { k >= 0 = 1 }
+            potential_energy = k/2*sum(i in 0..n: toe[i].q^2);
+        }
+        constants { g = 9.81, M > 0 }
+        coordinates { x }
+        particles { M at vec(x, 0); }
+        gravity = vec(0, -g);
+        for j in 0..2 { use Leg as leg[j] { base: vec(x + j, 0) } }
+        forces { -1*dot(leg[1].toe[0].q) along leg[1].toe[0].q_rate; }
+        outputs { foot = leg[0].end; }
+        scene One { track leg[0]; fix leg[1].toe[0].m = 1, leg[0].k; }
+    }";
+    let faulty = faults(chain);
+    assert!(faulty.contains("`leg[0].k`"), "{faulty}");
+    let (_, _, names) = rates(&chain.replace(", leg[0].k", ""), str::to_owned);
+    let own = [
+        "x",
+        "leg[0].upper.q",
+        "leg[0].toe[0].q",
+        "leg[0].toe[1].q",
+        "leg[1].upper.q",
+        "leg[1].toe[0].q",
+        "leg[1].toe[1].q",
+    ];
+    assert_eq!(names[..7], own);
+    assert_eq!(names[7..], own.map(|name| format!("{name}_rate")));
+}
+
+#[test]
+fn faults_are_told_at_their_place() {
+    let changed = |from: &str, to: &str| {
+        assert!(TROLLEY.contains(from), "{from}");
+        faults(&TROLLEY.replace(from, to))
+    };
+    let cases = [
+        ("hub: p + b*side", "hub: x", "argument `hub` of `Wheel` is a vector, and this is a scalar"),
+        ("hub: p + b*side, ", "", "`Wheel` is used without its argument `hub`"),
+        ("hub: p + b*side", "hubb: p, hub: p", "`Wheel` has no argument `hubb`"),
+        ("hub: p + b*side", "hub: p, mass: 1", "is a constant of `Wheel`"),
+        ("use Wheel as left", "use Wheal as left", "unknown component `Wheal`\nhelp: did you mean `Wheel`?"),
+        ("dot(left.angle)", "dot(angle)", "`angle` is private to the component that declares it"),
+        ("dot(left.angle)", "dot(left.angel)", "has no `angel`\nhelp: did you mean `angle`?"),
+        ("dot(left.angle)", "dot(left.radius)", "`radius` is private to component `Wheel`"),
+        ("dot(left.angle)", "dot(left)", "`left` is an instance of `Wheel`, and no value"),
+        ("radius*dot(angle)", "radius*dot(angle) + b", "unknown name `b` in component `Wheel`"),
+        ("mass at hub", "mass at mass", "in `left`, a `Wheel`, used at line"),
+        ("use Wheel as right", "use Wheel as left", "`left` is declared twice"),
+        ("track left.angle", "track left.angel", "`left.angel`"),
+        (
+            "let p = vec(x, y, r);",
+            "let p = vec(x, y, r) + 0*left.angle*vec(1, 0);",
+            "`left` is used before it is declared",
+        ),
+    ];
+    for (from, to, message) in cases {
+        let found = changed(from, to);
+        assert!(found.contains(message), "{from} -> {to}:\n{found}");
+        assert!(found.matches("line ").count() <= 3, "{from} -> {to}:\n{found}");
+    }
+}

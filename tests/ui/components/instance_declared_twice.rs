@@ -1,0 +1,22 @@
+//! Instances share the namespace of all names.
+//!
+//! repair: `as x {` => `as wheel {`
+
+guen::mechanical_system! {
+    pub system Cart {
+        component Wheel(hub: vector, radius: scalar) {
+            constants   { mass > 0, inertia > 0 }
+            coordinates { angle }
+            fn square(a) = a^2;
+            particles   { mass at hub; }
+            kinetic_energy = inertia/2*dot(angle)^2;
+            constraints { rolls: dot(hub).x = radius*dot(angle); }
+            outputs     { doubled = square(angle); }
+        }
+        constants   { r > 0 }
+        coordinates { x }
+        use Wheel as x { hub: vec(x, r), radius: r }
+    }
+}
+
+fn main() {}

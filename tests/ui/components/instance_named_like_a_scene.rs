@@ -1,0 +1,24 @@
+//! A scene and an instance have a module each.
+//!
+//! repair: `scene Wheel {` => `scene Turned {`
+
+guen::mechanical_system! {
+    pub system Cart {
+        component Disc(hub: vector, radius: scalar) {
+            constants   { mass > 0, inertia > 0 }
+            coordinates { angle }
+            fn square(a) = a^2;
+            particles   { mass at hub; }
+            kinetic_energy = inertia/2*dot(angle)^2;
+            constraints { rolls: dot(hub).x = radius*dot(angle); }
+            outputs     { doubled = square(angle); }
+        }
+        constants   { r > 0 }
+        coordinates { x }
+        use Disc as wheel { hub: vec(x, r), radius: r }
+        scene Wheel { track x; }
+        forces      { -dot(wheel.angle) along dot(wheel.angle); }
+    }
+}
+
+fn main() {}

@@ -1,0 +1,23 @@
+//! Names of a component are private to it.
+//!
+//! repair: `-dot(angle) along` => `-dot(wheel.angle) along`
+
+guen::mechanical_system! {
+    pub system Cart {
+        component Wheel(hub: vector, radius: scalar) {
+            constants   { mass > 0, inertia > 0 }
+            coordinates { angle }
+            fn square(a) = a^2;
+            particles   { mass at hub; }
+            kinetic_energy = inertia/2*dot(angle)^2;
+            constraints { rolls: dot(hub).x = radius*dot(angle); }
+            outputs     { doubled = square(angle); }
+        }
+        constants   { r > 0 }
+        coordinates { x }
+        use Wheel as wheel { hub: vec(x, r), radius: r }
+        forces      { -dot(angle) along dot(wheel.angle); }
+    }
+}
+
+fn main() {}
