@@ -57,8 +57,8 @@ crate::mechanical_component! {
     /// A spatial arm of six revolute joints from a table of Denavit and Hartenberg's parameters.
     ///
     /// Row `i` of the table is `a[i]`, `alpha[i]`, `d[i]`: the frame of link `i` is that of the link before, turned about its third
-    /// axis by the joint's angle, moved along that axis by `d`, along the new first axis by `a`, and turned about that by `alpha`
-    /// (Siciliano, Sciavicco, Villani, Oriolo, *Robotics*, section 2.8). Mass centres and inertias are given in the frames of the links.
+    /// axis by the joint's angle, moved along that axis by `d`, along the new first axis by `a`, and turned about that by `alpha`.
+    /// Mass centres and inertias are given in the frames of the links.
     pub component SpatialArm(
         /// The origin of the first frame.
         base: vector,

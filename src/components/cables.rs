@@ -3,8 +3,8 @@
 crate::mechanical_component! {
     /// An elastic cable with mass between two points, as eight springs with masses between them.
     ///
-    /// The mass of a segment sits in halves at its ends, and a segment pulls along its line with a stiffness and a damping: the
-    /// lumped-mass discretisation of mooring lines (Hall and Goupee, *Ocean Engineering* 104 (2015), without water). A segment
+    /// The mass of a segment sits in halves at its ends, and a segment pulls along its line with a stiffness and a damping: a
+    /// discretisation by lumped masses. A segment
     /// pushes when it is pressed. Neighbouring nodes must not meet.
     pub component Cable(
         /// One end.

@@ -33,8 +33,8 @@ crate::mechanical_component! {
     /// Friction that falls from its greatest value to a lower one as the speed grows, smoothed around rest.
     ///
     /// The force is `(kinetic + (breakaway - kinetic) exp(-(v/stribeck)^2)) tanh(v/smoothing) + viscous v`: Coulomb, Stribeck and
-    /// viscous friction with a `tanh` in place of the jump (Andersson, Söderberg, Björklund, *Tribology International* 40 (2007),
-    /// section 4). It creeps at rest: below `smoothing` it is viscous. Where sticking matters, contacts are the better model.
+    /// viscous friction with a `tanh` in place of the jump (Andersson, Söderberg, Björklund, *Tribology International* 40 (2007)).
+    /// It creeps at rest: below `smoothing` it is viscous. Where sticking matters, contacts are the better model.
     pub component StribeckFriction(
         /// The speed between the surfaces: any expression that is linear in the velocities.
         speed: scalar,
@@ -65,8 +65,7 @@ crate::mechanical_component! {
     /// A direct-current motor behind a gear, fast against the machine: its current follows the voltage at once.
     ///
     /// The winding obeys `voltage = resistance current + constant rotor_speed`, the rotor turns `ratio` times as fast as the output,
-    /// and its inertia counts `ratio^2` there (Spong, Hutchinson, Vidyasagar, *Robot Modeling and Control*, chapter on independent
-    /// joint control).
+    /// and its inertia counts `ratio^2` there.
     pub component GearMotor(
         /// The angle of the output against the housing.
         angle: scalar,

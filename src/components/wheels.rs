@@ -85,7 +85,7 @@ crate::mechanical_component! {
 crate::mechanical_component! {
     /// A blade, a keel or a sharp wheel without mass: its point does not move across it.
     ///
-    /// It makes a Chaplygin sleigh of a rigid body (Neimark and Fufaev, *Dynamics of Nonholonomic Systems*, chapter 1).
+    /// It makes a Chaplygin sled of a rigid body, as (3.12) of Pham Guen (1969).
     pub component Blade(
         /// The point of contact.
         point: vector,
