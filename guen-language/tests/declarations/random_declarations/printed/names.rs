@@ -92,7 +92,7 @@ pub fn exchanged(text: &str, draw: &mut Draw) -> String {
 /// A name as it was read.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum Name {
-    /// As in a declaration, with `dot( )` around it or `'` behind it.
+    /// As in a declaration, with the places of arrays, and with `dot( )` around it or `'` behind it.
     Text(String),
     /// As in a formula: a word with indices and dots.
     Set { head: String, upright: bool, indices: Vec<String>, dots: usize },
@@ -175,8 +175,12 @@ impl Scope {
     /// A name that need not be declared, such as that of an energy.
     pub fn label(&self, name: &Name) -> Result<String, Unread> {
         match (self.written(name), name) {
-            (Err(why), Name::Set { head, indices, dots, .. }) if !why.contains("any of") => {
-                Ok(format!("{head}{}{}", indices.concat(), "'".repeat(*dots)))
+            (Err(why), Name::Set { head, upright, indices, dots }) if !why.contains("any of") => {
+                // The rate of a state is no symbol, the state is one.
+                let (head, indices) = (head.clone(), indices.clone());
+                let plain = format!("{head}{}", indices.concat());
+                let still = Name::Set { head, upright: *upright, indices, dots: 0 };
+                Ok(format!("{}{}", self.written(&still).unwrap_or(plain), "'".repeat(*dots)))
             }
             (known, _) => known,
         }
@@ -197,7 +201,7 @@ fn undotted(name: &str) -> (&str, usize) {
 
 /// Whether a name is set with this head and these indices.
 fn fitting(name: &str, head: &str, upright: bool, indices: &[String]) -> bool {
-    let words: Vec<&str> = name.split('_').filter(|word| !word.is_empty()).collect();
+    let words: Vec<&str> = name.split(['_', '[', ']', '.']).filter(|word| !word.is_empty()).collect();
     let Some((first, rest)) = words.split_first() else { return head == name && indices.is_empty() };
     let stem = first.trim_end_matches(|c: char| c.is_ascii_digit());
     let stem = if stem.is_empty() { first } else { stem };

@@ -88,7 +88,7 @@ impl<'t> Reader<'t> {
             && !variable.starts_with("ot(")
         {
             self.rest = variable;
-            return Ok(Term::Name(Name::Partial(Box::new(Name::Text(self.word().to_owned())))));
+            return Ok(Term::Name(Name::Partial(Box::new(Name::Text(self.path().to_owned())))));
         }
         let digits = self.rest.len() - self.rest.trim_start_matches(|c: char| c.is_ascii_digit()).len();
         if digits > 0 {
@@ -96,7 +96,7 @@ impl<'t> Reader<'t> {
             self.rest = rest;
             return Term::digits(number);
         }
-        let word = self.word();
+        let word = self.path();
         if word.is_empty() {
             return Err(format!("nothing before `{}`", self.rest));
         }
@@ -122,10 +122,18 @@ impl<'t> Reader<'t> {
         }
     }
 
-    fn word(&mut self) -> &'t str {
-        let end = self.rest.find(|c: char| !(c.is_alphanumeric() || c == '_')).unwrap_or(self.rest.len());
-        let (word, rest) = self.rest.split_at(end);
-        self.rest = rest;
-        word
+    /// A name with the places in arrays and the fields behind it: `q`, `q[3]`, `k[1][2]`, `rear[2].angle`.
+    fn path(&mut self) -> &'t str {
+        let begin = self.rest;
+        self.word();
+        while self.eat("[") || self.eat(".") {
+            self.word();
+            self.eat("]");
+        }
+        &begin[..begin.len() - self.rest.len()]
+    }
+
+    fn word(&mut self) {
+        self.rest = self.rest.trim_start_matches(|c: char| c.is_alphanumeric() || c == '_');
     }
 }
