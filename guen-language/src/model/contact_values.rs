@@ -22,7 +22,7 @@ pub(super) struct ContactValue {
     pub(super) gap: Option<ExprId>,
     /// The velocity along it; none without friction.
     pub(super) slip: Option<Value>,
-    /// Its force: a scalar of a smooth contact, a latch or a grip along a line; else the components along the gap and the slip.
+    /// The force: a scalar of a smooth contact, a latch or a grip along a line; else the components along the gap and the slip.
     pub(super) reaction: Value,
     /// Whether it is a contact without friction.
     pub(super) is_smooth: bool,

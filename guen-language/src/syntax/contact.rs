@@ -123,7 +123,7 @@ pub enum ModeStatement {
     States {
         /// The contact.
         contact: Name,
-        /// Its states.
+        /// The states of the contact.
         states: Vec<Name>,
     },
     /// `never contact.state with contact.state ..;`: a combination that does not occur.
