@@ -27,15 +27,18 @@ fn recorded(samples: &[(f64, f64)]) -> Recording<8> {
 fn written(recording: &Recording<8>, folder: &Path) -> Vec<(PathBuf, Result<(), StudyError>)> {
     let [csv, svg, html] = ["a.csv", "a.svg", "a.html"].map(|name| folder.join(name));
     let plot = (0..8).fold(Plot::new(NAMES[0]), |plot, i| plot.line(NAMES[i], recording.curve(i)));
-    let mut all = vec![
+    let files = [
         (csv.clone(), recording.save_csv(&csv)),
         (svg.clone(), plot.axes(NAMES[1], NAMES[7]).size(900, 700).save(&svg)),
     ];
     #[cfg(feature = "viewer")]
-    all.push((html.clone(), crate::Viewer::new(NAMES[0], recording).states(&[]).write(&html)));
+    let pages = [(html.clone(), crate::Viewer::new(NAMES[0], recording).states(&[]).write(&html))];
     #[cfg(not(feature = "viewer"))]
-    let _ = html;
-    all
+    let pages = {
+        let _ = html;
+        []
+    };
+    files.into_iter().chain(pages).collect()
 }
 
 /// A folder of its own, removed at the end.
