@@ -127,9 +127,10 @@ fn indexed(stem: &str, dots: usize) -> String {
     format!("{text}_{{{}}}", indices.join(","))
 }
 
-/// `omega_x1` is `omega` with the indices `x` and `1`, as `k[1][2]` is `k` with its; digits at the end of the first word are an index too.
+/// `omega_x1` is `omega` with the indices `x` and `1`, as `k[1][2]` is `k` and `rear[2].angle` is `rear` with theirs.
+/// Digits at the end of the first word are an index too.
 fn split_indices(name: &str) -> (&str, Vec<&str>) {
-    let mut words = name.split(['_', '[', ']']).filter(|word| !word.is_empty());
+    let mut words = name.split(['_', '[', ']', '.']).filter(|word| !word.is_empty());
     let Some(first) = words.next() else { return (name, Vec::new()) };
     let head = first.trim_end_matches(|c: char| c.is_ascii_digit());
     if head.is_empty() {
