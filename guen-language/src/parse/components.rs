@@ -120,7 +120,11 @@ pub(crate) fn instance(
     }
     let name = indexed_name(cursor, faults, "the name of an instance")?;
     let arguments = match cursor.eat_group(Delimiter::Brace) {
-        Some(group) => given(&group, faults),
+        Some(group) => {
+            // As behind a statement of Rust; a brace ends it as well.
+            cursor.eat(';');
+            given(&group, faults)
+        }
         None if cursor.eat(';').is_some() => Vec::new(),
         None => {
             let fault =

@@ -79,7 +79,7 @@ mod user {
             kinetic_energy = M*dot(tilt)^2;
             gravity     = vec(0, 0, -g);
             /// At the left end.
-            use Spring as left  { anchor: vec(-1, 0, z - tilt) }
+            use Spring as left  { anchor: vec(-1, 0, z - tilt) };
             use Elastic as right { anchor: vec(1, 0, z + tilt) }
             use super::parts::springs::Spring as middle { anchor: vec(0, 0, z) }
             outputs { height = z; }
@@ -198,7 +198,7 @@ guen::mechanical_system! {
         coordinates { x }
         kinetic_energy = M*dot(x)^2;
         use Two as two { to: x }
-        for i in 0..2 { use Mass as mass[i] { to: x + two.second.q } }
+        for i in 0..2 { use Mass as mass[i] { to: x + two.second.q }; }
         potential_energy = two.first.q^2 + sum(i in 0..2: mass[i].q^2);
     }
 }
