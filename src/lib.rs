@@ -220,9 +220,9 @@ pub mod __private {
         actuated, condition, conserved, contact_mode, contact_states, differentiable, domain, dynamics,
         energy, facts, held_through_modes, jacobians, laned, level_info, levels, linearizable, mass_form,
         monitored, motion_of_system, onto_constraints, operators, output_map, prepare, prepared,
-        program_functions, rates, reaction_covector, reactions, record, reduce, reported, simulated,
-        simulated_through_modes, singularities, state_of_system, steady_motions, structured, switches, uses,
-        with_scalar,
+        program_functions, rates, reaction_covector, reactions, record, reduce, reported, restored_by_modes,
+        simulated, simulated_through_modes, singularities, state_of_system, steady_motions, structured,
+        switches, uses, with_scalar,
     };
     pub use guen_runtime::{consistent, control, furthest_surplus, hybrid, serde_record, serde_structured};
 }

@@ -6,3 +6,4 @@ mod free_motion;
 mod json;
 mod reference;
 mod simulated;
+mod unaware;

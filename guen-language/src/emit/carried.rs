@@ -274,6 +274,7 @@ fn systems(
         }
     });
     let prices = integrated::prices(subject, layout, &checks);
+    let restored = integrated::restored(subject, layout);
     let differentiable = integrated::differentiable(layout, false);
     let simulate = integrated::simulate(subject, layout, false, false);
     let lanes = lanes::carried(layout);
@@ -310,6 +311,7 @@ fn systems(
             }
 
             #switches
+            #restored
 
             fn condition(&self, t: R, state: &[R; #size]) -> R {
                 __guen::System::condition(&#below, t, &Prepared::variables(state))

@@ -9,7 +9,7 @@ use super::formula::default_text;
 use super::layout::{Layout, REAL, is_derived, variable_name};
 use super::parts::{self, Modules};
 use super::text::tokens;
-use super::{documentation, limits, motion, physical, with_scalar};
+use super::{documentation, integrated, limits, motion, physical, with_scalar};
 use crate::derive::Subject;
 use crate::report::Report;
 use crate::syntax::{BoundKind, Expression, Item, Name};
@@ -138,8 +138,13 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, report: &Report)
     let limits = limits::has_any(subject).then(|| quote!(prepared.check_limits()?;));
     let with_scalar = with_scalar::items(layout, &structure, marker_value.as_ref());
     let what = if layout.is_whole { "system" } else { "scene" };
+    let through_modes = if integrated::has_contacts(subject) {
+        " Methods take it in a mode, `in_mode(mode)`: its own rates know no contacts, and a run by them ends before its first step."
+    } else {
+        ""
+    };
     let prepared_docs = format!(
-        "The {what} [`{declared}`] with its constants checked and everything that depends on them alone computed once. Immutable; it alone runs."
+        "The {what} [`{declared}`] with its constants checked and everything that depends on them alone computed once. Immutable; it alone runs.{through_modes}"
     );
     quote! {
         #item

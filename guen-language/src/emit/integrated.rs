@@ -42,7 +42,9 @@ pub(super) fn guarded(subject: &Subject<'_, '_>, layout: &Layout, prepared: &Tok
         }
     });
     let prices = prices(subject, layout, &CheckOperations::of(subject, layout));
+    let restored = restored(subject, layout);
     quote! {
+        #restored
         __guen::conserved!(#prepared; #n #size [#kept] [#held]);
         #singularities
         #switches
@@ -50,6 +52,17 @@ pub(super) fn guarded(subject: &Subject<'_, '_>, layout: &Layout, prepared: &Tok
         #condition
         #prices
     }
+}
+
+/// The method `restore` of a system with contacts, which ends runs that would ignore them at their first step.
+pub(super) fn restored(subject: &Subject<'_, '_>, layout: &Layout) -> Option<TokenStream> {
+    let size = layout.size;
+    has_contacts(subject).then(|| quote!(__guen::restored_by_modes!(#size);))
+}
+
+/// Whether the system itself moves unlike what is declared: something can touch, grip or lock.
+pub(super) fn has_contacts(subject: &Subject<'_, '_>) -> bool {
+    subject.model.contacts.as_ref().is_some_and(|contacts| !contacts.entries.is_empty())
 }
 
 /// The operations of checks: an estimate from the counts of their programs.
@@ -168,7 +181,8 @@ pub(super) fn simulate(
     positions: bool,
 ) -> TokenStream {
     let (owner, size) = (owner(layout), layout.size);
-    let positions = positions.then(|| quote!(__guen::onto_constraints!(#size);));
+    // With contacts it stays with what `restore` says.
+    let positions = (positions && !has_contacts(subject)).then(|| quote!(__guen::onto_constraints!(#size);));
     let names = layout.state.names().iter().cloned();
     let units = units(subject.model, names);
     // A carried form lies in a module of its own, and its domain beside the system's.

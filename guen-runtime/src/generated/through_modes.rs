@@ -94,3 +94,19 @@ macro_rules! held_through_modes {
         }
     };
 }
+
+/// `System::restore` of a system with contacts, with the number of states: refused, since its own rates know no contacts.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! restored_by_modes {
+    ($size:literal) => {
+        #[inline]
+        fn restore(
+            &self,
+            _t: R,
+            _state: &mut [R; $size],
+        ) -> ::core::result::Result<(), $crate::PositionsError> {
+            ::core::result::Result::Err($crate::PositionsError::Contacts)
+        }
+    };
+}

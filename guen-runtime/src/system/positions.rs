@@ -318,7 +318,11 @@ where
     forward!(self -> self.0; System<R, M>);
 
     fn restore(&self, t: R, state: &mut [R; M]) -> Result<(), PositionsError> {
-        project(&self.0, t, state).map(|_| ())
+        let mut restored = *state;
+        self.0.restore(t, &mut restored)?;
+        project(&self.0, t, &mut restored)?;
+        *state = restored;
+        Ok(())
     }
 }
 

@@ -32,6 +32,9 @@ pub enum PositionsError {
     },
     /// A left side or a gradient is infinite or NaN.
     NotFinite,
+    /// The system has contacts, and its state is put back by its modes alone: `simulate`, [`Hybrid`](crate::hybrid::Hybrid) or
+    /// `in_mode(mode)`.
+    Contacts,
 }
 
 impl fmt::Display for PositionsError {
@@ -51,6 +54,10 @@ impl fmt::Display for PositionsError {
                 write!(f, "no coordinates near the guess fulfil the constraints; {residual:e} is left")
             }
             Self::NotFinite => f.write_str("a constraint on positions is not finite"),
+            Self::Contacts => f.write_str(
+                "the system has contacts, and this run would ignore them: `simulate` and `Hybrid` run through the modes, \
+                 and `in_mode(mode)` is a system for every method",
+            ),
         }
     }
 }

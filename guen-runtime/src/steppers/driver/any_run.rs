@@ -216,7 +216,7 @@ where
         }
         let Self { run, system, polynomial, .. } = self;
         let mut state = polynomial.get_or_insert_with(|| run.dense(system)).at(time);
-        system.restore(time, &mut state).map_err(|_| Cause::Positions)?;
+        system.restore(time, &mut state).map_err(Cause::of_positions)?;
         Ok(state)
     }
 }

@@ -5,6 +5,7 @@ use core::fmt;
 
 use super::statistics::Statistics;
 use crate::numbers::real::Real;
+use crate::system::positions_error::PositionsError;
 
 /// Why an integration could not go on.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,6 +24,10 @@ pub enum Cause {
     },
     /// The state could not be put back onto the constraints on positions.
     Positions,
+    /// The system has contacts, and the run is not one through its modes: nothing would touch, grip or lock. `simulate` and
+    /// [`Hybrid`](crate::hybrid::Hybrid) run through them, and `in_mode(mode)` is the system in one mode, for every method. The time
+    /// and state beside this cause are those before the first step.
+    Contacts,
     /// The equations of an implicit step were not solved: the step is too long for them, or the Jacobian is singular
     /// or not finite. An adaptive stepper reports this only after shorter steps did not avoid it.
     NoConvergence,
@@ -199,6 +204,14 @@ impl fmt::Display for Cause {
 }
 
 impl Cause {
+    /// The cause that a state could not be put back to where it belongs.
+    pub(crate) fn of_positions(error: PositionsError) -> Self {
+        match error {
+            PositionsError::Contacts => Self::Contacts,
+            _ => Self::Positions,
+        }
+    }
+
     /// Writes the cause in the names of a system.
     pub(crate) fn describe(&self, f: &mut fmt::Formatter<'_>, names: Names) -> fmt::Result {
         match self {
@@ -206,6 +219,7 @@ impl Cause {
             Self::StepUnderflow => f.write_str("the step is too small to move time"),
             Self::TooManySteps { limit } => write!(f, "{limit} steps were not enough"),
             Self::Positions => f.write_str("the constraints on positions cannot be restored"),
+            Self::Contacts => write!(f, "{}", PositionsError::Contacts),
             Self::Setting(Setting::Step) => f.write_str("the step is not a positive number"),
             Self::Setting(Setting::Tolerance) => {
                 f.write_str("the tolerances are not nonnegative numbers with a positive sum")

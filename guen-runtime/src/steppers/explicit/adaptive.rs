@@ -184,7 +184,7 @@ where
         let finite = defined && margin.is_finite();
         if finite && margin.is_enough() {
             let mut accepted = attempt.state;
-            system.restore(next, &mut accepted).map_err(|_| Cause::Positions)?;
+            system.restore(next, &mut accepted).map_err(Cause::of_positions)?;
             let next_slope = match attempt.end {
                 // Of the very state that goes on: nothing was put back.
                 Some(end) if accepted == attempt.state => end,

@@ -215,7 +215,7 @@ where
         if !all_finite(&state) {
             return Err(reached.failed(Cause::NotFinite));
         }
-        system.restore(next, &mut state).map_err(|_| reached.failed(Cause::Positions))?;
+        system.restore(next, &mut state).map_err(|error| reached.failed(Cause::of_positions(error)))?;
         let size = h.to_f64().abs();
         let (own, there) = (estimate(&attempt.errors, size), last(&attempt.stages));
         known.step(own, size, [&reached.state, &state], [&slope, &there]);

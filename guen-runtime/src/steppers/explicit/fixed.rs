@@ -122,7 +122,7 @@ where
         if !all_finite(&state) {
             return Err(Cause::NotFinite);
         }
-        system.restore(next, &mut state).map_err(|_| Cause::Positions)?;
+        system.restore(next, &mut state).map_err(Cause::of_positions)?;
         if dense {
             self.before = self.reached;
         }

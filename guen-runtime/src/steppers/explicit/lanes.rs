@@ -334,7 +334,7 @@ where
                 self.stop(failed, Cause::NotFinite);
                 bury(&mut state, self.lanes.lanes);
             }
-            self.system.restore(L::from_f64(next), &mut state).map_err(|_| Cause::Positions)?;
+            self.system.restore(L::from_f64(next), &mut state).map_err(Cause::of_positions)?;
             self.lanes.statistics.accepted += 1;
             self.now = Moment { time: next, state };
             if self.watch.counts(1) {

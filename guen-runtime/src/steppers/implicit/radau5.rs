@@ -335,7 +335,7 @@ where
                     let mut reached: [R; N] = entries(|k| state[k] + z[2][k]);
                     let finite = all_finite(&reached) && margin.is_finite();
                     if finite && margin.is_enough() {
-                        system.restore(next, &mut reached).map_err(|_| Cause::Positions)?;
+                        system.restore(next, &mut reached).map_err(Cause::of_positions)?;
                         let next_slope = system.rhs(next, &reached);
                         self.reached.statistics.evaluations += 1;
                         if all_finite(&next_slope) {

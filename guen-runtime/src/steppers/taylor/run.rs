@@ -10,6 +10,7 @@ use crate::steppers::driver::error::Cause;
 use crate::steppers::driver::run::{Checkpoint, StepperRun};
 use crate::steppers::driver::statistics::Statistics;
 use crate::steppers::step_size;
+use crate::system::positions_error::PositionsError;
 use crate::system::series::TaylorSeries;
 
 /// The factor by which a step becomes shorter whose rates are not those of its series, and by which the one after it
@@ -259,7 +260,7 @@ struct Trial<R, const N: usize> {
 /// Why a step on trial is none.
 enum Refused {
     NotFinite,
-    Positions,
+    Positions(PositionsError),
     /// The series is not that of the motion.
     Defect,
 }
@@ -300,7 +301,7 @@ impl<R: Ordered, const N: usize> Run<'_, R, N> {
             return Err(Refused::NotFinite);
         }
         let sum = state;
-        system.restore(next, &mut state).map_err(|_| Refused::Positions)?;
+        system.restore(next, &mut state).map_err(Refused::Positions)?;
         for i in 0..N {
             // What was put somewhere else is there.
             if state[i] != sum[i] {
@@ -409,10 +410,12 @@ where
                     self.reached.state = trial.state;
                     return Ok(());
                 }
+                // No shorter step has other contacts.
+                Err(Refused::Positions(PositionsError::Contacts)) => return Err(Cause::Contacts),
                 Err(refused) if shortest => {
                     return Err(match refused {
                         Refused::NotFinite => Cause::NotFinite,
-                        Refused::Positions => Cause::Positions,
+                        Refused::Positions(error) => Cause::of_positions(error),
                         Refused::Defect => Cause::StepUnderflow,
                     });
                 }

@@ -215,6 +215,7 @@ pub fn short(cause: &Cause) -> &'static str {
         Cause::StepUnderflow => "underflow",
         Cause::TooManySteps { .. } => "too many steps",
         Cause::Positions => "positions",
+        Cause::Contacts => "contacts",
         Cause::NoConvergence => "no convergence",
         Cause::Energy { .. } => "energy",
         Cause::Residual { .. } => "residual",
