@@ -12,8 +12,11 @@ mod gather;
 use proc_macro2::{Delimiter, Group, TokenStream, TokenTree};
 
 use crate::diagnostics::{Fault, FaultReport, Faults, collect};
+use crate::emit;
+use crate::model;
+use crate::parse;
 use crate::syntax::{Component, Declaration, Imported, Item, imports};
-use crate::{emit, model, parse, unfold};
+use crate::unfold;
 
 pub(crate) use gather::{Gathered, gather, imported, split};
 
