@@ -27,6 +27,11 @@ impl Values {
         Self { values: written.map(Real::to_f64), count }
     }
 
+    /// The function of an index. Without bounds to check the loops of methods cannot panic.
+    fn at(&self, k: usize) -> f64 {
+        self.values.get(k).copied().unwrap_or(0.0)
+    }
+
     /// Whether there are any.
     pub(super) fn is_empty(&self) -> bool {
         self.count == 0
@@ -73,6 +78,11 @@ impl<R: Real> Switches<R> {
         Self { sides, here, past: None, moved: 0, longest: 0.0 }
     }
 
+    /// The side on which a function was last.
+    fn side(&self, k: usize) -> i8 {
+        self.sides.get(k).copied().unwrap_or(0)
+    }
+
     /// The time to go to: in a bracket the place where the first function is expected to cross, by regula falsi with the Illinois
     /// rule.
     pub(super) fn goal<const N: usize>(&self, from: &Checkpoint<R, N>, target: R) -> R {
@@ -83,8 +93,8 @@ impl<R: Real> Switches<R> {
         let (ahead, behind) = (self.moved.max(0), (-self.moved).max(0));
         let part = match self.moved.abs() < PATIENCE {
             true => self.crossed(&past.values).map_or(0.5, |k| {
-                let a = self.here.values[k].abs() * libm::exp2(f64::from(-(behind - 1).max(0)));
-                let b = past.values.values[k].abs() * libm::exp2(f64::from(-(ahead - 1).max(0)));
+                let a = self.here.at(k).abs() * libm::exp2(f64::from(-(behind - 1).max(0)));
+                let b = past.values.at(k).abs() * libm::exp2(f64::from(-(ahead - 1).max(0)));
                 if a + b > 0.0 { a / (a + b) } else { 0.5 }
             }),
             false => 0.5,
@@ -106,8 +116,8 @@ impl<R: Real> Switches<R> {
     fn crossed(&self, values: &Values) -> Option<usize> {
         let mut found: Option<(usize, f64)> = None;
         for k in 0..values.count {
-            let (a, b) = (self.here.values[k], values.values[k]);
-            if self.sides[k] * sign(b) < 0 {
+            let (a, b) = (self.here.at(k), values.at(k));
+            if self.side(k) * sign(b) < 0 {
                 let part = a.abs() / (a.abs() + b.abs());
                 if found.is_none_or(|(_, first)| part < first) {
                     found = Some((k, part));
@@ -173,14 +183,12 @@ impl<R: Real> Switches<R> {
         let first = next(place);
         let values = Values::of(system, &first);
         match crossed {
-            Some(k) => (self.sides[k] * sign(values.values[k]) < 0).then_some(k),
+            Some(k) => (self.side(k) * sign(values.at(k)) < 0).then_some(k),
             None => {
                 let second = Values::of(system, &next(&first));
                 let leads_back = |k: &usize| {
-                    let side = sign(values.values[*k]);
-                    self.sides[*k] == 0
-                        && side != 0
-                        && (second.values[*k] - values.values[*k]) * f64::from(side) < 0.0
+                    let side = sign(values.at(*k));
+                    self.side(*k) == 0 && side != 0 && (second.at(*k) - values.at(*k)) * f64::from(side) < 0.0
                 };
                 (0..values.count).find(leads_back)
             }
@@ -189,15 +197,15 @@ impl<R: Real> Switches<R> {
 
     /// Whether some function vanishes at the start.
     pub(super) fn begins_on_one(&self) -> bool {
-        self.sides[..self.here.count].contains(&0)
+        self.sides.iter().take(self.here.count).any(|side| *side == 0)
     }
 
     /// Takes the values at the end of a step that counts. Whoever stands on zero stays on the side from which it came.
     fn enter(&mut self, values: Values) {
         for k in 0..values.count {
-            let side = sign(values.values[k]);
-            if side != 0 {
-                self.sides[k] = side;
+            let side = sign(values.at(k));
+            if let Some(own) = self.sides.get_mut(k).filter(|_| side != 0) {
+                *own = side;
             }
         }
         self.here = values;
@@ -205,7 +213,7 @@ impl<R: Real> Switches<R> {
 
     /// Counts the functions that a step has carried to their other side, and takes its end as it is.
     pub(super) fn pass(&mut self, values: Values) -> u64 {
-        let crossed = (0..values.count).filter(|k| self.sides[*k] * sign(values.values[*k]) < 0).count();
+        let crossed = (0..values.count).filter(|k| self.side(*k) * sign(values.at(*k)) < 0).count();
         self.enter(values);
         crossed as u64
     }
