@@ -71,19 +71,11 @@ fn programs(folder: &str) -> Vec<String> {
     found
 }
 
-/// Cases to which the compiler adds errors of its own, or in which it looks for a component itself: compared as the macro's alone.
-const WITH_ERRORS_OF_THE_COMPILER: [&str; 3] = [
-    "tests/ui/components/component_named_like_a_generated_item.rs",
-    "tests/ui/components/component_unknown.rs",
-    "tests/ui/components/instance_named_like_a_scene.rs",
-];
-
 /// All cases: a tenth of a second for each.
 #[test]
 #[ignore = "`.ci/run` asks for it"]
 fn the_compiler_shows_the_same_in_all_cases() {
-    let mut cases = programs("tests/ui");
-    cases.retain(|case| !WITH_ERRORS_OF_THE_COMPILER.contains(&&case[..]));
+    let cases = programs("tests/ui");
     assert!(cases.len() >= 60);
     let wrong = wrong(cases);
     assert!(wrong.is_empty(), "{} cases differ\n\n{}", wrong.len(), wrong.join("\n\n"));

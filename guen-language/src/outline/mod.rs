@@ -5,6 +5,7 @@
 //! matrix is the identity. Vectors are recognised by how they are written; a scene keeps every variable and provides
 //! everything, because what it would keep is not known.
 
+mod components;
 mod contacts;
 mod expressions;
 mod forms;
@@ -60,7 +61,7 @@ pub fn sound(declaration: &Declaration) -> Declaration {
         items.extend(contacts::items(declaration, &kinds, &mut names, moving, &forms.coordinates));
     }
     items.extend(scenes::items(declaration, &entries, &forms));
-    Declaration { items, origins: Vec::new(), ..declaration.clone() }
+    components::free_names(Declaration { items, origins: Vec::new(), ..declaration.clone() }, declaration)
 }
 
 /// A section without documentation; one without entries is as if it were not there.

@@ -4,7 +4,8 @@ use std::rc::Rc;
 
 use proc_macro2::{Span, TokenStream};
 
-use super::{Docs, Expression, Item, Name, Node, Path, Visibility};
+use super::{Declaration, Docs, Expression, Item, Name, Node, Path, Visibility};
+use crate::names::{CARRIED_ITEMS, is_generated_item};
 
 /// `component Name(a: scalar, ..) { sections }`.
 #[derive(Debug, Clone)]
@@ -151,6 +152,18 @@ pub struct Imported {
     pub component: Component,
     /// Whether mistakes in it have been reported where it is declared.
     pub is_faulty: bool,
+}
+
+impl Declaration {
+    /// Whether the generated module has an item of its own with the name of a component in the braces.
+    pub fn takes_name_of(&self, component: &Name) -> bool {
+        let text = component.text.as_str();
+        let is_scene = |item: &Item| matches!(item, Item::Scene(scene) if scene.name.text == text);
+        is_generated_item(text)
+            || CARRIED_ITEMS.contains(&text)
+            || self.name.text == text
+            || self.items.iter().any(is_scene)
+    }
 }
 
 /// The paths of the components that items use and do not declare, each once, in the order of the uses.

@@ -35,11 +35,7 @@ pub(super) fn check(declaration: &Declaration, faults: &mut Faults) {
             }
             Item::Component(component) => {
                 let name = &component.name;
-                let is_taken = is_generated_item(&name.text)
-                    || CARRIED_ITEMS.contains(&name.text.as_str())
-                    || declaration.name.text == name.text
-                    || scenes.iter().any(|scene| scene.text == name.text);
-                if is_taken {
+                if declaration.takes_name_of(name) {
                     let text =
                         format!("a component in the braces of a system cannot be called `{name}` here");
                     let fault = Fault::new(name.span(), text);

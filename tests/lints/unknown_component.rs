@@ -1,6 +1,4 @@
-//! A component is declared or imported before it is used.
-//!
-//! repair: `use Wheal as` => `use Wheel as`
+//! A component that is neither declared nor imported: the compiler looks for it as for a macro, because an import would bring one.
 
 guen::mechanical_system! {
     pub system Cart {
