@@ -24,7 +24,7 @@ pub(super) fn add(
     for id in graph.reachable(rates, |_| false) {
         let Some(switch) = graph.switching_function(id) else { continue };
         let opposite = graph.neg(switch);
-        // What depends on inputs alone jumps where they do, and they are held.
+        // A function of inputs alone jumps only where they do, and inputs are held during a step.
         if graph.roles(switch).meets(moving) && !switches.contains(&switch) && !switches.contains(&opposite) {
             // Of both the one that reads better.
             let reads_worse = graph.text_limited(switch, 80).is_some_and(|text| text.starts_with('-'));

@@ -293,7 +293,7 @@ impl Scope {
 
     /// Every name as written, and those without any use: a scene may refer to one of them all the same.
     pub(super) fn into_identifiers(self) -> Identifiers {
-        // What a component declares, its other uses may need.
+        // Names of a component may be needed by its other uses.
         let unused = self.unused().filter(|text| !text.contains('.'));
         let idle: BTreeSet<usize> = unused.map(|text| self.entries[text].written).collect();
         let mut unused: Vec<Ident> = idle.into_iter().map(|place| self.declared[place].clone()).collect();

@@ -83,7 +83,7 @@ fn arguments(group: &Group, faults: &mut Faults) -> Vec<DeclaredArgument> {
             };
             faults.report(fault);
             cursor.recover_to_comma();
-            // What is meant is likely, and nothing is derived after a fault.
+            // The likely meaning is taken: nothing is derived after a fault.
             let kind = near.and_then(ArgumentKind::of_word).unwrap_or(ArgumentKind::Scalar);
             return Ok(DeclaredArgument { docs, name, kind });
         };

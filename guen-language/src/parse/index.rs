@@ -88,7 +88,7 @@ fn indices(group: &Group, faults: &mut Faults) -> Vec<IndexExpression> {
 pub(crate) fn range(cursor: &mut Cursor, faults: &mut Faults) -> Result<Range, Reported> {
     cursor.open_invisible();
     if cursor.is_word("range") && cursor.group_at(1, Delimiter::Parenthesis).is_some() {
-        let fault = Fault::new(cursor.span(), "`range(..)` is no range of this language");
+        let fault = Fault::new(cursor.span(), "`range(..)` is not a range of this language");
         return Err(faults.report(fault.help(HELP_RANGE)));
     }
     let start = sum(cursor, faults, 0)?;

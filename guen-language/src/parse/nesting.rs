@@ -139,7 +139,7 @@ impl<T> Entries<T> {
     }
 }
 
-/// Whether what is behind the braces of an `if` goes on with an expression: then the `if` is meant as a part of it.
+/// Whether an expression goes on behind the braces of an `if`: then the `if` was meant as a part of it.
 fn is_expression(cursor: &Cursor) -> bool {
     let mut place = 1;
     loop {

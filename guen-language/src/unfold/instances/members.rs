@@ -212,7 +212,7 @@ impl Scope {
                 return None;
             }
             if !matches!(name.index, Index::None) {
-                let fault = Fault::new(name.span(), format!("`{text}` is no entry of `{instance}`"));
+                let fault = Fault::new(name.span(), format!("`{instance}` has no entry `{text}`"));
                 faults.report(fault);
                 return None;
             }
