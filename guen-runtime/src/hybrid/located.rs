@@ -142,8 +142,10 @@ where
         }
         let mut t = before;
         if value > 0.0 {
-            t = narrow(Bracket { before, after: b }, (value, low), 0.0, &mut |t| self.value(function, t))
-                .after;
+            t = narrow(Bracket { before, after: b }, (value, low), &spacing, &mut |t| {
+                self.value(function, t)
+            })
+            .after;
         }
         self.counts(function, t).then_some(Found { function, t, touches: false })
     }
@@ -151,9 +153,10 @@ where
     /// The least value between two times at which a function is positive and between which its rate rises through zero: a falling
     /// zero before it, a touch, or nothing.
     fn least(&mut self, function: Function, a: f64, b: f64, (falls, rises): (f64, f64)) -> Option<Found> {
-        let bottom =
-            narrow(Bracket { before: a, after: b }, (-falls, -rises), 0.0, &mut |t| -self.rate(function, t))
-                .after;
+        let bottom = narrow(Bracket { before: a, after: b }, (-falls, -rises), &spacing, &mut |t| {
+            -self.rate(function, t)
+        })
+        .after;
         let value = self.value(function, bottom);
         match self.side(function, bottom) {
             -1 => {
@@ -179,6 +182,11 @@ where
         let state = (self.at)(t);
         self.in_mode.system.conditions(t, &state, &self.in_mode.switches).when[c] > 0.0
     }
+}
+
+/// The spacing of times at a time.
+fn spacing(t: f64) -> f64 {
+    f64::EPSILON * t.abs()
 }
 
 /// The sign of a function at a time and state, zero where it is no more than rounding.

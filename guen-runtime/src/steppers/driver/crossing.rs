@@ -2,6 +2,7 @@
 
 use crate::numbers::real::Real;
 use crate::steppers::driver::events::Event;
+use crate::steppers::root::{Bracket, narrow};
 
 /// The sign of a value: zero for NaN, which is no side of anything.
 pub(in crate::steppers) fn sign(value: f64) -> i8 {
@@ -142,68 +143,19 @@ impl Tracker {
 
 /// A bracket no longer than the event's resolution. The function has the sign `old` at `a`, and the other at `b`, where it
 /// is `fb`.
-///
-/// Regula falsi with the value at an end that stays halved (the Illinois rule; M. Dowell and P. Jarratt, BIT 11
-/// (1971) 168-174), and a bisection whenever three steps have not halved the bracket, so that at most four evaluations
-/// gain a bit.
 fn root<R: Real, const N: usize>(
     event: &Event<'_, R, N>,
-    (mut a, mut b): (R, R),
-    mut fb: f64,
+    (a, b): (R, R),
+    fb: f64,
     old: i8,
     value: &mut dyn FnMut(R) -> f64,
 ) -> Crossing<R> {
-    /// Enough to halve a bracket from one end of the exponents to the other.
-    const MAX_ITERATIONS: u32 = 10_000;
-    const ITERATIONS_TO_HALVE: u32 = 3;
-
-    let rising = old < 0;
-    let mut fa = value(a);
-    if sign(fa) != old {
-        // The side was left before `a`, at a point that counts as the surface: bisect.
-        fa = f64::from(old) * fb.abs();
-    }
-    let mut width = (b - a).to_f64().abs();
-    let (mut since, mut last) = (0, 0);
-    for _ in 0..MAX_ITERATIONS {
-        let present = (b - a).to_f64().abs();
-        let resolution = event.resolution(a).max(event.resolution(b));
-        if present <= resolution {
-            break;
-        }
-        if present <= width / 2.0 {
-            (width, since) = (present, 0);
-        }
-        let mut part = if since >= ITERATIONS_TO_HALVE { 0.5 } else { fa / (fa - fb) };
-        if since >= ITERATIONS_TO_HALVE {
-            (width, since) = (present, 0);
-        }
-        // A probe nearer to an end than the resolution could not close the bracket from the other side.
-        let margin = (0.5 * resolution / present).min(0.5);
-        part = if part.is_nan() { 0.5 } else { part.max(margin).min(1.0 - margin) };
-        since += 1;
-        let middle = a + (b - a) * R::from_f64(part);
-        if middle == a || middle == b {
-            break;
-        }
-        let found = value(middle);
-        if found == 0.0 {
-            return Crossing { after: middle, time: middle, rising };
-        }
-        // Where there is no value nothing has been crossed.
-        let moved = if found.is_nan() { old } else { sign(found) };
-        if moved == old {
-            (a, fa) = (middle, found);
-            if last == moved {
-                fb /= 2.0;
-            }
-        } else {
-            (b, fb) = (middle, found);
-            if last == moved {
-                fa /= 2.0;
-            }
-        }
-        last = moved;
-    }
-    Crossing { after: a, time: b, rising }
+    let side = f64::from(old);
+    let at_start = side * value(a);
+    // Where the side was left before `a`, at a point that counts as the surface, the first probe halves.
+    let high = if at_start > 0.0 { at_start } else { fb.abs() };
+    let bracket = Bracket { before: a, after: b };
+    let resolution = |t: R| event.resolution(t);
+    let found = narrow(bracket, (high, side * fb), &resolution, &mut |t| side * value(t));
+    Crossing { after: found.before, time: found.after, rising: old < 0 }
 }
