@@ -167,3 +167,28 @@ where
         Some(TransitionKind::Rest { impacts, until })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Resting;
+
+    /// The answer after the last of the speeds.
+    fn recorded(speeds: &[f64]) -> Option<f64> {
+        let mut resting = Resting::<1>::new(1e-9);
+        speeds.iter().enumerate().fold(None, |_, (k, speed)| resting.record(k as f64, *speed, &[true]))
+    }
+
+    #[test]
+    fn a_sequence_comes_to_rest_by_three_equal_ratios() {
+        assert_eq!(recorded(&[8.0, 4.0, 2.0, 1.0]), Some(0.5));
+        // Three speeds have two ratios.
+        assert_eq!(recorded(&[4.0, 2.0, 1.0]), None);
+        // The first, the second or the third ratio is another one.
+        assert_eq!(recorded(&[9.0, 4.0, 2.0, 1.0]), None);
+        assert_eq!(recorded(&[8.0, 4.5, 2.0, 1.0]), None);
+        assert_eq!(recorded(&[8.0, 4.0, 2.0, 1.1]), None);
+        // An elastic contact never rests, nor one that is driven.
+        assert_eq!(recorded(&[1.0; 4]), None);
+        assert_eq!(recorded(&[1.0, 2.0, 4.0, 8.0]), None);
+    }
+}

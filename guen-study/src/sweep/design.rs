@@ -1,14 +1,19 @@
 //! Designs: which points of which axes a sweep visits. Every point is computed from its number, so that a part of a sweep needs none
 //! of the others, and a design takes no memory for its points.
 
-use std::error::Error;
-use std::fmt;
+mod axes;
+mod fault;
+mod point;
 
 use guen_runtime::Real;
 
 use super::error::SweepError;
 use super::normal;
 use super::random::{Permutation, Philox, unit};
+
+pub use axes::{Grid, Sampling};
+pub use fault::DesignFault;
+pub use point::{Point, UnknownAxis, UnknownEntry};
 
 /// The points of a sweep: so many numbers with names each, one point for each motion.
 ///
@@ -110,166 +115,6 @@ fn of_values(values: &[f64]) -> Option<DesignFault> {
         Some(DesignFault::NotFinite)
     } else {
         None
-    }
-}
-
-/// The reason for which a design is refused.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum DesignFault {
-    /// The design has no point.
-    NoPoints,
-    /// The design has more than `2^53` points.
-    TooManyPoints,
-    /// Two axes have this name.
-    Duplicate,
-    /// An axis has no values.
-    NoValues,
-    /// A value is not finite.
-    NotFinite,
-    /// The ends of a range are not finite, or in the wrong order.
-    Range,
-    /// The ends of a logarithmic range are not positive and finite, or in the wrong order.
-    LogarithmicRange,
-    /// The mean of a normal distribution is not finite, or its deviation is negative or not finite.
-    Normal,
-    /// A row of a table does not have one number for each name.
-    Rows,
-    /// The sequence of Sobol has no more than 21,201 axes.
-    TooManyAxes,
-}
-
-impl fmt::Display for DesignFault {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::NoPoints => "there is no point",
-            Self::TooManyPoints => "there are more than 2^53 points",
-            Self::Duplicate => "two axes have this name",
-            Self::NoValues => "it has no values",
-            Self::NotFinite => "a value is not finite",
-            Self::Range => "the range needs finite ends, the lower one first",
-            Self::LogarithmicRange => "a logarithmic range needs positive, finite ends, the lower one first",
-            Self::Normal => {
-                "a normal distribution needs a finite mean and a deviation that is finite and not negative"
-            }
-            Self::Rows => "every row needs one number for each name",
-            Self::TooManyAxes => "the sequence of Sobol has no more than 21201 axes",
-        })
-    }
-}
-
-/// The axes of a grid, of which the last one changes fastest.
-#[derive(Clone, Debug, Default)]
-#[must_use = "a grid becomes a design by `design`, or in a sweep"]
-pub struct Grid {
-    names: Vec<String>,
-    axes: Vec<Vec<f64>>,
-}
-
-impl Grid {
-    /// Adds an axis with these values.
-    pub fn values(mut self, name: impl Into<String>, values: impl IntoIterator<Item = f64>) -> Self {
-        self.names.push(name.into());
-        self.axes.push(values.into_iter().collect());
-        self
-    }
-
-    /// Adds an axis of `count` values at equal distances, both ends included.
-    pub fn linear(self, name: impl Into<String>, low: f64, high: f64, count: usize) -> Self {
-        let step = |k: usize| low + (high - low) * (k as f64 / (count - 1) as f64);
-        let values = (0..count).map(|k| {
-            if k == 0 {
-                low
-            } else if k + 1 == count {
-                high
-            } else {
-                step(k)
-            }
-        });
-        self.values(name, values.collect::<Vec<f64>>())
-    }
-
-    /// Adds an axis of `count` values with equal quotients, both ends included, which have to be positive.
-    pub fn logarithmic(self, name: impl Into<String>, low: f64, high: f64, count: usize) -> Self {
-        let step = |k: usize| low * Real::exp(Real::ln(high / low) * (k as f64 / (count - 1) as f64));
-        let values = (0..count).map(|k| {
-            if k == 0 {
-                low
-            } else if k + 1 == count {
-                high
-            } else {
-                step(k)
-            }
-        });
-        self.values(name, values.collect::<Vec<f64>>())
-    }
-
-    /// The design of these axes.
-    pub fn design(self) -> Design {
-        let Self { names, axes } = self;
-        let count = axes.iter().fold(1_u64, |count, values| count.saturating_mul(values.len() as u64));
-        Design { names, kind: Kind::Grid(axes), count }
-    }
-}
-
-/// The axes of a design whose points are drawn, each with its distribution.
-#[derive(Clone, Debug)]
-#[must_use = "a sampling becomes a design by `design`, or in a sweep"]
-pub struct Sampling {
-    names: Vec<String>,
-    method: Method,
-    seed: u64,
-    count: u64,
-    axes: Vec<Distribution>,
-}
-
-impl Sampling {
-    fn new(method: Method, count: u64, seed: u64) -> Self {
-        Self { names: Vec::new(), method, seed, count, axes: Vec::new() }
-    }
-
-    fn with(mut self, name: impl Into<String>, axis: Distribution) -> Self {
-        self.names.push(name.into());
-        self.axes.push(axis);
-        self
-    }
-
-    /// Adds an axis whose values are equally likely between two ends.
-    pub fn uniform(self, name: impl Into<String>, low: f64, high: f64) -> Self {
-        self.with(name, Distribution::Uniform { low, high })
-    }
-
-    /// Adds an axis whose logarithms are equally likely between those of two positive ends.
-    pub fn log_uniform(self, name: impl Into<String>, low: f64, high: f64) -> Self {
-        self.with(name, Distribution::LogUniform { low, high })
-    }
-
-    /// Adds an axis with a normal distribution of this mean and standard deviation.
-    pub fn normal(self, name: impl Into<String>, mean: f64, deviation: f64) -> Self {
-        self.with(name, Distribution::Normal { mean, deviation })
-    }
-
-    /// Adds an axis with these values, equally likely.
-    pub fn choice(self, name: impl Into<String>, values: impl IntoIterator<Item = f64>) -> Self {
-        self.with(name, Distribution::Choice(values.into_iter().collect()))
-    }
-
-    /// The design of these axes.
-    pub fn design(self) -> Design {
-        let Self { names, method: sampling, seed, count, axes } = self;
-        Design { names, kind: Kind::Sampled { sampling, seed, axes }, count }
-    }
-}
-
-impl From<Grid> for Design {
-    fn from(grid: Grid) -> Self {
-        grid.design()
-    }
-}
-
-impl From<Sampling> for Design {
-    fn from(sampling: Sampling) -> Self {
-        sampling.design()
     }
 }
 
@@ -488,77 +333,6 @@ impl PointsAt<'_> {
 fn inside(part: f64) -> f64 {
     part.clamp(unit(0), unit(u64::MAX))
 }
-
-/// A point of a design, for the closure that makes a motion of it.
-#[derive(Clone, Copy, Debug)]
-pub struct Point<'a> {
-    pub(super) index: u64,
-    pub(super) names: &'a [String],
-    pub(super) values: &'a [f64],
-}
-
-impl Point<'_> {
-    /// The number of the point among those of the design, which is that of the motion.
-    pub fn index(&self) -> u64 {
-        self.index
-    }
-
-    /// The values, one for each axis.
-    pub fn values(&self) -> &[f64] {
-        self.values
-    }
-
-    /// The value along the axis of this name.
-    ///
-    /// # Errors
-    ///
-    /// [`UnknownAxis`]: a sweep whose closure passes it on is refused before any motion is computed.
-    pub fn get(&self, name: &str) -> Result<f64, UnknownAxis> {
-        let place = self.names.iter().position(|own| own == name);
-        place
-            .and_then(|place| self.values.get(place).copied())
-            .ok_or_else(|| UnknownAxis { name: name.to_owned(), known: self.names.to_vec() })
-    }
-}
-
-/// A name that is none of a design's axes.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct UnknownAxis {
-    /// The name that was asked for.
-    pub name: String,
-    /// The names of the axes.
-    pub known: Vec<String>,
-}
-
-impl fmt::Display for UnknownAxis {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "the design has no axis `{}`, but {}", self.name, self.known.join(", "))
-    }
-}
-
-impl Error for UnknownAxis {}
-
-/// An axis that should replace an entry of the state and has another name.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct UnknownEntry {
-    /// The name of the axis.
-    pub name: String,
-    /// The names of the state's entries.
-    pub known: &'static [&'static str],
-}
-
-impl fmt::Display for UnknownEntry {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "the state has no entry `{}` for the axis of this name, but {}",
-            self.name,
-            self.known.join(", ")
-        )
-    }
-}
-
-impl Error for UnknownEntry {}
 
 #[cfg(test)]
 mod tests {
