@@ -106,5 +106,6 @@ pub fn coordinates(text: &str) -> usize {
 /// Whether faults are what a file is about: the compiler's message lies beside it, or it is a page or built from faults.
 pub fn may_be_wrong(file: &Path) -> bool {
     let text = file.to_string_lossy();
-    file.with_extension("stderr").exists() || ["docs/", "/generated/"].iter().any(|folder| text.contains(folder))
+    file.with_extension("stderr").exists()
+        || ["docs/", "/generated/"].iter().any(|folder| text.contains(folder))
 }
