@@ -4,6 +4,7 @@ mod declared;
 mod free_motion;
 #[path = "../../guen-runtime/tests/hybrid/json.rs"]
 mod json;
+mod printed;
 mod reference;
 mod simulated;
 mod unaware;

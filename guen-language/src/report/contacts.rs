@@ -4,6 +4,9 @@ use super::lines::{Lines, Section, Writer, plural};
 use crate::derive::{ContactFacts, Subject};
 use crate::model::{ContactEntry, ContactKind, Contacts};
 
+/// The longest entry of D that is printed, in bytes. A hinge's stop on a chain of three takes ten thousand.
+const LONGEST_ENTRY: usize = 300;
+
 /// Contacts and what was derived of them; nothing where there are none.
 pub(super) fn section(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Option<Section> {
     let (contacts, facts) = (subject.model.contacts.as_ref()?, subject.level.contacts.as_ref()?);
@@ -19,15 +22,24 @@ pub(super) fn section(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Opt
         }
     }
     let mut entry = facts.delassus.iter();
+    let mut long = 0;
     for w in 0..names.len() {
         for v in 0..=w {
             let Some(value) = entry.next().filter(|value| !graph.is_zero(**value)) else { continue };
+            if graph.text_limited(*value, LONGEST_ENTRY).is_none() {
+                long += 1;
+                continue;
+            }
             let name = format!("D[{}, {}]", names[w], names[v]);
             let latex = format!("D_{{{}\\,{}}}", w + 1, v + 1);
             lines.equation(&name, &latex, *value);
         }
     }
     let mut section = lines.section;
+    if long > 0 {
+        let (entries, are) = if long == 1 { ("entry", "is") } else { ("entries", "are") };
+        section.text.push(format!("{long} {entries} of D = W M^-1 W^T {are} too long to print"));
+    }
     section.text.extend(contacts.entries.iter().map(words));
     section.text.extend(
         contacts
@@ -80,10 +92,10 @@ fn painleve(contacts: &Contacts<'_>, facts: &ContactFacts) -> Vec<String> {
     }
     let pair = |(slipping, touching): &(usize, usize)| match slipping == touching {
         true => {
-            format!("where {} slips its reaction may have no value, or several (Painlevé)", name(*slipping))
+            format!("where {} slips, its reaction may have no value, or several (Painlevé)", name(*slipping))
         }
         false => format!(
-            "where {} slips that of {} may have no value, or several",
+            "where {} slips, the reaction of {} may have no value, or several",
             name(*slipping),
             name(*touching)
         ),

@@ -1,0 +1,28 @@
+//! What the reports of systems with contacts say.
+
+use super::declared::{stick_slip, walker};
+
+#[test]
+fn short_entries_of_d_are_printed() {
+    let expected = [
+        "belt_n = w",
+        "belt_t = u - vb",
+        "D[belt_n, belt_n] = 1/m",
+        "D[belt_t, belt_t] = 1/m",
+        "belt is a contact with friction along a line: open, stick, slip",
+        "4 modes",
+        "in every mode a slip has one reaction: D between slips and gaps vanishes",
+    ];
+    assert_eq!(stick_slip::REPORT.lines("Contacts"), expected);
+}
+
+#[test]
+fn long_entries_of_d_are_counted() {
+    let lines = walker::REPORT.lines("Contacts");
+    let printed = lines.iter().filter(|line| line.starts_with("D["));
+    assert!(printed.clone().all(|line| line.len() < 350), "{lines:?}");
+    // Seven rows: two of each foot, one of each other contact, so that 28 entries make the lower half.
+    let long = 28 - printed.count();
+    let counted = format!("{long} entries of D = W M^-1 W^T are too long to print");
+    assert!(lines.contains(&counted.as_str()), "{lines:?}");
+}
