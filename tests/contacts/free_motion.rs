@@ -201,7 +201,7 @@ fn contacts_of_a_loop() {
         ["leg[0]", "leg[1]", "leg[2]"]
     );
     assert_eq!(feet::MODES.len(), 6);
-    let mode = feet::Mode { leg_0: feet::Leg0::Stick, leg_1: feet::Leg1::Open, leg_2: feet::Leg2::Stick };
+    let mode = feet::Mode { leg: [feet::Leg::Stick, feet::Leg::Open, feet::Leg::Stick] };
     assert_eq!(mode.to_string(), "leg[0] stick, leg[1] open, leg[2] stick");
     // Two feet that stick carry half of the weight each, up to the forces along the table that are not determined.
     let outputs = feet.outputs_in_mode(mode, 0.0, &feet::State::default());

@@ -1,5 +1,6 @@
 //! Declarations with contacts: what is generated for them, against independent calculations.
 
+mod components;
 mod declared;
 mod free_motion;
 #[path = "../../guen-runtime/tests/hybrid/json.rs"]

@@ -1,13 +1,11 @@
-//! Contacts: the trait by which they run, and modes with named fields.
+//! Contacts: the trait by which they run.
 
-use proc_macro2::{Ident, TokenStream};
+use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
-use super::documentation;
 use super::layout::Layout;
 use crate::derive::{Subject, function};
-use crate::model::{ContactEntry, ContactKind, ContactState, Contacts};
-use crate::syntax::type_of_states;
+use crate::model::{ContactKind, Contacts};
 
 pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let (Some(contacts), Some(facts)) = (&subject.model.contacts, &subject.level.contacts) else {
@@ -106,7 +104,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
         _ => quote!(self.system.driven(inputs)),
     };
     let painleve_free = facts.painleve_free;
-    let modes = modes(contacts);
+    let modes = super::modes::items(subject, contacts);
     let in_mode = in_mode(contacts, &[*size, rows, count, switches]);
     let outputs = outputs(subject, layout, &[*size, rows, count, switches]);
     let held = (given > 0).then(|| quote!(__guen::held_through_modes!();));
@@ -244,58 +242,4 @@ fn elements(contacts: &Contacts<'_>) -> Vec<TokenStream> {
             quote!(#element #loaded #of_speed)
         })
         .collect()
-}
-
-/// `Mode`, the states of every contact, and the list of all modes.
-fn modes(contacts: &Contacts<'_>) -> TokenStream {
-    let entries = &contacts.entries;
-    let states = entries.iter().map(|entry| {
-        let name = type_of(entry);
-        let docs = format!("The state of `{}`.", entry.name);
-        let variants = entry.states().iter().map(|state| variant(*state));
-        quote!(__guen::contact_states! { #docs #name #(#variants)* })
-    });
-    let fields = entries.iter().map(|entry| {
-        let (ident, name) = (&entry.name.ident, type_of(entry));
-        let docs = documentation::entry(entry.docs, &format!("The state of `{}`.", entry.name), None);
-        let text = &entry.name.text;
-        quote!(#docs #ident #text #name;)
-    });
-    let count = entries.len();
-    let table = contacts.modes.iter().map(|mode| {
-        let fields = entries.iter().zip(mode).map(|(entry, state)| {
-            let (ident, name) = (&entry.name.ident, type_of(entry));
-            let variant = variant(entry.states()[*state]);
-            quote!(#ident: #name::#variant)
-        });
-        quote!(Mode { #(#fields),* })
-    });
-    quote! {
-        #(#states)*
-        __guen::contact_mode! { #count #(#fields)* }
-
-        /// Every mode that the declaration allows.
-        pub const MODES: &[Mode] = &[#(#table),*];
-    }
-}
-
-/// The type of the states of a contact.
-fn type_of(entry: &ContactEntry<'_>) -> Ident {
-    format_ident!("{}", type_of_states(entry.name), span = entry.name.span())
-}
-
-fn variant(state: ContactState) -> Ident {
-    format_ident!(
-        "{}",
-        match state {
-            ContactState::Open => "Open",
-            ContactState::Closed => "Closed",
-            ContactState::Stick => "Stick",
-            ContactState::SlipPlus => "SlipForward",
-            ContactState::SlipMinus => "SlipBackward",
-            ContactState::Slip => "Slip",
-            ContactState::Free => "Free",
-            ContactState::Locked => "Locked",
-        }
-    )
 }

@@ -40,8 +40,8 @@ pub(super) struct Part {
     level: TokenStream,
     /// The name of the struct.
     record: &'static str,
-    /// The type of reals.
-    real: TokenStream,
+    /// The type of reals; of a struct without a parameter none.
+    real: Option<TokenStream>,
 }
 
 /// A value on its way into the tree: the steps that are left, and its place in the list.
@@ -51,9 +51,14 @@ impl Fields {
     /// The fields for values of these names.
     pub(super) fn new<'a>(names: impl IntoIterator<Item = &'a Name>) -> Self {
         let names: Vec<&Name> = names.into_iter().collect();
+        Fields::of_types(&names, &vec![(); names.len()])
+    }
+
+    /// The fields for values of these names and types: entries of several types have a field each.
+    pub(super) fn of_types<T: PartialEq>(names: &[&Name], types: &[T]) -> Self {
         let mut order: Vec<&Ident> = Vec::new();
         let mut groups: BTreeMap<String, Vec<Waiting<'_>>> = BTreeMap::new();
-        let incomplete = incomplete(&names);
+        let incomplete = incomplete(names, types);
         for (place, name) in names.iter().enumerate() {
             if incomplete.contains(&template(name)) {
                 continue;
@@ -88,7 +93,7 @@ impl Fields {
             accesses[place] = quote!(#own);
             fields.push((own.clone(), Tree::Leaf(place)));
         }
-        Fields { fields, names: names.into_iter().map(|name| name.text.clone()).collect(), accesses }
+        Fields { fields, names: names.iter().map(|name| name.text.clone()).collect(), accesses }
     }
 
     /// Sets the name of the record, whose instances have structs of that name.
@@ -99,7 +104,13 @@ impl Fields {
 
     /// Sets the name of the type of reals.
     pub(super) fn over(mut self, real: &Ident) -> Self {
-        self.each_part(&mut |part| part.real = quote!(#real));
+        self.each_part(&mut |part| part.real = Some(quote!(#real)));
+        self
+    }
+
+    /// Takes the structs of instances to be without a type of reals.
+    pub(super) fn without_reals(mut self) -> Self {
+        self.each_part(&mut |part| part.real = None);
         self
     }
 
@@ -201,17 +212,23 @@ fn template(name: &Name) -> String {
     std::iter::once(name.root().to_string()).chain(steps).collect()
 }
 
-/// The templates of arrays of which there are some entries only.
-fn incomplete(names: &[&Name]) -> BTreeSet<String> {
+/// The templates of arrays of which there are some entries only, or whose entries have several types.
+fn incomplete<T: PartialEq>(names: &[&Name], types: &[T]) -> BTreeSet<String> {
     let mut counts: BTreeMap<String, (usize, usize)> = BTreeMap::new();
-    for name in names {
+    let mut first: BTreeMap<String, &T> = BTreeMap::new();
+    let mut several = BTreeSet::new();
+    for (name, of) in names.iter().zip(types) {
+        if **first.entry(template(name)).or_insert(of) != *of {
+            several.insert(template(name));
+        }
         let sizes = name.path().into_iter().flat_map(|path| &path.steps).map(|step| match step {
             Step::Index { of, .. } => *of,
             Step::Field(_) => 1,
         });
         counts.entry(template(name)).or_insert((0, sizes.product())).0 += 1;
     }
-    counts.into_iter().filter(|(_, (found, all))| found != all).map(|(template, _)| template).collect()
+    several.extend(counts.into_iter().filter(|(_, (found, all))| found != all).map(|(template, _)| template));
+    several
 }
 
 /// The tree of values with steps before them; none where an array would have gaps or entries of several kinds.
@@ -247,7 +264,7 @@ fn tree(waiting: &[Waiting<'_>], module: &[Ident]) -> Option<Tree> {
             });
             let fields = fields.collect::<Option<_>>()?;
             let (module, level) = (module.to_vec(), TokenStream::new());
-            Some(Tree::Instance(Part { fields, module, level, record: "", real: quote!(R) }))
+            Some(Tree::Instance(Part { fields, module, level, record: "", real: Some(quote!(R)) }))
         }
         _ => None,
     }
@@ -441,7 +458,8 @@ impl Part {
     fn of_type(&self, outer: &TokenStream) -> TokenStream {
         let outer = if outer.is_empty() { &self.level } else { outer };
         let (path, real) = (self.path(outer), &self.real);
-        quote!(#path<#real>)
+        let real = real.as_ref().map(|real| quote!(<#real>));
+        quote!(#path #real)
     }
 }
 

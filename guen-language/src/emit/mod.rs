@@ -22,6 +22,7 @@ mod levels;
 mod limits;
 mod linearization;
 mod missing;
+mod modes;
 mod motion;
 mod operators;
 mod parts;

@@ -134,6 +134,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     if !selection.outputs.is_empty() {
         items.push(outputs(subject, layout, &mut modules));
     }
+    super::modes::add(&mut modules, subject);
     let modules = modules.tokens();
     quote!(#(#items)* #modules)
 }

@@ -8,7 +8,7 @@ use super::Identifiers;
 use super::value::Value;
 use crate::diagnostics::{Fault, Faults};
 use crate::names;
-use crate::syntax::Name;
+use crate::syntax::{Name, SPEED};
 
 /// The category under which a name was declared.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -71,9 +71,6 @@ impl Category {
         )
     }
 }
-
-/// The word for the magnitude of the slip, in `friction` alone.
-pub(super) const SPEED: &str = "speed";
 
 struct Entry {
     category: Category,

@@ -1,6 +1,6 @@
 //! Contacts and switches of an outline: their names and kinds, all along one coordinate.
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 
 use proc_macro2::Span;
 use quote::format_ident;
@@ -26,7 +26,7 @@ pub(super) fn items(
     let mut switches: Vec<Switch> = Vec::new();
     let mut contacts: Vec<Contact> = Vec::new();
     let mut modes = Vec::new();
-    let mut types: BTreeSet<String> = BTreeSet::new();
+    let mut types: BTreeMap<(Vec<String>, String), String> = BTreeMap::new();
     for item in &declaration.items {
         match item {
             Item::Switches(section) => {
@@ -40,7 +40,9 @@ pub(super) fn items(
             Item::Contacts(section) => {
                 for contact in &section.entries {
                     let own = type_of_states(&contact.name);
-                    let is_free = declaration.takes_type(&own).is_none() && types.insert(own);
+                    let is_free = declaration.takes_type(&own).is_none()
+                        && *types.entry((own.module, own.name)).or_insert(own.contact.clone()) == own.contact
+                        && contacts.iter().all(|known| known.name.ident != contact.name.ident);
                     if !is_free || contacts.len() == MAX_CONTACTS {
                         continue;
                     }

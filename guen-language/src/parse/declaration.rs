@@ -421,11 +421,9 @@ fn only_of_systems(kind: SectionKind, keyword: Span, faults: &mut Faults) {
         SectionKind::Gravity => fault
             .note("`gravity` of the system acts on the particles and bodies of its components too")
             .help("declare it in the system"),
-        SectionKind::Switches
-        | SectionKind::Contacts
-        | SectionKind::Modes
-        | SectionKind::Scene
-        | SectionKind::Provide => fault.help("declare it in the system that uses the component"),
+        SectionKind::Scene | SectionKind::Provide => {
+            fault.help("declare it in the system that uses the component")
+        }
         SectionKind::Component => fault.help("declare the inner component beside this one"),
         _ => return,
     });

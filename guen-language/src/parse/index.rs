@@ -23,20 +23,33 @@ pub(crate) fn indexed_name(cursor: &mut Cursor, faults: &mut Faults, role: &str)
     Ok(index_of(cursor, faults, name))
 }
 
-/// A name in a scene: `q[3]`, or a name of an instance, `left.q[3]`.
+/// A name in a scene or in `modes`: `q[3]`, or a name of an instance, `left.q[3]`.
 pub(crate) fn member_name(cursor: &mut Cursor, faults: &mut Faults, role: &str) -> Result<Name, Reported> {
-    let first = indexed_name(cursor, faults, role)?;
-    if !cursor.is_punct('.') || cursor.is_pair('.', '.') {
-        return Ok(first);
-    }
-    let mut steps = vec![first];
+    Ok(member_of(member_steps(cursor, faults, role)?))
+}
+
+/// Names between points, each with its index; at least one.
+pub(super) fn member_steps(
+    cursor: &mut Cursor,
+    faults: &mut Faults,
+    role: &str,
+) -> Result<Vec<Name>, Reported> {
+    let mut steps = vec![indexed_name(cursor, faults, role)?];
     while cursor.is_punct('.') && !cursor.is_pair('.', '.') {
         cursor.skip(1);
         steps.push(indexed_name(cursor, faults, "a name of the instance")?);
     }
+    Ok(steps)
+}
+
+/// The name that some steps lead to; there is at least one.
+pub(super) fn member_of(mut steps: Vec<Name>) -> Name {
+    if steps.len() == 1 {
+        return steps.remove(0);
+    }
     let texts: Vec<&str> = steps.iter().map(|step| step.text.as_str()).collect();
     let (text, ident) = (texts.join("."), steps[steps.len() - 1].ident.clone());
-    Ok(Name { text, ident, index: Index::Member(Box::new(WrittenMember { steps })) })
+    Name { text, ident, index: Index::Member(Box::new(WrittenMember { steps })) }
 }
 
 /// A name that has been read with its index behind it.

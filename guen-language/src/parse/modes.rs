@@ -4,14 +4,14 @@ use proc_macro2::Group;
 
 use super::attributes::docs;
 use super::cursor::Cursor;
-use super::index::indexed_name;
+use super::index::{member_name, member_of, member_steps};
 use super::lists::{entries, separated};
 use super::names::name;
 use super::nesting::Entries;
 use super::punctuation::{begins_equation, colon, semicolon};
 use crate::diagnostics::{Fault, Faults, Reported};
 use crate::limits::MAX_ENTRIES;
-use crate::syntax::{ModeStatement, Name};
+use crate::syntax::{Index, ModeStatement, Name};
 
 const HELP_STATES: &str = "the states of a contact read `contact: open, stick;`";
 const HELP_NEVER: &str = "a combination that does not occur reads `never left.stick with right.stick;`";
@@ -29,7 +29,7 @@ pub(crate) fn modes(group: &Group, faults: &mut Faults) -> Entries<ModeStatement
         if cursor.is_word("never") && !cursor.is_punct_at(cursor.name_length(), ':') {
             return never(cursor, faults);
         }
-        let contact = indexed_name(cursor, faults, "the name of a contact")?;
+        let contact = member_name(cursor, faults, "the name of a contact")?;
         colon(cursor, faults, &format!("`{contact}`"), HELP_STATES)?;
         let begins = |cursor: &Cursor| cursor.ident_at(0).is_some() && !begins_equation(cursor);
         let ends = |cursor: &Cursor| cursor.is_end() || cursor.is_punct(';') || begins_equation(cursor);
@@ -58,13 +58,19 @@ fn never(cursor: &mut Cursor, faults: &mut Faults) -> Result<ModeStatement, Repo
     Ok(ModeStatement::Never { keyword, combination })
 }
 
-/// `contact.state`.
+/// `contact.state`, where the contact may be that of an instance, `left.tyre.stick`.
 fn pair(cursor: &mut Cursor, faults: &mut Faults) -> Result<(Name, Name), Reported> {
-    let contact = indexed_name(cursor, faults, "the name of a contact")?;
-    if cursor.eat('.').is_none() {
+    let mut steps = member_steps(cursor, faults, "the name of a contact")?;
+    let state = if steps.len() > 1 { steps.pop() } else { None };
+    let contact = member_of(steps);
+    let Some(state) = state else {
         let fault =
             Fault::new(cursor.span(), format!("expected `.` after `{contact}`, found {}", cursor.found()));
         return Err(faults.report(fault.help(HELP_NEVER)));
+    };
+    if !matches!(state.index, Index::None) {
+        let fault = Fault::new(state.span(), format!("the state `{state}` has no entries"));
+        return Err(faults.report(fault.help(HELP_NEVER)));
     }
-    Ok((contact, state(cursor, faults)?))
+    Ok((contact, state))
 }

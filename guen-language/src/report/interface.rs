@@ -63,6 +63,12 @@ fn rows(item: &Item) -> Vec<(&'static str, &Name, String)> {
         Item::Outputs(section) => {
             section.entries.iter().map(|entry| ("an output", &entry.name, line(&entry.docs))).collect()
         }
+        Item::Switches(section) => {
+            section.entries.iter().map(|entry| ("a switch", &entry.name, line(&entry.docs))).collect()
+        }
+        Item::Contacts(section) => {
+            section.entries.iter().map(|entry| ("a contact", &entry.name, line(&entry.docs))).collect()
+        }
         Item::Use(instance) => vec![("an instance", &instance.name, line(&instance.docs))],
         _ => Vec::new(),
     };

@@ -2,7 +2,7 @@
 
 use proc_macro2::Span;
 
-use super::{Declaration, Docs, Expression, Item, Name};
+use super::{Declaration, Docs, Expression, Item, Name, Step};
 use crate::names::{is_generated_item, is_rust_keyword, type_name};
 
 /// `name: word = e, word = e, ..;` of `contacts`.
@@ -26,6 +26,9 @@ pub struct Clause {
     /// The value.
     pub value: Expression,
 }
+
+/// The name of the magnitude of the slip, in `friction` alone.
+pub const SPEED: &str = "speed";
 
 /// The words of a contact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -87,6 +90,14 @@ impl ClauseWord {
         }
     }
 
+    /// The names that mean something else in the clause than around it.
+    pub fn own_names(self) -> &'static [&'static str] {
+        match self {
+            ClauseWord::Friction => &[SPEED],
+            _ => &[],
+        }
+    }
+
     /// Whether the word says what kind of contact it is.
     pub fn is_kind(self) -> bool {
         matches!(self, ClauseWord::Gap | ClauseWord::Grip | ClauseWord::Latch)
@@ -100,9 +111,28 @@ impl Contact {
     }
 }
 
-/// The type of the states of a contact: of `foot[0]`, whose field is `foot_0`, it is `Foot0`.
-pub fn type_of_states(contact: &Name) -> String {
-    type_name(contact.ident.to_string().trim_start_matches("r#"))
+/// The type of the states of a contact, in the module of its instance: of `left.front_foot[0]` it is `FrontFoot` in `left`.
+pub fn type_of_states(contact: &Name) -> StatesType {
+    let mut names = vec![contact.root().to_string()];
+    names.extend(contact.path().into_iter().flat_map(|path| &path.steps).filter_map(|step| match step {
+        Step::Field(field) => Some(field.to_string()),
+        Step::Index { .. } => None,
+    }));
+    let plain = |name: &String| name.trim_start_matches("r#").to_owned();
+    let mut path: Vec<String> = names.iter().map(plain).collect();
+    let last = path.pop().unwrap_or_default();
+    StatesType { module: path, name: type_name(&last), contact: last }
+}
+
+/// A type of states: the entries of an array have one, and so have instances that are entries of an array.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub struct StatesType {
+    /// The module of the instance, seen from that of the system.
+    pub module: Vec<String>,
+    /// The name.
+    pub name: String,
+    /// The name of the contact in its module.
+    pub contact: String,
 }
 
 /// `name: e;` of `switches`.
@@ -136,8 +166,14 @@ pub enum ModeStatement {
 }
 
 impl Declaration {
-    /// Tells why the states of a contact cannot be a type of this name, if they cannot.
-    pub fn takes_type(&self, name: &str) -> Option<String> {
+    /// Tells why the states of a contact cannot be this type, if they cannot.
+    pub fn takes_type(&self, states: &StatesType) -> Option<String> {
+        let name = states.name.as_str();
+        if !states.module.is_empty() {
+            let of = states.module.join(".");
+            let is_taken = name == "Mode" || is_generated_item(name) || is_rust_keyword(name);
+            return is_taken.then(|| format!("the module of `{of}` has an item of this name"));
+        }
         let mut scenes = self.items.iter().filter_map(|item| match item {
             Item::Scene(scene) => Some(&scene.name.text),
             _ => None,
@@ -148,6 +184,8 @@ impl Declaration {
             Some("this is the name of the system".to_owned())
         } else if scenes.any(|scene| scene == name) {
             Some("this is the name of a scene".to_owned())
+        } else if self.components.iter().any(|(component, _)| component.name.text == name) {
+            Some("this is the name of a component".to_owned())
         } else {
             None
         }

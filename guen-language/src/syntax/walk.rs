@@ -1,6 +1,6 @@
 //! The names and expressions of an item, whatever its kind.
 
-use super::{Body, Expression, ExpressionKind, Inertia, Item, Name, Node};
+use super::{Body, Expression, ExpressionKind, Inertia, Item, ModeStatement, Name, Node};
 
 impl Item {
     /// The loops and choices around the entries of the item.
@@ -97,6 +97,28 @@ impl Item {
             Item::Argument(argument) => vec![&argument.given.value],
             Item::Count(_) | Item::Component(_) | Item::Modes(_) | Item::Provide(_) | Item::Scene(_) => {
                 Vec::new()
+            }
+        }
+    }
+}
+
+impl ModeStatement {
+    /// The contacts that the statement speaks of.
+    pub fn contacts(&self) -> Vec<&Name> {
+        match self {
+            ModeStatement::States { contact, .. } => vec![contact],
+            ModeStatement::Never { combination, .. } => {
+                combination.iter().map(|(contact, _)| contact).collect()
+            }
+        }
+    }
+
+    /// The contacts that the statement speaks of, to be changed.
+    pub fn contacts_mut(&mut self) -> Vec<&mut Name> {
+        match self {
+            ModeStatement::States { contact, .. } => vec![contact],
+            ModeStatement::Never { combination, .. } => {
+                combination.iter_mut().map(|(contact, _)| contact).collect()
             }
         }
     }
@@ -218,14 +240,14 @@ impl Body {
 }
 
 impl Expression {
-    /// Calls a function with every name of a value or of a function in the expression.
-    pub fn names_mut(&mut self, visit: &mut dyn FnMut(&mut Name)) {
+    /// Calls one function with every name of a value in the expression, and another one with every name of a function.
+    pub fn names_mut(&mut self, value: &mut dyn FnMut(&mut Name), function: &mut dyn FnMut(&mut Name)) {
         match &mut self.kind {
-            ExpressionKind::Name(name) => visit(name),
-            ExpressionKind::Call { function, .. } => visit(function),
+            ExpressionKind::Name(name) => value(name),
+            ExpressionKind::Call { function: name, .. } => function(name),
             _ => {}
         }
-        self.children_mut().into_iter().for_each(|child| child.names_mut(visit));
+        self.children_mut().into_iter().for_each(|child| child.names_mut(value, function));
     }
 
     /// The operands and arguments, to be changed.

@@ -4,15 +4,22 @@ use std::collections::BTreeSet;
 
 use crate::diagnostics::{Fault, Faults};
 use crate::names::{RATE_SUFFIX, is_function, is_reserved, nearest};
-use crate::syntax::{Choice, Component, Expression, ExpressionKind, Index, Item, Loop, Name, Node};
+use crate::syntax::{
+    Choice, Component, Expression, ExpressionKind, Index, Item, Loop, ModeStatement, Name, Node, SPEED,
+};
 
 /// Reports names that a component does not declare, and names that it declares twice or that are reserved.
 pub(crate) fn names(component: &Component, faults: &mut Faults) {
     let mut known: Vec<&Name> = Vec::new();
     let arguments = component.arguments.iter().map(|argument| &argument.name);
-    for name in arguments.chain(component.items.iter().flat_map(Item::declared)) {
+    let declared = component.items.iter().flat_map(|item| {
+        let is_contact = matches!(item, Item::Contacts(_));
+        item.declared().into_iter().map(move |name| (name, is_contact))
+    });
+    for (name, is_contact) in arguments.map(|name| (name, false)).chain(declared) {
         let text = name.text.as_str();
-        if is_reserved(text) {
+        // A contact is no value, and may be called like a function.
+        if is_reserved(text) && !(is_contact && is_function(text)) {
             let what = if is_function(text) { "the name of a function" } else { "reserved" };
             let fault = Fault::new(name.span(), format!("`{text}` is {what} and cannot be declared"));
             faults.report(fault.help("choose another name"));
@@ -35,12 +42,22 @@ pub(crate) fn names(component: &Component, faults: &mut Faults) {
             Item::Function(function) => function.parameters.iter().map(|name| name.text.as_str()).collect(),
             _ => Vec::new(),
         };
-        item.expressions().into_iter().for_each(|e| scope.check(e, &own, &mut unknown, faults));
+        match item {
+            Item::Contacts(section) => {
+                for clause in section.entries.iter().flat_map(|contact| &contact.clauses) {
+                    scope.check(&clause.value, clause.word.own_names(), &mut unknown, faults);
+                }
+            }
+            Item::Modes(section) => {
+                section.entries.iter().for_each(|statement| scope.statement(statement, faults));
+            }
+            item => item.expressions().into_iter().for_each(|e| scope.check(e, &own, &mut unknown, faults)),
+        }
     }
 }
 
-/// The word that is a function in outputs.
-const REACTION: &str = "reaction";
+/// The words that are functions in outputs, and names like any other elsewhere.
+const ASKING: [&str; 3] = ["reaction", "gap", "slip"];
 
 /// The names that belong to a component.
 pub(crate) struct OwnNames<'a> {
@@ -49,6 +66,7 @@ pub(crate) struct OwnNames<'a> {
     coordinates: BTreeSet<&'a str>,
     /// Forms, whose components have names.
     forms: BTreeSet<&'a str>,
+    functions: BTreeSet<&'a str>,
 }
 
 impl<'a> OwnNames<'a> {
@@ -62,10 +80,12 @@ impl<'a> OwnNames<'a> {
             .items
             .iter()
             .filter(|item| matches!(item, Item::Parameters(_) | Item::Constraints(_) | Item::Holonomic(_)));
+        let functions = component.items.iter().filter(|item| matches!(item, Item::Function(_)));
         OwnNames {
             declared: arguments.chain(component.items.iter().flat_map(texts)).collect(),
             coordinates: coordinates.flat_map(texts).collect(),
             forms: forms.flat_map(texts).collect(),
+            functions: functions.flat_map(texts).collect(),
         }
     }
 
@@ -77,6 +97,11 @@ impl<'a> OwnNames<'a> {
             parts.into_iter().any(|of| self.forms.contains(of))
         };
         self.declared.contains(text) || is_rate() || is_part()
+    }
+
+    /// Whether a name is that of one of the component's functions.
+    pub(crate) fn has_function(&self, text: &str) -> bool {
+        self.functions.contains(text)
     }
 }
 
@@ -110,10 +135,9 @@ impl Scope<'_> {
                 self.unknown_name(name, unknown, faults);
             }
             ExpressionKind::Call { function, arguments, .. } => {
-                if function.text == REACTION {
-                    return;
-                }
-                if !is_function(&function.text) && !self.own.declared.contains(function.text.as_str()) {
+                let is_own = self.own.functions.contains(function.text.as_str());
+                let asks = ASKING.contains(&function.text.as_str());
+                if !is_function(&function.text) && !is_own && !asks {
                     let fault = Fault::new(function.span(), format!("unknown function `{function}`"));
                     faults
                         .report(fault.help("a component knows its own functions and those of the language"));
@@ -131,6 +155,29 @@ impl Scope<'_> {
         e.children().into_iter().for_each(|child| self.check(child, own, unknown, faults));
     }
 
+    /// The contacts that `modes` speaks of are the component's own, or those of its instances.
+    fn statement(&self, statement: &ModeStatement, faults: &mut Faults) {
+        let items = || self.component.items.iter();
+        let known = items().filter(|item| matches!(item, Item::Contacts(_) | Item::Use(_)));
+        let known: Vec<&str> = known.flat_map(Item::declared).map(|name| name.text.as_str()).collect();
+        for contact in statement.contacts() {
+            let root = match &contact.index {
+                Index::Member(member) => &member.steps[0].text,
+                _ => &contact.text,
+            };
+            if known.contains(&root.as_str()) {
+                continue;
+            }
+            let component = &self.component.name;
+            let text = format!("unknown contact `{contact}` in component `{component}`");
+            let fault = Fault::new(contact.span(), text);
+            faults.report(match nearest(root, known.iter().copied()) {
+                Some(near) => fault.help(format_args!("did you mean `{near}`?")),
+                None => fault.note("a component knows its own contacts, and those of what it uses"),
+            });
+        }
+    }
+
     fn knows(&self, text: &str, own: &[&str]) -> bool {
         self.own.has(text) || own.contains(&text) || self.variables.contains(&text) || is_reserved(text)
     }
@@ -143,8 +190,12 @@ impl Scope<'_> {
         let fault = Fault::new(name.span(), format!("unknown name `{name}` in component `{component}`"));
         let fault = fault
             .note("a component knows its own names and its arguments, and nothing of the system around it");
+        let has_contacts = self.component.items.iter().any(|item| matches!(item, Item::Contacts(_)));
         faults.report(match nearest(&name.text, self.own.declared.iter().copied()) {
             Some(near) => fault.help(format_args!("did you mean `{near}`?")),
+            None if name.text == SPEED && has_contacts => {
+                fault.help("`speed` is the magnitude of the slip, inside of `friction` alone")
+            }
             None => fault.help(format_args!("declare an argument, `{component}({name}: scalar)`")),
         });
     }

@@ -51,7 +51,7 @@ impl Unfolder<'_> {
             Item::Forces(section) => Item::Forces(self.written(section, Self::force)),
             Item::Switches(section) => Item::Switches(self.written(section, Self::switch)),
             Item::Contacts(section) => Item::Contacts(self.written(section, Self::contact)),
-            Item::Modes(section) => Item::Modes(self.written(section, Self::mode)),
+            Item::Modes(section) => Item::Modes(self.modes(section)),
             Item::Provide(section) => {
                 let entries = section.entries.iter().flat_map(|provide| self.provide(provide)).collect();
                 Item::Provide(Section::new(section.docs.clone(), section.keyword, entries))
@@ -156,21 +156,29 @@ impl Unfolder<'_> {
         Some(Contact { docs: contact.docs.clone(), name: self.declared(&contact.name)?, clauses })
     }
 
-    fn mode(&mut self, statement: &ModeStatement) -> Option<ModeStatement> {
-        Some(match statement {
-            ModeStatement::States { contact, states } => {
-                ModeStatement::States { contact: self.used(contact)?, states: states.clone() }
-            }
-            ModeStatement::Never { keyword, combination } => {
-                let pairs = combination.iter();
-                let pairs: Vec<_> =
-                    pairs.map(|(contact, state)| Some((self.used(contact)?, state.clone()))).collect();
-                ModeStatement::Never {
-                    keyword: *keyword,
-                    combination: pairs.into_iter().collect::<Option<_>>()?,
+    /// Statements about contacts; the name of an array in front of states stands for all of its entries.
+    fn modes(&mut self, section: &Section<ModeStatement>) -> Section<ModeStatement> {
+        let mut entries = Vec::new();
+        self.each(
+            &section.nesting,
+            section.entries.len(),
+            &mut |this, place| match &section.entries[place] {
+                ModeStatement::States { contact, states } => {
+                    let contacts = this.all(contact).into_iter();
+                    let of = |contact| ModeStatement::States { contact, states: states.clone() };
+                    entries.extend(contacts.map(of));
                 }
-            }
-        })
+                ModeStatement::Never { keyword, combination } => {
+                    let pairs = combination.iter();
+                    let pairs: Vec<_> =
+                        pairs.map(|(contact, state)| Some((this.used(contact)?, state.clone()))).collect();
+                    if let Some(combination) = pairs.into_iter().collect() {
+                        entries.push(ModeStatement::Never { keyword: *keyword, combination });
+                    }
+                }
+            },
+        );
+        Section::new(section.docs.clone(), section.keyword, entries)
     }
 
     fn equation(&mut self, equation: &Equation) -> Option<Equation> {
@@ -243,7 +251,7 @@ impl Unfolder<'_> {
         self.all(&provide.name).into_iter().map(|name| Provide { name, of: of.clone() }).collect()
     }
 
-    /// The entries that a name in a scene stands for: one, or all of an array.
+    /// The entries that a name in a scene or in `modes` stands for: one, or all of an array.
     fn all(&mut self, name: &Name) -> Vec<Name> {
         if let (Index::None, Some(array)) = (&name.index, self.arrays.of(&name.text)) {
             return array

@@ -11,7 +11,7 @@ use super::*;
 use crate::limits::MAX_CONTACTS;
 use crate::model::contact::{ContactEntry, ContactKind, Row, SwitchEntry};
 use crate::model::contact_values::ContactValue;
-use crate::syntax::{Clause, ClauseWord, Contact, Switch, type_of_states};
+use crate::syntax::{Clause, ClauseWord, Contact, StatesType, Switch, type_of_states};
 
 pub(super) use assembled::{assembled, refuse_scene};
 
@@ -68,13 +68,14 @@ impl<'a> Resolver<'a, '_> {
         let name = &contact.name;
         let own = type_of_states(name);
         let others = self.contacts.iter().map(|other| other.entry.name);
-        let mut others = others.filter(|other| other.text != name.text);
-        let same = others.find(|other| type_of_states(other) == own);
-        let same = same.map(|other| format!("`{other}` has it, too"));
+        let mut others = others.map(|other| (other, type_of_states(other)));
+        let is_another = |of: &StatesType| of.contact != own.contact;
+        let same = others.find(|(_, of)| of.module == own.module && of.name == own.name && is_another(of));
+        let same = same.map(|(other, _)| format!("`{other}` has it, too"));
         let taken = self.declaration.takes_type(&own).or(same);
         if let Some(why) = taken {
             let fault = Fault::new(name.span(), format!("a contact cannot be called `{name}` here"));
-            let fault = fault.note(format!("its states are the type `{own}`: {why}"));
+            let fault = fault.note(format!("its states are the type `{}`: {why}", own.name));
             self.eval.faults.report(fault.help("choose another name"));
         }
     }

@@ -6,52 +6,49 @@ use super::*;
 use crate::limits::MAX_MODES;
 use crate::model::contact::{ContactEntry, ContactState};
 use crate::names::{nearest, quoted};
-use crate::syntax::{ModeStatement, Name, Section};
+use crate::syntax::{ModeStatement, Name, Path, Section, Step};
 
-/// The combinations of states of some contacts that statements leave; `None` after a fault. `keyword` is the place of the word
-/// `contacts`.
-pub(super) fn combinations(
-    entries: &[&ContactEntry<'_>],
-    section: Option<&Section<ModeStatement>>,
+/// The statements about some contacts, as far as they were read.
+struct Stated<'a, 'e> {
+    entries: &'e [&'e ContactEntry<'a>],
+    /// The states that each contact may have.
+    states: Vec<Vec<usize>>,
+    /// The statement of each contact that was read last: where its contact stands, and in which instance.
+    last: BTreeMap<usize, (&'a Name, Option<usize>)>,
+    never: Vec<Never>,
+}
+
+/// A combination that does not occur.
+struct Never {
+    /// The place of the word, if the system says it.
+    keyword: Option<proc_macro2::Span>,
+    /// The contacts by their places, each with its states.
+    combination: Vec<(usize, Vec<usize>)>,
+}
+
+/// The combinations of states of some contacts that the declaration leaves; `None` after a fault. `keyword` is the place of what
+/// is said of all contacts.
+pub(super) fn combinations<'a>(
+    entries: &[&ContactEntry<'a>],
+    declaration: &'a Declaration,
     keyword: proc_macro2::Span,
     faults: &mut Faults,
 ) -> Option<Vec<Vec<usize>>> {
     let before = faults.count();
-    let statements = section.map_or(&[][..], |section| &section.entries[..]);
-    let mut states: Vec<Vec<usize>> =
-        entries.iter().map(|entry| (0..entry.states().len()).collect()).collect();
-    let mut stated: BTreeMap<usize, &Name> = BTreeMap::new();
-    let mut never = Vec::new();
-    for statement in statements {
-        match statement {
-            ModeStatement::States { contact, states: written } => {
-                let Some(place) = find(entries, contact, faults) else { continue };
-                if let Some(first) = stated.insert(place, contact) {
-                    let fault =
-                        Fault::new(contact.span(), format!("the states of `{contact}` are given twice"));
-                    faults.report(fault.note_place("first given", first.span()));
-                }
-                states[place] =
-                    written.iter().flat_map(|state| of_word(entries[place], state, faults)).collect();
-                states[place].sort_unstable();
-                states[place].dedup();
-            }
-            ModeStatement::Never { keyword, combination } => {
-                let mut pairs: Vec<(usize, Vec<usize>)> = Vec::new();
-                for (contact, state) in combination {
-                    let Some(place) = find(entries, contact, faults) else { continue };
-                    if pairs.iter().any(|(known, _)| *known == place) {
-                        faults.report(Fault::new(
-                            contact.span(),
-                            format!("this never happens: `{contact}` is in one state at a time"),
-                        ));
-                    }
-                    pairs.push((place, of_word(entries[place], state, faults)));
-                }
-                never.push((*keyword, pairs));
-            }
+    let states = entries.iter().map(|entry| (0..entry.states().len()).collect()).collect();
+    let mut stated = Stated { entries, states, last: BTreeMap::new(), never: Vec::new() };
+    let mut own = None;
+    for (section, origin) in sections(declaration) {
+        own = own.or(Some(section.keyword).filter(|_| origin.is_none()));
+        let before = faults.count();
+        section.entries.iter().for_each(|statement| stated.read(statement, origin, faults));
+        if let Some(origin) = origin {
+            let Instance { path, component, place, .. } = &declaration.instances[origin];
+            let what = format!("in `{}`, a `{}`, used", path.text(), component.name);
+            faults.of_instance(before, &what, *place);
         }
     }
+    let Stated { states, never, .. } = stated;
     if faults.count() > before {
         return None;
     }
@@ -69,23 +66,88 @@ pub(super) fn combinations(
             .flat_map(|mode| of_contact.iter().map(move |state| [&mode[..], &[*state]].concat()))
             .collect();
     }
-    for (keyword, pairs) in never {
+    for Never { keyword, combination: pairs } in never {
         let left = modes.len();
         modes.retain(|mode| !pairs.iter().all(|(place, states)| states.contains(&mode[*place])));
-        if modes.len() == left {
+        // A system may leave out what its components exclude.
+        if let Some(keyword) = keyword.filter(|_| modes.len() == left) {
             faults.report(
                 Fault::new(keyword, "this never happens").note("the other statements exclude it already"),
             );
         }
     }
     if modes.is_empty() {
-        let place = section.map_or(keyword, |section| section.keyword);
-        faults.report(Fault::new(place, "no mode is left"));
+        faults.report(Fault::new(own.unwrap_or(keyword), "no mode is left"));
     }
     if modes.len() > MAX_MODES {
         faults.report(too_many(entries, &states, modes.len(), keyword));
     }
     (faults.count() == before).then_some(modes)
+}
+
+/// The sections of modes with their instances, those of inner instances first: the system has the last word.
+fn sections(declaration: &Declaration) -> Vec<(&Section<ModeStatement>, Option<usize>)> {
+    let items = declaration.items.iter().enumerate().filter_map(|(place, item)| match item {
+        Item::Modes(section) => Some((section, declaration.origins.get(place).copied().flatten())),
+        _ => None,
+    });
+    let mut sections: Vec<_> = items.collect();
+    let depth = |origin: Option<usize>| {
+        let fields = |path: &Path| path.steps.iter().filter(|step| matches!(step, Step::Field(_))).count();
+        origin.map_or(0, |origin| 1 + fields(&declaration.instances[origin].path))
+    };
+    sections.sort_by_key(|(_, origin)| std::cmp::Reverse(depth(*origin)));
+    sections
+}
+
+impl<'a> Stated<'a, '_> {
+    fn read(&mut self, statement: &'a ModeStatement, origin: Option<usize>, faults: &mut Faults) {
+        match statement {
+            ModeStatement::States { contact, states } => {
+                let Some(place) = find(self.entries, contact, faults) else { return };
+                let mut found = Vec::new();
+                let before = self.last.insert(place, (contact, origin));
+                if let Some((first, _)) = before.filter(|(_, other)| *other == origin) {
+                    let fault =
+                        Fault::new(contact.span(), format!("the states of `{contact}` are given twice"));
+                    faults.report(fault.note_place("first given", first.span()));
+                    return;
+                }
+                for state in states {
+                    let meant = of_word(self.entries[place], state, faults);
+                    // A system narrows what a component says.
+                    if let Some((first, _)) = before
+                        && !meant.is_empty()
+                        && meant.iter().all(|state| !self.states[place].contains(state))
+                    {
+                        let text = format!("`{contact}` has no state `{state}` here");
+                        let fault = Fault::new(state.span(), text);
+                        faults.report(fault.note_place("its component leaves it out", first.span()));
+                    }
+                    found.extend(meant);
+                }
+                found.retain(|state| self.states[place].contains(state));
+                found.sort_unstable();
+                found.dedup();
+                self.states[place] = found;
+            }
+            ModeStatement::Never { keyword, combination } => {
+                let mut pairs: Vec<(usize, Vec<usize>)> = Vec::new();
+                for (contact, state) in combination {
+                    let Some(place) = find(self.entries, contact, faults) else { continue };
+                    if pairs.iter().any(|(known, _)| *known == place) {
+                        faults.report(Fault::new(
+                            contact.span(),
+                            format!("this never happens: `{contact}` is in one state at a time"),
+                        ));
+                    }
+                    pairs.push((place, of_word(self.entries[place], state, faults)));
+                }
+                let keyword = Some(*keyword).filter(|_| origin.is_none());
+                self.never.push(Never { keyword, combination: pairs });
+            }
+        }
+    }
 }
 
 fn too_many(
@@ -108,6 +170,12 @@ fn find(entries: &[&ContactEntry<'_>], contact: &Name, faults: &mut Faults) -> O
     let found = entries.iter().position(|entry| entry.name.text == contact.text);
     if found.is_none() {
         let names = || entries.iter().map(|entry| entry.name.text.as_str());
+        let inside = format!("{contact}.");
+        if let Some(own) = names().find(|name| name.starts_with(&inside)) {
+            let fault = Fault::new(contact.span(), format!("`{contact}` is an instance, and no contact"));
+            faults.report(fault.help(format!("write the contact that is meant, as `{own}`")));
+            return None;
+        }
         let fault = Fault::new(contact.span(), format!("unknown contact `{contact}`"));
         faults.report(match nearest(&contact.text, names()) {
             Some(near) => fault.help(format!("did you mean `{near}`?")),

@@ -7,7 +7,9 @@ use super::Unfolded;
 use super::prefix::path_of;
 use crate::diagnostics::{Fault, Faults};
 use crate::names::{is_reserved, nearest, quoted};
-use crate::syntax::{Component, Expression, ExpressionKind, Index, Item, Name, Path, Step, Use};
+use crate::syntax::{
+    Component, Expression, ExpressionKind, Index, Item, ModeStatement, Name, Path, Section, Step, Use,
+};
 use crate::unfold::component_names::OwnNames;
 
 /// The names that may be read somewhere.
@@ -110,10 +112,17 @@ impl Scope {
             Item::Function(function) => function.parameters.iter().map(|name| name.text.clone()).collect(),
             _ => Vec::new(),
         };
+        if let Item::Contacts(section) = item {
+            for clause in section.entries.iter_mut().flat_map(|contact| &mut contact.clauses) {
+                self.expression(&mut clause.value, clause.word.own_names(), faults);
+            }
+            return;
+        }
+        let hidden: Vec<&str> = hidden.iter().map(String::as_str).collect();
         item.expressions_mut().into_iter().for_each(|e| self.expression(e, &hidden, faults));
     }
 
-    fn expression(&self, e: &mut Expression, hidden: &[String], faults: &mut Faults) {
+    fn expression(&self, e: &mut Expression, hidden: &[&str], faults: &mut Faults) {
         if let ExpressionKind::Field { .. } = e.kind
             && let Some((base, name)) = self.instance_of(e, hidden)
         {
@@ -124,7 +133,7 @@ impl Scope {
             return;
         }
         match &e.kind {
-            ExpressionKind::Name(name) if !hidden.contains(&name.text) => {
+            ExpressionKind::Name(name) if !hidden.contains(&name.text.as_str()) => {
                 let name = name.clone();
                 if self.refuses(&name, faults) {
                     e.kind = ExpressionKind::Missing;
@@ -157,10 +166,10 @@ impl Scope {
     }
 
     /// The path of the instance before the last point of an expression, and the name behind it.
-    fn instance_of(&self, e: &Expression, hidden: &[String]) -> Option<(Name, Name)> {
+    fn instance_of(&self, e: &Expression, hidden: &[&str]) -> Option<(Name, Name)> {
         let ExpressionKind::Field { base, name } = &e.kind else { return None };
         let before = match &base.kind {
-            ExpressionKind::Name(instance) if !hidden.contains(&instance.text) => instance.clone(),
+            ExpressionKind::Name(instance) if !hidden.contains(&instance.text.as_str()) => instance.clone(),
             ExpressionKind::Field { .. } => {
                 let (outer, inner) = self.instance_of(base, hidden)?;
                 joined(&outer, &inner)
@@ -281,8 +290,9 @@ impl Scope {
         true
     }
 
-    /// Gives the names in scenes their paths; the name of an instance or of an array stands for all that can be meant.
-    pub(super) fn scenes(&self, items: &mut [Item], faults: &mut Faults) {
+    /// Gives the names in scenes and in `modes` their paths; the name of an instance or of an array stands for all that can be
+    /// meant.
+    pub(super) fn scenes(&self, items: &mut [Item]) {
         let moving: Vec<Name> = items
             .iter()
             .filter(|item| matches!(item, Item::Coordinates(_) | Item::Parameters(_)))
@@ -307,10 +317,26 @@ impl Scope {
                     scene.provides = self.provided(&scene.provides);
                 }
                 Item::Provide(section) => section.entries = self.provided(&section.entries),
+                Item::Modes(section) => self.modes(section),
                 _ => {}
             }
         }
-        let _ = faults;
+    }
+
+    fn modes(&self, section: &mut Section<ModeStatement>) {
+        let statements = section.entries.iter().flat_map(|statement| match statement {
+            ModeStatement::States { contact, states } => {
+                let of = |contact| ModeStatement::States { contact, states: states.clone() };
+                self.all(contact).into_iter().map(of).collect::<Vec<_>>()
+            }
+            ModeStatement::Never { keyword, combination } => {
+                let known = |name: &Name| self.members.get(&name.text).map(|known| placed(known, name));
+                let pairs = combination.iter();
+                let pairs = pairs.map(|(name, state)| (known(name).unwrap_or(name.clone()), state.clone()));
+                vec![ModeStatement::Never { keyword: *keyword, combination: pairs.collect() }]
+            }
+        });
+        section.entries = statements.collect();
     }
 
     fn provided(&self, provides: &[crate::syntax::Provide]) -> Vec<crate::syntax::Provide> {

@@ -141,7 +141,7 @@ impl Stage<'_> {
                 }
             }
         }
-        scope.scenes(&mut found.items, self.faults);
+        scope.scenes(&mut found.items);
         found
     }
 

@@ -1,6 +1,6 @@
 //! The names of a component with the name of an instance in front.
 
-use crate::syntax::{Index, Item, Name, Path, Step};
+use crate::syntax::{Expression, Index, Item, ModeStatement, Name, Path, Step};
 use crate::unfold::component_names::OwnNames;
 
 /// The path of the field that an instance is.
@@ -26,18 +26,43 @@ pub(super) fn name(own: &Name, instance: &Path) -> Name {
 /// An item of the component with the names of an instance.
 pub(super) fn item(item: &Item, instance: &Path, names: &OwnNames<'_>) -> Item {
     let mut item = item.clone();
-    let hidden: Vec<String> = match &item {
-        Item::Function(function) => function.parameters.iter().map(|name| name.text.clone()).collect(),
-        _ => Vec::new(),
-    };
     item.declared_mut().into_iter().for_each(|own| *own = name(own, instance));
-    item.expressions_mut().into_iter().for_each(|e| {
-        e.names_mut(&mut |own| {
-            let is_hidden = matches!(own.index, Index::None) && hidden.contains(&own.text);
-            if !is_hidden && names.has(own.root().to_string().trim_start_matches("r#")) {
+    let within = |e: &mut Expression, hidden: &[&str]| expression(e, hidden, instance, names);
+    match &mut item {
+        Item::Function(function) => {
+            let hidden: Vec<&str> = function.parameters.iter().map(|name| name.text.as_str()).collect();
+            within(&mut function.value, &hidden);
+        }
+        Item::Contacts(section) => {
+            let clauses = section.entries.iter_mut().flat_map(|contact| &mut contact.clauses);
+            clauses.for_each(|clause| within(&mut clause.value, clause.word.own_names()));
+        }
+        Item::Modes(section) => {
+            let contacts = section.entries.iter_mut().flat_map(ModeStatement::contacts_mut);
+            contacts.filter(|own| names.has(&root_of(own))).for_each(|own| *own = name(own, instance));
+        }
+        item => item.expressions_mut().into_iter().for_each(|e| within(e, &[])),
+    }
+    item
+}
+
+fn expression(e: &mut Expression, hidden: &[&str], instance: &Path, names: &OwnNames<'_>) {
+    e.names_mut(
+        &mut |own| {
+            let is_hidden = matches!(own.index, Index::None) && hidden.contains(&own.text.as_str());
+            if !is_hidden && names.has(&root_of(own)) {
                 *own = name(own, instance);
             }
-        });
-    });
-    item
+        },
+        &mut |function| {
+            if names.has_function(&function.text) {
+                *function = name(function, instance);
+            }
+        },
+    );
+}
+
+/// The name in front of what leads to an entry or a member.
+fn root_of(name: &Name) -> String {
+    name.root().to_string().trim_start_matches("r#").to_owned()
 }

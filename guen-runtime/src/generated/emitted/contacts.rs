@@ -42,11 +42,14 @@ macro_rules! contact_states {
     };
 }
 
-/// `Mode`: the number of contacts, and for each its documentation, field, name and the type of its states.
+/// `Mode`: the number of contacts, the fields, the names of the contacts, the way to the state of each, and the fields from states.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! contact_mode {
-    ($count:literal $($(#[$($doc:tt)*])* $field:ident $name:literal $State:ident;)*) => {
+    (
+        $count:literal { $($(#[$($doc:tt)*])* pub $field:ident: $State:ty,)* } [$($name:literal)*]
+        |$mode:ident| [$($state:expr),*] { $($literal:tt)* }
+    ) => {
         /// A mode: the state of every contact.
         #[::core::prelude::v1::derive(
             ::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq, ::core::cmp::Eq,
@@ -57,32 +60,45 @@ macro_rules! contact_mode {
         }
 
         impl ::core::convert::From<$crate::hybrid::Mode<$count>> for Mode {
-            #[allow(unused_mut, unused_variables, reason = "a system with switches alone has one mode")]
-            fn from(mode: $crate::hybrid::Mode<$count>) -> Self {
-                let mut states = mode.0.into_iter();
-                Mode {
-                    $($field: ::core::convert::From::from(states.next().unwrap_or_default()),)*
-                }
+            #[allow(unused_variables, reason = "a system with switches alone has one mode")]
+            fn from($mode: $crate::hybrid::Mode<$count>) -> Self {
+                Mode { $($literal)* }
             }
         }
 
         impl ::core::convert::From<Mode> for $crate::hybrid::Mode<$count> {
             #[allow(unused_variables, reason = "a system with switches alone has one mode")]
-            fn from(mode: Mode) -> Self {
-                $crate::hybrid::Mode([$(::core::convert::From::from(mode.$field)),*])
+            fn from($mode: Mode) -> Self {
+                $crate::hybrid::Mode([$(::core::convert::From::from($state)),*])
             }
         }
 
         impl ::core::fmt::Display for Mode {
             #[allow(unused_variables, unused_mut, unused_assignments, reason = "a system with switches alone has one mode")]
             fn fmt(&self, f: &mut ::core::fmt::Formatter<'_>) -> ::core::fmt::Result {
-                let mut before = "";
+                let ($mode, mut before) = (self, "");
                 $(
-                    ::core::write!(f, "{before}{} {}", $name, self.$field)?;
+                    ::core::write!(f, "{before}{} {}", $name, $state)?;
                     before = ", ";
                 )*
                 ::core::result::Result::Ok(())
             }
+        }
+    };
+}
+
+/// The `Mode` of an instance, with its fields.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! instance_mode {
+    ($($(#[$($doc:tt)*])* pub $field:ident: $State:ty,)*) => {
+        /// The states of the contacts of the instance.
+        #[::core::prelude::v1::derive(
+            ::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq, ::core::cmp::Eq,
+            ::core::hash::Hash
+        )]
+        pub struct Mode {
+            $($(#[$($doc)*])* pub $field: $State,)*
         }
     };
 }

@@ -49,30 +49,34 @@ impl Resolver<'_, '_> {
 
     /// The modes of the declaration; `None` without contacts or switches, and after a fault.
     pub(in crate::model::resolve) fn modes(&mut self) -> Option<Vec<Vec<usize>>> {
-        let mut section = None;
+        let declaration = self.declaration;
         let mut keyword = None;
-        for item in &self.declaration.items {
+        for (place, item) in declaration.items.iter().enumerate() {
+            let is_own = declaration.origins.get(place).copied().flatten().is_none();
             match item {
-                Item::Modes(modes) => section = Some(modes),
+                Item::Modes(section) if self.contacts.is_empty() => {
+                    let text = "there are no contacts that `modes` could speak of";
+                    let fault = Fault::new(section.keyword, text);
+                    self.eval.faults.report(fault.help("declare them: `contacts { name: gap = e; }`"));
+                    return None;
+                }
                 Item::States(states) if self.has_contacts() && !states.entries.is_empty() => {
                     let text = "a system with contacts or switches has no `states` so far";
                     self.eval.faults.report(Fault::new(states.keyword, text));
                     return None;
                 }
-                Item::Contacts(contacts) => keyword = Some(contacts.keyword),
-                Item::Switches(switches) => keyword = keyword.or(Some(switches.keyword)),
+                Item::Contacts(contacts) if is_own => keyword = Some(contacts.keyword),
+                Item::Switches(switches) if is_own => keyword = keyword.or(Some(switches.keyword)),
                 _ => {}
             }
         }
-        if self.contacts.is_empty()
-            && let Some(section) = section
-        {
-            let fault = Fault::new(section.keyword, "there are no contacts that `modes` could speak of");
-            self.eval.faults.report(fault.help("declare them: `contacts { name: gap = e; }`"));
+        if !self.has_contacts() {
             return None;
         }
+        // Where instances alone have contacts, what is said of all of them is said of the system.
+        let keyword = keyword.unwrap_or(declaration.name.span());
         let entries: Vec<&ContactEntry<'_>> = self.contacts.iter().map(|contact| &contact.entry).collect();
-        super::super::modes::combinations(&entries, section, keyword?, self.eval.faults)
+        super::super::modes::combinations(&entries, declaration, keyword, self.eval.faults)
     }
 }
 

@@ -4,7 +4,7 @@ use proc_macro2::Span;
 
 use super::*;
 use crate::model::accelerations::REACTION;
-use crate::model::scope::SPEED;
+use crate::syntax::SPEED;
 
 impl Resolver<'_, '_> {
     /// A coefficient of friction, in which `speed` is the magnitude of the slip.

@@ -1,0 +1,151 @@
+//! Modes: the states of every contact, in fields, arrays and structs as in the state, and the list of all modes.
+
+use proc_macro2::{Ident, TokenStream};
+use quote::{format_ident, quote};
+
+use super::documentation;
+use super::fields::{Fields, Part, Tree, plain};
+use super::parts::{self, Modules};
+use crate::derive::Subject;
+use crate::model::{ContactEntry, ContactState, Contacts};
+use crate::names::type_name;
+use crate::syntax::Instance;
+
+const RECORD: &str = "Mode";
+
+/// `Mode`, the types of states that no instance has, and the list of all modes.
+pub(super) fn items(subject: &Subject<'_, '_>, contacts: &Contacts<'_>) -> TokenStream {
+    let entries = &contacts.entries;
+    let instances = &subject.model.declaration.instances;
+    let structure = structure(contacts);
+    let states = states(structure.trees(), entries);
+    let fields = fields(structure.trees(), entries, instances, 0);
+    let count = entries.len();
+    let names = structure.names();
+    let accesses = structure.accesses();
+    let from_states: Vec<TokenStream> =
+        (0..count).map(|i| quote!(::core::convert::From::from(mode.0[#i]))).collect();
+    let literal = structure.literal(&from_states);
+    let types = types(&structure);
+    let table = contacts.modes.iter().map(|mode| {
+        let values = entries.iter().zip(mode).zip(&types).map(|((entry, state), of)| {
+            let variant = variant(entry.states()[*state]);
+            quote!(#of::#variant)
+        });
+        let literal = structure.literal(&values.collect::<Vec<_>>());
+        quote!(Mode { #literal })
+    });
+    quote! {
+        #states
+        __guen::contact_mode! { #count { #(#fields)* } [#(#names)*] |mode| [#(mode.#accesses),*] { #literal } }
+
+        /// Every mode that the declaration allows.
+        pub const MODES: &[Mode] = &[#(#table),*];
+    }
+}
+
+/// Adds the modes of instances, and the types of their states, to the modules of the instances.
+pub(super) fn add(modules: &mut Modules, subject: &Subject<'_, '_>) {
+    let (Some(contacts), Some(_)) = (&subject.model.contacts, &subject.level.contacts) else { return };
+    let instances = &subject.model.declaration.instances;
+    for part in structure(contacts).parts() {
+        let Part { fields: trees, module, .. } = part;
+        let trees = || trees.iter().map(|(ident, tree)| (ident, tree));
+        let states = states(trees(), &contacts.entries);
+        let fields = fields(trees(), &contacts.entries, instances, module.len());
+        modules.add(
+            module,
+            quote! {
+                #states
+                __guen::instance_mode! { #(#fields)* }
+            },
+        );
+    }
+}
+
+fn structure(contacts: &Contacts<'_>) -> Fields {
+    let names: Vec<_> = contacts.entries.iter().map(|entry| entry.name).collect();
+    let states: Vec<_> = contacts.entries.iter().map(|entry| entry.states()).collect();
+    Fields::of_types(&names, &states).of_record(RECORD).without_reals()
+}
+
+/// The types of the states of the contacts among some fields.
+fn states<'t>(
+    trees: impl Iterator<Item = (&'t Ident, &'t Tree)>,
+    entries: &[ContactEntry<'_>],
+) -> TokenStream {
+    let own = trees.filter(|(_, tree)| tree.instance().is_none());
+    let enums = own.filter_map(|(ident, tree)| {
+        let entry = &entries[tree.first()?];
+        let name = type_of(ident);
+        let docs = match tree {
+            Tree::Leaf(_) => format!("The state of `{}`.", entry.name),
+            _ => format!("The states of `{}`.", plain(ident)),
+        };
+        let variants = entry.states().iter().map(|state| variant(*state));
+        Some(quote!(__guen::contact_states! { #docs #name #(#variants)* }))
+    });
+    enums.collect()
+}
+
+/// The fields of a struct of modes, so many modules inside of that of the system.
+fn fields<'t>(
+    trees: impl Iterator<Item = (&'t Ident, &'t Tree)>,
+    entries: &[ContactEntry<'_>],
+    instances: &[Instance],
+    depth: usize,
+) -> Vec<TokenStream> {
+    let fields = trees.map(|(ident, tree)| {
+        let name = type_of(ident);
+        let kind = tree.inner_type(&|_| quote!(#name), depth);
+        let docs = match (tree.instance(), tree.first()) {
+            (Some(part), _) => parts::docs_of_instance(instances, part),
+            (None, Some(first)) => {
+                let entry = &entries[first];
+                documentation::entry(entry.docs, &format!("The state of `{}`.", entry.name), None)
+            }
+            (None, None) => TokenStream::new(),
+        };
+        quote!(#docs pub #ident: #kind,)
+    });
+    fields.collect()
+}
+
+/// The type of the states of every contact, seen from the module of the system.
+fn types(structure: &Fields) -> Vec<TokenStream> {
+    fn collect(ident: &Ident, tree: &Tree, module: &[Ident], types: &mut [TokenStream]) {
+        match tree {
+            Tree::Leaf(place) => {
+                let name = type_of(ident);
+                types[*place] = quote!(#(#module::)* #name);
+            }
+            Tree::Array(entries) => entries.iter().for_each(|entry| collect(ident, entry, module, types)),
+            Tree::Instance(part) => {
+                part.fields.iter().for_each(|(ident, tree)| collect(ident, tree, &part.module, types));
+            }
+        }
+    }
+    let mut types = vec![TokenStream::new(); structure.len()];
+    structure.trees().for_each(|(ident, tree)| collect(ident, tree, &[], &mut types));
+    types
+}
+
+fn type_of(field: &Ident) -> Ident {
+    format_ident!("{}", type_name(&plain(field)), span = field.span())
+}
+
+fn variant(state: ContactState) -> Ident {
+    format_ident!(
+        "{}",
+        match state {
+            ContactState::Open => "Open",
+            ContactState::Closed => "Closed",
+            ContactState::Stick => "Stick",
+            ContactState::SlipPlus => "SlipForward",
+            ContactState::SlipMinus => "SlipBackward",
+            ContactState::Slip => "Slip",
+            ContactState::Free => "Free",
+            ContactState::Locked => "Locked",
+        }
+    )
+}

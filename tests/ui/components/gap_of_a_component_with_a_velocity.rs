@@ -1,0 +1,21 @@
+//! A fault of a contact is told in the component, once, with the first instance.
+//!
+//! repair: `gap = dot(point).y` => `gap = point.y`
+
+guen::mechanical_system! {
+    pub system Plank {
+        component Foot(point: vector) {
+            constants { mu >= 0 }
+            contacts { sole: gap = dot(point).y, slip = dot(point).x, friction = mu; }
+        }
+        constants   { m > 0, J > 0, g = 9.81 }
+        coordinates { x, z, tilt }
+        parameters  { u = dot(x); w = dot(z); omega = dot(tilt); }
+        kinetic_energy   = m/2*(u^2 + w^2) + J/2*omega^2;
+        potential_energy = m*g*z;
+        use Foot as left  { point: vec(x - cos(tilt), z - sin(tilt)) }
+        use Foot as right { point: vec(x + cos(tilt), z + sin(tilt)) }
+    }
+}
+
+fn main() {}
