@@ -224,5 +224,7 @@ pub mod __private {
         simulated, simulated_through_modes, singularities, state_of_system, steady_motions, structured,
         switches, uses, with_scalar,
     };
-    pub use guen_runtime::{consistent, control, furthest_surplus, hybrid, serde_record, serde_structured};
+    pub use guen_runtime::{
+        consistent, control, furthest_surplus, hybrid, onto, serde_record, serde_structured,
+    };
 }

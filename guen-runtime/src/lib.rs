@@ -95,9 +95,9 @@ pub use system::linearization::{
 };
 pub use system::operator::{Applied, Coordinate, Function, Operator};
 pub use system::outputs::OutputMap;
-#[doc(hidden)]
-pub use system::positions::furthest_surplus;
 pub use system::positions::{Positions, Projected, consistent, project, projected};
+#[doc(hidden)]
+pub use system::positions::{furthest_surplus, onto};
 pub use system::positions_error::PositionsError;
 pub use system::series::{Coefficients, Convolutions, DrivenSeries, TaylorSeries};
 pub use system::simulate::Simulate;

@@ -5,6 +5,8 @@ mod declared;
 mod free_motion;
 #[path = "../../guen-runtime/tests/hybrid/json.rs"]
 mod json;
+mod permanent;
+mod piecewise;
 mod printed;
 mod reference;
 mod simulated;

@@ -4,12 +4,15 @@
 //! their derivatives by a force are `M^-1 W^T`, found by the elimination that solves the system.
 
 use guen_symbolic::{
-    Derivation, ExprId, Flow, ProgramBuilder, Programs, Substitution, Verdict, weighted_cost,
+    Derivation, ExprId, Flow, Function, Graph, ProgramBuilder, Programs, Rational, Substitution, Verdict,
+    Workbench, weighted_cost,
 };
 
+use super::branches::{Branch, Held};
 use super::faults;
 use super::function;
 use crate::diagnostics::{Fault, Faults};
+use crate::limits::MAX_SWITCHES;
 use crate::model::{ContactKind, Contacts, Model};
 
 /// The facts about contacts that the programs do not tell.
@@ -25,6 +28,8 @@ pub struct ContactFacts {
     pub delassus: Vec<ExprId>,
     /// Whether a row moves by itself.
     pub drifts: bool,
+    /// The branches of piecewise functions, which are signals after the switches.
+    pub branches: Vec<Branch>,
 }
 
 /// The programs of contacts, and the facts about them; `None` after a fault, and where there are neither contacts nor switches.
@@ -166,6 +171,25 @@ fn programs(
     let (_, best, delassus) = lists.first()?;
     let (best, delassus) = (best.clone(), delassus.clone());
     let lists: Vec<Vec<ExprId>> = lists.into_iter().map(|(_, list, _)| list).collect();
+    let mut values = values_by_state(bench, contacts, &rows);
+    let mut held = Held::new(&mut bench.graph, &lists.concat(), &mut values);
+    if contacts.switches.len() + held.branches.len() > MAX_SWITCHES {
+        let text = format!(
+            "the motion between contacts changes its formula at the zeros of {} functions, and {MAX_SWITCHES} are allowed",
+            contacts.switches.len() + held.branches.len()
+        );
+        let fault = Fault::new(model.declaration.name.span(), text);
+        faults.report(fault.help("use fewer of `min`, `max`, `select` and other piecewise functions"));
+        return None;
+    }
+    // Gaps and rows are looked at where no mode is known: there piecewise functions follow the state.
+    let following = n + l..n + l + contacts.entries.len() + rows.len();
+    let hold = |graph: &mut Graph, held: &mut Held, list: &[ExprId]| -> Vec<ExprId> {
+        let entries = list.iter().enumerate();
+        entries.map(|(i, e)| if following.contains(&i) { *e } else { held.of(graph, *e) }).collect()
+    };
+    let lists: Vec<Vec<ExprId>> = lists.iter().map(|list| hold(&mut bench.graph, &mut held, list)).collect();
+    let best = hold(&mut bench.graph, &mut held, &best);
     let one = bench.graph.one();
     let opposite = bench.graph.neg(one);
     let mut conditions: Vec<ExprId> =
@@ -173,8 +197,9 @@ fn programs(
     conditions.extend(contacts.entries.iter().map(|entry| entry.release.unwrap_or(opposite)));
     let constrain = &mut derivation.frame.constrain;
     conditions.iter_mut().for_each(|e| *e = constrain.of(&mut bench.graph, *e));
-    let signals: Vec<ExprId> =
+    let mut signals: Vec<ExprId> =
         contacts.switches.iter().map(|switch| constrain.of(&mut bench.graph, switch.function)).collect();
+    signals.extend(held.branches.iter().map(|branch| branch.function));
     let restitutions: Vec<ExprId> = contacts.entries.iter().map(|entry| entry.restitution).collect();
     let (painleve_free, coupled) = painleve(bench, contacts, &delassus);
     let moves = drifts.iter().any(|drift| !bench.graph.is_zero(*drift));
@@ -194,8 +219,41 @@ fn programs(
     if !derivation.outputs.is_empty() {
         builder.add_cold(function::CONTACT_OUTPUTS, &derivation.outputs);
     }
-    let facts = ContactFacts { painleve_free, coupled, rows, delassus, drifts: moves };
+    let facts =
+        ContactFacts { painleve_free, coupled, rows, delassus, drifts: moves, branches: held.branches };
     Some((builder.finish(), facts))
+}
+
+/// The symbols that the state determines: switches by their functions, and the magnitudes of slips by the rows.
+fn values_by_state(bench: &mut Workbench, contacts: &Contacts<'_>, rows: &[ExprId]) -> Substitution {
+    let graph = &mut bench.graph;
+    let half = graph.number(Rational::new(1, 2));
+    let mut values = Vec::new();
+    for switch in &contacts.switches {
+        let sign = graph.function(Function::Sign, switch.function);
+        let half_sign = graph.mul(half, sign);
+        values.push((switch.symbol, graph.add(half, half_sign)));
+    }
+    let mut first = 0;
+    for entry in &contacts.entries {
+        let slips = &rows[first + usize::from(entry.gap.is_some())..first + entry.rows.len()];
+        if let Some(speed) = entry.speed {
+            let magnitude = match slips {
+                [slip] => graph.function(Function::Abs, *slip),
+                slips => {
+                    let mut sum = graph.zero();
+                    for slip in slips {
+                        let square = graph.powi(*slip, 2);
+                        sum = graph.add(sum, square);
+                    }
+                    graph.sqrt(sum)
+                }
+            };
+            values.push((speed, magnitude));
+        }
+        first += entry.rows.len();
+    }
+    Substitution::new(values)
 }
 
 /// The lists of equal expressions that the optimiser looks at.
@@ -204,7 +262,7 @@ const LISTS: usize = 2;
 /// Whether no slip changes how a gap answers to its own force: the entries of `D` between slips with friction and gaps vanish. The
 /// pairs for which they do not.
 fn painleve(
-    bench: &mut guen_symbolic::Workbench,
+    bench: &mut Workbench,
     contacts: &Contacts<'_>,
     delassus: &[ExprId],
 ) -> (bool, Vec<(usize, usize)>) {

@@ -1,5 +1,6 @@
 //! Derives a checked model: the derivation, its faults in the user's names, and the programs.
 
+mod branches;
 mod carried;
 mod cheapest;
 mod closure;
@@ -37,6 +38,7 @@ use formulas::Quantity;
 use programs::{add_mass, extend, programs};
 use readable::{equations, polish, shown};
 
+pub use branches::Branch;
 pub use closure::{Quadrature, Reason};
 pub use commutator::Commutator;
 pub use contacts::ContactFacts;

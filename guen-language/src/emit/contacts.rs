@@ -4,7 +4,7 @@ use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
 use super::layout::Layout;
-use crate::derive::{Subject, function};
+use crate::derive::{Branch, Subject, function};
 use crate::model::{ContactKind, Contacts};
 
 pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
@@ -14,12 +14,15 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let Layout { size, n, .. } = layout;
     let count = contacts.entries.len();
     let rows = contacts.rows().count();
-    let switches = contacts.switches.len();
+    let switches = contacts.switches.len() + facts.branches.len();
     let elements = elements(contacts);
     let signals = contacts.switches.iter().map(|switch| {
         let name = &switch.name.text;
         quote!(__guen::hybrid::Signal::switch(#name))
     });
+    let branches =
+        facts.branches.iter().map(|Branch { text, .. }| quote!(__guen::hybrid::Signal::branch(#text)));
+    let signals = signals.chain(branches);
     let (owner, system) = match layout.inputs {
         0 => (quote!(Prepared), quote!(self)),
         _ => (quote!(Driven), quote!(self.system)),
@@ -104,6 +107,38 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
         _ => quote!(self.system.driven(inputs)),
     };
     let painleve_free = facts.painleve_free;
+    let holonomic = subject.level.selection.holonomic.len();
+    let all_holonomic = holonomic + subject.level.selection.redundant.len();
+    let onto_constraints = (holonomic > 0).then(|| {
+        quote! {
+            fn onto_constraints<S: __guen::Lift<::core::primitive::f64>>(
+                &self, t: S, state: &[S; #size],
+            ) -> ::core::result::Result<[S; #size], __guen::PositionsError> {
+                let constants = #system.constants.map(<S as __guen::Lift<::core::primitive::f64>>::lift);
+                let hoisted = #system.hoisted.map(<S as __guen::Lift<::core::primitive::f64>>::lift);
+                __guen::onto::<S, #n, #size, #holonomic>(t, state, |t, coordinates| {
+                    let values = program::gradients(&constants, &hoisted, t, coordinates);
+                    let row = |v| ::core::array::from_fn(|i| values[#all_holonomic + v * #n + i]);
+                    (::core::array::from_fn(|v| values[v]), ::core::array::from_fn(row))
+                })
+            }
+        }
+    });
+    let count_of_singularities = subject.level.singularities;
+    let singularities = (count_of_singularities > 0).then(|| {
+        quote! {
+            #[inline]
+            fn singularities<S: __guen::Lift<::core::primitive::f64>>(
+                &self, t: __guen::RunningError<S>, state: &[__guen::RunningError<S>; #size],
+                values: &mut [__guen::RunningError<S>],
+            ) -> ::core::primitive::usize {
+                let constants = #system.constants.map(<S as __guen::Lift<::core::primitive::f64>>::lift);
+                let hoisted = #system.hoisted.map(<S as __guen::Lift<::core::primitive::f64>>::lift);
+                let (constants, hoisted) = (&__guen::checks::rounded(&constants), &__guen::checks::rounded(&hoisted));
+                __guen::checks::placed(values, &program::domain(constants, hoisted, t, state), #count_of_singularities)
+            }
+        }
+    });
     let modes = super::modes::items(subject, contacts);
     let in_mode = in_mode(contacts, &[*size, rows, count, switches]);
     let outputs = outputs(subject, layout, &[*size, rows, count, switches]);
@@ -154,6 +189,9 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
             #row_drifts
             #conditions
 
+            #onto_constraints
+            #singularities
+
             #[inline]
             fn restitutions(&self) -> [::core::primitive::f64; #count] {
                 #restitutions
@@ -176,11 +214,13 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
 /// `in_mode`; `sizes` are the numbers of states, rows, contacts and switches.
 fn in_mode(contacts: &Contacts<'_>, sizes: &[usize; 4]) -> TokenStream {
     let [size, rows, count, switches] = sizes;
+    let declared = contacts.switches.len();
     let (parameter, values, docs) = if contacts.switches.is_empty() {
-        (quote!(), quote!([]), "")
+        (quote!(), quote!([false; #switches]), "")
     } else {
         let docs = ", with these values of its switches";
-        (quote!(, switches: [::core::primitive::bool; #switches]), quote!(switches), docs)
+        let values = quote!(__guen::checks::padded::<#declared, #switches>(&switches));
+        (quote!(, switches: [::core::primitive::bool; #declared]), values, docs)
     };
     let docs = format!("The system in a mode{docs}: a smooth system that every stepper runs.");
     quote! {

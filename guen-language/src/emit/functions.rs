@@ -53,6 +53,9 @@ impl Places {
         if let Some(contacts) = &model.contacts {
             let switches = contacts.switches.iter().enumerate();
             switches.for_each(|(i, switch)| put(switch.symbol, format!("b[{i}]")));
+            let branches =
+                level.contacts.iter().flat_map(|facts| &facts.branches).zip(contacts.switches.len()..);
+            branches.for_each(|(branch, i)| put(branch.symbol, format!("b[{i}]")));
             let forces = contacts.rows().enumerate();
             forces.for_each(|(i, row)| put(row.force, format!("f[{i}]")));
             let speeds = contacts.entries.iter().map(|entry| entry.speed).enumerate();
@@ -149,11 +152,11 @@ fn module(name: &str, programs: &Programs, more: &str, subject: &Subject<'_, '_>
         text,
         "__guen::program_functions! {{ c {constants} k {hoisted} s {size} x {n} y {all} w {n} u {inputs} a {l}"
     );
-    if let (Some(contacts), Some(_)) = (&subject.model.contacts, &subject.level.contacts) {
+    if let (Some(contacts), Some(facts)) = (&subject.model.contacts, &subject.level.contacts) {
         let _ = write!(
             text,
             " b {} m {} f {}",
-            contacts.switches.len(),
+            contacts.switches.len() + facts.branches.len(),
             contacts.entries.len(),
             contacts.rows().count()
         );

@@ -20,10 +20,12 @@ impl Evaluator<'_> {
         let has_slopes = match place {
             Place::Parameter
             | Place::Constraint
+            | Place::Slip
+            | Place::Grip
             | Place::KineticEnergy
             | Place::Mass
             | Place::ForceFunction => false,
-            Place::Position | Place::Holonomic => true,
+            Place::Position | Place::Holonomic | Place::Gap | Place::Latch => true,
             _ => return Ok(()),
         };
         if !self.bench.graph.has_branches() {

@@ -305,6 +305,15 @@ pub fn conditions<R: Real, const C: usize>(values: &[R]) -> Conditions<R, C> {
     Conditions { when: core::array::from_fn(value), release: core::array::from_fn(|i| value(C + i)) }
 }
 
+/// The values of switches, with places for the branches of piecewise functions behind them.
+///
+/// ```
+/// assert_eq!(guen_runtime::checks::padded::<1, 2>(&[true]), [true, false]);
+/// ```
+pub fn padded<const D: usize, const S: usize>(switches: &[bool; D]) -> [bool; S] {
+    core::array::from_fn(|s| switches.get(s).copied().unwrap_or(false))
+}
+
 /// Refuses limits of an input that leave no value between them.
 ///
 /// ```

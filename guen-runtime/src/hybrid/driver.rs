@@ -11,7 +11,7 @@ use crate::hybrid::system::HybridSystem;
 use crate::hybrid::transition::Transition;
 use crate::hybrid::turn::Place;
 use crate::hybrid::watched::Sides;
-use crate::steppers::{Cause, Method, Setting, Statistics};
+use crate::steppers::{Cause, Guard, Method, Setting, Statistics};
 
 /// Is shown each sample: its position, time, state and mode.
 type Visitor<'a, M, const N: usize> = &'a mut dyn FnMut(usize, f64, &[f64; N], &M);
@@ -28,7 +28,8 @@ type Receiver<'a, M, const N: usize, const W: usize, const C: usize> =
 ///   derivatives would not know.
 /// - Spatial slip that begins from rest is stiff, since its direction follows the force at once: explicit methods make some ten thousand
 ///   small steps there.
-/// - Guards do not watch it. Gaps and slips that are closed are put back after every step.
+/// - A [`Guard`] watches it within its modes: it refuses to come close to where the chart or the equations end. Permanent constraints on
+///   positions, gaps and slips that are closed are put back after every step; the start is put onto the permanent ones.
 ///
 /// The [module](crate::hybrid) has an example.
 pub struct Hybrid<'a, H, const N: usize, const W: usize, const C: usize, const S: usize>
@@ -44,6 +45,7 @@ where
     pub(super) receiver: Option<Receiver<'a, H::Mode, N, W, C>>,
     pub(super) resting_accuracy: f64,
     pub(super) max_transitions: u64,
+    pub(super) guard: Guard,
 }
 
 /// The end of a run through modes that did not fail: what [`Hybrid::run`] returns.
@@ -82,6 +84,7 @@ where
             receiver: None,
             resting_accuracy: 1e-12,
             max_transitions: Self::MAX_TRANSITIONS,
+            guard: Guard { every: Some(1), ..Guard::default() },
         }
     }
 
@@ -113,6 +116,12 @@ where
     #[must_use]
     pub fn max_transitions(self, limit: u64) -> Self {
         Self { max_transitions: limit, ..self }
+    }
+
+    /// Sets the limits of what is watched within a mode; by default those of [`Guard`], after every step.
+    #[must_use]
+    pub fn guard(self, guard: Guard) -> Self {
+        Self { guard, ..self }
     }
 
     /// Runs to a time, which is not before the start.
@@ -158,10 +167,12 @@ where
         if !self.state.iter().all(|entry| entry.is_finite()) {
             return Err(fail(Cause::NotFinite));
         }
-        let in_mode = InMode::new(self.system.clone(), mode, self.t, &self.state);
-        let signals = in_mode.switches.map(|value| if value > 0.0 { 1.0 } else { -1.0 });
+        let state = self.system.onto_constraints(self.t, &self.state);
+        let state = state.map_err(|error| fail(Cause::of_positions(error)))?;
+        let in_mode = InMode::new(self.system.clone(), mode, self.t, &state);
+        let signals = in_mode.switches.map(|value| 2.0 * value - 1.0);
         let sides = Sides { latches: [1.0; C], signals, slow: [0.0; C] };
-        let place = Place { t: self.t, state: self.state, in_mode, sides, begins: true };
+        let place = Place { t: self.t, state, in_mode, sides, begins: true };
         let resting = Resting::new(self.resting_accuracy);
         let run = Run {
             place,

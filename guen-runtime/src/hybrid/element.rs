@@ -107,6 +107,9 @@ pub enum Effect {
     ResetWhenRising,
     /// A fall through zero resets the state: [`HybridSystem::reset`](crate::hybrid::HybridSystem::reset) gives a new state.
     ResetWhenFalling,
+    /// Either crossing changes the branch of a piecewise function: its value is one where the function is positive, zero where it is
+    /// negative, and a half where it vanishes for a while. In a mode by itself it follows the state.
+    Branch,
 }
 
 impl Signal {
@@ -120,9 +123,14 @@ impl Signal {
         Self { name, effect: Effect::ResetWhenRising }
     }
 
-    /// Whether it is a switch.
+    /// A branch of a piecewise function: `abs`, `sign`, `min`, `max`, `select`.
+    pub const fn branch(name: &'static str) -> Self {
+        Self { name, effect: Effect::Branch }
+    }
+
+    /// Whether it has a value that is held within a mode: a switch, or a branch of a piecewise function.
     pub const fn is_switch(&self) -> bool {
-        matches!(self.effect, Effect::Switch)
+        matches!(self.effect, Effect::Switch | Effect::Branch)
     }
 
     /// A reset where the function falls through zero.

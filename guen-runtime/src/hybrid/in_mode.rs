@@ -2,7 +2,7 @@
 
 use core::array::from_fn;
 
-use crate::hybrid::element::Element;
+use crate::hybrid::element::{Effect, Element, Signal};
 use crate::hybrid::mode::{ElementState, Mode};
 use crate::hybrid::pivots::Pivots;
 use crate::hybrid::system::{FreeMotion, HybridSystem};
@@ -10,6 +10,7 @@ use crate::numbers::dual::Dual;
 use crate::numbers::lift::Lift;
 use crate::numbers::power_series::PowerSeries;
 use crate::numbers::real::Real;
+use crate::numbers::running_error::RunningError;
 use crate::system::System;
 use crate::system::differentiable::Differentiable;
 use crate::system::linearization::seeded;
@@ -30,6 +31,8 @@ pub struct InMode<H, const N: usize, const W: usize, const C: usize, const S: us
     pub(super) system: H,
     pub(super) mode: Mode<C>,
     pub(super) switches: [f64; S],
+    /// Whether branches of piecewise functions follow the state, and are not held.
+    pub(super) follows: bool,
     pub(super) pivots: Pivots<W>,
     /// The directions of spatial slip where the slip itself does not tell one.
     pub(super) leaning: [Leaning; C],
@@ -89,17 +92,17 @@ where
     /// The system in a mode, with the values of its switches at a time and state; the order of elimination is chosen there, and rows
     /// that depend on others are found.
     pub fn new(system: H, mode: Mode<C>, t: f64, state: &[f64; N]) -> Self {
-        let values = system.signals(t, state);
-        let switches = from_fn(|i| f64::from(u8::from(H::SIGNALS[i].is_switch() && values[i] > 0.0)));
+        let switches = values_of_switches::<H, N, W, C, S>(&system.signals(t, state));
         Self::with_switches(system, mode, switches, t, state)
     }
 
     /// The system in a mode, with these values of the switches, wherever the state will be: the order of elimination is chosen, and
-    /// rows that depend on others are found, at a state without symmetry.
+    /// rows that depend on others are found, at a state without symmetry. Branches of piecewise functions follow the state, whatever
+    /// values they are given.
     pub fn anywhere(system: H, mode: Mode<C>, switches: [bool; S]) -> Self {
         let state = from_fn(|i| 0.37 + 0.061 * i as f64);
         let switches = switches.map(|value| f64::from(u8::from(value)));
-        let chosen = Self::with_switches(system, mode, switches, 0.29, &state);
+        let chosen = Self { follows: true, ..Self::with_switches(system, mode, switches, 0.29, &state) };
         if chosen.pivots.independent().is_empty() {
             // The state is outside of where the system is defined.
             let pivots = Pivots::in_order(unknown_rows(&H::ELEMENTS, &mode));
@@ -117,7 +120,8 @@ where
         state: &[f64; N],
     ) -> Self {
         let pivots = Pivots::in_order(unknown_rows(&H::ELEMENTS, &mode));
-        let mut in_mode = Self { system, mode, switches, pivots, leaning: [Leaning::default(); C] };
+        let mut in_mode =
+            Self { system, mode, switches, follows: false, pivots, leaning: [Leaning::default(); C] };
         in_mode.choose_pivots(t, state);
         in_mode
     }
@@ -149,14 +153,25 @@ where
         self.pivots.is_redundant()
     }
 
-    /// The values of the switches as they are held.
-    fn lifted_switches<R: Lift<f64>>(&self) -> [R; S] {
-        self.switches.map(R::lift)
+    /// The values of the switches as they are held, those of branches that follow the state from there.
+    pub(super) fn lifted_switches<R: Lift<f64>>(&self, t: R, state: &[R; N]) -> [R; S] {
+        let mut held = self.switches.map(R::lift);
+        if self.follows && H::SIGNALS.iter().any(|signal| signal.effect == Effect::Branch) {
+            let values = self.system.signals(t, state);
+            for (s, signal) in H::SIGNALS.iter().enumerate() {
+                if signal.effect == Effect::Branch {
+                    let (half, zero) = (R::from_ratio(1, 2), R::zero());
+                    let below = (-values[s]).where_above(zero, zero, half);
+                    held[s] = values[s].where_above(zero, R::one(), below);
+                }
+            }
+        }
+        held
     }
 
     /// The free motion in this mode, with the directions of slip.
     fn free_motion<R: Lift<f64>>(&self, t: R, state: &[R; N]) -> (FreeMotion<R, N, W, C>, [R; W]) {
-        let switches = self.lifted_switches();
+        let switches = self.lifted_switches(t, state);
         let mut speeds = [R::zero(); C];
         let needed = |(element, state): (&Element, &ElementState)| element.friction_of_speed && state.slips();
         if H::ELEMENTS.iter().zip(&self.mode.0).any(needed) {
@@ -259,14 +274,14 @@ where
     /// The rates of the state in this mode.
     pub fn rates<R: Lift<f64>>(&self, t: R, state: &[R; N]) -> [R; N] {
         if self.pivots.all().is_empty() && !self.mode.0.iter().any(|state| state.slips()) {
-            return self.system.free_rates(t, state, &self.lifted_switches());
+            return self.system.free_rates(t, state, &self.lifted_switches(t, state));
         }
         self.reactions(t, state).rates()
     }
 
     /// The state after impulses along these rows have made their rates vanish.
     pub(super) fn at_rest<R: Lift<f64>>(&self, t: R, state: &[R; N], rows: &Pivots<W>) -> [R; N] {
-        let switches = self.lifted_switches();
+        let switches = self.lifted_switches(t, state);
         let free = self.system.free_motion(t, state, &switches, &[R::zero(); C]);
         let right = free.row_rates.map(|rate| -rate);
         let (impulses, _) = rows.solve(free.delassus, right, &[R::one(); W]);
@@ -275,7 +290,7 @@ where
 
     /// The state with coordinates at which these gaps vanish, displaced as the reactions along the gaps would: one step of Newton's method.
     pub(super) fn touching<R: Lift<f64>>(&self, t: R, state: &[R; N], rows: &Pivots<W>) -> [R; N] {
-        let switches = self.lifted_switches();
+        let switches = self.lifted_switches(t, state);
         let free = self.system.free_motion(t, state, &switches, &[R::zero(); C]);
         let mut right = [R::zero(); W];
         for (c, element) in H::ELEMENTS.iter().enumerate() {
@@ -305,14 +320,16 @@ where
         Pivots::in_order(self.pivots.independent().iter().copied().filter(|&row| closed(row)))
     }
 
-    /// The state with closed gaps and what does not slip at zero: positions first, then velocities.
-    pub(super) fn restored<R: Lift<f64>>(&self, t: R, state: &[R; N]) -> [R; N] {
+    /// The state with permanent constraints on positions fulfilled, closed gaps and what does not slip at zero: positions first, then
+    /// velocities.
+    pub(super) fn restored<R: Lift<f64>>(&self, t: R, state: &[R; N]) -> Result<[R; N], PositionsError> {
+        let state = self.system.onto_constraints(t, state)?;
         if self.pivots.all().is_empty() {
-            return *state;
+            return Ok(state);
         }
         let closed = self.closed_rows();
-        let state = if closed.all().is_empty() { *state } else { self.touching(t, state, &closed) };
-        self.at_rest(t, &state, &Pivots::in_order(self.pivots.independent().iter().copied()))
+        let state = if closed.all().is_empty() { state } else { self.touching(t, &state, &closed) };
+        Ok(self.at_rest(t, &state, &Pivots::in_order(self.pivots.independent().iter().copied())))
     }
 }
 
@@ -360,7 +377,7 @@ where
     }
 
     fn restore(&self, t: R, state: &mut [R; N]) -> Result<(), PositionsError> {
-        let restored = self.restored(t, state);
+        let restored = self.restored(t, state)?;
         if !restored.iter().all(|entry| entry.is_finite()) {
             return Err(PositionsError::NotFinite);
         }
@@ -372,6 +389,41 @@ where
         }
         Ok(())
     }
+
+    #[inline]
+    fn singularities(
+        &self,
+        t: RunningError<R>,
+        state: &[RunningError<R>; N],
+        values: &mut [RunningError<R>],
+    ) -> usize {
+        self.system.singularities(t, state, values)
+    }
+
+    /// The branches of piecewise functions, where they follow the state.
+    fn switches(&self, t: R, state: &[R; N], values: &mut [R]) -> usize {
+        let is_branch = |signal: &Signal| signal.effect == Effect::Branch;
+        if !self.follows || !H::SIGNALS.iter().any(is_branch) {
+            return 0;
+        }
+        let found = self.system.signals(t, state);
+        let branches = H::SIGNALS.iter().zip(found).filter(|(signal, _)| is_branch(signal));
+        values.iter_mut().zip(branches).map(|(place, (_, value))| *place = value).count()
+    }
+}
+
+/// The values of switches and branches by those of their functions; zero for other signals.
+pub(super) fn values_of_switches<H, const N: usize, const W: usize, const C: usize, const S: usize>(
+    functions: &[f64; S],
+) -> [f64; S]
+where
+    H: HybridSystem<N, W, C, S>,
+{
+    from_fn(|s| match H::SIGNALS[s].effect {
+        Effect::Branch if functions[s] == 0.0 => 0.5,
+        Effect::Switch | Effect::Branch => f64::from(u8::from(functions[s] > 0.0)),
+        Effect::ResetWhenRising | Effect::ResetWhenFalling => 0.0,
+    })
 }
 
 impl<R, H, const N: usize, const W: usize, const C: usize, const S: usize> Differentiable<R, N>

@@ -91,6 +91,7 @@ mod redundant;
 mod resting;
 mod run;
 mod select;
+mod signals;
 #[cfg(feature = "alloc")]
 mod simulation;
 mod stopping;

@@ -9,6 +9,7 @@ use crate::hybrid::resting::Resting;
 use crate::hybrid::system::HybridSystem;
 use crate::hybrid::transition::{Transition, TransitionKind};
 use crate::hybrid::turn::{Fired, Place};
+use crate::steppers::guard::part::{Failed, PartWatch};
 use crate::steppers::{Cause, Checkpoint, Interpolant, Method, Statistics, StepperRun};
 
 /// Transitions between the same two modes, one after the other.
@@ -115,7 +116,7 @@ where
         let (next, transition) = self.place.turn(fired, &mut resting).map_err(|cause| self.failed(cause))?;
         self.resting = resting;
         let changes = transition.before != transition.after || transition.impulses != [0.0; W];
-        let happened = fired_any(fired) || !begins && changes;
+        let happened = fired.any() || !begins && changes;
         if begins && transition.impulses == [0.0; W] {
             self.place = next;
             return Ok(false);
@@ -227,6 +228,8 @@ where
         let in_mode = self.place.in_mode.clone();
         let mut checkpoint = Checkpoint::new(self.place.t, &self.place.state);
         checkpoint.statistics = self.work;
+        let watch = PartWatch::new::<_, M>(self.hybrid.guard, &in_mode, &checkpoint);
+        let mut watch = watch.map_err(HybridCause::Integration)?;
         let mut run = method.start(&checkpoint);
         if let Some(step) = self.step {
             run.try_first(step);
@@ -239,7 +242,7 @@ where
             }
             let made = run.advance(&in_mode, target, true);
             self.work = run.checkpoint().statistics;
-            made.map_err(HybridCause::Integration)?;
+            made.map_err(|cause| self.back_to(watch.stopped(&in_mode, run.checkpoint(), cause)))?;
             let polynomial = run.dense(&in_mode);
             let after = *run.checkpoint();
             self.work = after.statistics;
@@ -277,16 +280,27 @@ where
                     from = found.t;
                     continue;
                 }
+                watch.finish(&in_mode, t, &state).map_err(|failed| self.back_to(failed))?;
                 self.step = Some(after.time - before.time);
                 (self.place.t, self.place.state) = (t, state);
                 let bracket = (t - found.t).abs() + 4.0 * f64::EPSILON * t.abs();
                 return Ok(Part::Fired(self.fired(found, bracket)));
             }
             first = false;
+            watch.step(&in_mode, &run, &before).map_err(|failed| self.back_to(failed))?;
+            if after.time == target {
+                watch.finish(&in_mode, after.time, &after.state).map_err(|failed| self.back_to(failed))?;
+            }
             self.samples_before(&in_mode, after.time, &at);
             (self.place.t, self.place.state) = (after.time, after.state);
             self.slow_down(&after.state);
         }
+    }
+
+    /// Goes back to the last time and state at which a guard found no fault.
+    fn back_to(&mut self, failed: Failed<N>) -> HybridCause<C> {
+        (self.place.t, self.place.state) = (failed.time, failed.state);
+        HybridCause::Integration(failed.cause)
     }
 
     /// Shows the samples of the last step before a time.
@@ -294,7 +308,8 @@ where
         while let Some(&sample) = self.hybrid.samples.get(self.visited)
             && sample < time
         {
-            let state = in_mode.restored(sample, &at(sample));
+            let state = at(sample);
+            let state = in_mode.restored(sample, &state).unwrap_or(state);
             self.show(sample, &state);
         }
     }
@@ -345,11 +360,4 @@ where
             }
         }
     }
-}
-
-/// Whether anything has fired.
-fn fired_any<const C: usize, const S: usize>(fired: &Fired<C, S>) -> bool {
-    let elements =
-        (0..C).any(|c| fired.gap[c] || fired.normal[c] || fired.cone[c] != [false; 2] || fired.slip[c]);
-    elements || fired.signals.contains(&true) || fired.regularity || fired.shared
 }

@@ -68,7 +68,7 @@ type Jet = PowerSeries<RunningError<f64>>;
 
 /// The sign of a function next, as its first terms say.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Sign {
+pub(super) enum Sign {
     Positive,
     Negative,
     /// All terms vanish that are known.
@@ -203,6 +203,16 @@ where
     fn jets(&self, t: f64, state: &[f64; N], order: usize) -> [Jet; N] {
         let (time, unit) = (RunningError::once(t), RunningError::exact(1.0));
         motion_series((time, &state.map(RunningError::once)), unit, order, |t, state| self.rates(t, state))
+    }
+
+    /// The sign of a signal right after this time, as the motion goes on in this mode.
+    pub(super) fn sign_of_signal(&self, s: usize, t: f64, state: &[f64; N]) -> Sign {
+        let series = self.jets(t, state, HIGHEST);
+        let time = Jet::line(RunningError::once(t), RunningError::exact(1.0));
+        let function = self.system.signals(time, &series)[s];
+        let is_number = |k: usize| function.coefficient(k).value.is_finite();
+        let known = (1..=HIGHEST).take_while(|k| is_number(*k)).count();
+        sign(&function, 1, known)
     }
 
     /// Whether every inequality of the mode holds in it right after this time.

@@ -13,7 +13,7 @@ use crate::hybrid::mode::Mode;
 use crate::hybrid::system::HybridSystem;
 use crate::hybrid::trajectory::HybridTrajectory;
 use crate::hybrid::transition::Transition;
-use crate::steppers::{Cause, Dense, Dop853, Interpolant, Method, StepperRun};
+use crate::steppers::{Cause, Dense, Dop853, Guard, Interpolant, Method, StepperRun};
 
 /// The tolerance of a simulation that nobody sets, relative and absolute.
 const TOLERANCE: f64 = 1e-9;
@@ -94,6 +94,7 @@ pub trait SimulateModes<const N: usize, const W: usize, const C: usize, const S:
             receiver: None,
             resting_accuracy: None,
             max_transitions: None,
+            guard: None,
         }
     }
 }
@@ -114,7 +115,7 @@ type Receiver<'a, M, const N: usize, const W: usize, const C: usize> =
 /// | [`method`](Self::method), [`tolerance`](Self::tolerance) | [`Dop853`] with 1e-9, relative and absolute |
 /// | [`inputs`](Self::inputs) | those of the system |
 /// | [`observe_transitions`](Self::observe_transitions) | nobody |
-/// | [`resting_accuracy`](Self::resting_accuracy), [`max_transitions`](Self::max_transitions) | those of [`Hybrid`] |
+/// | [`resting_accuracy`](Self::resting_accuracy), [`max_transitions`](Self::max_transitions), [`guard`](Self::guard) | those of [`Hybrid`] |
 /// | [`memory`](Self::memory) | 256 MiB for the trajectory |
 #[must_use = "a simulation runs when `run` is called"]
 pub struct HybridSimulation<
@@ -137,6 +138,7 @@ pub struct HybridSimulation<
     receiver: Option<Receiver<'a, H::Mode, N, W, C>>,
     resting_accuracy: Option<f64>,
     max_transitions: Option<u64>,
+    guard: Option<Guard>,
 }
 
 impl<'a, H, X, M, const N: usize, const W: usize, const C: usize, const S: usize>
@@ -147,7 +149,9 @@ where
 {
     /// Sets the method.
     pub fn method<M2>(self, method: M2) -> HybridSimulation<'a, H, X, N, W, C, S, M2> {
-        let Self { system, start, memory, inputs, receiver, resting_accuracy, max_transitions, .. } = self;
+        let Self {
+            system, start, memory, inputs, receiver, resting_accuracy, max_transitions, guard, ..
+        } = self;
         HybridSimulation {
             system,
             start,
@@ -157,6 +161,7 @@ where
             receiver,
             resting_accuracy,
             max_transitions,
+            guard,
         }
     }
 
@@ -183,6 +188,11 @@ where
         Self { max_transitions: Some(limit), ..self }
     }
 
+    /// Sets the limits of what is watched within a mode.
+    pub fn guard(self, guard: Guard) -> Self {
+        Self { guard: Some(guard), ..self }
+    }
+
     /// Limits the memory of the steps of the trajectory, and that of its modes, in bytes.
     pub fn memory(self, bytes: usize) -> Self {
         Self { memory: bytes, ..self }
@@ -203,8 +213,17 @@ where
         for<'r> M::Run<'r>: StepperRun<f64, InMode<H, N, W, C, S>, N, Polynomial = P>,
         P: Interpolant<f64, N>,
     {
-        let Self { system, start, method, memory, inputs, mut receiver, resting_accuracy, max_transitions } =
-            self;
+        let Self {
+            system,
+            start,
+            method,
+            memory,
+            inputs,
+            mut receiver,
+            resting_accuracy,
+            max_transitions,
+            guard,
+        } = self;
         let mut transitions = Vec::new();
         let kept = Kept::new(&method, memory);
         let mut log = Log::new();
@@ -219,6 +238,9 @@ where
         }
         if let Some(limit) = max_transitions {
             hybrid = hybrid.max_transitions(limit);
+        }
+        if let Some(guard) = guard {
+            hybrid = hybrid.guard(guard);
         }
         let done = hybrid.witnessed(&kept, span.end, &mut |t, state, in_mode| {
             log.begin((t, state), in_mode, kept.count(), memory)

@@ -4,6 +4,8 @@ use crate::hybrid::element::{Element, Signal};
 use crate::hybrid::mode::Mode;
 use crate::numbers::lift::Lift;
 use crate::numbers::real::Real;
+use crate::numbers::running_error::RunningError;
+use crate::system::positions_error::PositionsError;
 
 /// The motion without reactions at one time and state, and what reactions do to it: everything that the rates of every mode
 /// are made of.
@@ -95,7 +97,8 @@ pub trait HybridSystem<const N: usize, const W: usize, const C: usize, const S: 
 
     /// The free motion at time `t`.
     ///
-    /// - `switches`: the values of the signals that are switches, zero or one; of other signals zero.
+    /// - `switches`: the values of the signals that are switches or branches, zero or one, a half on the zero of a branch; of other signals
+    ///   zero.
     /// - `speeds`: the magnitudes of the slip of the elements, for coefficients of friction that depend on it; zero where an element
     ///   does not slip.
     fn free_motion<R: Lift<f64>>(
@@ -140,6 +143,27 @@ pub trait HybridSystem<const N: usize, const W: usize, const C: usize, const S: 
     #[inline]
     fn reset(&self, _signal: usize, _t: f64, state: &[f64; N]) -> [f64; N] {
         *state
+    }
+
+    /// The state with coordinates at which the permanent constraints on positions hold. Steppers ask for it after every step.
+    ///
+    /// # Errors
+    ///
+    /// Nothing near the state fulfils them.
+    #[inline]
+    fn onto_constraints<R: Lift<f64>>(&self, _t: R, state: &[R; N]) -> Result<[R; N], PositionsError> {
+        Ok(*state)
+    }
+
+    /// Writes the functions that must not vanish, as [`System::singularities`](crate::System::singularities) does, and returns how many.
+    #[inline]
+    fn singularities<R: Lift<f64>>(
+        &self,
+        _t: RunningError<R>,
+        _state: &[RunningError<R>; N],
+        _values: &mut [RunningError<R>],
+    ) -> usize {
+        0
     }
 
     /// Whether the declaration has this mode among its `modes`.

@@ -151,7 +151,10 @@ where
         let steps = self.log.steps.get(segment.first..last).unwrap_or(&[]);
         let step = steps.partition_point(|(start, _)| *start <= t);
         match step.checked_sub(1).and_then(|step| steps.get(step)) {
-            Some((start, polynomial)) if *start < t => segment.in_mode.restored(t, &polynomial.at(t)).into(),
+            Some((start, polynomial)) if *start < t => {
+                let state = polynomial.at(t);
+                segment.in_mode.restored(t, &state).unwrap_or(state).into()
+            }
             Some((start, polynomial)) => polynomial.at(*start).into(),
             None => segment.state.into(),
         }

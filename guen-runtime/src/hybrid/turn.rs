@@ -2,7 +2,7 @@
 
 use core::array::from_fn;
 
-use crate::hybrid::element::{Effect, Kind};
+use crate::hybrid::element::Kind;
 use crate::hybrid::error::HybridCause;
 use crate::hybrid::impact::{Impact, Unsolved};
 use crate::hybrid::in_mode::{InMode, Leaning, moved};
@@ -53,6 +53,11 @@ impl<const C: usize, const S: usize> Fired<C, S> {
             Function::Regularity => self.regularity = true,
             Function::Shared => self.shared = true,
         }
+    }
+
+    /// Whether anything has fired.
+    pub(super) fn any(&self) -> bool {
+        self.elements().contains(&true) || self.signals.contains(&true) || self.regularity || self.shared
     }
 
     /// The elements of which a function has reached zero.
@@ -109,7 +114,7 @@ where
         // Resets, all from the state before, and switches.
         let mut was_reset = false;
         for (s, signal) in H::SIGNALS.iter().enumerate().filter(|(s, _)| fired.signals[*s]) {
-            if signal.effect == Effect::Switch {
+            if signal.is_switch() {
                 next.in_mode.switches[s] = 1.0 - next.in_mode.switches[s];
                 next.sides.signals[s] = -next.sides.signals[s];
             } else {
@@ -134,12 +139,14 @@ where
         let (impulses, energy, rests) = next.strike(&touches, &locks, &mut known, resting)?;
         let struck = impulses.iter().any(|impulse| *impulse != 0.0);
 
-        let selected = select(system.clone(), next.in_mode.switches, (t, &next.state), &known);
-        next.in_mode = selected.map_err(|why| match why {
-            Unselected::Inconsistent => HybridCause::Inconsistent,
-            Unselected::Ambiguous(modes) => HybridCause::Ambiguous { modes },
-            Unselected::TooMany => HybridCause::TooManyModes,
-        })?;
+        // Where nothing has fired the run begins, or inputs have changed.
+        if was_reset || struck || !fired.any() {
+            next.set_switches(&fired.signals);
+        }
+        next.in_mode = next.selected(&known)?;
+        if next.leave_zeros() {
+            next.in_mode = next.selected(&known)?;
+        }
         let (before, after) = (self.in_mode.mode, next.in_mode.mode);
         if !system.allows(&after) {
             return Err(HybridCause::Excluded { mode: after });
@@ -175,6 +182,17 @@ where
             energy,
         };
         Ok((next, transition))
+    }
+
+    /// The mode that goes on from here.
+    fn selected(&self, known: &[Known; C]) -> Result<InMode<H, N, W, C, S>, HybridCause<C>> {
+        let selected =
+            select(self.in_mode.system.clone(), self.in_mode.switches, (self.t, &self.state), known);
+        selected.map_err(|why| match why {
+            Unselected::Inconsistent => HybridCause::Inconsistent,
+            Unselected::Ambiguous(modes) => HybridCause::Ambiguous { modes },
+            Unselected::TooMany => HybridCause::TooManyModes,
+        })
     }
 
     /// The rows of these that do not depend on each other.

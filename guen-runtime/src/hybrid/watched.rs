@@ -79,7 +79,8 @@ impl Function {
 /// The facts of a run that watched functions depend on, beside mode, time and state.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sides<const C: usize, const S: usize> {
-    /// The sides on which latches were when they became free, and signals when the mode began.
+    /// The sides on which latches were when they became free, and signals when the mode began: zero for a branch that stays where it
+    /// vanishes.
     pub(super) latches: [f64; C],
     pub(super) signals: [f64; S],
     /// The speeds of spatial slip below which it is taken to its end in one step.
@@ -137,7 +138,9 @@ where
         }
         let values = self.system.signals(t, state);
         let signals = from_fn(|s| match H::SIGNALS[s].effect {
-            Effect::Switch => Some(values[s] * R::lift(sides.signals[s])),
+            Effect::Switch | Effect::Branch => {
+                (sides.signals[s] != 0.0).then(|| values[s] * R::lift(sides.signals[s]))
+            }
             Effect::ResetWhenRising => Some(-values[s]),
             Effect::ResetWhenFalling => Some(values[s]),
         });

@@ -31,7 +31,7 @@
 
 mod driver;
 pub(crate) mod explicit;
-mod guard;
+pub(crate) mod guard;
 mod implicit;
 pub(crate) mod root;
 mod settings;

@@ -148,6 +148,76 @@ where
     Ok(moved)
 }
 
+/// The state with the coordinates at its head moved onto constraints on positions, the shortest way, over any real: the derivatives of the
+/// result are those of the way. `linearized` returns the left sides and their gradients.
+///
+/// ```text
+/// dx = -F^T (F F^T)^-1 f
+/// ```
+///
+/// # Errors
+///
+/// [`PositionsError`].
+#[doc(hidden)]
+pub fn onto<R: Real, const N: usize, const M: usize, const H: usize>(
+    t: R,
+    state: &[R; M],
+    linearized: impl Fn(R, &[R; N]) -> ([R; H], [[R; N]; H]),
+) -> Result<[R; M], PositionsError> {
+    /// Steps of Newton's method: it doubles the digits, of which what a step of an integration leaves has half at least.
+    const STEPS: usize = 8;
+
+    const { assert!(N <= M, "a state begins with its coordinates") }
+    let mut onto = *state;
+    let precision = libm::sqrt(R::epsilon().to_f64());
+    let mut f = [R::zero(); H];
+    for _ in 0..STEPS {
+        let x: [R; N] = core::array::from_fn(|i| onto[i]);
+        let gradients;
+        (f, gradients) = linearized(t, &x);
+        let mut squares: [[R; H]; H] = core::array::from_fn(|v| {
+            core::array::from_fn(|w| {
+                let products = gradients[v].iter().zip(&gradients[w]);
+                products.fold(R::zero(), |sum, (a, b)| a.times_plus(*b, sum))
+            })
+        });
+        // Symmetric and positive definite: no order of elimination is better than another.
+        let mut multipliers = f;
+        for k in 0..H {
+            for row in k + 1..H {
+                let pivot = squares[k];
+                let factor = squares[row][k] / pivot[k];
+                for (entry, above) in squares[row].iter_mut().zip(&pivot).skip(k + 1) {
+                    *entry = entry.minus_times(factor, *above);
+                }
+                multipliers[row] = multipliers[row].minus_times(factor, multipliers[k]);
+            }
+        }
+        for k in (0..H).rev() {
+            for column in k + 1..H {
+                multipliers[k] = multipliers[k].minus_times(squares[k][column], multipliers[column]);
+            }
+            multipliers[k] /= squares[k][k];
+        }
+        let step: [R; N] = core::array::from_fn(|i| {
+            (0..H).fold(R::zero(), |sum, v| multipliers[v].times_plus(gradients[v][i], sum))
+        });
+        let length = size(&step);
+        if !length.is_finite() {
+            return Err(PositionsError::Singular { residual: largest(&f) });
+        }
+        for (x, step) in onto.iter_mut().zip(step) {
+            *x -= step;
+        }
+        let extent = x.iter().fold(length, |most, x| most.max(x.to_f64().abs()));
+        // What is left after a step is of the order of its square: this one is the last.
+        if length <= precision * extent {
+            return Ok(onto);
+        }
+    }
+    Err(PositionsError::NotFound { residual: largest(&f) })
+}
+
 /// Newton's method on the coordinates that are free; the distance to where it began.
 fn search<R, S, const N: usize, const H: usize>(
     system: &S,

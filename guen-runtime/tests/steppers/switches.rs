@@ -189,3 +189,38 @@ fn duals_go_over_kinks() {
         assert!((dual[i].tangent[0] - (ahead[i] - behind[i]) / 2e-4).abs() < 1e-5, "{dual:?}");
     }
 }
+
+/// A rate that is positive for a short while: `x' = max(0, w^2 - (t - 1/2)^2)`.
+#[derive(Clone, Copy)]
+struct Blip(f64);
+
+impl System<f64, 1> for Blip {
+    fn rhs(&self, t: f64, _: &[f64; 1]) -> [f64; 1] {
+        [(self.0 - (t - 0.5).powi(2)).max(0.0)]
+    }
+
+    fn switches(&self, t: f64, _: &[f64; 1], values: &mut [f64]) -> usize {
+        values[0] = self.0 - (t - 0.5).powi(2);
+        1
+    }
+}
+
+#[test]
+fn two_changes_within_one_step_are_found() {
+    for w in [0.1_f64, 1e-2, 1e-3, 1e-5] {
+        let blip = Blip(w * w);
+        for (start, end) in [(0.0, 1.7), (1.3, -0.4)] {
+            let run = Integration::new(&blip, start, &[0.0]);
+            let done = run.run(&Dop853::new(1e-12, 1e-12), end).unwrap();
+            let exact = (end - start).signum() * 4.0 / 3.0 * w.powi(3);
+            assert_eq!(done.statistics.switches, 2, "{w}");
+            assert!((done.state[0] - exact).abs() < 1e-14 * w, "{w}: {} {exact}", done.state[0]);
+            let run = Integration::new(&blip, start, &[0.0]);
+            let done = run.run(&Tsit5::new(1e-9, 1e-9), end).unwrap();
+            assert_eq!(done.statistics.switches, 2, "{w}");
+        }
+    }
+    // What only comes near changes nothing.
+    let done = Integration::new(&Blip(-1e-9), 0.0, &[0.0]).run(&Dop853::new(1e-12, 1e-12), 1.7).unwrap();
+    assert_eq!((done.statistics.switches, done.state[0]), (0, 0.0));
+}

@@ -112,8 +112,13 @@ where
         }
         // Whether a method could not make steps as short as those to the crossing.
         let mut anyway = false;
+        // The time in the step at which a function comes near to zero.
+        let mut near = None;
         for _ in 0..MOST_ATTEMPTS {
-            let goal = switches.past().filter(|_| anyway).unwrap_or_else(|| switches.goal(&from, target));
+            let goal = switches
+                .past()
+                .filter(|_| anyway)
+                .unwrap_or_else(|| switches.goal(&from, near.unwrap_or(target)));
             if let Err(cause) = run.advance(system, goal, dense) {
                 if anyway || switches.past().is_none() {
                     return Err(cause);
@@ -123,7 +128,16 @@ where
                 continue;
             }
             let to = *run.checkpoint();
-            match switches.judge(&from, &to, Values::of(*system, &to), anyway) {
+            let values = Values::of(*system, &to);
+            // A function that went through zero and back within the step has the same sign at its ends.
+            if near.is_none() && !anyway && switches.past().is_none() && !switches.crosses(&values) {
+                near = switches.nearest(*system, (&from, &to), &values);
+                if near.is_some() {
+                    *run = method.start(&Checkpoint { statistics: to.statistics, ..from });
+                    continue;
+                }
+            }
+            match switches.judge(&from, &to, values, anyway) {
                 Step::OneSided => {
                     *reached = to;
                     return Ok(());

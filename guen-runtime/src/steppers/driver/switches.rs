@@ -32,6 +32,12 @@ impl Values {
         self.values.get(k).copied().unwrap_or(0.0)
     }
 
+    /// The values times a number.
+    fn times(mut self, factor: f64) -> Self {
+        self.values.iter_mut().for_each(|value| *value *= factor);
+        self
+    }
+
     /// Whether there are any.
     pub(super) fn is_empty(&self) -> bool {
         self.count == 0
@@ -56,6 +62,8 @@ pub(super) struct Switches<R> {
     moved: i32,
     /// The longest step so far.
     longest: f64,
+    /// The rates of the functions where a step ended last, with its time.
+    slopes: Option<(R, Values)>,
 }
 
 /// The kinds of steps, by the sides on which they begin and end.
@@ -75,7 +83,7 @@ impl<R: Real> Switches<R> {
     /// Begins at the start of a run.
     pub(super) fn new(here: Values) -> Self {
         let sides = here.values.map(sign);
-        Self { sides, here, past: None, moved: 0, longest: 0.0 }
+        Self { sides, here, past: None, moved: 0, longest: 0.0, slopes: None }
     }
 
     /// The side on which a function was last.
@@ -127,6 +135,45 @@ impl<R: Real> Switches<R> {
         found.map(|(k, _)| k)
     }
 
+    /// The time within a step at which a function seems to come near to zero, or to go through it and back: where its cubic through the
+    /// values and rates at both ends is least, and less than half of either. What it evaluates is not counted.
+    pub(super) fn nearest<S: System<R, N> + ?Sized, const N: usize>(
+        &mut self,
+        system: &S,
+        (from, to): (&Checkpoint<R, N>, &Checkpoint<R, N>),
+        values: &Values,
+    ) -> Option<R> {
+        let step = to.time - from.time;
+        let length = step.to_f64().abs();
+        let before = match self.slopes {
+            Some((time, rates)) if time == from.time => rates.times(length),
+            _ => slopes(system, from, &self.here, step),
+        };
+        let after = slopes(system, to, values, step);
+        self.slopes = Some((to.time, after.times(1.0 / length)));
+        let mut soonest: Option<f64> = None;
+        for k in 0..values.count {
+            let side = f64::from(self.side(k));
+            let [a, b] = [side * self.here.at(k), side * values.at(k)];
+            let [falls, rises] = [before, after].map(|slopes| side * slopes.at(k));
+            if !(a > 0.0 && b > 0.0 && falls < 0.0 && rises > 0.0) {
+                continue;
+            }
+            let part = least_of_cubic([a, b], [falls, rises]);
+            let rest = 1.0 - part;
+            // The cubic in Hermite's form.
+            let least = rest * rest * (a * (1.0 + 2.0 * part) + part * falls)
+                + part * part * (b * (3.0 - 2.0 * part) - rest * rises);
+            if least < 0.5 * a.min(b) && soonest.is_none_or(|first| part < first) {
+                soonest = Some(part);
+            }
+        }
+        let part = soonest?;
+        let inside = part * length > resolution(to.time, self.longest)
+            && (1.0 - part) * length > resolution(to.time, self.longest);
+        inside.then(|| from.time + step * R::from_f64(part))
+    }
+
     /// Judges a step, which has ended with these values. With `anyway` a crossing counts as located however long the step was.
     pub(super) fn judge<const N: usize>(
         &mut self,
@@ -160,6 +207,11 @@ impl<R: Real> Switches<R> {
     /// The time past the crossing that is being located.
     pub(super) fn past(&self) -> Option<R> {
         self.past.map(|past| past.time)
+    }
+
+    /// Whether a step has ended past a crossing.
+    pub(super) fn crosses(&self, values: &Values) -> bool {
+        self.crossed(values).is_some()
     }
 
     /// The function that leads a motion back to its zero, of those that it stands on or has just crossed: on the side where it
@@ -217,6 +269,35 @@ impl<R: Real> Switches<R> {
         self.enter(values);
         crossed as u64
     }
+}
+
+/// The changes of the functions over a step, at the rates that they have at a place.
+fn slopes<R: Real, S: System<R, N> + ?Sized, const N: usize>(
+    system: &S,
+    place: &Checkpoint<R, N>,
+    here: &Values,
+    step: R,
+) -> Values {
+    /// The part of the step over which they are differenced.
+    const PART: f64 = 1.0 / 1_048_576.0;
+    let ahead = step * R::from_f64(PART);
+    let rates = system.rhs(place.time, &place.state);
+    let state = core::array::from_fn(|i| place.state[i] + ahead * rates[i]);
+    let mut slopes = Values::of(system, &Checkpoint { time: place.time + ahead, state, ..*place });
+    for (slope, value) in slopes.values.iter_mut().zip(&here.values) {
+        *slope = (*slope - value) / PART;
+    }
+    slopes
+}
+
+/// The part of an interval at which a cubic is least that falls at its beginning and rises at its end.
+fn least_of_cubic([a, b]: [f64; 2], [falls, rises]: [f64; 2]) -> f64 {
+    // The derivative `falls + 2 q s + 3 p s^2` has one zero in between, by the form that loses no digits.
+    let q = 3.0 * (b - a) - 2.0 * falls - rises;
+    let p = falls + rises - 2.0 * (b - a);
+    let root = libm::sqrt((q * q - 3.0 * p * falls).max(0.0));
+    let part = if q >= 0.0 { -falls / (q + root) } else { (root - q) / (3.0 * p) };
+    if part > 0.0 && part < 1.0 { part } else { 0.5 }
 }
 
 /// The duration to which a crossing is located: four roundings of the time, or of the longest step.

@@ -9,6 +9,7 @@
 
 pub(crate) mod defect;
 mod known;
+pub(crate) mod part;
 pub(crate) mod reversal;
 mod runs;
 mod schedule;

@@ -1,0 +1,55 @@
+//! The values of switches and branches where the state has jumped, and where a branch of a piecewise function begins on its zero.
+
+use crate::hybrid::element::Effect;
+use crate::hybrid::located::NOISE;
+use crate::hybrid::select::Sign;
+use crate::hybrid::system::HybridSystem;
+use crate::hybrid::turn::Place;
+use crate::numbers::running_error::RunningError;
+
+impl<H, const N: usize, const W: usize, const C: usize, const S: usize> Place<H, N, W, C, S>
+where
+    H: HybridSystem<N, W, C, S> + Clone,
+{
+    /// Sets switches and branches by the state, which has jumped here. What is no more than rounding keeps its side; a branch that has none
+    /// yet, or none any more, stands on its zero.
+    pub(super) fn set_switches(&mut self, crossed: &[bool; S]) {
+        if !H::SIGNALS.iter().any(crate::hybrid::element::Signal::is_switch) {
+            return;
+        }
+        let state = self.state.map(RunningError::once);
+        let functions = self.in_mode.system.signals(RunningError::once(self.t), &state);
+        for (s, signal) in H::SIGNALS.iter().enumerate().filter(|(_, signal)| signal.is_switch()) {
+            let function: RunningError<f64> = functions[s];
+            if function.value.abs() > NOISE * 0.5 * f64::EPSILON * function.error {
+                self.stand(s, if function.value > 0.0 { 1.0 } else { -1.0 });
+            } else if signal.effect == Effect::Branch && !crossed[s] {
+                self.stand(s, 0.0);
+            }
+        }
+    }
+
+    /// Lets branches that stand on their zeros leave them, as the motion does in the present mode. Says whether one does.
+    pub(super) fn leave_zeros(&mut self) -> bool {
+        let mut leaves = false;
+        for (s, signal) in H::SIGNALS.iter().enumerate() {
+            if signal.effect != Effect::Branch || self.sides.signals[s] != 0.0 {
+                continue;
+            }
+            let side = match self.in_mode.sign_of_signal(s, self.t, &self.state) {
+                Sign::Positive => 1.0,
+                Sign::Negative => -1.0,
+                Sign::Unknown => continue,
+            };
+            self.stand(s, side);
+            leaves = true;
+        }
+        leaves
+    }
+
+    /// Puts a signal on a side of its zero; on the zero itself by `0.0`.
+    fn stand(&mut self, s: usize, side: f64) {
+        self.sides.signals[s] = side;
+        self.in_mode.switches[s] = 0.5 + 0.5 * side;
+    }
+}
