@@ -219,10 +219,10 @@ pub mod __private {
     pub use guen_runtime::{
         actuated, condition, conserved, contact_mode, contact_states, differentiable, domain, dynamics,
         energy, facts, held_through_modes, instance_mode, jacobians, laned, level_info, levels, linearizable,
-        mass_form, monitored, motion_of_system, onto_constraints, operators, output_map, prepare, prepared,
-        program_functions, rates, reaction_covector, reactions, record, reduce, reported, restored_by_modes,
-        simulated, simulated_through_modes, singularities, state_of_system, steady_motions, structured,
-        switches, uses, with_scalar,
+        mass_form, momenta, monitored, motion_of_system, onto_constraints, operators, output_map, prepare,
+        prepared, program_functions, rates, reaction_covector, reactions, record, reduce, reported,
+        restored_by_modes, simulated, simulated_through_modes, singularities, state_of_system,
+        steady_motions, structured, switches, uses, with_scalar,
     };
     pub use guen_runtime::{
         consistent, control, furthest_surplus, hybrid, onto, serde_record, serde_structured,

@@ -10,6 +10,9 @@ use crate::model::Model;
 /// provides operators.
 pub(super) fn commutators(model: &mut Model<'_>, derivation: &mut Derivation) -> Vec<Commutator> {
     let n = derivation.system.forms.len();
+    if derivation.frame.brackets.are_zero() {
+        return Vec::new();
+    }
     let last = model.last_operator();
     // What is constant on a unit sphere is that constant.
     let mut holding = fixed::Holding::new(model, &[]);

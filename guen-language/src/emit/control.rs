@@ -14,9 +14,10 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     if !layout.is_whole {
         return TokenStream::new();
     }
-    let mass_form = mass_form(layout);
-    let dynamics = dynamics(subject, layout);
-    let inverse = (layout.inputs > 0).then(|| inverse_dynamics(subject, layout));
+    let is_written_out = subject.level.derivation.is_written_out();
+    let mass_form = is_written_out.then(|| mass_form(layout));
+    let dynamics = if is_written_out { dynamics(subject, layout) } else { None };
+    let inverse = (layout.inputs > 0 && is_written_out).then(|| inverse_dynamics(subject, layout));
     let reduce = reduce(subject, layout);
     let reactions = reactions(subject, layout);
     let (size, count, given) = (layout.size, layout.inputs, given(layout));

@@ -10,7 +10,7 @@ use crate::model::FormKind;
 
 pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let arguments = given_alone(layout);
-    let whole = layout.is_whole.then(|| whole(layout));
+    let whole = layout.is_whole.then(|| whole(subject, layout));
     let chosen = chosen(subject, layout);
     let domain = domain(subject, layout);
     let residuals = residuals(subject, layout);
@@ -30,10 +30,11 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
 }
 
 /// Emits the items that only the system itself has, and no scene can choose.
-fn whole(layout: &Layout) -> TokenStream {
+fn whole(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let Layout { n, l, size, .. } = layout;
     let given = given(layout);
-    quote!(__guen::motion_of_system!(#n, #l, #size #given);)
+    let momenta = (!subject.level.selection.momenta.is_empty()).then(|| quote!(__guen::momenta!();));
+    quote!(__guen::motion_of_system!(#n, #l, #size #given); #momenta)
 }
 
 /// Energy, reactions and outputs: what a scene has if it provides them.

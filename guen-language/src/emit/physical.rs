@@ -50,11 +50,12 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
 }
 
 /// The check that a negative number does not make the mass matrix indefinite. On constraints on positions there is none: the matrix
-/// says something only where they hold.
+/// says something only where they hold; nor where the matrix is not written out.
 pub(super) fn definite(subject: &Subject<'_, '_>, layout: &Layout) -> Option<TokenStream> {
     let (size, l, count) = (layout.size, layout.l, layout.inputs);
     let name = subject.model.suspicious_body()?;
-    if !layout.is_whole || l == 0 || !subject.level.derivation.system.holonomic.is_empty() {
+    let derivation = &subject.level.derivation;
+    if !layout.is_whole || l == 0 || !derivation.is_written_out() || !derivation.system.holonomic.is_empty() {
         return None;
     }
     let convert = quote!(::core::convert::From::from);

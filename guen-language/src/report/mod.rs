@@ -306,6 +306,14 @@ fn velocities(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
 
 fn equations(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
     let mut section = Section { title: "Equations of motion (2.7)", text: Vec::new(), latex: Vec::new() };
+    if !subject.level.derivation.is_written_out() {
+        let l = subject.level.derivation.system.forms.degrees;
+        section.text.push(format!(
+            "not written out: of {l} parameters the mass matrix has {} entries. There are neither `mass_form`, `mass_matrix` and what \
+             takes these nor `momenta`",
+            l * l
+        ));
+    }
     for row in &subject.level.equations {
         match (writer.text.expression(*row), writer.latex.expression(*row)) {
             (Some(text), Some(latex)) => {

@@ -14,6 +14,7 @@ mod hints;
 mod imports;
 mod large_costs;
 mod limbs;
+mod long_families;
 mod outline;
 mod poles;
 mod random_declarations;

@@ -66,6 +66,11 @@ impl Brackets {
         }
     }
 
+    /// Whether all forms are closed, so that no bracket differs from zero.
+    pub fn are_zero(&self) -> bool {
+        self.curls.iter().all(Vec::is_empty)
+    }
+
     /// Whether the form `eta_{t+1}` is closed, so that none of its coefficients differs from zero.
     pub(crate) fn is_closed(&self, t: usize) -> bool {
         self.curls[t].is_empty()

@@ -114,6 +114,19 @@ impl Operators {
         Some(found)
     }
 
+    /// The entries of each coordinate that differ from zero, with their operators.
+    pub(crate) fn by_coordinate(&self, graph: &Graph) -> Vec<Vec<(usize, ExprId)>> {
+        let mut columns = vec![Vec::new(); self.xi.len() - 1];
+        for (j, row) in self.xi.iter().enumerate() {
+            for (i, e) in row.iter().enumerate() {
+                if !graph.is_zero(*e) {
+                    columns[i].push((j, *e));
+                }
+            }
+        }
+        columns
+    }
+
     /// Inverts the forms, or lists what makes them dependent.
     pub fn new(bench: &mut Workbench, forms: &Forms) -> Result<Self, Vec<SingularForms>> {
         let n = forms.len();

@@ -163,7 +163,8 @@ impl InBaseParameters {
     ) -> Option<ByConstraintForces> {
         let Restated { system, frame, forces, projected } = &mut self.restated;
         let (squares, etas) = (projected.squares.as_ref()?, &system.etas[..system.forms.degrees]);
-        let solved = constraint_forces::solve(bench, frame, squares, &projected.equations, etas, forces)?;
+        let theirs = constraint_forces::dense_cost(bench, &projected.equations.mass[..etas.len()]);
+        let solved = constraint_forces::solve(bench, frame, squares, theirs, etas, forces)?;
         let accelerations = self.turned_back(bench, declared, &[], solved.accelerations);
         Some(ByConstraintForces { accelerations, ..solved })
     }

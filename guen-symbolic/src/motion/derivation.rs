@@ -44,7 +44,8 @@ pub struct Derivation {
     pub catastatic: bool,
     /// `h' = 0` identically, wherever constraints on positions hold.
     pub conservative: bool,
-    /// The equations of motion, `l` rows, generalised forces included.
+    /// The equations of motion, `l` rows, generalised forces included; none of a large system without constraints, see
+    /// [`Derivation::is_written_out`].
     pub equations: Equations,
     /// The generalised forces `Q_1..Q_n` on their own.
     pub generalised_forces: Vec<ExprId>,
@@ -110,15 +111,17 @@ impl Derivation {
         };
         affordable(bench)?;
         let class = classify(bench, &system, &mut frame, &closure);
-        let mut energies = Energies::new(bench, &system, &mut frame, &mut partials, &terms);
+        let momenta = if equations.mass.len() == l { 0..n } else { 0..0 };
+        let mut energies = Energies::new(bench, &system, &mut frame, &mut partials, &terms, momenta);
         for e in energies.momenta.iter_mut().chain([&mut energies.kinetic, &mut energies.integral]) {
             *e = symmetry.shorter(bench, *e);
         }
         let without_momentum = without_momentum(bench, &system, &frame, &mut partials, &terms);
+        let is_written_out = equations.mass.len() == l;
         let known_momentum: Vec<bool> = without_momentum
             .iter()
             .zip(&system.stated)
-            .map(|(without, stated)| !without || *stated)
+            .map(|(without, stated)| is_written_out && (!without || *stated))
             .collect();
         let reactions: Vec<Option<ExprId>> = (l..n)
             .map(|v| {
@@ -170,6 +173,13 @@ impl Derivation {
             outputs,
             freed,
         })
+    }
+
+    /// Whether the equations, the mass matrix and the momenta are there. Those of many parameters without constraints are not made: a
+    /// mass matrix has an entry for each pair.
+    #[must_use]
+    pub fn is_written_out(&self) -> bool {
+        self.equations.mass.len() == self.system.forms.degrees
     }
 
     /// Whether a formulation gave rates.
@@ -243,7 +253,9 @@ fn classify(bench: &mut Workbench, system: &Mechanics, frame: &mut Frame, closur
     let variables: Vec<ExprId> =
         system.forms.coordinates.iter().copied().chain([system.forms.time]).collect();
     let mut constant = true;
-    'all: for s in 1..=l {
+    // All coefficients of closed forms are zero.
+    let last = if frame.brackets.are_zero() { 0 } else { l };
+    'all: for s in 1..=last {
         for r in 0..s {
             for t in 1..=n {
                 let c = frame.brackets.coefficient(bench, r, s, t);
@@ -303,6 +315,9 @@ fn without_momentum(
     terms: &[super::KineticTerm],
 ) -> Vec<bool> {
     let (n, l) = (system.forms.len(), system.forms.degrees);
+    if n == l {
+        return vec![false; n];
+    }
     // Each form with all eta free: u_0 + sum_j eta_j u_j, and its components.
     let mut free: FastMap<ExprId, (ExprId, Vec<ExprId>)> = FastMap::default();
     for u in terms.iter().flat_map(|term| &term.forms) {

@@ -1,5 +1,7 @@
 //! Energies and momenta of the motion, and what is conserved.
 
+use core::ops::Range;
+
 use super::velocity_forms::VelocityPartials;
 use super::{Frame, KineticTerm, Mechanics};
 use crate::algebra::{ExprId, Rational};
@@ -12,30 +14,37 @@ pub struct Energies {
     pub kinetic: ExprId,
     /// `h = sum_i x_i' dT°/dx_i' - T° - U`, the energy integral.
     pub integral: ExprId,
-    /// `dT/d eta_s` for `s <= l`, then `(dT°/d eta_v)` for `v > l`, (2.8).
+    /// `dT/d eta_s` for `s <= l`, then `(dT°/d eta_v)` for `v > l`, (2.8); none where the equations are not written out.
     pub momenta: Vec<ExprId>,
 }
 
 impl Energies {
     /// Makes `h = sum w (u v - u v_c - v u_c) - U` from the terms `w u v` of `T°`, where `u_c` is the part of `u`
-    /// that does not depend on `x'`.
+    /// that does not depend on `x'`. Momenta are those of the forms that are wanted, the first ones.
     pub fn new(
         bench: &mut Workbench,
         system: &Mechanics,
         frame: &mut Frame,
         partials: &mut VelocityPartials,
         terms: &[KineticTerm],
+        wanted: Range<usize>,
     ) -> Self {
-        let n = system.forms.len();
         let mut kinetic = Vec::new();
         let mut integral = vec![bench.graph.neg(system.force_function)];
-        let mut momenta: Vec<Vec<ExprId>> = vec![Vec::new(); n];
+        let mut momenta: Vec<Vec<ExprId>> = vec![Vec::new(); wanted.len()];
+        let is_catastatic = system.forms.forms.iter().all(|form| bench.graph.is_zero(form.offset));
         for term in terms {
             let mut values = Vec::new();
             let mut resting = Vec::new();
             for u in &term.forms {
-                let form = partials.affine(bench, *u).expect("the decomposition yields affine forms");
                 values.push(frame.constrain.of(&mut bench.graph, *u));
+                if wanted.is_empty() && is_catastatic {
+                    // The part without velocities is all that is needed of the form.
+                    let offset = partials.at_rest(bench, *u);
+                    resting.push(bench.tidy(offset));
+                    continue;
+                }
+                let form = partials.affine(bench, *u).expect("the decomposition yields affine forms");
                 // eta_j = sum a_ji x_i' + a_j0: the offset of the form joins the part without velocity.
                 let mut offset = vec![form.offset];
                 for (j, c) in &form.on_etas {

@@ -6,6 +6,7 @@
 
 use super::base_parameters::InBaseParameters;
 use super::fault::{DerivationError, affordable};
+use super::large::Alone;
 use super::stated::Stated;
 use super::symmetry::Symmetry;
 use super::thresholds::OTHER_WAYS;
@@ -129,6 +130,18 @@ pub(super) fn walk(
     stated: &mut Stated,
 ) -> Result<Found, DerivationError> {
     let (symmetry, shorter) = Default::default();
+    if let Some(Alone { name, rates, solution }) = stated.alone.take() {
+        let others = FORMULATIONS.iter().filter(|formulation| formulation.name != name);
+        let declined = others.map(|other| (other.name, "the equations are too many to be written out"));
+        frame.velocities = rates[..frame.velocities.len()].to_vec();
+        return Ok(Found {
+            equations: Equations { mass: Vec::new(), forces: Vec::new() },
+            solution,
+            formulations: vec![Formulated { name, rates, is_by_spins: false }],
+            declined: declined.collect(),
+            symmetry,
+        });
+    }
     let mut search = Search {
         system,
         frame,
@@ -235,14 +248,8 @@ fn by_constraint_forces(bench: &mut Workbench, search: &mut Search<'_>) -> Resul
         (Some(in_base), _) => in_base.by_constraint_forces(bench, search.system),
         (None, Some(Some(squares))) => {
             let etas = &search.system.etas[..search.system.forms.degrees];
-            constraint_forces::solve(
-                bench,
-                search.frame,
-                squares,
-                &multiplied[0],
-                etas,
-                search.generalised_forces,
-            )
+            let theirs = constraint_forces::dense_cost(bench, &multiplied[0].mass[..etas.len()]);
+            constraint_forces::solve(bench, search.frame, squares, theirs, etas, search.generalised_forces)
         }
         (None, Some(None)) => return Ok(Outcome::Declined("the energy is no sum of squares")),
         (None, None) => return Ok(Outcome::Declined("the energy is not multiplied out")),

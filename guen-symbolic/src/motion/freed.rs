@@ -26,7 +26,7 @@ impl Derivation {
         let known: Vec<ExprId> = self.reactions.iter().flatten().copied().collect();
         let is_shown = self.formulations.first().is_some_and(|first| first.name == "bodies");
         let is_asked = is_shown || is_long(bench, &known) || is_long(bench, &self.energies.momenta);
-        if !is_asked || !self.is_by("bodies") {
+        if !is_asked || !self.is_by("bodies") || !self.is_written_out() {
             return;
         }
         let mut partials = VelocityPartials::of_system(bench, &self.system);

@@ -32,6 +32,9 @@ pub(super) fn find(
     partials: &mut VelocityPartials,
     terms: &[KineticTerm],
 ) -> Vec<ExprId> {
+    if !has_candidates(bench, system, terms) {
+        return Vec::new();
+    }
     let Some(energy) = Energy::new(bench, system, frame, partials, terms) else { return Vec::new() };
     let all = energy.expressions();
     let reachable = bench.graph.reachable(&all, |_| false);
@@ -76,6 +79,19 @@ pub(super) fn find(
     // Those that a derivation before found are to be looked at too.
     let found = symbols.into_iter().filter(|symbol| bench.graph.is_indispensable(*symbol));
     found.map(|symbol| bench.graph.symbol_expr(symbol)).collect()
+}
+
+/// Whether the mass matrix depends on a constant that may be zero, as far as its sign is declared, or on one that was found before.
+fn has_candidates(bench: &Workbench, system: &Mechanics, terms: &[KineticTerm]) -> bool {
+    let forms = system.forms.forms.iter().flat_map(|form| &form.row);
+    let of_terms = terms.iter().flat_map(|term| term.forms.iter().chain([&term.weight]));
+    let all: Vec<ExprId> = forms.chain(of_terms).copied().collect();
+    let graph = &bench.graph;
+    graph.symbols_in(&all).into_iter().any(|symbol| {
+        let info = graph.symbol_info(symbol);
+        let is_open = matches!(info.bound, Bound::Free | Bound::NonNegative | Bound::NonPositive);
+        info.role == Role::Constant && is_open || graph.is_indispensable(symbol)
+    })
 }
 
 impl Energy {

@@ -19,6 +19,7 @@ mod headings;
 mod indispensable;
 mod kinetic;
 mod lagrange;
+mod large;
 mod multibody;
 mod poincare;
 mod projection;

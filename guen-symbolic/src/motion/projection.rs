@@ -201,15 +201,15 @@ fn with_factors(
 }
 
 /// `1/2 m (c u)^2` with a constant `m`; all of one sign.
-struct Square {
-    mass: ExprId,
+pub(super) struct Square {
+    pub(super) mass: ExprId,
     /// `c(t, x)`.
-    factor: ExprId,
-    form: ExprId,
+    pub(super) factor: ExprId,
+    pub(super) form: ExprId,
 }
 
 /// The quadratic part of the energy as squares, if it is seen to be a sum of such.
-fn squares(bench: &mut Workbench, terms: &[KineticTerm]) -> Option<Vec<Square>> {
+pub(super) fn squares(bench: &mut Workbench, terms: &[KineticTerm]) -> Option<Vec<Square>> {
     let graph = &mut bench.graph;
     let mut found = Vec::new();
     for term in terms {
@@ -358,13 +358,13 @@ fn measure(
 
 /// The exterior derivative of velocities on two directions that nothing restricts: `(1, x')` and `(0, eta)`. It says of
 /// all `E_s(u)` at once that they are zero, without the operators, which have the roots and divisions of the constraints.
-struct Curl {
+pub(super) struct Curl {
     along: Flow,
     across: Flow,
 }
 
 impl Curl {
-    fn new(bench: &Workbench, system: &Mechanics) -> Self {
+    pub(super) fn new(bench: &Workbench, system: &Mechanics) -> Self {
         let forms = &system.forms;
         let direction = |rates: &[ExprId]| {
             let rates: Vec<_> = forms.coordinates.iter().copied().zip(rates.iter().copied()).collect();
@@ -379,7 +379,12 @@ impl Curl {
     }
 
     /// Whether a form of velocities alone is proved to be closed.
-    fn vanishes(&mut self, bench: &mut Workbench, system: &Mechanics, form: &VelocityForm) -> bool {
+    pub(super) fn vanishes(
+        &mut self,
+        bench: &mut Workbench,
+        system: &Mechanics,
+        form: &VelocityForm,
+    ) -> bool {
         if !form.on_etas.is_empty() {
             return false;
         }

@@ -6,6 +6,7 @@ use super::body_axes::InBodyAxes;
 use super::equations::forms;
 use super::fault::{DerivationError, affordable};
 use super::graph::Turn;
+use super::large::{self, Alone};
 use super::projection::Projected;
 use super::proof::Definition;
 use super::velocity_forms::VelocityPartials;
@@ -39,6 +40,8 @@ pub(super) struct Stated {
     pub(super) in_body_axes: Option<InBodyAxes>,
     /// The rows `s = l+1..n`, of the reactions, with the generalised forces.
     pub(super) constrained: Equations,
+    /// The rates of a large system, whose equations are not written out.
+    pub(super) alone: Option<Alone>,
 }
 
 impl Stated {
@@ -59,6 +62,25 @@ impl Stated {
         generalised_forces: &[ExprId],
     ) -> Result<Self, DerivationError> {
         affordable(bench)?;
+        if large::is_large(bench, system, terms) {
+            let mut definition = Definition::new(bench, system, generalised_forces);
+            let of = (system, &mut *frame);
+            let found = large::rates(bench, of, partials, terms, generalised_forces, &mut definition)?;
+            if let Some(alone) = found {
+                return Ok(Stated {
+                    definition,
+                    multiplied: Vec::new(),
+                    projected: None,
+                    of_bodies: None,
+                    bodies: None,
+                    freed: None,
+                    in_base: None,
+                    in_body_axes: None,
+                    constrained: Equations { mass: Vec::new(), forces: Vec::new() },
+                    alone: Some(alone),
+                });
+            }
+        }
         let velocities = weighted_cost(&bench.graph, &frame.velocities);
         let is_large = is_large(bench, system) || velocities > MULTIPLIED_VELOCITIES;
         // Particles have a way of their own, and are looked at as bodies after it.
@@ -104,6 +126,7 @@ impl Stated {
                 in_base: None,
                 in_body_axes: None,
                 constrained,
+                alone: None,
             });
         }
         let l = system.forms.degrees;
@@ -129,6 +152,7 @@ impl Stated {
                     in_base: Some(in_base),
                     in_body_axes: None,
                     constrained,
+                    alone: None,
                 });
             }
         }
@@ -182,6 +206,7 @@ impl Stated {
             in_base: None,
             in_body_axes,
             constrained,
+            alone: None,
         })
     }
 }

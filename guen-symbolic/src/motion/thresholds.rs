@@ -5,6 +5,16 @@
 /// The number of parameters, and of frames that turn, from which on equations are not multiplied out.
 pub(in crate::motion) const MULTIPLIED_PARAMETERS: usize = 6;
 
+/// The number of parameters of a system without constraints above which its equations are not written out: their mass matrix
+/// has an entry for each pair.
+pub(in crate::motion) const WRITTEN_OUT_PARAMETERS: usize = 64;
+
+/// The same for parameters that no energy couples: their matrix has a diagonal.
+pub(in crate::motion) const DIAGONAL_PARAMETERS: usize = 200;
+
+/// The estimate for each parameter above which constraint forces of a large system are not taken.
+pub(in crate::motion) const FORCES_PER_PARAMETER: usize = 400;
+
 /// The cost of the velocities above which equations are not multiplied out.
 pub(in crate::motion) const MULTIPLIED_VELOCITIES: u64 = 4000;
 

@@ -2,4 +2,5 @@
 
 mod chains;
 mod entries;
+mod long;
 mod vectors;

@@ -4,6 +4,7 @@
 //! cargo run -p guen-measure --bin families
 //! cargo run -p guen-measure --bin families -- snake       # those with this word in their names
 //! cargo run -p guen-measure --bin families -- --quick     # small families: that it works
+//! cargo run -p guen-measure --bin families -- rods 50 100 # with these numbers of members
 //! ```
 //!
 //! Without `--release`, as cargo builds procedural macros. The times are processor times of the stages outside of a compiler, the least of
@@ -106,7 +107,9 @@ fn snake(n: usize) -> String {
 fn main() {
     let arguments: Vec<String> = env::args().skip(1).collect();
     let is_quick = arguments.iter().any(|argument| argument == "--quick");
-    let asked: Vec<&String> = arguments.iter().filter(|argument| !argument.starts_with("--")).collect();
+    let numbers: Vec<usize> = arguments.iter().filter_map(|argument| argument.parse().ok()).collect();
+    let is_word = |argument: &&String| !argument.starts_with("--") && argument.parse::<usize>().is_err();
+    let asked: Vec<&String> = arguments.iter().filter(is_word).collect();
     for Family { name, declaration, sizes } in FAMILIES {
         if !asked.is_empty() && !asked.iter().any(|word| name.contains(word.as_str())) {
             continue;
@@ -114,6 +117,7 @@ fn main() {
         let mut table =
             Table::new(&["members", "expansion / ms", "emitted / kB", "operations", "per member"]).digits(4);
         let mut rows: Vec<[f64; 4]> = Vec::new();
+        let sizes = if numbers.is_empty() { sizes } else { &numbers[..] };
         for size in sizes.iter().take(if is_quick { 1 } else { usize::MAX }) {
             match measured(&declaration(*size)) {
                 Ok([time, bytes, operations]) => {

@@ -47,6 +47,24 @@ macro_rules! energy {
     };
 }
 
+/// `momenta`.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! momenta {
+    () => {
+        /// The momenta `dT/d eta_s`, and `(dT°/d eta_v)` for the constraints, (2.8).
+        #[inline]
+        pub fn momenta(&self, t: R, state: &State<R>) -> Momenta<R> {
+            ::core::convert::From::from(program::momenta(
+                &self.constants,
+                &self.hoisted,
+                t,
+                &state.__guen_array(),
+            ))
+        }
+    };
+}
+
 /// The items of the system itself that no scene can choose, with the numbers of coordinates, of parameters and of states.
 #[doc(hidden)]
 #[macro_export]
@@ -75,17 +93,6 @@ macro_rules! motion_of_system {
             let [value] =
                 program::force_function(&self.constants, &self.hoisted, t, &$crate::checks::first::<R, $n>(&s));
             value
-        }
-
-        /// The momenta `dT/d eta_s`, and `(dT°/d eta_v)` for the constraints, (2.8).
-        #[inline]
-        pub fn momenta(&self, t: R, state: &State<R>) -> Momenta<R> {
-            ::core::convert::From::from(program::momenta(
-                &self.constants,
-                &self.hoisted,
-                t,
-                &state.__guen_array(),
-            ))
         }
 
         /// The rate of [`energy`](Self::energy) along the motion, by forces, moving constraints and explicit time:

@@ -31,9 +31,9 @@ mod sparse;
 mod system;
 mod tree;
 
+use super::Frame;
 use super::projection::Squares;
 use super::relative_angles::RelativeAngles;
-use super::{Equations, Frame};
 use crate::algebra::ExprId;
 use crate::motion::thresholds::DENSE_COST;
 use crate::workbench::Workbench;
@@ -95,24 +95,28 @@ impl Stretched<'_> {
     }
 }
 
-/// Solves by constraint forces, where that is possible and promises to be cheaper than the mass matrix of `equations`, of which
-/// the pattern counts. `etas` and `forces` are those of the frame, the forces without `T` and `U`.
+/// Estimates the cost of solving a mass matrix, from its pattern.
+pub(super) fn dense_cost(bench: &Workbench, mass: &[Vec<ExprId>]) -> usize {
+    pattern::of_mass(bench, mass).cost()
+}
+
+/// Solves by constraint forces, where that is possible and promises to be cheaper than the mass matrix, of which the cost is
+/// estimated. `etas` and `forces` are those of the frame, the forces without `T` and `U`.
 pub(super) fn solve(
     bench: &mut Workbench,
     frame: &mut Frame,
     squares: &Squares,
-    equations: &Equations,
+    theirs: usize,
     etas: &[ExprId],
     forces: &[ExprId],
 ) -> Option<ByConstraintForces> {
     let l = etas.len();
-    let dense = pattern::of_mass(bench, &equations.mass[..l]);
     let zero = bench.graph.zero();
     // Forms that no parameter moves take no part.
     let moving: Vec<usize> =
         (0..squares.masses.len()).filter(|k| squares.components[*k].iter().any(|e| *e != zero)).collect();
     // Each constraint force costs as much as a parameter at least.
-    if moving.len() > 4 * l || dense.cost() < DENSE_COST {
+    if moving.len() > 4 * l || theirs < DENSE_COST {
         return None;
     }
     let components: Vec<Vec<ExprId>> = moving.iter().map(|k| squares.components[*k].clone()).collect();
@@ -130,7 +134,7 @@ pub(super) fn solve(
     let across: Vec<Vector> = null.iter().map(|y| stretched.of(bench, y)).collect();
     let along: Vec<Vector> = inverse.iter().map(|y| stretched.of(bench, y)).collect();
     let sparse = Pattern::of_products(&across, &along);
-    let (ours, theirs) = (sparse.cost(), dense.cost());
+    let ours = sparse.cost();
     // An estimate: a solution that it finds a little more expensive may be cheaper.
     if 4 * ours > 5 * theirs {
         return None;

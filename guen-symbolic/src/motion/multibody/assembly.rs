@@ -11,6 +11,7 @@ use super::kinematics::Kinematics;
 use super::relations::{Linear, definition, in_steps, order, reduced};
 use super::tree::{Content, Tree, Turn};
 use super::variables::{Class, Kind, Var, Variables};
+use crate::motion::large::has_many_parameters;
 use crate::numbering::{Num, Numbering};
 
 /// Returns the velocities that the energies of the bodies depend on.
@@ -292,8 +293,11 @@ impl<'a> Assembly<'a> {
     pub(super) fn solve(&mut self) -> Option<(Vec<Num>, Vec<Num>, Option<Root>)> {
         let bias = self.core_bias();
         let mut root: Option<Root> = None;
+        let is_large = has_many_parameters(self.kinematics.system);
+        // Of many parameters the matrix at the root has an entry for each pair.
+        let orders = if is_large { &ORDERS[2..] } else { &ORDERS[..] };
         let (rates, pivots) = self.cheapest(
-            &ORDERS,
+            orders,
             |this, order| {
                 let etas = this.reach_parameters(&bias, order)?;
                 if order.parameters == Leaving::AtTheRoot {

@@ -1,0 +1,110 @@
+//! Families that are longer than the size up to which equations are written out: what is derived of them grows with their members.
+
+use std::fmt::Write;
+
+use guen_language::diagnostics::collect;
+use guen_language::report::Report;
+use guen_language::{derive, emit, model, parse};
+
+/// What an expansion comes to.
+struct Size {
+    operations: f64,
+    bytes: f64,
+    report: String,
+    has_mass: bool,
+}
+
+fn size(text: &str) -> Size {
+    let (parsed, report) = parse::parse(text.parse().unwrap());
+    assert!(report.is_empty(), "{report}");
+    let parsed = parsed.unwrap();
+    let (model, report) = collect(|faults| model::resolve(&parsed, faults));
+    assert!(report.is_empty(), "{report}");
+    let (derived, report) = collect(|faults| derive::derive(model.unwrap(), faults));
+    assert!(report.is_empty(), "{report}");
+    let derived = derived.unwrap();
+    let rates = derived.system.program(derive::function::RHS).unwrap().cost;
+    let has_mass = derived.system.program(derive::function::MASS_FORM).is_some();
+    let report = Report::of(&derived.model, &derived.system).to_text();
+    let bytes = emit::emit(derived).to_string().len() as f64;
+    Size { operations: f64::from(rates.operations() + rates.sines + rates.calls), bytes, report, has_mass }
+}
+
+fn chain(n: usize) -> String {
+    format!(
+        "pub system Chain {{
+            count n = {n};
+            constants {{ m[n] > 0, l[n] > 0 = 0.1, c >= 0, g = 9.81 }}
+            coordinates {{ q[n] }}
+            let p[0] = l[0]*vec(sin(q[0]), -cos(q[0]));
+            for i in 1..n {{ let p[i] = p[i-1] + l[i]*vec(sin(q[i]), -cos(q[i])); }}
+            parameters {{ for i in 0..n {{ w[i] = dot(q[i]); }} }}
+            particles {{ for i in 0..n {{ m[i] at p[i]; }} }}
+            forces {{ for i in 1..n {{ -c*(w[i] - w[i-1]) along w[i] - w[i-1]; }} }}
+            gravity = vec(0, -g);
+        }}"
+    )
+}
+
+#[test]
+fn a_long_chain_costs_for_each_link_what_a_short_one_costs() {
+    let [short, middle, long] = [20, 66, 132].map(|n| size(&chain(n)));
+    let each = |size: &Size, n: f64| size.operations / n;
+    assert!(each(&long, 132.0) < 1.3 * each(&short, 20.0), "{}", long.operations);
+    assert!(each(&long, 132.0) < 1.05 * each(&middle, 66.0), "{}", long.operations);
+    assert!(long.bytes < 2.5 * middle.bytes, "{} {}", middle.bytes, long.bytes);
+    assert!(!long.has_mass && short.has_mass);
+    assert!(long.report.contains("not written out: of 132 parameters"), "{}", long.report);
+    assert!(!short.report.contains("not written out"), "{}", short.report);
+}
+
+/// What the loop declares, written out without one.
+#[test]
+fn a_long_chain_by_hand_is_the_same() {
+    let n = 70;
+    let mut text = String::from("pub system Chain { constants { c >= 0, g = 9.81");
+    (0..n).for_each(|i| write!(text, ", m{i} > 0, l{i} > 0 = 0.1").unwrap());
+    text.push_str(" } coordinates { q0");
+    (1..n).for_each(|i| write!(text, ", q{i}").unwrap());
+    text.push_str(" } let p0 = l0*vec(sin(q0), -cos(q0));");
+    (1..n).for_each(|i| write!(text, "let p{i} = p{} + l{i}*vec(sin(q{i}), -cos(q{i}));", i - 1).unwrap());
+    text.push_str(" parameters {");
+    (0..n).for_each(|i| write!(text, "w{i} = dot(q{i});").unwrap());
+    text.push_str(" } particles {");
+    (0..n).for_each(|i| write!(text, "m{i} at p{i};").unwrap());
+    text.push_str(" } forces {");
+    (1..n).for_each(|i| write!(text, "-c*(w{i} - w{0}) along w{i} - w{0};", i - 1).unwrap());
+    text.push_str(" } gravity = vec(0, -g); }");
+    assert_eq!(size(&text).operations.to_bits(), size(&chain(n)).operations.to_bits());
+}
+
+#[test]
+fn masses_that_nothing_couples_keep_their_mass_matrix() {
+    let row = "pub system Row {
+        count n = 80;
+        constants { m[n] > 0, k > 0 }
+        coordinates { x[n] }
+        kinetic_energy = sum(i in 0..n: m[i]/2*dot(x[i])^2);
+        potential_energy = k/2*x[0]^2 + sum(i in 1..n: k/2*(x[i] - x[i-1])^2);
+    }";
+    assert!(size(row).has_mass);
+}
+
+#[test]
+fn a_long_chain_has_scenes_series_and_outputs() {
+    let base = chain(65);
+    let with = |more: &str| {
+        let end = base.rfind('}').unwrap();
+        format!("{}{more} }}", &base[..end])
+    };
+    for more in [
+        "outputs { tip = p[n-1]; energy_of_last = m[n-1]/2*inner(dot(p[n-1]), dot(p[n-1])); }",
+        "inputs { u } outputs { tip = u*p[n-1]; }",
+        "states { dot(filtered) = q[n-1] - filtered; }",
+        "scene Bare { fix c = 0; }",
+        "contacts { floor: gap = 100 + p[n-1].y; }",
+    ] {
+        let found = size(&with(more));
+        assert!(found.operations < 56.0 * 65.0, "{more}: {}", found.operations);
+    }
+}

@@ -1,0 +1,105 @@
+//! A chain of more links than equations are written out for, beside its dense equations in numbers.
+
+use std::thread;
+
+use guen::mechanical_system;
+use guen::prelude::*;
+
+mechanical_system! {
+    /// A chain of a hundred links, each with a mass and a length of its own.
+    pub system Chain {
+        count n = 100;
+        constants   { m[n] > 0, l[n] > 0, c >= 0, g = 9.81 }
+        coordinates { q[n] }
+        let p[0] = l[0]*vec(sin(q[0]), -cos(q[0]));
+        for i in 1..n { let p[i] = p[i-1] + l[i]*vec(sin(q[i]), -cos(q[i])); }
+        parameters { for i in 0..n { w[i] = dot(q[i]); } }
+        particles  { for i in 0..n { m[i] at p[i]; } }
+        forces     { for i in 1..n { -c*(w[i] - w[i-1]) along w[i] - w[i-1]; } }
+        gravity = vec(0, -g);
+        outputs { tip = p[n-1]; }
+    }
+}
+
+const N: usize = 100;
+
+fn constants(c: f64) -> Chain {
+    let m = std::array::from_fn(|i| 0.1 + 0.01 * ((7 * i) % 13) as f64);
+    let l = std::array::from_fn(|i| 0.05 + 0.005 * ((5 * i) % 11) as f64);
+    Chain { m, l, c, g: 9.81 }
+}
+
+fn start() -> chain::State {
+    let q = std::array::from_fn(|i| 0.4 + 0.8 * f64::sin(1.7 * i as f64));
+    let w = std::array::from_fn(|i| f64::cos(2.3 * i as f64));
+    chain::State { q, w }
+}
+
+/// The accelerations by Lagrange's equations, `sum_j M_ij w_j' = Q_i`, with `M_ij = mu_ij l_i l_j cos(q_i - q_j)`, where `mu_ij` is the mass that
+/// hangs on both links.
+fn dense(Chain { m, l, c, g }: &Chain, chain::State { q, w }: &chain::State) -> Vec<f64> {
+    let hanging: Vec<f64> = (0..N).map(|i| m[i..].iter().sum()).collect();
+    let mut rows: Vec<Vec<f64>> = Vec::new();
+    for i in 0..N {
+        let mut force = -hanging[i] * g * l[i] * q[i].sin();
+        let mut row = Vec::new();
+        for j in 0..N {
+            let coupling = hanging[i.max(j)] * l[i] * l[j];
+            row.push(coupling * (q[i] - q[j]).cos());
+            force -= coupling * (q[i] - q[j]).sin() * w[j] * w[j];
+        }
+        if i > 0 {
+            force -= c * (w[i] - w[i - 1]);
+        }
+        if i + 1 < N {
+            force += c * (w[i + 1] - w[i]);
+        }
+        row.push(force);
+        rows.push(row);
+    }
+    // Gauss's elimination of a positive definite matrix.
+    for k in 0..N {
+        for i in k + 1..N {
+            let factor = rows[i][k] / rows[k][k];
+            for j in k..=N {
+                rows[i][j] -= factor * rows[k][j];
+            }
+        }
+    }
+    let mut found = vec![0.0; N];
+    for i in (0..N).rev() {
+        let known: f64 = (i + 1..N).map(|j| rows[i][j] * found[j]).sum();
+        found[i] = (rows[i][N] - known) / rows[i][i];
+    }
+    found
+}
+
+#[test]
+fn rates_are_those_of_the_dense_equations() {
+    let (chain, state) = (constants(0.03), start());
+    let expected = dense(&chain, &state);
+    let rates = chain.prepare().unwrap().rhs(0.0, &state);
+    let largest = expected.iter().fold(0.0_f64, |largest, a| largest.max(a.abs()));
+    for (own, other) in rates.w.iter().zip(&expected) {
+        // The elimination of 100 rows loses some four digits.
+        assert!((own - other).abs() < 1e-10 * largest, "{own} {other}");
+    }
+    assert_eq!(rates.q, state.w);
+}
+
+#[test]
+fn a_hundred_links_run_in_a_thread_of_two_megabytes() {
+    let run = || {
+        let chain = constants(0.0).prepare().unwrap();
+        let start = start();
+        let before = chain.energy(0.0, &start);
+        let steps = Integration::new(&chain, 0.0, &start.into()).run(&Rk4::new(1e-5), 0.002).unwrap();
+        let bounded =
+            Integration::new(&chain, 0.0, &start.into()).run(&Dop853::new(1e-10, 1e-10), 0.01).unwrap();
+        for state in [steps.state, bounded.state] {
+            let after = chain.energy(0.0, &chain::State::from(state));
+            assert!((after - before).abs() < 1e-8 * before.abs(), "{before} {after}");
+        }
+    };
+    thread::Builder::new().stack_size(2 << 20).spawn(run).unwrap().join().unwrap();
+}
