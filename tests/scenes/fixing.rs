@@ -103,3 +103,33 @@ fn what_is_not_fixed_is_checked_as_ever() {
 fn appell_with(a: f64) -> crate::models::Appell {
     crate::models::Appell { a, ..APPELL }
 }
+
+guen::mechanical_system! {
+    /// Two carts on slopes.
+    system Slopes {
+        count n = 2;
+        constants   { m: kg > 0, slope[n]: deg = 5, g: m/s^2 = 9.81 }
+        coordinates { x[n]: m }
+        parameters  { for i in 0..n { v[i] = dot(x[i]); } }
+        particles   { for i in 0..n { m at x[i]*vec(cos(slope[i]), sin(slope[i])); } }
+        gravity     = vec(0, -g);
+        scene One   { track v[0]; fix slope[0] = 30; }
+        scene Both  { for i in 0..n { track v[i]; fix slope[i] = 30*(i + 1); } }
+    }
+}
+
+#[test]
+fn entries_are_fixed_in_degrees() {
+    use slopes::{Both, One};
+    let system = Slopes { slope: [30.0, 60.0], ..Slopes::new(2.0) };
+    let one = One::of(&system, &Default::default()).unwrap().prepare().unwrap();
+    let rates = one.rhs(0.0, &slopes::one::State::default());
+    assert!(f64::abs(rates.v_0 + 9.81 / 2.0) < 1e-14);
+    let both = Both::of(&system, &Default::default()).unwrap().prepare().unwrap();
+    let rates = both.rhs(0.0, &slopes::both::State::default());
+    assert!(f64::abs(rates.v[0] + 9.81 / 2.0) < 1e-14);
+    assert!(f64::abs(rates.v[1] + 9.81 * 0.75_f64.sqrt()) < 1e-14);
+    // In the constants of the system, too, these are degrees.
+    assert!(Both::of(&Slopes::new(2.0), &Default::default()).is_err());
+    assert_eq!(both.constants().system().slope, [30.0, 60.0]);
+}

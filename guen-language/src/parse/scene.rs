@@ -1,6 +1,6 @@
 //! `scene Name { track ..; fix ..; provide ..; }`, and `provide ..;` of a whole system.
 
-use proc_macro2::{Delimiter, Span};
+use proc_macro2::{Delimiter, Group, Span};
 
 use super::attributes::docs;
 use super::cursor::Cursor;
@@ -8,11 +8,12 @@ use super::expression::expression;
 use super::index::member_name;
 use super::lists::{separated, stray_semicolon};
 use super::names::name;
+use super::nesting::Entries;
 use super::punctuation::{equals, semicolon};
 use crate::diagnostics::{Fault, Faults, Reported};
 use crate::limits::MAX_ENTRIES;
 use crate::names::{SCENE_STATEMENTS, nearest, quoted};
-use crate::syntax::{Docs, Fix, Provide, Scene};
+use crate::syntax::{Docs, Fix, Provide, Scene, SceneStatement};
 
 /// Reads a scene behind the word `scene`.
 pub(crate) fn scene(
@@ -27,21 +28,41 @@ pub(crate) fn scene(
             Fault::new(cursor.span(), format!("expected `{{` after `{name}`, found {}", cursor.found()));
         return Err(faults.report(fault.help("a scene reads `scene Name { track theta; fix a = 1; }`")));
     };
-    let mut scene =
-        Scene { docs, keyword, name, tracks: Vec::new(), fixes: Vec::new(), provides: Vec::new() };
-    let mut inside = Cursor::inside(&group);
-    while !inside.is_end() {
-        if stray_semicolon(&mut inside, faults) {
-            continue;
-        }
-        if statement(&mut inside, faults, &mut scene).is_err() {
-            inside.recover();
-        }
+    let mut statements = Entries::new();
+    fill(&group, faults, &mut statements);
+    let (statements, nesting) = statements.nesting();
+    let mut scene = Scene {
+        docs,
+        keyword,
+        name,
+        tracks: Vec::new(),
+        fixes: Vec::new(),
+        provides: Vec::new(),
+        statements: Vec::new(),
+        nesting,
+    };
+    match scene.nesting.is_empty() {
+        true => statements.into_iter().for_each(|statement| scene.add(statement)),
+        false => scene.statements = statements,
     }
     Ok(scene)
 }
 
-fn statement(cursor: &mut Cursor, faults: &mut Faults, scene: &mut Scene) -> Result<(), Reported> {
+/// Reads statements, and loops and choices around them.
+fn fill(group: &Group, faults: &mut Faults, statements: &mut Entries<SceneStatement>) {
+    let mut cursor = Cursor::inside(group);
+    while !cursor.is_end() {
+        if stray_semicolon(&mut cursor, faults) || statements.block(&mut cursor, faults, &mut fill) {
+            continue;
+        }
+        match statement(&mut cursor, faults) {
+            Ok(statement) => statements.push(statement),
+            Err(Reported { .. }) => cursor.recover(),
+        }
+    }
+}
+
+fn statement(cursor: &mut Cursor, faults: &mut Faults) -> Result<SceneStatement, Reported> {
     let documented = cursor.span();
     let docs = docs(cursor, faults)?;
     if !docs.values.is_empty() {
@@ -49,17 +70,16 @@ fn statement(cursor: &mut Cursor, faults: &mut Faults, scene: &mut Scene) -> Res
         faults.report(fault.help("document the scene instead, or write `//`"));
     }
     if cursor.eat_word("track").is_some() {
-        scene.tracks.extend(list(cursor, faults, |cursor, faults| {
-            member_name(cursor, faults, "a name after `track`")
-        }));
+        let name =
+            |cursor: &mut Cursor, faults: &mut Faults| member_name(cursor, faults, "a name after `track`");
+        Ok(SceneStatement::Track(list(cursor, faults, name)))
     } else if cursor.eat_word("fix").is_some() {
-        scene.fixes.extend(list(cursor, faults, fix));
+        Ok(SceneStatement::Fix(list(cursor, faults, fix)))
     } else if cursor.eat_word("provide").is_some() {
-        scene.provides.extend(provides(cursor, faults));
+        Ok(SceneStatement::Provide(provides(cursor, faults)))
     } else {
-        return Err(unknown(cursor, faults));
+        Err(unknown(cursor, faults))
     }
-    Ok(())
 }
 
 fn unknown(cursor: &Cursor, faults: &mut Faults) -> Reported {

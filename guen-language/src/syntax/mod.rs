@@ -33,6 +33,6 @@ pub use unit::{Dimension, Unit};
 
 pub use section::{
     Body, BodyField, Bound, BoundKind, Constant, Count, Declaration, Definition, Equation, Fix, Force,
-    FunctionDefinition, Inertia, Item, Particle, Plain, Provide, Quantity, Scene, Section, SectionKind,
-    State,
+    FunctionDefinition, Inertia, Item, Particle, Plain, Provide, Quantity, Scene, SceneStatement, Section,
+    SectionKind, State,
 };

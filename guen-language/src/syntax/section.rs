@@ -429,6 +429,32 @@ pub struct Scene {
     pub fixes: Vec<Fix>,
     /// The quantities that the scene provides beside the state, of all `provide` statements in order.
     pub provides: Vec<Provide>,
+    /// The statements as written where loops and conditions stand between them. There is none left once loops are unfolded.
+    pub statements: Vec<SceneStatement>,
+    /// The order of the statements; empty where there are no loops and conditions.
+    pub nesting: Vec<Node>,
+}
+
+/// A statement of a scene.
+#[derive(Debug, Clone)]
+pub enum SceneStatement {
+    /// `track name, ..;`.
+    Track(Vec<Name>),
+    /// `fix name = e, ..;`.
+    Fix(Vec<Fix>),
+    /// `provide name, ..;`.
+    Provide(Vec<Provide>),
+}
+
+impl Scene {
+    /// Adds a statement behind the others.
+    pub fn add(&mut self, statement: SceneStatement) {
+        match statement {
+            SceneStatement::Track(names) => self.tracks.extend(names),
+            SceneStatement::Fix(fixes) => self.fixes.extend(fixes),
+            SceneStatement::Provide(provides) => self.provides.extend(provides),
+        }
+    }
 }
 
 /// `name = e` or `name` after `fix`.

@@ -17,6 +17,7 @@ impl Item {
             Item::Switches(section) => &section.nesting,
             Item::Contacts(section) => &section.nesting,
             Item::Modes(section) => &section.nesting,
+            Item::Scene(scene) => &scene.nesting,
             _ => &[],
         }
     }

@@ -261,6 +261,7 @@ pub(super) fn section_nesting(item: &Item) -> Option<&[Node]> {
         Item::Contacts(section) => &section.nesting,
         Item::Modes(section) => &section.nesting,
         Item::Forces(section) => &section.nesting,
+        Item::Scene(scene) => &scene.nesting,
         _ => return None,
     };
     (!nesting.is_empty()).then_some(nesting)

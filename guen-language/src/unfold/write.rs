@@ -5,7 +5,7 @@ use super::arrays::next;
 use crate::syntax::{
     Body, BodyField, Clause, Constant, Contact, Declaration, Definition, Equation, Expression, Fix, Force,
     FunctionDefinition, GivenArgument, Index, Inertia, Item, ModeStatement, Name, Particle, Plain, Provide,
-    Quantity, Scene, Section, State, Switch, Use,
+    Quantity, Scene, SceneStatement, Section, State, Switch, Use,
 };
 
 impl Unfolder<'_> {
@@ -19,8 +19,10 @@ impl Unfolder<'_> {
     }
 
     fn item(&mut self, item: &Item) -> Option<Item> {
-        self.may_use_variables =
-            matches!(item, Item::Let(_) | Item::Use(_) | Item::Constants(_) | Item::Inputs(_));
+        self.may_use_variables = matches!(
+            item,
+            Item::Let(_) | Item::Use(_) | Item::Constants(_) | Item::Inputs(_) | Item::Scene(_)
+        );
         Some(match item {
             Item::Count(_) => return None,
             Item::Constants(section) => {
@@ -235,14 +237,42 @@ impl Unfolder<'_> {
     }
 
     fn scene(&mut self, scene: &Scene) -> Scene {
-        let tracks = scene.tracks.iter().flat_map(|name| self.all(name)).collect();
-        let mut fixes = Vec::new();
-        for fix in &scene.fixes {
-            let value = fix.value.as_ref().map(|value| self.expression(value));
-            fixes.extend(self.all(&fix.name).into_iter().map(|name| Fix { name, value: value.clone() }));
+        let (tracks, fixes, provides) = Default::default();
+        let (docs, name) = (scene.docs.clone(), scene.name.clone());
+        let (statements, nesting) = Default::default();
+        let keyword = scene.keyword;
+        let mut written = Scene { docs, keyword, name, tracks, fixes, provides, statements, nesting };
+        if scene.nesting.is_empty() {
+            written.add(SceneStatement::Track(self.tracks(&scene.tracks)));
+            written.add(SceneStatement::Fix(self.fixes(&scene.fixes)));
+            written.add(SceneStatement::Provide(self.provides(&scene.provides)));
+            return written;
         }
-        let provides = scene.provides.iter().flat_map(|provide| self.provide(provide)).collect();
-        Scene { tracks, fixes, provides, ..scene.clone() }
+        self.each(&scene.nesting, 0, &mut |this, place| {
+            written.add(match &scene.statements[place] {
+                SceneStatement::Track(names) => SceneStatement::Track(this.tracks(names)),
+                SceneStatement::Fix(fixes) => SceneStatement::Fix(this.fixes(fixes)),
+                SceneStatement::Provide(provides) => SceneStatement::Provide(this.provides(provides)),
+            });
+        });
+        written
+    }
+
+    fn tracks(&mut self, names: &[Name]) -> Vec<Name> {
+        names.iter().flat_map(|name| self.all(name)).collect()
+    }
+
+    fn fixes(&mut self, fixes: &[Fix]) -> Vec<Fix> {
+        let mut found = Vec::new();
+        for fix in fixes {
+            let value = fix.value.as_ref().map(|value| self.expression(value));
+            found.extend(self.all(&fix.name).into_iter().map(|name| Fix { name, value: value.clone() }));
+        }
+        found
+    }
+
+    fn provides(&mut self, provides: &[Provide]) -> Vec<Provide> {
+        provides.iter().flat_map(|provide| self.provide(provide)).collect()
     }
 
     fn provide(&mut self, provide: &Provide) -> Vec<Provide> {

@@ -195,3 +195,31 @@ fn faults_are_told_at_their_place() {
         assert!(found.matches("line ").count() <= 3, "{from} -> {to}:\n{found}");
     }
 }
+
+#[test]
+fn scenes_by_loops_are_those_written_out() {
+    let chain = |scenes: &str| {
+        format!(
+            "pub system Chain {{ count n = 4; constants {{ m[n] > 0, slope[2] = 5, g = 9.81 }} coordinates {{ q[n], x[2, 2] }}
+             kinetic_energy = sum(i in 0..n: m[i]/2*dot(q[i])^2) + sum(i in 0..2: sum(j in 0..2: dot(x[i, j])^2));
+             potential_energy = sum(i in 0..n: g*m[i]*sin(slope[0])*q[i]) + slope[1]*x[1, 0];
+             outputs {{ for i in 0..2 {{ e[i] = q[i]; }} }} {scenes} }}"
+        )
+    };
+    let expanded = |scenes: &str| {
+        let text = guen_language::expand(chain(scenes).parse().unwrap()).to_string();
+        assert!(!text.contains("compile_error"), "{}", &text[..400.min(text.len())]);
+        // Without the list of names as they are written.
+        let (before, behind) = text.split_once("uses ! (").unwrap();
+        format!("{before}{}", behind.split_once(')').unwrap().1)
+    };
+    let by_loops = expanded(
+        "scene S { for i in 0..n { if i % 2 == 0 { track q[i]; } else { fix m[i] = 2; } } for i in 0..2 { fix slope[i] = 10; provide e[i]; } }
+         scene T { for i in 0..2 { for j in i..2 { track x[i, j]; } } if n > 4 { track q[5]; } fix slope = 30; }",
+    );
+    let by_hand = expanded(
+        "scene S { track q[0]; fix m[1] = 2; track q[2]; fix m[3] = 2; fix slope[0] = 10; provide e[0]; fix slope[1] = 10; provide e[1]; }
+         scene T { track x[0, 0], x[0, 1]; track x[1, 1]; fix slope[0] = 30; fix slope[1] = 30; }",
+    );
+    assert!(by_loops == by_hand);
+}
