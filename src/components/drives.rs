@@ -62,11 +62,51 @@ crate::mechanical_component! {
 }
 
 crate::mechanical_component! {
-    /// A direct-current motor behind a gear, fast against the machine: its current follows the voltage at once.
+    /// A direct-current motor behind a gear, with the current of its winding as a state.
     ///
-    /// The winding obeys `voltage = resistance current + constant rotor_speed`, the rotor turns `ratio` times as fast as the output,
-    /// and its inertia counts `ratio^2` there.
+    /// The winding obeys `voltage = resistance current + inductance d current/dt + constant rotor_speed`, the rotor turns `ratio` times
+    /// as fast as the output, and its inertia counts `ratio^2` there. Resistor, inductor and electromotive force in series are the
+    /// armature of `DC_PermanentMagnet` of the Modelica Standard Library (`Modelica.Electrical.Machines.BasicMachines.DCMachines`).
     pub component GearMotor(
+        /// The angle of the output against the housing.
+        angle: scalar,
+    ) {
+        constants {
+            /// The resistance of the winding.
+            resistance > 0,
+            /// The inductance of the winding.
+            inductance > 0,
+            /// The torque for one unit of current, which is the voltage for one unit of the rotor's speed.
+            constant > 0,
+            /// The turns of the rotor for one of the output.
+            ratio > 0 = 1,
+            /// The moment of inertia of the rotor about its axle.
+            rotor_inertia >= 0 = 0,
+        }
+        inputs {
+            /// The voltage at the winding.
+            voltage
+        }
+        let rotor_speed = ratio*dot(angle);
+        states {
+            /// The current in the winding.
+            dot(current) = (voltage - resistance*current - constant*rotor_speed)/inductance;
+        }
+        kinetic_energy  = 1/2*rotor_inertia*rotor_speed^2;
+        forces  { ratio*constant*current along dot(angle); }
+        outputs {
+            /// The torque at the output, without what accelerates the rotor.
+            torque = ratio*constant*current;
+        }
+    }
+}
+
+crate::mechanical_component! {
+    /// A direct-current motor behind a gear whose winding has no inductance: its current follows the voltage at once.
+    ///
+    /// That is [`GearMotor`] where the machine is slow against the winding. The winding obeys `voltage = resistance current + constant rotor_speed`, the rotor turns `ratio` times as fast as the output,
+    /// and its inertia counts `ratio^2` there.
+    pub component ResistiveGearMotor(
         /// The angle of the output against the housing.
         angle: scalar,
     ) {

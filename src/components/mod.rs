@@ -4,11 +4,15 @@
 //! | --- | --- | --- |
 //! | [`RollingWheel`] | `hub, axle, forward, radius` | a wheel that rolls without slipping |
 //! | [`SideslipWheel`] | `hub, axle, forward, radius` | a wheel that rolls, and slides across against a viscous force |
+//! | [`RelaxationTyre`] | `hub, axle, forward, radius` | a wheel that rolls on a tyre with a relaxation length |
 //! | [`Blade`] | `point, across` | a point that does not move across a blade |
 //! | [`Caster`] | `mount, frame` | a wheel in a fork that swivels and trails |
 //! | [`SpringDamper`] | `from, to` | a spring and a damper between two points |
 //! | [`StribeckFriction`] | `speed` | Coulomb, Stribeck and viscous friction, smooth |
-//! | [`GearMotor`] | `angle` | a motor with a gear |
+//! | [`GearMotor`] | `angle` | a motor with a winding and a gear |
+//! | [`ResistiveGearMotor`] | `angle` | the same without inductance |
+//! | [`HingeStops`] | `angle` | stops at both ends of a hinge or slide |
+//! | [`Foot`] | `point, up` | a point that touches level ground, sticks and slips |
 //! | [`Cable`] | `from, to` | an elastic cable with mass |
 //! | [`PlanarArm`] | `base, frame` | three links in a plane |
 //! | [`SpatialArm`] | `base, frame` | six joints by Denavit and Hartenberg's table |
@@ -41,10 +45,18 @@
 
 mod arms;
 mod cables;
+mod contacts;
 mod drives;
 mod wheels;
 
 pub use arms::{PlanarArm, SpatialArm, planar_arm, spatial_arm};
 pub use cables::{Cable, cable};
-pub use drives::{GearMotor, SpringDamper, StribeckFriction, gear_motor, spring_damper, stribeck_friction};
-pub use wheels::{Blade, Caster, RollingWheel, SideslipWheel, blade, caster, rolling_wheel, sideslip_wheel};
+pub use contacts::{Foot, HingeStops, foot, hinge_stops};
+pub use drives::{
+    GearMotor, ResistiveGearMotor, SpringDamper, StribeckFriction, gear_motor, resistive_gear_motor,
+    spring_damper, stribeck_friction,
+};
+pub use wheels::{
+    Blade, Caster, RelaxationTyre, RollingWheel, SideslipWheel, blade, caster, relaxation_tyre,
+    rolling_wheel, sideslip_wheel,
+};

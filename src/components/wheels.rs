@@ -83,6 +83,58 @@ crate::mechanical_component! {
 }
 
 crate::mechanical_component! {
+    /// A wheel that rolls without slipping along its plane, with a tyre that gives way across it, and recovers as it rolls.
+    ///
+    /// The point of contact is held to the rim by a spring, and creeps back under it with the distance that the wheel rolls:
+    /// `d deflection/dt = sideslip - |speed| deflection/relaxation`. At a constant angle of sideslip the force is, after a way `x`,
+    /// `stiffness relaxation (sideslip/speed) (1 - exp(-x/relaxation))`; so `stiffness relaxation` is the cornering stiffness, and at
+    /// rest the tyre is a spring. That is the linear relaxation model of tyres that Altair MotionView documents under "Relaxation
+    /// Behavior", across the wheel.
+    pub component RelaxationTyre(
+        /// The centre of the wheel.
+        hub: vector,
+        /// The unit vector along the axle.
+        axle: vector,
+        /// The unit vector in which the wheel rolls, horizontal and normal to the axle.
+        forward: vector,
+        /// The radius.
+        radius: scalar,
+    ) {
+        constants {
+            /// The mass of the wheel.
+            mass >= 0,
+            /// The moment of inertia about the axle.
+            spin_inertia > 0,
+            /// The stiffness of the tyre across the wheel.
+            stiffness >= 0,
+            /// The relaxation length.
+            relaxation > 0,
+        }
+        coordinates {
+            /// The angle by which the wheel has turned.
+            angle
+        }
+        particles   { mass at hub; }
+        kinetic_energy = 1/2*spin_inertia*dot(angle)^2;
+        let sideslip = inner(dot(hub), axle);
+        let speed    = inner(dot(hub), forward);
+        constraints {
+            /// The point of contact does not slip along the wheel.
+            rolls: speed = radius*dot(angle);
+        }
+        states {
+            /// The way of the rim across the point of contact.
+            dot(deflection) = sideslip - abs(speed)/relaxation*deflection;
+        }
+        forces      { -stiffness*deflection along sideslip; }
+        outputs     {
+            /// The force of the ground on the wheel, along the axle.
+            side_force = -stiffness*deflection;
+        }
+    }
+}
+
+crate::mechanical_component! {
     /// A blade, a keel or a sharp wheel without mass: its point does not move across it.
     ///
     /// It makes a Chaplygin sled of a rigid body, as (3.12) of Pham Guen (1969).

@@ -1,5 +1,6 @@
 //! Contacts of components: what instances bring, against the same system written by hand.
 
+use guen::components::{Foot as GroundFoot, HingeStops};
 use guen::hybrid::{Hybrid, HybridSystem};
 use guen::prelude::*;
 
@@ -187,4 +188,77 @@ fn reactions_of_instances_are_outputs() {
     assert_eq!((outputs.left.push, outputs.left.height, outputs.left.sliding), (expected.push, 0.0, 0.5));
     // Both together carry the weight.
     assert!((outputs.left.push[0] + outputs.right.push[0] - 2.0 * 9.81).abs() < 1e-12);
+}
+
+mechanical_system! {
+    /// A wheel on a hinge with stops, without gravity.
+    system Stopped {
+        constants { J > 0 = 2 }
+        coordinates { q }
+        kinetic_energy = J/2*dot(q)^2;
+        parameters { w = dot(q); }
+        use HingeStops as stops { angle: q }
+    }
+}
+
+#[test]
+fn a_hinge_bounces_between_its_stops() {
+    let stops = HingeStops { restitution: 0.5, ..HingeStops::new(-1.0, 1.0) };
+    let system = Stopped { stops, J: 2.0 }.prepare().unwrap();
+    assert_eq!(stopped::MODES.len(), 3);
+    // At 1 after one unit of time, at -1 after four more, and on with a quarter of the speed.
+    let done = Hybrid::new(&system, 0.0, &[0.0, 1.0]).run(&Dop853::new(1e-11, 1e-11), 7.0).unwrap();
+    assert_eq!(done.transitions, 2);
+    assert!((done.state[0] + 0.5).abs() < 1e-10 && (done.state[1] - 0.25).abs() < 1e-12, "{:?}", done.state);
+    let pressed = stopped::Mode {
+        stops: stopped::stops::Mode {
+            lower_stop: stopped::stops::LowerStop::Open,
+            upper_stop: stopped::stops::UpperStop::Closed,
+        },
+    };
+    assert_eq!(system.outputs_in_mode(pressed, 0.0, &stopped::State { q: 1.0, w: 0.0 }).stops.torque, 0.0);
+}
+
+mechanical_system! {
+    /// A block that slides on the ground, by one foot.
+    system Block {
+        constants { m > 0 = 3, g = 10 }
+        coordinates { x, y, z }
+        particles { m at vec(x, y, z); }
+        gravity = vec(0, 0, -g);
+        parameters { u = dot(x); v = dot(y); w = dot(z); }
+        use GroundFoot as foot { point: vec(x, y, z), up: vec(0, 0, 1) }
+    }
+}
+
+mechanical_system! {
+    /// The block in a plane.
+    system FlatBlock {
+        constants { m > 0 = 3, g = 10 }
+        coordinates { x, y }
+        particles { m at vec(x, y); }
+        gravity = vec(0, -g);
+        parameters { u = dot(x); v = dot(y); }
+        use GroundFoot as foot { point: vec(x, y), up: vec(0, 1, 0) }
+    }
+}
+
+#[test]
+fn a_foot_slides_to_rest() {
+    // From a speed of 5 at 5 per unit of time it stops after one, 2.5 further.
+    let foot = GroundFoot::new(0.5);
+    let block = Block { foot, m: 3.0, g: 10.0 }.prepare().unwrap();
+    let done = Hybrid::new(&block, 0.0, &[0.0, 0.0, 0.0, 3.0, 4.0, 0.0])
+        .run(&Dop853::new(1e-11, 1e-11), 2.0)
+        .unwrap();
+    assert!((done.state[0] - 1.5).abs() < 1e-6 && (done.state[1] - 2.0).abs() < 1e-6, "{:?}", done.state);
+    assert_eq!(done.mode.foot.sole, block::foot::Sole::Stick);
+    let flat = FlatBlock { foot, m: 3.0, g: 10.0 }.prepare().unwrap();
+    let done = Hybrid::new(&flat, 0.0, &[0.0, 0.0, -5.0, 0.0]).run(&Dop853::new(1e-11, 1e-11), 2.0).unwrap();
+    assert!((done.state[0] + 2.5).abs() < 1e-10, "{:?}", done.state);
+    let slips =
+        flat_block::Mode { foot: flat_block::foot::Mode { sole: flat_block::foot::Sole::SlipBackward } };
+    let state = flat_block::State { u: -1.0, ..Default::default() };
+    let load = flat.outputs_in_mode(slips, 0.0, &state).foot.load;
+    assert!((load[0] - 30.0).abs() < 1e-12 && (load[1] - 15.0).abs() < 1e-12, "{load:?}");
 }

@@ -2,8 +2,8 @@
 #![allow(clippy::needless_range_loop, reason = "indices are those of the formulas")]
 
 use guen::components::{
-    Blade, Cable, Caster, GearMotor, PlanarArm, RollingWheel, SideslipWheel, SpatialArm, SpringDamper,
-    StribeckFriction,
+    Blade, Cable, Caster, GearMotor, PlanarArm, RelaxationTyre, ResistiveGearMotor, RollingWheel,
+    SideslipWheel, SpatialArm, SpringDamper, StribeckFriction,
 };
 use guen::prelude::*;
 
@@ -110,7 +110,7 @@ guen::mechanical_system! {
         parameters  { v = dot(s); u = dot(side); }
         use SpringDamper as spring { from: vec(0, 0, 0), to: vec(2/3*s, -2/3*s, 1/3*s) }
         use StribeckFriction as friction { speed: v }
-        use GearMotor as motor { angle: wheel.angle }
+        use ResistiveGearMotor as motor { angle: wheel.angle }
     }
 }
 
@@ -120,7 +120,7 @@ fn a_cart_with_spring_friction_motor_and_sideslip() {
     let spring = SpringDamper { stiffness: 7.0, damping: 0.4, rest: 0.6 };
     let friction =
         StribeckFriction { kinetic: 0.5, breakaway: 0.9, stribeck: 0.2, viscous: 0.1, smoothing: 0.05 };
-    let motor = GearMotor { resistance: 2.0, constant: 0.3, ratio: 4.0, rotor_inertia: 0.001 };
+    let motor = ResistiveGearMotor { resistance: 2.0, constant: 0.3, ratio: 4.0, rotor_inertia: 0.001 };
     let (m, r) = (1.5, 0.2);
     let cart = Cart { m, r, wheel, spring, friction, motor }.prepare().unwrap();
     let inputs = cart::Inputs { motor: cart::motor::Inputs { voltage: 5.0 } };
@@ -138,6 +138,75 @@ fn a_cart_with_spring_friction_motor_and_sideslip() {
     assert!((outputs.motor.winding_current - current).abs() < 1e-14);
     assert!((outputs.spring.tension - pull).abs() < 1e-14 && (outputs.friction.force - drag).abs() < 1e-14);
     assert_eq!(outputs.wheel.sideslip_speed, -0.7);
+}
+
+/// The solution of `x' = a x + b` for two variables at a time, from the eigenvalues: these are complex or real, and differ.
+fn linear(a: [[f64; 2]; 2], b: [f64; 2], start: [f64; 2], t: f64) -> [f64; 2] {
+    let (trace, det) = (a[0][0] + a[1][1], a[0][0] * a[1][1] - a[0][1] * a[1][0]);
+    let rest = [(a[0][1] * b[1] - a[1][1] * b[0]) / det, (a[1][0] * b[0] - a[0][0] * b[1]) / det];
+    let from = [start[0] - rest[0], start[1] - rest[1]];
+    // exp(a t) = exp(trace t/2) (c 1 + s (a - trace/2)), with s = sinh(w t)/w.
+    let square = trace * trace / 4.0 - det;
+    let w = square.abs().sqrt();
+    let (c, s) =
+        if square > 0.0 { ((w * t).cosh(), (w * t).sinh() / w) } else { ((w * t).cos(), (w * t).sin() / w) };
+    let shifted =
+        |i: usize| (0..2).map(|j| (a[i][j] - if i == j { trace / 2.0 } else { 0.0 }) * from[j]).sum::<f64>();
+    std::array::from_fn(|i| rest[i] + (trace * t / 2.0).exp() * (c * from[i] + s * shifted(i)))
+}
+
+guen::mechanical_system! {
+    system Winch {
+        constants   { J > 0 }
+        coordinates { q }
+        kinetic_energy = J/2*dot(q)^2;
+        parameters  { w = dot(q); }
+        use GearMotor as motor { angle: q }
+    }
+}
+
+#[test]
+fn a_motor_with_a_winding_follows_its_closed_form() {
+    for inductance in [0.004, 0.2] {
+        let motor = GearMotor { resistance: 2.0, inductance, constant: 0.3, ratio: 4.0, rotor_inertia: 0.01 };
+        let winch = Winch { J: 0.5, motor }.prepare().unwrap();
+        let driven = winch.driven(winch::Inputs { motor: winch::motor::Inputs { voltage: 6.0 } });
+        assert_eq!(winch::State::NAMES, ["q", "w", "motor.current"]);
+        let mut start = winch::State { w: -0.5, ..Default::default() };
+        start.motor.current = 0.7;
+        let end = winch::State::from(after(&driven, start.into(), 0.4));
+        let inertia = 0.5 + 16.0 * 0.01;
+        let a = [[0.0, 4.0 * 0.3 / inertia], [-0.3 * 4.0 / inductance, -2.0 / inductance]];
+        let [w, current] = linear(a, [0.0, 6.0 / inductance], [-0.5, 0.7], 0.4);
+        assert!((end.w - w).abs() < 1e-9, "{end:?} {w}");
+        assert!((end.motor.current - current).abs() < 1e-9, "{end:?} {current}");
+    }
+}
+
+guen::mechanical_system! {
+    system Drawn {
+        constants   { V }
+        coordinates { s, side }
+        let hub = vec(V*s, side, 1/5);
+        use RelaxationTyre as tyre { hub, axle: vec(0, 1, 0), forward: vec(1, 0, 0), radius: 1/5 }
+        parameters  { v = dot(s); u = dot(side); }
+    }
+}
+
+#[test]
+fn a_tyre_relaxes_over_its_length() {
+    // Nothing brakes the wheel: it rolls forwards, or backwards, at its speed, while the tyre swings against its mass.
+    for speed in [3.0, -3.0] {
+        let tyre = RelaxationTyre { mass: 2.0, spin_inertia: 0.02, stiffness: 90.0, relaxation: 0.4 };
+        let drawn = Drawn { V: speed, tyre }.prepare().unwrap();
+        let start = drawn::State { v: 1.0, u: 0.5, ..Default::default() };
+        let end = drawn::State::from(after(&drawn, start.into(), 0.6));
+        let a = [[0.0, -90.0 / 2.0], [1.0, -3.0 / 0.4]];
+        let [u, deflection] = linear(a, [0.0; 2], [0.5, 0.0], 0.6);
+        assert!((end.u - u).abs() < 1e-9 && (end.tyre.deflection - deflection).abs() < 1e-9, "{end:?} {u}");
+        assert!((end.tyre.angle - speed * 0.6 / 0.2).abs() < 1e-9);
+        assert_eq!(drawn.outputs(0.0, &end).tyre.side_force, -90.0 * end.tyre.deflection);
+    }
 }
 
 guen::mechanical_system! {
