@@ -7,9 +7,11 @@
 use super::constraint_forces::{self, ByConstraintForces};
 use super::restated::Restated;
 use super::symmetry::Symmetry;
+use super::thresholds::ALL_FORMS;
 use super::{Equations, Frame, Mechanics};
 use crate::algebra::{ExprId, Rational, Role, Substitution};
 use crate::geometry::{Form, Operators};
+use crate::program::weighted_cost;
 use crate::workbench::Workbench;
 
 type Matrix = Vec<Vec<Rational>>;
@@ -165,7 +167,14 @@ impl InBaseParameters {
         let (squares, etas) = (projected.squares.as_ref()?, &system.etas[..system.forms.degrees]);
         let theirs = constraint_forces::dense_cost(bench, &projected.equations.mass[..etas.len()]);
         let solved = constraint_forces::solve(bench, frame, squares, theirs, etas, forces)?;
-        let accelerations = self.turned_back(bench, declared, &[], solved.accelerations);
+        // An acceleration that several of the others are differences of is computed once; written out, small ones have more in common.
+        let is_large = weighted_cost(&bench.graph, &solved.accelerations) > ALL_FORMS;
+        let is_shared = |k: usize| self.change.back.iter().filter(|row| !row[k].is_zero()).count() > 1;
+        let mut own = solved.accelerations;
+        for (_, e) in own.iter_mut().enumerate().filter(|(k, _)| is_large && is_shared(*k)) {
+            *e = bench.graph.keep(*e);
+        }
+        let accelerations = self.turned_back(bench, declared, &[], own);
         Some(ByConstraintForces { accelerations, ..solved })
     }
 

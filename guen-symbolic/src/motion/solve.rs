@@ -215,7 +215,12 @@ pub(super) fn eliminate(
         for r in left.iter().copied() {
             if !bench.graph.is_zero(m[r][k]) {
                 let quotient = bench.graph.div(m[r][k], m[k][k]);
-                multipliers.push((r, keep(bench, quotient)));
+                // In a sparse matrix a multiplier has three users at least, and no other row its divisor.
+                let factor = match naming {
+                    Naming::Definite => bench.graph.keep_whole(quotient),
+                    _ => keep(bench, quotient),
+                };
+                multipliers.push((r, factor));
             }
         }
         for (i, (r, factor)) in multipliers.iter().enumerate() {

@@ -57,8 +57,52 @@ impl System {
         System { matrix, right: lists(bench, &self.right), coupled, direct: lists(bench, &self.direct) }
     }
 
+    /// Chooses the sign of each constraint force: so that equations of neighbours have opposite ones, and most terms of the right sides are
+    /// positive. Then what is eliminated adds up, and nothing has to be negated.
+    fn signed(&mut self, bench: &mut Workbench) {
+        let count = self.right.len();
+        let is_negative = |bench: &mut Workbench, e: ExprId| bench.graph.split_content(e).0.is_negative();
+        let mut flips: Vec<Option<bool>> = vec![None; count];
+        for start in 0..count {
+            if flips[start].is_some() {
+                continue;
+            }
+            flips[start] = Some(false);
+            let mut block = vec![start];
+            let mut next = 0;
+            while let Some(s) = block.get(next).copied() {
+                next += 1;
+                for t in 0..count {
+                    if flips[t].is_none() && !bench.graph.is_zero(self.matrix[s][t]) {
+                        let same = is_negative(bench, self.matrix[s][t]);
+                        flips[t] = flips[s].map(|flip| flip == same);
+                        block.push(t);
+                    }
+                }
+            }
+            let terms: Vec<(usize, ExprId)> =
+                block.iter().flat_map(|s| self.right[*s].iter().map(|e| (*s, *e))).collect();
+            let negative =
+                terms.iter().filter(|(s, e)| is_negative(bench, *e) != (flips[*s] == Some(true))).count();
+            if 2 * negative > terms.len() {
+                block.iter().for_each(|s| flips[*s] = flips[*s].map(|flip| !flip));
+            }
+        }
+        let flips: Vec<bool> = flips.into_iter().map(|flip| flip == Some(true)).collect();
+        for (s, row) in self.matrix.iter_mut().enumerate() {
+            row.iter_mut()
+                .zip(&flips)
+                .filter(|(_, flip)| **flip != flips[s])
+                .for_each(|(e, _)| *e = bench.graph.neg(*e));
+        }
+        let right = self.right.iter_mut().zip(&flips).filter(|(_, flip)| **flip).flat_map(|(row, _)| row);
+        let coupled = self.coupled.iter_mut().flatten().filter(|(t, _)| flips[*t]).map(|(_, e)| e);
+        right.chain(coupled).for_each(|e| *e = bench.graph.neg(*e));
+    }
+
     /// The accelerations.
     pub(super) fn solved(mut self, bench: &mut Workbench) -> Option<Vec<ExprId>> {
+        self.signed(bench);
         // One scale for all constraint forces, and one for their equations: both leave ones where there were constants.
         let scale = most_common(bench, self.matrix.iter().flatten().copied());
         let size = most_common(bench, self.right.iter().flatten().copied());
