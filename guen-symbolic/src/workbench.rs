@@ -25,6 +25,8 @@ pub struct Workbench {
     limits: Limits,
     /// Work that was done before the present derivation began.
     before: u64,
+    /// The formulations that are not tried.
+    left_out: Vec<&'static str>,
 }
 
 impl Workbench {
@@ -37,6 +39,7 @@ impl Workbench {
             beyond: FastMap::default(),
             limits: TIDYING,
             before: 0,
+            left_out: Vec::new(),
         }
     }
 
@@ -129,6 +132,25 @@ impl Workbench {
     /// Begins a further derivation in the same graph, with a limit of its own.
     pub fn begin_another(&mut self) {
         self.before = self.graph.work();
+    }
+
+    /// Leaves a formulation out of the derivations to come, to measure or to test the others. Where none of these has rates, the equations
+    /// as they are stated are solved nevertheless.
+    ///
+    /// ```
+    /// use guen_symbolic::{Graph, Workbench};
+    /// let mut bench = Workbench::new(Graph::new());
+    /// bench.leave_out("recursive");
+    /// assert!(bench.leaves_out("recursive") && !bench.leaves_out("bodies"));
+    /// ```
+    pub fn leave_out(&mut self, formulation: &'static str) {
+        self.left_out.push(formulation);
+    }
+
+    /// Whether a formulation is left out.
+    #[must_use]
+    pub fn leaves_out(&self, formulation: &str) -> bool {
+        self.left_out.contains(&formulation)
     }
 
     /// A large expression kept whole, so that its users share it; a small one as it is.

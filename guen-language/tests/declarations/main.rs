@@ -22,6 +22,7 @@ mod rates;
 mod redundant;
 mod restricted;
 mod rows_of_bars;
+mod rules_of_bodies;
 mod scenes;
 mod singularities;
 mod spans;

@@ -20,6 +20,9 @@ use crate::algebra::ExprId;
 use crate::program::weighted_cost;
 use crate::workbench::Workbench;
 
+/// The reason of a formulation that is not to be tried.
+const LEFT_OUT: &str = "it is left out";
+
 /// A way to the rates of the state.
 struct Formulation {
     /// The name of the formulation, as in [`Formulated::name`].
@@ -29,11 +32,26 @@ struct Formulation {
     find: fn(&mut Workbench, &mut Search<'_>) -> Result<Outcome, DerivationError>,
 }
 
+/// The name of the formulation that solves the equations as they are multiplied out.
+const MULTIPLIED_OUT: &str = "multiplied out";
+
+/// The name of the formulation that goes through the bodies.
+pub(super) const BODIES: &str = "bodies";
+
+/// The names of all formulations, in the order in which they are tried: for [`Workbench::leave_out`].
+///
+/// ```
+/// assert!(guen_symbolic::formulation_names().any(|name| name == "bodies"));
+/// ```
+pub fn formulation_names() -> impl Iterator<Item = &'static str> {
+    FORMULATIONS.iter().map(|formulation| formulation.name)
+}
+
 /// All formulations, in the order in which they are tried.
 const FORMULATIONS: [Formulation; 10] = [
     Formulation { name: "constraint forces", is_by_spins: false, find: by_constraint_forces },
-    Formulation { name: "multiplied out", is_by_spins: false, find: multiplied_out },
-    Formulation { name: "bodies", is_by_spins: false, find: of_bodies },
+    Formulation { name: MULTIPLIED_OUT, is_by_spins: false, find: multiplied_out },
+    Formulation { name: BODIES, is_by_spins: false, find: of_bodies },
     Formulation { name: "projected", is_by_spins: false, find: projected },
     Formulation { name: "shared", is_by_spins: false, find: shared },
     Formulation { name: "recursive", is_by_spins: false, find: recursive },
@@ -158,6 +176,11 @@ pub(super) fn walk(
     let mut declined = Vec::new();
     let mut shown: Option<(usize, Solution)> = None;
     'list: for Formulation { name, is_by_spins, find } in FORMULATIONS {
+        // The others need the equations solved, whether their rates are taken or not.
+        if bench.leaves_out(name) && name != MULTIPLIED_OUT {
+            declined.push((name, LEFT_OUT));
+            continue;
+        }
         let outcome = find(bench, &mut search)?;
         affordable(bench)?;
         let candidates = match outcome {
@@ -202,6 +225,10 @@ pub(super) fn walk(
     };
     // Those of the solution come first.
     formulations[..=place].rotate_right(1);
+    if bench.leaves_out(MULTIPLIED_OUT) && formulations.iter().any(|other| other.name != MULTIPLIED_OUT) {
+        formulations.retain(|other| other.name != MULTIPLIED_OUT);
+        declined.push((MULTIPLIED_OUT, LEFT_OUT));
+    }
     frame.velocities = formulations[0].rates[..frame.velocities.len()].to_vec();
     Ok(Found { equations, solution, formulations, declined, symmetry })
 }
@@ -229,7 +256,8 @@ impl Search<'_> {
     fn base(&mut self, bench: &mut Workbench) -> Result<Outcome, DerivationError> {
         let solution = solved(bench, self.stated.shown())?;
         let rates = self.rates(&solution.accelerations);
-        self.least = weighted_cost(&bench.graph, &rates);
+        let is_compared = !bench.leaves_out(MULTIPLIED_OUT);
+        self.least = if is_compared { weighted_cost(&bench.graph, &rates) } else { u64::MAX };
         Ok(Outcome::Found(vec![Candidate { rates, rank: Rank::Base(solution) }]))
     }
 }
@@ -292,7 +320,7 @@ fn of_bodies(bench: &mut Workbench, search: &mut Search<'_>) -> Result<Outcome, 
     if cost >= search.least {
         return Ok(Outcome::Declined("the equations as stated promise less"));
     }
-    let is_half = cost > OTHER_WAYS && 2 * cost <= search.least;
+    let is_half = cost > OTHER_WAYS && cost <= search.least / 2;
     let rank = if is_half {
         let accelerations = found.rates[search.frame.velocities.len()..].to_vec();
         Rank::Last(Solution::of_pivots(bench, accelerations, &found.pivots))

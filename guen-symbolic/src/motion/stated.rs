@@ -5,6 +5,7 @@ use super::base_parameters::InBaseParameters;
 use super::body_axes::InBodyAxes;
 use super::equations::forms;
 use super::fault::{DerivationError, affordable};
+use super::formulations::BODIES;
 use super::graph::Turn;
 use super::large::{self, Alone};
 use super::projection::Projected;
@@ -85,7 +86,7 @@ impl Stated {
         let is_large = is_large(bench, system) || velocities > MULTIPLIED_VELOCITIES;
         // Particles have a way of their own, and are looked at as bodies after it.
         let turns = system.structure.frames().len() > 1;
-        let mut bodies = (is_large || turns).then(|| {
+        let mut bodies = ((is_large || turns) && !bench.leaves_out(BODIES)).then(|| {
             let least = if is_large { 0 } else { least(bench, system, frame) };
             let is_stated = |cost: u64| is_large || promises_least(cost, least);
             multibody::rates(bench, system, frame, partials, is_large, is_stated)

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use guen_language::derive::{Derived, Level, derive};
 use guen_language::diagnostics::collect;
 use guen_language::{model, parse};
-use guen_symbolic::{SymbolId, evaluate_function, evaluate_prepare};
+use guen_symbolic::{SymbolId, evaluate_function, evaluate_prepare, formulation_names};
 
 /// How many a test draws: so many in every run, and more with `GUEN_ROUNDS`, as `.ci/run` asks for them in an optimised build.
 pub fn rounds(quick: u64) -> u64 {
@@ -32,10 +32,23 @@ pub fn by_two_threads<I: Sync, T: Send>(all: &[I], look: impl Fn(&I) -> T + Sync
 
 /// Looks at what follows from a declaration in which nothing is wrong.
 pub fn derived<T>(text: &str, look: impl FnOnce(&Derived<'_>) -> T) -> T {
+    derived_without(text, |_| false, look)
+}
+
+/// Looks at what follows from a declaration in which nothing is wrong where some formulations are not tried.
+pub fn derived_without<T>(
+    text: &str,
+    is_left_out: impl Fn(&str) -> bool,
+    look: impl FnOnce(&Derived<'_>) -> T,
+) -> T {
     let (declaration, report) = parse::parse(text.parse().expect("tokens"));
     assert!(report.is_empty(), "{}\n{text}", report.to_compile_errors());
     let declaration = declaration.expect("a declaration");
-    let (derived, report) = collect(|faults| derive(model::resolve(&declaration, faults)?, faults));
+    let (derived, report) = collect(|faults| {
+        let mut model = model::resolve(&declaration, faults)?;
+        formulation_names().filter(|name| is_left_out(name)).for_each(|name| model.bench.leave_out(name));
+        derive(model, faults)
+    });
     assert!(report.is_empty(), "{}\n{text}", report.to_compile_errors());
     look(&derived.expect("a derivation"))
 }

@@ -90,12 +90,11 @@ impl Kinematics<'_> {
     }
 
     /// The rate of a variable that is turned into known ones.
-    pub(super) fn back_rate(&mut self, image: Var, var: Var) -> Num {
-        let Some((terms, offset)) = back(self.numbers, self.tree, self.variables, image) else {
+    pub(super) fn back_rate(&mut self, image: Var) -> Num {
+        let Some(terms) = back(self.numbers, self.tree, self.variables, image) else {
             return Num::ZERO;
         };
-        let _ = var;
-        let mut sum = self.slope(offset);
+        let mut sum = Num::ZERO;
         for (other, c) in terms {
             let rate = self.component_rate(other);
             let slope = self.slope(c);

@@ -327,7 +327,7 @@ impl<'a> Kinematics<'a> {
             (Some(Def::Known | Def::Core(_)), _) => Num::ZERO,
             (Some(Def::Row(row)), _) => self.row_rate(row, var),
             (Some(Def::Link(other)), _) => self.link_rate(other, var),
-            (Some(Def::Back(image)), _) => self.back_rate(image, var),
+            (Some(Def::Back(image)), _) => self.back_rate(image),
             (_, Kind::Spin(axes, q)) => self.spin_rate(axes, q),
             (_, Kind::Rate(i)) => {
                 // Nothing in the tree determines it: along the motion, at zero rates of the parameters.

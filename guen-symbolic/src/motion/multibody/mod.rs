@@ -175,7 +175,7 @@ fn assembled<T>(
         numbers.define(*eta, Num::ZERO);
     }
     let mut tree = Tree::new(bench, numbers, system, partials)?;
-    let strains = Strain::all(bench, numbers, (system, frame), &tree, moving..system.forms.degrees);
+    let strains = Strain::all(bench, numbers, (system, frame), &tree, moving..system.forms.degrees)?;
     let shapes = declared::shapes(bench, numbers, system, (&mut tree, &strains))?;
     let variables = Variables::new(bench, numbers, system, &tree)?;
     let declared = Declared::new(bench, numbers, system, partials, (&tree, &variables), &shapes)?;

@@ -327,8 +327,7 @@ impl Planner<'_> {
                 terms.map_or_else(Linear::new, |(terms, _)| solved(self.numbers, terms, var))
             }
             Some(Def::Back(image)) => {
-                let back = back(self.numbers, self.tree, self.variables, image);
-                back.map_or_else(Linear::new, |(terms, _)| terms)
+                back(self.numbers, self.tree, self.variables, image).unwrap_or_default()
             }
             Some(Def::Kinematic) | None => self.kinematic(var).map_or_else(Vec::new, |(terms, _)| terms),
         };

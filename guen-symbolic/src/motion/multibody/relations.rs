@@ -55,6 +55,8 @@ pub(super) fn turned_components(
         _ => return None,
     };
     let components: &[usize] = match tree.axes[axes].turn {
+        // The spin of a ball joint is between its axes: its rates would have to be known first.
+        Turn::By { .. } if matches!(variables.kind(var), Kind::Spin(..)) => return None,
         Turn::World => return None,
         Turn::About { axis, .. } => &[[1, 2], [2, 0], [0, 1]][axis],
         Turn::By { .. } => &[0, 1, 2],
@@ -74,7 +76,7 @@ pub(super) fn back(
     tree: &Tree,
     variables: &Variables,
     image: Var,
-) -> Option<(Linear, Num)> {
+) -> Option<Linear> {
     let (images, sources) = turned_components(tree, variables, image)?;
     let place = images.iter().position(|var| *var == image)?;
     let axes = match variables.kind(image) {
@@ -82,34 +84,15 @@ pub(super) fn back(
         Kind::Velocity(point, _) => tree.points[point].axes,
         _ => return None,
     };
-    let mut offset = Num::ZERO;
     let mut terms: Linear = match &tree.axes[axes].turn {
         Turn::World => return None,
         Turn::About { cosine, sine, .. } if place == 0 => vec![(images[0], *cosine), (images[1], sine.neg())],
         Turn::About { cosine, sine, .. } => vec![(images[0], *sine), (images[1], *cosine)],
-        Turn::By { matrix, spin } => {
-            let mut terms: Linear = (0..3).map(|q| (images[q], matrix[place][q])).collect();
-            if matches!(variables.kind(image), Kind::Spin(..)) {
-                for q in 0..3 {
-                    if let Some((var, c)) = variables.of_joint(axes, q) {
-                        terms.push((var, numbers.mul(matrix[place][q], c).neg()));
-                        continue;
-                    }
-                    for (i, c) in &spin[q].terms {
-                        terms.push((variables.rate(*i), numbers.mul(matrix[place][q], *c).neg()));
-                    }
-                    let own = spin[q].offset.unwrap_or(Num::ZERO);
-                    let own = numbers.mul(matrix[place][q], own);
-                    offset = numbers.sub(offset, own);
-                }
-            }
-            terms
-        }
+        Turn::By { matrix, .. } => (0..3).map(|q| (images[q], matrix[place][q])).collect(),
     };
     let Class::Of(_, factor) = variables.class(sources[place]) else { return None };
     terms.iter_mut().for_each(|(_, c)| *c = numbers.div(*c, factor));
-    let offset = numbers.div(offset, factor);
-    Some((reduced(numbers, variables, &terms), offset))
+    Some(reduced(numbers, variables, &terms))
 }
 
 /// A form that vanishes, solved for a variable.
@@ -219,7 +202,7 @@ pub(super) fn definition(
             let offset = numbers.div(offset, pivot).neg();
             Some((solved(numbers, terms, var), offset))
         }
-        Def::Back(image) => back(numbers, tree, variables, image),
+        Def::Back(image) => Some((back(numbers, tree, variables, image)?, Num::ZERO)),
         Def::Kinematic => {
             let (terms, offset) = raw_kinematic(tree, variables, var)?;
             Some((reduced(numbers, variables, &terms), offset))

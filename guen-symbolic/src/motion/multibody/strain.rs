@@ -1,11 +1,11 @@
 //! The effect of a displacement on bodies where the matrix of a frame is a rotation on the constraints alone.
 //!
-//! A quaternion turns where its length is one, and the displacement along the operator of that constraint stretches. Along `X` a
-//! frame `B` has `B^T X(B) = [theta]x + e`, with the turn `theta` of its angular velocity. Beyond what a turn does, the places `s`,
-//! the axes `e` and the angular velocities `F` of what hangs on it change by
+//! A quaternion turns where its length is one, and the displacement along the operator of that constraint stretches, the same in all
+//! directions. Along `X` a frame `B` has `B^T X(B) = [theta]x + e`, with the turn `theta` of its angular velocity and a number `e`.
+//! Beyond what a turn does, the places `s`, the axes `e` and the angular velocities `F` of what hangs on it change by
 //!
 //! ```text
-//! s_c = B^T (s_p + e_p r),   e_c = B^T e_p B + e,   F_c = B^T F_p - e^T B^T omega_p + d omega(x', X) + omega x theta
+//! s_c = B^T (s_p + e_p r),   e_c = e_p + e,   F_c = B^T F_p - e B^T omega_p + d omega(x', X) + omega x theta
 //! ```
 //!
 //! and by d'Alembert's principle the inertia of a body does the work `m a.s + (I omega).F` there, beside that of its turns. Forms that
@@ -13,7 +13,7 @@
 
 use super::axes::Turned;
 use super::rotations::Matrix;
-use super::tree::{Mat3, Seat, Tree, Turn, Vec3, plus};
+use super::tree::{Mat3, Seat, Tree, Turn, Vec3};
 use super::variables::{Var, Variables};
 use crate::algebra::ExprId;
 use crate::motion::{Frame, Mechanics};
@@ -26,49 +26,46 @@ pub(super) const NOTHING: Vec3 = [Num::ZERO; 3];
 pub(super) struct Strain {
     /// The form, counted from 0.
     pub(super) form: usize,
-    /// `e`, in the axes.
-    axes: Vec<Mat3>,
+    /// `e` of each set of axes.
+    axes: Vec<Num>,
 }
 
 impl Strain {
-    /// Finds the displacements that strain axes, along the operators of these forms.
+    /// Finds the displacements that strain axes, along the operators of these forms; `None` where one strains in some directions more
+    /// than in others.
     pub(super) fn all(
         bench: &mut Workbench,
         numbers: &mut Numbering,
         (system, frame): (&Mechanics, &Frame),
         tree: &Tree,
         forms: std::ops::Range<usize>,
-    ) -> Vec<Strain> {
+    ) -> Option<Vec<Strain>> {
         let mut found = Vec::new();
         for form in forms {
-            let mut axes: Vec<Mat3> = Vec::new();
+            let mut axes: Vec<Num> = Vec::new();
             for (index, node) in tree.axes.iter().enumerate() {
-                let mut whole = [NOTHING; 3];
-                if index > 0 {
-                    let parent = columns(&axes[node.parent]).map(|e| tree.outwards(numbers, index, &e));
-                    whole = columns(&parent).map(|e| tree.outwards(numbers, index, &e));
-                }
+                let mut whole = if index > 0 { axes[node.parent] } else { Num::ZERO };
                 if let Some((matrix, along)) = displaced(bench, numbers, (system, frame), tree, (index, form))
                 {
-                    let own = own(bench, numbers, (system, tree), (index, matrix), &along);
-                    whole = [0, 1, 2].map(|q| plus(numbers, &whole[q], &own[q]));
+                    let own = own(bench, numbers, (system, tree), (index, matrix), &along)?;
+                    whole = numbers.add(whole, own);
                 }
                 axes.push(whole);
             }
-            if axes.iter().flatten().flatten().any(|e| !e.is_zero()) {
+            if axes.iter().any(|e| !e.is_zero()) {
                 found.push(Strain { form, axes });
             }
         }
-        found
+        Some(found)
     }
 
     /// Strains a vector of some axes.
     pub(super) fn of(&self, numbers: &mut Numbering, axes: usize, v: &Vec3) -> Vec3 {
-        applied(numbers, &self.axes[axes], v)
+        v.map(|v| numbers.mul(self.axes[axes], v))
     }
 
     pub(super) fn is_at(&self, axes: usize) -> bool {
-        self.axes[axes].iter().flatten().any(|e| !e.is_zero())
+        !self.axes[axes].is_zero()
     }
 }
 
@@ -113,14 +110,14 @@ pub(super) fn turn(
     })
 }
 
-/// `B^T X(B) - [theta]x`.
+/// `B^T X(B) - [theta]x`, a number times the unit matrix; `None` where it is none.
 pub(super) fn own(
     bench: &mut Workbench,
     numbers: &mut Numbering,
     (system, tree): (&Mechanics, &Tree),
     (axes, matrix): (usize, &Matrix),
     along: &Rates,
-) -> Mat3 {
+) -> Option<Num> {
     let displaced = matrix.map(|row| row.map(|e| numbers.slope_of(bench, along, e)));
     let pulled = columns(&displaced).map(|column| tree.outwards(numbers, axes, &column));
     let mut strain = columns(&pulled);
@@ -129,7 +126,9 @@ pub(super) fn own(
         strain[j][i] = numbers.sub(strain[j][i], turn);
         strain[i][j] = numbers.add(strain[i][j], turn);
     }
-    strain
+    let is_number =
+        (0..3).all(|i| (0..3).all(|j| strain[i][j] == if i == j { strain[0][0] } else { Num::ZERO }));
+    is_number.then_some(strain[0][0])
 }
 
 /// The velocities of the bodies that are strained.

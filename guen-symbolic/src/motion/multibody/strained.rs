@@ -3,7 +3,7 @@
 use super::assembly::Assembly;
 use super::axes::Turned;
 use super::kinematics::Kinematics;
-use super::strain::{NOTHING, Strain, applied, columns, displaced, displacement, own, turn};
+use super::strain::{NOTHING, Strain, applied, displaced, displacement, own, turn};
 use super::tree::{Seat, Vec3, cross, plus};
 use super::variables::Var;
 use crate::motion::velocity_forms::VelocityPartials;
@@ -24,7 +24,7 @@ impl Kinematics<'_> {
         points
     }
 
-    /// `F`, in the axes; `None` where an angular velocity is written in parameters.
+    /// `F`, in the axes; `None` where an angular velocity is written in parameters, or is driven.
     fn curls(&mut self, partials: &mut VelocityPartials, strain: &Strain) -> Option<Vec<Vec3>> {
         let (tree, system, frame) = (self.tree, self.system, self.frame);
         let mut curls: Vec<Vec3> = vec![NOTHING];
@@ -32,10 +32,10 @@ impl Kinematics<'_> {
             let mut curl = tree.outwards(self.numbers, index, &curls[node.parent]);
             let of = displaced(self.bench, self.numbers, (system, frame), tree, (index, strain.form));
             if let Some((matrix, along)) = of {
-                let strain = own(self.bench, self.numbers, (system, tree), (index, matrix), &along);
+                let strain = own(self.bench, self.numbers, (system, tree), (index, matrix), &along)?;
                 let carried = self.spin(node.parent);
                 let carried = tree.outwards(self.numbers, index, &carried);
-                let back = columns(&strain).map(|column| self.numbers.dot(&column, &carried).neg());
+                let back = carried.map(|e| self.numbers.mul(strain, e).neg());
                 let turn = turn(self.numbers, (system, tree), index, &along);
                 let relative = self.relative_spin(index);
                 let turning = cross(self.numbers, &relative, &turn);
@@ -54,7 +54,9 @@ impl Kinematics<'_> {
         let mut curl = NOTHING;
         for (q, component) in spin.iter().enumerate() {
             let form = partials.affine(self.bench, *component).filter(|form| form.on_etas.is_empty())?;
-            curl[q] = self.numbers.slope_of(self.bench, along, form.offset).neg();
+            if !self.numbers.slope_of(self.bench, along, form.offset).is_zero() {
+                return None;
+            }
             for (i, b) in form.on_velocities {
                 let rate = self.numbers.slope_of(self.bench, &motion, b);
                 let slope = self.numbers.slope_of(self.bench, along, b);
@@ -92,28 +94,26 @@ impl Assembly<'_> {
         let acceleration = [0, 1, 2].map(|q| self.kinematics.acceleration(point, q));
         let gradient = self.kinematics.gradient(seat.axes);
         let w = self.kinematics.spin(seat.axes);
-        let alpha = self.kinematics.spin_rates(seat.axes);
         let n = &mut *self.kinematics.numbers;
         let c = &seat.center;
         let h = c.map(|c| n.mul(seat.mass, c));
         let stretched = strain.of(n, seat.axes, &h);
         let shifted = s.map(|s| n.mul(seat.mass, s));
         let whole = plus(n, &shifted, &stretched);
-        // m (s + e c).(a + U c), what is quadratic in c by its symmetric part.
+        // m (s + e c).(a + U c)
         let turned = applied(n, &gradient, &h);
         let (straight, mixed) = (n.dot(&whole, &acceleration), n.dot(s, &turned));
         let mut force = n.add(straight, mixed);
-        let mut moment = cross(n, &h, s);
+        let moment = cross(n, &h, s);
         for k in 0..3 {
             let (i, j) = ((k + 1) % 3, (k + 2) % 3);
             let (above, below) = (n.mul(stretched[i], c[j]), n.mul(stretched[j], c[i]));
-            let (even, odd) = (n.add(above, below), n.sub(below, above));
+            let even = n.add(above, below);
             let product = n.mul(w[i], w[j]);
             let diagonal = n.mul(stretched[k], c[k]);
             let own = n.mul(diagonal, gradient[k][k]);
-            let (across, along) = (n.mul(even, product), n.mul(odd, alpha[k]));
-            force = n.sum([force, own, across, along]);
-            moment[k] = n.add(moment[k], odd);
+            let across = n.mul(even, product);
+            force = n.sum([force, own, across]);
         }
         self.push(own, force.neg());
         for q in 0..3 {
