@@ -85,7 +85,7 @@ pub const SECTIONS: &[&str] = &[
 pub const PARAMETER_ALIASES: &[&str] = &["quasi_velocities", "speeds"];
 
 /// The statements of a scene.
-pub const SCENE_STATEMENTS: &[&str] = &["track", "fix", "provide"];
+pub const SCENE_STATEMENTS: &[&str] = &["track", "fix", "provide", "modes"];
 
 /// The fields of a body.
 pub const BODY_FIELDS: &[&str] = &["mass", "inertia", "center", "orientation"];

@@ -26,6 +26,7 @@ pub use algebra::{
 };
 pub use geometry::{
     Brackets, Closure, Combination, Form, Forms, Operators, RateChoice, SingularForms, chosen_rates,
+    independent_rows,
 };
 pub use motion::{
     BodyNode, Class, Component, Dependence, Derivation, DerivationError, Energies, Equations,

@@ -123,6 +123,27 @@ mechanical_system! {
             /// The tyre on the road.
             tyre: gap = z - a, slip = wheel.velocity_at(p).x, friction = mu_road + (mu_ice - mu_road)*ice, restitution = e;
         }
+        outputs { force = reaction(tyre); }
+        scene Rolling { modes { tyre: stick; } track speed_ahead; }
+        scene Turning { modes { tyre: stick; } track spin, speed_ahead, phi; provide force, energy, reactions(tyre); }
+        scene Flying { modes { tyre: open; } provide force; }
+    }
+}
+
+mechanical_system! {
+    /// The wheel as a user declares it who knows that it rolls.
+    pub system RollingWheel {
+        constants { m > 0 = 20, a > 0 = 3/10, J > 0 = 1, c >= 0 = 1/2, g = 9.81 }
+        inputs { torque }
+        coordinates { x, z, phi }
+        bodies { wheel { mass: m, center: vec(x, z), inertia: diag(0, 0, J), orientation: rot_z(-phi) } }
+        gravity = vec(0, -g);
+        parameters { speed_ahead = dot(x); }
+        forces { torque along dot(phi); -c*speed_ahead along speed_ahead; }
+        let p = vec(x, z - a);
+        holonomic { touches: z - a = 0; }
+        constraints { rolls: wheel.velocity_at(p).x = 0; }
+        scene Rolling { track speed_ahead; }
     }
 }
 
@@ -159,6 +180,9 @@ mechanical_system! {
         let slip_y = dot(eta) + a*sin(theta)*cos(psi)*dot(theta) + a*cos(theta)*sin(psi)*dot(psi) + a*sin(psi)*dot(phi);
         contacts { floor: gap = zeta - a*sin(theta), slip = vec(slip_x, slip_y), friction = mu; }
         outputs { above = gap(floor); across = slip(floor); force = reaction(floor); }
+        scene Rolling { modes { floor: stick; } track eta3, xi; provide force; }
+        scene Whole { modes { floor: stick; } track theta, psi, phi, xi, eta, zeta; provide energy, reactions; }
+        scene Along { modes { floor: stick; } track u, w; }
     }
 }
 

@@ -5,6 +5,7 @@ mod declared;
 mod free_motion;
 #[path = "../../guen-runtime/tests/hybrid/json.rs"]
 mod json;
+mod one_mode;
 mod permanent;
 mod piecewise;
 mod printed;

@@ -10,7 +10,7 @@ use super::selection::StateIndex;
 pub enum Reason {
     /// `track` names it, or there is no `track` and it is a parameter.
     Tracked,
-    /// Something that the scene provides depends on it.
+    /// Something that this statement of the scene asks for depends on it.
     Provided(String),
     /// The rate of this variable depends on it.
     Rate(StateIndex),

@@ -15,6 +15,8 @@ pub struct SceneFacts {
     pub quadratures: Vec<Vec<Quadrature>>,
     /// Coordinates that left and that holonomic equations say of what is kept, with what they say.
     pub determined: Vec<(usize, ExprId)>,
+    /// Parameters that follow from what is kept, with what they are.
+    pub followers: Vec<(String, ExprId)>,
     /// Coordinates that holonomic equations eliminated.
     pub eliminated: Vec<usize>,
     /// The constants that are fixed, by index, and their values.

@@ -9,7 +9,7 @@ use super::contacts::ContactFacts;
 use super::facts::SceneFacts;
 use super::jacobians::Jacobians;
 use super::missing_bounds::MissingBounds;
-use super::selection::Selection;
+use super::selection::{Selection, StateIndex};
 use crate::model::Model;
 use crate::syntax::{Name, Scene};
 
@@ -21,6 +21,8 @@ pub struct Derived<'a> {
     pub system: Level,
     /// The scenes, in order.
     pub scenes: Vec<Level>,
+    /// The scenes in a single mode of contacts, each by its place among the scenes and as the only scene of a system of its own.
+    pub in_modes: Vec<(usize, Derived<'a>)>,
 }
 
 /// A level of detail: the system itself, or a scene.
@@ -92,6 +94,8 @@ pub(crate) struct Subject<'d, 'a> {
     pub(crate) model: &'d Model<'a>,
     /// The level.
     pub(crate) level: &'d Level,
+    /// The model of the system that the level belongs to: another one of a scene in a single mode of contacts.
+    pub(crate) whole: &'d Model<'a>,
 }
 
 impl<'d, 'a> Subject<'d, 'a> {
@@ -99,6 +103,20 @@ impl<'d, 'a> Subject<'d, 'a> {
     pub(crate) fn scene(&self) -> Option<(&'d Scene, &'d SceneFacts)> {
         let facts = self.level.scene.as_ref()?;
         Some((self.model.scenes[facts.index].scene, facts))
+    }
+
+    /// The place of a variable in the state of the whole system.
+    pub(crate) fn place_in_whole(&self, place: StateIndex) -> StateIndex {
+        match std::ptr::eq(self.model, self.whole) {
+            true => place,
+            false => self.named_in_whole(self.model.variable_name(place)),
+        }
+    }
+
+    /// The place of a name in the state of the whole system.
+    pub(crate) fn named_in_whole(&self, name: &str) -> StateIndex {
+        let (_, size) = self.whole.sizes();
+        (0..size).find(|place| self.whole.variable_name(*place) == name).expect("a variable of the system")
     }
 
     /// The name of the struct.

@@ -18,6 +18,7 @@ mod jacobians;
 mod level;
 mod manifold;
 mod missing_bounds;
+mod one_mode;
 mod parts;
 mod programs;
 mod readable;
@@ -78,7 +79,8 @@ pub fn derive<'a>(mut model: Model<'a>, faults: &mut Faults) -> Option<Derived<'
         system.contacts = Some(facts);
     }
     let scenes = scene::derive(&mut model, &system, faults);
-    (faults.count() == before).then_some(Derived { model, system, scenes })
+    let in_modes = one_mode::derive(&mut model, &system, faults);
+    (faults.count() == before).then_some(Derived { model, system, scenes, in_modes })
 }
 
 /// The system itself, with everything that follows from its derivation.

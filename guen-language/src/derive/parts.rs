@@ -97,7 +97,7 @@ pub(super) fn parts(
     selection: &Selection,
     shown: &Contracted,
     view: &mut View,
-    coordinates: &[(usize, ExprId)],
+    determined_values: &[ExprId],
 ) -> Functions {
     let l = derivation.system.forms.degrees;
     let n = model.coordinates.len();
@@ -179,8 +179,8 @@ pub(super) fn parts(
             parts.push(Part { name, places: Some((0..outputs.len()).collect()), outputs });
         }
     }
-    if !coordinates.is_empty() {
-        let outputs = coordinates.iter().map(|(_, e)| view.of(model, *e)).collect();
+    if !determined_values.is_empty() {
+        let outputs = determined_values.iter().map(|e| view.of(model, *e)).collect();
         parts.push(Part { name: function::DETERMINED, places: None, outputs });
     }
     Functions { parts, domain, domain_names, domain_reasons, constant_pivots }

@@ -30,7 +30,7 @@ pub(super) fn derive(model: &mut Model<'_>, system: &Level, faults: &mut Faults)
     let mut derived: Vec<(Vec<(ExprId, ExprId)>, Shared)> =
         vec![(Vec::new(), (system.derivation.clone(), system.brackets.clone()))];
     let mut levels = Vec::new();
-    for (index, scene) in scenes.iter().enumerate() {
+    for (index, scene) in scenes.iter().enumerate().filter(|(_, scene)| scene.mode.is_none()) {
         let values: Vec<(ExprId, ExprId)> = scene.fixes.iter().map(|fix| (fix.symbol, fix.value)).collect();
         let known = derived.iter().find(|(known, _)| *known == values).map(|(_, shared)| shared.clone());
         let shared = known.or_else(|| {
@@ -99,9 +99,11 @@ fn level(
         }
     }
     let determined = determined(bench, &mut dependence, &derivation, &mut holding, (&variables, &reasons));
+    let followers =
+        followers(model, &derivation, &mut dependence, &mut holding, (&variables, &reasons), &determined);
     let mut known = reasons.clone();
     determined.iter().for_each(|(i, _)| known[*i] = Some(Reason::Tracked));
-    let quadratures = written.quadratures(bench, &mut dependence, &known);
+    let quadratures = written.quadratures(&mut model.bench, &mut dependence, &known);
     selection.take(model, (0..size).filter(|p| reasons[*p].is_some()).collect());
 
     // Expressions without what left.
@@ -159,7 +161,9 @@ fn level(
     let energy = view.of(model, derivation.energies.integral);
     let written: Vec<ExprId> = rates.iter().copied().chain([energy]).collect();
     let shown = shown(model, &derivation, &brackets, &written);
-    let mut functions = parts(model, &derivation, &brackets, &selection, &shown, &mut view, &determined);
+    let follow: Vec<ExprId> =
+        determined.iter().map(|(_, e)| *e).chain(followers.iter().map(|(_, e)| *e)).collect();
+    let mut functions = parts(model, &derivation, &brackets, &selection, &shown, &mut view, &follow);
     let provided = |word: &str| {
         let names = scene.scene.provides.iter().map(|provide| &provide.name);
         names.into_iter().find(|name| name.text == word && !is_output(model, name))
@@ -182,6 +186,7 @@ fn level(
         reasons,
         quadratures,
         determined,
+        followers,
         eliminated: view
             .replacements
             .iter()
@@ -259,6 +264,31 @@ fn determined(
     }
 }
 
+/// The parameters that the mode of a scene leaves out and that follow from what is kept.
+fn followers(
+    model: &mut Model<'_>,
+    derivation: &Derivation,
+    dependence: &mut Dependence,
+    holding: &mut Holding,
+    (variables, reasons): (&[Option<ExprId>], &[Option<Reason>]),
+    determined: &[(usize, ExprId)],
+) -> Vec<(String, ExprId)> {
+    let coordinates = &derivation.system.forms.coordinates;
+    let mut known = Substitution::new(determined.iter().map(|(i, value)| (coordinates[*i], *value)));
+    let bench = &mut model.bench;
+    let mut found = Vec::new();
+    for follower in &model.followers {
+        let value = holding.of(bench, derivation.outputs[follower.output]);
+        let value = known.of(&mut bench.graph, value);
+        let left = (0..variables.len()).filter(|place| reasons[*place].is_none());
+        let mut left = left.filter_map(|place| variables[place]);
+        if left.all(|x| !dependence.depends(bench, value, x)) {
+            found.push((follower.name.clone(), value));
+        }
+    }
+    found
+}
+
 fn is_output(model: &Model<'_>, name: &Name) -> bool {
     model.outputs.iter().any(|output| output.name.text == name.text)
 }
@@ -273,7 +303,12 @@ fn provided(
     let l = derivation.system.forms.degrees;
     let before = faults.count();
     let mut selection = Selection::default();
-    let known = |v: &usize| derivation.reactions[*v - l].is_some();
+    let is_loose = |v: &usize| {
+        let mode = model.declaration.in_mode.iter();
+        mode.flat_map(|mode| &mode.contacts)
+            .any(|contact| contact.is_undetermined && contact.has(&model.forms[*v].name))
+    };
+    let known = |v: &usize| derivation.reactions[*v - l].is_some() && !is_loose(v);
     for provide in &scene.scene.provides {
         let name = &provide.name;
         match name.text.as_str() {
@@ -295,8 +330,9 @@ fn provided(
                     for constraint in of {
                         let forms = model.constraints(&constraint.text);
                         if forms.is_empty() {
-                            let text = format!("`{constraint}` was left out: it says 0 = 0");
-                            faults.report(Fault::new(constraint.span(), text));
+                            faults.report(no_rows(model, constraint));
+                        } else if forms.iter().any(is_loose) {
+                            faults.report(not_determined(constraint, &constraint.text));
                         } else if !forms.iter().all(known) {
                             faults.report(no_reaction(constraint, false));
                         } else {
@@ -308,7 +344,18 @@ fn provided(
             // A form of its own, derived when this one is.
             "carried" if !is_output(model, name) => {}
             output => {
-                selection.outputs.extend(model.outputs.iter().position(|known| known.name.text == output));
+                let place = model.outputs.iter().position(|known| known.name.text == output);
+                for c in place.iter().flat_map(|o| &model.outputs[*o].components) {
+                    let symbols = model.bench.graph.symbols_in(&[model.mechanics.outputs[*c]]);
+                    let unknown = model.undetermined.iter().find(|reaction| {
+                        model.bench.graph.as_symbol(**reaction).is_some_and(|r| symbols.contains(&r))
+                    });
+                    if let Some(reaction) = unknown {
+                        faults.report(not_determined(name, &model.bench.graph.text(*reaction)));
+                        break;
+                    }
+                }
+                selection.outputs.extend(place);
             }
         }
     }
@@ -317,6 +364,22 @@ fn provided(
         list.dedup();
     }
     (faults.count() == before).then_some(selection)
+}
+
+/// A constraint without a row: it says nothing, or is a contact that does not touch.
+fn no_rows(model: &Model<'_>, name: &Name) -> Fault {
+    match &model.declaration.in_mode {
+        Some(mode) => Fault::new(name.span(), format!("`{name}` has no reaction in this scene"))
+            .note(format!("its mode is: {}", mode.words)),
+        None => Fault::new(name.span(), format!("`{name}` was left out: it says 0 = 0")),
+    }
+}
+
+/// A reaction that only together with others is determined.
+fn not_determined(place: &Name, what: &str) -> Fault {
+    Fault::new(place.span(), format!("`{what}` is not determined in the mode of this scene")).note(
+        "the rows of its contact depend on those of others: only sums of their reactions are determined",
+    )
 }
 
 fn no_reaction(name: &Name, is_free: bool) -> Fault {
@@ -364,15 +427,19 @@ fn wanted(
     let mut solved = Substitution::new(accelerations);
     let mut found = Vec::new();
     if selection.energy {
-        found.push(("energy".to_owned(), derivation.energies.integral));
+        found.push(("provide energy".to_owned(), derivation.energies.integral));
     }
     for v in &selection.reactions {
-        let name = format!("reactions({})", model.forms[*v].name);
+        let name = format!("provide reactions({})", model.forms[*v].name);
         found.extend(derivation.reactions[*v - l].map(|e| (name, e)));
     }
     for output in selection.outputs.iter().map(|o| &model.outputs[*o]) {
-        let name = &output.name.text;
+        let name = format!("provide {}", output.name.text);
         found.extend(output.components.iter().map(|c| (name.clone(), derivation.outputs[*c])));
+    }
+    for name in model.declaration.in_mode.iter().flat_map(|mode| &mode.tracked) {
+        let follower = model.followers.iter().find(|follower| follower.name == *name);
+        found.extend(follower.map(|f| (format!("track {name}"), derivation.outputs[f.output])));
     }
     for (_, e) in &mut found {
         *e = holding.of(&mut model.bench, *e);

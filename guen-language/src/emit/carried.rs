@@ -13,7 +13,7 @@ use crate::derive::{Subject, function};
 /// The module, and the methods of the level that lead there; nothing where it is not provided.
 pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let Some(level) = &subject.level.carried else { return TokenStream::new() };
-    let carried = Subject { model: subject.model, level };
+    let carried = Subject { level, ..*subject };
     let own = Layout { is_whole: false, ..Layout::new(&carried) };
     let checks = CheckOperations::of(&carried, &own).and(CheckOperations::of(subject, layout));
     let module = module(&carried, &own, layout, checks);
@@ -64,7 +64,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
 }
 
 fn module(subject: &Subject<'_, '_>, layout: &Layout, base: &Layout, checks: CheckOperations) -> TokenStream {
-    let Subject { model, level } = subject;
+    let Subject { model, level, .. } = subject;
     let text = |e: ExprId| model.bench.graph.text_limited(e, 400).unwrap_or_else(|| "(long)".to_owned());
     let lines = |texts: Vec<String>| {
         let count = texts.len();

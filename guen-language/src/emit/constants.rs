@@ -37,7 +37,7 @@ pub(super) fn values(layout: &Layout, structure: &Fields, of: &TokenStream) -> T
 
 /// The constants that a scene does not fix, then the variables that it holds.
 fn fields(subject: &Subject<'_, '_>, layout: &Layout) -> Vec<Field> {
-    let Subject { model, level } = subject;
+    let Subject { model, level, .. } = subject;
     let constants = level.selection.constants.iter().map(|c| &model.constants[*c]).enumerate();
     let constants = constants.map(|(i, c)| {
         let is_derived = layout.derived.contains(&i);

@@ -22,7 +22,7 @@ impl Loads for Places {
 impl Places {
     /// The places of a level; with all coordinates of the system for what does not belong to the state.
     fn new(subject: &Subject<'_, '_>, everywhere: bool) -> Self {
-        let Subject { model, level } = subject;
+        let Subject { model, level, .. } = subject;
         let (graph, selection) = (&model.bench.graph, &level.selection);
         let mut places = vec![String::from("unknown_symbol"); graph.symbols().count()];
         let mut put = |e: ExprId, place: String| {

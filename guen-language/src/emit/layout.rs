@@ -43,7 +43,7 @@ pub(super) const REAL: &str = "R";
 
 impl Layout {
     pub(super) fn new(subject: &Subject<'_, '_>) -> Self {
-        let Subject { model, level } = subject;
+        let Subject { model, level, .. } = subject;
         let selection = &level.selection;
         let declared = subject.name().ident.clone();
         let system = if declared == REAL { format_ident!("__guen_system") } else { declared.clone() };

@@ -7,26 +7,29 @@ use super::fields::Fields;
 use super::formula::default_text;
 use super::layout::{Layout, is_derived, variable_name};
 use super::text::tokens;
-use crate::derive::{Level, StateIndex, Subject};
-use crate::model::Model;
+use crate::derive::{StateIndex, Subject};
 use crate::names::module_name;
 use crate::syntax::Name;
 
 /// `Level` for what steppers integrate; for a scene the conversions too.
 pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
-    let Subject { model, level } = subject;
-    let (_, full) = model.sizes();
+    let Subject { level, whole, .. } = subject;
+    let (_, full) = whole.sizes();
     let size = layout.size;
-    let places = &level.selection.variables;
+    let places = level.selection.variables.iter().map(|place| subject.place_in_whole(*place));
+    let places: Vec<StateIndex> = places.collect();
     let name = &subject.name().text;
     let layers: Vec<TokenStream> = subject.scene().map_or(Vec::new(), |(_, facts)| {
         let layers = facts.quadratures.iter();
-        let places = layers.map(|layer| layer.iter().map(|quadrature| quadrature.place));
+        let places =
+            layers.map(|layer| layer.iter().map(|quadrature| subject.place_in_whole(quadrature.place)));
         places.map(|places| quote!(&[#(#places),*])).collect()
     });
-    let determined: Vec<StateIndex> =
-        subject.scene().map_or(Vec::new(), |(_, facts)| facts.determined.iter().map(|(i, _)| *i).collect());
-    let held = level.selection.held.iter().map(|held| held.place);
+    let determined: Vec<StateIndex> = subject.scene().map_or(Vec::new(), |(_, facts)| {
+        let coordinates = facts.determined.iter().map(|(i, _)| subject.place_in_whole(*i));
+        coordinates.chain(facts.followers.iter().map(|(name, _)| subject.named_in_whole(name))).collect()
+    });
+    let held = level.selection.held.iter().map(|held| subject.place_in_whole(held.place));
     let held: Vec<(StateIndex, usize)> = held.zip(level.selection.constants.len()..).collect();
     let owner = |owner: TokenStream, prepared: TokenStream| {
         let hold = (!held.is_empty()).then(|| {
@@ -77,18 +80,14 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
 }
 
 /// The table of all levels.
-pub(super) fn table(model: &Model<'_>, scenes: &[Level]) -> TokenStream {
-    let modules: Vec<Ident> = scenes
-        .iter()
-        .filter_map(|level| level.scene.as_ref())
-        .map(|facts| module_name(&model.scenes[facts.index].scene.name.ident, "scene"))
-        .collect();
+pub(super) fn table(scenes: &[Subject<'_, '_>]) -> TokenStream {
+    let modules: Vec<Ident> = scenes.iter().map(|scene| module_name(&scene.name().ident, "scene")).collect();
     let count = 1 + modules.len();
     quote!(__guen::levels!(#count #(#modules)*);)
 }
 
 fn conversions(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
-    let Subject { model, level } = subject;
+    let Subject { model, level, whole: whole_model } = subject;
     let scene = &layout.system;
     let whole = &model.declaration.name.ident;
     let selection = &level.selection;
@@ -98,8 +97,9 @@ fn conversions(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let own_fields = Fields::new(given.chain(&held)).of_record("Constants");
     let whole_fields = Fields::new(model.constants.iter().map(|constant| constant.name));
     let whole_fields = whole_fields.of_record("Constants").of_outer();
-    let (_, full) = model.sizes();
-    let whole_state = Fields::new(&(0..full).map(|place| variable_name(model, place)).collect::<Vec<Name>>());
+    let (_, full) = whole_model.sizes();
+    let names = (0..full).map(|place| variable_name(whole_model, place));
+    let whole_state = Fields::new(&names.collect::<Vec<Name>>());
     let count = selection.constants.len();
     let marker = |is_empty: bool| is_empty.then(|| quote!(real: ::core::marker::PhantomData,));
     let own_marker = marker(layout.constants == 0);
@@ -148,7 +148,7 @@ fn conversions(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
         }
     });
     let at_rest = selection.held.iter().map(|held| {
-        let name = whole_state.access(held.place);
+        let name = whole_state.access(subject.place_in_whole(held.place));
         quote!(state.#name)
     });
     let built = own_fields.literal(&kept.chain(at_rest).collect::<Vec<_>>());
@@ -169,11 +169,11 @@ fn conversions(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let whole_constants = whole_fields.literal(&whole_constants.collect::<Vec<_>>());
     let kept_values = (0..count).any(held_back).then(|| whole_values.clone());
     let of_state = level.selection.variables.iter().map(|place| {
-        let name = whole_state.access(*place);
+        let name = whole_state.access(subject.place_in_whole(*place));
         quote!(state.#name)
     });
     let of_state = layout.state.literal(&of_state.collect::<Vec<_>>());
-    let within = within(level, layout, &whole_state);
+    let within = within(subject, layout, &whole_state);
     let copied = whole_state.copied();
     let what = if fixes.is_empty() { "" } else { ", if they are those that the scene fixes" };
     let docs =
@@ -272,14 +272,14 @@ fn conversions(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
 }
 
 /// The state of the system out of that of a scene and of `rest`.
-fn within(level: &Level, layout: &Layout, whole: &Fields) -> TokenStream {
-    let variables = &level.selection.variables;
+fn within(subject: &Subject<'_, '_>, layout: &Layout, whole: &Fields) -> TokenStream {
+    let variables = &subject.level.selection.variables;
     if whole.is_flat() && layout.state.is_flat() {
         let fields = &layout.state.accesses()[..variables.len()];
         return quote!(super::State { #(#fields: self.#fields,)* ..rest });
     }
     let set = variables.iter().enumerate().map(|(own, place)| {
-        let (to, from) = (whole.access(*place), layout.state.access(own));
+        let (to, from) = (whole.access(subject.place_in_whole(*place)), layout.state.access(own));
         quote!(all.#to = self.#from;)
     });
     quote! {

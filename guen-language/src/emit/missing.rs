@@ -60,7 +60,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
 }
 
 fn quantities(subject: &Subject<'_, '_>) -> Vec<Quantity> {
-    let Subject { model, level } = subject;
+    let Subject { model, level, .. } = subject;
     let (selection, name) = (&level.selection, subject.name());
     let line = |line: &str| format!("write `provide {line};` in scene `{name}`");
     let system = &model.declaration.name;
@@ -73,7 +73,13 @@ fn quantities(subject: &Subject<'_, '_>) -> Vec<Quantity> {
     };
     add(selection.energy, signatures::ENERGY, line("energy"));
     let has_reactions = level.derivation.reactions.iter().any(Option::is_some);
-    add(!has_reactions || !selection.reactions.is_empty(), signatures::REACTIONS, line("reactions"));
+    // The records of the whole system are not those of one that has other constraints.
+    let has_records = std::ptr::eq(subject.model, subject.whole);
+    add(
+        !has_records || !has_reactions || !selection.reactions.is_empty(),
+        signatures::REACTIONS,
+        line("reactions"),
+    );
     let outputs: Vec<&str> = model.outputs.iter().map(|output| output.name.text.as_str()).collect();
     let no_outputs = outputs.is_empty() || !selection.outputs.is_empty();
     add(no_outputs, signatures::OUTPUTS, line(&outputs.join(", ")));
@@ -88,7 +94,7 @@ fn quantities(subject: &Subject<'_, '_>) -> Vec<Quantity> {
     let is_position = |form: &crate::model::FormEntry<'_>| form.kind == FormKind::Holonomic;
     let has_residuals = !selection.holonomic.is_empty() || !model.forms.iter().any(is_position);
     let note = "a scene has the residuals of holonomic equations of which it keeps every coordinate";
-    add(has_residuals, signatures::RESIDUALS, note.to_owned());
+    add(!has_records || has_residuals, signatures::RESIDUALS, note.to_owned());
     let note = "the velocities of a scene's coordinates are in `rhs`";
     add(false, signatures::VELOCITIES, note.to_owned());
     for signature in

@@ -57,17 +57,18 @@ pub fn outline(derived: Derived<'_>) -> TokenStream {
 }
 
 fn items(derived: &Derived<'_>, is_outline: bool) -> TokenStream {
-    let Derived { model, system, scenes } = derived;
+    let Derived { model, system, .. } = derived;
     let facade = facade(model.declaration);
-    let whole = Subject { model, level: system };
+    let whole = Subject { model, level: system, whole: model };
+    let scenes = scenes(derived);
     let inner: Vec<TokenStream> = scenes
         .iter()
         .map(|scene| {
             let private = quote!(super::__guen);
-            module(&Subject { model, level: scene }, &private, &quote!(pub), &TokenStream::new(), is_outline)
+            module(scene, &private, &quote!(pub), &TokenStream::new(), is_outline)
         })
         .collect();
-    let levels = levels::table(model, scenes);
+    let levels = levels::table(&scenes);
     let uses = (!is_outline).then(|| uses::items(&model.identifiers));
     let visibility = model.declaration.visibility.outside();
     let (of_instances, inside) = components::of_instances(model, &facade);
@@ -79,6 +80,21 @@ fn items(derived: &Derived<'_>, is_outline: bool) -> TokenStream {
         is_outline,
     );
     quote!(#module #of_instances)
+}
+
+/// The scenes in order.
+fn scenes<'d, 'a>(derived: &'d Derived<'a>) -> Vec<Subject<'d, 'a>> {
+    let whole = &derived.model;
+    let of_whole = derived.scenes.iter().filter_map(|level| {
+        let place = level.scene.as_ref()?.index;
+        Some((place, Subject { model: whole, level, whole }))
+    });
+    let in_modes = derived.in_modes.iter().flat_map(|(place, own)| {
+        own.scenes.iter().map(|level| (*place, Subject { model: &own.model, level, whole }))
+    });
+    let mut scenes: Vec<(usize, Subject<'d, 'a>)> = of_whole.chain(in_modes).collect();
+    scenes.sort_by_key(|(place, _)| *place);
+    scenes.into_iter().map(|(_, scene)| scene).collect()
 }
 
 /// The module of a level, and the struct beside it.

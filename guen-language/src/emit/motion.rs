@@ -132,7 +132,7 @@ fn residuals(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
 
 /// The checks of pivots that depend on constants alone, where `constants` and `hoisted` are at hand.
 pub(super) fn pivots(subject: &Subject<'_, '_>) -> Option<TokenStream> {
-    let Subject { model, level } = subject;
+    let Subject { model, level, .. } = subject;
     let texts: Vec<String> = level.constant_pivots.iter().map(|e| model.bench.graph.text(*e)).collect();
     let indices = 0..texts.len();
     (!texts.is_empty()).then(|| {

@@ -7,7 +7,7 @@ use super::layout::Layout;
 use crate::derive::Subject;
 
 pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
-    let Subject { model, level } = subject;
+    let Subject { model, level, .. } = subject;
     let count = level.selection.holonomic.len();
     if count == 0 {
         return TokenStream::new();

@@ -20,7 +20,7 @@ struct Field {
 }
 
 pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
-    let Subject { model, level } = subject;
+    let Subject { model, level, .. } = subject;
     let selection = &level.selection;
     let units = &model.units;
     let field = |name: &Name, docs: &Docs, fallback: String, unit: Option<&String>| Field {
@@ -141,7 +141,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
 
 /// The state of a carried form: the variables, then the functions.
 pub(super) fn carried(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
-    let Subject { model, level } = subject;
+    let Subject { model, level, .. } = subject;
     let places = level.selection.variables.iter().map(|place| format!("`{}`.", model.variable_name(*place)));
     let functions = level.selection.carried.iter();
     let functions = functions.map(|f| {
@@ -164,7 +164,7 @@ pub(super) fn carried(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream
 
 /// The names of the states of a carried form.
 fn names(subject: &Subject<'_, '_>) -> Vec<Name> {
-    let Subject { model, level } = subject;
+    let Subject { model, level, .. } = subject;
     let variables = level.selection.variables.iter().map(|place| variable_name(model, *place));
     variables.chain(level.selection.carried.iter().map(|f| carried_field(model, f))).collect()
 }

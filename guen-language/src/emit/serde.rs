@@ -9,7 +9,7 @@ use crate::derive::Subject;
 use crate::syntax::Name;
 
 pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
-    let Subject { model, level } = subject;
+    let Subject { model, level, .. } = subject;
     let selection = &level.selection;
     let given = selection.constants.iter().map(|c| model.constants[*c].name.clone());
     let held = selection.held.iter().map(|held| variable_name(model, held.place));

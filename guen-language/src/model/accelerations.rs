@@ -63,7 +63,11 @@ impl Evaluator<'_> {
             );
         };
         if self.scope.category(&name.text) == Some(Category::Contact) {
-            return Ok(self.contact_named(REACTION, arguments, list)?.1.reaction);
+            let contact = self.contact_named(REACTION, arguments, list)?.1;
+            return Ok(match contact.is_held {
+                true => self.multipliers(contact.reaction, name),
+                false => contact.reaction,
+            });
         }
         let value = self.name(name)?;
         let category = self.scope.category(&name.text);
@@ -74,8 +78,16 @@ impl Evaluator<'_> {
                 format!("`{name}` is {noun}, and reactions are of constraints"),
             ));
         }
+        Ok(self.multipliers(value, name))
+    }
+
+    /// The multipliers of forms.
+    fn multipliers(&mut self, value: Value, name: &Name) -> Value {
         let mut symbol_of = |eta: ExprId| {
             let Some(symbol) = self.bench.graph.as_symbol(eta) else { return eta };
+            if self.bench.graph.symbol_info(symbol).role != Role::QuasiVelocity {
+                return eta;
+            }
             if let Some((_, known, _)) = self.motion.reactions.iter().find(|(of, ..)| *of == eta) {
                 return *known;
             }
@@ -84,10 +96,10 @@ impl Evaluator<'_> {
             self.motion.reactions.push((eta, reaction, name.span()));
             reaction
         };
-        Ok(match value {
+        match value {
             Value::Vector(etas) => Value::Vector(etas.map(&mut symbol_of)),
             Value::Scalar(eta) => Value::Scalar(symbol_of(eta)),
             other => other,
-        })
+        }
     }
 }

@@ -97,6 +97,8 @@ pub struct ContactEntry<'a> {
     pub gap_span: Span,
     /// The rows: that of the gap, then those of the slip.
     pub rows: Vec<Row>,
+    /// The components of a slip that was written as a vector, row by row.
+    pub axes: Vec<&'static str>,
     /// The coefficient of friction of a moving contact, with [`ContactEntry::speed`] in it.
     pub friction: Option<ExprId>,
     /// The coefficient of friction of a contact that sticks.

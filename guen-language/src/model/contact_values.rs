@@ -24,6 +24,8 @@ pub(super) struct ContactValue {
     pub(super) slip: Option<Value>,
     /// The force: a scalar of a smooth contact, a latch or a grip along a line; else the components along the gap and the slip.
     pub(super) reaction: Value,
+    /// The forms of its rows, where they are constraints; the reaction has them in the place of the forces.
+    pub(super) is_held: bool,
     /// Whether it is a contact without friction.
     pub(super) is_smooth: bool,
 }

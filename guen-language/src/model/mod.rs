@@ -35,6 +35,7 @@ use crate::syntax::{BoundKind, Declaration, Docs, Name, Scene};
 pub use contact::{ContactEntry, ContactKind, ContactState, Contacts, Row, SwitchEntry};
 pub use dimensions::{Units, momentum, reaction, residual};
 pub use rates::ChosenRates;
+pub(crate) use rates::nominal;
 pub use resolve::resolve;
 pub(crate) use scenes::is_carried_form;
 
@@ -72,6 +73,10 @@ pub struct Model<'a> {
     pub reactions: Vec<(usize, Span)>,
     /// Contacts with their modes, where the declaration has some.
     pub contacts: Option<Contacts<'a>>,
+    /// The parameters that follow from others, where the system is another one in a single mode.
+    pub followers: Vec<Follower>,
+    /// Symbols of reactions that are not determined, where the system is another one in a single mode.
+    pub undetermined: Vec<ExprId>,
     /// Scenes whose names are sound.
     pub scenes: Vec<SceneEntry<'a>>,
     /// Whether the system or a scene provides operators: then all brackets are derived.
@@ -234,6 +239,16 @@ pub struct SceneEntry<'a> {
     pub fixes: Vec<FixedConstant<'a>>,
     /// The parameters and coordinates that it holds at their initial values.
     pub held: Vec<&'a Name>,
+    /// The states of the contacts, where the scene has a single mode.
+    pub mode: Option<Vec<usize>>,
+}
+
+/// A parameter of the whole system that follows from others in the mode of the only scene.
+pub struct Follower {
+    /// The name.
+    pub name: String,
+    /// The place of its value among the outputs of the mechanics.
+    pub output: usize,
 }
 
 /// A constant that a scene fixes.

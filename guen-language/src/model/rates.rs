@@ -4,7 +4,7 @@
 
 use std::collections::BTreeMap;
 
-use guen_symbolic::{ExprId, Form, Role, SymbolId, chosen_rates, evaluate_f64};
+use guen_symbolic::{ExprId, Form, Graph, Role, SymbolId, chosen_rates, evaluate_f64};
 
 use super::assumed_rates::Assumed;
 use super::evaluate::Evaluator;
@@ -62,7 +62,7 @@ impl Evaluator<'_> {
         let rows: Vec<Vec<ExprId>> = forms.iter().map(|(form, _)| form.row.clone()).collect();
         let equations: Vec<ExprId> = raw.iter().filter_map(|form| form.position).collect();
         let symbols: Vec<ExprId> = coordinates.iter().map(|coordinate| coordinate.symbol).collect();
-        let values = self.nominal(constants);
+        let values = nominal(&self.bench.graph, constants);
         let value = |symbol: SymbolId| values.get(&symbol).copied().unwrap_or(1.0);
         let choice = chosen_rates(&mut self.bench.graph, &rows, &equations, &symbols, &value);
         let name = |place: usize| suffixed(&coordinates[place].name.text, RATE_SUFFIX);
@@ -81,23 +81,6 @@ impl Evaluator<'_> {
             condition: choice.condition,
             best: (names(&choice.best.0), choice.best.1),
         })
-    }
-
-    /// The values of constants at which sets of rates are compared: defaults, else one.
-    fn nominal(&self, constants: &[ConstantEntry<'_>]) -> BTreeMap<SymbolId, f64> {
-        let graph = &self.bench.graph;
-        let mut values = BTreeMap::new();
-        for constant in constants {
-            let (Some(symbol), Some(default)) = (graph.as_symbol(constant.symbol), constant.default) else {
-                continue;
-            };
-            let value = |symbol: SymbolId| values.get(&symbol).copied().unwrap_or(1.0);
-            let value = evaluate_f64(graph, &[default], &value)[0];
-            if value.is_finite() {
-                values.insert(symbol, value);
-            }
-        }
-        values
     }
 
     /// The rate of a coordinate as a form.
@@ -164,4 +147,20 @@ impl Evaluator<'_> {
             self.scope.excuse(suffixed(&coordinate.name.text, RATE_SUFFIX), coordinate.name.span());
         }
     }
+}
+
+/// The values of constants at which sets of rates are compared: defaults, else one.
+pub(crate) fn nominal(graph: &Graph, constants: &[ConstantEntry<'_>]) -> BTreeMap<SymbolId, f64> {
+    let mut values = BTreeMap::new();
+    for constant in constants {
+        let (Some(symbol), Some(default)) = (graph.as_symbol(constant.symbol), constant.default) else {
+            continue;
+        };
+        let value = |symbol: SymbolId| values.get(&symbol).copied().unwrap_or(1.0);
+        let value = evaluate_f64(graph, &[default], &value)[0];
+        if value.is_finite() {
+            values.insert(symbol, value);
+        }
+    }
+    values
 }

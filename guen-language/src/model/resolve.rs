@@ -76,6 +76,8 @@ struct Resolver<'a, 'f> {
     outputs: Vec<OutputEntry<'a>>,
     switches: Vec<SwitchEntry<'a>>,
     contacts: Vec<contacts::RawContact<'a>>,
+    /// Symbols of reactions that are not determined.
+    undetermined: Vec<ExprId>,
     /// Scenes as written: they may name parameters that are chosen once all forms are known.
     written_scenes: Vec<&'a Scene>,
     output_values: Vec<ExprId>,
@@ -133,6 +135,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
             outputs: Vec::new(),
             switches: Vec::new(),
             contacts: Vec::new(),
+            undetermined: Vec::new(),
             written_scenes: Vec::new(),
             output_values: Vec::new(),
             provides_operators: false,
@@ -220,11 +223,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
             }
             Item::Holonomic(section) => {
                 section.entries.iter().for_each(|c| self.eval.holonomic(c, &mut self.constraints));
-                // What is zero is judged on them from here on.
-                let positions: Vec<ExprId> =
-                    self.constraints.iter().filter_map(|form| form.position).collect();
-                let bench = &mut self.eval.bench;
-                bench.zero.set_manifold(&mut bench.graph, &positions);
+                self.judge_on_positions();
             }
             Item::KineticEnergy(quantity) => {
                 self.energy.get_or_insert(quantity);
@@ -351,6 +350,13 @@ impl<'a, 'f> Resolver<'a, 'f> {
         value.iter().for_each(|value| self.eval.shapes.named(&name.text, value));
         let category = if *kind == ArgumentKind::Body { Category::Body } else { Category::Let };
         self.eval.scope.declare(self.eval.faults, name, category, value);
+    }
+
+    /// Judges what is zero on the holonomic constraints from here on.
+    fn judge_on_positions(&mut self) {
+        let positions: Vec<ExprId> = self.constraints.iter().filter_map(|form| form.position).collect();
+        let bench = &mut self.eval.bench;
+        bench.zero.set_manifold(&mut bench.graph, &positions);
     }
 
     /// Adds to the force function: those of components add up.

@@ -34,6 +34,7 @@ impl Evaluator<'_> {
         scene: &'a Scene,
         declaration: &Declaration,
         earlier: &[&Scene],
+        is_in_mode: bool,
     ) -> Option<SceneEntry<'a>> {
         let before = self.faults.count();
         self.scene_name(&scene.name, declaration, earlier);
@@ -52,10 +53,10 @@ impl Evaluator<'_> {
         }
         self.once(scene.provides.iter().filter(|p| p.of.is_none()).map(|provide| &provide.name), "provided");
         for provide in &scene.provides {
-            self.provided(provide);
+            self.provided(provide, is_in_mode);
         }
         self.resolve_values(&mut fixes);
-        (self.faults.count() == before).then_some(SceneEntry { scene, fixes, held })
+        (self.faults.count() == before).then_some(SceneEntry { scene, fixes, held, mode: None })
     }
 
     /// A scene becomes a struct and a module in the module of the system.
@@ -226,7 +227,8 @@ impl Evaluator<'_> {
         }
     }
 
-    fn provided(&mut self, provide: &Provide) {
+    /// `is_in_mode` says whether contacts are constraints of the scene.
+    fn provided(&mut self, provide: &Provide, is_in_mode: bool) {
         let name = &provide.name;
         let is_output = self.scope.category(&name.text) == Some(Category::Output);
         if is_output {
@@ -251,7 +253,8 @@ impl Evaluator<'_> {
                 self.faults.report(Fault::new(constraint.span(), format!("`{name}` takes no names")));
                 return;
             }
-            if self.scope.category(&constraint.text) == Some(Category::Constraint) {
+            let category = self.scope.category(&constraint.text);
+            if category == Some(Category::Constraint) || (is_in_mode && category == Some(Category::Contact)) {
                 self.scope.refer(constraint);
             } else {
                 self.faults.report(

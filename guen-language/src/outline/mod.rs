@@ -54,14 +54,17 @@ pub fn sound(declaration: &Declaration) -> Declaration {
     ];
     items.extend(forms.constraints.iter().cloned());
     items.extend(forms.driven.as_ref().map(|x| Item::Forces(section(vec![entries.force(x)]))));
-    // Contacts do not go with scenes and states.
-    let refuses = |item: &Item| matches!(item, Item::Scene(_) | Item::States(_));
+    // Contacts do not go with states.
+    let refuses = |item: &Item| matches!(item, Item::States(_));
     let has_contacts = !declaration.items.iter().any(refuses);
     if let (Some(moving), true) = (&forms.driven, has_contacts) {
         items.extend(contacts::items(declaration, &kinds, &mut names, moving, &forms.coordinates));
     }
     items.extend(scenes::items(declaration, &entries, &forms));
-    components::free_names(Declaration { items, origins: Vec::new(), ..declaration.clone() }, declaration)
+    components::free_names(
+        Declaration { items, origins: Vec::new(), is_outline: true, ..declaration.clone() },
+        declaration,
+    )
 }
 
 /// A section without documentation; one without entries is as if it were not there.

@@ -63,5 +63,5 @@ fn sound(scene: &Scene, entries: &Entries, forms: &Forms) -> Scene {
             );
         }
     }
-    Scene { tracks, fixes, provides, ..scene.clone() }
+    Scene { tracks, fixes, provides, modes: Vec::new(), ..scene.clone() }
 }

@@ -123,6 +123,9 @@ fn system(cursor: &mut Cursor, faults: &mut Faults) -> Result<Declaration, Repor
         instances,
         origins,
         components,
+        in_mode: None,
+        is_outline: false,
+        of_modes: Default::default(),
     })
 }
 

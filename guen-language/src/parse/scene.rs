@@ -7,6 +7,7 @@ use super::cursor::Cursor;
 use super::expression::expression;
 use super::index::member_name;
 use super::lists::{separated, stray_semicolon};
+use super::modes::modes;
 use super::names::name;
 use super::nesting::Entries;
 use super::punctuation::{equals, semicolon};
@@ -38,6 +39,7 @@ pub(crate) fn scene(
         tracks: Vec::new(),
         fixes: Vec::new(),
         provides: Vec::new(),
+        modes: Vec::new(),
         statements: Vec::new(),
         nesting,
     };
@@ -77,6 +79,13 @@ fn statement(cursor: &mut Cursor, faults: &mut Faults) -> Result<SceneStatement,
         Ok(SceneStatement::Fix(list(cursor, faults, fix)))
     } else if cursor.eat_word("provide").is_some() {
         Ok(SceneStatement::Provide(provides(cursor, faults)))
+    } else if let Some(keyword) = cursor.eat_word("modes") {
+        let Some(group) = cursor.eat_group(Delimiter::Brace) else {
+            let text = format!("expected `{{` after `modes`, found {}", cursor.found());
+            let fault = Fault::new(cursor.span(), text);
+            return Err(faults.report(fault.help("write `modes { contact: state, state; }`")));
+        };
+        Ok(SceneStatement::Modes(modes(&group, faults).section(docs, keyword)))
     } else {
         Err(unknown(cursor, faults))
     }
@@ -128,6 +137,7 @@ fn is_end_of_list(cursor: &Cursor) -> bool {
 /// Whether a statement begins here: after a missing `;`.
 fn begins_statement(cursor: &Cursor) -> bool {
     cursor.starts_section()
+        || (cursor.is_word("modes") && cursor.group_at(1, Delimiter::Brace).is_some())
         || (cursor.ident_at(0).is_some_and(|word| SCENE_STATEMENTS.iter().any(|known| word == known))
             && cursor.ident_at(1).is_some())
 }

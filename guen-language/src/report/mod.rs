@@ -25,7 +25,14 @@ const LINE_CHARACTERS: usize = 3000;
 impl Report {
     /// Writes down what was derived of a level of detail of a model.
     pub fn of(model: &Model<'_>, level: &Level) -> Self {
-        Report::new(&Subject { model, level })
+        Report::of_part(model, level, model)
+    }
+
+    /// Writes down what was derived of a scene whose mode makes it a part of another system, as [`Derived::in_modes`] has it.
+    ///
+    /// [`Derived::in_modes`]: crate::derive::Derived::in_modes
+    pub fn of_part(model: &Model<'_>, level: &Level, whole: &Model<'_>) -> Self {
+        Report::new(&Subject { model, level, whole })
     }
 
     /// Writes down what was derived of a level of detail.
@@ -331,7 +338,7 @@ fn equations(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
 
 /// The rates of the states beside the motion.
 fn states(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
-    let Subject { model, level } = subject;
+    let Subject { model, level, .. } = subject;
     let mut lines = Lines::new(writer, "Rates of the states");
     let first = level.rates.len() - model.states.len();
     for (state, rate) in model.states.iter().zip(&level.rates[first..]) {

@@ -11,25 +11,24 @@ fn facts<'d>(subject: &Subject<'d, '_>) -> &'d SceneFacts {
 
 /// Returns the sentence that sums up a scene.
 pub(super) fn summary(subject: &Subject<'_, '_>) -> String {
-    let facts = facts(subject);
     let of = &subject.model.declaration.name;
     format!(
         "A scene of [`{of}`](super::{of}): {} of {}; {}.",
         subject.level.selection.variables.len(),
-        plural(facts.reasons.len(), "variable"),
+        plural(subject.whole.sizes().1, "variable"),
         class_name(subject.level.derivation.class),
     )
 }
 
 /// Returns the sections on kept, dropped and fixed variables, each with its reason.
 pub(super) fn sections(subject: &Subject<'_, '_>) -> Vec<Section> {
-    let Subject { model, level } = subject;
+    let Subject { model, level, .. } = subject;
     let facts = facts(subject);
     let name = |place: StateIndex| model.variable_name(place);
     let kept = facts.reasons.iter().enumerate().filter_map(|(place, reason)| {
         Some(match reason.as_ref()? {
             Reason::Tracked => format!("{}: tracked", name(place)),
-            Reason::Provided(what) => format!("{}: `provide {what}` needs it", name(place)),
+            Reason::Provided(what) => format!("{}: `{what}` needs it", name(place)),
             Reason::Rate(by) => format!("{}: the rate of {} depends on it", name(place), name(*by)),
             Reason::Whole(by) => format!("{}: of one quaternion with {}", name(place), name(*by)),
         })
@@ -59,15 +58,43 @@ pub(super) fn sections(subject: &Subject<'_, '_>) -> Vec<Section> {
     let fixed =
         facts.fixes.iter().map(|(c, value)| format!("{} = {}", model.constants[*c].name, graph.text(*value)));
     vec![
+        Section::words("Mode", mode(subject)),
         Section::words("Variables that are kept", kept.collect()),
         Section::words("Variables that left", left.collect()),
         Section::words("Constants that are fixed", fixed.collect()),
     ]
 }
 
+/// The mode in which the contacts stay, and what follows from it.
+fn mode(subject: &Subject<'_, '_>) -> Vec<String> {
+    let Some(mode) = &subject.model.declaration.in_mode else { return Vec::new() };
+    let mut lines = vec![mode.words.clone()];
+    let graph = &subject.model.bench.graph;
+    let known = &facts(subject).followers;
+    lines.extend(mode.followers.iter().map(|name| {
+        match known.iter().find(|(follower, _)| *follower == name.text) {
+            Some((_, value)) => format!("{name} follows: {name} = {}", graph.text(*value)),
+            None => format!("{name} follows from what is kept and what left"),
+        }
+    }));
+    let contacts = subject.whole.contacts.iter().flat_map(|contacts| &contacts.entries);
+    let loose: Vec<&str> = contacts
+        .zip(&mode.contacts)
+        .filter(|(_, held)| held.is_undetermined)
+        .map(|(entry, _)| entry.name.text.as_str())
+        .collect();
+    if !loose.is_empty() {
+        let names = quoted(loose);
+        lines.push(format!(
+            "rows of {names} depend on each other: only sums of their reactions are determined"
+        ));
+    }
+    lines
+}
+
 /// The rates of the kept variables.
 pub(super) fn rates(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Section {
-    let Subject { model, level } = subject;
+    let Subject { model, level, .. } = subject;
     let mut lines = Lines::new(writer, "Rates");
     for (place, rate) in level.selection.variables.iter().zip(&level.rates) {
         let name = model.variable_name(*place);

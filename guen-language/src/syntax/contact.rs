@@ -2,7 +2,7 @@
 
 use proc_macro2::Span;
 
-use super::{Declaration, Docs, Expression, Item, Name, Step};
+use super::{Declaration, Docs, Equation, Expression, Item, Name, Step};
 use crate::names::{is_generated_item, is_rust_keyword, type_name};
 
 /// `name: word = e, word = e, ..;` of `contacts`.
@@ -163,6 +163,45 @@ pub enum ModeStatement {
         /// The contacts, each with its state.
         combination: Vec<(Name, Name)>,
     },
+}
+
+/// The mode of a declaration that is another one in a single mode.
+#[derive(Debug, Clone, Default)]
+pub struct InMode {
+    /// Contact by contact, the equations that hold in the mode.
+    pub contacts: Vec<HeldContact>,
+    /// The parameters of the other declaration that are none here: they follow from those that are left.
+    pub followers: Vec<Name>,
+    /// The parameters among them that the scene tracks.
+    pub tracked: Vec<String>,
+    /// The mode in words.
+    pub words: String,
+}
+
+/// A contact that stays in one state.
+#[derive(Debug, Clone, Default)]
+pub struct HeldContact {
+    /// The equation of its gap, where that stays zero.
+    pub gap: Option<Equation>,
+    /// Whether that equation is one of the gap's rate.
+    pub gap_by_rate: bool,
+    /// The equations of its slip, where that stays zero.
+    pub slip: Vec<Equation>,
+    /// Whether each row is a constraint of the mode.
+    pub rows: Vec<bool>,
+    /// Whether its reactions are not determined, because its rows depend on others.
+    pub is_undetermined: bool,
+}
+
+impl HeldContact {
+    /// Whether a constraint is one of its rows.
+    pub fn has(&self, form: &str) -> bool {
+        let equations = self.gap.iter().chain(&self.slip);
+        let mut names = equations.map(|equation| &equation.name);
+        names.any(|name| {
+            name.text == form || ["_x", "_y", "_z"].iter().any(|axis| name.suffixed(axis).text == form)
+        })
+    }
 }
 
 impl Declaration {

@@ -354,6 +354,10 @@ impl Display for Scene {
             separated(f, &self.provides, ", ")?;
             f.write_char(';')?;
         }
+        for section in &self.modes {
+            f.write_char(' ')?;
+            braces(f, SectionKind::Modes, section, " ")?;
+        }
         f.write_str(" }")
     }
 }

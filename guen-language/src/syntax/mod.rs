@@ -21,7 +21,10 @@ pub use component::{
     Argument, ArgumentKind, Component, ComponentPath, DeclaredArgument, GivenArgument, Imported, Instance,
     Use, imports,
 };
-pub use contact::{Clause, ClauseWord, Contact, ModeStatement, SPEED, StatesType, Switch, type_of_states};
+pub use contact::{
+    Clause, ClauseWord, Contact, HeldContact, InMode, ModeStatement, SPEED, StatesType, Switch,
+    type_of_states,
+};
 pub use expression::{AddOperator, Expression, ExpressionKind, Factor, Fold, MultiplyOperator, Order, Term};
 pub use index::{
     Choice, Comparison, Condition, Index, IndexExpression, IndexKind, IndexOperator, Loop, Node, Path, Range,

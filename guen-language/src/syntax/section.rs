@@ -1,12 +1,13 @@
 //! A declaration and its sections as written.
 
+use std::cell::OnceCell;
 use std::rc::Rc;
 
 use proc_macro2::{Span, TokenStream};
 
 use super::{
-    Argument, Component, Contact, Docs, Expression, Imported, IndexExpression, Instance, ModeStatement, Name,
-    Node, Switch, Unit, Use, Visibility,
+    Argument, Component, Contact, Docs, Expression, Imported, InMode, IndexExpression, Instance,
+    ModeStatement, Name, Node, Switch, Unit, Use, Visibility,
 };
 
 /// A declaration: one `system` with its sections.
@@ -34,6 +35,12 @@ pub struct Declaration {
     pub components: Vec<(Rc<Component>, Declaration)>,
     /// The instance that each item comes from, as a place in `instances`; empty where there are none.
     pub origins: Vec<Option<usize>>,
+    /// The mode that all contacts stay in; of the declaration of one mode of another declaration.
+    pub in_mode: Option<InMode>,
+    /// Whether it stands in for a faulty declaration.
+    pub is_outline: bool,
+    /// The declarations of the modes to which scenes are restricted.
+    pub of_modes: OnceCell<Vec<Declaration>>,
 }
 
 /// A section, a `let`, a function or a scene.
@@ -429,6 +436,8 @@ pub struct Scene {
     pub fixes: Vec<Fix>,
     /// The quantities that the scene provides beside the state, of all `provide` statements in order.
     pub provides: Vec<Provide>,
+    /// The `modes { .. }` of the scene, in order.
+    pub modes: Vec<Section<ModeStatement>>,
     /// The statements as written where loops and conditions stand between them. There is none left once loops are unfolded.
     pub statements: Vec<SceneStatement>,
     /// The order of the statements; empty where there are no loops and conditions.
@@ -444,6 +453,8 @@ pub enum SceneStatement {
     Fix(Vec<Fix>),
     /// `provide name, ..;`.
     Provide(Vec<Provide>),
+    /// `modes { .. }`.
+    Modes(Section<ModeStatement>),
 }
 
 impl Scene {
@@ -453,6 +464,7 @@ impl Scene {
             SceneStatement::Track(names) => self.tracks.extend(names),
             SceneStatement::Fix(fixes) => self.fixes.extend(fixes),
             SceneStatement::Provide(provides) => self.provides.extend(provides),
+            SceneStatement::Modes(section) => self.modes.push(section),
         }
     }
 }

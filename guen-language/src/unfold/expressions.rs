@@ -261,7 +261,10 @@ pub(super) fn section_nesting(item: &Item) -> Option<&[Node]> {
         Item::Contacts(section) => &section.nesting,
         Item::Modes(section) => &section.nesting,
         Item::Forces(section) => &section.nesting,
-        Item::Scene(scene) => &scene.nesting,
+        Item::Scene(scene) => {
+            let mut sections = scene.modes.iter().map(|section| &section.nesting);
+            sections.find(|nesting| !nesting.is_empty()).unwrap_or(&scene.nesting)
+        }
         _ => return None,
     };
     (!nesting.is_empty()).then_some(nesting)
@@ -290,6 +293,15 @@ fn names_in(e: &Expression, visit: &mut dyn FnMut(&Name)) {
     e.children().into_iter().for_each(|child| names_in(child, visit));
 }
 
+fn contacts_in(statement: &ModeStatement, visit: &mut dyn FnMut(&Name)) {
+    match statement {
+        ModeStatement::States { contact, .. } => visit(contact),
+        ModeStatement::Never { combination, .. } => {
+            combination.iter().for_each(|(contact, _)| visit(contact));
+        }
+    }
+}
+
 fn declared(item: &Item, visit: &mut dyn FnMut(&Name)) {
     match item {
         Item::Constants(section) => section.entries.iter().for_each(|entry| visit(&entry.name)),
@@ -308,13 +320,10 @@ fn declared(item: &Item, visit: &mut dyn FnMut(&Name)) {
         Item::States(section) => section.entries.iter().for_each(|entry| visit(&entry.name)),
         Item::Switches(section) => section.entries.iter().for_each(|entry| visit(&entry.name)),
         Item::Contacts(section) => section.entries.iter().for_each(|entry| visit(&entry.name)),
-        Item::Modes(section) => section.entries.iter().for_each(|statement| match statement {
-            ModeStatement::States { contact, .. } => visit(contact),
-            ModeStatement::Never { combination, .. } => {
-                combination.iter().for_each(|(contact, _)| visit(contact));
-            }
-        }),
+        Item::Modes(section) => section.entries.iter().for_each(|statement| contacts_in(statement, visit)),
         Item::Scene(scene) => {
+            let statements = scene.modes.iter().flat_map(|section| &section.entries);
+            statements.for_each(|statement| contacts_in(statement, visit));
             scene.tracks.iter().for_each(&mut *visit);
             scene.fixes.iter().for_each(|fix| visit(&fix.name));
             scene.provides.iter().for_each(|provide| {

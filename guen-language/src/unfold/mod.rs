@@ -52,6 +52,9 @@ fn loops_of(component: &Component, faults: &mut Faults) -> Vec<Item> {
         instances,
         origins,
         components,
+        in_mode: None,
+        is_outline: false,
+        of_modes: Default::default(),
     };
     without_loops(whole, faults).items
 }

@@ -241,11 +241,13 @@ impl Unfolder<'_> {
         let (docs, name) = (scene.docs.clone(), scene.name.clone());
         let (statements, nesting) = Default::default();
         let keyword = scene.keyword;
-        let mut written = Scene { docs, keyword, name, tracks, fixes, provides, statements, nesting };
+        let modes = Vec::new();
+        let mut written = Scene { docs, keyword, name, tracks, fixes, provides, modes, statements, nesting };
         if scene.nesting.is_empty() {
             written.add(SceneStatement::Track(self.tracks(&scene.tracks)));
             written.add(SceneStatement::Fix(self.fixes(&scene.fixes)));
             written.add(SceneStatement::Provide(self.provides(&scene.provides)));
+            written.modes = scene.modes.iter().map(|section| self.modes(section)).collect();
             return written;
         }
         self.each(&scene.nesting, 0, &mut |this, place| {
@@ -253,6 +255,7 @@ impl Unfolder<'_> {
                 SceneStatement::Track(names) => SceneStatement::Track(this.tracks(names)),
                 SceneStatement::Fix(fixes) => SceneStatement::Fix(this.fixes(fixes)),
                 SceneStatement::Provide(provides) => SceneStatement::Provide(this.provides(provides)),
+                SceneStatement::Modes(section) => SceneStatement::Modes(this.modes(section)),
             });
         });
         written

@@ -10,7 +10,7 @@ use crate::algebra::{ExprId, Graph, Role, SymbolId};
 use crate::zero::{drawn_states, evaluate_f64};
 
 /// States at which sets are compared.
-const STATES: usize = 64;
+pub(super) const STATES: usize = 64;
 /// A set is taken if its condition is at most so many times the best.
 const CLOSE_TO_BEST: f64 = 10.0;
 /// Multiplications for which all sets are compared; beyond, sets are improved by exchanges.

@@ -3,6 +3,7 @@
 mod along;
 mod assembled;
 mod coefficients;
+mod held;
 mod words;
 
 use guen_symbolic::FormShape;
@@ -13,7 +14,7 @@ use crate::model::contact::{ContactEntry, ContactKind, Row, SwitchEntry};
 use crate::model::contact_values::ContactValue;
 use crate::syntax::{Clause, ClauseWord, Contact, StatesType, Switch, type_of_states};
 
-pub(super) use assembled::{assembled, refuse_scene};
+pub(super) use assembled::{assembled, mode_of_scene};
 
 /// A contact on its way into the model: with the structure of its rows.
 pub(super) struct RawContact<'a> {
@@ -26,7 +27,7 @@ impl<'a> Resolver<'a, '_> {
     pub(super) fn switch(&mut self, switch: &'a Switch) {
         self.eval.entry = Some(switch.name.text.clone());
         let function = self.eval.scalar_at(Place::Switch, &switch.value);
-        let symbol = self.eval.bench.graph.symbol(&switch.name.text, Role::Input);
+        let mut symbol = self.eval.bench.graph.symbol(&switch.name.text, Role::Input);
         let function = function.and_then(|function| {
             if self.eval.bench.graph.as_number(function).is_some() {
                 let text = format!("the switch `{}` never changes", switch.name);
@@ -34,6 +35,10 @@ impl<'a> Resolver<'a, '_> {
             }
             Ok(function)
         });
+        if let (Some(_), Ok(function)) = (&self.declaration.in_mode, &function) {
+            // Without contacts it follows the state.
+            symbol = assembled::value_of_switch(&mut self.eval.bench.graph, *function);
+        }
         self.declare_symbol(&switch.name, Category::Switch, symbol);
         if let Ok(function) = function {
             self.switches.push(SwitchEntry { name: &switch.name, docs: &switch.docs, symbol, function });
@@ -48,7 +53,10 @@ impl<'a> Resolver<'a, '_> {
         self.type_of_states(contact);
         match entry {
             Ok(entry) if self.contacts.len() < MAX_CONTACTS => {
-                let value = self.value_of(&entry.entry);
+                let value = match &self.declaration.in_mode {
+                    Some(mode) => self.hold(&entry.entry, &mode.contacts[self.contacts.len()]),
+                    None => self.value_of(&entry.entry),
+                };
                 self.eval.contacts.insert(contact.name.text.clone(), value);
                 self.contacts.push(entry);
             }
@@ -92,6 +100,7 @@ impl<'a> Resolver<'a, '_> {
             gap: entry.gap,
             slip: (!tangential.is_empty()).then(|| of_rows(tangential, |row| row.form)),
             reaction: of_rows(&entry.rows, |row| row.force),
+            is_held: false,
             is_smooth: entry.kind == ContactKind::Smooth,
         }
     }
@@ -102,6 +111,7 @@ impl<'a> Resolver<'a, '_> {
         self.words(contact, kind);
         let mut rows = Vec::new();
         let mut shapes = Vec::new();
+        let mut axes = Vec::new();
         let mut gap = None;
         if matches!(kind.word, ClauseWord::Gap | ClauseWord::Latch)
             && let Ok(value) = self.gap(contact, kind)
@@ -114,10 +124,11 @@ impl<'a> Resolver<'a, '_> {
         }
         let along = if kind.word == ClauseWord::Grip { Some(kind) } else { contact.clause(ClauseWord::Slip) };
         if let Some(clause) = along
-            && let Ok((forms, structure)) = self.slip(contact, clause)
+            && let Ok(along) = self.slip(contact, clause)
         {
-            rows.extend(forms);
-            shapes.extend(structure);
+            rows.extend(along.forms);
+            shapes.extend(along.shapes);
+            axes = along.axes;
         }
         let name = &contact.name.text;
         let speed = along.map(|_| self.eval.bench.graph.symbol(&format!("speed of {name}"), Role::Input));
@@ -186,6 +197,7 @@ impl<'a> Resolver<'a, '_> {
             gap,
             gap_span: kind.value.extent(),
             rows: rows.collect(),
+            axes,
             friction,
             stiction,
             friction_of_speed,

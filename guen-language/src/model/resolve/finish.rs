@@ -1,13 +1,15 @@
 //! The end of the pass over the items: the model is put together.
 
 use super::*;
+use crate::model::Follower;
+use crate::model::contact::ContactEntry;
 
 impl<'a> Resolver<'a, '_> {
     /// Puts the model together, out of what the items left.
     pub(super) fn finish(mut self) -> Option<Model<'a>> {
         let failed = self.eval.faults.count() > 0;
         let has_contacts = self.has_contacts();
-        let modes = if failed { None } else { self.modes() };
+        let modes = if failed || self.declaration.in_mode.is_some() { None } else { self.modes() };
         let velocities = self.velocities.clone();
         let mut degrees = self.parameters.len();
         let has_energy = self.energy.is_some() || self.has_masses;
@@ -42,11 +44,22 @@ impl<'a> Resolver<'a, '_> {
         self.eval.report_assumed(None);
         let mut scenes: Vec<SceneEntry<'a>> = Vec::new();
         for scene in self.written_scenes {
-            if has_contacts {
-                contacts::refuse_scene(scene, self.eval.faults);
+            let mut mode = None;
+            // In an outline it is a scene of the system in which nothing touches.
+            if has_contacts && !self.declaration.is_outline {
+                let entries: Vec<&ContactEntry<'_>> =
+                    self.contacts.iter().map(|contact| &contact.entry).collect();
+                mode = contacts::mode_of_scene(&entries, modes.as_deref(), scene, self.eval.faults);
             }
+            if let Some(section) = scene.modes.first().filter(|_| !has_contacts) {
+                let text = "there are no contacts that `modes` could speak of";
+                let fault = Fault::new(section.keyword, text);
+                self.eval.faults.report(fault.help("declare them: `contacts { name: gap = e; }`"));
+            }
+            let is_in_mode = mode.is_some() || self.declaration.in_mode.is_some();
             let earlier: Vec<&Scene> = scenes.iter().map(|entry| entry.scene).collect();
-            scenes.extend(self.eval.scene(scene, self.declaration, &earlier));
+            let entry = self.eval.scene(scene, self.declaration, &earlier, is_in_mode);
+            scenes.extend(entry.map(|entry| SceneEntry { mode, ..entry }));
         }
         if !failed {
             // Counts, unused names and idle sections mean something only where everything else was understood.
@@ -182,6 +195,13 @@ impl<'a> Resolver<'a, '_> {
             outputs: self.output_values,
             motion_symbols,
         };
+        let mut followers = Vec::new();
+        for name in self.declaration.in_mode.iter().flat_map(|mode| &mode.followers) {
+            if let Some(Value::Scalar(value)) = self.eval.scope.peek(&name.text) {
+                followers.push(Follower { name: name.text.clone(), output: mechanics.outputs.len() });
+                mechanics.outputs.push(*value);
+            }
+        }
         let contacts = modes.zip(pressed).map(|(modes, structure)| {
             contacts::assembled(bench, &mut mechanics, contacts, self.switches, modes, structure)
         });
@@ -206,6 +226,8 @@ impl<'a> Resolver<'a, '_> {
             quaternions,
             reactions,
             contacts,
+            followers,
+            undetermined: self.undetermined,
             scenes,
             left_out: self.eval.left_out,
             provides_operators,

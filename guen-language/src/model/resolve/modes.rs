@@ -6,7 +6,7 @@ use super::*;
 use crate::limits::MAX_MODES;
 use crate::model::contact::{ContactEntry, ContactState};
 use crate::names::{nearest, quoted};
-use crate::syntax::{ModeStatement, Name, Path, Section, Step};
+use crate::syntax::{ModeStatement, Name, Path, Scene, Section, Step};
 
 /// The statements about some contacts, as far as they were read.
 struct Stated<'a, 'e> {
@@ -66,6 +66,48 @@ pub(super) fn combinations<'a>(
             .flat_map(|mode| of_contact.iter().map(move |state| [&mode[..], &[*state]].concat()))
             .collect();
     }
+    exclude(&mut modes, never, faults);
+    if modes.is_empty() {
+        faults.report(Fault::new(own.unwrap_or(keyword), "no mode is left"));
+    }
+    if modes.len() > MAX_MODES {
+        faults.report(too_many(entries, &states, modes.len(), keyword));
+    }
+    (faults.count() == before).then_some(modes)
+}
+
+/// The modes of a system that a scene has, where it says which; `None` after a fault.
+pub(super) fn of_scene<'a>(
+    entries: &[&ContactEntry<'a>],
+    modes: &[Vec<usize>],
+    scene: &'a Scene,
+    faults: &mut Faults,
+) -> Option<Vec<Vec<usize>>> {
+    let before = faults.count();
+    let keyword = scene.modes.first()?.keyword;
+    let states = entries.iter().map(|entry| (0..entry.states().len()).collect()).collect();
+    let mut stated = Stated { entries, states, last: BTreeMap::new(), never: Vec::new() };
+    let statements = scene.modes.iter().flat_map(|section| &section.entries);
+    statements.for_each(|statement| stated.read(statement, None, faults));
+    let Stated { states, never, .. } = stated;
+    if faults.count() > before {
+        return None;
+    }
+    let mut left = modes.to_vec();
+    left.retain(|mode| mode.iter().zip(&states).all(|(state, states)| states.contains(state)));
+    if left.is_empty() {
+        faults.report(Fault::new(keyword, "no mode is left").note("the system has no mode of this kind"));
+        return None;
+    }
+    exclude(&mut left, never, faults);
+    if left.is_empty() {
+        faults.report(Fault::new(keyword, "no mode is left"));
+    }
+    (faults.count() == before).then_some(left)
+}
+
+/// Takes combinations that do not occur out of the modes.
+fn exclude(modes: &mut Vec<Vec<usize>>, never: Vec<Never>, faults: &mut Faults) {
     for Never { keyword, combination: pairs } in never {
         let left = modes.len();
         modes.retain(|mode| !pairs.iter().all(|(place, states)| states.contains(&mode[*place])));
@@ -76,13 +118,6 @@ pub(super) fn combinations<'a>(
             );
         }
     }
-    if modes.is_empty() {
-        faults.report(Fault::new(own.unwrap_or(keyword), "no mode is left"));
-    }
-    if modes.len() > MAX_MODES {
-        faults.report(too_many(entries, &states, modes.len(), keyword));
-    }
-    (faults.count() == before).then_some(modes)
 }
 
 /// The sections of modes with their instances, those of inner instances first: the system has the last word.

@@ -315,6 +315,7 @@ impl Scope {
                         })
                         .collect();
                     scene.provides = self.provided(&scene.provides);
+                    scene.modes.iter_mut().for_each(|section| self.modes(section));
                 }
                 Item::Provide(section) => section.entries = self.provided(&section.entries),
                 Item::Modes(section) => self.modes(section),

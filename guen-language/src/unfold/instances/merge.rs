@@ -120,5 +120,8 @@ pub(super) fn constants(component: &Component, content: &Unfolded) -> Declaratio
         instances: content.instances.clone(),
         components: Vec::new(),
         origins: Vec::new(),
+        in_mode: None,
+        is_outline: false,
+        of_modes: Default::default(),
     }
 }

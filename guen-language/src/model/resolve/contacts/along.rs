@@ -4,6 +4,17 @@ use guen_symbolic::{Role, Roles, VelocityPartials};
 
 use super::*;
 
+/// The velocity along a contact.
+#[derive(Default)]
+pub(super) struct Along {
+    /// The components that do not vanish.
+    pub(super) forms: Vec<ExprId>,
+    /// The structure of each.
+    pub(super) shapes: Vec<Option<FormShape>>,
+    /// The axis of each, where a vector was written.
+    pub(super) axes: Vec<&'static str>,
+}
+
 impl Resolver<'_, '_> {
     /// The gap: a function of time and coordinates.
     pub(super) fn gap(&mut self, contact: &Contact, clause: &Clause) -> Evaluated<ExprId> {
@@ -19,11 +30,7 @@ impl Resolver<'_, '_> {
     }
 
     /// The velocity along a contact: its components that do not vanish, each with its structure.
-    pub(super) fn slip(
-        &mut self,
-        contact: &Contact,
-        clause: &Clause,
-    ) -> Evaluated<(Vec<ExprId>, Vec<Option<FormShape>>)> {
+    pub(super) fn slip(&mut self, contact: &Contact, clause: &Clause) -> Evaluated<Along> {
         let word = clause.word.text();
         let name = &contact.name;
         let place = if clause.word == ClauseWord::Grip { Place::Grip } else { Place::Slip };
@@ -48,9 +55,10 @@ impl Resolver<'_, '_> {
             let fault = Fault::new(clause.value.extent(), text);
             return self.eval.fail(fault.help("the rate of a coordinate is written `dot(x)`"));
         }
-        let mut kept = (Vec::new(), Vec::new());
+        let mut kept = Along::default();
+        let is_vector = matches!(value, Value::Vector(_));
         let velocities = self.velocities.clone();
-        for (form, shape) in forms.into_iter().zip(shapes) {
+        for ((form, shape), axis) in forms.into_iter().zip(shapes).zip(["x", "y", "z"]) {
             let expanded = self.eval.expanded(form);
             let mut partials = VelocityPartials::new(&self.eval.bench, &velocities, &[]);
             let Some(parts) = partials.affine(&mut self.eval.bench, expanded) else {
@@ -64,21 +72,22 @@ impl Resolver<'_, '_> {
                 return self.eval.fail(Fault::new(span, text).note(format!("`{term}` is not")));
             };
             if !parts.on_velocities.is_empty() {
-                kept.0.push(form);
-                kept.1.push(shape);
+                kept.forms.push(form);
+                kept.shapes.push(shape);
+                kept.axes.extend(is_vector.then_some(axis));
             } else if !self.eval.bench.vanishes(parts.offset) {
                 let text = format!("the {word} of `{name}` has a component without velocity");
                 return self.eval.fail(Fault::new(clause.value.extent(), text));
             }
         }
-        if kept.0.len() > 2 {
+        if kept.forms.len() > 2 {
             let text = format!("the {word} of `{name}` has three components");
             let fault = Fault::new(clause.value.extent(), text)
                 .note("a contact has a normal and at most two tangents")
                 .help("write the tangential ones: `vec(inner(v, a), inner(v, b))`");
             return self.eval.fail(fault);
         }
-        if kept.0.is_empty() {
+        if kept.forms.is_empty() {
             let text = format!("the {word} of `{name}` has no velocity");
             return self.eval.fail(Fault::new(clause.value.extent(), text));
         }

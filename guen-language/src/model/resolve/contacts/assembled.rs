@@ -3,7 +3,7 @@
 use guen_symbolic::{Function, Rational, SystemGraph, Workbench};
 
 use super::*;
-use crate::model::contact::Contacts;
+use crate::model::contact::{ContactState, Contacts};
 
 /// The contacts with the mechanics that their forces act on. In the system itself no force acts, and switches follow the state.
 pub(in crate::model::resolve) fn assembled<'a>(
@@ -20,16 +20,9 @@ pub(in crate::model::resolve) fn assembled<'a>(
     pressed.forces.extend(rows.clone().map(|row| Force { magnitude: row.force, along: row.form }));
     pressed.inputs.extend(switches.iter().map(|switch| switch.symbol));
     pressed.inputs.extend(rows.map(|row| row.force));
-    let graph = &mut bench.graph;
-    let half = graph.number(Rational::new(1, 2));
-    let values: Vec<(ExprId, ExprId)> = switches
-        .iter()
-        .map(|switch| {
-            let sign = graph.function(Function::Sign, switch.function);
-            let (sign, half_sign) = (half, graph.mul(half, sign));
-            (switch.symbol, graph.add(sign, half_sign))
-        })
-        .collect();
+    let switched = switches.iter();
+    let values: Vec<(ExprId, ExprId)> =
+        switched.map(|switch| (switch.symbol, value_of_switch(&mut bench.graph, switch.function))).collect();
     // Without contact there is no force.
     let zero = bench.graph.zero();
     let unpressed = entries.iter().flat_map(|entry| &entry.rows).map(|row| (row.force, zero));
@@ -44,7 +37,7 @@ pub(in crate::model::resolve) fn assembled<'a>(
 impl Resolver<'_, '_> {
     /// Whether the declaration has contacts or switches.
     pub(in crate::model::resolve) fn has_contacts(&self) -> bool {
-        !self.switches.is_empty() || !self.contacts.is_empty()
+        self.declaration.in_mode.is_none() && !(self.switches.is_empty() && self.contacts.is_empty())
     }
 
     /// The modes of the declaration; `None` without contacts or switches, and after a fault.
@@ -80,9 +73,48 @@ impl Resolver<'_, '_> {
     }
 }
 
-/// Refuses a scene of a system with contacts or switches.
-pub(in crate::model::resolve) fn refuse_scene(scene: &Scene, faults: &mut Faults) {
-    let text = "a system with contacts or switches has no scenes so far";
-    let fault = Fault::new(scene.keyword, text);
-    faults.report(fault.help("declare what the scene requires as a system of its own"));
+/// A switch that follows the state: 1, 0, or 1/2 at the zero of its function.
+pub(super) fn value_of_switch(graph: &mut Graph, function: ExprId) -> ExprId {
+    let half = graph.number(Rational::new(1, 2));
+    let sign = graph.function(Function::Sign, function);
+    let half_sign = graph.mul(half, sign);
+    graph.add(half, half_sign)
+}
+
+/// The states of the contacts in a scene that has a single mode; another scene of a system with contacts or switches is refused.
+pub(in crate::model::resolve) fn mode_of_scene(
+    entries: &[&ContactEntry<'_>],
+    modes: Option<&[Vec<usize>]>,
+    scene: &Scene,
+    faults: &mut Faults,
+) -> Option<Vec<usize>> {
+    // Without contacts, or with all but one mode excluded, nothing has to be said.
+    if let (true, Some([mode])) = (scene.modes.is_empty(), modes) {
+        return Some(mode.clone());
+    }
+    let Some(keyword) = scene.modes.first().map(|section| section.keyword) else {
+        let text = "a scene of a system with contacts or switches has one mode so far";
+        let fault = Fault::new(scene.keyword, text);
+        faults.report(fault.help("write the states of all contacts: `modes { contact: state; }`"));
+        return None;
+    };
+    // A fault in the modes of the system was reported.
+    let left = super::super::modes::of_scene(entries, modes?, scene, faults)?;
+    let [mode] = &left[..] else {
+        let text = format!("the scene `{}` has {} modes, and a scene has one so far", scene.name, left.len());
+        let fault = Fault::new(keyword, text);
+        faults.report(fault.help("write one state of every contact: `modes { contact: state; }`"));
+        return None;
+    };
+    for (entry, state) in entries.iter().zip(mode) {
+        let state = entry.states()[*state];
+        if matches!(state, ContactState::Slip | ContactState::SlipPlus | ContactState::SlipMinus) {
+            let text = format!("`{}` slips in the only mode of scene `{}`", entry.name, scene.name);
+            let fault = Fault::new(keyword, text);
+            let fault = fault.note("the force of a slip is no force of constraint");
+            faults.report(fault.help("run the system itself, or its `in_mode`"));
+            return None;
+        }
+    }
+    Some(mode.clone())
 }

@@ -67,7 +67,7 @@ pub fn checked(text: &str, with_outline: bool) -> Option<Checked> {
     let (declaration, faults) = parse::parse(text.parse().expect("tokens"));
     let declaration = declaration.filter(|_| faults.is_empty())?;
     let (derived, faults) = collect(|faults| derive(model::resolve(&declaration, faults)?, faults));
-    let Derived { mut model, system, scenes } = derived.filter(|_| faults.is_empty())?;
+    let Derived { mut model, system, scenes, in_modes } = derived.filter(|_| faults.is_empty())?;
     let mut all = Checked::default();
     for level in [&system].into_iter().chain(&scenes) {
         let mut own = level_checked(&mut model, level);
@@ -85,7 +85,7 @@ pub fn checked(text: &str, with_outline: bool) -> Option<Checked> {
         let linearized = |item: &String| item.contains("fn linearize") || item.contains("differentiable !");
         let (is_chosen, has_units) = (model.chosen.is_some(), !model.units.is_empty());
         let has_switches = [&system].into_iter().chain(&scenes).any(|level| !level.switches.is_empty());
-        let items = emit::emit(Derived { model, system, scenes });
+        let items = emit::emit(Derived { model, system, scenes, in_modes });
         let missing = crate::outline::missing(&declaration, items).into_iter();
         let missing = missing.filter(|item| is_code || !linearized(item));
         // An outline has no units.

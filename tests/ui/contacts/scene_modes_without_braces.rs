@@ -1,6 +1,6 @@
-//! A system with contacts has no scenes so far.
+//! The modes of a scene stand in braces.
 //!
-//! repair: `never floor.stick with wall.closed; }\n        scene Flight { track x; }` => `never floor.stick with wall.closed; }`
+//! repair: `modes floor: stick; track u;` => `modes { floor: stick; wall: open; } track u;`
 
 guen::mechanical_system! {
     pub system Ball {
@@ -15,11 +15,11 @@ guen::mechanical_system! {
         contacts {
             floor: gap = z - a, slip = u - a*spin, friction = mu*(1 - ice), restitution = e;
             wall: gap = 9 - x;
-            axle: grip = spin, friction = mu, load = reaction(wall);
             bolt: latch = phi, when = w, release = t - 1;
         }
-        modes { axle: stick; bolt: free; never floor.stick with wall.closed; }
-        scene Flight { track x; }
+        outputs { force = reaction(floor); }
+        modes { bolt: free; }
+        scene Rolling { modes floor: stick; track u; }
     }
 }
 
