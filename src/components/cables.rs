@@ -1,18 +1,19 @@
 //! Cables with mass.
 
 crate::mechanical_component! {
-    /// An elastic cable with mass between two points, as eight springs with masses between them.
+    /// An elastic cable with mass between two points, as a chain of springs with masses between them.
     ///
     /// The mass of a segment sits in halves at its ends, and a segment pulls along its line with a stiffness and a damping: a
-    /// discretisation by lumped masses. A segment
-    /// pushes when it is pressed. Neighbouring nodes must not meet.
+    /// discretisation by lumped masses, of which eight show the first swings of a cable. A segment pushes when it is pressed. Neighbouring nodes must not meet.
     pub component Cable(
         /// One end.
         from: vector,
         /// The other end.
         to: vector,
+        /// The number of springs.
+        segments: count,
     ) {
-        count n = 8;
+        count n = segments;
         constants {
             /// The mass of the whole cable.
             mass > 0,

@@ -13,7 +13,7 @@
 //! | [`ResistiveGearMotor`] | `angle` | the same without inductance |
 //! | [`HingeStops`] | `angle` | stops at both ends of a hinge or slide |
 //! | [`Foot`] | `point, up` | a point that touches level ground, sticks and slips |
-//! | [`Cable`] | `from, to` | an elastic cable with mass |
+//! | [`Cable`] | `from, to, segments` | an elastic cable with mass |
 //! | [`PlanarArm`] | `base, frame` | three links in a plane |
 //! | [`SpatialArm`] | `base, frame` | six joints by Denavit and Hartenberg's table |
 //!

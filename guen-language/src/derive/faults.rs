@@ -140,7 +140,8 @@ fn report_singular_forms(model: &mut Model<'_>, singular: SingularForms, faults:
             } else {
                 let whole = &model.forms[last].written.text;
                 fault.help(format!(
-                    "impose the other components of `{whole}` one by one, as `{whole}_x: inner(e, vec(1, 0, 0)) = 0;`"
+                    "impose the other components of `{whole}` one by one, as `{}: inner(e, vec(1, 0, 0)) = 0;`",
+ crate::names::suffixed(whole, "_x")
                 ))
             }
         }

@@ -335,6 +335,8 @@ impl<'a, 'f> Resolver<'a, 'f> {
                 ArgumentKind::Vector => matches!(value, Value::Vector(_)),
                 ArgumentKind::Rotation => matches!(value, Value::Rotation(_)),
                 ArgumentKind::Body => matches!(value, Value::Body(_)),
+                // A number in place of its name, once uses are unfolded.
+                ArgumentKind::Count => true,
             };
             if !fits {
                 let (given, word) = (&given.name, kind.word());

@@ -98,6 +98,7 @@ fn kind_of_habit(word: &str) -> Option<&'static str> {
         "f64" | "f32" | "R" | "Real" | "real" | "float" | "double" | "number" | "angle" => "scalar",
         "vec" | "Vec" | "Vec3" | "vec3" | "Vector" | "Vector3" | "point" | "Point" | "Position" => "vector",
         "rot" | "Rotation" | "Orientation" | "orientation" | "frame" | "Frame" | "Rotation3" => "rotation",
+        "usize" | "u32" | "i32" | "int" | "Integer" | "integer" | "const" => "count",
         "rigid_body" | "Body" | "RigidBody" => "body",
         _ => return None,
     })

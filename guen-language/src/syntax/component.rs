@@ -28,6 +28,13 @@ pub struct Component {
     pub imported: Vec<Imported>,
 }
 
+impl Component {
+    /// The arguments that are counts.
+    pub fn counts(&self) -> impl Iterator<Item = &DeclaredArgument> {
+        self.arguments.iter().filter(|argument| argument.kind == ArgumentKind::Count)
+    }
+}
+
 /// `name: kind`.
 #[derive(Debug, Clone)]
 pub struct DeclaredArgument {
@@ -50,12 +57,19 @@ pub enum ArgumentKind {
     Rotation,
     /// A declared body.
     Body,
+    /// A whole number that the macro knows.
+    Count,
 }
 
 impl ArgumentKind {
     /// Every kind, in the order in which a help lists them.
-    pub const ALL: [ArgumentKind; 4] =
-        [ArgumentKind::Scalar, ArgumentKind::Vector, ArgumentKind::Rotation, ArgumentKind::Body];
+    pub const ALL: [ArgumentKind; 5] = [
+        ArgumentKind::Scalar,
+        ArgumentKind::Vector,
+        ArgumentKind::Rotation,
+        ArgumentKind::Body,
+        ArgumentKind::Count,
+    ];
 
     /// The word in the language.
     pub fn word(self) -> &'static str {
@@ -64,6 +78,7 @@ impl ArgumentKind {
             ArgumentKind::Vector => "vector",
             ArgumentKind::Rotation => "rotation",
             ArgumentKind::Body => "body",
+            ArgumentKind::Count => "count",
         }
     }
 

@@ -32,6 +32,7 @@ pub(crate) fn names(component: &Component, faults: &mut Faults) {
         }
         known.push(name);
     }
+    super::component_counts::check(component, faults);
     let mut variables = Vec::new();
     loop_variables(&component.nesting, &mut variables);
     component.items.iter().for_each(|item| loop_variables(item.nesting(), &mut variables));

@@ -6,6 +6,7 @@
 
 mod announce;
 mod arrays;
+mod component_counts;
 mod component_names;
 mod expressions;
 mod instances;
@@ -26,7 +27,7 @@ pub(crate) use component_names::names as check_names;
 /// Returns the declaration without loops, counts, written indices and uses of components. What cannot be written out is reported and
 /// left out.
 pub fn unfold(declaration: Declaration, faults: &mut Faults) -> Declaration {
-    let declaration = without_loops(declaration, faults);
+    let declaration = without_loops(declaration, &[], faults);
     instances::instantiate(declaration, faults)
 }
 
@@ -35,11 +36,11 @@ pub(crate) fn constants(component: &Component, faults: &mut Faults) -> Declarati
     instances::constants(component, faults)
 }
 
-/// The items of a component without loops.
-fn loops_of(component: &Component, faults: &mut Faults) -> Vec<Item> {
+/// The items of a component without loops, for values of the counts among its arguments.
+fn loops_of(component: &Component, counts: &[(&Name, i64)], faults: &mut Faults) -> Vec<Item> {
     let (docs, visibility, name) = (Docs::default(), Visibility::Private, component.name.clone());
     let (items, nesting) = (component.items.clone(), component.nesting.clone());
-    let (crate_path, counts, imported, instances, origins, components) = Default::default();
+    let (crate_path, unused, imported, instances, origins, components) = Default::default();
     let whole = Declaration {
         crate_path,
         docs,
@@ -47,7 +48,7 @@ fn loops_of(component: &Component, faults: &mut Faults) -> Vec<Item> {
         name,
         items,
         nesting,
-        counts,
+        counts: unused,
         imported,
         instances,
         origins,
@@ -56,14 +57,18 @@ fn loops_of(component: &Component, faults: &mut Faults) -> Vec<Item> {
         is_outline: false,
         of_modes: Default::default(),
     };
-    without_loops(whole, faults).items
+    without_loops(whole, counts, faults).items
 }
 
-fn without_loops(declaration: Declaration, faults: &mut Faults) -> Declaration {
-    if is_plain(&declaration) {
+fn without_loops(declaration: Declaration, counts: &[(&Name, i64)], faults: &mut Faults) -> Declaration {
+    if counts.is_empty() && is_plain(&declaration) {
         return declaration;
     }
     let mut unfolder = Unfolder::new(faults);
+    for (name, value) in counts {
+        let count = Count { name: Name::clone(name), value: Some(*value), is_used: true };
+        unfolder.counts.insert(name.text.clone(), count);
+    }
     unfolder.announce(&declaration);
     unfolder.knows_entries = unfolder.faults.count() == 0;
     unfolder.write(declaration)

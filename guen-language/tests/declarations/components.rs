@@ -223,3 +223,68 @@ fn scenes_by_loops_are_those_written_out() {
     );
     assert!(by_loops == by_hand);
 }
+
+#[test]
+fn counts_as_arguments_are_numbers_of_the_instance() {
+    let by_counts = "pub system Chains {
+        component Chain(from: vector, links: count) {
+            count last = links - 1;
+            constants   { m > 0, l > 0 }
+            coordinates { q[links] }
+            let p[0] = from + l*vec(sin(q[0]), -cos(q[0]));
+            for i in 1..links { let p[i] = p[i-1] + l*vec(sin(q[i]), -cos(q[i])); }
+            let end = p[last];
+            particles   { for i in 0..links { m/links at p[i]; } }
+        }
+        component Pair(from: vector, links: count) {
+            use Chain as upper { from, links }
+            use Chain as lower { from: upper.end, links: 2*links - links/2 - 2 }
+        }
+        count n = 3;
+        gravity = vec(0, -9.81);
+        use Pair as pair { from: vec(0, 0), links: n }
+        for i in 0..2 { use Chain as chain[i] { from: vec(i, 1), links: i + 1 } }
+    }";
+    let by_hand = "pub system Chains {
+        constants   { m_u > 0, l_u > 0, m_l > 0, l_l > 0, m_0 > 0, l_0 > 0, m_1 > 0, l_1 > 0 }
+        coordinates { u_0, u_1, u_2, l0, l1, l2, a, b_0, b_1 }
+        let p0 = l_u*vec(sin(u_0), -cos(u_0));
+        let p1 = p0 + l_u*vec(sin(u_1), -cos(u_1));
+        let p2 = p1 + l_u*vec(sin(u_2), -cos(u_2));
+        let p3 = p2 + l_l*vec(sin(l0), -cos(l0));
+        let p4 = p3 + l_l*vec(sin(l1), -cos(l1));
+        let p5 = p4 + l_l*vec(sin(l2), -cos(l2));
+        let r0 = vec(0, 1) + l_0*vec(sin(a), -cos(a));
+        let s0 = vec(1, 1) + l_1*vec(sin(b_0), -cos(b_0));
+        let s1 = s0 + l_1*vec(sin(b_1), -cos(b_1));
+        gravity = vec(0, -9.81);
+        particles {
+            m_u/3 at p0; m_u/3 at p1; m_u/3 at p2; m_l/3 at p3; m_l/3 at p4; m_l/3 at p5;
+            m_0 at r0; m_1/2 at s0; m_1/2 at s1;
+        }
+    }";
+    let meaning = |name: &str| {
+        let pairs = [("pair.upper.", "_u"), ("pair.lower.", "_l"), ("chain[0].", "_0"), ("chain[1].", "_1")];
+        let coordinates = [
+            ("pair.upper.q[0]", "u_0"),
+            ("pair.upper.q[1]", "u_1"),
+            ("pair.upper.q[2]", "u_2"),
+            ("pair.lower.q[0]", "l0"),
+            ("pair.lower.q[1]", "l1"),
+            ("pair.lower.q[2]", "l2"),
+            ("chain[0].q[0]", "a"),
+            ("chain[1].q[0]", "b_0"),
+            ("chain[1].q[1]", "b_1"),
+        ];
+        let rates = coordinates.map(|(own, hand)| (own.replace(".q[", ".q_rate["), format!("{hand}_rate")));
+        let known = coordinates.iter().find(|(own, _)| *own == name).map(|(_, hand)| (*hand).to_owned());
+        let rate = rates.iter().find(|(own, _)| own == name).map(|(_, hand)| hand.clone());
+        let constant =
+            pairs.iter().find_map(|(own, hand)| Some(format!("{}{hand}", name.strip_prefix(own)?)));
+        known.or(rate).or(constant).unwrap_or_else(|| name.to_owned())
+    };
+    let (bits, cost, names) = rates(by_counts, meaning);
+    assert_eq!(names.len(), 18);
+    let (expected, expected_cost, _) = rates(by_hand, str::to_owned);
+    assert_eq!((bits, cost), (expected, expected_cost));
+}

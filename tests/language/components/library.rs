@@ -233,7 +233,7 @@ guen::mechanical_system! {
     /// Nothing but a cable between two nails.
     system Nailed {
         constants { span > 0 }
-        use Cable as cable { from: vec(0, 0, 0), to: vec(span, 0, 0) }
+        use Cable as cable { from: vec(0, 0, 0), to: vec(span, 0, 0), segments: 8 }
     }
 }
 
@@ -268,6 +268,34 @@ fn a_stretched_cable_swings_like_a_chain_of_masses() {
     assert!((rate.cable.x_rate[2] - damping).abs() < 1e-9, "{rate:?}");
     let spring = -2.0 * 50.0 * 8.0 * 0.001 / 0.1;
     assert!((rate.cable.x_rate[5] - spring).abs() < 1e-8, "{rate:?}");
+}
+
+guen::mechanical_system! {
+    /// Two cables with other numbers of segments.
+    system Strung {
+        count n = 3;
+        constants { span > 0 }
+        use Cable as three { from: vec(0, 0, 0), to: vec(span, 0, 0), segments: n }
+        use Cable as two   { from: vec(0, 1, 0), to: vec(span, 1, 0), segments: n - 1 }
+    }
+}
+
+#[test]
+fn cables_have_as_many_segments_as_their_use_says() {
+    let cable = Cable { mass: 0.8, length: 1.0, stiffness: 50.0, damping: 0.3 };
+    let strung = Strung { span: 1.2, three: cable, two: cable }.prepare().unwrap();
+    let mut state = strung::State::default();
+    state.three.x = [0.4, 0.8];
+    state.three.y = [1e-6, 1e-6];
+    state.two.x = [0.6];
+    state.two.y = [1.0 + 1e-6];
+    let rate = strung.rhs(0.0, &state);
+    // Of n masses m/n at distances s/n the slowest swing has (2 sin(pi/(2n)))^2 T n^2/(m s).
+    let square =
+        |n: f64| (2.0 * (std::f64::consts::PI / (2.0 * n)).sin()).powi(2) * 10.0 * n * n / (0.8 * 1.2);
+    assert!((rate.three.y_rate[0] + square(3.0) * 1e-6).abs() < 1e-10, "{rate:?}");
+    assert!((rate.three.y_rate[1] + square(3.0) * 1e-6).abs() < 1e-10, "{rate:?}");
+    assert!((rate.two.y_rate[0] + square(2.0) * 1e-6).abs() < 1e-10, "{rate:?}");
 }
 
 guen::mechanical_system! {

@@ -58,7 +58,8 @@ pub(super) fn check(
         let whole = &entry.written.text;
         if name != whole {
             fault = fault.help(format!(
-                "impose the other components of `{whole}` one by one, as `{whole}_x: inner(e, vec(1, 0, 0)) = 0;`"
+                "impose the other components of `{whole}` one by one, as `{}: inner(e, vec(1, 0, 0)) = 0;`",
+                crate::names::suffixed(whole, "_x")
             ));
         }
     }

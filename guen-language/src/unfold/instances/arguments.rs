@@ -2,7 +2,10 @@
 
 use crate::diagnostics::{Fault, Faults};
 use crate::names::{nearest, quoted};
-use crate::syntax::{Argument, Component, DeclaredArgument, Item, Path, Use};
+use crate::syntax::{
+    AddOperator, Argument, ArgumentKind, Component, DeclaredArgument, Expression, ExpressionKind, Item,
+    MultiplyOperator, Name, Path, Use,
+};
 
 /// The arguments as names of the instance, in the order of the component.
 pub(super) fn items(instance: &Use, component: &Component, path: &Path, faults: &mut Faults) -> Vec<Item> {
@@ -48,7 +51,8 @@ pub(super) fn items(instance: &Use, component: &Component, path: &Path, faults: 
             missing.iter().map(|argument| format!("{}: ..", argument.name)).collect::<Vec<_>>().join(", ")
         )));
     }
-    let pairs = component.arguments.iter().filter_map(|argument| {
+    let values = component.arguments.iter().filter(|argument| argument.kind != ArgumentKind::Count);
+    let pairs = values.filter_map(|argument| {
         Some((argument, instance.arguments.iter().find(|given| given.name.text == argument.name.text)?))
     });
     let items = pairs.map(|(argument, given)| {
@@ -60,4 +64,63 @@ pub(super) fn items(instance: &Use, component: &Component, path: &Path, faults: 
         })
     });
     items.collect()
+}
+
+/// The values of the counts among the arguments; none where one is missing or no count.
+pub(super) fn counts<'c>(
+    instance: &Use,
+    component: &'c Component,
+    faults: &mut Faults,
+) -> Option<Vec<(&'c Name, i64)>> {
+    let before = faults.count();
+    let mut counts = Vec::new();
+    for argument in component.counts() {
+        let name = &argument.name;
+        let Some(given) = instance.arguments.iter().find(|given| given.name.text == name.text) else {
+            // It is reported with the other arguments.
+            items(instance, component, &super::prefix::path_of(&instance.name), faults);
+            return None;
+        };
+        let value = &given.value;
+        match whole(value) {
+            Some(number) if number >= 0 => counts.push((name, number)),
+            Some(number) => {
+                let text = format!("count `{name}` is {number}, and a count is a whole number from 0 on");
+                faults.report(Fault::new(value.extent(), text));
+            }
+            None if value.has_missing() => return None,
+            None => {
+                let text =
+                    format!("`{name}` of `{}` is a count, and this is no whole number", component.name);
+                let fault = Fault::new(value.extent(), text);
+                faults.report(fault.note(
+                    "a count is known while the program is compiled: it is made of numbers, counts and loop variables",
+                ));
+            }
+        }
+    }
+    (faults.count() == before).then_some(counts)
+}
+
+/// The value of an expression of whole numbers, as indices are computed: a quotient is cut off.
+fn whole(e: &Expression) -> Option<i64> {
+    match &e.kind {
+        ExpressionKind::Number(number) => number.text.replace('_', "").parse().ok(),
+        ExpressionKind::Negation(operand) => whole(operand)?.checked_neg(),
+        ExpressionKind::Sum { first, rest } => rest.iter().try_fold(whole(first)?, |sum, term| {
+            let value = whole(&term.value)?;
+            match term.operator {
+                AddOperator::Plus => sum.checked_add(value),
+                AddOperator::Minus => sum.checked_sub(value),
+            }
+        }),
+        ExpressionKind::Product { first, rest } => rest.iter().try_fold(whole(first)?, |product, factor| {
+            let value = whole(&factor.value)?;
+            match factor.operator {
+                MultiplyOperator::Times => product.checked_mul(value),
+                MultiplyOperator::Over => product.checked_div(value),
+            }
+        }),
+        _ => None,
+    }
 }

@@ -14,7 +14,7 @@ mod prefix;
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
-use crate::diagnostics::{Fault, Faults};
+use crate::diagnostics::{Fault, Faults, collect};
 use crate::limits::MAX_INSTANCES;
 use crate::names::{nearest, quoted};
 use crate::syntax::{Component, Declaration, Imported, Instance, Item, Name, Use};
@@ -47,11 +47,13 @@ pub(super) fn instantiate(declaration: Declaration, faults: &mut Faults) -> Decl
 
 /// The constants of a component, and of the components that it uses, as a declaration of their own.
 pub(super) fn constants(component: &Component, faults: &mut Faults) -> Declaration {
-    let mut stage = Stage { faults, depth: 0, written: 0 };
     let none = Known { declared: Vec::new(), announced: Vec::new(), imported: &component.imported };
-    let part = stage.component(component, &component.imported, &none);
+    let part = Stage { faults, depth: 0, written: 0 }.by_itself(component, &none);
     merge::constants(&part.component, &part.content)
 }
+
+/// The value of every count where a component is written out by itself: its constants do not depend on it.
+const STAND_IN: i64 = 2;
 
 /// The components that may be used somewhere.
 #[derive(Clone)]
@@ -92,9 +94,42 @@ struct Stage<'f> {
 }
 
 impl Stage<'_> {
+    /// Writes a component out where it is declared. What counts among its arguments lead to is reported where they are given.
+    fn by_itself(&mut self, component: &Component, outer: &Known<'_>) -> Rc<Part> {
+        let counts: Vec<(&Name, i64)> =
+            component.counts().map(|argument| (&argument.name, STAND_IN)).collect();
+        if counts.is_empty() {
+            return self.component(component, outer.imported, outer, &counts);
+        }
+        let (depth, written) = (self.depth, self.written);
+        collect(|faults| {
+            Stage { faults, depth, written }.component(component, outer.imported, outer, &counts)
+        })
+        .0
+    }
+
+    /// Writes a component out for the counts that a use gives; none where there is none, or after a fault in it.
+    fn counted(&mut self, instance: &Use, component: &Component, outer: &Known<'_>) -> Option<Rc<Part>> {
+        let counts = arguments::counts(instance, component, self.faults)?;
+        let before = self.faults.count();
+        let part = self.component(component, outer.imported, outer, &counts);
+        if self.faults.count() == before {
+            return Some(part);
+        }
+        let what = format!("in `{}`, a `{}`, used", instance.name, component.name);
+        self.faults.of_instance(before, &what, instance.name.span());
+        None
+    }
+
     /// Writes a component out, with its own names.
-    fn component(&mut self, component: &Component, imported: &[Imported], outer: &Known<'_>) -> Rc<Part> {
-        let items = super::loops_of(component, self.faults);
+    fn component(
+        &mut self,
+        component: &Component,
+        imported: &[Imported],
+        outer: &Known<'_>,
+        counts: &[(&Name, i64)],
+    ) -> Rc<Part> {
+        let items = super::loops_of(component, counts, self.faults);
         let known = Known { declared: outer.declared.clone(), announced: Vec::new(), imported };
         let content = self.items(items, &known, &component.name);
         Rc::new(Part { component: Rc::new(component.clone()), content })
@@ -114,7 +149,7 @@ impl Stage<'_> {
                     let before = self.faults.count();
                     check_names(&component, self.faults);
                     let sound = self.faults.count() == before;
-                    let written = sound.then(|| self.component(&component, outer.imported, &known));
+                    let written = sound.then(|| self.by_itself(&component, &known));
                     found.components.extend(written.clone());
                     known.declared.push((component.name.clone(), written));
                 }
@@ -153,9 +188,15 @@ impl Stage<'_> {
             self.faults.report(fault.help("a component may use others, each of which ends somewhere"));
             return None;
         }
-        let declared = known.declared.iter().find(|(name, _)| path.is_name() && name.text == path.text);
-        if let Some((_, unfolded)) = declared {
-            return unfolded.clone();
+        let declared = known.declared.iter().position(|(name, _)| path.is_name() && name.text == path.text);
+        if let Some(place) = declared {
+            let part = known.declared[place].1.clone()?;
+            if part.component.counts().next().is_none() {
+                return Some(part);
+            }
+            let before = known.declared[..place].to_vec();
+            let outer = Known { declared: before, announced: Vec::new(), imported: known.imported };
+            return self.counted(instance, &part.component, &outer);
         }
         if let Some(imported) = known.imported.iter().find(|imported| imported.path == path.text) {
             if imported.is_faulty {
@@ -171,9 +212,13 @@ impl Stage<'_> {
                 return None;
             }
             self.depth += 1;
-            let unfolded = self.component(&imported.component, &imported.component.imported, &none);
+            let component = &imported.component;
+            let unfolded = match component.counts().next() {
+                None => Some(self.component(component, &component.imported, &none, &[])),
+                Some(_) => self.counted(instance, component, &none),
+            };
             self.depth -= 1;
-            return Some(unfolded);
+            return unfolded;
         }
         if let Some(later) = known.announced.iter().find(|name| path.is_name() && name.text == path.text) {
             let text = format!("component `{later}` is used before it is declared");
