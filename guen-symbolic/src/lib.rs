@@ -32,7 +32,8 @@ pub use motion::{
     BodyNode, Class, Component, Dependence, Derivation, DerivationError, Energies, Equations,
     FirstOrderState, Force, FormShape, Formulated, Frame, FrameId, FrameNode, Holonomic, KineticTerm,
     Mechanics, Motion, MotionSymbol, Multibody, NotQuadratic, Place, RigidBody, Solution, SystemGraph, Turn,
-    Velocity, VelocityForm, VelocityPartials, decompose, equations_by_definition, formulation_names,
+    Velocity, VelocityForm, VelocityPartials, decompose, elimination_text, equations_by_definition,
+    formulation_names,
 };
 pub use normal::{Limits, normal_coefficients, normal_form};
 pub use print::{Contracted, Notation, greek_letter, latex_name};

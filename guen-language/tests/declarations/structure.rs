@@ -2,6 +2,7 @@
 //! written.
 
 use guen_language::diagnostics::collect;
+use guen_symbolic::elimination_text;
 
 /// The printed graph of a declaration.
 fn structure(text: &str) -> String {
@@ -161,4 +162,21 @@ fn the_page_shows_the_graph_of_its_declaration() {
     }
     let is_tree = |line: &&str| line.starts_with("frame") || line.starts_with("body");
     assert_eq!(graph.lines().filter(is_tree).count(), shown.lines().filter(is_tree).count());
+}
+
+/// The page shows which unknowns follow from what, and the patterns of the matrices, as they are today.
+#[test]
+fn the_page_shows_the_patterns_of_its_matrices() {
+    let page = include_str!("../../../docs/design/derivation.md");
+    let declaration = page.split("```text\n").nth(1).unwrap().split("```").next().unwrap();
+    let (declaration, _) = guen_language::parse::parse(declaration.parse().unwrap());
+    let declaration = declaration.unwrap();
+    let (found, _) = collect(|faults| {
+        let mut model = guen_language::model::resolve(&declaration, faults)?;
+        elimination_text(&mut model.bench, &model.mechanics)
+    });
+    let found = found.unwrap();
+    let missing = found.split("\n\n").filter(|part| !page.contains(part.trim_end()));
+    let missing: Vec<&str> = missing.collect();
+    assert!(missing.is_empty(), "the page does not show\n{}", missing.join("\n\n"));
 }

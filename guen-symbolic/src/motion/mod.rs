@@ -49,6 +49,7 @@ pub use graph::{
     BodyNode, Component, FormShape, FrameId, FrameNode, Motion, Place, SystemGraph, Turn, Velocity,
 };
 pub use kinetic::{KineticTerm, NotQuadratic, decompose};
+pub use multibody::elimination_text;
 pub use poincare::equations as equations_by_definition;
 pub use solve::Solution;
 pub use velocity_forms::{VelocityForm, VelocityPartials};

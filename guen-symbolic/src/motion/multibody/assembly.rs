@@ -47,7 +47,7 @@ fn axial(tree: &Tree, content: &Content) -> Option<usize> {
 
 /// An order in which velocities leave the equations.
 #[derive(Clone, Copy, PartialEq, Eq)]
-struct Order {
+pub(super) struct Order {
     parameters: Leaving,
     /// Whether velocities that are shifted along levers are eliminated before those that a joint turns.
     shifts_first: bool,
@@ -55,7 +55,7 @@ struct Order {
 
 /// The time at which a parameter leaves the equations.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Leaving {
+pub(super) enum Leaving {
     /// After all velocities: the mass matrix of the parameters is factored.
     AtTheRoot,
     /// As soon as all velocities that follow from it have left: the inertia of articulated bodies.
@@ -63,7 +63,7 @@ enum Leaving {
 }
 
 /// All orders that are tried, those to the root first.
-const ORDERS: [Order; 4] = [
+pub(super) const ORDERS: [Order; 4] = [
     Order { parameters: Leaving::AtTheRoot, shifts_first: false },
     Order { parameters: Leaving::AtTheRoot, shifts_first: true },
     Order { parameters: Leaving::OnTheWay, shifts_first: false },
@@ -123,7 +123,7 @@ impl Outwards<'_, '_> {
 /// The equations of a tree while they are put up and solved.
 pub(super) struct Assembly<'a> {
     pub(super) kinematics: Kinematics<'a>,
-    form: Form,
+    pub(super) form: Form,
 }
 
 impl<'a> Assembly<'a> {
@@ -409,7 +409,7 @@ impl<'a> Assembly<'a> {
     }
 
     /// The rates of the core's unknowns at zero rates of the parameters.
-    fn core_bias(&mut self) -> Vec<Num> {
+    pub(super) fn core_bias(&mut self) -> Vec<Num> {
         let plan = self.kinematics.plan;
         let mut right = Vec::new();
         for equation in &plan.core {
@@ -426,7 +426,7 @@ impl<'a> Assembly<'a> {
     }
 
     /// Substitutes every velocity by those from which it follows, the youngest first; pairs are turned together.
-    fn inwards(&mut self, when: Order, bias: &[Num]) -> Option<()> {
+    pub(super) fn inwards(&mut self, when: Order, bias: &[Num]) -> Option<()> {
         let (tree, variables, plan) = (self.kinematics.tree, self.kinematics.variables, self.kinematics.plan);
         let roots = self.form.variables();
         let order = order(self.kinematics.numbers, tree, variables, plan, &roots);

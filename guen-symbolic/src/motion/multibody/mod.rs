@@ -20,6 +20,7 @@ mod forms;
 mod kinematics;
 mod plan;
 mod points;
+mod print;
 mod regrouping;
 mod relations;
 mod rotations;
@@ -29,6 +30,8 @@ mod strain;
 mod strained;
 mod tree;
 mod variables;
+
+pub use self::print::elimination_text;
 
 use self::assembly::{Assembly, Root};
 use self::core::Core;
