@@ -1,6 +1,7 @@
 //! The rules by which bodies are derived, one by one: each declaration reaches rules that few systems do. No other formulation is tried,
 //! so that a wrong sign cannot hide behind a cheaper one. Rates that are not those of (2.7) end a derivation with an error, and rows of
-//! reactions that are not proved are replaced by longer ones. `docs/design/formulations.md` has the signs that were flipped.
+//! reactions that are not proved are replaced by longer ones. `docs/design/checks.md` says which signs were
+//! flipped.
 
 use crate::common::derived_without;
 use guen_language::derive::function;
