@@ -9,7 +9,7 @@ pub(in crate::motion) const MULTIPLIED_PARAMETERS: usize = 6;
 /// has an entry for each pair.
 pub(in crate::motion) const WRITTEN_OUT_PARAMETERS: usize = 64;
 
-/// The same for parameters that no energy couples: their matrix has a diagonal.
+/// The number of parameters that no energy couples above which equations are not written out: their matrix has a diagonal.
 pub(in crate::motion) const DIAGONAL_PARAMETERS: usize = 200;
 
 /// The estimate for each parameter above which constraint forces of a large system are not taken.
