@@ -230,3 +230,20 @@ mechanical_system! {
         outputs { load = reaction(leg[2]).x; }
     }
 }
+
+mechanical_system! {
+    /// A ball that bounces under a motor whose current settles, and a filter of its speed.
+    pub system MotorBall {
+        constants { m > 0 = 2, g = 9.81, e in 0..1 = 1/2, L > 0 = 1/4, k = 3, tau > 0 = 1/2 }
+        inputs { voltage }
+        coordinates { z }
+        parameters { v = dot(z); }
+        kinetic_energy = m/2*v^2;
+        potential_energy = m*g*z;
+        states { dot(current) = (voltage - current)/L; dot(slow) = (v - slow)/tau; }
+        forces { k*current along v; }
+        contacts { floor: gap = z, restitution = e; }
+        outputs { force = reaction(floor); }
+        scene Resting { modes { floor: open; } track slow; }
+    }
+}

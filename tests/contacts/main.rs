@@ -11,4 +11,5 @@ mod piecewise;
 mod printed;
 mod reference;
 mod simulated;
+mod states;
 mod unaware;

@@ -105,6 +105,24 @@ fn programs(
             bench.tidy(drift)
         })
         .collect();
+    // A force of contact is no function of time in an impact, and what it would do to a state there is not known.
+    for (state, rate) in model.states.iter().zip(&derivation.formulations[0].rates[n + l..]) {
+        let pressed = forces.iter().any(|force| {
+            let slope = Flow::partial(&bench.graph, *force).of(&mut bench.graph, *rate);
+            bench.verdict_on_manifold(slope) != Verdict::Zero
+        });
+        if pressed {
+            let text = format!("the rate of state `{}` depends on forces of contacts", state.name);
+            let fault = Fault::new(state.name.span(), text);
+            let fault = fault.note(
+                "accelerations and reactions are infinite in an impact, and a state goes on through it",
+            );
+            faults.report(fault.help("write the rate by positions, velocities, inputs and states"));
+        }
+    }
+    if faults.count() > before {
+        return None;
+    }
     let mut lists: Vec<(u64, Vec<ExprId>, Vec<ExprId>)> = Vec::new();
     for formulated in &derivation.formulations {
         let mut unpressed = Substitution::new(forces.iter().map(|force| (*force, zero)));
@@ -139,7 +157,7 @@ fn programs(
         let mut delassus = Vec::new();
         for (w, response) in responses.iter().enumerate() {
             for column in &columns[..=w] {
-                let entry = bench.dot(column, response);
+                let entry = bench.dot(column, &response[..l]);
                 delassus.push(bench.tidy(entry));
             }
         }
@@ -206,7 +224,7 @@ fn programs(
     let has_conditions = contacts.entries.iter().any(|entry| entry.when.is_some() || entry.release.is_some());
     let mut builder = ProgramBuilder::new(&mut bench.graph);
     builder.add_equal(function::FREE_MOTION, &lists);
-    builder.add_function(function::FREE_RATES, &best[..n + l]);
+    builder.add_function(function::FREE_RATES, &best[..n + l + model.states.len()]);
     builder.add_function(function::ROW_RATES, &rows);
     if moves {
         builder.add_cold(function::ROW_DRIFTS, &drifts);

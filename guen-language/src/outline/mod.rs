@@ -54,10 +54,7 @@ pub fn sound(declaration: &Declaration) -> Declaration {
     ];
     items.extend(forms.constraints.iter().cloned());
     items.extend(forms.driven.as_ref().map(|x| Item::Forces(section(vec![entries.force(x)]))));
-    // Contacts do not go with states.
-    let refuses = |item: &Item| matches!(item, Item::States(_));
-    let has_contacts = !declaration.items.iter().any(refuses);
-    if let (Some(moving), true) = (&forms.driven, has_contacts) {
+    if let Some(moving) = &forms.driven {
         items.extend(contacts::items(declaration, &kinds, &mut names, moving, &forms.coordinates));
     }
     items.extend(scenes::items(declaration, &entries, &forms));

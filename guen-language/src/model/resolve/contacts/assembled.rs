@@ -28,7 +28,8 @@ pub(in crate::model::resolve) fn assembled<'a>(
     let unpressed = entries.iter().flat_map(|entry| &entry.rows).map(|row| (row.force, zero));
     let mut values = Substitution::new(values.into_iter().chain(unpressed));
     let expressions = mechanics.forces.iter_mut().map(|force| &mut force.magnitude);
-    for e in expressions.chain(&mut mechanics.outputs) {
+    let rates = mechanics.states.iter_mut().map(|state| &mut state.rate);
+    for e in expressions.chain(rates).chain(&mut mechanics.outputs) {
         *e = values.of(&mut bench.graph, *e);
     }
     Contacts { entries, switches, modes, mechanics: pressed }
@@ -51,11 +52,6 @@ impl Resolver<'_, '_> {
                     let text = "there are no contacts that `modes` could speak of";
                     let fault = Fault::new(section.keyword, text);
                     self.eval.faults.report(fault.help("declare them: `contacts { name: gap = e; }`"));
-                    return None;
-                }
-                Item::States(states) if self.has_contacts() && !states.entries.is_empty() => {
-                    let text = "a system with contacts or switches has no `states` so far";
-                    self.eval.faults.report(Fault::new(states.keyword, text));
                     return None;
                 }
                 Item::Contacts(contacts) if is_own => keyword = Some(contacts.keyword),

@@ -1,6 +1,6 @@
-//! A system with contacts has no states beside the motion so far.
+//! The rate of a state does not depend on forces of contacts.
 //!
-//! repair: `never floor.stick with wall.closed; }\n        states { dot(s) = x; }` => `never floor.stick with wall.closed; }`
+//! repair: `dot(w) - s` => `w - s`
 
 guen::mechanical_system! {
     pub system Ball {
@@ -19,7 +19,7 @@ guen::mechanical_system! {
             bolt: latch = phi, when = w, release = t - 1;
         }
         modes { axle: stick; bolt: free; never floor.stick with wall.closed; }
-        states { dot(s) = x; }
+        states { dot(s) = dot(w) - s; }
     }
 }
 
