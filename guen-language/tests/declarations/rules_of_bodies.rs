@@ -171,6 +171,73 @@ fn a_steered_wheel_determines_the_core_by_its_own_axes() {
     );
 }
 
+/// A cart with a steered wheel whose place is driven, on ground that moves; `rear` is how its rear moves.
+fn cart_on_a_belt(rear: &str) -> String {
+    format!(
+        "system Cart {{
+            constants {{ m, I, k, J, a, b, v, g }}
+            coordinates {{ x, y, heading, steer }}
+            let F = rot_z(heading); let W = F*rot_z(steer); let middle = vec(x, y, 0);
+            let nose = middle + (b + sin(t))*F.x;
+            bodies {{
+                cart {{ mass: m, inertia: diag(I, I, I), center: middle, orientation: F }}
+                wheel {{ mass: k, inertia: diag(J, J, J), center: nose, orientation: W }}
+            }}
+            gravity = vec(0, -g, 0);
+            parameters {{ steering = dot(steer); drive = inner(W.x, dot(nose)); }}
+            constraints {{ rear: {rear}; front: inner(W.y, dot(nose) - vec(0, v*t, 0)) = 0; }}
+        }}"
+    )
+}
+
+#[test]
+fn a_core_moves_where_its_ground_moves() {
+    // Both rows of the core, and the rate of a place, have parts without parameters.
+    assert_by_bodies(&cart_on_a_belt("inner(F.y, cart.velocity_at(middle - a*F.x) - vec(v*x, 0, 0)) = 0"));
+    // One velocity follows from its row before the core.
+    assert_by_bodies(&cart_on_a_belt("inner(F.y, dot(middle)) = v*t"));
+}
+
+#[test]
+fn an_angle_that_is_a_function_turns_faster_the_faster_it_turns() {
+    assert_by_bodies(
+        "system Nod {
+            constants { m, I, J, l, g }
+            coordinates { a, u }
+            let A = rot_z(a); let B = A*rot_x(u^3);
+            bodies {
+                one { mass: m, inertia: diag(I, J, I), center: l*A.x, orientation: A }
+                two { mass: m, inertia: diag(I, J, 2*I), center: l*A.x + l*B.y, orientation: B }
+            }
+            gravity = vec(0, 0, -g);
+            parameters { turn = dot(a); push = dot(u); }
+        }",
+    );
+}
+
+#[test]
+fn the_lever_to_the_lowest_point_of_a_wheel_turns_with_its_plane() {
+    assert_by_bodies(
+        "system Wheel {
+            constants { m > 0, I > 0, k > 0, r > 0, l > 0, g = 9.81 }
+            coordinates { x, y, z, yaw, lean, pitch, steer, roll }
+            let up = vec(0, 0, 1);
+            let B = rot_z(yaw)*rot_x(lean)*rot_y(pitch); let F = B*rot_z(steer);
+            let hub = vec(x, y, z);
+            let contact = hub - r*unit(up - inner(up, F.y)*F.y);
+            bodies {
+                wheel { mass: m, inertia: diag(I, 2*I, I), center: hub, orientation: F*rot_y(roll) }
+                frame { mass: k, inertia: diag(I, I, I), center: hub + l*B.x, orientation: B }
+            }
+            gravity = -g*up;
+            parameters {
+                turning = dot(yaw); falling = dot(lean); nodding = dot(pitch); steering = dot(steer); rolling = dot(roll);
+            }
+            constraints { ground: wheel.velocity_at(contact) = 0; }
+        }",
+    );
+}
+
 #[test]
 fn a_spin_is_held_along_an_axis_that_another_body_turns() {
     assert_by_bodies(
@@ -228,6 +295,7 @@ fn a_quaternion_that_is_strained_and_turned_has_a_short_reaction() {
         gravity = vec(0, 0, -g);
         parameters { di = dot(i); dj = dot(j); dk = dot(k); du = dot(u); dp = dot(p); }
     }";
+    assert_by_bodies(text);
     let operations = derived_without(
         text,
         |_| false,
