@@ -22,6 +22,12 @@ use lines::{LATEX_TOO_LONG, Lines, TOO_LONG, Terms, Writer, class_name, plural};
 /// Lines longer than this are left to the programs.
 const LINE_CHARACTERS: usize = 3000;
 
+/// The limit of lines where a system has more than [`MANY_LINES`] parameters: its report has a line for each.
+const LINE_CHARACTERS_OF_MANY: usize = 500;
+
+/// The number of parameters above which long lines are left to the programs earlier.
+const MANY_LINES: usize = 24;
+
 impl Report {
     /// Writes down what was derived of a level of detail of a model.
     pub fn of(model: &Model<'_>, level: &Level) -> Self {
@@ -41,9 +47,11 @@ impl Report {
         // One memory for all sections: the parts of an expression are written once.
         let graph = &subject.model.bench.graph;
         let shown = &subject.level.shown;
+        let is_long = subject.level.derivation.system.forms.degrees > MANY_LINES;
+        let characters = if is_long { LINE_CHARACTERS_OF_MANY } else { LINE_CHARACTERS };
         let writer = &mut Writer {
-            text: Notation::text(graph, LINE_CHARACTERS).of_images(shown),
-            latex: Notation::latex(graph, LINE_CHARACTERS).of_images(shown),
+            text: Notation::text(graph, characters).of_images(shown),
+            latex: Notation::latex(graph, characters).of_images(shown),
         };
         let operators = |lines: &mut Vec<Section>, writer: &mut Writer<'_>| {
             lines.push(self::operators(subject, writer));

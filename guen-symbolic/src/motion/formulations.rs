@@ -17,6 +17,7 @@ use super::{
     recursive, spins,
 };
 use crate::algebra::ExprId;
+use crate::geometry::MANY_COORDINATES;
 use crate::program::weighted_cost;
 use crate::workbench::Workbench;
 
@@ -252,6 +253,11 @@ impl Search<'_> {
         stated.bodies.get_or_insert_with(find).as_ref()
     }
 
+    /// Whether there are many parameters and nothing turns: by bodies, particles have a full mass matrix then.
+    fn are_many_particles(&self) -> bool {
+        self.system.structure.frames().len() <= 1 && self.system.forms.degrees > MANY_COORDINATES
+    }
+
     /// The equations as they are stated, solved: what is shown unless something is much shorter.
     fn base(&mut self, bench: &mut Workbench) -> Result<Outcome, DerivationError> {
         let solution = solved(bench, self.stated.shown())?;
@@ -288,7 +294,8 @@ fn by_constraint_forces(bench: &mut Workbench, search: &mut Search<'_>) -> Resul
     // The equations that the others solve are more expensive before they are solved; bodies do not solve them.
     let is_least = found.is_clear
         && cost <= weighted_cost(&bench.graph, &multiplied[0].entries())
-        && search.bodies(bench).is_none_or(|found| cost <= weighted_cost(&bench.graph, &found.rates));
+        && (search.are_many_particles()
+            || search.bodies(bench).is_none_or(|found| cost <= weighted_cost(&bench.graph, &found.rates)));
     let rank = if is_least {
         Rank::Last(Solution::known(bench, found.accelerations, &found.divisors))
     } else {

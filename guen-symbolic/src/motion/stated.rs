@@ -15,6 +15,7 @@ use super::{
     Equations, Frame, FrameNode, KineticTerm, Mechanics, body_axes, multibody, projection, restriction, spins,
 };
 use crate::algebra::ExprId;
+use crate::geometry::MANY_COORDINATES;
 use crate::motion::thresholds::{
     ALL_WAYS, MASS_PRODUCTS, MULTIPLIED_PARAMETERS, MULTIPLIED_VELOCITIES, OTHER_WAYS,
 };
@@ -171,14 +172,21 @@ impl Stated {
         (mut definition, generalised_forces): (Definition, &[ExprId]),
     ) -> Result<Self, DerivationError> {
         let (n, l) = (system.forms.len(), system.forms.degrees);
-        let by_definition = definition.written(bench, system, frame).clone();
+        // Many equations are multiplied out by one route, and proved at points alone.
+        let by_definition = match l > MANY_COORDINATES {
+            true => None,
+            false => Some(definition.written(bench, system, frame).clone()),
+        };
         affordable(bench)?;
-        definition.is(bench, (system, frame), &by_definition, false)?;
+        if let Some(by_definition) = &by_definition {
+            definition.is(bench, (system, frame), by_definition, false)?;
+        }
         let projected = projection::equations(bench, system, frame, partials, terms, 0..n);
         let mut by_projection = projected.equations.clone();
         let constrained = by_projection.split_off(l).driven(bench, &generalised_forces[l..]);
         definition.is(bench, (system, frame), &projected.equations, false)?;
-        let mut multiplied = forms(bench, system, &by_definition, &projected.equations);
+        let own = by_definition.as_ref().unwrap_or(&projected.equations);
+        let mut multiplied = forms(bench, system, own, &projected.equations);
         // On constraints on positions the axes of the bodies leave less than those of the world.
         let in_body_axes = match system.holonomic.is_empty() {
             true => None,

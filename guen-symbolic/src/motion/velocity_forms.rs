@@ -1,7 +1,8 @@
 //! Expressions affine in the velocities `x'` and the quasi-velocities `eta`, taken apart.
 
 use super::Mechanics;
-use crate::algebra::{ExprId, FastMap, Flow, Role, Roles, Substitution};
+use crate::algebra::{ExprId, FastMap, Flow, Role, Roles, Substitution, gradient};
+use crate::motion::thresholds::WRITTEN_OUT_PARAMETERS;
 use crate::workbench::Workbench;
 
 /// The kinds of symbol that stand for velocities.
@@ -22,6 +23,7 @@ pub struct VelocityForm {
 pub struct VelocityPartials {
     by_velocity: Vec<Flow>,
     by_eta: Vec<Flow>,
+    symbols: Vec<ExprId>,
     at_rest: Substitution,
     known: FastMap<ExprId, Option<VelocityForm>>,
 }
@@ -35,6 +37,7 @@ impl VelocityPartials {
         VelocityPartials {
             by_velocity: partials(velocities),
             by_eta: partials(etas),
+            symbols: [velocities, etas].concat(),
             at_rest: Substitution::new(velocities.iter().chain(etas).map(|symbol| (*symbol, zero))),
             known: FastMap::default(),
         }
@@ -58,8 +61,16 @@ impl VelocityPartials {
     fn take_apart(&mut self, bench: &mut Workbench, e: ExprId) -> Option<VelocityForm> {
         let count = self.by_velocity.len();
         let (mut on_velocities, mut on_etas) = (Vec::new(), Vec::new());
+        // Of many velocities few occur in a form: one pass back finds all slopes.
+        let slopes = (count > WRITTEN_OUT_PARAMETERS).then(|| gradient(&mut bench.graph, e, &self.symbols));
         for index in 0..self.len() {
-            let slope = self.by(bench, index, e);
+            let slope = match &slopes {
+                Some(slopes) => slopes[index],
+                None => self.by(bench, index, e),
+            };
+            if bench.graph.is_zero(slope) {
+                continue;
+            }
             let slope = self.velocity_free(bench, slope)?;
             if bench.graph.is_zero(slope) {
                 continue;

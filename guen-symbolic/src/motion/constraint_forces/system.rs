@@ -1,5 +1,7 @@
 //! The equations of the constraint forces: rewritten in the angles between neighbours, scaled, and solved.
 
+use std::collections::BTreeSet;
+
 use crate::algebra::{ExprId, FastMap, Node, Rational};
 use crate::motion::relative_angles::RelativeAngles;
 use crate::motion::solve::{Elimination, Naming, eliminate};
@@ -203,13 +205,20 @@ fn most_common(bench: &mut Workbench, es: impl Iterator<Item = ExprId>) -> ExprI
 /// Solves a positive definite system in the order of least fill; among equals that which waits least for others.
 fn by_least_fill(bench: &mut Workbench, matrix: Vec<Vec<ExprId>>, right: Vec<ExprId>) -> Option<Vec<ExprId>> {
     let mut waiting = vec![0_usize; right.len()];
-    let choose = |bench: &mut Workbench, m: &[Vec<ExprId>], left: &[usize]| {
-        let neighbours = |k: usize| -> Vec<usize> {
-            left.iter().copied().filter(|r| *r != k && !bench.graph.is_zero(m[*r][k])).collect()
-        };
-        let k = left.iter().copied().min_by_key(|k| (neighbours(*k).len(), waiting[*k], *k))?;
-        for r in neighbours(k) {
-            waiting[r] = waiting[r].max(waiting[k] + 1);
+    let count = right.len();
+    let filled = |row: &[ExprId], s: usize| -> BTreeSet<usize> {
+        (0..count).filter(|t| *t != s && !bench.graph.is_zero(row[*t])).collect()
+    };
+    // Those that are left and meet each row; whoever leaves joins its neighbours.
+    let mut neighbours: Vec<BTreeSet<usize>> =
+        matrix.iter().enumerate().map(|(s, row)| filled(row, s)).collect();
+    let choose = |_: &mut Workbench, _: &[Vec<ExprId>], left: &[usize]| {
+        let k = left.iter().copied().min_by_key(|k| (neighbours[*k].len(), waiting[*k], *k))?;
+        let around = core::mem::take(&mut neighbours[k]);
+        for r in &around {
+            waiting[*r] = waiting[*r].max(waiting[k] + 1);
+            neighbours[*r].remove(&k);
+            neighbours[*r].extend(around.iter().filter(|other| *other != r));
         }
         Some(k)
     };

@@ -43,6 +43,10 @@ pub(super) fn spanning(bench: &mut Workbench, rows: &[Vec<ExprId>]) -> Vec<Optio
         let k = outside.remove(next);
         edges[k] = nearest[k].1.take();
         for j in &outside {
+            // Forms of different lengths differ by as many components at least.
+            if rows[*j].len().abs_diff(rows[k].len()) >= nearest[*j].0 {
+                continue;
+            }
             let (equal, multiple) = in_common(&rows[*j], &rows[k]);
             let distance = rows[*j].len() + rows[k].len() - equal.0 - equal.1;
             if equal.1 > 0 && distance < nearest[*j].0 {
