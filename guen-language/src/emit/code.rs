@@ -72,12 +72,36 @@ pub(super) fn body(instructions: &[Instruction], outputs: &[Value], loads: &dyn 
             let _ = write!(writer.text, "({handed}) }};");
         }
     }
-    writer.text.push('[');
-    for output in outputs {
-        let _ = write!(writer.text, "{},", writer.names[output.index()]);
+    let names: Vec<&str> = outputs.iter().map(|output| writer.names[output.index()].as_str()).collect();
+    let results = results(&names);
+    writer.text + &results
+}
+
+/// Results as an array: one by one, or where there are many and most are the same value, as in a sparse matrix, that value and the others.
+fn results(names: &[&str]) -> String {
+    const MANY: usize = 1_000;
+    let mut text = String::new();
+    // The first zero of a matrix is not far from its beginning.
+    let common = names.iter().take(3).max_by_key(|name| names.iter().filter(|other| other == name).count());
+    if let Some(common) = common.filter(|_| names.len() > MANY) {
+        let others: Vec<(usize, &&str)> =
+            names.iter().enumerate().filter(|(_, name)| *name != common).collect();
+        if 4 * others.len() < names.len() {
+            let _ = write!(text, "let mut o = [{common}; {}];", names.len());
+            for (place, name) in others {
+                let _ = write!(text, "o[{place}] = {name};");
+            }
+            text.push('o');
+            return text;
+        }
     }
-    writer.text.push(']');
-    writer.text
+    text.push('[');
+    for name in names {
+        text.push_str(name);
+        text.push(',');
+    }
+    text.push(']');
+    text
 }
 
 /// Returns the number of uses of each value.
@@ -424,6 +448,16 @@ mod tests {
             (2, 0),
             "{nested}"
         );
+    }
+
+    #[test]
+    fn of_many_results_that_are_the_same_the_others_are_written() {
+        let mut names = vec!["z"; 2_000];
+        assert_eq!(results(&names[..3]), "[z,z,z,]");
+        (names[7], names[1_999]) = ("a", "b");
+        assert_eq!(results(&names), "let mut o = [z; 2000];o[7] = a;o[1999] = b;o");
+        names[..600].fill("a");
+        assert!(results(&names).starts_with("[a,"));
     }
 
     #[test]

@@ -125,7 +125,18 @@ fn cells(pattern: &Pattern, rows: usize, size: usize, count: usize) -> TokenStre
         places[*row][*column] = Some(k);
     }
     // As text, which is quicker than tokens: a literal of arrays, which the compiler checks quicker than assignments.
+    // Of a large sparse matrix the entries alone.
+    const MANY: usize = 1_000;
     let matrix = |name: &str, columns: Range<usize>| {
+        if rows * columns.len() > MANY && 4 * pattern.len() < rows * columns.len() {
+            let mut text = format!("let mut {name} = [[z; {}]; {rows}];", columns.len());
+            for (k, (row, column)) in pattern.iter().enumerate() {
+                if columns.contains(column) {
+                    let _ = write!(text, "{name}[{row}][{}] = e[{k}];", column - columns.start);
+                }
+            }
+            return text;
+        }
         let mut text = format!("let {name} = [");
         for row in &places {
             text.push('[');

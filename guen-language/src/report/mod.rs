@@ -25,8 +25,11 @@ const LINE_CHARACTERS: usize = 3000;
 /// The limit of lines where a system has more than [`MANY_LINES`] parameters: its report has a line for each.
 const LINE_CHARACTERS_OF_MANY: usize = 500;
 
-/// The number of parameters above which long lines are left to the programs earlier.
+/// The number of parameters above which long lines are left to the programs earlier, and sections are cut.
 const MANY_LINES: usize = 24;
+
+/// The lines that a section of such a report has at most, the line about those that are left out beside.
+const LINES_OF_A_SECTION: usize = 48;
 
 impl Report {
     /// Writes down what was derived of a level of detail of a model.
@@ -84,6 +87,9 @@ impl Report {
         sections.push(edges(subject));
         sections.push(cost(subject));
         let summary = if subject.level.scene.is_some() { scene::summary(subject) } else { summary(subject) };
+        if is_long {
+            sections.iter_mut().for_each(Section::shorten);
+        }
         let name = subject.name().text.clone();
         Report { name, summary, sections: sections.into_iter().filter(|s| !s.text.is_empty()).collect() }
     }
@@ -98,6 +104,21 @@ impl Report {
             }
         }
         text
+    }
+}
+
+impl Section {
+    /// Cuts a section behind its first lines, and says how many more there are.
+    fn shorten(&mut self) {
+        let left_out = |lines: &mut Vec<String>, note: fn(usize) -> String| {
+            if lines.len() > LINES_OF_A_SECTION {
+                let more = lines.len() - LINES_OF_A_SECTION;
+                lines.truncate(LINES_OF_A_SECTION);
+                lines.push(note(more));
+            }
+        };
+        left_out(&mut self.text, |more| format!("and {more} more"));
+        left_out(&mut self.latex, |more| format!(r"\text{{and {more} more}}"));
     }
 }
 

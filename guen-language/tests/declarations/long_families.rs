@@ -56,6 +56,8 @@ fn a_long_chain_costs_for_each_link_what_a_short_one_costs() {
     assert!(!long.has_mass && short.has_mass);
     assert!(long.report.contains("not written out: of 132 parameters"), "{}", long.report);
     assert!(!short.report.contains("not written out"), "{}", short.report);
+    assert!(long.report.contains("\n  and 84 more\n"), "{}", long.report);
+    assert!(long.report.lines().count() < 400 && !short.report.contains(" more\n"), "{}", long.report);
 }
 
 /// What the loop declares, written out without one.

@@ -300,7 +300,14 @@ pub(crate) fn is_constant(bench: &mut Workbench, e: ExprId, variables: &[ExprId]
     if !bench.graph.roles(e).meets(moving) {
         return true;
     }
+    let occurring = bench.graph.symbols_in(&[e]);
+    let occurs = |bench: &Workbench, x: ExprId| {
+        bench.graph.as_symbol(x).is_some_and(|symbol| occurring.contains(&symbol))
+    };
     variables.iter().all(|x| {
+        if !occurs(bench, *x) {
+            return true;
+        }
         let slope = Flow::partial(&bench.graph, *x).of(&mut bench.graph, e);
         bench.graph.is_zero(slope) || bench.verdict_on_manifold(slope) == Verdict::Zero
     })
