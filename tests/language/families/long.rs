@@ -21,6 +21,18 @@ mechanical_system! {
     }
 }
 
+mechanical_system! {
+    /// Masses in a row, each on a spring to the one before.
+    pub system Row {
+        count n = 40;
+        constants { m[n] > 0, k > 0 }
+        coordinates { x[n] }
+        parameters { for i in 0..n { v[i] = dot(x[i]); } }
+        kinetic_energy = sum(i in 0..n: m[i]/2*dot(x[i])^2);
+        potential_energy = k/2*x[0]^2 + sum(i in 1..n: k/2*(x[i] - x[i-1])^2);
+    }
+}
+
 const N: usize = 100;
 
 fn constants(c: f64) -> Chain {
@@ -102,4 +114,25 @@ fn a_hundred_links_run_in_a_thread_of_two_megabytes() {
         }
     };
     thread::Builder::new().stack_size(2 << 20).spawn(run).unwrap().join().unwrap();
+}
+
+#[test]
+fn a_large_sparse_linearisation_has_its_entries_in_their_places() {
+    const MASSES: usize = 40;
+    let m = std::array::from_fn(|i| 1.0 + 0.1 * i as f64);
+    let row = Row { m, k: 3.0 }.prepare().unwrap();
+    assert!(row::LINEARIZATION_COST.is_some());
+    let a = row.linearize(0.0, &row::State::default()).a;
+    for (i, line) in a.iter().enumerate() {
+        for (j, entry) in line.iter().enumerate() {
+            let expected = match (i.checked_sub(MASSES), j) {
+                (None, j) => f64::from(u8::from(j == i + MASSES)),
+                (Some(_), MASSES..) => 0.0,
+                (Some(mass), j) if j == mass => -3.0 * if mass + 1 < MASSES { 2.0 } else { 1.0 } / m[mass],
+                (Some(mass), j) if j.abs_diff(mass) == 1 => 3.0 / m[mass],
+                _ => 0.0,
+            };
+            assert!((entry - expected).abs() < 1e-14, "{i} {j}: {entry} {expected}");
+        }
+    }
 }
