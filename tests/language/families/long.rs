@@ -71,11 +71,11 @@ fn dense(Chain { m, l, c, g }: &Chain, chain::State { q, w }: &chain::State) -> 
     }
     // Gauss's elimination of a positive definite matrix.
     for k in 0..N {
-        for i in k + 1..N {
-            let factor = rows[i][k] / rows[k][k];
-            for j in k..=N {
-                rows[i][j] -= factor * rows[k][j];
-            }
+        let (above, below) = rows.split_at_mut(k + 1);
+        let pivot = &above[k];
+        for row in below {
+            let factor = row[k] / pivot[k];
+            row.iter_mut().zip(pivot).skip(k).for_each(|(a, b)| *a -= factor * b);
         }
     }
     let mut found = vec![0.0; N];
