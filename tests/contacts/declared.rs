@@ -240,8 +240,8 @@ mechanical_system! {
         parameters { v = dot(z); }
         kinetic_energy = m/2*v^2;
         potential_energy = m*g*z;
-        states { dot(current) = (voltage - current)/L; dot(slow) = (v - slow)/tau; }
-        forces { k*current along v; }
+        states { dot(current) = (voltage - current)/L; dot(slow) = (v - slow)/tau; dot(worn) = abs(v); }
+        forces { k*max(current, 0) along v; }
         contacts { floor: gap = z, restitution = e; }
         outputs { force = reaction(floor); }
         scene Resting { modes { floor: open; } track slow; }

@@ -35,6 +35,23 @@ fn the_wheel_of_the_design() {
     assert_eq!(wheel::Mode::from(States::from(mode)), mode);
 }
 
+/// What is known of each mode: its rows, and whether Painlevé's paradox is excluded there.
+#[test]
+fn modes_tell_their_rows() {
+    let rows: Vec<&[&str]> = wheel::MODE_INFO.iter().map(|info| info.rows).collect();
+    assert_eq!(rows, [&[][..], &["tyre_n", "tyre_t"], &["tyre_n"], &["tyre_n"]]);
+    assert!(wheel::MODE_INFO.iter().all(|info| info.painleve_free && info.cost.total() > 0));
+    assert!(wheel::MODE_INFO.iter().map(|info| info.mode).eq(wheel::MODES.iter().copied()));
+    // The rod's reaction may have no value where its end slips, and there alone.
+    let free: Vec<bool> = painleve_rod::MODE_INFO.iter().map(|info| info.painleve_free).collect();
+    assert_eq!(free, [true, true, false, false]);
+    // Rows of a grip that sticks and of a latch that is locked.
+    let locked =
+        walker::MODE_INFO.iter().find(|info| info.mode.to_string().contains("lock locked, brake stick"));
+    let rows = locked.unwrap().rows;
+    assert!(rows.ends_with(&["lock_n", "brake_t"]), "{rows:?}");
+}
+
 #[test]
 fn kinds_follow_from_what_is_declared() {
     let kind = |element: Element| (element.kind, element.tangential.len());

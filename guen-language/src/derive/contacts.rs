@@ -201,7 +201,8 @@ fn programs(
         return None;
     }
     // Gaps and rows are looked at where no mode is known: there piecewise functions follow the state.
-    let following = n + l..n + l + contacts.entries.len() + rows.len();
+    let moving = n + l + model.states.len();
+    let following = moving..moving + contacts.entries.len() + rows.len();
     let hold = |graph: &mut Graph, held: &mut Held, list: &[ExprId]| -> Vec<ExprId> {
         let entries = list.iter().enumerate();
         entries.map(|(i, e)| if following.contains(&i) { *e } else { held.of(graph, *e) }).collect()
@@ -224,7 +225,7 @@ fn programs(
     let has_conditions = contacts.entries.iter().any(|entry| entry.when.is_some() || entry.release.is_some());
     let mut builder = ProgramBuilder::new(&mut bench.graph);
     builder.add_equal(function::FREE_MOTION, &lists);
-    builder.add_function(function::FREE_RATES, &best[..n + l + model.states.len()]);
+    builder.add_function(function::FREE_RATES, &best[..moving]);
     builder.add_function(function::ROW_RATES, &rows);
     if moves {
         builder.add_cold(function::ROW_DRIFTS, &drifts);

@@ -6,9 +6,11 @@ use quote::{format_ident, quote};
 use super::documentation;
 use super::fields::{Fields, Part, Tree, plain};
 use super::parts::{self, Modules};
-use crate::derive::Subject;
+use super::text;
+use crate::derive::{Subject, function};
 use crate::model::{ContactEntry, ContactState, Contacts};
 use crate::names::type_name;
+use crate::report::row_name;
 use crate::syntax::Instance;
 
 const RECORD: &str = "Mode";
@@ -35,13 +37,46 @@ pub(super) fn items(subject: &Subject<'_, '_>, contacts: &Contacts<'_>) -> Token
         let literal = structure.literal(&values.collect::<Vec<_>>());
         quote!(Mode { #literal })
     });
+    let cost = subject.level.program(function::FREE_MOTION).map(|program| text::cost(&program.cost));
+    let coupled = subject.level.contacts.iter().flat_map(|facts| facts.coupled.clone());
+    let coupled: Vec<(usize, usize)> = coupled.collect();
+    let info = contacts.modes.iter().enumerate().map(|(place, mode)| {
+        let (rows, painleve_free) = facts(contacts, &coupled, mode);
+        quote! {
+            __guen::hybrid::ModeInfo { mode: MODES[#place], rows: &[#(#rows),*], painleve_free: #painleve_free, cost: #cost }
+        }
+    });
     quote! {
         #states
         __guen::contact_mode! { #count { #(#fields)* } [#(#names)*] |mode| [#(mode.#accesses),*] { #literal } }
 
         /// Every mode that the declaration allows.
         pub const MODES: &[Mode] = &[#(#table),*];
+
+        /// What was derived of each of the [`MODES`].
+        pub const MODE_INFO: &[__guen::hybrid::ModeInfo<Mode>] = &[#(#info),*];
     }
+}
+
+/// The rows of a mode that have a reaction, and whether these have one value.
+fn facts(contacts: &Contacts<'_>, coupled: &[(usize, usize)], mode: &[usize]) -> (Vec<String>, bool) {
+    let states = || contacts.entries.iter().zip(mode).map(|(entry, state)| (entry, entry.states()[*state]));
+    let rows = states().flat_map(|(entry, state)| {
+        let normal = usize::from(entry.gap.is_some());
+        let count = match state {
+            ContactState::Open | ContactState::Free => 0,
+            ContactState::Closed | ContactState::Locked | ContactState::Stick => entry.rows.len(),
+            ContactState::SlipPlus | ContactState::SlipMinus | ContactState::Slip => normal,
+        };
+        (0..count).map(|row| row_name(entry, row))
+    });
+    let states: Vec<ContactState> = states().map(|(_, state)| state).collect();
+    let slips = |place: usize| {
+        matches!(states[place], ContactState::SlipPlus | ContactState::SlipMinus | ContactState::Slip)
+    };
+    let touches = |place: usize| !matches!(states[place], ContactState::Open | ContactState::Free);
+    let is_free = !coupled.iter().any(|(slipping, touching)| slips(*slipping) && touches(*touching));
+    (rows.collect(), is_free)
 }
 
 /// Adds the modes of instances, and the types of their states, to the modules of the instances.

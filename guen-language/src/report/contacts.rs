@@ -53,7 +53,7 @@ pub(super) fn section(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Opt
 }
 
 /// The velocity of a row by its contact.
-fn row_name(entry: &ContactEntry<'_>, row: usize) -> String {
+pub(crate) fn row_name(entry: &ContactEntry<'_>, row: usize) -> String {
     let name = &entry.name.text;
     let tangential = row.checked_sub(usize::from(entry.gap.is_some()));
     match (tangential, entry.rows.len() - usize::from(entry.gap.is_some())) {

@@ -8,6 +8,7 @@ mod pages;
 mod reasons;
 mod scene;
 
+pub(crate) use contacts::row_name;
 pub(crate) use interface::interface;
 pub use lines::{Report, Section};
 pub(crate) use pages::page;

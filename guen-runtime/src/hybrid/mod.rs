@@ -84,6 +84,7 @@ mod in_mode;
 mod kept;
 mod located;
 mod mode;
+mod mode_info;
 mod phase;
 mod pivots;
 mod polished;
@@ -107,6 +108,7 @@ pub use element::{Effect, Element, Kind, Signal};
 pub use error::{HybridCause, HybridError};
 pub use in_mode::{InMode, Reactions};
 pub use mode::{ElementState, Mode};
+pub use mode_info::ModeInfo;
 #[cfg(feature = "alloc")]
 pub use simulation::{HybridSimulation, HybridSimulationError, SimulateModes};
 pub use system::{Conditions, FreeMotion, HybridSystem};
