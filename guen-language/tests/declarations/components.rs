@@ -288,3 +288,18 @@ fn counts_as_arguments_are_numbers_of_the_instance() {
     let (expected, expected_cost, _) = rates(by_hand, str::to_owned);
     assert_eq!((bits, cost), (expected, expected_cost));
 }
+
+#[test]
+fn scenes_in_one_mode_have_rates_of_entries() {
+    let text = "pub system Row {
+        constants   { m > 0 }
+        coordinates { q[2], x[2], y[2] }
+        kinetic_energy = sum(i in 0..2: m/2*(dot(q[i])^2 + dot(x[i])^2 + dot(y[i])^2));
+        parameters  { for i in 0..2 { v[i] = vec(dot(x[i]), dot(y[i])); } }
+        contacts    { for i in 0..2 { low[i]: gap = q[i] + 1; } }
+        scene Free  { modes { low: open; } track q, v[1]; }
+    }";
+    let expanded = guen_language::expand(text.parse().unwrap()).to_string();
+    assert!(!expanded.contains("compile_error"), "{}", &expanded[..400]);
+    assert!(expanded.contains("q_rate : [R ; 2usize]"));
+}

@@ -8,6 +8,7 @@ use super::{Part, not_held, words};
 use crate::derive::selection::StatePart;
 use crate::diagnostics::{Fault, Faults};
 use crate::model::{ContactEntry, Contacts, FormEntry, Model, SceneEntry};
+use crate::names::{RATE_SUFFIX, suffixed};
 use crate::syntax::{
     Clause, ClauseWord, Contact, Declaration, Definition, Docs, Equation, Expression, ExpressionKind,
     HeldContact, InMode, Item, Name, Number, Scene, Section,
@@ -109,10 +110,7 @@ fn tracks(
                 StatePart::Parameter(s) if !part.kept.contains(&s) => {
                     tracked.push(model.forms[s].name.clone());
                 }
-                StatePart::Parameter(s) => match model.forms[s].name.strip_prefix(&name.text) {
-                    Some(suffix) if !suffix.is_empty() => tracks.push(name.suffixed(suffix)),
-                    _ => tracks.push(name.clone()),
-                },
+                StatePart::Parameter(s) => tracks.push(part_of(name, &model.forms[s].name)),
                 _ => tracks.push(name.clone()),
             }
         }
@@ -231,11 +229,17 @@ fn parameters(definition: Definition) -> Item {
     Item::Parameters(Section::new(Docs::default(), definition.name.span(), vec![definition]))
 }
 
-/// The name of a form: of the component, where a vector was written.
+/// The name of a form: of the component, where a vector was written, and of the rate of a coordinate.
 fn name_of(form: &FormEntry<'_>) -> Name {
-    match form.name.strip_prefix(&form.written.text) {
-        Some(suffix) if !suffix.is_empty() => form.written.suffixed(suffix),
-        _ => form.written.clone(),
+    part_of(form.written, &form.name)
+}
+
+/// The name of a part of something that was written: `v_x[1]` of `v[1]`, `q_rate[0]` of `q[0]`.
+fn part_of(written: &Name, text: &str) -> Name {
+    let suffixes = ["_x", "_y", "_z", RATE_SUFFIX];
+    match suffixes.into_iter().find(|suffix| suffixed(&written.text, suffix) == text) {
+        Some(suffix) => written.suffixed(suffix),
+        None => written.clone(),
     }
 }
 
