@@ -31,6 +31,12 @@ pub enum HybridCause<const C: usize> {
         /// The modes.
         modes: [Mode<C>; 2],
     },
+    /// The motion in the mode that goes on is not determined: it depends on reactions that are not, by the friction of contacts that slip
+    /// with different coefficients.
+    Undetermined {
+        /// The mode.
+        mode: Mode<C>,
+    },
     /// The mode that goes on is not among the `modes` of the declaration.
     Excluded {
         /// The mode.
@@ -79,6 +85,9 @@ impl<const C: usize> fmt::Display for HybridCause<C> {
             Self::Inconsistent => f.write_str("no mode goes on from here"),
             Self::Ambiguous { modes: [first, second] } => {
                 write!(f, "two modes go on from here: ({first}) and ({second})")
+            }
+            Self::Undetermined { mode } => {
+                write!(f, "the motion in the mode ({mode}) depends on reactions that are not determined")
             }
             Self::Excluded { mode } => {
                 write!(f, "the motion goes on in the mode ({mode}), which is excluded")

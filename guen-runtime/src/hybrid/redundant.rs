@@ -38,6 +38,27 @@ where
         })
     }
 
+    /// Whether the motion itself is not determined: some reactions that move nothing along the rows of the mode move the system all the
+    /// same, by the friction of contacts that slip with different coefficients.
+    pub(super) fn is_undetermined(&self, t: f64, state: &[f64; N]) -> bool {
+        /// The part of what idle reactions do one by one below which they do nothing together: rows that depend on each other to `1e-10` of
+        /// the Delassus matrix do so to its root.
+        const NOTHING: f64 = 1e-4;
+
+        let slips = |c: usize| self.mode.0[c].slips() && H::ELEMENTS[c].load.is_some();
+        if !self.is_redundant() || !(0..C).any(slips) {
+            return false;
+        }
+        let motion = self.reactions(t, state);
+        self.idle(&motion).any(|idle| {
+            (0..N).any(|i| {
+                let parts = || idle.iter().zip(&motion.free.responses).map(|(l, response)| l * response[i]);
+                let (sum, size): (f64, f64) = (parts().sum(), parts().map(f64::abs).sum());
+                sum.abs() > NOTHING * size
+            })
+        })
+    }
+
     /// The reactions of least norm among those with the same motion: the same where they are determined.
     #[must_use]
     pub fn with_least_norm<R: Lift<f64>>(&self, motion: &Reactions<R, N, W, C>) -> Reactions<R, N, W, C> {

@@ -3,6 +3,7 @@
 use core::array::from_fn;
 
 use crate::hybrid::element::Kind;
+use crate::hybrid::error::HybridCause;
 use crate::hybrid::impact::{Impact, Struck};
 use crate::hybrid::in_mode::{InMode, moved};
 use crate::hybrid::located::NOISE;
@@ -101,7 +102,7 @@ where
         struck: &mut Struck<W, C>,
         resting: &mut Resting<C>,
         meets: [bool; C],
-    ) -> Option<TransitionKind> {
+    ) -> Result<Option<TransitionKind>, HybridCause<C>> {
         let rate = |c: usize, rates: &[f64; W]| H::ELEMENTS[c].normal.map_or(0.0, |row| rates[row]);
         let speed = (0..C).filter(|c| meets[*c]).fold(0.0, |most: f64, c| most.max(-rate(c, &impact.before)));
         let ratio = resting.record(self.t, speed, &meets);
@@ -114,7 +115,7 @@ where
             slowest = true;
         }
         if !slowest {
-            return None;
+            return Ok(None);
         }
         // The acceleration with which the contacts that rebound come back.
         for c in (0..C).filter(|c| impact.takes_part[*c] && H::ELEMENTS[*c].normal.is_some() && !rebounds(*c))
@@ -133,21 +134,24 @@ where
         };
         let aside = (0..C).filter(|c| rebounds(*c)).map(aside).fold(0.0, f64::max);
         let resolution = self.resolution();
+        // Whether all flights are lower than that.
+        let mut lowest = true;
         for c in (0..C).filter(|c| rebounds(*c)) {
             let (back, away) = (-rate(c, &accelerations), rate(c, &struck.after));
             if !(back > 0.0) {
-                return None;
+                return Ok(None);
             }
             // Lower than the digits of the gap tell, whatever the ratio: such a flight has no end that could be located.
             let unresolved = away * away <= 2.0 * back * resolution[c];
             let slow = ratio.is_some() && away <= resting.slowest(back, aside);
             if !(unresolved || slow) {
-                return None;
+                return Ok(None);
             }
+            lowest &= unresolved;
             let ratio = ratio.unwrap_or_else(|| resting.last_ratio());
             until = f64::max(until, self.t + 2.0 * away / (back * (1.0 - ratio)));
         }
-        let closing = impact.closing(struck)?;
+        let Some(closing) = impact.closing(struck) else { return Ok(None) };
         // Only where a mode with these contacts closed goes on.
         let closed_state = moved(&self.state, &closing.impulses, &self.free().responses);
         let known: [Known; C] = from_fn(|c| Known {
@@ -158,13 +162,18 @@ where
             ..Known::default()
         });
         let switches = self.in_mode.switches;
-        let next = select(self.in_mode.system.clone(), switches, (self.t, &closed_state), &known).ok()?;
+        let next = match select(self.in_mode.system.clone(), switches, (self.t, &closed_state), &known) {
+            Ok(next) => next,
+            // Without an end of the flights that digits could tell, and without a mode that they lead to, there is no motion.
+            Err(why) if lowest => return Err(why.into()),
+            Err(_) => return Ok(None),
+        };
         if (0..C).any(|c| rebounds(c) && !next.mode.0[c].is_closed()) {
-            return None;
+            return Ok(None);
         }
         *struck = closing;
         let impacts = resting.finish();
-        Some(TransitionKind::Rest { impacts, until })
+        Ok(Some(TransitionKind::Rest { impacts, until }))
     }
 }
 

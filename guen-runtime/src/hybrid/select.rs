@@ -4,6 +4,7 @@
 use core::array::from_fn;
 
 use crate::hybrid::element::Kind;
+use crate::hybrid::error::HybridCause;
 use crate::hybrid::in_mode::{InMode, Leaning, motion_series};
 use crate::hybrid::mode::{ElementState, Mode};
 use crate::hybrid::system::HybridSystem;
@@ -55,6 +56,16 @@ pub(super) enum Unselected<const C: usize> {
     Ambiguous([Mode<C>; 2]),
     /// There are too many modes to compare.
     TooMany,
+}
+
+impl<const C: usize> From<Unselected<C>> for HybridCause<C> {
+    fn from(why: Unselected<C>) -> Self {
+        match why {
+            Unselected::Inconsistent => Self::Inconsistent,
+            Unselected::Ambiguous(modes) => Self::Ambiguous { modes },
+            Unselected::TooMany => Self::TooManyModes,
+        }
+    }
 }
 
 /// The order to which inequalities are expanded.
@@ -244,6 +255,12 @@ where
         };
         let redundant = self.is_redundant();
         if redundant {
+            // Rows that are left out have to be held by the others: at a dead centre they are not, though they depend on them there.
+            let accelerations = motion.row_accelerations();
+            let held = |row: &usize| vanishes(accelerations[*row].coefficient(0));
+            if !self.pivots.dependent().iter().all(held) {
+                return Verdict::Inconsistent;
+            }
             self.visit_shared(&motion, &mut |function| demand(&function, 0, false));
         }
         for (c, element) in H::ELEMENTS.iter().enumerate() {

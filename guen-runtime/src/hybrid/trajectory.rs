@@ -178,6 +178,14 @@ where
         in_mode.with_least_norm(&motion).reactions
     }
 
+    /// The reactions along all rows just before time `t`, in the mode that ends there; none at the start.
+    pub fn reactions_before(&self, t: f64) -> Option<[f64; W]> {
+        let place = self.log.segments.partition_point(|part| part.start < t);
+        let in_mode = &self.log.segments.get(place.checked_sub(1)?)?.in_mode;
+        let motion = in_mode.reactions(t, &self.before(t).into());
+        Some(in_mode.with_least_norm(&motion).reactions)
+    }
+
     /// The states at multiples of `dt` after the start, and at the end. Of a duration that is not positive, start and end.
     pub fn sample(&self, dt: f64) -> impl Iterator<Item = (f64, X)> + '_ {
         let (start, end) = (self.start.0, self.end.0);

@@ -10,7 +10,7 @@ use crate::hybrid::located::side;
 use crate::hybrid::mode::{ElementState, Mode};
 use crate::hybrid::pivots::Pivots;
 use crate::hybrid::resting::Resting;
-use crate::hybrid::select::{Known, Rate, Unselected, select};
+use crate::hybrid::select::{Known, Rate, select};
 use crate::hybrid::system::{FreeMotion, HybridSystem};
 use crate::hybrid::transition::{Transition, TransitionKind};
 use crate::hybrid::watched::{Function, Sides};
@@ -103,7 +103,9 @@ where
             H::ELEMENTS.iter().enumerate().flat_map(move |(c, element)| {
                 let state = self.in_mode.mode.0[c];
                 let normal = element.normal.filter(|_| state.is_closed() || positions && fired.gap[c]);
-                let still = !positions && (state == ElementState::Stick || fired.slip[c]);
+                // Whether a grip slips is not known yet where the run begins.
+                let sticks = state == ElementState::Stick && !self.begins;
+                let still = !positions && (sticks || fired.slip[c]);
                 normal.into_iter().chain(if still { element.tangential } else { &[] }.iter().copied())
             })
         };
@@ -148,6 +150,9 @@ where
             next.in_mode = next.selected(&known)?;
         }
         let (before, after) = (self.in_mode.mode, next.in_mode.mode);
+        if next.in_mode.is_undetermined(t, &next.state) {
+            return Err(HybridCause::Undetermined { mode: after });
+        }
         if !system.allows(&after) {
             return Err(HybridCause::Excluded { mode: after });
         }
@@ -188,11 +193,7 @@ where
     fn selected(&self, known: &[Known; C]) -> Result<InMode<H, N, W, C, S>, HybridCause<C>> {
         let selected =
             select(self.in_mode.system.clone(), self.in_mode.switches, (self.t, &self.state), known);
-        selected.map_err(|why| match why {
-            Unselected::Inconsistent => HybridCause::Inconsistent,
-            Unselected::Ambiguous(modes) => HybridCause::Ambiguous { modes },
-            Unselected::TooMany => HybridCause::TooManyModes,
-        })
+        selected.map_err(HybridCause::from)
     }
 
     /// The rows of these that do not depend on each other.
@@ -250,7 +251,7 @@ where
             Unsolved::Several => HybridCause::SeveralImpacts,
             Unsolved::EnergyGain(gain) => HybridCause::EnergyGain { gain },
         })?;
-        let rests = self.rests(&impact, &mut struck, resting, from_fn(meets));
+        let rests = self.rests(&impact, &mut struck, resting, from_fn(meets))?;
         let scale = before.iter().fold(0.0, |most: f64, rate| most.max(rate.abs()));
         for c in 0..C {
             let element = &H::ELEMENTS[c];

@@ -6,6 +6,8 @@ mod json;
 mod methods;
 #[cfg(feature = "alloc")]
 mod polygons;
+#[cfg(feature = "alloc")]
+mod random;
 mod reference;
 mod scenarios;
 mod systems;

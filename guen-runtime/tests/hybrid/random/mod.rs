@@ -1,0 +1,317 @@
+//! Systems with contacts drawn at random: whatever happens keeps the laws, and every mode is that of another solver.
+//!
+//! `GUEN_ROUNDS` says how many systems of each family; the tests' run takes a few.
+
+mod laws;
+mod lcp;
+mod tree;
+
+use guen_runtime::hybrid::{ElementState, HybridCause, HybridSystem, InMode, Mode, SimulateModes};
+use nalgebra::{DMatrix, DVector};
+
+use self::laws::Judged;
+use self::tree::{Drawn, Feet, Four, Mixed, Random, Row, Spatial, Stops};
+
+/// The number of systems of each family.
+fn rounds(usual: usize) -> usize {
+    std::env::var("GUEN_ROUNDS").ok().and_then(|rounds| rounds.parse().ok()).unwrap_or(usual)
+}
+
+/// A tree of links on a base with so many translations.
+fn tree<const D: usize, const W: usize, const C: usize>(
+    random: &mut Random,
+    base: usize,
+    rows: [Row; W],
+    normals: [Option<usize>; C],
+) -> Drawn<D, W, C> {
+    let parents = core::array::from_fn(|k| if k <= base { k } else { base + random.below(k - base) });
+    let mut draw = |low, high| core::array::from_fn(|_| random.between(low, high));
+    let lengths = draw(0.5, 1.2);
+    let mut drawn = Drawn {
+        base,
+        parents,
+        lengths,
+        centers: draw(0.1, 0.6),
+        masses: draw(0.5, 2.0),
+        inertias: draw(0.05, 0.4),
+        springs: draw(0.0, 5.0),
+        dampers: draw(0.0, 0.3),
+        constant: None,
+        push: [0.0; D],
+        rows,
+        gaps: normals.map(|row| row.map(|row| (row, 0.0))),
+        friction: core::array::from_fn(|_| random.between(0.05, 0.6)),
+        limits: [0.0; C],
+        restitutions: core::array::from_fn(|_| random.between(-0.6, 0.8).max(0.0)),
+    };
+    if base > 0 {
+        // A link that flies is not held by a spring.
+        (drawn.springs[base], drawn.dampers[base]) = (0.0, 0.0);
+    }
+    drawn
+}
+
+/// A point's distance from a floor with a slope, and its slip.
+fn foot(link: usize, at: f64, slope: f64) -> [Row; 2] {
+    let (sin, cos) = slope.sin_cos();
+    [Row::Point { link, at, along: [sin, cos] }, Row::Point { link, at, along: [cos, -sin] }]
+}
+
+/// A start: coordinates, and velocities up to a size.
+fn start<const D: usize, const N: usize>(
+    random: &mut Random,
+    base: usize,
+    speed: f64,
+) -> ([f64; D], [f64; N]) {
+    let coordinates = core::array::from_fn(|k| if k < base { 0.0 } else { 3.0 * random.next() });
+    let state = core::array::from_fn(|i| if i < D { coordinates[i] } else { speed * random.next() });
+    (coordinates, state)
+}
+
+fn stops(random: &mut Random) -> (Stops, [f64; 6]) {
+    let sign = |random: &mut Random| if random.next() > 0.0 { 1.0 } else { -1.0 };
+    let rows = [1, 2].map(|link| Row::Angle { link, sign: sign(random) });
+    let mut drawn = tree::<3, 2, 2>(random, 0, rows, [Some(0), Some(1)]);
+    let (coordinates, state) = start(random, 0, 2.0);
+    for c in 0..2 {
+        drawn.set_gap(c, &coordinates, random.between(0.05, 0.8));
+    }
+    (Stops(drawn), state)
+}
+
+fn feet(random: &mut Random) -> (Feet, [f64; 8]) {
+    let slope = 0.2 * random.next();
+    let [[a, b], [c, d]] = [2, 3].map(|link| foot(link, random.between(0.4, 1.0), slope));
+    let mut drawn = tree::<4, 4, 2>(random, 2, [a, b, c, d], [Some(0), Some(2)]);
+    let (coordinates, state) = start(random, 2, 2.0);
+    land(&mut drawn, &coordinates, random.between(0.1, 0.5));
+    (Feet(drawn), state)
+}
+
+/// Puts the floor below the lower of two feet.
+fn land<const W: usize, const C: usize>(drawn: &mut Drawn<4, W, C>, coordinates: &[f64; 4], height: f64) {
+    let positions = [0, 2].map(|row| drawn.row(coordinates, &[0.0; 4], drawn.rows[row]).0);
+    let floor = positions[0].min(positions[1]) - height;
+    for (c, position) in positions.into_iter().enumerate() {
+        drawn.set_gap(c, coordinates, position - floor);
+    }
+}
+
+fn mixed(random: &mut Random) -> (Mixed, [f64; 6]) {
+    let [normal, slip] = foot(2, random.between(0.4, 1.0), 0.3 * random.next());
+    let rows = [normal, slip, Row::Angle { link: 1, sign: 1.0 }, Row::Angle { link: 2, sign: 1.0 }];
+    let mut drawn = tree::<3, 4, 3>(random, 0, rows, [Some(0), Some(2), None]);
+    drawn.limits[2] = random.between(0.1, 3.0);
+    let (coordinates, state) = start(random, 0, 2.0);
+    for c in 0..2 {
+        drawn.set_gap(c, &coordinates, random.between(0.05, 0.5));
+    }
+    (Mixed(drawn), state)
+}
+
+fn four(random: &mut Random) -> (Four, [f64; 8]) {
+    let slope = 0.2 * random.next();
+    let [[a, b], [c, d]] = [2, 3].map(|link| foot(link, random.between(0.4, 1.0), slope));
+    let rows = [a, b, c, d, Row::Angle { link: 3, sign: 1.0 }, Row::Angle { link: 2, sign: 1.0 }];
+    let mut drawn = tree::<4, 6, 4>(random, 2, rows, [Some(0), Some(2), Some(4), None]);
+    drawn.limits[3] = random.between(0.1, 2.0);
+    let (coordinates, state) = start(random, 2, 2.0);
+    land(&mut drawn, &coordinates, random.between(0.1, 0.5));
+    drawn.set_gap(2, &coordinates, random.between(0.1, 0.8));
+    (Four(drawn), state)
+}
+
+fn spatial(random: &mut Random) -> (Spatial, [f64; 8]) {
+    let factor: [[f64; 4]; 4] = core::array::from_fn(|_| core::array::from_fn(|_| 0.5 * random.next()));
+    let constant = core::array::from_fn(|i| {
+        core::array::from_fn(|j| {
+            let product: f64 = (0..4).map(|k| factor[i][k] * factor[j][k]).sum();
+            product + if i == j { 1.0 } else { 0.0 }
+        })
+    });
+    let mut near = |axis: usize| core::array::from_fn(|k| if k == axis { 1.0 } else { 0.2 * random.next() });
+    let normal: [f64; 4] = near(2);
+    let rows = [Row::Constant(normal), Row::Constant(near(0)), Row::Constant(near(1))];
+    let mut drawn = tree::<4, 3, 1>(random, 0, rows, [Some(0)]);
+    drawn.constant = Some(constant);
+    drawn.push = normal.map(|entry| -8.0 * entry);
+    let (coordinates, state) = start(random, 0, 3.0);
+    drawn.set_gap(0, &coordinates, random.between(0.05, 0.5));
+    (Spatial(drawn), state)
+}
+
+/// Runs a system, and judges all of its motion.
+fn judged<H, const D: usize, const N: usize, const W: usize, const C: usize>(
+    (system, start): (H, [f64; N]),
+    drawn: &Drawn<D, W, C>,
+    end: f64,
+    judged: &mut Judged,
+    ends: &mut Vec<String>,
+) where
+    H: HybridSystem<N, W, C, 0, Mode = Mode<C>> + Copy + core::fmt::Debug,
+{
+    let motion = match system.simulation(&start).tolerance(1e-10).run(0.0..end) {
+        Ok(motion) => motion,
+        Err(failed) => {
+            let expected = matches!(
+                failed.error.cause,
+                HybridCause::EnergyGain { .. }
+                    | HybridCause::Painleve { .. }
+                    | HybridCause::SeveralImpacts
+                    | HybridCause::NoImpact
+                    | HybridCause::Ambiguous { .. }
+                    | HybridCause::Inconsistent
+                    | HybridCause::Undetermined { .. }
+            );
+            assert!(
+                expected,
+                "{failed} {system:?} from {start:?} {:#?}",
+                failed.trajectory.transitions().last()
+            );
+            ends.push(format!("{failed}"));
+            *failed.trajectory
+        }
+    };
+    let right = |found: Result<(), String>| {
+        found.unwrap_or_else(|why| panic!("{why}\n{system:?}\nfrom {start:?}"));
+    };
+    for transition in motion.transitions() {
+        right(judged.transition(&system, transition, |x| drawn.kinetic(x)));
+    }
+    for (t, x) in motion.sample(0.05) {
+        right(judged.mode(&system, (t, &x), &motion.mode_at(t)));
+    }
+}
+
+#[test]
+fn drawn_systems_keep_the_laws() {
+    let rounds = rounds(8);
+    let (mut total, mut ends) = (Judged::default(), Vec::new());
+    let mut random = Random(20_261_124);
+    for _ in 0..rounds {
+        let (system, start) = stops(&mut random);
+        judged((system, start), &system.0, 4.0, &mut total, &mut ends);
+        let (system, start) = feet(&mut random);
+        judged((system, start), &system.0, 2.0, &mut total, &mut ends);
+        let (system, start) = mixed(&mut random);
+        judged((system, start), &system.0, 3.0, &mut total, &mut ends);
+        let (system, start) = four(&mut random);
+        judged((system, start), &system.0, 2.0, &mut total, &mut ends);
+        let (system, start) = spatial(&mut random);
+        judged((system, start), &system.0, 3.0, &mut total, &mut ends);
+    }
+    for end in &ends {
+        println!("{end}");
+    }
+    println!("{} systems, {} typed errors: {total:?}", 5 * rounds, ends.len());
+    assert!(total.transitions > 15 * rounds && total.impacts > 5 * rounds && ends.len() <= rounds / 2);
+    assert!(total.rays <= total.modes / 100);
+}
+
+/// Accelerations in a mode without slip against those of a system with these rows as constraints.
+fn constrained<H, const D: usize, const N: usize, const W: usize, const C: usize>(
+    system: H,
+    drawn: &Drawn<D, W, C>,
+    state: &[f64; N],
+    random: &mut Random,
+) where
+    H: HybridSystem<N, W, C, 0, Mode = Mode<C>> + Copy,
+{
+    let mode = Mode(core::array::from_fn(|c| {
+        let states = ElementState::of(&H::ELEMENTS[c]);
+        states[random.below(states.len().min(2))]
+    }));
+    let held: Vec<usize> = (0..C)
+        .filter(|c| mode.0[*c].is_closed())
+        .flat_map(|c| H::ELEMENTS[c].normal.into_iter().chain(H::ELEMENTS[c].tangential.iter().copied()))
+        .collect();
+    // With less freedom than rows reactions are not determined.
+    if held.len() > D || mode.0.iter().any(|state| state.slips()) {
+        return;
+    }
+    let (q, v) = (core::array::from_fn(|i| state[i]), core::array::from_fn(|i| state[D + i]));
+    let (masses, pushes) = drawn.dynamics::<f64>(&q, &v);
+    let size = D + held.len();
+    let (mut matrix, mut right) = (DMatrix::zeros(size, size), DVector::zeros(size));
+    for i in 0..D {
+        right[i] = pushes[i];
+        for j in 0..D {
+            matrix[(i, j)] = masses[i][j];
+        }
+    }
+    for (k, &row) in held.iter().enumerate() {
+        let (_, form, rest) = drawn.row::<f64>(&q, &v, drawn.rows[row]);
+        right[D + k] = -rest;
+        for i in 0..D {
+            matrix[(i, D + k)] = -form[i];
+            matrix[(D + k, i)] = form[i];
+        }
+    }
+    let solved = matrix.lu().solve(&right).unwrap();
+    let in_mode = InMode::new(system, mode, 0.0, state);
+    if in_mode.is_redundant() {
+        return;
+    }
+    let rates: [f64; N] = in_mode.rates(0.0, state);
+    let scale = solved.iter().fold(1.0, |most: f64, value| most.max(value.abs()));
+    for i in 0..D {
+        assert!((rates[D + i] - solved[i]).abs() < 1e-9 * scale, "{mode}: {rates:?} {solved:?}");
+    }
+}
+
+#[test]
+fn held_modes_are_systems_with_constraints() {
+    let mut random = Random(31);
+    for _ in 0..rounds(100) {
+        let (system, state) = stops(&mut random);
+        constrained(system, &system.0, &state, &mut random);
+        let (system, state) = feet(&mut random);
+        constrained(system, &system.0, &state, &mut random);
+        let (system, state) = mixed(&mut random);
+        constrained(system, &system.0, &state, &mut random);
+        let (system, state) = four(&mut random);
+        constrained(system, &system.0, &state, &mut random);
+        let (system, state) = spatial(&mut random);
+        constrained(system, &system.0, &state, &mut random);
+    }
+}
+
+#[test]
+fn elastic_motions_without_friction_go_back() {
+    let mut random = Random(77);
+    for _ in 0..rounds(8) {
+        let (mut system, start) = stops(&mut random);
+        system.0.restitutions = [1.0; 2];
+        system.0.dampers = [0.0; 3];
+        let back = |x: [f64; 6]| core::array::from_fn(|i| if i < 3 { x[i] } else { -x[i] });
+        let there = system.simulation(&start).tolerance(1e-12).run(0.0..1.5).unwrap();
+        let again = system.simulation(&back(there.end())).tolerance(1e-12).run(0.0..1.5).unwrap();
+        let end: [f64; 6] = back(again.end());
+        let off = end.iter().zip(&start).fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()));
+        assert!(off < 1e-6, "{off:e} after {} impacts: {system:?}", there.transitions().len());
+        assert_eq!(there.transitions().len(), again.transitions().len());
+    }
+}
+
+#[test]
+fn feet_in_another_order_move_as_before() {
+    let mut random = Random(5);
+    for _ in 0..rounds(8) {
+        let (system, start) = feet(&mut random);
+        let mut other = system;
+        let [a, b, c, d] = system.0.rows;
+        other.0.rows = [c, d, a, b];
+        let [Some((_, one)), Some((_, two))] = system.0.gaps else { panic!("both feet have gaps") };
+        other.0.gaps = [Some((0, two)), Some((2, one))];
+        other.0.friction.reverse();
+        other.0.restitutions.reverse();
+        let run = |system: &Feet| system.simulation(&start).tolerance(1e-11).run(0.0..1.0).ok();
+        let (Some(one), Some(other)) = (run(&system), run(&other)) else { continue };
+        // Motions with impacts are chaotic: the first transitions only.
+        for (one, other) in one.transitions().iter().zip(other.transitions()).take(6) {
+            let [left, right] = one.after.0;
+            assert!((one.t - other.t).abs() < 1e-8, "{system:?} {one:?} {other:?}");
+            assert_eq!(other.after.0, [right, left], "{system:?}");
+        }
+    }
+}
