@@ -191,7 +191,7 @@ pub mod prelude {
     pub use crate::{mechanical_component, mechanical_system};
     pub use guen_runtime::prelude::*;
     #[cfg(feature = "study")]
-    pub use guen_study::Export;
+    pub use guen_study::{Export, ExportModes};
 }
 
 /// The items that expansions refer to; no part of the public interface.

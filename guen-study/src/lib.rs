@@ -6,6 +6,7 @@
 //! | --- | --- |
 //! | what happened? | [`Recording`]: times and states, in bounded memory if wanted, and CSV |
 //! | what becomes of a `Trajectory`? | [`Export`]: recordings, tables, plots and pages of it |
+//! | what of a motion through modes? | [`ExportModes`]: the same with its transitions, contacts and their forces |
 //! | how long will it take? | [`Progress`]: a line on the terminal, or a few in a log file, during long runs |
 //! | how good is it? | [`Monitor`] and its [`InvariantErrors`]; [`drift`] and [`residuals`] as curves |
 //! | what are the numbers? | [`Table`], aligned for a terminal; [`significant`] for one number |
@@ -56,6 +57,7 @@ mod exact;
 mod export;
 mod file;
 mod median;
+mod modes;
 mod monitor;
 mod plot;
 mod progress;
@@ -75,6 +77,7 @@ pub use error::StudyError;
 pub use export::Export;
 pub use file::replace_file;
 pub use median::median_with_interval;
+pub use modes::ExportModes;
 pub use monitor::{InvariantErrors, Monitor, drift, residuals};
 pub use plot::Plot;
 pub use progress::Progress;

@@ -10,6 +10,7 @@ mod permanent;
 mod piecewise;
 mod printed;
 mod reference;
+mod seen;
 mod simulated;
 mod states;
 mod unaware;

@@ -125,8 +125,15 @@ fn described(plot: &Plot) -> String {
         .collect();
     let axes = if axes.is_empty() { String::new() } else { format!(" on axes {}", axes.join(" and ")) };
     let mut text = format!("<title>{title}</title>\n");
+    let moments = match &plot.moments {
+        Some((label, places)) if !places.is_empty() => {
+            let ending = if places.len() == 1 { "" } else { "s" };
+            format!("; dashed lines at {} {}{ending}", places.len(), escaped(label))
+        }
+        _ => String::new(),
+    };
     if !labels.is_empty() {
-        text += &format!("<desc>Curves{axes}: {}</desc>\n", labels.join(", "));
+        text += &format!("<desc>Curves{axes}: {}{moments}</desc>\n", labels.join(", "));
     }
     text
 }
@@ -191,6 +198,7 @@ impl Painter<'_> {
                 self.canvas.draw(&PathElement::new(piece, stroke(BAND[0], BAND_STROKE)))?;
             }
         }
+        self.moments(plot, frame)?;
         for curve in &plot.faint {
             for piece in pieces(plot, curve, frame) {
                 self.canvas.draw(&PathElement::new(piece, stroke(ZERO[0], LINE_STROKE)))?;
@@ -220,6 +228,22 @@ impl Painter<'_> {
         self.labels(plot, frame)?;
         self.legend(plot, frame)?;
         self.canvas.present()
+    }
+
+    /// Lines across the picture; of those that fall onto the same pixel one.
+    fn moments(&self, plot: &Plot, frame: &Frame) -> Drawn {
+        let (dash, gap) = DASHES[0];
+        let (dash, gap) = ((dash * FINE) as i32, (gap * FINE) as i32);
+        let mut last = f64::NAN;
+        for &place in plot.moments.iter().flat_map(|(_, places)| places) {
+            let at = frame.x.at(place).round();
+            if plot.can_draw(&(place, 1.0)) && (frame.x.from..=frame.x.to).contains(&at) && at != last {
+                let ends = [(at, frame.y.from), (at, frame.y.to)].map(fine).to_vec();
+                self.canvas.draw(&DashedPathElement::new(ends, dash, gap, stroke(ZERO[0], LINE_STROKE)))?;
+                last = at;
+            }
+        }
+        Ok(())
     }
 
     /// The labels of faint curves.

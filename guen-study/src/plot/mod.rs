@@ -60,6 +60,7 @@ pub struct Plot {
     curves: Vec<Curve>,
     faint: Vec<Curve>,
     band: Option<Curve>,
+    moments: Option<(String, Vec<f64>)>,
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -84,6 +85,7 @@ impl Plot {
             curves: Vec::new(),
             faint: Vec::new(),
             band: None,
+            moments: None,
         }
     }
 
@@ -152,6 +154,21 @@ impl Plot {
     /// ```
     pub fn faint(mut self, label: impl Into<String>, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
         self.faint.push(Curve { label: label.into(), points: points.into_iter().collect() });
+        self
+    }
+
+    /// Draws a thin dashed line across the picture at each of these places of the first axis, behind the curves: for events and transitions.
+    /// The description of the picture counts them by the label. Places outside of the axis are not drawn.
+    ///
+    /// ```
+    /// use guen_study::Plot;
+    ///
+    /// let bounces = Plot::new("a ball").line("height", [(0.0, 1.0), (1.0, 0.0), (2.0, 0.5)]).moments("impact", [1.0]);
+    /// assert!(bounces.to_svg()?.contains("1 impact"));
+    /// # Ok::<(), guen_study::StudyError>(())
+    /// ```
+    pub fn moments(mut self, label: impl Into<String>, places: impl IntoIterator<Item = f64>) -> Self {
+        self.moments = Some((label.into(), places.into_iter().collect()));
         self
     }
 
