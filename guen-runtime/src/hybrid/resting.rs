@@ -120,8 +120,13 @@ where
         // The acceleration with which the contacts that rebound come back.
         for c in (0..C).filter(|c| impact.takes_part[*c] && H::ELEMENTS[*c].normal.is_some() && !rebounds(*c))
         {
-            let held =
-                if H::ELEMENTS[c].kind == Kind::Rough { ElementState::Stick } else { ElementState::Closed };
+            let held = match H::ELEMENTS[c].tangential {
+                [] => ElementState::Closed,
+                _ if struck.sticks[c] => ElementState::Stick,
+                &[row] if struck.after[row] > 0.0 => ElementState::SlipForward,
+                [_] => ElementState::SlipBackward,
+                _ => ElementState::Slip,
+            };
             opened = opened.with(c, held);
         }
         let state = moved(&self.state, &struck.impulses, &self.free().responses);
