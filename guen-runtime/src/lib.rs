@@ -7,6 +7,7 @@
 //! | what is a number? | [`Real`], [`Ordered`], [`Dual`], [`RunningError`]; [`Lift`] embeds a base real |
 //! | what is integrated? | [`System`], [`Monitored`], [`Differentiable`], [`TaylorSeries`], [`from_fn`], [`generic`] |
 //! | which functions does it have? | [`WithFunctions`]: [`Approx13`], [`Approx7`], [`Fused`], [`Functions`] of your own |
+//! | which functions does the program supply? | [`Smooth`], [`Table`], [`Grid`] |
 //! | over which reals? | [`WithScalar`]: a system made anew over each |
 //! | how many at once? | [`lanes`]; [`Laned`] systems |
 //! | what acts on functions? | [`Operator`], [`Function`], [`Coordinate`], [`BracketCoefficients`] |
@@ -39,6 +40,7 @@ extern crate alloc;
 extern crate std;
 
 pub mod control;
+mod functions;
 mod generated;
 pub mod hybrid;
 mod linear_algebra;
@@ -49,6 +51,16 @@ mod simulation;
 pub mod steppers;
 mod system;
 
+#[doc(hidden)]
+pub use functions::derivatives::{derivatives_0, derivatives_1, derivatives_2, derivatives_3, derivatives_4};
+pub use functions::error::TableError;
+pub use functions::grid::Grid;
+#[doc(hidden)]
+pub use functions::hoisted::{Hoisted, PreparedValues};
+#[doc(hidden)]
+pub use functions::in_lanes::EachLane;
+pub use functions::smooth::Smooth;
+pub use functions::table::Table;
 pub use generated::checks;
 pub use generated::cost::Cost;
 pub use generated::derived::Derived;
@@ -87,7 +99,7 @@ pub use system::frame::{Commutator, Displacement};
 pub use system::hints::{Undriven, Unprepared};
 #[cfg(feature = "alloc")]
 pub use system::input_law::InputSamples;
-pub use system::input_law::{InputLaw, InputRecords, InputValues, Smooth};
+pub use system::input_law::{InputLaw, InputRecords, InputValues, SmoothLaw};
 pub use system::invariants::Invariants;
 pub use system::level::{Level, LevelInfo, Levels};
 pub use system::linearization::{

@@ -5,7 +5,7 @@ use crate::simulation::Simulation;
 use crate::simulation::hold::{Hold, Sampled};
 use crate::steppers::Dop853;
 use crate::system::actuated::{Actuated, StateOf, WithInputs};
-use crate::system::input_law::{InputLaw, InputRecords, InputSamples, Smooth};
+use crate::system::input_law::{InputLaw, InputRecords, InputSamples, SmoothLaw};
 use crate::system::linearization::Liftable;
 
 /// A simulation of a system with inputs that does not know them yet: [`inputs`](Self::inputs), [`law`](Self::law) or
@@ -47,7 +47,7 @@ impl<S: Actuated<R, N>, R: Ordered, const N: usize> SimulationWithoutInputs<S, R
     pub fn law<'a, L, const M: usize>(
         self,
         law: L,
-    ) -> Simulation<'a, WithInputs<S, Smooth<L, S, M>, R, N>, N, R>
+    ) -> Simulation<'a, WithInputs<S, SmoothLaw<L, S, M>, R, N>, N, R>
     where
         S: InputRecords<StateOver<R> = StateOf<S, R, N>, InputsOver<R> = S::Inputs> + Liftable<R, N, M>,
         L: InputLaw<S>,

@@ -12,7 +12,7 @@ use crate::system::auxiliary_states::AuxiliaryStates;
 use crate::system::bodies::{Bodies, Body};
 use crate::system::differentiable::Differentiable;
 use crate::system::forward::forward;
-use crate::system::input_law::{InputLaw, InputRecords, InputValues, Smooth};
+use crate::system::input_law::{InputLaw, InputRecords, InputValues, SmoothLaw};
 use crate::system::linearization::{Liftable, Linearizable, Linearization, seeded};
 use crate::system::outputs::OutputMap;
 use crate::system::positions_error::PositionsError;
@@ -79,12 +79,12 @@ pub trait Actuated<R: Real, const N: usize> {
 
     /// The system with inputs by an [`InputLaw`], which is written for every real: `Radau5`, `Gauss4`, `Gauss6` and
     /// [`Linearizable`] see its derivatives, and `Taylor` its series where the system provides one. One law serves every method.
-    fn with_law<L, const M: usize>(self, law: L) -> WithInputs<Self, Smooth<L, Self, M>, R, N>
+    fn with_law<L, const M: usize>(self, law: L) -> WithInputs<Self, SmoothLaw<L, Self, M>, R, N>
     where
         Self: Sized + InputRecords + Liftable<R, N, M>,
         L: InputLaw<Self>,
     {
-        WithInputs::new(self, Smooth::new(law))
+        WithInputs::new(self, SmoothLaw::new(law))
     }
 
     /// A simulation from a state, which first needs inputs: [`inputs`](SimulationWithoutInputs::inputs) that are functions of
@@ -238,13 +238,13 @@ where
     law.at(Dual::constant(t), &seeded(state).into()).into()
 }
 
-impl<S, L, R, const N: usize, const M: usize> Differentiable<R, N> for WithInputs<S, Smooth<L, S, M>, R, N>
+impl<S, L, R, const N: usize, const M: usize> Differentiable<R, N> for WithInputs<S, SmoothLaw<L, S, M>, R, N>
 where
     R: Real,
     S: Actuated<R, N> + InputRecords + Linearizable<R, N, M> + Liftable<R, N, M>,
     S::Inputs: Into<[R; M]>,
     L: InputLaw<S>,
-    Smooth<L, S, M>: InputValues<S, R, N>,
+    SmoothLaw<L, S, M>: InputValues<S, R, N>,
     S::StateOver<Dual<R, N>>: From<[Dual<R, N>; N]>,
     S::InputsOver<Dual<R, N>>: Into<[Dual<R, N>; M]>,
     S::StateOver<Dual<R, 1>>: From<[Dual<R, 1>; N]>,
@@ -276,12 +276,12 @@ where
 
 /// The recurrences of the system along the law's own series, which the law is asked for in [`PowerSeries`], order by order: with
 /// `p` orders, a product of the law takes some `p^3/6` products for each step.
-impl<S, L, R, const N: usize, const M: usize> TaylorSeries<R, N> for WithInputs<S, Smooth<L, S, M>, R, N>
+impl<S, L, R, const N: usize, const M: usize> TaylorSeries<R, N> for WithInputs<S, SmoothLaw<L, S, M>, R, N>
 where
     R: Real,
     S: Actuated<R, N> + InputRecords + DrivenSeries<R, N, M>,
     L: InputLaw<S>,
-    Smooth<L, S, M>: InputValues<S, R, N>,
+    SmoothLaw<L, S, M>: InputValues<S, R, N>,
     S::StateOver<PowerSeries<R>>: From<[PowerSeries<R>; N]>,
     S::InputsOver<PowerSeries<R>>: Into<[PowerSeries<R>; M]>,
 {
@@ -300,7 +300,8 @@ where
     }
 }
 
-impl<S, L, R, const N: usize, const M: usize> Linearizable<R, N, 0> for WithInputs<S, Smooth<L, S, M>, R, N>
+impl<S, L, R, const N: usize, const M: usize> Linearizable<R, N, 0>
+    for WithInputs<S, SmoothLaw<L, S, M>, R, N>
 where
     R: Real,
     Self: Differentiable<R, N>,

@@ -60,7 +60,7 @@ impl<P: InputRecords, L: InputLaw<P> + ?Sized> InputLaw<P> for &L {
     }
 }
 
-/// The inputs of the system `S` as values over one real, at a time and a state: a closure, an [`InputLaw`] in [`Smooth`], or
+/// The inputs of the system `S` as values over one real, at a time and a state: a closure, an [`InputLaw`] in [`SmoothLaw`], or
 /// what a controller has held.
 pub trait InputValues<S: Actuated<R, N>, R: Real, const N: usize> {
     /// The inputs at a time and state.
@@ -81,26 +81,26 @@ where
 
 /// An [`InputLaw`] of the system `P` with `M` inputs.
 #[derive(Debug)]
-pub struct Smooth<L, P, const M: usize> {
+pub struct SmoothLaw<L, P, const M: usize> {
     pub(crate) law: L,
     system: PhantomData<fn() -> P>,
 }
 
-impl<L, P, const M: usize> Smooth<L, P, M> {
+impl<L, P, const M: usize> SmoothLaw<L, P, M> {
     pub(crate) fn new(law: L) -> Self {
         Self { law, system: PhantomData }
     }
 }
 
-impl<L: Clone, P, const M: usize> Clone for Smooth<L, P, M> {
+impl<L: Clone, P, const M: usize> Clone for SmoothLaw<L, P, M> {
     fn clone(&self) -> Self {
         Self::new(self.law.clone())
     }
 }
 
-impl<L: Copy, P, const M: usize> Copy for Smooth<L, P, M> {}
+impl<L: Copy, P, const M: usize> Copy for SmoothLaw<L, P, M> {}
 
-impl<L, S, R, const N: usize, const M: usize> InputValues<S, R, N> for Smooth<L, S, M>
+impl<L, S, R, const N: usize, const M: usize> InputValues<S, R, N> for SmoothLaw<L, S, M>
 where
     L: InputLaw<S>,
     S: Actuated<R, N> + InputRecords<StateOver<R> = StateOf<S, R, N>, InputsOver<R> = S::Inputs>,
