@@ -24,6 +24,9 @@ pub const MAX_CALL_DEPTH: usize = 16;
 /// The most calls of functions of the declaration, those inside of functions included: each is evaluated anew.
 pub const MAX_CALLS: usize = 10_000;
 
+/// The highest order of a derivative of a function that the program supplies: each takes twice the operations of the one before.
+pub const MAX_DERIVATIVES: usize = 4;
+
 /// The most loops and choices inside of each other.
 pub const MAX_NESTED_LOOPS: usize = 16;
 

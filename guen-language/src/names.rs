@@ -56,6 +56,7 @@ pub(crate) const RATE_SUFFIX: &str = "_rate";
 pub const SECTIONS: &[&str] = &[
     "count",
     "constants",
+    "functions",
     "inputs",
     "coordinates",
     "let",
@@ -117,6 +118,12 @@ const SECTION_SYNONYMS: &[(&str, &str)] = &[
     ("auxiliary_states", "states"),
     ("filters", "states"),
     ("integrators", "states"),
+    ("function", "functions"),
+    ("tables", "functions"),
+    ("table", "functions"),
+    ("lookups", "functions"),
+    ("external", "functions"),
+    ("curves", "functions"),
 ];
 
 /// Items of a generated module, and names that generated code uses for itself or for types of Rust.

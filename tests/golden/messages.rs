@@ -219,7 +219,10 @@ const THEMES: [(&str, &str); 16] = [
     ("energies", "kinetic energy, force function, forces and gravity"),
     ("families", "counts, arrays, loops and sums"),
     ("forms", "parameters and constraints: linear, independent, as many as there are coordinates"),
-    ("functions", "functions of the declaration, `fn name(x) = e;`"),
+    (
+        "functions",
+        "functions of the declaration, `fn name(x) = e;`, and of the program, `functions { name(x); }`",
+    ),
     ("kinds", "scalars, vectors and rotations; what may depend on what"),
     ("limits", "bounds on the size of what is declared"),
     ("names", "unknown, reserved, declared twice"),

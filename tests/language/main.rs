@@ -19,5 +19,6 @@ mod piecewise;
 mod report;
 mod serde;
 mod slip;
+mod supplied;
 mod three_ways;
 mod with_scalar;

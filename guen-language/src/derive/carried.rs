@@ -25,6 +25,12 @@ pub(super) fn derive(
     word: &Name,
     faults: &mut Faults,
 ) -> Option<Box<Level>> {
+    if let Some(function) = model.functions.first() {
+        let text = "a system with functions that the program supplies has no carried form";
+        let fault = Fault::new(word.span(), text).note(format!("`{}` is one", function.name));
+        faults.report(fault.help("leave `carried` out"));
+        return None;
+    }
     let places = &level.selection.variables;
     let variables: Vec<ExprId> = places.iter().map(|place| model.variable(*place)).collect();
     let taken: Vec<String> = places.iter().map(|place| model.variable_name(*place).to_owned()).collect();

@@ -25,6 +25,7 @@ mod readable;
 mod scene;
 mod selection;
 mod series;
+mod supplied;
 mod switches;
 
 use std::rc::Rc;
@@ -80,6 +81,8 @@ pub fn derive<'a>(mut model: Model<'a>, faults: &mut Faults) -> Option<Derived<'
     }
     let scenes = scene::derive(&mut model, &system, faults);
     let in_modes = one_mode::derive(&mut model, &system, faults);
+    let levels: Vec<&Level> = std::iter::once(&system).chain(&scenes).collect();
+    supplied::check(&model, &levels, faults);
     (faults.count() == before).then_some(Derived { model, system, scenes, in_modes })
 }
 

@@ -41,15 +41,15 @@ pub(super) fn of(
             let is_supplied = matches!(refused.operation, Operation::Apply(Multivariate::Supplied { .. }, _));
             let text =
                 format!("the motion has no Taylor series: the rate of `{variable}` needs `{function}`");
-            faults.report(
-                Fault::new(word, text)
-                    .note(if is_supplied {
-                        format!("the program supplies `{function}` with derivatives of a few orders, and a series takes twenty")
-                    } else {
-                        format!("at a kink of `{function}` a series goes on as if there were none, and nothing would tell")
-                    })
+            let fault = Fault::new(word, text);
+            faults.report(match is_supplied {
+                true => fault
+                    .note(format!("the program supplies `{function}` with derivatives of a few orders, and a series takes twenty"))
+                    .help("leave `taylor` out and integrate with another method"),
+                false => fault
+                    .note(format!("at a kink of `{function}` a series goes on as if there were none, and nothing would tell"))
                     .help("leave `taylor` out and integrate with another method, which locates the kink"),
-            );
+            });
             return None;
         }
     };

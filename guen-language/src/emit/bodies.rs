@@ -60,9 +60,10 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let (size, n) = (layout.size, layout.n);
     let positions = 0..n;
     let locals = (0..layout.constants).map(|i| format_ident!("__guen_c{i}"));
+    let functions = (!layout.supplied.is_empty()).then(|| quote!(, self.hoisted.functions));
     let program = (values > 0).then(|| {
         quote! {
-            let hoisted = placed::prepare(&self.constants);
+            let hoisted = placed::prepare(&self.constants #functions);
             let values = placed::bodies(&self.constants, &hoisted, t, &[#(s[#positions]),*]);
         }
     });
@@ -91,7 +92,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
 /// A mass or moment as an expression over the locals `__guen_c0`, .., if it depends on constants alone. These are written
 /// out where they are used: as prepared values they would cost every program that never looks at a body.
 fn constant(subject: &Subject<'_, '_>, e: ExprId) -> Option<TokenStream> {
-    let known = subject.model.bench.graph.roles(e).is_constant();
+    let known = subject.model.is_constant(e);
     known.then(|| tokens(&default_text(subject, e)))
 }
 

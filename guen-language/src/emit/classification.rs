@@ -62,6 +62,12 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, is_outline: bool
         markers = MARKERS.to_vec();
     }
     let owners: &[&str] = if layout.inputs > 0 { &["Prepared", "Driven"] } else { &["Prepared"] };
+    // The macro knows no further parameters.
+    let further = owners.iter().filter(|_| !layout.supplied.is_empty()).flat_map(|owner| {
+        markers.iter().map(move |marker| format!("impl<R> __guen::{marker} for {owner}<R> {{}} "))
+    });
+    let further: String = further.collect();
+    let owners = if layout.supplied.is_empty() { owners } else { &[] };
     let owners: String = owners.iter().map(|owner| format!("[{}] {owner} ", markers.join(" "))).collect();
     let list = |counts: &[u32]| counts.iter().map(ToString::to_string).collect::<Vec<_>>().join(" ");
     let growth = growth.iter().map(ToString::to_string).collect::<Vec<_>>().join(" ");
@@ -80,7 +86,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, is_outline: bool
     };
     tokens(&format!(
         "{switches} __guen::facts! {{ {system} {class} [{growth}] {steps} {integrable} {complete} [{unfinished}] {scleronomic} {catastatic}
-        {conservative} [{}] [{}] [{}] [{}] {domain_count} {owners} }}",
+        {conservative} [{}] [{}] [{}] [{}] {domain_count} {owners} }} {further}",
         list(&cost),
         list(&prepare_cost),
         literals(domain),

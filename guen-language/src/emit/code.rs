@@ -7,6 +7,9 @@ use std::fmt::Write;
 
 use guen_symbolic::{Function, Instruction, Multivariate, Operation, Rational, SymbolId, Value};
 
+/// The name of the functions that the program supplies, a tuple.
+pub(super) const SUPPLIED: &str = "functions";
+
 /// The values of symbols in a program: an expression of Rust for each.
 pub(super) trait Loads {
     /// The place of a symbol's value.
@@ -35,6 +38,7 @@ pub(super) fn body(instructions: &[Instruction], outputs: &[Value], loads: &dyn 
     let mut steps: Vec<&Instruction> = instructions.iter().filter(|i| !writer.load(i, loads)).collect();
     steps.retain(|step| writer.absorbed[step.result.index()].is_none());
     bring_angles_together(&mut steps, &writer.absorbed);
+    bring_derivatives_together(&mut steps);
     for (place, step) in steps.iter().enumerate() {
         for operand in step.operation.operands() {
             last_use[operand.index()] = place;
@@ -50,16 +54,19 @@ pub(super) fn body(instructions: &[Instruction], outputs: &[Value], loads: &dyn 
         last_use[output.index()] = if is_short { steps.len() } else { usize::MAX };
     }
     // Blocks hand on names only.
-    let block = if is_short { steps.len() + 1 } else { BLOCK_STATEMENTS };
+    let ends = if is_short { vec![steps.len() + 1] } else { block_ends(&steps, BLOCK_STATEMENTS) };
+    let block = |place: usize| ends.partition_point(|end| *end <= place);
     for (place, step) in steps.iter().enumerate() {
         let r = step.result.index();
-        writer.in_place[r] = uses[r] == 1 && last_use[r] / block == place / block;
+        writer.in_place[r] = uses[r] == 1 && block(last_use[r]) == block(place);
     }
     if is_short {
         writer.statements(&steps);
     } else {
-        for (number, block) in steps.chunks(BLOCK_STATEMENTS).enumerate() {
-            let end = number * BLOCK_STATEMENTS + block.len();
+        let mut start = 0;
+        for end in ends {
+            let block = &steps[start..end];
+            start = end;
             let handed: Vec<String> = block
                 .iter()
                 .flat_map(|step| defined(step))
@@ -157,6 +164,57 @@ fn bring_angles_together(steps: &mut [&Instruction], absorbed: &[Option<(Value, 
     }
 }
 
+/// The ends of blocks of so many statements; what one evaluation computes stays together.
+fn block_ends(steps: &[&Instruction], statements: usize) -> Vec<usize> {
+    let mut ends = Vec::new();
+    let mut end = 0;
+    while end < steps.len() {
+        end = (end + statements).min(steps.len());
+        while end < steps.len() && is_one_evaluation(steps[end - 1], steps[end]) {
+            end += 1;
+        }
+        ends.push(end);
+    }
+    ends
+}
+
+/// Moves derivatives of a function that the program supplies behind the first one with the same arguments: one evaluation
+/// computes all of them.
+fn bring_derivatives_together(steps: &mut [&Instruction]) {
+    let mut place = 0;
+    while place < steps.len() {
+        let first = steps[place];
+        place += 1;
+        while matches!(first.operation, Operation::Apply(Multivariate::Supplied { .. }, _))
+            && let Some(other) = steps[place..].iter().position(|other| is_one_evaluation(first, other))
+        {
+            steps[place..=place + other].rotate_right(1);
+            place += 1;
+        }
+    }
+}
+
+/// Whether two instructions are derivatives of one function that the program supplies at the same arguments.
+fn is_one_evaluation(a: &Instruction, b: &Instruction) -> bool {
+    match (&a.operation, &b.operation) {
+        (
+            Operation::Apply(Multivariate::Supplied { function, .. }, arguments),
+            Operation::Apply(Multivariate::Supplied { function: other, .. }, others),
+        ) => function == other && arguments == others,
+        _ => false,
+    }
+}
+
+/// The way from the result of an evaluation with derivatives up to an order to one of them.
+fn derivative(order: usize, orders: &[u8]) -> String {
+    let arguments = orders.iter().enumerate();
+    let tangents =
+        arguments.flat_map(|(i, count)| std::iter::repeat_n(format!(".tangent[{i}]"), (*count).into()));
+    let tangents: Vec<String> = tangents.collect();
+    let values = ".value".repeat(order - tangents.len());
+    format!("{values}{}", tangents.concat())
+}
+
 /// The steps between two that the later one needs, in their order; `None` if it needs the earlier one, or many.
 fn needed(
     steps: &[&Instruction],
@@ -230,6 +288,11 @@ impl Writer {
 
     fn statements(&mut self, mut steps: &[&Instruction]) {
         while let [step, rest @ ..] = steps {
+            let derivatives = 1 + rest.iter().take_while(|other| is_one_evaluation(step, other)).count();
+            if self.evaluation(&steps[..derivatives]) {
+                steps = &steps[derivatives..];
+                continue;
+            }
             steps = match rest {
                 [other, rest @ ..] if self.pair(step, other) => rest,
                 _ => {
@@ -238,6 +301,31 @@ impl Writer {
                 }
             };
         }
+    }
+
+    /// Writes one evaluation of a function that the program supplies, and a statement for each derivative; unless they are none.
+    fn evaluation(&mut self, steps: &[&Instruction]) -> bool {
+        let Operation::Apply(Multivariate::Supplied { function, .. }, arguments) = &steps[0].operation else {
+            return false;
+        };
+        let orders = |step: &Instruction| match step.operation {
+            Operation::Apply(Multivariate::Supplied { orders, .. }, _) => orders,
+            _ => Default::default(),
+        };
+        let total = |step: &&Instruction| orders(step).iter().map(|count| usize::from(*count)).sum::<usize>();
+        let order = steps.iter().map(total).max().unwrap_or(0);
+        let given: Vec<&str> = arguments.iter().map(|v| self.names[v.index()].as_str()).collect();
+        let names: Vec<usize> = steps.iter().map(|step| step.result.index()).collect();
+        let first = names[0];
+        let given = given.join(", ");
+        let _ = write!(
+            self.text,
+            "let d{first} = __guen::derivatives_{order}(&{SUPPLIED}.{function}, [{given}]);"
+        );
+        for (step, name) in steps.iter().zip(names) {
+            let _ = write!(self.text, "let v{name} = d{first}{};", derivative(order, &orders(step)));
+        }
+        true
     }
 
     /// Writes one statement for two sines and cosines, unless they are none, or one is of the other.

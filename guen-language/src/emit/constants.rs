@@ -96,19 +96,22 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, report: &Report)
     let marker = (count == 0).then(|| quote!(real: ::core::marker::PhantomData<#real>,));
     let marker_value = (count == 0).then(|| quote!(real: ::core::marker::PhantomData,));
     let is_type_like = declared.to_string().starts_with(char::is_uppercase);
-    let unit = (count == 0 && is_type_like).then(|| {
+    let supplied = &layout.supplied;
+    let unit = (count == 0 && is_type_like && supplied.is_empty()).then(|| {
         let docs = format!("The system [`{declared}`](struct@{declared}): it has no constants.");
         quote! {
             #[doc = #docs]
             pub const #declared: #system = #system { #marker_value };
         }
     });
+    let (supplied_kinds, supplied_fields) = (supplied.declared(), supplied.fields());
     let item = quote! {
         #[::core::prelude::v1::derive(
             ::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq
         )]
-        pub struct #declared<#real = f64> {
+        pub struct #declared<#real = f64 #supplied_kinds> {
             #(#declared_fields)*
+            #supplied_fields
             #marker
         }
     };
@@ -120,7 +123,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, report: &Report)
         0 => (None, None),
         count => (
             Some(quote!(follows: [#(__guen::Derived::follows(&self.#derived)),*],)),
-            Some(quote!(follows #count)),
+            Some(quote!(, follows #count)),
         ),
     };
     let given: Vec<TokenStream> = (0..count).map(|i| {
@@ -133,6 +136,8 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, report: &Report)
         }
     }).collect();
     let given = structure.literal(&given);
+    let given_functions = supplied.prepared(&quote!(self.hoisted));
+    let hoisted = supplied.hoisted(hoisted);
     let definite = physical::definite(subject, layout);
     let pivots = motion::pivots(subject);
     let limits = limits::has_any(subject).then(|| quote!(prepared.check_limits()?;));
@@ -165,7 +170,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, report: &Report)
         impl<R: __guen::Real> Prepared<R> {
             /// The constants that the system was prepared from.
             pub fn constants(&self) -> #system<R> {
-                #system { #given #marker_value }
+                #system { #given #given_functions #marker_value }
             }
         }
 
@@ -221,12 +226,13 @@ fn resolution(
         if field.is_derived { quote!(__guen::Derived::Set(#value)) } else { value }
     });
     let resolved = structure.literal(&resolved.collect::<Vec<_>>());
+    let supplied = layout.supplied.taken(&quote!(self));
     Some(quote! {
         impl<R: __guen::Real> #system<R> {
             /// Returns the constants with every derived one set to its present value.
             pub fn resolved(&self) -> Self {
                 let values = self.__guen_values();
-                #system { #resolved }
+                #system { #resolved #supplied }
             }
 
             /// The constants as numbers, each out of those before it.
@@ -369,6 +375,10 @@ fn constructors(
         required.push(parameter);
     }
     let marker = (fields.is_empty()).then(|| quote!(real: ::core::marker::PhantomData,));
+    let supplied = &layout.supplied;
+    if !supplied.is_empty() {
+        return with_functions(layout, &required, &kinds, &values, marker.as_ref());
+    }
     let docs = if required.is_empty() {
         "The system with its default constants.".to_owned()
     } else {
@@ -405,5 +415,45 @@ fn constructors(
                 #system { #(#values,)* #marker }
             }
         }
+    }
+}
+
+/// `new` with the constants that have no default and the functions that the program supplies, and `Default` if all constants have one.
+fn with_functions(
+    layout: &Layout,
+    required: &[Ident],
+    kinds: &[TokenStream],
+    values: &[TokenStream],
+    marker: Option<&TokenStream>,
+) -> TokenStream {
+    let (system, supplied) = (&layout.system, &layout.supplied);
+    let (arguments, fields) = supplied.given();
+    let names: Vec<String> = required.iter().map(ToString::to_string).chain(supplied.names()).collect();
+    let names: Vec<String> =
+        names.iter().map(|name| format!("`{}`", name.trim_start_matches("r#"))).collect();
+    let docs = format!("The system with {}, and the defaults of all other constants.", names.join(", "));
+    let default = required.is_empty().then(|| {
+        let default = quote!(::core::default::Default);
+        let (bounded, kinds, defaults) =
+            (supplied.bounded(&default), supplied.arguments(), supplied.defaults());
+        let real = quote!(::core::primitive::f64);
+        // The bound is one of this implementation alone: a path keeps the name from those that get the parameters of all others.
+        quote! {
+            impl<#bounded> #default for self::#system<#real #kinds> {
+                fn default() -> Self {
+                    Self::new(#(#defaults),*)
+                }
+            }
+        }
+    });
+    quote! {
+        impl<R: __guen::Real> #system<R> {
+            #[doc = #docs]
+            #[allow(clippy::too_many_arguments, reason = "one for each constant without a default, and one for each function")]
+            pub fn new(#(#required: #kinds,)* #(#arguments),*) -> Self {
+                #system { #(#values,)* #fields #marker }
+            }
+        }
+        #default
     }
 }

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use guen_symbolic::{ExprId, Programs, SymbolId};
 use proc_macro2::TokenStream;
 
-use super::code::{Loads, body};
+use super::code::{Loads, SUPPLIED, body};
 use super::layout::Layout;
 use super::text::tokens;
 use crate::derive::{Level, Subject, function};
@@ -143,14 +143,19 @@ fn module(name: &str, programs: &Programs, more: &str, subject: &Subject<'_, '_>
         #[allow(clippy::all, clippy::pedantic, clippy::nursery, clippy::restriction, reason = \"straight-line code for the compiler\")]
         mod {name} {{ use super::__guen;"
     );
+    let prepare = body(&programs.prepare, &programs.prepared, &places);
+    let supplied = if layout.supplied.is_empty() {
+        let _ = write!(
+            text,
+            "#[inline] pub(super) fn prepare<R: __guen::Real>(c: &c<R>) -> k<R> {{ {prepare} }}",
+        );
+        String::new()
+    } else {
+        format!("{} {SUPPLIED} {{ {prepare} }}", layout.supplied.list())
+    };
     let _ = write!(
         text,
-        "#[inline] pub(super) fn prepare<R: __guen::Real>(c: &c<R>) -> k<R> {{ {} }}",
-        body(&programs.prepare, &programs.prepared, &places),
-    );
-    let _ = write!(
-        text,
-        "__guen::program_functions! {{ c {constants} k {hoisted} s {size} x {n} y {all} w {n} u {inputs} a {l}"
+        "__guen::program_functions! {{ {supplied} c {constants} k {hoisted} s {size} x {n} y {all} w {n} u {inputs} a {l}"
     );
     if let (Some(contacts), Some(facts)) = (&subject.model.contacts, &subject.level.contacts) {
         let _ = write!(

@@ -160,7 +160,7 @@ pub(super) fn rounded(
 ) -> TokenStream {
     quote! {
         program::#function(
-            &__guen::rounded(&#prepared.constants), &__guen::rounded(&#prepared.hoisted), #t, #state,
+            &__guen::rounded(&#prepared.constants), &__guen::PreparedValues::rounded_once(&#prepared.hoisted), #t, #state,
         )
     }
 }

@@ -7,6 +7,7 @@ use super::layout::Layout;
 
 /// Returns the code that puts a prepared system together from those of the lanes.
 fn gathered(layout: &Layout, path: &TokenStream, of: &TokenStream) -> TokenStream {
+    let supplied = &layout.supplied;
     // A derived constant follows in the whole only if it follows in every lane; otherwise it is set, lane by lane.
     let follows = (!layout.derived.is_empty()).then(|| {
         quote! {
@@ -15,17 +16,24 @@ fn gathered(layout: &Layout, path: &TokenStream, of: &TokenStream) -> TokenStrea
             }),
         }
     });
+    let mut hoisted = quote! {
+        ::core::array::from_fn(|k| <L as __guen::Lanes>::from_fn(|lane| member(lane)#of.hoisted[k]))
+    };
+    if !supplied.is_empty() {
+        let (functions, _) = supplied.in_lanes(&quote!(member(lane)#of));
+        hoisted = quote!(__guen::Hoisted { values: #hoisted, functions: #functions });
+    }
     quote! {
         #path {
             constants: ::core::array::from_fn(|k| <L as __guen::Lanes>::from_fn(|lane| member(lane)#of.constants[k])),
-            hoisted: ::core::array::from_fn(|k| <L as __guen::Lanes>::from_fn(|lane| member(lane)#of.hoisted[k])),
+            hoisted: #hoisted,
             #follows
         }
     }
 }
 
 pub(super) fn items(layout: &Layout) -> TokenStream {
-    if layout.inputs == 0 && layout.derived.is_empty() {
+    if layout.inputs == 0 && layout.derived.is_empty() && layout.supplied.is_empty() {
         let size = layout.size;
         return quote!(__guen::laned!(#size););
     }
@@ -47,14 +55,16 @@ pub(super) fn carried(layout: &Layout) -> TokenStream {
 
 fn laned(layout: &Layout, prepared: &TokenStream) -> TokenStream {
     let size = layout.size;
+    // In lanes every lane has its own functions.
+    let (_, kinds) = layout.supplied.in_lanes(&quote!());
     if layout.inputs == 0 {
         return quote! {
             impl __guen::Laned<#size> for Prepared<f64> {
-                type Over<L: __guen::Lanes> = Prepared<L>;
+                type Over<L: __guen::Lanes> = Prepared<L #kinds>;
 
                 fn gather<'a, L: __guen::Lanes>(
                     member: impl ::core::ops::Fn(usize) -> &'a Self,
-                ) -> Prepared<L> {
+                ) -> Prepared<L #kinds> {
                     #prepared
                 }
             }
@@ -63,11 +73,11 @@ fn laned(layout: &Layout, prepared: &TokenStream) -> TokenStream {
     let inputs = layout.inputs;
     quote! {
         impl __guen::Laned<#size> for Driven<f64> {
-            type Over<L: __guen::Lanes> = Driven<L>;
+            type Over<L: __guen::Lanes> = Driven<L #kinds>;
 
             fn gather<'a, L: __guen::Lanes>(
                 driven: impl ::core::ops::Fn(usize) -> &'a Self,
-            ) -> Driven<L> {
+            ) -> Driven<L #kinds> {
                 let member = |lane: usize| &driven(lane).system;
                 let inputs: [L; #inputs] = ::core::array::from_fn(|k| {
                     <L as __guen::Lanes>::from_fn(|lane| {

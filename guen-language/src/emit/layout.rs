@@ -5,6 +5,7 @@ use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};
 
 use super::fields::Fields;
+use super::supplied::Supplied;
 use crate::derive::{Level, StateIndex, StatePart, Subject};
 use crate::model::{ConstantEntry, FormEntry, Model};
 use crate::names::{RATE_SUFFIX, array_of};
@@ -32,6 +33,8 @@ pub(super) struct Layout {
     pub(super) inputs: usize,
     /// The constants that follow others until they are set, each behind those that its formula reads.
     pub(super) derived: Vec<usize>,
+    /// The functions that the program supplies.
+    pub(super) supplied: Supplied,
     /// Fields of the state.
     pub(super) state: Fields,
     /// Whether this is the system itself.
@@ -58,6 +61,7 @@ impl Layout {
             hoisted: level.programs.prepared.len(),
             inputs: selection.inputs.len(),
             derived: derived(model, level),
+            supplied: Supplied::new(model),
             state: {
                 let variables = selection.variables.iter().map(|place| variable_name(model, *place));
                 let names = variables.chain(selection.carried.iter().map(|f| carried_field(model, f)));

@@ -151,6 +151,8 @@ fn conversions(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
         let name = whole_state.access(subject.place_in_whole(held.place));
         quote!(state.#name)
     });
+    let (supplied, supplied_by_scene) =
+        (layout.supplied.taken(&quote!(system)), layout.supplied.taken(&quote!(self)));
     let built = own_fields.literal(&kept.chain(at_rest).collect::<Vec<_>>());
     let own_values = (!layout.derived.is_empty()).then(|| quote!(let values = self.__guen_values();));
     let own = (0..count).map(|i| {
@@ -186,7 +188,7 @@ fn conversions(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
                     fn from(system: super::#whole<R>) -> Self {
                         let _ = &system;
                         #kept_values
-                        #scene { #built #own_marker }
+                        #scene { #built #supplied #own_marker }
                     }
                 }
             }
@@ -198,7 +200,7 @@ fn conversions(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
                     fn try_from(system: super::#whole<R>) -> ::core::result::Result<Self, Self::Error> {
                         Self::check_fixed(&system)?;
                         #kept_values
-                        ::core::result::Result::Ok(#scene { #built #own_marker })
+                        ::core::result::Result::Ok(#scene { #built #supplied #own_marker })
                     }
                 }
             }
@@ -220,6 +222,7 @@ fn conversions(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
                 #kept_values
                 ::core::result::Result::Ok(#scene {
                     #built
+                    #supplied
                     #own_marker
                 })
             }
@@ -237,7 +240,7 @@ fn conversions(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
             pub fn system(&self) -> super::#whole<R> {
                 #own_values
                 let [#(#locals),*]: [R; #count] = [#(#own),*];
-                super::#whole { #whole_constants #whole_marker }
+                super::#whole { #whole_constants #supplied_by_scene #whole_marker }
             }
         }
 

@@ -32,6 +32,7 @@ mod records;
 mod serde;
 mod series;
 mod signatures;
+mod supplied;
 mod text;
 mod uses;
 mod with_scalar;
@@ -135,6 +136,7 @@ fn module(
         functions::modules(subject, &layout),
         carried::items(subject, &layout),
     ];
+    let parts = parts.into_iter().map(|part| layout.supplied.spread(part));
     let docs = documentation::module(&report, system, layout.is_whole);
     let alias = Ident::new("__guen", Span::call_site());
     quote! {

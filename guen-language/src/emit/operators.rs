@@ -16,12 +16,27 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let n = layout.all;
     let last = subject.model.last_operator();
     let mut text = format!("__guen::operators! {{ {n} {last}");
+    let supplied = &layout.supplied;
+    let mut aliases = String::new();
     for j in 0..=n {
         let docs = match j {
             0 => "The operator `X_0 = d/dt + sum_i xi_0^i d/dx_i`: what happens by itself, (1.7).".to_owned(),
             _ => format!("The operator `X_{j}` of the form `{}`, (1.4).", subject.model.forms[j - 1].name),
         };
-        let _ = write!(text, "{docs:?} X{j} {j}");
+        if supplied.is_empty() {
+            let _ = write!(text, "{docs:?} X{j} {j}");
+            continue;
+        }
+        // A constant has no parameters, and a function finds out which.
+        let (declared, parameters, kinds) =
+            (supplied.declared(), supplied.parameters(), supplied.arguments());
+        let [declared, parameters, kinds] =
+            [declared, parameters, kinds].map(|list| list.into_iter().skip(1).collect::<TokenStream>());
+        let _ = write!(
+            aliases,
+            "#[doc = {docs:?}] pub type X{j}<{declared}> = __guen::Displacement<Prepared<::core::primitive::f64>, {j}>;
+            #[doc = {docs:?}] pub const fn X{j}<{parameters}>() -> X{j}<{kinds}> {{ __guen::Displacement::NEW }}"
+        );
     }
     text.push(';');
     let graph = &subject.model.bench.graph;
@@ -30,6 +45,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
         let _ = write!(text, "{} {} [{}]", bracket.r, bracket.s, known.join(","));
     }
     text.push('}');
+    text.push_str(&aliases);
     tokens(&text)
 }
 

@@ -9,8 +9,7 @@ use super::text::tokens;
 use crate::derive::Subject;
 
 pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
-    let graph = &subject.model.bench.graph;
-    let known = |e: &guen_symbolic::ExprId| graph.roles(*e).is_constant();
+    let known = |e: &guen_symbolic::ExprId| subject.model.is_constant(*e);
     let value = |e: &guen_symbolic::ExprId| tokens(&default_text(subject, *e));
     let mut checks = Vec::new();
     for body in &subject.model.bodies {

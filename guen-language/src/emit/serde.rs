@@ -15,7 +15,8 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let held = selection.held.iter().map(|held| variable_name(model, held.place));
     let constants = Fields::new(&given.chain(held).collect::<Vec<Name>>()).of_record("Constants");
     let marker = (constants.len() == 0).then(|| quote!(real: ::core::marker::PhantomData,));
-    let constants = of_constants(layout, &constants, marker.as_ref());
+    // With functions it is a struct of other types, which need not be written to files.
+    let constants = layout.supplied.is_empty().then(|| of_constants(layout, &constants, marker.as_ref()));
     let has_coordinates = layout.n > 0 && (layout.is_whole || !selection.holonomic.is_empty());
     let coordinates = has_coordinates.then(|| {
         let coordinates = selection.coordinates.iter().map(|i| model.coordinates[*i].name);

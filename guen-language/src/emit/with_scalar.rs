@@ -15,11 +15,12 @@ pub(super) fn items(layout: &Layout, structure: &Fields, marker: Option<&TokenSt
         false => quote!(R::from_f64(constants.#name)),
     });
     let values = structure.literal(&values.collect::<Vec<_>>());
+    let supplied = layout.supplied.taken(&quote!(constants));
     let inputs = match layout.inputs {
         0 => None,
         count => Some(quote!(, #count)),
     };
     quote! {
-        __guen::with_scalar!(#system #size, constants: #system { #values #marker } #inputs);
+        __guen::with_scalar!(#system #size, constants: #system { #values #supplied #marker } #inputs);
     }
 }

@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 use std::rc::Rc;
 
+use guen_symbolic::{ExprId, MAX_ARGUMENTS};
 use proc_macro2::Span;
 
 use super::evaluate::{Evaluated, Evaluator};
@@ -11,7 +12,7 @@ use super::value::Value;
 use crate::diagnostics::Fault;
 use crate::limits::{MAX_CALL_DEPTH, MAX_CALLS};
 use crate::names;
-use crate::syntax::{Expression, ExpressionKind, FunctionDefinition, Name};
+use crate::syntax::{Expression, ExpressionKind, FunctionDefinition, Name, SuppliedFunction};
 
 impl Evaluator<'_> {
     /// `fn name(x, y) = e;`: its names are checked here, its kinds where it is called.
@@ -68,6 +69,7 @@ impl Evaluator<'_> {
             ExpressionKind::Call { function: called, arguments, .. }
                 if !names::is_function(&called.text)
                     && self.functions.get(&called.text).is_none()
+                    && !self.functions.supplied.contains_key(&called.text)
                     && called.text != super::accelerations::REACTION =>
             {
                 let _ = self.not_a_function(called, arguments);
@@ -82,12 +84,82 @@ impl Evaluator<'_> {
         self.scope.mark_used(name);
         let parameters = match self.functions.get(&name.text) {
             Some(function) => usage(function),
-            None => format!("{name}(..)"),
+            None => match self.functions.supplied.get(&name.text) {
+                Some((_, arguments)) => format!("{name}({})", arguments.join(", ")),
+                None => format!("{name}(..)"),
+            },
         };
         self.fail(
             Fault::new(name.span(), format!("`{name}` is a function, and no value"))
                 .help(format!("write `{parameters}`")),
         )
+    }
+
+    /// A function that the program supplies.
+    pub(super) fn supplied_function(&mut self, function: &SuppliedFunction) {
+        self.entry = Some(function.name.text.clone());
+        let mut own: BTreeSet<&str> = BTreeSet::new();
+        for argument in &function.arguments {
+            if !own.insert(&argument.text) {
+                let text = format!("`{argument}` is an argument twice");
+                self.faults.report(Fault::new(argument.span(), text));
+            }
+        }
+        let found = function.arguments.len();
+        if let Some(first) = function.arguments.get(MAX_ARGUMENTS) {
+            let text = format!("a function of {found} arguments, and {MAX_ARGUMENTS} are allowed");
+            self.faults.report(Fault::new(first.span(), text));
+        }
+        let arguments: Vec<&str> = function.arguments.iter().map(|name| name.text.as_str()).collect();
+        self.scope.declare(self.faults, &function.name, Category::Function, None);
+        if self.functions.get(&function.name.text).is_none() {
+            let is_sound = (1..=MAX_ARGUMENTS).contains(&found);
+            let declared =
+                is_sound.then(|| self.bench.graph.declare_function(&function.name.text, &arguments));
+            let arguments = arguments.into_iter().map(str::to_owned).collect();
+            self.functions.supplied.entry(function.name.text.clone()).or_insert((declared, arguments));
+        }
+    }
+
+    /// A call of a function that the program supplies.
+    fn supplied_call(&mut self, name: &Name, arguments: &[Expression], list: Span) -> Option<Evaluated> {
+        let (function, expected) = self.functions.supplied.get(&name.text)?.clone();
+        self.scope.mark_used(name);
+        let values: Vec<(Evaluated, Span)> =
+            arguments.iter().map(|argument| (self.value(argument), argument.extent())).collect();
+        let Some(function) = function else { return Some(Err(self.faults.reported_before())) };
+        if values.len() != expected.len() {
+            let usage = format!("{name}({})", expected.join(", "));
+            return Some(self.wrong_count(name, &usage, [expected.len(), values.len()], list));
+        }
+        if let Some(what) = self.place.without_functions() {
+            let fault = Fault::new(name.span(), format!("{what}, and no function that the program supplies"));
+            return Some(
+                self.fail(fault.help("compute the number in the program, and hand it over as a constant")),
+            );
+        }
+        let mut scalars = Vec::new();
+        for (value, span) in values {
+            scalars.push(value.and_then(|value| self.scalar(name, &(value, span))));
+        }
+        let scalars: Evaluated<Vec<ExprId>> = scalars.into_iter().collect();
+        Some(scalars.and_then(|scalars| {
+            let value = self.bench.graph.multivariate(function, &scalars);
+            self.check_size(value, name.span())
+        }))
+    }
+
+    fn wrong_count(
+        &mut self,
+        name: &Name,
+        usage: &str,
+        [expected, found]: [usize; 2],
+        list: Span,
+    ) -> Evaluated {
+        let plural = if expected == 1 { "" } else { "s" };
+        let were = if found == 1 { "was" } else { "were" };
+        let text = format!("`{name}` takes {expected} argument{plural}, and {found} {were} given");
+        self.fail(Fault::new(list, text).help(format!("write `{usage}`")))
     }
 
     /// A call of a function of the declaration.
@@ -97,6 +169,9 @@ impl Evaluator<'_> {
         arguments: &[Expression],
         list: Span,
     ) -> Option<Evaluated> {
+        if let Some(value) = self.supplied_call(name, arguments, list) {
+            return Some(value);
+        }
         let function = self.functions.by_name.get(&name.text).cloned()?;
         self.scope.mark_used(name);
         Some(self.called(name, &function, arguments, list))
@@ -112,10 +187,7 @@ impl Evaluator<'_> {
         let values: Vec<Evaluated> = arguments.iter().map(|argument| self.value(argument)).collect();
         let (expected, found) = (function.parameters.len(), values.len());
         if expected != found {
-            let plural = if expected == 1 { "" } else { "s" };
-            let were = if found == 1 { "was" } else { "were" };
-            let text = format!("`{name}` takes {expected} argument{plural}, and {found} {were} given");
-            return self.fail(Fault::new(list, text).help(format!("write `{}`", usage(function))));
+            return self.wrong_count(name, &usage(function), [expected, found], list);
         }
         let values = values.into_iter().collect::<Evaluated<Vec<Value>>>()?;
         if function.value.has_missing() {

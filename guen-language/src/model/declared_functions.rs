@@ -3,6 +3,8 @@
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
+use guen_symbolic::Multivariate;
+
 use super::value::Value;
 use crate::syntax::FunctionDefinition;
 
@@ -10,6 +12,8 @@ use crate::syntax::FunctionDefinition;
 #[derive(Default)]
 pub(super) struct DeclaredFunctions {
     pub(super) by_name: BTreeMap<String, Rc<FunctionDefinition>>,
+    /// The functions that the program supplies: each in the graph, unless a fault of it was reported, with the names of its arguments.
+    pub(super) supplied: BTreeMap<String, (Option<Multivariate>, Vec<String>)>,
     /// The arguments of the calls that are being evaluated, the innermost last.
     pub(super) frames: Vec<BTreeMap<String, Value>>,
     /// Calls evaluated so far.
@@ -31,6 +35,6 @@ impl DeclaredFunctions {
 
     /// The names of all functions.
     pub(super) fn names(&self) -> impl Iterator<Item = &str> {
-        self.by_name.keys().map(String::as_str)
+        self.by_name.keys().chain(self.supplied.keys()).map(String::as_str)
     }
 }

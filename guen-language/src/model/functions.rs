@@ -502,8 +502,35 @@ fn instead_of(text: &str) -> Option<&'static str> {
         "trunc" => "write `sign(x)*floor(abs(x))`",
         "fract" | "frac" => "write `x - floor(x)`",
         "saturate" | "sat" | "limit" => "write `clamp(x, low, high)`",
-        "lambda" | "Function" | "interp" | "interp1" | "interp1d" | "lookup" | "table" | "spline" | "lut" => {
-            "a function of one expression is declared by `fn name(x) = e;`"
+        "lambda" | "Lambda" | "Function" => "a function of one expression is declared by `fn name(x) = e;`",
+        "interp"
+        | "interp1"
+        | "interp1d"
+        | "interp2"
+        | "lookup"
+        | "lookup1"
+        | "table"
+        | "Table"
+        | "CombiTable1D"
+        | "CombiTable1Ds"
+        | "CombiTable2Ds"
+        | "spline"
+        | "CubicSpline"
+        | "cubic_spline"
+        | "cubicspline"
+        | "pchip"
+        | "PchipInterpolator"
+        | "akima"
+        | "ppval"
+        | "polyval"
+        | "griddata"
+        | "RegularGridInterpolator"
+        | "Grid"
+        | "lut"
+        | "BSpline"
+        | "interpolate"
+        | "interpolant" => {
+            "declare `functions { curve(x); }`, and give the field `curve` of the struct a `guen::Table` or `guen::Grid`"
         }
         "sec" => "write `1/cos(x)`",
         "csc" | "cosec" => "write `1/sin(x)`",

@@ -30,7 +30,7 @@ mod value;
 use guen_symbolic::{ExprId, Mechanics, Multivariate, Operation, Workbench};
 use proc_macro2::{Ident, Span};
 
-use crate::syntax::{BoundKind, Declaration, Docs, Name, Scene};
+use crate::syntax::{BoundKind, Declaration, Docs, Name, Scene, SuppliedFunction};
 
 pub use contact::{ContactEntry, ContactKind, ContactState, Contacts, Row, SwitchEntry};
 pub use dimensions::{Units, momentum, reaction, residual};
@@ -47,6 +47,8 @@ pub struct Model<'a> {
     pub bench: Workbench,
     /// Physical constants in order.
     pub constants: Vec<ConstantEntry<'a>>,
+    /// Functions that the program supplies, in order.
+    pub functions: Vec<&'a SuppliedFunction>,
     /// Control inputs in order.
     pub inputs: Vec<SymbolEntry<'a>>,
     /// Coordinates in order.
@@ -141,6 +143,12 @@ impl Model<'_> {
             Operation::Apply(function, _) => function.name().to_owned(),
             _ => "an operation".to_owned(),
         }
+    }
+
+    /// Whether an expression depends on constants alone, and on no function that the program supplies.
+    pub(crate) fn is_constant(&self, e: ExprId) -> bool {
+        let graph = &self.bench.graph;
+        graph.roles(e).is_constant() && !graph.has_supplied(e)
     }
 
     /// Whether an expression is a negative number.

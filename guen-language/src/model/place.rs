@@ -143,6 +143,17 @@ impl Place {
 }
 
 impl Place {
+    /// The rule of a place where no function that the program supplies may stand: its value is computed where functions are not known.
+    pub(super) fn without_functions(self) -> Option<&'static str> {
+        Some(match self {
+            Place::Default => "a default is a number, or made of constants declared before it",
+            Place::Limit => "the limits of inputs are made of numbers and constants",
+            Place::Fixed => "a constant is fixed to a number, or to an expression of constants",
+            Place::Restitution => "a coefficient of restitution is made of numbers and constants",
+            _ => return None,
+        })
+    }
+
     /// Whether it is a part of a contact.
     pub(super) fn is_of_contact(self) -> bool {
         matches!(

@@ -157,6 +157,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
                 Item::Let(definition) => scope.announce(&definition.name),
                 Item::Argument(argument) => scope.announce(&argument.name),
                 Item::Function(function) => scope.announce(&function.name),
+                Item::Functions(section) => section.entries.iter().for_each(|e| scope.announce(&e.name)),
                 Item::Parameters(section) | Item::Outputs(section) => {
                     section.entries.iter().for_each(|e| scope.announce(&e.name));
                 }
@@ -215,6 +216,9 @@ impl<'a, 'f> Resolver<'a, 'f> {
                 self.eval.scope.declare(self.eval.faults, &definition.name, Category::Let, value);
             }
             Item::Function(function) => self.eval.function(function),
+            Item::Functions(section) => {
+                section.entries.iter().for_each(|function| self.eval.supplied_function(function));
+            }
             Item::Parameters(section) => {
                 section.entries.iter().for_each(|p| self.eval.parameter(p, &mut self.parameters));
             }

@@ -20,7 +20,7 @@ use quote::format_ident;
 use crate::names;
 use crate::syntax::{
     Body, BodyField, Constant, Declaration, Definition, Docs, Expression, Force, Inertia, Item, Name,
-    Particle, Plain, Provide, Quantity, Section, State,
+    Particle, Plain, Provide, Quantity, Section, State, SuppliedFunction,
 };
 use expressions::{call, number, rate, square, sum, value};
 use forms::Forms;
@@ -35,13 +35,14 @@ pub fn sound(declaration: &Declaration) -> Declaration {
     let forms = Forms::new(declaration, &kinds, &mut names);
     // After the forms, whose names are fields of the state, too.
     declaration.items.iter().for_each(|item| entries.add_states(item, &forms, &mut names));
-    if forms.driven.is_none() {
-        // Without a force there is no function to carry.
+    if forms.driven.is_none() || !entries.functions.is_empty() {
+        // Without a force there is no function to carry, and with functions of the program there is no such form.
         entries.provides.retain(|provide| provide.name.text != "carried");
     }
     let energy = sum(forms.coordinates.iter().map(|x| square(rate(&x.name))));
     let mut items = vec![
         Item::Constants(section(entries.constants.clone())),
+        Item::Functions(section(entries.functions.clone())),
         Item::Inputs(section(entries.inputs.clone())),
         Item::Coordinates(section(forms.coordinates.clone())),
         Item::Parameters(section(forms.parameters.clone())),
@@ -97,6 +98,7 @@ fn push<T>(entries: &mut Vec<T>, name: &Name, of: impl Fn(&T) -> &Name, new: imp
 #[derive(Default)]
 struct Entries {
     constants: Vec<Constant>,
+    functions: Vec<SuppliedFunction>,
     inputs: Vec<Plain>,
     states: Vec<State>,
     outputs: Vec<Definition>,
@@ -116,6 +118,18 @@ impl Entries {
                     let limits = input.limits.as_ref().map(|_| Box::new([number(0), number(1)]));
                     let new = || Plain { name: names.take(&input.name), unit: None, limits, ..input.clone() };
                     push(&mut self.inputs, &input.name, |input| &input.name, new);
+                }
+            }
+            Item::Functions(section) => {
+                for function in section.entries.iter().filter(|function| !function.arguments.is_empty()) {
+                    let numbered = |k: usize| Name::new(format_ident!("argument_{k}"));
+                    let count = function.arguments.len().min(guen_symbolic::MAX_ARGUMENTS);
+                    let new = || SuppliedFunction {
+                        name: names.take(&function.name),
+                        arguments: (0..count).map(numbered).collect(),
+                        ..function.clone()
+                    };
+                    push(&mut self.functions, &function.name, |function| &function.name, new);
                 }
             }
             Item::Outputs(section) => {

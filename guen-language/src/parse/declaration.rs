@@ -424,6 +424,9 @@ fn only_of_systems(kind: SectionKind, keyword: Span, faults: &mut Faults) {
         SectionKind::Gravity => fault
             .note("`gravity` of the system acts on the particles and bodies of its components too")
             .help("declare it in the system"),
+        SectionKind::Functions => fault
+            .note("a field of the struct has the function, and a component has no struct of a system")
+            .help("declare it in the system, and hand its value to the component as an argument"),
         SectionKind::Scene | SectionKind::Provide => {
             fault.help("declare it in the system that uses the component")
         }
@@ -439,6 +442,7 @@ fn section(kind: SectionKind, group: &Group, faults: &mut Faults, docs: Docs, ke
     }
     match kind {
         SectionKind::Constants => Item::Constants(of(docs, keyword, constants::constants(group, faults))),
+        SectionKind::Functions => Item::Functions(of(docs, keyword, functions::supplied(group, faults))),
         SectionKind::Inputs => {
             Item::Inputs(of(docs, keyword, plain_names(group, faults, INPUT, MAX_ENTRIES)))
         }

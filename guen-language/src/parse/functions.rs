@@ -1,14 +1,16 @@
-//! `fn name(x, y) = e;`.
+//! `fn name(x, y) = e;`, and the entries `name(x, y);` of `functions`.
 
 use proc_macro2::{Delimiter, Group, Span};
 
+use super::attributes::docs;
 use super::cursor::Cursor;
-use super::lists::{at_end, expression_to_semicolon, separated};
+use super::lists::{at_end, entries, expression_to_semicolon, separated};
 use super::names::name;
-use super::punctuation::{begins_definition, equals};
+use super::nesting::Entries;
+use super::punctuation::{begins_definition, equals, semicolon};
 use crate::diagnostics::{Fault, Faults, Reported};
 use crate::limits::MAX_ENTRIES;
-use crate::syntax::{Docs, Expression, FunctionDefinition, Name};
+use crate::syntax::{Docs, Expression, FunctionDefinition, Name, SuppliedFunction};
 
 const HELP: &str = "a function reads `fn name(x, y) = e;`";
 
@@ -45,6 +47,49 @@ pub(crate) fn function(
         }
     };
     Ok(FunctionDefinition { docs, name, parameters, value })
+}
+
+/// The entries of `functions`.
+pub(crate) fn supplied(group: &Group, faults: &mut Faults) -> Entries<SuppliedFunction> {
+    const HELP: &str = "a function that the program supplies reads `name(x, y);`";
+    entries(group, faults, |cursor, faults| {
+        let docs = docs(cursor, faults)?;
+        if let Some(span) = cursor.eat_word("fn") {
+            let fault = Fault::new(span, "an entry of `functions` has no `fn`");
+            faults.report(
+                fault
+                    .help("a function that the program supplies reads `name(x, y);`")
+                    .help("a function of the declaration, `fn name(x, y) = e;`, stands beside the sections"),
+            );
+        }
+        let name = name(cursor, faults, "the name of a function")?;
+        let Some(group) = cursor.eat_group(Delimiter::Parenthesis) else {
+            let fault =
+                Fault::new(cursor.span(), format!("expected `(` after `{name}`, found {}", cursor.found()));
+            let is_array = cursor.group_at(0, Delimiter::Bracket).is_some();
+            return Err(faults.report(match is_array {
+                true => fault.help("there are no arrays of functions: pass the index as an argument"),
+                false => fault.help(HELP),
+            }));
+        };
+        let arguments = parameters(&group, faults);
+        if arguments.is_empty() && group.stream().is_empty() {
+            let fault = Fault::new(group.span(), format!("`{name}` is a function of nothing"));
+            faults.report(fault.help("a number that the program supplies is an entry of `constants`"));
+        }
+        result_type(cursor, faults);
+        if cursor.is_punct('=') {
+            let fault = Fault::new(cursor.span(), format!("the program supplies `{name}`"));
+            let help = format!(
+                "a function of the declaration reads `fn {name}(..) = e;`, and stands beside the sections"
+            );
+            return Err(faults.report(fault.help(help)));
+        }
+        semicolon(cursor, faults, |cursor| {
+            cursor.ident_at(0).is_some() && cursor.group_at(1, Delimiter::Parenthesis).is_some()
+        });
+        Ok(SuppliedFunction { docs, name, arguments })
+    })
 }
 
 /// The names in parentheses.

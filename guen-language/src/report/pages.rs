@@ -38,6 +38,10 @@ pub(super) fn declared(subject: &Subject<'_, '_>) -> Vec<Section> {
         line(&format!("{}{}{bound}{default}", known.name.text, unit(&known.name.text)), known.docs)
     });
     let constants = constants.collect();
+    let functions = model.functions.iter().map(|function| {
+        let arguments: Vec<&str> = function.arguments.iter().map(|name| name.text.as_str()).collect();
+        line(&format!("{}({})", function.name.text, arguments.join(", ")), &function.docs)
+    });
     let derived = model.forms.iter().map(|form| form.name.as_str());
     let derived = derived.chain(model.outputs.iter().map(|output| output.name.text.as_str()));
     let derived =
@@ -53,6 +57,7 @@ pub(super) fn declared(subject: &Subject<'_, '_>) -> Vec<Section> {
     let of_forms: Vec<String> = of_forms.map(|name| format!("{name}{}", unit(&name))).collect();
     vec![
         Section::words("Constants", constants),
+        Section::words("Functions of the program", functions.collect()),
         Section::words("Coordinates", symbols(&model.coordinates)),
         Section::words("Inputs", symbols(&model.inputs)),
         Section::words("States", symbols(&model.states)),

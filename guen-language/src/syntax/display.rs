@@ -388,6 +388,13 @@ impl Display for Component {
     }
 }
 
+impl Display for SuppliedFunction {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let arguments: Vec<_> = self.arguments.iter().map(|name| name.ident.to_string()).collect();
+        write!(f, "{}({});", self.name.ident, arguments.join(", "))
+    }
+}
+
 impl Display for Use {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let arguments: Vec<String> =
@@ -402,6 +409,7 @@ impl Display for Item {
         match self {
             Item::Count(count) => write!(f, "count {} = {};", count.name.ident, count.value),
             Item::Constants(section) => braces(f, kind, section, ", "),
+            Item::Functions(section) => braces(f, kind, section, " "),
             Item::Inputs(section) | Item::Coordinates(section) => braces(f, kind, section, ", "),
             Item::Let(definition) => write!(f, "let {definition}"),
             Item::Function(function) => {

@@ -37,5 +37,5 @@ pub use unit::{Dimension, Unit};
 pub use section::{
     Body, BodyField, Bound, BoundKind, Constant, Count, Declaration, Definition, Equation, Fix, Force,
     FunctionDefinition, Inertia, Item, Particle, Plain, Provide, Quantity, Scene, SceneStatement, Section,
-    SectionKind, State,
+    SectionKind, State, SuppliedFunction,
 };

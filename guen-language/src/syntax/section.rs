@@ -50,6 +50,8 @@ pub enum Item {
     Count(Count),
     /// `constants { .. }`.
     Constants(Section<Constant>),
+    /// `functions { name(x, y); .. }`.
+    Functions(Section<SuppliedFunction>),
     /// `inputs { .. }`.
     Inputs(Section<Plain>),
     /// `coordinates { .. }`.
@@ -106,6 +108,7 @@ pub enum Item {
 pub enum SectionKind {
     Count,
     Constants,
+    Functions,
     Inputs,
     Coordinates,
     Let,
@@ -133,9 +136,10 @@ pub enum SectionKind {
 
 impl SectionKind {
     /// Every kind, in the order of [`crate::names::SECTIONS`].
-    pub const ALL: [SectionKind; 25] = [
+    pub const ALL: [SectionKind; 26] = [
         SectionKind::Count,
         SectionKind::Constants,
+        SectionKind::Functions,
         SectionKind::Inputs,
         SectionKind::Coordinates,
         SectionKind::Let,
@@ -317,6 +321,17 @@ pub struct FunctionDefinition {
     pub value: Expression,
 }
 
+/// `name(x, y)` in `functions`: a function that the program supplies.
+#[derive(Debug, Clone)]
+pub struct SuppliedFunction {
+    /// Doc comments.
+    pub docs: Docs,
+    /// The name.
+    pub name: Name,
+    /// The names of its arguments.
+    pub arguments: Vec<Name>,
+}
+
 /// `name: left = right`.
 #[derive(Debug, Clone)]
 pub struct Equation {
@@ -493,6 +508,7 @@ impl Item {
         match self {
             Item::Count(_) => SectionKind::Count,
             Item::Constants(_) => SectionKind::Constants,
+            Item::Functions(_) => SectionKind::Functions,
             Item::Inputs(_) => SectionKind::Inputs,
             Item::Coordinates(_) => SectionKind::Coordinates,
             Item::Let(_) => SectionKind::Let,

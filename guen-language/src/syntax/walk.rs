@@ -7,6 +7,7 @@ impl Item {
     pub fn nesting(&self) -> &[Node] {
         match self {
             Item::Constants(section) => &section.nesting,
+            Item::Functions(section) => &section.nesting,
             Item::Inputs(section) | Item::Coordinates(section) => &section.nesting,
             Item::Parameters(section) | Item::Outputs(section) => &section.nesting,
             Item::Constraints(section) | Item::Holonomic(section) => &section.nesting,
@@ -27,6 +28,7 @@ impl Item {
         match self {
             Item::Count(count) => vec![&count.name],
             Item::Constants(section) => section.entries.iter().map(|entry| &entry.name).collect(),
+            Item::Functions(section) => section.entries.iter().map(|entry| &entry.name).collect(),
             Item::Inputs(section) | Item::Coordinates(section) => {
                 section.entries.iter().map(|entry| &entry.name).collect()
             }
@@ -96,9 +98,12 @@ impl Item {
                 clauses.map(|clause| &clause.value).collect()
             }
             Item::Argument(argument) => vec![&argument.given.value],
-            Item::Count(_) | Item::Component(_) | Item::Modes(_) | Item::Provide(_) | Item::Scene(_) => {
-                Vec::new()
-            }
+            Item::Count(_)
+            | Item::Functions(_)
+            | Item::Component(_)
+            | Item::Modes(_)
+            | Item::Provide(_)
+            | Item::Scene(_) => Vec::new(),
         }
     }
 }
@@ -131,6 +136,7 @@ impl Item {
         match self {
             Item::Count(count) => vec![&mut count.name],
             Item::Constants(section) => section.entries.iter_mut().map(|entry| &mut entry.name).collect(),
+            Item::Functions(section) => section.entries.iter_mut().map(|entry| &mut entry.name).collect(),
             Item::Inputs(section) | Item::Coordinates(section) => {
                 section.entries.iter_mut().map(|entry| &mut entry.name).collect()
             }
@@ -208,9 +214,12 @@ impl Item {
                 clauses.map(|clause| &mut clause.value).collect()
             }
             Item::Argument(argument) => vec![&mut argument.given.value],
-            Item::Count(_) | Item::Component(_) | Item::Modes(_) | Item::Provide(_) | Item::Scene(_) => {
-                Vec::new()
-            }
+            Item::Count(_)
+            | Item::Functions(_)
+            | Item::Component(_)
+            | Item::Modes(_)
+            | Item::Provide(_)
+            | Item::Scene(_) => Vec::new(),
         }
     }
 }

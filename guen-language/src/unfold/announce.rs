@@ -31,6 +31,7 @@ impl Unfolder<'_> {
             Item::Use(instance) => self.entry(&instance.name, "an instance"),
             Item::Component(component) => self.entry(&component.name, "a component"),
             Item::Function(function) => self.entry(&function.name, "a function"),
+            Item::Functions(section) => self.section(section, "a function", |entry| &entry.name),
             Item::Parameters(section) => self.section(section, "a parameter", |entry| &entry.name),
             Item::Outputs(section) => self.section(section, "an output", |entry| &entry.name),
             Item::Constraints(section) => self.section(section, "a constraint", |entry| &entry.name),

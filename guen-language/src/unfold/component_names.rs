@@ -81,7 +81,8 @@ impl<'a> OwnNames<'a> {
             .items
             .iter()
             .filter(|item| matches!(item, Item::Parameters(_) | Item::Constraints(_) | Item::Holonomic(_)));
-        let functions = component.items.iter().filter(|item| matches!(item, Item::Function(_)));
+        let functions =
+            component.items.iter().filter(|item| matches!(item, Item::Function(_) | Item::Functions(_)));
         OwnNames {
             declared: arguments.chain(component.items.iter().flat_map(texts)).collect(),
             coordinates: coordinates.flat_map(texts).collect(),

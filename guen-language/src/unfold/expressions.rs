@@ -251,6 +251,7 @@ fn number(value: i64, span: Span) -> Expression {
 pub(super) fn section_nesting(item: &Item) -> Option<&[Node]> {
     let nesting = match item {
         Item::Constants(section) => &section.nesting,
+        Item::Functions(section) => &section.nesting,
         Item::Inputs(section) | Item::Coordinates(section) => &section.nesting,
         Item::Parameters(section) | Item::Outputs(section) => &section.nesting,
         Item::Constraints(section) | Item::Holonomic(section) => &section.nesting,
@@ -308,6 +309,7 @@ fn declared(item: &Item, visit: &mut dyn FnMut(&Name)) {
         Item::Inputs(section) | Item::Coordinates(section) => {
             section.entries.iter().for_each(|entry| visit(&entry.name));
         }
+        Item::Functions(section) => section.entries.iter().for_each(|entry| visit(&entry.name)),
         Item::Let(definition) => visit(&definition.name),
         Item::Use(instance) => visit(&instance.name),
         Item::Parameters(section) | Item::Outputs(section) => {

@@ -39,6 +39,9 @@ impl Unfolder<'_> {
             Item::Component(component) => Item::Component(component.clone()),
             Item::Argument(argument) => Item::Argument(argument.clone()),
             Item::Function(function) => Item::Function(self.function(function)),
+            Item::Functions(section) => {
+                Item::Functions(self.written(section, |_, entry| Some(entry.clone())))
+            }
             Item::Parameters(section) => Item::Parameters(self.written(section, Self::definition)),
             Item::Outputs(section) => Item::Outputs(self.written(section, Self::definition)),
             Item::Constraints(section) => Item::Constraints(self.written(section, Self::equation)),

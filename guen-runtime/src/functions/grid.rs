@@ -49,16 +49,16 @@ impl<const M: usize, const N: usize> Grid<M, N> {
             check_finite(row).map_err(|_| TableError::NotFinite { index })?;
         }
         let mut nodes = values.map(|row| row.map(|value| [value, 0.0, 0.0, 0.0]));
-        for j in 0..N {
+        (0..N).try_for_each(|j| {
             let slopes: [f64; M] = natural(&x, |i| nodes[i][j][0]);
-            check_slopes(&slopes)?;
-            (0..M).for_each(|i| nodes[i][j][1] = slopes[i]);
-        }
+            nodes.iter_mut().zip(slopes).for_each(|(row, slope)| row[j][1] = slope);
+            check_slopes(&slopes)
+        })?;
         for row in &mut nodes {
             for k in [0, 1] {
                 let slopes: [f64; N] = natural(&y, |j| row[j][k]);
                 check_slopes(&slopes)?;
-                (0..N).for_each(|j| row[j][k + 2] = slopes[j]);
+                row.iter_mut().zip(slopes).for_each(|(node, slope)| node[k + 2] = slope);
             }
         }
         Ok(Grid { x, y, nodes })

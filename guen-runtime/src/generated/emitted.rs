@@ -17,6 +17,19 @@ mod motion;
 #[macro_export]
 macro_rules! program_functions {
     (
+        $supplied:tt $functions:ident $prepare:tt
+        $c:ident $constants:literal $k:ident $hoisted:literal $($array:ident $length:literal)*;
+        $($name:ident($($t:ident)?; $($given:ident $kind:ident)*) -> $n:literal $body:tt)*
+    ) => {
+        type $c<R> = [R; $constants];
+        $crate::program_function!(@ prepared $supplied $k $hoisted);
+        $(#[allow(dead_code, reason = "small systems use few of them")] type $array<R> = [R; $length];)*
+        $crate::program_function!(@ prepare $supplied $functions $c $k $prepare);
+        $($crate::program_function! {
+            $supplied $functions $c $k $name($($t)?; $($given $kind)*) -> $n $body
+        })*
+    };
+    (
         $c:ident $constants:literal $k:ident $hoisted:literal $($array:ident $length:literal)*;
         $($name:ident($($t:ident)?; $($given:ident $kind:ident)*) -> $n:literal $body:tt)*
     ) => {
@@ -30,6 +43,37 @@ macro_rules! program_functions {
                 <R as $crate::Real>::vectorize(#[inline(always)] || $body)
             }
         )*
+    };
+}
+
+/// A straight-line function of [`program_functions!`](crate::program_functions) where the program supplies functions: their names
+/// and types with the numbers of their arguments, the name by which the code has them, and the function.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! program_function {
+    (
+        [$($field:ident $F:ident $N:literal)*] $functions:ident $c:ident $k:ident
+        $name:ident($($t:ident)?; $($given:ident $kind:ident)*) -> $n:literal $body:tt
+    ) => {
+        #[inline]
+        pub(super) fn $name<R: $crate::Real $(, $F: $crate::Smooth<$N>)*>(
+            $c: &$c<R>, $k: &$k<R $(, $F)*>, $($t: R,)? $($given: &$kind<R>,)*
+        ) -> [R; $n] {
+            let $functions = &$k.functions;
+            // The closure is compiled with the instructions of the real.
+            <R as $crate::Real>::vectorize(#[inline(always)] || $body)
+        }
+    };
+    (@ prepared [$($field:ident $F:ident $N:literal)*] $k:ident $hoisted:literal) => {
+        pub(super) type $k<R $(, $F)*> = $crate::Hoisted<R, $hoisted, ($($F,)*)>;
+    };
+    (@ prepare [$($field:ident $F:ident $N:literal)*] $functions:ident $c:ident $k:ident $values:tt) => {
+        #[inline]
+        pub(super) fn prepare<R: $crate::Real $(, $F: $crate::Smooth<$N>)*>(
+            $c: &$c<R>, $functions: ($($F,)*),
+        ) -> $k<R $(, $F)*> {
+            $crate::Hoisted { values: $values, functions: $functions }
+        }
     };
 }
 
@@ -152,6 +196,7 @@ macro_rules! structured {
 #[macro_export]
 macro_rules! operators {
     (
+        $([$($field:ident $F:ident $N:literal)*])?
         $n:literal $last:literal
         $($docs:literal $X:ident $j:literal)*;
         $($r:literal $s:literal [$($known:tt)*])*
@@ -163,10 +208,11 @@ macro_rules! operators {
         /// `COEFFICIENTS` says of each coefficient whether it is zero, a number, constant or variable;
         /// `coefficients` computes their values at a time and state.
         // In braces, which say that they are constants: a system may be called `I` or `J`.
-        pub type Bracket<const I: usize, const J: usize> = $crate::Commutator<Prepared, { I }, { J }>;
+        pub type Bracket<const I: usize, const J: usize $($(, $F = f64)*)?> =
+            $crate::Commutator<Prepared<f64 $($(, $F)*)?>, { I }, { J }>;
 
-        impl $crate::Frame<$n> for Prepared<f64> {
-            type Over<B: $crate::Real> = Prepared<B>;
+        impl $(<$($F: $crate::Smooth<$N>),*>)? $crate::Frame<$n> for Prepared<f64 $($(, $F)*)?> {
+            type Over<B: $crate::Real> = Prepared<B $($(, $F)*)?>;
             const LAST: usize = $last;
             const BRACKETS: &'static [(usize, usize, [$crate::Coefficient; $n])] = {
                 #[allow(unused_imports, reason = "not every system has every kind of coefficient")]
@@ -176,15 +222,15 @@ macro_rules! operators {
 
             #[inline]
             fn operator<B: $crate::Real, R: $crate::Real + $crate::Lift<B>>(
-                prepared: &Prepared<B>, t: R, x: &[R; $n], index: usize,
+                prepared: &Prepared<B $($(, $F)*)?>, t: R, x: &[R; $n], index: usize,
             ) -> [R; $n] {
-                let lifted: Prepared<R> = prepared.lift();
+                let lifted = prepared.lift::<R>();
                 $crate::checks::row(&program::operators(&lifted.constants, &lifted.hoisted, t, x), index)
             }
 
             #[inline]
             fn bracket<B: $crate::Real, R: $crate::Real + $crate::Lift<B>>(
-                prepared: &Prepared<B>, t: R, x: &[R; $n], place: usize,
+                prepared: &Prepared<B $($(, $F)*)?>, t: R, x: &[R; $n], place: usize,
             ) -> [R; $n] {
                 $crate::values_of_brackets!(prepared, t, x, place, $n, $($r)*)
             }
@@ -208,7 +254,7 @@ macro_rules! values_of_brackets {
         [<R as $crate::Real>::zero(); $n]
     }};
     ($prepared:ident, $t:ident, $x:ident, $place:ident, $n:literal, $($some:literal)+) => {{
-        let lifted: Prepared<R> = $prepared.lift();
+        let lifted = $prepared.lift::<R>();
         $crate::checks::row::<_, $n>(&program::brackets(&lifted.constants, &lifted.hoisted, $t, $x), $place)
     }};
 }

@@ -5,8 +5,8 @@
 #[cfg(feature = "alloc")]
 #[macro_export]
 macro_rules! simulated_through_modes {
-    ($Owner:ident $size:tt $rows:tt $count:tt $signals:tt) => {
-        impl $Owner<::core::primitive::f64> {
+    ($([$($field:ident $F:ident $N:literal)*])? $Owner:ident $size:tt $rows:tt $count:tt $signals:tt) => {
+        impl $(<$($F: $crate::Smooth<$N>),*>)? $Owner<::core::primitive::f64 $($(, $F)*)?> {
             /// Simulates the motion from a state over a span of time, through its modes, with DOP853 at a tolerance of 1e-9.
             ///
             /// # Errors
@@ -69,8 +69,8 @@ macro_rules! simulated_through_modes {
 #[doc(hidden)]
 #[macro_export]
 macro_rules! held_through_modes {
-    () => {
-        impl<R: $crate::Real> Prepared<R> {
+    ($([$($field:ident $F:ident $N:literal)*])?) => {
+        impl<R: $crate::Real $($(, $F: $crate::Smooth<$N>)*)?> Prepared<R $($(, $F)*)?> {
             /// Refused: a run through modes takes inputs that are held, `driven(..)`, and changed at given times.
             pub fn simulation<X>(&self, _start: &X)
             where

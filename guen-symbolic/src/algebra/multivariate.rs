@@ -83,6 +83,13 @@ impl Graph {
         &self.supplied
     }
 
+    /// Whether a function that the program supplies stands in an expression.
+    pub fn has_supplied(&self, e: ExprId) -> bool {
+        let is_supplied =
+            |e: &ExprId| matches!(self.node(*e), Node::Multivariate(Multivariate::Supplied { .. }, _));
+        !self.supplied.is_empty() && self.reachable(&[e], |_| false).iter().any(is_supplied)
+    }
+
     /// A function of several arguments, in normal form.
     pub fn multivariate(&mut self, function: Multivariate, arguments: &[ExprId]) -> ExprId {
         match (function, arguments) {

@@ -159,6 +159,11 @@ fn word(text: &str) -> String {
     upright(text)
 }
 
+/// The name of a function that a declaration has named: its letters as they are.
+pub(super) fn operator(name: &str) -> String {
+    upright(name).replacen("\\mathrm", "\\operatorname", 1)
+}
+
 /// The letters of a name as they are.
 fn upright(text: &str) -> String {
     let letters = text.chars().map(|c| match GREEK.iter().find(|(_, letter, _)| *letter == c) {

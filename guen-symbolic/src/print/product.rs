@@ -2,6 +2,7 @@
 
 use crate::algebra::{ExprId, Function, Multivariate, Node, Rational};
 use crate::print::latex_name;
+use crate::print::names::operator;
 
 use super::Style;
 use super::order::FactorKey;
@@ -267,9 +268,10 @@ impl Printer<'_> {
                 if text {
                     by.fold(supplied.name.clone(), |head, name| format!("{head}_{name}"))
                 } else {
-                    let name = latex_name(&supplied.name);
-                    let by: String = by.map(|name| format!("\\partial_{{{}}}", latex_name(name))).collect();
-                    format!("{by}{name}")
+                    // A derivative has the arguments as indices.
+                    let by: Vec<String> = by.map(latex_name).collect();
+                    let name = operator(&supplied.name);
+                    if by.is_empty() { name } else { format!("{name}_{{{}}}", by.join(",")) }
                 }
             }
             known if text => known.name().to_owned(),

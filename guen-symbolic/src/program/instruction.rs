@@ -167,6 +167,8 @@ impl OperationCount {
     /// The count of some code; numbers and loads are free.
     pub fn of(instructions: &[Instruction]) -> Self {
         let mut count = OperationCount::default();
+        // One evaluation of a function that the program supplies gives its derivatives, too.
+        let mut evaluated: Vec<(u16, &[Value])> = Vec::new();
         for instruction in instructions {
             match &instruction.operation {
                 Operation::Number(_) | Operation::Pi | Operation::Symbol(_) | Operation::Prepared(_) => {}
@@ -178,6 +180,12 @@ impl OperationCount {
                     count.sines += 1
                 }
                 Operation::Call(Function::Root(_), _) => count.roots += 1,
+                Operation::Apply(Multivariate::Supplied { function, .. }, arguments) => {
+                    if !evaluated.contains(&(*function, arguments)) {
+                        evaluated.push((*function, arguments));
+                        count.calls += 1;
+                    }
+                }
                 Operation::Call(..) | Operation::Apply(..) => count.calls += 1,
             }
         }

@@ -33,6 +33,8 @@ pub(super) struct Dimensions<'f> {
     /// Names that stand for numbers, for exponents.
     pub(super) numbers: BTreeMap<String, Rational>,
     pub(super) functions: BTreeMap<String, FunctionDefinition>,
+    /// The functions that the program supplies: the dimensions of their arguments and of their values.
+    pub(super) supplied: BTreeMap<String, (Vec<Partial>, Partial)>,
     /// The names of parameters and constraints.
     pub(super) forms: BTreeSet<String>,
 }
@@ -184,6 +186,12 @@ impl Dimensions<'_> {
             ExpressionKind::Call { function, arguments, .. } => {
                 let all: Vec<(&Expression, Quantity)> =
                     arguments.iter().map(|argument| (argument, self.of(argument))).collect();
+                if let Some((expected, value)) = self.supplied.get(&function.text).cloned() {
+                    for ((e, own), wanted) in all.into_iter().zip(expected) {
+                        self.require(e, own, wanted, &format!("an argument of `{function}`"));
+                    }
+                    return Quantity::Of(value);
+                }
                 match self.functions.get(&function.text).cloned() {
                     Some(declared) => self.called(function, &declared, all),
                     None => self.function(function, &all),

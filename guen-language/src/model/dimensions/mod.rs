@@ -32,6 +32,7 @@ pub(super) fn units(declaration: &Declaration, faults: &mut Faults) -> Units {
         names: BTreeMap::new(),
         numbers: BTreeMap::new(),
         functions: BTreeMap::new(),
+        supplied: BTreeMap::new(),
         forms: BTreeSet::new(),
     };
     let mut shown = Vec::new();
@@ -208,6 +209,14 @@ impl Dimensions<'_> {
                 let own = self.of(value);
                 self.numbers.extend(self.number(value).map(|n| (argument.name.text.clone(), n)));
                 self.names.insert(argument.name.text.clone(), own);
+            }
+            Item::Functions(section) => {
+                for function in &section.entries {
+                    // Each has one dimension, and so has each of its arguments, whatever the program supplies.
+                    let arguments = function.arguments.iter().map(|_| self.unknowns.fresh()).collect();
+                    let value = self.unknowns.fresh();
+                    self.supplied.insert(function.name.text.clone(), (arguments, value));
+                }
             }
             Item::Function(function) => {
                 self.functions.insert(function.name.text.clone(), function.clone());

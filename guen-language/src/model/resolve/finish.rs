@@ -213,6 +213,7 @@ impl<'a> Resolver<'a, '_> {
             declaration: self.declaration,
             bench: self.eval.bench,
             constants: self.constants,
+            functions: supplied_functions(self.declaration),
             inputs: self.inputs,
             coordinates: self.coordinates,
             forms: raw.into_iter().map(|form| form.entry).collect(),
@@ -238,6 +239,15 @@ impl<'a> Resolver<'a, '_> {
             kinetic_energy_span: self.energy.map(|energy| energy.keyword),
         })
     }
+}
+
+/// The functions that the program supplies, in order.
+fn supplied_functions(declaration: &Declaration) -> Vec<&crate::syntax::SuppliedFunction> {
+    let sections = declaration.items.iter().filter_map(|item| match item {
+        Item::Functions(section) => Some(section),
+        _ => None,
+    });
+    sections.flat_map(|section| &section.entries).collect()
 }
 
 /// Gravity without anything that has a mass would be ignored: it is refused instead.

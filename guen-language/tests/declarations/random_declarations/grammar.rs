@@ -274,6 +274,22 @@ impl Text {
         rates
     }
 
+    /// Functions that the program supplies: in a position, in an energy, in forces, in an equation and in an
+    /// output. They are drawn apart, so that everything else is drawn as without them.
+    fn supplied(&mut self, draw: &mut Draw) -> (String, String) {
+        let [a, b] = [0; 2].map(|_| self.coordinates[draw.below(self.coordinates.len())].clone());
+        let (heights, number) = (self.fresh("seen"), draw.pick(&NUMBERS));
+        self.particles += &format!("{number} at vec({b}/3, ground({a}, 2*{b}), curve({a})); ");
+        self.forces += &format!("curve(dot({a})) - ground({b}, t)*dot({a}) along dot({a}); ");
+        self.outputs += &format!("{heights} = vec(dot(ground({a}, {b})), curve(curve({b})), 0);\n");
+        if draw.once_in(2) {
+            let (name, bound) = (self.fresh("h"), self.bound("w"));
+            self.holonomic += &format!("{name}: {bound} = ground({a}, {b}) + curve(t); ");
+        }
+        let landscape = format!(" + ground(curve({b}), {a})/3");
+        ("ground(across, along); curve(at);".to_owned(), landscape)
+    }
+
     /// A function of some coordinates.
     fn function(&mut self, draw: &mut Draw, depth: usize) -> String {
         let names = [0; 2].map(|_| self.coordinates[draw.below(self.coordinates.len())].clone());
@@ -300,6 +316,15 @@ impl Text {
 
 /// A declaration; the same for the same seed.
 pub fn drawn(seed: u64) -> String {
+    written(seed, false)
+}
+
+/// The declaration of a seed, every third one with functions that the program supplies.
+pub fn with_functions(seed: u64) -> String {
+    written(seed, true)
+}
+
+fn written(seed: u64, has_functions: bool) -> String {
     let mut draw = Draw::new(seed);
     let draw = &mut draw;
     let mut text = Text::default();
@@ -356,6 +381,9 @@ pub fn drawn(seed: u64) -> String {
     }
     let states = text.states(&mut Draw::new(seed.rotate_left(23)));
     let landscape = text.function(draw, 2);
+    let mut apart = Draw::new(seed.rotate_left(41));
+    let (supplied, further) =
+        if has_functions && apart.once_in(3) { text.supplied(&mut apart) } else { Default::default() };
     // Every coordinate has some inertia.
     let sluggish: Vec<String> = text.coordinates.iter().map(|q| format!("dot({q})^2/20")).collect();
     // The momentum of a constraint.
@@ -368,6 +396,7 @@ pub fn drawn(seed: u64) -> String {
         if entries.is_empty() { String::new() } else { format!("{word} {{ {entries} }}\n") }
     };
     let sections = [
+        section("functions", &supplied),
         section("inputs", &text.inputs.join(", ")),
         section("coordinates", &text.coordinates.join(", ")),
         text.lets.clone(),
@@ -381,7 +410,7 @@ pub fn drawn(seed: u64) -> String {
         section("outputs", &text.outputs),
     ];
     format!(
-        "system Drawn{seed} {{\nconstants {{ {} }}\n{}kinetic_energy = {};\npotential_energy = 3/4*{spring}^2 + {landscape};\n\
+        "system Drawn{seed} {{\nconstants {{ {} }}\n{}kinetic_energy = {};\npotential_energy = 3/4*{spring}^2 + {landscape}{further};\n\
          gravity = vec(0, 1/5, -g);\n}}",
         [&text.constants[..], &["g = 9.81".to_owned()]].concat().join(", "),
         sections.concat(),

@@ -191,7 +191,7 @@ fn programs_of_drawn_declarations_are_what_they_mean() {
     let rounds = rounds(12);
     let seeds: Vec<u64> = (0..rounds).collect();
     let found = by_two_threads(&seeds, |seed| {
-        let text = grammar::drawn(*seed);
+        let text = grammar::with_functions(*seed);
         derived(&text, |derived| difference(&text, derived, *seed))
     });
     let states: usize = found.iter().map(|(_, states)| states).sum();

@@ -124,8 +124,8 @@ macro_rules! uses {
 #[doc(hidden)]
 #[macro_export]
 macro_rules! simulated {
-    ($Owner:ident $size:literal [$($domain:ident)?] [$($unit:literal)*] $($positions:tt)*) => {
-        impl<R: $crate::Real> $crate::Simulate<R, $size> for $Owner<R> {
+    ($([$($field:ident $F:ident $N:literal)*])? $Owner:ident $size:literal [$($domain:ident)?] [$($unit:literal)*] $($positions:tt)*) => {
+        impl<R: $crate::Real $($(, $F: $crate::Smooth<$N>)*)?> $crate::Simulate<R, $size> for $Owner<R $($(, $F)*)?> {
             type State = State<R>;
             const STATES: &'static [&'static str] = &State::<f64>::NAMES;
             const UNITS: &'static [&'static str] = &[$($unit),*];
@@ -140,8 +140,8 @@ macro_rules! simulated {
 #[doc(hidden)]
 #[macro_export]
 macro_rules! monitored {
-    ($Owner:ident, |$prepared:ident| $path:expr, $size:literal $(, $n:literal)?) => {
-        impl<R: $crate::Real> $crate::Monitored<R, $size> for $Owner<R> {
+    ($([$($field:ident $F:ident $N:literal)*])? $Owner:ident, |$prepared:ident| $path:expr, $size:literal $(, $n:literal)?) => {
+        impl<R: $crate::Real $($(, $F: $crate::Smooth<$N>)*)?> $crate::Monitored<R, $size> for $Owner<R $($(, $F)*)?> {
             fn energy(&self, t: R, state: &[R; $size]) -> R {
                 let $prepared = self;
                 let [value] = program::energy(&$path.constants, &$path.hoisted, t, state);

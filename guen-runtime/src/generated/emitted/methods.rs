@@ -37,8 +37,11 @@ macro_rules! onto_constraints {
 #[doc(hidden)]
 #[macro_export]
 macro_rules! output_map {
-    ($Owner:ident $size:literal $count:literal [$($name:literal)*] [$($unit:literal)*] ($self:ident) => $prepared:expr, $given:expr) => {
-        impl<R: $crate::Real> $crate::OutputMap<R, $size, $count> for $Owner<R> {
+    (
+        $([$($field:ident $F:ident $N:literal)*])?
+        $Owner:ident $size:literal $count:literal [$($name:literal)*] [$($unit:literal)*] ($self:ident) => $prepared:expr, $given:expr
+    ) => {
+        impl<R: $crate::Real $($(, $F: $crate::Smooth<$N>)*)?> $crate::OutputMap<R, $size, $count> for $Owner<R $($(, $F)*)?> {
             type Outputs = Outputs<R>;
             const OUTPUTS: [&'static ::core::primitive::str; $count] = [$($name),*];
             const OUTPUT_UNITS: &'static [&'static ::core::primitive::str] = &[$($unit),*];
@@ -111,7 +114,7 @@ macro_rules! dynamics {
         /// The generalised forces that balance the force function, `-X_s(U)`: gravity, and springs that are declared as a
         /// potential. Takes the operators and an evaluation of the force function in duals.
         pub fn gravity(&self, t: R, state: &State<R>) -> [R; $l] {
-            let lifted: Prepared<$crate::Dual<R, $l>> = self.lift();
+            let lifted = self.lift::<$crate::Dual<R, $l>>();
             let [value] = program::force_function(
                 &lifted.constants, &lifted.hoisted, $crate::Dual::constant(t), &self.__guen_displaced(t, state),
             );
@@ -149,7 +152,7 @@ macro_rules! jacobians {
             let displaced = self.__guen_displaced(t, state);
             let moved: [$crate::Dual<R, $l>; $size] =
                 ::core::array::from_fn(|i| if i < $n { displaced[i] } else { $crate::Dual::constant(s[i]) });
-            let lifted: Prepared<$crate::Dual<R, $l>> = self.lift();
+            let lifted = self.lift::<$crate::Dual<R, $l>>();
             let idle = &[<$crate::Dual<R, $l> as $crate::Real>::zero(); $count];
             let outputs =
                 program::outputs(&lifted.constants, &lifted.hoisted, $crate::Dual::constant(t), &moved, idle);
@@ -170,7 +173,7 @@ macro_rules! jacobians {
             let (zero, one) = (R::zero(), R::one());
             let s: [R; $size] = ::core::convert::From::from(*state);
             let velocities = program::velocities(&self.constants, &self.hoisted, t, &s);
-            let inner: Prepared<$crate::Dual<R, 1>> = self.lift();
+            let inner = self.lift::<$crate::Dual<R, 1>>();
             let along: [$crate::Dual<R, 1>; $size] = ::core::array::from_fn(|i| $crate::Dual {
                 value: s[i],
                 tangent: [if i < $n { velocities[i] } else { zero }],
@@ -181,7 +184,7 @@ macro_rules! jacobians {
                 value: along[i],
                 tangent: [if i < $n { rates[i] } else { $crate::Dual::constant(zero) }],
             });
-            let lifted: Prepared<$crate::Dual<$crate::Dual<R, 1>, 1>> = self.lift();
+            let lifted = self.lift::<$crate::Dual<$crate::Dual<R, 1>, 1>>();
             let time = $crate::Dual { value: time, tangent: [$crate::Dual::constant(one)] };
             let idle = &[$crate::Dual::constant($crate::Dual::constant(zero)); $count];
             let outputs = program::outputs(&lifted.constants, &lifted.hoisted, time, &moved, idle);
@@ -293,18 +296,23 @@ macro_rules! reduce {
 #[doc(hidden)]
 #[macro_export]
 macro_rules! linearizable {
-    ($size:literal, $count:literal; by duals) => {
-        $crate::linearizable!(@ rates $size, $count, [$crate::linearized(self, t, state, given)] (self, t, state, given));
+    ($([$($functions:tt)*])? $size:literal, $count:literal; by duals) => {
+        $crate::linearizable!(
+            @ rates [$($($functions)*)?] $size, $count, [$crate::linearized(self, t, state, given)] (self, t, state, given)
+        );
     };
-    ($size:literal, $count:literal $(, $inputs:ident)?) => {
-        $crate::linearizable!(@ rates $size, $count, [{
+    ($([$($functions:tt)*])? $size:literal, $count:literal $(, $inputs:ident)?) => {
+        $crate::linearizable!(@ rates [$($($functions)*)?] $size, $count, [{
             let _ = given;
             $(let $inputs = &::core::convert::From::from(*given);)?
             self.linearize(t, &::core::convert::From::from(*state) $(, $inputs)?)
         }] (self, t, state, given));
     };
-    (@ rates $size:literal, $count:literal, [$linearization:expr] ($self:ident, $t:ident, $state:ident, $given:ident)) => {
-        impl<R: $crate::Real> $crate::Liftable<R, $size, $count> for Prepared<R> {
+    (
+        @ rates [$($field:ident $F:ident $N:literal)*] $size:literal, $count:literal, [$linearization:expr]
+        ($self:ident, $t:ident, $state:ident, $given:ident)
+    ) => {
+        impl<R: $crate::Real $(, $F: $crate::Smooth<$N>)*> $crate::Liftable<R, $size, $count> for Prepared<R $(, $F)*> {
             #[inline]
             fn lifted_rates<S: $crate::Real + $crate::Lift<R>>(
                 &self,
@@ -312,12 +320,12 @@ macro_rules! linearizable {
                 state: &[S; $size],
                 given: &[S; $count],
             ) -> [S; $size] {
-                let lifted: Prepared<S> = self.lift();
+                let lifted = self.lift::<S>();
                 program::rhs(&lifted.constants, &lifted.hoisted, t, state, given)
             }
         }
 
-        impl<R> $crate::Linearizable<R, $size, $count> for Prepared<R>
+        impl<R $(, $F: $crate::Smooth<$N>)*> $crate::Linearizable<R, $size, $count> for Prepared<R $(, $F)*>
         where
             R: $crate::Lift<R>,
         {
@@ -343,39 +351,39 @@ macro_rules! linearizable {
 #[doc(hidden)]
 #[macro_export]
 macro_rules! actuated {
-    ($size:literal, $what:literal) => {
+    ($([$($field:ident $F:ident $N:literal)*])? $size:literal, $what:literal) => {
         #[doc = ::core::concat!("A ", $what, ", prepared, with inputs that are held: what steppers integrate during a step.")]
         #[::core::prelude::v1::derive(
             ::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq
         )]
-        pub struct Driven<R = f64> {
+        pub struct Driven<R = f64 $($(, $F = f64)*)?> {
             #[doc = ::core::concat!("The ", $what, ".")]
-            pub system: Prepared<R>,
+            pub system: Prepared<R $($(, $F)*)?>,
             /// The inputs that are held.
             pub inputs: Inputs<R>,
         }
 
-        impl<R: $crate::Real> Prepared<R> {
+        impl<R: $crate::Real $($(, $F: $crate::Smooth<$N>)*)?> Prepared<R $($(, $F)*)?> {
             #[doc = ::core::concat!("The ", $what, " with these inputs held.")]
             #[inline]
-            pub fn driven(&self, inputs: Inputs<R>) -> Driven<R> {
+            pub fn driven(&self, inputs: Inputs<R>) -> Driven<R $($(, $F)*)?> {
                 Driven { system: *self, inputs }
             }
         }
 
-        impl<R> $crate::Undriven for Prepared<R> {}
+        impl<R $($(, $F: $crate::Smooth<$N>)*)?> $crate::Undriven for Prepared<R $($(, $F)*)?> {}
 
-        impl<R: $crate::Real> $crate::Actuated<R, $size> for Prepared<R> {
+        impl<R: $crate::Real $($(, $F: $crate::Smooth<$N>)*)?> $crate::Actuated<R, $size> for Prepared<R $($(, $F)*)?> {
             type Inputs = Inputs<R>;
-            type Driven = Driven<R>;
+            type Driven = Driven<R $($(, $F)*)?>;
 
             #[inline]
-            fn held(&self, inputs: Inputs<R>) -> Driven<R> {
+            fn held(&self, inputs: Inputs<R>) -> Driven<R $($(, $F)*)?> {
                 self.driven(inputs)
             }
         }
 
-        impl<R: $crate::Real> $crate::InputRecords for Prepared<R> {
+        impl<R: $crate::Real $($(, $F: $crate::Smooth<$N>)*)?> $crate::InputRecords for Prepared<R $($(, $F)*)?> {
             type StateOver<S: $crate::Real> = State<S>;
             type InputsOver<S: $crate::Real> = Inputs<S>;
         }

@@ -187,7 +187,7 @@ macro_rules! domain {
         pub fn distances(&self, t: R, state: &State<R>) -> [R; $count] {
             $crate::checks::left(program::domain(
                 &$crate::checks::rounded(&self.constants),
-                &$crate::checks::rounded(&self.hoisted),
+                &$crate::PreparedValues::rounded_once(&self.hoisted),
                 $crate::RunningError::once(t),
                 &$crate::checks::rounded_once(state.__guen_array()),
             ))
@@ -219,13 +219,13 @@ macro_rules! condition {
 #[doc(hidden)]
 #[macro_export]
 macro_rules! state_of_system {
-    ($n:literal, $l:literal, $size:literal, $constraints:literal) => {
+    ($([$($field:ident $F:ident $N:literal)*])? $n:literal, $l:literal, $size:literal, $constraints:literal) => {
         impl<R: $crate::Real> State<R> {
             /// The state at given coordinates and velocities: the quasi-velocities are `eta_s = sum_i a_si x_i' +
             /// a_s0`, (1.6). Beside it the residuals `eta_v` of the constraints (their rates, where they are
             /// holonomic): how far the velocities are from being possible. States beside the motion are zero.
-            pub fn from_velocities(
-                system: &Prepared<R>,
+            pub fn from_velocities$(<$($F: $crate::Smooth<$N>),*>)?(
+                system: &Prepared<R $($(, $F)*)?>,
                 t: R,
                 coordinates: &Coordinates<R>,
                 velocities: &Coordinates<R>,
@@ -250,34 +250,34 @@ macro_rules! state_of_system {
 #[doc(hidden)]
 #[macro_export]
 macro_rules! differentiable {
-    ($size:literal $(; $code:ident)?) => {
+    ($([$($functions:tt)*])? $size:literal $(; $code:ident)?) => {
         $crate::differentiable!(
-            @ Prepared, $size, (self, t, state) => self, |_| []
+            @ [$($($functions)*)?] Prepared, $size, (self, t, state) => self, |_| []
             $(; $code self.linearize(t, &::core::convert::From::from(*state)))?
         );
     };
-    ($size:literal, $count:literal $(; $code:ident)?) => {
+    ($([$($functions:tt)*])? $size:literal, $count:literal $(; $code:ident)?) => {
         $crate::differentiable!(
-            @ Driven, $size, (self, t, state) => self.system, |held|
+            @ [$($($functions)*)?] Driven, $size, (self, t, state) => self.system, |held|
             <[R; $count] as ::core::convert::From<Inputs<R>>>::from(self.inputs).map(held)
             $(; $code self.system.linearize(t, &::core::convert::From::from(*state), &self.inputs))?
         );
     };
-    (@ implementation [] $Owner:ident, $size:literal $methods:tt) => {
-        impl<R: $crate::Real> $crate::Differentiable<R, $size> for $Owner<R>
+    (@ implementation [] [$($field:ident $F:ident $N:literal)*] $Owner:ident, $size:literal $methods:tt) => {
+        impl<R: $crate::Real $(, $F: $crate::Smooth<$N>)*> $crate::Differentiable<R, $size> for $Owner<R $(, $F)*>
         where
             $crate::Dual<R, $size>: $crate::Lift<R>,
             $crate::Dual<R, 1>: $crate::Lift<R>,
         $methods
     };
-    (@ implementation [$code:ident] $Owner:ident, $size:literal $methods:tt) => {
-        impl<R: $crate::Real> $crate::Differentiable<R, $size> for $Owner<R>
+    (@ implementation [$code:ident] [$($field:ident $F:ident $N:literal)*] $Owner:ident, $size:literal $methods:tt) => {
+        impl<R: $crate::Real $(, $F: $crate::Smooth<$N>)*> $crate::Differentiable<R, $size> for $Owner<R $(, $F)*>
         where
             $crate::Dual<R, 1>: $crate::Lift<R>,
         $methods
     };
     (@ jacobian $size:literal, ($t:ident, $state:ident) => $prepared:expr, $given:expr) => {{
-        let lifted: Prepared<$crate::Dual<R, $size>> = $prepared.lift();
+        let lifted = $prepared.lift::<$crate::Dual<R, $size>>();
         let rates = program::rhs(
             &lifted.constants,
             &lifted.hoisted,
@@ -290,15 +290,18 @@ macro_rules! differentiable {
     (@ jacobian $size:literal, ($t:ident, $state:ident) => $prepared:expr, $given:expr; code $linearized:expr) => {
         $linearized.a
     };
-    (@ $Owner:ident, $size:literal, ($self:ident, $t:ident, $state:ident) => $prepared:expr, $given:expr $(; $code:ident $linearized:expr)?) => {
+    (
+        @ $functions:tt $Owner:ident, $size:literal, ($self:ident, $t:ident, $state:ident) => $prepared:expr, $given:expr
+        $(; $code:ident $linearized:expr)?
+    ) => {
         $crate::differentiable! {
-            @ implementation [$($code)?] $Owner, $size {
+            @ implementation [$($code)?] $functions $Owner, $size {
             fn jacobian(&$self, $t: R, $state: &[R; $size]) -> [[R; $size]; $size] {
                 $crate::differentiable!(@ jacobian $size, ($t, $state) => $prepared, $given $(; $code $linearized)?)
             }
 
             fn along(&$self, t: R, state: &[R; $size], dt: R, dx: &[R; $size]) -> [R; $size] {
-                let lifted: Prepared<$crate::Dual<R, 1>> = $prepared.lift();
+                let lifted = $prepared.lift::<$crate::Dual<R, 1>>();
                 let (time, state) = $crate::moving(t, state, dt, dx);
                 let given = &($given)(<$crate::Dual<R, 1>>::constant);
                 $crate::slopes(program::rhs(&lifted.constants, &lifted.hoisted, time, &state, given))
@@ -328,26 +331,29 @@ macro_rules! laned {
     };
 }
 
-/// The prepared system: its documentation, the numbers of constants and of prepared values, and where constants follow others the
+/// The prepared system: its documentation, the number of constants, the type of what is prepared, and where constants follow others the
 /// field that says which, with their number.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! prepared {
-    ($docs:literal $count:literal $hoisted:literal $($follows:ident $derived:literal)?) => {
+    (
+        $([$($field:ident $F:ident $N:literal)*])?
+        $docs:literal $count:literal $hoisted:ty $(, $follows:ident $derived:literal)?
+    ) => {
         #[doc = $docs]
         #[::core::prelude::v1::derive(
             ::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq
         )]
-        pub struct Prepared<R = f64> {
+        pub struct Prepared<R = f64 $($(, $F = f64)*)?> {
             constants: [R; $count],
-            hoisted: [R; $hoisted],
+            hoisted: $hoisted,
             $($follows: [bool; $derived],)?
         }
 
-        impl<R: $crate::Real> Prepared<R> {
+        impl<R: $crate::Real $($(, $F: $crate::Smooth<$N>)*)?> Prepared<R $($(, $F)*)?> {
             /// The system over a real that contains `R`, such as duals over it: every prepared value becomes
             /// a constant there.
-            pub fn lift<S: $crate::Lift<R>>(&self) -> Prepared<S> {
+            pub fn lift<S: $crate::Lift<R>>(&self) -> Prepared<S $($(, $F)*)?> {
                 Prepared {
                     constants: self.constants.map(S::lift),
                     hoisted: self.hoisted.map(S::lift),
@@ -363,36 +369,36 @@ macro_rules! prepared {
 #[doc(hidden)]
 #[macro_export]
 macro_rules! with_scalar {
-    ($system:ident $size:literal, $constants:ident: $made:expr) => {
-        impl $crate::WithScalar<$size> for $system<f64> {
-            type Over<R: $crate::Real> = Prepared<R>;
+    ($([$($field:ident $F:ident $N:literal)*])? $system:ident $size:literal, $constants:ident: $made:expr) => {
+        impl $(<$($F: $crate::Smooth<$N>),*>)? $crate::WithScalar<$size> for $system<f64 $($(, $F)*)?> {
+            type Over<R: $crate::Real> = Prepared<R $($(, $F)*)?>;
 
             fn with_scalar<R: $crate::Real>(
                 &self,
-            ) -> ::core::result::Result<Prepared<R>, $crate::ConstantsError> {
+            ) -> ::core::result::Result<Prepared<R $($(, $F)*)?>, $crate::ConstantsError> {
                 let $constants = self;
                 let _ = $constants;
                 $made.prepare()
             }
         }
 
-        impl $crate::WithScalar<$size> for Prepared<f64> {
-            type Over<R: $crate::Real> = Prepared<R>;
+        impl $(<$($F: $crate::Smooth<$N>),*>)? $crate::WithScalar<$size> for Prepared<f64 $($(, $F)*)?> {
+            type Over<R: $crate::Real> = Prepared<R $($(, $F)*)?>;
 
             fn with_scalar<R: $crate::Real>(
                 &self,
-            ) -> ::core::result::Result<Prepared<R>, $crate::ConstantsError> {
+            ) -> ::core::result::Result<Prepared<R $($(, $F)*)?>, $crate::ConstantsError> {
                 $crate::WithScalar::with_scalar(&self.constants())
             }
         }
     };
-    ($system:ident $size:literal, $constants:ident: $made:expr, $inputs:literal) => {
-        impl $crate::WithScalar<$size> for Driven<f64> {
-            type Over<R: $crate::Real> = Driven<R>;
+    ($([$($field:ident $F:ident $N:literal)*])? $system:ident $size:literal, $constants:ident: $made:expr, $inputs:literal) => {
+        impl $(<$($F: $crate::Smooth<$N>),*>)? $crate::WithScalar<$size> for Driven<f64 $($(, $F)*)?> {
+            type Over<R: $crate::Real> = Driven<R $($(, $F)*)?>;
 
             fn with_scalar<R: $crate::Real>(
                 &self,
-            ) -> ::core::result::Result<Driven<R>, $crate::ConstantsError> {
+            ) -> ::core::result::Result<Driven<R $($(, $F)*)?>, $crate::ConstantsError> {
                 let $constants = self.system.constants();
                 let _ = &$constants;
                 let inputs: [f64; $inputs] = ::core::convert::From::from(self.inputs);
@@ -438,7 +444,7 @@ macro_rules! conserved {
     (@ residual [positions] $prepared:ident $t:ident $x:ident) => {
         $crate::checks::furthest(&program::positions(
             &$crate::checks::rounded(&$prepared.constants),
-            &$crate::checks::rounded(&$prepared.hoisted),
+            &$crate::PreparedValues::rounded_once(&$prepared.hoisted),
             $crate::RunningError::once($t),
             &$x.map($crate::RunningError::once),
         ))
@@ -459,7 +465,7 @@ macro_rules! singularities {
         ) -> usize {
             let prepared = &$self $(.$inner)?;
             let (constants, hoisted) =
-                (&$crate::checks::rounded(&prepared.constants), &$crate::checks::rounded(&prepared.hoisted));
+                (&$crate::checks::rounded(&prepared.constants), &$crate::PreparedValues::rounded_once(&prepared.hoisted));
             $crate::checks::placed(values, &program::domain(constants, hoisted, t, state), $count)
         }
     };
@@ -484,20 +490,21 @@ macro_rules! switches {
 #[macro_export]
 macro_rules! prepare {
     (
+        $([$($field:ident $F:ident $N:literal)*])?
         $self:ident $constants:ident $hoisted:ident $prepared:ident; $System:ident $count:literal, $values:expr,
         { $($checks:tt)* } { $($pivots:tt)* } { $($follows:tt)* } { $($limits:tt)* } { $($further:tt)* }
     ) => {
-        impl<R: $crate::Real> $System<R> {
+        impl<R: $crate::Real $($(, $F: $crate::Smooth<$N>)*)?> $System<R $($(, $F)*)?> {
             /// Checks the constants and computes what depends on them alone.
             ///
             /// # Errors
             ///
             /// A constant that is not finite or outside of its bound, or constants that make something vanish
             /// which the equations divide by.
-            pub fn prepare($self) -> ::core::result::Result<Prepared<R>, $crate::ConstantsError> {
+            pub fn prepare($self) -> ::core::result::Result<Prepared<R $($(, $F)*)?>, $crate::ConstantsError> {
                 let $constants: [R; $count] = $values;
                 $($checks)*
-                let $hoisted = program::prepare(&$constants);
+                let $hoisted = program::prepare(&$constants $(, ($($self.$field,)*))?);
                 $($pivots)*
                 let $prepared = Prepared { constants: $constants, hoisted: $hoisted, $($follows)* };
                 $($limits)*

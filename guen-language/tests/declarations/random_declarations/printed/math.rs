@@ -91,9 +91,15 @@ fn product(items: &[Math]) -> Result<Term, Unread> {
 fn factor(items: &[Math]) -> Result<(Term, &[Math]), Unread> {
     let (first, rest) = items.split_first().ok_or("no factor")?;
     let (function, above) = match first {
-        Math::Function(name) => (name, None),
-        Math::Script { base, below: None, above } => match &**base {
-            Math::Function(name) => (name, above.as_deref()),
+        Math::Function(name) => (name.clone(), None),
+        Math::Script { base, below, above } => match &**base {
+            // A derivative has the arguments as indices.
+            Math::Function(name) => {
+                let by = below.iter().flat_map(|below| below.split(|item| *item == Math::Mark(',')));
+                let by: Option<Vec<String>> = by.map(word).collect();
+                let by = by.ok_or_else(|| format!("the indices {below:?}"))?;
+                ([std::slice::from_ref(name), &by[..]].concat().join("_"), above.as_deref())
+            }
             _ => return Ok((atom(first)?, rest)),
         },
         _ => return Ok((atom(first)?, rest)),

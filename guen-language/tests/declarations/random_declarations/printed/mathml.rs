@@ -168,8 +168,8 @@ fn flat(nodes: &[Node], out: &mut Vec<Part>) -> Result<(), Unread> {
 fn function(name: Math) -> Result<Math, Unread> {
     match name {
         Math::Word { text, .. } => Ok(Math::Function(text)),
-        Math::Script { base, below: None, above } => {
-            Ok(Math::Script { base: Box::new(function(*base)?), below: None, above })
+        Math::Script { base, below, above } => {
+            Ok(Math::Script { base: Box::new(function(*base)?), below, above })
         }
         other => Err(format!("{other:?} is applied")),
     }

@@ -33,7 +33,7 @@ fn rounds() -> u64 {
 /// third one with names that look like each other.
 fn declaration(seed: u64) -> String {
     let mut text = if seed.is_multiple_of(4) {
-        grammar::drawn(seed)
+        grammar::with_functions(seed)
     } else {
         let sparse = crate::scenes::declaration(&mut crate::scenes::Sequence(seed));
         let (text, _) = sparse.split_once(" scene ").expect("scenes");

@@ -1,6 +1,6 @@
 //! Formulas as they were read, whatever they were written in, and the expressions that they are.
 
-use guen_symbolic::{ExprId, Function, Graph, Rational};
+use guen_symbolic::{ExprId, Function, Graph, MAX_ARGUMENTS, Multivariate, Rational};
 
 use super::names::{Name, Scope};
 
@@ -82,6 +82,28 @@ impl Term {
     }
 }
 
+/// A function of the program, or a derivative: `ground_x_y(x, y)`.
+fn supplied(graph: &mut Graph, name: &str, arguments: &[ExprId]) -> Option<ExprId> {
+    let known = graph.supplied_functions().iter().enumerate();
+    let mut found = known.filter_map(|(function, known)| {
+        let mut rest = name.strip_prefix(known.name.as_str())?;
+        let mut orders = [0_u8; MAX_ARGUMENTS];
+        while !rest.is_empty() {
+            let place = known.arguments.iter().position(|argument| {
+                let after = rest.strip_prefix('_').and_then(|rest| rest.strip_prefix(argument.as_str()));
+                after.is_some_and(|after| after.is_empty() || after.starts_with('_'))
+            })?;
+            orders[place] += 1;
+            rest = &rest[1 + known.arguments[place].len()..];
+        }
+        let is_it = known.arguments.len() == arguments.len();
+        is_it.then_some(Multivariate::Supplied { function: function as u16, orders })
+    });
+    let function = found.next()?;
+    drop(found);
+    Some(graph.multivariate(function, arguments))
+}
+
 fn call(graph: &mut Graph, name: &str, arguments: &[ExprId]) -> Result<ExprId, Unread> {
     let function = match name {
         "sin" => Function::Sin,
@@ -106,7 +128,8 @@ fn call(graph: &mut Graph, name: &str, arguments: &[ExprId]) -> Result<ExprId, U
                 ("min", [a, b]) => Ok(graph.minimum(*a, *b)),
                 ("max", [a, b]) => Ok(graph.maximum(*a, *b)),
                 ("select", [c, a, b]) => Ok(graph.select(*c, *a, *b)),
-                _ => Err(format!("the function `{name}` of {} arguments", arguments.len())),
+                _ => supplied(graph, name, arguments)
+                    .ok_or_else(|| format!("the function `{name}` of {} arguments", arguments.len())),
             };
         }
     };

@@ -1,0 +1,16 @@
+//! An entry of `functions` has no `fn`.
+//!
+//! repair: `fn ground` => `ground`
+
+guen::mechanical_system! {
+    pub system Surface {
+        constants   { m > 0, g = 9.81 }
+        functions   { fn ground(x); }
+        coordinates { x, y }
+        parameters  { u = dot(x); v = dot(y); }
+        kinetic_energy   = m/2*(u^2 + v^2);
+        potential_energy = m*g*ground(x);
+    }
+}
+
+fn main() {}

@@ -1,0 +1,16 @@
+//! A force function depends on positions alone, through functions of the program too.
+//!
+//! repair: `ground(u)` => `ground(x)`
+
+guen::mechanical_system! {
+    pub system Surface {
+        constants   { m > 0, g = 9.81 }
+        functions   { ground(x); }
+        coordinates { x, y }
+        parameters  { u = dot(x); v = dot(y); }
+        kinetic_energy   = m/2*(u^2 + v^2);
+        potential_energy = m*g*ground(u);
+    }
+}
+
+fn main() {}
