@@ -29,6 +29,7 @@ mod singularities;
 mod spans;
 mod states;
 mod structure;
+mod supplied;
 mod token_damage;
 mod unsigned;
 mod vehicles;

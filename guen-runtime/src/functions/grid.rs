@@ -25,7 +25,7 @@ use crate::numbers::real::Real;
 pub struct Grid<const M: usize, const N: usize> {
     x: [f64; M],
     y: [f64; N],
-    /// At each node the value, the derivatives by `x` and by `y`, and the mixed one.
+    /// The value at each node, its derivatives by `x` and by `y`, and the mixed one.
     nodes: [[[f64; 4]; N]; M],
 }
 

@@ -1,4 +1,4 @@
-//! What a prepared system keeps beside its constants where the program supplies functions.
+//! The values and functions that a prepared system keeps beside its constants where the program supplies functions.
 
 use core::ops::Deref;
 
@@ -26,7 +26,7 @@ impl<R, const N: usize, F> Deref for Hoisted<R, N, F> {
 }
 
 impl<R, const N: usize, F> Hoisted<R, N, F> {
-    /// The same functions beside other values, as `map` of an array.
+    /// Maps the values, as `map` of an array does, and keeps the functions.
     #[inline]
     pub fn map<S>(self, function: impl FnMut(R) -> S) -> Hoisted<S, N, F> {
         Hoisted { values: self.values.map(function), functions: self.functions }

@@ -202,3 +202,64 @@ fn a_bead_on_a_grid_moves_as_on_its_bicubic() {
         assert_near(a.as_flattened(), b.as_flattened(), "linearisation on a grid");
     }
 }
+
+guen::mechanical_system! {
+    /// A chain on a bumpy floor that the program supplies: rates of more than a hundred statements.
+    pub system LongSupplied {
+        count n = 4;
+        constants   { m[n] > 0, l > 0, g = 9.81 }
+        functions   { bump(x); drag(speed, place); }
+        coordinates { q[n] }
+        let p[0] = l*vec(sin(q[0]), -cos(q[0]));
+        for i in 1..n { let p[i] = p[i-1] + l*vec(sin(q[i]), -cos(q[i])); }
+        parameters  { for i in 0..n { w[i] = dot(q[i]); } }
+        particles   { for i in 0..n { m[i] at p[i] + vec(0, bump(p[i].x)); } }
+        gravity     = vec(0, -g);
+        forces      { for i in 0..n { -drag(w[i], p[i].y) along w[i]; } }
+    }
+}
+
+guen::mechanical_system! {
+    /// The same with the functions written out.
+    pub system LongWritten {
+        count n = 4;
+        constants   { m[n] > 0, l > 0, h, g = 9.81 }
+        fn bump(x)  = h*sin(x);
+        fn drag(speed, place) = h*sin(speed)*cos(2*place);
+        coordinates { q[n] }
+        let p[0] = l*vec(sin(q[0]), -cos(q[0]));
+        for i in 1..n { let p[i] = p[i-1] + l*vec(sin(q[i]), -cos(q[i])); }
+        parameters  { for i in 0..n { w[i] = dot(q[i]); } }
+        particles   { for i in 0..n { m[i] at p[i] + vec(0, bump(p[i].x)); } }
+        gravity     = vec(0, -g);
+        forces      { for i in 0..n { -drag(w[i], p[i].y) along w[i]; } }
+    }
+}
+
+/// `h sin x`.
+#[derive(Clone, Copy)]
+struct Bump(f64);
+
+impl Smooth<1> for Bump {
+    fn value<R: Real>(&self, [x]: [R; 1]) -> R {
+        R::from_f64(self.0) * x.sin()
+    }
+}
+
+#[test]
+fn long_programs_hand_values_of_functions_from_block_to_block() {
+    let (m, h) = ([1.0, 0.5, 2.0, 0.7], 0.3);
+    let one = LongSupplied { m, l: 0.4, g: 9.81, bump: Bump(h), drag: Waves { h } }.prepare().unwrap();
+    let other = LongWritten { m, l: 0.4, h, g: 9.81 }.prepare().unwrap();
+    assert!(long_supplied::COST.total() > 200);
+    for values in states() {
+        let q = std::array::from_fn(|k| values[k]);
+        let w = std::array::from_fn(|k| values[4 - k]);
+        let a = one.rhs(0.0, &long_supplied::State { q, w }).w;
+        let b = other.rhs(0.0, &long_written::State { q, w }).w;
+        for (a, b) in a.iter().zip(b) {
+            // The mass matrix has a condition of some hundreds.
+            assert!((a - b).abs() < 1e-10 * (1.0 + b.abs()), "{a} {b}");
+        }
+    }
+}
