@@ -61,7 +61,7 @@ impl Layout {
             hoisted: level.programs.prepared.len(),
             inputs: selection.inputs.len(),
             derived: derived(model, level),
-            supplied: Supplied::new(model),
+            supplied: Supplied::new(subject.whole),
             state: {
                 let variables = selection.variables.iter().map(|place| variable_name(model, *place));
                 let names = variables.chain(selection.carried.iter().map(|f| carried_field(model, f)));
