@@ -53,7 +53,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, contacts: &Contacts<'_>) -> Token
         /// Every mode that the declaration allows.
         pub const MODES: &[Mode] = &[#(#table),*];
 
-        /// What was derived of each of the [`MODES`].
+        /// Rows, cost and the proof of Painlevé's condition of each of the [`MODES`].
         pub const MODE_INFO: &[__guen::hybrid::ModeInfo<Mode>] = &[#(#info),*];
     }
 }

@@ -84,17 +84,27 @@ pub fn checked(text: &str, with_outline: bool) -> Option<Checked> {
         let is_code = system.jacobians.rates.is_some();
         let linearized = |item: &String| item.contains("fn linearize") || item.contains("differentiable !");
         let (is_chosen, has_units) = (model.chosen.is_some(), !model.units.is_empty());
+        let has_branches = system.contacts.as_ref().is_some_and(|facts| !facts.branches.is_empty());
         let has_switches = [&system].into_iter().chain(&scenes).any(|level| !level.switches.is_empty());
         let items = emit::emit(Derived { model, system, scenes, in_modes });
         let missing = crate::outline::missing(&declaration, items).into_iter();
         let missing = missing.filter(|item| is_code || !linearized(item));
         // An outline has no units.
-        let with_units = |item: &String| item.contains("simulated !") || item.contains("output_map !");
+        let with_units = |item: &String| {
+            ["simulated !", "output_map !", "structured !"].iter().any(|word| item.contains(word))
+        };
         let missing = missing.filter(|item| !has_units || !with_units(item));
         // Nor is it known which rates of coordinates complete the parameters.
         let missing = missing.filter(|item| !is_chosen || !item.contains("_rate"));
         // Nor how many zeros change the formula of the rates.
         let missing = missing.filter(|item| !has_switches || !item.contains("const SWITCHES"));
+        // Nor how many branches of piecewise functions are held in a mode.
+        let with_signals = |item: &String| {
+            ["simulated_through_modes !", "hybrid :: InMode <", "hybrid :: HybridSystem <"]
+                .iter()
+                .any(|word| item.contains(word))
+        };
+        let missing = missing.filter(|item| !has_branches || !with_signals(item));
         all.faults.extend(missing.map(|item| format!("{}: not in the outline: {item}", declaration.name)));
     }
     Some(all)
