@@ -98,6 +98,8 @@ where
         let mut next = self.clone();
         next.in_mode.leaning = [Leaning::default(); C];
 
+        let fired = &self.with_gaps_that_follow(fired);
+
         // Zeros are made zero: gaps first, then the rates of what is closed, of what sticks and of slips that ended.
         let zero_rows = |positions: bool| {
             H::ELEMENTS.iter().enumerate().flat_map(move |(c, element)| {
@@ -187,6 +189,34 @@ where
             energy,
         };
         Ok((next, transition))
+    }
+
+    /// What fired, with the gaps of open contacts that fall below zero where those that fired are put to zero: of contacts that take
+    /// turns the last flights are as low as the gaps' own rounding.
+    fn with_gaps_that_follow(&self, fired: &Fired<C, S>) -> Fired<C, S> {
+        let mut fired = *fired;
+        for _ in 0..C {
+            let rows = H::ELEMENTS.iter().enumerate().filter_map(|(c, element)| {
+                element.normal.filter(|_| self.in_mode.mode.0[c].is_closed() || fired.gap[c])
+            });
+            let state = self.in_mode.touching(self.t, &self.state, &self.independent(rows));
+            let side = |c: usize, state: &[f64; N]| {
+                side(&self.in_mode, &self.sides, Function::Gap(c), self.t, state)
+            };
+            let when = self.in_mode.system.conditions(self.t, &state, &self.in_mode.switches).when;
+            let follows = |c: usize| {
+                self.in_mode.mode.0[c] == ElementState::Open
+                    && when[c] > 0.0
+                    && side(c, &self.state) >= 0
+                    && side(c, &state) < 0
+            };
+            let more: [bool; C] = from_fn(|c| !fired.gap[c] && follows(c));
+            if !more.contains(&true) {
+                break;
+            }
+            fired.gap = from_fn(|c| fired.gap[c] || more[c]);
+        }
+        fired
     }
 
     /// The mode that goes on from here.

@@ -6,7 +6,9 @@ mod laws;
 mod lcp;
 mod tree;
 
-use guen_runtime::hybrid::{ElementState, HybridCause, HybridSystem, InMode, Mode, SimulateModes};
+use guen_runtime::hybrid::{
+    ElementState, HybridCause, HybridSystem, InMode, Mode, SimulateModes, TransitionKind,
+};
 use nalgebra::{DMatrix, DVector};
 
 use self::laws::Judged;
@@ -314,4 +316,48 @@ fn feet_in_another_order_move_as_before() {
             assert_eq!(other.after.0, [right, left], "{system:?}");
         }
     }
+}
+
+/// Links of which two stops hit in turns, each flight a third of the one before: no flight is lost below the digits of the gaps.
+#[test]
+fn stops_that_take_turns_come_to_rest() {
+    let system = Stops(Drawn {
+        base: 0,
+        parents: [0, 0, 1],
+        lengths: [0.7218302587839032, 0.6448830599077662, 0.605774650127282],
+        centers: [0.4616275874771445, 0.274271748721419, 0.5754636152764377],
+        masses: [1.6841425917699246, 1.6244725666343998, 1.5009435593533202],
+        inertias: [0.3954468156966137, 0.28968102318317407, 0.17362324451360978],
+        springs: [1.1071240148926353, 1.5088602293309843, 4.104473851875757],
+        dampers: [0.028074843548742488, 0.019416057602543866, 0.05095022958609778],
+        constant: None,
+        push: [0.0, 0.0, 0.0],
+        rows: [Row::Angle { link: 1, sign: 1.0 }, Row::Angle { link: 2, sign: 1.0 }],
+        gaps: [Some((0, -1.0926544539347725)), Some((1, -0.9091159012902392))],
+        friction: [0.46223476500549987, 0.08779854840023621],
+        limits: [0.0, 0.0],
+        restitutions: [0.4369256643022533, 0.07122574016327454],
+    });
+    let start = [
+        -2.8915455554721112,
+        -1.2039465145993222,
+        0.12859041901649726,
+        0.9545801446940554,
+        -1.6282684671087795,
+        1.3902326525135882,
+    ];
+    let motion = system.simulation(&start).tolerance(1e-10).run(0.0..0.4).unwrap();
+    let gap = |state: &[f64; 6], c: usize| {
+        let (row, offset) = system.0.gaps[c].unwrap();
+        system.0.row(&core::array::from_fn(|k| state[k]), &[0.0; 3], system.0.rows[row]).0 + offset
+    };
+    for transition in motion.transitions() {
+        for c in 0..2 {
+            let low = gap(&transition.state_before, c);
+            assert!(low > -1e-12, "{low:e} at {}", transition.t);
+        }
+    }
+    let last = motion.transitions().last().unwrap();
+    assert!(matches!(last.kind, TransitionKind::Rest { .. }), "{last:?}");
+    assert_eq!(last.after.0, [ElementState::Closed; 2]);
 }
