@@ -304,7 +304,8 @@ fn punct(mark: char) -> TokenTree {
 
 /// A name in camel case: `rolling_drag` gives `RollingDrag`.
 fn camel(name: &str) -> String {
-    let words = name.split('_').filter(|word| !word.is_empty());
+    // A faulty component may have put the function of an instance here; an identifier has none of these.
+    let words = name.split(['_', '.', '[', ']', '#']).filter(|word| !word.is_empty());
     words
         .map(|word| {
             let mut letters = word.chars();

@@ -318,25 +318,84 @@ where
             );
             let reactions = held.reactions(t, state).reactions;
             let Some(mut direction) = unit([-reactions[first], -reactions[second]]) else { return false };
+            let mut steady = false;
             for _ in 0..ITERATIONS {
-                self.leaning[c] = Leaning { direction, speed: f64::INFINITY };
-                self.choose_pivots(t, state);
-                let motion = self.reactions(RunningError::once(t), &state.map(RunningError::once));
-                let accelerations = motion.row_accelerations();
-                let [x, y] = [accelerations[first], accelerations[second]];
-                if vanishes(x) && vanishes(y) {
+                let [x, y] = self.leaves_along(c, direction, t, state);
+                steady = vanishes(x) && vanishes(y);
+                if steady {
                     break;
                 }
                 let Some(next) = unit([x.value, y.value]) else { return false };
                 let change = f64::max((next[0] - direction[0]).abs(), (next[1] - direction[1]).abs());
                 direction = next;
-                if change <= STEADY {
+                steady = change <= STEADY;
+                if steady {
                     break;
                 }
+            }
+            if !steady {
+                let Some(found) = self.direction_around(c, direction, t, state) else { return false };
+                direction = found;
             }
             self.leaning[c] = Leaning { direction, speed: f64::INFINITY };
         }
         true
+    }
+
+    /// The acceleration of a spatial slip that leaves rest in a direction.
+    fn leaves_along(
+        &mut self,
+        c: usize,
+        direction: [f64; 2],
+        t: f64,
+        state: &[f64; N],
+    ) -> [RunningError<f64>; 2] {
+        let &[first, second] = H::ELEMENTS[c].tangential else { return [RunningError::exact(0.0); 2] };
+        self.leaning[c] = Leaning { direction, speed: f64::INFINITY };
+        self.choose_pivots(t, state);
+        let motion = self.reactions(RunningError::once(t), &state.map(RunningError::once));
+        let accelerations = motion.row_accelerations();
+        [accelerations[first], accelerations[second]]
+    }
+
+    /// The direction nearest to another one along which a slip accelerates that leaves rest in it. Where iterations lead nowhere, because the
+    /// acceleration is small beside what friction takes from it, it is looked for around the circle.
+    fn direction_around(&mut self, c: usize, near: [f64; 2], t: f64, state: &[f64; N]) -> Option<[f64; 2]> {
+        /// The parts of the circle, and the times that one is halved.
+        const PARTS: i32 = 64;
+        const HALVINGS: usize = 60;
+
+        let turned = |angle: f64| {
+            let (sin, cos) = libm::sincos(angle);
+            [cos * near[0] - sin * near[1], sin * near[0] + cos * near[1]]
+        };
+        // What the acceleration has across the direction and along it.
+        let mut parts = |angle: f64| {
+            let d = turned(angle);
+            let [x, y] = self.leaves_along(c, d, t, state);
+            (d[0] * y.value - d[1] * x.value, d[0] * x.value + d[1] * y.value)
+        };
+        let angle = |k: i32| core::f64::consts::PI * f64::from(k) / f64::from(PARTS / 2);
+        let mut nearest: Option<f64> = None;
+        for k in -PARTS / 2..PARTS / 2 {
+            let (mut low, mut high) = (angle(k), angle(k + 1));
+            let (below, above) = (parts(low).0, parts(high).0);
+            if !(below * above <= 0.0) {
+                continue;
+            }
+            for _ in 0..HALVINGS {
+                let middle = 0.5 * (low + high);
+                if parts(middle).0 * below > 0.0 {
+                    low = middle;
+                } else {
+                    high = middle;
+                }
+            }
+            if parts(high).1 > 0.0 && nearest.is_none_or(|angle| high.abs() < angle.abs()) {
+                nearest = Some(high);
+            }
+        }
+        nearest.map(turned)
     }
 }
 

@@ -191,8 +191,8 @@ where
         Ok((next, transition))
     }
 
-    /// What fired, with the gaps of open contacts that fall below zero where those that fired are put to zero: of contacts that take
-    /// turns the last flights are as low as the gaps' own rounding.
+    /// The functions that fired, with the gaps of open contacts that fall below zero where those that fired are put to zero: of contacts
+    /// that take turns the last flights are as low as the gaps' own rounding.
     fn with_gaps_that_follow(&self, fired: &Fired<C, S>) -> Fired<C, S> {
         let mut fired = *fired;
         for _ in 0..C {
