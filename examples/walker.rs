@@ -18,7 +18,7 @@ use std::process::ExitCode;
 
 use guen::hybrid::TransitionKind;
 use guen::steppers::Dop853;
-use guen_study::ExportModes;
+use guen_study::{ExportModes, Shape};
 use nalgebra::{Matrix3, Vector3};
 
 guen::mechanical_system! {
@@ -29,10 +29,10 @@ guen::mechanical_system! {
         let hip = vec(x, z);
         let left_foot  = hip + length*vec(sin(left), -cos(left));
         let right_foot = hip + length*vec(sin(right), -cos(right));
-        particles {
-            hip_mass at hip;
-            leg_mass at hip + above*vec(sin(left), -cos(left));
-            leg_mass at hip + above*vec(sin(right), -cos(right));
+        bodies {
+            trunk     { mass: hip_mass, center: hip }
+            left_leg  { mass: leg_mass, center: hip + above*vec(sin(left), -cos(left)) }
+            right_leg { mass: leg_mass, center: hip + above*vec(sin(right), -cos(right)) }
         }
         gravity     = g*vec(sin(slope), -cos(slope));
         parameters  { u = dot(x); w = dot(z); left_rate = dot(left); right_rate = dot(right); }
@@ -143,8 +143,22 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
     motion.plot_reactions("Forces on its feet").save(&forces)?;
     motion.save_csv(0.01, folder.join("walker.csv"))?;
     let page = folder.join("walker.html");
-    motion.view(&walker, "A passive walker", &page)?;
-    println!("{}\n{}\n{}", picture.display(), forces.display(), page.display());
+    let length = walker.constants().length;
+    let leg =
+        |x: f64, z: f64, angle: f64| [[x, z, 0.0], [x + length * angle.sin(), z - length * angle.cos(), 0.0]];
+    let played = motion.played();
+    motion
+        .viewer(&walker, "A passive walker", &played)
+        .rod("left leg's line", 0.02, |_, &[x, z, left, ..]| leg(x, z, left))
+        .rod("right leg's line", 0.02, |_, &[x, z, _, right, ..]| leg(x, z, right))
+        // Its plane is x, y, and stands upright.
+        .upward([0.0, 1.0, 0.0])
+        .seen_from([0.3, 0.2, 1.0])
+        .drawn("trunk", [Shape::sphere(0.09)])
+        .drawn("left_leg", [Shape::sphere(0.06)])
+        .drawn("right_leg", [Shape::sphere(0.06)])
+        .write(&page)?;
+    println!("pictures: {} and {}\nto play: {}", picture.display(), forces.display(), page.display());
     if open {
         open::open(&page);
     }

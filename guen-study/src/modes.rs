@@ -103,8 +103,21 @@ pub trait ExportModes<H, const N: usize> {
     /// A plot of the forces along all rows over time, with a thin line at every transition.
     fn plot_reactions(&self, title: &str) -> Plot;
 
-    /// Writes a page that plays the motion of the declared bodies, with panels of the states, of the forces of contacts and of their modes,
-    /// as numbers that the names of the curves tell.
+    /// The states that a page plays: evenly spaced in time, one at each, after a transition that falls on it.
+    #[cfg(feature = "viewer")]
+    #[cfg_attr(docsrs, doc(cfg(feature = "viewer")))]
+    fn played(&self) -> Recording<N>;
+
+    /// A page that plays the motion of the declared bodies by the states of [`played`](Self::played), with panels of the states, of the
+    /// forces of contacts and of their modes, as numbers that the names of the curves tell. It can be described further: what is up, rods
+    /// between points, curves.
+    #[cfg(feature = "viewer")]
+    #[cfg_attr(docsrs, doc(cfg(feature = "viewer")))]
+    fn viewer<'a, const B: usize>(&self, system: &H, title: &str, played: &'a Recording<N>) -> Viewer<'a, N>
+    where
+        H: Bodies<f64, N, B> + Monitored<f64, N>;
+
+    /// Writes the page of [`viewer`](Self::viewer).
     ///
     /// # Errors
     ///
@@ -113,7 +126,10 @@ pub trait ExportModes<H, const N: usize> {
     #[cfg_attr(docsrs, doc(cfg(feature = "viewer")))]
     fn view<const B: usize>(&self, system: &H, title: &str, path: impl AsRef<Path>) -> Result<(), StudyError>
     where
-        H: Bodies<f64, N, B> + Monitored<f64, N>;
+        H: Bodies<f64, N, B> + Monitored<f64, N>,
+    {
+        self.viewer(system, title, &self.played()).write(path)
+    }
 }
 
 /// A moment of a motion: its time, its state, and the mode and the forces there.
@@ -214,18 +230,21 @@ where
     }
 
     #[cfg(feature = "viewer")]
-    fn view<const B: usize>(&self, system: &H, title: &str, path: impl AsRef<Path>) -> Result<(), StudyError>
-    where
-        H: Bodies<f64, N, B> + Monitored<f64, N>,
-    {
+    fn played(&self) -> Recording<N> {
         let span = (self.end_time() - self.start_time()).abs();
         let [fewest, most] = SAMPLES;
         let wanted = (RATE * span).max(4.0 * self.times().count() as f64).clamp(fewest, most);
-        // A page has one state at a time: the one after a transition.
         let mut recording = Recording::new(H::STATES).with_units(H::UNITS);
         self.sample(span / wanted.floor()).for_each(|(t, x)| recording.record(t, &x.into()));
-        let mut viewer =
-            Viewer::new(title, &recording).bodies(system).states(&[]).panel("forces of contacts");
+        recording
+    }
+
+    #[cfg(feature = "viewer")]
+    fn viewer<'a, const B: usize>(&self, system: &H, title: &str, played: &'a Recording<N>) -> Viewer<'a, N>
+    where
+        H: Bodies<f64, N, B> + Monitored<f64, N>,
+    {
+        let mut viewer = Viewer::new(title, played).bodies(system).states(&[]).panel("forces of contacts");
         for (row, name) in names_of_rows::<W>(&H::ELEMENTS).into_iter().enumerate() {
             viewer = viewer.curve(name, move |t, _| self.reactions_at(t)[row]);
         }
@@ -239,7 +258,7 @@ where
                 states.iter().position(|state| *state == mode.0[c]).unwrap_or(0) as f64
             });
         }
-        viewer.monitored(system).write(path)
+        viewer.monitored(system)
     }
 }
 
