@@ -105,7 +105,7 @@ fn programs(
             bench.tidy(drift)
         })
         .collect();
-    // A force of contact is no function of time in an impact, and what it would do to a state there is not known.
+    // In an impact a contact force is an impulse, so that a rate that depends on it has no value there.
     for (state, rate) in model.states.iter().zip(&derivation.formulations[0].rates[n + l..]) {
         let pressed = forces.iter().any(|force| {
             let slope = Flow::partial(&bench.graph, *force).of(&mut bench.graph, *rate);

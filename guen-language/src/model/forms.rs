@@ -323,7 +323,7 @@ impl Evaluator<'_> {
         let (span, term) = guilty.unwrap_or((written.extent(), written.source()));
         self.faults.report(
             Fault::new(span, "the kinetic energy is not quadratic in the velocities")
-                .note(format!("`{term}` is no polynomial of degree two in them")),
+                .note(format!("`{term}` is not a polynomial of degree two in the velocities")),
         );
     }
 

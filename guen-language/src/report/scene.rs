@@ -74,7 +74,7 @@ fn mode(subject: &Subject<'_, '_>) -> Vec<String> {
     lines.extend(mode.followers.iter().map(|name| {
         match known.iter().find(|(follower, _)| *follower == name.text) {
             Some((_, value)) => format!("{name} follows: {name} = {}", graph.text(*value)),
-            None => format!("{name} follows from what is kept and what left"),
+            None => format!("{name} follows from the other variables, kept and left"),
         }
     }));
     let contacts = subject.whole.contacts.iter().flat_map(|contacts| &contacts.entries);

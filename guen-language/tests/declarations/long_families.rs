@@ -6,7 +6,7 @@ use guen_language::diagnostics::collect;
 use guen_language::report::Report;
 use guen_language::{derive, emit, model, parse};
 
-/// What an expansion comes to.
+/// The size of an expansion.
 struct Size {
     operations: f64,
     bytes: f64,
@@ -60,7 +60,7 @@ fn a_long_chain_costs_for_each_link_what_a_short_one_costs() {
     assert!(long.report.lines().count() < 400 && !short.report.contains(" more\n"), "{}", long.report);
 }
 
-/// What the loop declares, written out without one.
+/// A chain that is written out entry by entry against the same chain by a loop.
 #[test]
 fn a_long_chain_by_hand_is_the_same() {
     let n = 70;

@@ -83,7 +83,7 @@ fn a_wheel_that_rolls_is_the_rolling_wheel() {
     });
 }
 
-/// The same operations as a declaration by hand, and these variables.
+/// Asserts that a scene in one mode has these variables, and as many operations as the system that is declared by hand.
 fn is_as_by_hand(text: &str, by_hand: &str, variables: &[&str], followers: &[&str]) {
     let expected = derived(by_hand, |derived| operations(&derived.scenes[0]));
     derived(text, |derived| {

@@ -369,7 +369,7 @@ where
             let (sin, cos) = libm::sincos(angle);
             [cos * near[0] - sin * near[1], sin * near[0] + cos * near[1]]
         };
-        // What the acceleration has across the direction and along it.
+        // The components of the acceleration across the direction and along it.
         let mut parts = |angle: f64| {
             let d = turned(angle);
             let [x, y] = self.leaves_along(c, d, t, state);

@@ -210,7 +210,7 @@ pub fn onto<R: Real, const N: usize, const M: usize, const H: usize>(
             *x -= step;
         }
         let extent = x.iter().fold(length, |most, x| most.max(x.to_f64().abs()));
-        // What is left after a step is of the order of its square: this one is the last.
+        // Newton's method squares the error, so that after a step as short as this nothing is left to do.
         if length <= precision * extent {
             return Ok(onto);
         }
@@ -251,7 +251,7 @@ where
         if round == 0 {
             extent = extent.max(length);
         }
-        // What is left after a step is of the order of its square: this one is the last.
+        // Newton's method squares the error, so that after a step as short as this nothing is left to do.
         if length <= precision * extent {
             *x = moved(x, &step, 1.0);
             return ended(system, t, x, &begin, precision * extent);

@@ -107,7 +107,7 @@ pub(in crate::model::resolve) fn mode_of_scene(
         if matches!(state, ContactState::Slip | ContactState::SlipPlus | ContactState::SlipMinus) {
             let text = format!("`{}` slips in the only mode of scene `{}`", entry.name, scene.name);
             let fault = Fault::new(keyword, text);
-            let fault = fault.note("the force of a slip is no force of constraint");
+            let fault = fault.note("friction gives the force of a contact that slips, and a scene in one mode has constraints alone");
             faults.report(fault.help("run the system itself, or its `in_mode`"));
             return None;
         }
