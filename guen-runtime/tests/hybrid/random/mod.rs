@@ -210,6 +210,25 @@ fn drawn_systems_keep_the_laws() {
     assert!(total.rays <= total.modes / 100);
 }
 
+/// Slips in a plane end in sticking, or leave rest in the one direction along which they accelerate: none of these has a paradox.
+#[test]
+fn spatial_slips_end_in_a_mode() {
+    let mut random = Random(20_261_124);
+    let mut reversed = 0;
+    for _ in 0..40 {
+        stops(&mut random);
+        feet(&mut random);
+        mixed(&mut random);
+        four(&mut random);
+        let (system, start) = spatial(&mut random);
+        let motion = system.simulation(&start).tolerance(1e-10).run(0.0..3.0);
+        let motion = motion.unwrap_or_else(|failed| panic!("{failed}: {system:?} from {start:?}"));
+        let kinds = motion.transitions().iter().map(|transition| transition.kind);
+        reversed += kinds.filter(|kind| *kind == TransitionKind::Reversed).count();
+    }
+    assert!(reversed > 0);
+}
+
 /// Accelerations in a mode without slip against those of a system with these rows as constraints.
 fn constrained<H, const D: usize, const N: usize, const W: usize, const C: usize>(
     system: H,
