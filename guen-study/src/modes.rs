@@ -309,3 +309,16 @@ fn names_of_rows<const W: usize>(elements: &[Element]) -> Vec<String> {
     }
     names
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Element, names_of_rows};
+
+    #[test]
+    fn rows_are_named_by_their_contact_and_direction() {
+        let elements =
+            [Element::grip("brake", &[3]), Element::rough("floor", 0, &[1, 2]), Element::smooth("stop", 4)];
+        let names = ["floor normal", "floor along", "floor across", "brake", "stop"];
+        assert_eq!(names_of_rows::<5>(&elements), names);
+    }
+}

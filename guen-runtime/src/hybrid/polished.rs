@@ -1,7 +1,7 @@
 //! The end of a mode as exactly as the method computes it, and everything that ends it.
 
 use crate::hybrid::in_mode::InMode;
-use crate::hybrid::located::{Found, side};
+use crate::hybrid::located::Found;
 use crate::hybrid::run::Run;
 use crate::hybrid::system::HybridSystem;
 use crate::hybrid::turn::{Fired, Place};
@@ -83,8 +83,8 @@ where
         (time == t).then_some(state)
     }
 
-    /// All functions that reach zero where one was found, and gaps that the method, unlike the polynomial, has below zero there.
-    pub(super) fn fired(&self, found: Found, bracket: f64, (begun, start): (f64, &[f64; N])) -> Fired<C, S> {
+    /// All functions that reach zero where one was found.
+    pub(super) fn fired(&self, found: Found, bracket: f64) -> Fired<C, S> {
         let Place { t, state, in_mode, sides, .. } = &self.place;
         let watched = in_mode.watched_along(sides, *t, state);
         let mut fired = Fired::default();
@@ -100,10 +100,7 @@ where
             {
                 continue;
             }
-            let passed = matches!(function, Function::Gap(_))
-                && side(in_mode, sides, function, *t, state) < 0
-                && side(in_mode, sides, function, begun, start) >= 0;
-            if passed || self.place.fires_too(function, value.value, value.tangent[0], bracket) {
+            if self.place.fires_too(function, value.value, value.tangent[0], bracket) {
                 fired.add(function);
             }
         }

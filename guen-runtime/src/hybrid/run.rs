@@ -284,7 +284,7 @@ where
                 self.step = Some(after.time - before.time);
                 (self.place.t, self.place.state) = (t, state);
                 let bracket = (t - found.t).abs() + 4.0 * f64::EPSILON * t.abs();
-                return Ok(Part::Fired(self.fired(found, bracket, (before.time, &before.state))));
+                return Ok(Part::Fired(self.fired(found, bracket)));
             }
             first = false;
             watch.step(&in_mode, &run, &before).map_err(|failed| self.back_to(failed))?;

@@ -468,3 +468,52 @@ fn a_block_that_rocks_comes_to_rest() {
         .unwrap();
     assert!((until - further).abs() < 1e-9, "{until} {further}");
 }
+
+/// A mass that falls on a floor, and one on a spring that comes to its own floor at nearly the same time.
+#[derive(Clone, Copy)]
+struct Neighbours {
+    stiffness: f64,
+    rest: f64,
+}
+
+impl HybridSystem<4, 2, 2, 0> for Neighbours {
+    const ELEMENTS: [Element; 2] = [Element::smooth("falls", 0), Element::smooth("swings", 1)];
+    const SIGNALS: [Signal; 0] = [];
+    const COORDINATES: usize = 2;
+    crate::without_inputs!(2 elements);
+
+    fn free_motion<R: Lift<f64>>(&self, _t: R, x: &[R; 4], _: &[R; 0], _: &[R; 2]) -> FreeMotion<R, 4, 2, 2> {
+        let mut parts = Parts::<R, 2, 2, 2>::nothing().masses([R::one(), R::one()]);
+        parts.forces = [-c::<R>(10.0), c::<R>(self.stiffness) * (c::<R>(self.rest) - x[1])];
+        parts.rows = [[R::one(), R::zero()], [R::zero(), R::one()]];
+        parts.gaps = [x[0], x[1]];
+        parts.free_motion(x)
+    }
+
+    fn restitutions(&self) -> [f64; 2] {
+        [0.5; 2]
+    }
+
+    fn signals<R: Lift<f64>>(&self, _t: R, _x: &[R; 4]) -> [R; 0] {
+        []
+    }
+}
+
+/// The polynomial of a step and the method, which says where an impact is, are of different errors: a second gap may be above zero by the
+/// one and below by the other.
+#[test]
+fn impacts_at_nearly_the_same_time_are_all_met() {
+    let time = f64::sqrt(0.2);
+    for phase in [1.6, 2.0, 2.5, 2.8, 2.9, 3.0, 3.05, 3.1, 3.12, 3.14] {
+        for later in (12..50).map(|k| 0.1_f64.powf(0.25 * f64::from(k))).flat_map(|later| [-later, later]) {
+            let frequency = phase / time;
+            let rest = -f64::cos(frequency * (time + later));
+            let system = Neighbours { stiffness: frequency * frequency, rest };
+            let method = Dop853::new(1e-3, 1e-3);
+            let (told, done) = run(&system, &method, [1.0, 1.0 + rest, 0.0, 0.0], time + 0.05);
+            let (end, _) = done.unwrap();
+            let lowest = end[0].min(end[1]);
+            assert!(lowest > -1e-12, "{lowest:e} with {phase} {later:e}: {told:?}");
+        }
+    }
+}
