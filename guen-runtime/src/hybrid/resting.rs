@@ -141,11 +141,13 @@ where
         let resolution = self.resolution();
         // Whether all flights are lower than that.
         let mut lowest = true;
+        let mut flight_time: f64 = 0.0;
         for c in (0..C).filter(|c| rebounds(*c)) {
             let (back, away) = (-rate(c, &accelerations), rate(c, &struck.after));
             if !(back > 0.0) {
-                return Ok(None);
+                continue;
             }
+            flight_time = flight_time.max(2.0 * away / back);
             // Lower than the digits of the gap tell, whatever the ratio: such a flight has no end that could be located.
             let unresolved = away * away <= 2.0 * back * resolution[c];
             let slow = ratio.is_some() && away <= resting.slowest(back, aside);
@@ -155,6 +157,14 @@ where
             lowest &= unresolved;
             let ratio = ratio.unwrap_or_else(|| resting.last_ratio());
             until = f64::max(until, self.t + 2.0 * away / (back * (1.0 - ratio)));
+        }
+        // A contact that would not come back by itself: until the others do it is no higher than the digits of its gap tell.
+        for c in (0..C).filter(|c| rebounds(*c)) {
+            let (acceleration, away) = (rate(c, &accelerations), rate(c, &struck.after));
+            let rises = flight_time * (away + 0.5 * flight_time * acceleration);
+            if acceleration >= 0.0 && !(flight_time > 0.0 && rises <= resolution[c]) {
+                return Ok(None);
+            }
         }
         let Some(closing) = impact.closing(struck) else { return Ok(None) };
         // Only where a mode with these contacts closed goes on.

@@ -139,6 +139,9 @@ fn candidates(kind: Kind, components: usize, known: &Known, sign: f64) -> ([Elem
     }
 }
 
+/// The part of the largest force by which forces may leave their cones where two modes are compared.
+const VIOLATED: f64 = 1e-6;
+
 /// Selects the mode that goes on from a time and state.
 pub(super) fn select<H, const N: usize, const W: usize, const C: usize, const S: usize>(
     system: H,
@@ -171,13 +174,17 @@ where
         if !in_mode.lean(t, state, known) || !in_mode.is_consistent(t, state, known) {
             continue;
         }
-        found = match found {
-            None => Some(in_mode),
-            Some(before) => match preferred(known, &before, &in_mode) {
-                Some(true) => Some(before),
-                Some(false) => Some(in_mode),
-                None => return Err(Unselected::Ambiguous([before.mode, mode])),
-            },
+        let Some(before) = found else {
+            found = Some(in_mode);
+            continue;
+        };
+        // What jets could not tell from zero, because rows nearly depend on each other, the values themselves may.
+        let [first, second] = [&before, &in_mode].map(|mode| mode.violation(t, state) > VIOLATED);
+        let is_first = if first == second { preferred(known, &before, &in_mode) } else { Some(second) };
+        found = match is_first {
+            Some(true) => Some(before),
+            Some(false) => Some(in_mode),
+            None => return Err(Unselected::Ambiguous([before.mode, mode])),
         };
     }
     found.ok_or(Unselected::Inconsistent)
@@ -210,6 +217,31 @@ impl<H, const N: usize, const W: usize, const C: usize, const S: usize> InMode<H
 where
     H: HybridSystem<N, W, C, S>,
 {
+    /// By how much forces of contacts pull, or leave their cones, relative to the largest force; zero where they are not determined.
+    fn violation(&self, t: f64, state: &[f64; N]) -> f64 {
+        if self.is_redundant() {
+            return 0.0;
+        }
+        let motion = self.reactions(t, state);
+        let largest = motion.reactions.iter().fold(f64::MIN_POSITIVE, |most, force| most.max(force.abs()));
+        let mut worst: f64 = 0.0;
+        for (c, element) in H::ELEMENTS.iter().enumerate() {
+            if self.mode.0[c].is_closed()
+                && let Some(row) = element.normal.filter(|_| element.kind != Kind::Latch)
+            {
+                worst = worst.max(-motion.reactions[row] / largest);
+            }
+            if self.mode.0[c] == ElementState::Stick {
+                // Of two components the margin is a difference of squares.
+                let size = if element.tangential.len() == 2 { largest * largest } else { largest };
+                for margin in self.margins(c, &motion).into_iter().flatten() {
+                    worst = worst.max(-margin / size);
+                }
+            }
+        }
+        worst
+    }
+
     /// The series of the state in this mode, to an order.
     fn jets(&self, t: f64, state: &[f64; N], order: usize) -> [Jet; N] {
         let (time, unit) = (RunningError::once(t), RunningError::exact(1.0));
