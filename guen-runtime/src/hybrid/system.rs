@@ -141,7 +141,7 @@ pub trait HybridSystem<const N: usize, const W: usize, const C: usize, const S: 
 
     /// The state after a reset by this signal.
     #[inline]
-    fn reset(&self, _signal: usize, _t: f64, state: &[f64; N]) -> [f64; N] {
+    fn reset<R: Lift<f64>>(&self, _signal: usize, _t: R, state: &[R; N]) -> [R; N] {
         *state
     }
 

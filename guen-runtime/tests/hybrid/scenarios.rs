@@ -338,9 +338,9 @@ impl HybridSystem<2, 0, 0, 1> for Thrown {
         [x[0]]
     }
 
-    fn reset(&self, signal: usize, _t: f64, x: &[f64; 2]) -> [f64; 2] {
+    fn reset<R: Lift<f64>>(&self, signal: usize, _t: R, x: &[R; 2]) -> [R; 2] {
         assert_eq!(signal, 0);
-        [x[0], 5.0]
+        [x[0], c(5.0)]
     }
 }
 
