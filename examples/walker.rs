@@ -18,7 +18,7 @@ use std::process::ExitCode;
 
 use guen::hybrid::TransitionKind;
 use guen::steppers::Dop853;
-use guen_study::{ExportModes, Shape};
+use guen_study::{ContactFrame, ExportModes, Shape};
 use nalgebra::{Matrix3, Vector3};
 
 guen::mechanical_system! {
@@ -146,11 +146,16 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
     let length = walker.constants().length;
     let leg =
         |x: f64, z: f64, angle: f64| [[x, z, 0.0], [x + length * angle.sin(), z - length * angle.cos(), 0.0]];
+    let sole = |x: f64, z: f64, angle: f64| {
+        ContactFrame::at(leg(x, z, angle)[1]).normal([0.0, 1.0, 0.0]).along([1.0, 0.0, 0.0])
+    };
     let played = motion.played();
     motion
         .viewer(&walker, "A passive walker", &played)
         .rod("left leg's line", 0.02, |_, &[x, z, left, ..]| leg(x, z, left))
         .rod("right leg's line", 0.02, |_, &[x, z, _, right, ..]| leg(x, z, right))
+        .contact(&motion, "left_sole", |_, &[x, z, left, ..]| sole(x, z, left))
+        .contact(&motion, "right_sole", |_, &[x, z, _, right, ..]| sole(x, z, right))
         // Its plane is x, y, and stands upright.
         .upward([0.0, 1.0, 0.0])
         .seen_from([0.3, 0.2, 1.0])

@@ -55,6 +55,15 @@ pub enum StudyError {
         /// The name.
         name: String,
     },
+    /// A page is to show a contact that the system does not have.
+    UnknownContact {
+        /// The page's title.
+        title: String,
+        /// The name.
+        name: String,
+        /// The names of the contacts, grips and latches.
+        known: Vec<&'static str>,
+    },
     /// A page does not fit the size that was asked for.
     TooLarge {
         /// The page's title.
@@ -105,6 +114,9 @@ impl fmt::Display for StudyError {
                 write!(f, "page `{title}`: `{what}` cannot be drawn at t = {time}")
             }
             Self::UnknownBody { title, name } => write!(f, "page `{title}` has no body `{name}`"),
+            Self::UnknownContact { title, name, known } => {
+                write!(f, "page `{title}`: the system has no contact `{name}`, it has {}", known.join(", "))
+            }
             Self::TooLarge { title, bytes, limit } => {
                 write!(
                     f,
@@ -136,6 +148,7 @@ impl Error for StudyError {
             | Self::UnknownBody { .. }
             | Self::UnknownEntry { .. }
             | Self::TooLarge { .. }
+            | Self::UnknownContact { .. }
             | Self::Times { .. } => None,
         }
     }

@@ -97,4 +97,4 @@ pub use sweep::{
 };
 pub use table::{Table, significant};
 #[cfg(feature = "viewer")]
-pub use viewer::{Pose, Shape, Viewer};
+pub use viewer::{ContactFrame, Pose, Shape, Viewer};

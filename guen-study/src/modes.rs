@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use guen_runtime::Simulate;
-use guen_runtime::hybrid::{Element, ElementState, HybridSystem, HybridTrajectory, Mode};
+use guen_runtime::hybrid::{Element, HybridSystem, HybridTrajectory, Mode};
 use guen_runtime::steppers::Interpolant;
 
 use crate::cell;
@@ -14,6 +14,7 @@ use crate::recording::Recording;
 #[cfg(feature = "viewer")]
 use {
     crate::viewer::Viewer,
+    guen_runtime::hybrid::{Transition, TransitionKind},
     guen_runtime::{Bodies, Monitored},
 };
 
@@ -103,14 +104,24 @@ pub trait ExportModes<H, const N: usize> {
     /// A plot of the forces along all rows over time, with a thin line at every transition.
     fn plot_reactions(&self, title: &str) -> Plot;
 
+    /// The names of all contacts, grips and latches, in the order of their declaration.
+    fn contacts(&self) -> Vec<&'static str>;
+
+    /// Whether an element has a normal force, and whether it has friction; nothing for a name that no element has.
+    fn kinds_of_forces(&self, contact: &str) -> Option<[bool; 2]>;
+
+    /// The force of an element along its normal, along its slip and across it, zero where it has none; nothing for a name that no element has. At
+    /// a transition that after it, of several possible ones the smallest.
+    fn reaction_of(&self, contact: &str, t: f64) -> Option<[f64; 3]>;
+
     /// The states that a page plays: evenly spaced in time, one at each, after a transition that falls on it.
     #[cfg(feature = "viewer")]
     #[cfg_attr(docsrs, doc(cfg(feature = "viewer")))]
     fn played(&self) -> Recording<N>;
 
-    /// A page that plays the motion of the declared bodies by the states of [`played`](Self::played), with panels of the states, of the
-    /// forces of contacts and of their modes, as numbers that the names of the curves tell. It can be described further: what is up, rods
-    /// between points, curves.
+    /// A page that plays the motion of the declared bodies by the states of [`played`](Self::played). It says in words what every contact
+    /// does, marks the transitions, and has panels of the states, of the forces of contacts, of gaps and of slips. It can be described further: where
+    /// a [`contact`](Viewer::contact) is, so that its forces are seen, what is up, rods between points, curves.
     #[cfg(feature = "viewer")]
     #[cfg_attr(docsrs, doc(cfg(feature = "viewer")))]
     fn viewer<'a, const B: usize>(&self, system: &H, title: &str, played: &'a Recording<N>) -> Viewer<'a, N>
@@ -229,6 +240,25 @@ where
             .fold(plot, |plot, (name, curve)| plot.line(name, curve))
     }
 
+    fn contacts(&self) -> Vec<&'static str> {
+        H::ELEMENTS.iter().map(|element| element.name).collect()
+    }
+
+    fn kinds_of_forces(&self, contact: &str) -> Option<[bool; 2]> {
+        let element = H::ELEMENTS.iter().find(|element| element.name == contact)?;
+        Some([element.normal.is_some(), !element.tangential.is_empty()])
+    }
+
+    fn reaction_of(&self, contact: &str, t: f64) -> Option<[f64; 3]> {
+        let element = H::ELEMENTS.iter().find(|element| element.name == contact)?;
+        let reactions = self.reactions_at(t);
+        let mut force = [0.0; 3];
+        let rows = element.normal.map(|row| (0, row));
+        let slips = element.tangential.iter().enumerate().map(|(k, row)| (k + 1, *row));
+        rows.into_iter().chain(slips).for_each(|(k, row)| force[k] = reactions[row]);
+        Some(force)
+    }
+
     #[cfg(feature = "viewer")]
     fn played(&self) -> Recording<N> {
         let span = (self.end_time() - self.start_time()).abs();
@@ -244,21 +274,63 @@ where
     where
         H: Bodies<f64, N, B> + Monitored<f64, N>,
     {
-        let mut viewer = Viewer::new(title, played).bodies(system).states(&[]).panel("forces of contacts");
-        for (row, name) in names_of_rows::<W>(&H::ELEMENTS).into_iter().enumerate() {
+        let mut viewer = Viewer::new(title, played).bodies(system).states(&[]);
+        for (c, element) in H::ELEMENTS.iter().enumerate() {
+            let word = |mode: H::Mode| Into::<Mode<C>>::into(mode).0[c].word();
+            let first = (self.start_time(), word(self.mode_at(self.start_time())));
+            let later = self.transitions().iter().map(|at| (at.t, word(at.after)));
+            let mut changes: Vec<(f64, &str)> = vec![first];
+            changes.extend(later);
+            changes.dedup_by(|later, before| later.1 == before.1);
+            viewer = viewer.words(element.name, changes);
+        }
+        for transition in self.transitions() {
+            viewer = viewer.mark(transition.t, told::<H, N, W, C, S>(transition));
+        }
+        let names = names_of_rows::<W>(&H::ELEMENTS);
+        viewer = viewer.panel("forces of contacts");
+        for (row, name) in names.iter().enumerate() {
             viewer = viewer.curve(name, move |t, _| self.reactions_at(t)[row]);
         }
-        viewer = viewer.panel("modes of contacts");
-        for (c, element) in H::ELEMENTS.iter().enumerate() {
-            let states = ElementState::of(element);
-            let told = states.iter().enumerate().map(|(k, state)| format!("{k} {state}"));
-            let name = format!("{}: {}", element.name, told.collect::<Vec<_>>().join(", "));
-            viewer = viewer.curve(name, move |t, _| {
-                let mode: Mode<C> = self.mode_at(t).into();
-                states.iter().position(|state| *state == mode.0[c]).unwrap_or(0) as f64
-            });
+        let free = |t: f64, x: &[f64; N]| self.in_mode_at(t).map(|mode| mode.reactions(t, x).free);
+        let with_gap = || H::ELEMENTS.iter().enumerate().filter(|(_, element)| element.normal.is_some());
+        if with_gap().next().is_some() {
+            viewer = viewer.panel("gaps");
+        }
+        for (c, element) in with_gap() {
+            viewer = viewer.curve(element.name, move |t, x| free(t, x).map_or(0.0, |free| free.gaps[c]));
+        }
+        let slips: Vec<usize> = H::ELEMENTS.iter().flat_map(|element| element.tangential).copied().collect();
+        if !slips.is_empty() {
+            viewer = viewer.panel("slips");
+        }
+        for row in slips {
+            viewer =
+                viewer.curve(&names[row], move |t, x| free(t, x).map_or(0.0, |free| free.row_rates[row]));
         }
         viewer.monitored(system)
+    }
+}
+
+/// The text of a mark at a transition: its kind and the elements that take part, `impact: floor`.
+#[cfg(feature = "viewer")]
+fn told<H, const N: usize, const W: usize, const C: usize, const S: usize>(
+    transition: &Transition<H::Mode, N, W, C>,
+) -> String
+where
+    H: HybridSystem<N, W, C, S>,
+{
+    let elements = H::ELEMENTS.iter().zip(transition.elements).filter(|(_, taking_part)| *taking_part);
+    let signal = transition.signal.and_then(|signal| H::SIGNALS.get(signal)).map(|signal| signal.name);
+    let names: Vec<&str> = elements.map(|(element, _)| element.name).chain(signal).collect();
+    // The end of its impacts is a time, and the kind of a mark a word.
+    let kind = match transition.kind {
+        TransitionKind::Rest { .. } => "rest".to_owned(),
+        kind => kind.to_string(),
+    };
+    match names.as_slice() {
+        [] => kind,
+        names => format!("{kind}: {}", names.join(", ")),
     }
 }
 

@@ -543,6 +543,69 @@ def noisy(motion):
     motion["panels"] = [{"name": "both", "curves": [one, nothing]}, {"name": "alone", "curves": [nothing]}]
 
 
+# Times of the marks that are put on the turntable's page, and their texts.
+MARKS = [(0.5, "impact: floor"), (1.25, "slips: tyre"), (2.0, "rest: floor")]
+
+
+def marked(motion):
+    """Marks, and a name whose word changes at the second one."""
+    motion["marks"] = [{"time": time, "text": text} for time, text in MARKS]
+    changes = [{"time": 0, "text": "stick"}, {"time": MARKS[1][0], "text": "slip+"}]
+    motion["words"] = [{"name": "tyre", "changes": changes}]
+
+
+def modes(browser, page):
+    """Words tell what holds, marks lie in the curves and at the slider, and keys and buttons go from one to the next."""
+    browser.resize(900, 560)
+    load(browser, page)
+    said = "return ['#words .now', '#happened .now', '#when'].map((part) => document.querySelector(part).textContent);"
+    now = f"return {TIME};"
+    require(browser.run(said) == ["stick", "–", ""], f"before the first mark the page says {browser.run(said)}")
+    for number, (time, text) in enumerate(MARKS):
+        browser.press("]")
+        settled(browser)
+        require(browser.run(now) == time, f"the key leads to {browser.run(now)}")
+        word, happened, when = browser.run(said)
+        require((word, happened) == ("slip+" if number > 0 else "stick", text), f"at {time} the page says {word}, {happened}")
+        require(f"{time}" in when, f"the time of the mark is {when}")
+    browser.press("]")
+    settled(browser)
+    require(browser.run(now) == MARKS[-1][0], "a key leads beyond the last mark")
+    browser.click("#mark-back")
+    settled(browser)
+    require(browser.run(now) == MARKS[1][0] and browser.run(said)[0] == "slip+", "the button does not lead back")
+    browser.press("[")
+    settled(browser)
+    require(browser.run(said)[0] == "stick", "before its change the word is another one")
+    lines = browser.run("return document.querySelector('#marks path').getAttribute('d').match(/M/g).length;")
+    require(lines == len(MARKS), f"{lines} lines at the slider")
+    # In the plot: at a mark a line of dashes goes from the top to the bottom, and beside it none.
+    upright = COPY + """
+const canvas = document.querySelector('figure canvas');
+const { span, player } = window.guen;
+const data = pixels(canvas);
+const x = Math.round(Number(canvas.dataset.left) + (canvas.width - Number(canvas.dataset.left) - 8) * arguments[0] / span.to);
+let count = 0;
+for (let y = 8; y < canvas.height - 24; y += 1) if (data[4 * (y * canvas.width + x) + 3] > 100) count += 1;
+return count / (canvas.height - 32);
+"""
+    browser.run("window.guen.player.setTime(0);")
+    settled(browser)
+    for time, _ in MARKS:
+        found, beside = browser.run(upright, time), browser.run(upright, time + 0.15)
+        require(found > beside + 0.2, f"at the mark {found:.2f} of the height is drawn, beside it {beside:.2f}")
+    # The pointer reads the mark.
+    left, top, width, height = browser.run("const b = document.querySelector('figure canvas').getBoundingClientRect(); return [b.x, b.y, b.width, b.height];")
+    axis, end = (float(browser.run(f"return {value};")) for value in ("document.querySelector('figure canvas').dataset.left", "window.guen.motion.end"))
+    at = left + axis + (width - axis - 8) * MARKS[1][0] / end
+    move = {"type": "pointerMove", "origin": "viewport", "duration": 0, "x": round(at), "y": round(top + height / 2)}
+    browser.call("actions", {"actions": [{"type": "pointer", "id": "mouse", "actions": [move]}]})
+    settled(browser)
+    told = browser.run("return document.querySelector('figure canvas').dataset.told;")
+    require(MARKS[1][1] in told, f"the pointer reads {told}")
+    quiet(browser)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--pictures", type=pathlib.Path, help="a folder for screenshots")
@@ -555,7 +618,7 @@ def main():
     turntable = target() / "guen/viewer/turntable.html"
     with tempfile.TemporaryDirectory() as folder, browser:
         pages = {}
-        for change in (noisy,):
+        for change in (noisy, marked):
             pages[change.__name__] = pathlib.Path(folder) / f"{change.__name__}.html"
             pages[change.__name__].write_text(varied(turntable.read_text(), change))
         checks = [
@@ -564,6 +627,7 @@ def main():
             ("axes and names", lambda: framed(browser, turntable, arguments.pictures)),
             ("residuals", lambda: residuals(browser, turntable)),
             ("saved", lambda: kept_by_readers(browser, turntable, pathlib.Path(folder), arguments.pictures)),
+            ("marks and modes", lambda: modes(browser, pages["marked"])),
             ("rounding", lambda: noise(browser, pages["noisy"])),
         ]
         wanted = [check for check in checks if not arguments.checks or any(part in check[0] for part in arguments.checks)]

@@ -217,7 +217,7 @@ impl<H, const N: usize, const W: usize, const C: usize, const S: usize> InMode<H
 where
     H: HybridSystem<N, W, C, S>,
 {
-    /// By how much forces of contacts pull, or leave their cones, relative to the largest force; zero where they are not determined.
+    /// The amount by which forces of contacts pull, or leave their cones, relative to the largest force; zero where they are not determined.
     fn violation(&self, t: f64, state: &[f64; N]) -> f64 {
         if self.is_redundant() {
             return 0.0;

@@ -2,7 +2,7 @@
 
 use super::guests::Guest;
 use super::track::{Shown, Track};
-use super::{Link, MovingBody, MovingPoint, Panel, Viewer, page};
+use super::{Link, MovingBody, MovingPoint, Panel, Viewer, page, phases};
 use crate::error::StudyError;
 
 /// The fewest samples of a track: four of a curve are its ends and extrema.
@@ -31,6 +31,8 @@ pub(super) fn data_bytes<const N: usize>(viewer: &Viewer<'_, N>) -> usize {
     let guests = viewer.guests.iter().map(|guest| guest.steps.len()).sum::<usize>();
     sizes(viewer).iter().map(|(count, each)| count * each).sum::<usize>()
         + (viewer.samples.steps.len() + guests) * 32 / 3
+        + phases::bytes(&viewer.marks, &viewer.words)
+        + viewer.guests.iter().map(|guest| phases::bytes(&guest.marks, &guest.words)).sum::<usize>()
 }
 
 /// The largest number of samples a track with which all samples have at most so many bytes.
@@ -116,7 +118,7 @@ pub(super) fn fitting<const N: usize>(viewer: &Viewer<'_, N>) -> Result<String, 
         budget = budget.saturating_sub(page.len() - limit);
     }
     let mut bytes = 0;
-    for _ in 0..ATTEMPTS {
+    for attempt in 0..ATTEMPTS {
         let mut smaller = viewer.clone();
         shrink(&mut smaller, budget);
         let page = page::html(&smaller);
@@ -124,8 +126,8 @@ pub(super) fn fitting<const N: usize>(viewer: &Viewer<'_, N>) -> Result<String, 
         if bytes <= limit {
             return Ok(page);
         }
-        // A little less as well: what is over may be less than one sample of each track.
-        budget = budget.saturating_sub(bytes - limit + budget / SLACK);
+        // A little less as well, and more each time: what is over may be less than one sample of each track.
+        budget = budget.saturating_sub(bytes - limit + ((budget / SLACK) << attempt));
     }
     Err(too_large(bytes))
 }

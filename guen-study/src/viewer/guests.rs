@@ -1,5 +1,6 @@
 //! Further recordings on a page: beside the first one or as its ghosts, with one clock.
 
+use super::phases::{Mark, Words};
 use super::{Curve, Fault, Link, MovingBody, MovingPoint, Panel, Viewer, fit, page};
 use crate::error::StudyError;
 
@@ -18,6 +19,8 @@ pub(super) struct Guest {
     pub(super) paths: Vec<MovingPoint>,
     pub(super) links: Vec<Link>,
     pub(super) panels: Vec<Panel>,
+    pub(super) marks: Vec<Mark>,
+    pub(super) words: Vec<Words>,
 }
 
 impl<const N: usize> Viewer<'_, N> {
@@ -83,6 +86,9 @@ impl<const N: usize> Viewer<'_, N> {
             StudyError::UnknownBody { title, name } => {
                 Fault::UnknownBody { name: format!("{name} of {title}") }
             }
+            StudyError::UnknownContact { title, name, known } => {
+                Fault::UnknownContact { name: format!("{name} of {title}"), known }
+            }
             StudyError::Times { title, time } => Fault::Times { title, time },
             StudyError::TooLarge { bytes, .. } => Fault::TooLarge { bytes },
             _ => Fault::NothingToDraw { title: other.title.clone() },
@@ -91,7 +97,7 @@ impl<const N: usize> Viewer<'_, N> {
             self.fault.get_or_insert(fault);
             return self;
         }
-        let Viewer { title, name, samples, bodies, paths, links, panels, guests, .. } = other;
+        let Viewer { title, name, samples, bodies, paths, links, panels, marks, words, guests, .. } = other;
         self.guests.push(Guest {
             name: name.unwrap_or(title),
             is_ghost,
@@ -102,6 +108,8 @@ impl<const N: usize> Viewer<'_, N> {
             paths,
             links,
             panels,
+            marks,
+            words,
         });
         self.guests.extend(guests);
         fit::relieve(&mut self);

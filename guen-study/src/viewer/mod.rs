@@ -2,9 +2,10 @@
 //!
 //! `shape` says what a body looks like and where it is, `equivalent` draws declared bodies by their inertia. `samples` makes
 //! `track`s of a recording, of which `thin` chooses what is shown and `fit` makes the file as small as it has to be, `guests` are further recordings. `data`
-//! writes numbers, `notes` says what was left out, `still` draws pictures for readers without scripts by `outline`, `page` puts the file together from `page/` and from the drawing library in
+//! writes numbers, `phases` has marks and words, `contacts` the forces of contacts, `notes` says what was left out, `still` draws pictures for readers without scripts by `outline`, `page` puts the file together from `page/` and from the drawing library in
 //! `vendor/`.
 
+mod contacts;
 mod content;
 mod data;
 mod equivalent;
@@ -13,6 +14,7 @@ mod guests;
 mod notes;
 mod outline;
 mod page;
+mod phases;
 mod samples;
 mod shape;
 mod still;
@@ -32,9 +34,11 @@ use crate::plot;
 use crate::recording::Recording;
 
 use guests::Guest;
+use phases::{Mark, Words};
 use samples::Samples;
 use track::{Shown, Track};
 
+pub use contacts::ContactFrame;
 pub use shape::{Pose, Shape};
 
 /// Recordings with at most so many samples are shown as they are: a minute at 60 pictures per second.
@@ -126,6 +130,8 @@ pub struct Viewer<'a, const N: usize> {
     paths: Vec<MovingPoint>,
     links: Vec<Link>,
     panels: Vec<Panel>,
+    marks: Vec<Mark>,
+    words: Vec<Words>,
     guests: Vec<Guest>,
     grounds: Vec<Ground>,
     view: View,
@@ -205,6 +211,10 @@ enum Fault {
     UnknownBody {
         name: String,
     },
+    UnknownContact {
+        name: String,
+        known: Vec<&'static str>,
+    },
     TooLarge {
         bytes: usize,
     },
@@ -274,6 +284,8 @@ impl<'a, const N: usize> Viewer<'a, N> {
             paths: Vec::new(),
             links: Vec::new(),
             panels: Vec::new(),
+            marks: Vec::new(),
+            words: Vec::new(),
             guests: Vec::new(),
             grounds: Vec::new(),
             view: View::default(),

@@ -1,6 +1,7 @@
 //! The HTML file: its parts in order, with the motion as data.
 
 use super::data::{Json, escaped};
+use super::phases::{Mark, Words};
 use super::shape::{Pose, difference};
 use super::track::{Shown, Track, bounds, range};
 use super::turn::norm;
@@ -16,7 +17,7 @@ const LIBRARY: &str = include_str!("vendor/three.min.js");
 /// The page's own style and program, in the order in which they are needed.
 const STYLE: &str = include_str!("page/style.css");
 const BODY: &str = include_str!("page/body.html");
-const PROGRAM: [&str; 20] = [
+const PROGRAM: [&str; 21] = [
     include_str!("page/data.js"),
     include_str!("page/runs.js"),
     include_str!("page/motion.js"),
@@ -29,6 +30,7 @@ const PROGRAM: [&str; 20] = [
     include_str!("page/curves.js"),
     include_str!("page/span.js"),
     include_str!("page/plot.js"),
+    include_str!("page/phases.js"),
     include_str!("page/panel.js"),
     include_str!("page/player.js"),
     include_str!("page/frames.js"),
@@ -119,6 +121,9 @@ pub(super) fn check<const N: usize>(viewer: &Viewer<'_, N>) -> Result<(), StudyE
             Err(StudyError::NotDrawable { title: title(), what, time })
         }
         Some(Fault::UnknownBody { name }) => Err(StudyError::UnknownBody { title: title(), name }),
+        Some(Fault::UnknownContact { name, known }) => {
+            Err(StudyError::UnknownContact { title: title(), name, known })
+        }
         Some(Fault::NothingToDraw { title }) => Err(StudyError::NothingToDraw { title }),
         Some(Fault::Times { title, time }) => Err(StudyError::Times { title, time }),
         Some(Fault::TooLarge { bytes }) => {
@@ -144,6 +149,7 @@ fn motion<const N: usize>(viewer: &Viewer<'_, N>, space: &Space, notes: &[String
         }
         let own = (&viewer.bodies[..], &viewer.paths[..], &viewer.links[..], &viewer.panels[..]);
         run(json, own, viewer.samples.start - start, space);
+        occasions(json, (&viewer.marks, &viewer.words), start);
         json.text("run", viewer.own_name());
         json.objects("guests", &viewer.guests, |json, guest| {
             let later = guest.start - start;
@@ -151,6 +157,7 @@ fn motion<const N: usize>(viewer: &Viewer<'_, N>, space: &Space, notes: &[String
             json.text("kind", if guest.is_ghost { "ghost" } else { "beside" });
             moments(json, &guest.steps, later);
             run(json, (&guest.bodies, &guest.paths, &guest.links, &guest.panels), later, space);
+            occasions(json, (&guest.marks, &guest.words), start);
         });
         json.objects("grounds", &viewer.grounds, |json, ground| match ground {
             Ground::Plane { point, normal } => {
@@ -182,6 +189,24 @@ fn motion<const N: usize>(viewer: &Viewer<'_, N>, space: &Space, notes: &[String
 /// Times since the page's first one, of a run that begins so much later.
 fn moments(json: &mut Json, times: &[f64], later: f64) {
     json.doubles("times", &times.iter().map(|time| time + later).collect::<Vec<f64>>());
+}
+
+/// Writes what a run marks and says, at times since the page's first one.
+fn occasions(json: &mut Json, (marks, words): (&[Mark], &[Words]), start: f64) {
+    let write = |json: &mut Json, mark: &Mark| {
+        json.number("time", mark.time - start);
+        json.text("text", &mark.text);
+    };
+    let sorted = |marks: &[Mark]| {
+        let mut marks = marks.to_vec();
+        marks.sort_by(|a, b| a.time.total_cmp(&b.time));
+        marks
+    };
+    json.objects("marks", &sorted(marks), write);
+    json.objects("words", words, |json, words| {
+        json.text("name", &words.name);
+        json.objects("changes", &sorted(&words.changes), write);
+    });
 }
 
 /// Writes all that a run shows that begins so much later than the page.

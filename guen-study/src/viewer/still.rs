@@ -130,6 +130,7 @@ fn panel_picture<const N: usize>(viewer: &Viewer<'_, N>, panel: &Panel) -> Optio
     let plot = Plot::new(&panel.name).axes(format!("t in {unit}"), "");
     let plot =
         panel.curves.iter().fold(plot, |plot, curve| plot.line(&curve.name, thinned(viewer, curve, points)));
+    let plot = plot.moments("mark", viewer.marks.iter().map(|mark| mark.time));
     let [width, height] = PANEL;
     // One sample is a point of each curve.
     let plot = plot.mark_points(viewer.samples.len() == 1);

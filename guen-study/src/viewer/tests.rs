@@ -559,3 +559,42 @@ fn what_is_below_a_table_is_behind_it() {
     assert!(order(0.2, [0.0, -1.0, 0.5]) && !order(-0.2, [0.0, -1.0, 0.5]));
     assert!(!order(0.2, [0.0, -1.0, -0.5]) && order(-0.2, [0.0, -1.0, -0.5]));
 }
+
+#[test]
+fn marks_and_words_are_in_the_order_of_time_since_the_start() {
+    let mut recording = Recording::new(&["x"]);
+    (0..10).for_each(|k| recording.record(2.0 + f64::from(k), &[0.0]));
+    let run = |name| {
+        Viewer::new(name, &recording)
+            .panel("p")
+            .curve("c", |_, s| s[0])
+            .words("belt", [(6.0, "slip"), (2.0, "stick")])
+    };
+    let page = run("one")
+        .mark(6.5, "later")
+        .mark(4.0, "<earlier>")
+        .ghost(run("two").mark(3.0, "other"))
+        .to_html()
+        .unwrap();
+    let marks = r#""marks":[{"time":2,"text":"\u003cearlier\u003e"},{"time":4.5,"text":"later"}]"#;
+    assert!(page.contains(marks) && page.contains(r#""marks":[{"time":1,"text":"other"}]"#));
+    let words = r#""words":[{"name":"belt","changes":[{"time":0,"text":"stick"},{"time":4,"text":"slip"}]}]"#;
+    assert_eq!(page.matches(words).count(), 2);
+    assert!(still(&page).contains("dashed lines at 2 marks"));
+    assert!(
+        matches!(run("one").mark(f64::NAN, "m").to_html(), Err(StudyError::NotDrawable { what, .. }) if what == "the mark `m`")
+    );
+}
+
+#[test]
+fn marks_count_in_the_size_of_a_page() {
+    let recording = recorded(10);
+    let page = |marks: u32| {
+        (0..marks).fold(Viewer::new("v", &recording).curve("c", |_, s| s[0]), |page, k| {
+            page.mark(f64::from(k), "x".repeat(100))
+        })
+    };
+    let few = page(0).to_html().unwrap().len();
+    assert!(page(5000).to_html().unwrap().len() > few + 500_000);
+    assert!(matches!(page(5000).within_bytes(few + 100_000).to_html(), Err(StudyError::TooLarge { .. })));
+}

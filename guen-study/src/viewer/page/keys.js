@@ -2,7 +2,7 @@
 
 const VIEWS = ["first", "above", "front", "side", "below"];
 
-function listenToKeys({ menu,  player, stage, span, setView, redraw }) {
+function listenToKeys({ menu, player, phases, stage, span, setView, redraw }) {
   const click = (id) => () => document.getElementById(id).click();
   const step = (part) => () => player.setTime(player.state.time + part * motion.end);
   const anywhere = {
@@ -10,6 +10,7 @@ function listenToKeys({ menu,  player, stage, span, setView, redraw }) {
     ArrowRight: step(1 / 200), ArrowLeft: step(-1 / 200),
     Home: () => player.setTime(0), End: () => player.setTime(motion.end),
     ",": () => player.toSample(-1), ".": () => player.toSample(1),
+    "[": () => phases.toMark(-1, player.state.time), "]": () => phases.toMark(1, player.state.time),
     Escape: () => menu.close() || span.reset(),
     m: click("more"), p: click("picture"), v: click("values"), w: click("film"), k: click("link"), "?": click("list-keys"),
     l: click("loop"), f: click("follow"), a: click("axes"), n: click("names"), r: click("reset"), 0: click("fit"),

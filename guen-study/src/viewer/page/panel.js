@@ -6,6 +6,9 @@ const PAPER_SIZE = [680, 150, 3];
 /** Pixels between samples from which on each of them has its dot. */
 const APART = 9;
 
+/** Pixels from a mark within which the pointer reads it. */
+const MARK_NEAR = 5;
+
 /** The heading, which folds the panel, and a button for each curve with what it reads. */
 function makeCaption(panel, figure, changed) {
   const caption = document.createElement("figcaption");
@@ -136,6 +139,15 @@ function makePanel(panel, parent, { span, probe, redraw, onPick }) {
       pen.fillText(times[i], Math.min(Math.max(at, left), width - half - 1), height - 4);
     });
     pen.stroke();
+    pen.strokeStyle = pageInk("--edge");
+    pen.setLineDash([2, 3]);
+    pen.beginPath();
+    for (const time of motion.still ? [] : marksIn(span.from, span.to, x)) {
+      pen.moveTo(Math.round(x(time)) + 0.5, top);
+      pen.lineTo(Math.round(x(time)) + 0.5, height - bottom);
+    }
+    pen.stroke();
+    pen.setLineDash([]);
     pen.beginPath();
     pen.rect(left, 0, width - left - right + 2, height - bottom + 2);
     pen.clip();
@@ -205,7 +217,9 @@ function makePanel(panel, parent, { span, probe, redraw, onPick }) {
   /** The time under the pointer, or how long the marked part is. */
   function tell(pen) {
     const length = probe.marked && Math.abs(probe.marked[1] - probe.marked[0]);
-    const text = length ? `Δt = ${clock.length(length)}` : `t = ${clock.text(probe.time)} ${clock.unit}`;
+    const mark = length ? null : markNear(probe.time, (MARK_NEAR * (span.to - span.from)) / axis.width());
+    const moment = mark ? `t = ${clock.text(mark.time)} ${clock.unit} · ${isolated(mark.text)}` : `t = ${clock.text(probe.time)} ${clock.unit}`;
+    const text = length ? `Δt = ${clock.length(length)}` : moment;
     pen.font = "12px system-ui, sans-serif";
     pen.textAlign = "left";
     pen.textBaseline = "top";

@@ -36,6 +36,11 @@ if (panels.length === 0) {
 
 let repaint = true;
 let before = 0;
+const phases = makePhases((time) => {
+  player.setPlaying(false);
+  player.setTime(time);
+});
+for (const [id, by] of [["mark-back", -1], ["mark-forth", 1]]) byId(id).addEventListener("click", () => phases.toMark(by, player.state.time));
 const player = makePlayer((time) => {
   if (time !== before) span.follow(before, time);
   before = time;
@@ -47,6 +52,7 @@ const player = makePlayer((time) => {
     tags.draw();
     film.frame(time);
   }
+  phases.draw(time);
   for (const panel of panels) panel.draw(time, repaint);
   repaint = false;
 });
@@ -139,7 +145,7 @@ byId("values").addEventListener("click", saveValues);
 byId("values").hidden = motion.curves.length === 0;
 byId("film").hidden = !stage || motion.still;
 link.isShown = link.read();
-listenToKeys({ menu,  player, stage, span, setView, redraw });
+listenToKeys({ menu, player, phases, stage, span, setView, redraw });
 new ResizeObserver(redraw).observe(document.querySelector("main"));
 // For programs that test the page.
 window.guen = { motion, player, stage, span, probe, look };
