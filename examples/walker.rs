@@ -1,5 +1,5 @@
 //! A passive walker: two straight legs walk down a gentle slope without motors. Its gait is a fixed point of the map from one step to the
-//! next, found by Newton's method; the eigenvalues of the map say whether the gait is stable.
+//! next, found by Newton's method; the eigenvalues of the map say whether the gait is stable. Its derivatives go through the strike of the heel.
 //!
 //! ```text
 //! cargo run --release --example walker -- --open
@@ -19,7 +19,7 @@ use std::process::ExitCode;
 use guen::hybrid::TransitionKind;
 use guen::steppers::Dop853;
 use guen_study::{ContactFrame, ExportModes, Shape};
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 
 guen::mechanical_system! {
     /// The walker in axes along the slope and across it. A foot that swings forward passes through the ground and closes in front alone.
@@ -63,35 +63,51 @@ fn start(walker: &walker::Prepared, section: &Section) -> walker::State {
     }
 }
 
-/// The section after one step, in which the right leg comes to the front, and the time of the step.
-fn step(walker: &walker::Prepared, section: &Section) -> Result<(Section, f64), Box<dyn Error>> {
-    let begin = start(walker, section);
-    let mut strike = None;
-    walker
-        .simulation(&begin)
-        .method(Dop853::new(1e-13, 1e-13))
-        .observe_transitions(|transition| {
-            if transition.kind == TransitionKind::Impact && transition.t > 0.0 {
-                strike = Some((transition.t, walker::State::from(transition.state_after)));
-                return ControlFlow::Break(());
-            }
-            ControlFlow::Continue(())
-        })
-        .run(0.0..3.0)?;
-    let (time, after) = strike.ok_or("the walker falls")?;
-    Ok((Section::new(after.right, after.right_rate, after.left_rate), time))
+/// The derivatives of that start by the section.
+fn start_by_section(walker: &walker::Prepared, section: &Section) -> SMatrix<f64, 8, 3> {
+    let (angle, front) = (section[0], section[1]);
+    let length = walker.constants().length;
+    let (sin, cos) = angle.sin_cos();
+    let by_angle = [0.0, -length * sin, 1.0, -1.0, length * sin * front, -length * cos * front, 0.0, 0.0];
+    let by_front = [0.0, 0.0, 0.0, 0.0, -length * cos, -length * sin, 1.0, 0.0];
+    let by_rear = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0];
+    SMatrix::from_columns(&[by_angle, by_front, by_rear].map(SVector::from))
 }
 
-/// The derivatives of the map of one step, by central differences.
-fn derivative(walker: &walker::Prepared, section: &Section) -> Result<Matrix3<f64>, Box<dyn Error>> {
-    const DISTANCE: f64 = 1e-5;
-    let mut derivative = Matrix3::zeros();
-    for k in 0..3 {
-        let aside = DISTANCE * Vector3::ith(k, 1.0);
-        let difference = step(walker, &(section + aside))?.0 - step(walker, &(section - aside))?.0;
-        derivative.set_column(k, &(difference / (2.0 * DISTANCE)));
-    }
-    Ok(derivative)
+/// One step, in which the right leg comes to the front.
+struct Step {
+    /// The section after it.
+    section: Section,
+    time: f64,
+    /// The derivatives of the section after it by that before.
+    derivative: Matrix3<f64>,
+}
+
+/// Makes a step, and differentiates it: through the swing, and through the strike of the heel whose time depends on the section.
+fn step(walker: &walker::Prepared, section: &Section) -> Result<Step, Box<dyn Error>> {
+    const TOLERANCE: f64 = 1e-13;
+    let is_strike = |kind: TransitionKind, t: f64| kind == TransitionKind::Impact && t > 0.0;
+    let motion = walker
+        .simulation(&start(walker, section))
+        .tolerance(TOLERANCE)
+        .observe_transitions(|transition| match is_strike(transition.kind, transition.t) {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        })
+        .run(0.0..3.0)?;
+    let last = motion.transitions().len().saturating_sub(1);
+    let strike = motion.transitions().last().filter(|strike| is_strike(strike.kind, strike.t));
+    let strike = strike.ok_or("the walker falls")?;
+    let by_start = motion.sensitivity_of_transition(last, &Dop853::new(TOLERANCE, TOLERANCE))?;
+    // The section is made of the angle and the rate of the right leg and of the rate of the left one.
+    let after = SMatrix::<f64, 8, 8>::from_fn(|i, j| by_start.state[i][j]);
+    let rows = SMatrix::<f64, 3, 8>::from_rows(&[after.row(3), after.row(7), after.row(6)]);
+    let state = walker::State::from(strike.state_after);
+    Ok(Step {
+        section: Section::new(state.right, state.right_rate, state.left_rate),
+        time: strike.t,
+        derivative: rows * start_by_section(walker, section),
+    })
 }
 
 fn main() -> Result<ExitCode, Box<dyn Error>> {
@@ -108,20 +124,20 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
     let mut gait = Section::new(0.27, -1.1, -0.4);
     let mut left = f64::INFINITY;
     for round in 0..12 {
-        let next = step(&walker, &gait)?.0;
+        let Step { section: next, derivative, .. } = step(&walker, &gait)?;
         left = (next - gait).norm();
         println!("round {round}: off by {left:.1e}");
         if left < 1e-11 {
             break;
         }
-        let matrix = derivative(&walker, &gait)? - Matrix3::identity();
+        let matrix = derivative - Matrix3::identity();
         gait += matrix.lu().solve(&(gait - next)).ok_or("the map has no isolated fixed point")?;
     }
-    let (_, time) = step(&walker, &gait)?;
+    let Step { time, derivative, .. } = step(&walker, &gait)?;
     println!("half of the angle between the legs {:.6} rad, a step in {time:.6} s", gait[0]);
 
     // 2. Its stability: what becomes of a small deviation in one step.
-    let multipliers = derivative(&walker, &gait)?.complex_eigenvalues();
+    let multipliers = derivative.complex_eigenvalues();
     let largest = multipliers.iter().fold(0.0, |most: f64, value| most.max(value.norm()));
     for value in &multipliers {
         println!("multiplier {:+.6} {:+.6} i, of size {:.6}", value.re, value.im, value.norm());

@@ -19,13 +19,21 @@ type Visitor<'a, M, const N: usize> = &'a mut dyn FnMut(usize, f64, &[f64; N], &
 type Receiver<'a, M, const N: usize, const W: usize, const C: usize> =
     &'a mut dyn FnMut(&Transition<M, N, W, C>) -> ControlFlow<()>;
 
+/// Is told of each transition with the systems in the modes before and after it; ends the run when it breaks.
+type Between<'a, H, M, const N: usize, const W: usize, const C: usize, const S: usize> =
+    &'a mut dyn FnMut(
+        &Transition<M, N, W, C>,
+        &InMode<H, N, W, C, S>,
+        &InMode<H, N, W, C, S>,
+    ) -> ControlFlow<()>;
+
 /// A run of a system with contacts through its modes, from one time and state.
 ///
 /// - The mode at the start is found: contacts whose gap is zero touch, latches whose gap is zero at rest are locked. What moves into a
 ///   contact there meets it at once.
 /// - The step in which a mode ends is cut there; the next one begins with its size.
 /// - A run goes forwards in time. Runs over duals are refused by the types: the times of transitions depend on the start, which their
-///   derivatives would not know.
+///   derivatives would not know. Derivatives go through transitions by [`Transition::saltation`].
 /// - Spatial slip that begins from rest is stiff, since its direction follows the force at once: explicit methods make some ten thousand
 ///   small steps there.
 /// - A [`Guard`] watches it within its modes: it refuses to come close to where the chart or the equations end. Permanent constraints on
@@ -43,6 +51,7 @@ where
     pub(super) visitor: Option<Visitor<'a, H::Mode, N>>,
     pub(super) inputs: &'a [(f64, H::Inputs)],
     pub(super) receiver: Option<Receiver<'a, H::Mode, N, W, C>>,
+    pub(super) between: Option<Between<'a, H, H::Mode, N, W, C, S>>,
     pub(super) resting_accuracy: f64,
     pub(super) max_transitions: u64,
     pub(super) guard: Guard,
@@ -82,6 +91,7 @@ where
             visitor: None,
             inputs: &[],
             receiver: None,
+            between: None,
             resting_accuracy: 1e-12,
             max_transitions: Self::MAX_TRANSITIONS,
             guard: Guard { every: Some(1), ..Guard::default() },
@@ -104,6 +114,13 @@ where
     #[must_use]
     pub fn transitions(self, receiver: Receiver<'a, H::Mode, N, W, C>) -> Self {
         Self { receiver: Some(receiver), ..self }
+    }
+
+    /// Tells a receiver of every transition that ends a mode, with the systems in the modes before and after it, as
+    /// [`Transition::saltation`] takes them; when it breaks, the run ends there.
+    #[must_use]
+    pub fn transitions_between(self, receiver: Between<'a, H, H::Mode, N, W, C, S>) -> Self {
+        Self { between: Some(receiver), ..self }
     }
 
     /// Sets the error, as a time, with which the end of infinitely many impacts may be found: `1e-12` unless it is set.

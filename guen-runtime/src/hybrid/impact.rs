@@ -1,18 +1,21 @@
 //! Impacts by Poisson's law: compression and expansion, each one complementarity problem over the Delassus matrix.
 
+use core::array::from_fn;
+
 use crate::hybrid::element::{Element, Kind};
-use crate::hybrid::phase::{Participant, Phase, Tangential};
+use crate::hybrid::phase::{Participant, Phase, Solved, Tangential};
+use crate::numbers::lift::Lift;
 
 /// The impact of some elements at one state.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Impact<'a, const W: usize, const C: usize> {
+pub(super) struct Impact<'a, R, const W: usize, const C: usize> {
     pub(super) elements: &'a [Element; C],
-    pub(super) delassus: &'a [[f64; W]; W],
+    pub(super) delassus: &'a [[R; W]; W],
     /// The rates of all rows before it.
-    pub(super) before: [f64; W],
+    pub(super) before: [R; W],
     /// The elements that take part: contacts that touch, latches that lock or are locked, grips.
     pub(super) takes_part: [bool; C],
-    pub(super) friction: [f64; C],
+    pub(super) friction: [R; C],
     pub(super) restitutions: [f64; C],
 }
 
@@ -44,42 +47,56 @@ pub(super) enum Unsolved {
 /// The gain of energy, relative to what the impulses do, that is rounding.
 const GAIN: f64 = 1e-9;
 
-impl<const W: usize, const C: usize> Impact<'_, W, C> {
+impl<R: Lift<f64>, const W: usize, const C: usize> Impact<'_, R, W, C> {
     /// The largest rate before it.
     fn scale(&self) -> f64 {
-        self.before.iter().fold(0.0, |most, rate| most.max(rate.abs()))
+        self.before.iter().fold(0.0, |most, rate| most.max(rate.to_f64().abs()))
     }
 
-    /// The impulses of compression and expansion.
-    pub(super) fn solve(&self) -> Result<Struck<W, C>, Unsolved> {
-        let participants: [Participant; C] = core::array::from_fn(|c| {
-            let element = &self.elements[c];
-            if !self.takes_part[c] {
-                return Participant::Absent;
-            }
-            match element.kind {
-                Kind::Latch => Participant::Locked,
-                Kind::Grip => Participant::Grip,
-                Kind::Smooth | Kind::Rough => Participant::Contact { floor: 0.0 },
-            }
+    /// The phase in which what closes is stopped.
+    pub(super) fn compression(&self) -> Phase<'_, R, W, C> {
+        let participants: [Participant<R>; C] = from_fn(|c| match self.elements[c].kind {
+            _ if !self.takes_part[c] => Participant::Absent,
+            Kind::Latch => Participant::Locked,
+            Kind::Grip => Participant::Grip,
+            Kind::Smooth | Kind::Rough => Participant::Contact { floor: R::zero() },
         });
-        let phase = |participants, before| Phase {
+        Phase {
             elements: self.elements,
             delassus: self.delassus,
-            before,
+            before: self.before,
             scale: self.scale(),
             participants,
             friction: self.friction,
-        };
-        let compression = phase(participants, self.before).solve()?;
-        let mut expanding = participants;
-        for (c, participant) in expanding.iter_mut().enumerate() {
-            if let (Participant::Contact { floor }, Some(row)) = (participant, self.elements[c].normal) {
-                *floor = self.restitutions[c] * compression.impulses[row].max(0.0);
+        }
+    }
+
+    /// The phase in which contacts give back a part of what stopped them.
+    pub(super) fn expansion(&self, compression: &Solved<R, W, C>) -> Phase<'_, R, W, C> {
+        let mut phase = self.compression();
+        phase.before = compression.after;
+        for (c, participant) in phase.participants.iter_mut().enumerate() {
+            if let (Participant::Contact { floor }, Some(row)) = (participant, self.elements[c].normal)
+                && compression.impulses[row].to_f64() > 0.0
+            {
+                *floor = R::lift(self.restitutions[c]) * compression.impulses[row];
             }
         }
-        let expansion = phase(expanding, compression.after).solve()?;
-        let impulses: [f64; W] = core::array::from_fn(|w| compression.impulses[w] + expansion.impulses[w]);
+        phase
+    }
+
+    /// The contacts that close where all do that take part.
+    pub(super) fn all_closed(&self) -> [bool; C] {
+        from_fn(|c| self.takes_part[c] && self.elements[c].normal.is_some())
+    }
+}
+
+impl<const W: usize, const C: usize> Impact<'_, f64, W, C> {
+    /// The impulses of compression and expansion.
+    pub(super) fn solve(&self) -> Result<Struck<W, C>, Unsolved> {
+        let compression = self.compression().solve()?;
+        let expansion = self.expansion(&compression).solve()?;
+        let impulses: [f64; W] = from_fn(|w| compression.impulses[w] + expansion.impulses[w]);
         let struck = self.summed(impulses, &expansion.closed, &expansion.tangential);
         let work: f64 = impulses.iter().zip(&self.before).map(|(l, rate)| (l * rate).abs()).sum();
         if struck.energy > GAIN * work {
@@ -91,45 +108,36 @@ impl<const W: usize, const C: usize> Impact<'_, W, C> {
     /// The impact that closes all contacts taking part and keeps the friction of an impact before: sticking stays sticking, slip
     /// stays slip.
     pub(super) fn closing(&self, like: &Struck<W, C>) -> Option<Struck<W, C>> {
-        let tangential: [Tangential; C] = core::array::from_fn(|c| {
+        let solved = self.closed_like(like)?;
+        Some(self.summed(solved.impulses, &solved.closed, &solved.tangential))
+    }
+
+    /// The one phase of such an impact.
+    pub(super) fn closed_like(&self, like: &Struck<W, C>) -> Option<Solved<f64, W, C>> {
+        let tangential: [Tangential; C] = from_fn(|c| {
             if like.sticks[c] {
                 Tangential::Stick
             } else {
                 Tangential::along(self.elements[c].tangential, &like.after)
             }
         });
-        let participants: [Participant; C] = core::array::from_fn(|c| match self.elements[c].kind {
-            _ if !self.takes_part[c] => Participant::Absent,
-            Kind::Latch => Participant::Locked,
-            Kind::Grip => Participant::Grip,
-            _ => Participant::Contact { floor: 0.0 },
-        });
-        let phase = Phase {
-            elements: self.elements,
-            delassus: self.delassus,
-            before: self.before,
-            scale: self.scale(),
-            participants,
-            friction: self.friction,
-        };
-        let closed: [bool; C] =
-            core::array::from_fn(|c| self.takes_part[c] && self.elements[c].normal.is_some());
-        let solved = phase.with_states(&closed, &tangential)?;
-        Some(self.summed(solved.impulses, &closed, &tangential))
+        self.compression().with_states(&self.all_closed(), &tangential)
     }
 
     fn summed(&self, impulses: [f64; W], closed: &[bool; C], tangential: &[Tangential; C]) -> Struck<W, C> {
-        let after: [f64; W] = core::array::from_fn(|w| {
+        let after: [f64; W] = from_fn(|w| {
             self.before[w] + impulses.iter().zip(&self.delassus[w]).map(|(l, d)| l * d).sum::<f64>()
         });
         let energy = impulses.iter().zip(&self.before).zip(&after).map(|((l, a), b)| 0.5 * l * (a + b)).sum();
-        let sticks = core::array::from_fn(|c| self.takes_part[c] && tangential[c] == Tangential::Stick);
+        let sticks = from_fn(|c| self.takes_part[c] && tangential[c] == Tangential::Stick);
         Struck { impulses, after, closed: *closed, sticks, energy }
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use core::array::from_fn;
+
     use super::{Impact, Struck, Unsolved};
     use crate::hybrid::element::{Element, Kind};
 
@@ -144,11 +152,8 @@ mod tests {
 
         /// A symmetric positive definite matrix: rows times their transposes, in `rank` dimensions.
         fn delassus<const W: usize>(&mut self, rank: usize) -> [[f64; W]; W] {
-            let rows: [[f64; 12]; W] =
-                core::array::from_fn(|_| core::array::from_fn(|k| if k < rank { self.next() } else { 0.0 }));
-            core::array::from_fn(|i| {
-                core::array::from_fn(|j| rows[i].iter().zip(&rows[j]).map(|(a, b)| a * b).sum())
-            })
+            let rows: [[f64; 12]; W] = from_fn(|_| from_fn(|k| if k < rank { self.next() } else { 0.0 }));
+            from_fn(|i| from_fn(|j| rows[i].iter().zip(&rows[j]).map(|(a, b)| a * b).sum()))
         }
     }
 
@@ -165,7 +170,7 @@ mod tests {
     }
 
     fn product<const W: usize>(d: &[[f64; W]; W], x: &[f64; W]) -> [f64; W] {
-        core::array::from_fn(|i| (0..W).map(|j| d[i][j] * x[j]).sum())
+        from_fn(|i| (0..W).map(|j| d[i][j] * x[j]).sum())
     }
 
     #[test]
@@ -175,8 +180,8 @@ mod tests {
         let mut random = Random(7);
         for _ in 0..40 {
             let delassus = random.delassus::<3>(6);
-            let before: [f64; 3] = core::array::from_fn(|_| random.next());
-            let restitutions: [f64; 3] = core::array::from_fn(|_| random.next().abs());
+            let before: [f64; 3] = from_fn(|_| random.next());
+            let restitutions: [f64; 3] = from_fn(|_| random.next().abs());
             let impact = Impact {
                 elements: &ELEMENTS,
                 delassus: &delassus,
@@ -189,9 +194,9 @@ mod tests {
             let compression = relaxed(&delassus, &before);
             let change = product(&delassus, &compression);
             // Expansion, in the variables beyond their lower bounds.
-            let floor: [f64; 3] = core::array::from_fn(|i| restitutions[i] * compression[i]);
+            let floor: [f64; 3] = from_fn(|i| restitutions[i] * compression[i]);
             let pushed = product(&delassus, &floor);
-            let beyond = relaxed(&delassus, &core::array::from_fn(|i| before[i] + change[i] + pushed[i]));
+            let beyond = relaxed(&delassus, &from_fn(|i| before[i] + change[i] + pushed[i]));
             for i in 0..3 {
                 let expected = compression[i] + floor[i] + beyond[i];
                 assert!(
@@ -220,9 +225,9 @@ mod tests {
         let (mut solved, mut several, mut gained) = (0, 0, 0);
         for _ in 0..400 {
             let delassus = random.delassus::<4>(8);
-            let mut before: [f64; 4] = core::array::from_fn(|_| random.next());
+            let mut before: [f64; 4] = from_fn(|_| random.next());
             before[0] = -before[0].abs();
-            let friction: [f64; 2] = core::array::from_fn(|_| random.next().abs());
+            let friction: [f64; 2] = from_fn(|_| random.next().abs());
             // Without expansion the whole impact is one phase.
             let mut impact = Impact {
                 elements: &ELEMENTS,
@@ -272,7 +277,7 @@ mod tests {
         let mut slipped = 0;
         for _ in 0..200 {
             let delassus = random.delassus::<3>(7);
-            let mut before: [f64; 3] = core::array::from_fn(|_| random.next());
+            let mut before: [f64; 3] = from_fn(|_| random.next());
             before[0] = -before[0].abs();
             let mu = random.next().abs();
             let impact = Impact {

@@ -13,6 +13,8 @@ pub(super) struct Segment<H, const N: usize, const W: usize, const C: usize, con
     pub(super) in_mode: InMode<H, N, W, C, S>,
     /// The position of its first step.
     pub(super) first: usize,
+    /// The number of transitions until it begins, that with which it begins included.
+    pub(super) transitions: usize,
 }
 
 /// The steps and modes of a run.
@@ -37,15 +39,20 @@ impl<H: Clone, P, const N: usize, const W: usize, const C: usize, const S: usize
         Self { segments: Vec::new(), steps: Vec::new() }
     }
 
+    /// The number of transitions until the last mode begins.
+    pub(super) fn told(&self) -> usize {
+        self.segments.last().map_or(0, |segment| segment.transitions)
+    }
+
     /// Keeps a mode that begins.
     pub(super) fn begin(
         &mut self,
         (start, state): (f64, &[f64; N]),
         in_mode: &InMode<H, N, W, C, S>,
-        first: usize,
+        (first, transitions): (usize, usize),
         memory: usize,
     ) -> Result<(), Cause> {
-        let segment = Segment { start, state: *state, in_mode: in_mode.clone(), first };
+        let segment = Segment { start, state: *state, in_mode: in_mode.clone(), first, transitions };
         push(&mut self.segments, segment, memory)
     }
 }

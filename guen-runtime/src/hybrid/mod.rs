@@ -80,6 +80,7 @@ mod error;
 mod facts;
 mod impact;
 mod in_mode;
+mod jump;
 #[cfg(feature = "alloc")]
 mod kept;
 mod located;
@@ -91,7 +92,10 @@ mod polished;
 mod redundant;
 mod resting;
 mod run;
+mod saltation;
 mod select;
+#[cfg(feature = "alloc")]
+mod sensitivity;
 mod signals;
 #[cfg(feature = "alloc")]
 mod simulation;
@@ -109,6 +113,9 @@ pub use error::{HybridCause, HybridError};
 pub use in_mode::{InMode, Reactions};
 pub use mode::{ElementState, Mode};
 pub use mode_info::ModeInfo;
+pub use saltation::{NoSaltation, Saltation};
+#[cfg(feature = "alloc")]
+pub use sensitivity::{SensitivityError, TransitionSensitivity};
 #[cfg(feature = "alloc")]
 pub use simulation::{HybridSimulation, HybridSimulationError, SimulateModes};
 pub use system::{Conditions, FreeMotion, HybridSystem};

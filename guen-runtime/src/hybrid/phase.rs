@@ -5,14 +5,15 @@ use core::f64::consts::TAU;
 
 use crate::hybrid::element::Element;
 use crate::hybrid::impact::Unsolved;
+use crate::numbers::real::Real;
 
 /// The part of an element in a phase.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Participant {
+pub(super) enum Participant<R = f64> {
     /// No part.
     Absent,
     /// A contact: `0 <= gamma_n` is complementary to `Lambda_n - floor >= 0`.
-    Contact { floor: f64 },
+    Contact { floor: R },
     /// Friction under the impulse of another element.
     Grip,
     /// A rate that vanishes, whatever impulse that takes.
@@ -21,12 +22,12 @@ pub(super) enum Participant {
 
 /// The tangential state of an element in a phase.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Tangential {
+pub(super) enum Tangential<R = f64> {
     /// There is no tangential impulse to speak of.
     None,
     Stick,
     /// Slip in the direction of this unit vector.
-    Slip([f64; 2]),
+    Slip([R; 2]),
 }
 
 impl Tangential {
@@ -41,25 +42,25 @@ impl Tangential {
 
 /// One phase of an impact.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Phase<'a, const W: usize, const C: usize> {
+pub(super) struct Phase<'a, R, const W: usize, const C: usize> {
     pub(super) elements: &'a [Element; C],
-    pub(super) delassus: &'a [[f64; W]; W],
+    pub(super) delassus: &'a [[R; W]; W],
     /// The rates of the rows before it.
-    pub(super) before: [f64; W],
+    pub(super) before: [R; W],
     /// The largest rate before the impact, with which rates are compared.
     pub(super) scale: f64,
-    pub(super) participants: [Participant; C],
-    pub(super) friction: [f64; C],
+    pub(super) participants: [Participant<R>; C],
+    pub(super) friction: [R; C],
 }
 
 /// The solution of a phase.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Solved<const W: usize, const C: usize> {
-    pub(super) impulses: [f64; W],
-    pub(super) after: [f64; W],
+pub(super) struct Solved<R, const W: usize, const C: usize> {
+    pub(super) impulses: [R; W],
+    pub(super) after: [R; W],
     /// The contacts whose normal rate vanishes.
     pub(super) closed: [bool; C],
-    pub(super) tangential: [Tangential; C],
+    pub(super) tangential: [Tangential<R>; C],
 }
 
 /// Combinations that are tried in one phase.
@@ -80,29 +81,41 @@ struct Choice {
     turns: bool,
 }
 
-impl<const W: usize, const C: usize> Phase<'_, W, C> {
+impl<const W: usize, const C: usize> Phase<'_, f64, W, C> {
     /// The impulses that satisfy the laws of all elements.
-    pub(super) fn solve(&self) -> Result<Solved<W, C>, Unsolved> {
+    pub(super) fn solve(&self) -> Result<Solved<f64, W, C>, Unsolved> {
+        let mut best: Option<(f64, Solved<f64, W, C>)> = None;
+        let mut several = false;
+        self.visit(&mut |solved, violation| {
+            several |= best.as_ref().is_some_and(|(_, best)| !self.is_same(solved, best));
+            if best.as_ref().is_none_or(|(least, _)| violation < *least) {
+                best = Some((violation, *solved));
+            }
+        })?;
+        match best {
+            _ if several => Err(Unsolved::Several),
+            Some((_, solved)) => Ok(solved),
+            None => Err(Unsolved::None),
+        }
+    }
+
+    /// Whether two solutions have the same rates.
+    pub(super) fn is_same(&self, one: &Solved<f64, W, C>, other: &Solved<f64, W, C>) -> bool {
+        let same = |(a, b): (&f64, &f64)| (a - b).abs() <= DIFFERENT * self.scale;
+        one.after.iter().zip(&other.after).all(same)
+    }
+
+    /// Visits the states of all elements whose impulses satisfy the laws, with their violation by rounding.
+    pub(super) fn visit(&self, visit: &mut dyn FnMut(&Solved<f64, W, C>, f64)) -> Result<(), Unsolved> {
         let choices: [([Choice; 8], usize); C] = from_fn(|c| self.choices(c));
         let count = choices.iter().fold(1_usize, |product, (_, length)| product.saturating_mul(*length));
         if count > MAX_COMBINATIONS {
             return Err(Unsolved::None);
         }
-        let scale = self.scale;
-        let mut best: Option<(f64, Solved<W, C>)> = None;
-        let mut several = false;
-        let mut judge = |solved: &Solved<W, C>| {
-            let violation = self.violation(solved, scale);
-            if !(violation <= ROUNDING) {
-                return;
-            }
-            let same = |other: &Solved<W, C>| {
-                let same = |(a, b): (&f64, &f64)| (a - b).abs() <= DIFFERENT * scale;
-                solved.after.iter().zip(&other.after).all(same)
-            };
-            several |= best.as_ref().is_some_and(|(_, best)| !same(best));
-            if best.as_ref().is_none_or(|(least, _)| violation < *least) {
-                best = Some((violation, *solved));
+        let mut judge = |solved: &Solved<f64, W, C>| {
+            let violation = self.violation(solved, self.scale);
+            if violation <= ROUNDING {
+                visit(solved, violation);
             }
         };
         for index in 0..count {
@@ -126,11 +139,7 @@ impl<const W: usize, const C: usize> Phase<'_, W, C> {
                 Some(turning) => self.turned(turning, &closed, tangential, &mut judge),
             }
         }
-        match best {
-            _ if several => Err(Unsolved::Several),
-            Some((_, solved)) => Ok(solved),
-            None => Err(Unsolved::None),
-        }
+        Ok(())
     }
 
     /// The states of an element that are tried.
@@ -173,56 +182,8 @@ impl<const W: usize, const C: usize> Phase<'_, W, C> {
         (all, count)
     }
 
-    /// The impulses with which these contacts close and these elements stick or slip, whatever the inequalities say; none where
-    /// they are not determined.
-    pub(super) fn with_states(
-        &self,
-        closed: &[bool; C],
-        tangential: &[Tangential; C],
-    ) -> Option<Solved<W, C>> {
-        let (mut known, mut unknown) = ([0.0; W], [false; W]);
-        for (c, element) in self.elements.iter().enumerate() {
-            if let (Some(row), Participant::Contact { floor }) = (element.normal, self.participants[c]) {
-                (known[row], unknown[row]) = (if closed[c] { 0.0 } else { floor }, closed[c]);
-            }
-            if let (Some(row), Participant::Locked) = (element.normal, self.participants[c]) {
-                unknown[row] = true;
-            }
-            if tangential[c] == Tangential::Stick {
-                for &row in element.tangential {
-                    unknown[row] = true;
-                }
-            }
-        }
-        // The matrix with the columns of friction added to those of the loads.
-        let mut matrix = *self.delassus;
-        for (c, element) in self.elements.iter().enumerate() {
-            let (Tangential::Slip(direction), Some(load)) = (tangential[c], element.load) else { continue };
-            for (w, row) in matrix.iter_mut().enumerate() {
-                for (&t, d) in element.tangential.iter().zip(direction) {
-                    row[load] -= self.friction[c] * d * self.delassus[w][t];
-                }
-            }
-        }
-        let right: [f64; W] =
-            from_fn(|w| -(self.before[w] + known.iter().zip(&matrix[w]).map(|(l, d)| l * d).sum::<f64>()));
-        let found = solve_some(&matrix, &right, &unknown)?;
-        let mut impulses: [f64; W] = from_fn(|w| known[w] + found[w]);
-        for (c, element) in self.elements.iter().enumerate() {
-            let (Tangential::Slip(direction), Some(load)) = (tangential[c], element.load) else { continue };
-            for (&t, d) in element.tangential.iter().zip(direction) {
-                impulses[t] = -self.friction[c] * d * impulses[load];
-            }
-        }
-        let after: [f64; W] = from_fn(|w| {
-            self.before[w] + impulses.iter().zip(&self.delassus[w]).map(|(l, d)| l * d).sum::<f64>()
-        });
-        let finite = after.iter().all(|rate| rate.is_finite());
-        finite.then_some(Solved { impulses, after, closed: *closed, tangential: *tangential })
-    }
-
     /// The largest violation of an inequality: of rates relative to `scale`, of impulses relative to those that stop such rates.
-    fn violation(&self, solved: &Solved<W, C>, scale: f64) -> f64 {
+    fn violation(&self, solved: &Solved<f64, W, C>, scale: f64) -> f64 {
         let Solved { impulses, after, closed, tangential } = solved;
         if scale == 0.0 {
             return 0.0;
@@ -264,7 +225,7 @@ impl<const W: usize, const C: usize> Phase<'_, W, C> {
         turning: usize,
         closed: &[bool; C],
         mut tangential: [Tangential; C],
-        judge: &mut dyn FnMut(&Solved<W, C>),
+        judge: &mut dyn FnMut(&Solved<f64, W, C>),
     ) {
         let &[first, second] = self.elements[turning].tangential else { return };
         let mut at = |angle: f64| {
@@ -297,13 +258,66 @@ impl<const W: usize, const C: usize> Phase<'_, W, C> {
     }
 }
 
+impl<R: Real, const W: usize, const C: usize> Phase<'_, R, W, C> {
+    /// The impulses with which these contacts close and these elements stick or slip, whatever the inequalities say; none where
+    /// they are not determined.
+    pub(super) fn with_states(
+        &self,
+        closed: &[bool; C],
+        tangential: &[Tangential<R>; C],
+    ) -> Option<Solved<R, W, C>> {
+        let zero = R::zero();
+        let (mut known, mut unknown) = ([zero; W], [false; W]);
+        for (c, element) in self.elements.iter().enumerate() {
+            if let (Some(row), Participant::Contact { floor }) = (element.normal, self.participants[c]) {
+                (known[row], unknown[row]) = (if closed[c] { zero } else { floor }, closed[c]);
+            }
+            if let (Some(row), Participant::Locked) = (element.normal, self.participants[c]) {
+                unknown[row] = true;
+            }
+            if tangential[c] == Tangential::Stick {
+                for &row in element.tangential {
+                    unknown[row] = true;
+                }
+            }
+        }
+        // The matrix with the columns of friction added to those of the loads.
+        let mut matrix = *self.delassus;
+        for (c, element) in self.elements.iter().enumerate() {
+            let (Tangential::Slip(direction), Some(load)) = (tangential[c], element.load) else { continue };
+            for (w, row) in matrix.iter_mut().enumerate() {
+                for (&t, d) in element.tangential.iter().zip(direction) {
+                    row[load] -= self.friction[c] * d * self.delassus[w][t];
+                }
+            }
+        }
+        let right: [R; W] = from_fn(|w| -added(self.before[w], &known, &matrix[w]));
+        let found = solve_some(&matrix, &right, &unknown)?;
+        let mut impulses: [R; W] = from_fn(|w| known[w] + found[w]);
+        for (c, element) in self.elements.iter().enumerate() {
+            let (Tangential::Slip(direction), Some(load)) = (tangential[c], element.load) else { continue };
+            for (&t, d) in element.tangential.iter().zip(direction) {
+                impulses[t] = -(self.friction[c] * d * impulses[load]);
+            }
+        }
+        let after: [R; W] = from_fn(|w| added(self.before[w], &impulses, &self.delassus[w]));
+        let finite = after.iter().all(|rate| rate.to_f64().is_finite());
+        finite.then_some(Solved { impulses, after, closed: *closed, tangential: *tangential })
+    }
+}
+
+/// A rate with what impulses add to it.
+fn added<R: Real, const W: usize>(rate: R, impulses: &[R; W], row: &[R; W]) -> R {
+    impulses.iter().zip(row).fold(R::zero(), |sum, (l, d)| sum + *l * *d) + rate
+}
+
 /// Solves the equations of the unknown rows, with zeros elsewhere, by elimination with complete pivoting. Unknowns that the equations do
 /// not determine are zero if the equations then hold; none if they do not.
-pub(super) fn solve_some<const W: usize>(
-    matrix: &[[f64; W]; W],
-    right: &[f64; W],
+pub(super) fn solve_some<R: Real, const W: usize>(
+    matrix: &[[R; W]; W],
+    right: &[R; W],
     unknown: &[bool; W],
-) -> Option<[f64; W]> {
+) -> Option<[R; W]> {
     /// The part of the largest entry below which a pivot is rounding, and of a right side.
     const DEPENDENT: f64 = 1e-11;
 
@@ -317,12 +331,12 @@ pub(super) fn solve_some<const W: usize>(
             count += 1;
         }
     }
-    let entry = |matrix: &[[f64; W]; W], w: usize, v: usize| matrix[w][v].abs();
+    let entry = |matrix: &[[R; W]; W], w: usize, v: usize| matrix[w][v].to_f64().abs();
     let mut largest = 0.0_f64;
     for &w in &rows[..count] {
         largest = columns[..count].iter().fold(largest, |most, &v| most.max(entry(&matrix, w, v)));
     }
-    let size = right.iter().fold(0.0, |most: f64, r| most.max(r.abs()));
+    let size = right.iter().fold(0.0, |most: f64, r| most.max(r.to_f64().abs()));
     let mut rank = 0;
     while rank < count {
         let (mut best, mut most) = ((rank, rank), 0.0);
@@ -343,19 +357,24 @@ pub(super) fn solve_some<const W: usize>(
         for &other in &rows[rank + 1..count] {
             let factor = matrix[other][column] / matrix[row][column];
             for &v in &columns[rank..count] {
-                matrix[other][v] -= factor * matrix[row][v];
+                let entry = matrix[row][v];
+                matrix[other][v] -= factor * entry;
             }
-            right[other] -= factor * right[row];
+            let entry = right[row];
+            right[other] -= factor * entry;
         }
         rank += 1;
     }
-    if rows[rank..count].iter().any(|&row| !(right[row].abs() <= DEPENDENT * size)) {
+    if rows[rank..count].iter().any(|&row| !(right[row].to_f64().abs() <= DEPENDENT * size)) {
         return None;
     }
-    let mut solution = [0.0; W];
+    let mut solution = [R::zero(); W];
     for k in (0..rank).rev() {
         let (row, column) = (rows[k], columns[k]);
-        let rest: f64 = columns[k + 1..rank].iter().map(|&v| matrix[row][v] * solution[v]).sum();
+        let mut rest = R::zero();
+        for &v in &columns[k + 1..rank] {
+            rest += matrix[row][v] * solution[v];
+        }
         solution[column] = (right[row] - rest) / matrix[row][column];
     }
     Some(solution)

@@ -98,7 +98,7 @@ where
     /// Closes a sequence of impacts early, where the rebound is slow enough: the impact becomes the one that closes.
     pub(super) fn rests(
         &self,
-        impact: &Impact<'_, W, C>,
+        impact: &Impact<'_, f64, W, C>,
         struck: &mut Struck<W, C>,
         resting: &mut Resting<C>,
         meets: [bool; C],

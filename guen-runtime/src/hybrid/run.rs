@@ -7,7 +7,7 @@ use crate::hybrid::located::{Found, Step};
 use crate::hybrid::mode::Mode;
 use crate::hybrid::resting::Resting;
 use crate::hybrid::system::HybridSystem;
-use crate::hybrid::transition::{Transition, TransitionKind};
+use crate::hybrid::transition::{Facts, Transition, TransitionKind};
 use crate::hybrid::turn::{Fired, Place};
 use crate::steppers::guard::part::{Failed, PartWatch};
 use crate::steppers::{Cause, Checkpoint, Interpolant, Method, Statistics, StepperRun};
@@ -63,6 +63,7 @@ where
     {
         let mut due = Some(Fired::default());
         loop {
+            let switched = self.switched;
             while let Some(&(time, inputs)) = self.hybrid.inputs.get(self.switched)
                 && time <= self.place.t
             {
@@ -71,7 +72,7 @@ where
                 due.get_or_insert_with(Fired::default);
             }
             if let Some(fired) = due {
-                let stops = self.turn(&fired, end)?;
+                let stops = self.turn(&fired, self.switched > switched, end)?;
                 let Place { t, state, in_mode, .. } = &self.place;
                 let kept = witness(*t, state, in_mode);
                 kept.map_err(|cause| self.failed(HybridCause::Integration(cause)))?;
@@ -110,10 +111,12 @@ where
     }
 
     /// Goes over to the next mode, and tells of it. Says whether the receiver ends the run.
-    fn turn(&mut self, fired: &Fired<C, S>, end: f64) -> Result<bool, HybridError<N, C>> {
+    fn turn(&mut self, fired: &Fired<C, S>, inputs: bool, end: f64) -> Result<bool, HybridError<N, C>> {
         let begins = self.place.begins;
         let mut resting = self.resting;
-        let (next, transition) = self.place.turn(fired, &mut resting).map_err(|cause| self.failed(cause))?;
+        let turned = self.place.turn(fired, &mut resting).map_err(|cause| self.failed(cause))?;
+        let (next, mut transition) = turned;
+        transition.facts.inputs = inputs;
         self.resting = resting;
         let changes = transition.before != transition.after || transition.impulses != [0.0; W];
         let happened = fired.any() || !begins && changes;
@@ -133,7 +136,7 @@ where
                 self.resting.interrupt();
             }
         }
-        self.place = next;
+        let before = core::mem::replace(&mut self.place, next);
         if !happened && !changes {
             return Ok(false);
         }
@@ -143,11 +146,18 @@ where
             return Err(self.failed(HybridCause::TooManyTransitions { limit }));
         }
         self.chatters(&transition, end).map_err(|cause| self.failed(cause))?;
-        Ok(self.tell(&transition))
+        Ok(self.tell(&transition, Some(&before.in_mode)))
     }
 
-    fn tell(&mut self, transition: &Transition<Mode<C>, N, W, C>) -> bool {
-        let Some(receiver) = &mut self.hybrid.receiver else { return false };
+    /// Tells of a transition, with the system in the mode that it ends.
+    fn tell(
+        &mut self,
+        transition: &Transition<Mode<C>, N, W, C>,
+        ended: Option<&InMode<H, N, W, C, S>>,
+    ) -> bool {
+        if self.hybrid.receiver.is_none() && self.hybrid.between.is_none() {
+            return false;
+        }
         let Transition {
             t,
             kind,
@@ -159,6 +169,7 @@ where
             state_after,
             impulses,
             energy,
+            facts,
         } = *transition;
         let (before, after) = (before.into(), after.into());
         let told = Transition {
@@ -172,8 +183,16 @@ where
             state_after,
             impulses,
             energy,
+            facts,
         };
-        receiver(&told).is_break()
+        let mut breaks = false;
+        if let Some(receiver) = &mut self.hybrid.receiver {
+            breaks |= receiver(&told).is_break();
+        }
+        if let (Some(receiver), Some(ended)) = (&mut self.hybrid.between, ended) {
+            breaks |= receiver(&told, ended, &self.place.in_mode).is_break();
+        }
+        breaks
     }
 
     /// Refuses transitions between the same two modes that hardly move time.
@@ -332,9 +351,10 @@ where
             state_after: *state,
             impulses: [0.0; W],
             energy: 0.0,
+            facts: Facts::none(),
         };
         self.transitions += 1;
-        self.tell(&transition);
+        self.tell(&transition, None);
     }
 
     /// Updates the speeds of spatial slip that count as slow.

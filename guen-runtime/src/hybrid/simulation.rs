@@ -2,6 +2,7 @@
 
 use alloc::boxed::Box;
 use alloc::vec::Vec;
+use core::cell::Cell;
 use core::fmt;
 use core::ops::{ControlFlow, Range};
 
@@ -225,10 +226,12 @@ where
             guard,
         } = self;
         let mut transitions = Vec::new();
+        let told = Cell::new(0);
         let kept = Kept::new(&method, memory);
         let mut log = Log::new();
         let mut tell = |transition: &Transition<H::Mode, N, W, C>| {
             transitions.push(*transition);
+            told.set(told.get() + 1);
             receiver.as_mut().map_or(ControlFlow::Continue(()), |receiver| receiver(transition))
         };
         let mut hybrid =
@@ -243,7 +246,7 @@ where
             hybrid = hybrid.guard(guard);
         }
         let done = hybrid.witnessed(&kept, span.end, &mut |t, state, in_mode| {
-            log.begin((t, state), in_mode, kept.count(), memory)
+            log.begin((t, state), in_mode, (kept.count(), told.get()), memory)
         });
         // What happened in a step that did not fit is no part of the motion.
         let full = kept.full();

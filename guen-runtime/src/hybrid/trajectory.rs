@@ -26,10 +26,10 @@ pub struct HybridTrajectory<
 > where
     H: HybridSystem<N, W, C, S>,
 {
-    log: Log<H, P, N, W, C, S>,
+    pub(super) log: Log<H, P, N, W, C, S>,
     start: (f64, X),
     end: (f64, X),
-    transitions: Vec<Transition<H::Mode, N, W, C>>,
+    pub(super) transitions: Vec<Transition<H::Mode, N, W, C>>,
     work: Statistics,
 }
 

@@ -85,4 +85,43 @@ pub struct Transition<M, const N: usize, const W: usize, const C: usize> {
     pub impulses: [f64; W],
     /// The change of the kinetic energy by the impulses.
     pub energy: f64,
+    pub(super) facts: Facts<C>,
+}
+
+/// The facts of a transition that its derivative depends on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Facts<const C: usize> {
+    /// The functions of the elements that reached zero, as [`Fired`](crate::hybrid::turn::Fired) lists them.
+    pub(super) gap: [bool; C],
+    pub(super) normal: [bool; C],
+    pub(super) cone: [[bool; 2]; C],
+    pub(super) slip: [bool; C],
+    pub(super) shared: bool,
+    /// The number of signals that reached zero.
+    pub(super) signals: usize,
+    /// The elements that took part in an impact; none where there was none.
+    pub(super) takes_part: Option<[bool; C]>,
+    /// Whether the run began here.
+    pub(super) begins: bool,
+    /// Whether inputs change at this time.
+    pub(super) inputs: bool,
+}
+
+impl<const C: usize> Facts<C> {
+    /// Nothing has reached zero.
+    pub(super) fn none() -> Self {
+        let no = [false; C];
+        let cone = [[false; 2]; C];
+        Self {
+            gap: no,
+            normal: no,
+            cone,
+            slip: no,
+            shared: false,
+            signals: 0,
+            takes_part: None,
+            begins: false,
+            inputs: false,
+        }
+    }
 }

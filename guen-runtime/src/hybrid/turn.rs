@@ -12,7 +12,7 @@ use crate::hybrid::pivots::Pivots;
 use crate::hybrid::resting::Resting;
 use crate::hybrid::select::{Known, Rate, select};
 use crate::hybrid::system::{FreeMotion, HybridSystem};
-use crate::hybrid::transition::{Transition, TransitionKind};
+use crate::hybrid::transition::{Facts, Transition, TransitionKind};
 use crate::hybrid::watched::{Function, Sides};
 
 /// The functions that have reached zero.
@@ -140,7 +140,8 @@ where
         if self.begins {
             next.lock_at_start(&mut known);
         }
-        let (impulses, energy, rests) = next.strike(&touches, &locks, &mut known, resting)?;
+        let Strike { impulses, energy, rests, takes_part } =
+            next.strike(&touches, &locks, &mut known, resting)?;
         let struck = impulses.iter().any(|impulse| *impulse != 0.0);
 
         // Where nothing has fired the run begins, or inputs have changed.
@@ -187,6 +188,17 @@ where
             state_after: next.state,
             impulses,
             energy,
+            facts: Facts {
+                gap: fired.gap,
+                normal: fired.normal,
+                cone: fired.cone,
+                slip: fired.slip,
+                shared: fired.shared,
+                signals: fired.signals.iter().filter(|fired| **fired).count(),
+                takes_part,
+                begins: self.begins,
+                inputs: false,
+            },
         };
         Ok((next, transition))
     }
@@ -243,16 +255,14 @@ where
         system.free_motion(self.t, &self.state, &self.in_mode.switches, &speeds)
     }
 
-    /// Changes the velocities by an impact, if some contact that touches closes or a latch locks. Returns the impulses, the change of the
-    /// kinetic energy, and what is told where a sequence of impacts is closed early.
-    #[allow(clippy::type_complexity, reason = "three results of one impact")]
+    /// Changes the velocities by an impact, if some contact that touches closes or a latch locks.
     fn strike(
         &mut self,
         touches: &[bool; C],
         locks: &[bool; C],
         known: &mut [Known; C],
         resting: &mut Resting<C>,
-    ) -> Result<([f64; W], f64, Option<TransitionKind>), HybridCause<C>> {
+    ) -> Result<Strike<W, C>, HybridCause<C>> {
         let free = self.free();
         let before = free.row_rates;
         let meets = |c: usize| {
@@ -260,7 +270,7 @@ where
             touches[c] && H::ELEMENTS[c].kind != Kind::Latch && known[c].normal == Rate::Moving && rate < 0.0
         };
         if !(0..C).any(|c| meets(c) || locks[c]) {
-            return Ok(([0.0; W], 0.0, None));
+            return Ok(Strike { impulses: [0.0; W], energy: 0.0, rests: None, takes_part: None });
         }
         let takes_part: [bool; C] = from_fn(|c| {
             touches[c]
@@ -299,7 +309,8 @@ where
         self.state = moved(&self.state, &struck.impulses, &free.responses);
         let drifts = self.in_mode.system.row_drifts(self.t, &self.state);
         let by_drift: f64 = struck.impulses.iter().zip(&drifts).map(|(l, w)| l * w).sum();
-        Ok((struck.impulses, struck.energy - by_drift, rests))
+        let (impulses, energy) = (struck.impulses, struck.energy - by_drift);
+        Ok(Strike { impulses, energy, rests, takes_part: Some(takes_part) })
     }
 
     /// Sets what begins with a mode: sides of latches that became free, directions of slip, speeds that count as slow.
@@ -369,6 +380,16 @@ where
             && (value.abs() <= -rate * bracket
                 || side(&self.in_mode, &self.sides, function, self.t, &self.state) == 0)
     }
+}
+
+/// The result of an impact, if there was one.
+struct Strike<const W: usize, const C: usize> {
+    impulses: [f64; W],
+    /// The change of the kinetic energy.
+    energy: f64,
+    /// The kind of the transition where a sequence of impacts is closed early.
+    rests: Option<TransitionKind>,
+    takes_part: Option<[bool; C]>,
 }
 
 /// The part of the largest rate before an impact below which a rate after it vanishes.

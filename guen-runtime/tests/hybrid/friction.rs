@@ -17,11 +17,11 @@ fn dop853() -> Dop853<f64> {
 
 /// A block of mass one on a rough plane under a force `pull t` along `x`.
 #[derive(Clone, Copy, Debug)]
-struct Pulled {
-    friction: f64,
-    stiction: f64,
+pub struct Pulled {
+    pub friction: f64,
+    pub stiction: f64,
     /// Whether the mode with slip is excluded.
-    sticks_only: bool,
+    pub sticks_only: bool,
 }
 
 impl HybridSystem<4, 2, 1, 0> for Pulled {

@@ -9,5 +9,7 @@ mod polygons;
 #[cfg(feature = "alloc")]
 mod random;
 mod reference;
+#[cfg(feature = "alloc")]
+mod saltation;
 mod scenarios;
 mod systems;

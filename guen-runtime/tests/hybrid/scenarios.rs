@@ -50,12 +50,12 @@ fn dop853() -> Dop853<f64> {
 
 /// A point on a vertical line between a floor and a ceiling, under gravity.
 #[derive(Clone, Copy, Debug)]
-struct Shaft {
-    g: f64,
-    height: f64,
-    restitution: f64,
+pub struct Shaft {
+    pub g: f64,
+    pub height: f64,
+    pub restitution: f64,
     /// The amplitude and the frequency of the floor.
-    shakes: (f64, f64),
+    pub shakes: (f64, f64),
 }
 
 impl HybridSystem<2, 2, 2, 0> for Shaft {
@@ -175,10 +175,10 @@ fn what_penetrates_at_the_start_is_refused() {
 
 /// A cart that a growing force pushes, held by a grip; a switch turns the force off.
 #[derive(Clone, Copy, Debug)]
-struct GrippedCart {
-    limit: f64,
-    off: f64,
-    push: f64,
+pub struct GrippedCart {
+    pub limit: f64,
+    pub off: f64,
+    pub push: f64,
 }
 
 impl HybridSystem<2, 1, 1, 1> for GrippedCart {
@@ -250,8 +250,8 @@ fn inputs_change_at_their_times() {
 
 /// A door with a latch, closed by a constant torque while `when` is positive, pushed open later.
 #[derive(Clone, Copy, Debug)]
-struct Door {
-    armed: bool,
+pub struct Door {
+    pub armed: bool,
 }
 
 impl HybridSystem<2, 1, 1, 1> for Door {
@@ -316,7 +316,7 @@ fn a_latch_locks_is_released_and_locks_again() {
 
 /// A point that a reset throws back up where it falls through zero.
 #[derive(Clone, Copy, Debug)]
-struct Thrown;
+pub struct Thrown;
 
 impl HybridSystem<2, 0, 0, 1> for Thrown {
     const ELEMENTS: [Element; 0] = [];
@@ -355,11 +355,11 @@ fn resets_happen_at_every_fall_through_zero() {
 
 /// A block on two feet that a growing force pushes at a height: half width, height, friction.
 #[derive(Clone, Copy, Debug)]
-struct Block {
-    half: f64,
-    up: f64,
-    mu: f64,
-    push: f64,
+pub struct Block {
+    pub half: f64,
+    pub up: f64,
+    pub mu: f64,
+    pub push: f64,
 }
 
 impl HybridSystem<6, 4, 2, 0> for Block {

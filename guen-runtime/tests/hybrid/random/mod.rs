@@ -4,6 +4,7 @@
 
 mod laws;
 mod lcp;
+mod sensitivity;
 mod tree;
 
 use guen_runtime::hybrid::{

@@ -1,0 +1,159 @@
+//! The jump of the state at a transition with its derivative along one direction: resets, and impacts with the states that their contacts take.
+
+use core::array::from_fn;
+
+use crate::hybrid::impact::Impact;
+use crate::hybrid::in_mode::{InMode, moved};
+use crate::hybrid::phase::{Phase, Solved, Tangential, solve_some};
+use crate::hybrid::saltation::{Along, NoSaltation};
+use crate::hybrid::system::HybridSystem;
+use crate::hybrid::transition::{Transition, TransitionKind};
+use crate::numbers::dual::Dual;
+use crate::numbers::real::Real;
+
+impl<M, const N: usize, const W: usize, const C: usize> Transition<M, N, W, C> {
+    /// The state after the jump.
+    pub(super) fn jumped<H, const S: usize>(
+        &self,
+        before: &InMode<H, N, W, C, S>,
+        after: &InMode<H, N, W, C, S>,
+        t: Along,
+        state: &[Along; N],
+    ) -> Result<[Along; N], NoSaltation>
+    where
+        H: HybridSystem<N, W, C, S>,
+    {
+        let system = after.system();
+        let (mut state, mut switches) = (*state, before.switches);
+        if let Some(s) = self.signal {
+            if H::SIGNALS[s].is_switch() {
+                switches[s] = 1.0 - switches[s];
+            } else {
+                state = system.reset(s, t, &state);
+            }
+        }
+        let Some(takes_part) = self.facts.takes_part else { return Ok(state) };
+        let rates = system.row_rates(t, &state);
+        let speeds = from_fn(|c| {
+            let square = H::ELEMENTS[c]
+                .tangential
+                .iter()
+                .fold(Along::zero(), |sum, &row| sum + rates[row] * rates[row]);
+            if square.value == 0.0 { Along::zero() } else { square.sqrt() }
+        });
+        let free = system.free_motion(t, &state, &switches.map(Dual::constant), &speeds);
+        let restitutions = system.restitutions();
+        let values = Impact {
+            elements: &H::ELEMENTS,
+            delassus: &free.delassus.map(|row| row.map(|entry| entry.value)),
+            before: free.row_rates.map(|rate| rate.value),
+            takes_part,
+            friction: free.friction.map(|friction| friction.value),
+            restitutions,
+        };
+        let moving = Impact {
+            elements: &H::ELEMENTS,
+            delassus: &free.delassus,
+            before: free.row_rates,
+            takes_part,
+            friction: free.friction,
+            restitutions,
+        };
+        let closes = matches!(self.kind, TransitionKind::Rest { .. });
+        let impulses = impulses(&values, &moving, closes)?;
+        Ok(moved(&state, &impulses, &free.responses))
+    }
+}
+
+/// The impulses of an impact with their derivatives.
+fn impulses<const W: usize, const C: usize>(
+    values: &Impact<'_, f64, W, C>,
+    moving: &Impact<'_, Along, W, C>,
+    closes: bool,
+) -> Result<[Along; W], NoSaltation> {
+    let unsolved = |_| NoSaltation::Divided;
+    if closes {
+        let struck = values.solve().map_err(unsolved)?;
+        let solved = values.closed_like(&struck).ok_or(NoSaltation::Divided)?;
+        let closed = with_derivative(&moving.compression(), &solved).ok_or(NoSaltation::Divided)?;
+        return Ok(closed.impulses);
+    }
+    let phase = values.compression();
+    let compression = phase.solve().map_err(unsolved)?;
+    let compressed = undivided(&phase, &moving.compression(), &compression)?;
+    let phase = values.expansion(&compression);
+    let expansion = phase.solve().map_err(unsolved)?;
+    let expanded = undivided(&phase, &moving.expansion(&compressed), &expansion)?;
+    Ok(from_fn(|w| compressed.impulses[w] + expanded.impulses[w]))
+}
+
+/// The solution of a phase with its derivative, which is the same in all states of the elements that have this solution.
+fn undivided<const W: usize, const C: usize>(
+    values: &Phase<'_, f64, W, C>,
+    moving: &Phase<'_, Along, W, C>,
+    solved: &Solved<f64, W, C>,
+) -> Result<Solved<Along, W, C>, NoSaltation> {
+    /// The part of the largest derivative by which derivatives in two states may differ.
+    const SAME: f64 = 1e-6;
+
+    let found = with_derivative(moving, solved).ok_or(NoSaltation::Divided)?;
+    let slopes = |solved: &Solved<Along, W, C>| solved.after.map(|rate| rate.tangent[0]);
+    let ours = slopes(&found);
+    let size = moving.before.iter().map(|rate| rate.tangent[0]).chain(ours);
+    let size = size.fold(f64::MIN_POSITIVE, |most: f64, slope| most.max(slope.abs()));
+    let mut divided = false;
+    let visited = values.visit(&mut |other, _| {
+        let other = with_derivative(moving, other).filter(|_| values.is_same(other, solved));
+        if let Some(other) = other {
+            let differ = |(a, b): (&f64, &f64)| !((a - b).abs() <= SAME * size);
+            divided |= ours.iter().zip(&slopes(&other)).any(differ);
+        }
+    });
+    if divided || visited.is_err() { Err(NoSaltation::Divided) } else { Ok(found) }
+}
+
+/// The solution of a phase in which elements keep their states, with its derivative: directions of spatial slip turn with the slip.
+fn with_derivative<const W: usize, const C: usize>(
+    phase: &Phase<'_, Along, W, C>,
+    solved: &Solved<f64, W, C>,
+) -> Option<Solved<Along, W, C>> {
+    let mut tangential: [Tangential<Along>; C] = solved.tangential.map(|state| match state {
+        Tangential::None => Tangential::None,
+        Tangential::Stick => Tangential::Stick,
+        Tangential::Slip(direction) => Tangential::Slip(direction.map(Dual::constant)),
+    });
+    let turns: [bool; C] =
+        from_fn(|c| matches!(tangential[c], Tangential::Slip(_)) && phase.elements[c].tangential.len() == 2);
+    if turns.contains(&true) {
+        // The derivatives of the slips across their directions vanish: by the direction's angles, and along.
+        let across = |tangential: &[Tangential<Along>; C]| {
+            let solved = phase.with_states(&solved.closed, tangential)?;
+            Some(from_fn::<f64, C, _>(|c| match (tangential[c], phase.elements[c].tangential) {
+                (Tangential::Slip([x, y]), &[first, second]) => {
+                    (x * solved.after[second] - y * solved.after[first]).tangent[0]
+                }
+                _ => 0.0,
+            }))
+        };
+        let still = across(&tangential)?;
+        let mut by_angles = [[0.0; C]; C];
+        for c in (0..C).filter(|c| turns[*c]) {
+            let mut turned = tangential;
+            turned[c] = turn(tangential[c], 1.0);
+            let moves = across(&turned)?;
+            for (row, (moves, still)) in by_angles.iter_mut().zip(moves.iter().zip(&still)) {
+                row[c] = moves - still;
+            }
+        }
+        let angles = solve_some(&by_angles, &still.map(|slope| -slope), &turns)?;
+        tangential = from_fn(|c| if turns[c] { turn(tangential[c], angles[c]) } else { tangential[c] });
+    }
+    phase.with_states(&solved.closed, &tangential)
+}
+
+/// A direction that turns with this derivative of its angle.
+fn turn(state: Tangential<Along>, angle: f64) -> Tangential<Along> {
+    let Tangential::Slip([x, y]) = state else { return state };
+    let slope = |value: Along, slope: f64| Dual { value: value.value, tangent: [slope] };
+    Tangential::Slip([slope(x, -y.value * angle), slope(y, x.value * angle)])
+}
