@@ -63,6 +63,7 @@ mechanical_system! {
         use Foot as right { point: vec(x + cos(tilt), z + sin(tilt)) }
         modes { left.sole: open, stick, slip; never left.sole.stick with right.sole.slip; }
         outputs { push = reaction(left.sole); height = gap(left.sole); sliding = slip(left.sole); }
+        scene Falling { track tilt; provide push; }
     }
 }
 
@@ -79,6 +80,7 @@ mechanical_system! {
         for i in 0..n { use Foot as foot[i] { point: vec(x + side[i]*cos(tilt), z + side[i]*sin(tilt)) } }
         modes { for i in 0..n { foot[i].sole: open, stick, slip; } never foot[0].sole.stick with foot[n-1].sole.slip; }
         outputs { push = reaction(foot[0].sole); }
+        scene Falling { track tilt; }
     }
 }
 
@@ -92,6 +94,7 @@ mechanical_system! {
         potential_energy = m*g*z;
         use Pair as pair { middle: vec(x, z), across: vec(cos(tilt), sin(tilt)) }
         outputs { push = reaction(pair.heel.sole); }
+        scene Falling { track tilt; }
     }
 }
 
@@ -114,6 +117,8 @@ mechanical_system! {
         }
         modes { sole: open, stick, slip; never sole[0].stick with sole[1].slip; }
         outputs { for i in 0..n { push[i] = reaction(sole[i]); } }
+        scene Falling { track tilt; }
+        scene Lying { modes { sole[0]: slip; sole[1]: slip, stick; } track x; }
     }
 }
 
@@ -122,6 +127,25 @@ fn ran<H: HybridSystem<6, 4, 2, 2, Inputs = ()> + Clone>(system: &H) -> ([f64; 6
     let start = [-0.3, 0.4, 0.2, 0.7, 0.0, 0.1];
     let run = Hybrid::new(system, 0.0, &start).run(&Dop853::new(1e-10, 1e-10), 1.0).unwrap();
     (run.state, run.transitions)
+}
+
+/// A scene that needs every variable moves as its system, and its modes have the same types.
+#[test]
+fn scenes_run_with_the_modes_of_instances_and_arrays() {
+    let near = |found: ([f64; 6], u64), expected: ([f64; 6], u64)| {
+        assert_eq!(found.1, expected.1);
+        assert!(found.0.iter().zip(expected.0).all(|(a, b)| (a - b).abs() < 1e-12), "{found:?} {expected:?}");
+    };
+    let system = OfInstances::default();
+    let falling = of_instances::Falling::from(system).prepare().unwrap();
+    near(ran(&falling), ran(&system.prepare().unwrap()));
+    let left: of_instances::falling::left::Mode = of_instances::falling::MODES[0].left;
+    assert_eq!(left.sole, of_instances::left::Sole::Open);
+    let (array, pair, by_loop) = (OfArray::default(), OfPair::default(), ByLoop::default());
+    near(ran(&of_array::Falling::from(array).prepare().unwrap()), ran(&array.prepare().unwrap()));
+    near(ran(&of_pair::Falling::from(pair).prepare().unwrap()), ran(&pair.prepare().unwrap()));
+    near(ran(&by_loop::Falling::from(by_loop).prepare().unwrap()), ran(&by_loop.prepare().unwrap()));
+    assert!(by_loop::lying::MODES.len() == 6 && by_loop::lying::State::<f64>::NAMES.len() > 1);
 }
 
 #[test]

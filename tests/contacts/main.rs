@@ -11,6 +11,7 @@ mod piecewise;
 mod printed;
 mod reference;
 mod seen;
+mod several_modes;
 mod simulated;
 mod states;
 mod unaware;

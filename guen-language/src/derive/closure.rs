@@ -12,6 +12,10 @@ pub enum Reason {
     Tracked,
     /// Something that this statement of the scene asks for depends on it.
     Provided(String),
+    /// This contact depends on it: what is watched of it, or a force that it may have.
+    Contact(String),
+    /// The function of this switch depends on it.
+    Switch(String),
     /// The rate of this variable depends on it.
     Rate(StateIndex),
     /// The variable is part of a unit quaternion with this coordinate.
@@ -24,6 +28,8 @@ pub struct StateEquations<'a> {
     pub variables: &'a [Option<ExprId>],
     /// The rates by place.
     pub rates: &'a [ExprId],
+    /// The parts of the rates with contacts, by place; empty without contacts.
+    pub pressed: &'a [Vec<ExprId>],
     /// Groups of coordinates that stay together.
     pub wholes: &'a [Vec<StateIndex>],
 }
@@ -37,16 +43,16 @@ impl StateEquations<'_> {
         bench: &mut Workbench,
         dependence: &mut Dependence,
         tracked: &[StateIndex],
-        provided: &[(String, ExprId)],
+        provided: &[(Reason, ExprId)],
     ) -> Vec<Option<Reason>> {
         let mut kept: Vec<Option<Reason>> = vec![None; self.variables.len()];
         for place in tracked {
             kept[*place] = Some(Reason::Tracked);
         }
         self.close(bench, dependence, &mut kept);
-        for (name, e) in provided {
+        for (reason, e) in provided {
             for place in self.missing(bench, dependence, &kept, *e) {
-                kept[place] = Some(Reason::Provided(name.clone()));
+                kept[place] = Some(reason.clone());
             }
         }
         self.close(bench, dependence, &mut kept);
@@ -70,8 +76,10 @@ impl StateEquations<'_> {
         let mut looked_at = vec![false; kept.len()];
         while let Some(place) = (0..kept.len()).find(|place| kept[*place].is_some() && !looked_at[*place]) {
             looked_at[place] = true;
-            for other in self.missing(bench, dependence, kept, self.rates[place]) {
-                kept[other] = Some(Reason::Rate(place));
+            for e in self.pressed.get(place).into_iter().flatten().chain([&self.rates[place]]) {
+                for other in self.missing(bench, dependence, kept, *e) {
+                    kept[other] = Some(Reason::Rate(place));
+                }
             }
             for whole in self.wholes.iter().filter(|whole| whole.contains(&place)) {
                 for other in whole {
@@ -82,18 +90,20 @@ impl StateEquations<'_> {
     }
 
     /// The variables that leave and are pure quadratures, in layers: the rates of each layer depend on what is kept
-    /// and on the layers before.
+    /// and on the layers before. What forces of contacts move is none.
     pub fn quadratures(
         &self,
         bench: &mut Workbench,
         dependence: &mut Dependence,
         kept: &[Option<Reason>],
+        is_pressed: impl Fn(StateIndex) -> bool,
     ) -> Vec<Vec<Quadrature>> {
         let mut known: Vec<Option<Reason>> = kept.to_vec();
         let mut layers: Vec<Vec<Quadrature>> = Vec::new();
         loop {
             let places: Vec<StateIndex> = (0..known.len())
                 .filter(|place| known[*place].is_none() && self.variables[*place].is_some())
+                .filter(|place| !is_pressed(*place))
                 .filter(|place| self.missing(bench, dependence, &known, self.rates[*place]).is_empty())
                 .collect();
             if places.is_empty() {

@@ -1,6 +1,6 @@
 //! The system at the values that a scene fixes: derived anew, or refused at the word.
 
-use guen_symbolic::{Derivation, DerivationError, ExprId, Node, Substitution, Workbench};
+use guen_symbolic::{Derivation, DerivationError, ExprId, Mechanics, Node, Substitution, Workbench};
 
 use super::faults::short;
 use super::selection::{Held, StateIndex, StatePart};
@@ -43,11 +43,7 @@ pub(super) fn derivation(
     }
     let bench = &mut model.bench;
     bench.begin_another();
-    let mut mechanics = whole.system.with_values(bench, &values);
-    // A momentum that the values make vanish is truly zero, and was not left out.
-    for (stated, without) in mechanics.stated.iter_mut().zip(&whole.without_momentum) {
-        *stated |= !without;
-    }
+    let mechanics = at_values(bench, &whole.system, whole, &values);
     let name = &scene.scene.name;
     match Derivation::new(bench, mechanics) {
         Ok(derivation) => return Some(derivation),
@@ -69,6 +65,21 @@ pub(super) fn derivation(
         }
     }
     None
+}
+
+/// Mechanics with the forms and energies of a whole system, with constants at their values.
+pub(super) fn at_values(
+    bench: &mut Workbench,
+    mechanics: &Mechanics,
+    whole: &Derivation,
+    values: &[(ExprId, ExprId)],
+) -> Mechanics {
+    let mut mechanics = mechanics.with_values(bench, values);
+    // A momentum that the values make vanish is truly zero, and was not left out.
+    for (stated, without) in mechanics.stated.iter_mut().zip(&whole.without_momentum) {
+        *stated |= !without;
+    }
+    mechanics
 }
 
 /// The first fixed constant that is trouble by itself, or the last one if only all together are.

@@ -15,6 +15,7 @@ mod fixed;
 mod formulas;
 pub mod function;
 mod jacobians;
+mod kept;
 mod level;
 mod manifold;
 mod missing_bounds;
@@ -75,11 +76,13 @@ pub fn derive<'a>(mut model: Model<'a>, faults: &mut Faults) -> Option<Derived<'
     if let Some(word) = model.provides_taylor {
         system.series = series::of(&model, &system.selection, &system.programs, word.span(), faults);
     }
-    if let Some((programs, facts)) = contacts::derive(&mut model, faults) {
+    let mut equations = None;
+    if let Some((programs, facts, of_contacts)) = contacts::derive(&mut model, faults) {
         system.programs.append(programs);
         system.contacts = Some(facts);
+        equations = Some(of_contacts);
     }
-    let scenes = scene::derive(&mut model, &system, faults);
+    let scenes = scene::derive(&mut model, &system, equations, faults);
     let in_modes = one_mode::derive(&mut model, &system, faults);
     let levels: Vec<&Level> = std::iter::once(&system).chain(&scenes).collect();
     supplied::check(&model, &levels, faults);

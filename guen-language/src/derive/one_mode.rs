@@ -36,7 +36,7 @@ pub(super) fn derive<'a>(
     let scenes = std::mem::take(&mut model.scenes);
     let mut written: Vec<(usize, Declaration)> = Vec::new();
     if let (Some(contacts), Some(facts)) = (model.contacts.take(), &system.contacts) {
-        for (index, scene) in scenes.iter().enumerate().filter(|(_, scene)| scene.mode.is_some()) {
+        for (index, scene) in scenes.iter().enumerate().filter(|(_, scene)| scene.single_mode().is_some()) {
             let part = part(model, (&contacts, facts), scene, faults);
             let declaration = part.and_then(|part| written::in_mode(model, &contacts, scene, &part, faults));
             written.extend(declaration.map(|declaration| (index, declaration)));
@@ -78,7 +78,7 @@ fn part(
     scene: &SceneEntry<'_>,
     faults: &mut Faults,
 ) -> Option<Part> {
-    let mode = scene.mode.as_ref()?;
+    let mode = scene.single_mode()?;
     let l = model.mechanics.forms.degrees;
     let etas = model.mechanics.etas[..l].to_vec();
     let (active, gaps) = active(model, contacts, facts, mode);

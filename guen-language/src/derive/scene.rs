@@ -8,53 +8,90 @@ use super::cheapest::cheapest;
 use super::closure::{Reason, StateEquations};
 use super::commutator::Commutator;
 use super::commutators::commutators;
+use super::contacts::{self, ContactEquations, SceneContacts};
 use super::facts::SceneFacts;
 use super::fixed::{self, Holding};
 use super::jacobians::Jacobians;
+use super::kept::{self, Kept};
 use super::level::Level;
 use super::manifold::{Replacement, quaternions};
-use super::parts::{Functions, View, parts, replaced};
+use super::parts::{Functions, View, parts};
 use super::readable::{polish, shown};
 use super::selection::{Held, Selection, StateIndex};
 use super::{carried, formulas, series};
 use crate::diagnostics::{Fault, Faults};
-use crate::model::{Model, SceneEntry};
+use crate::model::{Model, SceneEntry, SceneModes};
 use crate::syntax::Name;
 
-/// A derivation with its brackets, as scenes share it.
-type Shared = (Rc<Derivation>, Rc<Vec<Commutator>>);
+/// A derivation with its brackets and the equations of its contacts, as scenes share it.
+#[derive(Clone)]
+struct Shared {
+    derivation: Rc<Derivation>,
+    brackets: Rc<Vec<Commutator>>,
+    contacts: Option<Rc<ContactEquations>>,
+}
 
-/// Derives every scene; those with faults are reported and left out.
-pub(super) fn derive(model: &mut Model<'_>, system: &Level, faults: &mut Faults) -> Vec<Level> {
+/// Derives every scene but those in a single mode of contacts; those with faults are reported and left out.
+pub(super) fn derive(
+    model: &mut Model<'_>,
+    system: &Level,
+    equations: Option<Rc<ContactEquations>>,
+    faults: &mut Faults,
+) -> Vec<Level> {
+    let contacts = model.contacts.take();
     let scenes = std::mem::take(&mut model.scenes);
+    let (derivation, brackets) = (system.derivation.clone(), system.brackets.clone());
     let mut derived: Vec<(Vec<(ExprId, ExprId)>, Shared)> =
-        vec![(Vec::new(), (system.derivation.clone(), system.brackets.clone()))];
+        vec![(Vec::new(), Shared { derivation, brackets, contacts: equations })];
     let mut levels = Vec::new();
-    for (index, scene) in scenes.iter().enumerate().filter(|(_, scene)| scene.mode.is_none()) {
+    for (index, scene) in scenes.iter().enumerate().filter(|(_, scene)| scene.single_mode().is_none()) {
         let values: Vec<(ExprId, ExprId)> = scene.fixes.iter().map(|fix| (fix.symbol, fix.value)).collect();
         let known = derived.iter().find(|(known, _)| *known == values).map(|(_, shared)| shared.clone());
         let shared = known.or_else(|| {
             let mut derivation = fixed::derivation(model, &system.derivation, scene, faults)?;
             polish(&mut model.bench, &mut derivation);
-            let brackets = commutators(model, &mut derivation);
-            let shared = (Rc::new(derivation), Rc::new(brackets));
+            let brackets = Rc::new(commutators(model, &mut derivation));
+            let equations = match &contacts {
+                Some(contacts) => {
+                    let before = faults.count();
+                    let fixed = (&*system.derivation, &values[..]);
+                    let equations = contacts::at_values(model, contacts, fixed, faults);
+                    let what = format!("at the values of scene `{}`", scene.scene.name);
+                    faults.note_since(before, &what, scene.scene.keyword);
+                    Some(equations?)
+                }
+                None => None,
+            };
+            let shared = Shared { derivation: Rc::new(derivation), brackets, contacts: equations };
             derived.push((values, shared.clone()));
             Some(shared)
         });
-        let Some((derivation, brackets)) = shared else { continue };
+        let Some(Shared { derivation, brackets, contacts: of_contacts }) = shared else { continue };
         // What is zero is judged on the holonomic equations at the values of this scene.
         let equations: Vec<ExprId> = derivation.system.holonomic.iter().map(|h| h.equation).collect();
         model.bench.zero.set_manifold(&mut model.bench.graph, &equations);
-        levels.extend(level(model, system, (derivation, brackets), (index, scene), faults));
+        let several = match &scene.modes {
+            SceneModes::Several(modes) => Some(modes),
+            _ => None,
+        };
+        let own = contacts.as_ref().zip(several).zip(of_contacts.as_ref());
+        let own = own.map(|((contacts, modes), equations)| {
+            // What an outline needs is not known.
+            let switches = if model.declaration.is_outline { contacts.switches.len() } else { 0 };
+            SceneContacts::new(contacts, modes, equations, (0..switches).collect())
+        });
+        levels.extend(level(model, system, (derivation, brackets), own, (index, scene), faults));
     }
     model.scenes = scenes;
+    model.contacts = contacts;
     levels
 }
 
 fn level(
     model: &mut Model<'_>,
     system: &Level,
-    (derivation, brackets): Shared,
+    (derivation, brackets): (Rc<Derivation>, Rc<Vec<Commutator>>),
+    mut contacts: Option<SceneContacts<'_, '_>>,
     (index, scene): (usize, &SceneEntry<'_>),
     faults: &mut Faults,
 ) -> Option<Level> {
@@ -62,7 +99,13 @@ fn level(
     let lists = formulas::rates(&derivation);
     let first = derivation.formulations[0].rates.clone();
     let held = fixed::held(model, &first, &scene.held, faults)?;
+    let before = faults.count();
+    contacts.iter().for_each(|contacts| contacts.check_held(model, &scene.held, faults));
+    if faults.count() > before {
+        return None;
+    }
     let mut holding = Holding::new(model, &held);
+    contacts.iter_mut().for_each(|contacts| contacts.hold(&mut model.bench, &mut holding));
     let first: Vec<ExprId> = first.into_iter().map(|e| holding.of(&mut model.bench, e)).collect();
     let mut lists: Vec<Vec<ExprId>> = lists
         .into_iter()
@@ -70,46 +113,53 @@ fn level(
         .collect();
     let mut selection = provided(model, &derivation, scene, faults)?;
     let tracked = tracked(model, &held, scene, faults)?;
-    let wanted = wanted(model, &derivation, &mut holding, &first, &selection);
+    let mut wanted = wanted(model, &derivation, &mut holding, &first, &selection);
+    let pressed = contacts.as_ref().map_or(Vec::new(), |contacts| contacts.pressed(n));
+    if let Some(contacts) = &contacts {
+        for output in selection.outputs.iter().map(|o| &model.outputs[*o]) {
+            let reason = Reason::Provided(format!("provide {}", output.name.text));
+            wanted.extend(output.components.iter().map(|c| (reason.clone(), contacts.output(*c))));
+        }
+    }
+    let asked = wanted;
 
     // What is kept, with the fewest variables that the holonomic equations allow.
     let variables: Vec<Option<ExprId>> =
         (0..size).map(|p| (!fixed::is_held(&held, p)).then(|| model.variable(p))).collect();
+    let pressed_places = contacts.as_ref().map_or(Vec::new(), |contacts| contacts.pressed_places(model));
     let bench = &mut model.bench;
     let wholes = quaternions(bench, &derivation.system);
     let mut dependence = Dependence::default();
-    let written = StateEquations { variables: &variables, rates: &first, wholes: &wholes };
-    let mut reasons = written.closure(bench, &mut dependence, &tracked, &wanted);
-    let mut replacements: Vec<Replacement> = Vec::new();
-    for candidate in Replacement::all(bench, &derivation.system, &mut holding) {
-        if candidate.coordinates.iter().any(|i| reasons[*i].is_none() || tracked.contains(i)) {
-            continue;
+    let written = StateEquations { variables: &variables, rates: &first, pressed: &pressed, wholes: &wholes };
+    let (wanted, Kept { reasons, replacements }) = loop {
+        let watched = contacts.iter().flat_map(SceneContacts::watched);
+        let wanted: Vec<(Reason, ExprId)> = asked.iter().cloned().chain(watched).collect();
+        let found =
+            kept::kept(bench, &mut dependence, (&derivation, &mut holding), &written, &tracked, &wanted);
+        let Some(contacts) = &mut contacts else { break (wanted, found) };
+        let moving = (0..size).filter(|place| found.reasons[*place].is_some());
+        let moving = moving.flat_map(|place| pressed[place].iter().copied());
+        let needed: Vec<ExprId> = wanted.iter().map(|(_, e)| *e).chain(moving).collect();
+        if !contacts.take_switches(bench, &mut dependence, &needed) {
+            break (wanted, found);
         }
-        replacements.push(candidate);
-        let rates: Vec<ExprId> = first.iter().map(|e| replaced(bench, &mut replacements, *e)).collect();
-        let provided = wanted.iter().map(|(name, e)| (name.clone(), replaced(bench, &mut replacements, *e)));
-        let provided: Vec<_> = provided.collect();
-        let flow = StateEquations { variables: &variables, rates: &rates, wholes: &wholes };
-        let fewer = flow.closure(bench, &mut dependence, &tracked, &provided);
-        let count = |reasons: &[Option<Reason>]| reasons.iter().flatten().count();
-        if count(&fewer) < count(&reasons) {
-            reasons = fewer;
-        } else {
-            replacements.pop();
-        }
-    }
+    };
     let determined = determined(bench, &mut dependence, &derivation, &mut holding, (&variables, &reasons));
     let followers =
         followers(model, &derivation, &mut dependence, &mut holding, (&variables, &reasons), &determined);
     let mut known = reasons.clone();
     determined.iter().for_each(|(i, _)| known[*i] = Some(Reason::Tracked));
-    let quadratures = written.quadratures(&mut model.bench, &mut dependence, &known);
+    let is_pressed = |place: StateIndex| pressed_places.get(place).is_some_and(|is| *is);
+    let quadratures = written.quadratures(&mut model.bench, &mut dependence, &known, is_pressed);
     selection.take(model, (0..size).filter(|p| reasons[*p].is_some()).collect());
 
     // Expressions without what left.
     let mut view = View { holding, replacements, dependence, idle: Vec::new() };
     let rates: Vec<ExprId> = selection.variables.iter().map(|p| view.replaced(model, first[*p])).collect();
-    let results: Vec<ExprId> = rates.iter().copied().chain(wanted.iter().map(|(_, e)| *e)).collect();
+    let forced = selection.variables.iter().flat_map(|p| pressed.get(*p)).flatten().copied();
+    let forced: Vec<ExprId> = forced.map(|e| view.replaced(model, e)).collect();
+    let wanted = wanted.iter().map(|(_, e)| *e);
+    let results: Vec<ExprId> = rates.iter().copied().chain(wanted).chain(forced).collect();
     let needed = |model: &mut Model<'_>, view: &mut View, symbol: ExprId| {
         results.iter().any(|e| view.dependence.depends(&mut model.bench, *e, symbol))
     };
@@ -118,6 +168,7 @@ fn level(
     let left_variables = (0..size).filter(|p| reasons[*p].is_none()).map(|p| model.variable(p));
     let left_inputs = model.inputs.iter().enumerate().filter(|(i, _)| !selection.inputs.contains(i));
     view.idle = left_variables.chain(left_inputs.map(|(_, input)| input.symbol)).collect();
+    view.idle.extend(contacts.iter().flat_map(SceneContacts::idle));
     // Off the constraints on positions rates that are equal there may depend on what the first ones do not.
     if lists[0] != first {
         lists.retain(|list| {
@@ -173,6 +224,13 @@ fn level(
     let (mut programs, is_part) =
         cheapest(model, (system, &derivation), &selection, &scene.fixes, lists, kept, &mut functions);
     let Functions { domain, domain_names, domain_reasons, constant_pivots, .. } = functions;
+    let mut of_contacts = None;
+    if let Some(contacts) = contacts {
+        let name = scene.scene.name.span();
+        let (own, facts) = contacts.programs(model, &mut view, &selection, name, faults)?;
+        programs.append(own);
+        of_contacts = Some(facts);
+    }
     let jacobians = Jacobians::add(&mut programs, model, &selection);
     let place = (scene.scene.name.span(), &mut *faults);
     let switches = super::switches::add(model, &rates, &shown, &mut programs, place);
@@ -216,7 +274,7 @@ fn level(
         jacobians,
         shown,
         scene: Some(facts),
-        contacts: None,
+        contacts: of_contacts,
         carried: None,
     };
     if let Some(word) = carries {
@@ -421,25 +479,26 @@ fn wanted(
     holding: &mut Holding,
     rates: &[ExprId],
     selection: &Selection,
-) -> Vec<(String, ExprId)> {
+) -> Vec<(Reason, ExprId)> {
     let (n, l) = (model.coordinates.len(), derivation.system.forms.degrees);
     let accelerations = derivation.system.accelerations.iter().copied().zip(rates[n..].iter().copied());
     let mut solved = Substitution::new(accelerations);
-    let mut found = Vec::new();
+    let mut found: Vec<(Reason, ExprId)> = Vec::new();
     if selection.energy {
-        found.push(("provide energy".to_owned(), derivation.energies.integral));
+        found.push((Reason::Provided("provide energy".to_owned()), derivation.energies.integral));
     }
     for v in &selection.reactions {
-        let name = format!("provide reactions({})", model.forms[*v].name);
-        found.extend(derivation.reactions[*v - l].map(|e| (name, e)));
+        let reason = Reason::Provided(format!("provide reactions({})", model.forms[*v].name));
+        found.extend(derivation.reactions[*v - l].map(|e| (reason, e)));
     }
     for output in selection.outputs.iter().map(|o| &model.outputs[*o]) {
-        let name = format!("provide {}", output.name.text);
-        found.extend(output.components.iter().map(|c| (name.clone(), derivation.outputs[*c])));
+        let reason = Reason::Provided(format!("provide {}", output.name.text));
+        found.extend(output.components.iter().map(|c| (reason.clone(), derivation.outputs[*c])));
     }
     for name in model.declaration.in_mode.iter().flat_map(|mode| &mode.tracked) {
         let follower = model.followers.iter().find(|follower| follower.name == *name);
-        found.extend(follower.map(|f| (format!("track {name}"), derivation.outputs[f.output])));
+        let reason = Reason::Provided(format!("track {name}"));
+        found.extend(follower.map(|f| (reason, derivation.outputs[f.output])));
     }
     for (_, e) in &mut found {
         *e = holding.of(&mut model.bench, *e);

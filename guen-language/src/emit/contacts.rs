@@ -14,10 +14,10 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let Layout { size, n, .. } = layout;
     let count = contacts.entries.len();
     let rows = contacts.rows().count();
-    let switches = contacts.switches.len() + facts.branches.len();
+    let switches = facts.switches.len() + facts.branches.len();
     let elements = elements(contacts);
-    let signals = contacts.switches.iter().map(|switch| {
-        let name = &switch.name.text;
+    let signals = facts.switches.iter().map(|s| {
+        let name = &contacts.switches[*s].name.text;
         quote!(__guen::hybrid::Signal::switch(#name))
     });
     let branches =
@@ -139,8 +139,8 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
             }
         }
     });
-    let modes = super::modes::items(subject, contacts);
-    let in_mode = in_mode(contacts, &[*size, rows, count, switches]);
+    let modes = super::modes::items(subject, contacts, facts);
+    let in_mode = in_mode(facts.switches.len(), &[*size, rows, count, switches]);
     let outputs = outputs(subject, layout, &[*size, rows, count, switches]);
     let held = (given > 0).then(|| quote!(__guen::held_through_modes!();));
     quote! {
@@ -211,11 +211,10 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     }
 }
 
-/// `in_mode`; `sizes` are the numbers of states, rows, contacts and switches.
-fn in_mode(contacts: &Contacts<'_>, sizes: &[usize; 4]) -> TokenStream {
+/// `in_mode`, with so many declared switches; `sizes` are the numbers of states, rows, contacts and switches.
+fn in_mode(declared: usize, sizes: &[usize; 4]) -> TokenStream {
     let [size, rows, count, switches] = sizes;
-    let declared = contacts.switches.len();
-    let (parameter, values, docs) = if contacts.switches.is_empty() {
+    let (parameter, values, docs) = if declared == 0 {
         (quote!(), quote!([false; #switches]), "")
     } else {
         let docs = ", with these values of its switches";

@@ -50,12 +50,10 @@ impl Places {
         accelerations.for_each(|(i, s)| put(mechanics.accelerations[*s], format!("a[{i}]")));
         let inputs = selection.inputs.iter().enumerate();
         inputs.for_each(|(i, u)| put(mechanics.inputs[*u], format!("u[{i}]")));
-        if let Some(contacts) = &model.contacts {
-            let switches = contacts.switches.iter().enumerate();
-            switches.for_each(|(i, switch)| put(switch.symbol, format!("b[{i}]")));
-            let branches =
-                level.contacts.iter().flat_map(|facts| &facts.branches).zip(contacts.switches.len()..);
-            branches.for_each(|(branch, i)| put(branch.symbol, format!("b[{i}]")));
+        if let (Some(contacts), Some(facts)) = (&model.contacts, &level.contacts) {
+            let switches = facts.switches.iter().map(|s| contacts.switches[*s].symbol);
+            let branches = facts.branches.iter().map(|branch| branch.symbol);
+            switches.chain(branches).enumerate().for_each(|(i, symbol)| put(symbol, format!("b[{i}]")));
             let forces = contacts.rows().enumerate();
             forces.for_each(|(i, row)| put(row.force, format!("f[{i}]")));
             let speeds = contacts.entries.iter().map(|entry| entry.speed).enumerate();
@@ -161,7 +159,7 @@ fn module(name: &str, programs: &Programs, more: &str, subject: &Subject<'_, '_>
         let _ = write!(
             text,
             " b {} m {} f {}",
-            contacts.switches.len() + facts.branches.len(),
+            facts.switches.len() + facts.branches.len(),
             contacts.entries.len(),
             contacts.rows().count()
         );

@@ -7,7 +7,7 @@ use super::documentation;
 use super::fields::{Fields, Part, Tree, plain};
 use super::parts::{self, Modules};
 use super::text;
-use crate::derive::{Subject, function};
+use crate::derive::{ContactFacts, Subject, function};
 use crate::model::{ContactEntry, ContactState, Contacts};
 use crate::names::type_name;
 use crate::report::row_name;
@@ -15,21 +15,37 @@ use crate::syntax::Instance;
 
 const RECORD: &str = "Mode";
 
-/// `Mode`, the types of states that no instance has, and the list of all modes.
-pub(super) fn items(subject: &Subject<'_, '_>, contacts: &Contacts<'_>) -> TokenStream {
+/// `Mode` and the types of states that no instance has, those of the system in a scene, and the list of all modes.
+pub(super) fn items(
+    subject: &Subject<'_, '_>,
+    contacts: &Contacts<'_>,
+    of_level: &ContactFacts,
+) -> TokenStream {
     let entries = &contacts.entries;
     let instances = &subject.model.declaration.instances;
     let structure = structure(contacts);
-    let states = states(structure.trees(), entries);
-    let fields = fields(structure.trees(), entries, instances, 0);
     let count = entries.len();
     let names = structure.names();
     let accesses = structure.accesses();
     let from_states: Vec<TokenStream> =
         (0..count).map(|i| quote!(::core::convert::From::from(mode.0[#i]))).collect();
     let literal = structure.literal(&from_states);
+    let records = match subject.level.scene {
+        Some(_) => {
+            let own = own_types(structure.trees());
+            quote!(#[doc(inline)] pub use super::{Mode #(, #own)*};)
+        }
+        None => {
+            let states = states(structure.trees(), entries);
+            let fields = fields(structure.trees(), entries, instances, 0);
+            quote! {
+                #states
+                __guen::contact_mode! { #count { #(#fields)* } [#(#names)*] |mode| [#(mode.#accesses),*] { #literal } }
+            }
+        }
+    };
     let types = types(&structure);
-    let table = contacts.modes.iter().map(|mode| {
+    let table = of_level.modes.iter().map(|mode| {
         let values = entries.iter().zip(mode).zip(&types).map(|((entry, state), of)| {
             let variant = variant(entry.states()[*state]);
             quote!(#of::#variant)
@@ -38,17 +54,14 @@ pub(super) fn items(subject: &Subject<'_, '_>, contacts: &Contacts<'_>) -> Token
         quote!(Mode { #literal })
     });
     let cost = subject.level.program(function::FREE_MOTION).map(|program| text::cost(&program.cost));
-    let coupled = subject.level.contacts.iter().flat_map(|facts| facts.coupled.clone());
-    let coupled: Vec<(usize, usize)> = coupled.collect();
-    let info = contacts.modes.iter().enumerate().map(|(place, mode)| {
-        let (rows, painleve_free) = facts(contacts, &coupled, mode);
+    let info = of_level.modes.iter().enumerate().map(|(place, mode)| {
+        let (rows, painleve_free) = facts(contacts, &of_level.coupled, mode);
         quote! {
             __guen::hybrid::ModeInfo { mode: MODES[#place], rows: &[#(#rows),*], painleve_free: #painleve_free, cost: #cost }
         }
     });
     quote! {
-        #states
-        __guen::contact_mode! { #count { #(#fields)* } [#(#names)*] |mode| [#(mode.#accesses),*] { #literal } }
+        #records
 
         /// Every mode that the declaration allows.
         pub const MODES: &[Mode] = &[#(#table),*];
@@ -86,6 +99,12 @@ pub(super) fn add(modules: &mut Modules, subject: &Subject<'_, '_>) {
     for part in structure(contacts).parts() {
         let Part { fields: trees, module, .. } = part;
         let trees = || trees.iter().map(|(ident, tree)| (ident, tree));
+        if subject.level.scene.is_some() {
+            let outside = (0..=module.len()).map(|_| quote!(super::));
+            let own = own_types(trees());
+            modules.add(module, quote!(#[doc(inline)] pub use #(#outside)* #(#module::)* {Mode #(, #own)*};));
+            continue;
+        }
         let states = states(trees(), &contacts.entries);
         let fields = fields(trees(), &contacts.entries, instances, module.len());
         modules.add(
@@ -102,6 +121,11 @@ fn structure(contacts: &Contacts<'_>) -> Fields {
     let names: Vec<_> = contacts.entries.iter().map(|entry| entry.name).collect();
     let states: Vec<_> = contacts.entries.iter().map(|entry| entry.states()).collect();
     Fields::of_types(&names, &states).of_record(RECORD).without_reals()
+}
+
+/// The names of the types of the states of the contacts among some fields.
+fn own_types<'t>(trees: impl Iterator<Item = (&'t Ident, &'t Tree)>) -> Vec<Ident> {
+    trees.filter(|(_, tree)| tree.instance().is_none()).map(|(ident, _)| type_of(ident)).collect()
 }
 
 /// The types of the states of the contacts among some fields.

@@ -247,8 +247,29 @@ pub struct SceneEntry<'a> {
     pub fixes: Vec<FixedConstant<'a>>,
     /// The parameters and coordinates that it holds at their initial values.
     pub held: Vec<&'a Name>,
+    /// The modes of the contacts that the scene has.
+    pub modes: SceneModes,
+}
+
+impl SceneEntry<'_> {
     /// The states of the contacts, where the scene has a single mode.
-    pub mode: Option<Vec<usize>>,
+    pub fn single_mode(&self) -> Option<&[usize]> {
+        match &self.modes {
+            SceneModes::One(mode) => Some(mode),
+            _ => None,
+        }
+    }
+}
+
+/// The modes of a scene: states of the contacts, in the order of [`ContactEntry::states`].
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum SceneModes {
+    /// The scene is of a system without contacts and switches.
+    Without,
+    /// One mode, in which the scene is a smooth system.
+    One(Vec<usize>),
+    /// The modes through which the scene runs.
+    Several(Vec<Vec<usize>>),
 }
 
 /// A parameter of the whole system that follows from others in the mode of the only scene.

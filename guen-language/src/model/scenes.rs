@@ -8,7 +8,7 @@ use super::evaluate::Evaluator;
 use super::place::Place;
 use super::scope::Category;
 use super::value::Value;
-use super::{FixedConstant, SceneEntry};
+use super::{FixedConstant, SceneEntry, SceneModes};
 use crate::diagnostics::Fault;
 use crate::names::{self, module_name};
 use crate::syntax::{Declaration, Fix, Item, Name, Provide, Scene};
@@ -56,7 +56,12 @@ impl Evaluator<'_> {
             self.provided(provide, is_in_mode);
         }
         self.resolve_values(&mut fixes);
-        (self.faults.count() == before).then_some(SceneEntry { scene, fixes, held, mode: None })
+        (self.faults.count() == before).then_some(SceneEntry {
+            scene,
+            fixes,
+            held,
+            modes: SceneModes::Without,
+        })
     }
 
     /// A scene becomes a struct and a module in the module of the system.
@@ -257,10 +262,14 @@ impl Evaluator<'_> {
             if category == Some(Category::Constraint) || (is_in_mode && category == Some(Category::Contact)) {
                 self.scope.refer(constraint);
             } else {
-                self.faults.report(
-                    Fault::new(constraint.span(), format!("`{constraint}` is not a constraint"))
-                        .note("reactions are those of constraints"),
-                );
+                let fault = Fault::new(constraint.span(), format!("`{constraint}` is not a constraint"));
+                let fault = fault.note("reactions are those of constraints");
+                self.faults.report(match category {
+                    Some(Category::Contact) => fault.help(format!(
+                        "declare an output, `force = reaction({constraint});`, and provide that"
+                    )),
+                    _ => fault,
+                });
             }
         }
     }

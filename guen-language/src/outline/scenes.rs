@@ -7,7 +7,7 @@ use super::expressions::number;
 use super::forms::Forms;
 use super::{Entries, push};
 use crate::names::module_name;
-use crate::syntax::{Declaration, Fix, Item, Name, Provide, Scene};
+use crate::syntax::{Declaration, Docs, Fix, Item, ModeStatement, Name, Provide, Scene, Section};
 
 /// The scenes but those whose name is among the faults.
 pub(super) fn items(declaration: &Declaration, entries: &Entries, forms: &Forms) -> Vec<Item> {
@@ -22,13 +22,13 @@ pub(super) fn items(declaration: &Declaration, entries: &Entries, forms: &Forms)
             || crate::names::CARRIED_ITEMS.contains(&scene.name.text.as_str());
         let is_of_instance = declaration.instances.iter().any(|instance| module(scene) == instance.path.root);
         if !is_of_system && !is_of_instance && scenes.iter().all(|other| module(other) != module(scene)) {
-            scenes.push(sound(scene, entries, forms));
+            scenes.push(sound(scene, declaration, entries, forms));
         }
     }
     scenes.into_iter().map(Item::Scene).collect()
 }
 
-fn sound(scene: &Scene, entries: &Entries, forms: &Forms) -> Scene {
+fn sound(scene: &Scene, declaration: &Declaration, entries: &Entries, forms: &Forms) -> Scene {
     let mut fixes: Vec<Fix> = Vec::new();
     for Fix { name, .. } in &scene.fixes {
         let is_it = |other: &&Name| other.ident == name.ident;
@@ -63,5 +63,32 @@ fn sound(scene: &Scene, entries: &Entries, forms: &Forms) -> Scene {
             );
         }
     }
-    Scene { tracks, fixes, provides, modes: Vec::new(), ..scene.clone() }
+    // Modes in an outline say that the scene is a smooth system.
+    let modes = match has_several_modes(scene, declaration) {
+        true => Vec::new(),
+        false => vec![Section::new(Docs::default(), Span::call_site(), Vec::new())],
+    };
+    Scene { tracks, fixes, provides, modes, ..scene.clone() }
+}
+
+/// Whether some contact has several states in a scene, as far as the statements tell.
+fn has_several_modes(scene: &Scene, declaration: &Declaration) -> bool {
+    let of_system = declaration.items.iter().filter_map(|item| match item {
+        Item::Modes(section) => Some(section),
+        _ => None,
+    });
+    let statements: Vec<&ModeStatement> =
+        scene.modes.iter().chain(of_system).flat_map(|section| &section.entries).collect();
+    let contacts = declaration.items.iter().filter_map(|item| match item {
+        Item::Contacts(section) => Some(&section.entries),
+        _ => None,
+    });
+    contacts.flatten().any(|contact| {
+        let mut of_contact = statements.iter().filter_map(|statement| match statement {
+            ModeStatement::States { contact: name, states } if name.text == contact.name.text => Some(states),
+            _ => None,
+        });
+        // Slip along a line has two directions.
+        !of_contact.any(|states| states.len() == 1 && states[0].text != "slip")
+    })
 }

@@ -41,13 +41,11 @@ pub(super) fn section(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Opt
         section.text.push(format!("{long} {entries} of D = W M^-1 W^T {are} too long to print"));
     }
     section.text.extend(contacts.entries.iter().map(words));
+    let switches = facts.switches.iter().map(|s| &contacts.switches[*s]);
     section.text.extend(
-        contacts
-            .switches
-            .iter()
-            .map(|switch| format!("{} is a switch: {}", switch.name, graph.text(switch.function))),
+        switches.map(|switch| format!("{} is a switch: {}", switch.name, graph.text(switch.function))),
     );
-    section.text.push(plural(contacts.modes.len(), "mode"));
+    section.text.push(plural(facts.modes.len(), "mode"));
     section.text.extend(painleve(contacts, facts));
     Some(section)
 }

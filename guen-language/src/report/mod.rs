@@ -69,6 +69,7 @@ impl Report {
             }
             sections.push(classification(subject, writer));
             sections.push(scene::rates(subject, writer));
+            sections.extend(contacts::section(subject, writer));
             if selection.energy {
                 sections.push(scene::energy(subject, writer));
             }

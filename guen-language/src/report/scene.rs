@@ -29,6 +29,8 @@ pub(super) fn sections(subject: &Subject<'_, '_>) -> Vec<Section> {
         Some(match reason.as_ref()? {
             Reason::Tracked => format!("{}: tracked", name(place)),
             Reason::Provided(what) => format!("{}: `{what}` needs it", name(place)),
+            Reason::Contact(contact) => format!("{}: the contact {contact} needs it", name(place)),
+            Reason::Switch(switch) => format!("{}: the switch {switch} depends on it", name(place)),
             Reason::Rate(by) => format!("{}: the rate of {} depends on it", name(place), name(*by)),
             Reason::Whole(by) => format!("{}: of one quaternion with {}", name(place), name(*by)),
         })

@@ -299,7 +299,15 @@ where
             let (state, known) = (self.mode.0[c], &known[c]);
             if state == ElementState::Open {
                 if known.touches && known.normal == Rate::Still {
-                    demand(&motion.free.gaps[c], 2, true);
+                    let gap = &motion.free.gaps[c];
+                    let is_zero = |k: usize| gap.coefficient(k) == RunningError::exact(0.0);
+                    match element.normal {
+                        // A scene lacks a gap that none of its modes opens.
+                        Some(row) if (0..=order).all(is_zero) => {
+                            demand(&motion.row_accelerations()[row], 0, true);
+                        }
+                        _ => demand(gap, 2, true),
+                    }
                 }
                 continue;
             }

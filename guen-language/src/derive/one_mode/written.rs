@@ -84,7 +84,7 @@ pub(super) fn in_mode(
         }
     });
     let contacts_held = held.collect();
-    let mode = words(contacts, scene.mode.as_ref()?);
+    let mode = words(contacts, scene.single_mode()?);
     let in_mode = InMode { contacts: contacts_held, followers, tracked, words: mode };
     Some(Declaration {
         items,

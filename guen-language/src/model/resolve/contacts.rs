@@ -14,7 +14,7 @@ use crate::model::contact::{ContactEntry, ContactKind, Row, SwitchEntry};
 use crate::model::contact_values::ContactValue;
 use crate::syntax::{Clause, ClauseWord, Contact, StatesType, Switch, type_of_states};
 
-pub(super) use assembled::{assembled, mode_of_scene};
+pub(super) use assembled::{assembled, modes_of_scene};
 
 /// A contact on its way into the model: with the structure of its rows.
 pub(super) struct RawContact<'a> {

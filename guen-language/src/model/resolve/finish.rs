@@ -1,8 +1,8 @@
 //! The end of the pass over the items: the model is put together.
 
 use super::*;
-use crate::model::Follower;
 use crate::model::contact::ContactEntry;
+use crate::model::{Follower, SceneModes};
 
 impl<'a> Resolver<'a, '_> {
     /// Puts the model together, out of what the items left.
@@ -44,22 +44,27 @@ impl<'a> Resolver<'a, '_> {
         self.eval.report_assumed(None);
         let mut scenes: Vec<SceneEntry<'a>> = Vec::new();
         for scene in self.written_scenes {
-            let mut mode = None;
-            // In an outline it is a scene of the system in which nothing touches.
-            if has_contacts && !self.declaration.is_outline {
+            let mut of_scene = SceneModes::Without;
+            if has_contacts && self.declaration.is_outline {
+                // A scene that has modes there is one of a smooth system.
+                let several = modes.clone().filter(|_| scene.modes.is_empty());
+                of_scene = several.map_or(SceneModes::Without, SceneModes::Several);
+            } else if has_contacts {
                 let entries: Vec<&ContactEntry<'_>> =
                     self.contacts.iter().map(|contact| &contact.entry).collect();
-                mode = contacts::mode_of_scene(&entries, modes.as_deref(), scene, self.eval.faults);
+                let found = contacts::modes_of_scene(&entries, modes.as_deref(), scene, self.eval.faults);
+                of_scene = found.unwrap_or(SceneModes::Without);
             }
-            if let Some(section) = scene.modes.first().filter(|_| !has_contacts) {
+            let is_idle = !has_contacts && !self.declaration.is_outline;
+            if let Some(section) = scene.modes.first().filter(|_| is_idle) {
                 let text = "there are no contacts that `modes` could speak of";
                 let fault = Fault::new(section.keyword, text);
                 self.eval.faults.report(fault.help("declare them: `contacts { name: gap = e; }`"));
             }
-            let is_in_mode = mode.is_some() || self.declaration.in_mode.is_some();
+            let is_in_mode = matches!(of_scene, SceneModes::One(_)) || self.declaration.in_mode.is_some();
             let earlier: Vec<&Scene> = scenes.iter().map(|entry| entry.scene).collect();
             let entry = self.eval.scene(scene, self.declaration, &earlier, is_in_mode);
-            scenes.extend(entry.map(|entry| SceneEntry { mode, ..entry }));
+            scenes.extend(entry.map(|entry| SceneEntry { modes: of_scene, ..entry }));
         }
         if !failed {
             // Counts, unused names and idle sections mean something only where everything else was understood.

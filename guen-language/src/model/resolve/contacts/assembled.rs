@@ -3,6 +3,7 @@
 use guen_symbolic::{Function, Rational, SystemGraph, Workbench};
 
 use super::*;
+use crate::model::SceneModes;
 use crate::model::contact::{ContactState, Contacts};
 
 /// The contacts with the mechanics that their forces act on. In the system itself no force acts, and switches follow the state.
@@ -77,31 +78,21 @@ pub(super) fn value_of_switch(graph: &mut Graph, function: ExprId) -> ExprId {
     graph.add(half, half_sign)
 }
 
-/// The states of the contacts in a scene that has a single mode; another scene of a system with contacts or switches is refused.
-pub(in crate::model::resolve) fn mode_of_scene(
+/// The modes of a scene of a system with contacts or switches; `None` after a fault.
+pub(in crate::model::resolve) fn modes_of_scene(
     entries: &[&ContactEntry<'_>],
     modes: Option<&[Vec<usize>]>,
     scene: &Scene,
     faults: &mut Faults,
-) -> Option<Vec<usize>> {
-    // Without contacts, or with all but one mode excluded, nothing has to be said.
-    if let (true, Some([mode])) = (scene.modes.is_empty(), modes) {
-        return Some(mode.clone());
-    }
-    let Some(keyword) = scene.modes.first().map(|section| section.keyword) else {
-        let text = "a scene of a system with contacts or switches has one mode so far";
-        let fault = Fault::new(scene.keyword, text);
-        faults.report(fault.help("write the states of all contacts: `modes { contact: state; }`"));
-        return None;
-    };
+) -> Option<SceneModes> {
     // A fault in the modes of the system was reported.
-    let left = super::super::modes::of_scene(entries, modes?, scene, faults)?;
-    let [mode] = &left[..] else {
-        let text = format!("the scene `{}` has {} modes, and a scene has one so far", scene.name, left.len());
-        let fault = Fault::new(keyword, text);
-        faults.report(fault.help("write one state of every contact: `modes { contact: state; }`"));
-        return None;
+    let modes = modes?;
+    let left = match scene.modes.is_empty() {
+        true => modes.to_vec(),
+        false => super::super::modes::of_scene(entries, modes, scene, faults)?,
     };
+    let [mode] = &left[..] else { return Some(SceneModes::Several(left)) };
+    let keyword = scene.modes.first().map_or(scene.keyword, |section| section.keyword);
     for (entry, state) in entries.iter().zip(mode) {
         let state = entry.states()[*state];
         if matches!(state, ContactState::Slip | ContactState::SlipPlus | ContactState::SlipMinus) {
@@ -112,5 +103,5 @@ pub(in crate::model::resolve) fn mode_of_scene(
             return None;
         }
     }
-    Some(mode.clone())
+    Some(SceneModes::One(mode.clone()))
 }

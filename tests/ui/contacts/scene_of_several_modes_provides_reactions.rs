@@ -1,6 +1,6 @@
-//! A scene of a system with several modes says which one it has.
+//! A scene of several modes provides the force of a contact as an output.
 //!
-//! repair: `track u;` => `modes { floor: stick; wall: open; } track u;`
+//! repair: `reactions(floor)` => `force`
 
 guen::mechanical_system! {
     pub system Ball {
@@ -19,7 +19,7 @@ guen::mechanical_system! {
         }
         outputs { force = reaction(floor); }
         modes { bolt: free; }
-        scene Rolling { track u; }
+        scene Rolling { modes { wall: open; } track u; provide reactions(floor); }
     }
 }
 

@@ -1,6 +1,6 @@
-//! A scene has one mode.
+//! The modes of a scene name contacts.
 //!
-//! repair: `modes { floor: stick; } track u;` => `modes { floor: stick; wall: open; } track u;`
+//! repair: `flor: stick` => `floor: stick`
 
 guen::mechanical_system! {
     pub system Ball {
@@ -19,7 +19,7 @@ guen::mechanical_system! {
         }
         outputs { force = reaction(floor); }
         modes { bolt: free; }
-        scene Rolling { modes { floor: stick; } track u; }
+        scene Rolling { modes { flor: stick; } track u; }
     }
 }
 

@@ -1,0 +1,26 @@
+//! A scene does not fix what the forces of its contacts change.
+//!
+//! repair: `fix spin; track u;` => `track u;`
+
+guen::mechanical_system! {
+    pub system Ball {
+        constants { m > 0, a > 0, J > 0, mu >= 0, e in 0..1 = 0, g = 9.81 }
+        inputs { push }
+        coordinates { x, z, phi }
+        parameters { u = dot(x); w = dot(z); spin = dot(phi); }
+        kinetic_energy = m/2*(u^2 + w^2) + J/2*spin^2;
+        potential_energy = m*g*z;
+        switches { ice: x - 5; }
+        forces { push along u; }
+        contacts {
+            floor: gap = z - a, slip = u - a*spin, friction = mu*(1 - ice), restitution = e;
+            wall: gap = 9 - x;
+            bolt: latch = phi, when = w, release = t - 1;
+        }
+        outputs { force = reaction(floor); }
+        modes { bolt: free; }
+        scene Rolling { modes { wall: open; } fix spin; track u; }
+    }
+}
+
+fn main() {}
