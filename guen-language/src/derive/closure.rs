@@ -12,9 +12,9 @@ pub enum Reason {
     Tracked,
     /// Something that this statement of the scene asks for depends on it.
     Provided(String),
-    /// This contact depends on it: what is watched of it, or a force that it may have.
+    /// A function that is watched of this contact, or a force that it may have, depends on it.
     Contact(String),
-    /// The function of this switch depends on it.
+    /// A switch, the function of which depends on it.
     Switch(String),
     /// The rate of this variable depends on it.
     Rate(StateIndex),
