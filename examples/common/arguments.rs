@@ -31,6 +31,27 @@ pub fn read_with_page<T>(
     understood(about, [name, meaning], default, read, true)
 }
 
+/// Whether the page is to be opened, for an example that takes nothing else; or the status to end with.
+#[allow(dead_code, reason = "most examples take an argument of their own")]
+pub fn read_page(about: &str) -> Result<bool, ExitCode> {
+    let program = env!("CARGO_CRATE_NAME");
+    let usage = format!(
+        "usage: {program} [--open]\n\n  --open   show the page in a browser\n  --help   print this text"
+    );
+    let words: Vec<String> = std::env::args().skip(1).collect();
+    if words.iter().any(|word| word == "--help" || word == "-h") {
+        println!("{about}\n\n{usage}");
+        return Err(ExitCode::SUCCESS);
+    }
+    match words.iter().find(|word| *word != "--open") {
+        None => Ok(!words.is_empty()),
+        Some(wrong) => {
+            eprintln!("{program} does not understand `{wrong}`\n\n{usage}");
+            Err(ExitCode::from(2))
+        }
+    }
+}
+
 fn understood<T>(
     about: &str,
     [name, meaning]: [&str; 2],

@@ -39,6 +39,13 @@ MADE = [
             ("example-estimator.svg", "estimator", "track"),
             ("example-identification.svg", "identification", "track"),
             ("example-sled-tracking.svg", "sled_tracking", "path"),
+            ("example-spinning-wheel.svg", "spinning_wheel", "speeds"),
+            ("example-stick-slip.svg", "stick_slip", "phase"),
+            ("example-rocking-block.svg", "rocking_block", "tilt"),
+            ("example-billiard-ball.svg", "billiard_ball", "track"),
+            ("example-breaking-loose.svg", "breaking_loose", "track"),
+            ("example-door-latch.svg", "door_latch", "angle"),
+            ("example-walker.svg", "walker", "legs"),
         ]
     ),
 ]

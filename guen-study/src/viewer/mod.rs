@@ -199,6 +199,7 @@ struct View {
     follow: Option<String>,
     bare: bool,
     time_unit: Option<String>,
+    per_force: Option<f64>,
 }
 
 /// A fault of the description; the page is refused with the first one.
@@ -570,6 +571,26 @@ impl<'a, const N: usize> Viewer<'a, N> {
     /// Sets the unit of time that the page writes, `s` unless told. Short times in seconds are written in `ms`, `µs` and so on.
     pub fn time_unit(mut self, unit: impl Into<String>) -> Self {
         self.view.time_unit = Some(unit.into());
+        self
+    }
+
+    /// Sets the length of the arrow of a force of one. Unless told, the longest arrow is a quarter of the space that the motion takes up.
+    ///
+    /// ```
+    /// use guen_study::{Pose, Recording, Shape, Viewer};
+    ///
+    /// let mut recording = Recording::new(&["x"]);
+    /// (0..100).for_each(|k| recording.record(f64::from(k), &[f64::from(k)]));
+    /// // A weight of 20 N on a long way: an arrow of half a metre.
+    /// let page = Viewer::new("A weight", &recording)
+    ///     .force("weight", |_, x| [[x[0], 0.0, 0.5], [0.0, 0.0, -20.0]])
+    ///     .force_length(0.025);
+    /// assert!(page.to_html()?.contains("have the length 0.025 for a force of 1"));
+    /// # Ok::<(), guen_study::StudyError>(())
+    /// ```
+    pub fn force_length(mut self, length: f64) -> Self {
+        self.view.per_force = Some(length);
+        self.require(is_drawable(&[length]) && length > 0.0, || "the length of forces".to_owned());
         self
     }
 

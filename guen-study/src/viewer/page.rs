@@ -286,18 +286,18 @@ fn base(values: &[f64]) -> f64 {
     if middle.abs() > FAR_OFF * (high - low) && high > low { middle } else { 0.0 }
 }
 
-/// The arrow of the largest force, and the radius of such arrows, as parts of the size of the motion.
+/// The arrow of the largest force as a part of the size of the motion, and the radius of such arrows as a part of the longest one.
 const LONGEST_FORCE: f64 = 0.25;
-const FORCE_RADIUS: f64 = 0.005;
+const FORCE_RADIUS: f64 = 0.02;
 
 /// The place and the size of a motion.
 pub(super) struct Space {
     /// The place that is subtracted from all places, if single precision would not hold their differences.
     pub(super) origin: Option<[f64; 3]>,
-    /// The longest way through the space that the motion takes up, with its bodies.
-    size: f64,
     /// The length of an arrow for a force of one.
     pub(super) per_force: Option<f64>,
+    /// The radius of such arrows.
+    force_radius: f64,
 }
 
 impl Space {
@@ -327,8 +327,10 @@ impl Space {
         let forces = viewer.all_links().filter(|link| link.kind == LinkKind::Force);
         let largest =
             forces.flat_map(|link| &link.ends.values).map(|[_, force]| norm(*force)).fold(0.0, f64::max);
-        let per_force = (largest > 0.0).then(|| LONGEST_FORCE * size / largest);
-        Self { origin, size, per_force }
+        let per_force = viewer.view.per_force.or((largest > 0.0).then(|| LONGEST_FORCE * size / largest));
+        let per_force = per_force.filter(|_| largest > 0.0);
+        let force_radius = per_force.map_or(0.0, |scale| FORCE_RADIUS * scale * largest);
+        Self { origin, per_force, force_radius }
     }
 
     /// A link's radius and the places of its ends.
@@ -339,6 +341,6 @@ impl Space {
             let tip = std::array::from_fn(|i| from[i] + scale * to[i]);
             [from, if is_force { tip } else { to }]
         });
-        (if is_force { FORCE_RADIUS * self.size } else { link.radius }, ends)
+        (if is_force { self.force_radius } else { link.radius }, ends)
     }
 }
