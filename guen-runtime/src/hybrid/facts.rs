@@ -14,15 +14,22 @@ impl<H, const N: usize, const W: usize, const C: usize, const S: usize> Place<H,
 where
     H: HybridSystem<N, W, C, S> + Clone,
 {
-    /// The contacts that touch: those that were closed, and those whose gap has reached zero; at the start and after a reset those whose gap
-    /// is zero.
+    /// The contacts that touch: those that were closed, and those whose gap has reached zero, with those whose gap is then rounding
+    /// alone; at the start and after a reset those whose gap is zero.
     pub(super) fn touching(&self, fired: &Fired<C, S>, anew: bool) -> Result<[bool; C], HybridCause<C>> {
         let system = &self.in_mode.system;
         let when = system.conditions(self.t, &self.state, &self.in_mode.switches).when;
         let known: [bool; C] =
             from_fn(|c| self.in_mode.mode.0[c].is_closed() && H::ELEMENTS[c].kind != Kind::Grip);
         if !anew && !self.begins {
-            return Ok(from_fn(|c| known[c] || fired.gap[c] && H::ELEMENTS[c].kind != Kind::Latch));
+            let contact = |c: usize| !matches!(H::ELEMENTS[c].kind, Kind::Grip | Kind::Latch);
+            if !fired.gap.contains(&true) {
+                return Ok(known);
+            }
+            let (gaps, resolution) = (self.free().gaps, self.resolution());
+            // A few roundings: bounces that digits tell apart are not touches.
+            let at_zero = |c: usize| when[c] > 0.0 && 64.0 * gaps[c].abs() <= resolution[c];
+            return Ok(from_fn(|c| known[c] || contact(c) && (fired.gap[c] || at_zero(c))));
         }
         let zero = |_| RunningError::exact(0.0);
         let switches = self.in_mode.switches.map(RunningError::exact);
@@ -69,13 +76,17 @@ where
         let rates =
             self.in_mode.system.row_rates(RunningError::once(self.t), &self.state.map(RunningError::once));
         let anew = anew || self.begins;
+        let scale = rates.iter().fold(0.0, |most: f64, rate| most.max(rate.value.abs()));
+        // A slip that is rounding alone, as where it has only begun: its direction is not known.
+        let rounds = |rows: &[usize]| rows.len() == 1 && rates[rows[0]].value.abs() <= f64::EPSILON * scale;
         from_fn(|c| {
             let (element, state) = (&H::ELEMENTS[c], self.in_mode.mode.0[c]);
             let vanish = |rows: &[usize]| rows.iter().all(|&row| vanishes(rates[row]));
             let closed = state.is_closed() && !anew && element.kind != Kind::Grip;
             let normal_still = closed || element.normal.is_some_and(|row| vanishes(rates[row]));
             let slip_still = !anew && (state == ElementState::Stick || fired.slip[c])
-                || (anew || !state.slips()) && vanish(element.tangential);
+                || (anew || !state.slips()) && vanish(element.tangential)
+                || rounds(element.tangential);
             let rate = |still| if still { Rate::Still } else { Rate::Moving };
             Known {
                 touches: touches[c],

@@ -86,7 +86,7 @@ where
     H: HybridSystem<N, W, C, S> + Clone,
 {
     /// The sizes of gaps below which they are rounding.
-    fn resolution(&self) -> [f64; C] {
+    pub(super) fn resolution(&self) -> [f64; C] {
         let exact = |value: f64| RunningError::exact(value);
         let switches = self.in_mode.switches.map(exact);
         let state = self.state.map(RunningError::once);

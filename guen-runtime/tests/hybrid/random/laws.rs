@@ -5,6 +5,7 @@ use guen_runtime::hybrid::{
 };
 use nalgebra::{DMatrix, DVector};
 
+use crate::random::held;
 use crate::random::lcp::{Part, Tangent, forces};
 
 /// What was judged.
@@ -15,6 +16,8 @@ pub struct Judged {
     pub impacts: usize,
     /// Problems in which Lemke's pivoting ends in a ray.
     pub rays: usize,
+    /// Modes and impacts beside which others are possible: with more rows than freedom Coulomb's law does not determine the motion.
+    pub several: usize,
     /// The largest violation of a law, and the largest difference from the other solver, relative to the sizes of the rates.
     pub violation: f64,
     pub difference: f64,
@@ -40,7 +43,7 @@ fn largest(values: &[f64]) -> f64 {
 }
 
 /// The slip of an element that counts as none.
-const STILL: f64 = 1e-9;
+const STILL: f64 = 1e-12;
 
 impl Judged {
     /// Judges a mode at a state: its laws, and its accelerations beside those of another solver.
@@ -141,9 +144,18 @@ impl Judged {
             self.rays += 1;
             return Ok(());
         };
-        let other = biases + delassus * found;
-        let difference = (0..W).map(|w| (other[w] - accelerations[w]).abs()).fold(0.0, f64::max)
-            / of_biases.max(of_forces);
+        let other = &biases + &delassus * found;
+        let apart = |other: &DVector<f64>| {
+            (0..W).map(|w| (other[w] - accelerations[w]).abs()).fold(0.0, f64::max) / of_biases.max(of_forces)
+        };
+        let mut difference = apart(&other);
+        if difference > 1e-7 && in_mode.is_redundant() {
+            // Both go on where forces exist for both.
+            if let Some(found) = held::forces(&H::ELEMENTS, &free, mode) {
+                difference = apart(&(biases + delassus * found));
+            }
+            self.several += 1;
+        }
         self.difference = self.difference.max(difference);
         if difference > 1e-7 {
             let ours = accelerations;
@@ -249,6 +261,13 @@ impl Judged {
         };
         let end = middle + &delassus * expansion;
         let difference = (0..W).map(|w| (end[w] - after[w]).abs()).fold(0.0, f64::max) / of_rates;
+        let struck = H::ELEMENTS.iter().enumerate().filter(|(c, _)| touches(*c));
+        let rows: usize =
+            struck.map(|(_, element)| usize::from(element.normal.is_some()) + element.tangential.len()).sum();
+        if difference > 1e-8 && rows > N / 2 {
+            self.several += 1;
+            return Ok(());
+        }
         self.difference = self.difference.max(difference);
         if difference > 1e-8 {
             return Err(format!(

@@ -2,6 +2,7 @@
 //!
 //! `GUEN_ROUNDS` says how many systems of each family; the tests' run takes a few.
 
+mod held;
 mod laws;
 mod lcp;
 mod sensitivity;
@@ -153,6 +154,7 @@ fn judged<H, const D: usize, const N: usize, const W: usize, const C: usize>(
 ) where
     H: HybridSystem<N, W, C, 0, Mode = Mode<C>> + Copy + core::fmt::Debug,
 {
+    let ended = ends.len();
     let motion = match system.simulation(&start).tolerance(1e-10).run(0.0..end) {
         Ok(motion) => motion,
         Err(failed) => {
@@ -181,7 +183,9 @@ fn judged<H, const D: usize, const N: usize, const W: usize, const C: usize>(
     for transition in motion.transitions() {
         right(judged.transition(&system, transition, |x| drawn.kinetic(x)));
     }
-    for (t, x) in motion.sample(0.05) {
+    // Where an error ends the run, what fired there has not yet led to another mode.
+    let last = ends.len() > ended;
+    for (t, x) in motion.sample(0.05).filter(|(t, _)| !(last && *t == motion.end_time())) {
         right(judged.mode(&system, (t, &x), &motion.mode_at(t)));
     }
 }
@@ -208,7 +212,7 @@ fn drawn_systems_keep_the_laws() {
     }
     println!("{} systems, {} typed errors: {total:?}", 5 * rounds, ends.len());
     assert!(total.transitions > 15 * rounds && total.impacts > 5 * rounds && ends.len() <= rounds / 2);
-    assert!(total.rays <= total.modes / 100);
+    assert!(total.rays <= total.modes / 100 && total.several <= total.modes / 1000);
 }
 
 /// Slips in a plane end in sticking, or leave rest in the one direction along which they accelerate: none of these has a paradox.
