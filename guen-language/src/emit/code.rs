@@ -7,6 +7,8 @@ use std::fmt::Write;
 
 use guen_symbolic::{Function, Instruction, Multivariate, Operation, Rational, SymbolId, Value};
 
+use super::supplied::steps as steps_to;
+
 /// The name of the functions that the program supplies, a tuple.
 pub(super) const SUPPLIED: &str = "functions";
 
@@ -14,6 +16,9 @@ pub(super) const SUPPLIED: &str = "functions";
 pub(super) trait Loads {
     /// The place of a symbol's value.
     fn symbol(&self, symbol: SymbolId) -> String;
+
+    /// The number of functions that the program supplies.
+    fn functions(&self) -> usize;
 }
 
 /// The body of a function: its statements, then its results as an array. Values are called `v0`, `v1`, ..; loads, and
@@ -31,6 +36,7 @@ pub(super) fn body(instructions: &[Instruction], outputs: &[Value], loads: &dyn 
         is_operation: vec![false; values],
         in_place: vec![false; values],
         absorbed: absorbed(instructions, &uses),
+        functions: loads.functions(),
         text: String::new(),
     };
     // Where each value is used last; results count as used behind the end.
@@ -264,6 +270,8 @@ struct Writer {
     in_place: Vec<bool>,
     /// The factors of products that are written inside of a sum.
     absorbed: Vec<Option<(Value, Value)>>,
+    /// The number of functions that the program supplies.
+    functions: usize,
     text: String,
 }
 
@@ -318,10 +326,12 @@ impl Writer {
         let names: Vec<usize> = steps.iter().map(|step| step.result.index()).collect();
         let first = names[0];
         let given = given.join(", ");
-        let _ = write!(
-            self.text,
-            "let d{first} = __guen::derivatives_{order}(&{SUPPLIED}.{function}, [{given}]);"
-        );
+        // With a blank in front of every point: `0.1` would be a number.
+        let place: Vec<String> =
+            steps_to(usize::from(*function), self.functions).iter().map(|step| format!(".{step}")).collect();
+        let place = place.join(" ");
+        let _ =
+            write!(self.text, "let d{first} = __guen::derivatives_{order}(&{SUPPLIED} {place}, [{given}]);");
         for (step, name) in steps.iter().zip(names) {
             let _ = write!(self.text, "let v{name} = d{first}{};", derivative(order, &orders(step)));
         }

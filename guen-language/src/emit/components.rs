@@ -8,17 +8,18 @@ use super::documentation;
 use super::fields::{Fields, Tree};
 use super::formula::text_of;
 use super::layout::is_derived;
+use super::supplied::Supplied;
 use super::text::tokens;
 use crate::diagnostics::collect;
 use crate::model::Model;
 use crate::names::module_name;
 use crate::report::interface;
-use crate::syntax::{Component, Instance, Name};
+use crate::syntax::{Component, Instance};
 
 /// The struct of the constants of a component, for a model of these alone, and the module with its name for them.
 pub(crate) fn component(component: &Component, model: &Model<'_>, facade: &TokenStream) -> TokenStream {
     let structure = structure(component, model, facade, &component.visibility.outside());
-    let module = module(component, &quote!(#facade::__private));
+    let module = module(component, &Supplied::new(model), &quote!(#facade::__private));
     quote!(#structure #module)
 }
 
@@ -30,22 +31,19 @@ fn structure(
 ) -> TokenStream {
     let name = &component.name.ident;
     let private = quote!(#facade::__private);
-    let names: Vec<&Name> = model.constants.iter().map(|constant| constant.name).collect();
-    let structure = Fields::new(names).of_record("Constants");
+    let supplied = &Supplied::new(model);
+    let structure = fields_of(model, supplied);
     let instances = &model.declaration.instances;
-    let leaf = |place: usize| match is_derived(model, &model.constants[place]) {
-        true => quote!(#private::Derived<R>),
-        false => quote!(R),
-    };
+    let leaf = leaf(model, &structure, supplied, &private);
     let fields = structure.trees().map(|(ident, tree)| {
-        let docs = docs(model, tree);
+        let docs = docs(model, &structure, supplied, tree);
         let kind = kind(tree, instances, &leaf);
         quote!(#docs pub #ident: #kind,)
     });
-    let marker =
-        (structure.len() == 0).then(|| quote!(#[doc(hidden)] pub real: ::core::marker::PhantomData<R>,));
-    let constructors = constructors(component, model, &structure, &private);
+    let marker = structure.has_marker().then(super::parts::marker);
+    let constructors = constructors(component, model, (&structure, supplied), &private);
     let parts = parts(name, &structure, instances, &private);
+    let kinds = supplied.declared();
     let text = interface(component);
     let written = &component.docs.values;
     let blank = (!written.is_empty()).then(|| quote!(#[doc = ""]));
@@ -57,7 +55,7 @@ fn structure(
             ::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq
         )]
         #[allow(non_snake_case, reason = "names are the user's own")]
-        #visibility struct #name<R = f64> {
+        #visibility struct #name<R = f64 #kinds> {
             #(#fields)*
             #marker
         }
@@ -66,12 +64,37 @@ fn structure(
     }
 }
 
+/// The fields of the struct.
+fn fields_of(model: &Model<'_>, supplied: &Supplied) -> Fields {
+    Fields::of_constants(model.constants.iter().map(|constant| constant.name), supplied)
+}
+
+/// The types of values.
+fn leaf<'a>(
+    model: &'a Model<'_>,
+    structure: &'a Fields,
+    supplied: &Supplied,
+    private: &'a TokenStream,
+) -> impl Fn(usize) -> TokenStream + 'a {
+    let kinds = supplied.kinds();
+    move |place| match structure.function(place) {
+        Some(function) => {
+            let kind = &kinds[function];
+            quote!(#kind)
+        }
+        None if is_derived(model, &model.constants[place]) => quote!(#private::Derived<R>),
+        None => quote!(R),
+    }
+}
+
 /// `rolling_wheel::Constants` for `RollingWheel`.
-fn module(component: &Component, private: &TokenStream) -> TokenStream {
+fn module(component: &Component, supplied: &Supplied, private: &TokenStream) -> TokenStream {
     let name = &component.name.ident;
     let module = module_name(name, "component");
     let (visibility, inner) = (component.visibility.outside(), component.visibility.inside());
     let text = format!("The constants of the component `{name}`.");
+    let (declared, kinds) = (supplied.declared(), supplied.arguments());
+    let Tuple { functions, parameters } = Tuple::of(&supplied.parameter_list());
     quote! {
         #[doc = #text]
         #[allow(unused_imports, dead_code, reason = "the struct alone may be what is used")]
@@ -80,21 +103,40 @@ fn module(component: &Component, private: &TokenStream) -> TokenStream {
             #[::core::prelude::v1::derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug)]
             #inner struct __GuenComponent;
             #[doc = #text]
-            pub type Constants<R = f64> = <__GuenComponent as __guen::Instances<0>>::Constants<R>;
+            pub type Constants<R = f64 #declared> =
+                <__GuenComponent as __guen::Instances<0 #functions>>::Constants<R>;
             use #private as __guen;
         }
-        impl #private::Instances<0> for #module::__GuenComponent {
-            type Constants<R> = #name<R>;
+        impl #parameters #private::Instances<0 #functions> for #module::__GuenComponent {
+            type Constants<R> = #name<R #kinds>;
         }
     }
 }
 
-fn docs(model: &Model<'_>, tree: &Tree) -> TokenStream {
+/// The functions of an instance, as the trait of instances takes them.
+struct Tuple {
+    /// The tuple of their types behind a comma.
+    functions: Option<TokenStream>,
+    /// The parameters of an implementation.
+    parameters: Option<TokenStream>,
+}
+
+impl Tuple {
+    fn of(kinds: &[Ident]) -> Self {
+        let parameters = (!kinds.is_empty()).then(|| quote!(<#(#kinds),*>));
+        Tuple { functions: super::parts::functions_of(kinds), parameters }
+    }
+}
+
+fn docs(model: &Model<'_>, structure: &Fields, supplied: &Supplied, tree: &Tree) -> TokenStream {
     let mut places = Vec::new();
     tree.leaves(&mut places);
     let Some(first) = places.first() else { return TokenStream::new() };
     if let Some(part) = tree.instance() {
         return super::parts::docs_of_instance(&model.declaration.instances, part);
+    }
+    if let Some(function) = structure.function(*first) {
+        return supplied.docs(function).clone();
     }
     let constant = &model.constants[*first];
     let text = format!("The constant `{}`.", constant.name);
@@ -119,7 +161,13 @@ fn kind(tree: &Tree, instances: &[Instance], leaf: &dyn Fn(usize) -> TokenStream
             let inner = entries.first().map_or_else(|| quote!(R), |entry| kind(entry, instances, leaf));
             quote!([#inner; #count])
         }
-        Tree::Instance(_) => path_of(tree, instances).map_or_else(|| quote!(R), |path| quote!(#path<R>)),
+        Tree::Instance(part) => path_of(tree, instances).map_or_else(
+            || quote!(R),
+            |path| {
+                let kinds = &part.kinds;
+                quote!(#path<R #(, #kinds)*>)
+            },
+        ),
     }
 }
 
@@ -127,16 +175,18 @@ fn kind(tree: &Tree, instances: &[Instance], leaf: &dyn Fn(usize) -> TokenStream
 fn constructors(
     component: &Component,
     model: &Model<'_>,
-    structure: &Fields,
+    (structure, supplied): (&Fields, &Supplied),
     private: &TokenStream,
 ) -> TokenStream {
     let name = &component.name.ident;
+    let types = leaf(model, structure, supplied, private);
     let (mut required, mut kinds, mut values) = (Vec::new(), Vec::new(), Vec::new());
-    let real = quote!(R);
     for (ident, tree) in structure.trees() {
         let mut places = Vec::new();
         tree.leaves(&mut places);
-        if places.iter().all(|place| model.constants[*place].default.is_some()) {
+        let is_default =
+            |place: &usize| model.constants.get(*place).is_some_and(|constant| constant.default.is_some());
+        if places.iter().all(is_default) {
             let value = default(model, tree, private);
             values.push(quote!(#ident: #value));
             continue;
@@ -145,15 +195,11 @@ fn constructors(
             true => format_ident!("{ident}_", span = ident.span()),
             false => ident.clone(),
         };
-        let leaf = |place: usize| match is_derived(model, &model.constants[place]) {
-            true => quote!(#private::Derived<R>),
-            false => real.clone(),
-        };
-        kinds.push(kind(tree, &model.declaration.instances, &leaf));
+        kinds.push(kind(tree, &model.declaration.instances, &types));
         values.push(if *ident == parameter { quote!(#ident) } else { quote!(#ident: #parameter) });
         required.push(parameter);
     }
-    let marker = (structure.len() == 0).then(|| quote!(real: ::core::marker::PhantomData,));
+    let marker = super::constants::marker_of(structure);
     if required.is_empty() {
         return quote! {
             #[allow(dead_code, reason = "a struct may be written out")]
@@ -176,11 +222,12 @@ fn constructors(
             }
         };
     }
+    let parameters = supplied.arguments();
     let list: Vec<String> = required.iter().map(|name| format!("`{name}`")).collect();
     let docs = format!("The component with {}, and the defaults of all other constants.", list.join(", "));
     quote! {
         #[allow(dead_code, reason = "a struct may be written out")]
-        impl<R: #private::Real> #name<R> {
+        impl<R: #private::Real #parameters> #name<R #parameters> {
             #[doc = #docs]
             #[allow(clippy::too_many_arguments, non_snake_case, reason = "one for each constant without a default")]
             pub fn new(#(#required: #kinds),*) -> Self {
@@ -220,9 +267,11 @@ fn parts(name: &Ident, structure: &Fields, instances: &[Instance], private: &Tok
     let parts = super::parts::instances(&fields).filter_map(|(place, ident)| {
         let tree = fields.iter().find(|(known, _)| known == ident).map(|(_, tree)| tree)?;
         let path = path_of(tree, instances)?;
+        let kinds = &tree.instance()?.kinds;
+        let Tuple { functions, parameters } = Tuple::of(kinds);
         Some(quote! {
-            impl #private::Instances<#place> for #name<::core::primitive::f64> {
-                type Constants<R> = #path<R>;
+            impl #parameters #private::Instances<#place #functions> for #name<::core::primitive::f64> {
+                type Constants<R> = #path<R #(, #kinds)*>;
             }
         })
     });
@@ -238,9 +287,9 @@ pub(super) fn of_instances(model: &Model<'_>, facade: &TokenStream) -> (TokenStr
         return Default::default();
     }
     let module = module_name(&declaration.name.ident, "system");
-    let names = model.constants.iter().map(|constant| constant.name);
+    let supplied = &Supplied::new(model);
     let fields: Vec<(Ident, Tree)> =
-        Fields::new(names).trees().map(|(ident, tree)| (ident.clone(), tree.clone())).collect();
+        fields_of(model, supplied).trees().map(|(ident, tree)| (ident.clone(), tree.clone())).collect();
     let (mut outside, mut inside) = (TokenStream::new(), TokenStream::new());
     let inner = declaration.visibility.inside();
     inside.extend(quote! {
@@ -251,21 +300,23 @@ pub(super) fn of_instances(model: &Model<'_>, facade: &TokenStream) -> (TokenStr
     for (place, ident) in super::parts::instances(&fields) {
         let tree = fields.iter().find(|(known, _)| known == ident).map(|(_, tree)| tree);
         let Some(path) = tree.and_then(|tree| path_of(tree, &declaration.instances)) else { continue };
+        let kinds = tree.and_then(Tree::instance).map_or(&[][..], |part| &part.kinds);
+        let Tuple { functions, parameters } = Tuple::of(kinds);
         let text = path.to_string();
         let is_inside = declaration.components.iter().any(|(known, _)| known.name.ident == text);
         if is_inside {
             inside.extend(quote! {
-                impl __guen::Instances<#place> for __GuenInstances {
-                    type Constants<R> = #path<R>;
+                impl #parameters __guen::Instances<#place #functions> for __GuenInstances {
+                    type Constants<R> = #path<R #(, #kinds)*>;
                 }
             });
         } else {
             // A component that fewer may see than the system is the compiler's mistake at this place.
             let place_of_path =
                 path.clone().into_iter().last().map_or_else(Span::call_site, |token| token.span());
-            let constants = quote_spanned!(place_of_path=> type Constants<R> = #path<R>;);
+            let constants = quote_spanned!(place_of_path=> type Constants<R> = #path<R #(, #kinds)*>;);
             outside.extend(quote! {
-                impl #facade::__private::Instances<#place> for #module::__GuenInstances {
+                impl #parameters #facade::__private::Instances<#place #functions> for #module::__GuenInstances {
                     #constants
                 }
             });

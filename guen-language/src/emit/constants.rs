@@ -28,7 +28,7 @@ struct Field {
 
 /// The values of the constants of a struct, where those that are derived are computed.
 pub(super) fn values(layout: &Layout, structure: &Fields, of: &TokenStream) -> TokenStream {
-    let names = structure.accesses();
+    let names = &structure.accesses()[..structure.constants()];
     match layout.derived.is_empty() {
         true => quote!([#(#of.#names),*]),
         false => quote!(#of.__guen_values()),
@@ -67,19 +67,23 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, report: &Report)
     let (system, declared) = (&layout.system, &layout.declared);
     let fields = fields(subject, layout);
     let real = format_ident!("{}", if system == declared { REAL } else { "Scalar" });
-    let structure = Fields::new(fields.iter().map(|field| &field.written)).of_record("Constants").over(&real);
-    let kind = |field: &Field| if field.is_derived { quote!(__guen::Derived<#real>) } else { quote!(#real) };
+    let supplied = &layout.supplied;
+    let structure = Fields::of_constants(fields.iter().map(|field| &field.written), supplied).over(&real);
     let declared_fields: Vec<TokenStream> = structure
         .trees()
         .map(|(ident, tree)| {
             let mut places = Vec::new();
             tree.leaves(&mut places);
-            let (first, last) = (&fields[places[0]], &fields[places[places.len() - 1]]);
-            let kind = tree.of_type(&kind(first));
+            let kind = tree.of_type(&kind(&structure, layout, &fields, tree, &quote!(#real)));
             if let Some(part) = tree.instance() {
                 let docs = parts::docs_of_instance(&subject.model.declaration.instances, part);
                 return quote!(#docs pub #ident: #kind,);
             }
+            if let Some(function) = structure.function(places[0]) {
+                let docs = supplied.docs(function);
+                return quote!(#docs pub #ident: #kind,);
+            }
+            let (first, last) = (&fields[places[0]], &fields[places[places.len() - 1]]);
             let docs = &first.docs;
             let range = (places.len() > 1).then(|| {
                 let range = format!("The entries `{}` to `{}`.", first.name, last.name);
@@ -93,10 +97,9 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, report: &Report)
     let checks = checks(subject, &fields);
     let constructors = constructors(subject, layout, &fields, &structure);
     // A system without constants still has a type parameter to carry; its name is a value, as that of a unit struct.
-    let marker = (count == 0).then(|| quote!(real: ::core::marker::PhantomData<#real>,));
-    let marker_value = (count == 0).then(|| quote!(real: ::core::marker::PhantomData,));
+    let marker = structure.has_marker().then(|| quote!(real: ::core::marker::PhantomData<#real>,));
+    let marker_value = marker_of(&structure);
     let is_type_like = declared.to_string().starts_with(char::is_uppercase);
-    let supplied = &layout.supplied;
     let unit = (count == 0 && is_type_like && supplied.is_empty()).then(|| {
         let docs = format!("The system [`{declared}`](struct@{declared}): it has no constants.");
         quote! {
@@ -104,14 +107,13 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, report: &Report)
             pub const #declared: #system = #system { #marker_value };
         }
     });
-    let (supplied_kinds, supplied_fields) = (supplied.declared(), supplied.fields());
+    let supplied_kinds = supplied.declared();
     let item = quote! {
         #[::core::prelude::v1::derive(
             ::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq
         )]
         pub struct #declared<#real = f64 #supplied_kinds> {
             #(#declared_fields)*
-            #supplied_fields
             #marker
         }
     };
@@ -126,7 +128,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, report: &Report)
             Some(quote!(, follows #count)),
         ),
     };
-    let given: Vec<TokenStream> = (0..count).map(|i| {
+    let mut given: Vec<TokenStream> = (0..count).map(|i| {
         let place = layout.derived.iter().position(|derived| *derived == i);
         match place {
             None => quote!(self.constants[#i]),
@@ -135,8 +137,12 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, report: &Report)
             },
         }
     }).collect();
+    given.extend(supplied.prepared(&quote!(self.hoisted)));
     let given = structure.literal(&given);
-    let given_functions = supplied.prepared(&quote!(self.hoisted));
+    let functions = (!supplied.is_empty()).then(|| {
+        let functions = supplied.tuple(&structure, &quote!(self));
+        quote!(, functions #functions)
+    });
     let hoisted = supplied.hoisted(hoisted);
     let definite = physical::definite(subject, layout);
     let pivots = motion::pivots(subject);
@@ -162,7 +168,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, report: &Report)
         impl<R> __guen::Unprepared for #system<R> {}
 
         __guen::prepare!(
-            self constants hoisted prepared; #system #count, #values, { #checks } { #pivots } { #follows } { #limits } { #definite }
+            self constants hoisted prepared; #system #count, #values #functions, { #checks } { #pivots } { #follows } { #limits } { #definite }
         );
 
         __guen::prepared!(#prepared_docs #count #hoisted #follows_field);
@@ -170,7 +176,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, report: &Report)
         impl<R: __guen::Real> Prepared<R> {
             /// The constants that the system was prepared from.
             pub fn constants(&self) -> #system<R> {
-                #system { #given #given_functions #marker_value }
+                #system { #given #marker_value }
             }
         }
 
@@ -181,19 +187,28 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout, report: &Report)
 /// Adds the types of the constants of instances.
 pub(super) fn parts(subject: &Subject<'_, '_>, layout: &Layout, modules: &mut Modules) {
     let model = subject.model;
-    let whole = Fields::new(model.constants.iter().map(|constant| constant.name)).of_record("Constants");
+    let names = model.constants.iter().map(|constant| constant.name);
+    let whole = Fields::of_constants(names, &layout.supplied);
     if layout.is_whole {
         return parts::add_constants(modules, &whole);
     }
     let fields = fields(subject, layout);
-    let structure = Fields::new(fields.iter().map(|field| &field.written)).of_record("Constants");
+    let structure = Fields::of_constants(fields.iter().map(|field| &field.written), &layout.supplied);
     let docs = |tree: &Tree| match tree.instance() {
         Some(part) => parts::docs_of_instance(&model.declaration.instances, part),
-        None => tree.first().map_or_else(TokenStream::new, |first| fields[first].docs.clone()),
+        None => tree.first().map_or_else(TokenStream::new, |first| match structure.function(first) {
+            Some(function) => layout.supplied.docs(function).clone(),
+            None => fields[first].docs.clone(),
+        }),
     };
-    let leaf = |place: usize| match fields[place].is_derived {
-        true => quote!(__guen::Derived<R>),
-        false => quote!(R),
+    let kinds = layout.supplied.kinds();
+    let leaf = |place: usize| match structure.function(place) {
+        Some(function) => {
+            let kind = &kinds[function];
+            quote!(#kind)
+        }
+        None if fields[place].is_derived => quote!(__guen::Derived<R>),
+        None => quote!(R),
     };
     parts::add_constants_of_scene(modules, &structure, &whole, &docs, &leaf);
 }
@@ -225,14 +240,14 @@ fn resolution(
         let value = quote!(values[#i]);
         if field.is_derived { quote!(__guen::Derived::Set(#value)) } else { value }
     });
-    let resolved = structure.literal(&resolved.collect::<Vec<_>>());
-    let supplied = layout.supplied.taken(&quote!(self));
+    let functions = layout.supplied.taken(structure, &quote!(self));
+    let resolved = structure.literal(&resolved.chain(functions).collect::<Vec<_>>());
     Some(quote! {
         impl<R: __guen::Real> #system<R> {
             /// Returns the constants with every derived one set to its present value.
             pub fn resolved(&self) -> Self {
                 let values = self.__guen_values();
-                #system { #resolved #supplied }
+                #system { #resolved }
             }
 
             /// The constants as numbers, each out of those before it.
@@ -346,7 +361,8 @@ fn constructors(
         true => format_ident!("{ident}_", span = ident.span()),
         false => ident.clone(),
     };
-    // An array is given as a whole if one of its entries has no default.
+    // An array is given as a whole if one of its entries has no default, and so is an instance with functions.
+    let is_given = |place: &usize| fields.get(*place).is_none_or(|field| field.default.is_none());
     let defaults: Vec<TokenStream> = fields
         .iter()
         .map(|field| match field.default {
@@ -360,24 +376,29 @@ fn constructors(
     for (name, tree) in structure.trees() {
         let mut places = Vec::new();
         tree.leaves(&mut places);
-        if places.iter().all(|place| fields[*place].default.is_some()) {
+        if !places.iter().any(is_given) {
             let value = tree.literal(&defaults);
             values.push(quote!(#name: #value));
             continue;
         }
         let parameter = parameter(name);
-        kinds.push(match fields[places[0]].is_derived {
-            true => tree.of_type(&quote!(__guen::Derived<R>)),
-            false => tree.of_type(&quote!(R)),
-        });
+        kinds.push(tree.of_type(&kind(structure, layout, fields, tree, &quote!(R))));
         // `a: a` would be a lint in the user's file.
         values.push(if *name == parameter { quote!(#name) } else { quote!(#name: #parameter) });
         required.push(parameter);
     }
-    let marker = (fields.is_empty()).then(|| quote!(real: ::core::marker::PhantomData,));
-    let supplied = &layout.supplied;
-    if !supplied.is_empty() {
-        return with_functions(layout, &required, &kinds, &values, marker.as_ref());
+    let marker = marker_of(structure);
+    if !layout.supplied.is_empty() {
+        let arguments: Vec<TokenStream> =
+            required.iter().zip(&kinds).map(|(name, kind)| quote!(#name: #kind)).collect();
+        let has_defaults = fields.iter().all(|field| field.default.is_some());
+        let default = has_defaults.then(|| {
+            let functions = layout.supplied.names().map(|_| quote!(::core::default::Default::default()));
+            let all: Vec<TokenStream> = defaults.iter().cloned().chain(functions).collect();
+            let all = structure.literal(&all);
+            quote!(#all #marker)
+        });
+        return with_functions(layout, (&required, &arguments), &quote!(#(#values,)* #marker), default);
     }
     let docs = if required.is_empty() {
         "The system with its default constants.".to_owned()
@@ -418,30 +439,30 @@ fn constructors(
     }
 }
 
-/// `new` with the constants that have no default and the functions that the program supplies, and `Default` if all constants have one.
+/// `new` with the constants that have no default and the functions that the program supplies, and `Default` if all constants have one:
+/// the arguments with their names, and the fields of the literals.
 fn with_functions(
     layout: &Layout,
-    required: &[Ident],
-    kinds: &[TokenStream],
-    values: &[TokenStream],
-    marker: Option<&TokenStream>,
+    (names, arguments): (&[Ident], &[TokenStream]),
+    made: &TokenStream,
+    default: Option<TokenStream>,
 ) -> TokenStream {
     let (system, supplied) = (&layout.system, &layout.supplied);
-    let (arguments, fields) = supplied.given();
-    let names: Vec<String> = required.iter().map(ToString::to_string).chain(supplied.names()).collect();
-    let names: Vec<String> =
-        names.iter().map(|name| format!("`{}`", name.trim_start_matches("r#"))).collect();
+    let names: Vec<String> = names.iter().map(|name| format!("`{}`", plain(name))).collect();
     let docs = format!("The system with {}, and the defaults of all other constants.", names.join(", "));
-    let default = required.is_empty().then(|| {
+    let default = default.map(|made| {
         let default = quote!(::core::default::Default);
-        let (bounded, kinds, defaults) =
-            (supplied.bounded(&default), supplied.arguments(), supplied.defaults());
+        let (bounded, kinds) = (supplied.bounded(&default), supplied.arguments());
         let real = quote!(::core::primitive::f64);
         // The bound is one of this implementation alone: a path keeps the name from those that get the parameters of all others.
         quote! {
             impl<#bounded> #default for self::#system<#real #kinds> {
                 fn default() -> Self {
-                    Self::new(#(#defaults),*)
+                    #[allow(dead_code, reason = "defaults may be no numbers")]
+                    type R = #real;
+                    #[allow(unused_imports, reason = "defaults may be no quotients")]
+                    use __guen::Real as _;
+                    #system { #made }
                 }
             }
         }
@@ -450,10 +471,34 @@ fn with_functions(
         impl<R: __guen::Real> #system<R> {
             #[doc = #docs]
             #[allow(clippy::too_many_arguments, reason = "one for each constant without a default, and one for each function")]
-            pub fn new(#(#required: #kinds,)* #(#arguments),*) -> Self {
-                #system { #(#values,)* #fields #marker }
+            pub fn new(#(#arguments),*) -> Self {
+                #system { #made }
             }
         }
         #default
     }
+}
+
+/// The type of the values of a field.
+fn kind(
+    structure: &Fields,
+    layout: &Layout,
+    fields: &[Field],
+    tree: &Tree,
+    real: &TokenStream,
+) -> TokenStream {
+    let Some(place) = tree.first() else { return real.clone() };
+    match structure.function(place) {
+        Some(function) => {
+            let kind = &layout.supplied.kinds()[function];
+            quote!(#kind)
+        }
+        None if fields[place].is_derived => quote!(__guen::Derived<#real>),
+        None => real.clone(),
+    }
+}
+
+/// The value of the field that names the type of reals, of a struct without constants.
+pub(super) fn marker_of(structure: &Fields) -> Option<TokenStream> {
+    structure.has_marker().then(|| quote!(real: ::core::marker::PhantomData,))
 }

@@ -8,6 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
+use super::supplied::Supplied;
 use crate::syntax::{Name, Step};
 
 /// The fields of a struct whose values are a flat list.
@@ -16,6 +17,8 @@ pub(super) struct Fields {
     fields: Vec<(Ident, Tree)>,
     names: Vec<String>,
     accesses: Vec<TokenStream>,
+    /// The number of values that are functions, behind all others.
+    functions: usize,
 }
 
 /// The content of a field, with the places of values in the list.
@@ -42,6 +45,10 @@ pub(super) struct Part {
     record: &'static str,
     /// The type of reals; of a struct without a parameter none.
     real: Option<TokenStream>,
+    /// The types of the functions in it.
+    pub(super) kinds: Vec<Ident>,
+    /// Whether it has functions and nothing else, so that a field of its own names the type of reals.
+    pub(super) has_marker: bool,
 }
 
 /// A value on its way into the tree: the steps that are left, and its place in the list.
@@ -93,7 +100,47 @@ impl Fields {
             accesses[place] = quote!(#own);
             fields.push((own.clone(), Tree::Leaf(place)));
         }
-        Fields { fields, names: names.iter().map(|name| name.text.clone()).collect(), accesses }
+        let names = names.iter().map(|name| name.text.clone()).collect();
+        Fields { fields, names, accesses, functions: 0 }
+    }
+
+    /// The fields of a struct of constants, with the functions that the program supplies behind them.
+    pub(super) fn of_constants<'a>(
+        names: impl IntoIterator<Item = &'a Name>,
+        supplied: &'a Supplied,
+    ) -> Self {
+        let mut fields = Fields::new(names.into_iter().chain(supplied.names())).of_record("Constants");
+        let kinds = supplied.kinds();
+        let first = fields.len() - kinds.len();
+        fields.functions = kinds.len();
+        if !kinds.is_empty() {
+            fields.each_part(&mut |part| {
+                let mut places = Vec::new();
+                part.fields.iter().for_each(|(_, tree)| tree.leaves(&mut places));
+                for kind in places.iter().filter_map(|place| kinds.get(place.checked_sub(first)?)) {
+                    if !part.kinds.contains(kind) {
+                        part.kinds.push(kind.clone());
+                    }
+                }
+                part.has_marker = are_functions(&part.fields, first);
+            });
+        }
+        fields
+    }
+
+    /// Whether no value but functions is in the struct, so that a field of its own names the type of reals.
+    pub(super) fn has_marker(&self) -> bool {
+        are_functions(&self.fields, self.constants())
+    }
+
+    /// The number of constants.
+    pub(super) fn constants(&self) -> usize {
+        self.names.len() - self.functions
+    }
+
+    /// The place of a function among all functions, where a value is one.
+    pub(super) fn function(&self, place: usize) -> Option<usize> {
+        place.checked_sub(self.constants())
     }
 
     /// Sets the name of the record, whose instances have structs of that name.
@@ -202,8 +249,13 @@ impl Fields {
     }
 }
 
+/// Whether all fields are functions, given the place of the first function.
+fn are_functions(fields: &[(Ident, Tree)], first: usize) -> bool {
+    fields.iter().all(|(_, tree)| matches!(tree, Tree::Leaf(place) if *place >= first))
+}
+
 /// A name without the numbers of its indices: entries of one array have one of them.
-fn template(name: &Name) -> String {
+pub(super) fn template(name: &Name) -> String {
     let steps = name.path().into_iter().flat_map(|path| &path.steps);
     let steps = steps.map(|step| match step {
         Step::Index { .. } => "[]".to_owned(),
@@ -264,7 +316,9 @@ fn tree(waiting: &[Waiting<'_>], module: &[Ident]) -> Option<Tree> {
             });
             let fields = fields.collect::<Option<_>>()?;
             let (module, level) = (module.to_vec(), TokenStream::new());
-            Some(Tree::Instance(Part { fields, module, level, record: "", real: Some(quote!(R)) }))
+            let (kinds, has_marker) = (Vec::new(), false);
+            let real = Some(quote!(R));
+            Some(Tree::Instance(Part { fields, module, level, record: "", real, kinds, has_marker }))
         }
         _ => None,
     }
@@ -393,7 +447,8 @@ impl Tree {
                     let value = tree.literal(values);
                     quote!(#ident: #value)
                 });
-                quote!(#path { #(#fields),* })
+                let marker = part.has_marker.then(|| quote!(, real: ::core::marker::PhantomData));
+                quote!(#path { #(#fields),* #marker })
             }
         }
     }
@@ -458,7 +513,8 @@ impl Part {
     fn of_type(&self, outer: &TokenStream) -> TokenStream {
         let outer = if outer.is_empty() { &self.level } else { outer };
         let (path, real) = (self.path(outer), &self.real);
-        let real = real.as_ref().map(|real| quote!(<#real>));
+        let kinds = &self.kinds;
+        let real = real.as_ref().map(|real| quote!(<#real #(, #kinds)*>));
         quote!(#path #real)
     }
 }

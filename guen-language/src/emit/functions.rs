@@ -11,11 +11,18 @@ use super::text::tokens;
 use crate::derive::{Level, Subject, function};
 
 /// The places of the values of symbols, in the arrays that a function takes.
-pub(super) struct Places(Vec<String>);
+pub(super) struct Places {
+    symbols: Vec<String>,
+    functions: usize,
+}
 
 impl Loads for Places {
     fn symbol(&self, symbol: SymbolId) -> String {
-        self.0[symbol.index()].clone()
+        self.symbols[symbol.index()].clone()
+    }
+
+    fn functions(&self) -> usize {
+        self.functions
     }
 }
 
@@ -59,7 +66,7 @@ impl Places {
             let speeds = contacts.entries.iter().map(|entry| entry.speed).enumerate();
             speeds.for_each(|(i, speed)| speed.into_iter().for_each(|speed| put(speed, format!("m[{i}]"))));
         }
-        Places(places)
+        Places { symbols: places, functions: subject.whole.functions.len() }
     }
 }
 
@@ -149,7 +156,8 @@ fn module(name: &str, programs: &Programs, more: &str, subject: &Subject<'_, '_>
         );
         String::new()
     } else {
-        format!("{} {SUPPLIED} {{ {prepare} }}", layout.supplied.list())
+        let (kinds, members) = (layout.supplied.list(), layout.supplied.members());
+        format!("{kinds} {SUPPLIED} {members} {{ {prepare} }}")
     };
     let _ = write!(
         text,

@@ -3,6 +3,7 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
+use super::constants::marker_of;
 use super::fields::Fields;
 use super::formula::default_text;
 use super::layout::{Layout, is_derived, variable_name};
@@ -94,16 +95,14 @@ fn conversions(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let held: Vec<Name> = selection.held.iter().map(|held| variable_name(model, held.place)).collect();
     let given = selection.constants.iter().map(|c| model.constants[*c].name);
     // The structs of the constants and of the state, here and in the system.
-    let own_fields = Fields::new(given.chain(&held)).of_record("Constants");
-    let whole_fields = Fields::new(model.constants.iter().map(|constant| constant.name));
-    let whole_fields = whole_fields.of_record("Constants").of_outer();
+    let own_fields = Fields::of_constants(given.chain(&held), &layout.supplied);
+    let whole_names = model.constants.iter().map(|constant| constant.name);
+    let whole_fields = Fields::of_constants(whole_names, &layout.supplied).of_outer();
     let (_, full) = whole_model.sizes();
     let names = (0..full).map(|place| variable_name(whole_model, place));
     let whole_state = Fields::new(&names.collect::<Vec<Name>>());
     let count = selection.constants.len();
-    let marker = |is_empty: bool| is_empty.then(|| quote!(real: ::core::marker::PhantomData,));
-    let own_marker = marker(layout.constants == 0);
-    let whole_marker = marker(model.constants.is_empty());
+    let (own_marker, whole_marker) = (marker_of(&own_fields), marker_of(&whole_fields));
     let fixes = subject.scene().map_or(&[][..], |(_, facts)| &facts.fixes);
     let locals: Vec<Ident> = (0..count).map(|i| format_ident!("__guen_c{i}")).collect();
     let fixed_names: Vec<&str> = fixes.iter().map(|(c, _)| model.constants[*c].name.text.as_str()).collect();
@@ -151,9 +150,8 @@ fn conversions(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
         let name = whole_state.access(subject.place_in_whole(held.place));
         quote!(state.#name)
     });
-    let (supplied, supplied_by_scene) =
-        (layout.supplied.taken(&quote!(system)), layout.supplied.taken(&quote!(self)));
-    let built = own_fields.literal(&kept.chain(at_rest).collect::<Vec<_>>());
+    let functions = layout.supplied.taken(&whole_fields, &quote!(system));
+    let built = own_fields.literal(&kept.chain(at_rest).chain(functions).collect::<Vec<_>>());
     let own_values = (!layout.derived.is_empty()).then(|| quote!(let values = self.__guen_values();));
     let own = (0..count).map(|i| {
         let name = own_fields.access(i);
@@ -168,7 +166,8 @@ fn conversions(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
         let value = fixes.iter().zip(&values).find(|((fixed, _), _)| *fixed == c).map(|(_, value)| value);
         if is_derived(c) { quote!(__guen::Derived::Set(#value)) } else { quote!(#value) }
     });
-    let whole_constants = whole_fields.literal(&whole_constants.collect::<Vec<_>>());
+    let functions = layout.supplied.taken(&own_fields, &quote!(self));
+    let whole_constants = whole_fields.literal(&whole_constants.chain(functions).collect::<Vec<_>>());
     let kept_values = (0..count).any(held_back).then(|| whole_values.clone());
     let of_state = level.selection.variables.iter().map(|place| {
         let name = whole_state.access(subject.place_in_whole(*place));
@@ -188,7 +187,7 @@ fn conversions(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
                     fn from(system: super::#whole<R>) -> Self {
                         let _ = &system;
                         #kept_values
-                        #scene { #built #supplied #own_marker }
+                        #scene { #built #own_marker }
                     }
                 }
             }
@@ -200,7 +199,7 @@ fn conversions(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
                     fn try_from(system: super::#whole<R>) -> ::core::result::Result<Self, Self::Error> {
                         Self::check_fixed(&system)?;
                         #kept_values
-                        ::core::result::Result::Ok(#scene { #built #supplied #own_marker })
+                        ::core::result::Result::Ok(#scene { #built #own_marker })
                     }
                 }
             }
@@ -222,7 +221,6 @@ fn conversions(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
                 #kept_values
                 ::core::result::Result::Ok(#scene {
                     #built
-                    #supplied
                     #own_marker
                 })
             }
@@ -240,7 +238,7 @@ fn conversions(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
             pub fn system(&self) -> super::#whole<R> {
                 #own_values
                 let [#(#locals),*]: [R; #count] = [#(#own),*];
-                super::#whole { #whole_constants #supplied_by_scene #whole_marker }
+                super::#whole { #whole_constants #whole_marker }
             }
         }
 

@@ -93,16 +93,28 @@ fn structure_of(
             }
         }
     });
+    let (kinds, marker) = (&part.kinds, part.has_marker.then(marker));
     quote! {
         #[doc = #text]
         #[::core::prelude::v1::derive(
             ::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq
         )]
-        pub struct #name<R = f64> {
+        pub struct #name<R = f64 #(, #kinds = f64)*> {
             #(#fields)*
+            #marker
         }
         #default
     }
+}
+
+/// The field that names the type of reals, of a struct without constants.
+pub(super) fn marker() -> TokenStream {
+    quote!(#[doc(hidden)] pub real: ::core::marker::PhantomData<R>,)
+}
+
+/// The types of functions behind a comma, as a trait of instances takes them: nothing where there are none.
+pub(super) fn functions_of(kinds: &[Ident]) -> Option<TokenStream> {
+    (!kinds.is_empty()).then(|| quote!(, (#(#kinds,)*)))
 }
 
 /// The places of instances among the fields of a struct of constants, each with its name: by them the types of their constants
@@ -133,9 +145,11 @@ pub(super) fn add_constants(modules: &mut Modules, structure: &Fields) {
             None => (place(&top, name), quote!(super::__GuenInstances)),
             Some(owner) => (place(&owner.fields, name), quote!(super::Constants<::core::primitive::f64>)),
         };
+        let (kinds, functions) = (&part.kinds, functions_of(&part.kinds));
         let item = quote! {
             /// The constants of the instance.
-            pub type Constants<R = f64> = <#of as __guen::Instances<#place>>::Constants<R>;
+            pub type Constants<R = f64 #(, #kinds = f64)*> =
+                <#of as __guen::Instances<#place #functions>>::Constants<R>;
         };
         modules.add(&part.module, item);
     }
@@ -154,9 +168,11 @@ pub(super) fn add_constants_of_scene(
         let item = match of_system.filter(|other| other.is_like(part)) {
             Some(_) => {
                 let (outer, module) = (super::fields::outward(part.module.len() + 1), &part.module);
+                let kinds = &part.kinds;
                 quote! {
                     /// The constants of the instance.
-                    pub type Constants<R = f64> = #outer #(#module::)* Constants<R>;
+                    pub type Constants<R = f64 #(, #kinds = f64)*> =
+                        #outer #(#module::)* Constants<R #(, #kinds)*>;
                 }
             }
             None => structure_of("Constants", part, docs, leaf, false),

@@ -7,7 +7,9 @@ use proc_macro2::{Delimiter, Group, Ident, Literal, Punct, Spacing, Span, TokenS
 use quote::quote;
 
 use super::documentation;
+use super::fields::{Fields, template};
 use crate::model::Model;
+use crate::syntax::{Name, Step};
 
 /// The macros of the runtime that name a type with parameters.
 const MACROS: [&str; 13] = [
@@ -28,17 +30,27 @@ const MACROS: [&str; 13] = [
 
 /// A function that the program supplies.
 struct Function {
-    field: Ident,
-    /// The parameter of types.
-    kind: Ident,
-    /// The number of its arguments.
-    arguments: usize,
+    /// The way to its field: `left.torque` for that of an instance.
+    name: Name,
+    /// Its parameter of types, as a place among all of them.
+    kind: usize,
     docs: TokenStream,
+}
+
+/// A parameter of types: the functions of an array of instances share one.
+struct Kind {
+    parameter: Ident,
+    /// The number of arguments of the functions.
+    arguments: usize,
+    /// The name of the first function without numbers of indices.
+    template: String,
 }
 
 /// The functions that the program supplies, as fields and as parameters of types.
 pub(super) struct Supplied {
     functions: Vec<Function>,
+    /// In the order of the fields.
+    kinds: Vec<Kind>,
     /// The types that have the parameters.
     types: Vec<String>,
 }
@@ -50,25 +62,56 @@ impl Supplied {
         let scenes = model.scenes.iter().map(|entry| &entry.scene.name.ident);
         let systems: Vec<String> = scenes.chain([&declaration.name.ident]).map(ToString::to_string).collect();
         let mut taken = systems.clone();
+        let mut kinds: Vec<Kind> = Vec::new();
         let functions = model.functions.iter().map(|function| {
             let name = &function.name;
-            let mut kind = format!("{}Function", camel(&name.text));
-            while taken.contains(&kind) {
-                kind.push('_');
-            }
-            taken.push(kind.clone());
             let arguments: Vec<&str> = function.arguments.iter().map(|name| name.text.as_str()).collect();
-            let fallback = format!("The function `{name}({})`.", arguments.join(", "));
-            Function {
-                field: name.ident.clone(),
-                kind: Ident::new(&kind, Span::call_site()),
-                arguments: arguments.len(),
-                docs: documentation::entry(&function.docs, &fallback, None),
-            }
+            let template = template(name);
+            let known = kinds.iter().position(|kind| kind.template == template);
+            let kind = known.unwrap_or_else(|| {
+                let mut text = format!("{}Function", camel(&template));
+                while taken.contains(&text) {
+                    text.push('_');
+                }
+                taken.push(text.clone());
+                let parameter = Ident::new(&text, Span::call_site());
+                kinds.push(Kind { parameter, arguments: arguments.len(), template });
+                kinds.len() - 1
+            });
+            let own = match name.path().and_then(|path| path.steps.last()) {
+                Some(Step::Field(field)) => super::fields::plain(field),
+                _ => name.text.clone(),
+            };
+            let fallback = format!("The function `{own}({})`.", arguments.join(", "));
+            Function { name: name.clone(), kind, docs: documentation::entry(&function.docs, &fallback, None) }
         });
         let functions: Vec<Function> = functions.collect();
         let own = ["Prepared", "Driven", "__guen_system"].map(str::to_owned);
-        Supplied { functions, types: own.into_iter().chain(systems).collect() }
+        let supplied = Supplied { functions, kinds, types: own.into_iter().chain(systems).collect() };
+        supplied.in_the_order_of_fields(model)
+    }
+
+    /// The parameters as the fields of the struct of constants have them.
+    fn in_the_order_of_fields(mut self, model: &Model<'_>) -> Self {
+        if self.kinds.len() < 2 {
+            return self;
+        }
+        let names: Vec<&Name> = model.constants.iter().map(|constant| constant.name).collect();
+        let structure = Fields::new(names.iter().copied().chain(self.names()));
+        let places = structure.order().into_iter().filter_map(|place| place.checked_sub(names.len()));
+        let mut order: Vec<usize> = Vec::new();
+        for kind in places.map(|place| self.functions[place].kind) {
+            if !order.contains(&kind) {
+                order.push(kind);
+            }
+        }
+        let rank = |kind: usize| order.iter().position(|other| *other == kind).unwrap_or(kind);
+        self.functions.iter_mut().for_each(|function| function.kind = rank(function.kind));
+        let mut kinds: Vec<(usize, Kind)> =
+            self.kinds.into_iter().enumerate().map(|(kind, entry)| (rank(kind), entry)).collect();
+        kinds.sort_by_key(|(rank, _)| *rank);
+        self.kinds = kinds.into_iter().map(|(_, kind)| kind).collect();
+        self
     }
 
     /// Whether there are none.
@@ -76,72 +119,86 @@ impl Supplied {
         self.functions.is_empty()
     }
 
+    /// The parameters of types, in their order.
+    fn parameter_names(&self) -> impl Iterator<Item = &Ident> {
+        self.kinds.iter().map(|kind| &kind.parameter)
+    }
+
+    /// The parameters of types, in a list.
+    pub(super) fn parameter_list(&self) -> Vec<Ident> {
+        self.parameter_names().cloned().collect()
+    }
+
     /// The parameters in the declaration of a type, with defaults: constant functions.
     pub(super) fn declared(&self) -> TokenStream {
-        let kinds = self.functions.iter().map(|function| &function.kind);
+        let kinds = self.parameter_names();
         quote!(#(, #kinds = ::core::primitive::f64)*)
     }
 
     /// The parameters of a type behind its real.
     pub(super) fn arguments(&self) -> TokenStream {
-        let kinds = self.functions.iter().map(|function| &function.kind);
+        let kinds = self.parameter_names();
         quote!(#(, #kinds)*)
     }
 
     /// The parameters of an implementation or function, with their bounds, each behind a comma.
     pub(super) fn parameters(&self) -> TokenStream {
-        let parameters = self.functions.iter().map(|Function { kind, arguments, .. }| {
+        let parameters = self.kinds.iter().map(|Kind { parameter, arguments, .. }| {
             let arguments = Literal::usize_unsuffixed(*arguments);
-            quote!(, #kind: __guen::Smooth<#arguments>)
+            quote!(, #parameter: __guen::Smooth<#arguments>)
         });
         parameters.collect()
     }
 
-    /// The fields of a struct.
-    pub(super) fn fields(&self) -> TokenStream {
-        let fields =
-            self.functions.iter().map(|Function { field, kind, docs, .. }| quote!(#docs pub #field: #kind,));
-        fields.collect()
+    /// The parameter of types of each function.
+    pub(super) fn kinds(&self) -> Vec<Ident> {
+        self.functions.iter().map(|function| self.kinds[function.kind].parameter.clone()).collect()
     }
 
-    /// The fields of a literal, out of those of another struct.
-    pub(super) fn taken(&self, of: &TokenStream) -> TokenStream {
-        self.functions.iter().map(|Function { field, .. }| quote!(#field: #of.#field,)).collect()
+    /// The documentation of the field of a function.
+    pub(super) fn docs(&self, function: usize) -> &TokenStream {
+        &self.functions[function].docs
     }
 
-    /// The fields of a literal, out of the prepared values at `of`.
-    pub(super) fn prepared(&self, of: &TokenStream) -> TokenStream {
-        let fields = self.functions.iter().enumerate().map(|(i, Function { field, .. })| {
-            let i = Literal::usize_unsuffixed(i);
-            quote!(#field: #of.functions.#i,)
-        });
-        fields.collect()
+    /// The functions in a tuple, out of the fields of a struct whose ways to all values these are.
+    pub(super) fn tuple(&self, structure: &Fields, of: &TokenStream) -> TokenStream {
+        tuple(self.taken(structure, of))
     }
 
-    /// The functions as arguments of a constructor, and as fields of a literal from them.
-    pub(super) fn given(&self) -> (Vec<TokenStream>, TokenStream) {
-        let arguments = self.functions.iter().map(|Function { field, kind, .. }| quote!(#field: #kind));
-        let fields = self.functions.iter().map(|Function { field, .. }| quote!(#field,));
-        (arguments.collect(), fields.collect())
+    /// The functions out of the fields of a struct.
+    pub(super) fn taken(&self, structure: &Fields, of: &TokenStream) -> Vec<TokenStream> {
+        let ways = &structure.accesses()[structure.len() - self.functions.len()..];
+        ways.iter().map(|way| quote!(#of.#way)).collect()
     }
 
-    /// The names of the fields.
-    pub(super) fn names(&self) -> Vec<String> {
-        self.functions.iter().map(|function| function.field.to_string()).collect()
+    /// The functions out of the prepared values at `of`.
+    pub(super) fn prepared(&self, of: &TokenStream) -> Vec<TokenStream> {
+        (0..self.functions.len())
+            .map(|i| {
+                let place = self.place(i);
+                quote!(#of.functions #place)
+            })
+            .collect()
+    }
+
+    /// The way to a function in the tuple, behind its name.
+    fn place(&self, function: usize) -> TokenStream {
+        let steps = steps(function, self.functions.len()).into_iter();
+        steps.map(Literal::usize_unsuffixed).flat_map(|step| quote!(.#step)).collect()
+    }
+
+    /// The names, which are the ways to the fields.
+    pub(super) fn names(&self) -> impl Iterator<Item = &Name> {
+        self.functions.iter().map(|function| &function.name)
     }
 
     /// The parameters with a further bound, for an implementation.
     pub(super) fn bounded(&self, bound: &TokenStream) -> TokenStream {
-        let parameters = self.functions.iter().map(|Function { kind, arguments, .. }| {
+        let parameters = self.kinds.iter().map(|Kind { parameter, arguments, .. }| {
             let arguments = Literal::usize_unsuffixed(*arguments);
-            quote!(#kind: __guen::Smooth<#arguments> + #bound,)
+            quote!(#parameter: __guen::Smooth<#arguments> + #bound,)
         });
         parameters.collect()
-    }
-
-    /// A default for each.
-    pub(super) fn defaults(&self) -> Vec<TokenStream> {
-        self.functions.iter().map(|_| quote!(::core::default::Default::default())).collect()
     }
 
     /// The type of the prepared values, `[R; count]` where there is no function.
@@ -149,27 +206,33 @@ impl Supplied {
         if self.is_empty() {
             return quote!([R; #count]);
         }
-        let kinds = self.functions.iter().map(|function| &function.kind);
-        quote!(__guen::Hoisted<R, #count, (#(#kinds,)*)>)
+        let members = self.members();
+        quote!(__guen::Hoisted<R, #count, #members>)
+    }
+
+    /// The type of the tuple of functions.
+    pub(super) fn members(&self) -> TokenStream {
+        tuple(self.kinds().iter().map(|kind| quote!(#kind)).collect())
     }
 
     /// The functions in lanes: of each lane its own, in a tuple, and their types behind commas.
     pub(super) fn in_lanes(&self, member: &TokenStream) -> (TokenStream, TokenStream) {
-        let functions = self.functions.iter().enumerate().map(|(i, Function { arguments, .. })| {
-            let (i, n) = (Literal::usize_unsuffixed(i), Literal::usize_unsuffixed(*arguments));
+        let functions = self.functions.iter().enumerate().map(|(i, function)| {
+            let arguments = self.kinds[function.kind].arguments;
+            let (place, n) = (self.place(i), Literal::usize_unsuffixed(arguments));
             quote! {
-                __guen::EachLane::gathered::<#n>(<L as __guen::Lanes>::COUNT, |lane| #member.hoisted.functions.#i),
+                __guen::EachLane::gathered::<#n>(<L as __guen::Lanes>::COUNT, |lane| #member.hoisted.functions #place)
             }
         });
-        let kinds = self.functions.iter().map(|function| &function.kind);
-        (quote!((#(#functions)*)), quote!(#(, __guen::EachLane<#kinds>)*))
+        let kinds = self.parameter_names();
+        (tuple(functions.collect()), quote!(#(, __guen::EachLane<#kinds>)*))
     }
 
-    /// The functions as macros of the runtime take them: the field, the parameter and the number of arguments of each.
+    /// The parameters of types as macros of the runtime take them, each with the number of arguments of its functions.
     pub(super) fn list(&self) -> TokenStream {
-        let list = self.functions.iter().map(|Function { field, kind, arguments, .. }| {
+        let list = self.kinds.iter().map(|Kind { parameter, arguments, .. }| {
             let arguments = Literal::usize_unsuffixed(*arguments);
-            quote!(#field #kind #arguments)
+            quote!(#parameter #arguments)
         });
         quote!([#(#list)*])
     }
@@ -302,9 +365,30 @@ fn punct(mark: char) -> TokenTree {
     TokenTree::Punct(Punct::new(mark, Spacing::Alone))
 }
 
+/// The most members of a tuple: of longer ones the library of Rust knows neither equality nor text.
+const MEMBERS: usize = 8;
+
+/// A tuple; where there are many members, a tuple of tuples.
+fn tuple(members: Vec<TokenStream>) -> TokenStream {
+    if members.len() <= MEMBERS {
+        return quote!((#(#members,)*));
+    }
+    tuple(members.chunks(MEMBERS).map(|chunk| tuple(chunk.to_vec())).collect())
+}
+
+/// The indices that lead to a member of such a tuple of so many.
+pub(super) fn steps(member: usize, of: usize) -> Vec<usize> {
+    if of <= MEMBERS {
+        return vec![member];
+    }
+    let mut steps = steps(member / MEMBERS, of.div_ceil(MEMBERS));
+    steps.push(member % MEMBERS);
+    steps
+}
+
 /// A name in camel case: `rolling_drag` gives `RollingDrag`.
 fn camel(name: &str) -> String {
-    // A faulty component may have put the function of an instance here; an identifier has none of these.
+    // The function of an instance is a path; an identifier has none of these.
     let words = name.split(['_', '.', '[', ']', '#']).filter(|word| !word.is_empty());
     words
         .map(|word| {

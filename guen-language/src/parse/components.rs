@@ -77,7 +77,11 @@ fn arguments(group: &Group, faults: &mut Faults) -> Vec<DeclaredArgument> {
             let fault = Fault::new(span, format!("expected a kind of argument, found {}", cursor.found()));
             let words = || ArgumentKind::ALL.into_iter().map(ArgumentKind::word);
             let near = kind_of_habit(&word).or_else(|| nearest(&word, words()));
+            let is_function = FUNCTION_OF_HABIT.contains(&word.as_str());
             let fault = match near {
+                _ if is_function => fault
+                    .note("an argument is a value, and a function is handed over with the constants of an instance")
+                    .help(format_args!("declare it in the component, `functions {{ {name}(x); }}`")),
                 Some(near) => fault.help(format_args!("did you mean `{near}`?")),
                 None => fault.help(format_args!("the kinds are {}", quoted(words()))),
             };
@@ -85,12 +89,15 @@ fn arguments(group: &Group, faults: &mut Faults) -> Vec<DeclaredArgument> {
             cursor.recover_to_comma();
             // The likely meaning is taken: nothing is derived after a fault.
             let kind = near.and_then(ArgumentKind::of_word).unwrap_or(ArgumentKind::Scalar);
-            return Ok(DeclaredArgument { docs, name, kind });
+            return Ok(DeclaredArgument { docs, name, kind, is_sound: false });
         };
         cursor.skip(1);
-        Ok(DeclaredArgument { docs, name, kind })
+        Ok(DeclaredArgument { docs, name, kind, is_sound: true })
     })
 }
+
+/// What other tools call an argument that is a function.
+const FUNCTION_OF_HABIT: [&str; 6] = ["function", "fn", "Fn", "Function", "callable", "lambda"];
 
 /// The kind that other tools call so.
 fn kind_of_habit(word: &str) -> Option<&'static str> {

@@ -424,9 +424,6 @@ fn only_of_systems(kind: SectionKind, keyword: Span, faults: &mut Faults) {
         SectionKind::Gravity => fault
             .note("`gravity` of the system acts on the particles and bodies of its components too")
             .help("declare it in the system"),
-        SectionKind::Functions => fault
-            .note("a field of the struct has the function, and a component has no struct of a system")
-            .help("declare it in the system, and hand its value to the component as an argument"),
         SectionKind::Scene | SectionKind::Provide => {
             fault.help("declare it in the system that uses the component")
         }

@@ -29,7 +29,11 @@ pub(crate) fn interface(component: &Component) -> String {
             let _ = writeln!(text, "| `{name}` | {what} | {docs} |");
         }
     }
-    text.push_str("\nThe fields are the constants of the component.");
+    let has_functions = component.items.iter().any(|item| matches!(item, Item::Functions(_)));
+    text.push_str(match has_functions {
+        true => "\nThe fields are the constants of the component, and the functions that the program supplies to it.",
+        false => "\nThe fields are the constants of the component.",
+    });
     text
 }
 

@@ -44,6 +44,8 @@ pub struct DeclaredArgument {
     pub name: Name,
     /// The kind of what is given.
     pub kind: ArgumentKind,
+    /// Whether the kind is one; after a fault nothing is said about how the argument is used.
+    pub is_sound: bool,
 }
 
 /// The kinds of arguments.

@@ -139,7 +139,9 @@ impl Scope<'_> {
             ExpressionKind::Call { function, arguments, .. } => {
                 let is_own = self.own.functions.contains(function.text.as_str());
                 let asks = ASKING.contains(&function.text.as_str());
-                if !is_function(&function.text) && !is_own && !asks {
+                let mut arguments_after_faults = self.component.arguments.iter().filter(|a| !a.is_sound);
+                let is_excused = arguments_after_faults.any(|argument| argument.name.text == function.text);
+                if !is_function(&function.text) && !is_own && !asks && !is_excused {
                     let fault = Fault::new(function.span(), format!("unknown function `{function}`"));
                     faults
                         .report(fault.help("a component knows its own functions and those of the language"));

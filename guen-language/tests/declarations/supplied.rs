@@ -68,3 +68,41 @@ fn a_faulty_declaration_keeps_the_fields_of_its_functions() {
         "{text}"
     );
 }
+
+/// A cart with two tracks, the functions of which are those of the component.
+const TRACKS: &str = "pub system Cart {
+    component Slope(s: scalar) { functions { height(x); } fn twice(x) = 2*x; potential_energy = twice(height(twice(s))); }
+    component Track(s: scalar) { use Slope as slope { s } }
+    constants   { m > 0 }
+    coordinates { x }
+    parameters  { u = dot(x); }
+    for i in 0..3 { use Track as track[i] { s: x } }
+    use Slope as slope { s: 3*x }
+    kinetic_energy = m/2*u^2;
+}";
+
+#[test]
+fn functions_of_components_are_differentiated_as_those_of_systems() {
+    derived(TRACKS, |derived| {
+        let names: Vec<&str> =
+            derived.model.functions.iter().map(|function| function.name.text.as_str()).collect();
+        let [a, b, c] = ["track[0].slope.height", "track[1].slope.height", "track[2].slope.height"];
+        assert_eq!(names, [a, b, c, "slope.height"]);
+        assert_eq!(derived.system.program("rhs").unwrap().cost.calls, 4);
+    });
+}
+
+#[test]
+fn the_functions_of_an_array_have_one_type() {
+    let text = expanded(TRACKS);
+    let start = text.find("pub struct Cart").unwrap();
+    let head: String = text[start..start + text[start..].find('{').unwrap()]
+        .split_whitespace()
+        .collect::<Vec<_>>()
+        .join(" ");
+    let [first, second] = ["TrackSlopeHeightFunction", "SlopeHeightFunction"];
+    let kinds = [first, second].map(|kind| format!("{kind} = :: core :: primitive :: f64"));
+    assert_eq!(head, format!("pub struct Cart < R = f64 , {} >", kinds.join(" , ")));
+    let faulty = expanded(&TRACKS.replace("s: 3*x", "s: 3*y"));
+    assert!(faulty.contains("unknown name `y`") && faulty.contains(first), "{faulty}");
+}

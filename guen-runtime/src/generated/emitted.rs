@@ -17,14 +17,14 @@ mod motion;
 #[macro_export]
 macro_rules! program_functions {
     (
-        $supplied:tt $functions:ident $prepare:tt
+        $supplied:tt $functions:ident $members:tt $prepare:tt
         $c:ident $constants:literal $k:ident $hoisted:literal $($array:ident $length:literal)*;
         $($name:ident($($t:ident)?; $($given:ident $kind:ident)*) -> $n:literal $body:tt)*
     ) => {
         type $c<R> = [R; $constants];
-        $crate::program_function!(@ prepared $supplied $k $hoisted);
+        $crate::program_function!(@ prepared $supplied $members $k $hoisted);
         $(#[allow(dead_code, reason = "small systems use few of them")] type $array<R> = [R; $length];)*
-        $crate::program_function!(@ prepare $supplied $functions $c $k $prepare);
+        $crate::program_function!(@ prepare $supplied $members $functions $c $k $prepare);
         $($crate::program_function! {
             $supplied $functions $c $k $name($($t)?; $($given $kind)*) -> $n $body
         })*
@@ -46,13 +46,14 @@ macro_rules! program_functions {
     };
 }
 
-/// A straight-line function of [`program_functions!`](crate::program_functions) where the program supplies functions: their names
-/// and types with the numbers of their arguments, the name by which the code has them, and the function.
+/// A straight-line function of [`program_functions!`](crate::program_functions) where the program supplies functions: their types
+/// with the numbers of their arguments, the name by which the code has them, and the function. The members of the tuple of
+/// functions are several of one type where an array of instances has them.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! program_function {
     (
-        [$($field:ident $F:ident $N:literal)*] $functions:ident $c:ident $k:ident
+        [$($F:ident $N:literal)*] $functions:ident $c:ident $k:ident
         $name:ident($($t:ident)?; $($given:ident $kind:ident)*) -> $n:literal $body:tt
     ) => {
         #[inline]
@@ -64,13 +65,15 @@ macro_rules! program_function {
             <R as $crate::Real>::vectorize(#[inline(always)] || $body)
         }
     };
-    (@ prepared [$($field:ident $F:ident $N:literal)*] $k:ident $hoisted:literal) => {
-        pub(super) type $k<R $(, $F)*> = $crate::Hoisted<R, $hoisted, ($($F,)*)>;
+    (@ prepared [$($F:ident $N:literal)*] ($($members:tt)*) $k:ident $hoisted:literal) => {
+        pub(super) type $k<R $(, $F)*> = $crate::Hoisted<R, $hoisted, ($($members)*)>;
     };
-    (@ prepare [$($field:ident $F:ident $N:literal)*] $functions:ident $c:ident $k:ident $values:tt) => {
+    (
+        @ prepare [$($F:ident $N:literal)*] ($($members:tt)*) $functions:ident $c:ident $k:ident $values:tt
+    ) => {
         #[inline]
         pub(super) fn prepare<R: $crate::Real $(, $F: $crate::Smooth<$N>)*>(
-            $c: &$c<R>, $functions: ($($F,)*),
+            $c: &$c<R>, $functions: ($($members)*),
         ) -> $k<R $(, $F)*> {
             $crate::Hoisted { values: $values, functions: $functions }
         }
@@ -196,7 +199,7 @@ macro_rules! structured {
 #[macro_export]
 macro_rules! operators {
     (
-        $([$($field:ident $F:ident $N:literal)*])?
+        $([$($F:ident $N:literal)*])?
         $n:literal $last:literal
         $($docs:literal $X:ident $j:literal)*;
         $($r:literal $s:literal [$($known:tt)*])*

@@ -5,7 +5,7 @@
 #[cfg(feature = "alloc")]
 #[macro_export]
 macro_rules! simulated_through_modes {
-    ($([$($field:ident $F:ident $N:literal)*])? $Owner:ident $size:tt $rows:tt $count:tt $signals:tt) => {
+    ($([$($F:ident $N:literal)*])? $Owner:ident $size:tt $rows:tt $count:tt $signals:tt) => {
         impl $(<$($F: $crate::Smooth<$N>),*>)? $Owner<::core::primitive::f64 $($(, $F)*)?> {
             /// Simulates the motion from a state over a span of time, through its modes, with DOP853 at a tolerance of 1e-9.
             ///
@@ -69,7 +69,7 @@ macro_rules! simulated_through_modes {
 #[doc(hidden)]
 #[macro_export]
 macro_rules! held_through_modes {
-    ($([$($field:ident $F:ident $N:literal)*])?) => {
+    ($([$($F:ident $N:literal)*])?) => {
         impl<R: $crate::Real $($(, $F: $crate::Smooth<$N>)*)?> Prepared<R $($(, $F)*)?> {
             /// Refused: a run through modes takes inputs that are held, `driven(..)`, and changed at given times.
             pub fn simulation<X>(&self, _start: &X)

@@ -2,5 +2,6 @@
 
 mod by_hand;
 mod everywhere;
+mod in_components;
 mod in_lanes;
 mod written_out;

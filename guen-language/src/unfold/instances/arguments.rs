@@ -16,13 +16,17 @@ pub(super) fn items(instance: &Use, component: &Component, path: &Path, faults: 
         }
         let text = format!("`{}` has no argument `{}`", component.name, given.name);
         let fault = Fault::new(given.name.span(), text);
-        let is_constant = component.items.iter().any(|item| {
-            matches!(item, Item::Constants(_))
-                && item.declared().iter().any(|name| name.text == given.name.text)
+        let in_struct = component.items.iter().find_map(|item| {
+            let what = match item {
+                Item::Constants(_) => "constant",
+                Item::Functions(_) => "function",
+                _ => return None,
+            };
+            item.declared().iter().any(|name| name.text == given.name.text).then_some(what)
         });
-        faults.report(if is_constant {
+        faults.report(if let Some(what) = in_struct {
             fault
-                .note(format!("`{}` is a constant of `{}`", given.name, component.name))
+                .note(format!("`{}` is a {what} of `{}`", given.name, component.name))
                 .help(format!("give it where the system is made, in the field `{}`", instance.name))
         } else if let Some(near) = nearest(&given.name.text, declared()) {
             fault.help(format!("did you mean `{near}`?"))

@@ -76,13 +76,14 @@ fn joined<T>(mut sections: Vec<(Option<usize>, Section<T>)>) -> Option<Section<T
     Some(first)
 }
 
-/// A declaration with the constants of a component, and one coordinate, so that it is one.
+/// A declaration with the constants and functions of a component, and one coordinate, so that it is one.
 pub(super) fn constants(component: &Component, content: &Unfolded) -> Declaration {
     let sections = content.items.iter().zip(&content.origins).filter_map(|(item, origin)| match item {
         Item::Constants(section) => Some((*origin, section.clone())),
         _ => None,
     });
     let constants = joined(sections.collect()).map(Item::Constants);
+    let functions = content.items.iter().filter(|item| matches!(item, Item::Functions(_))).cloned();
     let taken: Vec<&Name> = content.items.iter().flat_map(Item::declared).collect();
     let mut text = "coordinate".to_owned();
     while taken.iter().any(|name| name.root() == text.as_str()) {
@@ -113,7 +114,7 @@ pub(super) fn constants(component: &Component, content: &Unfolded) -> Declaratio
         docs: Default::default(),
         visibility: Visibility::Private,
         name: component.name.clone(),
-        items: constants.into_iter().chain(rest).collect(),
+        items: constants.into_iter().chain(functions).chain(rest).collect(),
         nesting: Vec::new(),
         counts: Vec::new(),
         imported: Vec::new(),

@@ -55,7 +55,8 @@ fn expression(e: &mut Expression, hidden: &[&str], instance: &Path, names: &OwnN
             }
         },
         &mut |function| {
-            if names.has_function(&function.text) {
+            // That of an instance in the component has a path.
+            if names.has_function(&function.text) || function.path().is_some() {
                 *function = name(function, instance);
             }
         },

@@ -124,7 +124,7 @@ macro_rules! uses {
 #[doc(hidden)]
 #[macro_export]
 macro_rules! simulated {
-    ($([$($field:ident $F:ident $N:literal)*])? $Owner:ident $size:literal [$($domain:ident)?] [$($unit:literal)*] $($positions:tt)*) => {
+    ($([$($F:ident $N:literal)*])? $Owner:ident $size:literal [$($domain:ident)?] [$($unit:literal)*] $($positions:tt)*) => {
         impl<R: $crate::Real $($(, $F: $crate::Smooth<$N>)*)?> $crate::Simulate<R, $size> for $Owner<R $($(, $F)*)?> {
             type State = State<R>;
             const STATES: &'static [&'static str] = &State::<f64>::NAMES;
@@ -140,7 +140,7 @@ macro_rules! simulated {
 #[doc(hidden)]
 #[macro_export]
 macro_rules! monitored {
-    ($([$($field:ident $F:ident $N:literal)*])? $Owner:ident, |$prepared:ident| $path:expr, $size:literal $(, $n:literal)?) => {
+    ($([$($F:ident $N:literal)*])? $Owner:ident, |$prepared:ident| $path:expr, $size:literal $(, $n:literal)?) => {
         impl<R: $crate::Real $($(, $F: $crate::Smooth<$N>)*)?> $crate::Monitored<R, $size> for $Owner<R $($(, $F)*)?> {
             fn energy(&self, t: R, state: &[R; $size]) -> R {
                 let $prepared = self;

@@ -38,7 +38,7 @@ macro_rules! onto_constraints {
 #[macro_export]
 macro_rules! output_map {
     (
-        $([$($field:ident $F:ident $N:literal)*])?
+        $([$($F:ident $N:literal)*])?
         $Owner:ident $size:literal $count:literal [$($name:literal)*] [$($unit:literal)*] ($self:ident) => $prepared:expr, $given:expr
     ) => {
         impl<R: $crate::Real $($(, $F: $crate::Smooth<$N>)*)?> $crate::OutputMap<R, $size, $count> for $Owner<R $($(, $F)*)?> {
@@ -309,7 +309,7 @@ macro_rules! linearizable {
         }] (self, t, state, given));
     };
     (
-        @ rates [$($field:ident $F:ident $N:literal)*] $size:literal, $count:literal, [$linearization:expr]
+        @ rates [$($F:ident $N:literal)*] $size:literal, $count:literal, [$linearization:expr]
         ($self:ident, $t:ident, $state:ident, $given:ident)
     ) => {
         impl<R: $crate::Real $(, $F: $crate::Smooth<$N>)*> $crate::Liftable<R, $size, $count> for Prepared<R $(, $F)*> {
@@ -351,7 +351,7 @@ macro_rules! linearizable {
 #[doc(hidden)]
 #[macro_export]
 macro_rules! actuated {
-    ($([$($field:ident $F:ident $N:literal)*])? $size:literal, $what:literal) => {
+    ($([$($F:ident $N:literal)*])? $size:literal, $what:literal) => {
         #[doc = ::core::concat!("A ", $what, ", prepared, with inputs that are held: what steppers integrate during a step.")]
         #[::core::prelude::v1::derive(
             ::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq

@@ -219,7 +219,7 @@ macro_rules! condition {
 #[doc(hidden)]
 #[macro_export]
 macro_rules! state_of_system {
-    ($([$($field:ident $F:ident $N:literal)*])? $n:literal, $l:literal, $size:literal, $constraints:literal) => {
+    ($([$($F:ident $N:literal)*])? $n:literal, $l:literal, $size:literal, $constraints:literal) => {
         impl<R: $crate::Real> State<R> {
             /// The state at given coordinates and velocities: the quasi-velocities are `eta_s = sum_i a_si x_i' +
             /// a_s0`, (1.6). Beside it the residuals `eta_v` of the constraints (their rates, where they are
@@ -263,14 +263,14 @@ macro_rules! differentiable {
             $(; $code self.system.linearize(t, &::core::convert::From::from(*state), &self.inputs))?
         );
     };
-    (@ implementation [] [$($field:ident $F:ident $N:literal)*] $Owner:ident, $size:literal $methods:tt) => {
+    (@ implementation [] [$($F:ident $N:literal)*] $Owner:ident, $size:literal $methods:tt) => {
         impl<R: $crate::Real $(, $F: $crate::Smooth<$N>)*> $crate::Differentiable<R, $size> for $Owner<R $(, $F)*>
         where
             $crate::Dual<R, $size>: $crate::Lift<R>,
             $crate::Dual<R, 1>: $crate::Lift<R>,
         $methods
     };
-    (@ implementation [$code:ident] [$($field:ident $F:ident $N:literal)*] $Owner:ident, $size:literal $methods:tt) => {
+    (@ implementation [$code:ident] [$($F:ident $N:literal)*] $Owner:ident, $size:literal $methods:tt) => {
         impl<R: $crate::Real $(, $F: $crate::Smooth<$N>)*> $crate::Differentiable<R, $size> for $Owner<R $(, $F)*>
         where
             $crate::Dual<R, 1>: $crate::Lift<R>,
@@ -337,7 +337,7 @@ macro_rules! laned {
 #[macro_export]
 macro_rules! prepared {
     (
-        $([$($field:ident $F:ident $N:literal)*])?
+        $([$($F:ident $N:literal)*])?
         $docs:literal $count:literal $hoisted:ty $(, $follows:ident $derived:literal)?
     ) => {
         #[doc = $docs]
@@ -369,7 +369,7 @@ macro_rules! prepared {
 #[doc(hidden)]
 #[macro_export]
 macro_rules! with_scalar {
-    ($([$($field:ident $F:ident $N:literal)*])? $system:ident $size:literal, $constants:ident: $made:expr) => {
+    ($([$($F:ident $N:literal)*])? $system:ident $size:literal, $constants:ident: $made:expr) => {
         impl $(<$($F: $crate::Smooth<$N>),*>)? $crate::WithScalar<$size> for $system<f64 $($(, $F)*)?> {
             type Over<R: $crate::Real> = Prepared<R $($(, $F)*)?>;
 
@@ -392,7 +392,7 @@ macro_rules! with_scalar {
             }
         }
     };
-    ($([$($field:ident $F:ident $N:literal)*])? $system:ident $size:literal, $constants:ident: $made:expr, $inputs:literal) => {
+    ($([$($F:ident $N:literal)*])? $system:ident $size:literal, $constants:ident: $made:expr, $inputs:literal) => {
         impl $(<$($F: $crate::Smooth<$N>),*>)? $crate::WithScalar<$size> for Driven<f64 $($(, $F)*)?> {
             type Over<R: $crate::Real> = Driven<R $($(, $F)*)?>;
 
@@ -485,13 +485,15 @@ macro_rules! switches {
     };
 }
 
-/// `prepare` of the constants: the struct, their number, their values, the checks of them, and those of the prepared system.
+/// `prepare` of the constants: the struct, their number, their values, the functions that the program supplies if there are some, the
+/// checks of the constants, and those of the prepared system.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! prepare {
     (
-        $([$($field:ident $F:ident $N:literal)*])?
-        $self:ident $constants:ident $hoisted:ident $prepared:ident; $System:ident $count:literal, $values:expr,
+        $([$($F:ident $N:literal)*])?
+        $self:ident $constants:ident $hoisted:ident $prepared:ident; $System:ident $count:literal, $values:expr
+        $(, functions $functions:expr)?,
         { $($checks:tt)* } { $($pivots:tt)* } { $($follows:tt)* } { $($limits:tt)* } { $($further:tt)* }
     ) => {
         impl<R: $crate::Real $($(, $F: $crate::Smooth<$N>)*)?> $System<R $($(, $F)*)?> {
@@ -504,7 +506,7 @@ macro_rules! prepare {
             pub fn prepare($self) -> ::core::result::Result<Prepared<R $($(, $F)*)?>, $crate::ConstantsError> {
                 let $constants: [R; $count] = $values;
                 $($checks)*
-                let $hoisted = program::prepare(&$constants $(, ($($self.$field,)*))?);
+                let $hoisted = program::prepare(&$constants $(, $functions)?);
                 $($pivots)*
                 let $prepared = Prepared { constants: $constants, hoisted: $hoisted, $($follows)* };
                 $($limits)*

@@ -31,7 +31,9 @@ pub fn all() -> Vec<(String, PathBuf)> {
             declarations(tokens, &mut |declaration| {
                 let text = declaration.to_string();
                 // Components that are imported are not known here.
-                let imports = text.contains(" use ") && !text.contains(" component ");
+                let name = |text: &str| text.split_whitespace().next().unwrap_or_default().to_owned();
+                let declared: Vec<String> = text.split(" component ").skip(1).map(name).collect();
+                let imports = text.split(" use ").skip(1).any(|used| !declared.contains(&name(used)));
                 if !imports && seen.insert(text.clone()) {
                     found.push((text, file.clone()));
                 }

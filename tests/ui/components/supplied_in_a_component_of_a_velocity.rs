@@ -1,6 +1,6 @@
-//! The program supplies functions to systems, which hand values to their components.
+//! A potential energy in a component depends on no velocity, whatever its functions are given.
 //!
-//! repair: none
+//! repair: `place: dot(x)` => `place: x`
 
 guen::mechanical_system! {
     pub system Carrier {
@@ -11,7 +11,7 @@ guen::mechanical_system! {
             potential_energy = height(place);
         }
         parameters { u = dot(x); }
-        use Track as track { place: x }
+        for i in 0..2 { use Track as track[i] { place: dot(x) } }
         kinetic_energy = m/2*u^2;
     }
 }
