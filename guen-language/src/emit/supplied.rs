@@ -32,7 +32,7 @@ const MACROS: [&str; 13] = [
 struct Function {
     /// The way to its field: `left.torque` for that of an instance.
     name: Name,
-    /// Its parameter of types, as a place among all of them.
+    /// The place of its parameter of types among all of them.
     kind: usize,
     docs: TokenStream,
 }

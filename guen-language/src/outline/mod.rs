@@ -176,10 +176,11 @@ impl Entries {
             before.map_or_else(|| number(1), |before| value(&before.name))
         });
         // The entries of an array have defaults together.
+        let array = names::array_of(&constant.name.text);
         let sibling = self
             .constants
             .iter()
-            .find(|known| known.name.path().is_some() && known.name.root() == constant.name.root());
+            .find(|known| known.name.path().is_some() && names::array_of(&known.name.text) == array);
         let default = sibling.map_or(default, |known| known.default.clone());
         let new = || Constant {
             name: names.take(&constant.name),

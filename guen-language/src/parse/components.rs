@@ -96,7 +96,7 @@ fn arguments(group: &Group, faults: &mut Faults) -> Vec<DeclaredArgument> {
     })
 }
 
-/// What other tools call an argument that is a function.
+/// Words of other tools for an argument that is a function.
 const FUNCTION_OF_HABIT: [&str; 6] = ["function", "fn", "Fn", "Function", "callable", "lambda"];
 
 /// The kind that other tools call so.
