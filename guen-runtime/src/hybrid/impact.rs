@@ -301,6 +301,105 @@ mod tests {
         assert!(slipped > 50, "{slipped}");
     }
 
+    /// The impulses of spatial contacts of which each has three rows, by projections onto their cones with de Saxcé's change of rates: an
+    /// iteration that knows no states and no directions.
+    fn projected<const W: usize, const C: usize>(
+        delassus: &[[f64; W]; W],
+        before: &[f64; W],
+        friction: &[f64; C],
+    ) -> [f64; W] {
+        let largest = (0..W).map(|w| delassus[w].iter().map(|entry| entry.abs()).sum()).fold(0.0, f64::max);
+        let step = 0.7 / largest;
+        let mut x = [0.0; W];
+        for _ in 0..40_000 {
+            let change = product(delassus, &x);
+            for c in 0..C {
+                let [n, s, t] = [3 * c, 3 * c + 1, 3 * c + 2];
+                let rate = |w: usize| before[w] + change[w];
+                let slip = libm::hypot(rate(s), rate(t));
+                let mu = friction[c];
+                let normal = x[n] - step * (rate(n) + mu * slip);
+                let (first, second) = (x[s] - step * rate(s), x[t] - step * rate(t));
+                let along = libm::hypot(first, second);
+                let (normal, along_of_one) = if along <= mu * normal {
+                    (normal, 1.0)
+                } else if mu * along <= -normal {
+                    (0.0, 0.0)
+                } else {
+                    let projected = (mu * along + normal) / (1.0 + mu * mu);
+                    (projected, mu * projected / along)
+                };
+                (x[n], x[s], x[t]) = (normal, along_of_one * first, along_of_one * second);
+            }
+        }
+        x
+    }
+
+    #[test]
+    fn two_spatial_slips_in_one_impact_are_those_of_another_method() {
+        const ELEMENTS: [Element; 2] = [Element::rough("a", 0, &[1, 2]), Element::rough("b", 3, &[4, 5])];
+        let mut random = Random(5);
+        let (mut both, mut refused) = (0, 0);
+        for _ in 0..16 {
+            let delassus = random.delassus::<6>(12);
+            let mut before: [f64; 6] = from_fn(|_| random.next());
+            (before[0], before[3]) = (-before[0].abs(), -before[3].abs());
+            let friction: [f64; 2] = from_fn(|_| 0.4 * random.next().abs());
+            let impact = Impact {
+                elements: &ELEMENTS,
+                delassus: &delassus,
+                before,
+                takes_part: [true; 2],
+                friction,
+                restitutions: [0.0; 2],
+            };
+            let Ok(Struck { impulses, after, energy, .. }) = impact.solve() else {
+                refused += 1;
+                continue;
+            };
+            assert!(energy <= 1e-12, "{energy:e}");
+            let mut slipped = 0;
+            for c in 0..2 {
+                let [n, s, t] = [3 * c, 3 * c + 1, 3 * c + 2];
+                let (along, slip) = (libm::hypot(impulses[s], impulses[t]), libm::hypot(after[s], after[t]));
+                let limit = friction[c] * impulses[n];
+                assert!(f64::min(after[n], impulses[n]).abs() < 1e-10 && along <= limit + 1e-10);
+                if slip > 1e-9 && impulses[n] > 1e-9 {
+                    slipped += 1;
+                    for w in [s, t] {
+                        assert!((impulses[w] * slip + limit * after[w]).abs() < 1e-12 * (1.0 + impulses[n]));
+                    }
+                }
+            }
+            both += i32::from(slipped == 2);
+            let other = projected(&delassus, &before, &friction);
+            let change = product(&delassus, &other);
+            for w in 0..6 {
+                let off = (before[w] + change[w] - after[w]).abs();
+                assert!(off < 1e-7, "row {w} of {impulses:?} by {off:e}, {other:?}");
+            }
+        }
+        assert!(both >= 6 && refused == 0, "{both} with two slips, {refused} refused");
+    }
+
+    /// All twelve contacts that a declaration may have hit at once: `2^12` states in each phase.
+    #[test]
+    fn twelve_smooth_contacts_at_once() {
+        let elements: [Element; 12] = from_fn(|c| Element::smooth("stop", c));
+        let mut random = Random(13);
+        let delassus = random.delassus::<12>(12);
+        let impact = Impact {
+            elements: &elements,
+            delassus: &delassus,
+            before: from_fn(|_| random.next()),
+            takes_part: [true; 12],
+            friction: [0.0; 12],
+            restitutions: [0.5; 12],
+        };
+        let Struck { impulses, after, energy, .. } = impact.solve().unwrap();
+        assert!(energy < 0.0 && impulses.iter().chain(&after).all(|entry| *entry > -1e-9));
+    }
+
     #[test]
     fn a_latch_that_locks_stops_what_it_holds() {
         const ELEMENTS: [Element; 2] = [Element::latch("bolt", 0), Element::smooth("stop", 1)];

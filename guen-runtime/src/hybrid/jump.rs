@@ -4,10 +4,11 @@ use core::array::from_fn;
 
 use crate::hybrid::impact::Impact;
 use crate::hybrid::in_mode::{InMode, moved};
-use crate::hybrid::phase::{Phase, Solved, Tangential, solve_some};
-use crate::hybrid::saltation::{Along, NoSaltation};
+use crate::hybrid::phase::{Phase, Solved};
+use crate::hybrid::saltation::NoSaltation;
 use crate::hybrid::system::HybridSystem;
 use crate::hybrid::transition::{Transition, TransitionKind};
+use crate::hybrid::turning::Along;
 use crate::numbers::dual::Dual;
 use crate::numbers::real::Real;
 
@@ -75,7 +76,7 @@ fn impulses<const W: usize, const C: usize>(
     if closes {
         let struck = values.solve().map_err(unsolved)?;
         let solved = values.closed_like(&struck).ok_or(NoSaltation::Divided)?;
-        let closed = with_derivative(&moving.compression(), &solved).ok_or(NoSaltation::Divided)?;
+        let closed = moving.compression().with_derivative(&solved).ok_or(NoSaltation::Divided)?;
         return Ok(closed.impulses);
     }
     let phase = values.compression();
@@ -96,64 +97,18 @@ fn undivided<const W: usize, const C: usize>(
     /// The part of the largest derivative by which derivatives in two states may differ.
     const SAME: f64 = 1e-6;
 
-    let found = with_derivative(moving, solved).ok_or(NoSaltation::Divided)?;
+    let found = moving.with_derivative(solved).ok_or(NoSaltation::Divided)?;
     let slopes = |solved: &Solved<Along, W, C>| solved.after.map(|rate| rate.tangent[0]);
     let ours = slopes(&found);
     let size = moving.before.iter().map(|rate| rate.tangent[0]).chain(ours);
     let size = size.fold(f64::MIN_POSITIVE, |most: f64, slope| most.max(slope.abs()));
     let mut divided = false;
     let visited = values.visit(&mut |other, _| {
-        let other = with_derivative(moving, other).filter(|_| values.is_same(other, solved));
+        let other = moving.with_derivative(other).filter(|_| values.is_same(other, solved));
         if let Some(other) = other {
             let differ = |(a, b): (&f64, &f64)| !((a - b).abs() <= SAME * size);
             divided |= ours.iter().zip(&slopes(&other)).any(differ);
         }
     });
     if divided || visited.is_err() { Err(NoSaltation::Divided) } else { Ok(found) }
-}
-
-/// The solution of a phase in which elements keep their states, with its derivative: directions of spatial slip turn with the slip.
-fn with_derivative<const W: usize, const C: usize>(
-    phase: &Phase<'_, Along, W, C>,
-    solved: &Solved<f64, W, C>,
-) -> Option<Solved<Along, W, C>> {
-    let mut tangential: [Tangential<Along>; C] = solved.tangential.map(|state| match state {
-        Tangential::None => Tangential::None,
-        Tangential::Stick => Tangential::Stick,
-        Tangential::Slip(direction) => Tangential::Slip(direction.map(Dual::constant)),
-    });
-    let turns: [bool; C] =
-        from_fn(|c| matches!(tangential[c], Tangential::Slip(_)) && phase.elements[c].tangential.len() == 2);
-    if turns.contains(&true) {
-        // The derivatives of the slips across their directions vanish: by the direction's angles, and along.
-        let across = |tangential: &[Tangential<Along>; C]| {
-            let solved = phase.with_states(&solved.closed, tangential)?;
-            Some(from_fn::<f64, C, _>(|c| match (tangential[c], phase.elements[c].tangential) {
-                (Tangential::Slip([x, y]), &[first, second]) => {
-                    (x * solved.after[second] - y * solved.after[first]).tangent[0]
-                }
-                _ => 0.0,
-            }))
-        };
-        let still = across(&tangential)?;
-        let mut by_angles = [[0.0; C]; C];
-        for c in (0..C).filter(|c| turns[*c]) {
-            let mut turned = tangential;
-            turned[c] = turn(tangential[c], 1.0);
-            let moves = across(&turned)?;
-            for (row, (moves, still)) in by_angles.iter_mut().zip(moves.iter().zip(&still)) {
-                row[c] = moves - still;
-            }
-        }
-        let angles = solve_some(&by_angles, &still.map(|slope| -slope), &turns)?;
-        tangential = from_fn(|c| if turns[c] { turn(tangential[c], angles[c]) } else { tangential[c] });
-    }
-    phase.with_states(&solved.closed, &tangential)
-}
-
-/// A direction that turns with this derivative of its angle.
-fn turn(state: Tangential<Along>, angle: f64) -> Tangential<Along> {
-    let Tangential::Slip([x, y]) = state else { return state };
-    let slope = |value: Along, slope: f64| Dual { value: value.value, tangent: [slope] };
-    Tangential::Slip([slope(x, -y.value * angle), slope(y, x.value * angle)])
 }

@@ -105,6 +105,7 @@ mod system;
 mod trajectory;
 mod transition;
 mod turn;
+mod turning;
 mod watched;
 
 pub use driver::{Hybrid, HybridResult};

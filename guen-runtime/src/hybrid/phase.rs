@@ -20,6 +20,18 @@ pub(super) enum Participant<R = f64> {
     Locked,
 }
 
+impl<R> Participant<R> {
+    /// The same part, with other reals.
+    pub(super) fn map<T>(self, change: impl Fn(R) -> T) -> Participant<T> {
+        match self {
+            Self::Absent => Participant::Absent,
+            Self::Contact { floor } => Participant::Contact { floor: change(floor) },
+            Self::Grip => Participant::Grip,
+            Self::Locked => Participant::Locked,
+        }
+    }
+}
+
 /// The tangential state of an element in a phase.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Tangential<R = f64> {
@@ -134,8 +146,10 @@ impl<const W: usize, const C: usize> Phase<'_, f64, W, C> {
                         judge(&solved);
                     }
                 }
-                // Several directions at once are not looked for.
-                Some(_) if turning > 1 => {}
+                Some(_) if turning > 1 => {
+                    let turns = chosen.map(|choice| choice.turns);
+                    self.turned_together(&turns, &closed, &tangential, &mut judge);
+                }
                 Some(turning) => self.turned(turning, &closed, tangential, &mut judge),
             }
         }

@@ -8,6 +8,7 @@ use crate::hybrid::in_mode::{InMode, motion_series};
 use crate::hybrid::select::vanishes;
 use crate::hybrid::system::HybridSystem;
 use crate::hybrid::transition::{Facts, Transition, TransitionKind};
+use crate::hybrid::turning::Along;
 use crate::hybrid::watched::{Function, Sides};
 use crate::numbers::dual::Dual;
 use crate::numbers::power_series::PowerSeries;
@@ -76,9 +77,6 @@ impl fmt::Display for NoSaltation {
 }
 
 impl Error for NoSaltation {}
-
-/// A number with its derivative along one direction.
-pub(super) type Along = Dual<f64, 1>;
 
 /// Numbers with their derivatives along a direction.
 pub(super) fn along<const N: usize>(values: &[f64; N], direction: &[f64; N]) -> [Along; N] {

@@ -7,6 +7,7 @@ mod laws;
 mod lcp;
 mod sensitivity;
 mod tree;
+mod two_points;
 
 use guen_runtime::hybrid::{
     ElementState, HybridCause, HybridSystem, InMode, Mode, SimulateModes, TransitionKind,
@@ -135,7 +136,7 @@ fn spatial(random: &mut Random) -> (Spatial, [f64; 8]) {
     });
     let mut near = |axis: usize| core::array::from_fn(|k| if k == axis { 1.0 } else { 0.2 * random.next() });
     let normal: [f64; 4] = near(2);
-    let rows = [Row::Constant(normal), Row::Constant(near(0)), Row::Constant(near(1))];
+    let rows = [normal, near(0), near(1)].map(|[a, b, c, d]: [f64; 4]| Row::Constant([a, b, c, d, 0.0, 0.0]));
     let mut drawn = tree::<4, 3, 1>(random, 0, rows, [Some(0)]);
     drawn.constant = Some(constant);
     drawn.push = normal.map(|entry| -8.0 * entry);

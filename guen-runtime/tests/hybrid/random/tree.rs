@@ -31,8 +31,8 @@ pub enum Row {
     Point { link: usize, at: f64, along: [f64; 2] },
     /// The angle of a link, less that of its parent, with a sign.
     Angle { link: usize, sign: f64 },
-    /// A constant combination of velocities.
-    Constant([f64; 4]),
+    /// A constant combination of velocities, of which there are up to six.
+    Constant([f64; 6]),
 }
 
 /// What is drawn: `D` velocities, `W` rows, `C` elements.
@@ -279,4 +279,8 @@ family! {
 family! {
     /// Four coordinates with constant masses, and one rough contact in space.
     Spatial 8 3 1 [Element::rough("point", 0, &[1, 2])]
+}
+family! {
+    /// Six coordinates with constant masses, and two rough contacts in space.
+    TwoPoints 12 6 2 [Element::rough("first", 0, &[1, 2]), Element::rough("second", 3, &[4, 5])]
 }
