@@ -3,6 +3,7 @@
 //! What a trajectory is does not depend on its neighbours, on the number of threads or on the processor: lanes compute
 //! the bits of plain `f64`, and results are in the order of what was put in.
 
+mod modes;
 mod threads;
 
 use std::marker::PhantomData;
