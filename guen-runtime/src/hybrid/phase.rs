@@ -21,7 +21,7 @@ pub(super) enum Participant<R = f64> {
 }
 
 impl<R> Participant<R> {
-    /// The same part, with other reals.
+    /// Takes the part over to other reals.
     pub(super) fn map<T>(self, change: impl Fn(R) -> T) -> Participant<T> {
         match self {
             Self::Absent => Participant::Absent,
