@@ -11,7 +11,35 @@ use guen_language::{derive, emit, expand_outline, model, parse};
 use proc_macro2::{Delimiter, Group, Span, TokenStream, TokenTree};
 
 /// Sound declarations, small, with every section between them.
-pub const SOUND: [&str; 8] = [
+pub const SOUND: [&str; 9] = [
+    "/// Components that use others.
+    system Rover {
+        component Motor(speed: scalar) {
+            constants { gear > 0 = 3, twice = 2*gear }
+            functions { torque(w); }
+            fn scaled(x) = twice*x;
+            forces { torque(scaled(speed)) along speed; }
+        }
+        component Leg(hip: vector, side: rotation, base: body, n: count) {
+            constants { m > 0, reach[2] = 1/2 }
+            coordinates { q[2] }
+            for i in 0..n { let foot[i] = hip + side*vec(reach[i % 2]*q[0], 0, q[1]); }
+            parameters { for i in 0..2 { w[i] = dot(q[i]); } }
+            use Motor as motor { speed: w[0] }
+            particles { for i in 0..n { if i != 1 { m at foot[i]; } else { m at foot[0] + base.center; } } }
+            outputs { tip = foot[n - 1]; _own = motor.twice; }
+        }
+        count k = 2;
+        constants { M > 0, g = 9.81 }
+        coordinates { x }
+        bodies { hull { mass: M, center: vec(x, 0, 1), inertia: diag(1, 1, 1), orientation: rot_y(x) } }
+        parameters { u = dot(x); }
+        for i in 0..k { use Leg as leg[i] { hip: hull.center, side: rot_z(x), base: hull, n: i + 1 } }
+        use Motor as drive { speed: u - leg[1].w[0] }
+        gravity = vec(0, 0, -g);
+        outputs { height = leg[k-1].tip.z; }
+        scene Still { track leg[0].q[0]; fix leg[0].m = 1, drive.gear = 2; provide height; }
+    }",
     "/// A chain by a loop.
     system Chain {
         count n = 2 + 1;
@@ -115,7 +143,8 @@ pub const ONCE_FAILED: [&str; 12] = [
 /// Tokens that take the place of others.
 pub fn strangers() -> Vec<TokenTree> {
     let text = "x y m 0 1 2 1e300 t pi dot sin sqrt vec inner cross unit rot_z norm u v w + - * / ^ = : ; , . > ! \
-                (x) (0) (x - x) {} let parameters constraints holonomic coordinates at along theta tan ln abs";
+                (x) (0) (x - x) {} let parameters constraints holonomic coordinates at along theta tan ln abs \
+                functions component use as count for in if leg drive motor torque .w";
     text.parse::<TokenStream>().unwrap().into_iter().collect()
 }
 

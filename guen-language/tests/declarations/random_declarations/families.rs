@@ -167,7 +167,7 @@ fn sums_of_rows(entries: &[String], n: usize) -> String {
 }
 
 /// The values of every program of a derivation where its symbols, in the order of their declaration, have fixed values.
-fn values(derived: &Derived<'_>) -> (Vec<String>, Vec<Vec<u64>>) {
+pub(super) fn values(derived: &Derived<'_>) -> (Vec<String>, Vec<Vec<u64>>) {
     let model = &derived.model;
     let symbol = |e: ExprId| model.bench.graph.as_symbol(e);
     let mechanics = &model.mechanics;

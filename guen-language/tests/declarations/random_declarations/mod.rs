@@ -7,6 +7,7 @@
 mod analytic;
 mod bodies;
 mod compiled;
+mod components;
 mod declared;
 #[allow(dead_code, reason = "systems drawn over expressions use the rest")]
 #[path = "../../../../guen-symbolic/tests/random_systems/draw.rs"]
