@@ -74,6 +74,7 @@ pub const SECTIONS: &[&str] = &[
     "forces",
     "switches",
     "contacts",
+    "resets",
     "modes",
     "outputs",
     "component",
@@ -124,6 +125,10 @@ const SECTION_SYNONYMS: &[(&str, &str)] = &[
     ("lookups", "functions"),
     ("external", "functions"),
     ("curves", "functions"),
+    ("events", "resets"),
+    ("callbacks", "resets"),
+    ("reinit", "resets"),
+    ("jumps", "resets"),
 ];
 
 /// Items of a generated module, and names that generated code uses for itself or for types of Rust.

@@ -11,6 +11,7 @@ mod permanent;
 mod piecewise;
 mod printed;
 mod reference;
+mod resets;
 mod seen;
 mod several_modes;
 mod simulated;

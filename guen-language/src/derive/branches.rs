@@ -23,7 +23,7 @@ pub(super) struct Held {
 impl Held {
     /// The piecewise functions of expressions. In their switching functions `values` stand for the symbols that the state determines.
     pub(super) fn new(graph: &mut Graph, expressions: &[ExprId], values: &mut Substitution) -> Self {
-        let moving = [Role::Time, Role::Coordinate, Role::QuasiVelocity];
+        let moving = [Role::Time, Role::Coordinate, Role::QuasiVelocity, Role::State];
         let moving =
             moving.into_iter().map(Roles::of).reduce(Roles::or).unwrap_or_else(|| Roles::of(Role::Time));
         let mut held = Held { branches: Vec::new(), substitution: Substitution::default() };

@@ -38,12 +38,14 @@ pub struct ContactFacts {
     pub delassus: Vec<ExprId>,
     /// Whether a row moves by itself.
     pub drifts: bool,
-    /// The branches of piecewise functions, which are signals after the switches.
+    /// The places in the state that each reset changes, in the order in which they are written.
+    pub changed: Vec<Vec<usize>>,
+    /// The branches of piecewise functions, which are signals after the switches and resets.
     pub branches: Vec<Branch>,
 }
 
 /// The programs of contacts, the facts about them, and the equations that scenes are made of; `None` after a fault, and where there are
-/// neither contacts nor switches.
+/// neither contacts, nor switches, nor resets.
 pub(super) fn derive(
     model: &mut Model<'_>,
     faults: &mut Faults,
@@ -55,6 +57,7 @@ pub(super) fn derive(
         let level = (&equations.motions[..], &equations.functions);
         let (programs, mut facts) = programs(&mut model.bench, &contacts, &switches, level, name, faults)?;
         facts.modes = contacts.modes.clone();
+        facts.changed = changed(model, &contacts);
         Some((programs, facts, Rc::new(equations)))
     });
     model.contacts = Some(contacts);
@@ -69,6 +72,20 @@ pub(super) fn at_values(
     faults: &mut Faults,
 ) -> Option<Rc<ContactEquations>> {
     equations::derive(model, contacts, Some(fixed), faults).map(Rc::new)
+}
+
+/// The places in the state that each reset changes.
+fn changed(model: &Model<'_>, contacts: &Contacts<'_>) -> Vec<Vec<usize>> {
+    let mechanics = &model.mechanics;
+    let parameters = &mechanics.etas[..mechanics.forms.degrees];
+    let states = mechanics.states.iter().map(|state| state.symbol);
+    let variables: Vec<ExprId> =
+        mechanics.forms.coordinates.iter().chain(parameters).copied().chain(states).collect();
+    let place = |variable: ExprId| variables.iter().position(|known| *known == variable);
+    let resets = contacts.resets.iter();
+    resets
+        .map(|reset| reset.assignments.iter().filter_map(|(variable, _)| place(*variable)).collect())
+        .collect()
 }
 
 /// Whether no slip changes how a gap answers to its own force: the entries of `D` between slips with friction and gaps vanish. The

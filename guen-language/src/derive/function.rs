@@ -70,7 +70,9 @@ pub const ROW_RATES: &str = "row_rates";
 pub const ROW_DRIFTS: &str = "row_drifts";
 /// The conditions under which contacts close, then those under which latches are released; only where some are declared.
 pub const CONDITIONS: &str = "conditions";
-/// The functions of switches.
+/// The new values of all resets; only where there are some.
+pub const RESETS: &str = "resets";
+/// The functions of switches, resets and branches.
 pub const SIGNALS: &str = "signals";
 /// The coefficients of restitution.
 pub const RESTITUTIONS: &str = "restitutions";

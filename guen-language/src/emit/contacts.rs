@@ -4,8 +4,9 @@ use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
 use super::layout::Layout;
-use crate::derive::{Branch, Subject, function};
+use crate::derive::{Branch, ContactFacts, Subject, function};
 use crate::model::{ContactKind, Contacts};
+use crate::syntax::Crossing;
 
 pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let (Some(contacts), Some(facts)) = (&subject.model.contacts, &subject.level.contacts) else {
@@ -14,15 +15,22 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     let Layout { size, n, .. } = layout;
     let count = contacts.entries.len();
     let rows = contacts.rows().count();
-    let switches = facts.switches.len() + facts.branches.len();
+    let switches = facts.switches.len() + facts.changed.len() + facts.branches.len();
     let elements = elements(contacts);
     let signals = facts.switches.iter().map(|s| {
         let name = &contacts.switches[*s].name.text;
         quote!(__guen::hybrid::Signal::switch(#name))
     });
+    let resets = facts.changed.iter().zip(&contacts.resets).map(|(_, reset)| {
+        let name = &reset.name.text;
+        match reset.crossing {
+            Crossing::Rises => quote!(__guen::hybrid::Signal::reset_rising(#name)),
+            Crossing::Falls => quote!(__guen::hybrid::Signal::reset_falling(#name)),
+        }
+    });
     let branches =
         facts.branches.iter().map(|Branch { text, .. }| quote!(__guen::hybrid::Signal::branch(#text)));
-    let signals = signals.chain(branches);
+    let signals = signals.chain(resets).chain(branches);
     let (owner, system) = match layout.inputs {
         0 => (quote!(Prepared), quote!(self)),
         _ => (quote!(Driven), quote!(self.system)),
@@ -89,6 +97,24 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     } else {
         quote!([])
     };
+    let reset = has(function::RESETS).then(|| {
+        let program = program(function::RESETS, &quote!(switches, &[<S as __guen::Real>::zero(); #count]));
+        let changes = changes(facts);
+        quote! {
+            fn reset<S: __guen::Lift<::core::primitive::f64>>(
+                &self, signal: ::core::primitive::usize, t: S, state: &[S; #size], switches: &[S; #switches],
+            ) -> [S; #size] {
+                #lifted
+                let values = #program;
+                let mut after = *state;
+                match signal {
+                    #changes
+                    _ => {}
+                }
+                after
+            }
+        }
+    });
     let restitutions = if has(function::RESTITUTIONS) {
         quote!(program::restitutions(&#system.constants, &#system.hoisted))
     } else {
@@ -188,6 +214,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
             #row_rates
             #row_drifts
             #conditions
+            #reset
 
             #onto_constraints
             #singularities
@@ -209,6 +236,20 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
 
         }
     }
+}
+
+/// The assignments of each reset, by its signal: resets come after the switches.
+fn changes(facts: &ContactFacts) -> TokenStream {
+    let mut given = 0_usize;
+    let arms = facts.changed.iter().enumerate().map(|(place, changed)| {
+        let signal = facts.switches.len() + place;
+        let first = given;
+        given += changed.len();
+        let assigned =
+            changed.iter().zip(first..).map(|(variable, value)| quote!(after[#variable] = values[#value];));
+        quote!(#signal => { #(#assigned)* })
+    });
+    arms.collect()
 }
 
 /// `in_mode`, with so many declared switches; `sizes` are the numbers of states, rows, contacts and switches.

@@ -59,8 +59,10 @@ impl Places {
         inputs.for_each(|(i, u)| put(mechanics.inputs[*u], format!("u[{i}]")));
         if let (Some(contacts), Some(facts)) = (&model.contacts, &level.contacts) {
             let switches = facts.switches.iter().map(|s| contacts.switches[*s].symbol);
-            let branches = facts.branches.iter().map(|branch| branch.symbol);
-            switches.chain(branches).enumerate().for_each(|(i, symbol)| put(symbol, format!("b[{i}]")));
+            switches.enumerate().for_each(|(i, symbol)| put(symbol, format!("b[{i}]")));
+            let first = facts.switches.len() + facts.changed.len();
+            let branches = facts.branches.iter().map(|branch| branch.symbol).zip(first..);
+            branches.for_each(|(symbol, i)| put(symbol, format!("b[{i}]")));
             let forces = contacts.rows().enumerate();
             forces.for_each(|(i, row)| put(row.force, format!("f[{i}]")));
             let speeds = contacts.entries.iter().map(|entry| entry.speed).enumerate();
@@ -102,6 +104,7 @@ pub(super) fn signature(name: &str) -> Signature {
         | function::ROW_RATES
         | function::ROW_DRIFTS
         | function::CONDITIONS
+        | function::RESETS
         | function::SIGNALS => Signature::Contacts,
         function::CONTACT_OUTPUTS => Signature::Pressed,
         function::FORMS => Signature::Velocities,
@@ -167,7 +170,7 @@ fn module(name: &str, programs: &Programs, more: &str, subject: &Subject<'_, '_>
         let _ = write!(
             text,
             " b {} m {} f {}",
-            facts.switches.len() + facts.branches.len(),
+            facts.switches.len() + facts.changed.len() + facts.branches.len(),
             contacts.entries.len(),
             contacts.rows().count()
         );

@@ -3,7 +3,7 @@
 use guen_symbolic::{ExprId, Mechanics};
 use proc_macro2::Span;
 
-use crate::syntax::{Docs, Name};
+use crate::syntax::{Crossing, Docs, Name};
 
 /// Everything that a declaration says of contacts.
 pub struct Contacts<'a> {
@@ -11,6 +11,8 @@ pub struct Contacts<'a> {
     pub entries: Vec<ContactEntry<'a>>,
     /// The switches in order.
     pub switches: Vec<SwitchEntry<'a>>,
+    /// The resets in order.
+    pub resets: Vec<ResetEntry<'a>>,
     /// The states that a mode may combine: one for each contact, in the order of [`ContactEntry::states`].
     pub modes: Vec<Vec<usize>>,
     /// The mode-free system with a force along every row of the contacts, and with switches that are held.
@@ -144,4 +146,18 @@ pub struct SwitchEntry<'a> {
     pub symbol: ExprId,
     /// The function.
     pub function: ExprId,
+}
+
+/// A reset: where its function goes through zero, variables have new values.
+pub struct ResetEntry<'a> {
+    /// Name as written.
+    pub name: &'a Name,
+    /// Documentation as written.
+    pub docs: &'a Docs,
+    /// The function.
+    pub function: ExprId,
+    /// The direction in which it goes through zero.
+    pub crossing: Crossing,
+    /// The variables with their new values, by the state before.
+    pub assignments: Vec<(ExprId, ExprId)>,
 }

@@ -142,9 +142,9 @@ impl Evaluator<'_> {
                 fault.help("write it under `forces`, as `force along velocity;`")
             }
             (_, Role::Input) if switch.is_some() => fault.note(
-                "switches are allowed in `forces` and `outputs`, and in the coefficients, limits and conditions of contacts",
+                "switches are allowed in `forces`, `states`, `outputs` and the values of `resets`, and in the coefficients, limits and conditions of contacts",
             ),
-            (_, Role::Input) => fault.note("inputs are allowed in `states`, `forces` and `outputs` only"),
+            (_, Role::Input) => fault.note("inputs are allowed in `states`, `forces`, `outputs` and the values of `resets` only"),
             (Place::Force, Role::QuasiAcceleration) => {
                 fault.note("accelerations follow from forces: `outputs` and the rates of states may use them")
             }

@@ -39,6 +39,10 @@ pub(super) enum Place {
     Output,
     /// The function of a switch.
     Switch,
+    /// The function at whose zero a reset happens.
+    ResetFunction,
+    /// A new value of a reset.
+    ResetValue,
     /// The gap of a contact.
     Gap,
     /// The function of a latch.
@@ -78,6 +82,8 @@ impl Place {
             Place::Direction => return "the velocity after `along`".to_owned(),
             Place::Output => ("output", "an output"),
             Place::Switch => ("the switch", "a switch"),
+            Place::ResetFunction => ("the function of reset", "the function of a reset"),
+            Place::ResetValue => ("a value of reset", "a value of a reset"),
             Place::Gap => ("the gap of", "a gap"),
             Place::Latch => ("the latch", "a latch"),
             Place::Slip => ("the slip of", "a slip"),
@@ -108,6 +114,9 @@ impl Place {
                 "it depends on constants, time, coordinates, switches, and on `speed`, the magnitude of the slip"
             }
             Place::Restitution => "it depends on constants alone",
+            Place::Switch | Place::ResetFunction => {
+                "its zero is located between two changes of the inputs, so that it depends on everything but these"
+            }
             _ => return None,
         })
     }
@@ -134,9 +143,9 @@ impl Place {
             | Place::KineticEnergy
             | Place::Direction
             | Place::Slip
-            | Place::Grip
-            | Place::Switch => velocities,
-            Place::Let | Place::Force | Place::Condition | Place::GripForce => all,
+            | Place::Grip => velocities,
+            Place::Switch | Place::ResetFunction => velocities.or(Roles::of(Role::State)),
+            Place::Let | Place::Force | Place::Condition | Place::GripForce | Place::ResetValue => all,
             Place::StateRate | Place::Output => all.or(Roles::of(Role::QuasiAcceleration)),
         }
     }

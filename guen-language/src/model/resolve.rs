@@ -7,6 +7,7 @@ mod modes;
 mod order;
 mod provide;
 mod redundant;
+mod resets;
 mod states;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -18,7 +19,7 @@ use guen_symbolic::{
 
 use super::assumed_rates::AssumedRates;
 use super::bodies::{Weight, is_no_inertia, turns_about_several_axes};
-use super::contact::SwitchEntry;
+use super::contact::{ResetEntry, SwitchEntry};
 use super::evaluate::{Evaluated, Evaluator};
 use super::forms::RawForm;
 use super::place::Place;
@@ -75,6 +76,7 @@ struct Resolver<'a, 'f> {
     states: Vec<SymbolEntry<'a>>,
     outputs: Vec<OutputEntry<'a>>,
     switches: Vec<SwitchEntry<'a>>,
+    resets: Vec<ResetEntry<'a>>,
     contacts: Vec<contacts::RawContact<'a>>,
     /// Symbols of reactions that are not determined.
     undetermined: Vec<ExprId>,
@@ -134,6 +136,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
             states: Vec::new(),
             outputs: Vec::new(),
             switches: Vec::new(),
+            resets: Vec::new(),
             contacts: Vec::new(),
             undetermined: Vec::new(),
             written_scenes: Vec::new(),
@@ -167,6 +170,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
                 Item::Bodies(section) => section.entries.iter().for_each(|e| scope.announce(&e.name)),
                 Item::Switches(section) => section.entries.iter().for_each(|e| scope.announce(&e.name)),
                 Item::Contacts(section) => section.entries.iter().for_each(|e| scope.announce(&e.name)),
+                Item::Resets(section) => section.entries.iter().for_each(|e| scope.announce(&e.name)),
                 _ => {}
             }
         }
@@ -317,6 +321,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
             Item::Forces(section) => section.entries.iter().for_each(|force| self.force(force)),
             Item::Switches(section) => section.entries.iter().for_each(|switch| self.switch(switch)),
             Item::Contacts(section) => section.entries.iter().for_each(|contact| self.contact(contact)),
+            Item::Resets(section) => section.entries.iter().for_each(|reset| self.reset(reset)),
             // Read when all contacts are known.
             Item::Modes(_) => {}
             Item::Outputs(section) => section.entries.iter().for_each(|output| self.output(output)),

@@ -37,6 +37,8 @@ pub(super) enum Category {
     Contact,
     /// A switch.
     Switch,
+    /// A reset.
+    Reset,
 }
 
 impl Category {
@@ -55,6 +57,7 @@ impl Category {
             Category::Function => "a function",
             Category::Contact => "a contact",
             Category::Switch => "a switch",
+            Category::Reset => "a reset",
         }
     }
 

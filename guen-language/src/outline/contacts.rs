@@ -11,8 +11,8 @@ use super::{Names, section};
 use crate::limits::MAX_CONTACTS;
 use crate::names::is_function;
 use crate::syntax::{
-    Clause, ClauseWord, Contact, Declaration, Expression, Item, ModeStatement, Name, Plain, Switch,
-    type_of_states,
+    Assignment, Clause, ClauseWord, Contact, Declaration, Expression, Item, ModeStatement, Name, Plain,
+    Reset, Switch, type_of_states,
 };
 
 /// The sections of contacts, along a coordinate that moves and another one.
@@ -25,6 +25,7 @@ pub(super) fn items(
 ) -> Vec<Item> {
     let mut switches: Vec<Switch> = Vec::new();
     let mut contacts: Vec<Contact> = Vec::new();
+    let mut resets: Vec<Reset> = Vec::new();
     let mut modes = Vec::new();
     let mut types: BTreeMap<(Vec<String>, String), String> = BTreeMap::new();
     for item in &declaration.items {
@@ -34,6 +35,19 @@ pub(super) fn items(
                     if switches.iter().all(|known| known.name.ident != switch.name.ident) {
                         let (name, value) = (names.take(&switch.name), value(moving));
                         switches.push(Switch { docs: switch.docs.clone(), name, value });
+                    }
+                }
+            }
+            Item::Resets(section) => {
+                for reset in &section.entries {
+                    if resets.iter().all(|known| known.name.ident != reset.name.ident) {
+                        let given = Assignment {
+                            variable: value(moving),
+                            equals: Span::call_site(),
+                            value: number(0),
+                        };
+                        let (name, function) = (names.take(&reset.name), value(moving));
+                        resets.push(Reset { name, function, assignments: vec![given], ..reset.clone() });
                     }
                 }
             }
@@ -71,6 +85,9 @@ pub(super) fn items(
     }
     if !contacts.is_empty() {
         found.extend([Item::Contacts(section(contacts)), Item::Modes(section(modes))]);
+    }
+    if !resets.is_empty() {
+        found.push(Item::Resets(section(resets)));
     }
     found
 }

@@ -12,7 +12,7 @@ use super::nesting::Entries;
 use super::punctuation::{equals, semicolon};
 use super::{
     bodies, constants, contacts, definitions, energies, equations, forces, functions, modes, particles,
-    scene, states,
+    resets, scene, states,
 };
 use crate::diagnostics::{Fault, Faults, Reported};
 use crate::limits::{MAX_COORDINATES, MAX_ENTRIES, MAX_SCENES, MAX_TOKENS};
@@ -462,6 +462,7 @@ fn section(kind: SectionKind, group: &Group, faults: &mut Faults, docs: Docs, ke
         SectionKind::Forces => Item::Forces(of(docs, keyword, forces::forces(group, faults))),
         SectionKind::Switches => Item::Switches(of(docs, keyword, contacts::switches(group, faults))),
         SectionKind::Contacts => Item::Contacts(of(docs, keyword, contacts::contacts(group, faults))),
+        SectionKind::Resets => Item::Resets(of(docs, keyword, resets::resets(group, faults))),
         SectionKind::Modes => Item::Modes(of(docs, keyword, modes::modes(group, faults))),
         // The kinds without braces have been told apart before.
         _ => Item::Outputs(of(docs, keyword, definitions::outputs(group, faults))),

@@ -24,6 +24,7 @@ mod names;
 mod nesting;
 mod particles;
 mod punctuation;
+mod resets;
 mod scene;
 mod states;
 #[cfg(test)]

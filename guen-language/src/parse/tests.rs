@@ -56,6 +56,7 @@ pub(crate) system Cart {
     potential_energy = k*x.powi(2).sqrt();
     states { dot(i) = tau - i; dot(r#e: A*s) = -i/2; }
     forces { tau - c*dot(x) along dot(θ); F*R.x along dot(p); }
+    resets { hop: p.y - k falls, x = x + 1, v = -v; r#in: x rises, w = 0; }
     outputs { height = p.y; }
     provide operators, reactions(c, on_ground);
     /// Small.
@@ -262,6 +263,7 @@ pub (in crate) system Cart {
     potential_energy = (k*x.powi(2).sqrt());
     states { dot(i) = (tau - i); dot(r#e: A*s) = ((-i)/2); }
     forces { (tau - (c*dot(x))) along dot(θ); (F*R.x) along dot(p); }
+    resets { hop: (p.y - k) falls, x = (x + 1), v = (-v); r#in: x rises, w = 0; }
     outputs { height = p.y; }
     provide operators, reactions(c, on_ground);
     scene Tilt { track θ, x; fix m = 1, g = (-9.81), v; provide energy, reactions(c); }

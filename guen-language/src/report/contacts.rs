@@ -45,6 +45,14 @@ pub(super) fn section(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Opt
     section.text.extend(
         switches.map(|switch| format!("{} is a switch: {}", switch.name, graph.text(switch.function))),
     );
+    section.text.extend(contacts.resets.iter().map(|reset| {
+        let given = reset.assignments.iter();
+        let given =
+            given.map(|(variable, value)| format!("{} = {}", graph.text(*variable), graph.text(*value)));
+        let given = given.collect::<Vec<_>>().join(", ");
+        let (function, word) = (graph.text(reset.function), reset.crossing.word());
+        format!("{} is a reset, where {function} {word} through zero: {given}", reset.name)
+    }));
     section.text.push(plural(facts.modes.len(), "mode"));
     section.text.extend(painleve(contacts, facts));
     Some(section)

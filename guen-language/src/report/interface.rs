@@ -73,6 +73,9 @@ fn rows(item: &Item) -> Vec<(&'static str, &Name, String)> {
         Item::Contacts(section) => {
             section.entries.iter().map(|entry| ("a contact", &entry.name, line(&entry.docs))).collect()
         }
+        Item::Resets(section) => {
+            section.entries.iter().map(|entry| ("a reset", &entry.name, line(&entry.docs))).collect()
+        }
         Item::Use(instance) => vec![("an instance", &instance.name, line(&instance.docs))],
         _ => Vec::new(),
     };

@@ -146,6 +146,66 @@ pub struct Switch {
     pub value: Expression,
 }
 
+/// `name: e rises, variable = e, ..;` of `resets`.
+#[derive(Debug, Clone)]
+pub struct Reset {
+    /// Doc comments.
+    pub docs: Docs,
+    /// The name.
+    pub name: Name,
+    /// The function at whose zero the reset happens.
+    pub function: Expression,
+    /// The direction in which the function goes through zero.
+    pub crossing: Crossing,
+    /// The new values.
+    pub assignments: Vec<Assignment>,
+}
+
+impl Reset {
+    /// The expressions, in order: the function, then each variable with its new value.
+    pub fn expressions(&self) -> Vec<&Expression> {
+        let assignments = self.assignments.iter().flat_map(|given| [&given.variable, &given.value]);
+        std::iter::once(&self.function).chain(assignments).collect()
+    }
+
+    /// The expressions in the same order, to be changed.
+    pub fn expressions_mut(&mut self) -> Vec<&mut Expression> {
+        let assignments =
+            self.assignments.iter_mut().flat_map(|given| [&mut given.variable, &mut given.value]);
+        std::iter::once(&mut self.function).chain(assignments).collect()
+    }
+}
+
+/// The direction in which a function goes through zero.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Crossing {
+    /// From below.
+    Rises,
+    /// From above.
+    Falls,
+}
+
+impl Crossing {
+    /// The word of the language.
+    pub fn word(self) -> &'static str {
+        match self {
+            Crossing::Rises => "rises",
+            Crossing::Falls => "falls",
+        }
+    }
+}
+
+/// `variable = e` of a reset.
+#[derive(Debug, Clone)]
+pub struct Assignment {
+    /// The variable, a name.
+    pub variable: Expression,
+    /// Place of the `=`.
+    pub equals: Span,
+    /// The value behind the reset.
+    pub value: Expression,
+}
+
 /// A statement of `modes`.
 #[derive(Debug, Clone)]
 pub enum ModeStatement {

@@ -275,6 +275,15 @@ impl Display for Contact {
     }
 }
 
+impl Display for Reset {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {} {}", self.name.ident, self.function, self.crossing.word())?;
+        let mut assignments = self.assignments.iter();
+        assignments.try_for_each(|given| write!(f, ", {} = {}", given.variable, given.value))?;
+        f.write_char(';')
+    }
+}
+
 impl Display for ModeStatement {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self {
@@ -425,6 +434,7 @@ impl Display for Item {
             Item::Forces(section) => braces(f, kind, section, " "),
             Item::Switches(section) => braces(f, kind, section, " "),
             Item::Contacts(section) => braces(f, kind, section, " "),
+            Item::Resets(section) => braces(f, kind, section, " "),
             Item::Modes(section) => braces(f, kind, section, " "),
             Item::KineticEnergy(quantity)
             | Item::Gravity(quantity)

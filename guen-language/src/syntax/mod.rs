@@ -22,8 +22,8 @@ pub use component::{
     Use, imports,
 };
 pub use contact::{
-    Clause, ClauseWord, Contact, HeldContact, InMode, ModeStatement, SPEED, StatesType, Switch,
-    type_of_states,
+    Assignment, Clause, ClauseWord, Contact, Crossing, HeldContact, InMode, ModeStatement, Reset, SPEED,
+    StatesType, Switch, type_of_states,
 };
 pub use expression::{AddOperator, Expression, ExpressionKind, Factor, Fold, MultiplyOperator, Order, Term};
 pub use index::{

@@ -7,7 +7,7 @@ use proc_macro2::{Span, TokenStream};
 
 use super::{
     Argument, Component, Contact, Docs, Expression, Imported, InMode, IndexExpression, Instance,
-    ModeStatement, Name, Node, Switch, Unit, Use, Visibility,
+    ModeStatement, Name, Node, Reset, Switch, Unit, Use, Visibility,
 };
 
 /// A declaration: one `system` with its sections.
@@ -86,6 +86,8 @@ pub enum Item {
     Switches(Section<Switch>),
     /// `contacts { name: gap = e, ..; .. }`.
     Contacts(Section<Contact>),
+    /// `resets { name: e rises, variable = e, ..; .. }`.
+    Resets(Section<Reset>),
     /// `modes { contact: state, ..; .. }`.
     Modes(Section<ModeStatement>),
     /// `outputs { name = e; .. }`.
@@ -126,6 +128,7 @@ pub enum SectionKind {
     Forces,
     Switches,
     Contacts,
+    Resets,
     Modes,
     Outputs,
     Component,
@@ -136,7 +139,7 @@ pub enum SectionKind {
 
 impl SectionKind {
     /// Every kind, in the order of [`crate::names::SECTIONS`].
-    pub const ALL: [SectionKind; 26] = [
+    pub const ALL: [SectionKind; 27] = [
         SectionKind::Count,
         SectionKind::Constants,
         SectionKind::Functions,
@@ -157,6 +160,7 @@ impl SectionKind {
         SectionKind::Forces,
         SectionKind::Switches,
         SectionKind::Contacts,
+        SectionKind::Resets,
         SectionKind::Modes,
         SectionKind::Outputs,
         SectionKind::Component,
@@ -526,6 +530,7 @@ impl Item {
             Item::Forces(_) => SectionKind::Forces,
             Item::Switches(_) => SectionKind::Switches,
             Item::Contacts(_) => SectionKind::Contacts,
+            Item::Resets(_) => SectionKind::Resets,
             Item::Modes(_) => SectionKind::Modes,
             Item::Outputs(_) => SectionKind::Outputs,
             Item::Component(_) => SectionKind::Component,

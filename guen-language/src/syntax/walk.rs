@@ -1,6 +1,6 @@
 //! The names and expressions of an item, whatever its kind.
 
-use super::{Body, Expression, ExpressionKind, Inertia, Item, ModeStatement, Name, Node};
+use super::{Body, Expression, ExpressionKind, Inertia, Item, ModeStatement, Name, Node, Reset};
 
 impl Item {
     /// The loops and choices around the entries of the item.
@@ -17,6 +17,7 @@ impl Item {
             Item::Forces(section) => &section.nesting,
             Item::Switches(section) => &section.nesting,
             Item::Contacts(section) => &section.nesting,
+            Item::Resets(section) => &section.nesting,
             Item::Modes(section) => &section.nesting,
             Item::Scene(scene) => &scene.nesting,
             _ => &[],
@@ -44,6 +45,7 @@ impl Item {
             Item::Bodies(section) => section.entries.iter().map(|entry| &entry.name).collect(),
             Item::Switches(section) => section.entries.iter().map(|entry| &entry.name).collect(),
             Item::Contacts(section) => section.entries.iter().map(|entry| &entry.name).collect(),
+            Item::Resets(section) => section.entries.iter().map(|entry| &entry.name).collect(),
             Item::Component(component) => vec![&component.name],
             Item::Use(instance) => vec![&instance.name],
             Item::Argument(argument) => vec![&argument.name],
@@ -97,6 +99,7 @@ impl Item {
                 let clauses = section.entries.iter().flat_map(|entry| &entry.clauses);
                 clauses.map(|clause| &clause.value).collect()
             }
+            Item::Resets(section) => section.entries.iter().flat_map(Reset::expressions).collect(),
             Item::Argument(argument) => vec![&argument.given.value],
             Item::Count(_)
             | Item::Functions(_)
@@ -152,6 +155,7 @@ impl Item {
             Item::Bodies(section) => section.entries.iter_mut().map(|entry| &mut entry.name).collect(),
             Item::Switches(section) => section.entries.iter_mut().map(|entry| &mut entry.name).collect(),
             Item::Contacts(section) => section.entries.iter_mut().map(|entry| &mut entry.name).collect(),
+            Item::Resets(section) => section.entries.iter_mut().map(|entry| &mut entry.name).collect(),
             Item::Component(component) => vec![&mut component.name],
             Item::Use(instance) => vec![&mut instance.name],
             Item::Argument(argument) => vec![&mut argument.name],
@@ -213,6 +217,7 @@ impl Item {
                 let clauses = section.entries.iter_mut().flat_map(|entry| &mut entry.clauses);
                 clauses.map(|clause| &mut clause.value).collect()
             }
+            Item::Resets(section) => section.entries.iter_mut().flat_map(Reset::expressions_mut).collect(),
             Item::Argument(argument) => vec![&mut argument.given.value],
             Item::Count(_)
             | Item::Functions(_)

@@ -40,6 +40,7 @@ impl Unfolder<'_> {
             Item::States(section) => self.section(section, "a state", |entry| &entry.name),
             Item::Switches(section) => self.section(section, "a switch", |entry| &entry.name),
             Item::Contacts(section) => self.section(section, "a contact", |entry| &entry.name),
+            Item::Resets(section) => self.section(section, "a reset", |entry| &entry.name),
             Item::Modes(section) => self.counted(section, "statements"),
             Item::Particles(section) => self.counted(section, "particles"),
             Item::Forces(section) => self.counted(section, "forces"),

@@ -260,6 +260,7 @@ pub(super) fn section_nesting(item: &Item) -> Option<&[Node]> {
         Item::States(section) => &section.nesting,
         Item::Switches(section) => &section.nesting,
         Item::Contacts(section) => &section.nesting,
+        Item::Resets(section) => &section.nesting,
         Item::Modes(section) => &section.nesting,
         Item::Forces(section) => &section.nesting,
         Item::Scene(scene) => {
@@ -322,6 +323,7 @@ fn declared(item: &Item, visit: &mut dyn FnMut(&Name)) {
         Item::States(section) => section.entries.iter().for_each(|entry| visit(&entry.name)),
         Item::Switches(section) => section.entries.iter().for_each(|entry| visit(&entry.name)),
         Item::Contacts(section) => section.entries.iter().for_each(|entry| visit(&entry.name)),
+        Item::Resets(section) => section.entries.iter().for_each(|entry| visit(&entry.name)),
         Item::Modes(section) => section.entries.iter().for_each(|statement| contacts_in(statement, visit)),
         Item::Scene(scene) => {
             let statements = scene.modes.iter().flat_map(|section| &section.entries);

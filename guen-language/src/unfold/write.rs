@@ -3,9 +3,9 @@
 use super::Unfolder;
 use super::arrays::next;
 use crate::syntax::{
-    Body, BodyField, Clause, Constant, Contact, Declaration, Definition, Equation, Expression, Fix, Force,
-    FunctionDefinition, GivenArgument, Index, Inertia, Item, ModeStatement, Name, Particle, Plain, Provide,
-    Quantity, Scene, SceneStatement, Section, State, Switch, Use,
+    Assignment, Body, BodyField, Clause, Constant, Contact, Declaration, Definition, Equation, Expression,
+    Fix, Force, FunctionDefinition, GivenArgument, Index, Inertia, Item, ModeStatement, Name, Particle,
+    Plain, Provide, Quantity, Reset, Scene, SceneStatement, Section, State, Switch, Use,
 };
 
 impl Unfolder<'_> {
@@ -56,6 +56,7 @@ impl Unfolder<'_> {
             Item::Forces(section) => Item::Forces(self.written(section, Self::force)),
             Item::Switches(section) => Item::Switches(self.written(section, Self::switch)),
             Item::Contacts(section) => Item::Contacts(self.written(section, Self::contact)),
+            Item::Resets(section) => Item::Resets(self.written(section, Self::reset)),
             Item::Modes(section) => Item::Modes(self.modes(section)),
             Item::Provide(section) => {
                 let entries = section.entries.iter().flat_map(|provide| self.provide(provide)).collect();
@@ -159,6 +160,17 @@ impl Unfolder<'_> {
         let clause = |clause: &Clause| Clause { value: self.expression(&clause.value), ..clause.clone() };
         let clauses = contact.clauses.iter().map(clause).collect();
         Some(Contact { docs: contact.docs.clone(), name: self.declared(&contact.name)?, clauses })
+    }
+
+    fn reset(&mut self, reset: &Reset) -> Option<Reset> {
+        let function = self.expression(&reset.function);
+        let assignments = reset.assignments.iter().map(|given| Assignment {
+            variable: self.expression(&given.variable),
+            equals: given.equals,
+            value: self.expression(&given.value),
+        });
+        let assignments = assignments.collect();
+        Some(Reset { name: self.declared(&reset.name)?, function, assignments, ..reset.clone() })
     }
 
     /// Statements about contacts; the name of an array in front of states stands for all of its entries.

@@ -68,6 +68,13 @@ pub enum HybridCause<const C: usize> {
         /// The name of the contact.
         contact: &'static str,
     },
+    /// A reset breaks a constraint on positions that always holds.
+    ConstraintBrokenByReset,
+    /// Two resets happen at once, and give one variable different values.
+    ContradictingResets {
+        /// The names of the resets.
+        resets: [&'static str; 2],
+    },
     /// More modes fit than are compared at one transition.
     TooManyModes,
     /// The integration of the motion within a mode failed.
@@ -100,6 +107,13 @@ impl<const C: usize> fmt::Display for HybridCause<C> {
             Self::NoImpact => f.write_str("no impulses satisfy the law of impact"),
             Self::SeveralImpacts => f.write_str("impulses with different results satisfy the law of impact"),
             Self::BrokenByReset { contact } => write!(f, "the reset opens `{contact}`, which is closed"),
+            Self::ConstraintBrokenByReset => f.write_str("the reset breaks a constraint on positions"),
+            Self::ContradictingResets { resets: [first, second] } => {
+                write!(
+                    f,
+                    "the resets `{first}` and `{second}` happen at once, and give one variable different values"
+                )
+            }
             Self::TooManyModes => f.write_str("too many elements change at once"),
             Self::Integration(cause) => write!(f, "{cause}"),
         }

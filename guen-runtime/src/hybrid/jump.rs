@@ -30,7 +30,7 @@ impl<M, const N: usize, const W: usize, const C: usize> Transition<M, N, W, C> {
             if H::SIGNALS[s].is_switch() {
                 switches[s] = 1.0 - switches[s];
             } else {
-                state = system.reset(s, t, &state);
+                state = system.reset(s, t, &state, &before.switches.map(Dual::constant));
             }
         }
         let Some(takes_part) = self.facts.takes_part else { return Ok(state) };

@@ -18,6 +18,8 @@ pub(super) struct Found {
 
 /// The number of roundings of everything that it is made of within which a number vanishes.
 pub(super) const NOISE: f64 = 256.0;
+/// The number of times that a part is halved in search of a place at which a function is positive.
+const HALVINGS: u32 = 50;
 /// The part of a step within which a touch is the one before.
 const AGAIN: f64 = 1e-7;
 /// The parts of a step at whose ends functions are looked at.
@@ -106,6 +108,16 @@ where
         if b.value.is_nan() || a.value.is_nan() {
             return None;
         }
+        if let Function::Signal(s) = function
+            && !H::SIGNALS[s].is_switch()
+        {
+            if self.sides.signals[s] == 0.0 && self.side(function, before.t) <= 0 {
+                return self.comes_back(function, before.t, (after.t, b.value));
+            }
+            if a.value < 0.0 && a.tangent[0] > 0.0 && b.value < 0.0 && b.tangent[0] < 0.0 {
+                return self.rises_between(function, before, after);
+            }
+        }
         if b.value <= 0.0 {
             // Past zero already before, or no further past it than rounding.
             if (a.value <= 0.0 && self.side(function, before.t) < 0) || self.side(function, after.t) >= 0 {
@@ -125,9 +137,6 @@ where
 
     /// The falling zero between two times, at the second of which the function is negative.
     fn falling(&mut self, function: Function, (a, high): (f64, f64), (b, low): (f64, f64)) -> Option<Found> {
-        /// The number of times that a part is halved in search of a place at which the function is positive.
-        const HALVINGS: u32 = 50;
-
         let (mut before, mut value) = (a, high);
         if high <= 0.0 {
             // It leaves zero here, and comes back.
@@ -148,6 +157,35 @@ where
             .after;
         }
         self.counts(function, t).then_some(Found { function, t, touches: false })
+    }
+
+    /// The falling zero of the function of a reset that has not been positive yet: it goes above zero between two times, and back.
+    fn comes_back(&mut self, function: Function, a: f64, (b, low): (f64, f64)) -> Option<Found> {
+        if low > 0.0 || self.side(function, b) >= 0 {
+            return None;
+        }
+        let mut parts = (1..=HALVINGS).map(|k| a + (b - a) * libm::exp2(-f64::from(k)));
+        let above = parts.find(|t| self.side(function, *t) > 0)?;
+        let high = self.value(function, above);
+        self.falling(function, (above, high), (b, low))
+    }
+
+    /// The falling zero between two times at which the function of a reset is negative, if it is positive between them.
+    fn rises_between(
+        &mut self,
+        function: Function,
+        before: &Look<C, S>,
+        after: &Look<C, S>,
+    ) -> Option<Found> {
+        let (a, b) = (before.values.get(function)?, after.values.get(function)?);
+        let bracket = Bracket { before: before.t, after: after.t };
+        let rates = (a.tangent[0], b.tangent[0]);
+        let top = narrow(bracket, rates, &spacing, &mut |t| self.rate(function, t)).before;
+        if self.side(function, top) <= 0 {
+            return None;
+        }
+        let high = self.value(function, top);
+        self.falling(function, (top, high), (after.t, b.value))
     }
 
     /// The least value between two times at which a function is positive and between which its rate rises through zero: a falling

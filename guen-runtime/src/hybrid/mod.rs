@@ -90,6 +90,7 @@ mod phase;
 mod pivots;
 mod polished;
 mod redundant;
+mod resets;
 mod resting;
 mod run;
 mod saltation;

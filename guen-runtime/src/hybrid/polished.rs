@@ -100,6 +100,13 @@ where
             {
                 continue;
             }
+            // A reset whose function has not left zero yet does not happen.
+            if let Function::Signal(s) = function
+                && !H::SIGNALS[s].is_switch()
+                && sides.signals[s] == 0.0
+            {
+                continue;
+            }
             if self.place.fires_too(function, value.value, value.tangent[0], bracket) {
                 fired.add(function);
             }

@@ -1,10 +1,11 @@
 //! The values of switches and branches where the state has jumped, and where a branch of a piecewise function begins on its zero.
 
 use crate::hybrid::element::Effect;
-use crate::hybrid::located::NOISE;
+use crate::hybrid::located::{NOISE, side};
 use crate::hybrid::select::Sign;
 use crate::hybrid::system::HybridSystem;
 use crate::hybrid::turn::Place;
+use crate::hybrid::watched::Function;
 use crate::numbers::running_error::RunningError;
 
 impl<H, const N: usize, const W: usize, const C: usize, const S: usize> Place<H, N, W, C, S>
@@ -25,6 +26,16 @@ where
                 self.stand(s, if function.value > 0.0 { 1.0 } else { -1.0 });
             } else if signal.effect == Effect::Branch && !crossed[s] {
                 self.stand(s, 0.0);
+            }
+        }
+    }
+
+    /// Finds out which resets have functions that are on the side from which they go through zero: the others wait until they are.
+    pub(super) fn arm_resets(&mut self, anew: bool) {
+        for (s, _) in H::SIGNALS.iter().enumerate().filter(|(_, signal)| !signal.is_switch()) {
+            if anew || self.sides.signals[s] == 0.0 {
+                let inside = side(&self.in_mode, &self.sides, Function::Signal(s), self.t, &self.state) > 0;
+                self.sides.signals[s] = if inside { 1.0 } else { 0.0 };
             }
         }
     }

@@ -139,9 +139,9 @@ pub trait HybridSystem<const N: usize, const W: usize, const C: usize, const S: 
     /// The functions of the signals.
     fn signals<R: Lift<f64>>(&self, t: R, state: &[R; N]) -> [R; S];
 
-    /// The state after a reset by this signal.
+    /// The state after a reset by this signal, from the state and the values of the switches before it.
     #[inline]
-    fn reset<R: Lift<f64>>(&self, _signal: usize, _t: R, state: &[R; N]) -> [R; N] {
+    fn reset<R: Lift<f64>>(&self, _signal: usize, _t: R, state: &[R; N], _switches: &[R; S]) -> [R; N] {
         *state
     }
 

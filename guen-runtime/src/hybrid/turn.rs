@@ -2,7 +2,7 @@
 
 use core::array::from_fn;
 
-use crate::hybrid::element::Kind;
+use crate::hybrid::element::{Kind, Signal};
 use crate::hybrid::error::HybridCause;
 use crate::hybrid::impact::{Impact, Unsolved};
 use crate::hybrid::in_mode::{InMode, Leaning, moved};
@@ -115,16 +115,11 @@ where
         next.state = next.in_mode.at_rest(t, &next.state, &next.independent(zero_rows(false)));
         let state_before = next.state;
 
-        // Resets, all from the state before, and switches.
-        let mut was_reset = false;
-        for (s, signal) in H::SIGNALS.iter().enumerate().filter(|(s, _)| fired.signals[*s]) {
-            if signal.is_switch() {
-                next.in_mode.switches[s] = 1.0 - next.in_mode.switches[s];
-                next.sides.signals[s] = -next.sides.signals[s];
-            } else {
-                next.state = system.reset(s, t, &next.state);
-                was_reset = true;
-            }
+        let was_reset = next.reset(fired)?;
+        let crosses = |(s, signal): &(usize, &Signal)| fired.signals[*s] && signal.is_switch();
+        for (s, _) in H::SIGNALS.iter().enumerate().filter(crosses) {
+            next.in_mode.switches[s] = 1.0 - next.in_mode.switches[s];
+            next.sides.signals[s] = -next.sides.signals[s];
         }
 
         let touches = next.touching(fired, was_reset)?;
@@ -160,7 +155,8 @@ where
             return Err(HybridCause::Excluded { mode: after });
         }
         next.begins = false;
-        next.begin_mode(self, &locks);
+        next.begin_mode(self, &locks, was_reset);
+        next.arm_resets(true);
 
         let mut elements = fired.elements();
         for (c, takes_part) in elements.iter_mut().enumerate() {
@@ -314,7 +310,7 @@ where
     }
 
     /// Sets what begins with a mode: sides of latches that became free, directions of slip, speeds that count as slow.
-    fn begin_mode(&mut self, before: &Self, locks: &[bool; C]) {
+    fn begin_mode(&mut self, before: &Self, locks: &[bool; C], was_reset: bool) {
         let switches = self.in_mode.switches;
         let motion = self.in_mode.reactions(self.t, &self.state);
         let accelerations = motion.row_accelerations();
@@ -323,7 +319,7 @@ where
             let was = before.in_mode.mode.0[c];
             if let (Kind::Latch, ElementState::Free, Some(row)) = (element.kind, state, element.normal)
                 && !locks[c]
-                && (was == ElementState::Locked || before.begins)
+                && (was == ElementState::Locked || before.begins || was_reset)
             {
                 let gap = self.in_mode.system.free_motion(self.t, &self.state, &switches, &[0.0; C]).gaps[c];
                 let rate = motion.free.row_rates[row];

@@ -80,7 +80,7 @@ impl Function {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sides<const C: usize, const S: usize> {
     /// The sides on which latches were when they became free, and signals when the mode began: zero for a branch that stays where it
-    /// vanishes.
+    /// vanishes, and for a reset whose function has not been on the side from which it goes through zero.
     pub(super) latches: [f64; C],
     pub(super) signals: [f64; S],
     /// The speeds of spatial slip below which it is taken to its end in one step.

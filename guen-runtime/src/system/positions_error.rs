@@ -55,7 +55,7 @@ impl fmt::Display for PositionsError {
             }
             Self::NotFinite => f.write_str("a constraint on positions is not finite"),
             Self::Contacts => f.write_str(
-                "the system has contacts, and this run would ignore them: `simulate` and `Hybrid` run through the modes, \
+                "the system has contacts or resets, and this run would ignore them: `simulate` and `Hybrid` run through the modes, \
                  and `in_mode(mode)` is a system for every method",
             ),
         }

@@ -338,7 +338,7 @@ impl HybridSystem<2, 0, 0, 1> for Thrown {
         [x[0]]
     }
 
-    fn reset<R: Lift<f64>>(&self, signal: usize, _t: R, x: &[R; 2]) -> [R; 2] {
+    fn reset<R: Lift<f64>>(&self, signal: usize, _t: R, x: &[R; 2], _: &[R; 1]) -> [R; 2] {
         assert_eq!(signal, 0);
         [x[0], c(5.0)]
     }

@@ -34,6 +34,10 @@ pub(in crate::derive) struct ContactFunctions {
     pub(in crate::derive) restitutions: Vec<ExprId>,
     /// The functions of the switches.
     pub(in crate::derive) switches: Vec<ExprId>,
+    /// The functions of the resets.
+    pub(in crate::derive) resets: Vec<ExprId>,
+    /// The new values of all resets, one behind the other.
+    pub(in crate::derive) given: Vec<ExprId>,
     /// The outputs with the forces of contacts.
     pub(in crate::derive) outputs: Vec<ExprId>,
 }
@@ -75,6 +79,8 @@ impl ContactFunctions {
             &mut self.limits,
             &mut self.restitutions,
             &mut self.switches,
+            &mut self.resets,
+            &mut self.given,
             &mut self.outputs,
         ];
         lists.into_iter().flatten().chain(when.iter_mut().chain(release).flatten())
@@ -155,6 +161,8 @@ pub(in crate::derive) fn derive(
         ],
         restitutions: entries().map(|entry| entry.restitution).collect(),
         switches: contacts.switches.iter().map(|switch| switch.function).collect(),
+        resets: contacts.resets.iter().map(|reset| reset.function).collect(),
+        given: contacts.resets.iter().flat_map(|reset| &reset.assignments).map(|(_, value)| *value).collect(),
         outputs: derivation.outputs.clone(),
     };
     let constrain = &mut derivation.frame.constrain;

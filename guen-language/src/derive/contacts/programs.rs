@@ -24,10 +24,10 @@ pub(in crate::derive) fn programs(
     let lists: Vec<Vec<ExprId>> = motions.iter().map(|motion| motion.list(functions)).collect();
     let mut values = values_by_state(bench, contacts, functions);
     let mut held = Held::new(&mut bench.graph, &lists.concat(), &mut values);
-    if switches.len() + held.branches.len() > MAX_SWITCHES {
+    if switches.len() + functions.resets.len() + held.branches.len() > MAX_SWITCHES {
         let text = format!(
             "the motion between contacts changes its formula at the zeros of {} functions, and {MAX_SWITCHES} are allowed",
-            switches.len() + held.branches.len()
+            switches.len() + functions.resets.len() + held.branches.len()
         );
         let fault = Fault::new(name, text);
         faults.report(fault.help("use fewer of `min`, `max`, `select` and other piecewise functions"));
@@ -49,6 +49,7 @@ pub(in crate::derive) fn programs(
     let conditions: Vec<ExprId> =
         when.chain(release.iter().map(|release| release.unwrap_or(opposite))).collect();
     let mut signals: Vec<ExprId> = switches.iter().map(|s| functions.switches[*s]).collect();
+    signals.extend(&functions.resets);
     signals.extend(held.branches.iter().map(|branch| branch.function));
     let delassus = &motions.first()?.delassus;
     let (painleve_free, coupled) = painleve(bench, contacts, delassus);
@@ -64,6 +65,9 @@ pub(in crate::derive) fn programs(
         builder.add_cold(function::CONDITIONS, &conditions);
     }
     builder.add_cold(function::SIGNALS, &signals);
+    if !functions.given.is_empty() {
+        builder.add_cold(function::RESETS, &functions.given);
+    }
     builder.add_cold(function::RESTITUTIONS, &functions.restitutions);
     if !functions.outputs.is_empty() {
         builder.add_cold(function::CONTACT_OUTPUTS, &functions.outputs);
@@ -76,6 +80,7 @@ pub(in crate::derive) fn programs(
         rows: rows.clone(),
         delassus: delassus.clone(),
         drifts: moves,
+        changed: Vec::new(),
         branches: held.branches,
     };
     Some((builder.finish(), facts))

@@ -185,6 +185,9 @@ impl<'c, 'a> SceneContacts<'c, 'a> {
             if rests && view.is_lost(model, replaced) { zero } else { view.of(model, e) }
         };
         let mut seen = functions.clone();
+        // A scene has none.
+        seen.resets.clear();
+        seen.given.clear();
         for (gap, rests) in seen.gaps.iter_mut().zip(&stays_closed) {
             *gap = or_rest(model, view, *gap, *rests);
         }

@@ -12,7 +12,7 @@ use guen_symbolic::Rational;
 
 use crate::diagnostics::Faults;
 use crate::syntax::{
-    ClauseWord, Contact, Declaration, Dimension, Expression, ExpressionKind, Inertia, Item, Unit,
+    ClauseWord, Contact, Declaration, Dimension, Expression, ExpressionKind, Inertia, Item, Reset, Unit,
 };
 use expressions::{Dimensions, NUMBER, Quantity, per_second};
 use unknowns::{Partial, Unknowns};
@@ -318,7 +318,19 @@ impl Dimensions<'_> {
                 }
             }
             Item::Contacts(section) => section.entries.iter().for_each(|contact| self.contact(contact)),
+            Item::Resets(section) => section.entries.iter().for_each(|reset| self.reset(reset)),
             Item::Gravity(_) | Item::Provide(_) | Item::Modes(_) | Item::Component(_) | Item::Use(_) => {}
+        }
+    }
+
+    /// A variable and its new value have one dimension.
+    fn reset(&mut self, reset: &Reset) {
+        self.of(&reset.function);
+        for given in &reset.assignments {
+            let (own, value) = (self.of(&given.variable), self.of(&given.value));
+            let (l, r) = (format!("`{}`", given.variable.source()), format!("`{}`", given.value.source()));
+            let message = "the variable and its new value have different dimensions";
+            self.shared((own, &l), (value, &r), given.equals, message);
         }
     }
 

@@ -52,7 +52,13 @@ impl<'a> Resolver<'a, '_> {
             } else if has_contacts {
                 let entries: Vec<&ContactEntry<'_>> =
                     self.contacts.iter().map(|contact| &contact.entry).collect();
-                let found = contacts::modes_of_scene(&entries, modes.as_deref(), scene, self.eval.faults);
+                let found = contacts::modes_of_scene(
+                    &entries,
+                    &self.resets,
+                    modes.as_deref(),
+                    scene,
+                    self.eval.faults,
+                );
                 of_scene = found.unwrap_or(SceneModes::Without);
             }
             let is_idle = !has_contacts && !self.declaration.is_outline;
@@ -115,6 +121,10 @@ impl<'a> Resolver<'a, '_> {
             .iter_mut()
             .flat_map(|force| [&mut force.magnitude, &mut force.along])
             .for_each(&mut written_out);
+        for reset in &mut self.resets {
+            written_out(&mut reset.function);
+            reset.assignments.iter_mut().for_each(|(_, value)| written_out(value));
+        }
         let (mut contacts, shapes): (Vec<_>, Vec<_>) =
             self.contacts.into_iter().map(|contact| (contact.entry, contact.shapes)).unzip();
         contacts.iter_mut().flat_map(|entry| &mut entry.rows).for_each(|row| written_out(&mut row.form));
@@ -208,7 +218,14 @@ impl<'a> Resolver<'a, '_> {
             }
         }
         let contacts = modes.zip(pressed).map(|(modes, structure)| {
-            contacts::assembled(bench, &mut mechanics, contacts, self.switches, modes, structure)
+            contacts::assembled(
+                bench,
+                &mut mechanics,
+                contacts,
+                (self.switches, self.resets),
+                modes,
+                structure,
+            )
         });
         let provides = scenes.iter().flat_map(|entry| &entry.scene.provides);
         let provides_operators =

@@ -11,7 +11,29 @@ use guen_language::{derive, emit, expand_outline, model, parse};
 use proc_macro2::{Delimiter, Group, Span, TokenStream, TokenTree};
 
 /// Sound declarations, small, with every section between them.
-pub const SOUND: [&str; 9] = [
+pub const SOUND: [&str; 10] = [
+    "/// Resets of a system, of a loop and of an instance.
+    system Clocked {
+        component Counter(angle: scalar) {
+            states { dot(turns) = 0; }
+            resets { around: angle - 1 rises, turns = turns + 1; back: angle falls, turns = 0; }
+        }
+        count n = 2;
+        constants { m > 0, period > 0 }
+        inputs { push }
+        coordinates { q[n] }
+        parameters { for i in 0..n { w[i] = dot(q[i]); } }
+        kinetic_energy = sum(i in 0..n: m/2*w[i]^2);
+        states { dot(clock) = 1; }
+        use Counter as left { angle: q[0] }
+        switches { far: q[1] - 1; }
+        forces { push*far along w[0]; }
+        contacts { floor: gap = q[1]; }
+        resets {
+            tick: clock - period rises, clock = 0, w[1] = -w[1]*(1 - far), left.turns = push;
+            for i in 0..n { end[i]: q[i] - 2 falls, q[i] = q[i] - 1, w[i] = dot(q[i])/2; }
+        }
+    }",
     "/// Components that use others.
     system Rover {
         component Motor(speed: scalar) {

@@ -181,7 +181,7 @@ impl<R: Analytic> Meaning<R> {
             Item::Constants(_) | Item::Inputs(_) | Item::Coordinates(_) | Item::Gravity(_) => {}
             Item::Provide(_) | Item::Scene(_) => {}
             // No motion without contact depends on them, and the grammar has none.
-            Item::Switches(_) | Item::Contacts(_) | Item::Modes(_) => {}
+            Item::Switches(_) | Item::Contacts(_) | Item::Resets(_) | Item::Modes(_) => {}
             Item::Component(_) | Item::Use(_) | Item::Argument(_) => unreachable!("unfolded"),
         }
         Ok(())

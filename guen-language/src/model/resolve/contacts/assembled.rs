@@ -11,7 +11,7 @@ pub(in crate::model::resolve) fn assembled<'a>(
     bench: &mut Workbench,
     mechanics: &mut Mechanics,
     entries: Vec<ContactEntry<'a>>,
-    switches: Vec<SwitchEntry<'a>>,
+    (switches, resets): (Vec<SwitchEntry<'a>>, Vec<ResetEntry<'a>>),
     modes: Vec<Vec<usize>>,
     structure: SystemGraph,
 ) -> Contacts<'a> {
@@ -33,16 +33,17 @@ pub(in crate::model::resolve) fn assembled<'a>(
     for e in expressions.chain(rates).chain(&mut mechanics.outputs) {
         *e = values.of(&mut bench.graph, *e);
     }
-    Contacts { entries, switches, modes, mechanics: pressed }
+    Contacts { entries, switches, resets, modes, mechanics: pressed }
 }
 
 impl Resolver<'_, '_> {
-    /// Whether the declaration has contacts or switches.
+    /// Whether the declaration has contacts, switches or resets.
     pub(in crate::model::resolve) fn has_contacts(&self) -> bool {
-        self.declaration.in_mode.is_none() && !(self.switches.is_empty() && self.contacts.is_empty())
+        let has_none = self.switches.is_empty() && self.contacts.is_empty() && self.resets.is_empty();
+        self.declaration.in_mode.is_none() && !has_none
     }
 
-    /// The modes of the declaration; `None` without contacts or switches, and after a fault.
+    /// The modes of the declaration; `None` without contacts, switches and resets, and after a fault.
     pub(in crate::model::resolve) fn modes(&mut self) -> Option<Vec<Vec<usize>>> {
         let declaration = self.declaration;
         let mut keyword = None;
@@ -57,6 +58,7 @@ impl Resolver<'_, '_> {
                 }
                 Item::Contacts(contacts) if is_own => keyword = Some(contacts.keyword),
                 Item::Switches(switches) if is_own => keyword = keyword.or(Some(switches.keyword)),
+                Item::Resets(resets) if is_own => keyword = keyword.or(Some(resets.keyword)),
                 _ => {}
             }
         }
@@ -81,10 +83,17 @@ pub(super) fn value_of_switch(graph: &mut Graph, function: ExprId) -> ExprId {
 /// The modes of a scene of a system with contacts or switches; `None` after a fault.
 pub(in crate::model::resolve) fn modes_of_scene(
     entries: &[&ContactEntry<'_>],
+    resets: &[ResetEntry<'_>],
     modes: Option<&[Vec<usize>]>,
     scene: &Scene,
     faults: &mut Faults,
 ) -> Option<SceneModes> {
+    if let Some(reset) = resets.first() {
+        let text = format!("the scene `{}` would leave out the reset `{}`", scene.name, reset.name);
+        let fault = Fault::new(scene.keyword, text).note("scenes have no resets so far");
+        faults.report(fault.help("run the system itself"));
+        return None;
+    }
     // A fault in the modes of the system was reported.
     let modes = modes?;
     let left = match scene.modes.is_empty() {

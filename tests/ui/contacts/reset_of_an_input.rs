@@ -1,0 +1,20 @@
+//! A reset gives new values to variables, and an input is none.
+//!
+//! repair: `tick: clock - period rises, clock = 0, push = 0;` => `tick: clock - period rises, clock = 0, v = -v;`
+
+guen::mechanical_system! {
+    pub system Clocked {
+        constants { m > 0, period > 0 }
+        inputs { push }
+        coordinates { x }
+        parameters { v = dot(x); }
+        kinetic_energy = m/2*v^2;
+        states { dot(clock) = 1; }
+        let ahead = x + v;
+        switches { far: x - 1; }
+        forces { push*far*ahead along v; }
+        resets { tick: clock - period rises, clock = 0, push = 0; }
+    }
+}
+
+fn main() {}

@@ -1,0 +1,20 @@
+//! The function of a reset changes.
+//!
+//! repair: `tick: period - 1 rises, clock = 0, v = -v;` => `tick: clock - period rises, clock = 0, v = -v;`
+
+guen::mechanical_system! {
+    pub system Clocked {
+        constants { m > 0, period > 0 }
+        inputs { push }
+        coordinates { x }
+        parameters { v = dot(x); }
+        kinetic_energy = m/2*v^2;
+        states { dot(clock) = 1; }
+        let ahead = x + v;
+        switches { far: x - 1; }
+        forces { push*far*ahead along v; }
+        resets { tick: period - 1 rises, clock = 0, v = -v; }
+    }
+}
+
+fn main() {}

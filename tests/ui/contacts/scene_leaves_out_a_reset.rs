@@ -1,0 +1,21 @@
+//! A scene is a smooth system.
+//!
+//! repair: `scene Free { track x; }` => ``
+
+guen::mechanical_system! {
+    pub system Clocked {
+        constants { m > 0, period > 0 }
+        inputs { push }
+        coordinates { x }
+        parameters { v = dot(x); }
+        kinetic_energy = m/2*v^2;
+        states { dot(clock) = 1; }
+        let ahead = x + v;
+        switches { far: x - 1; }
+        forces { push*far*ahead along v; }
+        resets { tick: clock - period rises, clock = 0, v = -v; }
+        scene Free { track x; }
+    }
+}
+
+fn main() {}
