@@ -16,7 +16,7 @@ PICTURED = SCRIPTS.parents[1] / "docs/pictures"
 
 LOOKS = [f"looks-turntable-{look}-{width}.png" for look in ("light", "dark", "forced", "paper") for width in (1600, 800, 390)]
 PICTURES = {
-    "viewer.py": ["viewer-hoop-light.png", "viewer-robot-light.png", "viewer-car-dark.png"],
+    "viewer.py": ["viewer-hoop-light.png", "viewer-robot-light.png", "viewer-car-dark.png", "viewer-block-light.png"],
     "rustdoc.py": ["rustdoc-hoop-light.png"],
     "looks.py": [*LOOKS, "looks-scriptless-car-light-800.png", "looks-scriptless-car-dark-800.png"],
 }

@@ -24,6 +24,7 @@ PAGES = [
     ("balancing_robot", "balancing_robot/robot.html", 0.3375),
     ("chaplygin_sled", "chaplygin_sled/sled.html", 0.2),
     ("spinning_wheel", "spinning_wheel/wheel.html", 0.42),
+    ("rocking_block", "rocking_block/block.html", 0.3),
     ("viewer", "viewer/turntable.html", 0.4),
     ("viewer", "viewer/car.html", 0.5),
 ]
