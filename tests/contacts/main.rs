@@ -2,6 +2,7 @@
 
 mod components;
 mod declared;
+mod directions;
 mod ensembles;
 mod free_motion;
 #[path = "../../guen-runtime/tests/hybrid/json.rs"]

@@ -74,6 +74,15 @@ impl ContactState {
             ContactState::Locked => "locked",
         }
     }
+
+    /// The word with the sign of one direction, where there are two.
+    pub fn signed_word(self) -> &'static str {
+        match self {
+            ContactState::SlipPlus => "slip+",
+            ContactState::SlipMinus => "slip-",
+            other => other.word(),
+        }
+    }
 }
 
 /// A velocity of a contact, with the force along it.

@@ -1,4 +1,4 @@
-//! `modes { contact: state, state; never contact.state with contact.state; }`.
+//! `modes { contact: state, state; never contact.state with contact.state; }`, where a state may be `slip+`.
 
 use proc_macro2::Group;
 
@@ -44,7 +44,20 @@ pub(crate) fn modes(group: &Group, faults: &mut Faults) -> Entries<ModeStatement
 }
 
 fn state(cursor: &mut Cursor, faults: &mut Faults) -> Result<Name, Reported> {
-    name(cursor, faults, "a state of a contact")
+    let state = name(cursor, faults, "a state of a contact")?;
+    Ok(signed(cursor, state))
+}
+
+/// A state with its sign: `slip+` and `slip-` are the two directions of a slip along a line.
+fn signed(cursor: &mut Cursor, mut state: Name) -> Name {
+    for sign in ['+', '-'] {
+        if cursor.is_punct(sign) {
+            cursor.skip(1);
+            state.text.push(sign);
+            break;
+        }
+    }
+    state
 }
 
 fn never(cursor: &mut Cursor, faults: &mut Faults) -> Result<ModeStatement, Reported> {
@@ -72,5 +85,5 @@ fn pair(cursor: &mut Cursor, faults: &mut Faults) -> Result<(Name, Name), Report
         let fault = Fault::new(state.span(), format!("the state `{state}` has no entries"));
         return Err(faults.report(fault.help(HELP_NEVER)));
     }
-    Ok((contact, state))
+    Ok((contact, signed(cursor, state)))
 }

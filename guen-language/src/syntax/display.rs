@@ -288,13 +288,13 @@ impl Display for ModeStatement {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self {
             ModeStatement::States { contact, states } => {
-                let states: Vec<_> = states.iter().map(|state| state.ident.to_string()).collect();
+                let states: Vec<_> = states.iter().map(|state| state.text.as_str()).collect();
                 write!(f, "{}: {};", contact.ident, states.join(", "))
             }
             ModeStatement::Never { combination, .. } => {
                 let pairs = combination.iter();
                 let pairs: Vec<_> =
-                    pairs.map(|(contact, state)| format!("{}.{}", contact.ident, state.ident)).collect();
+                    pairs.map(|(contact, state)| format!("{}.{}", contact.ident, state.text)).collect();
                 write!(f, "never {};", pairs.join(" with "))
             }
         }

@@ -223,13 +223,19 @@ fn find(entries: &[&ContactEntry<'_>], contact: &Name, faults: &mut Faults) -> O
 /// The states that a word stands for.
 fn of_word(entry: &ContactEntry<'_>, word: &Name, faults: &mut Faults) -> Vec<usize> {
     let states = entry.states();
-    let found: Vec<usize> = (0..states.len()).filter(|i| states[*i].word() == word.text).collect();
+    let means = |state: ContactState| [state.word(), state.signed_word()].contains(&word.text.as_str());
+    let found: Vec<usize> = (0..states.len()).filter(|i| means(states[*i])).collect();
     if found.is_empty() {
         let mut words: Vec<&str> = states.iter().map(|state: &ContactState| state.word()).collect();
         words.dedup();
         let (last, others) = words.split_last().map_or(("", &[][..]), |(last, others)| (*last, others));
         let text = format!("`{}` has no state `{word}`: it is {} or {last}", entry.name, others.join(", "));
-        faults.report(Fault::new(word.span(), text));
+        let fault = Fault::new(word.span(), text);
+        let unsigned = word.text.trim_end_matches(['+', '-']);
+        faults.report(match words.contains(&unsigned) && unsigned != word.text {
+            true => fault.note("only slip along a line has a sign"),
+            false => fault,
+        });
     }
     found
 }
