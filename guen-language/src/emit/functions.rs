@@ -2,11 +2,12 @@
 
 use std::fmt::Write;
 
-use guen_symbolic::{ExprId, Programs, SymbolId};
+use guen_symbolic::{ArrayIndex, Arrays, ExprId, Programs, SymbolId};
 use proc_macro2::TokenStream;
 
 use super::code::{Loads, SUPPLIED, body};
 use super::layout::Layout;
+use super::rolled::indexed;
 use super::text::tokens;
 use crate::derive::{Level, Subject, function};
 
@@ -23,6 +24,13 @@ impl Loads for Places {
 
     fn functions(&self) -> usize {
         self.functions
+    }
+}
+
+impl Arrays for Places {
+    fn symbol(&self, symbol: SymbolId) -> Option<ArrayIndex> {
+        let (array, index) = indexed(&self.symbols[symbol.index()])?;
+        Some((array.chars().next()?, index))
     }
 }
 
@@ -151,7 +159,19 @@ fn module(name: &str, programs: &Programs, more: &str, subject: &Subject<'_, '_>
         #[allow(clippy::all, clippy::pedantic, clippy::nursery, clippy::restriction, reason = \"straight-line code for the compiler\")]
         mod {name} {{ use super::__guen;"
     );
-    let prepare = body(&programs.prepare, &programs.prepared, &places);
+    // Long families have loops where these are found.
+    let graph = &subject.model.bench.graph;
+    let (rolled_prepare, rolled) = match graph.nests_sums() {
+        true => programs.rolled(graph, &places),
+        false => (None, vec![None; programs.functions.len()]),
+    };
+    let prepare = match rolled_prepare {
+        Some(rolled) => {
+            let code = (&programs.prepare[..], &programs.prepared[..], programs.prepare_values);
+            super::rolled::body(&rolled, code, &places)
+        }
+        None => body(&programs.prepare, &programs.prepared, &places),
+    };
     let supplied = if layout.supplied.is_empty() {
         let _ = write!(
             text,
@@ -176,7 +196,7 @@ fn module(name: &str, programs: &Programs, more: &str, subject: &Subject<'_, '_>
         );
     }
     text.push(';');
-    for program in &programs.functions {
+    for (program, rolled) in programs.functions.iter().zip(rolled) {
         let signature = signature(&program.name);
         let places = if signature == Signature::Everywhere { &everywhere } else { &places };
         let given = match signature {
@@ -195,7 +215,13 @@ fn module(name: &str, programs: &Programs, more: &str, subject: &Subject<'_, '_>
             "{}({given}) -> {} {{ {} }}",
             program.name,
             program.outputs.len(),
-            body(&program.instructions, &program.outputs, places),
+            match rolled.filter(|_| signature != Signature::Everywhere) {
+                Some(rolled) => {
+                    let code = (&program.instructions[..], &program.outputs[..], program.values);
+                    super::rolled::body(&rolled, code, places)
+                }
+                None => body(&program.instructions, &program.outputs, places),
+            },
         );
     }
     text.push('}');

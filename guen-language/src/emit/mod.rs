@@ -29,6 +29,7 @@ mod parts;
 mod physical;
 mod positions;
 mod records;
+mod rolled;
 mod serde;
 mod series;
 mod signatures;

@@ -14,7 +14,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use guen_symbolic::{
     Bound, ExprId, FirstOrderState, Flow, Force, Forms, Graph, Holonomic, Mechanics, Multibody, RigidBody,
-    Role, Roles, Substitution, Workbench,
+    Role, Roles, Substitution, WRITTEN_OUT_PARAMETERS, Workbench,
 };
 
 use super::assumed_rates::AssumedRates;
@@ -207,6 +207,12 @@ impl<'a, 'f> Resolver<'a, 'f> {
                 for plain in &section.entries {
                     let name = format!("dot({})", plain.name.text);
                     self.velocities.push(self.eval.bench.graph.symbol(&name, Role::Velocity));
+                }
+                let has_rows = |item: &Item| matches!(item, Item::Constraints(_) | Item::Holonomic(_));
+                if self.coordinates.len() > WRITTEN_OUT_PARAMETERS
+                    && !self.declaration.items.iter().any(has_rows)
+                {
+                    self.eval.bench.graph.nest_sums();
                 }
                 let graph = &self.eval.bench.graph;
                 let moving = self.coordinates.iter().map(|c| c.symbol).zip(self.velocities.iter().copied());

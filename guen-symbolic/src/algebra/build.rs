@@ -151,7 +151,7 @@ impl Graph {
             match self.node(*id) {
                 Node::Undefined => return *id,
                 Node::Number(value) => constant = constant + value * coefficient,
-                Node::Sum { constant: inner, terms } if terms.len() <= FLATTEN_TERMS => {
+                Node::Sum { constant: inner, terms } if self.is_flattened(terms) => {
                     if !inner.is_zero() {
                         constant = constant + inner * coefficient;
                     }
@@ -171,8 +171,36 @@ impl Graph {
             }
         }
         drop_zeros(&mut collected);
+        if self.nests {
+            self.open_nested(&mut collected, &mut constant);
+        }
         self.fold_squares(&mut collected, &mut constant);
         self.finish_sum(constant, collected)
+    }
+
+    /// Whether a sum is flattened into sums of it.
+    fn is_flattened(&self, terms: &[(ExprId, Rational)]) -> bool {
+        terms.len() <= FLATTEN_TERMS
+            && !(self.nests && terms.iter().any(|(term, _)| matches!(self.node(*term), Node::Sum { .. })))
+    }
+
+    /// Opens nested sums that have a term beside them: `(a + b) - a` is `b`.
+    fn open_nested(&self, collected: &mut Vec<(ExprId, Rational)>, constant: &mut Rational) {
+        let is_met = |collected: &[(ExprId, Rational)], id: ExprId| match self.node(id) {
+            Node::Sum { terms, .. } => terms.iter().any(|(term, _)| self.place_of(collected, *term).is_ok()),
+            _ => false,
+        };
+        while collected.len() > 1
+            && let Some(at) = collected.iter().position(|(id, _)| is_met(collected, *id))
+        {
+            let (id, c) = collected.remove(at);
+            let Node::Sum { constant: inner, terms } = self.node(id) else { return };
+            *constant = &*constant + &(inner * &c);
+            for (term, k) in terms {
+                add_term(self, collected, *term, k * &c);
+            }
+            drop_zeros(collected);
+        }
     }
 
     fn finish_sum(&mut self, constant: Rational, terms: Vec<(ExprId, Rational)>) -> ExprId {

@@ -94,9 +94,22 @@ pub struct Graph {
     pub(super) supplied: Vec<SuppliedFunction>,
     // Whether a piecewise function was made.
     branches: bool,
+    // Whether sums of sums stay nested: see `nest_sums`.
+    pub(super) nests: bool,
 }
 
 impl Graph {
+    /// Lets a sum with a nested sum among its terms stay nested in further sums, so that partial sums along a long family are each the one
+    /// before and a term, and no group of them looks different.
+    pub fn nest_sums(&mut self) {
+        self.nests = true;
+    }
+
+    /// Whether sums of sums stay nested.
+    pub fn nests_sums(&self) -> bool {
+        self.nests
+    }
+
     /// An empty graph.
     pub fn new() -> Self {
         let mut graph = Graph::default();

@@ -32,6 +32,12 @@ impl Key for SymbolId {
     }
 }
 
+impl Key for (ExprId, u32) {
+    fn hash(&self) -> u32 {
+        spread((self.0.0 as u64) << 32 | self.1 as u64)
+    }
+}
+
 impl Key for (ExprId, ExprId) {
     fn hash(&self) -> u32 {
         spread((self.0.0 as u64) << 32 | self.1.0 as u64)

@@ -7,7 +7,7 @@ pub(in crate::motion) const MULTIPLIED_PARAMETERS: usize = 6;
 
 /// The number of parameters of a system without constraints above which its equations are not written out: their mass matrix
 /// has an entry for each pair.
-pub(in crate::motion) const WRITTEN_OUT_PARAMETERS: usize = 64;
+pub const WRITTEN_OUT_PARAMETERS: usize = 64;
 
 /// The number of parameters that no energy couples above which equations are not written out: their matrix has a diagonal.
 pub(in crate::motion) const DIAGONAL_PARAMETERS: usize = 200;

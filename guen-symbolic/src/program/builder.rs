@@ -1,16 +1,18 @@
 //! Running the stages: every function by itself, what they share in *prepare*.
 
 use crate::program::thresholds::{
-    COLD_NODES, FINALIST_COST, FINALISTS, NAMES_WITH_CANDIDATES, OPTIMISED_WITHOUT_NAMES,
+    COLD_NODES, FINALIST_COST, FINALISTS, HARDLY_MORE, NAMES_WITH_CANDIDATES, OPTIMISED_WITHOUT_NAMES,
 };
 use std::collections::BTreeMap;
 
 use super::accuracy::{self, Candidate};
 use super::cost::{OperationCount, weighted_cost};
-use super::instruction::{FunctionProgram, Programs};
+use super::instruction::{FunctionProgram, Operation, Programs};
 use super::lower::{Code, PreparedTable, lower};
 use super::net::{Conversion, Field, Net, NetNode};
 use super::passes::{CANDIDATES, Changes, Pass, affordable, apply, rebuild};
+use super::regular;
+use super::shape::Indices;
 use super::terms::NetId;
 use crate::algebra::{ExprId, FastMap, Graph, Node, Role, Substitution};
 
@@ -36,6 +38,8 @@ pub(super) enum Effort {
     Brief,
     /// The first candidate alone, and none for small functions.
     Cold,
+    /// None.
+    Regular,
 }
 
 /// Collects functions and turns them into code.
@@ -145,7 +149,7 @@ impl<'a> ProgramBuilder<'a> {
         if let [only] = formulations {
             let mut net = Net::default();
             let roots = staged(self.graph, &mut net, only, effort);
-            self.push(name, &net, &roots);
+            self.push_cheaper(name, (net, roots), only);
             return 0;
         }
         // Each formulation is looked at briefly; all effort goes into the best ones.
@@ -176,8 +180,31 @@ impl<'a> ProgramBuilder<'a> {
             best = accuracy::best(self.graph, &programs);
         }
         let (index, net, roots) = if tried.is_empty() { Default::default() } else { tried.swap_remove(best) };
-        self.push(name, &net, &roots);
+        match formulations.first() {
+            Some(first) => self.push_cheaper(name, (net, roots), first),
+            None => self.push(name, &net, &roots),
+        }
         index
+    }
+
+    /// Adds the code of some roots; of a long family their code as it is written regularly, without passes, if that costs hardly more:
+    /// then loops are found in it.
+    fn push_cheaper(&mut self, name: &str, (mut net, roots): (Net, Vec<NetId>), plain: &Formulation) {
+        if !self.graph.nests_sums() {
+            return self.push(name, &net, &roots);
+        }
+        let indices = Indices::new(self.graph);
+        let mut other = Net::default();
+        let plain = staged(self.graph, &mut other, plain, Effort::Regular);
+        let plain = regular::rebuild(self.graph, &mut other, &plain, &indices);
+        let cost = |graph: &mut Graph, net: &Net, roots: &[NetId]| Candidate::new(graph, net, roots).cost();
+        let (optimised, regular) = (cost(self.graph, &net, &roots), cost(self.graph, &other, &plain));
+        if 100 * regular <= HARDLY_MORE * optimised {
+            self.push(name, &other, &plain);
+        } else {
+            let roots = regular::rebuild(self.graph, &mut net, &roots, &indices);
+            self.push(name, &net, &roots);
+        }
     }
 
     /// Adds the code of some roots.
@@ -187,11 +214,34 @@ impl<'a> ProgramBuilder<'a> {
         self.functions.push(FunctionProgram { name: name.to_owned(), instructions, outputs, values, cost });
     }
 
+    /// Brings prepared values of one shape together, so that a loop over a family goes through them in order.
+    fn order_prepared(&mut self) {
+        let indices = Indices::new(self.graph);
+        let order = regular::order(self.graph, &self.prepared.expressions, &indices);
+        let mut places = vec![0; order.len()];
+        order.iter().enumerate().for_each(|(place, old)| places[*old] = place);
+        self.prepared.expressions = order.iter().map(|old| self.prepared.expressions[*old]).collect();
+        for instruction in self.functions.iter_mut().flat_map(|function| &mut function.instructions) {
+            if let Operation::Prepared(k) = &mut instruction.operation {
+                *k = places[*k];
+            }
+        }
+    }
+
     /// The functions, and the code that prepares their constants.
-    pub fn finish(self) -> Programs {
+    pub fn finish(mut self) -> Programs {
+        if self.graph.nests_sums() {
+            self.order_prepared();
+        }
         let mut net = Net::default();
         let roots = Conversion::roots(self.graph, &mut net, Field::Numbers, &self.prepared.expressions);
         let mut none = PreparedTable::default();
+        let roots = if self.graph.nests_sums() {
+            let indices = Indices::new(self.graph);
+            regular::rebuild(self.graph, &mut net, &roots, &indices)
+        } else {
+            roots
+        };
         let code = lower(self.graph, &net, &roots, &mut none);
         debug_assert!(none.expressions.is_empty(), "numbers need no preparation");
         let prepare_cost = OperationCount::of(&code.instructions);
@@ -279,6 +329,9 @@ fn staged(graph: &mut Graph, net: &mut Net, formulation: &Formulation, effort: E
     let roots: Vec<NetId> = places.into_iter().map(|(depth, index)| done[depth][index]).collect();
     let roots = if depths.is_empty() { roots } else { rebuild(graph, net, &roots, &link) };
     // Signs may move across the depths; they never add an operation.
+    if effort == Effort::Regular {
+        return roots;
+    }
     apply(Pass::Signs, graph, net, &roots)
 }
 
@@ -288,6 +341,7 @@ fn cheapest(graph: &mut Graph, net: &mut Net, roots: Vec<NetId>, effort: Effort,
     let tried = match effort {
         Effort::Hot | Effort::Brief => affordable(nodes),
         // Small functions have little to share beyond equal nodes, which are one already.
+        Effort::Regular => 0,
         Effort::Cold if nodes < COLD_NODES => 0,
         Effort::Cold => affordable(nodes).min(1),
     };

@@ -57,3 +57,6 @@ pub const LARGEST_JACOBIAN: u32 = 6_000;
 
 /// The number of instructions below which every order of elimination is tried.
 pub(in crate::program) const ORDERED_INSTRUCTIONS: usize = 250;
+
+/// The cost of code that is written regularly up to which it is taken, in percent of that of optimised code: in a loop it is short.
+pub(in crate::program) const HARDLY_MORE: u64 = 104;

@@ -144,7 +144,8 @@ pub(super) fn solve(
     let mut rest: Vec<Vec<ExprId>> = (0..l)
         .map(|s| {
             let e = bench.graph.add(squares.rest[s], forces[s]);
-            terms(bench, e, etas)
+            // A limit on the work for an expression would make the members of a long family different.
+            if bench.graph.nests_sums() { summands(bench, e) } else { terms(bench, e, etas) }
         })
         .collect();
     let constant = constant_reactions(bench, &rows, &inverse, &mut rest);
@@ -281,8 +282,9 @@ fn constant_reactions(
                 let product = bench.graph.mul(ratio, *b);
                 let left = bench.graph.sum(rest[*s].iter().copied());
                 let left = bench.graph.sub(left, product);
-                let left = bench.tidy(left);
-                changed.push((*s, summands(bench, left)));
+                let tidy = bench.tidy(left);
+                let lists = [tidy, left].map(|left| summands(bench, left));
+                changed.push((*s, lists.into_iter().min_by_key(Vec::len).unwrap_or_default()));
             }
             let left = dearness(&changed);
             if left < best.0 {

@@ -212,8 +212,13 @@ fn by_least_fill(bench: &mut Workbench, matrix: Vec<Vec<ExprId>>, right: Vec<Exp
     // Those that are left and meet each row; whoever leaves joins its neighbours.
     let mut neighbours: Vec<BTreeSet<usize>> =
         matrix.iter().enumerate().map(|(s, row)| filled(row, s)).collect();
+    // A long family is gone through in one direction, so that every member is eliminated in the same way.
+    let one_way = bench.graph.nests_sums();
     let choose = |_: &mut Workbench, _: &[Vec<ExprId>], left: &[usize]| {
-        let k = left.iter().copied().min_by_key(|k| (neighbours[*k].len(), waiting[*k], *k))?;
+        let k = left
+            .iter()
+            .copied()
+            .min_by_key(|k| (neighbours[*k].len(), if one_way { 0 } else { waiting[*k] }, *k))?;
         let around = core::mem::take(&mut neighbours[k]);
         for r in &around {
             waiting[*r] = waiting[*r].max(waiting[k] + 1);
