@@ -5,6 +5,7 @@ mod declared;
 mod directions;
 mod ensembles;
 mod free_motion;
+mod in_mode;
 #[path = "../../guen-runtime/tests/hybrid/json.rs"]
 mod json;
 mod one_mode;
