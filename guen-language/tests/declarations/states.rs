@@ -205,3 +205,16 @@ fn loops_declare_states() {
         assert!(report.contains("z[1]' = "), "{report}");
     });
 }
+
+#[test]
+fn an_instance_that_is_tracked_keeps_its_states() {
+    let text = "system Filtered {
+        component Filter(v: scalar) { states { dot(y) = v - y; } }
+        coordinates { x }
+        parameters { v = dot(x); }
+        kinetic_energy = v^2;
+        use Filter as filter { v }
+        scene Slow { track filter; }
+    }";
+    derived(text, |derived| assert_eq!(derived.scenes[0].selection.variables.len(), 2));
+}

@@ -295,7 +295,7 @@ impl Scope {
     pub(super) fn scenes(&self, items: &mut [Item]) {
         let moving: Vec<Name> = items
             .iter()
-            .filter(|item| matches!(item, Item::Coordinates(_) | Item::Parameters(_)))
+            .filter(|item| matches!(item, Item::Coordinates(_) | Item::Parameters(_) | Item::States(_)))
             .flat_map(Item::declared)
             .cloned()
             .collect();
