@@ -100,6 +100,19 @@ fn part(
         faults.report(fault.note("no velocities fulfil all of them"));
         return None;
     }
+    let is_held = |active: &ActiveRow, free: bool| free && active.place == 0;
+    let gap_of = |active: &ActiveRow| gaps[active.contact].map(|gap| (active.contact, gap));
+    let kept_gaps = active.iter().zip(&free).filter(|(active, free)| is_held(active, **free));
+    let kept_gaps: Vec<(usize, ExprId)> = kept_gaps.filter_map(|(active, _)| gap_of(active)).collect();
+    for (active, _) in active.iter().zip(&free).filter(|(active, free)| active.place == 0 && !**free) {
+        let Some((contact, gap)) = gap_of(active) else { continue };
+        if let Some((other, _)) = kept_gaps.iter().find(|(_, kept)| are_apart(model, gap, *kept)) {
+            let (name, other) = (&contacts.entries[contact].name, &contacts.entries[*other].name);
+            let fault = Fault::new(keyword, format!("`{name}` contradicts `{other}` {of_scene}"));
+            faults.report(fault.note("their gaps do not vanish together"));
+            return None;
+        }
+    }
     let mut held: Vec<Vec<bool>> =
         contacts.entries.iter().map(|entry| vec![false; entry.rows.len()]).collect();
     let mut undetermined = vec![false; contacts.entries.len()];
@@ -135,6 +148,17 @@ fn part(
     kept.sort_unstable();
     kept.dedup();
     Some(Part { held, by_rate, undetermined, kept })
+}
+
+/// Whether the sum or the difference of two gaps is constant and not zero.
+fn are_apart(model: &mut Model<'_>, gap: ExprId, other: ExprId) -> bool {
+    let opposite = model.bench.graph.neg(other);
+    [other, opposite].into_iter().any(|other| {
+        let sum = model.bench.graph.add(gap, other);
+        let sum = model.bench.tidy(sum);
+        model.bench.graph.roles(sum).is_constant()
+            && model.bench.graph.as_number(sum).is_none_or(|n| !n.is_zero())
+    })
 }
 
 /// The rows of contacts that are closed in a mode, and by contact its gap where that stays zero.
