@@ -183,6 +183,7 @@ mechanical_system! {
         scene Rolling { modes { floor: stick; } track eta3, xi; provide force; }
         scene Whole { modes { floor: stick; } track theta, psi, phi, xi, eta, zeta; provide energy, reactions; }
         scene Along { modes { floor: stick; } track u, w; }
+        scene Bouncing { modes { floor: open, stick; } }
     }
 }
 
@@ -228,6 +229,7 @@ mechanical_system! {
         }
         modes { for i in 0..n { leg[i]: open, stick; } never leg[0].open with leg[2].open; }
         outputs { load = reaction(leg[2]).x; }
+        scene Tipping { modes { leg[0]: open, stick; leg[1]: open; leg[2]: open, stick; } track x; }
     }
 }
 

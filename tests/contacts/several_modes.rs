@@ -1,7 +1,9 @@
 //! Scenes that run through several modes: they move as the whole system does, with fewer variables.
 
-use guen::hybrid::{HybridCause, TransitionKind};
+use guen::hybrid::{HybridCause, HybridSystem, TransitionKind};
 use guen::mechanical_system;
+
+use crate::declared::{Feet, HoopOnFloor, feet, hoop_on_floor};
 
 mechanical_system! {
     /// A wheel on a plane: nobody asks where it is.
@@ -127,4 +129,79 @@ fn a_mode_that_a_scene_excludes_ends_its_run() {
     let ground = roller::Ground::from(constants).prepare().unwrap().driven(light.into());
     let motion = ground.simulate(&start.into(), 0.0..1.0).unwrap();
     assert!((motion.reactions_at(1.0)[0] - (20.0 * 9.81 - 150.0)).abs() < 1e-9);
+}
+
+/// A number in the middle of things, the same on every machine.
+fn drawn(seed: &mut u64) -> f64 {
+    *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+    (*seed >> 11) as f64 / (1_u64 << 53) as f64
+}
+
+fn assert_near<const N: usize>(found: [f64; N], expected: [f64; N]) {
+    let size = expected.iter().fold(1.0, |most: f64, rate| most.max(rate.abs()));
+    assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-12 * size), "{found:?} {expected:?}");
+}
+
+/// Where a mode has a program of its own, its rates are those that the common program gives on the constraints.
+#[test]
+fn rates_of_eliminated_modes_are_those_of_the_common_program() {
+    let mut seed = 5;
+    let hoop = HoopOnFloor::default();
+    let whole = hoop.prepare().unwrap();
+    let scene = hoop_on_floor::Bouncing::from(hoop).prepare().unwrap();
+    assert_eq!(eliminated(&scene), 1);
+    let sticks = hoop_on_floor::Mode { floor: hoop_on_floor::Floor::Stick };
+    let (own, common) = (scene.in_mode(sticks), whole.in_mode(sticks));
+    for _ in 0..50 {
+        let [theta, psi, phi, eta1, eta2, eta3] = core::array::from_fn(|_| 0.2 + drawn(&mut seed));
+        let (s, c) = theta.sin_cos();
+        let (a, turning) = (hoop.a, eta2 / s);
+        let zeta = a * s;
+        let u = a * (s * psi.sin() * eta1 - psi.cos() * eta3);
+        let v = -a * (s * psi.cos() * eta1 + psi.sin() * eta3);
+        let w = a * c * eta1;
+        assert!(turning.is_finite());
+        let state =
+            hoop_on_floor::State { theta, psi, phi, xi: 0.3, eta: 0.1, zeta, eta1, eta2, eta3, u, v, w };
+        let full: [f64; 12] = guen::System::rhs(&common, 0.0, &state.into());
+        let kept = hoop_on_floor::bouncing::State::from(&state);
+        let found = guen::System::rhs(&own, 0.0, &kept.into());
+        let expected = hoop_on_floor::bouncing::State::from(hoop_on_floor::State::from(full));
+        assert_near(found, expected.into());
+    }
+    let constants = Roller::default();
+    let inputs = roller::Inputs { torque: 7.0, lift: 3.0 };
+    let ground = roller::Ground::from(constants).prepare().unwrap().driven(inputs.into());
+    assert_eq!(eliminated(&ground), 1);
+    let sticks = roller::Mode { tyre: roller::Tyre::Stick };
+    let rate = guen::System::rhs(&ground.in_mode(sticks), 0.0, &[3.0, 10.0]);
+    // (m + J/a^2) v' = torque/a - c v.
+    let ahead = (7.0 / 0.3 - 0.5 * 3.0) / (20.0 + 1.0 / 0.09);
+    assert_near(rate, [ahead, ahead / 0.3]);
+    // Of the feet of a table one alone sticks; where two do nothing moves, and the common program serves.
+    let feet = Feet::default();
+    let (whole, tipping) = (feet.prepare().unwrap(), feet::Tipping::from(feet).prepare().unwrap());
+    assert_eq!((feet::tipping::MODES.len(), eliminated(&tipping)), (3, 2));
+    for mode in feet::tipping::MODES {
+        let side = match mode.leg {
+            [feet::Leg::Stick, _, feet::Leg::Open] => -1.0,
+            [feet::Leg::Open, _, feet::Leg::Stick] => 1.0,
+            _ => continue,
+        };
+        let (tilt, omega): (f64, f64) = (0.3, 0.7);
+        let (u, w) = (side * tilt.sin() * omega, -side * tilt.cos() * omega);
+        let state = feet::State { x: 0.2, z: -side * tilt.sin(), tilt, u, w, omega };
+        let expected = feet::State::from(guen::System::rhs(&whole.in_mode(*mode), 0.0, &state.into()));
+        let kept = feet::tipping::State::from(&state);
+        let found = guen::System::rhs(&tipping.in_mode(*mode), 0.0, &kept.into());
+        assert_near(found, feet::tipping::State::from(expected).into());
+    }
+}
+
+/// The number of modes that have a program of their own.
+fn eliminated<H, const N: usize, const W: usize, const C: usize, const S: usize>(_: &H) -> usize
+where
+    H: HybridSystem<N, W, C, S>,
+{
+    H::ELIMINATED.len()
 }

@@ -42,6 +42,8 @@ pub struct ContactFacts {
     pub changed: Vec<Vec<usize>>,
     /// The branches of piecewise functions, which are signals after the switches and resets.
     pub branches: Vec<Branch>,
+    /// The modes whose rates have a program of their own, by their places.
+    pub eliminated: Vec<usize>,
 }
 
 /// The programs of contacts, the facts about them, and the equations that scenes are made of; `None` after a fault, and where there are

@@ -10,6 +10,9 @@ pub(super) fn constant_pivots(derivation: &Derivation) -> Vec<ExprId> {
     operators.iter().chain(&derivation.solution.constant_pivots).copied().collect()
 }
 
+/// The words for a function that vanishes where the forms are dependent.
+pub(super) const CHART: &str = "a factor of det A";
+
 /// A function that must not vanish, as it is written, and in words that hold wherever it is seen from.
 pub(super) struct Singularity {
     pub(super) function: ExprId,
@@ -32,7 +35,7 @@ pub(super) fn domain(model: &Model<'_>, derivation: &Derivation, shown: &Contrac
     };
     let operators = &derivation.frame.operators;
     let chart = operators.chart.iter().zip(&operators.chart_forms);
-    let chart = chart.map(|(e, forms)| named(e, "a factor of det A", dependent(model, forms)));
+    let chart = chart.map(|(e, forms)| named(e, CHART, dependent(model, forms)));
     let pivot = "the mass matrix is singular";
     let pivots =
         derivation.solution.pivots.iter().map(|e| named(e, "a pivot of the mass matrix", pivot.to_owned()));

@@ -76,5 +76,12 @@ pub const RESETS: &str = "resets";
 pub const SIGNALS: &str = "signals";
 /// The coefficients of restitution.
 pub const RESTITUTIONS: &str = "restitutions";
+/// The rates of a mode, by its place among those that have a program of their own.
+pub fn mode_rates(place: usize) -> String {
+    format!("{MODE_RATES}{place}")
+}
+
+/// The first letters of the names of [`mode_rates`].
+pub const MODE_RATES: &str = "mode_rates_";
 /// The outputs with the forces of contacts.
 pub const CONTACT_OUTPUTS: &str = "contact_outputs";

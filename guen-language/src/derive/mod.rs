@@ -9,6 +9,7 @@ mod commutators;
 mod contacts;
 mod control;
 mod domain;
+mod eliminated;
 mod facts;
 mod faults;
 mod fixed;
@@ -82,7 +83,8 @@ pub fn derive<'a>(mut model: Model<'a>, faults: &mut Faults) -> Option<Derived<'
         system.contacts = Some(facts);
         equations = Some(of_contacts);
     }
-    let scenes = scene::derive(&mut model, &system, equations, faults);
+    let mut scenes = scene::derive(&mut model, &system, equations, faults);
+    eliminated::add(&mut model, &system, &mut scenes);
     let in_modes = one_mode::derive(&mut model, &system, faults);
     let levels: Vec<&Level> = std::iter::once(&system).chain(&scenes).collect();
     supplied::check(&model, &levels, faults);

@@ -5,6 +5,8 @@
 
 mod written;
 
+pub(super) use written::name_of;
+
 use guen_symbolic::{ExprId, Substitution, SymbolId, chosen_rates, independent_rows};
 
 use super::contacts::ContactFacts;
@@ -37,8 +39,7 @@ pub(super) fn derive<'a>(
     let mut written: Vec<(usize, Declaration)> = Vec::new();
     if let (Some(contacts), Some(facts)) = (model.contacts.take(), &system.contacts) {
         for (index, scene) in scenes.iter().enumerate().filter(|(_, scene)| scene.single_mode().is_some()) {
-            let part = part(model, (&contacts, facts), scene, faults);
-            let declaration = part.and_then(|part| written::in_mode(model, &contacts, scene, &part, faults));
+            let declaration = declaration(model, (&contacts, facts), scene, faults);
             written.extend(declaration.map(|declaration| (index, declaration)));
         }
         model.contacts = Some(contacts);
@@ -59,6 +60,17 @@ pub(super) fn derive<'a>(
         derived.extend(own.map(|own| (index, own)));
     }
     derived
+}
+
+/// The declaration of the system in the only mode of a scene.
+pub(super) fn declaration(
+    model: &mut Model<'_>,
+    (contacts, facts): (&Contacts<'_>, &ContactFacts),
+    scene: &SceneEntry<'_>,
+    faults: &mut Faults,
+) -> Option<Declaration> {
+    let part = part(model, (contacts, facts), scene, faults)?;
+    written::in_mode(model, contacts, scene, &part, faults)
 }
 
 /// A row of a contact that is closed, over the parameters.

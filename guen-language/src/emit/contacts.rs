@@ -165,6 +165,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
             }
         }
     });
+    let eliminated = eliminated(contacts, facts, *size, &lifted);
     let modes = super::modes::items(subject, contacts, facts);
     let in_mode = in_mode(facts.switches.len(), &[*size, rows, count, switches]);
     let outputs = outputs(subject, layout, &[*size, rows, count, switches]);
@@ -211,6 +212,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
                 #free_rates
             }
 
+            #eliminated
             #row_rates
             #row_drifts
             #conditions
@@ -250,6 +252,38 @@ fn changes(facts: &ContactFacts) -> TokenStream {
         quote!(#signal => { #(#assigned)* })
     });
     arms.collect()
+}
+
+/// The rates of modes that have a program of their own.
+fn eliminated(
+    contacts: &Contacts<'_>,
+    facts: &ContactFacts,
+    size: usize,
+    lifted: &TokenStream,
+) -> Option<TokenStream> {
+    let count = contacts.entries.len();
+    let modes = facts.eliminated.iter().map(|place| {
+        let states = contacts.entries.iter().zip(&facts.modes[*place]);
+        let states = states.map(|(entry, state)| super::modes::variant(entry.states()[*state]));
+        quote!(__guen::hybrid::Mode([#(__guen::hybrid::ElementState::#states),*]))
+    });
+    let last = facts.eliminated.len().checked_sub(1)?;
+    let arms = (0..=last).map(|place| {
+        let program = format_ident!("{}", function::mode_rates(place));
+        let pattern = if place < last { quote!(#place) } else { quote!(_) };
+        quote!(#pattern => program::#program(&constants, &hoisted, t, state, &inputs),)
+    });
+    Some(quote! {
+        const ELIMINATED: &'static [__guen::hybrid::Mode<#count>] = &[#(#modes),*];
+
+        #[inline]
+        fn eliminated_rates<S: __guen::Lift<::core::primitive::f64>>(
+            &self, place: ::core::primitive::usize, t: S, state: &[S; #size],
+        ) -> [S; #size] {
+            #lifted
+            match place { #(#arms)* }
+        }
+    })
 }
 
 /// `in_mode`, with so many declared switches; `sizes` are the numbers of states, rows, contacts and switches.

@@ -115,6 +115,7 @@ pub(super) fn signature(name: &str) -> Signature {
         | function::RESETS
         | function::SIGNALS => Signature::Contacts,
         function::CONTACT_OUTPUTS => Signature::Pressed,
+        name if name.starts_with(function::MODE_RATES) => Signature::Driven,
         function::FORMS => Signature::Velocities,
         function::RHS
         | function::OUTPUTS

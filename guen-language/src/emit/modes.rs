@@ -56,6 +56,9 @@ pub(super) fn items(
     let cost = subject.level.program(function::FREE_MOTION).map(|program| text::cost(&program.cost));
     let info = of_level.modes.iter().enumerate().map(|(place, mode)| {
         let (rows, painleve_free) = facts(contacts, &of_level.coupled, mode);
+        let own = of_level.eliminated.iter().position(|eliminated| *eliminated == place);
+        let own = own.and_then(|own| subject.level.program(&function::mode_rates(own)));
+        let cost = own.map_or_else(|| quote!(#cost), |program| text::cost(&program.cost));
         quote! {
             __guen::hybrid::ModeInfo { mode: MODES[#place], rows: &[#(#rows),*], painleve_free: #painleve_free, cost: #cost }
         }
@@ -193,7 +196,7 @@ fn type_of(field: &Ident) -> Ident {
     format_ident!("{}", type_name(&plain(field)), span = field.span())
 }
 
-fn variant(state: ContactState) -> Ident {
+pub(super) fn variant(state: ContactState) -> Ident {
     format_ident!(
         "{}",
         match state {

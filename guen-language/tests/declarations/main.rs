@@ -15,6 +15,7 @@ mod imports;
 mod large_costs;
 mod limbs;
 mod long_families;
+mod modes_of_scenes;
 mod one_mode;
 mod outline;
 mod poles;

@@ -34,6 +34,8 @@ pub struct InMode<H, const N: usize, const W: usize, const C: usize, const S: us
     /// Whether branches of piecewise functions follow the state, and are not held.
     pub(super) follows: bool,
     pub(super) pivots: Pivots<W>,
+    /// The place among the modes that have a program of their own.
+    eliminated: Option<usize>,
     /// The directions of spatial slip where the slip itself does not tell one.
     pub(super) leaning: [Leaning; C],
 }
@@ -120,8 +122,9 @@ where
         state: &[f64; N],
     ) -> Self {
         let pivots = Pivots::in_order(unknown_rows(&H::ELEMENTS, &mode));
-        let mut in_mode =
-            Self { system, mode, switches, follows: false, pivots, leaning: [Leaning::default(); C] };
+        let eliminated = H::ELIMINATED.iter().position(|known| *known == mode);
+        let leaning = [Leaning::default(); C];
+        let mut in_mode = Self { system, mode, switches, follows: false, pivots, eliminated, leaning };
         in_mode.choose_pivots(t, state);
         in_mode
     }
@@ -272,7 +275,11 @@ where
     }
 
     /// The rates of the state in this mode.
+    #[inline]
     pub fn rates<R: Lift<f64>>(&self, t: R, state: &[R; N]) -> [R; N] {
+        if let Some(place) = self.eliminated {
+            return self.system.eliminated_rates(place, t, state);
+        }
         if self.pivots.all().is_empty() && !self.mode.0.iter().any(|state| state.slips()) {
             return self.system.free_rates(t, state, &self.lifted_switches(t, state));
         }

@@ -83,6 +83,8 @@ pub trait HybridSystem<const N: usize, const W: usize, const C: usize, const S: 
     const COORDINATES: usize;
     /// Whether it is proved that in no mode a slipping contact can have an inconsistent or an undetermined reaction.
     const PAINLEVE_FREE: bool = false;
+    /// The modes whose rates [`eliminated_rates`](Self::eliminated_rates) computes.
+    const ELIMINATED: &'static [Mode<C>] = &[];
 
     /// The mode with named fields; [`Mode`] itself where there is none.
     type Mode: Copy + From<Mode<C>>;
@@ -113,6 +115,13 @@ pub trait HybridSystem<const N: usize, const W: usize, const C: usize, const S: 
     #[inline]
     fn free_rates<R: Lift<f64>>(&self, t: R, state: &[R; N], switches: &[R; S]) -> [R; N] {
         self.free_motion(t, state, switches, &[R::zero(); C]).rates
+    }
+
+    /// The rates in a mode by its place among [`ELIMINATED`](Self::ELIMINATED), from equations in which its rows are constraints: those of
+    /// [`InMode::rates`](crate::hybrid::InMode::rates), wherever these hold, with fewer operations.
+    #[inline]
+    fn eliminated_rates<R: Lift<f64>>(&self, _place: usize, t: R, state: &[R; N]) -> [R; N] {
+        self.free_rates(t, state, &[R::zero(); S])
     }
 
     /// The rows `gamma_w = W_w eta + w_w` alone.

@@ -82,6 +82,7 @@ pub(in crate::derive) fn programs(
         drifts: moves,
         changed: Vec::new(),
         branches: held.branches,
+        eliminated: Vec::new(),
     };
     Some((builder.finish(), facts))
 }

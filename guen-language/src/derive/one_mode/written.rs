@@ -230,7 +230,7 @@ fn parameters(definition: Definition) -> Item {
 }
 
 /// The name of a form: of the component, where a vector was written, and of the rate of a coordinate.
-fn name_of(form: &FormEntry<'_>) -> Name {
+pub(in crate::derive) fn name_of(form: &FormEntry<'_>) -> Name {
     part_of(form.written, &form.name)
 }
 
