@@ -212,7 +212,7 @@ impl Judged {
         let of_rates = largest(&free.row_rates);
         // A gap of a ten-billionth is one: bounces that die out are that low.
         let touches = |c: usize| {
-            transition.before.0[c].is_closed() || transition.elements[c] || free.gaps[c].abs() < 1e-15
+            transition.before.0[c].is_closed() || transition.elements[c] || free.gaps[c].abs() < 3e-16
         };
         let spatial = H::ELEMENTS.iter().any(|element| element.tangential.len() == 2);
         for (c, element) in H::ELEMENTS.iter().enumerate() {
