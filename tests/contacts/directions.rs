@@ -24,6 +24,8 @@ fn a_direction_that_is_left_out_is_excluded() {
     use pulled::{Floor, Inputs, MODES, Mode, State};
     assert_eq!(MODES, [Mode { floor: Floor::Stick }, Mode { floor: Floor::SlipBackward }]);
     assert_eq!(pulled::back::MODES, MODES);
+    let told = "floor is a contact with friction along a line: stick, slip-";
+    assert!(pulled::REPORT.lines("Contacts").contains(&told));
     let block = Pulled::default().prepare().unwrap();
     // Friction takes 10 of 14: 2 of acceleration.
     let motion = block.driven(Inputs { pull: 14.0 }).simulate(&State::default(), 0.0..3.0).unwrap();

@@ -26,3 +26,13 @@ fn long_entries_of_d_are_counted() {
     let counted = format!("{long} entries of D = W M^-1 W^T are too long to print");
     assert!(lines.contains(&counted.as_str()), "{lines:?}");
 }
+
+#[test]
+fn states_that_no_mode_has_are_not_told() {
+    let lines = walker::REPORT.lines("Contacts");
+    let says = |words: &str| lines.contains(&words);
+    assert!(says("heel is a contact with friction along a line: open, stick"), "{lines:?}");
+    assert!(says("toe is a contact with friction along a line: open, slip"));
+    assert!(says("where toe slips, its reaction may have no value, or several (Painlevé)"));
+    assert!(!lines.iter().any(|line| line.starts_with("where heel slips")));
+}

@@ -2,7 +2,7 @@
 
 use super::lines::{Lines, Section, Writer, plural};
 use crate::derive::{ContactFacts, Subject};
-use crate::model::{ContactEntry, ContactKind, Contacts};
+use crate::model::{ContactEntry, ContactKind, ContactState, Contacts};
 
 /// The longest entry of D that is printed, in bytes. A hinge's stop on a chain of three takes ten thousand.
 const LONGEST_ENTRY: usize = 300;
@@ -40,7 +40,8 @@ pub(super) fn section(subject: &Subject<'_, '_>, writer: &mut Writer<'_>) -> Opt
         let (entries, are) = if long == 1 { ("entry", "is") } else { ("entries", "are") };
         section.text.push(format!("{long} {entries} of D = W M^-1 W^T {are} too long to print"));
     }
-    section.text.extend(contacts.entries.iter().map(words));
+    let states = |place: usize| states_of(contacts, facts, place);
+    section.text.extend(contacts.entries.iter().enumerate().map(|(i, entry)| words(entry, &states(i))));
     let switches = facts.switches.iter().map(|s| &contacts.switches[*s]);
     section.text.extend(
         switches.map(|switch| format!("{} is a switch: {}", switch.name, graph.text(switch.function))),
@@ -69,7 +70,14 @@ pub(crate) fn row_name(entry: &ContactEntry<'_>, row: usize) -> String {
     }
 }
 
-fn words(entry: &ContactEntry<'_>) -> String {
+/// The states that a contact has in some mode.
+fn states_of(contacts: &Contacts<'_>, facts: &ContactFacts, place: usize) -> Vec<ContactState> {
+    let states = contacts.entries[place].states().iter().enumerate();
+    let occurs = |state: usize| facts.modes.iter().any(|mode| mode[place] == state);
+    states.filter(|(i, _)| occurs(*i)).map(|(_, state)| *state).collect()
+}
+
+fn words(entry: &ContactEntry<'_>, states: &[ContactState]) -> String {
     let what = match entry.kind {
         ContactKind::Smooth => "a contact without friction",
         ContactKind::Planar => "a contact with friction along a line",
@@ -77,9 +85,12 @@ fn words(entry: &ContactEntry<'_>) -> String {
         ContactKind::Grip => "a grip",
         ContactKind::Latch => "a latch",
     };
-    let mut states: Vec<&str> = entry.states().iter().map(|state| state.word()).collect();
-    states.dedup();
-    format!("{} is {what}: {}", entry.name, states.join(", "))
+    // One direction alone has its sign.
+    let both = [ContactState::SlipPlus, ContactState::SlipMinus].iter().all(|slip| states.contains(slip));
+    let word = |state: &ContactState| if both { state.word() } else { state.signed_word() };
+    let mut words: Vec<&str> = states.iter().map(word).collect();
+    words.dedup();
+    format!("{} is {what}: {}", entry.name, words.join(", "))
 }
 
 /// Whether every slip has one reaction.
@@ -106,5 +117,23 @@ fn painleve(contacts: &Contacts<'_>, facts: &ContactFacts) -> Vec<String> {
             name(*touching)
         ),
     };
-    facts.coupled.iter().map(pair).collect()
+    let slips = |state: ContactState| {
+        matches!(state, ContactState::Slip | ContactState::SlipPlus | ContactState::SlipMinus)
+    };
+    let state = |mode: &[usize], place: usize| contacts.entries[place].states()[mode[place]];
+    let occurs = |(slipping, touching): &&(usize, usize)| {
+        let both = |mode: &Vec<usize>| {
+            slips(state(mode, *slipping))
+                && !matches!(state(mode, *touching), ContactState::Open | ContactState::Free)
+        };
+        facts.modes.iter().any(both)
+    };
+    let lines: Vec<String> = facts.coupled.iter().filter(occurs).map(pair).collect();
+    match lines.is_empty() {
+        true => vec![
+            "in every mode a slip has one reaction: no mode has a slip and a closed gap that D couples"
+                .to_owned(),
+        ],
+        false => lines,
+    }
 }

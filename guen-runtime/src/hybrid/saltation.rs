@@ -87,7 +87,7 @@ impl<M, const N: usize, const W: usize, const C: usize> Transition<M, N, W, C> {
     /// The derivative of the motion through this transition, from the systems in the modes before and after it.
     ///
     /// [`Hybrid::transitions_between`](crate::hybrid::Hybrid::transitions_between) tells of transitions with both; a trajectory has
-    /// them, [`HybridTrajectory::saltation`](crate::hybrid::HybridTrajectory::saltation).
+    /// them, `HybridTrajectory::saltation`.
     ///
     /// # Errors
     ///

@@ -89,7 +89,7 @@ pub struct Line {
 /// An operand of a line.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Operand {
-    /// The same value in every turn.
+    /// A value from outside, the same in every turn.
     Outside(Value),
     /// An element `first + stride*(turn - from)` of an array that the function takes.
     Given {
