@@ -52,9 +52,14 @@ impl Evaluator<'_> {
         if !self.knows_motion() {
             let place = self.place.description(self.entry.as_deref());
             let fault = Fault::new(function.span(), format!("{place} cannot depend on a reaction"));
-            return self.fail(
-                fault.note("reactions follow from the motion: only `outputs` and `states` may use them"),
-            );
+            let fault =
+                fault.note("reactions follow from the motion: only `outputs` and `states` may use them");
+            return self.fail(match self.place {
+                Place::GripForce | Place::GripLoad => fault.help(
+                    "a grip is loaded by a contact without friction as `load = reaction(name)`: factors belong into `friction`",
+                ),
+                _ => fault,
+            });
         }
         let [Expression { kind: ExpressionKind::Name(name), .. }] = arguments else {
             return self.fail(

@@ -59,6 +59,20 @@ impl Evaluator<'_> {
         }
     }
 
+    /// The words for a call that would ask for something of a contact where that is no number.
+    pub(super) fn instead_of_contact(&self, function: &str) -> Option<&'static str> {
+        let is_of_contact = self.scope.has_contacts() && self.functions.get(function).is_none();
+        match function {
+            "mode" if is_of_contact => {
+                Some("a mode is no number: a run tells it, and `Mode` has a field for every contact")
+            }
+            GAP | SLIP if is_of_contact => {
+                Some("only `outputs` may ask for it, below `contacts`: write the expression")
+            }
+            _ => None,
+        }
+    }
+
     /// The contact that a call names.
     pub(super) fn contact_named<'e>(
         &mut self,

@@ -131,7 +131,7 @@ impl Evaluator<'_> {
             let own: Vec<String> = self.functions.names().map(str::to_owned).collect();
             let all = names::SCALAR_FUNCTIONS.iter().chain(names::SPATIAL_FUNCTIONS).copied();
             let all = all.chain(own.iter().map(String::as_str));
-            if let Some(instead) = instead_of(text) {
+            if let Some(instead) = self.instead_of_contact(text).or_else(|| instead_of(text)) {
                 return self.fail(fault.help(instead));
             }
             match function_synonym(text).or_else(|| names::nearest(text, all)) {

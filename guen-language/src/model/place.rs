@@ -53,12 +53,16 @@ pub(super) enum Place {
     Grip,
     /// A coefficient of friction.
     Friction,
+    /// A coefficient that limits sticking.
+    Stiction,
     /// A coefficient of restitution.
     Restitution,
     /// The condition of a contact.
     Condition,
-    /// The limit or the load of a grip.
+    /// The limit of a grip.
     GripForce,
+    /// The load of a grip.
+    GripLoad,
 }
 
 impl Place {
@@ -89,9 +93,11 @@ impl Place {
             Place::Slip => ("the slip of", "a slip"),
             Place::Grip => ("the grip", "a grip"),
             Place::Friction => ("the friction of", "a coefficient of friction"),
+            Place::Stiction => ("the stiction of", "a coefficient of stiction"),
             Place::Restitution => ("the restitution of", "a coefficient of restitution"),
             Place::Condition => ("the condition of", "the condition of a contact"),
             Place::GripForce => ("the limit of", "the limit of a grip"),
+            Place::GripLoad => ("the load of", "the load of a grip"),
         };
         match entry {
             None => nameless.to_owned(),
@@ -113,6 +119,7 @@ impl Place {
             Place::Friction => {
                 "it depends on constants, time, coordinates, switches, and on `speed`, the magnitude of the slip"
             }
+            Place::Stiction => "it depends on constants, time, coordinates and switches",
             Place::Restitution => "it depends on constants alone",
             Place::Switch | Place::ResetFunction => {
                 "its zero is located between two changes of the inputs, so that it depends on everything but these"
@@ -137,7 +144,7 @@ impl Place {
             | Place::Position
             | Place::Gap
             | Place::Latch => positions,
-            Place::Friction => positions.or(Roles::of(Role::Input)),
+            Place::Friction | Place::Stiction => positions.or(Roles::of(Role::Input)),
             Place::Parameter
             | Place::Constraint
             | Place::KineticEnergy
@@ -145,7 +152,12 @@ impl Place {
             | Place::Slip
             | Place::Grip => velocities,
             Place::Switch | Place::ResetFunction => velocities.or(Roles::of(Role::State)),
-            Place::Let | Place::Force | Place::Condition | Place::GripForce | Place::ResetValue => all,
+            Place::Let
+            | Place::Force
+            | Place::Condition
+            | Place::GripForce
+            | Place::GripLoad
+            | Place::ResetValue => all,
             Place::StateRate | Place::Output => all.or(Roles::of(Role::QuasiAcceleration)),
         }
     }
@@ -172,9 +184,11 @@ impl Place {
                 | Place::Slip
                 | Place::Grip
                 | Place::Friction
+                | Place::Stiction
                 | Place::Restitution
                 | Place::Condition
                 | Place::GripForce
+                | Place::GripLoad
         )
     }
 }

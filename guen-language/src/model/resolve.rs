@@ -169,7 +169,9 @@ impl<'a, 'f> Resolver<'a, 'f> {
                 }
                 Item::Bodies(section) => section.entries.iter().for_each(|e| scope.announce(&e.name)),
                 Item::Switches(section) => section.entries.iter().for_each(|e| scope.announce(&e.name)),
-                Item::Contacts(section) => section.entries.iter().for_each(|e| scope.announce(&e.name)),
+                Item::Contacts(section) => {
+                    section.entries.iter().for_each(|e| scope.announce_contact(&e.name));
+                }
                 Item::Resets(section) => section.entries.iter().for_each(|e| scope.announce(&e.name)),
                 _ => {}
             }

@@ -94,6 +94,8 @@ pub(super) struct Scope {
     order: Vec<String>,
     // Everything that the declaration declares anywhere, to tell "later" from "never".
     later: BTreeMap<String, Span>,
+    // Whether there are contacts, whose friction knows `speed`.
+    has_contacts: bool,
     // Unknown names that were reported: one mistake is one error, however often the name is used.
     unknown: BTreeSet<String>,
     // Every declared name and every use, as written: editors lead from one to the other.
@@ -105,6 +107,17 @@ impl Scope {
     /// Announces a name that is declared somewhere.
     pub(super) fn announce(&mut self, name: &Name) {
         self.later.entry(name.text.clone()).or_insert_with(|| name.span());
+    }
+
+    /// Whether contacts are declared somewhere.
+    pub(super) fn has_contacts(&self) -> bool {
+        self.has_contacts
+    }
+
+    /// Announces the name of a contact that is declared somewhere.
+    pub(super) fn announce_contact(&mut self, name: &Name) {
+        self.has_contacts = true;
+        self.announce(name);
     }
 
     /// Declares a name; `None` for the value of something whose fault was reported.
@@ -214,7 +227,7 @@ impl Scope {
             fault = fault.help(format!("the rate of `{rate}` is written `dot({rate})`"));
             // `d/dt` is one mistake.
             self.unknown.extend(["d", "dt"].map(String::from));
-        } else if name.text == SPEED && self.entries.values().any(|e| e.category == Category::Contact) {
+        } else if name.text == SPEED && self.has_contacts {
             fault = fault.help("`speed` is the magnitude of the slip, inside of `friction` alone");
         } else if let Some(near) = names::nearest(&name.text, self.order.iter().map(String::as_str)) {
             fault = fault.help(format!("did you mean `{near}`?"));

@@ -144,10 +144,10 @@ impl<'a> Resolver<'a, '_> {
         };
         let force = |this: &mut Self, word: ClauseWord| {
             let clause = contact.clause(word)?;
-            this.eval.scalar_at(Place::GripForce, &clause.value).ok()
+            this.force_of_grip(contact, clause).ok()
         };
         let limit = force(self, ClauseWord::Limit);
-        let loaded_by = contact.clause(ClauseWord::Load).and_then(|clause| self.loading_row(clause));
+        let loaded_by = contact.clause(ClauseWord::Load).and_then(|clause| self.loading_row(contact, clause));
         let load = match loaded_by {
             Some(_) => None,
             None => force(self, ClauseWord::Load),
@@ -156,7 +156,7 @@ impl<'a> Resolver<'a, '_> {
         let condition = |this: &mut Self, word: ClauseWord| {
             let clause = contact.clause(word)?;
             let value = this.eval.scalar_at(Place::Condition, &clause.value).ok()?;
-            this.without_inputs(contact, clause, value).ok()
+            this.condition(contact, clause, value).ok()
         };
         let when = condition(self, ClauseWord::When);
         let release = condition(self, ClauseWord::Release);
@@ -173,6 +173,17 @@ impl<'a> Resolver<'a, '_> {
         let friction_of_speed = friction.is_some_and(|friction| {
             symbol.is_some_and(|speed| graph.symbols_in(&[friction]).contains(&speed))
         });
+        if let (Some(friction), Some(stiction)) = (friction, stiction) {
+            let still = at_rest(graph, friction);
+            let less = graph.sub(still, stiction);
+            if graph.is_above_zero(less) {
+                let clause = contact.clause(ClauseWord::Stiction).unwrap_or(kind);
+                let text = format!("the stiction of `{}` is below its friction", contact.name);
+                let fault = Fault::new(clause.value.extent(), text);
+                let fault = fault.note("what neither sticks nor starts to slip has no motion");
+                return self.eval.fail(fault);
+            }
+        }
         let stiction = stiction.or_else(|| friction.map(|friction| at_rest(graph, friction)));
         let limit = match (limit, friction, load) {
             (None, Some(friction), Some(load)) => Some(graph.mul(friction, load)),

@@ -4,9 +4,9 @@ use proc_macro2::Span;
 
 use super::*;
 use crate::model::accelerations::REACTION;
-use crate::syntax::SPEED;
+use crate::syntax::{Name, SPEED};
 
-impl Resolver<'_, '_> {
+impl<'a> Resolver<'a, '_> {
     /// A coefficient of friction, in which `speed` is the magnitude of the slip.
     pub(super) fn coefficient(
         &mut self,
@@ -14,18 +14,66 @@ impl Resolver<'_, '_> {
         clause: &Clause,
         speed: Option<ExprId>,
     ) -> Evaluated<ExprId> {
-        let word = clause.word.text();
         let inside = speed.filter(|_| clause.word == ClauseWord::Friction);
         let own = inside.map(|speed| (SPEED.to_owned(), Value::Scalar(speed)));
         self.eval.functions.frames.push(own.into_iter().collect());
-        let value = self.eval.scalar_at(Place::Friction, &clause.value);
+        let place = match clause.word {
+            ClauseWord::Stiction => Place::Stiction,
+            _ => Place::Friction,
+        };
+        let value = self.eval.scalar_at(place, &clause.value);
         self.eval.functions.frames.pop();
-        let value = value?;
-        if self.eval.bench.graph.as_number(value).is_some_and(|number| number.is_negative()) {
-            let text = format!("the {word} of `{}` is below zero", contact.name);
-            return self.eval.fail(Fault::new(clause.value.extent(), text));
-        }
+        let value = self.not_below_zero(contact, clause, value?)?;
         self.without_inputs(contact, clause, value)
+    }
+
+    /// The limit of a grip, or its load where that is an expression.
+    pub(super) fn force_of_grip(&mut self, contact: &Contact, clause: &Clause) -> Evaluated<ExprId> {
+        let place = if clause.word == ClauseWord::Load { Place::GripLoad } else { Place::GripForce };
+        let value = self.eval.scalar_at(place, &clause.value)?;
+        self.not_below_zero(contact, clause, value)
+    }
+
+    /// A value of which it is not seen that it is below zero, itself or by the default of the constant that it is.
+    fn not_below_zero(&mut self, contact: &Contact, clause: &Clause, value: ExprId) -> Evaluated<ExprId> {
+        let graph = &mut self.eval.bench.graph;
+        let opposite = graph.neg(value);
+        let word = clause.word.text();
+        let text = match self.default_of(value) {
+            _ if self.eval.bench.graph.is_above_zero(opposite) => {
+                format!("the {word} of `{}` is below zero", contact.name)
+            }
+            Some((name, default)) if default < 0.0 => {
+                format!("the {word} `{name}` of `{}` is below zero by its default", contact.name)
+            }
+            _ => return Ok(value),
+        };
+        self.eval.fail(Fault::new(clause.value.extent(), text))
+    }
+
+    /// The name and the default of the constant that an expression is, where the default is a number.
+    fn default_of(&self, value: ExprId) -> Option<(&'a Name, f64)> {
+        let graph = &self.eval.bench.graph;
+        let symbol = graph.as_symbol(value)?;
+        let constant = self.constants.iter().find(|c| graph.as_symbol(c.symbol) == Some(symbol))?;
+        Some((constant.name, graph.as_number(constant.default?)?.to_f64()))
+    }
+
+    /// A condition, which depends on no input; that of a release has to change for it to rise.
+    pub(super) fn condition(
+        &mut self,
+        contact: &Contact,
+        clause: &Clause,
+        value: ExprId,
+    ) -> Evaluated<ExprId> {
+        let value = self.without_inputs(contact, clause, value)?;
+        let graph = &self.eval.bench.graph;
+        if clause.word == ClauseWord::Release && graph.roles(value).is_constant() {
+            let text = format!("the release of `{}` never changes", contact.name);
+            let fault = Fault::new(clause.value.extent(), text);
+            return self.eval.fail(fault.note("a latch is free again where its release rises through zero"));
+        }
+        Ok(value)
     }
 
     /// The coefficient of restitution: of constants, from 0 to 1.
@@ -46,6 +94,15 @@ impl Resolver<'_, '_> {
         if let Some(constant) = plain {
             let number = |e: Option<ExprId>| e.and_then(|e| graph.as_number(e)).map(|n| n.to_f64());
             let name = constant.name;
+            let is_outside = |limits: [ExprId; 2]| {
+                let [lower, upper] = limits.map(|limit| number(Some(limit)));
+                lower.is_some_and(|lower| lower < 0.0) || upper.is_some_and(|upper| upper > 1.0)
+            };
+            if constant.limits.is_some_and(is_outside) {
+                let text = format!("restitution `{name}` of `{}` may lie outside of 0 to 1", contact.name);
+                let fault = Fault::new(span, text).note("by its limits");
+                return self.eval.fail(fault.help(format!("declare `{name} in 0..1`")));
+            }
             if constant.limits.is_none() && constant.default.is_none() {
                 let text = format!("restitution `{name}` of `{}` may lie outside of 0 to 1", contact.name);
                 return self.eval.fail(Fault::new(span, text).help(format!("declare `{name} in 0..1`")));
@@ -92,7 +149,7 @@ impl Resolver<'_, '_> {
     }
 
     /// The row whose force loads a grip, where the load is written as a reaction; inside of it none after a fault.
-    pub(super) fn loading_row(&mut self, clause: &Clause) -> Option<Option<usize>> {
+    pub(super) fn loading_row(&mut self, grip: &Contact, clause: &Clause) -> Option<Option<usize>> {
         let ExpressionKind::Call { function, arguments, list } = &clause.value.kind else { return None };
         let [Expression { kind: ExpressionKind::Name(name), .. }] = &arguments[..] else { return None };
         let scope = &self.eval.scope;
@@ -105,6 +162,10 @@ impl Resolver<'_, '_> {
                     .note("a grip is loaded by an expression, or by the force of a contact without friction")
                     .help("declare it as a contact, or write its force as an expression"),
             );
+            return Some(None);
+        }
+        if let Some(fault) = self.circle(grip, name) {
+            self.eval.faults.report(fault);
             return Some(None);
         }
         let Ok((name, contact)) = self.eval.contact_named(REACTION, arguments, *list) else {
@@ -121,5 +182,21 @@ impl Resolver<'_, '_> {
         let place = self.contacts.iter().position(|known| known.entry.name.text == name.text);
         let rows_of = |count: usize| self.contacts[..count].iter().map(|known| known.entry.rows.len()).sum();
         Some(place.map(rows_of))
+    }
+
+    /// The fault of a grip that is loaded by its own force, or by that of another grip.
+    fn circle(&self, grip: &Contact, name: &Name) -> Option<Fault> {
+        if name.text == grip.name.text {
+            let fault = Fault::new(name.span(), format!("`{name}` is loaded by its own force"));
+            return Some(fault.note("a grip is loaded by the force of a contact without friction"));
+        }
+        let sections = self.declaration.items.iter().filter_map(|item| match item {
+            Item::Contacts(section) => Some(section),
+            _ => None,
+        });
+        let other = sections.flat_map(|section| &section.entries).find(|entry| entry.name.text == name.text);
+        other?.clause(ClauseWord::Grip)?;
+        let fault = Fault::new(name.span(), format!("`{name}` is a grip, and cannot load another"));
+        Some(fault.note("a grip is loaded by the force of a contact without friction"))
     }
 }
