@@ -210,11 +210,11 @@ pub mod __private {
         Actuated, AuxiliaryStates, Bodies, Body, BracketCoefficients, Catastatic, Class, Coefficient,
         Coefficients, Conservative, ConstantsError, Convolutions, Cost, Derived, Differentiable,
         Displacement, DrivenSeries, Dual, EachLane, HIGHEST_ORDER, Hoisted, Holonomic, IncompleteLieGroup,
-        InputRecords, Instances, Invariants, Laned, Level, LevelInfo, Levels, LieGroup, Lift, Liftable,
-        Linearizable, Linearization, Monitored, Nonholonomic, Operator, Ordered, OutputLinearization,
-        OutputMap, Positions, PositionsError, PreparedValues, Real, Report, ReportSection, Rheonomic,
-        RunningError, Scleronomic, Shape, Simulate, Smooth, System, TaylorSeries, Undriven, Unprepared,
-        WithInputs, WithScalar, linearized, nalgebra_conversions, seeded,
+        InputLaw, InputRecords, Instances, Invariants, Laned, Level, LevelInfo, Levels, LieGroup, Lift,
+        Liftable, Linearizable, Linearization, Monitored, Nonholonomic, Operator, Ordered,
+        OutputLinearization, OutputMap, Positions, PositionsError, PreparedValues, Real, Report,
+        ReportSection, Rheonomic, RunningError, Scleronomic, Shape, Simulate, Smooth, System, TaylorSeries,
+        Undriven, Unprepared, WithInputs, WithScalar, linearized, nalgebra_conversions, seeded,
     };
     pub use guen_runtime::{
         actuated, condition, conserved, contact_mode, contact_states, differentiable, domain, dynamics,

@@ -8,6 +8,7 @@ mod free_motion;
 mod in_mode;
 #[path = "../../guen-runtime/tests/hybrid/json.rs"]
 mod json;
+mod laws;
 mod one_mode;
 mod permanent;
 mod piecewise;

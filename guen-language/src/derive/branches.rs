@@ -23,14 +23,14 @@ pub(super) struct Held {
 impl Held {
     /// The piecewise functions of expressions. In their switching functions `values` stand for the symbols that the state determines.
     pub(super) fn new(graph: &mut Graph, expressions: &[ExprId], values: &mut Substitution) -> Self {
-        let moving = [Role::Time, Role::Coordinate, Role::QuasiVelocity, Role::State];
+        // Inputs may follow a law.
+        let moving = [Role::Time, Role::Coordinate, Role::QuasiVelocity, Role::State, Role::Input];
         let moving =
             moving.into_iter().map(Roles::of).reduce(Roles::or).unwrap_or_else(|| Roles::of(Role::Time));
         let mut held = Held { branches: Vec::new(), substitution: Substitution::default() };
         for id in graph.reachable(expressions, |_| false) {
             let Some(function) = graph.switching_function(id) else { continue };
             let function = values.of(graph, function);
-            // A function of inputs alone changes only where they do, and there a mode ends anyway.
             if graph.roles(function).meets(moving) {
                 let value = held.value(graph, function);
                 if let Some(image) = held.image(graph, id, value) {

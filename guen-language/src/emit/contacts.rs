@@ -42,10 +42,18 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
             quote!(<[::core::primitive::f64; #given]>::from(self.inputs).map(<S as __guen::Lift<::core::primitive::f64>>::lift))
         }
     };
-    let lifted = quote! {
-        let constants = #system.constants.map(<S as __guen::Lift<::core::primitive::f64>>::lift);
-        let hoisted = #system.hoisted.map(<S as __guen::Lift<::core::primitive::f64>>::lift);
-        let inputs: [S; #given] = #inputs;
+    let lifted_of = |system: &TokenStream, inputs: &TokenStream| {
+        quote! {
+            let constants = #system.constants.map(<S as __guen::Lift<::core::primitive::f64>>::lift);
+            let hoisted = #system.hoisted.map(<S as __guen::Lift<::core::primitive::f64>>::lift);
+            let inputs: [S; #given] = #inputs;
+        }
+    };
+    let lifted = lifted_of(&system, &inputs);
+    // Programs in which inputs stand are those of the prepared system, with whatever inputs.
+    let with_any = match given {
+        0 => lifted.clone(),
+        _ => lifted_of(&quote!(self), &quote!(*inputs)),
     };
     let program = |name: &str, rest: &TokenStream| {
         let name = format_ident!("{name}");
@@ -93,18 +101,19 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
     });
     let signal_values = if has(function::SIGNALS) {
         let program = program(function::SIGNALS, &still);
-        quote!(#lifted #program)
+        quote!(#with_any #program)
     } else {
         quote!([])
     };
     let reset = has(function::RESETS).then(|| {
         let program = program(function::RESETS, &quote!(switches, &[<S as __guen::Real>::zero(); #count]));
         let changes = changes(facts);
-        quote! {
-            fn reset<S: __guen::Lift<::core::primitive::f64>>(
-                &self, signal: ::core::primitive::usize, t: S, state: &[S; #size], switches: &[S; #switches],
-            ) -> [S; #size] {
-                #lifted
+        Function {
+            name: "reset",
+            leading: vec![(quote!(signal), quote!(::core::primitive::usize))],
+            result: quote!([S; #size]),
+            body: quote! {
+                #with_any
                 let values = #program;
                 let mut after = *state;
                 match signal {
@@ -112,7 +121,8 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
                     _ => {}
                 }
                 after
-            }
+            },
+            trailing: vec![(quote!(switches), quote!(&[S; #switches]))],
         }
     });
     let restitutions = if has(function::RESTITUTIONS) {
@@ -165,11 +175,62 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
             }
         }
     });
-    let eliminated = eliminated(contacts, facts, *size, &lifted);
+    let eliminated = eliminated(contacts, facts, *size, &with_any);
+    let (modes_of_programs, eliminated_rates) = eliminated.unzip();
+    let functions = [
+        Function {
+            name: "free_motion",
+            leading: Vec::new(),
+            trailing: vec![
+                (quote!(switches), quote!(&[S; #switches])),
+                (quote!(speeds), quote!(&[S; #count])),
+            ],
+            result: quote!(__guen::hybrid::FreeMotion<S, #size, #rows, #count>),
+            body: quote!(#with_any __guen::checks::free_motion::<S, #n, #size, #rows, #count>(&#free_motion)),
+        },
+        Function {
+            name: "free_rates",
+            leading: Vec::new(),
+            trailing: vec![(quote!(switches), quote!(&[S; #switches]))],
+            result: quote!([S; #size]),
+            body: quote!(#with_any #free_rates),
+        },
+        Function {
+            name: "signals",
+            leading: Vec::new(),
+            trailing: Vec::new(),
+            result: quote!([S; #switches]),
+            body: signal_values,
+        },
+    ];
+    let functions: Vec<Function> = functions.into_iter().chain(reset).chain(eliminated_rates).collect();
+    let sizes = quote!(#size, #rows, #count, #switches);
+    let own = functions.iter().map(|function| function.of_system(*size, given, &sizes));
+    let actuated = (given > 0).then(|| {
+        let with_inputs = functions.iter().map(|function| function.with_inputs(*size, given));
+        quote! {
+            #[allow(unused_variables, reason = "every function has the signature of the trait")]
+            impl __guen::hybrid::ActuatedModes<#sizes, #given> for Prepared<::core::primitive::f64> {
+                type Held = Driven<::core::primitive::f64>;
+
+                #[inline]
+                fn at_zero(&self) -> Self::Held {
+                    self.driven(::core::default::Default::default())
+                }
+
+                #[inline]
+                fn inputs_by<S: __guen::Real, L: __guen::InputLaw<Self>>(law: &L, t: S, state: &[S; #size]) -> [S; #given] {
+                    ::core::convert::From::from(__guen::InputLaw::<Self>::at(law, t, &::core::convert::From::from(*state)))
+                }
+
+                #(#with_inputs)*
+            }
+        }
+    });
     let modes = super::modes::items(subject, contacts, facts);
     let in_mode = in_mode(facts.switches.len(), &[*size, rows, count, switches]);
     let outputs = outputs(subject, layout, &[*size, rows, count, switches]);
-    let held = (given > 0).then(|| quote!(__guen::held_through_modes!();));
+    let held = (given > 0).then(|| quote!(__guen::held_through_modes!(#given);));
     quote! {
         #modes
 
@@ -196,27 +257,11 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
                 #with_held
             }
 
-            #[inline]
-            fn free_motion<S: __guen::Lift<::core::primitive::f64>>(
-                &self, t: S, state: &[S; #size], switches: &[S; #switches], speeds: &[S; #count],
-            ) -> __guen::hybrid::FreeMotion<S, #size, #rows, #count> {
-                #lifted
-                __guen::checks::free_motion::<S, #n, #size, #rows, #count>(&#free_motion)
-            }
-
-            #[inline]
-            fn free_rates<S: __guen::Lift<::core::primitive::f64>>(
-                &self, t: S, state: &[S; #size], switches: &[S; #switches],
-            ) -> [S; #size] {
-                #lifted
-                #free_rates
-            }
-
-            #eliminated
+            #modes_of_programs
+            #(#own)*
             #row_rates
             #row_drifts
             #conditions
-            #reset
 
             #onto_constraints
             #singularities
@@ -227,16 +272,70 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
             }
 
             #[inline]
-            fn signals<S: __guen::Lift<::core::primitive::f64>>(&self, t: S, state: &[S; #size]) -> [S; #switches] {
-                #signal_values
-            }
-
-            #[inline]
             fn allows(&self, mode: &__guen::hybrid::Mode<#count>) -> ::core::primitive::bool {
                 MODES.contains(&::core::convert::From::from(*mode))
             }
-
         }
+
+        #actuated
+    }
+}
+
+/// A function of the trait in which inputs may stand.
+struct Function {
+    name: &'static str,
+    /// The arguments before time and state, and those behind them, with their types.
+    leading: Vec<(TokenStream, TokenStream)>,
+    trailing: Vec<(TokenStream, TokenStream)>,
+    result: TokenStream,
+    body: TokenStream,
+}
+
+impl Function {
+    fn written(
+        &self,
+        name: &proc_macro2::Ident,
+        size: usize,
+        inputs: &TokenStream,
+        body: &TokenStream,
+    ) -> TokenStream {
+        let list = |arguments: &[(TokenStream, TokenStream)]| -> TokenStream {
+            arguments.iter().map(|(name, kind)| quote!(#name: #kind,)).collect()
+        };
+        let (leading, trailing, result) = (list(&self.leading), list(&self.trailing), &self.result);
+        quote! {
+            #[inline]
+            fn #name<S: __guen::Lift<::core::primitive::f64>>(
+                &self, #leading t: S, state: &[S; #size], #inputs #trailing
+            ) -> #result {
+                #body
+            }
+        }
+    }
+
+    /// The function of the system, or of the system with its inputs held.
+    fn of_system(&self, size: usize, given: usize, sizes: &TokenStream) -> TokenStream {
+        let name = format_ident!("{}", self.name);
+        if given == 0 {
+            return self.written(&name, size, &TokenStream::new(), &self.body);
+        }
+        let with = format_ident!("{}_with", self.name);
+        let names = |arguments: &[(TokenStream, TokenStream)]| -> TokenStream {
+            arguments.iter().map(|(name, _)| quote!(#name,)).collect()
+        };
+        let (leading, trailing) = (names(&self.leading), names(&self.trailing));
+        let body = quote! {
+            let inputs = <[::core::primitive::f64; #given]>::from(self.inputs);
+            let inputs = inputs.map(<S as __guen::Lift<::core::primitive::f64>>::lift);
+            __guen::hybrid::ActuatedModes::<#sizes, #given>::#with(&self.system, #leading t, state, &inputs, #trailing)
+        };
+        self.written(&name, size, &TokenStream::new(), &body)
+    }
+
+    /// The function of the prepared system with whatever inputs.
+    fn with_inputs(&self, size: usize, given: usize) -> TokenStream {
+        let name = format_ident!("{}_with", self.name);
+        self.written(&name, size, &quote!(inputs: &[S; #given],), &self.body)
     }
 }
 
@@ -254,13 +353,13 @@ fn changes(facts: &ContactFacts) -> TokenStream {
     arms.collect()
 }
 
-/// The rates of modes that have a program of their own.
+/// The modes that have a program of their own, and their rates.
 fn eliminated(
     contacts: &Contacts<'_>,
     facts: &ContactFacts,
     size: usize,
     lifted: &TokenStream,
-) -> Option<TokenStream> {
+) -> Option<(TokenStream, Function)> {
     let count = contacts.entries.len();
     let modes = facts.eliminated.iter().map(|place| {
         let states = contacts.entries.iter().zip(&facts.modes[*place]);
@@ -273,17 +372,15 @@ fn eliminated(
         let pattern = if place < last { quote!(#place) } else { quote!(_) };
         quote!(#pattern => program::#program(&constants, &hoisted, t, state, &inputs),)
     });
-    Some(quote! {
-        const ELIMINATED: &'static [__guen::hybrid::Mode<#count>] = &[#(#modes),*];
-
-        #[inline]
-        fn eliminated_rates<S: __guen::Lift<::core::primitive::f64>>(
-            &self, place: ::core::primitive::usize, t: S, state: &[S; #size],
-        ) -> [S; #size] {
-            #lifted
-            match place { #(#arms)* }
-        }
-    })
+    let modes = quote!(const ELIMINATED: &'static [__guen::hybrid::Mode<#count>] = &[#(#modes),*];);
+    let rates = Function {
+        name: "eliminated_rates",
+        leading: vec![(quote!(place), quote!(::core::primitive::usize))],
+        trailing: Vec::new(),
+        result: quote!([S; #size]),
+        body: quote!(#lifted match place { #(#arms)* }),
+    };
+    Some((modes, rates))
 }
 
 /// `in_mode`, with so many declared switches; `sizes` are the numbers of states, rows, contacts and switches.

@@ -65,34 +65,51 @@ macro_rules! simulated_through_modes {
     ($($tokens:tt)*) => {};
 }
 
-/// `simulation` of a prepared system with contacts and inputs, which asks for inputs that are held.
+/// `simulation`, `with_law` and `with_inputs` of a prepared system with contacts and so many inputs, which go before those of the trait
+/// `Actuated`, whose motions know no contacts.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! held_through_modes {
-    ($([$($F:ident $N:literal)*])?) => {
+    ($([$($F:ident $N:literal)*])? $inputs:literal) => {
+        $crate::held_through_modes_in_memory!($([$($F $N)*])?);
+
         impl<R: $crate::Real $($(, $F: $crate::Smooth<$N>)*)?> Prepared<R $($(, $F)*)?> {
-            /// Refused: a run through modes takes inputs that are held, `driven(..)`, and changed at given times.
-            pub fn simulation<X>(&self, _start: &X)
-            where
-                Self: $crate::hybrid::ThroughModes,
-            {
+            /// The system with inputs by a law that is written for every real, which runs through modes.
+            pub fn with_law<L: $crate::InputLaw<Self>>(self, law: L) -> $crate::hybrid::ByLaw<Self, L, $inputs> {
+                $crate::hybrid::ByLaw::new(self, law)
             }
 
-            /// Refused: a run through modes takes inputs that are held, `driven(..)`, and changed at given times.
+            /// Refused: a run through modes needs the derivatives of what its inputs are.
             pub fn with_inputs<X>(&self, _law: X)
-            where
-                Self: $crate::hybrid::ThroughModes,
-            {
-            }
-
-            /// Refused: a run through modes takes inputs that are held, `driven(..)`, and changed at given times.
-            pub fn with_law<X>(&self, _law: X)
             where
                 Self: $crate::hybrid::ThroughModes,
             {
             }
         }
     };
+}
+
+/// `simulation` of a prepared system with contacts and inputs.
+#[doc(hidden)]
+#[cfg(feature = "alloc")]
+#[macro_export]
+macro_rules! held_through_modes_in_memory {
+    ($([$($F:ident $N:literal)*])?) => {
+        impl<R: $crate::Real $($(, $F: $crate::Smooth<$N>)*)?> Prepared<R $($(, $F)*)?> {
+            /// A simulation through modes from a state, which first needs inputs: by a `law`, or those that a controller `hold`s.
+            pub fn simulation(&self, start: &State<R>) -> $crate::hybrid::ModesWithoutInputs<Self, State<R>> {
+                $crate::hybrid::ModesWithoutInputs::new(*self, *start)
+            }
+        }
+    };
+}
+
+/// Nothing, without the feature `alloc`.
+#[doc(hidden)]
+#[cfg(not(feature = "alloc"))]
+#[macro_export]
+macro_rules! held_through_modes_in_memory {
+    ($($tokens:tt)*) => {};
 }
 
 /// `System::restore` of a system with contacts, with the number of states: refused, since its own rates know no contacts.

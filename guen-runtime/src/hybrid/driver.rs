@@ -3,6 +3,7 @@
 use core::ops::ControlFlow;
 
 use crate::hybrid::error::{HybridCause, HybridError};
+use crate::hybrid::held::{Controller, Sampler};
 use crate::hybrid::in_mode::InMode;
 use crate::hybrid::mode::Mode;
 use crate::hybrid::resting::Resting;
@@ -50,6 +51,7 @@ where
     pub(super) samples: &'a [f64],
     pub(super) visitor: Option<Visitor<'a, H::Mode, N>>,
     pub(super) inputs: &'a [(f64, H::Inputs)],
+    pub(super) sampler: Option<Sampler<'a, H::Inputs, N>>,
     pub(super) receiver: Option<Receiver<'a, H::Mode, N, W, C>>,
     pub(super) between: Option<Between<'a, H, H::Mode, N, W, C, S>>,
     pub(super) resting_accuracy: f64,
@@ -90,6 +92,7 @@ where
             samples: &[],
             visitor: None,
             inputs: &[],
+            sampler: None,
             receiver: None,
             between: None,
             resting_accuracy: 1e-12,
@@ -108,6 +111,15 @@ where
     #[must_use]
     pub fn inputs(self, inputs: &'a [(f64, H::Inputs)]) -> Self {
         Self { inputs, ..self }
+    }
+
+    /// Holds inputs that a controller finds every `period`, from the start on. No step goes across one of these times; the controller is asked
+    /// there once, in order, with the state before an impact at the same instant, and not at the end. Where [`inputs`](Self::inputs) change at
+    /// the same time, the controller has the last word.
+    #[must_use]
+    pub fn hold(self, period: f64, controller: &'a mut dyn FnMut(f64, &[f64; N]) -> H::Inputs) -> Self {
+        let controller: Controller<'a, H::Inputs, N> = controller;
+        Self { sampler: Some(Sampler::new(period, controller)), ..self }
     }
 
     /// Tells a receiver of every transition; when it breaks, the run ends there.
@@ -180,6 +192,9 @@ where
         let inputs = self.inputs.iter().map(|(time, _)| *time);
         if !in_order(self.t, self.samples.iter().copied()) || !in_order(self.t, inputs) {
             return Err(fail(Cause::Setting(Setting::Samples)));
+        }
+        if let Some(sampler) = &self.sampler {
+            sampler.check((self.t, end)).map_err(fail)?;
         }
         if !self.state.iter().all(|entry| entry.is_finite()) {
             return Err(fail(Cause::NotFinite));

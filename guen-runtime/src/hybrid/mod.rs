@@ -74,10 +74,12 @@
 #![allow(clippy::needless_range_loop, reason = "an element is an entry of several arrays")]
 #![allow(clippy::neg_cmp_op_on_partial_ord, reason = "what is no number fails every condition")]
 
+mod by_law;
 mod driver;
 mod element;
 mod error;
 mod facts;
+mod held;
 mod impact;
 mod in_mode;
 mod jump;
@@ -107,8 +109,11 @@ mod trajectory;
 mod transition;
 mod turn;
 mod turning;
+#[cfg(feature = "alloc")]
+mod unheld;
 mod watched;
 
+pub use by_law::{ActuatedModes, ByLaw};
 pub use driver::{Hybrid, HybridResult};
 pub use element::{Effect, Element, Kind, Signal};
 pub use error::{HybridCause, HybridError};
@@ -124,11 +129,15 @@ pub use system::{Conditions, FreeMotion, HybridSystem};
 #[cfg(feature = "alloc")]
 pub use trajectory::HybridTrajectory;
 pub use transition::{Transition, TransitionKind};
+#[cfg(feature = "alloc")]
+pub use unheld::ModesWithoutInputs;
 
-/// Implemented by nothing: the bound of methods that a system with contacts refuses.
+/// Implemented by nothing: the bound of methods that a system with contacts refuses. A closure is for one real, and the selection of modes
+/// needs derivatives along them.
 #[doc(hidden)]
 #[diagnostic::on_unimplemented(
-    message = "a run through modes takes no inputs that are functions of time and state",
-    note = "hold them, `.driven(inputs)`, and change them at given times: `.simulation(&start).inputs(&[(time, inputs)])`"
+    message = "a run through modes takes no closure for its inputs: it needs their derivatives",
+    note = "a law that is written for every real is `impl InputLaw<Prepared> for Law`: `.with_law(law)`",
+    note = "inputs that are held: `.driven(inputs)`, or sampled `.simulation(&start).hold(period, |t, state| ..)`"
 )]
 pub trait ThroughModes {}

@@ -63,16 +63,20 @@ where
     {
         let mut due = Some(Fired::default());
         loop {
-            let switched = self.switched;
+            let mut switched = false;
             while let Some(&(time, inputs)) = self.hybrid.inputs.get(self.switched)
                 && time <= self.place.t
             {
                 self.place.in_mode.system = self.place.in_mode.system.with_inputs(inputs);
                 self.switched += 1;
+                switched = true;
+            }
+            switched |= self.sample(end);
+            if switched {
                 due.get_or_insert_with(Fired::default);
             }
             if let Some(fired) = due {
-                let stops = self.turn(&fired, self.switched > switched, end)?;
+                let stops = self.turn(&fired, switched, end)?;
                 let Place { t, state, in_mode, .. } = &self.place;
                 let kept = witness(*t, state, in_mode);
                 kept.map_err(|cause| self.failed(HybridCause::Integration(cause)))?;
@@ -85,11 +89,24 @@ where
                 return Ok(self.result(false));
             }
             let next = self.hybrid.inputs.get(self.switched).map_or(end, |(time, _)| time.min(end));
+            let sampled = self.hybrid.sampler.as_ref().and_then(|sampler| sampler.next((self.hybrid.t, end)));
+            let next = sampled.map_or(next, |time| time.min(next));
             due = match self.part(method, next).map_err(|cause| self.failed(cause))? {
                 Part::Arrived => None,
                 Part::Fired(fired) => Some(fired),
             };
         }
+    }
+
+    /// Holds the inputs that the controller finds here, where it is its time. Says whether it is.
+    fn sample(&mut self, end: f64) -> bool {
+        let Some(sampler) = &mut self.hybrid.sampler else { return false };
+        let is_due = sampler.next((self.hybrid.t, end)).is_some_and(|time| time <= self.place.t);
+        if is_due {
+            let inputs = sampler.sample(self.place.t, &self.place.state);
+            self.place.in_mode.system = self.place.in_mode.system.with_inputs(inputs);
+        }
+        is_due
     }
 
     fn result(&self, stopped: bool) -> HybridResult<H::Mode, N> {
@@ -114,7 +131,7 @@ where
     fn turn(&mut self, fired: &Fired<C, S>, inputs: bool, end: f64) -> Result<bool, HybridError<N, C>> {
         let begins = self.place.begins;
         let mut resting = self.resting;
-        let turned = self.place.turn(fired, &mut resting).map_err(|cause| self.failed(cause))?;
+        let turned = self.place.turn(fired, inputs, &mut resting).map_err(|cause| self.failed(cause))?;
         let (next, mut transition) = turned;
         transition.facts.inputs = inputs;
         self.resting = resting;

@@ -41,6 +41,8 @@ pub enum SensitivityError {
         /// The position asked for.
         transition: usize,
     },
+    /// A controller found inputs on the way, and its derivatives are not known.
+    Sampled,
     /// The integration of the variations within a mode failed.
     Integration {
         /// The time that was reached.
@@ -55,6 +57,9 @@ impl fmt::Display for SensitivityError {
         match self {
             Self::Transition { transition, t, why } => {
                 write!(f, "the motion has no derivative through transition {transition} at t = {t}: {why}")
+            }
+            Self::Sampled => {
+                write!(f, "the derivatives of a controller that finds inputs on the way are not known")
             }
             Self::NoTransition { transition } => write!(f, "no mode ends with a transition {transition}"),
             Self::Integration { t, cause } => write!(f, "the variations stop at t = {t}: {cause}"),
@@ -190,6 +195,9 @@ where
     where
         M: Method<Dual<f64, N>, InMode<H, N, W, C, S>, N>,
     {
+        if self.is_sampled {
+            return Err(SensitivityError::Sampled);
+        }
         let mut matrix: [[f64; N]; N] = from_fn(|i| from_fn(|j| if i == j { 1.0 } else { 0.0 }));
         let mut last: Option<&Segment<H, N, W, C, S>> = None;
         for segment in self.log.segments.iter().take(count) {

@@ -86,17 +86,7 @@ pub trait SimulateModes<const N: usize, const W: usize, const C: usize, const S:
     where
         X: Copy + From<[f64; N]> + Into<[f64; N]>,
     {
-        HybridSimulation {
-            system: self.clone(),
-            start: *start,
-            method: Dop853::new(TOLERANCE, TOLERANCE),
-            memory: MEMORY,
-            inputs: Vec::new(),
-            receiver: None,
-            resting_accuracy: None,
-            max_transitions: None,
-            guard: None,
-        }
+        HybridSimulation::new(self.clone(), start)
     }
 }
 
@@ -109,12 +99,15 @@ impl<H, const N: usize, const W: usize, const C: usize, const S: usize> Simulate
 type Receiver<'a, M, const N: usize, const W: usize, const C: usize> =
     Box<dyn FnMut(&Transition<M, N, W, C>) -> ControlFlow<()> + 'a>;
 
+/// A function of time and state that finds inputs, with its period.
+type Sampled<'a, I, X> = (f64, Box<dyn FnMut(f64, &X) -> I + 'a>);
+
 /// A simulation through modes that is being described: system and start are given, everything else has a default.
 ///
 /// | setting | default |
 /// | --- | --- |
 /// | [`method`](Self::method), [`tolerance`](Self::tolerance) | [`Dop853`] with 1e-9, relative and absolute |
-/// | [`inputs`](Self::inputs) | those of the system |
+/// | [`inputs`](Self::inputs), [`hold`](Self::hold) | those of the system |
 /// | [`observe_transitions`](Self::observe_transitions) | nobody |
 /// | [`resting_accuracy`](Self::resting_accuracy), [`max_transitions`](Self::max_transitions), [`guard`](Self::guard) | those of [`Hybrid`] |
 /// | [`memory`](Self::memory) | 256 MiB for the trajectory |
@@ -136,6 +129,7 @@ pub struct HybridSimulation<
     method: M,
     memory: usize,
     inputs: Vec<(f64, H::Inputs)>,
+    sampled: Option<Sampled<'a, H::Inputs, X>>,
     receiver: Option<Receiver<'a, H::Mode, N, W, C>>,
     resting_accuracy: Option<f64>,
     max_transitions: Option<u64>,
@@ -151,7 +145,16 @@ where
     /// Sets the method.
     pub fn method<M2>(self, method: M2) -> HybridSimulation<'a, H, X, N, W, C, S, M2> {
         let Self {
-            system, start, memory, inputs, receiver, resting_accuracy, max_transitions, guard, ..
+            system,
+            start,
+            memory,
+            inputs,
+            sampled,
+            receiver,
+            resting_accuracy,
+            max_transitions,
+            guard,
+            ..
         } = self;
         HybridSimulation {
             system,
@@ -159,6 +162,7 @@ where
             method,
             memory,
             inputs,
+            sampled,
             receiver,
             resting_accuracy,
             max_transitions,
@@ -169,6 +173,12 @@ where
     /// Changes the inputs at these times, in order.
     pub fn inputs(self, inputs: &[(f64, H::Inputs)]) -> Self {
         Self { inputs: inputs.to_vec(), ..self }
+    }
+
+    /// Holds inputs that a controller finds every `period`, from the start on, as [`Hybrid::hold`] does. The controller may have a memory.
+    /// The trajectory knows the inputs: its modes begin anew with them.
+    pub fn hold(self, period: f64, controller: impl FnMut(f64, &X) -> H::Inputs + 'a) -> Self {
+        Self { sampled: Some((period, Box::new(controller))), ..self }
     }
 
     /// Tells a receiver of every transition; when it breaks, the run ends there.
@@ -220,6 +230,7 @@ where
             method,
             memory,
             inputs,
+            sampled,
             mut receiver,
             resting_accuracy,
             max_transitions,
@@ -234,8 +245,15 @@ where
             told.set(told.get() + 1);
             receiver.as_mut().map_or(ControlFlow::Continue(()), |receiver| receiver(transition))
         };
+        let is_sampled = sampled.is_some();
+        let (period, mut controller) = sampled.unzip();
+        let mut find =
+            controller.as_mut().map(|controller| |t: f64, state: &[f64; N]| controller(t, &(*state).into()));
         let mut hybrid =
             Hybrid::new(&system, span.start, &start.into()).inputs(&inputs).transitions(&mut tell);
+        if let (Some(period), Some(find)) = (period, &mut find) {
+            hybrid = hybrid.hold(period, find);
+        }
         if let Some(time) = resting_accuracy {
             hybrid = hybrid.resting_accuracy(time);
         }
@@ -267,7 +285,8 @@ where
             Err(error) => (error.t, error.state, error.work),
         };
         let trajectory =
-            HybridTrajectory::new(log, (span.start, start), (t, state.into()), transitions, work);
+            HybridTrajectory::new(log, (span.start, start), (t, state.into()), transitions, work)
+                .sampled(is_sampled);
         match done {
             Ok(_) => Ok(trajectory),
             Err(error) => Err(HybridSimulationError { error, trajectory: Box::new(trajectory) }),
@@ -280,6 +299,25 @@ impl<'a, H, X, const N: usize, const W: usize, const C: usize, const S: usize>
 where
     H: HybridSystem<N, W, C, S>,
 {
+    /// A simulation of a system from a state.
+    pub(super) fn new(system: H, start: &X) -> Self
+    where
+        X: Copy,
+    {
+        Self {
+            system,
+            start: *start,
+            method: Dop853::new(TOLERANCE, TOLERANCE),
+            memory: MEMORY,
+            inputs: Vec::new(),
+            sampled: None,
+            receiver: None,
+            resting_accuracy: None,
+            max_transitions: None,
+            guard: None,
+        }
+    }
+
     /// Sets the tolerance of the default method, relative and absolute.
     pub fn tolerance(self, tolerance: f64) -> Self {
         Self { method: Dop853::new(tolerance, tolerance), ..self }

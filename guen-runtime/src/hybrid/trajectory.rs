@@ -31,6 +31,8 @@ pub struct HybridTrajectory<
     end: (f64, X),
     pub(super) transitions: Vec<Transition<H::Mode, N, W, C>>,
     work: Statistics,
+    /// Whether a controller found inputs on the way.
+    pub(super) is_sampled: bool,
 }
 
 impl<H, X, P, const N: usize, const W: usize, const C: usize, const S: usize> fmt::Debug
@@ -63,7 +65,12 @@ where
         transitions: Vec<Transition<H::Mode, N, W, C>>,
         work: Statistics,
     ) -> Self {
-        Self { log, start, end, transitions, work }
+        Self { log, start, end, transitions, work, is_sampled: false }
+    }
+
+    /// Notes whether a controller found inputs on the way.
+    pub(super) fn sampled(self, is_sampled: bool) -> Self {
+        Self { is_sampled, ..self }
     }
 
     /// The state at the beginning.

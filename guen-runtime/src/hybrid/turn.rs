@@ -85,10 +85,11 @@ impl<H, const N: usize, const W: usize, const C: usize, const S: usize> Place<H,
 where
     H: HybridSystem<N, W, C, S> + Clone,
 {
-    /// The place after what has fired, and the transition.
+    /// The place after what has fired, and the transition; `inputs` where these have changed here.
     pub(super) fn turn(
         &self,
         fired: &Fired<C, S>,
+        inputs: bool,
         resting: &mut Resting<C>,
     ) -> Result<Turned<H, N, W, C, S>, HybridCause<C>> {
         if fired.regularity {
@@ -139,8 +140,8 @@ where
             next.strike(&touches, &locks, &mut known, resting)?;
         let struck = impulses.iter().any(|impulse| *impulse != 0.0);
 
-        // Where nothing has fired the run begins, or inputs have changed.
-        if was_reset || struck || !fired.any() {
+        // Where nothing has fired the run begins.
+        if was_reset || struck || inputs || !fired.any() {
             next.set_switches(&fired.signals);
         }
         next.in_mode = next.selected(&known)?;
