@@ -59,8 +59,8 @@ pub use guen_runtime::{
     InputValues, IntegrationError, Invariants, LaneScalar, Laned, LatexDocument, Level, LevelInfo, Levels,
     LieGroup, Lift, Linearization, Monitored, Nonholonomic, Operator, Ordered, OutputMap, Positions,
     PositionsError, Projected, Real, Renormalized, Report, ReportSection, Rheonomic, RunningError,
-    Scleronomic, Setting, Simulate, Smooth, SmoothLaw, System, Table, TableError, WithFunctions, WithInputs,
-    WithScalar, from_fn, generic, hybrid, lanes, project, projected, renormalized, steppers,
+    Scleronomic, Setting, Simulate, Smooth, SmoothLaw, Source, System, Table, TableError, WithFunctions,
+    WithInputs, WithScalar, from_fn, generic, hybrid, lanes, project, projected, renormalized, steppers,
 };
 pub use guen_runtime::{Coefficients, Convolutions, DrivenSeries, HIGHEST_ORDER, PowerSeries, TaylorSeries};
 pub use guen_runtime::{Liftable, Linearizable, OutputLinearization, control, linearized, seeded};
@@ -213,15 +213,15 @@ pub mod __private {
         InputLaw, InputRecords, Instances, Invariants, Laned, Level, LevelInfo, Levels, LieGroup, Lift,
         Liftable, Linearizable, Linearization, Monitored, Nonholonomic, Operator, Ordered,
         OutputLinearization, OutputMap, Positions, PositionsError, PreparedValues, Real, Report,
-        ReportSection, Rheonomic, RunningError, Scleronomic, Shape, Simulate, Smooth, System, TaylorSeries,
-        Undriven, Unprepared, WithInputs, WithScalar, linearized, nalgebra_conversions, seeded,
+        ReportSection, Rheonomic, RunningError, Scleronomic, Shape, Simulate, Smooth, Source, System,
+        TaylorSeries, Undriven, Unprepared, WithInputs, WithScalar, linearized, nalgebra_conversions, seeded,
     };
     pub use guen_runtime::{
         actuated, condition, conserved, contact_mode, contact_states, differentiable, domain, dynamics,
         energy, facts, held_through_modes, instance_mode, jacobians, laned, level_info, levels, linearizable,
         mass_form, momenta, monitored, motion_of_system, onto_constraints, operators, output_map, prepare,
         prepared, program_functions, rates, reaction_covector, reactions, record, reduce, reported,
-        restored_by_modes, simulated, simulated_through_modes, singularities, state_of_system,
+        restored_by_modes, simulated, simulated_through_modes, singularities, source, state_of_system,
         steady_motions, structured, switches, uses, with_scalar,
     };
     pub use guen_runtime::{

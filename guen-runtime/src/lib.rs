@@ -18,6 +18,7 @@
 //! | which level of detail? | [`Level`], [`LevelInfo`], [`Levels`] |
 //! | what holds of positions? | [`Positions`], [`consistent`], [`project`], [`projected`] |
 //! | where are its bodies? | [`Bodies`] |
+//! | how does it go into a program of C? | [`Source`] |
 //! | what can go wrong? | [`ConstantsError`], [`IntegrationError`] with its [`Cause`], [`PositionsError`] |
 //!
 //! The crate knows nothing of the language or of the algebra, and can be used with systems written by hand.
@@ -48,6 +49,7 @@ mod numbers;
 mod report;
 #[cfg(feature = "alloc")]
 mod simulation;
+mod source;
 pub mod steppers;
 mod system;
 
@@ -81,6 +83,7 @@ pub use report::{LatexDocument, MarkdownDocument, Report, ReportSection};
 pub use simulation::{
     Happened, Quality, Simulation, SimulationError, SimulationWithoutInputs, Trajectory, Trigger,
 };
+pub use source::Source;
 pub use steppers::{Cause, IntegrationError, Setting};
 pub use system::actuated::{Actuated, WithInputs};
 pub use system::auxiliary_states::{AuxiliaryStates, Renormalized, renormalized};

@@ -12,3 +12,4 @@ mod messages;
 mod no_std;
 mod panics;
 mod rustdoc;
+mod source;

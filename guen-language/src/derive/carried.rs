@@ -89,6 +89,7 @@ pub(super) fn derive(
         series: None,
         scene: None,
         contacts: None,
+        provides_source: false,
         carried: None,
     }))
 }

@@ -61,6 +61,8 @@ pub struct Level {
     pub missing_bounds: Option<MissingBounds>,
     /// The recurrences of its Taylor series, if it provides one.
     pub series: Option<Series>,
+    /// Whether its right-hand side is a text of C, too.
+    pub provides_source: bool,
     /// The places of the derivatives that have code of their own.
     pub jacobians: Jacobians,
     /// The notation of expressions in the report.

@@ -27,6 +27,7 @@ mod readable;
 mod scene;
 mod selection;
 mod series;
+mod source;
 mod supplied;
 mod switches;
 
@@ -76,6 +77,10 @@ pub fn derive<'a>(mut model: Model<'a>, faults: &mut Faults) -> Option<Derived<'
     let mut system = whole(&mut model, Rc::new(derivation), Rc::new(brackets), faults);
     if let Some(word) = model.provides_taylor {
         system.series = series::of(&model, &system.selection, &system.programs, word.span(), faults);
+    }
+    if let Some(word) = model.provides_source {
+        source::check(&model, &system.programs, model.contacts.is_some(), word, faults);
+        system.provides_source = true;
     }
     let mut equations = None;
     if let Some((programs, facts, of_contacts)) = contacts::derive(&mut model, faults) {
@@ -164,6 +169,7 @@ fn whole(
         shown,
         scene: None,
         contacts: None,
+        provides_source: false,
         carried: None,
     };
     if let Some(word) = model.provides_carried {

@@ -18,7 +18,7 @@ use super::manifold::{Replacement, quaternions};
 use super::parts::{Functions, View, parts};
 use super::readable::{polish, shown};
 use super::selection::{Held, Selection, StateIndex};
-use super::{carried, formulas, series};
+use super::{carried, formulas, series, source};
 use crate::diagnostics::{Fault, Faults};
 use crate::model::{Model, SceneEntry, SceneModes};
 use crate::syntax::Name;
@@ -219,7 +219,7 @@ fn level(
         let names = scene.scene.provides.iter().map(|provide| &provide.name);
         names.into_iter().find(|name| name.text == word && !is_output(model, name))
     };
-    let (carries, expands) = (provided("carried"), provided("taylor"));
+    let (carries, expands, writes) = (provided("carried"), provided("taylor"), provided("source"));
     let forms = carries.map(|_| kept.clone()).unwrap_or_default();
     let (mut programs, is_part) =
         cheapest(model, (system, &derivation), &selection, &scene.fixes, lists, kept, &mut functions);
@@ -234,6 +234,9 @@ fn level(
     let jacobians = Jacobians::add(&mut programs, model, &selection);
     let place = (scene.scene.name.span(), &mut *faults);
     let switches = super::switches::add(model, &rates, &shown, &mut programs, place);
+    if let Some(word) = writes {
+        source::check(model, &programs, of_contacts.is_some(), word, faults);
+    }
     let series = expands.and_then(|word| series::of(model, &selection, &programs, word.span(), faults));
     let fixes = scene
         .fixes
@@ -275,6 +278,7 @@ fn level(
         shown,
         scene: Some(facts),
         contacts: of_contacts,
+        provides_source: writes.is_some(),
         carried: None,
     };
     if let Some(word) = carries {
@@ -374,7 +378,7 @@ fn provided(
             "linearization" => selection.linearization = true,
             "operators" => selection.operators = true,
             // Of the programs, once they are there.
-            "taylor" => {}
+            "taylor" | "source" => {}
             "reactions" => match &provide.of {
                 None => {
                     let all = (l..model.forms.len()).filter(known);

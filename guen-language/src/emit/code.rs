@@ -469,7 +469,7 @@ fn binary_parts(value: &Rational) -> Vec<(i64, i32)> {
 }
 
 /// The value rounded to 53 bits, ties to even.
-fn leading_part(value: &Rational) -> (i64, i32) {
+pub(super) fn leading_part(value: &Rational) -> (i64, i32) {
     let (n, d) = value.abs().to_big_pair();
     // 2^52 <= |value| 2^-e < 2^54, then corrected to below 2^53.
     let mut exponent = n.bits() as i32 - d.bits() as i32 - 53;

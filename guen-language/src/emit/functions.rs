@@ -36,7 +36,7 @@ impl Arrays for Places {
 
 impl Places {
     /// The places of a level; with all coordinates of the system for what does not belong to the state.
-    fn new(subject: &Subject<'_, '_>, everywhere: bool) -> Self {
+    pub(super) fn new(subject: &Subject<'_, '_>, everywhere: bool) -> Self {
         let Subject { model, level, .. } = subject;
         let (graph, selection) = (&model.bench.graph, &level.selection);
         let mut places = vec![String::from("unknown_symbol"); graph.symbols().count()];

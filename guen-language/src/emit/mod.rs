@@ -33,6 +33,7 @@ mod rolled;
 mod serde;
 mod series;
 mod signatures;
+mod source;
 mod supplied;
 mod text;
 mod uses;
@@ -136,6 +137,7 @@ fn module(
         missing::items(subject, &layout),
         functions::modules(subject, &layout),
         carried::items(subject, &layout),
+        source::items(subject, &layout, is_outline),
     ];
     let parts = parts.into_iter().map(|part| layout.supplied.spread(part));
     let docs = documentation::module(&report, system, layout.is_whole);

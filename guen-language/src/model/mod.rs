@@ -87,6 +87,8 @@ pub struct Model<'a> {
     pub provides_taylor: Option<&'a Name>,
     /// The word by which the system provides its carried form.
     pub provides_carried: Option<&'a Name>,
+    /// The word by which the system provides its right-hand side as a text of C.
+    pub provides_source: Option<&'a Name>,
     /// Components of vector equations that are identically `0 = 0`, by name.
     pub left_out: Vec<String>,
     /// Names as the user wrote them.

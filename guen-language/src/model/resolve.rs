@@ -86,6 +86,7 @@ struct Resolver<'a, 'f> {
     provides_operators: bool,
     provides_taylor: Option<&'a crate::syntax::Name>,
     provides_carried: Option<&'a crate::syntax::Name>,
+    provides_source: Option<&'a crate::syntax::Name>,
 }
 
 impl<'a, 'f> Resolver<'a, 'f> {
@@ -144,6 +145,7 @@ impl<'a, 'f> Resolver<'a, 'f> {
             provides_operators: false,
             provides_taylor: None,
             provides_carried: None,
+            provides_source: None,
         }
     }
 

@@ -14,7 +14,8 @@ use crate::names::{self, module_name};
 use crate::syntax::{Declaration, Fix, Item, Name, Provide, Scene};
 
 /// The quantities that a scene may provide beside outputs.
-const QUANTITIES: [&str; 6] = ["energy", "reactions", "linearization", "operators", "carried", "taylor"];
+const QUANTITIES: [&str; 7] =
+    ["energy", "reactions", "linearization", "operators", "carried", "taylor", "source"];
 
 /// Whether a name is that of a carried form, and the declaration asks for one.
 pub(crate) fn is_carried_form(name: &Name, declaration: &Declaration) -> bool {

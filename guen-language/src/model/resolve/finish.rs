@@ -256,6 +256,7 @@ impl<'a> Resolver<'a, '_> {
             provides_operators,
             provides_taylor: self.provides_taylor,
             provides_carried: self.provides_carried,
+            provides_source: self.provides_source,
             mechanics,
             has_masses: self.has_masses,
             kinetic_energy_span: self.energy.map(|energy| energy.keyword),

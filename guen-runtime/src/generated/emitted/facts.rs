@@ -106,6 +106,16 @@ macro_rules! text_of_report {
     };
 }
 
+/// The right-hand side as a text of C: the word that its functions begin with, the programs, and whether there are steppers.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! source {
+    ($name:literal, $program:literal, $steps:literal) => {
+        /// The right-hand side as a text of C, which `Display` writes: a header without includes beyond `math.h`.
+        pub const SOURCE: $crate::Source = $crate::Source { name: $name, program: $program, steps: $steps };
+    };
+}
+
 /// A function that is never called, in which names refer to statics at their declarations: for editors.
 #[doc(hidden)]
 #[macro_export]

@@ -89,6 +89,17 @@ impl<R: Real> Tableau<R> {
         }
     }
 
+    /// The nodes of stages 2 to 12.
+    pub(crate) fn nodes(&self) -> &[R; 11] {
+        &self.c
+    }
+
+    /// The weights of stages 2 to 12, then those of the step: of the slopes that have some.
+    pub(crate) fn rows(&self) -> [&[R]; 12] {
+        let Self { a2, a3, a4, a5, a6, a7, a8, a9, a10, a11, a12, b, .. } = self;
+        [a2, a3, a4, a5, a6, a7, a8, a9, a10, a11, a12, b]
+    }
+
     /// Makes one step on trial from the state `x` at `t`, where the slope is `k1 = f(t, x)`.
     ///
     /// ```text

@@ -1,0 +1,36 @@
+//! Refusals of `provide source`: systems that have no right-hand side as a text of C.
+
+use guen_symbolic::{Multivariate, Operation, Programs};
+
+use super::function;
+use crate::diagnostics::{Fault, Faults};
+use crate::model::Model;
+use crate::syntax::Name;
+
+/// Reports at the word `source` what a text of C cannot say: functions of the program, and motions through modes.
+pub(super) fn check(
+    model: &Model<'_>,
+    programs: &Programs,
+    has_modes: bool,
+    word: &Name,
+    faults: &mut Faults,
+) {
+    if has_modes {
+        let text = "motions go through modes, and a text of C has one right-hand side";
+        let help = "provide it in a scene with one mode, `modes { name: open; }`";
+        faults.report(Fault::new(word.span(), text).help(help));
+        return;
+    }
+    let rates = programs.functions.iter().find(|known| known.name == function::RHS);
+    let rates = rates.into_iter().flat_map(|rates| &rates.instructions);
+    let supplied = programs.prepare.iter().chain(rates).find_map(|step| match &step.operation {
+        Operation::Apply(Multivariate::Supplied { function, .. }, _) => {
+            model.functions.get(usize::from(*function))
+        }
+        _ => None,
+    });
+    if let Some(supplied) = supplied {
+        let text = format!("`{}` is a function of the program, which a text of C cannot call", supplied.name);
+        faults.report(Fault::new(word.span(), text).help("declare it as an expression, `fn name(x) = e;`"));
+    }
+}

@@ -1,0 +1,337 @@
+//! Texts of C (`provide source;`): a compiler of C takes them without a warning, and they compute the bits that Rust does.
+
+use std::fmt::Write as _;
+use std::io::Write as _;
+use std::path::PathBuf;
+use std::process::{Command, Stdio};
+use std::sync::LazyLock;
+
+use guen::steppers::{Rk4, Rk8};
+use guen::{System, mechanical_system};
+
+mechanical_system! {
+    /// A hoop that rolls on a plane.
+    pub system Hoop {
+        constants   { m: kg > 0 = 1, a: m > 0 = 0.4, g: m/s^2 = 9.81 }
+        coordinates { x: m, y: m, φ, ψ, θ }
+        constraints {
+            ahead: dot(x) + a*cos(ψ)*dot(φ) = 0;
+            aside: dot(y) + a*sin(ψ)*dot(φ) = 0;
+        }
+        parameters  { lean = dot(θ); turn = dot(ψ)*sin(θ); roll = dot(φ) + dot(ψ)*cos(θ); }
+        kinetic_energy =
+            m/2*((dot(x) + a*cos(ψ)*cos(θ)*dot(ψ) - a*sin(ψ)*sin(θ)*dot(θ))^2
+            + (dot(y) + a*sin(ψ)*cos(θ)*dot(ψ) + a*cos(ψ)*sin(θ)*dot(θ))^2 + a^2*cos(θ)^2*dot(θ)^2)
+            + m*a^2/4*(lean^2 + turn^2 + 2*roll^2);
+        potential_energy = m*g*a*sin(θ);
+        provide source;
+    }
+}
+
+mechanical_system! {
+    /// Functions of all kinds, inputs, bounds, limits, names that are alike.
+    pub system Cart {
+        constants   { m > 0, k >= 0 = 3, slope in -1..1 = 1/7, q_1 = 2, r#type != 0 = 1/3 }
+        inputs      { push, pull[2] in -1..1 }
+        coordinates { q[2], angle }
+        parameters  { v[0] = dot(q[0]); v[1] = dot(q[1]); w = dot(angle); }
+        kinetic_energy = m/2*(v[0]^2 + v[1]^2) + w^2/2;
+        potential_energy = k/2*(q[0] - q[1])^2 + cos(angle)*slope;
+        states      { dot(heat) = push*push - heat/3; }
+        forces {
+            push*min(v[0], q_1) + sqrt(1 + v[0]^2) along v[0];
+            pull[0]*max(q[0], v[1]) - r#type*abs(v[1])*v[1] + sign(pull[1]) along v[1];
+            select(w >= 1/10, -w, floor(3*angle)/10) + sin(q[0]*q[1]) - cot(angle)/100 along w;
+        }
+        provide source;
+    }
+}
+
+mechanical_system! {
+    /// A block on a floor, in the mode in which it glides.
+    pub system Block {
+        constants   { m > 0 = 2, g = 9.81 }
+        inputs      { push }
+        coordinates { x, z }
+        parameters  { v = dot(x); w = dot(z); }
+        kinetic_energy = m/2*(v^2 + w^2);
+        potential_energy = m*g*z;
+        forces      { push along v; -v^3 along v; }
+        contacts    { floor: gap = z; }
+        scene Slides { modes { floor: closed; } track v; provide source; }
+    }
+}
+
+mechanical_system! {
+    /// Redundant coordinates: their constraint is restored after steps, which C does not do.
+    pub system Bead {
+        constants   { r > 0 = 1, g = 9.81 }
+        coordinates { x, y }
+        holonomic   { circle: x^2 + y^2 = r^2; }
+        parameters  { pace = x*dot(y) - y*dot(x); }
+        particles   { 1 at vec(x, y); }
+        gravity     = vec(0, -g);
+        provide source;
+    }
+}
+
+mechanical_system! {
+    /// The system of the page `docs/source.md`.
+    pub system Pendulum {
+        constants   { m: kg > 0 = 1, l: m > 0 = 0.5, g: m/s^2 = 9.81 }
+        inputs      { torque: N*m }
+        coordinates { q: rad }
+        particles   { m at l*vec(sin(q), -cos(q)); }
+        gravity     = vec(0, -g);
+        parameters  { w = dot(q); }
+        forces      { torque along w; }
+        provide source;
+    }
+}
+
+/// The program that reads words of 64 bits and prints those of `prepare`, the rates, and the ends of two runs.
+const PROGRAM: &str = r#"
+#include <stdio.h>
+#include <string.h>
+
+static int read_all(double *x, int count)
+{
+    int i;
+    for (i = 0; i < count; ++i) {
+        unsigned long long bits;
+        if (scanf("%llx", &bits) != 1)
+            return 0;
+        x[i] = guen_from_bits(bits);
+    }
+    return 1;
+}
+
+static void print_all(const double *x, int count)
+{
+    int i;
+    for (i = 0; i < count; ++i)
+        printf("%llx ", guen_bits(x[i]));
+}
+
+#define SYSTEM(NAME, RUNS) \
+    if (!strcmp(argument[1], #NAME)) { \
+        double c[NAME##_CONSTANTS + 1], k[NAME##_PREPARED + 1], s[NAME##_STATES], u[NAME##_INPUTS + 1], r[NAME##_STATES], t; \
+        while (read_all(c, NAME##_CONSTANTS) && read_all(&t, 1) && read_all(s, NAME##_STATES) && read_all(u, NAME##_INPUTS)) { \
+            int status = NAME##_prepare(c, k); \
+            printf("%d ", status); \
+            if (status) { \
+                printf("\n"); \
+                continue; \
+            } \
+            NAME##_rhs(c, k, t, s, u, r); \
+            print_all(r, NAME##_STATES); \
+            RUNS \
+            printf("\n"); \
+        } \
+    }
+#define RUN(NAME, METHOD) { \
+        double at = t, x[NAME##_STATES]; \
+        memcpy(x, s, sizeof x); \
+        printf("%d ", NAME##_##METHOD(c, k, u, &at, x, t + 0.73, 0.05)); \
+        print_all(x, NAME##_STATES); \
+    }
+
+int main(int count, char **argument)
+{
+    if (count < 2)
+        return 1;
+    SYSTEM(hoop, RUN(hoop, rk4) RUN(hoop, rk8))
+    SYSTEM(cart, RUN(cart, rk4) RUN(cart, rk8))
+    SYSTEM(block_slides, RUN(block_slides, rk4) RUN(block_slides, rk8))
+    SYSTEM(bead, )
+    return 0;
+}
+"#;
+
+/// Compiles a text of C, in which every warning is an error.
+fn compile(text: &str, name: &str) -> PathBuf {
+    let folder = std::env::temp_dir().join(format!("guen-source-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    std::fs::write(folder.join("pendulum.h"), pendulum::SOURCE.to_string()).unwrap();
+    let (file, program) = (folder.join(format!("{name}.c")), folder.join(name));
+    std::fs::write(&file, text).unwrap();
+    let made = Command::new("cc")
+        .args(["-std=c99", "-O2", "-Wall", "-Wextra", "-Wpedantic", "-Werror", "-o"])
+        .args([&program, &file])
+        .arg("-lm")
+        .output()
+        .expect("the compiler `cc`, which Rust links with, too");
+    assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
+    program
+}
+
+/// The compiled program.
+static COMPILED: LazyLock<PathBuf> = LazyLock::new(compiled);
+
+fn compiled() -> PathBuf {
+    let mut text = String::new();
+    // Twice: the second time a text says nothing.
+    for _ in 0..2 {
+        for source in [hoop::SOURCE, cart::SOURCE, block::slides::SOURCE, bead::SOURCE] {
+            text += &source.to_string();
+        }
+    }
+    compile(&(text + PROGRAM), "systems")
+}
+
+/// What the program prints for lines of numbers.
+fn answers(system: &str, lines: &[Vec<f64>]) -> Vec<String> {
+    let mut text = String::new();
+    for value in lines.iter().flatten() {
+        let _ = write!(text, "{:x} ", value.to_bits());
+    }
+    let mut child =
+        Command::new(&*COMPILED).arg(system).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
+    let mut input = child.stdin.take().unwrap();
+    let writer = std::thread::spawn(move || input.write_all(text.as_bytes()));
+    let output = child.wait_with_output().unwrap();
+    writer.join().unwrap().unwrap();
+    String::from_utf8(output.stdout).unwrap().lines().map(|line| line.trim().to_owned()).collect()
+}
+
+/// The bits of a state as the program prints them; all NaN are one.
+fn bits(state: &[f64]) -> String {
+    state.iter().map(|x| format!("{:x} ", x.to_bits())).collect()
+}
+
+/// What Rust computes: the status of `prepare`, rates, and both runs; nothing where a run comes to an edge of the chart, which C does not see.
+fn computed<const N: usize>(
+    system: &impl System<f64, N>,
+    t: f64,
+    s: &[f64; N],
+    runs: bool,
+) -> Option<String> {
+    let mut text = format!("0 {}", bits(&system.rhs(t, s)));
+    if runs {
+        let go = |_: f64, _: &[f64; N]| std::ops::ControlFlow::Continue(());
+        let ends = [
+            Rk4::new(0.05).integrate(system, t, s, t + 0.73, go).ok()?.state,
+            Rk8::new(0.05).integrate(system, t, s, t + 0.73, go).ok()?.state,
+        ];
+        ends.iter().for_each(|end| text += &format!("0 {}", bits(end)));
+    }
+    Some(text.trim().to_owned())
+}
+
+/// Numbers that are the same in every run of the tests, between -1 and 1.
+fn draws() -> impl FnMut() -> f64 {
+    let mut state = 0x2545_f491_4f6c_dd1d_u64;
+    move || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+}
+
+#[test]
+fn bits_are_those_of_rust() {
+    let mut draw = draws();
+    let compare = |name: &str, lines: Vec<(Vec<f64>, String)>| {
+        assert!(lines.len() > 40, "{name} {}", lines.len());
+        let (given, expected): (Vec<_>, Vec<_>) = lines.into_iter().unzip();
+        let found = answers(name, &given);
+        assert_eq!(found.len(), expected.len(), "{name}");
+        for ((found, expected), given) in found.iter().zip(&expected).zip(&given) {
+            assert_eq!(found, expected, "{name} {given:?}");
+        }
+    };
+
+    let mut lines = Vec::new();
+    for round in 0..200 {
+        let system = Hoop { m: 1.5 + draw(), a: 0.6 + draw() / 2.0, g: 9.81 };
+        // Angles near and far, where they are reduced in another way.
+        let far = [1.0, 1e5, 1e7, 1e19, 1e300][round % 5];
+        let s: [f64; 8] = std::array::from_fn(|i| {
+            if i == 4 { 1.2 + draw() / 2.0 } else { draw() * if i == 3 { far } else { 1.0 } }
+        });
+        let t = draw();
+        let mut given = vec![system.m, system.a, system.g, t];
+        given.extend(s);
+        lines.extend(computed(&system.prepare().unwrap(), t, &s, true).map(|bits| (given, bits)));
+    }
+    compare("hoop", lines);
+
+    let mut lines = Vec::new();
+    for _ in 0..200 {
+        let system =
+            Cart { k: 2.0 + draw(), slope: draw(), q_1: draw(), r#type: 0.5, ..Cart::new(2.0 + draw()) };
+        let s: [f64; 7] = std::array::from_fn(|i| if i == 2 { 1.5 + draw() } else { 2.0 * draw() });
+        let inputs = cart::Inputs { push: draw(), pull: [draw(), draw()] };
+        let t = draw();
+        let mut given = vec![system.m, system.k, system.slope, system.q_1, system.r#type, t];
+        given.extend(s);
+        given.extend([inputs.push, inputs.pull[0], inputs.pull[1]]);
+        lines.extend(
+            computed(&system.prepare().unwrap().driven(inputs), t, &s, true).map(|bits| (given, bits)),
+        );
+    }
+    compare("cart", lines);
+
+    let mut lines = Vec::new();
+    for _ in 0..50 {
+        let system = block::Slides { m: 2.0 + draw(), ..Default::default() };
+        let (s, push, t) = ([2.0 + draw()], 30.0 * (1.1 + draw()), draw());
+        let given = vec![system.m, system.g, t, s[0], push];
+        let driven = system.prepare().unwrap().driven(block::slides::Inputs { push });
+        lines.extend(computed(&driven, t, &s, true).map(|bits| (given, bits)));
+    }
+    compare("block_slides", lines);
+
+    let mut lines = Vec::new();
+    for _ in 0..50 {
+        let system = Bead { r: 1.0, g: 9.0 + draw() };
+        let (angle, pace) = (3.0 * draw(), draw());
+        let s = [angle.cos(), angle.sin(), pace];
+        let given = vec![1.0, system.g, 0.0, s[0], s[1], pace];
+        lines.extend(computed(&system.prepare().unwrap(), 0.0, &s, false).map(|bits| (given, bits)));
+    }
+    compare("bead", lines);
+}
+
+#[test]
+fn the_program_of_the_page_prints_what_rust_computes() {
+    let page = include_str!("../../docs/source.md");
+    let program = page.split("```c\n").nth(1).unwrap().split("```").next().unwrap();
+    let output = Command::new(compile(program, "page")).output().unwrap();
+    assert!(output.status.success());
+    let pendulum = Pendulum::default().prepare().unwrap().driven(pendulum::Inputs { torque: 0.0 });
+    let go = |_: f64, _: &[f64; 2]| std::ops::ControlFlow::Continue(());
+    let end = Rk4::new(0.01).integrate(&pendulum, 0.0, &[1.0, 0.0], 2.0, go).unwrap();
+    let printed = String::from_utf8(output.stdout).unwrap();
+    let angle: f64 = printed.trim().strip_prefix("2 ").unwrap().parse().unwrap();
+    assert!((angle - end.state[0]).abs() < 1e-5 && angle.abs() > 0.01, "{printed} {:?}", end.state);
+}
+
+#[test]
+fn constants_out_of_their_bounds_are_told_by_their_number() {
+    let status = |c: [f64; 5]| {
+        let given = vec![c.to_vec(), vec![0.0; 11]].concat();
+        answers("cart", &[given])[0].split(' ').next().unwrap().parse::<i32>().unwrap()
+    };
+    assert_eq!(status([1.0, 1.0, 0.5, 1.0, 1.0]), 0);
+    assert_eq!(status([0.0, 1.0, 0.5, 1.0, 1.0]), 1);
+    assert_eq!(status([1.0, -1.0, 0.5, 1.0, 1.0]), 2);
+    assert_eq!(status([1.0, 1.0, 1.5, 1.0, 1.0]), 3);
+    assert_eq!(status([1.0, 1.0, 0.5, f64::NAN, 1.0]), 4);
+    assert_eq!(status([1.0, 1.0, 0.5, 1.0, 0.0]), 5);
+    // Finite, and its reciprocal is not.
+    assert_eq!(status([1e-320, 1.0, 0.5, 1.0, 1.0]), -1);
+}
+
+#[test]
+fn places_have_names_and_texts_say_what_they_have() {
+    let text = cart::SOURCE.to_string();
+    for line in
+        ["cart_c_type = 4,", "cart_s_q_0 = 0,", "cart_s_heat = 6,", "cart_u_pull_1 = 2,", "cart_c_q_1 = 3,"]
+    {
+        assert!(text.contains(line), "{line}");
+    }
+    let text = hoop::SOURCE.to_string();
+    assert!(text.contains("hoop_c_m = 0, /* kg */") && text.contains("hoop_s_u3b8 = 4,"));
+    assert_eq!(text.matches("#include").count(), 1);
+    assert!(!bead::SOURCE.steps && !bead::SOURCE.to_string().contains("rk4"));
+}
