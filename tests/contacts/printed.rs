@@ -11,7 +11,7 @@ fn short_entries_of_d_are_printed() {
         "D[belt_t, belt_t] = 1/m",
         "belt is a contact with friction along a line: open, stick, slip",
         "4 modes",
-        "in every mode a slip has one reaction: D between slips and gaps vanishes",
+        "in every mode a slip has one reaction: D couples no slip with a gap that is closed then",
     ];
     assert_eq!(stick_slip::REPORT.lines("Contacts"), expected);
 }

@@ -4,22 +4,24 @@
 //! their derivatives by a force are `M^-1 W^T`, found by the elimination that solves the system.
 
 mod equations;
+mod painleve;
 mod programs;
 mod scene;
 
 use std::rc::Rc;
 
-use guen_symbolic::{Derivation, ExprId, Programs, Verdict, Workbench};
+use guen_symbolic::{Derivation, ExprId, Programs};
 
 pub(super) use equations::ContactEquations;
+pub use painleve::Painleve;
 pub(super) use scene::SceneContacts;
 
 use equations::{ContactFunctions, FreeMotion};
-use programs::programs;
+use programs::{Level, programs};
 
 use super::branches::Branch;
 use crate::diagnostics::Faults;
-use crate::model::{ContactKind, Contacts, Model};
+use crate::model::{Contacts, Model};
 
 /// The facts about contacts that the programs do not tell.
 #[derive(Clone, Debug, Default)]
@@ -28,10 +30,8 @@ pub struct ContactFacts {
     pub modes: Vec<Vec<usize>>,
     /// The switches that the level has, by index.
     pub switches: Vec<usize>,
-    /// Whether a slipping contact can be proved to have one reaction in every mode.
-    pub painleve_free: bool,
-    /// Pairs of a contact that slips and one that touches, for which the proof failed.
-    pub coupled: Vec<(usize, usize)>,
+    /// Whether slipping contacts have one reaction.
+    pub painleve: Painleve,
     /// The rows, on the constraints.
     pub rows: Vec<ExprId>,
     /// The Delassus matrix, its lower triangle row by row.
@@ -56,9 +56,14 @@ pub(super) fn derive(
     let derived = equations::derive(model, &contacts, None, faults).and_then(|equations| {
         let switches: Vec<usize> = (0..contacts.switches.len()).collect();
         let name = model.declaration.name.span();
-        let level = (&equations.motions[..], &equations.functions);
-        let (programs, mut facts) = programs(&mut model.bench, &contacts, &switches, level, name, faults)?;
-        facts.modes = contacts.modes.clone();
+        let level = Level {
+            modes: &contacts.modes,
+            switches: &switches,
+            motions: &equations.motions,
+            functions: &equations.functions,
+            limits: &limits(model),
+        };
+        let (programs, mut facts) = programs(&mut model.bench, &contacts, &level, name, faults)?;
         facts.changed = changed(model, &contacts);
         Some((programs, facts, Rc::new(equations)))
     });
@@ -90,38 +95,7 @@ fn changed(model: &Model<'_>, contacts: &Contacts<'_>) -> Vec<Vec<usize>> {
         .collect()
 }
 
-/// Whether no slip changes how a gap answers to its own force: the entries of `D` between slips with friction and gaps vanish. The
-/// pairs for which they do not.
-fn painleve(
-    bench: &mut Workbench,
-    contacts: &Contacts<'_>,
-    delassus: &[ExprId],
-) -> (bool, Vec<(usize, usize)>) {
-    let mut normal = Vec::new();
-    let mut tangential = Vec::new();
-    let mut row = 0;
-    for (place, entry) in contacts.entries.iter().enumerate() {
-        let is_rough = entry.friction.is_some_and(|friction| !bench.graph.is_zero(friction));
-        for i in 0..entry.rows.len() {
-            match entry.kind {
-                ContactKind::Grip => {}
-                _ if i == 0 => normal.push((place, row)),
-                _ if is_rough => tangential.push((place, row)),
-                _ => {}
-            }
-            row += 1;
-        }
-    }
-    let mut coupled = Vec::new();
-    for (slipping, t) in &tangential {
-        for (touching, n) in &normal {
-            let (high, low) = (*t.max(n), *t.min(n));
-            let entry = delassus[high * (high + 1) / 2 + low];
-            if bench.verdict_on_manifold(entry) != Verdict::Zero {
-                coupled.push((*slipping, *touching));
-            }
-        }
-    }
-    coupled.dedup();
-    (coupled.is_empty(), coupled)
+/// The constants with the limits that they are declared to have.
+fn limits(model: &Model<'_>) -> Vec<(ExprId, [ExprId; 2])> {
+    model.constants.iter().filter_map(|constant| Some((constant.symbol, constant.limits?))).collect()
 }

@@ -46,7 +46,7 @@ use readable::{equations, polish, shown};
 pub use branches::Branch;
 pub use closure::{Quadrature, Reason};
 pub use commutator::Commutator;
-pub use contacts::ContactFacts;
+pub use contacts::{ContactFacts, Painleve};
 pub(crate) use control::{has_covector, known_combinations};
 pub use facts::SceneFacts;
 pub use jacobians::Jacobians;

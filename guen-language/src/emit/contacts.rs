@@ -142,7 +142,7 @@ pub(super) fn items(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream {
         0 => quote!(*self),
         _ => quote!(self.system.driven(inputs)),
     };
-    let painleve_free = facts.painleve_free;
+    let painleve_free = facts.painleve.is_excluded();
     let holonomic = subject.level.selection.holonomic.len();
     let all_holonomic = holonomic + subject.level.selection.redundant.len();
     let onto_constraints = (holonomic > 0).then(|| {

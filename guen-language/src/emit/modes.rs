@@ -55,7 +55,8 @@ pub(super) fn items(
     });
     let cost = subject.level.program(function::FREE_MOTION).map(|program| text::cost(&program.cost));
     let info = of_level.modes.iter().enumerate().map(|(place, mode)| {
-        let (rows, painleve_free) = facts(contacts, &of_level.coupled, mode);
+        let rows = rows(contacts, mode);
+        let painleve_free = of_level.painleve.doubtful[place].is_empty();
         let own = of_level.eliminated.iter().position(|eliminated| *eliminated == place);
         let own = own.and_then(|own| subject.level.program(&function::mode_rates(own)));
         let cost = own.map_or_else(|| quote!(#cost), |program| text::cost(&program.cost));
@@ -74,8 +75,8 @@ pub(super) fn items(
     }
 }
 
-/// The rows of a mode that have a reaction, and whether these have one value.
-fn facts(contacts: &Contacts<'_>, coupled: &[(usize, usize)], mode: &[usize]) -> (Vec<String>, bool) {
+/// The rows of a mode that have a reaction.
+fn rows(contacts: &Contacts<'_>, mode: &[usize]) -> Vec<String> {
     let states = || contacts.entries.iter().zip(mode).map(|(entry, state)| (entry, entry.states()[*state]));
     let rows = states().flat_map(|(entry, state)| {
         let normal = usize::from(entry.gap.is_some());
@@ -86,13 +87,7 @@ fn facts(contacts: &Contacts<'_>, coupled: &[(usize, usize)], mode: &[usize]) ->
         };
         (0..count).map(|row| row_name(entry, row))
     });
-    let states: Vec<ContactState> = states().map(|(_, state)| state).collect();
-    let slips = |place: usize| {
-        matches!(states[place], ContactState::SlipPlus | ContactState::SlipMinus | ContactState::Slip)
-    };
-    let touches = |place: usize| !matches!(states[place], ContactState::Open | ContactState::Free);
-    let is_free = !coupled.iter().any(|(slipping, touching)| slips(*slipping) && touches(*touching));
-    (rows.collect(), is_free)
+    rows.collect()
 }
 
 /// Adds the modes of instances, and the types of their states, to the modules of the instances.

@@ -1,7 +1,7 @@
 //! Contacts in the report: rows, the Delassus matrix, modes, and whether a slip may have Painlevé's paradox.
 
 use super::lines::{Lines, Section, Writer, plural};
-use crate::derive::{ContactFacts, Subject};
+use crate::derive::{ContactFacts, Painleve, Subject};
 use crate::model::{ContactEntry, ContactKind, ContactState, Contacts};
 
 /// The longest entry of D that is printed, in bytes. A hinge's stop on a chain of three takes ten thousand.
@@ -96,17 +96,10 @@ fn words(entry: &ContactEntry<'_>, states: &[ContactState]) -> String {
 /// Whether every slip has one reaction.
 fn painleve(contacts: &Contacts<'_>, facts: &ContactFacts) -> Vec<String> {
     let name = |place: usize| &contacts.entries[place].name;
-    if facts.coupled.is_empty() {
-        let is_rough = |entry: &ContactEntry<'_>| {
-            entry.friction.is_some() && matches!(entry.kind, ContactKind::Planar | ContactKind::Spatial)
-        };
-        return match contacts.entries.iter().any(is_rough) {
-            true => {
-                vec!["in every mode a slip has one reaction: D between slips and gaps vanishes".to_owned()]
-            }
-            false => Vec::new(),
-        };
-    }
+    let Painleve { doubtful, by_sign } = &facts.painleve;
+    let mut pairs: Vec<(usize, usize)> = doubtful.iter().flatten().copied().collect();
+    pairs.sort_unstable();
+    pairs.dedup();
     let pair = |(slipping, touching): &(usize, usize)| match slipping == touching {
         true => {
             format!("where {} slips, its reaction may have no value, or several (Painlevé)", name(*slipping))
@@ -117,21 +110,19 @@ fn painleve(contacts: &Contacts<'_>, facts: &ContactFacts) -> Vec<String> {
             name(*touching)
         ),
     };
-    let slips = |state: ContactState| {
-        matches!(state, ContactState::Slip | ContactState::SlipPlus | ContactState::SlipMinus)
-    };
-    let state = |mode: &[usize], place: usize| contacts.entries[place].states()[mode[place]];
-    let occurs = |(slipping, touching): &&(usize, usize)| {
-        let both = |mode: &Vec<usize>| {
-            slips(state(mode, *slipping))
-                && !matches!(state(mode, *touching), ContactState::Open | ContactState::Free)
-        };
-        facts.modes.iter().any(both)
-    };
-    let lines: Vec<String> = facts.coupled.iter().filter(occurs).map(pair).collect();
-    match lines.is_empty() {
+    let doubts = pairs.iter().map(pair);
+    let proved = by_sign.iter().filter(|place| !pairs.iter().any(|(slipping, _)| slipping == *place));
+    let proved = proved.map(|place| {
+        format!(
+            "where {} slips, its reaction has one value: p = D_nn - mu D_nt > 0 by the bounds of constants",
+            name(*place)
+        )
+    });
+    let lines: Vec<String> = doubts.chain(proved).collect();
+    let is_rough = |entry: &ContactEntry<'_>| entry.friction.is_some() && entry.kind != ContactKind::Grip;
+    match lines.is_empty() && contacts.entries.iter().any(is_rough) {
         true => vec![
-            "in every mode a slip has one reaction: no mode has a slip and a closed gap that D couples"
+            "in every mode a slip has one reaction: D couples no slip with a gap that is closed then"
                 .to_owned(),
         ],
         false => lines,

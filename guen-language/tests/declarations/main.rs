@@ -18,6 +18,7 @@ mod long_families;
 mod modes_of_scenes;
 mod one_mode;
 mod outline;
+mod painleve;
 mod poles;
 mod random_declarations;
 mod rates;

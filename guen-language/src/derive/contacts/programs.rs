@@ -5,21 +5,32 @@ use proc_macro2::Span;
 
 use super::super::branches::Held;
 use super::super::function;
-use super::{ContactFacts, ContactFunctions, FreeMotion, painleve};
+use super::painleve::{self, Matrix};
+use super::{ContactFacts, ContactFunctions, FreeMotion};
 use crate::diagnostics::{Fault, Faults};
 use crate::limits::MAX_SWITCHES;
 use crate::model::Contacts;
 
-/// The programs of the contacts of a level, with the switches that it has, and the facts about them but for its modes; `None` after a
-/// fault, which is reported at `name`.
+/// What a level has of contacts.
+pub(in crate::derive) struct Level<'l> {
+    pub(super) modes: &'l [Vec<usize>],
+    /// The switches by their places.
+    pub(super) switches: &'l [usize],
+    pub(super) motions: &'l [FreeMotion],
+    pub(super) functions: &'l ContactFunctions,
+    /// Constants with their limits.
+    pub(super) limits: &'l [(ExprId, [ExprId; 2])],
+}
+
+/// The programs of the contacts of a level and the facts about them; `None` after a fault, which is reported at `name`.
 pub(in crate::derive) fn programs(
     bench: &mut Workbench,
     contacts: &Contacts<'_>,
-    switches: &[usize],
-    (motions, functions): (&[FreeMotion], &ContactFunctions),
+    level: &Level<'_>,
     name: Span,
     faults: &mut Faults,
 ) -> Option<(Programs, ContactFacts)> {
+    let Level { modes, switches, motions, functions, limits } = *level;
     let rows = &functions.rows;
     let lists: Vec<Vec<ExprId>> = motions.iter().map(|motion| motion.list(functions)).collect();
     let mut values = values_by_state(bench, contacts, functions);
@@ -52,7 +63,6 @@ pub(in crate::derive) fn programs(
     signals.extend(&functions.resets);
     signals.extend(held.branches.iter().map(|branch| branch.function));
     let delassus = &motions.first()?.delassus;
-    let (painleve_free, coupled) = painleve(bench, contacts, delassus);
     let moves = functions.drifts.iter().any(|drift| !bench.graph.is_zero(*drift));
     let mut builder = ProgramBuilder::new(&mut bench.graph);
     builder.add_equal(function::FREE_MOTION, &lists);
@@ -72,11 +82,12 @@ pub(in crate::derive) fn programs(
     if !functions.outputs.is_empty() {
         builder.add_cold(function::CONTACT_OUTPUTS, &functions.outputs);
     }
+    let programs = builder.finish();
+    let matrix = Matrix { delassus, friction: &functions.friction, limits };
     let facts = ContactFacts {
-        modes: Vec::new(),
+        modes: modes.to_vec(),
         switches: switches.to_vec(),
-        painleve_free,
-        coupled,
+        painleve: painleve::prove(bench, contacts, modes, &matrix),
         rows: rows.clone(),
         delassus: delassus.clone(),
         drifts: moves,
@@ -84,7 +95,7 @@ pub(in crate::derive) fn programs(
         branches: held.branches,
         eliminated: Vec::new(),
     };
-    Some((builder.finish(), facts))
+    Some((programs, facts))
 }
 
 /// The symbols that the state determines: switches by their functions, and the magnitudes of slips by the rows.

@@ -12,7 +12,8 @@ use super::super::closure::Reason;
 use super::super::fixed::Holding;
 use super::super::parts::View;
 use super::super::selection::{Selection, StateIndex, StatePart};
-use super::{ContactEquations, ContactFacts, ContactFunctions, FreeMotion, programs};
+use super::programs::{Level, programs};
+use super::{ContactEquations, ContactFacts, ContactFunctions, FreeMotion, limits};
 use crate::diagnostics::{Fault, Faults};
 use crate::model::{ContactEntry, ContactState, Contacts, Model};
 use crate::syntax::Name;
@@ -212,10 +213,10 @@ impl<'c, 'a> SceneContacts<'c, 'a> {
         let components = selection.outputs.iter().flat_map(|o| model.outputs[*o].components.clone());
         let components: Vec<usize> = components.collect();
         seen.outputs = components.into_iter().map(|c| view.of(model, functions.outputs[c])).collect();
-        let level = (&motions[..], &seen);
-        let (programs, mut facts) = programs(&mut model.bench, contacts, &switches, level, name, faults)?;
-        facts.modes = modes.to_vec();
-        Some((programs, facts))
+        let limits = limits(model);
+        let level =
+            Level { modes, switches: &switches, motions: &motions, functions: &seen, limits: &limits };
+        programs(&mut model.bench, contacts, &level, name, faults)
     }
 }
 
