@@ -309,7 +309,7 @@ fn the_program_of_the_page_prints_what_rust_computes() {
 #[test]
 fn constants_out_of_their_bounds_are_told_by_their_number() {
     let status = |c: [f64; 5]| {
-        let given = vec![c.to_vec(), vec![0.0; 11]].concat();
+        let given = [&c[..], &[0.0; 11]].concat();
         answers("cart", &[given])[0].split(' ').next().unwrap().parse::<i32>().unwrap()
     };
     assert_eq!(status([1.0, 1.0, 0.5, 1.0, 1.0]), 0);

@@ -15,6 +15,9 @@ pub(super) fn check(
     word: &Name,
     faults: &mut Faults,
 ) {
+    if model.declaration.is_outline {
+        return;
+    }
     if has_modes {
         let text = "motions go through modes, and a text of C has one right-hand side";
         let help = "provide it in a scene with one mode, `modes { name: open; }`";

@@ -148,7 +148,7 @@ impl Entries {
             }
             Item::Provide(section) => {
                 for provide in &section.entries {
-                    if ["operators", "taylor", "carried"].contains(&provide.name.text.as_str()) {
+                    if ["operators", "taylor", "carried", "source"].contains(&provide.name.text.as_str()) {
                         let new = || Provide { of: None, ..provide.clone() };
                         push(&mut self.provides, &provide.name, |provide| &provide.name, new);
                     }

@@ -54,7 +54,7 @@ fn sound(scene: &Scene, declaration: &Declaration, entries: &Entries, forms: &Fo
     let mut provides: Vec<Provide> = provided.chain(outputs).map(|name| Provide { name, of: None }).collect();
     for provide in &scene.provides {
         let word = provide.name.text.as_str();
-        if word == "taylor" || (word == "carried" && forms.driven.is_some()) {
+        if ["taylor", "source"].contains(&word) || (word == "carried" && forms.driven.is_some()) {
             push(
                 &mut provides,
                 &provide.name,

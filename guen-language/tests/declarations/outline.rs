@@ -180,6 +180,14 @@ fn forms_need_not_be_as_many_as_coordinates() {
         ))
     };
     assert!(carried("parameters { u = dot(x); }").contains("modcarried"));
+    let written = |further: &str| {
+        of(&format!(
+            "system S {{ functions {{ f(x); }} coordinates {{ x }} parameters {{ u = dot(x); }} kinetic_energy = u^2; potential_energy = f(x) + y; {further} }}"
+        ))
+    };
+    assert!(written("provide source;").contains("source!(\"s\",\"\",true)"));
+    let in_scene = written("contacts { floor: gap = x; } scene T { provide source; }");
+    assert!(in_scene.contains("source!(\"s_t\",\"\",true)"), "{in_scene}");
     // Without an equation of motion there is nothing to carry.
     assert!(carried("").contains("structS<R=f64>"));
 }
