@@ -11,7 +11,7 @@ use crate::diagnostics::{Fault, Faults};
 use crate::limits::MAX_SWITCHES;
 use crate::model::Contacts;
 
-/// What a level has of contacts.
+/// The contacts of a level.
 pub(in crate::derive) struct Level<'l> {
     pub(super) modes: &'l [Vec<usize>],
     /// The switches by their places.
