@@ -2,7 +2,7 @@
 //!
 //! `shape` says what a body looks like and where it is, `equivalent` draws declared bodies by their inertia. `samples` makes
 //! `track`s of a recording, of which `thin` chooses what is shown and `fit` makes the file as small as it has to be, `guests` are further recordings. `data`
-//! writes numbers, `phases` has marks and words, `contacts` the forces of contacts, `notes` says what was left out, `still` draws pictures for readers without scripts by `outline`, `page` puts the file together from `page/` and from the drawing library in
+//! writes numbers, `phases` has marks and words, `contacts` the forces of contacts, `things` the types of all that is shown, `view` the ground and the view, `notes` says what was left out, `still` draws pictures for readers without scripts by `outline`, `page` puts the file together from `page/` and from the drawing library in
 //! `vendor/`.
 
 mod contacts;
@@ -21,8 +21,10 @@ mod still;
 #[cfg(test)]
 mod tests;
 mod thin;
+mod things;
 mod track;
 mod turn;
+mod view;
 
 use std::path::Path;
 
@@ -36,7 +38,9 @@ use crate::recording::Recording;
 use guests::Guest;
 use phases::{Mark, Words};
 use samples::Samples;
+use things::{Curve, Fault, Link, LinkKind, MovingBody, MovingPoint, Panel, is_drawable};
 use track::{Shown, Track};
+use view::{Ground, View};
 
 pub use contacts::ContactFrame;
 pub use shape::{Pose, Shape};
@@ -137,108 +141,6 @@ pub struct Viewer<'a, const N: usize> {
     view: View,
     /// The first thing that cannot be drawn.
     fault: Option<Fault>,
-}
-
-#[derive(Clone, Debug)]
-struct MovingBody {
-    name: String,
-    shapes: Vec<Shape>,
-    poses: Track<Pose>,
-    /// The largest turn between successive samples of the recording.
-    largest_turn: f64,
-}
-
-#[derive(Clone, Debug)]
-struct MovingPoint {
-    name: String,
-    points: Track<[f64; 3]>,
-}
-
-/// Something straight between two moving points.
-#[derive(Clone, Debug)]
-struct Link {
-    name: String,
-    kind: LinkKind,
-    radius: f64,
-    /// The ends; of a force its foot and the vector.
-    ends: Track<[[f64; 3]; 2]>,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum LinkKind {
-    Rod,
-    Arrow,
-    /// An arrow that the page scales.
-    Force,
-}
-
-#[derive(Clone, Debug)]
-struct Panel {
-    name: String,
-    is_folded: bool,
-    curves: Vec<Curve>,
-}
-
-#[derive(Clone, Debug)]
-struct Curve {
-    name: String,
-    values: Track<f64>,
-}
-
-/// The ground that the bodies move on.
-#[derive(Clone, Debug)]
-enum Ground {
-    Plane { point: [f64; 3], normal: [f64; 3] },
-    Surface { x: [f64; 2], y: [f64; 2], heights: Vec<f64> },
-}
-
-#[derive(Clone, Debug, Default)]
-struct View {
-    up: Option<[f64; 3]>,
-    from: Option<[f64; 3]>,
-    follow: Option<String>,
-    bare: bool,
-    time_unit: Option<String>,
-    per_force: Option<f64>,
-}
-
-/// A fault of the description; the page is refused with the first one.
-#[derive(Clone, Debug)]
-enum Fault {
-    NotDrawable {
-        what: String,
-        time: f64,
-    },
-    UnknownBody {
-        name: String,
-    },
-    UnknownContact {
-        name: String,
-        known: Vec<&'static str>,
-    },
-    TooLarge {
-        bytes: usize,
-    },
-    /// A further run without a sample or a thing.
-    NothingToDraw {
-        title: String,
-    },
-    /// A further run whose times do not rise.
-    Times {
-        title: String,
-        time: f64,
-    },
-}
-
-/// Single precision and the squares of lengths have to hold it.
-const LARGEST_COORDINATE: f64 = 1e18;
-
-fn is_drawable(values: &[f64]) -> bool {
-    values.iter().all(|value| value.abs() <= LARGEST_COORDINATE)
-}
-
-fn is_direction(vector: [f64; 3]) -> bool {
-    is_drawable(&vector) && turn::norm(vector) > 0.0
 }
 
 impl<'a, const N: usize> Viewer<'a, N> {
@@ -547,80 +449,6 @@ impl<'a, const N: usize> Viewer<'a, N> {
             panel.curves.push(Curve { name, values });
         }
         fit::relieve(&mut self);
-        self
-    }
-
-    /// A plane through a point, in place of the level ground at height zero.
-    pub fn plane(mut self, point: [f64; 3], normal: [f64; 3]) -> Self {
-        self.grounds.push(Ground::Plane { point, normal });
-        self.require(is_drawable(&point) && is_direction(normal), || "the ground".to_owned());
-        self
-    }
-
-    /// A surface `z = height(x, y)` over a rectangle, in place of the level ground.
-    pub fn surface(mut self, x: [f64; 2], y: [f64; 2], height: impl Fn(f64, f64) -> f64) -> Self {
-        let at = |[from, to]: [f64; 2], k: usize| from + (to - from) * k as f64 / (page::MESH - 1) as f64;
-        let heights: Vec<f64> = (0..page::MESH * page::MESH)
-            .map(|k| height(at(x, k % page::MESH), at(y, k / page::MESH)))
-            .collect();
-        self.require([&heights[..], &x, &y].into_iter().all(is_drawable), || "the ground".to_owned());
-        self.grounds.push(Ground::Surface { x, y, heights });
-        self
-    }
-
-    /// Sets the unit of time that the page writes, `s` unless told. Short times in seconds are written in `ms`, `µs` and so on.
-    pub fn time_unit(mut self, unit: impl Into<String>) -> Self {
-        self.view.time_unit = Some(unit.into());
-        self
-    }
-
-    /// Sets the length of the arrow of a force of one. Unless told, the longest arrow is a quarter of the space that the motion takes up.
-    ///
-    /// ```
-    /// use guen_study::{Pose, Recording, Shape, Viewer};
-    ///
-    /// let mut recording = Recording::new(&["x"]);
-    /// (0..100).for_each(|k| recording.record(f64::from(k), &[f64::from(k)]));
-    /// // A weight of 20 N on a long way: an arrow of half a metre.
-    /// let page = Viewer::new("A weight", &recording)
-    ///     .force("weight", |_, x| [[x[0], 0.0, 0.5], [0.0, 0.0, -20.0]])
-    ///     .force_length(0.025);
-    /// assert!(page.to_html()?.contains("have the length 0.025 for a force of 1"));
-    /// # Ok::<(), guen_study::StudyError>(())
-    /// ```
-    pub fn force_length(mut self, length: f64) -> Self {
-        self.view.per_force = Some(length);
-        self.require(is_drawable(&[length]) && length > 0.0, || "the length of forces".to_owned());
-        self
-    }
-
-    /// No ground at all: for mechanisms and bodies in free space.
-    pub fn without_ground(mut self) -> Self {
-        self.view.bare = true;
-        self
-    }
-
-    /// Sets the direction that is up in the picture; `z` unless told. The level ground is normal to it.
-    pub fn upward(mut self, direction: [f64; 3]) -> Self {
-        self.view.up = Some(direction);
-        self.require(is_direction(direction), || "a direction of the view".to_owned());
-        self
-    }
-
-    /// Sets the direction from which the motion is seen at first: from the motion to the eye.
-    pub fn seen_from(mut self, direction: [f64; 3]) -> Self {
-        self.view.from = Some(direction);
-        self.require(is_direction(direction), || "a direction of the view".to_owned());
-        self
-    }
-
-    /// The body that the view follows when asked to; the first one unless told. The page starts so, and a button changes it.
-    pub fn follow(mut self, name: impl Into<String>) -> Self {
-        let name = name.into();
-        if !self.bodies.iter().any(|body| body.name == name) {
-            self.unknown(&name);
-        }
-        self.view.follow = Some(name);
         self
     }
 
