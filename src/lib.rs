@@ -220,7 +220,7 @@ pub mod __private {
         actuated, condition, conserved, contact_mode, contact_states, differentiable, domain, dynamics,
         energy, facts, held_through_modes, instance_mode, jacobians, laned, level_info, levels, linearizable,
         mass_form, momenta, monitored, motion_of_system, onto_constraints, operators, output_map, prepare,
-        prepared, program_functions, rates, reaction_covector, reactions, record, reduce, reported,
+        prepared, program, program_functions, rates, reaction_covector, reactions, record, reduce, reported,
         restored_by_modes, simulated, simulated_through_modes, singularities, source, state_of_system,
         steady_motions, structured, switches, uses, with_scalar,
     };

@@ -8,6 +8,7 @@ use std::fmt::Write;
 use guen_symbolic::{Function, Instruction, Multivariate, Operation, Rational, SymbolId, Value};
 
 use super::supplied::steps as steps_to;
+use super::unpacked::Unpacked;
 
 /// The name of the functions that the program supplies, a tuple.
 pub(super) const SUPPLIED: &str = "functions";
@@ -22,15 +23,22 @@ pub(super) trait Loads {
 }
 
 /// The body of a function: its statements, then its results as an array. Values are called `v0`, `v1`, ..; loads, and
-/// what one operation alone uses, stand where they are used.
+/// what one operation alone uses, stand where they are used. `length` says how long an array is that the function takes.
 ///
 /// Long programs are cut into blocks that hand on what later ones need. Every `let` opens a lexical scope inside the
 /// one before, and the compiler's code for debug information recurses over them: five thousand in a row overflow its
 /// stack.
-pub(super) fn body(instructions: &[Instruction], outputs: &[Value], loads: &dyn Loads) -> String {
+pub(super) fn body(
+    instructions: &[Instruction],
+    outputs: &[Value],
+    loads: &dyn Loads,
+    length: impl Fn(&str) -> usize,
+) -> String {
     const BLOCK_STATEMENTS: usize = 100;
     let values = instructions.iter().flat_map(defined).map(|v| v.index() + 1).max().unwrap_or(0);
     let uses = uses(instructions, outputs, values);
+    let loaded: Vec<String> = instructions.iter().filter_map(|step| load(step, loads)).collect();
+    let unpacked = Unpacked::new(loaded.iter().map(String::as_str), length);
     let mut writer = Writer {
         names: vec![String::new(); values],
         is_operation: vec![false; values],
@@ -41,7 +49,8 @@ pub(super) fn body(instructions: &[Instruction], outputs: &[Value], loads: &dyn 
     };
     // Where each value is used last; results count as used behind the end.
     let mut last_use = vec![0; values];
-    let mut steps: Vec<&Instruction> = instructions.iter().filter(|i| !writer.load(i, loads)).collect();
+    let mut steps: Vec<&Instruction> =
+        instructions.iter().filter(|i| !writer.load(i, loads, &unpacked)).collect();
     steps.retain(|step| writer.absorbed[step.result.index()].is_none());
     bring_angles_together(&mut steps, &writer.absorbed);
     bring_derivatives_together(&mut steps);
@@ -86,8 +95,12 @@ pub(super) fn body(instructions: &[Instruction], outputs: &[Value], loads: &dyn 
         }
     }
     let names: Vec<&str> = outputs.iter().map(|output| writer.names[output.index()].as_str()).collect();
-    let results = results(&names);
-    writer.text + &results
+    // Where the program supplies functions, `k` holds them beside the values.
+    let place = |array: &str| match array {
+        "k" if loads.functions() > 0 => "&k.values".to_owned(),
+        array => array.to_owned(),
+    };
+    unpacked.statements(place) + &writer.text + &results(&names)
 }
 
 /// Results as an array: one by one, or where there are many and most are the same value, as in a sparse matrix, that value and the others.
@@ -108,12 +121,7 @@ fn results(names: &[&str]) -> String {
             return text;
         }
     }
-    text.push('[');
-    for name in names {
-        text.push_str(name);
-        text.push(',');
-    }
-    text.push(']');
+    let _ = write!(text, "[{}]", names.join(","));
     text
 }
 
@@ -261,6 +269,15 @@ fn defined(instruction: &Instruction) -> impl Iterator<Item = Value> {
     core::iter::once(instruction.result).chain(second)
 }
 
+/// The place of a value that an instruction loads, if it is a load.
+fn load(instruction: &Instruction, loads: &dyn Loads) -> Option<String> {
+    match &instruction.operation {
+        Operation::Symbol(symbol) => Some(loads.symbol(*symbol)),
+        Operation::Prepared(k) => Some(format!("k[{k}]")),
+        _ => None,
+    }
+}
+
 struct Writer {
     /// The text of each value where it is used.
     names: Vec<String>,
@@ -281,12 +298,8 @@ const LONGEST_IN_PLACE: usize = 48;
 
 impl Writer {
     /// Takes in a load, which needs no statement; tells whether it was one.
-    fn load(&mut self, instruction: &Instruction, loads: &dyn Loads) -> bool {
-        let name = match &instruction.operation {
-            Operation::Symbol(symbol) => Some(loads.symbol(*symbol)),
-            Operation::Prepared(k) => Some(format!("k[{k}]")),
-            _ => None,
-        };
+    fn load(&mut self, instruction: &Instruction, loads: &dyn Loads, unpacked: &Unpacked) -> bool {
+        let name = load(instruction, loads).map(|name| unpacked.local(name));
         let is_load = name.is_some();
         for value in defined(instruction) {
             self.names[value.index()] = name.clone().unwrap_or_else(|| format!("v{}", value.index()));
@@ -535,7 +548,7 @@ mod tests {
             ))
         };
         let together = of("sin(x)*cos(y)");
-        assert!(together.contains("=sin_cos_pair(s[0],s[1])"), "{together}");
+        assert!(together.contains("=sin_cos_pair(*s0,*s1)"), "{together}");
         assert_eq!(together.matches("sin_cos").count(), 1, "{together}");
         // The angle of the second is made first.
         let added = of("sin(x)*sin(x + 2*y)");
@@ -551,7 +564,7 @@ mod tests {
     #[test]
     fn of_many_results_that_are_the_same_the_others_are_written() {
         let mut names = vec!["z"; 2_000];
-        assert_eq!(results(&names[..3]), "[z,z,z,]");
+        assert_eq!(results(&names[..3]), "[z,z,z]");
         (names[7], names[1_999]) = ("a", "b");
         assert_eq!(results(&names), "let mut o = [z; 2000];o[7] = a;o[1999] = b;o");
         names[..600].fill("a");

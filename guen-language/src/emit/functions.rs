@@ -150,16 +150,30 @@ pub(super) fn modules(subject: &Subject<'_, '_>, layout: &Layout) -> TokenStream
     tokens(&text)
 }
 
-/// Writes a module, `more` at its end.
+/// Writes a module, with further functions.
 fn module(name: &str, programs: &Programs, more: &str, subject: &Subject<'_, '_>, layout: &Layout) -> String {
     let (places, everywhere) = (Places::new(subject, false), Places::new(subject, true));
-    let Layout { n, l, size, all, constants, inputs, .. } = layout;
+    let Layout { n, l, size, all, constants, inputs, .. } = *layout;
     let hoisted = programs.prepared.len();
-    let mut text = format!(
-        "#[allow(unused_variables, reason = \"every function has the signature of its kind\")]
-        #[allow(clippy::all, clippy::pedantic, clippy::nursery, clippy::restriction, reason = \"straight-line code for the compiler\")]
-        mod {name} {{ use super::__guen;"
-    );
+    let mut lengths = vec![
+        ("c", constants),
+        ("k", hoisted),
+        ("s", size),
+        ("x", n),
+        ("y", all),
+        ("w", n),
+        ("u", inputs),
+        ("a", l),
+    ];
+    if let (Some(contacts), Some(facts)) = (&subject.model.contacts, &subject.level.contacts) {
+        lengths.extend([
+            ("b", facts.switches.len() + facts.changed.len() + facts.branches.len()),
+            ("m", contacts.entries.len()),
+            ("f", contacts.rows().count()),
+        ]);
+    }
+    let length_of =
+        |kind: &str| lengths.iter().find(|(name, _)| *name == kind).map_or(0, |(_, length)| *length);
     // Long families have loops where these are found.
     let graph = &subject.model.bench.graph;
     let (rolled_prepare, rolled) = match graph.nests_sums() {
@@ -171,30 +185,15 @@ fn module(name: &str, programs: &Programs, more: &str, subject: &Subject<'_, '_>
             let code = (&programs.prepare[..], &programs.prepared[..], programs.prepare_values);
             super::rolled::body(&rolled, code, &places)
         }
-        None => body(&programs.prepare, &programs.prepared, &places),
+        None => body(&programs.prepare, &programs.prepared, &places, length_of),
     };
-    let supplied = if layout.supplied.is_empty() {
-        let _ = write!(
-            text,
-            "#[inline] pub(super) fn prepare<R: __guen::Real>(c: &c<R>) -> k<R> {{ {prepare} }}",
-        );
-        String::new()
-    } else {
-        let (kinds, members) = (layout.supplied.list(), layout.supplied.members());
-        format!("{kinds} {SUPPLIED} {members} {{ {prepare} }}")
+    let supplied = match layout.supplied.is_empty() {
+        true => String::new(),
+        false => format!("{} {SUPPLIED} {}", layout.supplied.list(), layout.supplied.members()),
     };
-    let _ = write!(
-        text,
-        "__guen::program_functions! {{ {supplied} c {constants} k {hoisted} s {size} x {n} y {all} w {n} u {inputs} a {l}"
-    );
-    if let (Some(contacts), Some(facts)) = (&subject.model.contacts, &subject.level.contacts) {
-        let _ = write!(
-            text,
-            " b {} m {} f {}",
-            facts.switches.len() + facts.changed.len() + facts.branches.len(),
-            contacts.entries.len(),
-            contacts.rows().count()
-        );
+    let mut text = format!("__guen::program! {{ {name} {{ {more} }} {supplied} {{ {prepare} }}");
+    for (kind, length) in &lengths {
+        let _ = write!(text, " {kind} {length}");
     }
     text.push(';');
     for (program, rolled) in programs.functions.iter().zip(rolled) {
@@ -221,12 +220,22 @@ fn module(name: &str, programs: &Programs, more: &str, subject: &Subject<'_, '_>
                     let code = (&program.instructions[..], &program.outputs[..], program.values);
                     super::rolled::body(&rolled, code, places)
                 }
-                None => body(&program.instructions, &program.outputs, places),
+                None => {
+                    // The kind of an array, whose name says what it is in the function.
+                    let kind = |array: &str| match array {
+                        "s" => given
+                            .split([' ', ';'])
+                            .skip_while(|word| *word != "s")
+                            .nth(1)
+                            .unwrap_or("s")
+                            .to_owned(),
+                        other => other.to_owned(),
+                    };
+                    body(&program.instructions, &program.outputs, places, |array| length_of(&kind(array)))
+                }
             },
         );
     }
-    text.push('}');
-    text.push_str(more);
     text.push('}');
     text
 }

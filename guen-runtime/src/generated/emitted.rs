@@ -9,13 +9,51 @@ mod facts;
 mod methods;
 mod motion;
 
-/// Straight-line functions of a module: the arrays that they take with their lengths, the constants and the prepared values first,
-/// then each function as `name(time; given) -> results { .. }`, with the name of the time if the function depends on it, and the
-/// arrays of the state and what comes with it, a name and the array that it is. The real is `R` in their bodies.
+/// A module of straight-line functions: its name, further items, `prepare`, the arrays that functions take with their lengths, the
+/// constants and the prepared values first, then each function as `name(time; given) -> results { .. }`, with the name of the time if
+/// the function depends on it, and the arrays of the state and what comes with it, a name and the array that it is. The real is `R` in
+/// their bodies. In front of `prepare` stand the functions that the program supplies, where there are some.
 // A type for each array: a length in brackets would be a constant to check wherever it stands.
 #[doc(hidden)]
 #[macro_export]
+macro_rules! program {
+    ($name:ident { $($more:tt)* } $($functions:tt)*) => {
+        #[allow(unused_imports, unused_variables, reason = "every function has the signature of its kind")]
+        #[allow(
+            clippy::all, clippy::pedantic, clippy::nursery, clippy::restriction, reason = "straight-line code for the compiler"
+        )]
+        mod $name {
+            use super::__guen;
+            $crate::program_functions! { $($functions)* }
+            $($more)*
+        }
+    };
+}
+
+/// The functions of [`program!`](crate::program).
+#[doc(hidden)]
+#[macro_export]
 macro_rules! program_functions {
+    (
+        { $($prepare:tt)* }
+        $c:ident $constants:literal $k:ident $hoisted:literal $($array:ident $length:literal)*;
+        $($name:ident($($t:ident)?; $($given:ident $kind:ident)*) -> $n:literal $body:tt)*
+    ) => {
+        type $c<R> = [R; $constants];
+        type $k<R> = [R; $hoisted];
+        $(#[allow(dead_code, reason = "small systems use few of them")] type $array<R> = [R; $length];)*
+        #[inline]
+        pub(super) fn prepare<R: $crate::Real>($c: &$c<R>) -> $k<R> {
+            $($prepare)*
+        }
+        $(
+            #[inline]
+            pub(super) fn $name<R: $crate::Real>($c: &$c<R>, $k: &$k<R>, $($t: R,)? $($given: &$kind<R>,)*) -> [R; $n] {
+                // The closure is compiled with the instructions of the real.
+                <R as $crate::Real>::vectorize(#[inline(always)] || $body)
+            }
+        )*
+    };
     (
         $supplied:tt $functions:ident $members:tt $prepare:tt
         $c:ident $constants:literal $k:ident $hoisted:literal $($array:ident $length:literal)*;
@@ -28,21 +66,6 @@ macro_rules! program_functions {
         $($crate::program_function! {
             $supplied $functions $c $k $name($($t)?; $($given $kind)*) -> $n $body
         })*
-    };
-    (
-        $c:ident $constants:literal $k:ident $hoisted:literal $($array:ident $length:literal)*;
-        $($name:ident($($t:ident)?; $($given:ident $kind:ident)*) -> $n:literal $body:tt)*
-    ) => {
-        type $c<R> = [R; $constants];
-        type $k<R> = [R; $hoisted];
-        $(#[allow(dead_code, reason = "small systems use few of them")] type $array<R> = [R; $length];)*
-        $(
-            #[inline]
-            pub(super) fn $name<R: $crate::Real>($c: &$c<R>, $k: &$k<R>, $($t: R,)? $($given: &$kind<R>,)*) -> [R; $n] {
-                // The closure is compiled with the instructions of the real.
-                <R as $crate::Real>::vectorize(#[inline(always)] || $body)
-            }
-        )*
     };
 }
 
