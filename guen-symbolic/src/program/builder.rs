@@ -10,7 +10,7 @@ use super::cost::{OperationCount, weighted_cost};
 use super::instruction::{FunctionProgram, Operation, Programs};
 use super::lower::{Code, PreparedTable, lower};
 use super::net::{Conversion, Field, Net, NetNode};
-use super::passes::{CANDIDATES, Changes, Pass, affordable, apply, rebuild};
+use super::passes::{CANDIDATES, Changes, JOINED, Pass, affordable, apply, rebuild};
 use super::regular;
 use super::shape::Indices;
 use super::terms::NetId;
@@ -149,6 +149,7 @@ impl<'a> ProgramBuilder<'a> {
         if let [only] = formulations {
             let mut net = Net::default();
             let roots = staged(self.graph, &mut net, only, effort);
+            let roots = joined(self.graph, &mut net, roots, effort);
             self.push_cheaper(name, (net, roots), only);
             return 0;
         }
@@ -179,7 +180,9 @@ impl<'a> ProgramBuilder<'a> {
             }
             best = accuracy::best(self.graph, &programs);
         }
-        let (index, net, roots) = if tried.is_empty() { Default::default() } else { tried.swap_remove(best) };
+        let (index, mut net, roots) =
+            if tried.is_empty() { Default::default() } else { tried.swap_remove(best) };
+        let roots = joined(self.graph, &mut net, roots, effort);
         match formulations.first() {
             Some(first) => self.push_cheaper(name, (net, roots), first),
             None => self.push(name, &net, &roots),
@@ -333,6 +336,23 @@ fn staged(graph: &mut Graph, net: &mut Net, formulation: &Formulation, effort: E
         return roots;
     }
     apply(Pass::Signs, graph, net, &roots)
+}
+
+/// The roots optimised once more as a whole, if that is cheaper: what different depths have in common was not seen at any of them.
+fn joined(graph: &mut Graph, net: &mut Net, roots: Vec<NetId>, effort: Effort) -> Vec<NetId> {
+    let nodes = net.reachable(&roots).0.len();
+    if effort != Effort::Hot || affordable(nodes) == 0 {
+        return roots;
+    }
+    let mut whole = roots.clone();
+    for pass in JOINED {
+        whole = apply(pass, graph, net, &whole);
+    }
+    if whole == roots {
+        return roots;
+    }
+    let programs = [&roots, &whole].map(|roots| Candidate::new(graph, net, roots));
+    if accuracy::best(graph, &programs) == 0 { roots } else { whole }
 }
 
 /// The roots as the cheapest sequence of passes leaves them.

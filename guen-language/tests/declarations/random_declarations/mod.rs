@@ -13,6 +13,7 @@ mod declared;
 #[path = "../../../../guen-symbolic/tests/random_systems/draw.rs"]
 mod draw;
 mod families;
+mod formulations;
 mod functions;
 mod grammar;
 mod levels;

@@ -55,6 +55,12 @@ pub(super) const CANDIDATES: [&[Pass]; 5] = {
     ]
 };
 
+/// The sequence for the whole of a program whose depths were optimised one by one.
+pub(super) const JOINED: [Pass; 7] = {
+    use Pass::{Absorb, FactorUnshared, Products, Signs, Sums};
+    [Absorb, Sums, Products, FactorUnshared, Absorb, Products, Signs]
+};
+
 /// Returns the number of candidates that are tried for a net of so many nodes: expansion must stay quick.
 pub(super) fn affordable(nodes: usize) -> usize {
     match nodes {

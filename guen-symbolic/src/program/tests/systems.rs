@@ -327,3 +327,26 @@ fn the_cheapest_formulation_is_taken() {
     assert_eq!(programs.functions[0].outputs.len(), 5);
     assert_eq!(programs.functions[1].cost.operations(), 0);
 }
+
+#[test]
+fn depths_share_what_they_have_in_common() {
+    // x + 2 y is a part of the name's definition and three times in the output: neither depth alone has it twice.
+    let mut graph = Graph::new();
+    let [x, y, z] = ["x", "y", "z"].map(|name| graph.symbol(name, Role::Coordinate));
+    let name = graph.symbol("", Role::QuasiAcceleration);
+    let [two, three, six] = [2, 3, 6].map(|n| graph.number(n));
+    let [double, triple, sixfold] = [(two, y), (three, x), (six, y)].map(|(n, e)| graph.mul(n, e));
+    let definition = graph.sum([x, double, z]);
+    let output = graph.sum([name, triple, sixfold]);
+    let whole = graph.sum([definition, triple, sixfold]);
+    let formulation = Formulation { definitions: vec![(name, definition)], outputs: vec![output, name] };
+    let [brief, hot] = [Effort::Brief, Effort::Hot].map(|effort| {
+        let mut builder = ProgramBuilder::new(&mut graph);
+        builder.add("sums", std::slice::from_ref(&formulation), effort);
+        let programs = builder.finish();
+        agree(&graph, &[whole, definition], &programs, &mut Dice(7));
+        programs.functions[0].cost.operations()
+    });
+    assert_eq!(hot, 5);
+    assert!(brief > hot, "{brief}");
+}
