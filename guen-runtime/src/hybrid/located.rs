@@ -129,7 +129,11 @@ where
             }
             return self.falling(function, (before.t, a.value), (after.t, b.value));
         }
-        if a.value > 0.0 && a.tangent[0] < 0.0 && b.tangent[0] > 0.0 {
+        // A gap that was no further below zero than rounding may have been on its way down: then it dips.
+        let dips = matches!(function, Function::Gap(_))
+            && !(self.first && before.t == self.start)
+            && self.side(function, before.t) == 0;
+        if (a.value > 0.0 || dips) && a.tangent[0] < 0.0 && b.tangent[0] > 0.0 {
             return self.least(function, before.t, after.t, (a.tangent[0], b.tangent[0]));
         }
         None

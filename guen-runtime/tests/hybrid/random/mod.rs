@@ -255,6 +255,27 @@ fn drawn_systems_keep_the_laws() {
     assert!(total.rays <= total.modes / 100 && total.several <= total.modes / 1000);
 }
 
+/// Rounds with families in which something was once wrong.
+const ONCE_FAILED: [(usize, usize); 1] = [
+    // A gap dipped below zero from a place at which it was zero within rounding, and was not looked at again.
+    (2206, 0),
+];
+
+#[test]
+fn rounds_that_once_failed_keep_the_laws() {
+    let last = ONCE_FAILED.iter().map(|(round, _)| *round).max().unwrap_or(0);
+    let mut random = Random(SEED);
+    let (mut total, mut ends, mut wrong) = (Judged::default(), Vec::new(), 0);
+    for round in 0..=last {
+        let asked = core::array::from_fn(|family| ONCE_FAILED.contains(&(round, family)));
+        for (family, why) in judge_round(&mut random, asked, &mut total, &mut ends) {
+            wrong += 1;
+            println!("round {round}, family {family}: {why}");
+        }
+    }
+    assert!(wrong == 0 && ends.is_empty(), "{wrong} {ends:?}");
+}
+
 /// Slips in a plane end in sticking, or leave rest in the one direction along which they accelerate: none of these has a paradox.
 #[test]
 fn spatial_slips_end_in_a_mode() {
