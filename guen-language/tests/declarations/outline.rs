@@ -42,8 +42,18 @@ fn is_value(head: &[TokenTree]) -> bool {
 }
 
 /// Macros of the runtime that take what was derived beside sizes and names.
-const OF_DERIVATION: [&str; 8] =
-    ["facts", "reported", "operators", "reduce", "domain", "dynamics", "prepare", "prepared"];
+const OF_DERIVATION: [&str; 10] = [
+    "facts",
+    "reported",
+    "operators",
+    "reduce",
+    "domain",
+    "dynamics",
+    "prepare",
+    "prepared",
+    "program",
+    "source",
+];
 
 /// A scope of items: the path of modules and impls, and whether it is a scene or a carried form, whose variables and
 /// sizes are known by the derivation alone.

@@ -107,9 +107,14 @@ pub fn checked(text: &str, with_outline: bool) -> Option<Checked> {
         let missing = missing.filter(|item| !is_in_modes || !with_rows(item));
         // Nor how many branches of piecewise functions are held in a mode.
         let with_signals = |item: &String| {
-            ["simulated_through_modes !", "hybrid :: InMode <", "hybrid :: HybridSystem <"]
-                .iter()
-                .any(|word| item.contains(word))
+            [
+                "simulated_through_modes !",
+                "hybrid :: InMode <",
+                "hybrid :: HybridSystem <",
+                "hybrid :: ActuatedModes <",
+            ]
+            .iter()
+            .any(|word| item.contains(word))
         };
         let missing = missing.filter(|item| !has_branches || !with_signals(item));
         all.faults.extend(missing.map(|item| format!("{}: not in the outline: {item}", declaration.name)));
