@@ -201,9 +201,19 @@ where
     }
 
     /// The functions that fired, with the gaps of open contacts that fall below zero where those that fired are put to zero: of contacts
-    /// that take turns the last flights are as low as the gaps' own rounding.
+    /// that take turns the last flights are as low as the gaps' own rounding. So do gaps that are below zero by little more than that, and
+    /// fall: their zeros were too near to that of another gap to be told from it.
     fn with_gaps_that_follow(&self, fired: &Fired<C, S>) -> Fired<C, S> {
+        /// Resolutions of a gap within which it is below zero by an error of the motion and not because its contact was not to close.
+        const SHALLOW: f64 = 1e3;
+
         let mut fired = *fired;
+        let (gaps, resolution) = (self.free().gaps, self.resolution());
+        let rates = self.in_mode.system.row_rates(self.t, &self.state);
+        let sinks: [bool; C] = from_fn(|c| {
+            let falls = H::ELEMENTS[c].normal.is_some_and(|row| rates[row] < 0.0);
+            falls && -gaps[c] <= SHALLOW * resolution[c]
+        });
         for _ in 0..C {
             let rows = H::ELEMENTS.iter().enumerate().filter_map(|(c, element)| {
                 element.normal.filter(|_| self.in_mode.mode.0[c].is_closed() || fired.gap[c])
@@ -214,10 +224,10 @@ where
             };
             let when = self.in_mode.system.conditions(self.t, &state, &self.in_mode.switches).when;
             let follows = |c: usize| {
+                let was = side(c, &self.state);
                 self.in_mode.mode.0[c] == ElementState::Open
                     && when[c] > 0.0
-                    && side(c, &self.state) >= 0
-                    && side(c, &state) < 0
+                    && (was >= 0 && side(c, &state) < 0 || was < 0 && sinks[c])
             };
             let more: [bool; C] = from_fn(|c| !fired.gap[c] && follows(c));
             if !more.contains(&true) {

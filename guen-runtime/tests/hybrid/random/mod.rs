@@ -256,9 +256,12 @@ fn drawn_systems_keep_the_laws() {
 }
 
 /// Rounds with families in which something was once wrong.
-const ONCE_FAILED: [(usize, usize); 1] = [
+const ONCE_FAILED: [(usize, usize); 3] = [
     // A gap dipped below zero from a place at which it was zero within rounding, and was not looked at again.
     (2206, 0),
+    // One contact struck while another was below zero by little more than rounding, and fell.
+    (2709, 0),
+    (2253, 2),
 ];
 
 #[test]
