@@ -249,3 +249,84 @@ where
     }
     if found.value > 0.0 { 1 } else { -1 }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Found, Step};
+    use crate::hybrid::element::{Element, Signal};
+    use crate::hybrid::in_mode::InMode;
+    use crate::hybrid::mode::{ElementState, Mode};
+    use crate::hybrid::system::{FreeMotion, HybridSystem};
+    use crate::hybrid::watched::{Function, Sides};
+    use crate::numbers::lift::Lift;
+
+    /// A particle at `x` above a floor at `x = 1`, whose acceleration is 2.
+    #[derive(Clone, Copy)]
+    struct Particle;
+
+    impl HybridSystem<2, 1, 1, 0> for Particle {
+        const ELEMENTS: [Element; 1] = [Element::smooth("floor", 0)];
+        const SIGNALS: [Signal; 0] = [];
+        const COORDINATES: usize = 1;
+
+        type Mode = Mode<1>;
+        type Inputs = ();
+
+        fn with_inputs(&self, (): ()) -> Self {
+            *self
+        }
+
+        fn free_motion<R: Lift<f64>>(
+            &self,
+            _t: R,
+            &[x, v]: &[R; 2],
+            _switches: &[R; 0],
+            _speeds: &[R; 1],
+        ) -> FreeMotion<R, 2, 1, 1> {
+            let (zero, one) = (R::zero(), R::one());
+            let acceleration = one + one;
+            FreeMotion {
+                rates: [v, acceleration],
+                gaps: [x - one],
+                row_rates: [v],
+                biases: [acceleration],
+                delassus: [[one]],
+                responses: [[zero, one]],
+                friction: [zero],
+                stiction: [zero],
+                limits: [zero],
+            }
+        }
+
+        fn restitutions(&self) -> [f64; 1] {
+            [0.0]
+        }
+
+        fn signals<R: Lift<f64>>(&self, _t: R, _state: &[R; 2]) -> [R; 0] {
+            []
+        }
+    }
+
+    /// The first end of the open mode in a step of a tenth, with a gap at its beginning and its rate there.
+    fn found(gap: f64, rate: f64) -> Option<Found> {
+        let in_mode = InMode::new(Particle, Mode([ElementState::Open]), 0.0, &[1.0, 0.0]);
+        let sides = Sides { latches: [0.0], signals: [], slow: [0.0] };
+        let mut at = |t: f64| [1.0 + gap + (rate + t) * t, rate + 2.0 * t];
+        let mut step =
+            Step { in_mode: &in_mode, sides: &sides, start: 0.0, end: 0.1, first: false, at: &mut at };
+        step.first_after(0.0)
+    }
+
+    #[test]
+    fn a_gap_that_dips_from_zero_within_rounding_ends_the_mode_there() {
+        let rounding = -f64::EPSILON;
+        let dip = found(rounding, -1e-3).unwrap();
+        assert_eq!((dip.function, dip.t, dip.touches), (Function::Gap(0), 0.0, false));
+        // It rises, or does not get below what rounding hides.
+        assert_eq!(found(rounding, 1e-3), None);
+        assert_eq!(found(rounding, -1e-9), None);
+        // From above it is located.
+        let fall = found(1e-10, -1e-3).unwrap();
+        assert!((fall.t - 1e-7).abs() < 1e-10 && !fall.touches, "{fall:?}");
+    }
+}

@@ -208,12 +208,11 @@ where
         const SHALLOW: f64 = 1e3;
 
         let mut fired = *fired;
-        let (gaps, resolution) = (self.free().gaps, self.resolution());
-        let rates = self.in_mode.system.row_rates(self.t, &self.state);
-        let sinks: [bool; C] = from_fn(|c| {
+        let sinks = |c: usize| {
+            let rates = self.in_mode.system.row_rates(self.t, &self.state);
             let falls = H::ELEMENTS[c].normal.is_some_and(|row| rates[row] < 0.0);
-            falls && -gaps[c] <= SHALLOW * resolution[c]
-        });
+            falls && -self.free().gaps[c] <= SHALLOW * self.resolution()[c]
+        };
         for _ in 0..C {
             let rows = H::ELEMENTS.iter().enumerate().filter_map(|(c, element)| {
                 element.normal.filter(|_| self.in_mode.mode.0[c].is_closed() || fired.gap[c])
@@ -227,7 +226,7 @@ where
                 let was = side(c, &self.state);
                 self.in_mode.mode.0[c] == ElementState::Open
                     && when[c] > 0.0
-                    && (was >= 0 && side(c, &state) < 0 || was < 0 && sinks[c])
+                    && (was >= 0 && side(c, &state) < 0 || was < 0 && sinks(c))
             };
             let more: [bool; C] = from_fn(|c| !fired.gap[c] && follows(c));
             if !more.contains(&true) {
