@@ -25,6 +25,7 @@ mechanical_system! {
             + m*a^2/4*(lean^2 + turn^2 + 2*roll^2);
         potential_energy = m*g*a*sin(θ);
         provide source;
+        scene Tilt { fix m = 2, g = 10; track θ, lean, turn, roll; provide source; }
     }
 }
 
@@ -141,6 +142,7 @@ int main(int count, char **argument)
     if (count < 2)
         return 1;
     SYSTEM(hoop, RUN(hoop, rk4) RUN(hoop, rk8))
+    SYSTEM(hoop_tilt, RUN(hoop_tilt, rk4) RUN(hoop_tilt, rk8))
     SYSTEM(cart, RUN(cart, rk4) RUN(cart, rk8))
     SYSTEM(block_slides, RUN(block_slides, rk4) RUN(block_slides, rk8))
     SYSTEM(bead, )
@@ -172,14 +174,14 @@ fn compiled() -> PathBuf {
     let mut text = String::new();
     // Twice: the second time a text says nothing.
     for _ in 0..2 {
-        for source in [hoop::SOURCE, cart::SOURCE, block::slides::SOURCE, bead::SOURCE] {
+        for source in [hoop::SOURCE, hoop::tilt::SOURCE, cart::SOURCE, block::slides::SOURCE, bead::SOURCE] {
             text += &source.to_string();
         }
     }
     compile(&(text + PROGRAM), "systems")
 }
 
-/// What the program prints for lines of numbers.
+/// The lines that the program prints for lines of numbers.
 fn answers(system: &str, lines: &[Vec<f64>]) -> Vec<String> {
     let mut text = String::new();
     for value in lines.iter().flatten() {
@@ -254,6 +256,15 @@ fn bits_are_those_of_rust() {
         lines.extend(computed(&system.prepare().unwrap(), t, &s, true).map(|bits| (given, bits)));
     }
     compare("hoop", lines);
+
+    let mut lines = Vec::new();
+    for _ in 0..120 {
+        let system = hoop::Tilt { a: 0.6 + draw() / 2.0 };
+        let (s, t) = ([1.4 + draw() / 4.0, draw() / 2.0, draw(), draw()], draw());
+        let given = [&[system.a, t], &s[..]].concat();
+        lines.extend(computed(&system.prepare().unwrap(), t, &s, true).map(|bits| (given, bits)));
+    }
+    compare("hoop_tilt", lines);
 
     let mut lines = Vec::new();
     for _ in 0..200 {

@@ -26,8 +26,8 @@ const STEPPERS: &str = include_str!("steppers.c");
 /// made of them; other functions are those of the platform's `math.h`. Compile with `-std=c99` or
 /// `-ffp-contract=off`: fused operations have other bits. Nothing is allocated, and nothing is stored between calls.
 ///
-/// Of the checks in Rust the text has those of finite constants and of their bounds `> 0`, `>= 0`, `!= 0`. There are no steppers where
-/// constraints of positions have to be restored after steps.
+/// `name_prepare` checks that constants are finite and keep the bounds `> 0`, `>= 0`, `!= 0` and limits that are numbers; the other checks
+/// are those of Rust's `prepare`. There are no steppers where constraints of positions have to be restored after steps.
 ///
 /// ```
 /// use guen_runtime::Source;
