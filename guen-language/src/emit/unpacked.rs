@@ -81,3 +81,35 @@ fn is_worth_it(needed: &[bool]) -> bool {
 
 /// The number of places of a pattern that cost as much as an index.
 const ELEMENTS_PER_INDEX: usize = 2;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn text(names: &[&str], length: usize) -> (String, Vec<String>) {
+        let unpacked = Unpacked::new(names.iter().copied(), |_| length);
+        let locals = names.iter().map(|name| unpacked.local((*name).to_owned())).collect();
+        (unpacked.statements(|array| format!("self.{array}")), locals)
+    }
+
+    #[test]
+    fn elements_that_are_needed_get_names() {
+        let (statements, locals) = text(&["s[0]", "s[1]", "t"], 2);
+        assert_eq!(statements, "let [s0,s1] = self.s;");
+        assert_eq!(locals, ["*s0", "*s1", "t"]);
+    }
+
+    #[test]
+    fn a_pattern_leaves_out_its_longest_gap() {
+        assert_eq!(text(&["k[1]", "k[2]", "k[3]", "k[6]"], 9).0, "let [_,k1,k2,k3,..,k6,_,_] = self.k;");
+        assert_eq!(longest_gap(&[true, false, true, false, false]), 3..5);
+        assert_eq!(longest_gap(&[true, true]), 0..0);
+    }
+
+    #[test]
+    fn few_of_many_elements_stay_indices() {
+        let (statements, locals) = text(&["c[0]", "c[9]", "c[19]"], 30);
+        assert_eq!(statements, "");
+        assert_eq!(locals, ["c[0]", "c[9]", "c[19]"]);
+    }
+}
