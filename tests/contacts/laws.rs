@@ -27,7 +27,7 @@ mechanical_system! {
 }
 
 mechanical_system! {
-    /// The same carriage with the law of its controller written into its forces.
+    /// A carriage with the law of its controller written into its forces: it moves as the first one does under that law.
     pub system Steered {
         constants { m = 1.3, e in 0..1 = 0.4, F = 2, l = 3/5, k = 4, c = 1/3, w = 1.7 }
         coordinates { x }
@@ -95,7 +95,7 @@ fn a_law_is_as_good_as_forces() {
         for (a, b) in state.iter().zip(other) {
             assert!((a - b).abs() < 1e-8, "at {t}: {a} {b}");
         }
-        // What pushes it is what the wall and the brake hold.
+        // The forces of the wall and of the brake are the same.
         for (a, b) in motion.reactions_at(t).iter().zip(same.reactions_at(t)) {
             assert!((a - b).abs() < 1e-7, "at {t}: {a} {b}");
         }
@@ -188,7 +188,7 @@ fn a_controller_holds_its_inputs_through_modes() {
     }
 }
 
-/// What is no period is refused, and so is one that does not move time.
+/// Periods that are not positive numbers are refused, and so are those that do not move time.
 #[test]
 fn periods_that_are_none_are_refused() {
     let prepared = Pushed::default().prepare().unwrap();

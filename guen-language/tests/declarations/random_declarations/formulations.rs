@@ -70,18 +70,18 @@ fn operations_without_each_formulation() {
         }
         for (name, counts) in by_name {
             let both = counts.iter().filter_map(|(whole, rest)| Some((*whole, (*rest)?)));
-            let dearer: Vec<(u32, u32)> = both.clone().filter(|(whole, rest)| rest > whole).collect();
+            let costlier: Vec<(u32, u32)> = both.clone().filter(|(whole, rest)| rest > whole).collect();
             let cheaper: Vec<(u32, u32)> = both.filter(|(whole, rest)| rest < whole).collect();
             let lost = counts.iter().filter(|(_, rest)| rest.is_none()).count();
             let sum =
                 |pairs: &[(u32, u32)]| pairs.iter().map(|(whole, rest)| whole.abs_diff(*rest)).sum::<u32>();
             let most =
-                dearer.iter().map(|(whole, rest)| f64::from(*rest) / f64::from(*whole)).fold(1.0, f64::max);
+                costlier.iter().map(|(whole, rest)| f64::from(*rest) / f64::from(*whole)).fold(1.0, f64::max);
             println!(
                 "{name}: rates of {}; without it {} cost more, {} operations in all, at most {most:.2} times; {} cost less, {}; {lost} refused",
                 counts.len(),
-                dearer.len(),
-                sum(&dearer),
+                costlier.len(),
+                sum(&costlier),
                 cheaper.len(),
                 sum(&cheaper),
             );
