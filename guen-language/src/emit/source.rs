@@ -121,7 +121,6 @@ fn bounds(subject: &Subject<'_, '_>) -> String {
 
 /// Statements, then the results in an array.
 fn body(instructions: &[Instruction], outputs: &[Value], results: &str, places: &Places) -> String {
-    let needed = needed(instructions, outputs);
     let last = |step: &Instruction| match step.operation {
         Operation::SinCos { cosine, .. } => step.result.index().max(cosine.index()),
         _ => step.result.index(),
@@ -129,7 +128,7 @@ fn body(instructions: &[Instruction], outputs: &[Value], results: &str, places: 
     let values = instructions.iter().map(|step| last(step) + 1).max().unwrap_or(0);
     let mut names: Vec<String> = (0..values).map(|v| format!("v{v}")).collect();
     let mut text = String::new();
-    for Instruction { result, operation } in needed {
+    for Instruction { result, operation } in instructions {
         let name = |value: &Value| names[value.index()].as_str();
         let value = match operation {
             // Loads and numbers need no statement: they stand where they are used.
@@ -168,24 +167,6 @@ fn body(instructions: &[Instruction], outputs: &[Value], results: &str, places: 
         let _ = writeln!(text, "    {results}[{i}] = {};", names[output.index()]);
     }
     text
-}
-
-/// The instructions that the results need: a compiler of C warns of others.
-fn needed<'i>(instructions: &'i [Instruction], outputs: &[Value]) -> Vec<&'i Instruction> {
-    let mut values: BTreeSet<usize> = outputs.iter().map(|value| value.index()).collect();
-    let mut needed: Vec<&Instruction> = Vec::new();
-    for step in instructions.iter().rev() {
-        let second = match step.operation {
-            Operation::SinCos { cosine, .. } => Some(cosine.index()),
-            _ => None,
-        };
-        if [Some(step.result.index()), second].into_iter().flatten().any(|value| values.contains(&value)) {
-            values.extend(step.operation.operands().map(Value::index));
-            needed.push(step);
-        }
-    }
-    needed.reverse();
-    needed
 }
 
 /// A function of C, of one argument.

@@ -10,6 +10,7 @@ use super::cost::{OperationCount, weighted_cost};
 use super::instruction::{FunctionProgram, Operation, Programs};
 use super::lower::{Code, PreparedTable, lower};
 use super::net::{Conversion, Field, Net, NetNode};
+use super::part::needed;
 use super::passes::{CANDIDATES, Changes, JOINED, Pass, affordable, apply, rebuild};
 use super::regular;
 use super::shape::Indices;
@@ -247,9 +248,11 @@ impl<'a> ProgramBuilder<'a> {
         };
         let code = lower(self.graph, &net, &roots, &mut none);
         debug_assert!(none.expressions.is_empty(), "numbers need no preparation");
-        let prepare_cost = OperationCount::of(&code.instructions);
+        // A quotient of a number is one division, beside a reciprocal that only it would have read.
+        let prepare = needed(&code.instructions, code.values, &code.outputs);
+        let prepare_cost = OperationCount::of(&prepare);
         Programs {
-            prepare: code.instructions,
+            prepare,
             prepared: code.outputs,
             prepare_values: code.values,
             prepare_cost,
