@@ -39,8 +39,8 @@ pub(super) fn cheapest(
     let held = selection.held.iter().map(|held| (model.variable(held.place), held.symbol));
     let values: Vec<(ExprId, ExprId)> = fixed.chain(held).collect();
     extend(&mut model.bench, &mut kept);
-    let alone = programs(&mut model.bench, &kept, &[]);
     let quantities: Vec<_> = parts.iter().map(|part| (part.name, part.outputs.clone())).collect();
+    let alone = programs(&mut model.bench, &kept, &quantities);
     let mut wanted = vec![(function::RHS, selection.variables.clone())];
     let part = match system {
         Some(system) => {
@@ -71,7 +71,7 @@ pub(super) fn cheapest(
     }
     match part {
         Some(part) => (part, shares),
-        None => (programs(&mut model.bench, &kept, &quantities), false),
+        None => (alone, false),
     }
 }
 
@@ -138,16 +138,16 @@ fn at_values(
         !is_given && !kept.contains(symbol) && !fixed.contains(symbol)
     });
     let symbols: Vec<SymbolId> = fixed.iter().chain(&idle).copied().collect();
-    if symbols.is_empty() {
-        return None;
-    }
     for (n, d) in [(0, 1), (1, 1), (1, 2), (-1, 3)] {
         let bench = &mut model.bench;
         let number = bench.graph.number(Rational::new(n, d));
         let idle = idle.iter().map(|symbol| (bench.graph.symbol_expr(*symbol), number));
         let all: Vec<(ExprId, ExprId)> = values.iter().copied().chain(idle).collect();
-        let given = programs(bench, &[], &[("values", all.iter().map(|(_, value)| *value).collect())]);
-        let mut found = part.with_values(&symbols, &given);
+        let mut found = part.clone();
+        if !all.is_empty() {
+            let given = programs(bench, &[], &[("values", all.iter().map(|(_, value)| *value).collect())]);
+            found = part.with_values(&symbols, &given);
+        }
         if all.len() > values.len() && !agrees(bench, &found, rates) {
             continue;
         }
