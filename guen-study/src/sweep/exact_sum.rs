@@ -38,12 +38,15 @@ impl Default for ExactSum {
 /// A finite double taken apart: a whole number, the exponent of two of its unit, and a sign.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Parts {
-    whole: u64,
-    exponent: i32,
-    sign: i32,
+    pub(super) whole: u64,
+    pub(super) exponent: i32,
+    pub(super) sign: i32,
 }
 
 impl Parts {
+    /// The least exponent of two.
+    pub(super) const LEAST: i32 = -1074;
+
     #[inline]
     pub(super) fn of(x: f64) -> Self {
         let bits = x.to_bits();
@@ -51,7 +54,7 @@ impl Parts {
         let fraction = bits & ((1 << 52) - 1);
         let sign = 1 - 2 * (bits >> 63) as i32;
         if exponent == 0 {
-            Self { whole: fraction, exponent: -1074, sign }
+            Self { whole: fraction, exponent: Self::LEAST, sign }
         } else {
             Self { whole: fraction | 1 << 52, exponent: exponent - 1075, sign }
         }
@@ -72,14 +75,24 @@ impl ExactSum {
     /// Adds the product of two finite doubles, exactly.
     #[inline]
     pub(super) fn add_product(&mut self, x: Parts, y: Parts) {
-        let whole = u128::from(x.whole) * u128::from(y.whole);
-        let place = (x.exponent + y.exponent - UNIT) as u32;
+        self.add_size(u128::from(x.whole) * u128::from(y.whole), x.exponent + y.exponent, x.sign * y.sign);
+    }
+
+    /// Adds a whole number times a power of two that is not below the unit; the highest digits have room for it.
+    #[inline]
+    pub(super) fn add_whole(&mut self, whole: i128, exponent: i32) {
+        self.add_size(whole.unsigned_abs(), exponent, whole.signum() as i32);
+    }
+
+    #[inline]
+    fn add_size(&mut self, whole: u128, exponent: i32, sign: i32) {
+        let place = (exponent - UNIT) as u32;
         let shift = place % DIGIT;
-        // 106 bits and up to 31 more: too many for one number.
+        // 128 bits and up to 31 more: too many for one number.
         let low = u128::from(whole as u64) << shift;
         let high = (whole >> 64 << shift) + (low >> 64);
         let digits = [low as u32, (low >> 32) as u32, high as u32, (high >> 32) as u32, (high >> 64) as u32];
-        self.add_digits(digits, (place / DIGIT) as usize, x.sign * y.sign);
+        self.add_digits(digits, (place / DIGIT) as usize, sign);
         self.count();
     }
 

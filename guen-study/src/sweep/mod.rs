@@ -22,6 +22,7 @@ mod random;
 mod record;
 mod rows;
 mod run;
+mod scaled;
 mod sha256;
 mod simulated;
 mod sketch;

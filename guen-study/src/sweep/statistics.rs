@@ -6,6 +6,7 @@ use std::fmt;
 use super::block::{Block, Column};
 use super::exact_sum::{ExactSum, Parts, UNIT};
 use super::natural::Integer;
+use super::scaled::{self, Scaled};
 use super::sketch::Sketch;
 
 /// Equal bins between two ends.
@@ -214,19 +215,16 @@ fn spread(count: u64, products: &Integer, first: &Integer, second: &Integer) -> 
 impl Group {
     /// Counts rows all of whose values are finite: column by column, so that what is added to stays near.
     fn take(&mut self, plan: &Plan, columns: &[&[f64]], rows: &[u32]) {
-        /// Rows that are taken at a time: their parts stay in the first cache.
-        const ROWS: usize = 64;
         self.complete += rows.len() as u64;
-        let mut parts: Vec<Vec<Parts>> = vec![Vec::with_capacity(ROWS); columns.len()];
-        for rows in rows.chunks(ROWS) {
-            for (parts, column) in parts.iter_mut().zip(columns) {
-                parts.clear();
-                parts.extend(rows.iter().map(|row| Parts::of(column[*row as usize])));
+        let mut scaled: Vec<Scaled> = columns.iter().map(|_| Scaled::new()).collect();
+        for rows in rows.chunks(scaled::ROWS) {
+            for (scaled, column) in scaled.iter_mut().zip(columns) {
+                scaled.take(rows.iter().map(|row| column[*row as usize]));
             }
-            for (i, own) in parts.iter().enumerate() {
-                own.iter().for_each(|x| self.sums[i].add(*x));
-                for (other, sum) in parts[..=i].iter().zip(&mut self.products[product(i, 0)..]) {
-                    own.iter().zip(other).for_each(|(x, y)| sum.add_product(*x, *y));
+            for (i, own) in scaled.iter().enumerate() {
+                own.add_to(&mut self.sums[i]);
+                for (other, sum) in scaled[..=i].iter().zip(&mut self.products[product(i, 0)..]) {
+                    own.add_products_to(other, sum);
                 }
             }
         }
