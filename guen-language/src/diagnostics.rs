@@ -139,6 +139,12 @@ impl Faults {
         self.note_since(before, what, place);
     }
 
+    /// Whether a fault at this place is in the sink.
+    pub fn has_at(&self, place: Span) -> bool {
+        let at = format!("{place:?}");
+        self.faults.iter().any(|fault| format!("{:?}", fault.span) == at)
+    }
+
     /// Number of faults so far.
     pub fn count(&self) -> usize {
         self.faults.len()

@@ -35,6 +35,8 @@ use proc_macro2::TokenStream;
 
 use crate::diagnostics::{FaultReport, collect};
 use crate::syntax::{Component, Declaration, Expression};
+use crate::unfold::unfold;
+use crate::unfold::unknown_names::{self, unknown_names};
 
 /// Parses the tokens of one invocation, and writes its loops out. With an empty report there is a declaration, and nothing in it is
 /// missing; otherwise there is one if at least the head `system Name { .. }` could be read.
@@ -52,9 +54,15 @@ pub(crate) fn written(tokens: TokenStream) -> (Option<Declaration>, FaultReport)
 
 /// Writes loops and uses of components out; the faults of the parser are among those of the result.
 pub(crate) fn unfolded(declaration: Declaration, report: FaultReport) -> (Declaration, FaultReport) {
+    // What the parser left out may have declared any name.
+    let unknown = if report.is_empty() { unknown_names(&declaration) } else { Vec::new() };
     collect(|faults| {
         faults.absorb(report);
-        crate::unfold::unfold(declaration, faults)
+        let (before, declaration) = (faults.count(), unfold(declaration, faults));
+        if faults.count() > before {
+            unknown_names::report(unknown, faults);
+        }
+        declaration
     })
 }
 

@@ -114,7 +114,7 @@ struct Scope<'a> {
     variables: Vec<&'a str>,
 }
 
-fn loop_variables<'a>(nodes: &'a [Node], found: &mut Vec<&'a str>) {
+pub(super) fn loop_variables<'a>(nodes: &'a [Node], found: &mut Vec<&'a str>) {
     for node in nodes {
         match node {
             Node::Entry(_) => {}

@@ -11,6 +11,7 @@ mod component_names;
 mod expressions;
 mod instances;
 mod numbers;
+pub(crate) mod unknown_names;
 mod write;
 
 use std::collections::{BTreeMap, BTreeSet};
