@@ -1,6 +1,7 @@
 //! Declarations with contacts: what is generated for them, against independent calculations.
 
 mod components;
+mod conditions;
 mod declared;
 mod directions;
 mod ensembles;

@@ -450,7 +450,8 @@ fn elements(contacts: &Contacts<'_>) -> Vec<TokenStream> {
             };
             let loaded = entry.loaded_by.map(|row| quote!(.loaded_by(#row)));
             let of_speed = entry.friction_of_speed.then(|| quote!(.with_friction_of_speed()));
-            quote!(#element #loaded #of_speed)
+            let conditional = entry.when.map(|_| quote!(.with_condition()));
+            quote!(#element #loaded #of_speed #conditional)
         })
         .collect()
 }

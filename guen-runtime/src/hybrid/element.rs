@@ -43,6 +43,8 @@ pub struct Element {
     pub load: Option<usize>,
     /// Whether the coefficient of friction depends on the magnitude of the slip.
     pub friction_of_speed: bool,
+    /// Whether it closes, or locks, only under a condition `when`: an open contact without one is never below zero.
+    pub conditional: bool,
 }
 
 impl Element {
@@ -53,7 +55,7 @@ impl Element {
         tangential: &'static [usize],
         load: Option<usize>,
     ) -> Self {
-        Self { name, kind, normal, tangential, load, friction_of_speed: false }
+        Self { name, kind, normal, tangential, load, friction_of_speed: false, conditional: false }
     }
 
     /// A contact without friction, with the row of its gap's rate.
@@ -86,6 +88,12 @@ impl Element {
     #[must_use]
     pub const fn with_friction_of_speed(self) -> Self {
         Self { friction_of_speed: true, ..self }
+    }
+
+    /// An element that closes, or locks, only where its [`when`](crate::hybrid::Conditions::when) is positive.
+    #[must_use]
+    pub const fn with_condition(self) -> Self {
+        Self { conditional: true, ..self }
     }
 }
 

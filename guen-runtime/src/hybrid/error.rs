@@ -10,7 +10,7 @@ use crate::steppers::{Cause, Statistics};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum HybridCause<const C: usize> {
-    /// A gap is negative at the start, or after a reset.
+    /// A gap is negative at the start or after a reset; or on the way, where its zero was not seen.
     Penetrating {
         /// The name of the contact.
         contact: &'static str,

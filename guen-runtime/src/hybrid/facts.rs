@@ -4,6 +4,7 @@ use core::array::from_fn;
 
 use crate::hybrid::element::Kind;
 use crate::hybrid::error::HybridCause;
+use crate::hybrid::located::is_rounding;
 use crate::hybrid::mode::ElementState;
 use crate::hybrid::select::{Known, Rate, vanishes};
 use crate::hybrid::system::HybridSystem;
@@ -83,7 +84,9 @@ where
             let (element, state) = (&H::ELEMENTS[c], self.in_mode.mode.0[c]);
             let vanish = |rows: &[usize]| rows.iter().all(|&row| vanishes(rates[row]));
             let closed = state.is_closed() && !anew && element.kind != Kind::Grip;
-            let normal_still = closed || element.normal.is_some_and(|row| vanishes(rates[row]));
+            // Where a gap has come to zero its rate is known to roundings: slower impacts are impacts.
+            let still = |row: usize| if anew { vanishes(rates[row]) } else { is_rounding(rates[row]) };
+            let normal_still = closed || element.normal.is_some_and(still);
             let slip_still = !anew && (state == ElementState::Stick || fired.slip[c])
                 || (anew || !state.slips()) && vanish(element.tangential)
                 || rounds(element.tangential);

@@ -1,6 +1,8 @@
 //! The first end of a mode within a step: falling zeros of the functions watched, pairs of them included.
 
 use crate::hybrid::in_mode::InMode;
+use crate::hybrid::mode::ElementState;
+use crate::hybrid::select::vanishes;
 use crate::hybrid::system::HybridSystem;
 use crate::hybrid::watched::{Function, Sides, Watched};
 use crate::numbers::dual::Dual;
@@ -12,8 +14,17 @@ use crate::steppers::root::{Bracket, narrow};
 pub(super) struct Found {
     pub(super) function: Function,
     pub(super) t: f64,
-    /// Whether it only touches zero, as far as can be told.
-    pub(super) touches: bool,
+    pub(super) does: Does,
+}
+
+/// The way in which a function meets zero.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Does {
+    Falls,
+    /// It only touches zero, as far as can be told.
+    Touches,
+    /// It is below zero, by so much, and has been: a gap whose zero was not seen.
+    IsBelow(f64),
 }
 
 /// The number of roundings of everything that it is made of within which a number vanishes.
@@ -68,7 +79,7 @@ where
             for function in Function::all(C, S) {
                 if let Some(found) = self.within(function, &before, &after)
                     // A touch from which the search goes on is not found again.
-                    && !(found.touches && found.t <= from + AGAIN * (end - start))
+                    && !(found.does == Does::Touches && found.t <= from + AGAIN * (end - start))
                     && earliest.is_none_or(|sooner| found.t < sooner.t)
                 {
                     earliest = Some(found);
@@ -121,7 +132,8 @@ where
         if b.value <= 0.0 {
             // Past zero already before, or no further past it than rounding.
             if (a.value <= 0.0 && self.side(function, before.t) < 0) || self.side(function, after.t) >= 0 {
-                return None;
+                let t = after.t;
+                return self.below(function, t).map(|gap| Found { function, t, does: Does::IsBelow(gap) });
             }
             // A function that leaves zero and is on its way up has not come back: the polynomial is off by as much.
             if self.first && before.t == self.start && a.value <= 0.0 && b.tangent[0] > 0.0 {
@@ -160,7 +172,7 @@ where
             })
             .after;
         }
-        self.counts(function, t).then_some(Found { function, t, touches: false })
+        self.counts(function, t).then_some(Found { function, t, does: Does::Falls })
     }
 
     /// The falling zero of the function of a reset that has not been positive yet: it goes above zero between two times, and back.
@@ -209,10 +221,21 @@ where
                 && self.side(function, a) > 0
                 && self.side(function, b) > 0 =>
             {
-                self.counts(function, bottom).then_some(Found { function, t: bottom, touches: true })
+                self.counts(function, bottom).then_some(Found { function, t: bottom, does: Does::Touches })
             }
             _ => None,
         }
+    }
+
+    /// The gap of an open contact that is below zero by more than counts as zero where a run begins, and has no condition that let it pass.
+    fn below(&mut self, function: Function, t: f64) -> Option<f64> {
+        let Function::Gap(c) = function else { return None };
+        if self.in_mode.mode.0[c] != ElementState::Open || H::ELEMENTS[c].conditional {
+            return None;
+        }
+        let state = (self.at)(t).map(RunningError::once);
+        let gap = self.in_mode.watched(self.sides, RunningError::once(t), &state).get(function)?;
+        (gap.value < 0.0 && !vanishes(gap)).then_some(gap.value)
     }
 
     /// Whether the function's zero counts: a contact closes, and a latch locks, only while its condition is positive.
@@ -231,6 +254,11 @@ fn spacing(t: f64) -> f64 {
     f64::EPSILON * t.abs()
 }
 
+/// Whether a number is no more than rounding.
+pub(super) fn is_rounding(number: RunningError<f64>) -> bool {
+    number.value.abs() <= NOISE * 0.5 * f64::EPSILON * number.error
+}
+
 /// The sign of a function at a time and state, zero where it is no more than rounding.
 pub(super) fn side<H, const N: usize, const W: usize, const C: usize, const S: usize>(
     in_mode: &InMode<H, N, W, C, S>,
@@ -244,7 +272,7 @@ where
 {
     let (time, state) = (RunningError::once(t), state.map(RunningError::once));
     let Some(found) = in_mode.watched(sides, time, &state).get(function) else { return 0 };
-    if found.value.abs() <= NOISE * 0.5 * f64::EPSILON * found.error {
+    if is_rounding(found) {
         return 0;
     }
     if found.value > 0.0 { 1 } else { -1 }
@@ -252,7 +280,7 @@ where
 
 #[cfg(test)]
 mod tests {
-    use super::{Found, Step};
+    use super::{Does, Found, Step};
     use crate::hybrid::element::{Element, Signal};
     use crate::hybrid::in_mode::InMode;
     use crate::hybrid::mode::{ElementState, Mode};
@@ -262,10 +290,14 @@ mod tests {
 
     /// A particle at `x` above a floor at `x = 1`, whose acceleration is 2.
     #[derive(Clone, Copy)]
-    struct Particle;
+    struct Particle<const CONDITIONAL: bool>;
 
-    impl HybridSystem<2, 1, 1, 0> for Particle {
-        const ELEMENTS: [Element; 1] = [Element::smooth("floor", 0)];
+    impl<const CONDITIONAL: bool> HybridSystem<2, 1, 1, 0> for Particle<CONDITIONAL> {
+        const ELEMENTS: [Element; 1] = [if CONDITIONAL {
+            Element::smooth("floor", 0).with_condition()
+        } else {
+            Element::smooth("floor", 0)
+        }];
         const SIGNALS: [Signal; 0] = [];
         const COORDINATES: usize = 1;
 
@@ -309,7 +341,15 @@ mod tests {
 
     /// The first end of the open mode in a step of a tenth, with a gap at its beginning and its rate there.
     fn found(gap: f64, rate: f64) -> Option<Found> {
-        let in_mode = InMode::new(Particle, Mode([ElementState::Open]), 0.0, &[1.0, 0.0]);
+        found_of(Particle::<false>, gap, rate)
+    }
+
+    fn found_of<const CONDITIONAL: bool>(
+        particle: Particle<CONDITIONAL>,
+        gap: f64,
+        rate: f64,
+    ) -> Option<Found> {
+        let in_mode = InMode::new(particle, Mode([ElementState::Open]), 0.0, &[1.0, 0.0]);
         let sides = Sides { latches: [0.0], signals: [], slow: [0.0] };
         let mut at = |t: f64| [1.0 + gap + (rate + t) * t, rate + 2.0 * t];
         let mut step =
@@ -321,12 +361,21 @@ mod tests {
     fn a_gap_that_dips_from_zero_within_rounding_ends_the_mode_there() {
         let rounding = -f64::EPSILON;
         let dip = found(rounding, -1e-3).unwrap();
-        assert_eq!((dip.function, dip.t, dip.touches), (Function::Gap(0), 0.0, false));
+        assert_eq!((dip.function, dip.t, dip.does), (Function::Gap(0), 0.0, Does::Falls));
         // It rises, or does not get below what rounding hides.
         assert_eq!(found(rounding, 1e-3), None);
         assert_eq!(found(rounding, -1e-9), None);
         // From above it is located.
         let fall = found(1e-10, -1e-3).unwrap();
-        assert!((fall.t - 1e-7).abs() < 1e-10 && !fall.touches, "{fall:?}");
+        assert!((fall.t - 1e-7).abs() < 1e-10 && fall.does == Does::Falls, "{fall:?}");
+    }
+
+    #[test]
+    fn a_gap_that_stays_below_zero_is_told() {
+        let below = found(-1e-6, -1.0).unwrap();
+        assert!(matches!(below.does, Does::IsBelow(gap) if gap < -1e-6), "{below:?}");
+        // So much counts as zero where a run begins; and where a condition let the gap pass it may be below.
+        assert_eq!(found(-1e-10, -1e-9), None);
+        assert_eq!(found_of(Particle::<true>, -1e-6, -1.0), None);
     }
 }

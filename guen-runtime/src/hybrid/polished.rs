@@ -1,7 +1,7 @@
 //! The end of a mode as exactly as the method computes it, and everything that ends it.
 
 use crate::hybrid::in_mode::InMode;
-use crate::hybrid::located::Found;
+use crate::hybrid::located::{Does, Found};
 use crate::hybrid::run::Run;
 use crate::hybrid::system::HybridSystem;
 use crate::hybrid::turn::{Fired, Place};
@@ -34,7 +34,7 @@ where
             for _ in 0..CORRECTIONS {
                 let Some(exact) = self.by_method(method, in_mode, before, t) else { break };
                 here = exact;
-                if found.touches {
+                if found.does != Does::Falls {
                     break;
                 }
                 let watched = in_mode.watched_along(&self.place.sides, t, &here);

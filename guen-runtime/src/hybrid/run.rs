@@ -3,7 +3,7 @@
 use crate::hybrid::driver::{Hybrid, HybridResult};
 use crate::hybrid::error::{HybridCause, HybridError};
 use crate::hybrid::in_mode::InMode;
-use crate::hybrid::located::{Found, Step};
+use crate::hybrid::located::{Does, Found, Step};
 use crate::hybrid::mode::Mode;
 use crate::hybrid::resting::Resting;
 use crate::hybrid::system::HybridSystem;
@@ -304,6 +304,9 @@ where
                     at: &mut state_at,
                 };
                 let Some(found) = step.first_after(from) else { break };
+                if let (Does::IsBelow(gap), Some(c)) = (found.does, found.function.element()) {
+                    return Err(HybridCause::Penetrating { contact: H::ELEMENTS[c].name, gap });
+                }
                 let polished = M::Run::COARSE_POLYNOMIAL;
                 let located = self.located(method, &in_mode, &before, found, at(found.t), polished);
                 let Some((t, state)) = located else {
@@ -311,7 +314,7 @@ where
                     continue;
                 };
                 self.samples_before(&in_mode, t, &at);
-                if found.touches {
+                if found.does == Does::Touches {
                     self.touched(found, t, &state);
                     from = found.t;
                     continue;

@@ -255,7 +255,7 @@ pub struct Door {
 }
 
 impl HybridSystem<2, 1, 1, 1> for Door {
-    const ELEMENTS: [Element; 1] = [Element::latch("bolt", 0)];
+    const ELEMENTS: [Element; 1] = [Element::latch("bolt", 0).with_condition()];
     const SIGNALS: [Signal; 1] = [Signal::switch("opening")];
     const COORDINATES: usize = 1;
     crate::without_inputs!(1 elements);
@@ -516,4 +516,60 @@ fn impacts_at_nearly_the_same_time_are_all_met() {
             assert!(lowest > -1e-12, "{lowest:e} with {phase} {later:e}: {told:?}");
         }
     }
+}
+
+/// Two masses that move along a line each, without forces: their contact's gap is the sum of their coordinates.
+#[derive(Clone, Copy, Debug)]
+struct Pair<const CONDITIONAL: bool> {
+    when: f64,
+}
+
+impl<const CONDITIONAL: bool> HybridSystem<4, 1, 1, 0> for Pair<CONDITIONAL> {
+    const ELEMENTS: [Element; 1] = [Element { conditional: CONDITIONAL, ..Element::smooth("pair", 0) }];
+    const SIGNALS: [Signal; 0] = [];
+    const COORDINATES: usize = 2;
+    crate::without_inputs!(1 elements);
+
+    fn free_motion<R: Lift<f64>>(&self, _: R, x: &[R; 4], _: &[R; 0], _: &[R; 1]) -> FreeMotion<R, 4, 1, 1> {
+        let mut parts = Parts::<R, 2, 1, 1>::nothing().masses([R::one(); 2]);
+        parts.rows = [[R::one(); 2]];
+        parts.gaps = [x[0] + x[1]];
+        parts.free_motion(x)
+    }
+
+    fn restitutions(&self) -> [f64; 1] {
+        [0.5]
+    }
+
+    fn conditions<R: Lift<f64>>(&self, _: R, _: &[R; 4], _: &[R; 0]) -> Conditions<R, 1> {
+        Conditions { when: [c(self.when)], ..Conditions::none() }
+    }
+
+    fn signals<R: Lift<f64>>(&self, _: R, _: &[R; 4]) -> [R; 0] {
+        []
+    }
+}
+
+/// Nine digits of the velocities cancel in the rate of the gap, which is no rounding for that.
+#[test]
+fn a_slow_impact_of_fast_masses_is_an_impact() {
+    let (told, done) =
+        run(&Pair::<false> { when: 1.0 }, &dop853(), [1.0, -1.0 + 4e-9, 1.0, -1.0 - 1e-9], 5.0);
+    assert_eq!(kinds(&told), [TransitionKind::Impact]);
+    assert!((told[0].t - 4.0).abs() < 1e-5, "{told:?}");
+    let (state, _) = done.unwrap();
+    let rate = state[2] + state[3];
+    assert!((rate - 0.5e-9).abs() < 1e-15, "{rate:e}");
+}
+
+/// A gap that passes zero though its element has no condition is told of before it is lost.
+#[test]
+fn a_gap_that_was_missed_ends_the_run() {
+    let start = [1.0, -0.9, -1.0, 0.0];
+    let (_, done) = run(&Pair::<false> { when: -1.0 }, &dop853(), start, 5.0);
+    let failed = done.unwrap_err();
+    assert!(matches!(failed.cause, HybridCause::Penetrating { contact: "pair", gap } if gap < 0.0));
+    assert!(failed.t < 5.0, "{failed}");
+    let (told, done) = run(&Pair::<true> { when: -1.0 }, &dop853(), start, 5.0);
+    assert!(told.is_empty() && (done.unwrap().0[0] + 4.0).abs() < 1e-12);
 }
