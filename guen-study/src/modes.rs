@@ -31,7 +31,7 @@ const SAMPLES: [f64; 2] = [600.0, 1e6];
 /// Both sides of every transition are kept, with the same time, the one before it first: velocities jump there.
 ///
 /// ```
-/// use guen_runtime::hybrid::{Element, FreeMotion, HybridSystem, Mode, Signal, SimulateModes};
+/// use guen_runtime::hybrid::{Element, FreeMotion, HybridSystem, Mode, Signal};
 /// use guen_runtime::{Lift, Real, Simulate, System};
 /// use guen_study::ExportModes;
 ///
@@ -71,7 +71,7 @@ const SAMPLES: [f64; 2] = [600.0, 1e6];
 /// #     }
 /// # }
 ///
-/// let motion = SimulateModes::simulate(&Ball, &[1.0, 0.0], 0.0..0.7).unwrap();
+/// let motion = HybridSystem::simulate(&Ball, &[1.0, 0.0], 0.0..0.7).unwrap();
 /// let recording = motion.sampled(0.1);
 /// // Eight samples, and both sides of one impact.
 /// assert_eq!(recording.len(), 10);

@@ -39,7 +39,7 @@ fn transitions_have_the_same_bits_on_any_number_of_threads() {
     assert_eq!(one, run(5));
     // Those of single members.
     for ((ball, start), found) in members().iter().zip(&one) {
-        let alone = guen::hybrid::SimulateModes::simulation(ball, start).tolerance(1e-10).run(0.0..2.0);
+        let alone = guen::hybrid::HybridSystem::simulation(ball, start).tolerance(1e-10).run(0.0..2.0);
         match (alone, found) {
             (Ok(motion), Ok((end, transitions))) => {
                 assert_eq!((motion.end(), told(motion.transitions())), (*end, transitions.clone()));

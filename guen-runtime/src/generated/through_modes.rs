@@ -35,7 +35,7 @@ macro_rules! simulated_through_modes {
                     $signals,
                 >,
             > {
-                $crate::hybrid::SimulateModes::simulate(self, start, span)
+                $crate::hybrid::HybridSystem::simulate(self, start, span)
             }
 
             /// A simulation through modes from a state, to be described further and run.
@@ -51,7 +51,7 @@ macro_rules! simulated_through_modes {
                 $count,
                 $signals,
             > {
-                $crate::hybrid::SimulateModes::simulation(self, start)
+                $crate::hybrid::HybridSystem::simulation(self, start)
             }
         }
     };

@@ -124,7 +124,7 @@ pub use saltation::{NoSaltation, Saltation};
 #[cfg(feature = "alloc")]
 pub use sensitivity::{SensitivityError, TransitionSensitivity};
 #[cfg(feature = "alloc")]
-pub use simulation::{HybridSimulation, HybridSimulationError, SimulateModes};
+pub use simulation::{HybridSimulation, HybridSimulationError};
 pub use system::{Conditions, FreeMotion, HybridSystem};
 #[cfg(feature = "alloc")]
 pub use trajectory::HybridTrajectory;

@@ -6,6 +6,12 @@ use crate::numbers::lift::Lift;
 use crate::numbers::real::Real;
 use crate::numbers::running_error::RunningError;
 use crate::system::positions_error::PositionsError;
+#[cfg(feature = "alloc")]
+use {
+    crate::hybrid::simulation::{HybridSimulation, HybridSimulationError},
+    crate::hybrid::trajectory::HybridTrajectory,
+    core::ops::Range,
+};
 
 /// The motion without reactions at one time and state, and what reactions do to it: everything that the rates of every mode
 /// are made of.
@@ -179,5 +185,74 @@ pub trait HybridSystem<const N: usize, const W: usize, const C: usize, const S: 
     #[inline]
     fn allows(&self, _mode: &Mode<C>) -> bool {
         true
+    }
+
+    /// Simulates the motion from a state over a span of time, with the default settings of [`HybridSimulation`].
+    ///
+    /// ```
+    /// use guen_runtime::hybrid::{Element, FreeMotion, HybridSystem, Mode, Signal};
+    /// use guen_runtime::{Lift, Real};
+    ///
+    /// /// A ball above a floor.
+    /// #[derive(Clone, Copy)]
+    /// struct Ball;
+    /// impl HybridSystem<2, 1, 1, 0> for Ball {
+    ///     const ELEMENTS: [Element; 1] = [Element::smooth("floor", 0)];
+    ///     const SIGNALS: [Signal; 0] = [];
+    ///     const COORDINATES: usize = 1;
+    ///     type Mode = Mode<1>;
+    ///     type Inputs = ();
+    ///     fn with_inputs(&self, (): ()) -> Self {
+    ///         *self
+    ///     }
+    ///     fn free_motion<R: Lift<f64>>(&self, _t: R, &[z, v]: &[R; 2], _: &[R; 0], _: &[R; 1]) -> FreeMotion<R, 2, 1, 1> {
+    ///         let (zero, one, g) = (R::zero(), R::one(), R::lift(9.81));
+    ///         FreeMotion {
+    ///             rates: [v, -g], gaps: [z], row_rates: [v], biases: [-g], delassus: [[one]], responses: [[zero, one]],
+    ///             friction: [zero], stiction: [zero], limits: [zero],
+    ///         }
+    ///     }
+    ///     fn restitutions(&self) -> [f64; 1] {
+    ///         [0.5]
+    ///     }
+    ///     fn signals<R: Lift<f64>>(&self, _t: R, _: &[R; 2]) -> [R; 0] {
+    ///         []
+    ///     }
+    /// }
+    ///
+    /// // It falls from a height of one, and bounces with a half of its speed.
+    /// let motion = Ball.simulate(&[1.0, 0.0], 0.0..2.0).unwrap();
+    /// let landing = motion.transitions()[0].t;
+    /// assert!((landing - f64::sqrt(2.0 / 9.81)).abs() < 1e-12);
+    /// assert!(motion.before(landing)[1] < 0.0 && motion.at(landing)[1] > 0.0);
+    /// // At rest the floor carries it.
+    /// assert!((motion.reactions_at(2.0)[0] - 9.81).abs() < 1e-12);
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// What kept the motion from going on, with the trajectory until then.
+    #[cfg(feature = "alloc")]
+    #[allow(clippy::type_complexity, reason = "one trajectory or the error with it")]
+    fn simulate<X>(
+        &self,
+        start: &X,
+        span: Range<f64>,
+    ) -> Result<HybridTrajectory<Self, X, N, W, C, S>, HybridSimulationError<Self, X, N, W, C, S>>
+    where
+        Self: Clone,
+        X: Copy + From<[f64; N]> + Into<[f64; N]>,
+    {
+        self.simulation(start).run(span)
+    }
+
+    /// A simulation from a state, to be described further and run.
+    #[cfg(feature = "alloc")]
+    fn simulation<X>(&self, start: &X) -> HybridSimulation<'_, Self, X, N, W, C, S>
+    where
+        Self: Clone,
+        X: Copy + From<[f64; N]> + Into<[f64; N]>,
+    {
+        HybridSimulation::new(self.clone(), start)
     }
 }

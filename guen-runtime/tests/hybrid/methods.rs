@@ -51,7 +51,7 @@ fn every_method_finds_the_stop() {
 #[test]
 fn a_trajectory_knows_both_sides_of_a_transition() {
     use crate::systems::ThrownBall;
-    use guen_runtime::hybrid::{HybridSystem, SimulateModes};
+    use guen_runtime::hybrid::HybridSystem;
 
     let start = [0.0, 1.1, 0.0, 3.0, 0.0, -40.0];
     let motion = ThrownBall.simulation(&start).tolerance(1e-11).run(0.0..2.0).unwrap();

@@ -2,8 +2,7 @@
 
 use guen_runtime::Lift;
 use guen_runtime::hybrid::{
-    Element, ElementState, FreeMotion, HybridCause, HybridSystem, InMode, Mode, Signal, SimulateModes,
-    TransitionKind,
+    Element, ElementState, FreeMotion, HybridCause, HybridSystem, InMode, Mode, Signal, TransitionKind,
 };
 
 use crate::bodies::Parts;

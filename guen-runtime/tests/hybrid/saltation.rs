@@ -1,8 +1,6 @@
 //! Derivatives through transitions: beside differences of runs, and closed forms.
 
-use guen_runtime::hybrid::{
-    HybridSystem, Mode, NoSaltation, SensitivityError, SimulateModes, TransitionKind,
-};
+use guen_runtime::hybrid::{HybridSystem, Mode, NoSaltation, SensitivityError, TransitionKind};
 use guen_runtime::steppers::Dop853;
 
 use crate::friction::Pulled;

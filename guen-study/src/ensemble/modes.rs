@@ -2,9 +2,7 @@
 
 use std::ops::Range;
 
-use guen_runtime::hybrid::{
-    HybridSimulation, HybridSimulationError, HybridSystem, HybridTrajectory, SimulateModes,
-};
+use guen_runtime::hybrid::{HybridSimulation, HybridSimulationError, HybridSystem, HybridTrajectory};
 
 use super::Ensemble;
 
@@ -14,7 +12,7 @@ pub type ModesEnd<S, const N: usize, const W: usize, const C: usize, const K: us
 
 impl<S, const N: usize, L> Ensemble<S, N, L> {
     /// Simulates every member, a system with contacts, through its modes over a span of time on all threads: whole motions with their
-    /// transitions, by the method and the tolerance of [`SimulateModes::simulate`]. Each motion is that of the member alone, to the bit; one
+    /// transitions, by the method and the tolerance of [`HybridSystem::simulate`]. Each motion is that of the member alone, to the bit; one
     /// that fails, as at an impact without an answer, fails alone.
     ///
     /// ```
@@ -115,6 +113,6 @@ impl<S, const N: usize, L> Ensemble<S, N, L> {
     where
         S: HybridSystem<N, W, C, K> + Clone + Sync,
     {
-        self.each(|system, start| run(SimulateModes::<N, W, C, K>::simulation(system, start)))
+        self.each(|system, start| run(HybridSystem::<N, W, C, K>::simulation(system, start)))
     }
 }

@@ -55,7 +55,7 @@ impl<const N: usize> Viewer<'_, N> {
     /// page is made.
     ///
     /// ```
-    /// use guen_runtime::hybrid::{Element, FreeMotion, HybridSystem, Mode, Signal, SimulateModes};
+    /// use guen_runtime::hybrid::{Element, FreeMotion, HybridSystem, Mode, Signal};
     /// use guen_runtime::{Bodies, Body, Lift, Monitored, Real, Simulate, System};
     /// use guen_study::{ContactFrame, ExportModes, Recording, Viewer};
     /// # #[derive(Clone, Copy)]
@@ -94,7 +94,7 @@ impl<const N: usize> Viewer<'_, N> {
     /// # }
     ///
     /// // `Ball` is a declared system with the contact `floor`.
-    /// let motion = SimulateModes::simulate(&Ball, &[0.2, 0.0], 0.0..1.5).unwrap();
+    /// let motion = HybridSystem::simulate(&Ball, &[0.2, 0.0], 0.0..1.5).unwrap();
     /// let played = motion.played();
     /// let floor = |_: f64, &[_, _]: &[f64; 2]| ContactFrame::at([0.0; 3]).normal([0.0, 0.0, 1.0]);
     /// let page = Viewer::new("A ball", &played).contact(&motion, "floor", floor).to_html()?;

@@ -10,9 +10,7 @@ mod sensitivity;
 mod tree;
 mod two_points;
 
-use guen_runtime::hybrid::{
-    ElementState, HybridCause, HybridSystem, InMode, Mode, SimulateModes, TransitionKind,
-};
+use guen_runtime::hybrid::{ElementState, HybridCause, HybridSystem, InMode, Mode, TransitionKind};
 use nalgebra::{DMatrix, DVector};
 
 use self::laws::Judged;

@@ -1,6 +1,6 @@
 //! Drawn systems in which something was once wrong.
 
-use guen_runtime::hybrid::{ElementState, SimulateModes, TransitionKind};
+use guen_runtime::hybrid::{ElementState, HybridSystem, TransitionKind};
 
 use crate::random::tree::{Drawn, Four, Row, Stops};
 

@@ -3,9 +3,7 @@
 use std::collections::BTreeMap;
 
 use guen_runtime::System;
-use guen_runtime::hybrid::{
-    HybridSystem, Mode, NoSaltation, SensitivityError, SimulateModes, TransitionKind,
-};
+use guen_runtime::hybrid::{HybridSystem, Mode, NoSaltation, SensitivityError, TransitionKind};
 use guen_runtime::steppers::Dop853;
 
 use crate::random::tree::Random;

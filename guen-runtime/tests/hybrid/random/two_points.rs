@@ -1,6 +1,6 @@
 //! Systems with two rough contacts in space: both slip in one impact.
 
-use guen_runtime::hybrid::{HybridCause, SimulateModes, TransitionKind};
+use guen_runtime::hybrid::{HybridCause, HybridSystem, TransitionKind};
 
 use crate::random::laws::Judged;
 use crate::random::tree::{Random, Row, TwoPoints};
