@@ -53,14 +53,14 @@
 
 pub use guen_runtime::{
     Actuated, Approx7, Approx7Functions, Approx13, Approx13Functions, AuxiliaryStates, Bodies, Body,
-    BodyFault, BracketCoefficients, Catastatic, Cause, Class, Coefficient, Commutator, Conservative,
-    ConstantsError, Coordinate, Cost, Derived, Differentiable, Displacement, Dual, Equations, Function,
-    Functions, Fused, FusedOperations, Generic, Grid, Holonomic, IncompleteLieGroup, InputLaw, InputRecords,
-    InputValues, IntegrationError, Invariants, LaneScalar, Laned, LatexDocument, Level, LevelInfo, Levels,
-    LieGroup, Lift, Linearization, Monitored, Nonholonomic, Operator, Ordered, OutputMap, Positions,
-    PositionsError, Projected, Real, Renormalized, Report, ReportSection, Rheonomic, RunningError,
-    Scleronomic, Setting, Simulate, Smooth, SmoothLaw, Source, System, Table, TableError, WithFunctions,
-    WithInputs, WithScalar, from_fn, generic, hybrid, lanes, project, projected, renormalized, steppers,
+    BodyFault, Catastatic, Cause, Class, Coefficient, Commutator, Conservative, ConstantsError, Coordinate,
+    Cost, Derived, Differentiable, Displacement, Dual, Equations, Function, Functions, Fused,
+    FusedOperations, Generic, Grid, Holonomic, IncompleteLieGroup, InputLaw, InputRecords, InputValues,
+    IntegrationError, Invariants, LaneScalar, Laned, LatexDocument, Level, LevelInfo, Levels, LieGroup, Lift,
+    Linearization, Monitored, Nonholonomic, Operator, Ordered, OutputMap, Positions, PositionsError,
+    Projected, Real, Renormalized, Report, ReportSection, Rheonomic, RunningError, Scleronomic, Setting,
+    Simulate, Smooth, SmoothLaw, Source, System, Table, TableError, WithFunctions, WithInputs, WithScalar,
+    from_fn, generic, hybrid, lanes, project, projected, renormalized, steppers,
 };
 pub use guen_runtime::{Coefficients, Convolutions, DrivenSeries, HIGHEST_ORDER, PowerSeries, TaylorSeries};
 pub use guen_runtime::{Liftable, Linearizable, OutputLinearization, control, linearized, seeded};
@@ -207,14 +207,14 @@ pub mod __private {
     };
     pub use guen_runtime::lanes::Lanes;
     pub use guen_runtime::{
-        Actuated, AuxiliaryStates, Bodies, Body, BracketCoefficients, Catastatic, Class, Coefficient,
-        Coefficients, Conservative, ConstantsError, Convolutions, Cost, Derived, Differentiable,
-        Displacement, DrivenSeries, Dual, EachLane, HIGHEST_ORDER, Hoisted, Holonomic, IncompleteLieGroup,
-        InputLaw, InputRecords, Instances, Invariants, Laned, Level, LevelInfo, Levels, LieGroup, Lift,
-        Liftable, Linearizable, Linearization, Monitored, Nonholonomic, Operator, Ordered,
-        OutputLinearization, OutputMap, Positions, PositionsError, PreparedValues, Real, Report,
-        ReportSection, Rheonomic, RunningError, Scleronomic, Shape, Simulate, Smooth, Source, System,
-        TaylorSeries, Undriven, Unprepared, WithInputs, WithScalar, linearized, nalgebra_conversions, seeded,
+        Actuated, AuxiliaryStates, Bodies, Body, Catastatic, Class, Coefficient, Coefficients, Conservative,
+        ConstantsError, Convolutions, Cost, Derived, Differentiable, Displacement, DrivenSeries, Dual,
+        EachLane, HIGHEST_ORDER, Hoisted, Holonomic, IncompleteLieGroup, InputLaw, InputRecords, Instances,
+        Invariants, Laned, Level, LevelInfo, Levels, LieGroup, Lift, Liftable, Linearizable, Linearization,
+        Monitored, Nonholonomic, Operator, Ordered, OutputLinearization, OutputMap, Positions,
+        PositionsError, PreparedValues, Real, Report, ReportSection, Rheonomic, RunningError, Scleronomic,
+        Shape, Simulate, Smooth, Source, System, TaylorSeries, Undriven, Unprepared, WithInputs, WithScalar,
+        linearized, nalgebra_conversions, seeded,
     };
     pub use guen_runtime::{
         actuated, condition, conserved, contact_mode, contact_states, differentiable, domain, dynamics,

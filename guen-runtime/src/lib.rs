@@ -10,7 +10,7 @@
 //! | which functions does the program supply? | [`Smooth`], [`Table`], [`Grid`] |
 //! | over which reals? | [`WithScalar`]: a system made anew over each |
 //! | how many at once? | [`lanes`]; [`Laned`] systems |
-//! | what acts on functions? | [`Operator`], [`Function`], [`Coordinate`], [`BracketCoefficients`] |
+//! | what acts on functions? | [`Operator`], [`Function`], [`Coordinate`], [`Commutator`] |
 //! | what is known at compile time? | [`Class`], the markers [`Holonomic`] to [`Conservative`], [`Cost`] |
 //! | how is it integrated? | [`steppers`]: an [`Integration`](steppers::Integration) run by one of ten methods |
 //! | what touches, sticks and slips? | [`hybrid`]: a [`Hybrid`](hybrid::Hybrid) run through the modes of a [`HybridSystem`](hybrid::HybridSystem) |
@@ -88,7 +88,7 @@ pub use steppers::{Cause, IntegrationError, Setting};
 pub use system::actuated::{Actuated, WithInputs};
 pub use system::auxiliary_states::{AuxiliaryStates, Renormalized, renormalized};
 pub use system::bodies::{Bodies, Body};
-pub use system::bracket::{BracketCoefficients, Coefficient};
+pub use system::bracket::Coefficient;
 pub use system::classification::{
     Catastatic, Class, Conservative, Holonomic, IncompleteLieGroup, LieGroup, Nonholonomic, Rheonomic,
     Scleronomic,

@@ -1,8 +1,8 @@
 //! What scenes provide is that of the whole system: energy, reactions, outputs, operators, linearisations.
 
+use guen::Linearizable;
 use guen::RunningError;
 use guen::prelude::*;
-use guen::{BracketCoefficients, Linearizable};
 
 use crate::compare::{assert_agree, states};
 use crate::kinds::{PAIR, TIED, pair, tied};
@@ -106,15 +106,15 @@ fn operators_and_brackets() {
             )* };
         }
         same!(X0 X1 X2 X3 X4 X5 X6);
-        let found = scene::Bracket::<2, 3>::coefficients::<f64>(&numbers, 0.0, &x);
-        let expected = hoop::Bracket::<2, 3>::coefficients::<f64>(&whole, 0.0, &x);
+        let found = scene::Bracket::<2, 3>::coefficients::<f64, f64>(&numbers, 0.0, &x);
+        let expected = hoop::Bracket::<2, 3>::coefficients::<f64, f64>(&whole, 0.0, &x);
         assert_agree(&found, &expected, NEAR, "bracket");
         // A derivative in a direction, to the coordinate `xi` that the scene's state does not have.
         let (xi, along) = (Coordinate::<3>, 0.5 * x[0].sin() * x[1].sin());
         assert_agree(&[scene::X1.apply(&numbers, &xi, 0.0, &x)], &[along], NEAR, "derivative");
     }
     // Pairs beyond `l` too: the scene asks for all.
-    let zero = <scene::Bracket<5, 6> as BracketCoefficients<f64, 6>>::COEFFICIENTS;
+    let zero = scene::Bracket::<5, 6>::COEFFICIENTS;
     assert_eq!(zero, [guen::Coefficient::Zero; 6]);
 }
 

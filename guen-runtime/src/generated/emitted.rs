@@ -235,7 +235,7 @@ macro_rules! operators {
         /// `coefficients` computes their values at a time and state.
         // In braces, which say that they are constants: a system may be called `I` or `J`.
         pub type Bracket<const I: usize, const J: usize $($(, $F = f64)*)?> =
-            $crate::Commutator<Prepared<f64 $($(, $F)*)?>, { I }, { J }>;
+            $crate::Commutator<Prepared<f64 $($(, $F)*)?>, { I }, { J }, $n>;
 
         impl $(<$($F: $crate::Smooth<$N>),*>)? $crate::Frame<$n> for Prepared<f64 $($(, $F)*)?> {
             type Over<B: $crate::Real> = Prepared<B $($(, $F)*)?>;

@@ -1,9 +1,6 @@
-//! Brackets of operators: the coefficients of structure, and what is known of each before the program runs.
+//! The coefficients of brackets of operators, as far as they are known before the program runs.
 
 use core::fmt;
-
-use crate::numbers::lift::Lift;
-use crate::numbers::real::Real;
 
 /// A structure coefficient, as far as it is known at compile time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -41,51 +38,4 @@ impl fmt::Display for Coefficient {
             Self::Variable => f.write_str("variable"),
         }
     }
-}
-
-/// The bracket of two operators, resolved in the operators of the system.
-///
-/// ```text
-/// (X_I, X_J) = X_I X_J - X_J X_I = sum_t C_IJt X_t        t = 1 .. N
-/// ```
-///
-/// `X_0` does not occur on the right: `d/dt` cancels. So the arrays have `N` entries, that of `X_t` at index
-/// `t - 1`.
-///
-/// Reading [`COEFFICIENTS`](BracketCoefficients::COEFFICIENTS) costs nothing at run time; a `const` assertion on
-/// it lets a program refuse to compile for a system that is not what it takes it for.
-///
-/// ```
-/// use guen_runtime::{BracketCoefficients, Coefficient, Lift, Real};
-///
-/// /// Rotations about two body axes: `(X_1, X_2) = X_3`.
-/// struct Spin;
-/// impl<B: Real> BracketCoefficients<B, 3> for Spin {
-///     type Prepared = ();
-///     const I: usize = 1;
-///     const J: usize = 2;
-///     const COEFFICIENTS: [Coefficient; 3] =
-///         [Coefficient::Zero, Coefficient::Zero, Coefficient::Number { numerator: 1, denominator: 1 }];
-///     fn coefficients<R: Real + Lift<B>>(_: &(), _t: R, _x: &[R; 3]) -> [R; 3] {
-///         [R::zero(), R::zero(), R::one()]
-///     }
-/// }
-///
-/// const _: () = assert!(<Spin as BracketCoefficients<f64, 3>>::COEFFICIENTS[2].is_constant());
-/// ```
-pub trait BracketCoefficients<B: Real, const N: usize> {
-    /// The system's prepared constants, of base `B`.
-    type Prepared;
-
-    /// The index of the first operator, from 0.
-    const I: usize;
-
-    /// The index of the second operator, from 0.
-    const J: usize;
-
-    /// The coefficients `C_IJ1 .. C_IJN`, each with what the compiler proved.
-    const COEFFICIENTS: [Coefficient; N];
-
-    /// The values of `C_IJ1 .. C_IJN` at time `t` and position `x`.
-    fn coefficients<R: Real + Lift<B>>(prepared: &Self::Prepared, t: R, x: &[R; N]) -> [R; N];
 }

@@ -5,7 +5,7 @@ use core::marker::PhantomData;
 
 use crate::numbers::lift::Lift;
 use crate::numbers::real::Real;
-use crate::system::bracket::{BracketCoefficients, Coefficient};
+use crate::system::bracket::Coefficient;
 use crate::system::operator::Operator;
 
 /// The operators of a generated system and their brackets: the description from which [`Displacement`] and the brackets of its
@@ -109,21 +109,27 @@ const fn place<S: Frame<N>, const N: usize>(i: usize, j: usize) -> Option<(usize
     None
 }
 
-/// The commutator `(X_I, X_J)` of operators of the generated system `S`: the type behind `Bracket` of its module. It has no values;
-/// see [`BracketCoefficients`].
+/// The commutator of two operators of the generated system `S`, resolved in its operators: the type behind `Bracket` of its module. It has
+/// no values.
+///
+/// ```text
+/// (X_I, X_J) = X_I X_J - X_J X_I = sum_t C_IJt X_t        t = 1 .. N
+/// ```
+///
+/// `X_0` does not occur on the right: `d/dt` cancels. So the arrays have `N` entries, that of `X_t` at index `t - 1`.
+///
+/// For the system `sled`, `sled::Bracket::<1, 2>::COEFFICIENTS` costs nothing at run time: a `const` assertion on it lets a program refuse to
+/// compile for a system that is not what it takes it for.
 #[derive(Debug)]
-pub struct Commutator<S, const I: usize, const J: usize>(PhantomData<fn() -> S>);
+pub struct Commutator<S, const I: usize, const J: usize, const N: usize>(PhantomData<fn() -> S>);
 
-impl<B: Real, S: Frame<N>, const I: usize, const J: usize, const N: usize> BracketCoefficients<B, N>
-    for Commutator<S, I, J>
-{
-    type Prepared = S::Over<B>;
-    const I: usize = I;
-    const J: usize = J;
-    const COEFFICIENTS: [Coefficient; N] = known::<S, N>(I, J);
+impl<S: Frame<N>, const I: usize, const J: usize, const N: usize> Commutator<S, I, J, N> {
+    /// The coefficients `C_IJ1 .. C_IJN`, each with what the compiler proved.
+    pub const COEFFICIENTS: [Coefficient; N] = known::<S, N>(I, J);
 
+    /// The values of `C_IJ1 .. C_IJN` at time `t` and position `x`.
     #[inline]
-    fn coefficients<R: Real + Lift<B>>(prepared: &S::Over<B>, t: R, x: &[R; N]) -> [R; N] {
+    pub fn coefficients<B: Real, R: Real + Lift<B>>(prepared: &S::Over<B>, t: R, x: &[R; N]) -> [R; N] {
         match const { place::<S, N>(I, J) } {
             None => [R::zero(); N],
             Some((place, false)) => S::bracket(prepared, t, x, place),

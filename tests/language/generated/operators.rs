@@ -1,7 +1,7 @@
 //! Operators and brackets: on coordinates, on functions, nested, with and without time.
 
+use guen::Coefficient;
 use guen::prelude::*;
-use guen::{BracketCoefficients, Coefficient};
 
 hoop!(guen::mechanical_system);
 sled!(guen::mechanical_system);
@@ -68,11 +68,11 @@ macro_rules! commutes {
             let left = $module::$Xi.apply(system, &$module::$Xj.of(system, Mixed), $t, place)
                 - $module::$Xj.apply(system, &$module::$Xi.of(system, Mixed), $t, place);
             let all = values!($module, system, $t, place, $all);
-            let c = <$module::Bracket<$i, $j> as BracketCoefficients<f64, $n>>::coefficients(system, $t, place);
+            let c = $module::Bracket::<$i, $j>::coefficients(system, $t, place);
             let right: f64 = c.iter().zip(&all).map(|(c, x)| c * x).sum();
             assert!((left - right).abs() < 1e-12, "({}, {}): {left} and {right}", $i, $j);
             let turned =
-                <$module::Bracket<$j, $i> as BracketCoefficients<f64, $n>>::coefficients(system, $t, place);
+                $module::Bracket::<$j, $i>::coefficients(system, $t, place);
             assert_eq!(turned, c.map(|c| -c));
         })*
     };
@@ -133,15 +133,12 @@ fn what_is_known_of_coefficients() {
     const ZERO: Coefficient = Coefficient::Zero;
     const ONE: Coefficient = Coefficient::Number { numerator: 1, denominator: 1 };
     const MINUS: Coefficient = Coefficient::Number { numerator: -1, denominator: 1 };
-    assert_eq!(
-        <hoop::Bracket<1, 2> as BracketCoefficients<f64, 6>>::COEFFICIENTS,
-        [ZERO, Coefficient::Variable, ONE, ZERO, ZERO, ZERO]
-    );
-    assert_eq!(<hoop::Bracket<1, 3> as BracketCoefficients<f64, 6>>::COEFFICIENTS, [ZERO; 6]);
-    assert_eq!(<sled::Bracket<1, 2> as BracketCoefficients<f64, 3>>::COEFFICIENTS, [ZERO, ZERO, MINUS]);
-    assert_eq!(<sled::Bracket<2, 1> as BracketCoefficients<f64, 3>>::COEFFICIENTS, [ZERO, ZERO, ONE]);
+    assert_eq!(hoop::Bracket::<1, 2>::COEFFICIENTS, [ZERO, Coefficient::Variable, ONE, ZERO, ZERO, ZERO]);
+    assert_eq!(hoop::Bracket::<1, 3>::COEFFICIENTS, [ZERO; 6]);
+    assert_eq!(sled::Bracket::<1, 2>::COEFFICIENTS, [ZERO, ZERO, MINUS]);
+    assert_eq!(sled::Bracket::<2, 1>::COEFFICIENTS, [ZERO, ZERO, ONE]);
     // Affine constraints: the speed of the table is a function of time.
-    let known = <turntable::Bracket<0, 1> as BracketCoefficients<f64, 5>>::COEFFICIENTS;
+    let known = turntable::Bracket::<0, 1>::COEFFICIENTS;
     assert!(known.contains(&Coefficient::Variable), "{known:?}");
-    const { assert!(<sled::Bracket<1, 2> as BracketCoefficients<f64, 3>>::COEFFICIENTS[2].is_constant()) };
+    const { assert!(sled::Bracket::<1, 2>::COEFFICIENTS[2].is_constant()) };
 }

@@ -2,8 +2,8 @@
 
 use guen::prelude::*;
 use guen::{
-    BracketCoefficients, Catastatic, Class, Coefficient, Conservative, Holonomic, IncompleteLieGroup,
-    LieGroup, Nonholonomic, Rheonomic, Scleronomic,
+    Catastatic, Class, Coefficient, Conservative, Holonomic, IncompleteLieGroup, LieGroup, Nonholonomic,
+    Rheonomic, Scleronomic,
 };
 
 hoop!(guen::mechanical_system);
@@ -56,7 +56,7 @@ fn sled_is_none_in_others() {
     assert_eq!(sled_in_xi::CLASS, Class::NonholonomicVariable);
     assert_eq!(sled_in_xi::GROWTH, [2, 3]);
     type Turned = sled_in_xi::Bracket<1, 2>;
-    const KNOWN: [Coefficient; 3] = <Turned as BracketCoefficients<f64, 3>>::COEFFICIENTS;
+    const KNOWN: [Coefficient; 3] = Turned::COEFFICIENTS;
     assert_eq!(KNOWN, [Coefficient::Zero, Coefficient::Zero, Coefficient::Variable]);
     let system = SledInXi::new(1.0, 0.2, 0.1, 0.5, 0.3).prepare().unwrap();
     let [_, _, found] = Turned::coefficients(&system, 0.0, &[0.7, 1.0, -2.0]);
@@ -96,7 +96,7 @@ fn unicycle_with_trailer_grows_to_everything() {
     assert_eq!(trailer::INTEGRABLE, 0);
     // The coefficients are constant, and the axle's are all zero: read off `C_rsv` alone, it would seem integrable.
     assert_eq!(trailer::CLASS, Class::NonholonomicConstant);
-    let known = <trailer::Bracket<1, 2> as BracketCoefficients<f64, 4>>::COEFFICIENTS;
+    let known = trailer::Bracket::<1, 2>::COEFFICIENTS;
     assert!(known.iter().all(|c| c.is_constant()) && known[3] == Coefficient::Zero);
 }
 
@@ -135,7 +135,7 @@ fn rigid_body_is_a_lie_group() {
     // Rotations about body axes: (X_p, X_q) = -(-X_r) and cyclically, so all three have one sign.
     let one = Coefficient::Number { numerator: 1, denominator: 1 };
     const ZERO: Coefficient = Coefficient::Zero;
-    assert_eq!(<euler_top::Bracket<1, 2> as BracketCoefficients<f64, 3>>::COEFFICIENTS, [ZERO, ZERO, one]);
-    assert_eq!(<euler_top::Bracket<2, 3> as BracketCoefficients<f64, 3>>::COEFFICIENTS, [one, ZERO, ZERO]);
-    assert_eq!(<euler_top::Bracket<3, 1> as BracketCoefficients<f64, 3>>::COEFFICIENTS, [ZERO, one, ZERO]);
+    assert_eq!(euler_top::Bracket::<1, 2>::COEFFICIENTS, [ZERO, ZERO, one]);
+    assert_eq!(euler_top::Bracket::<2, 3>::COEFFICIENTS, [one, ZERO, ZERO]);
+    assert_eq!(euler_top::Bracket::<3, 1>::COEFFICIENTS, [ZERO, one, ZERO]);
 }
